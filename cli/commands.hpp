@@ -21,6 +21,7 @@ void add_report(CLI::App& app);
 void add_sample(CLI::App& app);
 void add_study(CLI::App& app);
 void add_measure(CLI::App& app);
+void add_resect(CLI::App& app);
 void add_merge(CLI::App& app);
 
 }  // namespace condyle::cli

@@ -5,7 +5,7 @@
 
 cmake_minimum_required(VERSION 3.25)  # a script knows IN_LIST only with a policy version
 
-set(layers core simd mesh kinematics radial tangential contact motion measure answer sample io)
+set(layers core simd mesh kinematics radial tangential contact motion measure plan answer sample io)
 set(core_uses)
 set(simd_uses core)
 set(mesh_uses core simd)
@@ -15,9 +15,10 @@ set(tangential_uses core simd mesh)
 set(contact_uses core mesh kinematics radial tangential)
 set(motion_uses core mesh kinematics radial tangential contact)
 set(measure_uses core mesh kinematics motion)
-set(answer_uses core kinematics contact motion)
+set(plan_uses core mesh kinematics tangential motion)
+set(answer_uses core kinematics contact motion measure plan)
 set(sample_uses core mesh)
-set(io_uses core mesh kinematics contact motion answer sample)
+set(io_uses core mesh kinematics contact motion measure answer sample)
 
 # The layer of each public header. An AxisFrame is made in kinematics; as a plain value it is everybody's.
 set(core_headers angle control error points pose version)
@@ -30,6 +31,7 @@ set(contact_headers contact contact_measures normal_depth pressure)
 set(motion_headers bearing first_contact impingement_zone limit_band motion_contact motion_map
                    range_of_motion recorded_contact)
 set(measure_headers hip_measures)
+set(plan_headers resection)
 set(answer_headers answer)
 set(sample_headers)
 set(io_headers)

@@ -12,6 +12,7 @@
 
 #include "condyle/bearing.hpp"
 #include "condyle/contact_measures.hpp"
+#include "condyle/hip_measures.hpp"
 #include "condyle/impingement_zone.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/limit_band.hpp"
@@ -22,6 +23,7 @@
 #include "condyle/pressure.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "condyle/recorded_contact.hpp"
+#include "condyle/resection.hpp"
 
 /// One function per question: a request in, an owning result out. The command, the Python module, studies, reports and the page
 /// all ask here, so that they say the same bits, notes included.
@@ -314,5 +316,71 @@ std::vector<RangeNote> range_notes(const Joint& joint, std::span<const MotionLim
 
 /// Sentences on what these options leave out or accept.
 std::vector<std::string> range_caveats(const RangeOptions& options, const RangeOfMotion& range);
+
+// ---- the bone that must go -----------------------------------------------------------------------------------------------
+
+/// Options of a query for a resection, with their defaults.
+struct ResectionQuery {
+  ResectionRequest resection = {};
+  /// Whose limits are given before and after; all of the joint's where empty.
+  std::vector<Motion> motions = {};
+  /// Each target is planned so much farther that it is reached in 95 % of displaced joints.
+  std::optional<BandOptions> bands = {};
+  /// Points of each target's curve of degrees against removed volume; 0 for none.
+  std::size_t curve_points = 10;
+  /// Of a hip: how its shape is measured before and after.
+  MeasureRequest measures = {};
+};
+
+/// What a target would cost if it were the only one, and nearer.
+struct ResectionCurvePoint {
+  std::size_t target;
+  Angle reached;
+  double volume_mm3, deepest_mm;
+};
+
+enum class ResectionNoteCode : std::uint8_t {
+  nothing_to_do,   ///< All targets are reached as the joint is.
+  target_blocked,  ///< Kept bone stops a motion short of its target.
+  band_not_reached,  ///< Not reached in 95 % of displaced joints: the range of the motion or kept bone ends before.
+  bearing_is_swept,  ///< The other bone sweeps over bearing surface, whose contact counts for nothing.
+  neck_is_narrowed,  ///< More than 30 % of the neck's width goes.
+  no_gain,           ///< A limit stays as it was.
+};
+
+/// As in files: "nothing_to_do".
+std::string_view name_of(ResectionNoteCode code) noexcept;
+
+struct ResectionNote {
+  ResectionNoteCode code;
+  std::string text;  ///< one sentence
+};
+
+/// Of the neck's width, what may go without a note.
+inline constexpr double neck_width_share = 0.3;
+
+struct ResectionAnswer {
+  Resection resection;
+  std::vector<MotionLimit> before, after;                ///< one per motion
+  std::optional<HipMeasures> shape_before, shape_after;  ///< of a hip
+  std::vector<LimitBand> bands = {};                     ///< one per target if requested: after
+  std::vector<ResectionCurvePoint> curve = {};           ///< by target, ascending
+  std::vector<ResectionNote> notes = {};
+  std::vector<std::string> caveats = {};  ///< what the plan leaves out, a sentence each
+};
+
+/// Targets from "flexion=115 internal_rotation_at_90_flexion=30", parted by blanks or commas; each name as motion_named(). Throws
+/// UsageError for text that is none.
+std::vector<ReachTarget> reach_targets(std::span<const Motion> motions, std::string_view text);
+
+/// The bone that must go, the limits and the shape before and after, and what each degree costs. Empty if it was stopped. Stages:
+/// "cuts", "joints of the band".
+///
+/// Throws as resect(), measure_hip() and limit_bands() do. A second for each cut of a hip of 20,000 triangles: one, one for each
+/// point of a curve, and some for a band.
+std::optional<ResectionAnswer> answer_resection(const Joint& joint, const JointPlacement& placement,
+                                                const ResectionQuery& query, const AnswerControl& control);
+ResectionAnswer answer_resection(const Joint& joint, const JointPlacement& placement,
+                                 const ResectionQuery& query);
 
 }  // namespace condyle

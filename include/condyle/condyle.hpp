@@ -44,6 +44,7 @@
 #include "condyle/motion_contact.hpp"
 #include "condyle/impingement_zone.hpp"
 #include "condyle/recorded_contact.hpp"
+#include "condyle/resection.hpp"
 #include "condyle/hip_measures.hpp"
 #include "condyle/answer.hpp"
 

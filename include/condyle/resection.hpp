@@ -47,25 +47,26 @@ struct ResectionRequest {
   /// only, 1 the fixed body only.
   double fixed_share = 0;
   KeptBone mobile = {}, fixed = {};
+  /// The bone that is left stays clear of the other one with its surface moved outwards by this, mm, along the way to the target.
+  double margin_mm = 0;
   double edge_mm = 0.5;  ///< Triangles around the cut become so small.
   RangeOptions range = {};
 };
 
 /// A bone after its cut.
 struct CutBone {
-  Body body;      ///< with triangles made smaller around the cut, and lowered
-  TriMesh before;  ///< the same triangles where the surface was
-  std::vector<double> depth_mm;      ///< of each vertex
-  std::vector<int> needed_by;        ///< the target that needs it, of each vertex; -1 where nothing goes
-  std::vector<double> needed_from_deg;  ///< the angle of its motion from which on it is in the way; 0 where nothing goes
+  Body body;                     ///< with triangles made smaller around the cut, and lowered
+  TriMesh before;                ///< the same triangles where the surface was
+  std::vector<double> depth_mm;  ///< of each vertex
+  std::vector<int> needed_by;    ///< the target that needs it, of each vertex; -1 where nothing goes
+  std::vector<double>
+      needed_from_deg;  ///< the angle of its motion from which on it is in the way; 0 where nothing goes
   double volume_mm3 = 0;
   /// Of what was removed, what the other bone really sweeps over: no cut could do with less.
   double least_volume_mm3 = 0;
   double area_mm2 = 0;  ///< of the triangles that moved, before
   double deepest_mm = 0;
   Vec3 deepest_at = Vec3::Zero();  ///< on the surface before
-
-  bool is_cut() const noexcept { return volume_mm3 > 0; }
 };
 
 /// Kept bone that stops a motion short of its target.
@@ -83,9 +84,15 @@ struct ReachOutcome {
 };
 
 struct Resection {
-  Joint joint;                         ///< with the cut bones
-  std::vector<ReachOutcome> targets;   ///< in the order of the request
-  std::optional<CutBone> mobile, fixed;  ///< those that were to be cut
+  Joint joint;                           ///< with the cut bones
+  std::vector<ReachOutcome> targets;     ///< in the order of the request
+  std::optional<CutBone> mobile, fixed;  ///< those that were cut
+  /// On the way to a target the other bone sweeps over bearing surface of the mobile body, whose contact counts for nothing.
+  bool sweeps_bearing = false;
+
+  double volume_mm3() const noexcept {
+    return (mobile ? mobile->volume_mm3 : 0) + (fixed ? fixed->volume_mm3 : 0);
+  }
 };
 
 /// Throws UsageError for a request without targets, reaches that are not within the motion's range, and values outside theirs.

@@ -430,20 +430,21 @@ std::optional<SphericalPatch> kinematics::patch_on(const TriMesh& mesh, const Sp
   std::vector<Index> part;
   constexpr int rounds = 2;  // the first one for the band alone
   for (int round = 0; round < rounds; ++round) {
-    part = searched.neighbours.largest_connected_part(
-        points, on_sphere(points, searched.places, head, 1.0, band));
+    part = searched.neighbours.largest_connected_part(points,
+                                                      on_sphere(points, searched.places, head, 1.0, band));
     if (part.size() < fewest_vertices) return std::nullopt;
     std::vector<double> residuals;
     for (const Index i : part) residuals.push_back(residual(i));
     band = std::clamp(deviations_kept * robust_deviation(std::move(residuals)), narrowest_band * head.radius,
                       widest_band * head.radius);
   }
+  // By area: the mesh may be finer in some places than in others.
   SphereFit fit{head, 0, 0, vertices_of(points, part)};
   for (const Index i : part) {
-    fit.rms_residual += residual(i) * residual(i) / static_cast<double>(part.size());
+    fit.rms_residual += points[i].area * residual(i) * residual(i);
     fit.largest_residual = std::max(fit.largest_residual, std::abs(residual(i)));
   }
-  fit.rms_residual = std::sqrt(fit.rms_residual);
+  fit.rms_residual = std::sqrt(fit.rms_residual / area_of(points, part));
   return measured(points, part, std::move(fit)).patch;
 }
 

@@ -9,6 +9,7 @@
 #include "kinematics/hip_parts.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
+#include "mesh/vertex_normals.hpp"
 #include "plan/refine.hpp"
 
 namespace condyle::plan {
@@ -25,6 +26,8 @@ constexpr int most_corrections = 300;
 constexpr int most_stops = 20;
 /// Points in which a surface is asked for what goes: so far apart, and so far outside of it too, mm.
 constexpr double search_spacing_mm = 1, search_outside_mm = 1;
+/// At the tip of a margin around a sharp edge, where it goes no farther than twice as far.
+constexpr double sharpest_cosine = 0.5;
 /// What is removed is asked so far apart for what had to be, mm.
 constexpr double least_spacing_mm = 0.15;
 
@@ -39,12 +42,32 @@ motion::PartOfMesh counted(const Body& body, const Mesh& mesh, const std::option
   std::vector<Index> in_whole;
   for (Index t = 0; t < mesh.triangles().size(); ++t) {
     if (is_soft(body, t)) continue;
-    if (ball && ball->holds(mesh.corner(t, 0)) && ball->holds(mesh.corner(t, 1)) && ball->holds(mesh.corner(t, 2)))
+    if (ball && ball->holds(mesh.corner(t, 0)) && ball->holds(mesh.corner(t, 1)) &&
+        ball->holds(mesh.corner(t, 2)))
       continue;
     part.triangles.push_back(mesh.triangles()[t]);
     in_whole.push_back(t);
   }
   return {Mesh(std::move(part)), std::move(in_whole)};
+}
+
+/// With its surface moved outwards, mm. Where triangles meet at an angle their vertex goes farther, so that each of them goes so far.
+Mesh grown(const Mesh& mesh, double by_mm) {
+  if (by_mm == 0) return mesh;
+  const Points normals = mesh::area_normals(mesh);
+  const std::size_t count = mesh.vertices().size();
+  std::vector<double> least_cosine(count, 1);
+  for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
+    const Vec3 a = mesh.corner(t, 0);
+    const Vec3 normal = (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).stableNormalized();
+    for (const Index v : mesh.triangles()[t])
+      least_cosine[v] = std::min(least_cosine[v], normal.dot(normals[v].stableNormalized()));
+  }
+  Points moved = mesh.vertices();
+  for (std::size_t v = 0; v < count; ++v)
+    moved.set(v,
+              moved[v] + by_mm / std::max(least_cosine[v], sharpest_cosine) * normals[v].stableNormalized());
+  return mesh.moved_to(std::move(moved));
 }
 
 /// With all triangles that share a vertex with one of these.
@@ -76,10 +99,12 @@ BoneCut::BoneCut(const Joint& joint, BodyRole cut_role, const ResectionRequest& 
   const Mesh solid = counted(other, other.mesh, std::nullopt).mesh;
   if (!solid.is_closed())
     throw MeshError(other.name + ": its mesh is open, and bone that an open mesh sweeps over cannot be told");
-  if (!bone_.mesh.is_closed()) throw MeshError(bone_.name + ": its mesh is open, and no bone can be removed from it");
-  const Mesh ending = cuts_mobile ? solid : counted(other, other.mesh, ball_).mesh;
+  if (!bone_.mesh.is_closed())
+    throw MeshError(bone_.name + ": its mesh is open, and no bone can be removed from it");
+  const Mesh around = grown(solid, request.margin_mm);
+  const Mesh ending = cuts_mobile ? around : counted(other, grown(other.mesh, request.margin_mm), ball_).mesh;
   for (const CutTarget& target : targets_) {
-    sweeps_.push_back(std::make_unique<Sweep>(joint, role_, solid, target.motion, ball_));
+    sweeps_.push_back(std::make_unique<Sweep>(joint, role_, around, target.motion, ball_));
     exact_.push_back(std::make_unique<ExactReach>(joint, role_, ending, target.motion));
     reach_.push_back(target.reach);
   }
@@ -102,7 +127,9 @@ std::vector<std::uint8_t> BoneCut::triangles_to_cut(const Body& body) const {
   std::vector<Index> of;
   for (Index t = 0; t < mesh.triangles().size(); ++t) {
     const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-    if (is_soft(body, t) || (mobile_ball && mobile_ball->holds(a) && mobile_ball->holds(b) && mobile_ball->holds(c))) continue;
+    if (is_soft(body, t) ||
+        (mobile_ball && mobile_ball->holds(a) && mobile_ball->holds(b) && mobile_ball->holds(c)))
+      continue;
     const double longest = std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()});
     const int n = std::max(1, static_cast<int>(std::ceil(longest / search_spacing_mm)));
     const Vec3 outwards = (b - a).cross(c - a).stableNormalized();
@@ -129,7 +156,8 @@ std::vector<std::optional<KeptBy>> BoneCut::kept_vertices(const Body& body) cons
   if (keep.within_mm && bearing_) {
     const BearingBall ball(*bearing_);
     for (std::size_t v = 0; v < kept.size(); ++v)
-      if ((mesh.vertices()[v] - ball.centre).norm() > ball.radius_mm + *keep.within_mm) kept[v] = KeptBy::zone;
+      if ((mesh.vertices()[v] - ball.centre).norm() > ball.radius_mm + *keep.within_mm)
+        kept[v] = KeptBy::zone;
   }
   if (bearing_ && role_ == BodyRole::mobile) {
     const BearingBall ball(*bearing_);
@@ -138,7 +166,8 @@ std::vector<std::optional<KeptBy>> BoneCut::kept_vertices(const Body& body) cons
   }
   for (const BodyPart& part : body.parts)
     if (part.contact != PartContact::ends)
-      std::fill_n(kept.begin() + static_cast<std::ptrdiff_t>(part.first_vertex), part.vertices, KeptBy::bearing);
+      std::fill_n(kept.begin() + static_cast<std::ptrdiff_t>(part.first_vertex), part.vertices,
+                  KeptBy::bearing);
   return kept;
 }
 
@@ -177,7 +206,8 @@ bool BoneCut::lower_for_reach() {
   const std::vector<InTheWay> left = surface_->lower(sweeps_to_reach());
   bool stopped = false;
   for (const InTheWay& in_the_way : left)
-    stopped = stop(in_the_way.target, Angle::radians(in_the_way.from_rad), in_the_way.by, in_the_way.point) || stopped;
+    stopped = stop(in_the_way.target, Angle::radians(in_the_way.from_rad), in_the_way.by, in_the_way.point) ||
+              stopped;
   return !stopped;
 }
 
@@ -188,9 +218,9 @@ bool BoneCut::lower_at(std::size_t target, const Limit& limit, const Feature& fe
   if (lowered == Lowered::some) return true;
   const Mesh& mesh = surface_->body().mesh;
   const Index corner = feature.kind == FeatureKind::face ? mesh.triangles()[feature.id][0] : feature.id;
-  if (getenv("DBG")) { fprintf(stderr, "not lowered %d kind %d corner %u at %.4f:", int(lowered), int(feature.kind), corner, limit.turned.degrees()); std::array<Index,3> c{feature.id, feature.other_end, no_index}; if (feature.kind==FeatureKind::face) c = mesh.triangles()[feature.id]; for (auto v : c) if (v != no_index) fprintf(stderr, " [%.3f r %.4f kept %d room %.2f]", surface_->vertices()[v].depth_mm, surface_->at(v).norm(), surface_->vertices()[v].kept ? int(*surface_->vertices()[v].kept) : -1, surface_->vertices()[v].room_mm); fprintf(stderr, "\n"); }
   if (lowered == Lowered::kept) {
-    stop(target, limit.turned, surface_->vertices()[corner].kept.value_or(KeptBy::depth), limit.contact->mobile_point);
+    stop(target, limit.turned, surface_->vertices()[corner].kept.value_or(KeptBy::depth),
+         limit.contact->mobile_point);
     return false;
   }
   for (std::size_t t = 0; t < mesh.triangles().size(); ++t)
@@ -205,21 +235,24 @@ bool BoneCut::lower_at(std::size_t target, const Limit& limit, const Feature& fe
 /// Lowers what the exact search still finds in the way. False if kept bone stops a motion.
 bool BoneCut::correct() {
   for (int i = 0; i < most_corrections; ++i) {
-    const motion::PartOfMesh part = counted(surface_->body(), surface_->mesh(), role_ == BodyRole::mobile ? ball_ : std::nullopt);
+    const motion::PartOfMesh part =
+        counted(surface_->body(), surface_->mesh(), role_ == BodyRole::mobile ? ball_ : std::nullopt);
     bool reached = true;
     for (std::size_t t = 0; t < targets_.size(); ++t) {
       const Limit limit = exact_[t]->limit(part.mesh, reach_[t]);
-      if (limit.reason == LimitReason::end_of_range || !limit.contact) continue;
+      if (limit.reason == LimitReason::end_of_range) continue;
+      if (!limit.contact)
+        throw MeshError(bone_.name + ": what is left would lie inside the other bone at the start of " +
+                        targets_[t].motion.name);
       reached = false;
       Feature feature = limit.contact->mobile_feature;
       if (feature.kind == FeatureKind::face) feature.id = part.triangle_in_whole[feature.id];
-      if (getenv("DBG2")) printf("  %d target %zu at %.4f reason %d kind %d id %u point %.2f %.2f %.2f r %.3f depth %.3f\n", i, t, limit.turned.degrees(), int(limit.reason), int(feature.kind), feature.id, limit.contact->mobile_point.x(), limit.contact->mobile_point.y(), limit.contact->mobile_point.z(), limit.contact->mobile_point.norm(), surface_->vertices()[feature.kind==FeatureKind::face? surface_->body().mesh.triangles()[feature.id][0]:feature.id].depth_mm);
       if (!lower_at(t, limit, feature)) return false;
     }
-    if (reached) { if (getenv("DBG")) printf("corrections %d\n", i); return true; }
+    if (reached) return true;
   }
   throw MeshError(bone_.name + ": after " + std::to_string(most_corrections) +
-              " corrections its cut surface still meets the other bone");
+                  " corrections its cut surface still meets the other bone");
 }
 
 /// What is wrong with the surface as it is now; empty if nothing is.
@@ -231,7 +264,7 @@ std::string BoneCut::fault() const {
     const auto normal = [&](const TriMesh& m) {
       return Vec3((m.corner(t, 1) - m.corner(t, 0)).cross(m.corner(t, 2) - m.corner(t, 0)));
     };
-    if (normal(before).dot(normal(mesh)) < 0) { ++turned; if (getenv("DBG")) { for (int k = 0; k < 3; ++k) { auto& v = surface_->vertices()[before.triangles[t][k]]; fprintf(stderr, "   (%.2f %.2f %.2f) d %.3f kept %d", v.before.x(), v.before.y(), v.before.z(), v.depth_mm, v.kept ? int(*v.kept) : -1);} fprintf(stderr, "\n"); } }
+    if (normal(before).dot(normal(mesh)) < 0) ++turned;
   }
   if (turned > 0) return "turns " + std::to_string(turned) + " triangles over";
   if (mesh::self_crossings_of(mesh).pairs > mesh::self_crossings_of(surface_->body().mesh).pairs)
@@ -249,7 +282,6 @@ void BoneCut::cut() {
       if (lower_for_reach() && (surface_->unfold(), correct())) break;
     surface_->unfold();
     why = fault();
-    if (getenv("DBG")) fprintf(stderr, "smoothing %g: %s\n", smoothing_mm, why.c_str());
     if (why.empty()) return;
   }
   throw MeshError(bone_.name + ": a cut so deep " + why + ", whichever way it goes inwards");
@@ -283,7 +315,9 @@ CutBone BoneCut::cut_bone() const {
       continue;
     const Vec3 p = cut.deepest_at;
     volume.add(mesh::volume_below(before, t, p) - mesh::volume_below(after, t, p));
-    cut.area_mm2 += (before.corner(t, 1) - before.corner(t, 0)).cross(before.corner(t, 2) - before.corner(t, 0)).norm() / 2;
+    cut.area_mm2 +=
+        (before.corner(t, 1) - before.corner(t, 0)).cross(before.corner(t, 2) - before.corner(t, 0)).norm() /
+        2;
   }
   cut.volume_mm3 = volume.value();
   cut.least_volume_mm3 = cut.volume_mm3 * least_share();
@@ -305,7 +339,8 @@ double BoneCut::least_share() const {
     if (deepest == 0) continue;
     const int layers = static_cast<int>(std::ceil(deepest / least_spacing_mm));
     // The middles of the four triangles that halved sides make.
-    constexpr std::array<std::array<double, 2>, 4> middles{{{1. / 3, 1. / 3}, {1. / 6, 1. / 6}, {2. / 3, 1. / 6}, {1. / 6, 2. / 3}}};
+    constexpr std::array<std::array<double, 2>, 4> middles{
+        {{1. / 3, 1. / 3}, {1. / 6, 1. / 6}, {2. / 3, 1. / 6}, {1. / 6, 2. / 3}}};
     for (const auto& [u, v] : middles)
       for (int layer = 0; layer < layers; ++layer) {
         const double s = (layer + 0.5) / layers;
@@ -324,6 +359,20 @@ double BoneCut::least_share() const {
   double all = 0, gone = 0;
   for (std::size_t k = 0; k < goes.size(); ++k) all += weight[k], gone += goes[k] ? weight[k] : 0;
   return all > 0 ? gone / all : 0;
+}
+
+bool BoneCut::sweeps_bearing() const {
+  if (!ball_ || role_ == BodyRole::fixed) return false;
+  Points points;
+  for (const Triangle& t : bone_.mesh.triangles())
+    for (const Index v : t)
+      if (ball_->holds(bone_.mesh.vertices()[v])) points.push_back(bone_.mesh.vertices()[v]);
+  for (std::size_t i = 0; i < sweeps_.size(); ++i) {
+    const std::vector<double> first = sweeps_[i]->counting_all().first_inside(points, reach_[i]);
+    if (std::any_of(first.begin(), first.end(), [](double angle) { return std::isfinite(angle); }))
+      return true;
+  }
+  return false;
 }
 
 void BoneCut::scale_depths(double share) {

@@ -35,6 +35,8 @@ class BoneCut {
   /// Only this share of all depths stays.
   void scale_depths(double share);
   CutBone cut_bone() const;
+  /// Whether the other bone sweeps over bearing surface of this one.
+  bool sweeps_bearing() const;
   /// As far as each target goes; in the order of the targets.
   const std::vector<Angle>& reach() const noexcept { return reach_; }
   const std::vector<std::optional<StoppedAt>>& stopped() const noexcept { return stopped_; }
@@ -63,8 +65,8 @@ class BoneCut {
   std::vector<std::unique_ptr<ExactReach>> exact_;
   std::vector<Angle> reach_;
   std::vector<std::optional<StoppedAt>> stopped_;
-  std::vector<std::uint8_t> wanted_;  ///< of the triangles before: those to be refined
-  std::vector<std::uint8_t> met_;     ///< of the same: those that the exact search met elsewhere
+  std::vector<std::uint8_t> wanted_;    ///< of the triangles before: those to be refined
+  std::vector<std::uint8_t> met_;       ///< of the same: those that the exact search met elsewhere
   std::vector<Index> triangle_before_;  ///< of the refined triangles
   double smoothing_mm_ = 3;
   std::optional<CutSurface> surface_;

@@ -19,7 +19,7 @@ constexpr double farthest_mm = 40;
 /// A triangle is looked at in the points of a lattice with so many to a side: 45 points.
 constexpr int lattice = 8;
 /// What still stands out between vertices is lowered so often; less than this is none, mm.
-constexpr int rounds = 6;
+constexpr int rounds = 20;
 constexpr double none_mm = 1e-3;
 /// A triangle that faces less than this the way it did is taken for turned over: the cosine. Lowered so often at most.
 constexpr double least_facing = 0.02;
@@ -33,6 +33,15 @@ constexpr double left_mm = 0.02;
 struct CutSurface::Probe {
   Vec3 from, inwards;
   double room;
+};
+
+/// The swept stretch below a point between the corners of a triangle, whose weights these are.
+struct CutSurface::LatticeStretch {
+  Index triangle;
+  std::array<double, 3> weights;
+  double length;
+  Need need;
+  Vec3 at;
 };
 
 /// The swept stretch that begins at a probe.
@@ -106,7 +115,8 @@ std::vector<CutSurface::Stretch> CutSurface::stretches(const std::vector<Probe>&
     for (std::size_t s = 0; s < sweeps.size(); ++s) {
       const std::vector<double> first = sweeps[s].sweep->first_inside(points, sweeps[s].reach);
       for (std::size_t i = 0; i < first.size(); ++i)
-        if (std::isfinite(first[i]) && (!needs[i] || first[i] < needs[i]->from_rad)) needs[i] = Need{s, first[i]};
+        if (std::isfinite(first[i]) && (!needs[i] || first[i] < needs[i]->from_rad))
+          needs[i] = Need{s, first[i]};
     }
     return needs;
   };
@@ -186,14 +196,14 @@ void CutSurface::lower_vertices(const std::vector<SweepTo>& sweeps) {
     if (found[i].need) take(of[i], found[i].length, *found[i].need);
 }
 
-bool CutSurface::lower_between_vertices(const std::vector<SweepTo>& sweeps, bool may_lower,
-                                        std::vector<InTheWay>& left) {
-  std::vector<Probe> probes;
+std::vector<CutSurface::LatticeStretch> CutSurface::stretches_between(const std::vector<Index>& triangles,
+                                                                      const std::vector<SweepTo>& sweeps) const {
   std::vector<std::array<double, 3>> weights;
   for (int i = 0; i <= lattice; ++i)
     for (int j = 0; i + j <= lattice; ++j)
       weights.push_back({double(i) / lattice, double(j) / lattice, double(lattice - i - j) / lattice});
-  for (const Index t : near_) {
+  std::vector<Probe> probes;
+  for (const Index t : triangles) {
     const Triangle& corner = body_.mesh.triangles()[t];
     std::array<Vec3, 3> p{};
     double room = farthest_mm;
@@ -209,42 +219,62 @@ bool CutSurface::lower_between_vertices(const std::vector<SweepTo>& sweeps, bool
                         std::max(room, none_mm)});
   }
   const std::vector<Stretch> found = stretches(probes, sweeps);
+  std::vector<LatticeStretch> swept;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (found[i].need)
+      swept.push_back({triangles[i / weights.size()], weights[i % weights.size()], found[i].length, *found[i].need,
+                       probes[i].from});
+  return swept;
+}
+
+/// A point between corners goes deeper by e where each corner goes by e w / (w . w), w its weights: the least that does.
+std::vector<Index> CutSurface::lower_between_vertices(const std::vector<Index>& triangles,
+                                                      const std::vector<SweepTo>& sweeps) {
   std::vector<double> more(vertices_.size(), 0);
   std::vector<std::optional<Need>> why(vertices_.size());
-  bool lowered = false;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (!found[i].need) continue;
-    const Index t = near_[i / weights.size()];
-    for (const Index v : body_.mesh.triangles()[t]) {
-      if (may_lower && vertices_[v].depth_mm < vertices_[v].room_mm && found[i].length > more[v])
-        more[v] = found[i].length, why[v] = found[i].need;
+  for (const LatticeStretch& point : stretches_between(triangles, sweeps)) {
+    const Triangle& corner = body_.mesh.triangles()[point.triangle];
+    const auto& w = point.weights;
+    const double scale = point.length / (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+    for (int k = 0; k < 3; ++k) {
+      const Index v = corner[k];
+      const double by = scale * w[k];
+      if (vertices_[v].depth_mm < vertices_[v].room_mm && by > more[v]) more[v] = by, why[v] = point.need;
     }
-    if (may_lower || found[i].length <= left_mm) continue;
+  }
+  std::vector<std::uint8_t> moved(vertices_.size(), 0);
+  for (const Index v : near_vertices_) {
+    if (!why[v]) continue;
+    // Beside what is kept a triangle cannot be lowered as a whole: its free corners would run away.
+    take(v, vertices_[v].depth_mm + std::min(more[v], edge_mm_), *why[v]);
+    moved[v] = more[v] > none_mm;
+  }
+  std::vector<Index> changed;
+  for (const Index t : near_)
+    if (const auto& [a, b, c] = body_.mesh.triangles()[t]; moved[a] || moved[b] || moved[c]) changed.push_back(t);
+  return changed;
+}
+
+std::vector<InTheWay> CutSurface::left_in_the_way(const std::vector<SweepTo>& sweeps) const {
+  std::vector<InTheWay> left;
+  for (const LatticeStretch& point : stretches_between(near_, sweeps)) {
+    if (point.length <= left_mm) continue;
     // All corners are kept, or at the end of their room; where one is free the exact search decides.
     std::optional<KeptBy> by = KeptBy::depth;
-    for (const Index v : body_.mesh.triangles()[t]) {
+    for (const Index v : body_.mesh.triangles()[point.triangle])
       if (vertices_[v].kept) by = vertices_[v].kept;
-    }
-    for (const Index v : body_.mesh.triangles()[t])
+    for (const Index v : body_.mesh.triangles()[point.triangle])
       if (vertices_[v].depth_mm < vertices_[v].room_mm) by.reset();
-    if (by) left.push_back({found[i].need->target, found[i].need->from_rad, *by, probes[i].from});
+    if (by) left.push_back({point.need.target, point.need.from_rad, *by, point.at});
   }
-  for (const Index v : near_vertices_)
-    if (why[v]) {
-      // Beside what is kept a triangle cannot be lowered as a whole: its free corners would run away.
-      take(v, vertices_[v].depth_mm + std::min(more[v], edge_mm_), *why[v]);
-      lowered = lowered || more[v] > none_mm;
-    }
-  return lowered;
+  return left;
 }
 
 std::vector<InTheWay> CutSurface::lower(const std::vector<SweepTo>& sweeps) {
-  std::vector<InTheWay> left;
   lower_vertices(sweeps);
-  for (int round = 0; round < rounds; ++round)
-    if (!lower_between_vertices(sweeps, true, left)) break;
-  lower_between_vertices(sweeps, false, left);
-  return left;
+  std::vector<Index> changed = near_;
+  for (int round = 0; round < rounds && !changed.empty(); ++round) changed = lower_between_vertices(changed, sweeps);
+  return left_in_the_way(sweeps);
 }
 
 bool CutSurface::unfold() {
@@ -253,13 +283,14 @@ bool CutSurface::unfold() {
     bool any_turned = false, any_lowered = false;
     for (const Index t : near_) {
       const auto& [a, b, c] = triangles[t];
-      const Vec3 before = (vertices_[b].before - vertices_[a].before).cross(vertices_[c].before - vertices_[a].before),
+      const Vec3 before = (vertices_[b].before - vertices_[a].before)
+                              .cross(vertices_[c].before - vertices_[a].before),
                  now = (at(b) - at(a)).cross(at(c) - at(a));
       if (before.dot(now) >= least_facing * before.norm() * now.norm()) continue;
       any_turned = true;
-      const Index deepest = *std::max_element(triangles[t].begin(), triangles[t].end(), [&](Index i, Index j) {
-        return vertices_[i].depth_mm < vertices_[j].depth_mm;
-      });
+      const Index deepest =
+          *std::max_element(triangles[t].begin(), triangles[t].end(),
+                            [&](Index i, Index j) { return vertices_[i].depth_mm < vertices_[j].depth_mm; });
       for (const Index v : triangles[t]) {
         const double deeper = vertices_[deepest].depth_mm - vertices_[v].depth_mm;
         if (!(deeper > 0 && vertices_[v].depth_mm < vertices_[v].room_mm)) continue;
@@ -287,7 +318,9 @@ CutSurface::Lowered CutSurface::lower_feature(const Feature& feature, const Need
   if (lowered.empty() && vertices_[corners[0]].kept == KeptBy::bearing)
     for (const Index t : near_) {
       const Triangle& triangle = body_.mesh.triangles()[t];
-      const auto has = [&](Index v) { return std::find(triangle.begin(), triangle.end(), v) != triangle.end(); };
+      const auto has = [&](Index v) {
+        return std::find(triangle.begin(), triangle.end(), v) != triangle.end();
+      };
       if (has(corners[0]) && (corners[1] == no_index || has(corners[1])))
         std::copy_if(triangle.begin(), triangle.end(), std::back_inserter(lowered), may_go);
     }

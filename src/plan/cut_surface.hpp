@@ -28,7 +28,7 @@ struct InTheWay {
   std::size_t target;
   double from_rad;  ///< where its motion is stopped
   KeptBy by;
-  Vec3 point;       ///< of the surface before, in the cut bone's frame
+  Vec3 point;  ///< of the surface before, in the cut bone's frame
 };
 
 /// The surface of a bone that is lowered along directions that stay what they are: at each vertex inwards along the normal, smoothed
@@ -64,7 +64,9 @@ class CutSurface {
 
   const Body& body() const noexcept { return body_; }
   const std::vector<Vertex>& vertices() const noexcept { return vertices_; }
-  Vec3 at(Index vertex) const { return vertices_[vertex].before + vertices_[vertex].depth_mm * vertices_[vertex].inwards; }
+  Vec3 at(Index vertex) const {
+    return vertices_[vertex].before + vertices_[vertex].depth_mm * vertices_[vertex].inwards;
+  }
   /// With its vertices where they are now.
   Mesh mesh() const;
   /// Triangles that may have moved.
@@ -75,7 +77,12 @@ class CutSurface {
   struct Stretch;
   std::vector<Stretch> stretches(const std::vector<Probe>& probes, const std::vector<SweepTo>& sweeps) const;
   void lower_vertices(const std::vector<SweepTo>& sweeps);
-  bool lower_between_vertices(const std::vector<SweepTo>& sweeps, bool may_lower, std::vector<InTheWay>& left);
+  struct LatticeStretch;
+  std::vector<LatticeStretch> stretches_between(const std::vector<Index>& triangles,
+                                                const std::vector<SweepTo>& sweeps) const;
+  std::vector<Index> lower_between_vertices(const std::vector<Index>& triangles,
+                                            const std::vector<SweepTo>& sweeps);
+  std::vector<InTheWay> left_in_the_way(const std::vector<SweepTo>& sweeps) const;
   void take(Index vertex, double depth, const Need& need);
 
   Body body_;

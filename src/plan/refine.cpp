@@ -124,15 +124,18 @@ RefinedBody in_order_of_parts(Pieces pieces, const Body& body) {
     sorted.vertices.push_back(pieces.mesh.vertices[order[i]]);
   }
   // Pieces of triangles follow each other in the order of these already.
-  for (const Triangle& t : pieces.mesh.triangles) sorted.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
+  for (const Triangle& t : pieces.mesh.triangles)
+    sorted.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
   std::size_t vertex = 0, triangle = 0;
   for (std::size_t p = 0; p < body.parts.size(); ++p) {
     BodyPart& of = refined.body.parts[p];
     const std::size_t past = of.first_triangle + of.triangles;
-    const auto vertices = static_cast<std::size_t>(std::count(part.begin(), part.end(), static_cast<Index>(p)));
-    const auto triangles = static_cast<std::size_t>(
-        std::count_if(pieces.before.begin(), pieces.before.end(),
-                      [&](Index t) { return t >= body.parts[p].first_triangle && t < past; }));
+    const auto vertices =
+        static_cast<std::size_t>(std::count(part.begin(), part.end(), static_cast<Index>(p)));
+    const auto triangles =
+        static_cast<std::size_t>(std::count_if(pieces.before.begin(), pieces.before.end(), [&](Index t) {
+          return t >= body.parts[p].first_triangle && t < past;
+        }));
     of.first_vertex = vertex, of.vertices = vertices, vertex += vertices;
     of.first_triangle = triangle, of.triangles = triangles, triangle += triangles;
   }

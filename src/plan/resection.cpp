@@ -31,10 +31,14 @@ void check_kept(const KeptBone& kept, const Body& body) {
 
 std::string_view name_of(KeptBy by) noexcept {
   switch (by) {
-    case KeptBy::bearing: return "bearing";
-    case KeptBy::depth: return "depth";
-    case KeptBy::zone: return "zone";
-    case KeptBy::marked: break;
+    case KeptBy::bearing:
+      return "bearing";
+    case KeptBy::depth:
+      return "depth";
+    case KeptBy::zone:
+      return "zone";
+    case KeptBy::marked:
+      break;
   }
   return "marked";
 }
@@ -49,6 +53,8 @@ void check_resection(const Joint& joint, const ResectionRequest& request) {
   }
   if (!(request.fixed_share >= 0 && request.fixed_share <= 1))
     throw UsageError("resection: the share of the fixed body must be from 0 to 1");
+  if (!(request.margin_mm >= 0 && request.margin_mm <= 10))
+    throw UsageError("resection: the margin must be from 0 to 10 mm");
   if (!(request.edge_mm >= 0.05 && request.edge_mm <= 10))
     throw UsageError("resection: edges must be from 0.05 to 10 mm");
   if (request.range.overlap.leave_out_reference_contacts)
@@ -63,7 +69,7 @@ Resection resect(const Joint& joint, const ResectionRequest& request) {
 
 std::optional<Resection> resect(const Joint& joint, const ResectionRequest& request, const Control& control) {
   check_resection(joint, request);
-  Resection done{joint, {}, {}, {}};
+  Resection done{joint, {}, {}, {}, false};
   const RangeOfMotion before(joint, request.range);
   std::vector<CutTarget> open;
   for (std::size_t i = 0; i < request.targets.size(); ++i) {
@@ -73,7 +79,7 @@ std::optional<Resection> resect(const Joint& joint, const ResectionRequest& requ
     if (end.reason == LimitReason::contact_at_start)
       throw UsageError("resection: " + target.motion.name +
                        " is in contact at its start: what brings the joint there must be a target first");
-    if (end.turned < target.reach) open.push_back({i, target.motion, target.reach});
+    if (end.turned < target.reach || request.margin_mm > 0) open.push_back({i, target.motion, target.reach});
   }
   const auto note_reach = [&](const BoneCut& cut) {
     for (std::size_t i = 0; i < open.size(); ++i) {
@@ -95,6 +101,7 @@ std::optional<Resection> resect(const Joint& joint, const ResectionRequest& requ
     if (request.fixed_share > 0) cut.scale_depths(1 - request.fixed_share);
     note_reach(cut);
     done.mobile = cut.cut_bone();
+    done.sweeps_bearing = cut.sweeps_bearing();
     done.joint = cut.joint();
     if (!report()) return std::nullopt;
   }

@@ -47,6 +47,12 @@ Sweep::Sweep(const Joint& joint, BodyRole cut, const Mesh& other, const Motion& 
              const std::optional<BearingBall>& ball)
     : cut_(cut), turning_(joint, cut, motion), rings_(other, turning_.axis), ball_(ball) {}
 
+Sweep Sweep::counting_all() const {
+  Sweep all = *this;
+  all.ball_.reset();
+  return all;
+}
+
 std::vector<double> Sweep::first_inside(PointsView points, Angle reach) const {
   const Points started = posed(turning_.at_start, points);
   const OccupiedArcs arcs = rings_.occupied_arcs(started);

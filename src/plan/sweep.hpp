@@ -47,6 +47,8 @@ class Sweep {
   /// The other bone must be closed. With a ball, bone of the mobile body within it counts for nothing, whichever body is cut.
   Sweep(const Joint& joint, BodyRole cut, const Mesh& other, const Motion& motion,
         const std::optional<BearingBall>& ball);
+  /// The same without the ball.
+  Sweep counting_all() const;
 
   /// For each point of the cut bone, in its frame: the angle from the motion's start, rad, at which it is first inside the other
   /// bone; infinity if that is beyond `reach`.

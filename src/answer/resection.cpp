@@ -1,0 +1,271 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "answer/staged.hpp"
+#include "condyle/answer.hpp"
+#include "condyle/error.hpp"
+#include "core/formatted.hpp"
+
+namespace condyle {
+namespace {
+
+using core::formatted;
+
+/// A band's target is planned anew so often, until it is missed by less than this.
+constexpr int most_band_rounds = 6;
+constexpr Angle band_missed = Angle::degrees(0.05);
+/// A limit that changes by less stays as it was.
+constexpr double no_change_deg = 0.05;
+
+/// Counts the cuts that are done, of as many as there may be.
+class Cuts {
+ public:
+  Cuts(const Joint& joint, const AnswerControl& control, std::size_t total)
+      : joint_(joint), control_(control), total_(total) {}
+
+  /// Empty if it was stopped.
+  std::optional<Resection> operator()(const ResectionRequest& request) {
+    auto cut = resect(joint_, request, {.stop = control_.stop});
+    done_ = std::min(done_ + 1, total_);
+    if (cut && control_.progress) control_.progress("cuts", done_, total_);
+    return cut;
+  }
+
+ private:
+  const Joint& joint_;
+  const AnswerControl& control_;
+  std::size_t done_ = 0, total_;
+};
+
+std::string in_degrees(Angle angle) {
+  return formatted("%.1f", angle.degrees());
+}
+
+std::string_view why_kept(KeptBy by) {
+  switch (by) {
+    case KeptBy::bearing:
+      return "its bearing surface";
+    case KeptBy::depth:
+      return "bone deeper than may be removed";
+    case KeptBy::zone:
+      return "bone farther from the bearing surface than may be removed";
+    case KeptBy::marked:
+      break;
+  }
+  return "bone that is marked to stay";
+}
+
+/// The share of the neck's width across which a cut goes; 0 if the cut is not at the neck.
+double share_of_neck(const CutBone& cut, const HipMeasures& shape) {
+  if (!shape.femur.neck || shape.femur.neck->outline.empty()) return 0;
+  const NeckGeometry& neck = *shape.femur.neck;
+  const Vec3 from_head = cut.deepest_at - neck.head.centre;
+  // Between the head and the trochanters.
+  const double along = from_head.dot(neck.direction) / neck.head.radius;
+  if (!(along > 0.3 && along < 2)) return 0;
+  const Vec3 across = (from_head - from_head.dot(neck.direction) * neck.direction).stableNormalized();
+  double least = 0, most = 0;
+  for (const Vec3& p : neck.outline) {
+    const double at = (p - neck.head.centre).dot(across);
+    least = std::min(least, at), most = std::max(most, at);
+  }
+  return most > least ? cut.deepest_mm / (most - least) : 0;
+}
+
+void note_targets(ResectionAnswer& answer) {
+  const auto& targets = answer.resection.targets;
+  const bool nothing = !answer.resection.mobile && !answer.resection.fixed;
+  if (nothing)
+    answer.notes.push_back(
+        {ResectionNoteCode::nothing_to_do, "every target is reached as the joint is: nothing has to go"});
+  for (const ReachOutcome& outcome : targets) {
+    if (!outcome.blocked) continue;
+    const Body& body = outcome.blocked->body == BodyRole::mobile ? answer.resection.joint.mobile
+                                                                 : answer.resection.joint.fixed;
+    const Vec3& p = outcome.blocked->point_mm;
+    answer.notes.push_back({ResectionNoteCode::target_blocked,
+                            outcome.target.motion.name + " cannot reach " + in_degrees(outcome.target.reach) +
+                                " degrees: " + std::string(why_kept(outcome.blocked->by)) + " of " +
+                                body.name + formatted(" at (%.1f, %.1f, %.1f) mm", p.x(), p.y(), p.z()) +
+                                " stops it at " + in_degrees(outcome.planned)});
+  }
+}
+
+void note_bones(ResectionAnswer& answer) {
+  if (answer.resection.sweeps_bearing)
+    answer.notes.push_back(
+        {ResectionNoteCode::bearing_is_swept,
+         answer.resection.joint.mobile.name + ": on the way the other bone sweeps over its bearing surface, "
+                                              "whose contact counts for nothing"});
+  if (answer.resection.mobile && answer.shape_before)
+    if (const double share = share_of_neck(*answer.resection.mobile, *answer.shape_before);
+        share > neck_width_share)
+      answer.notes.push_back(
+          {ResectionNoteCode::neck_is_narrowed,
+           formatted("the cut takes %.0f %% of the neck's width where it is deepest, more than %.0f %%: how "
+                     "strong the neck still is, is not modelled",
+                     100 * share, 100 * neck_width_share)});
+}
+
+void note_gains(ResectionAnswer& answer) {
+  if (!answer.resection.mobile && !answer.resection.fixed) return;
+  std::string same;
+  for (std::size_t i = 0; i < answer.before.size(); ++i) {
+    const Limit &a = answer.before[i].end, &b = answer.after[i].end;
+    if (a.reason == LimitReason::contact && b.turned.degrees() < a.turned.degrees() + no_change_deg)
+      same += (same.empty() ? "" : ", ") + answer.before[i].motion.name;
+  }
+  if (!same.empty())
+    answer.notes.push_back({ResectionNoteCode::no_gain, "these motions gain nothing: " + same});
+}
+
+/// Plans farther until the lower end of each band is at its target. False if it was stopped.
+bool reach_bands(const ResectionQuery& query, const AnswerControl& control, Cuts& cuts,
+                 ResectionAnswer& answer) {
+  ResectionRequest farther = query.resection;
+  std::vector<Motion> motions;
+  for (const ReachTarget& target : query.resection.targets) motions.push_back(target.motion);
+  std::vector<bool> cannot(motions.size(), false);
+  for (int round = 0;; ++round) {
+    RangeOptions range = query.resection.range;
+    range.bearing.surface.reset();
+    auto bands = limit_bands(answer.resection.joint, motions, range, *query.bands,
+                             answer::staged(control, "joints of the band"));
+    if (!bands) return false;
+    answer.bands = std::move(*bands);
+    bool missed = false;
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      const Angle lacks = query.resection.targets[i].reach - answer.bands[i].p5;
+      Angle& reach = farther.targets[i].reach;
+      cannot[i] = lacks > band_missed && (answer.resection.targets[i].blocked || reach >= motions[i].range);
+      if (lacks <= band_missed || cannot[i]) continue;
+      missed = true;
+      reach = std::min(reach + lacks, motions[i].range);
+    }
+    if (!missed || round == most_band_rounds) break;
+    auto cut = cuts(farther);
+    if (!cut) return false;
+    answer.resection = std::move(*cut);
+    for (std::size_t i = 0; i < motions.size(); ++i)
+      answer.resection.targets[i].target = query.resection.targets[i];
+  }
+  for (std::size_t i = 0; i < motions.size(); ++i)
+    if (query.resection.targets[i].reach - answer.bands[i].p5 > band_missed)
+      answer.notes.push_back({ResectionNoteCode::band_not_reached,
+                              motions[i].name + ": in 5 % of displaced joints it ends at " +
+                                  in_degrees(answer.bands[i].p5) + " degrees or before, short of " +
+                                  in_degrees(query.resection.targets[i].reach)});
+  return true;
+}
+
+/// False if it was stopped.
+bool add_curve(const ResectionQuery& query, Cuts& cuts, ResectionAnswer& answer) {
+  for (std::size_t i = 0; i < answer.resection.targets.size(); ++i) {
+    const ReachOutcome& outcome = answer.resection.targets[i];
+    const Angle from = outcome.before.end.turned;
+    if (!(outcome.planned > from)) continue;
+    const auto points = static_cast<double>(query.curve_points);
+    for (std::size_t k = 1; k <= query.curve_points; ++k) {
+      ResectionRequest one = query.resection;
+      const Angle reach = from + (outcome.planned - from) * (static_cast<double>(k) / points);
+      one.targets = {{outcome.target.motion, reach}};
+      const auto cut = cuts(one);
+      if (!cut) return false;
+      const double deepest =
+          std::max(cut->mobile ? cut->mobile->deepest_mm : 0, cut->fixed ? cut->fixed->deepest_mm : 0);
+      answer.curve.push_back({i, cut->targets.front().planned, cut->volume_mm3(), deepest});
+    }
+  }
+  return true;
+}
+
+std::string_view trimmed_of_blanks(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
+  return first == text.npos ? std::string_view() : text.substr(first, last - first + 1);
+}
+
+}  // namespace
+
+std::string_view name_of(ResectionNoteCode code) noexcept {
+  switch (code) {
+    case ResectionNoteCode::nothing_to_do:
+      return "nothing_to_do";
+    case ResectionNoteCode::target_blocked:
+      return "target_blocked";
+    case ResectionNoteCode::band_not_reached:
+      return "band_not_reached";
+    case ResectionNoteCode::bearing_is_swept:
+      return "bearing_is_swept";
+    case ResectionNoteCode::neck_is_narrowed:
+      return "neck_is_narrowed";
+    case ResectionNoteCode::no_gain:
+      break;
+  }
+  return "no_gain";
+}
+
+std::vector<ReachTarget> reach_targets(std::span<const Motion> motions, std::string_view text) {
+  std::vector<ReachTarget> targets;
+  while (true) {
+    const auto first = text.find_first_not_of(" \t,");
+    if (first == text.npos) break;
+    text.remove_prefix(first);
+    const auto end = std::min(text.find_first_of(" \t,"), text.size());
+    const std::string_view item = trimmed_of_blanks(text.substr(0, end));
+    text.remove_prefix(end);
+    const auto equals = item.find('=');
+    double degrees = 0;
+    const auto number = equals == item.npos ? std::string_view() : item.substr(equals + 1);
+    const auto [stopped, error] = std::from_chars(number.data(), number.data() + number.size(), degrees);
+    if (equals == item.npos || equals == 0 || error != std::errc() ||
+        stopped != number.data() + number.size() || !std::isfinite(degrees))
+      throw UsageError("targets: \"" + std::string(item) +
+                       "\" is not a motion and its degrees, as in flexion=115");
+    const Motion& motion = motion_named(motions, item.substr(0, equals));
+    for (const ReachTarget& other : targets)
+      if (other.motion.name == motion.name) throw UsageError("targets: " + motion.name + " is given twice");
+    targets.push_back({motion, Angle::degrees(degrees)});
+  }
+  if (targets.empty()) throw UsageError("targets: none is given, as in flexion=115");
+  return targets;
+}
+
+std::optional<ResectionAnswer> answer_resection(const Joint& joint, const JointPlacement& placement,
+                                                const ResectionQuery& query, const AnswerControl& control) {
+  ResectionQuery asked = query;
+  asked.resection.range.overlap.reference_pose = placement.reference_pose.angles;
+  if (asked.motions.empty()) asked.motions = built_in_motions(joint.kind, joint.anatomy);
+  const auto held = held_translation(joint, placement, {});
+  const Joint at = held && *held != Vec3::Zero() ? held_at(joint, *held) : joint;
+  Cuts cuts(at, control,
+            1 + asked.resection.targets.size() * asked.curve_points + (asked.bands ? most_band_rounds : 0));
+  auto first = cuts(asked.resection);
+  if (!first) return std::nullopt;
+  ResectionAnswer answer{std::move(*first), {}, {}, {}, {}, {}, {}, {}, {}};
+  const bool nothing = !answer.resection.mobile && !answer.resection.fixed;
+  if (asked.bands && !(nothing && asked.resection.targets.empty()))
+    if (!reach_bands(asked, control, cuts, answer)) return std::nullopt;
+  const RangeOfMotion range(at, asked.resection.range);
+  answer.before = range.limits(asked.motions);
+  answer.after = RangeOfMotion(answer.resection.joint, asked.resection.range).limits(asked.motions);
+  if (at.is_hip() && at.kind != JointKind::hinge) {
+    answer.shape_before = measure_hip(at, asked.measures);
+    answer.shape_after = measure_hip(answer.resection.joint, asked.measures);
+  }
+  if (asked.curve_points > 0 && !add_curve(asked, cuts, answer)) return std::nullopt;
+  note_targets(answer);
+  note_bones(answer);
+  note_gains(answer);
+  answer.caveats = range_caveats(asked.resection.range, range);
+  answer.caveats.emplace_back(
+      "osseous only: labrum, cartilage, capsule and the strength of what is left are not modelled");
+  return answer;
+}
+
+ResectionAnswer answer_resection(const Joint& joint, const JointPlacement& placement,
+                                 const ResectionQuery& query) {
+  return *answer_resection(joint, placement, query, {});
+}
+
+}  // namespace condyle

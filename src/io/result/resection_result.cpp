@@ -1,0 +1,311 @@
+#include "io/result/resection_result.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "condyle/version.hpp"
+#include "io/file/format_version.hpp"
+#include "io/joint/proposal_lines.hpp"
+#include "io/result/caveats.hpp"
+#include "io/result/clock_hour.hpp"
+#include "io/result/csv_field.hpp"
+#include "io/result/json.hpp"
+#include "io/result/provenance_forms.hpp"
+#include "io/result/rom_result.hpp"
+
+namespace condyle {
+namespace {
+
+using io::Json;
+
+constexpr int bins_per_hour = 2;
+
+/// The bones that were cut, by role.
+struct CutOfBody {
+  BodyRole role;
+  const CutBone& cut;
+
+  std::string_view role_name() const { return role == BodyRole::mobile ? "mobile" : "fixed"; }
+};
+
+std::vector<CutOfBody> cuts_of(const Resection& resection) {
+  std::vector<CutOfBody> cuts;
+  if (resection.mobile) cuts.push_back({BodyRole::mobile, *resection.mobile});
+  if (resection.fixed) cuts.push_back({BodyRole::fixed, *resection.fixed});
+  return cuts;
+}
+
+/// The hour of a point around the neck; empty without one.
+std::optional<double> neck_hour(const ResectionAnswer& answer, const Vec3& p) {
+  if (!answer.shape_before || !answer.shape_before->femur.neck) return std::nullopt;
+  const NeckGeometry& neck = *answer.shape_before->femur.neck;
+  return neck.clock.hour_of(p - neck.head.centre);
+}
+
+std::optional<double> deepest_hour(const ResectionAnswer& answer, const CutOfBody& cut) {
+  return cut.role == BodyRole::mobile ? neck_hour(answer, cut.cut.deepest_at) : std::nullopt;
+}
+
+/// How deep the mobile bone is cut in each half hour.
+std::vector<double> depth_by_hour(const ResectionAnswer& answer) {
+  std::vector<double> deepest(12 * bins_per_hour, 0);
+  const CutBone& cut = *answer.resection.mobile;
+  for (std::size_t v = 0; v < cut.depth_mm.size(); ++v) {
+    if (cut.depth_mm[v] == 0) continue;
+    const double hour = *neck_hour(answer, cut.before.vertices[v]);
+    double& bin = deepest[static_cast<std::size_t>(hour * bins_per_hour) % deepest.size()];
+    bin = std::max(bin, cut.depth_mm[v]);
+  }
+  return deepest;
+}
+
+bool has_hours(const ResectionAnswer& answer) {
+  return answer.resection.mobile && neck_hour(answer, Vec3::UnitX()).has_value();
+}
+
+std::string target_line(const ReachOutcome& outcome, const std::vector<LimitBand>& bands, std::size_t i) {
+  std::string line = fmt::format("  {}: {:.1f} deg, {:.1f} without the bone; asked for {:.1f}",
+                                 outcome.target.motion.name, outcome.before.end.turned.degrees(),
+                                 outcome.after.end.turned.degrees(), outcome.target.reach.degrees());
+  if (!bands.empty())
+    line += fmt::format(", 5 to 95 % {:.1f} to {:.1f}", bands[i].p5.degrees(), bands[i].p95.degrees());
+  return line + "\n";
+}
+
+std::string cut_lines(const ResectionResult& result, const CutOfBody& cut) {
+  const CutBone& bone = cut.cut;
+  std::string text = fmt::format(
+      "  {}: {:.1f} mm3 go, {:.1f} must, over {:.0f} mm2; {:.2f} mm at the deepest, ({:.1f}, {:.1f}, {:.1f}) "
+      "mm",
+      bone.body.name, bone.volume_mm3, bone.least_volume_mm3, bone.area_mm2, bone.deepest_mm,
+      bone.deepest_at.x(), bone.deepest_at.y(), bone.deepest_at.z());
+  if (const auto hour = deepest_hour(result.answer, cut))
+    text += ", " + io::clock_text(*hour) + " of the neck";
+  return text + "\n";
+}
+
+std::string limit_value(const MotionLimit& limit) {
+  return fmt::format("{:.1f}{}", limit.end.turned.degrees(),
+                     limit.end.reason == LimitReason::end_of_range ? "+" : "");
+}
+
+std::string limit_lines(const ResectionAnswer& answer) {
+  std::size_t widest = 0;
+  for (const MotionLimit& limit : answer.before) widest = std::max(widest, limit.motion.name.size());
+  std::string text =
+      fmt::format("  {:<{}}  {:>8}  {:>8}  {:>6}\n", "limits (deg)", widest + 2, "before", "after", "gain");
+  for (std::size_t i = 0; i < answer.before.size(); ++i)
+    text += fmt::format("    {:<{}}  {:>8}  {:>8}  {:>6.1f}\n", answer.before[i].motion.name, widest,
+                        limit_value(answer.before[i]), limit_value(answer.after[i]),
+                        answer.after[i].end.turned.degrees() - answer.before[i].end.turned.degrees() + 0.0);
+  return text;
+}
+
+/// Measures that the cut changes, to the digit that is shown.
+std::string shape_lines(const ResectionAnswer& answer) {
+  if (!answer.shape_before) return {};
+  std::string text;
+  for (const MeasureDefinition& each : measure_definitions()) {
+    const auto &a = each.of(*answer.shape_before).value, &b = each.of(*answer.shape_after).value;
+    const auto shown = [](const std::optional<double>& value) {
+      return value ? fmt::format("{:.1f}", *value) : "-";
+    };
+    if (each.unit == "1" || shown(a) == shown(b)) continue;
+    text += fmt::format("    {}: {} before, {} after\n", each.key, shown(a), shown(b));
+  }
+  return text.empty() ? text : "  measures that change:\n" + text;
+}
+
+std::string curve_lines(const ResectionAnswer& answer) {
+  if (answer.curve.empty()) return {};
+  std::string text = "  what each degree costs, each target by itself:\n";
+  for (const ResectionCurvePoint& point : answer.curve)
+    text += fmt::format("    {} to {:.1f} deg: {:.1f} mm3, {:.2f} mm deep\n",
+                        answer.resection.targets[point.target].target.motion.name, point.reached.degrees(),
+                        point.volume_mm3, point.deepest_mm);
+  return text;
+}
+
+Json limit_json(const MotionLimit& limit) {
+  return {{"limit_deg", limit.end.turned.degrees()}, {"reason", name_of(limit.end.reason)}};
+}
+
+Json blocked_json(const std::optional<Blocked>& blocked) {
+  if (!blocked) return nullptr;
+  return {{"kept_by", name_of(blocked->by)},
+          {"body", blocked->body == BodyRole::mobile ? "mobile" : "fixed"},
+          {"point_mm", io::numbers(blocked->point_mm)}};
+}
+
+Json target_json(const ResectionAnswer& answer, std::size_t i) {
+  const ReachOutcome& outcome = answer.resection.targets[i];
+  Json json{{"motion", outcome.target.motion.name},     {"reach_deg", outcome.target.reach.degrees()},
+            {"planned_deg", outcome.planned.degrees()}, {"before", limit_json(outcome.before)},
+            {"after", limit_json(outcome.after)},       {"blocked", blocked_json(outcome.blocked)}};
+  json["band"] = answer.bands.empty() ? Json(nullptr)
+                                      : Json{{"p5_deg", answer.bands[i].p5.degrees()},
+                                             {"median_deg", answer.bands[i].median.degrees()},
+                                             {"p95_deg", answer.bands[i].p95.degrees()}};
+  return json;
+}
+
+Json cut_json(const ResectionAnswer& answer, const CutOfBody& cut) {
+  const CutBone& bone = cut.cut;
+  Json json{{"body", cut.role_name()},
+            {"name", bone.body.name},
+            {"volume_mm3", bone.volume_mm3},
+            {"least_volume_mm3", bone.least_volume_mm3},
+            {"area_mm2", bone.area_mm2},
+            {"deepest_mm", bone.deepest_mm},
+            {"deepest_at_mm", io::numbers(bone.deepest_at)},
+            {"deepest_hour", io::nullable(deepest_hour(answer, cut))}};
+  return json;
+}
+
+Json shape_json(const ResectionAnswer& answer) {
+  if (!answer.shape_before) return nullptr;
+  Json list = Json::array();
+  for (const MeasureDefinition& each : measure_definitions())
+    list.push_back({{"key", each.key},
+                    {"unit", each.unit},
+                    {"before", io::nullable(each.of(*answer.shape_before).value)},
+                    {"after", io::nullable(each.of(*answer.shape_after).value)}});
+  return list;
+}
+
+Json curve_json(const ResectionAnswer& answer) {
+  Json list = Json::array();
+  for (const ResectionCurvePoint& point : answer.curve)
+    list.push_back({{"motion", answer.resection.targets[point.target].target.motion.name},
+                    {"reached_deg", point.reached.degrees()},
+                    {"volume_mm3", point.volume_mm3},
+                    {"deepest_mm", point.deepest_mm}});
+  return list;
+}
+
+Json resection_notes_json(const std::vector<ResectionNote>& notes) {
+  Json list = Json::array();
+  for (const ResectionNote& note : notes) list.push_back({{"code", name_of(note.code)}, {"text", note.text}});
+  return list;
+}
+
+}  // namespace
+
+std::string resection_text(const ResectionResult& result) {
+  const ResectionAnswer& answer = result.answer;
+  std::string text =
+      fmt::format("{}: bone that must go, {} side\n", result.joint.name, name_of(result.joint.side));
+  for (std::size_t i = 0; i < answer.resection.targets.size(); ++i)
+    text += target_line(answer.resection.targets[i], answer.bands, i);
+  for (const CutOfBody& cut : cuts_of(answer.resection)) text += cut_lines(result, cut);
+  text += limit_lines(answer) + shape_lines(answer) + curve_lines(answer);
+  for (const ResectionNote& note : answer.notes) text += fmt::format("  note: {}\n", note.text);
+  for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
+  return text + fmt::format("  {}\n", scope_text(result.joint));
+}
+
+std::string resection_json(const ResectionResult& result) {
+  const ResectionAnswer& answer = result.answer;
+  Json targets = Json::array(), cuts = Json::array(), limits = Json::array();
+  for (std::size_t i = 0; i < answer.resection.targets.size(); ++i) targets.push_back(target_json(answer, i));
+  for (const CutOfBody& cut : cuts_of(answer.resection)) cuts.push_back(cut_json(answer, cut));
+  for (std::size_t i = 0; i < answer.before.size(); ++i)
+    limits.push_back({{"motion", answer.before[i].motion.name},
+                      {"before", limit_json(answer.before[i])},
+                      {"after", limit_json(answer.after[i])}});
+  Json hours = nullptr;
+  if (has_hours(answer)) hours = depth_by_hour(answer);
+  Json json{{"condyle", io::format_version},
+            {"joint", result.joint.name},
+            {"fixed", result.joint.fixed.name},
+            {"mobile", result.joint.mobile.name},
+            {"side", name_of(result.joint.side)},
+            {"targets", std::move(targets)},
+            {"cuts", std::move(cuts)},
+            {"limits", std::move(limits)},
+            {"measures", shape_json(answer)},
+            {"depth_by_half_hour_mm", std::move(hours)},
+            {"curve", curve_json(answer)},
+            {"resection_notes", resection_notes_json(answer.notes)},
+            {"caveats", answer.caveats},
+            {"notes", io::notes_json(result.notes)},
+            {"scope", scope_text(result.joint)},
+            {"provenance", io::provenance_json(result.provenance)}};
+  io::drop_negative_zeros(json);
+  return io::document(std::move(json));
+}
+
+std::string resection_limits_csv(const ResectionResult& result) {
+  const ResectionAnswer& answer = result.answer;
+  std::string text = io::provenance_comments(result.provenance) +
+                     "motion,before_deg,before_reason,after_deg,after_reason,reach_deg\n";
+  for (std::size_t i = 0; i < answer.before.size(); ++i) {
+    const MotionLimit &a = answer.before[i], &b = answer.after[i];
+    std::string reach;
+    for (const ReachOutcome& outcome : answer.resection.targets)
+      if (outcome.target.motion.name == a.motion.name)
+        reach = fmt::format("{}", outcome.target.reach.degrees());
+    text += fmt::format("{},{},{},{},{},{}\n", io::csv_field(a.motion.name), a.end.turned.degrees(),
+                        name_of(a.end.reason), b.end.turned.degrees(), name_of(b.end.reason), reach);
+  }
+  return text;
+}
+
+std::string resection_curve_csv(const ResectionResult& result) {
+  std::string text =
+      io::provenance_comments(result.provenance) + "motion,reached_deg,volume_mm3,deepest_mm\n";
+  for (const ResectionCurvePoint& point : result.answer.curve)
+    text += fmt::format("{},{},{},{}\n",
+                        io::csv_field(result.answer.resection.targets[point.target].target.motion.name),
+                        point.reached.degrees(), point.volume_mm3, point.deepest_mm);
+  return text;
+}
+
+std::string resection_hours_csv(const ResectionResult& result) {
+  if (!has_hours(result.answer)) return {};
+  std::string text = io::provenance_comments(result.provenance) + "hour,to_hour,deepest_mm\n";
+  const std::vector<double> depths = depth_by_hour(result.answer);
+  for (std::size_t i = 0; i < depths.size(); ++i)
+    text += fmt::format("{},{},{}\n", double(i) / bins_per_hour, double(i + 1) / bins_per_hour, depths[i]);
+  return text;
+}
+
+std::string resected_joint_file(const ResectionResult& result) {
+  const Joint& joint = result.answer.resection.joint;
+  io::ProposalLines lines;
+  lines.add(
+      fmt::format("# Written by condyle resect {}: {} without the bone that must go.", version, joint.name));
+  lines.add(fmt::format("condyle = {}", io::format_version));
+  lines.add("name = " + io::toml_text(joint.name));
+  lines.add(fmt::format("kind = \"{}\"", name_of(joint.kind)));
+  if (joint.names_its_joint()) lines.add(fmt::format("joint = \"{}\"", name_of(joint.anatomy)));
+  lines.add(fmt::format("side = \"{}\"", name_of(joint.side)));
+  lines.add("units = \"mm\"");
+  if (joint.kind == JointKind::free && joint.translation_frame == TranslationFrame::joint_axes)
+    lines.add("translation_frame = \"joint_axes\"");
+  for (const auto& [role, body] :
+       {std::pair<std::string, const Body&>("fixed", joint.fixed), {"mobile", joint.mobile}}) {
+    lines.add(fmt::format("\n[{}]", role));
+    lines.add("name = " + io::toml_text(body.name));
+    if (body.parts.empty()) {
+      lines.add(fmt::format("mesh = \"{}.ply\"", role));
+    } else {
+      for (std::size_t p = 0; p < body.parts.size(); ++p) {
+        lines.add(fmt::format("[[{}.meshes]]", role));
+        lines.add("name = " + io::toml_text(body.parts[p].name));
+        lines.add(fmt::format("mesh = \"{}_{}.ply\"", role, p + 1));
+        lines.add(fmt::format("contact = \"{}\"", name_of(body.parts[p].contact)));
+      }
+    }
+  }
+  lines.add("\n[frame]  # the meshes are in the joint frame");
+  lines.add("centre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]");
+  return std::move(lines).proposal(joint.side).toml;
+}
+
+}  // namespace condyle
