@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "condyle/fit.hpp"
 #include "condyle/joint_coordinates.hpp"
 #include "condyle/mesh.hpp"
 
@@ -61,6 +62,8 @@ struct Body {
   Mesh mesh;                            ///< of all parts together
   std::vector<BodyPart> parts = {};     ///< in their order, covering the mesh; empty if it is one mesh
   std::optional<BodyImage> image = {};  ///< of a surface from a label map
+  /// Its head, in the body's frame, mm, where it is known: that of a bone that was cut, say. Else it is searched for.
+  std::optional<Sphere> head = {};
 };
 
 /// How far from a cut a point still lies on it: meshes in floats are off by less.

@@ -27,6 +27,7 @@ from ._penetration import Penetration, Penetrations, vertices_inside
 from ._poses import ManyPosesLike, OnePoseLike, PoseLike
 from ._pressure import ElasticContact
 from ._range_of_motion import RangeOfMotion
+from ._resection import CutFrom, Resection, resection
 from ._recorded_motion import JointMotion, RecordedContact, recorded_contact
 from ._surface_contact import NormalContact, normal_contact
 from ._words import Anatomy, Axes, Ball, BearingRule, Bodies, Body, Cavities, Colour, DepthMethod, FaceRule, GapMethod
@@ -469,6 +470,63 @@ class Joint(DescribedJoint):
         'the mesh ends above the knee, 138 mm from the head'
         """
         return HipMeasures(self, pelvic_tilt_deg, band_samples, seed, progress)
+
+    def resection(self, reach: Mapping[str, float], *, cut: CutFrom = "mobile", share: Optional[float] = None,
+                  margin_mm: float = 0, deepest_mm: Optional[float] = None, within_mm: Optional[float] = None,
+                  keep: Optional[ArrayLike] = None, keep_fixed: Optional[ArrayLike] = None, edge_mm: float = 0.5,
+                  curve_points: int = 10, band_samples: int = 0, seed: Optional[int] = None,
+                  bearing: BearingRule = "leave_out", bearing_margin_mm: Optional[float] = None,
+                  progress: Progress = None) -> Resection:
+        """The bone that must go so that each motion reaches its target, and the joint without it.
+
+        Osseous: labrum, cartilage, capsule and the strength of what is left are not modelled.
+
+        Parameters
+        ----------
+        reach : mapping of motions to degrees
+            How far each shall go from its start.
+        cut : "mobile", "fixed" or "both"
+            The body that is cut; with "both" the fixed one for `share` of the depth, half if not given.
+        margin_mm : float
+            What is left stays clear of the other bone's surface moved outwards by this.
+        deepest_mm, within_mm : float, optional
+            Bone deeper than that stays, and bone farther than that outside the ball of the bearing surface. What the bearing surface
+            has stays always.
+        keep, keep_fixed : (V,) bool, optional
+            Vertices of the mobile and of the fixed mesh that stay.
+        edge_mm : float
+            Triangles around the cut become so small.
+        curve_points : int
+            Points on each target's curve of degrees against mm3; each costs a cut.
+        band_samples : int
+            Above 0: each target is reached in 95 % of so many displaced joints, as :meth:`RangeOfMotion.bands` displaces them.
+        bearing, bearing_margin_mm :
+            As :meth:`range_of_motion` takes them.
+
+        Raises
+        ------
+        UsageError
+            For motions that are not known or in contact at their start, and values outside their ranges. MeshError for open meshes.
+
+        C++: `condyle::answer_resection` in condyle/answer.hpp; `condyle resect`.
+
+        >>> import condyle
+        >>> bones = condyle.sample_hip(alpha_angle_deg=70)
+        >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
+        >>> plan = joint.resection({"internal_rotation_at_90_flexion": 45}, curve_points=0)
+        >>> plan.after[8].turned_deg >= 45
+        True
+        """
+        return resection(self, reach, cut, share, margin_mm, deepest_mm, within_mm, keep, keep_fixed, edge_mm, curve_points,
+                         band_samples, seed, bearing, bearing_margin_mm, progress)
+
+    def with_mobile(self, mesh: MeshLike) -> Joint:
+        """The joint with this mesh in the mobile body's place: the same bone after something was done to it, in the frame M of
+        :attr:`mobile`. Its head stays the one that it was.
+
+        C++: `condyle::with_mobile_mesh` in condyle/resection.hpp.
+        """
+        return Joint._of_native(_native.with_mobile(self._native, TriMesh.of(mesh)._native))
 
     def range_following(self, motions: Optional[Sequence[MotionLike]] = None, *, poses: Optional[ArrayLike] = None,
                         contact: Optional[ElasticContact] = None, force_n: Optional[ArrayLike] = None, frame: Body = "fixed",

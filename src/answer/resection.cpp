@@ -94,10 +94,10 @@ void note_targets(ResectionAnswer& answer) {
 
 void note_bones(ResectionAnswer& answer) {
   if (answer.resection.sweeps_bearing)
-    answer.notes.push_back(
-        {ResectionNoteCode::bearing_is_swept,
-         answer.resection.joint.mobile.name + ": on the way the other bone sweeps over its bearing surface, "
-                                              "whose contact counts for nothing"});
+    answer.notes.push_back({ResectionNoteCode::bearing_is_swept,
+                            answer.resection.joint.mobile.name +
+                                ": on the way the other bone sweeps over its bearing surface, "
+                                "whose contact counts for nothing"});
   if (answer.resection.mobile && answer.shape_before)
     if (const double share = share_of_neck(*answer.resection.mobile, *answer.shape_before);
         share > neck_width_share)

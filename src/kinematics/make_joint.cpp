@@ -69,6 +69,11 @@ std::optional<BodyImage> placed_image(const Pose& X_AB, const std::optional<Body
   return placed;
 }
 
+std::optional<Sphere> placed_head(const Pose& X_AB, const std::optional<Sphere>& head) {
+  if (!head) return std::nullopt;
+  return Sphere{X_AB * head->centre, head->radius};
+}
+
 /// The axes about a centre, from directions or landmarks.
 Pose frame_about(const Vec3& centre, const JointDescription& description) {
   struct Frames {
@@ -251,6 +256,8 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
   mobile.mesh = placed(X_MW, description.mobile_in_W, scale, mobile);
   fixed.image = placed_image(X_FW * description.fixed_in_W, fixed.image);
   mobile.image = placed_image(X_MW * description.mobile_in_W, mobile.image);
+  mobile.head = placed_head(X_MW * description.mobile_in_W, mobile.head);
+  if (mobile.head) kinematics::keep_head(mobile.mesh, *mobile.head);
   // A search about the joint centre finds the head that a search of the whole body found.
   const auto* fit = std::get_if<CentreFit>(&description.frame.centre);
   if (placement.sphere && fit && fit->body == BodyRole::mobile && !fit->within)

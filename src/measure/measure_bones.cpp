@@ -88,6 +88,7 @@ FoundParts find_parts(const Joint& joint, const BoneMeshes& bones) {
   FoundParts parts;
   parts.hip_bone_ends = ends_of(joint.fixed, bones.hip_bone);
   parts.femur_ends = ends_of(joint.mobile, bones.femur);
+  if (joint.mobile.head) kinematics::keep_head(bones.femur, *joint.mobile.head);
   parts.head = kinematics::head_near_centre(bones.femur);
   if (!parts.head) return parts;
   const Sphere& head = parts.head->fit.sphere;

@@ -6,7 +6,6 @@
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
-#include "kinematics/hip_parts.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
 #include "mesh/vertex_normals.hpp"
@@ -293,7 +292,7 @@ Joint BoneCut::joint() const {
   bone = surface_->body();
   bone.mesh = surface_->mesh();
   // Smaller triangles around a cut weigh more in a fit: the head is the one that it was.
-  if (bearing_ && role_ == BodyRole::mobile) kinematics::keep_head(bone.mesh, bearing_->head);
+  if (bearing_ && role_ == BodyRole::mobile) bone.head = bearing_->head;
   return joint;
 }
 

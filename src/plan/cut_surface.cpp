@@ -196,8 +196,8 @@ void CutSurface::lower_vertices(const std::vector<SweepTo>& sweeps) {
     if (found[i].need) take(of[i], found[i].length, *found[i].need);
 }
 
-std::vector<CutSurface::LatticeStretch> CutSurface::stretches_between(const std::vector<Index>& triangles,
-                                                                      const std::vector<SweepTo>& sweeps) const {
+std::vector<CutSurface::LatticeStretch> CutSurface::stretches_between(
+    const std::vector<Index>& triangles, const std::vector<SweepTo>& sweeps) const {
   std::vector<std::array<double, 3>> weights;
   for (int i = 0; i <= lattice; ++i)
     for (int j = 0; i + j <= lattice; ++j)
@@ -222,8 +222,8 @@ std::vector<CutSurface::LatticeStretch> CutSurface::stretches_between(const std:
   std::vector<LatticeStretch> swept;
   for (std::size_t i = 0; i < found.size(); ++i)
     if (found[i].need)
-      swept.push_back({triangles[i / weights.size()], weights[i % weights.size()], found[i].length, *found[i].need,
-                       probes[i].from});
+      swept.push_back({triangles[i / weights.size()], weights[i % weights.size()], found[i].length,
+                       *found[i].need, probes[i].from});
   return swept;
 }
 
@@ -251,7 +251,8 @@ std::vector<Index> CutSurface::lower_between_vertices(const std::vector<Index>& 
   }
   std::vector<Index> changed;
   for (const Index t : near_)
-    if (const auto& [a, b, c] = body_.mesh.triangles()[t]; moved[a] || moved[b] || moved[c]) changed.push_back(t);
+    if (const auto& [a, b, c] = body_.mesh.triangles()[t]; moved[a] || moved[b] || moved[c])
+      changed.push_back(t);
   return changed;
 }
 
@@ -273,7 +274,8 @@ std::vector<InTheWay> CutSurface::left_in_the_way(const std::vector<SweepTo>& sw
 std::vector<InTheWay> CutSurface::lower(const std::vector<SweepTo>& sweeps) {
   lower_vertices(sweeps);
   std::vector<Index> changed = near_;
-  for (int round = 0; round < rounds && !changed.empty(); ++round) changed = lower_between_vertices(changed, sweeps);
+  for (int round = 0; round < rounds && !changed.empty(); ++round)
+    changed = lower_between_vertices(changed, sweeps);
   return left_in_the_way(sweeps);
 }
 

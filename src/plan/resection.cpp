@@ -63,6 +63,15 @@ void check_resection(const Joint& joint, const ResectionRequest& request) {
   check_kept(request.fixed, joint.fixed);
 }
 
+Joint with_mobile_mesh(const Joint& joint, Mesh mesh) {
+  Joint other = joint;
+  if (const auto bearing = find_bearing_surface(joint).surface) other.mobile.head = bearing->head;
+  other.mobile.mesh = std::move(mesh);
+  other.mobile.parts.clear();
+  other.mobile.image.reset();
+  return other;
+}
+
 Resection resect(const Joint& joint, const ResectionRequest& request) {
   return *resect(joint, request, {});
 }

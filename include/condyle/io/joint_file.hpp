@@ -43,6 +43,7 @@ struct BodyEntry {
   std::string name;
   std::vector<MeshEntry> meshes;        ///< one or more
   std::optional<BodyImage> image = {};  ///< in the frame of the mesh, mm
+  std::optional<Sphere> head = {};      ///< the same
 };
 
 /// A joint file's contents, checked one by one; no mesh was read. Lengths were converted to mm.

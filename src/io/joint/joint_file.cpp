@@ -183,11 +183,21 @@ std::optional<BodyImage> body_image(io::TomlTable& body, const Lengths& lengths)
   return image;
 }
 
+/// [mobile.head]: where it is known.
+std::optional<Sphere> head_of(io::TomlTable& body, std::string_view key, const Lengths& lengths) {
+  std::optional<io::TomlTable> table = body.table("head");
+  if (!table) return std::nullopt;
+  if (key != "mobile") body.fail("head", "is of the mobile body: the head that turns");
+  const Sphere head{lengths.required_point(*table, "centre"), lengths.positive(*table, "radius")};
+  table->finish();
+  return head;
+}
+
 /// A body's table is read in two parts: its pose needs what is known of the joint.
 BodyEntry body_entry(io::TomlTable& table, std::string_view key, const Lengths& lengths,
                      std::vector<std::string>& notes) {
   BodyEntry entry{table.text("name").value_or(std::string(key)), mesh_entries(table, key, notes),
-                  body_image(table, lengths)};
+                  body_image(table, lengths), head_of(table, key, lengths)};
   if (entry.image)
     for (const MeshEntry& mesh : entry.meshes)
       if (mesh.is_moved()) table.fail("image", "stands beside a mesh with a scale or a pose of its own");

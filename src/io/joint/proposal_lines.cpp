@@ -19,24 +19,6 @@ void add_keys(ProposalLines& lines, std::string_view role, const ProposedBody& b
   lines.add("mesh = " + toml_text(path_from(joint_file, body.file)));
 }
 
-/// [fixed.image]: every bit, as the planes of the cuts must hold the vertices on them.
-void add_image(ProposalLines& lines, std::string_view role, const ProposedBody& body) {
-  if (!body.image) return;
-  const auto exact = [](const Vec3& v) {
-    return fmt::format("[{}, {}, {}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
-  };
-  lines.add(fmt::format(
-      "\n[{}.image]  # the edges of a voxel, mm: bands take a quarter of it as the surface's uncertainty",
-      role));
-  constexpr std::string_view edges[] = {"voxel_i", "voxel_j", "voxel_k"};
-  for (int i = 0; i < 3; ++i) lines.add(fmt::format("{} = {}", edges[i], exact(body.image->voxel.col(i))));
-  for (const ImageCut& cut : body.image->cuts) {
-    lines.add(fmt::format("[[{}.image.cut]]  # a flat face that closes the bone where the image ends", role));
-    lines.add("normal = " + exact(cut.normal));
-    lines.add(fmt::format("offset = {}", cut.offset_mm));
-  }
-}
-
 }  // namespace
 
 std::string toml_text(std::string_view text) {
@@ -70,10 +52,27 @@ void add_units(ProposalLines& lines, const std::optional<Stated<LengthUnit>>& st
     lines.missing("units", "\"mm\" or \"m\"", "the sizes of the meshes do not speak for one unit");
 }
 
+void add_image(ProposalLines& lines, std::string_view role, const std::optional<BodyImage>& image) {
+  if (!image) return;
+  const auto exact = [](const Vec3& v) {
+    return fmt::format("[{}, {}, {}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
+  };
+  lines.add(fmt::format(
+      "\n[{}.image]  # the edges of a voxel, mm: bands take a quarter of it as the surface's uncertainty",
+      role));
+  constexpr std::string_view edges[] = {"voxel_i", "voxel_j", "voxel_k"};
+  for (int i = 0; i < 3; ++i) lines.add(fmt::format("{} = {}", edges[i], exact(image->voxel.col(i))));
+  for (const ImageCut& cut : image->cuts) {
+    lines.add(fmt::format("[[{}.image.cut]]  # a flat face that closes the bone where the image ends", role));
+    lines.add("normal = " + exact(cut.normal));
+    lines.add(fmt::format("offset = {}", cut.offset_mm));
+  }
+}
+
 void add_body(ProposalLines& lines, std::string_view role, const ProposedBody& body,
               const std::filesystem::path& joint_file) {
   add_keys(lines, role, body, joint_file);
-  add_image(lines, role, body);
+  add_image(lines, role, body.image);
 }
 
 }  // namespace condyle::io

@@ -51,6 +51,9 @@ void add_head(ProposalLines& lines, const ProposedBody& fixed, const ProposedBod
 void add_units(ProposalLines& lines, const std::optional<Stated<LengthUnit>>& stated,
                const LikelyUnit& of_fixed, const LikelyUnit& of_mobile);
 
+/// [fixed.image]: every bit, as the planes of the cuts must hold the vertices on them.
+void add_image(ProposalLines& lines, std::string_view role, const std::optional<BodyImage>& image);
+
 /// [fixed] or [mobile], and its image.
 void add_body(ProposalLines& lines, std::string_view role, const ProposedBody& body,
               const std::filesystem::path& joint_file);

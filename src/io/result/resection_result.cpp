@@ -194,6 +194,33 @@ Json resection_notes_json(const std::vector<ResectionNote>& notes) {
   return list;
 }
 
+/// Every bit.
+std::string exact_vector(const Vec3& v) {
+  return fmt::format("[{}, {}, {}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
+}
+
+/// Motions and uncertainty of the old joint file.
+void add_settings(io::ProposalLines& lines, const JointFile& file) {
+  const Anatomy anatomy = file.joint.anatomy;
+  for (const Motion& motion : file.motions) {
+    const double from = angle_of(motion.start, motion.vary).degrees();
+    lines.add("\n[[motion]]");
+    lines.add("name = " + io::toml_text(motion.name));
+    lines.add(fmt::format("vary = \"{}\"", name_of(motion.vary, anatomy)));
+    lines.add(fmt::format("range = [{:.12g}, {:.12g}]", from,
+                          from + sign_of(motion.sense) * motion.range.degrees()));
+    for (const JointAngle angle : all_joint_angles)
+      if (angle != motion.vary && angle_of(motion.start, angle) != Angle())
+        lines.add(
+            fmt::format("{} = {:.12g}", name_of(angle, anatomy), angle_of(motion.start, angle).degrees()));
+  }
+  const Uncertainty& sigma = file.uncertainty;
+  lines.add("\n[uncertainty]");
+  lines.add(fmt::format("centre = {}\naxes = {:.12g}\nseed = {}", sigma.centre_mm, sigma.axes.degrees(),
+                        file.band_seed));
+  if (sigma.surface_voxels == 0) lines.add(fmt::format("surface = {}", sigma.surface_mm));
+}
+
 }  // namespace
 
 std::string resection_text(const ResectionResult& result) {
@@ -292,6 +319,7 @@ std::string resected_joint_file(const ResectionResult& result) {
        {std::pair<std::string, const Body&>("fixed", joint.fixed), {"mobile", joint.mobile}}) {
     lines.add(fmt::format("\n[{}]", role));
     lines.add("name = " + io::toml_text(body.name));
+    if (role == "mobile" && !pose.empty()) lines.add(pose);
     if (body.parts.empty()) {
       lines.add(fmt::format("mesh = \"{}.ply\"", role));
     } else {
@@ -302,9 +330,23 @@ std::string resected_joint_file(const ResectionResult& result) {
         lines.add(fmt::format("contact = \"{}\"", name_of(body.parts[p].contact)));
       }
     }
+    io::add_image(lines, role, body.image);
+  }
+  if (const auto& head = joint.mobile.head) {
+    lines.add(
+        "\n[mobile.head]  # before the cut: a fit to a mesh with smaller triangles around it would differ");
+    lines.add("centre = " + exact_vector(head->centre));
+    lines.add(fmt::format("radius = {}", head->radius));
   }
   lines.add("\n[frame]  # the meshes are in the joint frame");
   lines.add("centre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]");
+  if (!pose.empty()) {
+    lines.add("\n[reference_pose]");
+    for (const JointAngle angle : all_joint_angles)
+      if (reference[angle] != 0)
+        lines.add(fmt::format("{} = {}", name_of(angle, joint.anatomy), reference[angle]));
+  }
+  if (result.file) add_settings(lines, *result.file);
   return std::move(lines).proposal(joint.side).toml;
 }
 

@@ -95,6 +95,7 @@ BearingFinding surface_of(const Joint& joint, const BearingOptions& options) {
   BearingSurface surface;
   mark_bearing_parts(joint.mobile, surface);
   const bool has_parts = !surface.parts.empty();
+  if (joint.mobile.head && !has_parts) kinematics::keep_head(joint.mobile.mesh, *joint.mobile.head);
   const std::optional<SphericalPatch> head = kinematics::head_near_centre(
       has_parts ? Mesh(marked_part(mobile, surface.triangles)) : joint.mobile.mesh);
   if (!head)

@@ -1,0 +1,139 @@
+#include "condyle/resection.hpp"
+
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "condyle/answer.hpp"
+#include "interrupts.hpp"
+#include "motion.hpp"
+
+namespace condyle::python {
+namespace {
+
+/// The joint with other meshes, placed as this one is.
+std::unique_ptr<JointHandle> handle_of(const JointHandle& handle, Joint joint) {
+  LoadedJoint loaded = handle.loaded;
+  loaded.joint = std::move(joint);
+  return std::make_unique<JointHandle>(std::move(loaded));
+}
+
+KeptBone kept_in(const py::dict& given, const char* vertices) {
+  KeptBone kept;
+  kept.deepest_mm = given["deepest_mm"].cast<std::optional<double>>();
+  kept.within_mm = given["within_mm"].cast<std::optional<double>>();
+  kept.vertices = given[vertices].cast<std::vector<std::uint8_t>>();
+  return kept;
+}
+
+ResectionQuery query_in(const JointHandle& handle, const py::list& motions, const py::list& reach,
+                        const py::dict& given) {
+  ResectionQuery query;
+  query.motions = motions_in(motions);
+  for (const py::handle each : reach) {
+    const auto target = each.cast<py::tuple>();
+    query.resection.targets.push_back(
+        {motion_in(target[0].cast<py::tuple>()), Angle::degrees(target[1].cast<double>())});
+  }
+  query.resection.fixed_share = given["fixed_share"].cast<double>();
+  query.resection.mobile = kept_in(given, "keep_mobile");
+  query.resection.fixed = kept_in(given, "keep_fixed");
+  query.resection.margin_mm = given["margin_mm"].cast<double>();
+  query.resection.edge_mm = given["edge_mm"].cast<double>();
+  if (given["count_bearing"].cast<bool>()) query.resection.range.bearing.rule = BearingRule::count;
+  query.resection.range.bearing.margin_mm = given["bearing_margin_mm"].cast<std::optional<double>>();
+  query.curve_points = given["curve_points"].cast<std::size_t>();
+  if (const auto samples = given["samples"].cast<std::size_t>(); samples > 0) {
+    const auto sigma = given["sigma"].cast<std::array<double, 4>>();
+    query.bands = BandOptions{.sigma = {sigma[0], Angle::degrees(sigma[1]), sigma[2], sigma[3]},
+                              .samples = samples,
+                              .seed = given["seed"].cast<std::uint64_t>()};
+  }
+  query.measures.ischiofemoral_pose = handle.loaded.report.placement.reference_pose.angles;
+  return query;
+}
+
+py::object dict_of(const std::optional<CutBone>& cut) {
+  if (!cut) return py::none();
+  py::dict dict;
+  dict["before"] = Mesh(cut->before);
+  dict["after"] = cut->body.mesh;
+  dict["depth_mm"] = array_of(std::vector<double>(cut->depth_mm));
+  dict["needed_by"] = array_of(std::vector<std::int32_t>(cut->needed_by.begin(), cut->needed_by.end()));
+  dict["needed_from_deg"] = array_of(std::vector<double>(cut->needed_from_deg));
+  dict["volume_mm3"] = cut->volume_mm3;
+  dict["least_volume_mm3"] = cut->least_volume_mm3;
+  dict["area_mm2"] = cut->area_mm2;
+  dict["deepest_mm"] = cut->deepest_mm;
+  dict["deepest_at"] = array_of(cut->deepest_at);
+  return dict;
+}
+
+py::tuple tuple_of_target(const ReachOutcome& outcome) {
+  py::object blocked = py::none();
+  if (outcome.blocked)
+    blocked = py::make_tuple(std::string(name_of(outcome.blocked->by)),
+                             outcome.blocked->body == BodyRole::mobile ? "mobile" : "fixed",
+                             array_of(outcome.blocked->point_mm));
+  return py::make_tuple(outcome.target.motion.name, outcome.target.reach.degrees(), outcome.planned.degrees(),
+                        dict_of(outcome.before), dict_of(outcome.after), blocked);
+}
+
+/// Keys and (before, after), None where the meshes do not show a measure; None for joints other than hips.
+py::object shapes_of(const ResectionAnswer& answer) {
+  if (!answer.shape_before) return py::none();
+  py::dict dict;
+  for (const MeasureDefinition& each : measure_definitions())
+    dict[py::str(each.key.data(), each.key.size())] =
+        py::make_tuple(optional_number(each.of(*answer.shape_before).value),
+                       optional_number(each.of(*answer.shape_after).value));
+  return dict;
+}
+
+py::dict resection(const JointHandle& handle, const py::list& motions, const py::list& reach,
+                   const py::dict& given, const py::object& progress) {
+  const ResectionQuery query = query_in(handle, motions, reach, given);
+  const ResectionAnswer answer = *followed(progress, [&](const auto& report, const std::stop_token& stop) {
+    return answer_resection(
+        handle.joint(), handle.loaded.report.placement, query,
+        {[&](std::string_view, std::size_t done, std::size_t total) { report(done, total); }, stop});
+  });
+  py::list targets, before, after, bands, curve, notes;
+  for (const ReachOutcome& outcome : answer.resection.targets) targets.append(tuple_of_target(outcome));
+  for (const MotionLimit& limit : answer.before) before.append(dict_of(limit));
+  for (const MotionLimit& limit : answer.after) after.append(dict_of(limit));
+  for (const LimitBand& band : answer.bands)
+    bands.append(py::make_tuple(band.p5.degrees(), band.median.degrees(), band.p95.degrees()));
+  for (const ResectionCurvePoint& point : answer.curve)
+    curve.append(py::make_tuple(point.target, point.reached.degrees(), point.volume_mm3, point.deepest_mm));
+  for (const ResectionNote& note : answer.notes)
+    notes.append(py::make_tuple(std::string(name_of(note.code)), note.text));
+  py::dict dict;
+  dict["joint"] = handle_of(handle, answer.resection.joint);
+  dict["mobile"] = dict_of(answer.resection.mobile);
+  dict["fixed"] = dict_of(answer.resection.fixed);
+  dict["targets"] = targets;
+  dict["before"] = before;
+  dict["after"] = after;
+  dict["shapes"] = shapes_of(answer);
+  dict["bands"] = bands;
+  dict["curve"] = curve;
+  dict["notes"] = notes;
+  dict["caveats"] = answer.caveats;
+  return dict;
+}
+
+/// With this mesh in the mobile body's place, in its frame. Where a head is known it stays the one that it is.
+std::unique_ptr<JointHandle> with_mobile(const JointHandle& handle, const Mesh& mesh) {
+  const py::gil_scoped_release released;
+  return handle_of(handle, with_mobile_mesh(handle.joint(), mesh));
+}
+
+}  // namespace
+
+void bind_resection(py::module_& module) {
+  module.def("resection", &resection);
+  module.def("with_mobile", &with_mobile);
+}
+
+}  // namespace condyle::python

@@ -1,0 +1,197 @@
+"""The bone that must go so that motions reach their targets."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, Mapping, NamedTuple, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _native
+from ._contact_checks import ContactNote, reported
+from ._described_joint import DescribedJoint
+from ._errors import UsageError
+from ._limit_band import FEWEST_SAMPLES, MOST_SAMPLES
+from ._limits import MotionLimit, motion_limit_of
+from ._mesh import TriMesh
+from ._motion import Motions
+from ._words import BearingRule, Body, Progress, count, number, progress_of, word
+
+if TYPE_CHECKING:
+    from ._joint import Joint
+
+CutFrom = Literal["mobile", "fixed", "both"]
+KeptBy = Literal["bearing", "depth", "zone", "marked"]
+
+
+@dataclass(frozen=True, eq=False)
+class CutBone:
+    """A bone that was cut.
+
+    Attributes
+    ----------
+    mesh, before : TriMesh
+        The bone without what must go, and the same triangles where its surface was: smaller around the cut than those of the
+        joint's mesh.
+    depth_mm : (V,) float64
+        How far each vertex was lowered.
+    needed_by : (V,) int32
+        The number of the target that needs it, -1 where nothing goes.
+    needed_from_deg : (V,) float64
+        The angle of that motion from which on it is in the way; 0 where nothing goes.
+    volume_mm3, least_volume_mm3 : float
+        What goes, and what of it the other bone really sweeps over.
+    area_mm2, deepest_mm : float
+    deepest_at : (3,) float64
+        On the surface before, in the bone's frame.
+    """
+
+    mesh: TriMesh
+    before: TriMesh
+    depth_mm: NDArray[np.float64]
+    needed_by: NDArray[np.int32]
+    needed_from_deg: NDArray[np.float64]
+    volume_mm3: float
+    least_volume_mm3: float
+    area_mm2: float
+    deepest_mm: float
+    deepest_at: NDArray[np.float64]
+
+    def __repr__(self) -> str:
+        return f"CutBone({self.volume_mm3:.1f} mm3, {self.deepest_mm:.2f} mm deep)"
+
+
+class Blocked(NamedTuple):
+    """Kept bone that stops a motion short of its target: why it is kept, of which body, and where (3,)."""
+
+    by: KeptBy
+    body: Body
+    point_mm: NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class ReachedTarget:
+    """A motion, how far it should go, and how far it goes; `band` has 5 %, median and 95 % of that if asked for."""
+
+    motion: str
+    reach_deg: float
+    planned_deg: float
+    before: MotionLimit
+    after: MotionLimit
+    blocked: Optional[Blocked]
+    band: Optional[tuple[float, float, float]] = None
+
+
+class CurvePoint(NamedTuple):
+    """What a target would cost by itself, and nearer."""
+
+    motion: str
+    reached_deg: float
+    volume_mm3: float
+    deepest_mm: float
+
+
+@dataclass(frozen=True, eq=False)
+class Resection:
+    """A plan made by :meth:`Joint.resection`.
+
+    Attributes
+    ----------
+    joint : Joint
+        Without the bone: ask it as any other.
+    mobile, fixed : CutBone or None
+    targets : tuple of ReachedTarget
+    before, after : tuple of MotionLimit
+        Of all motions of the joint: exact ones, of the joint as it was and without the bone.
+    measures : dict of (before, after)
+        Of a hip, by the keys of :class:`HipMeasures`; None for a measure that the meshes do not show. Empty for other joints.
+    curve : tuple of CurvePoint
+        Degrees against mm3.
+    notes : what the plan must be read with, each with a :class:`JointWarning`
+    caveats : list of str
+    """
+
+    joint: Joint
+    mobile: Optional[CutBone]
+    fixed: Optional[CutBone]
+    targets: tuple[ReachedTarget, ...]
+    before: tuple[MotionLimit, ...]
+    after: tuple[MotionLimit, ...]
+    measures: dict[str, tuple[Optional[float], Optional[float]]]
+    curve: tuple[CurvePoint, ...]
+    notes: tuple[ContactNote, ...]
+    caveats: list[str]
+
+    @property
+    def volume_mm3(self) -> float:
+        """Of both bones."""
+        return sum(bone.volume_mm3 for bone in (self.mobile, self.fixed) if bone)
+
+    def __repr__(self) -> str:
+        reached = ", ".join(f"{each.motion} {each.before.turned_deg:.1f} -> {each.after.turned_deg:.1f}" for each in self.targets)
+        return f"Resection({reached}; {self.volume_mm3:.1f} mm3)"
+
+
+def _cut_of(found: Optional[dict[str, Any]]) -> Optional[CutBone]:
+    if found is None:
+        return None
+    before, after = (TriMesh._of_native(found.pop(name)) for name in ("before", "after"))
+    return CutBone(after, before, **found)
+
+
+def _kept(marks: Optional[ArrayLike], mesh: TriMesh, what: str) -> NDArray[np.uint8]:
+    if marks is None:
+        return np.empty(0, np.uint8)
+    kept = np.asarray(marks)
+    if kept.dtype == bool:
+        kept = kept.astype(np.uint8)
+    if kept.shape != (len(mesh.vertices),) or not np.isin(kept, (0, 1)).all():
+        raise UsageError(f"{what}: must be True or False for each of {len(mesh.vertices)} vertices")
+    # Vertices that count as one are kept if one of them is.
+    if mesh.vertex_map is None:
+        return kept.astype(np.uint8)
+    merged = np.zeros(int(mesh.vertex_map.max()) + 1, np.uint8)
+    np.maximum.at(merged, mesh.vertex_map, kept.astype(np.uint8))
+    return merged
+
+
+def resection(joint: Joint, reach: Mapping[str, float], cut: CutFrom, share: Optional[float], margin_mm: float,
+              deepest_mm: Optional[float], within_mm: Optional[float], keep: Optional[ArrayLike],
+              keep_fixed: Optional[ArrayLike], edge_mm: float, curve_points: int, band_samples: int, seed: Optional[int],
+              bearing: BearingRule, bearing_margin_mm: Optional[float], progress: Progress) -> Resection:
+    known = Motions(joint._native)
+    if share is not None and cut != "both":
+        raise UsageError('share: only with cut="both"')
+    shares = {"mobile": 0.0, "fixed": 1.0, "both": 0.5 if share is None else number(share, "share")}
+    centre_mm, axes_deg, surface_mm, usual_seed, voxels = _native.uncertainty(joint._native)
+    options = {
+        "fixed_share": shares[word(cut, "cut", CutFrom)], "margin_mm": number(margin_mm, "margin_mm"),
+        "deepest_mm": None if deepest_mm is None else number(deepest_mm, "deepest_mm"),
+        "within_mm": None if within_mm is None else number(within_mm, "within_mm"),
+        "keep_mobile": _kept(keep, joint.mobile, "keep"), "keep_fixed": _kept(keep_fixed, joint.fixed, "keep_fixed"),
+        "edge_mm": number(edge_mm, "edge_mm"), "curve_points": count(curve_points, "curve_points", 0, 1000),
+        "samples": band_samples and count(band_samples, "band_samples", FEWEST_SAMPLES, MOST_SAMPLES),
+        "seed": usual_seed if seed is None else count(seed, "seed", high=2**64 - 1),
+        "sigma": (centre_mm, axes_deg, surface_mm, voxels),
+        "count_bearing": word(bearing, "bearing", BearingRule) == "count",
+        "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm")}
+    found = _native.resection(
+        joint._asked, [known.tuple_of(each) for each in known.known],
+        [(known.tuple_of(known[name]), number(degrees, f"reach of {name}")) for name, degrees in reach.items()], options,
+        progress_of(progress))
+    without = type(joint)._of_native(found["joint"])
+
+    def limit_of(each: dict[str, Any], of: DescribedJoint) -> MotionLimit:
+        return motion_limit_of(each, known, of)
+
+    targets = []
+    for i, (motion, asked, planned, before, after, blocked) in enumerate(found["targets"]):
+        targets.append(ReachedTarget(motion, asked, planned, limit_of(before, joint), limit_of(after, without),
+                                     blocked and Blocked(*blocked), found["bands"][i] if found["bands"] else None))
+    return Resection(
+        without, _cut_of(found["mobile"]), _cut_of(found["fixed"]), tuple(targets),
+        tuple(limit_of(each, joint) for each in found["before"]), tuple(limit_of(each, without) for each in found["after"]),
+        found["shapes"] or {},
+        tuple(CurvePoint(targets[target].motion, *rest) for target, *rest in found["curve"]), reported(found["notes"]),
+        found["caveats"])
