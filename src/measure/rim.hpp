@@ -32,7 +32,7 @@ struct RimFinding {
   std::string why_none;
 };
 
-/// The plane is that of least squares, six times without the farthest three tenths of the hours, which a notch is; the rim is
+/// The plane is that of the least sum of distances, and from there the one of Tukey's biweight, which drops a notch; the rim is
 /// found anew about the plane's normal, and the plane from that. `opening` is the first one.
 RimFinding find_rim(const SocketWall& wall, const Sphere& head, const Vec3& opening, const BodyAxes& axes);
 

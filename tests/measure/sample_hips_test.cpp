@@ -77,9 +77,9 @@ std::ostream& operator<<(std::ostream& to, const Errors& errors) {
             << errors.count;
 }
 
-// Triangles of 2 mm edges sag by 2 * 2 / (8 * 24) mm: alpha is that of a tolerance that is off by as much, and a tenth of a degree
-// where it is not flagged.
-constexpr double sag_mm = 0.021;
+// Triangles of 2 mm edges on a bump of 0.55 R sag by 2 * 2 / (8 * 13.2) mm: alpha is that of a tolerance that is off by as much, and
+// within a tenth of a degree where it is not flagged.
+constexpr double sag_mm = 0.038;
 
 void expect_alpha(const Measure& alpha, double tolerance, double R, const sample::Field& shape,
                   const NeckGeometry& neck, bool is_flagged, Errors& errors) {
@@ -94,7 +94,7 @@ void expect_alpha(const Measure& alpha, double tolerance, double R, const sample
 }
 
 TEST(SampleMeasures, HipsAreMeasuredAsTheyWereMade) {
-  const int count = std::getenv("CONDYLE_LONG_TESTS") ? 200 : 4;
+  const int count = std::getenv("CONDYLE_LONG_TESTS") ? 200 : 3;
   std::mt19937 random(1);
   Errors inclination, version, lateral_edge, roof, neck_shaft, torsion, alpha, alpha_at_1mm, radius;
   for (int i = 0; i < count; ++i) {
