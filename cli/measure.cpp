@@ -34,6 +34,7 @@ void run(const Options& options, const CLI::App& command) {
   if (!options.out.empty()) check_measure_folder(options.out, &from);
   MeasureRequest request;
   request.pelvic_tilt = Angle::degrees(options.tilt_deg);
+  request.pelvis_frame = pelvis_frame_of(loaded.report.file.joint.frame);
   request.ischiofemoral_pose = loaded.report.placement.reference_pose.angles;
   const HipMeasures measures =
       io::name_joint_file(options.joint, [&] { return measure_hip(loaded.joint, request); });

@@ -17,6 +17,8 @@
 
 namespace condyle {
 
+struct FrameDescription;
+
 /// A measure of one hip. Its definition is a row of measure_definitions().
 struct Measure {
   std::optional<double> value = {};
@@ -58,7 +60,7 @@ struct MeasureRequest {
   /// By which the pelvis is tilted forwards from how its frame shows it: acetabular angles are those of the tilted pelvis. At most
   /// 60 degrees either way.
   Angle pelvic_tilt = {};
-  /// The name of the pelvis frame, for notes: "anterior pelvic plane"; empty: not stated, which is as scanned.
+  /// What the axes of the hip bone are from: pelvis_frame_of(); empty: not stated, which is as scanned.
   std::string pelvis_frame = {};
   /// Of the femur, for the ischiofemoral distance.
   JointAngles ischiofemoral_pose = {};
@@ -176,6 +178,12 @@ struct HipMeasures {
   Angle pelvic_tilt;
   std::string pelvis_frame;
 };
+
+/// What a joint's axes are from: "anterior pelvic plane", "plane of ASIS and PSIS", "the femur's epicondyles, not the pelvis"; empty
+/// for directions, which do not say how the pelvis lay. The pose of the femur in the scan says nothing of it either.
+std::string pelvis_frame_of(const FrameDescription& frame);
+/// The frame of every measure that turns with the pelvis: "as scanned", "anterior pelvic plane, tilt 10 deg given".
+std::string stated_frame(const HipMeasures& measures);
 
 /// Measures of a hip as its meshes show it. What cannot be measured is empty and says why. If a body has several meshes, those called
 /// bearing or soft are left out. Throws UsageError for another joint than a hip, a hinge, and a request outside its ranges.

@@ -49,6 +49,7 @@ py::dict measures_of(const JointHandle& handle, double pelvic_tilt_deg, std::siz
                      double surface_voxels, const py::object& progress) {
   MeasureRequest request;
   request.pelvic_tilt = Angle::degrees(pelvic_tilt_deg);
+  request.pelvis_frame = pelvis_frame_of(handle.loaded.report.file.joint.frame);
   request.ischiofemoral_pose = handle.loaded.report.placement.reference_pose.angles;
   const HipMeasures measures = [&] {
     const py::gil_scoped_release released;
@@ -75,6 +76,7 @@ py::dict measures_of(const JointHandle& handle, double pelvic_tilt_deg, std::siz
   };
   py::dict dict;
   dict["measures"] = list;
+  dict["pelvis_frame"] = stated_frame(measures);
   dict["neck_hour"] = column_of(neck, [](const NeckHour& at) { return std::optional(at.hour); });
   dict["alpha_deg"] = column_of(neck, [](const NeckHour& at) { return at.alpha_deg; });
   dict["alpha_at_1mm_deg"] = column_of(neck, [](const NeckHour& at) { return at.alpha_at_1mm_deg; });

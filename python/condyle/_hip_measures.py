@@ -58,16 +58,19 @@ class HipMeasures(Mapping[str, HipMeasure]):
 
     Attributes
     ----------
-    neck_hour, alpha_deg, alpha_at_1mm_deg, offset_mm : (72,) float64
+    neck_hour, alpha_deg, alpha_at_1mm_deg, offset_mm : (144,) float64
         Around the neck, 12 superior and 3 anterior: alpha angles at tolerances of 0.5 and 1 mm, head-neck offset; NaN where there
         is none. Empty without a neck.
     rim_hour, cover_deg, centre_edge_deg : (72,) float64
         Around the socket. `rim_points` (72, 3) in the fixed body's frame, mm. Empty without a socket.
+    pelvis_frame : str
+        Of every measure that turns with the pelvis: "as scanned", "anterior pelvic plane", with the tilt that was given.
     """
 
-    __slots__ = ("_by_key", "neck_hour", "alpha_deg", "alpha_at_1mm_deg", "offset_mm", "rim_hour", "rim_points", "cover_deg",
-                 "centre_edge_deg")
+    __slots__ = ("_by_key", "pelvis_frame", "neck_hour", "alpha_deg", "alpha_at_1mm_deg", "offset_mm", "rim_hour",
+                 "rim_points", "cover_deg", "centre_edge_deg")
 
+    pelvis_frame: str
     neck_hour: NDArray[np.float64]
     alpha_deg: NDArray[np.float64]
     alpha_at_1mm_deg: NDArray[np.float64]

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -66,6 +67,54 @@ TEST_F(MeasureCommand, TiltsThePelvisAndNotTheFemur) {
   // Tilted forwards a socket comes over the head from in front: seen from above it opens less to the front.
   EXPECT_LT(value_of(tilted, "acetabular_version_deg"), value_of(level, "acetabular_version_deg") - 3);
   EXPECT_EQ(run("measure hip.toml --tilt 61").exit_code, 2);
+}
+
+/// The frame of a sample's joint file by landmarks in place of axes.
+void by_landmarks(const TemporaryFolder& folder, const char* name, const std::string& landmarks) {
+  const std::string text = io::read_whole_file(folder / "hip.toml");
+  const std::size_t axes = text.find("anterior = "), end = text.find('\n', text.find("superior = "));
+  ASSERT_NE(axes, text.npos);
+  std::ofstream(folder / name) << text.substr(0, axes) << "[frame.landmarks]\n"
+                               << landmarks << text.substr(end);
+}
+
+TEST_F(MeasureCommand, NamesTheFrameOfEveryAngleThatTurnsWithThePelvis) {
+  // Upwards in the anterior pelvic plane is from the symphysis to between the spines: as if the scan were tilted by 10 degrees.
+  constexpr double tilt = 10 * 3.14159265358979323846 / 180;
+  const std::string spines = "right_asis = [0, 0, 120]\nleft_asis = [0, 0, -120]\n";
+  by_landmarks(folder, "plane.toml",
+               spines + fmt::format("pubic_symphysis = [{}, -90, 0]\n", 90 * std::tan(tilt)));
+  by_landmarks(folder, "isb.toml", spines + "right_psis = [-150, 0, 45]\nleft_psis = [-150, 0, -45]\n");
+  const Json scanned = answer(""), tilted = answer("--tilt 10");
+  const Json plane = Json::parse(run("measure plane.toml --json").out);
+  EXPECT_EQ(scanned["pelvis_frame"], "as scanned");
+  EXPECT_EQ(tilted["pelvis_frame"], "as scanned, tilt 10 deg given");
+  EXPECT_EQ(plane["pelvis_frame"], "anterior pelvic plane");
+  EXPECT_EQ(Json::parse(run("measure isb.toml --json --tilt -5").out)["pelvis_frame"],
+            "plane of ASIS and PSIS, tilt -5 deg given");
+  std::size_t turning = 0;
+  for (std::size_t i = 0; i < measure_definitions().size(); ++i) {
+    const Json &at = tilted["measures"][i], &in_plane = plane["measures"][i];
+    if (!measure_definitions()[i].in_pelvis_frame) {
+      EXPECT_TRUE(at["frame"].is_null());
+      continue;
+    }
+    ++turning;
+    EXPECT_EQ(at["frame"], tilted["pelvis_frame"]);
+    EXPECT_EQ(in_plane["frame"], "anterior pelvic plane");
+    EXPECT_NEAR(at["value"].get<double>(), in_plane["value"].get<double>(), 1e-6) << at["key"];
+  }
+  EXPECT_EQ(turning, 11u);
+  EXPECT_NE(run("measure hip.toml").out.find("pelvis: as scanned: the pelvis may have lain turned"),
+            std::string::npos);
+  EXPECT_NE(run("measure plane.toml").out.find("pelvis: anterior pelvic plane\n"), std::string::npos);
+}
+
+TEST_F(MeasureCommand, SaysThatAxesOfTheFemurAreNotThePelvis) {
+  by_landmarks(folder, "femur.toml",
+               "medial_epicondyle = [0, -400, -40]\nlateral_epicondyle = [0, -400, 40]\n");
+  EXPECT_EQ(Json::parse(run("measure femur.toml --json").out)["pelvis_frame"],
+            "the femur's epicondyles, not the pelvis");
 }
 
 TEST_F(MeasureCommand, GivesTheLibrarysBands) {

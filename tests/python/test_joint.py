@@ -199,6 +199,7 @@ def test_measures_are_those_of_the_command(tmp_path, command):
                                      capture_output=True, text=True).stdout)
     shape = joint.measures(pelvic_tilt_deg=5, band_samples=20)
     assert list(shape) == [each["key"] for each in said["measures"]]
+    assert shape.pelvis_frame == said["pelvis_frame"] == "as scanned, tilt 5 deg given"
     for each in said["measures"]:
         assert shape[each["key"]].band._asdict() == each["band"]
         assert shape[each["key"]].value == each["value"] and shape[each["key"]].definition == each["definition"]

@@ -19,18 +19,12 @@ namespace {
 
 using io::Json;
 
-constexpr std::string_view frame_unknown = "as scanned";
-
-/// By which axes acetabular angles are measured.
+/// By which axes acetabular angles are measured, and what to think of them.
 std::string pelvis_text(const HipMeasures& measures) {
-  const std::string frame = measures.pelvis_frame.empty()
-                                ? std::string(
-                                      "as scanned: the pelvis may have lain turned, and acetabular "
-                                      "angles turn with it")
-                                : measures.pelvis_frame;
-  return measures.pelvic_tilt == Angle()
-             ? frame
-             : fmt::format("{}, tilted forwards by {:g} deg", frame, measures.pelvic_tilt.degrees());
+  const char* warning = measures.pelvis_frame.empty()
+                            ? ": the pelvis may have lain turned, and acetabular angles turn with it"
+                            : "";
+  return stated_frame(measures) + warning;
 }
 
 /// With as many digits as its unit is read with.
@@ -84,9 +78,7 @@ Json measure_entry(const MeasureDefinition& definition, const HipMeasures& measu
             {"source", definition.source}};
   if (!measure.value) json["why_none"] = measure.why_none;
   if (!measure.note.empty()) json["note"] = measure.note;
-  json["frame"] = definition.in_pelvis_frame ? Json(measures.pelvis_frame.empty() ? std::string(frame_unknown)
-                                                                                  : measures.pelvis_frame)
-                                             : Json(nullptr);
+  json["frame"] = definition.in_pelvis_frame ? Json(stated_frame(measures)) : Json(nullptr);
   json["normal"] = definition.normal ? Json{{"low", definition.normal->low},
                                             {"high", definition.normal->high},
                                             {"meaning", definition.normal->meaning},
@@ -208,28 +200,28 @@ std::string measure_json(const MeasureResult& result) {
     list.push_back(measure_entry(measure_definitions()[i], measures));
     list.back()["band"] = result.bands.empty() ? Json(nullptr) : measure_band_json(result.bands[i]);
   }
-  Json json{
-      {"condyle", io::format_version},
-      {"joint", result.joint.name},
-      {"fixed", result.joint.fixed.name},
-      {"mobile", result.joint.mobile.name},
-      {"side", name_of(result.joint.side)},
-      {"pelvis_frame", measures.pelvis_frame.empty() ? std::string(frame_unknown) : measures.pelvis_frame},
-      {"pelvic_tilt_deg", measures.pelvic_tilt.degrees()},
-      {"measures", std::move(list)},
-      {"around_neck", neck_json(measures.femur)},
-      {"rim", rim_json(measures.acetabulum)},
-      {"geometry", geometry_json(measures)},
-      {"notes", io::notes_json(result.notes)},
-      {"scope", scope_text(result.joint)},
-      {"provenance", io::provenance_json(result.provenance)}};
+  Json json{{"condyle", io::format_version},
+            {"joint", result.joint.name},
+            {"fixed", result.joint.fixed.name},
+            {"mobile", result.joint.mobile.name},
+            {"side", name_of(result.joint.side)},
+            {"pelvis_frame", stated_frame(measures)},
+            {"pelvic_tilt_deg", measures.pelvic_tilt.degrees()},
+            {"measures", std::move(list)},
+            {"around_neck", neck_json(measures.femur)},
+            {"rim", rim_json(measures.acetabulum)},
+            {"geometry", geometry_json(measures)},
+            {"notes", io::notes_json(result.notes)},
+            {"scope", scope_text(result.joint)},
+            {"provenance", io::provenance_json(result.provenance)}};
   io::drop_negative_zeros(json);
   return io::document(std::move(json));
 }
 
 std::string measures_csv(const MeasureResult& result) {
-  std::string text = io::provenance_comments(result.provenance) +
-                     "key,part,value,unit,p5,p95,normal_low,normal_high,why_none,note,definition,source\n";
+  std::string text =
+      io::provenance_comments(result.provenance) +
+      "key,part,value,unit,p5,p95,normal_low,normal_high,frame,why_none,note,definition,source\n";
   for (std::size_t i = 0; i < measure_definitions().size(); ++i) {
     const MeasureDefinition& each = measure_definitions()[i];
     const MeasureBand band = result.bands.empty() ? MeasureBand{} : result.bands[i];
@@ -237,11 +229,12 @@ std::string measures_csv(const MeasureResult& result) {
     const auto normal = [&](double NormalRange::*end) {
       return each.normal ? fmt::format("{}", (*each.normal).*end) : "";
     };
-    text +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", each.key, heading_of(each.part),
-                    csv_number(measure.value), each.unit, csv_number(band.p5), csv_number(band.p95),
-                    normal(&NormalRange::low), normal(&NormalRange::high), io::csv_field(measure.why_none),
-                    io::csv_field(measure.note), io::csv_field(each.definition), io::csv_field(each.source));
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", each.key, heading_of(each.part),
+                        csv_number(measure.value), each.unit, csv_number(band.p5), csv_number(band.p95),
+                        normal(&NormalRange::low), normal(&NormalRange::high),
+                        each.in_pelvis_frame ? io::csv_field(stated_frame(result.measures)) : "",
+                        io::csv_field(measure.why_none), io::csv_field(measure.note),
+                        io::csv_field(each.definition), io::csv_field(each.source));
   }
   return text;
 }
