@@ -23,7 +23,7 @@ struct Options {
   std::optional<std::string> load;
   std::vector<double> force, along;
   std::vector<std::string> motions;
-  bool leaves_out_reference_contacts = false;
+  bool leaves_out_reference_contacts = false, measures = false;
   BadJoint bad_joint = BadJoint::is_a_row;
   std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
   std::shared_ptr<ContactChanges> contact = std::make_shared<ContactChanges>();
@@ -55,6 +55,7 @@ StudyOptions study_options(const Options& given) {
   options.map = grid_of(range, JointKind::ball, options.anatomy);
   if (range.band_samples > 0) options.bands = {range.band_samples, range.seed, range.sigma};
   if (!given.depth.empty()) options.depth_at = study_pose(given.depth, options.anatomy);
+  options.measures = given.measures;
   if (given.load)
     options.load = load_of(given, options.anatomy);
   else if (given.contact->any_of_rays() || given.contact->any_of_layers() || given.contact->law ||
@@ -132,6 +133,10 @@ void add_study(CLI::App& app) {
                    "Compute how deep the bodies are in each other in this pose too, such as \"flexion=90 "
                    "internal_rotation=30\"")
       ->option_text("POSE");
+  command->add_flag(
+      "--measures", options->measures,
+      "Measure the shape of each hip too, as condyle measure does, with bands if --band says so; the "
+      "pelvis is tilted forwards by the table's column pelvic_tilt_deg");
   command
       ->add_option("--load", options->load,
                    "Compute contact pressure in this pose too (\"\" is the reference pose), with the layers "
@@ -154,14 +159,16 @@ void add_study(CLI::App& app) {
       "--strict", [options] { options->bad_joint = BadJoint::ends_run; },
       "End the run, and write nothing, at a joint that cannot be answered or with which something looks "
       "wrong (exit code 4)");
-  group_help(*command, {{"Most used", {"--out", "--motion", "--band", "--map", "--shard"}},
-                        {"Question",
-                         {"--anatomy", "--vary", "--translation", "--depth", "--load", "--force", "--along"}},
-                        uncertainty_group(),
-                        {"Contact",
-                         {"--bearing", "--accept-reference-contact", "--exclude-reference-contacts", "--e",
-                          "--nu", "--thickness", "--law", "--casting", "--rule", "--reach"}},
-                        {"Output", {"--strict", "--help"}}});
+  group_help(
+      *command,
+      {{"Most used", {"--out", "--motion", "--band", "--map", "--shard"}},
+       {"Question",
+        {"--anatomy", "--vary", "--translation", "--depth", "--measures", "--load", "--force", "--along"}},
+       uncertainty_group(),
+       {"Contact",
+        {"--bearing", "--accept-reference-contact", "--exclude-reference-contacts", "--e", "--nu",
+         "--thickness", "--law", "--casting", "--rule", "--reach"}},
+       {"Output", {"--strict", "--help"}}});
   command->callback([options] { run(*options); });
 }
 

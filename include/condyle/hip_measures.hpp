@@ -56,9 +56,11 @@ std::span<const MeasureDefinition> measure_definitions() noexcept;
 /// Null if no measure has this key.
 const MeasureDefinition* measure_definition(std::string_view key) noexcept;
 
+/// Forwards or backwards.
+inline constexpr double largest_pelvic_tilt_deg = 60;
+
 struct MeasureRequest {
-  /// By which the pelvis is tilted forwards from how its frame shows it: acetabular angles are those of the tilted pelvis. At most
-  /// 60 degrees either way.
+  /// By which the pelvis is tilted forwards from how its frame shows it: acetabular angles are those of the tilted pelvis.
   Angle pelvic_tilt = {};
   /// What the axes of the hip bone are from: pelvis_frame_of(); empty: not stated, which is as scanned.
   std::string pelvis_frame = {};

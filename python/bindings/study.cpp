@@ -69,6 +69,7 @@ StudyOptions study_options_in(const py::dict& given) {
                      {sigma("sigma_centre_mm"), sigma("sigma_axes_deg"), sigma("sigma_surface_mm")}};
   if (const auto pose = given["depth_at"].cast<std::string>(); !pose.empty())
     options.depth_at = study_pose(pose, options.anatomy);
+  options.measures = given["measures"].cast<bool>();
   if (const py::object load = given["load"]; !load.is_none())
     options.load = load_in(load.cast<py::dict>(), options.anatomy);
   return options;

@@ -279,8 +279,8 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
               map: Optional[tuple[Axis, Axis]] = None, vary: Optional[str] = None, band_samples: int = 0,
               seed: Optional[int] = None, sigma_centre_mm: Optional[float] = None,
               sigma_axes_deg: Optional[float] = None, sigma_surface_mm: Optional[float] = None, depth_at: str = "",
-              load: Optional[StudyLoad] = None, shard: Optional[tuple[int, int]] = None, strict: bool = False,
-              progress: Progress = None) -> Study:
+              load: Optional[StudyLoad] = None, measures: bool = False, shard: Optional[tuple[int, int]] = None,
+              strict: bool = False, progress: Progress = None) -> Study:
     """Answers for every row of a table of joints and writes the results: docs/cohort.md has both.
 
     Parameters
@@ -301,6 +301,9 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
         How deep the bodies are in each other in this pose, such as "flexion=90 internal_rotation=30".
     load : StudyLoad, optional
         Contact pressure.
+    measures : bool
+        The shape of each hip, as of :meth:`Joint.measures`, in columns `measured_...` of `hips`; with bands if `band_samples` says
+        so. The pelvis is tilted forwards by the table's column `pelvic_tilt_deg`.
     shard : (number, of), optional
         (3, 7) is the third of seven parts, which :func:`merge_study` puts together.
     strict : bool
@@ -339,7 +342,8 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
         "exclude_reference_contacts": bool(exclude_reference_contacts), "map": _grid(map, vary),
         "band_samples": samples, "seed": None if seed is None else count(seed, "seed", high=2**64 - 1),
         **{name: None if given is None else number(given, name) for name, given in sigmas.items()},
-        "depth_at": depth_at, "load": None if load is None else load._checked()}
+        "depth_at": depth_at, "load": None if load is None else load._checked(),
+        "measures": bool(measures)}
     out = path_of(folder, "folder")
     _warn_of(_native.run_study(path_of(table, "table"), out, options, part, bool(strict), progress_of(progress)))
     return read_study(out if part is None else os.path.join(out, "shards", f"{part[0]}_of_{part[1]}"))

@@ -19,8 +19,6 @@
 namespace condyle::measure {
 namespace {
 
-constexpr double largest_tilt_deg = 60;
-
 constexpr const char* no_head = "no spherical head is on the femur around the joint centre";
 
 bool is_bone(const BodyPart& part) {
@@ -72,7 +70,7 @@ void set_both(const Bones& bones, const Sphere& head, const FoundParts& parts, C
 
 void check_measures(const Joint& joint, const MeasureRequest& request) {
   if (!joint.is_hip() || joint.kind == JointKind::hinge) throw UsageError("measures: the joint is no hip");
-  if (!(std::abs(request.pelvic_tilt.degrees()) <= largest_tilt_deg))
+  if (!(std::abs(request.pelvic_tilt.degrees()) <= largest_pelvic_tilt_deg))
     throw UsageError("measures: the pelvic tilt must be between -60 and 60 degrees");
   const JointAngles& pose = request.ischiofemoral_pose;
   for (const Angle angle : {pose.flexion, pose.adduction, pose.internal_rotation})

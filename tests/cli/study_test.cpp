@@ -98,6 +98,8 @@ TEST_F(StudyCommand, RefusesWhatCannotBe) {
                  "one is named twice", "map");
   expect_refusal(run("study table.csv --out out --depth yaw=3"), 2, "yaw", "depth");
   expect_refusal(run("study table.csv --out out --load yaw=3"), 2, "yaw", "load");
+  expect_refusal(run("study table.csv --out out --anatomy knee --measures"), 2, "measures: are of hips",
+                 "measures");
   expect_refusal(run("study table.csv --out out --force 1 2 3"), 2, "needs --load", "force");
   expect_refusal(run("study table.csv --out out --load '' --e 12 --nu 0.7 --thickness 1"), 2,
                  "Poisson's ratio", "layers");
@@ -178,6 +180,16 @@ TEST_F(StudyCommand, EndsWithinASecondOfAnInterruption) {
   const std::string said = io::read_whole_file(folder / "err");
   EXPECT_NE(said.find("; nothing is written\n"), said.npos) << said;
   EXPECT_FALSE(fs::exists(here / "out/limits.csv"));
+}
+
+TEST_F(StudyCommand, MeasuresShapesOfACohort) {
+  ASSERT_EQ(run("sample cohort --n 1 --seed 5 --out drawn").exit_code, 0);
+  ASSERT_EQ(run("study drawn/cohort.csv --out out --motion flexion --measures --band=20").exit_code, 0);
+  const std::string hips = io::read_whole_file(here / "out/hips.csv");
+  EXPECT_NE(hips.find(",measured_alpha_1_30_deg,measured_alpha_1_30_deg_p5,measured_alpha_1_30_deg_p95,"),
+            hips.npos);
+  EXPECT_NE(io::read_whole_file(here / "out/columns.csv").find("hips,measured_head_radius_mm,mm,number,"),
+            hips.npos);
 }
 
 TEST_F(StudyCommand, DrawsACohortThatItThenAnswersFor) {

@@ -41,6 +41,7 @@ StudyOptions options_of(unsigned char byte) {
   StudyOptions options;
   options.motions = {"flexion"};
   if (byte & 1) options.depth_at = PoseDegrees{.flexion = 20};
+  if (byte & 4) options.measures = true;
   if (byte & 2)
     options.load = StudyLoad{.at = {}, .contact = {}, .force_n = Vec3(80, 0, 0), .free_directions = {}};
   return options;

@@ -69,13 +69,13 @@ def test_every_option_of_the_command_is_one_of_python(table: Path, command: str,
     subprocess.run([command, "study", table, "--out", tmp_path / "a", "--motion", "flexion", "--bearing", "1.5",
                     "--accept-reference-contact", "--exclude-reference-contacts", "--map", "flexion=0:20:10",
                     "internal_rotation=-10:10:10", "--vary", "adduction", "--band=20", "--seed", "3", "--sigma-centre",
-                    "0.4", "--sigma-axes", "0.5", "--sigma-surface", "0.1", "--depth", "flexion=140"], check=True,
-                   capture_output=True)
+                    "0.4", "--sigma-axes", "0.5", "--sigma-surface", "0.1", "--depth", "flexion=140", "--measures"],
+                   check=True, capture_output=True)
     condyle.run_study(table, tmp_path / "b", motions=["flexion"], bearing_margin_mm=1.5, accept_reference_contact=True,
                       exclude_reference_contacts=True,
                       map=({"flexion": (0, 20, 10)}, {"internal_rotation": (-10, 10, 10)}), vary="adduction",
                       band_samples=20, seed=3, sigma_centre_mm=0.4, sigma_axes_deg=0.5, sigma_surface_mm=0.1,
-                      depth_at="flexion=140")
+                      depth_at="flexion=140", measures=True)
     same_files(tmp_path / "a", tmp_path / "b")
     subprocess.run([command, "study", table, "--out", tmp_path / "c", "--motion", "flexion", "--bearing", "count"],
                    check=True, capture_output=True)

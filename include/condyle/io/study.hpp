@@ -62,6 +62,8 @@ struct StudyOptions {
   std::optional<PoseDegrees> depth_at =
       {};  ///< how deep the bodies are in each other in this pose: study_pose()
   std::optional<StudyLoad> load = {};
+  /// The shape of each hip, with bands where `bands` says so: docs/measures.md. UsageError for other joints.
+  bool measures = false;
 };
 
 /// A part of the table: of n rows shard i of N has those after (i-1) n / N, up to i n / N, both rounded down.

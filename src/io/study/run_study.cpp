@@ -203,6 +203,9 @@ Shard Shard::parse(std::string_view text) {
 }
 
 std::optional<StudyDone> run_study(const Study& study, const Control& control) {
+  if (study.options.measures && study.options.anatomy != Anatomy::hip)
+    throw UsageError(
+        fmt::format("measures: are of hips, and this study is of the {}", name_of(study.options.anatomy)));
   const StudyTable table = io::read_study_table(study.table);
   const Rows rows = rows_of(table, study.shard.value_or(Shard{}));
   const auto folder = study.shard ? io::shard_folder(study.folder, *study.shard) : study.folder;

@@ -17,6 +17,7 @@
 #include "io/study/study_columns.hpp"
 #include "io/study/study_joint.hpp"
 #include "io/study/study_load.hpp"
+#include "io/study/study_measures.hpp"
 
 namespace condyle::io {
 namespace {
@@ -174,8 +175,15 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
     load = name_joint_file(place, [&] { return load_fields(loaded, posed); });
   }
   std::string notes = notes_on(table, row, loaded, load.notes, study.bad_joint);
+  const RangeRequest request = range_request_of(loaded, options);
+  std::optional<Cells> measures;
+  if (options.measures) {
+    measures =
+        name_joint_file(place, [&] { return measure_fields(table, row, loaded, request.bands, stop); });
+    if (!measures) return std::nullopt;
+  }
   const auto answer = name_joint_file(place, [&] {
-    return answer_range(joint, loaded.report.placement, range_request_of(loaded, options), {{}, stop});
+    return answer_range(joint, loaded.report.placement, request, {{}, stop});
   });
   if (!answer) return std::nullopt;
   const auto add_code = [&](const auto& note) {
@@ -189,6 +197,7 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
   if (answer->map) add_map(of_hip, *answer->map);
   if (depth_at) name_joint_file(place, [&] { add_depth(of_hip, joint, *depth_at); });
   for (std::string& field : load.fields) of_hip.push_back(std::move(field));
+  if (measures) of_hip.insert(of_hip.end(), measures->begin(), measures->end());
   return StudyAnswer{
       limit_lines(of_row, rom_result_of(*answer, {}, nullptr), options), line_of(of_row, of_hip), {}, inputs};
 }

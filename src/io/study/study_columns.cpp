@@ -8,6 +8,7 @@
 #include "io/file/csv_fields.hpp"
 #include "io/result/csv_field.hpp"
 #include "io/study/study_load.hpp"
+#include "io/study/study_measures.hpp"
 #include "io/study/study_table.hpp"
 
 namespace condyle::io {
@@ -109,6 +110,7 @@ StudyColumns study_columns(const StudyTable& table, const StudyOptions& options)
   if (options.map) append(columns.hips, map_columns());
   if (options.depth_at) append(columns.hips, depth_columns());
   if (options.load) append(columns.hips, load_columns());
+  if (options.measures) append(columns.hips, measure_columns(options.bands.has_value()));
   append(columns.failures, failure_columns());
   return columns;
 }
@@ -117,7 +119,7 @@ bool is_result_column(std::string_view name) {
   StudyOptions everything;
   everything.bands.emplace();
   for (const Columns& columns : {id_columns(), limit_columns(everything), hip_columns(), map_columns(),
-                                 depth_columns(), load_columns(), failure_columns()})
+                                 depth_columns(), load_columns(), measure_columns(true), failure_columns()})
     if (std::any_of(columns.begin(), columns.end(), [&](const auto& each) { return each.name == name; }))
       return true;
   return false;

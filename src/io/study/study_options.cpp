@@ -47,6 +47,7 @@ std::string options_json(const StudyOptions& options) {
                      {"sigma_axes_deg", nullable(bands->sigma.axes_deg)},
                      {"sigma_surface_mm", nullable(bands->sigma.surface_mm)}};
   if (options.depth_at) json["depth_at"] = pose_json(*options.depth_at, options.anatomy);
+  if (options.measures) json["measures"] = true;
   if (options.load) json["load"] = load_json(*options.load, options.anatomy);
   return json.dump();
 }

@@ -1,0 +1,90 @@
+#include "io/study/study_measures.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "condyle/error.hpp"
+#include "condyle/hip_measures.hpp"
+#include "io/file/in_quotes.hpp"
+#include "io/mesh/parse.hpp"
+#include "io/result/csv_field.hpp"
+
+namespace condyle::io {
+namespace {
+
+constexpr const char* tilt_column = "pelvic_tilt_deg";
+
+/// Tables of samples have columns by the names of measures: what was asked for, which is not what is measured.
+std::string column_name(const MeasureDefinition& definition, const char* of_band = "") {
+  return fmt::format("measured_{}{}", definition.key, of_band);
+}
+
+std::string number_or_empty(const std::optional<double>& value) {
+  return value ? fmt::format("{}", *value) : "";
+}
+
+Angle tilt_in(const StudyTable& table, const StudyRow& row) {
+  const std::string_view text = table.field(row, tilt_column);
+  double degrees = 0;
+  if (!text.empty() && !(parse_number(text, degrees) && std::abs(degrees) <= largest_pelvic_tilt_deg))
+    throw FileError(fmt::format("{}: {} is no number of degrees from {:g} to {:g}",
+                                table.place(row, tilt_column), in_quotes(text), -largest_pelvic_tilt_deg,
+                                largest_pelvic_tilt_deg));
+  return Angle::degrees(degrees);
+}
+
+/// "alpha_3_deg: ...; alpha_largest_deg: ...", of the measures that have such a sentence.
+std::string sentences(const HipMeasures& measures, std::string Measure::*sentence) {
+  std::string text;
+  for (const MeasureDefinition& each : measure_definitions())
+    if (const std::string& said = each.of(measures).*sentence; !said.empty())
+      text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", each.key, said);
+  return csv_field(text);
+}
+
+}  // namespace
+
+std::vector<ResultColumn> measure_columns(bool with_bands) {
+  std::vector<ResultColumn> columns;
+  for (const MeasureDefinition& each : measure_definitions()) {
+    const std::string unit(each.unit == "1" ? "" : each.unit);
+    columns.push_back({column_name(each), unit, number_column, std::string(each.definition)});
+    if (!with_bands) continue;
+    columns.push_back({column_name(each, "_p5"), unit, number_column, "5 % of the displaced joints"});
+    columns.push_back({column_name(each, "_p95"), unit, number_column, "95 % of the displaced joints"});
+  }
+  columns.push_back({"measured_frame", "", text_column, "frame of the measures that turn with the pelvis"});
+  columns.push_back({"measured_notes", "", text_column, "what measures must be read with, by their keys"});
+  columns.push_back({"measured_none", "", text_column, "why measures are empty, by their keys"});
+  return columns;
+}
+
+std::optional<std::vector<std::string>> measure_fields(const StudyTable& table, const StudyRow& row,
+                                                       const LoadedJoint& loaded,
+                                                       const std::optional<BandOptions>& band_options,
+                                                       std::stop_token stop) {
+  MeasureRequest request;
+  request.pelvic_tilt = tilt_in(table, row);
+  request.pelvis_frame = pelvis_frame_of(loaded.report.file.joint.frame);
+  request.ischiofemoral_pose = loaded.report.placement.reference_pose.angles;
+  const HipMeasures measures = measure_hip(loaded.joint, request);
+  std::optional<std::vector<MeasureBand>> bands;
+  if (band_options) {
+    bands = measure_bands(loaded.joint, request, *band_options, {{}, stop});
+    if (!bands) return std::nullopt;
+  }
+  std::vector<std::string> fields;
+  for (std::size_t i = 0; i < measure_definitions().size(); ++i) {
+    fields.push_back(number_or_empty(measure_definitions()[i].of(measures).value));
+    if (!bands) continue;
+    fields.push_back(number_or_empty((*bands)[i].p5));
+    fields.push_back(number_or_empty((*bands)[i].p95));
+  }
+  fields.push_back(csv_field(stated_frame(measures)));
+  fields.push_back(sentences(measures, &Measure::note));
+  fields.push_back(sentences(measures, &Measure::why_none));
+  return fields;
+}
+
+}  // namespace condyle::io

@@ -1,0 +1,116 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "condyle/error.hpp"
+#include "condyle/hip_measures.hpp"
+#include "condyle/sample/hip.hpp"
+#include "study_of_arms.hpp"
+
+/// Measures of a hip's shape as columns of a study.
+
+namespace condyle::test {
+namespace {
+
+std::string text_of(const std::optional<double>& value) {
+  return value ? fmt::format("{}", *value) : "";
+}
+
+class StudyOfShapes : public ::testing::Test {
+ protected:
+  void write(const std::string& text) const { std::ofstream(folder / "hips.csv") << text; }
+  Study study(const std::string& out) const {
+    Study shapes{folder / "hips.csv", folder / out};
+    shapes.options.motions = {"flexion"};
+    shapes.options.measures = true;
+    return shapes;
+  }
+  static Joint sample(Side side) {
+    static const SampleHip right = sample_hip({}, Scenario::one);
+    SampleHip bones = right;
+    if (side == Side::left) bones = mirrored(bones);
+    return {"hip", JointKind::ball, side, {"hip bone", bones.hip_bone}, {"femur", bones.femur}};
+  }
+
+  const TemporaryFolder folder;
+};
+
+TEST_F(StudyOfShapes, HasWhatTheLibraryMeasuresWithTheTiltOfTheTable) {
+  write("id,sample,side,pelvic_tilt_deg,neck_shaft_angle_deg\na,1,right,,127\nb,1,left,10,127\n");
+  ASSERT_EQ(run_study(study("out"))->failures, 0u);
+  const auto hips = rows_of(folder / "out/hips.csv");
+  const HipMeasures expected[] = {measure_hip(sample(Side::right)),
+                                  measure_hip(sample(Side::left), {.pelvic_tilt = Angle::degrees(10)})};
+  for (std::size_t k = 0; k < 2; ++k)
+    for (const MeasureDefinition& each : measure_definitions())
+      EXPECT_EQ(hips[k].at("measured_" + std::string(each.key)), text_of(each.of(expected[k]).value));
+  EXPECT_EQ(hips[0].at("measured_frame"), "as scanned");
+  EXPECT_EQ(hips[1].at("measured_frame"), "as scanned, tilt 10 deg given");
+  EXPECT_EQ(hips[0].at("measured_femoral_version_deg"), "");
+  EXPECT_NE(hips[0].at("measured_none").find("femoral_version_deg: the mesh ends above the knee"),
+            std::string::npos);
+  // What was asked for stands beside what was measured.
+  EXPECT_EQ(hips[0].at("neck_shaft_angle_deg"), "127");
+  EXPECT_EQ(hips[1].at("pelvic_tilt_deg"), "10");
+  EXPECT_FALSE(hips[0].contains("measured_alpha_3_deg_p5"));
+  EXPECT_TRUE(run_study(study("out"))->was_there);
+}
+
+TEST_F(StudyOfShapes, HasBandsWhereTheyAreAskedFor) {
+  write("id,sample\na,1\n");
+  Study banded = study("out");
+  banded.options.bands = {20, 3, {}};
+  ASSERT_EQ(run_study(banded)->failures, 0u);
+  const auto hip = rows_of(folder / "out/hips.csv")[0];
+  const auto bands = measure_bands(sample(Side::right), {}, {.samples = 20, .seed = 3});
+  for (std::size_t i = 0; i < bands.size(); ++i) {
+    const std::string name = "measured_" + std::string(measure_definitions()[i].key);
+    EXPECT_EQ(hip.at(name + "_p5"), text_of(bands[i].p5)) << name;
+    EXPECT_EQ(hip.at(name + "_p95"), text_of(bands[i].p95)) << name;
+  }
+}
+
+TEST_F(StudyOfArms, RefusesATiltThatIsNone) {
+  folder.file(
+      "tilts.csv",
+      "id,joint,pelvic_tilt_deg\na,hip1.toml,forwards\nb,hip2.toml,61\nc,hip3.toml,nan\nd,hip4.toml,-60\n");
+  Study tilted{folder / "tilts.csv", folder / "out", flexion_only()};
+  EXPECT_EQ(run(tilted).failures, 0u) << "a covariate where nothing is measured";
+  tilted.options.measures = true;
+  EXPECT_EQ(run(tilted).failures, 3u);
+  const auto failures = rows_of(folder / "out/failures.csv");
+  EXPECT_TRUE(failures[0].at("message").ends_with(
+      "tilts.csv: line 2: column 'pelvic_tilt_deg': 'forwards' is no number of degrees from -60 to 60"))
+      << failures[0].at("message");
+  EXPECT_EQ(failures[0].at("exit_code"), "3");
+  EXPECT_EQ(rows_of(folder / "out/hips.csv")[0].at("id"), "d");
+}
+
+TEST_F(StudyOfArms, MeasuresNothingOfWhatHasNoHeadAndSaysWhy) {
+  Study shapes = study("out");
+  shapes.options.measures = true;
+  EXPECT_EQ(run(shapes).failures, 4u);
+  const auto hip = rows_of(folder / "out/hips.csv")[0];
+  for (const MeasureDefinition& each : measure_definitions())
+    EXPECT_EQ(hip.at("measured_" + std::string(each.key)), "");
+  EXPECT_NE(hip.at("measured_none").find("head_radius_mm: no spherical head"), std::string::npos);
+  run(study("plain"));
+  EXPECT_FALSE(rows_of(folder / "plain/hips.csv")[0].contains("measured_none"));
+}
+
+TEST_F(StudyOfArms, EndsWhereMeasuresAreAskedForOfAnotherJoint) {
+  std::string text = io::read_whole_file(folder / "hip1.toml");
+  text.replace(text.find("kind = \"ball\""), 13, "kind = \"hinge\"\njoint = \"knee\"");
+  folder.file("knee.toml", text);
+  folder.file("knees.csv", "id,joint\nk,knee.toml\n");
+  Study knees{folder / "knees.csv", folder / "knees", {}};
+  knees.options.anatomy = Anatomy::knee;
+  knees.options.measures = true;
+  EXPECT_NE(message_of<UsageError>([&] {
+              run_study(knees);
+            }).find("measures: are of hips, and this study is of the knee"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace condyle::test
