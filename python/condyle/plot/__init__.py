@@ -24,6 +24,7 @@ from .agreement import Series, agreement, many_methods
 from .cohort import limit_against, limit_distributions
 from .files import ReadError
 from .flatten import Flattened, about_centre, on_plane
+from .hip_shape import alpha_by_clock, centre_edge_by_clock, hip_shape
 from .limit_bars import limits
 from .map_contours import motion_map
 from .motion_curves import curve, cycles, panels, table_of
@@ -41,10 +42,13 @@ __all__ = [
     "Series",
     "about_centre",
     "agreement",
+    "alpha_by_clock",
+    "centre_edge_by_clock",
     "clock_face",
     "curve",
     "cycles",
     "files",
+    "hip_shape",
     "limit_against",
     "limit_distributions",
     "limits",

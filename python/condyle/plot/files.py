@@ -1,4 +1,4 @@
-"""Reads what `condyle rom --out`, `condyle motion --out` and `condyle depth --out` write, for figures.
+"""Reads what `condyle rom`, `motion`, `depth` and `measure` write with `--out`, for figures.
 
 Every reader raises `ReadError` with one line that names file and place.
 """
@@ -147,6 +147,52 @@ def _check_number(where: str, of: Any, key: str) -> None:
     value = of.get(key) if isinstance(of, dict) else None
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         raise ReadError(f"{where}: '{key}' is not a number")
+
+
+def read_measures(folder: PathLike) -> Dict[str, Any]:
+    """`measures.json` of a folder, as :class:`condyle.HipMeasures` names it: `"measures"` by their keys, and the arrays `neck_hour`,
+    `alpha_deg`, `alpha_at_1mm_deg`, `offset_mm`, `rim_hour`, `cover_deg` and `centre_edge_deg`, NaN for what could not be told."""
+    path = Path(folder) / "measures.json"
+    answer = read_json(path)
+    measures = answer.get("measures")
+    if not isinstance(measures, list) or not all(isinstance(each, dict) and isinstance(each.get("key"), str)
+                                                 for each in measures):
+        raise ReadError(f"{path}: 'measures' is not a list of objects with a key")
+    for each in measures:
+        where = f"{path}: measure '{each['key']}'"
+        if each.get("value") is not None:
+            _check_number(where, each, "value")
+        if each.get("normal") is not None:
+            for end in ("low", "high"):
+                _check_number(f"{where}: normal", each["normal"], end)
+    result: Dict[str, Any] = {"measures": {each["key"]: each for each in measures},
+                              "pelvis_frame": answer.get("pelvis_frame", "")}
+    for around, names in _AROUND.items():
+        for name in names:
+            result[name] = _around(path, answer, around, names[name])
+    return result
+
+
+#: Lists of measures.json, and what their keys are called in Python.
+_AROUND = {
+    "around_neck": {"neck_hour": "hour", "alpha_deg": "alpha_deg", "alpha_at_1mm_deg": "alpha_at_1mm_deg",
+                    "offset_mm": "offset_mm"},
+    "rim": {"rim_hour": "hour", "cover_deg": "cover_deg", "centre_edge_deg": "centre_edge_deg"},
+}
+
+
+def _around(path: Path, answer: Dict[str, Any], around: str, key: str) -> Array:
+    entries = answer.get(around)
+    if not isinstance(entries, list):
+        raise ReadError(f"{path}: '{around}' is not a list")
+    values = []
+    for i, entry in enumerate(entries):
+        if isinstance(entry, dict) and key in entry and entry[key] is None and key != "hour":
+            values.append(math.nan)
+            continue
+        _check_number(f"{path}: {around} {i}", entry, key)
+        values.append(float(entry[key]))
+    return np.array(values, dtype=np.float64)
 
 
 class _Interval(NamedTuple):

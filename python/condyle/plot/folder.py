@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from . import files, style
+from .hip_shape import hip_shape
 from .limit_bars import limits
 from .map_contours import VIEWS, View, motion_map
 from .motion_curves import QUANTITIES, curve, has, panels
@@ -30,12 +31,16 @@ def drawings(folder: Path, frames: Optional[Sequence[int]] = None, projection: P
     found: List[Drawing] = []
     if (folder / "rom.json").exists():
         found += _of_rom(files.read_rom(folder))
+    if (folder / "measures.json").exists():
+        shape = files.read_measures(folder)
+        if shape["neck_hour"].size or shape["rim_hour"].size:
+            found.append(("hip_shape", lambda: hip_shape(shape)))
     if (folder / "curves.csv").exists():
         found += _of_motion(folder, frames, projection)
     elif frames:
         raise files.ReadError(f"{folder}: no curves.csv in it, so no frames to draw")
     if not found:
-        raise files.ReadError(f"{folder}: neither rom.json nor curves.csv in it")
+        raise files.ReadError(f"{folder}: neither rom.json nor curves.csv nor measures.json of a hip in it")
     return found
 
 
