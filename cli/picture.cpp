@@ -11,6 +11,7 @@
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/error.hpp"
+#include "condyle/hip_measures.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/picture.hpp"
 #include "condyle/io/pose_text.hpp"
@@ -27,6 +28,7 @@ struct Options {
   std::string view = "anterior", size = "1200x900";
   std::optional<BodyRole> hidden, transparent;
   PictureOptions picture;
+  bool measures = false;
   Strictness strictness = Strictness::notes;
 };
 
@@ -47,6 +49,15 @@ BodyLook look_of(BodyRole body, const Options& options) {
                                        : BodyLook::solid;
 }
 
+/// What was not found is said: it is not in the picture.
+std::vector<PictureMark> marks_of(const Joint& joint, const Pose& X_FM) {
+  const HipMeasures measures = measure_hip(joint);
+  if (!measures.femur.neck) note("no axis of a neck is drawn: " + measures.femur.neck_shaft.why_none);
+  if (!measures.acetabulum.plane)
+    note("no plane of a rim is drawn: " + measures.acetabulum.inclination.why_none);
+  return measure_marks(measures, X_FM);
+}
+
 void run(const Options& options, const CLI::App& command) {
   const LoadedJoint loaded = read_joint(options.joint);
   const Joint& joint = loaded.joint;
@@ -61,6 +72,8 @@ void run(const Options& options, const CLI::App& command) {
   noted(loaded, options.strictness);
   const Provenance from = provenance_of(loaded, words_of(command));
   io::check_output_file(options.out, from.read);
+  if (options.measures)
+    picture.marks = io::name_joint_file(options.joint, [&] { return marks_of(joint, given.X_FM); });
   const Picture drawn = io::name_joint_file(
       options.joint, [&] { return draw_joint(joint, given.pose.angles(), given.X_FM, picture); });
   write_png(options.out, drawn, &from);
@@ -118,6 +131,10 @@ void add_picture(CLI::App& app) {
       ->add_option("--field", options->picture.field_mm,
                    "Show this height about the joint centre. Without it all of both bodies")
       ->option_text("MM");
+  command->add_flag(
+      "--measures", options->measures,
+      "Draw what condyle measure measures a hip by: axis of the neck, points and plane of the rim, where "
+      "the head's contour ends");
   add_body(*command, "--hide", options->hidden, "Do not draw this body");
   add_body(*command, "--transparent", options->transparent, "Draw this body as glass");
   command->add_option("--size", options->size, "Width and height in pixels, 64 to 8192 each")
@@ -126,7 +143,7 @@ void add_picture(CLI::App& app) {
       ->required()
       ->option_text("FILE");
   add_strict(*command, options->strictness);
-  group_help(*command, {{"Most used", {"--pose", "--view", "--colour", "--hide", "--out"}},
+  group_help(*command, {{"Most used", {"--pose", "--view", "--colour", "--hide", "--measures", "--out"}},
                         {"Output", {"--transparent", "--range", "--field", "--size", "--strict", "--help"}}});
   command->callback([options, command] { run(*options, *command); });
 }

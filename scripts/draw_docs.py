@@ -60,16 +60,20 @@ def draw_hip():
 
 def draw_pictures():
     condyle("sample", "hip", "--scenario", 3, "--out", OUT / "sample3")
-    pose = "flexion=110 adduction=15 internal_rotation=35"
+    pose = ["--pose", "flexion=110 adduction=15 internal_rotation=35"]
     for name, options in (
-        ("impingement", ["--colour", "none", "--size", "600x560"]),
+        ("impingement", [*pose, "--colour", "none", "--size", "600x560"]),
         (
             "impingement_femur",
-            ["--view", "anterior-superior", "--hide", "fixed", "--field", "130", "--size", "700x560"],
+            [*pose, "--view", "anterior-superior", "--hide", "fixed", "--field", "130", "--size", "700x560"],
+        ),
+        (
+            "hip_measures",
+            ["--measures", "--colour", "none", "--view", "anterior-lateral", "--field", "130", "--size", "700x560"],
         ),
     ):
         # A picture names its joint: from the repository's folder, wherever that is.
-        condyle("picture", "out/docs/sample3/hip.toml", "--pose", pose, *options, "--out", IMAGES / f"{name}.png")
+        condyle("picture", "out/docs/sample3/hip.toml", *options, "--out", IMAGES / f"{name}.png")
         print(f"docs/images/{name}.png")
 
 

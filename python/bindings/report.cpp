@@ -6,6 +6,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "condyle/answer.hpp"
+#include "condyle/hip_measures.hpp"
 #include "condyle/io/picture.hpp"
 #include "interrupts.hpp"
 #include "motion.hpp"
@@ -70,18 +71,19 @@ py::array_t<std::uint8_t> picture(const JointHandle& handle, const py::object& p
                                   const std::string& colour, const std::string& fixed,
                                   const std::string& mobile, std::size_t width, std::size_t height,
                                   const std::optional<double>& range_mm,
-                                  const std::optional<double>& field_mm) {
+                                  const std::optional<double>& field_mm, bool with_measures) {
   const Pose X_FM = one_pose(pose, "pose");
   const Joint& joint = handle.joint();
-  const PictureOptions options{.view = view_named(view, joint.side),
-                               .colour = colour_named(colour),
-                               .fixed = look_named(fixed),
-                               .mobile = look_named(mobile),
-                               .width = width,
-                               .height = height,
-                               .range_mm = range_mm,
-                               .field_mm = field_mm};
+  PictureOptions options{.view = view_named(view, joint.side),
+                         .colour = colour_named(colour),
+                         .fixed = look_named(fixed),
+                         .mobile = look_named(mobile),
+                         .width = width,
+                         .height = height,
+                         .range_mm = range_mm,
+                         .field_mm = field_mm};
   const Picture drawn = followed(py::none(), [&](const auto&, const std::stop_token&) {
+    if (with_measures) options.marks = measure_marks(measure_hip(joint), X_FM);
     return draw_joint(joint, angles_at(joint.coordinates(), X_FM), X_FM, options);
   });
   py::array_t<std::uint8_t> pixels({drawn.height, drawn.width, std::size_t{3}});

@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "command.hpp"
+#include "condyle/io/mesh_file.hpp"
 #include "io/file/whole_file.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/test_meshes.hpp"
 
 namespace condyle::test {
 namespace {
@@ -50,13 +53,27 @@ TEST_F(PictureCommand, WritesAPngOfTheSizeAskedFor) {
 TEST_F(PictureCommand, EveryOptionChangesThePicture) {
   const std::string base = "picture hip.toml --pose flexion=110 --size 200x150 --out ";
   ASSERT_EQ(run(base + "base.png").exit_code, 0);
-  for (const char* option : {"--view posterior", "--colour gap", "--colour nearest", "--colour none",
-                             "--range 50", "--field 60", "--hide mobile", "--transparent fixed"}) {
+  for (const char* option :
+       {"--view posterior", "--colour gap", "--colour nearest", "--colour none", "--range 50", "--field 60",
+        "--hide mobile", "--transparent fixed", "--measures"}) {
     ASSERT_EQ(run(base + "other.png " + option).exit_code, 0) << option;
     // The texts in it name the command line, so it is what follows them that is compared.
     const auto pixels = [](const std::string& png) { return png.substr(png.find("IDAT")); };
     EXPECT_NE(pixels(bytes("base.png")), pixels(bytes("other.png"))) << option;
   }
+}
+
+TEST_F(PictureCommand, SaysWhichMeasuresItCannotDraw) {
+  std::string text = io::read_whole_file(folder / "hip.toml");
+  text.replace(text.find("femur.ply"), 9, "box.ply");
+  std::ofstream(folder / "box.toml") << text;
+  write_mesh(folder / "box.ply", box({-8, -30, -8}, {8, -10, 8}));
+  const Ran ran = run("picture box.toml --measures --colour none --size 200x150 --out p.png");
+  EXPECT_EQ(ran.exit_code, 0);
+  EXPECT_NE(ran.err.find("note: no axis of a neck is drawn: no spherical head"), ran.err.npos) << ran.err;
+  EXPECT_NE(ran.err.find("note: no plane of a rim is drawn: no spherical head"), ran.err.npos) << ran.err;
+  EXPECT_EQ(run("picture hip.toml --measures --size 200x150 --out p.png").err,
+            "condyle: note: wrote p.png\n");
 }
 
 TEST_F(PictureCommand, IsTheSameBytesOnOneThreadAndOnTwo) {

@@ -10,9 +10,11 @@
 #include <cmath>
 
 #include "condyle/error.hpp"
+#include "condyle/hip_measures.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/picture/colour_scale.hpp"
 #include "io/picture/legend.hpp"
+#include "mesh/enclosed_volume.hpp"
 #include "mesh/subdivide.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
@@ -220,6 +222,50 @@ TEST(Picture, LeavesOutWhatIsHiddenAndShowsThroughGlass) {
     EXPECT_LT(std::min(io::fixed_bone[k], io::mobile_bone[k]), middle[k]);
     EXPECT_GT(std::max(io::fixed_bone[k], io::mobile_bone[k]), middle[k]);
   }
+}
+
+TEST(PictureMarks, CoverBonesBehindThemAndShineThroughThoseBeforeThem) {
+  const Joint joint = joint_of(fine_box({-5, -40, -40}, {5, 40, 40}), fine_box({-60, -1, -1}, {-58, 1, 1}));
+  PictureOptions options = square_without_legend("anterior");
+  const Rgb blue = {0, 114, 178};
+  options.marks = {{box({20, -10, -30}, {21, 10, -20}), {0, 114, 178}},
+                   {box({-30, -10, 20}, {-29, 10, 30}), {0, 114, 178}},
+                   {box({-30, 42, -5}, {-29, 48, 5}), {0, 114, 178}}};
+  const Picture picture = draw_joint(joint, {}, Pose::Identity(), options);
+  expect_colour(at_mm(picture, 25, 0), blue, 1, "before the bone");
+  Rgb through;
+  for (std::size_t k = 0; k < 3; ++k) through[k] = 0.45 * blue[k] + 0.55 * io::fixed_bone[k];
+  expect_colour(at_mm(picture, -25, 0), through, 1.5, "behind it");
+  expect_colour(at_mm(picture, 0, 45), blue, 1, "behind nothing");
+  expect_colour(at_mm(picture, 0, 0), io::fixed_bone, 1, "beside them");
+}
+
+TEST(PictureMarks, OfMeasuresLieWhereTheyWereMeasured) {
+  HipMeasures measures;
+  EXPECT_TRUE(measure_marks(measures, Pose::Identity()).empty());
+  const Vec3 head(1, 2, 3), down = -Vec3::UnitY();
+  measures.femur.neck =
+      NeckGeometry{{head, 24}, down, {}, {Vec3::UnitX(), Vec3::UnitZ()}, ClockSource::frame};
+  measures.acetabulum.plane = RimGeometry{Vec3(0, 0, 10), Vec3::UnitZ(), 30, {Vec3::UnitY(), Vec3::UnitX()}};
+  measures.acetabulum.rim = {
+      {0, Vec3(0, 30, 10), 0, 0, true}, {1, Vec3(5, -20, 12), 0, 0, false}, {2, {}, 0, 0, false}};
+  Pose X_FM = Pose::Identity();
+  X_FM.translation() = Vec3(100, 0, 0);
+  const std::vector<PictureMark> marks = measure_marks(measures, X_FM);
+  ASSERT_EQ(marks.size(), 4u);
+  const auto expect_bounds = [](const TriMesh& mesh, const Vec3& low, const Vec3& high, const char* what) {
+    const BoundingBox box = mesh::bounds_of_surface(mesh);
+    EXPECT_LT((box.low - low).cwiseAbs().maxCoeff(), 0.02) << what << ": " << box.low.transpose();
+    EXPECT_LT((box.high - high).cwiseAbs().maxCoeff(), 0.02) << what << ": " << box.high.transpose();
+  };
+  const double line = 0.5, dot = 0.9;
+  expect_bounds(marks[0].mesh, Vec3(-30 - line, -30 - line, 10 - line), Vec3(30 + line, 30 + line, 35),
+                "plane");
+  expect_bounds(marks[1].mesh, Vec3(-dot, 30 - dot, 10 - dot), Vec3(dot, 30 + dot, 10 + dot), "in the plane");
+  expect_bounds(marks[2].mesh, Vec3(5 - dot, -20 - dot, 12 - dot), Vec3(5 + dot, -20 + dot, 12 + dot),
+                "off it");
+  expect_bounds(marks[3].mesh, Vec3(101 - line, 2 - 48, 3 - line), Vec3(101 + line, 2 + 1.3 * 24, 3 + line),
+                "the neck's axis, with the femur");
 }
 
 TEST(Picture, FitsBothBodiesWhateverIsHidden) {

@@ -59,9 +59,9 @@ def test_a_report_that_cannot_be_written_leaves_nothing(hip, tmp_path):
 def test_a_picture_is_that_of_the_command(command, hip, hip_file, tmp_path):
     image = pytest.importorskip("matplotlib.image")
     subprocess.run([command, "picture", hip_file, "--pose", "flexion=140", "--view", "lateral", "--hide", "fixed", "--size", "320x240",
-                    "--out", tmp_path / "hip.png"], check=True, capture_output=True)
+                    "--measures", "--out", tmp_path / "hip.png"], check=True, capture_output=True)
     theirs = np.round(255 * image.imread(tmp_path / "hip.png")[:, :, :3]).astype(np.uint8)
-    ours = hip.picture({"flexion_deg": 140}, view="lateral", fixed="hidden", width=320, height=240)
+    ours = hip.picture({"flexion_deg": 140}, view="lateral", fixed="hidden", width=320, height=240, measures=True)
     assert ours.dtype == np.uint8 and np.array_equal(ours, theirs)
 
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +15,8 @@
 /// Pictures of a joint in one pose, drawn without a display: docs/pictures.md.
 
 namespace condyle {
+
+struct HipMeasures;
 
 /// Quantity that colours the surfaces, mm.
 enum class PictureColour {
@@ -36,6 +39,17 @@ struct ViewDirection {
 /// Throws UsageError.
 ViewDirection view_named(std::string_view name, Side side);
 
+/// A body of one colour, in F, drawn over the others; it shines through what is before it.
+struct PictureMark {
+  TriMesh mesh;
+  std::array<std::uint8_t, 3> rgb;  ///< red, green, blue
+};
+
+/// What a hip was measured by: the neck's axis in blue, the circle of the rim's plane, its normal and the rim's points that it was
+/// fitted to in vermilion, the other ones in grey, in green where the head's contour ends at every hour around the neck. What was not found
+/// is left out.
+std::vector<PictureMark> measure_marks(const HipMeasures& measures, const Pose& X_FM);
+
 struct PictureOptions {
   ViewDirection view = {};
   PictureColour colour = PictureColour::depth;
@@ -45,6 +59,7 @@ struct PictureOptions {
   std::optional<double> range_mm = {};
   /// Height of what is shown, about the joint centre, 0.1 mm to 100 m; where not given both bodies fit, hidden or not.
   std::optional<double> field_mm = {};
+  std::vector<PictureMark> marks = {};
 };
 
 /// Red, green, blue of each pixel, row by row from the top left.

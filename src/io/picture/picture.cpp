@@ -32,6 +32,9 @@ double cover_of_glass(double facing) noexcept {
   return 0.2 + 0.6 * (1 - facing) * (1 - facing);
 }
 
+/// How strongly a mark covers what is before it.
+constexpr double cover_of_mark_behind = 0.45;
+
 /// Light from the viewer, and a little more from above: 1 for what faces the viewer.
 double brightness(double facing, double upward) noexcept {
   return std::clamp(0.4 + 0.6 * facing + 0.1 * upward, 0.0, 1.0);
@@ -145,6 +148,48 @@ class Surface {
   Rasteriser rasteriser_;
 };
 
+/// All marks of a picture.
+class Marks {
+ public:
+  Marks(const std::vector<PictureMark>& marks, const Camera& camera, std::size_t columns, std::size_t rows)
+      : mesh_(gathered(marks)),
+        flat_(camera.laid(mesh_)),
+        rasteriser_(flat_, columns, rows, strip_pixels * samples) {
+    for (const PictureMark& mark : marks)
+      colours_.insert(colours_.end(), mark.mesh.triangles.size(),
+                      Rgb{double(mark.rgb[0]), double(mark.rgb[1]), double(mark.rgb[2])});
+  }
+  Marks(const Marks&) = delete;
+  Marks& operator=(const Marks&) = delete;
+
+  bool none() const noexcept { return colours_.empty(); }
+  void draw(std::size_t strip, std::span<Hit> hits) const { rasteriser_.draw(strip, hits); }
+  Rgb over(const Rgb& behind, Index triangle, bool is_before_bones) const {
+    const double cover = is_before_bones ? 1 : cover_of_mark_behind;
+    Rgb colour = colours_[triangle];
+    for (std::size_t k = 0; k < 3; ++k) colour[k] = cover * colour[k] + (1 - cover) * behind[k];
+    return colour;
+  }
+
+ private:
+  static TriMesh gathered(const std::vector<PictureMark>& marks) {
+    TriMesh all;
+    for (const PictureMark& mark : marks) {
+      const auto first = static_cast<Index>(all.vertices.size());
+      for (std::size_t v = 0; v < mark.mesh.vertices.size(); ++v)
+        all.vertices.push_back(mark.mesh.vertices[v]);
+      for (const auto& [a, b, c] : mark.mesh.triangles)
+        all.triangles.push_back({first + a, first + b, first + c});
+    }
+    return all;
+  }
+
+  TriMesh mesh_;
+  FlatMesh flat_;
+  Rasteriser rasteriser_;
+  std::vector<Rgb> colours_;
+};
+
 void check(const PictureOptions& options) {
   for (const std::size_t side : {options.width, options.height})
     if (side < 64 || side > 8192)
@@ -183,12 +228,18 @@ Rgb seen_at(const Surface& fixed, const Hit& of_fixed, const Surface& mobile, co
   return colour;
 }
 
-void draw_strip(const Surface& fixed, const Surface& mobile, std::size_t strip, Picture& picture,
-                std::size_t rows_of_scene) {
+bool is_before(const Hit& mark, const Hit& bone) noexcept {
+  return bone.triangle == no_index || mark.z >= bone.z;
+}
+
+void draw_strip(const Surface& fixed, const Surface& mobile, const Marks& marks, std::size_t strip,
+                Picture& picture, std::size_t rows_of_scene) {
   const std::size_t columns = picture.width * samples;
-  std::vector<Hit> hits_fixed(columns * strip_pixels * samples), hits_mobile(hits_fixed.size());
+  std::vector<Hit> hits_fixed(columns * strip_pixels * samples), hits_mobile(hits_fixed.size()),
+      hits_marks(marks.none() ? 0 : hits_fixed.size());
   fixed.draw(strip, hits_fixed);
   mobile.draw(strip, hits_mobile);
+  if (!marks.none()) marks.draw(strip, hits_marks);
   const std::size_t first = strip * strip_pixels, end = std::min(first + strip_pixels, rows_of_scene);
   for (std::size_t row = first; row < end; ++row) {
     for (std::size_t column = 0; column < picture.width; ++column) {
@@ -197,9 +248,12 @@ void draw_strip(const Surface& fixed, const Surface& mobile, std::size_t strip, 
         const std::size_t sample_row = row * samples + i / samples,
                           sample_column = column * samples + i % samples;
         const std::size_t at = (sample_row - first * samples) * columns + sample_column;
-        const Rgb colour =
-            seen_at(fixed, hits_fixed[at], mobile, hits_mobile[at], static_cast<double>(sample_column) + 0.5,
-                    static_cast<double>(sample_row) + 0.5);
+        Rgb colour = seen_at(fixed, hits_fixed[at], mobile, hits_mobile[at],
+                             static_cast<double>(sample_column) + 0.5, static_cast<double>(sample_row) + 0.5);
+        if (!marks.none() && hits_marks[at].triangle != no_index)
+          colour = marks.over(
+              colour, hits_marks[at].triangle,
+              is_before(hits_marks[at], hits_fixed[at]) && is_before(hits_marks[at], hits_mobile[at]));
         for (std::size_t k = 0; k < 3; ++k) sum[k] += colour[k];
       }
       set_pixel(picture, column, row,
@@ -260,10 +314,11 @@ Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM,
                                   rows);
   const io::Surface mobile_surface(mobile, values.mobile, scale, io::mobile_bone, options.mobile, camera,
                                    columns, rows);
+  const io::Marks marks(options.marks, camera, columns, rows);
   const std::size_t strips = (rows_of_scene + io::strip_pixels - 1) / io::strip_pixels;
   core::parallel_chunks(strips, 1, [&](std::size_t first, std::size_t end) {
     for (std::size_t strip = first; strip < end; ++strip)
-      io::draw_strip(fixed_surface, mobile_surface, strip, picture, rows_of_scene);
+      io::draw_strip(fixed_surface, mobile_surface, marks, strip, picture, rows_of_scene);
   });
   io::draw_legend(picture, options, scale);
   return picture;

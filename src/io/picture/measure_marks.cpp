@@ -1,0 +1,101 @@
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "condyle/hip_measures.hpp"
+#include "condyle/io/picture.hpp"
+
+namespace condyle {
+namespace {
+
+constexpr std::array<std::uint8_t, 3> blue = {0, 114, 178}, vermilion = {213, 94, 0}, grey = {110, 110, 110},
+                                      green = {0, 158, 115};
+
+/// Thickness of lines and size of dots, mm; the neck's axis in radii of the head on either side of its centre.
+constexpr double line_mm = 0.5, dot_mm = 0.9, small_dot_mm = 0.5;
+constexpr double axis_behind = 1.3, axis_ahead = 2.0;
+constexpr double normal_mm = 25;
+constexpr int ring_steps = 144, sides = 8;
+
+/// The mark's mesh grows by a prism from one point to the other.
+void add_line(TriMesh& mesh, const Vec3& from, const Vec3& to) {
+  const Vec3 along = to - from;
+  if (!(along.norm() > 0)) return;
+  const Vec3 x = along.unitOrthogonal(), y = along.normalized().cross(x);
+  const auto first = static_cast<Index>(mesh.vertices.size());
+  for (const Vec3& end : {from, to})
+    for (int k = 0; k < sides; ++k) {
+      const double turn = 2 * std::numbers::pi * k / sides;
+      mesh.vertices.push_back(end + line_mm * (std::cos(turn) * x + std::sin(turn) * y));
+    }
+  for (Index k = 0; k < sides; ++k) {
+    const Index a = first + k, b = first + (k + 1) % sides;
+    mesh.triangles.push_back({a, b, b + sides});
+    mesh.triangles.push_back({a, b + sides, a + sides});
+  }
+}
+
+/// And by a ball: an octahedron whose edges are halved twice, pushed out.
+void add_dot(TriMesh& mesh, const Vec3& at, double radius) {
+  static constexpr int halves = 4;
+  for (const double sx : {1.0, -1.0})
+    for (const double sy : {1.0, -1.0})
+      for (const double sz : {1.0, -1.0}) {
+        const auto corner = [&](int i, int j) {
+          const Vec3 p = Vec3(sx * i, sy * j, sz * (halves - i - j)).normalized();
+          mesh.vertices.push_back(at + radius * p);
+          return static_cast<Index>(mesh.vertices.size() - 1);
+        };
+        const auto add = [&](std::array<int, 2> a, std::array<int, 2> b, std::array<int, 2> c) {
+          mesh.triangles.push_back({corner(a[0], a[1]), corner(b[0], b[1]), corner(c[0], c[1])});
+        };
+        for (int i = 0; i < halves; ++i)
+          for (int j = 0; i + j < halves; ++j) {
+            add({i, j}, {i + 1, j}, {i, j + 1});
+            if (i + j + 1 < halves) add({i + 1, j}, {i + 1, j + 1}, {i, j + 1});
+          }
+      }
+}
+
+void add_ring(TriMesh& mesh, const RimGeometry& rim) {
+  const Vec3 x = rim.clock.twelve, y = rim.normal.cross(x);
+  const auto at = [&](int step) {
+    const double turn = 2 * std::numbers::pi * step / ring_steps;
+    return Vec3(rim.centre + rim.radius_mm * (std::cos(turn) * x + std::sin(turn) * y));
+  };
+  for (int step = 0; step < ring_steps; ++step) add_line(mesh, at(step), at(step + 1));
+}
+
+void add_mark(std::vector<PictureMark>& marks, TriMesh mesh, const std::array<std::uint8_t, 3>& rgb) {
+  if (!mesh.triangles.empty()) marks.push_back({std::move(mesh), rgb});
+}
+
+}  // namespace
+
+std::vector<PictureMark> measure_marks(const HipMeasures& measures, const Pose& X_FM) {
+  std::vector<PictureMark> marks;
+  const FemurMeasures& femur = measures.femur;
+  const AcetabulumMeasures& socket = measures.acetabulum;
+  TriMesh in_plane, off_plane, plane, axis, alpha;
+  for (const RimHour& hour : socket.rim)
+    if (hour.point) add_dot(hour.is_in_plane ? in_plane : off_plane, *hour.point, dot_mm);
+  if (socket.plane) {
+    add_ring(plane, *socket.plane);
+    add_line(plane, socket.plane->centre, socket.plane->centre + normal_mm * socket.plane->normal);
+  }
+  if (femur.neck) {
+    const auto& [head, direction, outline, clock, source] = *femur.neck;
+    add_line(axis, X_FM * Vec3(head.centre - axis_behind * head.radius * direction),
+             X_FM * Vec3(head.centre + axis_ahead * head.radius * direction));
+  }
+  for (const NeckHour& hour : femur.around_neck)
+    if (hour.alpha_point) add_dot(alpha, X_FM * *hour.alpha_point, small_dot_mm);
+  add_mark(marks, std::move(plane), vermilion);
+  add_mark(marks, std::move(in_plane), vermilion);
+  add_mark(marks, std::move(off_plane), grey);
+  add_mark(marks, std::move(axis), blue);
+  add_mark(marks, std::move(alpha), green);
+  return marks;
+}
+
+}  // namespace condyle
