@@ -16,7 +16,7 @@ from .rim_clock import clock_text
 from .words import of
 
 Array = NDArray[np.float64]
-ShapeLike = Union[HipMeasures, Mapping[str, Any]]
+ShapeLike = Union[HipMeasures, Mapping[str, object]]
 
 #: From 6 over 9, 12 and 3 to 6 again: what is in front and above stands together, 12 in the middle.
 _HOURS = (6, 9, 12, 3, 6)
