@@ -94,7 +94,7 @@ void expect_alpha(const Measure& alpha, double tolerance, double R, const sample
 }
 
 TEST(SampleMeasures, HipsAreMeasuredAsTheyWereMade) {
-  const int count = std::getenv("CONDYLE_LONG_TESTS") ? 200 : 3;
+  const int count = std::getenv("CONDYLE_LONG_TESTS") ? 200 : 2;
   std::mt19937 random(1);
   Errors inclination, version, lateral_edge, roof, neck_shaft, torsion, alpha, alpha_at_1mm, radius;
   for (int i = 0; i < count; ++i) {

@@ -50,10 +50,13 @@ def _groups(table: Mapping[str, Any], by: Optional[str], rows: NDArray[np.bool_]
 
 
 def _limits_of(study: StudyLike) -> Mapping[str, ArrayLike]:
-    """`limits` of a `condyle.Study`, else the table itself."""
-    table: Any = study
-    limits: Mapping[str, ArrayLike] = getattr(table, "limits", table)
-    return limits
+    """`limits` of a `condyle.Study` with the columns of `hips` beside, as `Study.to_dataframe` has them; else the table."""
+    if not isinstance(study, Study):
+        return study
+    row = {name: i for i, name in enumerate(study.hips["id"].tolist())}
+    of_hip = np.array([row[name] for name in study.limits["id"].tolist()], dtype=int)
+    beside = {name: values[of_hip] for name, values in study.hips.items() if name not in study.limits}
+    return {**study.limits, **beside}
 
 
 def spread_of(limits_deg: NDArray[np.float64], reasons: NDArray[Any]) -> Spread:
@@ -140,7 +143,8 @@ def limit_against(study: StudyLike, measure: str, motion: str, *, by: Optional[s
     study
         A `condyle.Study`, or a table of its limits: any mapping of columns.
     measure
-        A column of numbers, such as `bone_alpha_angle_deg`; joints without a value are left out.
+        A column of numbers, such as `bone_alpha_angle_deg` of a cohort of samples or, of a study with measures,
+        `measured_alpha_1_30_deg`; joints without a value are left out.
     motion
         Its name.
     by

@@ -3,6 +3,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
+import condyle
 import condyle.plot as figures
 from condyle.plot.cohort import running_band
 
@@ -81,3 +82,14 @@ def test_a_dataframe_will_do(table):
     pandas = pytest.importorskip("pandas")
     ax = figures.limit_distributions(pandas.DataFrame(table), by="sex")
     assert len(of(ax, "band")) == 4
+
+
+def test_limits_of_a_study_go_against_what_was_measured(hip_file, tmp_path):
+    table = tmp_path / "hips.csv"
+    table.write_text(f"id,joint,pelvic_tilt_deg\nb,{hip_file},0\na,{hip_file},10\n", encoding="utf-8")
+    study = condyle.run_study(table, tmp_path / "out", motions=["flexion", "extension"], measures=True)
+    (points,) = of(figures.limit_against(study, "measured_acetabular_version_deg", "flexion"), "limits")
+    assert points.get_xdata().tolist() == study.hips["measured_acetabular_version_deg"].tolist()
+    assert points.get_xdata()[0] > points.get_xdata()[1] + 3, "forward tilt retroverts"
+    assert points.get_ydata().tolist() == study.limits["limit_deg"][::2].tolist()
+    assert of(figures.limit_distributions(study, by="measured_frame"), "median")
