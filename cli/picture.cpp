@@ -143,8 +143,10 @@ void add_picture(CLI::App& app) {
       ->required()
       ->option_text("FILE");
   add_strict(*command, options->strictness);
-  group_help(*command, {{"Most used", {"--pose", "--view", "--colour", "--hide", "--measures", "--out"}},
-                        {"Output", {"--transparent", "--range", "--field", "--size", "--strict", "--help"}}});
+  group_help(
+      *command,
+      {{"Most used", {"--pose", "--view", "--colour", "--hide", "--out"}},
+       {"Output", {"--transparent", "--measures", "--range", "--field", "--size", "--strict", "--help"}}});
   command->callback([options, command] { run(*options, *command); });
 }
 
