@@ -324,7 +324,7 @@ struct ResectionQuery {
   ResectionRequest resection = {};
   /// Whose limits are given before and after; all of the joint's where empty.
   std::vector<Motion> motions = {};
-  /// Each target is planned so much farther that it is reached in 95 % of displaced joints.
+  /// The margin is as much larger as it takes that each target is reached in 95 % of displaced joints.
   std::optional<BandOptions> bands = {};
   /// Points of each target's curve of degrees against removed volume; 0 for none.
   std::size_t curve_points = 10;
@@ -361,10 +361,11 @@ inline constexpr double neck_width_share = 0.3;
 
 struct ResectionAnswer {
   Resection resection;
-  std::vector<MotionLimit> before, after;                ///< one per motion
-  std::optional<HipMeasures> shape_before, shape_after;  ///< of a hip
-  std::vector<LimitBand> bands = {};                     ///< one per target if requested: after
-  std::vector<ResectionCurvePoint> curve = {};           ///< by target, ascending
+  double margin_mm = 0;  ///< as planned: larger than requested where a band is to be reached
+  std::vector<MotionLimit> before = {}, after = {};                ///< one per motion
+  std::optional<HipMeasures> shape_before = {}, shape_after = {};  ///< of a hip
+  std::vector<LimitBand> bands = {};                               ///< one per target if requested: after
+  std::vector<ResectionCurvePoint> curve = {};                     ///< by target, ascending
   std::vector<ResectionNote> notes = {};
   std::vector<std::string> caveats = {};  ///< what the plan leaves out, a sentence each
 };

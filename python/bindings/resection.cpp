@@ -53,7 +53,7 @@ ResectionQuery query_in(const JointHandle& handle, const py::list& motions, cons
   return query;
 }
 
-py::object dict_of(const std::optional<CutBone>& cut) {
+py::object dict_of_cut(const std::optional<CutBone>& cut) {
   if (!cut) return py::none();
   py::dict dict;
   dict["before"] = Mesh(cut->before);
@@ -110,8 +110,8 @@ py::dict resection(const JointHandle& handle, const py::list& motions, const py:
     notes.append(py::make_tuple(std::string(name_of(note.code)), note.text));
   py::dict dict;
   dict["joint"] = handle_of(handle, answer.resection.joint);
-  dict["mobile"] = dict_of(answer.resection.mobile);
-  dict["fixed"] = dict_of(answer.resection.fixed);
+  dict["mobile"] = dict_of_cut(answer.resection.mobile);
+  dict["fixed"] = dict_of_cut(answer.resection.fixed);
   dict["targets"] = targets;
   dict["before"] = before;
   dict["after"] = after;
@@ -119,6 +119,7 @@ py::dict resection(const JointHandle& handle, const py::list& motions, const py:
   dict["bands"] = bands;
   dict["curve"] = curve;
   dict["notes"] = notes;
+  dict["margin_mm"] = answer.margin_mm;
   dict["caveats"] = answer.caveats;
   return dict;
 }

@@ -37,13 +37,14 @@ from ._propose_joint import JointProposal, propose_joint
 from ._range_of_motion import Bearing, RangeOfMotion
 from ._recorded_motion import ContactEnd, ContactInterval, JointMotion, MotionTable, RecordedContact
 from ._recorded_motion import read_motion_table
+from ._resection import Blocked, CurvePoint, CutBone, ReachedTarget, Resection
 from ._sample import HIP_PARAMETERS, SampleCartilages, SampleHip, sample_cartilages, sample_hip
 from ._study import Study, StudyLoad, StudyTable, merge_study, read_study, run_study, sample_cohort
 from ._surface_contact import ContactTotals, NormalContact, SurfaceContact, thickness_to
 from ._tables import OccupiedArcs, RadialTable, RingTable
 
 __all__ = [
-    "BalanceOptions", "BalancedPose", "Bearing", "BodyPart", "BodyZone", "Caveat", "ClockFace", "CondyleError",
+    "BalanceOptions", "BalancedPose", "Bearing", "Blocked", "CurvePoint", "CutBone", "ReachedTarget", "Resection", "BodyPart", "BodyZone", "Caveat", "ClockFace", "CondyleError",
     "ContactEnd", "ContactFrames", "ContactInterval", "ContactMeasures", "ContactNote", "ContactPatch",
     "ContactTotals", "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit", "DepthRange", "Depths",
     "ElasticContact", "ElasticContactResults", "ElasticLayer", "FileError", "Finding", "FirstContact", "FrameContact",

@@ -108,6 +108,8 @@ class Resection:
         Of a hip, by the keys of :class:`HipMeasures`; None for a measure that the meshes do not show. Empty for other joints.
     curve : tuple of CurvePoint
         Degrees against mm3.
+    margin_mm : float
+        As planned: larger than asked for where bands are to be reached.
     notes : what the plan must be read with, each with a :class:`JointWarning`
     caveats : list of str
     """
@@ -120,6 +122,7 @@ class Resection:
     after: tuple[MotionLimit, ...]
     measures: dict[str, tuple[Optional[float], Optional[float]]]
     curve: tuple[CurvePoint, ...]
+    margin_mm: float
     notes: tuple[ContactNote, ...]
     caveats: list[str]
 
@@ -193,5 +196,5 @@ def resection(joint: Joint, reach: Mapping[str, float], cut: CutFrom, share: Opt
         without, _cut_of(found["mobile"]), _cut_of(found["fixed"]), tuple(targets),
         tuple(limit_of(each, joint) for each in found["before"]), tuple(limit_of(each, without) for each in found["after"]),
         found["shapes"] or {},
-        tuple(CurvePoint(targets[target].motion, *rest) for target, *rest in found["curve"]), reported(found["notes"]),
+        tuple(CurvePoint(targets[target].motion, *rest) for target, *rest in found["curve"]), found["margin_mm"], reported(found["notes"]),
         found["caveats"])

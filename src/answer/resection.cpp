@@ -12,9 +12,10 @@ namespace {
 
 using core::formatted;
 
-/// A band's target is planned anew so often, until it is missed by less than this.
-constexpr int most_band_rounds = 6;
-constexpr Angle band_missed = Angle::degrees(0.05);
+/// Margins that are tried for a band: so far apart, this the largest, and halved between two until they are so near, mm.
+constexpr double band_margin_step_mm = 0.5, largest_band_margin_mm = 4, band_margin_within_mm = 0.13;
+constexpr int most_band_plans = 11;
+
 /// A limit that changes by less stays as it was.
 constexpr double no_change_deg = 0.05;
 
@@ -120,42 +121,71 @@ void note_gains(ResectionAnswer& answer) {
     answer.notes.push_back({ResectionNoteCode::no_gain, "these motions gain nothing: " + same});
 }
 
-/// Plans farther until the lower end of each band is at its target. False if it was stopped.
+/// A plan with its margin, and what displaced joints reach with it.
+struct Banded {
+  Resection resection;
+  std::vector<LimitBand> bands = {};
+  bool reaches = false;  ///< every target that nothing blocks, in 95 % of them
+};
+
+/// Empty if it was stopped, or if so much cannot be cut.
+std::optional<Banded> banded(const ResectionQuery& query, double margin_mm, const AnswerControl& control,
+                             Cuts& cuts, std::optional<Resection> cut = {}) {
+  ResectionRequest request = query.resection;
+  request.margin_mm = margin_mm;
+  try {
+    if (!cut) cut = cuts(request);
+  } catch (const MeshError&) {
+    if (margin_mm == query.resection.margin_mm) throw;
+  }
+  if (!cut) return std::nullopt;
+  std::vector<Motion> motions;
+  for (const ReachTarget& target : request.targets) motions.push_back(target.motion);
+  auto bands = limit_bands(cut->joint, motions, request.range, *query.bands,
+                           answer::staged(control, "joints of the band"));
+  if (!bands) return std::nullopt;
+  Banded plan{std::move(*cut), std::move(*bands), true};
+  for (std::size_t i = 0; i < motions.size(); ++i)
+    if (!plan.resection.targets[i].blocked && plan.bands[i].p5 < request.targets[i].reach)
+      plan.reaches = false;
+  return plan;
+}
+
+/// Plans with larger margins until the lower end of each band is at its target: what displaces a joint moves its surfaces towards each
+/// other from any side, which a plan for more degrees would not meet. False if it was stopped.
 bool reach_bands(const ResectionQuery& query, const AnswerControl& control, Cuts& cuts,
                  ResectionAnswer& answer) {
-  ResectionRequest farther = query.resection;
-  std::vector<Motion> motions;
-  for (const ReachTarget& target : query.resection.targets) motions.push_back(target.motion);
-  std::vector<bool> cannot(motions.size(), false);
-  for (int round = 0;; ++round) {
-    RangeOptions range = query.resection.range;
-    range.bearing.surface.reset();
-    auto bands = limit_bands(answer.resection.joint, motions, range, *query.bands,
-                             answer::staged(control, "joints of the band"));
-    if (!bands) return false;
-    answer.bands = std::move(*bands);
-    bool missed = false;
-    for (std::size_t i = 0; i < motions.size(); ++i) {
-      const Angle lacks = query.resection.targets[i].reach - answer.bands[i].p5;
-      Angle& reach = farther.targets[i].reach;
-      cannot[i] = lacks > band_missed && (answer.resection.targets[i].blocked || reach >= motions[i].range);
-      if (lacks <= band_missed || cannot[i]) continue;
-      missed = true;
-      reach = std::min(reach + lacks, motions[i].range);
-    }
-    if (!missed || round == most_band_rounds) break;
-    auto cut = cuts(farther);
-    if (!cut) return false;
-    answer.resection = std::move(*cut);
-    for (std::size_t i = 0; i < motions.size(); ++i)
-      answer.resection.targets[i].target = query.resection.targets[i];
+  double low = query.resection.margin_mm, high = low;
+  auto plan = banded(query, low, control, cuts, std::move(answer.resection));
+  if (!plan) return false;
+  while (!plan->reaches && high < largest_band_margin_mm) {
+    low = high, high += band_margin_step_mm;
+    auto wider = banded(query, high, control, cuts);
+    if (control.stop.stop_requested()) return false;
+    if (!wider) break;
+    plan = std::move(wider);
   }
-  for (std::size_t i = 0; i < motions.size(); ++i)
-    if (query.resection.targets[i].reach - answer.bands[i].p5 > band_missed)
+  while (plan->reaches && high - low > band_margin_within_mm) {
+    const double middle = (low + high) / 2;
+    auto between = banded(query, middle, control, cuts);
+    if (control.stop.stop_requested()) return false;
+    if (!between) break;
+    if (between->reaches)
+      high = middle, plan = std::move(between);
+    else
+      low = middle;
+  }
+  answer.resection = std::move(plan->resection);
+  answer.bands = std::move(plan->bands);
+  answer.margin_mm = high;
+  for (std::size_t i = 0; i < answer.bands.size(); ++i) {
+    const ReachTarget& target = query.resection.targets[i];
+    if (answer.bands[i].p5 < target.reach)
       answer.notes.push_back({ResectionNoteCode::band_not_reached,
-                              motions[i].name + ": in 5 % of displaced joints it ends at " +
+                              target.motion.name + ": in 5 % of displaced joints it ends at " +
                                   in_degrees(answer.bands[i].p5) + " degrees or before, short of " +
-                                  in_degrees(query.resection.targets[i].reach)});
+                                  in_degrees(target.reach)});
+  }
   return true;
 }
 
@@ -239,12 +269,12 @@ std::optional<ResectionAnswer> answer_resection(const Joint& joint, const JointP
   const auto held = held_translation(joint, placement, {});
   const Joint at = held && *held != Vec3::Zero() ? held_at(joint, *held) : joint;
   Cuts cuts(at, control,
-            1 + asked.resection.targets.size() * asked.curve_points + (asked.bands ? most_band_rounds : 0));
+            1 + asked.resection.targets.size() * asked.curve_points + (asked.bands ? most_band_plans : 0));
   auto first = cuts(asked.resection);
   if (!first) return std::nullopt;
-  ResectionAnswer answer{std::move(*first), {}, {}, {}, {}, {}, {}, {}, {}};
-  const bool nothing = !answer.resection.mobile && !answer.resection.fixed;
-  if (asked.bands && !(nothing && asked.resection.targets.empty()))
+  ResectionAnswer answer{.resection = std::move(*first)};
+  answer.margin_mm = asked.resection.margin_mm;
+  if (asked.bands)
     if (!reach_bands(asked, control, cuts, answer)) return std::nullopt;
   const RangeOfMotion range(at, asked.resection.range);
   answer.before = range.limits(asked.motions);

@@ -1,5 +1,6 @@
 #include "plan/bone_cut.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +9,6 @@
 #include "core/formatted.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
-#include "mesh/vertex_normals.hpp"
 #include "plan/refine.hpp"
 
 namespace condyle::plan {
@@ -21,12 +21,16 @@ constexpr Angle short_of_kept = Angle::degrees(0.001);
 /// Where surfaces still meet, the feature that does is lowered by this, mm, and so often at most.
 constexpr double correction_mm = 0.02;
 constexpr int most_corrections = 300;
+/// After so many by twice as much, three times, and so on.
+constexpr int corrections_of_a_step = 25;
+constexpr double largest_correction_mm = 0.2;
 /// Kept bone is found anew so often: each time the motions go less far.
 constexpr int most_stops = 20;
 /// Points in which a surface is asked for what goes: so far apart, and so far outside of it too, mm.
 constexpr double search_spacing_mm = 1, search_outside_mm = 1;
-/// At the tip of a margin around a sharp edge, where it goes no farther than twice as far.
-constexpr double sharpest_cosine = 0.5;
+/// A margin's tip around a sharp edge goes no farther than this many margins; directions across which triangles bend less than this
+/// share are flat.
+constexpr double longest_tip = 2, flat_share = 1e-3;
 /// What is removed is asked so far apart for what had to be, mm.
 constexpr double least_spacing_mm = 0.15;
 
@@ -50,22 +54,37 @@ motion::PartOfMesh counted(const Body& body, const Mesh& mesh, const std::option
   return {Mesh(std::move(part)), std::move(in_whole)};
 }
 
-/// With its surface moved outwards, mm. Where triangles meet at an angle their vertex goes farther, so that each of them goes so far.
+/// With its surface moved outwards, mm: each vertex to where the planes of its triangles are, moved so far; in the sense of least squares
+/// with the angles that they have there as weights, where there are more than three.
 Mesh grown(const Mesh& mesh, double by_mm) {
   if (by_mm == 0) return mesh;
-  const Points normals = mesh::area_normals(mesh);
   const std::size_t count = mesh.vertices().size();
-  std::vector<double> least_cosine(count, 1);
+  std::vector<Eigen::Matrix3d> squares(count, Eigen::Matrix3d::Zero());
+  std::vector<Vec3> sums(count, Vec3::Zero());
   for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
-    const Vec3 a = mesh.corner(t, 0);
-    const Vec3 normal = (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).stableNormalized();
-    for (const Index v : mesh.triangles()[t])
-      least_cosine[v] = std::min(least_cosine[v], normal.dot(normals[v].stableNormalized()));
+    const Triangle& v = mesh.triangles()[t];
+    const Vec3 normal = (mesh.corner(t, 1) - mesh.corner(t, 0))
+                            .cross(mesh.corner(t, 2) - mesh.corner(t, 0))
+                            .stableNormalized();
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 to_next = (mesh.corner(t, (k + 1) % 3) - mesh.corner(t, k)).stableNormalized(),
+                 to_last = (mesh.corner(t, (k + 2) % 3) - mesh.corner(t, k)).stableNormalized();
+      const double angle = std::acos(std::clamp(to_next.dot(to_last), -1.0, 1.0));
+      squares[v[k]] += angle * normal * normal.transpose();
+      sums[v[k]] += angle * normal;
+    }
   }
   Points moved = mesh.vertices();
-  for (std::size_t v = 0; v < count; ++v)
-    moved.set(v,
-              moved[v] + by_mm / std::max(least_cosine[v], sharpest_cosine) * normals[v].stableNormalized());
+  for (std::size_t v = 0; v < count; ++v) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(squares[v]);
+    Vec3 by = Vec3::Zero();
+    for (int k = 0; k < 3; ++k)
+      if (axes.eigenvalues()[k] > flat_share * axes.eigenvalues()[2]) {
+        const Vec3 axis = axes.eigenvectors().col(k);
+        by += axis.dot(sums[v]) / axes.eigenvalues()[k] * axis;
+      }
+    moved.set(v, moved[v] + by_mm * std::min(1.0, longest_tip / by.norm()) * by);
+  }
   return mesh.moved_to(std::move(moved));
 }
 
@@ -211,9 +230,9 @@ bool BoneCut::lower_for_reach() {
 }
 
 /// False if the surface must be lowered anew: with more of it near, or for a motion that kept bone stops.
-bool BoneCut::lower_at(std::size_t target, const Limit& limit, const Feature& feature) {
+bool BoneCut::lower_at(std::size_t target, const Limit& limit, const Feature& feature, double by_mm) {
   using Lowered = CutSurface::Lowered;
-  const Lowered lowered = surface_->lower_feature(feature, {target, limit.turned.radians()}, correction_mm);
+  const Lowered lowered = surface_->lower_feature(feature, {target, limit.turned.radians()}, by_mm);
   if (lowered == Lowered::some) return true;
   const Mesh& mesh = surface_->body().mesh;
   const Index corner = feature.kind == FeatureKind::face ? mesh.triangles()[feature.id][0] : feature.id;
@@ -246,7 +265,9 @@ bool BoneCut::correct() {
       reached = false;
       Feature feature = limit.contact->mobile_feature;
       if (feature.kind == FeatureKind::face) feature.id = part.triangle_in_whole[feature.id];
-      if (!lower_at(t, limit, feature)) return false;
+      if (!lower_at(t, limit, feature,
+                    std::min(correction_mm * (1 + i / corrections_of_a_step), largest_correction_mm)))
+        return false;
     }
     if (reached) return true;
   }

@@ -51,7 +51,7 @@ class BoneCut {
   bool lower_for_reach();
   bool correct();
   bool stop(std::size_t target, Angle at, KeptBy by, const Vec3& point);
-  bool lower_at(std::size_t target, const Limit& limit, const Feature& feature);
+  bool lower_at(std::size_t target, const Limit& limit, const Feature& feature, double by_mm);
   double least_share() const;
 
   const Joint& joint_;

@@ -26,6 +26,8 @@ constexpr double least_facing = 0.02;
 constexpr int most_unfoldings = 200;
 /// What is kept may stand out by so much before that is said here: the exact search is to find whether it ends a motion.
 constexpr double left_mm = 0.02;
+/// It is looked for so deep where no corner may go.
+constexpr double least_room_mm = 2 * left_mm;
 
 }  // namespace
 
@@ -206,17 +208,21 @@ std::vector<CutSurface::LatticeStretch> CutSurface::stretches_between(
   for (const Index t : triangles) {
     const Triangle& corner = body_.mesh.triangles()[t];
     std::array<Vec3, 3> p{};
-    double room = farthest_mm;
+    double room = least_room_mm;
+    bool any_free = false;
     for (int k = 0; k < 3; ++k) {
       p[k] = at(corner[k]);
       const Vertex& vertex = vertices_[corner[k]];
-      if (!vertex.kept) room = std::min(room, vertex.room_mm - vertex.depth_mm);
+      if (vertex.kept) continue;
+      const double free = vertex.room_mm - vertex.depth_mm;
+      room = any_free ? std::min(room, free) : free;
+      any_free = true;
     }
     for (const auto& w : weights)
       probes.push_back({w[0] * p[0] + w[1] * p[1] + w[2] * p[2],
                         w[0] * vertices_[corner[0]].inwards + w[1] * vertices_[corner[1]].inwards +
                             w[2] * vertices_[corner[2]].inwards,
-                        std::max(room, none_mm)});
+                        std::max(room, least_room_mm)});
   }
   const std::vector<Stretch> found = stretches(probes, sweeps);
   std::vector<LatticeStretch> swept;
@@ -246,8 +252,9 @@ std::vector<Index> CutSurface::lower_between_vertices(const std::vector<Index>& 
   for (const Index v : near_vertices_) {
     if (!why[v]) continue;
     // Beside what is kept a triangle cannot be lowered as a whole: its free corners would run away.
-    take(v, vertices_[v].depth_mm + std::min(more[v], edge_mm_), *why[v]);
-    moved[v] = more[v] > none_mm;
+    const double before = vertices_[v].depth_mm;
+    take(v, before + std::min(more[v], edge_mm_), *why[v]);
+    moved[v] = vertices_[v].depth_mm > before + none_mm;
   }
   std::vector<Index> changed;
   for (const Index t : near_)

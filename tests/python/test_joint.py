@@ -210,3 +210,37 @@ def test_measures_are_those_of_the_command(tmp_path, command):
         shape["alpha_3"]
     with pytest.raises(condyle.UsageError):
         joint.measures(pelvic_tilt_deg=90)
+
+
+def test_resections_are_those_of_the_command(tmp_path, command):
+    subprocess.run([command, "sample", "hip", "--scenario", "1", "--alpha-angle", "70", "--out", tmp_path], check=True,
+                   capture_output=True)
+    joint = condyle.read_joint(tmp_path / "hip.toml")
+    reach = {"internal_rotation_at_90_flexion": 45}
+    said = json.loads(subprocess.run(
+        [command, "resect", tmp_path / "hip.toml", "--reach", "internal_rotation_at_90_flexion=45", "--curve", "2", "--json", "--out",
+         tmp_path / "plan"], check=True, capture_output=True, text=True).stdout)
+    with pytest.warns(condyle.JointWarning):
+        plan = joint.resection(reach, curve_points=2)
+    cut, = said["cuts"]
+    assert plan.fixed is None and plan.mobile.volume_mm3 == plan.volume_mm3 == cut["volume_mm3"]
+    assert plan.mobile.depth_mm.max() == cut["deepest_mm"] and plan.margin_mm == said["margin_mm"]
+    assert [each.turned_deg for each in plan.after] == [each["after"]["limit_deg"] for each in said["limits"]]
+    assert [point._asdict() for point in plan.curve] == said["curve"]
+    assert [note.text for note in plan.notes] == [note["text"] for note in said["resection_notes"]]
+    assert plan.measures["alpha_3_deg"] == tuple(
+        next((each["before"], each["after"]) for each in said["measures"] if each["key"] == "alpha_3_deg"))
+    # The joint without the bone composes, survives a pickle, and is the one that the command wrote.
+    motion = ["internal_rotation_at_90_flexion"]
+    limit = plan.joint.range_of_motion(motion).limits[0].turned_deg
+    assert limit == plan.targets[0].after.turned_deg >= 45
+    assert pickle.loads(pickle.dumps(plan.joint)).range_of_motion(motion).limits[0].turned_deg == limit
+    assert condyle.read_joint(tmp_path / "plan" / "resected.toml").range_of_motion(motion).limits[0].turned_deg == limit
+    assert joint.with_mobile(plan.mobile.mesh).range_of_motion(motion).limits[0].turned_deg == limit
+    assert plan.joint.resection(reach, curve_points=0).mobile is None
+    kept = joint.resection(reach, curve_points=0, keep=np.ones(len(joint.mobile.vertices), bool))
+    assert kept.targets[0].blocked.by == "marked" and kept.volume_mm3 == 0
+    with pytest.raises(condyle.UsageError, match="share"):
+        joint.resection(reach, share=0.5)
+    with pytest.raises(condyle.UsageError, match="keep"):
+        joint.resection(reach, keep=[True])

@@ -230,6 +230,7 @@ std::string resection_text(const ResectionResult& result) {
   for (std::size_t i = 0; i < answer.resection.targets.size(); ++i)
     text += target_line(answer.resection.targets[i], answer.bands, i);
   for (const CutOfBody& cut : cuts_of(answer.resection)) text += cut_lines(result, cut);
+  if (answer.margin_mm > 0) text += fmt::format("  planned with a margin of {:g} mm\n", answer.margin_mm);
   text += limit_lines(answer) + shape_lines(answer) + curve_lines(answer);
   for (const ResectionNote& note : answer.notes) text += fmt::format("  note: {}\n", note.text);
   for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
@@ -252,6 +253,7 @@ std::string resection_json(const ResectionResult& result) {
             {"fixed", result.joint.fixed.name},
             {"mobile", result.joint.mobile.name},
             {"side", name_of(result.joint.side)},
+            {"margin_mm", answer.margin_mm},
             {"targets", std::move(targets)},
             {"cuts", std::move(cuts)},
             {"limits", std::move(limits)},
@@ -315,6 +317,18 @@ std::string resected_joint_file(const ResectionResult& result) {
   lines.add("units = \"mm\"");
   if (joint.kind == JointKind::free && joint.translation_frame == TranslationFrame::joint_axes)
     lines.add("translation_frame = \"joint_axes\"");
+  // A free joint is held where its reference pose has it: the meshes are seen from there.
+  PoseDegrees reference = result.file ? result.file->reference_pose : PoseDegrees{};
+  reference.translation_mm = Vec3::Zero();
+  const Pose X_FM = pose_at(joint.coordinates(), reference.coordinates(), joint.translation_frame);
+  std::string pose;
+  if (!X_FM.matrix().isIdentity(0)) {
+    // The mesh is that of zero angles; the reference pose stays the one that contact is checked in.
+    std::string rows;
+    for (int i = 0; i < 16; ++i)
+      rows += fmt::format("{}{}", i ? ", " : "", X_FM.matrix()(i / 4, i % 4) + 0.0);
+    pose = "pose = [" + rows + "]";
+  }
   for (const auto& [role, body] :
        {std::pair<std::string, const Body&>("fixed", joint.fixed), {"mobile", joint.mobile}}) {
     lines.add(fmt::format("\n[{}]", role));

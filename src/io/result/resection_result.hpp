@@ -11,7 +11,7 @@
 #include "condyle/joint_checks.hpp"
 
 /// Results of `condyle resect`: text, JSON, tables, the depth on the surface, and the joint without the bone.
-/// docs/formats-planning.md.
+/// docs/planning.md.
 
 namespace condyle {
 

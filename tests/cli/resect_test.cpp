@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "condyle/answer.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "support/temporary_folder.hpp"
+
+/// `condyle resect` says what answer_resection() answers, and writes a joint that has the limits it says.
+
+namespace condyle::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class ResectCommand : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_EQ(run("sample hip --scenario 1 --alpha-angle 70 --out .").exit_code, 0); }
+  Ran run(const std::string& arguments) const { return run_condyle(folder.path(), arguments); }
+  Json answer(const std::string& arguments) const {
+    const Ran ran = run("resect hip.toml --json " + arguments);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return Json::parse(ran.out);
+  }
+
+  const TemporaryFolder folder;
+};
+
+TEST_F(ResectCommand, SaysWhatTheLibraryAnswers) {
+  const Json json = answer("--reach 'internal_rotation_at_90_flexion=45 fadir=30' --curve 2");
+  const LoadedJoint loaded = read_joint(folder / "hip.toml");
+  ResectionQuery query;
+  query.resection.targets = reach_targets(hip_motions(), "internal_rotation_at_90_flexion=45 fadir=30");
+  query.curve_points = 2;
+  query.measures.ischiofemoral_pose = loaded.report.placement.reference_pose.angles;
+  const ResectionAnswer expected = answer_resection(loaded.joint, loaded.report.placement, query);
+  ASSERT_EQ(json["cuts"].size(), 1u);
+  EXPECT_EQ(json["cuts"][0]["volume_mm3"], expected.resection.mobile->volume_mm3);
+  EXPECT_EQ(json["cuts"][0]["deepest_mm"], expected.resection.mobile->deepest_mm);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_EQ(json["targets"][i]["after"]["limit_deg"],
+              expected.resection.targets[i].after.end.turned.degrees());
+  for (std::size_t i = 0; i < expected.after.size(); ++i)
+    EXPECT_EQ(json["limits"][i]["after"]["limit_deg"], expected.after[i].end.turned.degrees());
+  ASSERT_EQ(json["curve"].size(), expected.curve.size());
+  // fadir is reached already: it has no curve.
+  EXPECT_EQ(json["curve"].size(), 2u);
+  EXPECT_LT(json["curve"][0]["volume_mm3"], json["curve"][1]["volume_mm3"]);
+  ASSERT_EQ(json["resection_notes"].size(), expected.notes.size());
+  for (std::size_t i = 0; i < expected.notes.size(); ++i)
+    EXPECT_EQ(json["resection_notes"][i]["text"], expected.notes[i].text);
+}
+
+TEST_F(ResectCommand, WritesAJointWithTheLimitsItSays) {
+  const Json json = answer("--reach internal_rotation_at_90_flexion=45 --curve 0 --out plan");
+  for (const char* name : {"resection.json", "limits.csv", "hours.csv", "depth_mobile.vtp", "resected.toml",
+                           "mobile.ply", "fixed.ply"})
+    EXPECT_TRUE(std::filesystem::exists(folder / "plan" / name)) << name;
+  EXPECT_FALSE(std::filesystem::exists(folder / "plan" / "curve.csv"));
+  const Ran rom = run("rom plan/resected.toml --json");
+  ASSERT_EQ(rom.exit_code, 0) << rom.err;
+  const Json limits = Json::parse(rom.out)["motions"];
+  for (std::size_t i = 0; i < limits.size(); ++i)
+    EXPECT_EQ(limits[i]["limit_deg"], json["limits"][i]["after"]["limit_deg"]) << limits[i]["motion"];
+}
+
+TEST_F(ResectCommand, NothingToDoIsAnAnswer) {
+  const Json json = answer("--reach flexion=20 --out plan");
+  EXPECT_TRUE(json["cuts"].empty());
+  EXPECT_EQ(json["resection_notes"][0]["code"], "nothing_to_do");
+  EXPECT_FALSE(std::filesystem::exists(folder / "plan" / "resected.toml"));
+}
+
+TEST_F(ResectCommand, MarkedVerticesStay) {
+  const std::size_t vertices = read_joint(folder / "hip.toml").joint.mobile.mesh.vertices().size();
+  std::ofstream marks(folder / "marks.txt");
+  for (std::size_t v = 0; v < vertices; ++v) marks << "1\n";
+  marks.close();
+  const Json json = answer("--reach internal_rotation_at_90_flexion=45 --curve 0 --protect marks.txt");
+  EXPECT_EQ(json["targets"][0]["blocked"]["kept_by"], "marked");
+  EXPECT_EQ(json["cuts"][0]["volume_mm3"], 0);
+  EXPECT_EQ(json["resection_notes"][0]["code"], "target_blocked");
+}
+
+TEST_F(ResectCommand, RefusesInOneLine) {
+  std::ofstream(folder / "short.txt") << "1\n0\n";
+  std::ofstream(folder / "wrong.txt") << "1\nyes\n";
+  for (const auto& [arguments, code, says] :
+       {std::tuple{"--reach wink=20", 2, "unknown motion \"wink\""},
+        {"--reach flexion=200", 2, "cannot reach 200 degrees"},
+        {"--reach flexion", 2, "is not a motion and its degrees"},
+        {"--reach flexion=140 --share 0.3", 2, "--share: only with --from both"},
+        {"--reach flexion=140 --deepest 0", 2, "must be above 0 mm"},
+        {"--reach flexion=140 --protect short.txt", 3, "short.txt: 2 marks for the"},
+        {"--reach flexion=140 --protect wrong.txt", 3, "line 2: \"yes\" is no mark"}}) {
+    const Ran ran = run(std::string("resect hip.toml --curve 0 ") + arguments);
+    EXPECT_EQ(ran.exit_code, code) << arguments;
+    EXPECT_NE(ran.err.find(says), ran.err.npos) << ran.err;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+    EXPECT_TRUE(ran.out.empty());
+  }
+}
+
+}  // namespace
+}  // namespace condyle::test
