@@ -57,6 +57,9 @@ constexpr double narrowest_band = 1e-6;
 constexpr double first_band = 0.10;
 constexpr double widest_band = 0.05;
 
+/// A vertex belongs to a head that is known within this part of its radius.
+constexpr double known_head_band = 0.04;
+
 /// A sphere that moves by less, in parts of its radius, stays where it is.
 constexpr double settled = 1e-4;
 
@@ -422,27 +425,17 @@ SphericalPatch kinematics::patch_of(const TriMesh& mesh, const std::vector<Index
 }
 
 std::optional<SphericalPatch> kinematics::patch_on(const TriMesh& mesh, const Sphere& head) {
-  const double reach = head.radius * (1 + 2 * first_band);
-  const auto points = surface_points(mesh, Sphere{head.centre, reach});
+  const auto points = surface_points(mesh, std::nullopt);
   const SearchedPoints searched(mesh, points);
-  const auto residual = [&](Index i) { return (points[i].position - head.centre).norm() - head.radius; };
-  double band = first_band * head.radius;
-  std::vector<Index> part;
-  constexpr int rounds = 2;  // the first one for the band alone
-  for (int round = 0; round < rounds; ++round) {
-    part = searched.neighbours.largest_connected_part(points,
-                                                      on_sphere(points, searched.places, head, 1.0, band));
-    if (part.size() < fewest_vertices) return std::nullopt;
-    std::vector<double> residuals;
-    for (const Index i : part) residuals.push_back(residual(i));
-    band = std::clamp(deviations_kept * robust_deviation(std::move(residuals)), narrowest_band * head.radius,
-                      widest_band * head.radius);
-  }
+  const std::vector<Index> part = searched.neighbours.largest_connected_part(
+      points, on_sphere(points, searched.places, head, 1.0, known_head_band * head.radius));
+  if (part.size() < fewest_vertices) return std::nullopt;
   // By area: the mesh may be finer in some places than in others.
   SphereFit fit{head, 0, 0, vertices_of(points, part)};
   for (const Index i : part) {
-    fit.rms_residual += points[i].area * residual(i) * residual(i);
-    fit.largest_residual = std::max(fit.largest_residual, std::abs(residual(i)));
+    const double off = std::abs((points[i].position - head.centre).norm() - head.radius);
+    fit.rms_residual += points[i].area * off * off;
+    fit.largest_residual = std::max(fit.largest_residual, off);
   }
   fit.rms_residual = std::sqrt(fit.rms_residual / area_of(points, part));
   return measured(points, part, std::move(fit)).patch;

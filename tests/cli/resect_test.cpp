@@ -95,7 +95,7 @@ TEST_F(ResectCommand, RefusesInOneLine) {
         {"--reach flexion=140 --share 0.3", 2, "--share: only with --from both"},
         {"--reach flexion=140 --deepest 0", 2, "must be above 0 mm"},
         {"--reach flexion=140 --protect short.txt", 3, "short.txt: 2 marks for the"},
-        {"--reach flexion=140 --protect wrong.txt", 3, "line 2: \"yes\" is no mark"}}) {
+        {"--reach flexion=140 --protect wrong.txt", 3, "line 2: 'yes' is no mark"}}) {
     const Ran ran = run(std::string("resect hip.toml --curve 0 ") + arguments);
     EXPECT_EQ(ran.exit_code, code) << arguments;
     EXPECT_NE(ran.err.find(says), ran.err.npos) << ran.err;
