@@ -18,7 +18,7 @@ set(measure_uses core mesh kinematics motion)
 set(plan_uses core mesh kinematics tangential motion)
 set(answer_uses core kinematics contact motion measure plan)
 set(sample_uses core mesh)
-set(io_uses core mesh kinematics contact motion measure answer sample)
+set(io_uses core mesh kinematics contact motion measure plan answer sample)
 
 # The layer of each public header. An AxisFrame is made in kinematics; as a plain value it is everybody's.
 set(core_headers angle control error points pose version)

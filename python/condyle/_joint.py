@@ -27,10 +27,10 @@ from ._penetration import Penetration, Penetrations, vertices_inside
 from ._poses import ManyPosesLike, OnePoseLike, PoseLike
 from ._pressure import ElasticContact
 from ._range_of_motion import RangeOfMotion
-from ._resection import CutFrom, Resection, resection
+from ._resection import Resection, resection
 from ._recorded_motion import JointMotion, RecordedContact, recorded_contact
 from ._surface_contact import NormalContact, normal_contact
-from ._words import Anatomy, Axes, Ball, BearingRule, Bodies, Body, Cavities, Colour, DepthMethod, FaceRule, GapMethod
+from ._words import Anatomy, Axes, Ball, BearingRule, Bodies, Body, Cavities, Colour, CutFrom, DepthMethod, FaceRule, GapMethod
 from ._words import JointKind, LabelTask, LengthUnit, Look, Path, Pieces, Progress, Side, TranslationFrame, count, number, path_of, progress_of
 from ._words import text_of, word
 
@@ -476,7 +476,7 @@ class Joint(DescribedJoint):
                   keep: Optional[ArrayLike] = None, keep_fixed: Optional[ArrayLike] = None, edge_mm: float = 0.5,
                   curve_points: int = 10, band_samples: int = 0, seed: Optional[int] = None,
                   bearing: BearingRule = "leave_out", bearing_margin_mm: Optional[float] = None,
-                  progress: Progress = None) -> Resection:
+                  progress: Progress = None) -> Resection[Joint]:
         """The bone that must go so that each motion reaches its target, and the joint without it.
 
         Osseous: labrum, cartilage, capsule and the strength of what is left are not modelled.
@@ -517,7 +517,7 @@ class Joint(DescribedJoint):
         >>> plan.after[8].turned_deg >= 45
         True
         """
-        return resection(self, reach, cut, share, margin_mm, deepest_mm, within_mm, keep, keep_fixed, edge_mm, curve_points,
+        return resection(self, Joint._of_native, reach, cut, share, margin_mm, deepest_mm, within_mm, keep, keep_fixed, edge_mm, curve_points,
                          band_samples, seed, bearing, bearing_margin_mm, progress)
 
     def with_mobile(self, mesh: MeshLike) -> Joint:

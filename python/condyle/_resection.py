@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, Mapping, NamedTuple, Optional
+from typing import Any, Callable, Generic, Mapping, NamedTuple, Optional, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,13 +16,10 @@ from ._limit_band import FEWEST_SAMPLES, MOST_SAMPLES
 from ._limits import MotionLimit, motion_limit_of
 from ._mesh import TriMesh
 from ._motion import Motions
-from ._words import BearingRule, Body, Progress, count, number, progress_of, word
+from ._native import Joint as NativeJoint
+from ._words import BearingRule, Body, CutFrom, KeptBy, Progress, count, number, progress_of, word
 
-if TYPE_CHECKING:
-    from ._joint import Joint
-
-CutFrom = Literal["mobile", "fixed", "both"]
-KeptBy = Literal["bearing", "depth", "zone", "marked"]
+OfJoint = TypeVar("OfJoint", bound=DescribedJoint)
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,7 +90,7 @@ class CurvePoint(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Resection:
+class Resection(Generic[OfJoint]):
     """A plan made by :meth:`Joint.resection`.
 
     Attributes
@@ -114,7 +111,7 @@ class Resection:
     caveats : list of str
     """
 
-    joint: Joint
+    joint: OfJoint
     mobile: Optional[CutBone]
     fixed: Optional[CutBone]
     targets: tuple[ReachedTarget, ...]
@@ -159,10 +156,10 @@ def _kept(marks: Optional[ArrayLike], mesh: TriMesh, what: str) -> NDArray[np.ui
     return merged
 
 
-def resection(joint: Joint, reach: Mapping[str, float], cut: CutFrom, share: Optional[float], margin_mm: float,
+def resection(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], reach: Mapping[str, float], cut: CutFrom, share: Optional[float], margin_mm: float,
               deepest_mm: Optional[float], within_mm: Optional[float], keep: Optional[ArrayLike],
               keep_fixed: Optional[ArrayLike], edge_mm: float, curve_points: int, band_samples: int, seed: Optional[int],
-              bearing: BearingRule, bearing_margin_mm: Optional[float], progress: Progress) -> Resection:
+              bearing: BearingRule, bearing_margin_mm: Optional[float], progress: Progress) -> Resection[OfJoint]:
     known = Motions(joint._native)
     if share is not None and cut != "both":
         raise UsageError('share: only with cut="both"')
@@ -183,7 +180,7 @@ def resection(joint: Joint, reach: Mapping[str, float], cut: CutFrom, share: Opt
         joint._asked, [known.tuple_of(each) for each in known.known],
         [(known.tuple_of(known[name]), number(degrees, f"reach of {name}")) for name, degrees in reach.items()], options,
         progress_of(progress))
-    without = type(joint)._of_native(found["joint"])
+    without = of_native(found["joint"])
 
     def limit_of(each: dict[str, Any], of: DescribedJoint) -> MotionLimit:
         return motion_limit_of(each, known, of)

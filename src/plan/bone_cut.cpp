@@ -34,17 +34,13 @@ constexpr double longest_tip = 2, flat_share = 1e-3;
 /// What is removed is asked so far apart for what had to be, mm.
 constexpr double least_spacing_mm = 0.15;
 
-bool is_soft(const Body& body, std::size_t triangle) {
-  const BodyPart* part = part_of_triangle(body, triangle);
-  return part && part->contact == PartContact::soft;
-}
-
 /// A body without what is soft, and without what lies in the ball; which triangles of the mesh these are.
-motion::PartOfMesh counted(const Body& body, const Mesh& mesh, const std::optional<BearingBall>& ball) {
+motion::PartOfMesh counted(const Body& body, const Mesh& mesh, const Counting& counts,
+                           const std::optional<BearingBall>& ball) {
   TriMesh part{mesh.vertices(), {}};
   std::vector<Index> in_whole;
   for (Index t = 0; t < mesh.triangles().size(); ++t) {
-    if (is_soft(body, t)) continue;
+    if (!counts(body, t)) continue;
     if (ball && ball->holds(mesh.corner(t, 0)) && ball->holds(mesh.corner(t, 1)) &&
         ball->holds(mesh.corner(t, 2)))
       continue;
@@ -102,6 +98,12 @@ std::vector<std::uint8_t> with_neighbours(const TriMesh& mesh, std::vector<std::
 
 }  // namespace
 
+bool Counting::operator()(const Body& body, std::size_t triangle) const {
+  const BodyPart* part = part_of_triangle(body, triangle);
+  return !part || part->contact == PartContact::ends ||
+         (part->contact == PartContact::bearing && !leaves_out_bearing);
+}
+
 BoneCut::BoneCut(const Joint& joint, BodyRole cut_role, const ResectionRequest& request,
                  std::vector<CutTarget> targets)
     : joint_(joint),
@@ -114,13 +116,15 @@ BoneCut::BoneCut(const Joint& joint, BodyRole cut_role, const ResectionRequest& 
   if (bearing_ && request.range.bearing.rule == BearingRule::leave_out) ball_.emplace(*bearing_);
   const bool cuts_mobile = role_ == BodyRole::mobile;
   const Body& other = cuts_mobile ? joint.fixed : joint.mobile;
-  const Mesh solid = counted(other, other.mesh, std::nullopt).mesh;
+  const Counting of_other = counting(cuts_mobile ? BodyRole::fixed : BodyRole::mobile);
+  const Mesh solid = counted(other, other.mesh, of_other, std::nullopt).mesh;
   if (!solid.is_closed())
     throw MeshError(other.name + ": its mesh is open, and bone that an open mesh sweeps over cannot be told");
   if (!bone_.mesh.is_closed())
     throw MeshError(bone_.name + ": its mesh is open, and no bone can be removed from it");
   const Mesh around = grown(solid, request.margin_mm);
-  const Mesh ending = cuts_mobile ? around : counted(other, grown(other.mesh, request.margin_mm), ball_).mesh;
+  const Mesh ending =
+      cuts_mobile ? around : counted(other, grown(other.mesh, request.margin_mm), of_other, ball_).mesh;
   for (const CutTarget& target : targets_) {
     sweeps_.push_back(std::make_unique<Sweep>(joint, role_, around, target.motion, ball_));
     exact_.push_back(std::make_unique<ExactReach>(joint, role_, ending, target.motion));
@@ -132,6 +136,10 @@ BoneCut::BoneCut(const Joint& joint, BodyRole cut_role, const ResectionRequest& 
   cut();
 }
 
+Counting BoneCut::counting(BodyRole role) const {
+  return {role == BodyRole::mobile && request_.range.bearing.rule == BearingRule::leave_out};
+}
+
 std::vector<SweepTo> BoneCut::sweeps_to_reach() const {
   std::vector<SweepTo> all;
   for (std::size_t i = 0; i < sweeps_.size(); ++i) all.push_back({sweeps_[i].get(), reach_[i] + beyond});
@@ -141,11 +149,12 @@ std::vector<SweepTo> BoneCut::sweeps_to_reach() const {
 std::vector<std::uint8_t> BoneCut::triangles_to_cut(const Body& body) const {
   const Mesh& mesh = body.mesh;
   const std::optional<BearingBall> mobile_ball = role_ == BodyRole::mobile ? ball_ : std::nullopt;
+  const Counting counts = counting(role_);
   Points points;
   std::vector<Index> of;
   for (Index t = 0; t < mesh.triangles().size(); ++t) {
     const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-    if (is_soft(body, t) ||
+    if (!counts(body, t) ||
         (mobile_ball && mobile_ball->holds(a) && mobile_ball->holds(b) && mobile_ball->holds(c)))
       continue;
     const double longest = std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()});
@@ -253,8 +262,8 @@ bool BoneCut::lower_at(std::size_t target, const Limit& limit, const Feature& fe
 /// Lowers what the exact search still finds in the way. False if kept bone stops a motion.
 bool BoneCut::correct() {
   for (int i = 0; i < most_corrections; ++i) {
-    const motion::PartOfMesh part =
-        counted(surface_->body(), surface_->mesh(), role_ == BodyRole::mobile ? ball_ : std::nullopt);
+    const motion::PartOfMesh part = counted(surface_->body(), surface_->mesh(), counting(role_),
+                                            role_ == BodyRole::mobile ? ball_ : std::nullopt);
     bool reached = true;
     for (std::size_t t = 0; t < targets_.size(); ++t) {
       const Limit limit = exact_[t]->limit(part.mesh, reach_[t]);

@@ -24,6 +24,14 @@ struct StoppedAt {
   Blocked by;
 };
 
+/// Whether contact of a triangle may end a motion: not of what is soft, nor, where bearing contact does not count, of what of the mobile
+/// body is called bearing.
+struct Counting {
+  bool leaves_out_bearing;
+
+  bool operator()(const Body& body, std::size_t triangle) const;
+};
+
 /// One bone, cut for some targets.
 class BoneCut {
  public:
@@ -42,6 +50,7 @@ class BoneCut {
   const std::vector<std::optional<StoppedAt>>& stopped() const noexcept { return stopped_; }
 
  private:
+  Counting counting(BodyRole role) const;
   std::vector<SweepTo> sweeps_to_reach() const;
   std::vector<std::uint8_t> triangles_to_cut(const Body& body) const;
   std::vector<std::optional<KeptBy>> kept_vertices(const Body& body) const;

@@ -7,6 +7,7 @@
 #include "condyle/io/mesh_file.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/picture/depth_bands.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/resection_result.hpp"
 
@@ -15,9 +16,10 @@ namespace {
 
 /// Whether some result has a file of this name: body meshes are numbered where a body has several.
 bool is_of_resection(std::string_view name) {
-  static constexpr std::string_view names[] = {"resection.json", "limits.csv",       "curve.csv",
-                                               "hours.csv",      "depth_mobile.vtp", "depth_fixed.vtp",
-                                               "resected.toml",  "fixed.ply",        "mobile.ply"};
+  static constexpr std::string_view names[] = {"resection.json",   "limits.csv",       "curve.csv",
+                                               "hours.csv",        "depth_mobile.vtp", "depth_fixed.vtp",
+                                               "depth_mobile.png", "depth_fixed.png",  "resected.toml",
+                                               "fixed.ply",        "mobile.ply"};
   if (std::find(std::begin(names), std::end(names), name) != std::end(names)) return true;
   for (const std::string_view role : {"fixed_", "mobile_"})
     if (name.starts_with(role) && name.ends_with(".ply"))
@@ -32,6 +34,23 @@ void write_depths(OutputFolder& out, std::string_view role, const CutBone& cut,
       {"depth_mm", cut.depth_mm}, {"needed_by", std::move(needed)}, {"needed_from_deg", cut.needed_from_deg}};
   write_vtp(out.file(fmt::format("depth_{}.vtp", role)), cut.before, arrays, {},
             {VtpEncoding::binary, io::provenance_fields(result.provenance)});
+}
+
+/// Height of the picture of a cut about the joint centre, mm.
+constexpr double cut_field_mm = 110;
+
+/// The bone alone, without what goes, which is drawn in bands of depth.
+void draw_depths(OutputFolder& out, std::string_view role, const CutBone& cut,
+                 const ResectionResult& result) {
+  if (!(cut.volume_mm3 > 0)) return;
+  PictureOptions options;
+  options.view = io::view_of(cut);
+  options.colour = PictureColour::none;
+  (role == "mobile" ? options.fixed : options.mobile) = BodyLook::hidden;
+  options.field_mm = cut_field_mm;
+  options.marks = io::depth_bands(cut);
+  write_png(out.file(fmt::format("depth_{}.png", role)),
+            draw_joint(result.answer.resection.joint, {}, Pose::Identity(), options), result.provenance);
 }
 
 void write_bodies(OutputFolder& out, std::string_view role, const Body& body) {
@@ -55,8 +74,13 @@ std::vector<std::filesystem::path> write_resection(const std::filesystem::path& 
   if (!result.answer.curve.empty()) io::write_whole_file(out.file("curve.csv"), resection_curve_csv(result));
   if (const std::string hours = resection_hours_csv(result); !hours.empty())
     io::write_whole_file(out.file("hours.csv"), hours);
-  if (resection.mobile) write_depths(out, "mobile", *resection.mobile, result);
-  if (resection.fixed) write_depths(out, "fixed", *resection.fixed, result);
+  const auto write = [&](std::string_view role, const std::optional<CutBone>& cut) {
+    if (!cut) return;
+    write_depths(out, role, *cut, result);
+    draw_depths(out, role, *cut, result);
+  };
+  write("mobile", resection.mobile);
+  write("fixed", resection.fixed);
   if (resection.mobile || resection.fixed) {
     io::write_whole_file(out.file("resected.toml"), resected_joint_file(result));
     write_bodies(out, "fixed", resection.joint.fixed);

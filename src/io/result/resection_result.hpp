@@ -37,7 +37,7 @@ std::string resected_joint_file(const ResectionResult& result);
 
 /// FileError if the folder is not to be written to.
 void check_resection_folder(const std::filesystem::path& folder, const Provenance* from);
-/// Writes resection.json, limits.csv, curve.csv, hours.csv, depth_mobile.vtp and depth_fixed.vtp of the bones that were cut, and
+/// Writes resection.json, limits.csv, curve.csv, hours.csv, depth_mobile and depth_fixed as .vtp and .png of the bones that were cut, and
 /// resected.toml with its meshes. FileError.
 std::vector<std::filesystem::path> write_resection(const std::filesystem::path& folder,
                                                    const ResectionResult& result);

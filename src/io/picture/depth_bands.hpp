@@ -1,0 +1,18 @@
+#pragma once
+
+#include "condyle/io/picture.hpp"
+#include "condyle/resection.hpp"
+
+namespace condyle::io {
+
+/// Width of the bands that a cut is drawn in: the first of 0.25, 0.5, 1 and 2 mm with which seven hold its depth, else more of 2 mm.
+double depth_band_mm(const CutBone& cut);
+
+/// The surface before, where something goes, in bands of equal depth from yellow to dark red: between two colours runs a contour line.
+/// In the frame of the bone.
+std::vector<PictureMark> depth_bands(const CutBone& cut);
+
+/// From where the cut is seen best: along its mean normal.
+ViewDirection view_of(const CutBone& cut);
+
+}  // namespace condyle::io
