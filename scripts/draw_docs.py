@@ -3,11 +3,12 @@
 
 Usage: PYTHONPATH=build/release/python scripts/draw_docs.py [NAME...]
 
-NAME is one or more of hip, pictures, deformities, cohort (20 minutes of processor time), knee and examples; all if none
+NAME is one or more of hip, pictures, cut, deformities, cohort (20 minutes of processor time), knee and examples; all if none
 is given. Needs a release build with the example `example_deformity_curves`, matplotlib, and for knee and examples
 python3-vtk9 and the data that CONDYLE_DATA names. Those of docs/images/bench are made by `make bench`.
 """
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -77,6 +78,15 @@ def draw_pictures():
         print(f"docs/images/{name}.png")
 
 
+def draw_cut():
+    """By the commands of docs/planning.md, of finer meshes."""
+    condyle("sample", "hip", "--scenario", 3, "--alpha-angle", 70, "--out", OUT / "sample_cam")
+    condyle("resect", "out/docs/sample_cam/hip.toml", "--reach", "internal_rotation_at_90_flexion=45", "--curve", 0,
+            "--out", "out/docs/plan")
+    shutil.copyfile(OUT / "plan/depth_mobile.png", IMAGES / "cut_femur.png")
+    print("docs/images/cut_femur.png")
+
+
 def draw_deformities():
     run(ROOT / "build/release/example_deformity_curves", OUT / "deformities")
     axes_of = (("alpha_angle", "alpha angle (°)"), ("lateral_centre_edge_angle", "lateral centre-edge angle (°)"))
@@ -138,6 +148,7 @@ def draw_examples():
 DRAWN = {
     "hip": draw_hip,
     "pictures": draw_pictures,
+    "cut": draw_cut,
     "deformities": draw_deformities,
     "cohort": draw_cohort,
     "knee": draw_knee,
