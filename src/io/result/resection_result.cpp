@@ -94,6 +94,11 @@ std::string limit_value(const MotionLimit& limit) {
                      limit.end.reason == LimitReason::end_of_range ? "+" : "");
 }
 
+/// To the digit that is shown, and 0 without a sign.
+double shown_gain(const MotionLimit& before, const MotionLimit& after) {
+  return std::round(10 * (after.end.turned - before.end.turned).degrees()) / 10 + 0.0;
+}
+
 std::string limit_lines(const ResectionAnswer& answer) {
   std::size_t widest = 0;
   for (const MotionLimit& limit : answer.before) widest = std::max(widest, limit.motion.name.size());
@@ -102,7 +107,7 @@ std::string limit_lines(const ResectionAnswer& answer) {
   for (std::size_t i = 0; i < answer.before.size(); ++i)
     text += fmt::format("    {:<{}}  {:>8}  {:>8}  {:>6.1f}\n", answer.before[i].motion.name, widest,
                         limit_value(answer.before[i]), limit_value(answer.after[i]),
-                        answer.after[i].end.turned.degrees() - answer.before[i].end.turned.degrees() + 0.0);
+                        shown_gain(answer.before[i], answer.after[i]));
   return text;
 }
 
