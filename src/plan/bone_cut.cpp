@@ -14,8 +14,8 @@
 namespace condyle::plan {
 namespace {
 
-/// Asked beyond a target, so that what is left meets the other bone only past it; a fifth of it is what rounding needs.
-constexpr Angle beyond = Angle::degrees(0.02);
+/// Asked beyond a target, so that what is left meets the other bone only past it.
+constexpr Angle beyond = Angle::degrees(0.005);
 /// A motion that kept bone stops is planned short of that.
 constexpr Angle short_of_kept = Angle::degrees(0.001);
 /// Where surfaces still meet, the feature that does is lowered by this, mm, and so often at most.
@@ -24,6 +24,10 @@ constexpr int most_corrections = 300;
 /// After so many by twice as much, three times, and so on.
 constexpr int corrections_of_a_step = 25;
 constexpr double largest_correction_mm = 0.2;
+/// Edges are split at bends of the depth that straight lines miss by more than this, mm at edges of 1 mm, and as the edges' square; in so
+/// many passes.
+constexpr double missed_at_bends = 0.04;
+constexpr int passes_at_bends = 5;
 /// Kept bone is found anew so often: each time the motions go less far.
 constexpr int most_stops = 20;
 /// Points in which a surface is asked for what goes: so far apart, and so far outside of it too, mm.
@@ -176,8 +180,13 @@ std::vector<std::uint8_t> BoneCut::triangles_to_cut(const Body& body) const {
   return marks;
 }
 
+const KeptBone& BoneCut::kept() const {
+  return role_ == BodyRole::mobile ? request_.mobile : request_.fixed;
+}
+
+/// Of the refined body.
 std::vector<std::optional<KeptBy>> BoneCut::kept_vertices(const Body& body) const {
-  const KeptBone& keep = role_ == BodyRole::mobile ? request_.mobile : request_.fixed;
+  const KeptBone& keep = kept();
   const Mesh& mesh = body.mesh;
   std::vector<std::optional<KeptBy>> kept(mesh.vertices().size());
   if (keep.within_mm && bearing_) {
@@ -195,29 +204,48 @@ std::vector<std::optional<KeptBy>> BoneCut::kept_vertices(const Body& body) cons
     if (part.contact != PartContact::ends)
       std::fill_n(kept.begin() + static_cast<std::ptrdiff_t>(part.first_vertex), part.vertices,
                   KeptBy::bearing);
+  // Triangles that have a marked corner stay whole.
+  if (!keep.vertices.empty())
+    for (std::size_t t = 0; t < triangle_before_.size(); ++t) {
+      const Triangle& before = bone_.mesh.triangles()[triangle_before_[t]];
+      if (std::any_of(before.begin(), before.end(), [&](Index v) { return keep.vertices[v] != 0; }))
+        for (const Index v : mesh.triangles()[t]) kept[v] = KeptBy::marked;
+    }
   return kept;
 }
 
+/// The surface to be lowered, its triangles small around what goes, and with edges along the bends of its bottom.
 void BoneCut::refine() {
   RefinedBody fine = refined(bone_, wanted_, request_.edge_mm);
-  std::vector<std::optional<KeptBy>> kept = kept_vertices(fine.body);
-  const KeptBone& keep = role_ == BodyRole::mobile ? request_.mobile : request_.fixed;
-  if (!keep.vertices.empty()) {
-    // Triangles that have a marked corner stay whole.
-    for (std::size_t t = 0; t < fine.triangle_before.size(); ++t) {
-      const Triangle& before = bone_.mesh.triangles()[fine.triangle_before[t]];
-      if (std::any_of(before.begin(), before.end(), [&](Index v) { return keep.vertices[v] != 0; }))
-        for (const Index v : fine.body.mesh.triangles()[t]) kept[v] = KeptBy::marked;
-    }
-  }
+  triangle_before_ = std::move(fine.triangle_before);
   std::vector<std::uint8_t> near = with_neighbours(fine.body.mesh, triangles_to_cut(fine.body));
   for (std::size_t t = 0; t < near.size(); ++t) {
-    const Index before = fine.triangle_before[t];
+    const Index before = triangle_before_[t];
     near[t] = (near[t] && wanted_[before]) || met_[before];
   }
-  triangle_before_ = std::move(fine.triangle_before);
-  surface_.emplace(std::move(fine.body), near, std::move(kept), keep.deepest_mm, request_.edge_mm);
+  const auto put_surface = [&] {
+    surface_.emplace(fine.body, near, kept_vertices(fine.body), kept().deepest_mm, request_.edge_mm);
+  };
+  put_surface();
   surface_->smooth_directions(smoothing_mm_);
+  const std::vector<SweepTo> sweeps = sweeps_to_reach();
+  for (int pass = 0; pass < passes_at_bends; ++pass) {
+    const std::vector<double> bends =
+        surface_->bends(sweeps, missed_at_bends * request_.edge_mm * request_.edge_mm);
+    if (std::all_of(bends.begin(), bends.end(), [](double share) { return share == 0; })) return;
+    SplitBody split = split_at(fine.body, bends);
+    fine = std::move(split.refined);
+    std::vector<std::uint8_t> near_pieces;
+    for (Index& before : fine.triangle_before) {
+      near_pieces.push_back(near[before]);
+      before = triangle_before_[before];
+    }
+    near = std::move(near_pieces);
+    triangle_before_ = std::move(fine.triangle_before);
+    const CutSurface whole = std::move(*surface_);
+    put_surface();
+    surface_->go_on_from(whole, split.vertices);
+  }
 }
 
 bool BoneCut::stop(std::size_t target, Angle at, KeptBy by, const Vec3& point) {
@@ -305,8 +333,10 @@ void BoneCut::cut() {
   std::string why;
   for (const double smoothing_mm : {3., 6., 12., 24., 48.}) {
     for (std::size_t t = 0; t < targets_.size(); ++t) reach_[t] = targets_[t].reach, stopped_[t].reset();
-    smoothing_mm_ = smoothing_mm;
-    surface_->smooth_directions(smoothing_mm);
+    if (smoothing_mm != smoothing_mm_) {
+      smoothing_mm_ = smoothing_mm;
+      refine();
+    }
     for (int i = 0; i < most_stops; ++i)
       if (lower_for_reach() && (surface_->unfold(), correct())) break;
     surface_->unfold();

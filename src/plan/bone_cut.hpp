@@ -54,6 +54,7 @@ class BoneCut {
   std::vector<SweepTo> sweeps_to_reach() const;
   std::vector<std::uint8_t> triangles_to_cut(const Body& body) const;
   std::vector<std::optional<KeptBy>> kept_vertices(const Body& body) const;
+  const KeptBone& kept() const;
   void refine();
   void cut();
   std::string fault() const;

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
+#include "mesh/edge_table.hpp"
 #include "mesh/vertex_normals.hpp"
 
 namespace condyle::plan {
@@ -24,6 +26,14 @@ constexpr double none_mm = 1e-3;
 /// A triangle that faces less than this the way it did is taken for turned over: the cosine. Lowered so often at most.
 constexpr double least_facing = 0.02;
 constexpr int most_unfoldings = 200;
+/// The depth along an edge is asked in so many places between its ends; halved so often in each, from so much more than at the ends, mm.
+constexpr int along_edge = 7;
+constexpr int depth_halvings = 11;
+constexpr double more_than_ends_mm = 1;
+/// A bend nearer to an end of its edge than this share of its length is come nearer to by halving first, so that no triangle gets narrow; and
+/// no piece is shorter than this share of the edges that the surface was made with.
+constexpr double nearest_to_end = 0.2;
+constexpr double shortest_piece = 0.04;
 /// What is kept may stand out by so much before that is said here: the exact search is to find whether it ends a motion.
 constexpr double left_mm = 0.02;
 /// It is looked for so deep where no corner may go.
@@ -52,6 +62,29 @@ struct CutSurface::Stretch {
   bool ends = true;  ///< false if it goes on past the room there is
   std::optional<Need> need = {};
 };
+
+namespace {
+
+/// The share of the way along an edge at which two straight lines from its ends meet so that they follow the depths between best.
+double bend_of(const std::array<double, along_edge + 2>& depth) {
+  const auto along = [](std::size_t i) { return static_cast<double>(i) / (along_edge + 1); };
+  double best = 0, least = std::numeric_limits<double>::infinity();
+  for (int percent = 1; percent < 100; ++percent) {
+    const double at = percent / 100.0;
+    // Each depth is what the lines have without a bend, and a share of the unknown height of the bend.
+    double squares = 0, product = 0, rest = 0;
+    for (std::size_t i = 1; i <= along_edge; ++i) {
+      const double s = along(i), share = s < at ? s / at : (1 - s) / (1 - at),
+                   off = depth[i] - (1 - s) * depth.front() - s * depth.back();
+      squares += share * share, product += share * off, rest += off * off;
+    }
+    const double missed = rest - product * product / squares;
+    if (missed < least) least = missed, best = at;
+  }
+  return best;
+}
+
+}  // namespace
 
 CutSurface::CutSurface(Body body, const std::vector<std::uint8_t>& near,
                        std::vector<std::optional<KeptBy>> kept, std::optional<double> deepest_mm,
@@ -93,8 +126,19 @@ void CutSurface::smooth_directions(double over_mm) {
   }
 }
 
+void CutSurface::go_on_from(const CutSurface& whole, const std::vector<Between>& vertices) {
+  for (std::size_t v = 0; v < vertices_.size(); ++v) {
+    const Vertex &from = whole.vertices_[vertices[v].from], &to = whole.vertices_[vertices[v].to];
+    const double share = vertices[v].share;
+    vertices_[v].inwards = (1 - share) * from.inwards + share * to.inwards;
+    if (vertices[v].from != vertices[v].to) continue;
+    vertices_[v].depth_mm = from.depth_mm;
+    vertices_[v].bends_seen = from.bends_seen;
+  }
+}
+
 void CutSurface::restore() {
-  for (Vertex& vertex : vertices_) vertex.depth_mm = 0, vertex.need.reset();
+  for (Vertex& vertex : vertices_) vertex.depth_mm = vertex.looked_mm = 0, vertex.need.reset();
 }
 
 void CutSurface::scale_depths(double by) {
@@ -178,16 +222,106 @@ std::vector<CutSurface::Stretch> CutSurface::stretches(const std::vector<Probe>&
   return found;
 }
 
+/// Of each probe the depth at which its swept stretch ends, if it has one only: halved, where stretches() steps.
+std::vector<double> CutSurface::depths(const std::vector<Probe>& probes,
+                                       const std::vector<SweepTo>& sweeps) const {
+  const auto swept = [&](const std::vector<std::size_t>& which, const std::vector<double>& depth) {
+    Points points;
+    for (const std::size_t i : which) points.push_back(probes[i].from + depth[i] * probes[i].inwards);
+    std::vector<std::uint8_t> is(which.size(), 0);
+    for (const SweepTo& sweep : sweeps) {
+      const std::vector<double> first = sweep.sweep->first_inside(points, sweep.reach);
+      for (std::size_t k = 0; k < is.size(); ++k)
+        if (std::isfinite(first[k])) is[k] = 1;
+    }
+    return is;
+  };
+  std::vector<double> depth(probes.size(), 0), step(probes.size());
+  std::vector<std::size_t> all(probes.size()), going;
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const std::vector<std::uint8_t> at_surface = swept(all, depth);
+  for (const std::size_t i : all)
+    if (at_surface[i]) going.push_back(i);
+  std::vector<double> middle = depth, width(probes.size());
+  for (const std::size_t i : going) width[i] = probes[i].room;
+  for (int halving = 0; halving < depth_halvings && !going.empty(); ++halving) {
+    for (const std::size_t i : going) width[i] /= 2, middle[i] = depth[i] + width[i];
+    const std::vector<std::uint8_t> is = swept(going, middle);
+    for (std::size_t k = 0; k < going.size(); ++k)
+      if (is[k]) depth[going[k]] = middle[going[k]];
+  }
+  return depth;
+}
+
+std::vector<double> CutSurface::bends(const std::vector<SweepTo>& sweeps, double missed_mm) {
+  std::vector<Index> not_lowered;
+  for (const Index v : near_vertices_)
+    if (!vertices_[v].bends_seen) not_lowered.push_back(v);
+  lower_vertices(not_lowered, sweeps);
+  const double shortest = shortest_piece * edge_mm_;
+  const mesh::EdgeTable edges(body_.mesh);
+  std::vector<double> shares(edges.size(), 0);
+  std::vector<std::uint8_t> asked(edges.size(), 0);
+  std::vector<std::size_t> candidates;
+  for (const Index t : near_)
+    for (int k = 0; k < 3; ++k)
+      if (const Index e = edges.edge_of(3 * t + k); e != no_index && !asked[e]) {
+        asked[e] = 1;
+        const auto& [a, b] = edges.ends(e);
+        const Vertex &from = vertices_[a], &to = vertices_[b];
+        if (!from.kept && !to.kept && !(from.bends_seen && to.bends_seen) &&
+            (from.before - to.before).norm() > 2 * shortest)
+          candidates.push_back(e);
+      }
+  for (const Index v : near_vertices_) vertices_[v].bends_seen = true;
+  const auto probe = [&](std::size_t e, double s) {
+    const auto [a, b] = edges.ends(e);
+    const Vertex &from = vertices_[a], &to = vertices_[b];
+    return Probe{
+        (1 - s) * from.before + s * to.before, (1 - s) * from.inwards + s * to.inwards,
+        std::min({from.room_mm, to.room_mm, std::max(from.depth_mm, to.depth_mm) + more_than_ends_mm})};
+  };
+  // Whether the middle is missed tells most edges apart; both ends of the others are asked too, with the same error.
+  const auto ask = [&](const std::vector<std::size_t>& which, int between) {
+    std::vector<Probe> probes;
+    for (const std::size_t e : which)
+      for (int i = 0; i <= between + 1; ++i)
+        probes.push_back(probe(e, static_cast<double>(i) / (between + 1)));
+    return depths(probes, sweeps);
+  };
+  const std::vector<double> coarse = ask(candidates, 1);
+  std::vector<std::size_t> bent;
+  for (std::size_t c = 0; c < candidates.size(); ++c)
+    if (std::abs(coarse[3 * c + 1] - (coarse[3 * c] + coarse[3 * c + 2]) / 2) > missed_mm / 4)
+      bent.push_back(candidates[c]);
+  const std::vector<double> fine = ask(bent, along_edge);
+  for (std::size_t c = 0; c < bent.size(); ++c) {
+    std::array<double, along_edge + 2> depth{};
+    std::copy_n(fine.begin() + static_cast<std::ptrdiff_t>(c * depth.size()), depth.size(), depth.begin());
+    double missed = 0;
+    for (std::size_t i = 1; i <= along_edge; ++i) {
+      const double s = static_cast<double>(i) / (along_edge + 1);
+      missed = std::max(missed, std::abs(depth[i] - (1 - s) * depth.front() - s * depth.back()));
+    }
+    if (missed <= missed_mm) continue;
+    const auto [a, b] = edges.ends(bent[c]);
+    const double bend = bend_of(depth), share = std::min(bend, 1 - bend) < nearest_to_end ? 0.5 : bend,
+                 length = (vertices_[a].before - vertices_[b].before).norm();
+    if (std::min(share, 1 - share) * length > shortest) shares[bent[c]] = share;
+  }
+  return shares;
+}
+
 void CutSurface::take(Index v, double depth, const Need& need) {
   Vertex& vertex = vertices_[v];
   vertex.depth_mm = std::min(depth, vertex.room_mm);
   if (!vertex.need || vertex.need->from_rad > need.from_rad) vertex.need = need;
 }
 
-void CutSurface::lower_vertices(const std::vector<SweepTo>& sweeps) {
+void CutSurface::lower_vertices(const std::vector<Index>& which, const std::vector<SweepTo>& sweeps) {
   std::vector<Probe> probes;
   std::vector<Index> of;
-  for (const Index v : near_vertices_) {
+  for (const Index v : which) {
     const Vertex& vertex = vertices_[v];
     if (vertex.kept) continue;
     probes.push_back({vertex.before, vertex.inwards, vertex.room_mm});
@@ -196,6 +330,56 @@ void CutSurface::lower_vertices(const std::vector<SweepTo>& sweeps) {
   const std::vector<Stretch> found = stretches(probes, sweeps);
   for (std::size_t i = 0; i < found.size(); ++i)
     if (found[i].need) take(of[i], found[i].length, *found[i].need);
+}
+
+/// What is swept below bone that is not: beside a deeper vertex the last swept point down to its depth, and a little more, tells how deep the
+/// vertex goes. Each piece of what is swept reaches the surface, so this goes on from there, vertex by vertex.
+void CutSurface::lower_overhangs(const std::vector<SweepTo>& sweeps) {
+  const std::vector<Triangle>& triangles = body_.mesh.triangles();
+  for (bool any = true; any;) {
+    any = false;
+    std::vector<double> deepest(vertices_.size(), 0);
+    for (const Index t : near_) {
+      const auto& [a, b, c] = triangles[t];
+      const double deep = std::max({vertices_[a].depth_mm, vertices_[b].depth_mm, vertices_[c].depth_mm});
+      if (deep == 0) continue;
+      for (const Index v : triangles[t]) deepest[v] = std::max(deepest[v], deep);
+    }
+    Points points;
+    std::vector<std::pair<Index, double>> of;
+    for (const Index v : near_vertices_) {
+      Vertex& vertex = vertices_[v];
+      const double down = std::min(deepest[v] + edge_mm_, vertex.room_mm);
+      // Asked once more only if a neighbour has gone deeper since.
+      if (vertex.kept || deepest[v] <= std::max(vertex.looked_mm, vertex.depth_mm)) continue;
+      for (double depth = vertex.depth_mm + step_mm; depth <= down; depth += step_mm) {
+        points.push_back(vertex.before + depth * vertex.inwards);
+        of.emplace_back(v, depth);
+      }
+      vertex.looked_mm = deepest[v];
+    }
+    for (std::size_t s = 0; s < sweeps.size(); ++s) {
+      const std::vector<double> first = sweeps[s].sweep->first_inside(points, sweeps[s].reach);
+      for (std::size_t i = 0; i < first.size(); ++i) {
+        const auto& [v, depth] = of[i];
+        if (!std::isfinite(first[i]) || depth <= vertices_[v].depth_mm) continue;
+        take(v, depth, {s, first[i]});
+        any = true;
+      }
+    }
+    // To the end of the stretch that the last swept point lies in.
+    std::vector<Probe> probes;
+    std::vector<Index> lowered;
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      const Vertex& vertex = vertices_[of[i].first];
+      if (of[i].second != vertex.depth_mm) continue;
+      probes.push_back({at(of[i].first), vertex.inwards, vertex.room_mm - vertex.depth_mm});
+      lowered.push_back(of[i].first);
+    }
+    const std::vector<Stretch> rest = stretches(probes, sweeps);
+    for (std::size_t i = 0; i < rest.size(); ++i)
+      if (rest[i].need) take(lowered[i], vertices_[lowered[i]].depth_mm + rest[i].length, *rest[i].need);
+  }
 }
 
 std::vector<CutSurface::LatticeStretch> CutSurface::stretches_between(
@@ -279,7 +463,8 @@ std::vector<InTheWay> CutSurface::left_in_the_way(const std::vector<SweepTo>& sw
 }
 
 std::vector<InTheWay> CutSurface::lower(const std::vector<SweepTo>& sweeps) {
-  lower_vertices(sweeps);
+  lower_vertices(near_vertices_, sweeps);
+  lower_overhangs(sweeps);
   std::vector<Index> changed = near_;
   for (int round = 0; round < rounds && !changed.empty(); ++round)
     changed = lower_between_vertices(changed, sweeps);

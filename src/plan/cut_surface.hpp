@@ -7,6 +7,7 @@
 
 #include "condyle/joint.hpp"
 #include "condyle/resection.hpp"
+#include "plan/refine.hpp"
 #include "plan/sweep.hpp"
 
 namespace condyle::plan {
@@ -41,6 +42,8 @@ class CutSurface {
     std::optional<KeptBy> kept = {};
     double room_mm = std::numeric_limits<double>::infinity();
     std::optional<Need> need = {};
+    double looked_mm = 0;     ///< so deep beside it bone was looked for below
+    bool bends_seen = false;  ///< whether bends() has asked for the depth beside it
   };
 
   /// `near`: of the triangles, 1 where bone may have to go. `kept`: of the vertices.
@@ -49,6 +52,12 @@ class CutSurface {
 
   /// The ways inwards: mean normals over about this length.
   void smooth_directions(double over_mm);
+  /// Goes on from another surface some of whose edges were split: the ways inwards are between those at their ends, so that no triangle is
+  /// turned over as long as the whole one was not.
+  void go_on_from(const CutSurface& whole, const std::vector<Between>& vertices);
+  /// Where edges are to be split so that triangles can follow the bottom of a cut: near the bend of the depth along each, if a straight line
+  /// between its ends misses the depth by more than this. Shares as of split_at(). Lowers the vertices.
+  std::vector<double> bends(const std::vector<SweepTo>& sweeps, double missed_mm);
   /// Back to where it was.
   void restore();
   /// Lowers the vertices until the surface is clear of everything that the sweeps cover, and says what stays in the way.
@@ -76,7 +85,9 @@ class CutSurface {
   struct Probe;
   struct Stretch;
   std::vector<Stretch> stretches(const std::vector<Probe>& probes, const std::vector<SweepTo>& sweeps) const;
-  void lower_vertices(const std::vector<SweepTo>& sweeps);
+  std::vector<double> depths(const std::vector<Probe>& probes, const std::vector<SweepTo>& sweeps) const;
+  void lower_vertices(const std::vector<Index>& which, const std::vector<SweepTo>& sweeps);
+  void lower_overhangs(const std::vector<SweepTo>& sweeps);
   struct LatticeStretch;
   std::vector<LatticeStretch> stretches_between(const std::vector<Index>& triangles,
                                                 const std::vector<SweepTo>& sweeps) const;

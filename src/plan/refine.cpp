@@ -20,17 +20,17 @@ double length(const TriMesh& mesh, const std::array<Index, 2>& edge) {
   return (mesh.vertices[edge[0]] - mesh.vertices[edge[1]]).norm();
 }
 
-/// Edges to be halved, by their numbers.
-std::vector<std::uint8_t> edges_to_halve(const Pieces& pieces, const mesh::EdgeTable& edges,
-                                         const std::vector<std::uint8_t>& wanted, double longest) {
+/// Edges to be halved, by their numbers: the share 0.5 for each.
+std::vector<double> edges_to_halve(const Pieces& pieces, const mesh::EdgeTable& edges,
+                                   const std::vector<std::uint8_t>& wanted, double longest) {
   const std::size_t triangles = pieces.mesh.triangles.size();
-  std::vector<std::uint8_t> halve(edges.size(), 0);
+  std::vector<double> halve(edges.size(), 0);
   const auto edge = [&](std::size_t t, int k) { return edges.edge_of(static_cast<Index>(3 * t + k)); };
   for (std::size_t t = 0; t < triangles; ++t)
     for (int k = 0; k < 3; ++k)
       if (wanted[pieces.before[t]] && edge(t, k) != no_index &&
           length(pieces.mesh, edges.ends(edge(t, k))) > longest)
-        halve[edge(t, k)] = 1;
+        halve[edge(t, k)] = 0.5;
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t t = 0; t < triangles; ++t) {
@@ -40,30 +40,29 @@ std::vector<std::uint8_t> edges_to_halve(const Pieces& pieces, const mesh::EdgeT
       for (int k = 0; k < 3; ++k) {
         const Index e = edge(t, k);
         if (e == no_index) continue;
-        any = any || halve[e];
+        any = any || halve[e] > 0;
         const double l = length(pieces.mesh, edges.ends(e));
         // Of two as long the same one from either side.
         if (l > most || (l == most && e < longest_side)) most = l, longest_side = e;
       }
-      if (any && longest_side != no_index && !halve[longest_side]) halve[longest_side] = 1, changed = true;
+      if (any && longest_side != no_index && halve[longest_side] == 0)
+        halve[longest_side] = 0.5, changed = true;
     }
   }
   return halve;
 }
 
-/// False if there was nothing to halve.
-bool halve_once(Pieces& pieces, const std::vector<std::uint8_t>& wanted, double longest) {
-  const mesh::EdgeTable edges(pieces.mesh);
-  const std::vector<std::uint8_t> halve = edges_to_halve(pieces, edges, wanted, longest);
+/// Splits edges at a share of the way along them; 0 where they stay whole.
+void split(Pieces& pieces, const mesh::EdgeTable& edges, const std::vector<double>& shares) {
   std::vector<Index> middle(edges.size(), no_index);
-  for (std::size_t e = 0; e < halve.size(); ++e) {
-    if (!halve[e]) continue;
+  for (std::size_t e = 0; e < shares.size(); ++e) {
+    if (shares[e] == 0) continue;
     const auto [a, b] = edges.ends(e);
     middle[e] = static_cast<Index>(pieces.mesh.vertices.size());
-    pieces.mesh.vertices.push_back((pieces.mesh.vertices[a] + pieces.mesh.vertices[b]) / 2);
+    const Vec3 from = pieces.mesh.vertices[a], to = pieces.mesh.vertices[b];
+    pieces.mesh.vertices.push_back((1 - shares[e]) * from + shares[e] * to);
     pieces.part_of_vertex.push_back(pieces.part_of_vertex[a]);
   }
-  if (std::all_of(halve.begin(), halve.end(), [](std::uint8_t h) { return h == 0; })) return false;
 
   std::vector<Triangle> triangles;
   std::vector<Index> before;
@@ -103,11 +102,31 @@ bool halve_once(Pieces& pieces, const std::vector<std::uint8_t>& wanted, double 
   }
   pieces.mesh.triangles = std::move(triangles);
   pieces.before = std::move(before);
+}
+
+/// False if there was nothing to halve.
+bool halve_once(Pieces& pieces, const std::vector<std::uint8_t>& wanted, double longest) {
+  const mesh::EdgeTable edges(pieces.mesh);
+  const std::vector<double> halves = edges_to_halve(pieces, edges, wanted, longest);
+  if (std::all_of(halves.begin(), halves.end(), [](double share) { return share == 0; })) return false;
+  split(pieces, edges, halves);
   return true;
 }
 
-/// Vertices and triangles in the order of the parts.
-RefinedBody in_order_of_parts(Pieces pieces, const Body& body) {
+/// A body as one piece each.
+Pieces pieces_of(const Body& body) {
+  Pieces pieces{body.mesh.arrays(), {}, {}};
+  pieces.before.resize(pieces.mesh.triangles.size());
+  std::iota(pieces.before.begin(), pieces.before.end(), Index{0});
+  pieces.part_of_vertex.assign(pieces.mesh.vertices.size(), 0);
+  for (std::size_t p = 0; p < body.parts.size(); ++p)
+    std::fill_n(pieces.part_of_vertex.begin() + static_cast<std::ptrdiff_t>(body.parts[p].first_vertex),
+                body.parts[p].vertices, static_cast<Index>(p));
+  return pieces;
+}
+
+/// Vertices and triangles in the order of the parts; with the places of vertices to be put in the same order.
+RefinedBody in_order_of_parts(Pieces pieces, const Body& body, std::vector<Between>* places = nullptr) {
   RefinedBody refined{body, {}};
   if (body.parts.empty()) {
     refined.body.mesh = Mesh(std::move(pieces.mesh));
@@ -122,6 +141,11 @@ RefinedBody in_order_of_parts(Pieces pieces, const Body& body) {
   for (Index i = 0; i < order.size(); ++i) {
     place[order[i]] = i;
     sorted.vertices.push_back(pieces.mesh.vertices[order[i]]);
+  }
+  if (places) {
+    std::vector<Between> of_sorted;
+    for (const Index v : order) of_sorted.push_back((*places)[v]);
+    *places = std::move(of_sorted);
   }
   // Pieces of triangles follow each other in the order of these already.
   for (const Triangle& t : pieces.mesh.triangles)
@@ -147,16 +171,22 @@ RefinedBody in_order_of_parts(Pieces pieces, const Body& body) {
 }  // namespace
 
 RefinedBody refined(const Body& body, const std::vector<std::uint8_t>& wanted, double longest_edge_mm) {
-  Pieces pieces{body.mesh.arrays(), {}, {}};
-  pieces.before.resize(pieces.mesh.triangles.size());
-  std::iota(pieces.before.begin(), pieces.before.end(), Index{0});
-  pieces.part_of_vertex.assign(pieces.mesh.vertices.size(), 0);
-  for (std::size_t p = 0; p < body.parts.size(); ++p)
-    std::fill_n(pieces.part_of_vertex.begin() + static_cast<std::ptrdiff_t>(body.parts[p].first_vertex),
-                body.parts[p].vertices, static_cast<Index>(p));
+  Pieces pieces = pieces_of(body);
   while (halve_once(pieces, wanted, longest_edge_mm)) {
   }
   return in_order_of_parts(std::move(pieces), body);
+}
+
+SplitBody split_at(const Body& body, const std::vector<double>& shares) {
+  Pieces pieces = pieces_of(body);
+  const mesh::EdgeTable edges(pieces.mesh);
+  std::vector<Between> vertices;
+  for (Index v = 0; v < pieces.mesh.vertices.size(); ++v) vertices.push_back({v, v, 0});
+  for (std::size_t e = 0; e < shares.size(); ++e)
+    if (shares[e] > 0) vertices.push_back({edges.ends(e)[0], edges.ends(e)[1], shares[e]});
+  split(pieces, edges, shares);
+  RefinedBody refined = in_order_of_parts(std::move(pieces), body, &vertices);
+  return {std::move(refined), std::move(vertices)};
 }
 
 }  // namespace condyle::plan

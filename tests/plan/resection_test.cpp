@@ -26,21 +26,22 @@ constexpr double degree = std::numbers::pi / 180;
 const Vec3 down = -Vec3::UnitY();
 
 /// A cylinder of radius a from the origin along an axis.
-TriMesh neck(double a, double length = 60) {
+TriMesh neck(double a, const Vec3& axis = down) {
+  constexpr double length = 60;
   std::vector<ProfilePoint> profile{{0, 0}, {0, a}};
   for (double along = 1; along <= length; along += 1) profile.push_back({along, a});
   profile.push_back({length, 0});
-  return revolved(down, profile, 240);
+  return revolved(axis, profile, 240);
 }
 
 /// A half ball of radius `outer` with a hemispherical hole of radius R, its face through the origin.
-TriMesh socket(double R, double outer) {
+TriMesh socket(double R, double outer, const Vec3& opening = down) {
   std::vector<ProfilePoint> profile;
   for (int i = 0; i <= 90; i += 5)
     profile.push_back({-outer * std::cos(i * degree), outer * std::sin(i * degree)});
   for (int i = 90; i >= 0; --i) profile.push_back({-R * std::cos(i * degree), R * std::sin(i * degree)});
   profile.front().beside = profile.back().beside = 0;
-  return revolved(down, profile, 360);
+  return revolved(opening, profile, 360);
 }
 
 /// Far enough for an endless wall.
@@ -87,16 +88,14 @@ void expect_reached(const Joint& before, const Resection& done, const RangeOptio
 }
 
 struct NeckCase {
-  double R, a, outer, limit, target, volume, area, depth;
-  double volume_within, depth_within;
+  double R, a, outer, limit, target, volume, depth;
+  double volume_within;
 };
 
-// At edges of 0.5 mm. Across the ridge where the face of the block ends in its hole, the cut is as much deeper as triangles of that size
-// cannot follow it; what must go is found between them.
+// At edges of 0.5 mm. The cut is planned 0.005 degrees beyond its target, which is half of a hundredth of the second, small volume.
 TEST(Resection, ANeckInASocketLosesWhatTheClosedFormSays) {
-  for (const NeckCase& each :
-       {NeckCase{25, 15, endless, 53.130102, 65, 356.680106, 215.932501, 4.434543, 0.015, 0.2},
-        {16, 6, endless, 67.975687, 70, 1.234676, 5.949339, 0.527678, 0.3, 0.03}}) {
+  for (const NeckCase& each : {NeckCase{25, 15, endless, 53.130102, 65, 356.680106, 4.434543, 0.0025},
+                               {16, 6, endless, 67.975687, 70, 1.234676, 0.527678, 0.03}}) {
     const Joint joint = hip_of(socket(each.R, each.outer), neck(each.a));
     const Resection done = resect(joint, reaching({target("flexion", each.target)}));
     ASSERT_TRUE(done.mobile);
@@ -104,9 +103,86 @@ TEST(Resection, ANeckInASocketLosesWhatTheClosedFormSays) {
     expect_reached(joint, done);
     expect_sound(*done.mobile);
     EXPECT_NEAR(done.mobile->volume_mm3 / each.volume, 1, each.volume_within);
-    EXPECT_NEAR(done.mobile->least_volume_mm3 / each.volume, 1, 0.05);
-    EXPECT_GE(done.mobile->deepest_mm, each.depth - 0.01);
-    EXPECT_LE(done.mobile->deepest_mm, each.depth + each.depth_within);
+    EXPECT_NEAR(done.mobile->least_volume_mm3 / each.volume, 1, 0.02);
+    EXPECT_NEAR(done.mobile->deepest_mm, each.depth, 0.01);
+  }
+}
+
+// A socket's wall that ends leaves bone above what it sweeps over, which a depth from the surface takes too.
+TEST(Resection, WhatMustGoUnderAWallIsTheClosedForm) {
+  const NeckCase each{16, 6, 20, 67.975687, 75, 30.817788, 1.858895, 0.05};
+  const Joint joint = hip_of(socket(each.R, each.outer), neck(each.a));
+  const Resection done = resect(joint, reaching({target("flexion", each.target)}));
+  expect_reached(joint, done);
+  expect_sound(*done.mobile);
+  EXPECT_NEAR(done.mobile->least_volume_mm3 / each.volume, 1, 0.01);
+  EXPECT_GT(done.mobile->volume_mm3, each.volume);
+  EXPECT_LT(done.mobile->volume_mm3, (1 + each.volume_within) * each.volume);
+}
+
+// Cup at 40 degrees of radiographic inclination and 15 of anteversion, walls of 16 to 20 mm, neck of 6 at 135 and 15 degrees.
+TEST(Resection, ANeckInACupLosesWhatQuadratureSays) {
+  const double inclination = 40 * degree, anteversion = 15 * degree, shaft = 45 * degree;
+  const Vec3 opening(std::sin(anteversion), -std::cos(inclination) * std::cos(anteversion),
+                     std::sin(inclination) * std::cos(anteversion));
+  const Vec3 along =
+      Eigen::AngleAxisd(-15 * degree, Vec3::UnitY()) * Vec3(0, -std::cos(shaft), std::sin(shaft));
+  const Joint joint = hip_of(socket(16, 20, opening), neck(6, along));
+  ResectionRequest request = reaching({target("flexion", 135)});
+  request.range.bearing.rule = BearingRule::count;
+  const Resection one = resect(joint, request);
+  expect_reached(joint, one, request.range);
+  EXPECT_NEAR(one.mobile->least_volume_mm3, 6.443, 0.01 * 6.443);
+  EXPECT_LT(one.volume_mm3(), 1.02 * 6.443);
+
+  request.targets.push_back(target("internal_rotation_at_90_flexion", 45));
+  request.targets.push_back(target("extension", 66));
+  const Resection three = resect(joint, request);
+  expect_reached(joint, three, request.range);
+  EXPECT_NEAR(three.mobile->least_volume_mm3, 19.627, 0.01 * 19.627);
+  EXPECT_LT(three.volume_mm3(), 1.02 * 19.627);
+}
+
+TriMesh ball_at(const Vec3& centre, double radius) {
+  std::vector<ProfilePoint> profile;
+  for (int i = 0; i <= 180; i += 2)
+    profile.push_back({-radius * std::cos(i * degree), radius * std::sin(i * degree)});
+  profile.front().beside = profile.back().beside = 0;
+  TriMesh ball = revolved(Vec3::UnitZ(), profile, 180);
+  for (std::size_t v = 0; v < ball.vertices.size(); ++v) ball.vertices.set(v, ball.vertices[v] + centre);
+  return ball;
+}
+
+TriMesh block(const Vec3& low, const Vec3& high) {
+  TriMesh mesh;
+  for (int i = 0; i < 8; ++i)
+    mesh.vertices.push_back(
+        {i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z()});
+  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return mesh;
+}
+
+// The face of a block turns against a ball at rest: no vertex of the block is swept, and the groove has a closed depth.
+TEST(Resection, ABallThatTouchesNoVertexLeavesItsGroove) {
+  struct Groove {
+    double distance, radius, before_face, target, limit, depth, volume, volume_within;
+  };
+  for (const auto& [distance, radius, before_face, reach, limit, depth, volume, volume_within] :
+       {Groove{40, 3, 20, 18, 15.698778, 1.604020, 19.92709, 0.01},
+        {30, 2, 10, 12, 6.177446, 3.046985, 29.91463, 0.04}}) {
+    const Vec3 centre = distance * Vec3(std::cos(before_face * degree), std::sin(before_face * degree), 0);
+    const Joint joint =
+        hip_of(ball_at(centre, radius), block({distance - 9.3, -20, -9.7}, {distance + 9.1, 0, 9.9}));
+    ResectionRequest request = reaching({target("flexion", reach)});
+    request.range.bearing.rule = BearingRule::count;
+    const Resection done = resect(joint, request);
+    expect_reached(joint, done, request.range);
+    expect_sound(*done.mobile);
+    EXPECT_NEAR(done.targets[0].before.end.turned.degrees(), limit, 0.001);
+    EXPECT_NEAR(done.mobile->deepest_mm, depth, 0.01);
+    EXPECT_NEAR(done.mobile->least_volume_mm3 / volume, 1, 0.01);
+    EXPECT_NEAR(done.mobile->volume_mm3 / volume, 1, volume_within);
   }
 }
 
@@ -138,7 +214,7 @@ TEST(Resection, EveryVertexIsAsDeepAsItMustBeAndLittleDeeper) {
     if (cut.depth_mm[v] > 0) ++lowered, excess += goes - must;
   }
   ASSERT_GT(lowered, 500u);
-  EXPECT_LT(excess / static_cast<double>(lowered), 0.06);
+  EXPECT_LT(excess / static_cast<double>(lowered), 0.01);
 }
 
 TEST(Resection, WhatASweepFindsIsWhatSampledPosesFind) {
@@ -198,8 +274,7 @@ TEST(Resection, SampleCamsReachTheirTargets) {
         resect(joint, reaching({target("internal_rotation_at_90_flexion", 50), target("fadir", 36)}));
     expect_reached(joint, done);
     expect_sound(*done.mobile);
-    // The smallest, of a hip that lacks two degrees, is half a cubic millimetre.
-    EXPECT_LT(done.mobile->volume_mm3, 1.03 * done.mobile->least_volume_mm3 + 1);
+    EXPECT_LT(done.mobile->volume_mm3, 1.01 * done.mobile->least_volume_mm3 + 0.1);
     for (std::size_t v = 0; v < done.mobile->depth_mm.size(); ++v)
       if (done.mobile->depth_mm[v] > 0) {
         EXPECT_GE(done.mobile->needed_by[v], 0);
@@ -276,7 +351,7 @@ TEST(Resection, TheVisibleHumansHipLosesLittleMoreThanTheLeast) {
     const Resection done = resect(*hip, reaching({target("internal_rotation_at_90_flexion", 32.686 + gain)}));
     expect_reached(*hip, done);
     expect_sound(*done.mobile);
-    EXPECT_LE(done.volume_mm3(), 1.05 * least);
+    EXPECT_LE(done.volume_mm3(), 1.01 * least);
     EXPECT_GE(done.volume_mm3(), 0.97 * least);
     EXPECT_LE(done.mobile->deepest_mm, deepest);
   }
