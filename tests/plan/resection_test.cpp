@@ -282,6 +282,30 @@ TEST(Resection, SampleCamsReachTheirTargets) {
   }
 }
 
+// The hip made without a cam reaches what it reaches, so no bone of it is in the way of that: what is left of a cam lies around it. It is not
+// the same, and its alpha angle falls hardly: beside the head a cam passes through the joint space and stands in no way.
+TEST(Resection, OfACamNothingGoesThatTheHipWithoutOneHas) {
+  auto [hip_bone, femur] = sample_hip(HipParameters{}, Scenario::one);
+  const Joint without = hip_of(std::move(hip_bone), std::move(femur));
+  std::vector<ReachTarget> targets;
+  for (const char* name : {"internal_rotation_at_90_flexion", "fadir"}) {
+    const ReachTarget any = target(name, 1);
+    const Angle end = RangeOfMotion(without).limit(any.motion).end.turned;
+    targets.push_back({any.motion, end - Angle::degrees(0.01)});
+  }
+  const Resection done = resect(sample_joint(75), reaching(targets));
+  const CutBone& cut = *done.mobile;
+  const mesh::WindingNumber inside(without.mobile.mesh);
+  std::size_t lowered = 0;
+  for (std::size_t v = 0; v < cut.depth_mm.size(); ++v) {
+    if (cut.depth_mm[v] < 0.2) continue;
+    const Vec3 now = cut.body.mesh.vertices()[v], out = (Vec3(cut.before.vertices[v]) - now).normalized();
+    EXPECT_EQ(inside.at(now + 0.1 * out).winding, 0) << v << ", " << cut.depth_mm[v] << " mm deep";
+    ++lowered;
+  }
+  EXPECT_GT(lowered, 300u);
+}
+
 TEST(Resection, AMarginKeepsTheFixedBoneMovedOutwardsClear) {
   const Joint joint = hip_of(socket(25, endless), neck(15));
   ResectionRequest request = reaching({target("flexion", 60)});
