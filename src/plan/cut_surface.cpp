@@ -236,7 +236,7 @@ std::vector<double> CutSurface::depths(const std::vector<Probe>& probes,
     }
     return is;
   };
-  std::vector<double> depth(probes.size(), 0), step(probes.size());
+  std::vector<double> depth(probes.size(), 0);
   std::vector<std::size_t> all(probes.size()), going;
   std::iota(all.begin(), all.end(), std::size_t{0});
   const std::vector<std::uint8_t> at_surface = swept(all, depth);
