@@ -27,7 +27,7 @@ namespace {
 struct Options {
   std::string joint, out, reach, protect_mobile, protect_fixed;
   std::string from = "mobile";
-  std::optional<double> share, deepest_mm, within_mm;
+  std::optional<double> share, deepest_mm, within_mm, burr_mm;
   double margin_mm = 0, edge_mm = ResectionRequest{}.edge_mm;
   std::size_t curve_points = ResectionQuery{}.curve_points;
   std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
@@ -62,6 +62,7 @@ void run(const Options& options, const CLI::App& command) {
   query.resection.mobile = kept(options, options.protect_mobile, loaded.joint.mobile);
   query.resection.fixed = kept(options, options.protect_fixed, loaded.joint.fixed);
   query.resection.margin_mm = options.margin_mm;
+  query.resection.burr_mm = options.burr_mm;
   query.resection.edge_mm = options.edge_mm;
   query.resection.range = range.range;
   query.motions = motions;
@@ -109,6 +110,11 @@ void add_resect(CLI::App& app) {
       ->add_option("--margin", options->margin_mm,
                    "Keep what is left clear of the other bone's surface moved outwards by this, 0 to 10")
       ->option_text("MM (0)");
+  command
+      ->add_option("--burr", options->burr_mm,
+                   "Leave what a ball of this diameter can make, 0.5 to 30: no groove is narrower, and what "
+                   "goes only for that is said")
+      ->option_text("MM");
   command->add_option("--deepest", options->deepest_mm, "Remove no more than this anywhere")
       ->option_text("MM");
   command
@@ -149,7 +155,7 @@ void add_resect(CLI::App& app) {
               {"Bone that stays", {"--deepest", "--within", "--protect", "--protect-fixed", "--margin"}},
               {"Contact", {"--bearing", "--accept-reference-contact"}},
               uncertainty_group(),
-              {"Precision", {"--share", "--edge", "--curve"}},
+              {"Cut", {"--share", "--burr", "--edge", "--curve"}},
               {"Output", {"--help"}}});
   command->callback([options, command] { run(*options, *command); });
 }

@@ -346,6 +346,8 @@ enum class ResectionNoteCode : std::uint8_t {
   bearing_is_swept,  ///< The other bone sweeps over bearing surface, whose contact counts for nothing.
   neck_is_narrowed,  ///< More than 30 % of the neck's width goes.
   no_gain,           ///< A limit stays as it was.
+  alpha_stays,       ///< The alpha angle is no smaller after a cut at the neck: what it is read from stands in no way.
+  burr_meets_kept,   ///< The burr's ball would have to enter bone that stays.
 };
 
 /// As in files: "nothing_to_do".

@@ -49,6 +49,9 @@ struct ResectionRequest {
   KeptBone mobile = {}, fixed = {};
   /// The bone that is left stays clear of the other one with its surface moved outwards by this, mm, along the way to the target.
   double margin_mm = 0;
+  /// Of the ball of a burr, its diameter, mm: what is left is what a ball of this size can make, no groove is narrower. Without one the
+  /// cut has any shape.
+  std::optional<double> burr_mm = {};
   double edge_mm = 0.5;  ///< Triangles around the cut become so small.
   RangeOptions range = {};
 };
@@ -64,6 +67,9 @@ struct CutBone {
   double volume_mm3 = 0;
   /// Of what was removed, what the other bone really sweeps over: no cut could do with less.
   double least_volume_mm3 = 0;
+  double burr_volume_mm3 = 0;  ///< Of what was removed, what goes only because a burr is no smaller.
+  /// By how much the burr's ball would have to enter bone that stays, at the most; 0 where it need not.
+  double burr_in_kept_mm = 0;
   double area_mm2 = 0;  ///< of the triangles that moved, before
   double deepest_mm = 0;
   Vec3 deepest_at = Vec3::Zero();  ///< on the surface before

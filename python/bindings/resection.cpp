@@ -39,6 +39,7 @@ ResectionQuery query_in(const JointHandle& handle, const py::list& motions, cons
   query.resection.mobile = kept_in(given, "keep_mobile");
   query.resection.fixed = kept_in(given, "keep_fixed");
   query.resection.margin_mm = given["margin_mm"].cast<double>();
+  query.resection.burr_mm = given["burr_mm"].cast<std::optional<double>>();
   query.resection.edge_mm = given["edge_mm"].cast<double>();
   if (given["count_bearing"].cast<bool>()) query.resection.range.bearing.rule = BearingRule::count;
   query.resection.range.bearing.margin_mm = given["bearing_margin_mm"].cast<std::optional<double>>();
@@ -63,6 +64,8 @@ py::object dict_of_cut(const std::optional<CutBone>& cut) {
   dict["needed_from_deg"] = array_of(std::vector<double>(cut->needed_from_deg));
   dict["volume_mm3"] = cut->volume_mm3;
   dict["least_volume_mm3"] = cut->least_volume_mm3;
+  dict["burr_volume_mm3"] = cut->burr_volume_mm3;
+  dict["burr_in_kept_mm"] = cut->burr_in_kept_mm;
   dict["area_mm2"] = cut->area_mm2;
   dict["deepest_mm"] = cut->deepest_mm;
   dict["deepest_at"] = array_of(cut->deepest_at);

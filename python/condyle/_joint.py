@@ -473,7 +473,7 @@ class Joint(DescribedJoint):
 
     def resection(self, reach: Mapping[str, float], *, cut: CutFrom = "mobile", share: Optional[float] = None,
                   margin_mm: float = 0, deepest_mm: Optional[float] = None, within_mm: Optional[float] = None,
-                  keep: Optional[ArrayLike] = None, keep_fixed: Optional[ArrayLike] = None, edge_mm: float = 0.5,
+                  burr_mm: Optional[float] = None, keep: Optional[ArrayLike] = None, keep_fixed: Optional[ArrayLike] = None, edge_mm: float = 0.5,
                   curve_points: int = 10, band_samples: int = 0, seed: Optional[int] = None,
                   bearing: BearingRule = "leave_out", bearing_margin_mm: Optional[float] = None,
                   progress: Progress = None) -> Resection[Joint]:
@@ -492,6 +492,8 @@ class Joint(DescribedJoint):
         deepest_mm, within_mm : float, optional
             Bone deeper than that stays, and bone farther than that outside the ball of the bearing surface. What the bearing surface
             has stays always.
+        burr_mm : float, optional
+            Diameter of the ball of a burr: what is left is what a ball of that size can make, no groove is narrower.
         keep, keep_fixed : (V,) bool, optional
             Vertices of the mobile and of the fixed mesh that stay.
         edge_mm : float
@@ -517,8 +519,8 @@ class Joint(DescribedJoint):
         >>> plan.after[8].turned_deg >= 45
         True
         """
-        return resection(self, Joint._of_native, reach, cut, share, margin_mm, deepest_mm, within_mm, keep, keep_fixed, edge_mm, curve_points,
-                         band_samples, seed, bearing, bearing_margin_mm, progress)
+        return resection(self, Joint._of_native, reach, cut, share, margin_mm, deepest_mm, within_mm, burr_mm, keep, keep_fixed, edge_mm,
+                         curve_points, band_samples, seed, bearing, bearing_margin_mm, progress)
 
     def with_mobile(self, mesh: MeshLike) -> Joint:
         """The joint with this mesh in the mobile body's place: the same bone after something was done to it, in the frame M of

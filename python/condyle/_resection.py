@@ -39,6 +39,8 @@ class CutBone:
         The angle of that motion from which on it is in the way; 0 where nothing goes.
     volume_mm3, least_volume_mm3 : float
         What goes, and what of it the other bone really sweeps over.
+    burr_volume_mm3, burr_in_kept_mm : float
+        What of it goes only because a burr is no smaller, and by how much the burr would have to enter bone that stays.
     area_mm2, deepest_mm : float
     deepest_at : (3,) float64
         On the surface before, in the bone's frame.
@@ -51,6 +53,8 @@ class CutBone:
     needed_from_deg: NDArray[np.float64]
     volume_mm3: float
     least_volume_mm3: float
+    burr_volume_mm3: float
+    burr_in_kept_mm: float
     area_mm2: float
     deepest_mm: float
     deepest_at: NDArray[np.float64]
@@ -157,7 +161,7 @@ def _kept(marks: Optional[ArrayLike], mesh: TriMesh, what: str) -> NDArray[np.ui
 
 
 def resection(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], reach: Mapping[str, float], cut: CutFrom, share: Optional[float], margin_mm: float,
-              deepest_mm: Optional[float], within_mm: Optional[float], keep: Optional[ArrayLike],
+              deepest_mm: Optional[float], within_mm: Optional[float], burr_mm: Optional[float], keep: Optional[ArrayLike],
               keep_fixed: Optional[ArrayLike], edge_mm: float, curve_points: int, band_samples: int, seed: Optional[int],
               bearing: BearingRule, bearing_margin_mm: Optional[float], progress: Progress) -> Resection[OfJoint]:
     known = Motions(joint._native)
@@ -169,6 +173,7 @@ def resection(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], reach
         "fixed_share": shares[word(cut, "cut", CutFrom)], "margin_mm": number(margin_mm, "margin_mm"),
         "deepest_mm": None if deepest_mm is None else number(deepest_mm, "deepest_mm"),
         "within_mm": None if within_mm is None else number(within_mm, "within_mm"),
+        "burr_mm": None if burr_mm is None else number(burr_mm, "burr_mm"),
         "keep_mobile": _kept(keep, joint.mobile, "keep"), "keep_fixed": _kept(keep_fixed, joint.fixed, "keep_fixed"),
         "edge_mm": number(edge_mm, "edge_mm"), "curve_points": count(curve_points, "curve_points", 0, 1000),
         "samples": band_samples and count(band_samples, "band_samples", FEWEST_SAMPLES, MOST_SAMPLES),

@@ -16,6 +16,9 @@ using core::formatted;
 constexpr double band_margin_step_mm = 0.5, largest_band_margin_mm = 4, band_margin_within_mm = 0.13;
 constexpr int most_band_plans = 11;
 
+/// An alpha angle that falls by less stays as it was, as far as the contour tells.
+constexpr double alpha_unchanged_deg = 1;
+
 /// A limit that changes by less stays as it was.
 constexpr double no_change_deg = 0.05;
 
@@ -99,14 +102,30 @@ void note_bones(ResectionAnswer& answer) {
                             answer.resection.joint.mobile.name +
                                 ": on the way the other bone sweeps over its bearing surface, "
                                 "whose contact counts for nothing"});
-  if (answer.resection.mobile && answer.shape_before)
-    if (const double share = share_of_neck(*answer.resection.mobile, *answer.shape_before);
-        share > neck_width_share)
+  if (answer.resection.mobile && answer.shape_before) {
+    const double share = share_of_neck(*answer.resection.mobile, *answer.shape_before);
+    if (share > neck_width_share)
       answer.notes.push_back(
           {ResectionNoteCode::neck_is_narrowed,
            formatted("the cut takes %.0f %% of the neck's width where it is deepest, more than %.0f %%: how "
                      "strong the neck still is, is not modelled",
                      100 * share, 100 * neck_width_share)});
+    const auto &before = answer.shape_before->femur.alpha_largest.value,
+               &after = answer.shape_after->femur.alpha_largest.value;
+    if (share > 0 && before && after && *after > *before - alpha_unchanged_deg)
+      answer.notes.push_back(
+          {ResectionNoteCode::alpha_stays,
+           formatted("the alpha angle stays, %.1f degrees before and %.1f after: it is read where the surface "
+                     "leaves the head's sphere, and bone there that no target meets stays",
+                     *before, *after)});
+  }
+  for (const auto* cut : {&answer.resection.mobile, &answer.resection.fixed})
+    if (*cut && (*cut)->burr_in_kept_mm > 0)
+      answer.notes.push_back(
+          {ResectionNoteCode::burr_meets_kept,
+           (*cut)->body.name + formatted(": a burr this wide would have to enter bone that stays by %.2f mm: "
+                                         "there the cut is narrower than it",
+                                         (*cut)->burr_in_kept_mm)});
 }
 
 void note_gains(ResectionAnswer& answer) {
@@ -230,9 +249,13 @@ std::string_view name_of(ResectionNoteCode code) noexcept {
     case ResectionNoteCode::neck_is_narrowed:
       return "neck_is_narrowed";
     case ResectionNoteCode::no_gain:
+      return "no_gain";
+    case ResectionNoteCode::alpha_stays:
+      return "alpha_stays";
+    case ResectionNoteCode::burr_meets_kept:
       break;
   }
-  return "no_gain";
+  return "burr_meets_kept";
 }
 
 std::vector<ReachTarget> reach_targets(std::span<const Motion> motions, std::string_view text) {

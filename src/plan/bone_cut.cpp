@@ -9,6 +9,7 @@
 #include "core/formatted.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
+#include "plan/burr.hpp"
 #include "plan/refine.hpp"
 
 namespace condyle::plan {
@@ -28,6 +29,8 @@ constexpr double largest_correction_mm = 0.2;
 /// many passes.
 constexpr double missed_at_bends = 0.04;
 constexpr int passes_at_bends = 5;
+/// A burr's cut is unfolded and made again so often.
+constexpr int most_burrs = 3;
 /// Kept bone is found anew so often: each time the motions go less far.
 constexpr int most_stops = 20;
 /// Points in which a surface is asked for what goes: so far apart, and so far outside of it too, mm.
@@ -109,12 +112,13 @@ bool Counting::operator()(const Body& body, std::size_t triangle) const {
 }
 
 BoneCut::BoneCut(const Joint& joint, BodyRole cut_role, const ResectionRequest& request,
-                 std::vector<CutTarget> targets)
+                 std::vector<CutTarget> targets, double share)
     : joint_(joint),
       role_(cut_role),
       bone_(cut_role == BodyRole::mobile ? joint.mobile : joint.fixed),
       request_(request),
       targets_(std::move(targets)),
+      share_(share),
       stopped_(targets_.size()) {
   bearing_ = find_bearing_surface(joint, request.range.bearing).surface;
   if (bearing_ && request.range.bearing.rule == BearingRule::leave_out) ball_.emplace(*bearing_);
@@ -278,13 +282,20 @@ bool BoneCut::lower_at(std::size_t target, const Limit& limit, const Feature& fe
          limit.contact->mobile_point);
     return false;
   }
-  for (std::size_t t = 0; t < mesh.triangles().size(); ++t)
+  std::vector<Index> met;
+  for (Index t = 0; t < mesh.triangles().size(); ++t)
     if (const Triangle& v = mesh.triangles()[t]; std::find(v.begin(), v.end(), corner) != v.end())
-      met_[triangle_before_[t]] = 1;
+      met.push_back(t);
+  want_too(met);
+  return false;
+}
+
+/// Refines what these triangles of the surface are pieces of, with their neighbours.
+void BoneCut::want_too(const std::vector<Index>& met) {
+  for (const Index t : met) met_[triangle_before_[t]] = 1;
   met_ = with_neighbours(bone_.mesh, std::move(met_));
   for (std::size_t t = 0; t < met_.size(); ++t) wanted_[t] |= met_[t];
   refine();
-  return false;
 }
 
 /// Lowers what the exact search still finds in the way. False if kept bone stops a motion.
@@ -312,6 +323,27 @@ bool BoneCut::correct() {
                   " corrections its cut surface still meets the other bone");
 }
 
+/// The share of a cut that reaches its targets, as a burr can make it. False if the surface must be lowered anew, with more of it near.
+bool BoneCut::finish() {
+  surface_->scale_depths(share_);
+  surface_->unfold();
+  if (!request_.burr_mm) return true;
+  before_burr_mm3_ = removed_mm3();
+  // What is unfolded may be in the way of another ball.
+  for (int i = 0; i < most_burrs; ++i) {
+    Burr burr(*surface_, *request_.burr_mm / 2);
+    if (!burr.make()) {
+      want_too(burr.elsewhere());
+      return false;
+    }
+    burr_in_kept_mm_ = burr.in_kept_mm();
+    const double made_mm3 = removed_mm3();
+    surface_->unfold();
+    if (removed_mm3() == made_mm3) break;
+  }
+  return true;
+}
+
 /// What is wrong with the surface as it is now; empty if nothing is.
 std::string BoneCut::fault() const {
   const Mesh mesh = surface_->mesh();
@@ -337,10 +369,10 @@ void BoneCut::cut() {
       smoothing_mm_ = smoothing_mm;
       refine();
     }
-    for (int i = 0; i < most_stops; ++i)
-      if (lower_for_reach() && (surface_->unfold(), correct())) break;
-    surface_->unfold();
-    why = fault();
+    bool finished = false;
+    for (int i = 0; i < most_stops && !finished; ++i)
+      finished = lower_for_reach() && (surface_->unfold(), correct()) && finish();
+    why = finished ? fault() : "meets kept bone anew each time";
     if (why.empty()) return;
   }
   throw MeshError(bone_.name + ": a cut so deep " + why + ", whichever way it goes inwards");
@@ -356,8 +388,23 @@ Joint BoneCut::joint() const {
   return joint;
 }
 
+double BoneCut::removed_mm3() const {
+  const std::vector<CutSurface::Vertex>& vertices = surface_->vertices();
+  const auto deepest =
+      std::max_element(vertices.begin(), vertices.end(),
+                       [](const auto& a, const auto& b) { return a.depth_mm < b.depth_mm; });
+  const TriMesh& before = surface_->body().mesh;
+  const Mesh after = surface_->mesh();
+  mesh::CompensatedSum volume;
+  for (const Index t : surface_->near())
+    if (std::any_of(before.triangles[t].begin(), before.triangles[t].end(),
+                    [&](Index v) { return vertices[v].depth_mm > 0; }))
+      volume.add(mesh::volume_below(before, t, deepest->before) - mesh::volume_below(after, t, deepest->before));
+  return volume.value();
+}
+
 CutBone BoneCut::cut_bone() const {
-  CutBone cut{surface_->body(), surface_->body().mesh, {}, {}, {}, 0, 0, 0, 0, Vec3::Zero()};
+  CutBone cut{surface_->body(), surface_->body().mesh, {}, {}, {}, 0, 0, 0, 0, 0, 0, Vec3::Zero()};
   cut.body.mesh = surface_->mesh();
   for (const CutSurface::Vertex& vertex : surface_->vertices()) {
     const bool goes = vertex.depth_mm > 0 && vertex.need;
@@ -366,19 +413,16 @@ CutBone BoneCut::cut_bone() const {
     cut.needed_from_deg.push_back(goes ? Angle::radians(vertex.need->from_rad).degrees() : 0);
     if (vertex.depth_mm > cut.deepest_mm) cut.deepest_mm = vertex.depth_mm, cut.deepest_at = vertex.before;
   }
-  const TriMesh &before = cut.before, &after = cut.body.mesh;
-  mesh::CompensatedSum volume;
-  for (const Index t : surface_->near()) {
-    if (std::all_of(before.triangles[t].begin(), before.triangles[t].end(),
-                    [&](Index v) { return cut.depth_mm[v] == 0; }))
-      continue;
-    const Vec3 p = cut.deepest_at;
-    volume.add(mesh::volume_below(before, t, p) - mesh::volume_below(after, t, p));
-    cut.area_mm2 +=
-        (before.corner(t, 1) - before.corner(t, 0)).cross(before.corner(t, 2) - before.corner(t, 0)).norm() /
-        2;
-  }
-  cut.volume_mm3 = volume.value();
+  const TriMesh& before = cut.before;
+  for (const Index t : surface_->near())
+    if (std::any_of(before.triangles[t].begin(), before.triangles[t].end(),
+                    [&](Index v) { return cut.depth_mm[v] > 0; }))
+      cut.area_mm2 +=
+          (before.corner(t, 1) - before.corner(t, 0)).cross(before.corner(t, 2) - before.corner(t, 0)).norm() /
+          2;
+  cut.volume_mm3 = removed_mm3();
+  if (request_.burr_mm) cut.burr_volume_mm3 = cut.volume_mm3 - before_burr_mm3_;
+  cut.burr_in_kept_mm = burr_in_kept_mm_;
   cut.least_volume_mm3 = cut.volume_mm3 * least_share();
   return cut;
 }
@@ -432,10 +476,6 @@ bool BoneCut::sweeps_bearing() const {
       return true;
   }
   return false;
-}
-
-void BoneCut::scale_depths(double share) {
-  surface_->scale_depths(share);
 }
 
 }  // namespace condyle::plan

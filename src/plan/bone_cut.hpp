@@ -35,13 +35,13 @@ struct Counting {
 /// One bone, cut for some targets.
 class BoneCut {
  public:
-  /// The targets must be free at their start. Throws MeshError if the other body is not closed.
-  BoneCut(const Joint& joint, BodyRole cut, const ResectionRequest& request, std::vector<CutTarget> targets);
+  /// The targets must be free at their start. Of the depths that they take `share` is cut. Throws MeshError if the other body is not
+  /// closed.
+  BoneCut(const Joint& joint, BodyRole cut, const ResectionRequest& request, std::vector<CutTarget> targets,
+          double share);
 
   /// The joint with this bone as it is cut now.
   Joint joint() const;
-  /// Only this share of all depths stays.
-  void scale_depths(double share);
   CutBone cut_bone() const;
   /// Whether the other bone sweeps over bearing surface of this one.
   bool sweeps_bearing() const;
@@ -56,10 +56,13 @@ class BoneCut {
   std::vector<std::optional<KeptBy>> kept_vertices(const Body& body) const;
   const KeptBone& kept() const;
   void refine();
+  void want_too(const std::vector<Index>& met);
   void cut();
   std::string fault() const;
   bool lower_for_reach();
   bool correct();
+  bool finish();
+  double removed_mm3() const;
   bool stop(std::size_t target, Angle at, KeptBy by, const Vec3& point);
   bool lower_at(std::size_t target, const Limit& limit, const Feature& feature, double by_mm);
   double least_share() const;
@@ -69,6 +72,7 @@ class BoneCut {
   const Body& bone_;
   const ResectionRequest& request_;
   std::vector<CutTarget> targets_;
+  double share_;
   std::optional<BearingSurface> bearing_;
   std::optional<BearingBall> ball_;
   std::vector<std::unique_ptr<Sweep>> sweeps_;
@@ -80,6 +84,8 @@ class BoneCut {
   std::vector<Index> triangle_before_;  ///< of the refined triangles
   double smoothing_mm_ = 3;
   std::optional<CutSurface> surface_;
+  double before_burr_mm3_ = 0;  ///< what goes for the targets alone
+  double burr_in_kept_mm_ = 0;
 };
 
 }  // namespace condyle::plan

@@ -145,6 +145,11 @@ void CutSurface::scale_depths(double by) {
   for (Vertex& vertex : vertices_) vertex.depth_mm *= by;
 }
 
+void CutSurface::lower_to(Index vertex, double depth_mm, const Need& need) {
+  const Vertex& lowered = vertices_[vertex];
+  if (std::min(depth_mm, lowered.room_mm) > lowered.depth_mm) take(vertex, depth_mm, need);
+}
+
 Mesh CutSurface::mesh() const {
   Points points = body_.mesh.vertices();
   for (const Index v : near_vertices_)

@@ -63,6 +63,8 @@ class CutSurface {
   /// Lowers the vertices until the surface is clear of everything that the sweeps cover, and says what stays in the way.
   std::vector<InTheWay> lower(const std::vector<SweepTo>& sweeps);
   void scale_depths(double by);
+  /// A vertex so deep, or as deep as it may go; never higher than it is.
+  void lower_to(Index vertex, double depth_mm, const Need& need);
   /// Lowers what is higher around steep walls until no triangle is turned over; false if kept bone does not let it.
   bool unfold();
   enum class Lowered { some, kept, elsewhere };

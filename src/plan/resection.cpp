@@ -55,6 +55,8 @@ void check_resection(const Joint& joint, const ResectionRequest& request) {
     throw UsageError("resection: the share of the fixed body must be from 0 to 1");
   if (!(request.margin_mm >= 0 && request.margin_mm <= 10))
     throw UsageError("resection: the margin must be from 0 to 10 mm");
+  if (request.burr_mm && !(*request.burr_mm >= 0.5 && *request.burr_mm <= 30))
+    throw UsageError("resection: the burr's diameter must be from 0.5 to 30 mm");
   if (!(request.edge_mm >= 0.05 && request.edge_mm <= 10))
     throw UsageError("resection: edges must be from 0.05 to 10 mm");
   if (request.range.overlap.leave_out_reference_contacts)
@@ -106,8 +108,7 @@ std::optional<Resection> resect(const Joint& joint, const ResectionRequest& requ
   };
   if (!report()) return std::nullopt;
   if (request.fixed_share < 1 && !open.empty()) {
-    BoneCut cut(joint, BodyRole::mobile, request, open);
-    if (request.fixed_share > 0) cut.scale_depths(1 - request.fixed_share);
+    BoneCut cut(joint, BodyRole::mobile, request, open, 1 - request.fixed_share);
     note_reach(cut);
     done.mobile = cut.cut_bone();
     done.sweeps_bearing = cut.sweeps_bearing();
@@ -116,7 +117,7 @@ std::optional<Resection> resect(const Joint& joint, const ResectionRequest& requ
   }
   if (request.fixed_share > 0 && !open.empty()) {
     const Joint with_mobile = done.joint;
-    BoneCut cut(with_mobile, BodyRole::fixed, request, open);
+    BoneCut cut(with_mobile, BodyRole::fixed, request, open, 1);
     note_reach(cut);
     done.fixed = cut.cut_bone();
     done.joint = cut.joint();

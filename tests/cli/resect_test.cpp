@@ -93,6 +93,7 @@ TEST_F(ResectCommand, RefusesInOneLine) {
         {"--reach flexion=200", 2, "cannot reach 200 degrees"},
         {"--reach flexion", 2, "is not a motion and its degrees"},
         {"--reach flexion=140 --share 0.3", 2, "--share: only with --from both"},
+        {"--reach flexion=140 --burr 0.4", 2, "burr's diameter must be from 0.5 to 30 mm"},
         {"--reach flexion=140 --deepest 0", 2, "must be above 0 mm"},
         {"--reach flexion=140 --protect short.txt", 3, "short.txt: 2 marks for the"},
         {"--reach flexion=140 --protect wrong.txt", 3, "line 2: 'yes' is no mark"}}) {

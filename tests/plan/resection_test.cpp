@@ -13,6 +13,7 @@
 #include "condyle/sample/hip.hpp"
 #include "measure/analytic_hip.hpp"
 #include "mesh/self_crossings.hpp"
+#include "mesh/surface_distance.hpp"
 #include "mesh/winding_number.hpp"
 #include "plan/sweep.hpp"
 #include "support/real_hip.hpp"
@@ -186,6 +187,105 @@ TEST(Resection, ABallThatTouchesNoVertexLeavesItsGroove) {
   }
 }
 
+/// Where no ball of the radius comes to that stays outside of the bone: how far from one a lowered vertex is at the most, mm. Balls stand in
+/// places `spacing` apart, and may enter bone by half of that.
+double not_touched_mm(const CutBone& cut, double radius, double spacing) {
+  const TriMesh mesh(cut.body.mesh);
+  const mesh::SurfaceDistance distance(mesh);
+  const mesh::WindingNumber inside(cut.body.mesh);
+  Eigen::AlignedBox3d box;
+  Points lowered;
+  for (std::size_t v = 0; v < cut.depth_mm.size(); ++v)
+    if (cut.depth_mm[v] > 0) lowered.push_back(mesh.vertices[v]), box.extend(Vec3(mesh.vertices[v]));
+  box.min().array() -= radius, box.max().array() += radius;
+  Points free;
+  for (double x = box.min().x(); x <= box.max().x(); x += spacing)
+    for (double y = box.min().y(); y <= box.max().y(); y += spacing)
+      for (double z = box.min().z(); z <= box.max().z();) {
+        const Vec3 c(x, y, z);
+        const double clear = distance(c) - radius;
+        if (std::abs(clear) < spacing && clear > -spacing / 2 && inside.at(c).winding == 0) free.push_back(c);
+        // The distance changes by no more than one goes.
+        z += spacing * std::max(1.0, std::floor(std::abs(clear) / spacing));
+      }
+  double most = 0;
+  for (std::size_t v = 0; v < lowered.size(); ++v) {
+    const Vec3 p = lowered[v];
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < free.size(); ++i) nearest = std::min(nearest, (p - free[i]).squaredNorm());
+    most = std::max(most, std::sqrt(nearest) - radius);
+  }
+  return most;
+}
+
+/// The groove of a ball of 3 mm, and a burr.
+struct GrooveAndBurr {
+  Joint joint;
+  ResectionRequest request;
+
+  explicit GrooveAndBurr(double burr_mm)
+      : joint(hip_of(ball_at(40 * Vec3(std::cos(20 * degree), std::sin(20 * degree), 0), 3),
+                     block({31.3, -20, -9.7}, {49.1, 0, 9.9}))),
+        request(reaching({target("flexion", 18)})) {
+    request.range.bearing.rule = BearingRule::count;
+    request.burr_mm = burr_mm;
+  }
+};
+
+// The cap that a ball makes as it goes in as deep as the ball at rest would.
+TEST(Resection, ABurrThatIsWiderThanAGrooveMakesItsOwnCap) {
+  const double depth = 1.604020;
+  for (const double radius : {4.0, 5.5}) {
+    const GrooveAndBurr groove(2 * radius);
+    const Resection done = resect(groove.joint, groove.request);
+    expect_reached(groove.joint, done, groove.request.range);
+    expect_sound(*done.mobile);
+    const double cap = std::numbers::pi * depth * depth * (3 * radius - depth) / 3;
+    EXPECT_NEAR(done.mobile->volume_mm3 / cap, 1, 0.02);
+    EXPECT_NEAR(done.mobile->burr_volume_mm3 / (cap - 19.92709), 1, 0.04);
+    EXPECT_NEAR(done.mobile->deepest_mm, depth, 0.015);
+    EXPECT_EQ(done.mobile->burr_in_kept_mm, 0);
+    EXPECT_LT(not_touched_mm(*done.mobile, radius, 0.2), 0.15);
+  }
+  const GrooveAndBurr groove(11);
+  ResectionRequest any_shape = groove.request;
+  any_shape.burr_mm.reset();
+  EXPECT_GT(not_touched_mm(*resect(groove.joint, any_shape).mobile, 5.5, 0.2), 0.3);
+}
+
+TEST(Resection, ABurrThatIsNarrowerThanAGrooveTakesNoMore) {
+  const GrooveAndBurr groove(5);
+  const Resection done = resect(groove.joint, groove.request);
+  expect_reached(groove.joint, done, groove.request.range);
+  EXPECT_LT(done.mobile->burr_volume_mm3, 0.01 * done.mobile->volume_mm3);
+  EXPECT_NEAR(done.mobile->volume_mm3 / 19.92709, 1, 0.02);
+}
+
+TEST(Resection, ABurrThatWouldEnterKeptBoneIsSaidTo) {
+  const Joint joint = hip_of(socket(25, endless), neck(15));
+  ResectionRequest request = reaching({target("flexion", 56)});
+  request.edge_mm = 1;
+  const Resection any_shape = resect(joint, request);
+  request.burr_mm = 30;
+  const Resection free = resect(joint, request);
+  EXPECT_EQ(free.mobile->burr_in_kept_mm, 0);
+  // Everything from 2 mm beside what must go on.
+  Points goes;
+  for (std::size_t v = 0; v < any_shape.mobile->depth_mm.size(); ++v)
+    if (any_shape.mobile->depth_mm[v] > 0) goes.push_back(any_shape.mobile->before.vertices[v]);
+  for (std::size_t v = 0; v < joint.mobile.mesh.vertices().size(); ++v) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < goes.size(); ++i)
+      nearest = std::min(nearest, (joint.mobile.mesh.vertices()[v] - goes[i]).norm());
+    request.mobile.vertices.push_back(nearest > 2);
+  }
+  const Resection kept = resect(joint, request);
+  EXPECT_FALSE(kept.targets[0].blocked);
+  EXPECT_GT(kept.mobile->burr_in_kept_mm, 0.05);
+  EXPECT_LT(kept.volume_mm3(), free.volume_mm3());
+  EXPECT_GT(kept.volume_mm3(), any_shape.volume_mm3());
+}
+
 TEST(Resection, NothingIsRemovedBeforeTheLimit) {
   const Joint joint = hip_of(socket(16, endless), neck(6));
   const Resection done = resect(joint, reaching({target("flexion", 60)}));
@@ -356,6 +456,9 @@ TEST(Resection, RequestsThatSayNothingAreRefused) {
   request.mobile.vertices = {1, 0};
   EXPECT_THROW(resect(joint, request), UsageError);
   const auto motions = hip_motions();
+  request = reaching({target("flexion", 70)});
+  request.burr_mm = 0;
+  EXPECT_THROW(resect(joint, request), UsageError);
   EXPECT_THROW(reach_targets(motions, "flexion"), UsageError);
   EXPECT_THROW(reach_targets(motions, "flexion=nan"), UsageError);
   EXPECT_THROW(reach_targets(motions, "flexion=1 flexion=2"), UsageError);
@@ -379,6 +482,13 @@ TEST(Resection, TheVisibleHumansHipLosesLittleMoreThanTheLeast) {
     EXPECT_GE(done.volume_mm3(), 0.97 * least);
     EXPECT_LE(done.mobile->deepest_mm, deepest);
   }
+  ResectionRequest burr = reaching({target("internal_rotation_at_90_flexion", 42.686)});
+  burr.burr_mm = 5.5;
+  const Resection made = resect(*hip, burr);
+  expect_reached(*hip, made);
+  expect_sound(*made.mobile);
+  EXPECT_LT(made.volume_mm3(), 1.15 * 150.1);
+  EXPECT_LT(not_touched_mm(*made.mobile, 2.75, 0.2), 0.15 + made.mobile->burr_in_kept_mm);
   const Resection flexion = resect(*hip, reaching({target("flexion", 140)}));
   expect_reached(*hip, flexion);
   expect_sound(*flexion.mobile);

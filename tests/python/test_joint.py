@@ -238,6 +238,12 @@ def test_resections_are_those_of_the_command(tmp_path, command):
     assert condyle.read_joint(tmp_path / "plan" / "resected.toml").range_of_motion(motion).limits[0].turned_deg == limit
     assert joint.with_mobile(plan.mobile.mesh).range_of_motion(motion).limits[0].turned_deg == limit
     assert plan.joint.resection(reach, curve_points=0).mobile is None
+    said = json.loads(subprocess.run(
+        [command, "resect", tmp_path / "hip.toml", "--reach", "internal_rotation_at_90_flexion=45", "--curve", "0", "--burr", "11", "--json"],
+        check=True, capture_output=True, text=True).stdout)
+    burr = joint.resection(reach, curve_points=0, burr_mm=11)
+    assert burr.mobile.burr_volume_mm3 == said["cuts"][0]["burr_volume_mm3"] > 0
+    assert burr.mobile.burr_in_kept_mm == said["cuts"][0]["burr_in_kept_mm"]
     kept = joint.resection(reach, curve_points=0, keep=np.ones(len(joint.mobile.vertices), bool))
     assert kept.targets[0].blocked.by == "marked" and kept.volume_mm3 == 0
     with pytest.raises(condyle.UsageError, match="share"):

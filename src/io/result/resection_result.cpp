@@ -86,6 +86,7 @@ std::string cut_lines(const ResectionResult& result, const CutOfBody& cut) {
       bone.deepest_at.x(), bone.deepest_at.y(), bone.deepest_at.z());
   if (const auto hour = deepest_hour(result.answer, cut))
     text += ", " + io::clock_text(*hour) + " of the neck";
+  if (bone.burr_volume_mm3 > 0) text += fmt::format("; {:.1f} mm3 for the burr", bone.burr_volume_mm3);
   return text + "\n";
 }
 
@@ -165,6 +166,8 @@ Json cut_json(const ResectionAnswer& answer, const CutOfBody& cut) {
             {"name", bone.body.name},
             {"volume_mm3", bone.volume_mm3},
             {"least_volume_mm3", bone.least_volume_mm3},
+            {"burr_volume_mm3", bone.burr_volume_mm3},
+            {"burr_in_kept_mm", bone.burr_in_kept_mm},
             {"area_mm2", bone.area_mm2},
             {"deepest_mm", bone.deepest_mm},
             {"deepest_at_mm", io::numbers(bone.deepest_at)},
