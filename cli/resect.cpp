@@ -52,7 +52,9 @@ KeptBone kept(const Options& options, const std::string& protect, const Body& bo
 void run(const Options& options, const CLI::App& command) {
   const LoadedJoint loaded = read_joint(options.joint);
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
-  const Provenance from = provenance_of(loaded, words_of(command));
+  Provenance from = provenance_of(loaded, words_of(command));
+  for (const std::string& marks : {options.protect_mobile, options.protect_fixed})
+    if (!marks.empty()) from.read.emplace_back(marks);
   if (!options.out.empty()) check_resection_folder(options.out, &from);
   const std::vector<Motion> motions = motions_of(loaded);
   const RangeRequest range = range_request_of(*options.range, loaded, motions);
@@ -136,7 +138,8 @@ void add_resect(CLI::App& app) {
   command
       ->add_option("--curve", options->curve_points,
                    "Points on the curve of degrees against mm3 for each target; 0 for none, each costs a cut")
-      ->option_text("N (10)");
+      ->option_text("N (10)")
+      ->check(CLI::Range(0, 1000));
   add_band(*command, options->range);
   add_bearing(*command, options->range);
   add_accept(*command, options->range);

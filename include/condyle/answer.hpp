@@ -346,8 +346,11 @@ enum class ResectionNoteCode : std::uint8_t {
   bearing_is_swept,  ///< The other bone sweeps over bearing surface, whose contact counts for nothing.
   neck_is_narrowed,  ///< More than 30 % of the neck's width goes.
   no_gain,           ///< A limit stays as it was.
-  alpha_stays,       ///< The alpha angle is no smaller after a cut at the neck: what it is read from stands in no way.
-  burr_meets_kept,   ///< The burr's ball would have to enter bone that stays.
+  alpha_stays,  ///< The alpha angle is no smaller after a cut at the neck: what it is read from stands in no way.
+  burr_meets_kept,  ///< The burr's ball would have to enter bone that stays.
+  sliding_surfaces,  ///< The bodies slide on each other by nature, and nothing is known to bear: what goes may be of that surface.
+  more_than_must,  ///< Much goes that no target needs: what a depth, or counting whole triangles, cannot leave.
+  finer_triangles,  ///< A limit grows by the smaller triangles around a cut alone: fewer of them lie partly in the bearing ball.
 };
 
 /// As in files: "nothing_to_do".

@@ -62,8 +62,11 @@ struct Body {
   Mesh mesh;                            ///< of all parts together
   std::vector<BodyPart> parts = {};     ///< in their order, covering the mesh; empty if it is one mesh
   std::optional<BodyImage> image = {};  ///< of a surface from a label map
-  /// Its head, in the body's frame, mm, where it is known: that of a bone that was cut, say. Else it is searched for.
+  /// The sphere that slides on it, in the body's frame, mm, where it is known, as that of a bone that was cut: of the mobile body its head, of
+  /// the fixed one its socket. Else it is searched for.
   std::optional<Sphere> head = {};
+  /// Of the mobile body with a known head: how far outside of it bearing surface reaches. Else as BearingOptions::margin_mm.
+  std::optional<double> bearing_margin_mm = {};
 };
 
 /// How far from a cut a point still lies on it: meshes in floats are off by less.

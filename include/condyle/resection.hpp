@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -21,6 +22,11 @@ struct ReachTarget {
   Motion motion = {};
   Angle reach = {};
 };
+
+/// For people: 120, where the angle in radians has 119.99999999999999.
+inline double asked_degrees(Angle angle) noexcept {
+  return std::round(angle.degrees() * 1e9) / 1e9;
+}
 
 /// Why bone stays.
 enum class KeptBy : std::uint8_t {
@@ -60,7 +66,7 @@ struct ResectionRequest {
 struct CutBone {
   Body body;                     ///< with triangles made smaller around the cut, and lowered
   TriMesh before;                ///< the same triangles where the surface was
-  std::vector<double> depth_mm;  ///< of each vertex
+  std::vector<double> depth_mm;  ///< of each vertex: below the surface before, its distance from it
   std::vector<int> needed_by;    ///< the target that needs it, of each vertex; -1 where nothing goes
   std::vector<double>
       needed_from_deg;  ///< the angle of its motion from which on it is in the way; 0 where nothing goes

@@ -42,8 +42,8 @@ void members(T& value, const Each& each) {
     auto& [name, first_vertex, vertices, first_triangle, triangles, contact] = value;
     each(name, first_vertex, vertices, first_triangle, triangles, contact);
   } else if constexpr (std::is_same_v<Struct, Body>) {
-    auto& [name, mesh, parts, image, head] = value;
-    each(name, mesh, parts, image, head);
+    auto& [name, mesh, parts, image, head, bearing_margin_mm] = value;
+    each(name, mesh, parts, image, head, bearing_margin_mm);
   } else if constexpr (std::is_same_v<Struct, BodyImage>) {
     auto& [voxel, cuts] = value;
     each(voxel, cuts);
@@ -119,8 +119,8 @@ void members(T& value, const Each& each) {
     auto& [part, mesh, repairs, contact, polygons, scale, X_BG] = value;
     each(part, mesh, repairs, contact, polygons, scale, X_BG);
   } else if constexpr (std::is_same_v<Struct, BodyEntry>) {
-    auto& [name, meshes, image, head] = value;
-    each(name, meshes, image, head);
+    auto& [name, meshes, image, head, bearing_margin_mm] = value;
+    each(name, meshes, image, head, bearing_margin_mm);
   } else if constexpr (std::is_same_v<Struct, Motion>) {
     auto& [name, vary, sense, start, range] = value;
     each(name, vary, sense, start, range);

@@ -78,8 +78,9 @@ py::tuple tuple_of_target(const ReachOutcome& outcome) {
     blocked = py::make_tuple(std::string(name_of(outcome.blocked->by)),
                              outcome.blocked->body == BodyRole::mobile ? "mobile" : "fixed",
                              array_of(outcome.blocked->point_mm));
-  return py::make_tuple(outcome.target.motion.name, outcome.target.reach.degrees(), outcome.planned.degrees(),
-                        dict_of(outcome.before), dict_of(outcome.after), blocked);
+  return py::make_tuple(outcome.target.motion.name, asked_degrees(outcome.target.reach),
+                        asked_degrees(outcome.planned), dict_of(outcome.before), dict_of(outcome.after),
+                        blocked);
 }
 
 /// Keys and (before, after), None where the meshes do not show a measure; None for joints other than hips.

@@ -32,7 +32,7 @@ class CutBone:
         The bone without what must go, and the same triangles where its surface was: smaller around the cut than those of the
         joint's mesh.
     depth_mm : (V,) float64
-        How far each vertex was lowered.
+        How far each vertex now lies below the surface before.
     needed_by : (V,) int32
         The number of the target that needs it, -1 where nothing goes.
     needed_from_deg : (V,) float64

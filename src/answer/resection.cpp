@@ -16,6 +16,9 @@ using core::formatted;
 constexpr double band_margin_step_mm = 0.5, largest_band_margin_mm = 4, band_margin_within_mm = 0.13;
 constexpr int most_band_plans = 11;
 
+/// Of what must go, the share, and mm3, that may go beside it without a note.
+constexpr double unasked_share = 0.1, unasked_mm3 = 0.5;
+
 /// An alpha angle that falls by less stays as it was, as far as the contour tells.
 constexpr double alpha_unchanged_deg = 1;
 
@@ -60,27 +63,32 @@ std::string_view why_kept(KeptBy by) {
   return "bone that is marked to stay";
 }
 
-/// The share of the neck's width across which a cut goes; 0 if the cut is not at the neck.
+/// The largest share of the neck's width, across it where a vertex lies, that goes there; 0 if the cut is not at the neck.
 double share_of_neck(const CutBone& cut, const HipMeasures& shape) {
   if (!shape.femur.neck || shape.femur.neck->outline.empty()) return 0;
   const NeckGeometry& neck = *shape.femur.neck;
-  const Vec3 from_head = cut.deepest_at - neck.head.centre;
-  // Between the head and the trochanters.
-  const double along = from_head.dot(neck.direction) / neck.head.radius;
-  if (!(along > 0.3 && along < 2)) return 0;
-  const Vec3 across = (from_head - from_head.dot(neck.direction) * neck.direction).stableNormalized();
-  double least = 0, most = 0;
-  for (const Vec3& p : neck.outline) {
-    const double at = (p - neck.head.centre).dot(across);
-    least = std::min(least, at), most = std::max(most, at);
+  double share = 0;
+  for (std::size_t v = 0; v < cut.depth_mm.size(); ++v) {
+    if (cut.depth_mm[v] == 0) continue;
+    const Vec3 from_head = cut.before.vertices[v] - neck.head.centre;
+    // Between the head and the trochanters.
+    const double along = from_head.dot(neck.direction) / neck.head.radius;
+    if (!(along > 0.3 && along < 2)) continue;
+    const Vec3 across = (from_head - from_head.dot(neck.direction) * neck.direction).stableNormalized();
+    double least = 0, most = 0;
+    for (const Vec3& p : neck.outline) {
+      const double at = (p - neck.head.centre).dot(across);
+      least = std::min(least, at), most = std::max(most, at);
+    }
+    if (most > least) share = std::max(share, cut.depth_mm[v] / (most - least));
   }
-  return most > least ? cut.deepest_mm / (most - least) : 0;
+  return share;
 }
 
 void note_targets(ResectionAnswer& answer) {
   const auto& targets = answer.resection.targets;
   const bool nothing = !answer.resection.mobile && !answer.resection.fixed;
-  if (nothing)
+  if (nothing && std::none_of(targets.begin(), targets.end(), [](const auto& each) { return each.blocked; }))
     answer.notes.push_back(
         {ResectionNoteCode::nothing_to_do, "every target is reached as the joint is: nothing has to go"});
   for (const ReachOutcome& outcome : targets) {
@@ -88,15 +96,18 @@ void note_targets(ResectionAnswer& answer) {
     const Body& body = outcome.blocked->body == BodyRole::mobile ? answer.resection.joint.mobile
                                                                  : answer.resection.joint.fixed;
     const Vec3& p = outcome.blocked->point_mm;
+    const std::string margin =
+        answer.margin_mm > 0 ? formatted(" with a margin of %.6g mm", answer.margin_mm) : std::string();
     answer.notes.push_back({ResectionNoteCode::target_blocked,
                             outcome.target.motion.name + " cannot reach " + in_degrees(outcome.target.reach) +
-                                " degrees: " + std::string(why_kept(outcome.blocked->by)) + " of " +
-                                body.name + formatted(" at (%.1f, %.1f, %.1f) mm", p.x(), p.y(), p.z()) +
+                                " degrees" + margin + ": " + std::string(why_kept(outcome.blocked->by)) +
+                                " of " + body.name +
+                                formatted(" at (%.1f, %.1f, %.1f) mm", p.x(), p.y(), p.z()) +
                                 " stops it at " + in_degrees(outcome.planned)});
   }
 }
 
-void note_bones(ResectionAnswer& answer) {
+void note_bones(ResectionAnswer& answer, const Joint& joint, const RangeOptions& range) {
   if (answer.resection.sweeps_bearing)
     answer.notes.push_back({ResectionNoteCode::bearing_is_swept,
                             answer.resection.joint.mobile.name +
@@ -107,7 +118,7 @@ void note_bones(ResectionAnswer& answer) {
     if (share > neck_width_share)
       answer.notes.push_back(
           {ResectionNoteCode::neck_is_narrowed,
-           formatted("the cut takes %.0f %% of the neck's width where it is deepest, more than %.0f %%: how "
+           formatted("the cut takes %.0f %% of the neck's width at one place, more than %.0f %%: how "
                      "strong the neck still is, is not modelled",
                      100 * share, 100 * neck_width_share)});
     const auto &before = answer.shape_before->femur.alpha_largest.value,
@@ -115,23 +126,68 @@ void note_bones(ResectionAnswer& answer) {
     if (share > 0 && before && after && *after > *before - alpha_unchanged_deg)
       answer.notes.push_back(
           {ResectionNoteCode::alpha_stays,
-           formatted("the alpha angle stays, %.1f degrees before and %.1f after: it is read where the surface "
-                     "leaves the head's sphere, and bone there that no target meets stays",
-                     *before, *after)});
+           formatted(
+               "the alpha angle stays, %.1f degrees before and %.1f after: it is read where the surface "
+               "leaves the head's sphere, and bone there that no target meets stays",
+               *before, *after)});
   }
-  for (const auto* cut : {&answer.resection.mobile, &answer.resection.fixed})
-    if (*cut && (*cut)->burr_in_kept_mm > 0)
+  if (answer.resection.mobile || answer.resection.fixed)
+    for (const RangeNote& note :
+         range_notes(joint, answer.before, range, find_bearing_surface(joint, range.bearing)))
+      if (note.code == RangeNoteCode::sliding_surfaces)
+        answer.notes.push_back(
+            {ResectionNoteCode::sliding_surfaces, note.text + "; what goes may be of those surfaces"});
+  for (const auto* cut : {&answer.resection.mobile, &answer.resection.fixed}) {
+    if (!*cut) continue;
+    const double unasked = (*cut)->volume_mm3 - (*cut)->burr_volume_mm3 - (*cut)->least_volume_mm3;
+    if (unasked > unasked_share * (*cut)->least_volume_mm3 + unasked_mm3)
+      answer.notes.push_back(
+          {ResectionNoteCode::more_than_must,
+           (*cut)->body.name +
+               formatted(": %.1f mm3 go that no target needs: bone above an overhang, or triangles that lie "
+                         "partly in the bearing ball and are met as a whole",
+                         unasked)});
+    if ((*cut)->burr_in_kept_mm > 0)
       answer.notes.push_back(
           {ResectionNoteCode::burr_meets_kept,
            (*cut)->body.name + formatted(": a burr this wide would have to enter bone that stays by %.2f mm: "
                                          "there the cut is narrower than it",
                                          (*cut)->burr_in_kept_mm)});
+  }
+}
+
+/// The joint with the triangles of the cut bones where their surface was.
+Joint with_finer_triangles(const Resection& resection) {
+  Joint joint = resection.joint;
+  for (const auto& [cut, body] :
+       {std::pair(&resection.mobile, &joint.mobile), std::pair(&resection.fixed, &joint.fixed)})
+    if (*cut) body->mesh = body->mesh.moved_to((*cut)->before.vertices);
+  return joint;
+}
+
+/// What a limit gains by smaller triangles is no gain of the cut.
+void note_finer_triangles(ResectionAnswer& answer, const Joint& finer, const RangeOptions& range,
+                          std::span<const Motion> motions) {
+  const std::vector<MotionLimit> limits = RangeOfMotion(finer, range).limits(motions);
+  for (std::size_t i = 0; i < limits.size(); ++i)
+    if (const Angle was = answer.before[i].end.turned, is = limits[i].end.turned;
+        is.degrees() > was.degrees() + no_change_deg)
+      answer.notes.push_back(
+          {ResectionNoteCode::finer_triangles,
+           motions[i].name + " ends at " + in_degrees(was) + " degrees, and at " + in_degrees(is) +
+               " with smaller triangles of the same surface, those in the bearing ball left out: from "
+               "there on the cut counts"});
 }
 
 void note_gains(ResectionAnswer& answer) {
   if (!answer.resection.mobile && !answer.resection.fixed) return;
   std::string same;
   for (std::size_t i = 0; i < answer.before.size(); ++i) {
+    const auto& targets = answer.resection.targets;
+    if (std::any_of(targets.begin(), targets.end(), [&](const ReachOutcome& outcome) {
+          return !outcome.blocked && outcome.target.motion.name == answer.before[i].motion.name;
+        }))
+      continue;
     const Limit &a = answer.before[i].end, &b = answer.after[i].end;
     if (a.reason == LimitReason::contact && b.turned.degrees() < a.turned.degrees() + no_change_deg)
       same += (same.empty() ? "" : ", ") + answer.before[i].motion.name;
@@ -145,6 +201,7 @@ struct Banded {
   Resection resection;
   std::vector<LimitBand> bands = {};
   bool reaches = false;  ///< every target that nothing blocks, in 95 % of them
+  std::vector<bool> blocked = {};
 };
 
 /// Empty if it was stopped, or if so much cannot be cut.
@@ -164,9 +221,11 @@ std::optional<Banded> banded(const ResectionQuery& query, double margin_mm, cons
                            answer::staged(control, "joints of the band"));
   if (!bands) return std::nullopt;
   Banded plan{std::move(*cut), std::move(*bands), true};
-  for (std::size_t i = 0; i < motions.size(); ++i)
-    if (!plan.resection.targets[i].blocked && plan.bands[i].p5 < request.targets[i].reach)
-      plan.reaches = false;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const bool blocked = plan.resection.targets[i].blocked.has_value();
+    if (!blocked && plan.bands[i].p5 < request.targets[i].reach) plan.reaches = false;
+    plan.blocked.push_back(blocked);
+  }
   return plan;
 }
 
@@ -178,17 +237,18 @@ bool reach_bands(const ResectionQuery& query, const AnswerControl& control, Cuts
   auto plan = banded(query, low, control, cuts, std::move(answer.resection));
   if (!plan) return false;
   while (!plan->reaches && high < largest_band_margin_mm) {
-    low = high, high += band_margin_step_mm;
-    auto wider = banded(query, high, control, cuts);
+    auto wider = banded(query, high + band_margin_step_mm, control, cuts);
     if (control.stop.stop_requested()) return false;
-    if (!wider) break;
+    // A margin that kept bone has no room for is none.
+    if (!wider || wider->blocked != plan->blocked) break;
+    low = high, high += band_margin_step_mm;
     plan = std::move(wider);
   }
   while (plan->reaches && high - low > band_margin_within_mm) {
     const double middle = (low + high) / 2;
     auto between = banded(query, middle, control, cuts);
     if (control.stop.stop_requested()) return false;
-    if (!between) break;
+    if (!between || between->blocked != plan->blocked) break;
     if (between->reaches)
       high = middle, plan = std::move(between);
     else
@@ -217,6 +277,7 @@ bool add_curve(const ResectionQuery& query, Cuts& cuts, ResectionAnswer& answer)
     const auto points = static_cast<double>(query.curve_points);
     for (std::size_t k = 1; k <= query.curve_points; ++k) {
       ResectionRequest one = query.resection;
+      one.margin_mm = answer.margin_mm;
       const Angle reach = from + (outcome.planned - from) * (static_cast<double>(k) / points);
       one.targets = {{outcome.target.motion, reach}};
       const auto cut = cuts(one);
@@ -253,9 +314,15 @@ std::string_view name_of(ResectionNoteCode code) noexcept {
     case ResectionNoteCode::alpha_stays:
       return "alpha_stays";
     case ResectionNoteCode::burr_meets_kept:
+      return "burr_meets_kept";
+    case ResectionNoteCode::sliding_surfaces:
+      return "sliding_surfaces";
+    case ResectionNoteCode::more_than_must:
+      return "more_than_must";
+    case ResectionNoteCode::finer_triangles:
       break;
   }
-  return "burr_meets_kept";
+  return "finer_triangles";
 }
 
 std::vector<ReachTarget> reach_targets(std::span<const Motion> motions, std::string_view text) {
@@ -302,13 +369,16 @@ std::optional<ResectionAnswer> answer_resection(const Joint& joint, const JointP
   const RangeOfMotion range(at, asked.resection.range);
   answer.before = range.limits(asked.motions);
   answer.after = RangeOfMotion(answer.resection.joint, asked.resection.range).limits(asked.motions);
+  // Compared on the same triangles: what a measure takes of a surface depends a little on them.
+  const Joint finer = with_finer_triangles(answer.resection);
   if (at.is_hip() && at.kind != JointKind::hinge) {
-    answer.shape_before = measure_hip(at, asked.measures);
+    answer.shape_before = measure_hip(finer, asked.measures);
     answer.shape_after = measure_hip(answer.resection.joint, asked.measures);
   }
   if (asked.curve_points > 0 && !add_curve(asked, cuts, answer)) return std::nullopt;
   note_targets(answer);
-  note_bones(answer);
+  note_finer_triangles(answer, finer, asked.resection.range, asked.motions);
+  note_bones(answer, at, asked.resection.range);
   note_gains(answer);
   answer.caveats = range_caveats(asked.resection.range, range);
   answer.caveats.emplace_back(

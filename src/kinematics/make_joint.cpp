@@ -256,6 +256,7 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
   mobile.mesh = placed(X_MW, description.mobile_in_W, scale, mobile);
   fixed.image = placed_image(X_FW * description.fixed_in_W, fixed.image);
   mobile.image = placed_image(X_MW * description.mobile_in_W, mobile.image);
+  fixed.head = placed_head(X_FW * description.fixed_in_W, fixed.head);
   mobile.head = placed_head(X_MW * description.mobile_in_W, mobile.head);
   if (mobile.head) kinematics::keep_head(mobile.mesh, *mobile.head);
   // A search about the joint centre finds the head that a search of the whole body found.

@@ -8,6 +8,7 @@
 #include "core/lazy.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_parts.hpp"
+#include "kinematics/surface_points.hpp"
 #include "measure/femoral_version.hpp"
 #include "measure/ischiofemoral.hpp"
 #include "measure/joint_space.hpp"
@@ -90,9 +91,13 @@ FoundParts find_parts(const Joint& joint, const BoneMeshes& bones) {
   parts.head = kinematics::head_near_centre(bones.femur);
   if (!parts.head) return parts;
   const Sphere& head = parts.head->fit.sphere;
-  if (const auto socket = kinematics::socket_around(bones.hip_bone, head);
-      *socket && kinematics::fits_into(head, **socket))
+  if (joint.fixed.head) {
+    if (const auto socket = kinematics::patch_on(bones.hip_bone, *joint.fixed.head))
+      parts.socket = socket->fit.vertices;
+  } else if (const auto socket = kinematics::socket_around(bones.hip_bone, head);
+             *socket && kinematics::fits_into(head, **socket)) {
     parts.socket = (*socket)->fit.vertices;
+  }
   if (const auto rim = kinematics::rim_around(bones.hip_bone, head); *rim) parts.opening = (*rim)->opening;
   parts.why_no_condyles =
       mesh::findings_of(bones.femur).get<KeptSearch>().why_no_condyles.get([&](std::string& why) {

@@ -9,6 +9,7 @@
 #include "core/formatted.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
+#include "mesh/surface_distance.hpp"
 #include "plan/burr.hpp"
 #include "plan/refine.hpp"
 
@@ -58,17 +59,20 @@ motion::PartOfMesh counted(const Body& body, const Mesh& mesh, const Counting& c
 }
 
 /// With its surface moved outwards, mm: each vertex to where the planes of its triangles are, moved so far; in the sense of least squares
-/// with the angles that they have there as weights, where there are more than three.
+/// with the angles that they have there as weights, where there are more than three, and then farther, until it is outside of all.
 Mesh grown(const Mesh& mesh, double by_mm) {
   if (by_mm == 0) return mesh;
   const std::size_t count = mesh.vertices().size();
   std::vector<Eigen::Matrix3d> squares(count, Eigen::Matrix3d::Zero());
   std::vector<Vec3> sums(count, Vec3::Zero());
+  const auto normal_of = [&](std::size_t t) {
+    return Vec3((mesh.corner(t, 1) - mesh.corner(t, 0))
+                    .cross(mesh.corner(t, 2) - mesh.corner(t, 0))
+                    .stableNormalized());
+  };
   for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
     const Triangle& v = mesh.triangles()[t];
-    const Vec3 normal = (mesh.corner(t, 1) - mesh.corner(t, 0))
-                            .cross(mesh.corner(t, 2) - mesh.corner(t, 0))
-                            .stableNormalized();
+    const Vec3 normal = normal_of(t);
     for (int k = 0; k < 3; ++k) {
       const Vec3 to_next = (mesh.corner(t, (k + 1) % 3) - mesh.corner(t, k)).stableNormalized(),
                  to_last = (mesh.corner(t, (k + 2) % 3) - mesh.corner(t, k)).stableNormalized();
@@ -77,16 +81,24 @@ Mesh grown(const Mesh& mesh, double by_mm) {
       sums[v[k]] += angle * normal;
     }
   }
-  Points moved = mesh.vertices();
+  std::vector<Vec3> tips(count, Vec3::Zero());
   for (std::size_t v = 0; v < count; ++v) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(squares[v]);
-    Vec3 by = Vec3::Zero();
     for (int k = 0; k < 3; ++k)
       if (axes.eigenvalues()[k] > flat_share * axes.eigenvalues()[2]) {
         const Vec3 axis = axes.eigenvectors().col(k);
-        by += axis.dot(sums[v]) / axes.eigenvalues()[k] * axis;
+        tips[v] += axis.dot(sums[v]) / axes.eigenvalues()[k] * axis;
       }
-    moved.set(v, moved[v] + by_mm * std::min(1.0, longest_tip / by.norm()) * by);
+  }
+  std::vector<double> least(count, 1);  // that a plane moves by
+  for (std::size_t t = 0; t < mesh.triangles().size(); ++t)
+    if (const Vec3 normal = normal_of(t); normal != Vec3::Zero())
+      for (const Index v : mesh.triangles()[t]) least[v] = std::min(least[v], normal.dot(tips[v]));
+  Points moved = mesh.vertices();
+  for (std::size_t v = 0; v < count; ++v) {
+    if (tips[v] == Vec3::Zero()) continue;
+    const double most = longest_tip / tips[v].norm(), enough = least[v] > 0 ? 1 / least[v] : most;
+    moved.set(v, moved[v] + by_mm * std::min(enough, most) * tips[v]);
   }
   return mesh.moved_to(std::move(moved));
 }
@@ -121,6 +133,9 @@ BoneCut::BoneCut(const Joint& joint, BodyRole cut_role, const ResectionRequest& 
       share_(share),
       stopped_(targets_.size()) {
   bearing_ = find_bearing_surface(joint, request.range.bearing).surface;
+  if (!bearing_ && kept().within_mm)
+    throw UsageError("resection: bone is to stay by its distance from the bearing surface, and " +
+                     joint.name + " has none that is known");
   if (bearing_ && request.range.bearing.rule == BearingRule::leave_out) ball_.emplace(*bearing_);
   const bool cuts_mobile = role_ == BodyRole::mobile;
   const Body& other = cuts_mobile ? joint.fixed : joint.mobile;
@@ -228,7 +243,10 @@ void BoneCut::refine() {
     near[t] = (near[t] && wanted_[before]) || met_[before];
   }
   const auto put_surface = [&] {
-    surface_.emplace(fine.body, near, kept_vertices(fine.body), kept().deepest_mm, request_.edge_mm);
+    // Of the depth that is taken a share is cut.
+    std::optional<double> deepest = kept().deepest_mm;
+    if (deepest) *deepest /= share_;
+    surface_.emplace(fine.body, near, kept_vertices(fine.body), deepest, request_.edge_mm);
   };
   put_surface();
   surface_->smooth_directions(smoothing_mm_);
@@ -253,11 +271,21 @@ void BoneCut::refine() {
 }
 
 bool BoneCut::stop(std::size_t target, Angle at, KeptBy by, const Vec3& point) {
-  const Angle possible = std::max(Angle(), at - short_of_kept);
+  // What no vertex reaches from where it is may go from elsewhere: no bone stops that motion, but no depth can follow it.
+  if (by == KeptBy::depth && !kept().deepest_mm)
+    throw MeshError(bone_.name + ": a cut for " + asked(target) +
+                    " goes deeper than a depth below the surface can follow: ask for less");
+  const Angle possible = std::max(targets_[target].now, at) - short_of_kept;
   if (!(possible < reach_[target])) return false;
   reach_[target] = possible;
   stopped_[target] = StoppedAt{possible, {by, role_, point}};
   return true;
+}
+
+std::string BoneCut::asked(std::size_t target) const {
+  return targets_[target].motion.name +
+         core::formatted(" of %.6g degrees", targets_[target].reach.degrees()) +
+         (request_.margin_mm > 0 ? core::formatted(" with a margin of %.6g mm", request_.margin_mm) : "");
 }
 
 bool BoneCut::lower_for_reach() {
@@ -300,6 +328,7 @@ void BoneCut::want_too(const std::vector<Index>& met) {
 
 /// Lowers what the exact search still finds in the way. False if kept bone stops a motion.
 bool BoneCut::correct() {
+  std::size_t last = 0;  // the target that was short
   for (int i = 0; i < most_corrections; ++i) {
     const motion::PartOfMesh part = counted(surface_->body(), surface_->mesh(), counting(role_),
                                             role_ == BodyRole::mobile ? ball_ : std::nullopt);
@@ -311,6 +340,7 @@ bool BoneCut::correct() {
         throw MeshError(bone_.name + ": what is left would lie inside the other bone at the start of " +
                         targets_[t].motion.name);
       reached = false;
+      last = t;
       Feature feature = limit.contact->mobile_feature;
       if (feature.kind == FeatureKind::face) feature.id = part.triangle_in_whole[feature.id];
       if (!lower_at(t, limit, feature,
@@ -320,7 +350,8 @@ bool BoneCut::correct() {
     if (reached) return true;
   }
   throw MeshError(bone_.name + ": after " + std::to_string(most_corrections) +
-                  " corrections its cut surface still meets the other bone");
+                  " corrections its cut surface still meets the other bone before " + asked(last) +
+                  ": ask for less");
 }
 
 /// The share of a cut that reaches its targets, as a burr can make it. False if the surface must be lowered anew, with more of it near.
@@ -349,7 +380,7 @@ std::string BoneCut::fault() const {
   const Mesh mesh = surface_->mesh();
   const TriMesh& before = surface_->body().mesh;
   std::size_t turned = 0;
-  for (const Index t : surface_->near()) {
+  for (const Index t : surface_->moving()) {
     const auto normal = [&](const TriMesh& m) {
       return Vec3((m.corner(t, 1) - m.corner(t, 0)).cross(m.corner(t, 2) - m.corner(t, 0)));
     };
@@ -383,43 +414,63 @@ Joint BoneCut::joint() const {
   Body& bone = role_ == BodyRole::mobile ? joint.mobile : joint.fixed;
   bone = surface_->body();
   bone.mesh = surface_->mesh();
-  // Smaller triangles around a cut weigh more in a fit: the head is the one that it was.
-  if (bearing_ && role_ == BodyRole::mobile) bone.head = bearing_->head;
+  // Smaller triangles around a cut weigh more in a fit, and a rim that is cut is farther from the head: what bears is what it was.
+  if (bearing_) {
+    joint.mobile.head = bearing_->head;
+    joint.mobile.bearing_margin_mm = bearing_->margin_mm;
+    joint.fixed.head = bearing_->socket;
+  }
   return joint;
+}
+
+bool BoneCut::removes_any() const {
+  return std::any_of(surface_->vertices().begin(), surface_->vertices().end(),
+                     [](const CutSurface::Vertex& vertex) { return vertex.depth_mm > 0; });
+}
+
+bool BoneCut::reaches_by_smaller_triangles() const {
+  for (std::size_t t = 0; t < targets_.size(); ++t)
+    if (reach_[t] > targets_[t].now) return true;
+  return false;
 }
 
 double BoneCut::removed_mm3() const {
   const std::vector<CutSurface::Vertex>& vertices = surface_->vertices();
-  const auto deepest =
-      std::max_element(vertices.begin(), vertices.end(),
-                       [](const auto& a, const auto& b) { return a.depth_mm < b.depth_mm; });
+  const auto deepest = std::max_element(vertices.begin(), vertices.end(),
+                                        [](const auto& a, const auto& b) { return a.depth_mm < b.depth_mm; });
   const TriMesh& before = surface_->body().mesh;
   const Mesh after = surface_->mesh();
   mesh::CompensatedSum volume;
-  for (const Index t : surface_->near())
+  for (const Index t : surface_->moving())
     if (std::any_of(before.triangles[t].begin(), before.triangles[t].end(),
                     [&](Index v) { return vertices[v].depth_mm > 0; }))
-      volume.add(mesh::volume_below(before, t, deepest->before) - mesh::volume_below(after, t, deepest->before));
+      volume.add(mesh::volume_below(before, t, deepest->before) -
+                 mesh::volume_below(after, t, deepest->before));
   return volume.value();
 }
 
 CutBone BoneCut::cut_bone() const {
   CutBone cut{surface_->body(), surface_->body().mesh, {}, {}, {}, 0, 0, 0, 0, 0, 0, Vec3::Zero()};
   cut.body.mesh = surface_->mesh();
-  for (const CutSurface::Vertex& vertex : surface_->vertices()) {
+  // Along a wall the way inwards is longer than the wall is deep.
+  const mesh::SurfaceDistance from_before(cut.before);
+  for (Index v = 0; v < surface_->vertices().size(); ++v) {
+    const CutSurface::Vertex& vertex = surface_->vertices()[v];
     const bool goes = vertex.depth_mm > 0 && vertex.need;
-    cut.depth_mm.push_back(vertex.depth_mm);
+    const double depth = vertex.depth_mm > 0 ? from_before(surface_->at(v)) : 0;
+    cut.depth_mm.push_back(depth);
     cut.needed_by.push_back(goes ? static_cast<int>(targets_[vertex.need->target].number) : -1);
     cut.needed_from_deg.push_back(goes ? Angle::radians(vertex.need->from_rad).degrees() : 0);
-    if (vertex.depth_mm > cut.deepest_mm) cut.deepest_mm = vertex.depth_mm, cut.deepest_at = vertex.before;
+    if (depth > cut.deepest_mm) cut.deepest_mm = depth, cut.deepest_at = vertex.before;
   }
   const TriMesh& before = cut.before;
-  for (const Index t : surface_->near())
+  for (const Index t : surface_->moving())
     if (std::any_of(before.triangles[t].begin(), before.triangles[t].end(),
-                    [&](Index v) { return cut.depth_mm[v] > 0; }))
-      cut.area_mm2 +=
-          (before.corner(t, 1) - before.corner(t, 0)).cross(before.corner(t, 2) - before.corner(t, 0)).norm() /
-          2;
+                    [&](Index v) { return surface_->vertices()[v].depth_mm > 0; }))
+      cut.area_mm2 += (before.corner(t, 1) - before.corner(t, 0))
+                          .cross(before.corner(t, 2) - before.corner(t, 0))
+                          .norm() /
+                      2;
   cut.volume_mm3 = removed_mm3();
   if (request_.burr_mm) cut.burr_volume_mm3 = cut.volume_mm3 - before_burr_mm3_;
   cut.burr_in_kept_mm = burr_in_kept_mm_;
@@ -431,7 +482,7 @@ CutBone BoneCut::cut_bone() const {
 double BoneCut::least_share() const {
   Points points;
   std::vector<double> weight;
-  for (const Index t : surface_->near()) {
+  for (const Index t : surface_->moving()) {
     std::array<Vec3, 3> p{}, d{};
     double deepest = 0;
     for (int k = 0; k < 3; ++k) {

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "condyle/resection.hpp"
@@ -16,6 +17,7 @@ struct CutTarget {
   std::size_t number;  ///< in the request
   Motion motion;
   Angle reach;
+  Angle now;  ///< where it ends as the joint is
 };
 
 /// Where kept bone stops a target.
@@ -43,6 +45,9 @@ class BoneCut {
   /// The joint with this bone as it is cut now.
   Joint joint() const;
   CutBone cut_bone() const;
+  bool removes_any() const;
+  /// Whether a target is reached that was not, though nothing goes: fewer of the smaller triangles lie partly in the bearing ball.
+  bool reaches_by_smaller_triangles() const;
   /// Whether the other bone sweeps over bearing surface of this one.
   bool sweeps_bearing() const;
   /// As far as each target goes; in the order of the targets.
@@ -59,6 +64,7 @@ class BoneCut {
   void want_too(const std::vector<Index>& met);
   void cut();
   std::string fault() const;
+  std::string asked(std::size_t target) const;
   bool lower_for_reach();
   bool correct();
   bool finish();

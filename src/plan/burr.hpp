@@ -41,8 +41,9 @@ class Burr {
   double radius_;
   mesh::TriangleTree before_, tree_;
   mesh::VertexTriangles triangles_of_;
-  std::vector<std::uint8_t> near_;         ///< of the triangles
-  std::vector<std::uint8_t> made_, moved_;  ///< of the vertices: touched by a ball that is free; lowered in this round
+  std::vector<std::uint8_t> near_;  ///< of the triangles
+  std::vector<std::uint8_t> made_,
+      moved_;  ///< of the vertices: touched by a ball that is free; lowered in this round
   std::vector<Index> elsewhere_;
   double in_kept_mm_ = 0;
 };

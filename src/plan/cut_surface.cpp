@@ -8,6 +8,7 @@
 
 #include "mesh/edge_table.hpp"
 #include "mesh/vertex_normals.hpp"
+#include "mesh/winding_number.hpp"
 
 namespace condyle::plan {
 namespace {
@@ -53,7 +54,7 @@ struct CutSurface::LatticeStretch {
   std::array<double, 3> weights;
   double length;
   Need need;
-  Vec3 at;
+  Vec3 at, below;  ///< and a little farther inwards
 };
 
 /// The swept stretch that begins at a probe.
@@ -106,7 +107,12 @@ CutSurface::CutSurface(Body body, const std::vector<std::uint8_t>& near,
     for (const Index v : mesh.triangles()[t]) used[v] = 1;
   }
   for (Index v = 0; v < used.size(); ++v)
-    if (used[v]) near_vertices_.push_back(v);
+    if (used[v])
+      near_vertices_.push_back(v);
+    else
+      vertices_[v].room_mm = 0;
+  for (Index t = 0; t < near.size(); ++t)
+    if (const auto& [a, b, c] = mesh.triangles()[t]; used[a] || used[b] || used[c]) moving_.push_back(t);
 }
 
 void CutSurface::smooth_directions(double over_mm) {
@@ -142,7 +148,7 @@ void CutSurface::restore() {
 }
 
 void CutSurface::scale_depths(double by) {
-  for (Vertex& vertex : vertices_) vertex.depth_mm *= by;
+  for (Vertex& vertex : vertices_) vertex.depth_mm *= by, vertex.room_mm *= by;
 }
 
 void CutSurface::lower_to(Index vertex, double depth_mm, const Need& need) {
@@ -418,7 +424,7 @@ std::vector<CutSurface::LatticeStretch> CutSurface::stretches_between(
   for (std::size_t i = 0; i < found.size(); ++i)
     if (found[i].need)
       swept.push_back({triangles[i / weights.size()], weights[i % weights.size()], found[i].length,
-                       *found[i].need, probes[i].from});
+                       *found[i].need, probes[i].from, probes[i].from + left_mm * probes[i].inwards});
   return swept;
 }
 
@@ -454,15 +460,22 @@ std::vector<Index> CutSurface::lower_between_vertices(const std::vector<Index>& 
 
 std::vector<InTheWay> CutSurface::left_in_the_way(const std::vector<SweepTo>& sweeps) const {
   std::vector<InTheWay> left;
+  std::optional<mesh::WindingNumber> before;
+  const auto is_bone = [&](const Vec3& p) {
+    if (!before) before.emplace(body_.mesh);
+    return before->at(p).winding != 0;
+  };
   for (const LatticeStretch& point : stretches_between(near_, sweeps)) {
     if (point.length <= left_mm) continue;
     // All corners are kept, or at the end of their room; where one is free the exact search decides.
-    std::optional<KeptBy> by = KeptBy::depth;
-    for (const Index v : body_.mesh.triangles()[point.triangle])
-      if (vertices_[v].kept) by = vertices_[v].kept;
-    for (const Index v : body_.mesh.triangles()[point.triangle])
-      if (vertices_[v].depth_mm < vertices_[v].room_mm) by.reset();
-    if (by) left.push_back({point.need.target, point.need.from_rad, *by, point.at});
+    const Triangle& corners = body_.mesh.triangles()[point.triangle];
+    if (std::any_of(corners.begin(), corners.end(),
+                    [&](Index v) { return vertices_[v].depth_mm < vertices_[v].room_mm; }))
+      continue;
+    KeptBy by = KeptBy::depth;
+    for (const Index v : corners) by = vertices_[v].kept.value_or(by);
+    // Whoever was lowered through the whole bone looks at what lies behind it, which is in nobody's way.
+    if (is_bone(point.below)) left.push_back({point.need.target, point.need.from_rad, by, point.at});
   }
   return left;
 }
@@ -480,7 +493,7 @@ bool CutSurface::unfold() {
   const std::vector<Triangle>& triangles = body_.mesh.triangles();
   for (int round = 0; round < most_unfoldings; ++round) {
     bool any_turned = false, any_lowered = false;
-    for (const Index t : near_) {
+    for (const Index t : moving_) {
       const auto& [a, b, c] = triangles[t];
       const Vec3 before = (vertices_[b].before - vertices_[a].before)
                               .cross(vertices_[c].before - vertices_[a].before),

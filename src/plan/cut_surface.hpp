@@ -62,6 +62,7 @@ class CutSurface {
   void restore();
   /// Lowers the vertices until the surface is clear of everything that the sweeps cover, and says what stays in the way.
   std::vector<InTheWay> lower(const std::vector<SweepTo>& sweeps);
+  /// Depths, and how deep vertices may go.
   void scale_depths(double by);
   /// A vertex so deep, or as deep as it may go; never higher than it is.
   void lower_to(Index vertex, double depth_mm, const Need& need);
@@ -80,8 +81,9 @@ class CutSurface {
   }
   /// With its vertices where they are now.
   Mesh mesh() const;
-  /// Triangles that may have moved.
+  /// Triangles where bone may have to go, and all that have a corner of one of them: those that may have moved.
   const std::vector<Index>& near() const noexcept { return near_; }
+  const std::vector<Index>& moving() const noexcept { return moving_; }
 
  private:
   struct Probe;
@@ -101,7 +103,7 @@ class CutSurface {
   Body body_;
   double edge_mm_;
   std::vector<Vertex> vertices_;
-  std::vector<Index> near_, near_vertices_;
+  std::vector<Index> near_, near_vertices_, moving_;
 };
 
 }  // namespace condyle::plan

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
@@ -61,6 +62,10 @@ void check_resection(const Joint& joint, const ResectionRequest& request) {
     throw UsageError("resection: edges must be from 0.05 to 10 mm");
   if (request.range.overlap.leave_out_reference_contacts)
     throw UsageError("resection: contacts of the reference pose cannot be left out of what is removed");
+  for (const auto& [kept, body, share] : {std::tuple(&request.mobile, &joint.mobile, 1 - request.fixed_share),
+                                          std::tuple(&request.fixed, &joint.fixed, request.fixed_share)})
+    if (!kept->vertices.empty() && share == 0)
+      throw UsageError("resection: vertices of " + body->name + " are marked to stay, and it is not cut");
   check_kept(request.mobile, joint.mobile);
   check_kept(request.fixed, joint.fixed);
 }
@@ -88,9 +93,12 @@ std::optional<Resection> resect(const Joint& joint, const ResectionRequest& requ
     done.targets.push_back({target, target.reach, before.limit(target.motion), {}, {}});
     const Limit& end = done.targets.back().before.end;
     if (end.reason == LimitReason::contact_at_start)
-      throw UsageError("resection: " + target.motion.name +
-                       " is in contact at its start: what brings the joint there must be a target first");
-    if (end.turned < target.reach || request.margin_mm > 0) open.push_back({i, target.motion, target.reach});
+      throw UsageError(
+          "resection: " + target.motion.name +
+          " is in contact at its start: plan what brings the joint there first, and ask for this of "
+          "the joint without that bone");
+    if (end.turned < target.reach || request.margin_mm > 0)
+      open.push_back({i, target.motion, target.reach, end.turned});
   }
   const auto note_reach = [&](const BoneCut& cut) {
     for (std::size_t i = 0; i < open.size(); ++i) {
@@ -110,17 +118,21 @@ std::optional<Resection> resect(const Joint& joint, const ResectionRequest& requ
   if (request.fixed_share < 1 && !open.empty()) {
     BoneCut cut(joint, BodyRole::mobile, request, open, 1 - request.fixed_share);
     note_reach(cut);
-    done.mobile = cut.cut_bone();
     done.sweeps_bearing = cut.sweeps_bearing();
-    done.joint = cut.joint();
+    if (cut.removes_any() || cut.reaches_by_smaller_triangles()) {
+      done.mobile = cut.cut_bone();
+      done.joint = cut.joint();
+    }
     if (!report()) return std::nullopt;
   }
   if (request.fixed_share > 0 && !open.empty()) {
     const Joint with_mobile = done.joint;
     BoneCut cut(with_mobile, BodyRole::fixed, request, open, 1);
     note_reach(cut);
-    done.fixed = cut.cut_bone();
-    done.joint = cut.joint();
+    if (cut.removes_any() || cut.reaches_by_smaller_triangles()) {
+      done.fixed = cut.cut_bone();
+      done.joint = cut.joint();
+    }
     if (!report()) return std::nullopt;
   }
   const RangeOfMotion after(done.joint, request.range);

@@ -57,7 +57,7 @@ TEST_F(ResectCommand, SaysWhatTheLibraryAnswers) {
 TEST_F(ResectCommand, WritesAJointWithTheLimitsItSays) {
   const Json json = answer("--reach internal_rotation_at_90_flexion=45 --curve 0 --out plan");
   for (const char* name : {"resection.json", "limits.csv", "hours.csv", "depth_mobile.vtp", "resected.toml",
-                           "mobile.ply", "fixed.ply"})
+                           "resected_mobile.ply", "resected_fixed.ply"})
     EXPECT_TRUE(std::filesystem::exists(folder / "plan" / name)) << name;
   EXPECT_FALSE(std::filesystem::exists(folder / "plan" / "curve.csv"));
   const Ran rom = run("rom plan/resected.toml --json");
@@ -74,6 +74,44 @@ TEST_F(ResectCommand, NothingToDoIsAnAnswer) {
   EXPECT_FALSE(std::filesystem::exists(folder / "plan" / "resected.toml"));
 }
 
+// With a margin the sweep has to be looked at; that nothing goes is no cut.
+TEST_F(ResectCommand, ACutThatTakesNothingIsNone) {
+  const Json json = answer("--reach internal_rotation_at_90_flexion=30 --margin 0.5 --curve 0");
+  EXPECT_EQ(json["targets"][0]["reach_deg"], 30.0);
+  EXPECT_TRUE(json["cuts"].empty());
+  EXPECT_EQ(json["resection_notes"][0]["code"], "nothing_to_do");
+  for (const Json& measure : json["measures"])
+    EXPECT_EQ(measure["before"], measure["after"]) << measure["key"];
+}
+
+bool has_note(const Json& json, std::string_view code) {
+  return std::any_of(json["resection_notes"].begin(), json["resection_notes"].end(),
+                     [&](const Json& note) { return note["code"] == code; });
+}
+
+// A wide ball of what bears: triangles on its border are met as a whole, their pieces are not.
+TEST_F(ResectCommand, WhatSmallerTrianglesGainIsSaid) {
+  const Json json = answer("--reach internal_rotation_at_90_flexion=40 --bearing 5 --curve 0");
+  EXPECT_TRUE(has_note(json, "finer_triangles"));
+  EXPECT_FALSE(has_note(json, "nothing_to_do"));
+  EXPECT_FALSE(has_note(answer("--reach internal_rotation_at_90_flexion=45 --curve 0"), "finer_triangles"));
+}
+
+// Neither the joint space nor what bears depends on the triangles around a cut.
+TEST_F(ResectCommand, ARimThatIsCutLeavesHeadSocketAndMarginWhatTheyWere) {
+  const Json json = answer("--reach internal_rotation_at_90_flexion=45 --from fixed --curve 0 --out plan");
+  for (const Json& measure : json["measures"])
+    if (measure["key"] == "joint_space_least_mm") {
+      EXPECT_GE(measure["after"], measure["before"]);
+    }
+  const BearingFinding before = find_bearing_surface(read_joint(folder / "hip.toml").joint),
+                       after = find_bearing_surface(read_joint(folder / "plan/resected.toml").joint);
+  EXPECT_EQ(after.surface->margin_mm, before.surface->margin_mm);
+  EXPECT_EQ(after.surface->head.radius, before.surface->head.radius);
+  ASSERT_TRUE(before.surface->socket);
+  EXPECT_NEAR((after.surface->socket->centre - before.surface->socket->centre).norm(), 0, 1e-12);
+}
+
 TEST_F(ResectCommand, MarkedVerticesStay) {
   const std::size_t vertices = read_joint(folder / "hip.toml").joint.mobile.mesh.vertices().size();
   std::ofstream marks(folder / "marks.txt");
@@ -81,11 +119,15 @@ TEST_F(ResectCommand, MarkedVerticesStay) {
   marks.close();
   const Json json = answer("--reach internal_rotation_at_90_flexion=45 --curve 0 --protect marks.txt");
   EXPECT_EQ(json["targets"][0]["blocked"]["kept_by"], "marked");
-  EXPECT_EQ(json["cuts"][0]["volume_mm3"], 0);
+  EXPECT_TRUE(json["cuts"].empty());
   EXPECT_EQ(json["resection_notes"][0]["code"], "target_blocked");
 }
 
 TEST_F(ResectCommand, RefusesInOneLine) {
+  const std::size_t vertices = read_joint(folder / "hip.toml").joint.mobile.mesh.vertices().size();
+  std::ofstream marks(folder / "marks.txt");
+  for (std::size_t v = 0; v < vertices; ++v) marks << "1\n";
+  marks.close();
   std::ofstream(folder / "short.txt") << "1\n0\n";
   std::ofstream(folder / "wrong.txt") << "1\nyes\n";
   for (const auto& [arguments, code, says] :
@@ -93,11 +135,15 @@ TEST_F(ResectCommand, RefusesInOneLine) {
         {"--reach flexion=200", 2, "cannot reach 200 degrees"},
         {"--reach flexion", 2, "is not a motion and its degrees"},
         {"--reach flexion=140 --share 0.3", 2, "--share: only with --from both"},
+        {"--reach flexion=140 --curve -1", 2, "--curve: "},
         {"--reach flexion=140 --burr 0.4", 2, "burr's diameter must be from 0.5 to 30 mm"},
         {"--reach flexion=140 --deepest 0", 2, "must be above 0 mm"},
+        {"--reach flexion=140 --from fixed --protect marks.txt", 2, "marked to stay, and it is not cut"},
         {"--reach flexion=140 --protect short.txt", 3, "short.txt: 2 marks for the"},
         {"--reach flexion=140 --protect wrong.txt", 3, "line 2: 'yes' is no mark"}}) {
-    const Ran ran = run(std::string("resect hip.toml --curve 0 ") + arguments);
+    const std::string given(arguments);
+    const Ran ran = run(std::string("resect hip.toml ") +
+                        (given.find("--curve") == given.npos ? "--curve 0 " : "") + given);
     EXPECT_EQ(ran.exit_code, code) << arguments;
     EXPECT_NE(ran.err.find(says), ran.err.npos) << ran.err;
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;

@@ -84,6 +84,21 @@ TEST(OutputFolder, WhatAnEarlierRunOfTheCommandLeftGoesWithTheCommitAndNothingEl
   EXPECT_TRUE(fs::exists(folder / "folder.txt"));
 }
 
+// Where the document that every run writes is missing no run was.
+TEST(OutputFolder, WithoutItsDocumentFilesAreSomebodysOwn) {
+  const TemporaryFolder folder;
+  folder.file("two.txt", "somebody's");
+  const auto run = [&](std::string_view text) {
+    OutputFolder files(folder.path(), is_text, {}, "one.txt");
+    write(files.file("one.txt"), std::string(text));
+    files.commit();
+  };
+  run("first");
+  EXPECT_EQ(read(folder / "two.txt"), "somebody's");
+  run("second");
+  EXPECT_FALSE(fs::exists(folder / "two.txt"));
+}
+
 TEST(OutputFolder, AFolderThatCannotBeMadeIsRefusedAndLeavesNothing) {
   const TemporaryFolder folder;
   const auto file = folder.file("plain", "text");

@@ -347,6 +347,31 @@ TEST(Resection, WhatASweepFindsIsWhatSampledPosesFind) {
   }
 }
 
+// The depth that stays is that of the cut, not of what the other bone's share takes away from it.
+TEST(Resection, ADepthThatIsSharedIsHeldByEachBone) {
+  const Joint joint = hip_of(socket(25, 30), neck(15));
+  ResectionRequest request = reaching({target("flexion", 56)});
+  request.fixed_share = 0.5;
+  request.edge_mm = 1;
+  const Resection free = resect(joint, request);
+  const double deepest = std::max(free.mobile->deepest_mm, free.fixed->deepest_mm);
+  request.mobile.deepest_mm = request.fixed.deepest_mm = 1.3 * deepest;
+  const Resection held = resect(joint, request);
+  EXPECT_FALSE(held.targets[0].blocked);
+  EXPECT_NEAR(held.volume_mm3() / free.volume_mm3(), 1, 1e-3);
+}
+
+/// What the triangles of a bone enclose less after its cut.
+double lost_mm3(const CutBone& cut) {
+  const auto below = [](const TriMesh& mesh) {
+    double volume = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      volume += mesh.corner(t, 0).dot(mesh.corner(t, 1).cross(mesh.corner(t, 2))) / 6;
+    return volume;
+  };
+  return below(cut.before) - below(cut.body.mesh);
+}
+
 TEST(Resection, RimOrBothBonesReachTheSameTarget) {
   const Joint joint = hip_of(socket(25, 30), neck(15));
   for (const double share : {1.0, 0.5}) {
@@ -357,6 +382,7 @@ TEST(Resection, RimOrBothBonesReachTheSameTarget) {
     EXPECT_EQ(done.mobile.has_value(), share < 1);
     expect_reached(joint, done);
     expect_sound(*done.fixed);
+    EXPECT_NEAR(done.fixed->volume_mm3, lost_mm3(*done.fixed), 1e-6);
   }
 }
 
@@ -456,6 +482,10 @@ TEST(Resection, RequestsThatSayNothingAreRefused) {
   request.mobile.vertices = {1, 0};
   EXPECT_THROW(resect(joint, request), UsageError);
   const auto motions = hip_motions();
+  // A neck without a head bears nowhere.
+  request = reaching({target("flexion", 70)});
+  request.mobile.within_mm = 5;
+  EXPECT_THROW(resect(joint, request), UsageError);
   request = reaching({target("flexion", 70)});
   request.burr_mm = 0;
   EXPECT_THROW(resect(joint, request), UsageError);

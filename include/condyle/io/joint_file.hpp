@@ -44,6 +44,7 @@ struct BodyEntry {
   std::vector<MeshEntry> meshes;        ///< one or more
   std::optional<BodyImage> image = {};  ///< in the frame of the mesh, mm
   std::optional<Sphere> head = {};      ///< the same
+  std::optional<double> bearing_margin_mm = {};
 };
 
 /// A joint file's contents, checked one by one; no mesh was read. Lengths were converted to mm.

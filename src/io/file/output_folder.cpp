@@ -50,8 +50,11 @@ void check_is_replaceable(const fs::path& path) {
 OutputFolder::OutputFolder(const fs::path& folder)
     : OutputFolder(folder, [](std::string_view) { return false; }) {}
 
-OutputFolder::OutputFolder(const fs::path& folder, OfCommand of_command, std::span<const fs::path> read)
-    : folder_(without_last_slash(folder)), of_command_(std::move(of_command)) {
+OutputFolder::OutputFolder(const fs::path& folder, OfCommand of_command, std::span<const fs::path> read,
+                           std::string document)
+    : folder_(without_last_slash(folder)),
+      of_command_(std::move(of_command)),
+      document_(std::move(document)) {
   const std::vector<fs::path> there = files_of_command(folder_, of_command_);
   io::check_replaces_none(there, read);
   for (const fs::path& file : there) check_is_replaceable(file);
@@ -69,6 +72,8 @@ fs::path OutputFolder::file(std::string_view name) {
 }
 
 std::vector<fs::path> OutputFolder::left_by_earlier_runs() const {
+  std::error_code none;
+  if (!document_.empty() && !fs::exists(folder_ / document_, none)) return {};
   std::vector<fs::path> left = files_of_command(folder_, of_command_);
   std::erase_if(left, [&](const fs::path& file) {
     std::error_code ignored;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -29,9 +30,11 @@ class OutputFolder {
   explicit OutputFolder(const std::filesystem::path& folder);
   /// commit() removes files that an earlier run of the command left and this one does not write: no file of another
   /// query stays beside those of this one. Every name passed to file() must be of the command. Refuses a folder in
-  /// which one of the files `read` has a name of the command, directly or by a link: it would be replaced or removed.
+  /// which one of the files `read` has a name of the command, directly or by a link: it would be replaced or removed. With
+  /// the name of a document, which every run of the command writes, nothing is removed where that is missing: no run was there, and
+  /// the files are somebody's own.
   OutputFolder(const std::filesystem::path& folder, OfCommand of_command,
-               std::span<const std::filesystem::path> read = {});
+               std::span<const std::filesystem::path> read = {}, std::string document = {});
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -48,6 +51,7 @@ class OutputFolder {
   std::filesystem::path folder_;
   std::vector<std::filesystem::path> names_;
   OfCommand of_command_;
+  std::string document_;
   std::unique_ptr<io::TemporaryFolder> aside_;
 };
 

@@ -183,21 +183,25 @@ std::optional<BodyImage> body_image(io::TomlTable& body, const Lengths& lengths)
   return image;
 }
 
-/// [mobile.head]: where it is known.
-std::optional<Sphere> head_of(io::TomlTable& body, std::string_view key, const Lengths& lengths) {
-  std::optional<io::TomlTable> table = body.table("head");
-  if (!table) return std::nullopt;
-  if (key != "mobile") body.fail("head", "is of the mobile body: the head that turns");
-  const Sphere head{lengths.required_point(*table, "centre"), lengths.positive(*table, "radius")};
+/// [mobile.head] and [fixed.socket], where they are known.
+void read_known_sphere(io::TomlTable& body, std::string_view key, const Lengths& lengths, BodyEntry& entry) {
+  const bool is_mobile = key == "mobile";
+  if (body.table(is_mobile ? "socket" : "head"))
+    body.fail(is_mobile ? "socket" : "head", is_mobile ? "is of the fixed body: what the head turns in"
+                                                       : "is of the mobile body: the head that turns");
+  std::optional<io::TomlTable> table = body.table(is_mobile ? "head" : "socket");
+  if (!table) return;
+  entry.head = {lengths.required_point(*table, "centre"), lengths.positive(*table, "radius")};
+  if (is_mobile && table->has("margin")) entry.bearing_margin_mm = lengths.not_negative(*table, "margin");
   table->finish();
-  return head;
 }
 
 /// A body's table is read in two parts: its pose needs what is known of the joint.
 BodyEntry body_entry(io::TomlTable& table, std::string_view key, const Lengths& lengths,
                      std::vector<std::string>& notes) {
   BodyEntry entry{table.text("name").value_or(std::string(key)), mesh_entries(table, key, notes),
-                  body_image(table, lengths), head_of(table, key, lengths)};
+                  body_image(table, lengths)};
+  read_known_sphere(table, key, lengths, entry);
   if (entry.image)
     for (const MeshEntry& mesh : entry.meshes)
       if (mesh.is_moved()) table.fail("image", "stands beside a mesh with a scale or a pose of its own");

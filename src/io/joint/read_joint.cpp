@@ -75,7 +75,12 @@ LoadedBody load(const BodyEntry& entry, const std::string& key, const std::files
   if (entry.meshes.size() == 1) {
     const bool in_list = !entry.meshes.front().part.empty();
     LoadedMesh only = load(entry.meshes.front(), in_list ? key + ".meshes[0]" : key, joint_file);
-    return {{entry.meshes.front().mesh.string(), std::move(only.mesh), {}, entry.image, entry.head},
+    return {{entry.meshes.front().mesh.string(),
+             std::move(only.mesh),
+             {},
+             entry.image,
+             entry.head,
+             entry.bearing_margin_mm},
             {std::move(only.report)}};
   }
   TriMesh whole;
@@ -90,7 +95,8 @@ LoadedBody load(const BodyEntry& entry, const std::string& key, const std::files
     reports.push_back(std::move(one.report));
     files += (files.empty() ? "" : " + ") + entry.meshes[i].mesh.string();
   }
-  return {{files, std::move(whole), std::move(parts), entry.image, entry.head}, std::move(reports)};
+  return {{files, std::move(whole), std::move(parts), entry.image, entry.head, entry.bearing_margin_mm},
+          std::move(reports)};
 }
 
 PlacedJoint placed(const JointFile& file, Body fixed, Body mobile) {

@@ -53,7 +53,7 @@ void check_depth_folder(const std::filesystem::path& folder, const Provenance* f
 std::vector<std::filesystem::path> write_depth(const std::filesystem::path& folder,
                                                const DepthQuestion& question, const DepthResult& result,
                                                const DepthFiles& files) {
-  OutputFolder out(folder, is_of_depth, io::files_read(question.provenance));
+  OutputFolder out(folder, is_of_depth, io::files_read(question.provenance), "depth.json");
   const AnswerFrame frame = question.frame();
   const VtpOptions options{files.encoding, io::provenance_fields(question.provenance)};
   const auto write = [&](const std::string& name, const TriMesh& mesh, const DepthArrays& arrays) {

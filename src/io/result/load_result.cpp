@@ -178,7 +178,7 @@ void check_load_folder(const std::filesystem::path& folder, const Provenance* fr
 std::vector<std::filesystem::path> write_load(const std::filesystem::path& folder,
                                               const LoadQuestion& question, const LoadAnswer& answer,
                                               VtpEncoding encoding) {
-  OutputFolder out(folder, is_of_load, io::files_read(question.provenance));
+  OutputFolder out(folder, is_of_load, io::files_read(question.provenance), "load.json");
   const AnswerFrame frame = question.provenance ? question.provenance->frame : AnswerFrame{};
   const VtpOptions options{encoding, io::provenance_fields(question.provenance)};
   const auto write = [&](const char* name, const Body& body, const TriMesh& in_F,

@@ -264,7 +264,7 @@ void check_measure_folder(const std::filesystem::path& folder, const Provenance*
 
 std::vector<std::filesystem::path> write_measures(const std::filesystem::path& folder,
                                                   const MeasureResult& result) {
-  OutputFolder out(folder, is_of_measure, io::files_read(result.provenance));
+  OutputFolder out(folder, is_of_measure, io::files_read(result.provenance), "measures.json");
   io::write_whole_file(out.file("measures.json"), measure_json(result));
   io::write_whole_file(out.file("measures.csv"), measures_csv(result));
   if (!result.measures.femur.around_neck.empty())

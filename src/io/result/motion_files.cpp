@@ -105,7 +105,7 @@ std::vector<std::filesystem::path> write_motion(const std::filesystem::path& fol
                                                 const MotionFiles& files) {
   if ((files.cycle || files.jam) && !question.motion.times.in_seconds)
     throw UsageError("a cycle and jam.h5 need times, and this motion has frame numbers only");
-  OutputFolder out(folder, is_of_motion, io::files_read(question.provenance));
+  OutputFolder out(folder, is_of_motion, io::files_read(question.provenance), "motion.json");
   Curves curves = curves_of(question, answer);
   // Without comments, so that every reader of tables takes it; motion.json says where it comes from.
   write_curves_csv(out.file("curves.csv"), curves);

@@ -16,12 +16,12 @@ namespace {
 
 /// Whether some result has a file of this name: body meshes are numbered where a body has several.
 bool is_of_resection(std::string_view name) {
-  static constexpr std::string_view names[] = {"resection.json",   "limits.csv",       "curve.csv",
-                                               "hours.csv",        "depth_mobile.vtp", "depth_fixed.vtp",
-                                               "depth_mobile.png", "depth_fixed.png",  "resected.toml",
-                                               "fixed.ply",        "mobile.ply"};
+  static constexpr std::string_view names[] = {"resection.json",     "limits.csv",         "curve.csv",
+                                               "hours.csv",          "depth_mobile.vtp",   "depth_fixed.vtp",
+                                               "depth_mobile.png",   "depth_fixed.png",    "resected.toml",
+                                               "resected_fixed.ply", "resected_mobile.ply"};
   if (std::find(std::begin(names), std::end(names), name) != std::end(names)) return true;
-  for (const std::string_view role : {"fixed_", "mobile_"})
+  for (const std::string_view role : {"resected_fixed_", "resected_mobile_"})
     if (name.starts_with(role) && name.ends_with(".ply"))
       return name.find_first_not_of("0123456789", role.size()) == name.size() - 4;
   return false;
@@ -54,9 +54,10 @@ void draw_depths(OutputFolder& out, std::string_view role, const CutBone& cut,
 }
 
 void write_bodies(OutputFolder& out, std::string_view role, const Body& body) {
-  if (body.parts.empty()) return write_mesh(out.file(fmt::format("{}.ply", role)), body.mesh);
+  if (body.parts.empty()) return write_mesh(out.file(fmt::format("resected_{}.ply", role)), body.mesh);
   for (std::size_t p = 0; p < body.parts.size(); ++p)
-    write_mesh(out.file(fmt::format("{}_{}.ply", role, p + 1)), mesh_of_part(body, body.parts[p].name));
+    write_mesh(out.file(fmt::format("resected_{}_{}.ply", role, p + 1)),
+               mesh_of_part(body, body.parts[p].name));
 }
 
 }  // namespace
@@ -67,7 +68,7 @@ void check_resection_folder(const std::filesystem::path& folder, const Provenanc
 
 std::vector<std::filesystem::path> write_resection(const std::filesystem::path& folder,
                                                    const ResectionResult& result) {
-  OutputFolder out(folder, is_of_resection, io::files_read(result.provenance));
+  OutputFolder out(folder, is_of_resection, io::files_read(result.provenance), "resection.json");
   const Resection& resection = result.answer.resection;
   io::write_whole_file(out.file("resection.json"), resection_json(result));
   io::write_whole_file(out.file("limits.csv"), resection_limits_csv(result));

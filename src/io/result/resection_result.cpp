@@ -80,7 +80,8 @@ std::string target_line(const ReachOutcome& outcome, const std::vector<LimitBand
 std::string cut_lines(const ResectionResult& result, const CutOfBody& cut) {
   const CutBone& bone = cut.cut;
   std::string text = fmt::format(
-      "  {}: {:.1f} mm3 go, {:.1f} must, over {:.0f} mm2; {:.2f} mm at the deepest, ({:.1f}, {:.1f}, {:.1f}) "
+      "  {}: {:.1f} mm3 go, {:.1f} of it in the way, over {:.0f} mm2; {:.2f} mm at the deepest, ({:.1f}, "
+      "{:.1f}, {:.1f}) "
       "mm",
       bone.body.name, bone.volume_mm3, bone.least_volume_mm3, bone.area_mm2, bone.deepest_mm,
       bone.deepest_at.x(), bone.deepest_at.y(), bone.deepest_at.z());
@@ -150,9 +151,12 @@ Json blocked_json(const std::optional<Blocked>& blocked) {
 
 Json target_json(const ResectionAnswer& answer, std::size_t i) {
   const ReachOutcome& outcome = answer.resection.targets[i];
-  Json json{{"motion", outcome.target.motion.name},     {"reach_deg", outcome.target.reach.degrees()},
-            {"planned_deg", outcome.planned.degrees()}, {"before", limit_json(outcome.before)},
-            {"after", limit_json(outcome.after)},       {"blocked", blocked_json(outcome.blocked)}};
+  Json json{{"motion", outcome.target.motion.name},
+            {"reach_deg", asked_degrees(outcome.target.reach)},
+            {"planned_deg", asked_degrees(outcome.planned)},
+            {"before", limit_json(outcome.before)},
+            {"after", limit_json(outcome.after)},
+            {"blocked", blocked_json(outcome.blocked)}};
   json["band"] = answer.bands.empty() ? Json(nullptr)
                                       : Json{{"p5_deg", answer.bands[i].p5.degrees()},
                                              {"median_deg", answer.bands[i].median.degrees()},
@@ -286,7 +290,7 @@ std::string resection_limits_csv(const ResectionResult& result) {
     std::string reach;
     for (const ReachOutcome& outcome : answer.resection.targets)
       if (outcome.target.motion.name == a.motion.name)
-        reach = fmt::format("{}", outcome.target.reach.degrees());
+        reach = fmt::format("{}", asked_degrees(outcome.target.reach));
     text += fmt::format("{},{},{},{},{},{}\n", io::csv_field(a.motion.name), a.end.turned.degrees(),
                         name_of(a.end.reason), b.end.turned.degrees(), name_of(b.end.reason), reach);
   }
@@ -343,23 +347,27 @@ std::string resected_joint_file(const ResectionResult& result) {
     lines.add("name = " + io::toml_text(body.name));
     if (role == "mobile" && !pose.empty()) lines.add(pose);
     if (body.parts.empty()) {
-      lines.add(fmt::format("mesh = \"{}.ply\"", role));
+      lines.add(fmt::format("mesh = \"resected_{}.ply\"", role));
     } else {
       for (std::size_t p = 0; p < body.parts.size(); ++p) {
         lines.add(fmt::format("[[{}.meshes]]", role));
         lines.add("name = " + io::toml_text(body.parts[p].name));
-        lines.add(fmt::format("mesh = \"{}_{}.ply\"", role, p + 1));
+        lines.add(fmt::format("mesh = \"resected_{}_{}.ply\"", role, p + 1));
         lines.add(fmt::format("contact = \"{}\"", name_of(body.parts[p].contact)));
       }
     }
     io::add_image(lines, role, body.image);
   }
-  if (const auto& head = joint.mobile.head) {
-    lines.add(
-        "\n[mobile.head]  # before the cut: a fit to a mesh with smaller triangles around it would differ");
-    lines.add("centre = " + exact_vector(head->centre));
-    lines.add(fmt::format("radius = {}", head->radius));
-  }
+  const auto add_sphere = [&](std::string_view table, const std::optional<Sphere>& sphere) {
+    if (!sphere) return;
+    lines.add(fmt::format(
+        "\n[{}]  # before the cut: a fit to a mesh with smaller triangles around it would differ", table));
+    lines.add("centre = " + exact_vector(sphere->centre));
+    lines.add(fmt::format("radius = {}", sphere->radius));
+  };
+  add_sphere("fixed.socket", joint.fixed.head);
+  add_sphere("mobile.head", joint.mobile.head);
+  if (const auto margin = joint.mobile.bearing_margin_mm) lines.add(fmt::format("margin = {}", *margin));
   lines.add("\n[frame]  # the meshes are in the joint frame");
   lines.add("centre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]");
   if (!pose.empty()) {

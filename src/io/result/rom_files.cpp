@@ -152,7 +152,7 @@ void check_rom_folder(const std::filesystem::path& folder, const Provenance* fro
 }
 
 std::vector<std::filesystem::path> write_rom(const std::filesystem::path& folder, const RomResult& result) {
-  OutputFolder out(folder, is_of_rom, io::files_read(result.provenance));
+  OutputFolder out(folder, is_of_rom, io::files_read(result.provenance), "rom.json");
   io::write_whole_file(out.file("rom.json"), rom_json(result));
   io::write_whole_file(out.file("limits.csv"), rom_csv(result));
   write_bearing(out, result);

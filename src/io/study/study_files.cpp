@@ -109,7 +109,7 @@ std::vector<fs::path> write_study(const fs::path& folder, const StudyResults& re
                                         {"failures.csv", comments + texts.failures},
                                         {"columns.csv", comments + results.columns},
                                         {"study.h5", h5}};
-  OutputFolder out(folder, is_of_study);
+  OutputFolder out(folder, is_of_study, {}, record_name);
   for (const auto& [name, contents] : files) write_whole_file(out.file(name), contents);
   write_whole_file(out.file(record_name), document(record_json(results.record, files)));
   return out.commit();

@@ -41,6 +41,7 @@ void find_socket(const Joint& joint, BearingSurface& surface) {
       surface.socket = (*socket)->fit.sphere;
     if (const auto rim = kinematics::rim_around(joint.fixed.mesh, head); *rim)
       surface.rim_gap_mm = (*rim)->gap_mm;
+    if (joint.fixed.head) surface.socket = joint.fixed.head;
     return;
   }
   const auto socket = kinematics::shallow_socket_around(joint.fixed.mesh, head);
@@ -49,6 +50,7 @@ void find_socket(const Joint& joint, BearingSurface& surface) {
     if (const auto& sphere = (*socket)->sphere; sphere && kinematics::is_socket_of(head, *sphere))
       surface.socket = sphere->fit.sphere;
   }
+  if (joint.fixed.head) surface.socket = joint.fixed.head;
   // No rotation about the joint centre brings a point of the head farther from it than this.
   const double farthest = head.radius + head.centre.norm();
   const double beside = kinematics::nearest_beside(joint.fixed.mesh, head, *socket) - farthest;
@@ -113,8 +115,9 @@ BearingFinding surface_of(const Joint& joint, const BearingOptions& options) {
   // A bearing cartilage reaches nearly to the rim's, and its own contact is none of impingement: no reserve is kept there.
   const auto [gap, by] = narrowest_gap(surface);
   const double room = gap - (has_parts ? 0 : rim_reserve_mm);
-  surface.margin_mm = options.margin_mm.value_or(std::min(usual_bearing_margin_mm, room));
-  if (!options.margin_mm && !has_parts && surface.margin_mm < narrow_bearing_margin_mm)
+  const std::optional<double> stated = options.margin_mm ? options.margin_mm : joint.mobile.bearing_margin_mm;
+  surface.margin_mm = stated.value_or(std::min(usual_bearing_margin_mm, room));
+  if (!stated && !has_parts && surface.margin_mm < narrow_bearing_margin_mm)
     found.narrow_margin = {gap, surface.margin_mm, by};
   // Bone under a bearing cartilage is within its sphere, with a margin or without; but what meets an acromion is not bearing.
   if (has_parts && by == MarginLimit::rim) surface.margin_mm = std::max(surface.margin_mm, 0.0);
