@@ -226,12 +226,17 @@ std::optional<Anatomy> anatomy_of(const ModelJoint& joint) {
 }
 
 std::optional<Side> side_of(const ModelJoint& joint) {
+  std::optional<Side> side;
   for (const std::string* name : {&joint.name, &joint.child_body, &joint.parent_body}) {
     const std::string text = lower_case(*name);
-    if (text.ends_with("_r") || text.ends_with("_right")) return Side::right;
-    if (text.ends_with("_l") || text.ends_with("_left")) return Side::left;
+    const bool is_right = text.ends_with("_r") || text.ends_with("_right"),
+               is_left = text.ends_with("_l") || text.ends_with("_left");
+    if (!is_right && !is_left) continue;
+    const Side said = is_right ? Side::right : Side::left;
+    if (side && said != *side) return std::nullopt;
+    side = said;
   }
-  return std::nullopt;
+  return side;
 }
 
 }  // namespace condyle::io

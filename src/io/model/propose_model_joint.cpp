@@ -58,8 +58,9 @@ class ModelJointFile {
     anatomy_ = request.anatomy ? request.anatomy : anatomy_of(joint_);
     const auto side = request.side ? request.side : side_of(joint_);
     if (!side)
-      throw UsageError(fmt::format("{}: joint {}: its name ends neither in _r nor in _l: give its side",
-                                   model.path.string(), in_quotes(joint_.name)));
+      throw UsageError(fmt::format(
+          "{}: joint {}: its name and its bodies' names do not agree on one side, _r or _l: give its side",
+          model.path.string(), in_quotes(joint_.name)));
     side_ = *side;
     mapping_ = mapping_of(joint_, anatomy_, side_);
     if (const ModelCoupler* coupler = coupler_of_joint(); coupler && !mapping_.columns.empty()) {

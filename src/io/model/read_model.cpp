@@ -240,7 +240,7 @@ class ModelReader {
     const auto mesh = [&](const char* key) {
       const std::string socket = values.text(key);
       if (socket.empty()) values.fail(fmt::format("{} is missing", key));
-      return socket.substr(socket.rfind('/') + 1);
+      return last_of_path(socket);
     };
     contact.casting = mesh("socket_casting_mesh");
     contact.target = mesh("socket_target_mesh");
@@ -262,10 +262,10 @@ class ModelReader {
       ++model_.ignored["CoordinateCouplerConstraint that is not enforced"];
       return;
     }
-    coupler.dependent = values.text("dependent_coordinate_name");
+    coupler.dependent = last_of_path(values.text("dependent_coordinate_name"));
     const XmlElement* list = element.child("independent_coordinate_names");
     const std::string names = list ? list->text() : std::string();
-    for (const std::string_view name : words_of(names)) coupler.independent.emplace_back(name);
+    for (const std::string_view name : words_of(names)) coupler.independent.emplace_back(last_of_path(name));
     if (coupler.dependent.empty()) values.fail("dependent_coordinate_name is missing");
     try {
       const auto function = values.function();
@@ -278,7 +278,20 @@ class ModelReader {
     } catch (const FileError& error) {
       coupler.why_not = error.what();
     }
+    for (ModelCoupler& other : model_.couplers) {
+      if (other.dependent != coupler.dependent) continue;
+      // OpenSim holds both at once, which a column of poses cannot.
+      coupler.why_not = other.why_not =
+          fmt::format("{}: constraints {} and {} both give coordinate {}", model_.path.string(),
+                      in_quotes(other.name), in_quotes(coupler.name), in_quotes(coupler.dependent));
+      coupler.function = other.function = nullptr;
+    }
     model_.couplers.push_back(std::move(coupler));
+  }
+
+  /// Names of coordinates may be paths to them.
+  static std::string last_of_path(std::string_view name) {
+    return std::string(name.substr(name.rfind('/') + 1));
   }
 
   void refuse_twice() const {
@@ -286,6 +299,11 @@ class ModelReader {
     for (const ModelJoint& joint : model_.joints)
       if (!names.insert(joint.name).second)
         source_.fail(fmt::format("line {}: joint {} is given twice", joint.line, in_quotes(joint.name)));
+    std::set<std::string> meshes;  // contacts name them
+    for (const ModelContactMesh& mesh : model_.contact_meshes)
+      if (!meshes.insert(mesh.name).second && !model_.contacts.empty())
+        source_.fail(
+            fmt::format("line {}: contact mesh {} is given twice", mesh.mesh.line, in_quotes(mesh.name)));
   }
 
   const Source& source_;

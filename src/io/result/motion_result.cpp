@@ -162,7 +162,8 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
   if (summary.gaps > 0) text += fmt::format("  {} frames are gaps: no answer there\n", summary.gaps);
   text += io::contact_terms_text(question.contact, question.surfaces, question.with_pressure);
   for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
-  text += fmt::format("  {} frames in contact\n", summary.in_contact);
+  text +=
+      fmt::format("  {} {} in contact\n", summary.in_contact, summary.in_contact == 1 ? "frame" : "frames");
   const auto line = [&](const char* what, const Summary::Largest& largest, const char* of,
                         const std::string& where = "") {
     if (largest.value > 0)

@@ -368,6 +368,43 @@ TEST_F(SmallModel, CouplersGiveWhatHasNoColumn) {
   EXPECT_NEAR(angles.internal_rotation.radians(), 2 * (0.5 * 0.3 + 0.1), 1e-14);
 }
 
+/// A coupler that gives `rot` as a multiple of `flex`.
+std::string coupler(std::string_view name, std::string_view dependent, std::string_view independent) {
+  return fmt::format(R"(<CoordinateCouplerConstraint name="{}">
+<coupled_coordinates_function><LinearFunction><coefficients>0.5 0</coefficients></LinearFunction></coupled_coordinates_function>
+<independent_coordinate_names>{}</independent_coordinate_names><dependent_coordinate_name>{}</dependent_coordinate_name>
+</CoordinateCouplerConstraint>)",
+                     name, independent, dependent);
+}
+
+Hip hip_with(const std::string& couplers) {
+  const std::string spline = "<SimmSpline name=\"function\"><x>-1 0 1</x><y>-1 0 1</y></SimmSpline>";
+  return {.joint = axis("rotation1", "flex", "0 0 1") + axis("rotation2", "add", "1 0 0", spline) +
+                   axis("rotation3", "rot", "0 1 0"),
+          .more = "<ConstraintSet><objects>" + couplers + "</objects></ConstraintSet>"};
+}
+
+TEST_F(SmallModel, CouplersMayNameCoordinatesByPaths) {
+  const Hip hip = hip_with(coupler("c", "/jointset/hip_r/rot", "/jointset/hip_r/flex"));
+  const LoadedJoint loaded = read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
+  const JointMotion motion = motion_of(loaded, one_frame({"time", "flex"}, {{0}, {0.3}}, false));
+  EXPECT_NEAR(angles_at(loaded.joint.coordinates(), *motion.X_FM[0]).internal_rotation.radians(), 0.15,
+              1e-14);
+}
+
+TEST_F(SmallModel, TwoCouplersOfOneCoordinateAreRefusedByTheirNames) {
+  const Hip hip = hip_with(coupler("first", "rot", "flex") + coupler("second", "rot", "add"));
+  const LoadedJoint loaded = read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
+  try {
+    motion_of(loaded, one_frame({"time", "flex"}, {{0}, {0.3}}, false));
+    ADD_FAILURE() << "not refused";
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("constraints 'first' and 'second' both give coordinate 'rot'"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(SmallModel, CouplersWithoutAColumnEitherAreRefused) {
   const Hip hip{
       .joint = axis("rotation1", "flex", "0 0 1") + axis("rotation2", "add", "1 0 0") +
@@ -616,8 +653,22 @@ TEST_F(SmallModel, ReadsMeshesOfTheModelItself) {
   EXPECT_EQ(model.ignored.at("Mesh of no frame"), 1u);
 }
 
+// Contacts name their meshes.
+TEST_F(SmallModel, RefusesContactMeshesOfOneName) {
+  const std::string mesh =
+      "<Smith2018ContactMesh name=\"a\"><socket_frame>/bodyset/pelvis</socket_frame>"
+      "<mesh_file>pelvis.ply</mesh_file></Smith2018ContactMesh>";
+  const Hip hip{.more = "<ContactGeometrySet><objects>" + mesh + mesh +
+                        "</objects></ContactGeometrySet><ForceSet><objects><Smith2018ArticularContactForce "
+                        "name=\"k\"><socket_casting_mesh>a</socket_casting_mesh>"
+                        "<socket_target_mesh>a</socket_target_mesh></Smith2018ArticularContactForce>"
+                        "</objects></ForceSet>"};
+  EXPECT_NE(refusal(hip.text()).find("contact mesh 'a' is given twice"), std::string::npos);
+}
+
 TEST_F(SmallModel, AsksForWhatNamesDoNotTell) {
   EXPECT_NE(refusal(Hip{.name = "hip", .body = "femur"}.text()).find("give its side"), std::string::npos);
+  EXPECT_NE(refusal(Hip{.name = "hip_r", .body = "femur_l"}.text()).find("give its side"), std::string::npos);
   EXPECT_NE(refusal(Hip{.name = "joint_r", .body = "body_r"}.text()).find("say whether it is a hip, knee"),
             std::string::npos);
 }
