@@ -8,9 +8,10 @@
 #include "answer.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
-#include "condyle/hip_measures.hpp"
+#include "condyle/answer.hpp"
 #include "followed.hpp"
 #include "help_formatter.hpp"
+#include "io/joint/measure_request.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/result/measure_result.hpp"
 #include "notes.hpp"
@@ -19,7 +20,7 @@
 namespace condyle::cli {
 namespace {
 
-struct Options {
+struct MeasureArguments {
   std::string joint, out;
   double tilt_deg = 0;
   std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
@@ -27,25 +28,18 @@ struct Options {
   AnswerForm form = AnswerForm::text;
 };
 
-void run(const Options& options, const CLI::App& command) {
+void measure_command(const MeasureArguments& options, const CLI::App& command) {
   const LoadedJoint loaded = read_joint(options.joint);
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   const Provenance from = provenance_of(loaded, words_of(command));
   if (!options.out.empty()) check_measure_folder(options.out, &from);
-  MeasureRequest request;
-  request.pelvic_tilt = Angle::degrees(options.tilt_deg);
-  request.pelvis_frame = pelvis_frame_of(loaded.report.file.joint.frame);
-  request.ischiofemoral_pose = loaded.report.placement.reference_pose.angles;
-  const HipMeasures measures =
-      io::name_joint_file(options.joint, [&] { return measure_hip(loaded.joint, request); });
-  const std::optional<BandOptions> band_options = range_request_of(*options.range, loaded, {}).bands;
-  std::vector<MeasureBand> bands;
-  if (band_options)
-    bands = followed("joints of the band", [&](const auto& progress, const std::stop_token& stop) {
-      return measure_bands(loaded.joint, request, *band_options, {progress, stop});
-    });
-  const MeasureResult result{loaded.joint, measures, bands, band_options.value_or(BandOptions{}),
-                             notes,        &from};
+  const MeasureQuery query{measure_request_of(loaded, Angle::degrees(options.tilt_deg)),
+                           range_request_of(*options.range, loaded, {}).bands};
+  const MeasureAnswer answer = io::name_joint_file(options.joint, [&] {
+    return followed_by_stage(
+        [&](const AnswerControl& control) { return answer_measures(loaded.joint, query, control); });
+  });
+  const MeasureResult result{loaded.joint, answer, notes, &from};
   if (!options.out.empty()) say_written(write_measures(options.out, result));
   print(options.form == AnswerForm::json ? measure_json(result) : measure_text(result));
 }
@@ -59,7 +53,7 @@ void add_measure(CLI::App& app) {
       "Example: condyle sample hip --out sample\n"
       "         condyle measure sample/hip.toml\n"
       "A measure that the meshes do not show is empty and says why.");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MeasureArguments>();
   command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
   command
       ->add_option("--tilt", options->tilt_deg,
@@ -77,7 +71,7 @@ void add_measure(CLI::App& app) {
   group_help(*command, {{"Most used", {"--band", "--tilt", "--out", "--json", "--strict"}},
                         uncertainty_group(),
                         {"Output", {"--help"}}});
-  command->callback([options, command] { run(*options, *command); });
+  command->callback([options, command] { measure_command(*options, *command); });
 }
 
 }  // namespace condyle::cli

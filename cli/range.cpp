@@ -7,11 +7,6 @@
 
 namespace condyle::cli {
 
-std::vector<Motion> motions_of(const LoadedJoint& loaded) {
-  return with_own_motions(built_in_motions(loaded.joint.kind, loaded.joint.anatomy),
-                          loaded.report.file.motions);
-}
-
 RangeAnswer answered_range(const LoadedJoint& loaded, const RangeRequest& request) {
   RangeAnswer answer = followed_by_stage([&](const AnswerControl& control) {
     return answer_range(loaded.joint, loaded.report.placement, request, control);

@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <CLI/Validators.hpp>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -17,24 +18,33 @@
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/joint.hpp"
+#include "followed.hpp"
 #include "help_formatter.hpp"
+#include "io/joint/known_motions.hpp"
+#include "io/joint/measure_request.hpp"
+#include "io/joint/name_joint_file.hpp"
 #include "io/report/report.hpp"
 #include "notes.hpp"
 #include "range.hpp"
 #include "range_options.hpp"
+#include "resection_options.hpp"
 
 namespace condyle::cli {
 namespace {
 
 enum class Content { joint, nothing };
 
-struct Options {
+struct ReportArguments {
   Content content = Content::joint;
   std::string joint, out, motion;
   std::optional<std::string> title;
-  bool with_pressure = false;
+  bool with_pressure = false, measures = false;
+  std::size_t curve_points = ResectionQuery{}.curve_points;
+  std::shared_ptr<ResectionGiven> cut = std::make_shared<ResectionGiven>();
   std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
   Strictness strictness = Strictness::notes;
+
+  bool has_plan() const noexcept { return !cut->targets.empty(); }
 };
 
 /// The limits, or in one line why there are none: the page shows the joint all the same.
@@ -54,8 +64,8 @@ RangeOrError range_of(const LoadedJoint& loaded, const RangeRequest& request) {
 
 /// The frames of a recorded motion. What it consists of refers to the parts before it.
 struct Recorded {
-  Recorded(const Options& options, const LoadedJoint& loaded)
-      : motion(motion_of(loaded, read_motion_table(options.motion))),
+  Recorded(const ReportArguments& options, const LoadedJoint& loaded, const MotionTable& table)
+      : motion(motion_of(loaded, table)),
         contact(motion_contact_of({}, loaded.report.file, options.with_pressure)),
         surfaces(surfaces_of(contact, loaded.joint)),
         question{loaded, motion, surfaces, contact, options.with_pressure} {
@@ -72,7 +82,7 @@ struct Recorded {
 };
 
 /// The page without a joint; every option but --out is for one with a joint.
-void write_empty(const Options& options, const CLI::App& command) {
+void write_empty(const ReportArguments& options, const CLI::App& command) {
   for (const CLI::Option* option : command.get_options())
     if (option->count() > 0 && option->get_name() != "--out" && option->get_name() != "--empty")
       throw UsageError(option->get_name() + ": is for a report of a joint, not for --empty");
@@ -80,21 +90,65 @@ void write_empty(const Options& options, const CLI::App& command) {
   say_written({options.out});
 }
 
-void run(const Options& options, const CLI::App& command) {
+void check_plan(const ReportArguments& options, const Joint& joint) {
+  if (!options.has_plan()) return;
+  if (options.with_pressure)
+    throw UsageError("--resect: not with --load, whose layers are of the joint with the bone");
+  if (joint.kind == JointKind::free)
+    throw UsageError(
+        "--resect: a page shows the plan of a ball joint or a hinge; of a free joint it shows resected.toml, "
+        "which condyle resect --out writes");
+}
+
+/// As `condyle resect` answers.
+ResectionAnswer planned(const ReportArguments& options, const LoadedJoint& loaded,
+                        const RangeRequest& range) {
+  ResectionQuery query{.resection = resection_request_of(*options.cut), .motions = range.motions};
+  query.resection.targets = reach_targets(range.motions, options.cut->targets);
+  query.resection.range = range.range;
+  query.curve_points = options.curve_points;
+  query.measures = measure_request_of(loaded);
+  return io::name_joint_file(options.joint, [&] {
+    return followed_by_stage([&](const AnswerControl& control) {
+      return answer_resection(loaded.joint, loaded.report.placement, query, control);
+    });
+  });
+}
+
+MeasureAnswer measured(const ReportArguments& options, const LoadedJoint& loaded, const RangeRequest& range) {
+  const MeasureQuery query{measure_request_of(loaded), range.bands};
+  return io::name_joint_file(options.joint, [&] {
+    return followed_by_stage(
+        [&](const AnswerControl& control) { return answer_measures(loaded.joint, query, control); });
+  });
+}
+
+void report_command(const ReportArguments& options, const CLI::App& command) {
   if (options.content == Content::nothing) return write_empty(options, command);
   if (options.joint.empty()) throw UsageError("report: JOINT is required, or --empty");
   const LoadedJoint loaded = read_joint(options.joint);
-  std::optional<Recorded> recorded;
-  if (!options.motion.empty()) recorded.emplace(options, loaded);
-  const RangeRequest request = range_request_of(*options.range, loaded, motions_of(loaded));
+  check_plan(options, loaded.joint);
+  std::optional<MotionTable> table;
+  if (!options.motion.empty()) table = read_motion_table(options.motion);
+  const RangeRequest request = range_request_of(*options.range, loaded, known_motions(loaded));
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   Provenance from = provenance_of(loaded, words_of(command));
-  if (recorded) from.read.emplace_back(options.motion);
+  if (table) from.read.emplace_back(options.motion);
   // Where the file cannot be written is reported before the work, not after it.
   check_report_file(options.out, &from);
 
+  std::optional<ResectionAnswer> plan;
+  std::optional<LoadedJoint> without_bone;
+  if (options.has_plan()) {
+    plan = planned(options, loaded, request);
+    without_bone.emplace(LoadedJoint{plan->resection.joint, loaded.report});
+    for (const ResectionNote& each : plan->notes) note(fmt::format("{}: {}", name_of(each.code), each.text));
+  }
+  const LoadedJoint& shown = without_bone ? *without_bone : loaded;
+  std::optional<Recorded> recorded;
   std::vector<ContactNote> contact_notes;
-  if (recorded) {
+  if (table) {
+    recorded.emplace(options, shown, *table);
     recorded->answer =
         answered_motion(recorded->question, {.X_FM = recorded->motion.X_FM, .between = BetweenFrames::never},
                         options.strictness);
@@ -110,14 +164,14 @@ void run(const Options& options, const CLI::App& command) {
                                         {surfaces.fixed.name, surfaces.mobile.name}));
   }
   note_contact(contact_notes, loaded, options.strictness);
-  const auto [answer, error] = range_of(loaded, request);
+  const auto [answer, error] = range_of(shown, request);
   std::optional<RomResult> rom;
   if (answer) {
     rom.emplace(rom_result_of(*answer, notes, &from));
     rom->contact_notes = contact_notes;
   }
   Report report{.title = options.title.value_or(loaded.joint.name),
-                .joint = loaded.joint,
+                .joint = shown.joint,
                 .reference_pose = loaded.report.placement.reference_pose,
                 .rom = rom ? &*rom : nullptr,
                 .rom_error = error};
@@ -125,6 +179,13 @@ void run(const Options& options, const CLI::App& command) {
   if (recorded)
     report.recorded.emplace(ReportedMotion{std::filesystem::path(options.motion).filename().string(),
                                            recorded->question, recorded->answer});
+  std::optional<MeasureAnswer> measures;
+  if (options.measures) measures = measured(options, shown, request);
+  std::optional<MeasureResult> shape;
+  if (measures) report.measures = &shape.emplace(MeasureResult{shown.joint, *measures, notes, &from});
+  std::optional<ResectionResult> cut;
+  if (plan)
+    report.plan = &cut.emplace(ResectionResult{loaded.joint, *plan, notes, &from, &loaded.report.file});
   write_report(options.out, report);
   say_written({options.out});
 }
@@ -139,10 +200,11 @@ void add_report(CLI::App& app) {
       "         condyle report sample/hip.toml --out report.html\n"
       "         condyle report sample/hip.toml --band --map flexion=0:120:10 adduction=-30:20:10 --out "
       "report.html\n"
+      "         condyle report sample/hip.toml --measures --resect \"fadir=50\" --out plan.html\n"
       "         condyle report --empty --out drop_a_hip.html\n"
       "The file needs no server and no network, and sends nothing. Where limits cannot be answered it says "
       "why and shows the joint.");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportArguments>();
   command->add_option("JOINT", options->joint, "The joint file, .toml");
   command->add_flag_callback(
       "--empty", [options] { options->content = Content::nothing; },
@@ -160,18 +222,36 @@ void add_report(CLI::App& app) {
       "--load", [options] { options->with_pressure = true; },
       "Show pressure too, with the layers of the joint file: as a colour in any pose, and with --motion in "
       "its curves");
+  command->add_flag("--measures", options->measures,
+                    "Show the shape of a hip too, as condyle measure does, with bands if --band says so");
+  CLI::Option* resect =
+      command
+          ->add_option("--resect", options->cut->targets,
+                       "Show the joint without the bone that must go so that these motions reach so far, as "
+                       "condyle resect --reach does: \"flexion=115 fadir=30\"")
+          ->option_text("MOTION=DEG ...");
+  add_cut(*command, options->cut, resect);
+  command
+      ->add_option("--curve", options->curve_points,
+                   "Points on the curve of degrees against mm3 for each target; 0 for none, each costs a cut")
+      ->option_text("N (10)")
+      ->check(CLI::Range(0, 1000))
+      ->needs(resect);
   add_map(*command, options->range);
   add_past(*command, options->range);
   add_bearing(*command, options->range);
   add_accept(*command, options->range);
   add_band(*command, options->range);
   add_strict(*command, options->strictness);
+  HelpGroup of_cut = resection_group();
+  of_cut.options.emplace_back("--curve");
   group_help(*command, {{"Most used", {"--out", "--band", "--map", "--motion", "--load"}},
-                        {"Question", {"--vary", "--past", "--translation"}},
+                        {"Question", {"--vary", "--past", "--translation", "--measures", "--resect"}},
+                        of_cut,
                         uncertainty_group(),
                         {"Contact", {"--bearing", "--accept-reference-contact"}},
                         {"Output", {"--empty", "--title", "--strict", "--help"}}});
-  command->callback([options, command] { run(*options, *command); });
+  command->callback([options, command] { report_command(*options, *command); });
 }
 
 }  // namespace condyle::cli

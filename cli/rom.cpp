@@ -20,6 +20,7 @@
 #include "condyle/io/recorded_motion.hpp"
 #include "contact_options.hpp"
 #include "help_formatter.hpp"
+#include "io/joint/known_motions.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/result/rom_files.hpp"
 #include "io/result/rom_result.hpp"
@@ -33,7 +34,7 @@ namespace {
 enum class Task { limits, list_motions };
 enum class ReferenceContacts { count, leave_out };
 
-struct Options {
+struct RomArguments {
   std::string joint, out;
   std::vector<std::string> motions;
   std::optional<double> allow_depth_mm;
@@ -76,7 +77,7 @@ std::string list_of(const std::vector<Motion>& motions, Anatomy joint) {
   return text;
 }
 
-RangeRequest request_of(const Options& options, const LoadedJoint& loaded, std::vector<Motion> motions) {
+RangeRequest request_of(const RomArguments& options, const LoadedJoint& loaded, std::vector<Motion> motions) {
   RangeRequest request = range_request_of(*options.range, loaded, std::move(motions));
   if (options.reference_contacts == ReferenceContacts::leave_out)
     request.range.overlap.leave_out_reference_contacts.emplace();
@@ -98,7 +99,7 @@ struct Layers {
 };
 
 /// What the translation follows, and the motions that it leads along where none is named.
-void follow(const Options& options, const LoadedJoint& loaded, const std::optional<Layers>& layers,
+void follow(const RomArguments& options, const LoadedJoint& loaded, const std::optional<Layers>& layers,
             RangeRequest& request) {
   if (options.balance->any() && !options.follows_load)
     throw UsageError("--force: only a translation that follows a load takes one: --follow-load");
@@ -136,9 +137,9 @@ RangeAnswer answer_of(const LoadedJoint& loaded, const RangeRequest& request) {
   });
 }
 
-void run(const Options& options, const CLI::App& command) {
+void rom_command(const RomArguments& options, const CLI::App& command) {
   const LoadedJoint loaded = read_joint(options.joint);
-  std::vector<Motion> motions = chosen_motions(motions_of(loaded), options.motions);
+  std::vector<Motion> motions = chosen_motions(known_motions(loaded), options.motions);
   if (options.task == Task::list_motions) return print(list_of(motions, loaded.joint.anatomy));
   RangeRequest request = request_of(options, loaded, std::move(motions));
   std::optional<Layers> layers;
@@ -170,7 +171,7 @@ void add_rom(CLI::App& app) {
       "         condyle rom sample/hip.toml --motion flexion --motion fadir\n"
       "         condyle rom sample/hip.toml --map flexion=0:120:10 adduction=-30:20:10 --out range\n"
       "Exit code 6: the bodies are in contact in the reference pose and no option says what to do about it.");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RomArguments>();
   command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
   command
       ->add_option("--motion", options->motions,
@@ -241,7 +242,7 @@ void add_rom(CLI::App& app) {
               {"Contact",
                {"--bearing", "--accept-reference-contact", "--exclude-reference-contacts", "--allow-depth"}},
               {"Output", {"--frame", "--ascii", "--strict", "--help"}}});
-  command->callback([options, command] { run(*options, *command); });
+  command->callback([options, command] { rom_command(*options, *command); });
 }
 
 }  // namespace condyle::cli

@@ -14,16 +14,18 @@
 #include "help_formatter.hpp"
 #include "prompt_stop.hpp"
 #include "range_options.hpp"
+#include "resection_options.hpp"
 
 namespace condyle::cli {
 namespace {
 
-struct Options {
+struct StudyArguments {
   std::string table, out, anatomy = "hip", shard, depth;
   std::optional<std::string> load;
   std::vector<double> force, along;
   std::vector<std::string> motions;
   bool leaves_out_reference_contacts = false, measures = false;
+  std::shared_ptr<ResectionGiven> cut = std::make_shared<ResectionGiven>();
   BadJoint bad_joint = BadJoint::is_a_row;
   std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
   std::shared_ptr<ContactChanges> contact = std::make_shared<ContactChanges>();
@@ -35,7 +37,7 @@ Anatomy anatomy_named(std::string_view name) {
   throw UsageError("--anatomy: there are hip, knee, ankle, elbow and shoulder");
 }
 
-StudyLoad load_of(const Options& given, Anatomy anatomy) {
+StudyLoad load_of(const StudyArguments& given, Anatomy anatomy) {
   if (given.force.empty() && !given.along.empty()) throw UsageError("--along: needs --force");
   StudyLoad load{study_pose(*given.load, anatomy), *given.contact, {}};
   if (!given.force.empty()) load.force_n = Vec3(given.force[0], given.force[1], given.force[2]);
@@ -43,7 +45,7 @@ StudyLoad load_of(const Options& given, Anatomy anatomy) {
   return load;
 }
 
-StudyOptions study_options(const Options& given) {
+StudyOptions study_options(const StudyArguments& given) {
   const RangeGiven& range = *given.range;
   StudyOptions options;
   options.anatomy = anatomy_named(given.anatomy);
@@ -56,6 +58,8 @@ StudyOptions study_options(const Options& given) {
   if (range.band_samples > 0) options.bands = {range.band_samples, range.seed, range.sigma};
   if (!given.depth.empty()) options.depth_at = study_pose(given.depth, options.anatomy);
   options.measures = given.measures;
+  if (!given.cut->targets.empty())
+    options.resection = StudyResection{parse_reach(given.cut->targets), resection_request_of(*given.cut)};
   if (given.load)
     options.load = load_of(given, options.anatomy);
   else if (given.contact->any_of_rays() || given.contact->any_of_layers() || given.contact->law ||
@@ -64,7 +68,7 @@ StudyOptions study_options(const Options& given) {
   return options;
 }
 
-void run(const Options& given) {
+void study_command(const StudyArguments& given) {
   Study study{given.table, given.out, study_options(given), {}, given.bad_joint};
   if (!given.shard.empty()) study.shard = Shard::parse(given.shard);
   const StudyDone done = stopped_promptly("joints", [&](const auto& follow, std::stop_token stop) {
@@ -95,7 +99,7 @@ void add_study(CLI::App& app) {
       "first "
       "one; a shard with 0. What was done before with the same inputs, options and version is "
       "not done again.");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<StudyArguments>();
   command
       ->add_option(
           "TABLE", options->table,
@@ -137,6 +141,13 @@ void add_study(CLI::App& app) {
       "--measures", options->measures,
       "Measure the shape of each hip too, as condyle measure does, with bands if --band says so; the "
       "pelvis is tilted forwards by the table's column pelvic_tilt_deg");
+  CLI::Option* resect =
+      command
+          ->add_option("--resect", options->cut->targets,
+                       "Find the bone that must go so that these motions reach so far, as condyle resect "
+                       "--reach does: \"flexion=115 fadir=30\"")
+          ->option_text("MOTION=DEG ...");
+  add_cut(*command, options->cut, resect);
   command
       ->add_option("--load", options->load,
                    "Compute contact pressure in this pose too (\"\" is the reference pose), with the layers "
@@ -159,17 +170,17 @@ void add_study(CLI::App& app) {
       "--strict", [options] { options->bad_joint = BadJoint::ends_run; },
       "End the run, and write nothing, at a joint that cannot be answered or with which something looks "
       "wrong (exit code 4)");
-  group_help(
-      *command,
-      {{"Most used", {"--out", "--motion", "--band", "--map", "--shard"}},
-       {"Question",
-        {"--anatomy", "--vary", "--translation", "--depth", "--measures", "--load", "--force", "--along"}},
-       uncertainty_group(),
-       {"Contact",
-        {"--bearing", "--accept-reference-contact", "--exclude-reference-contacts", "--e", "--nu",
-         "--thickness", "--law", "--casting", "--rule", "--reach"}},
-       {"Output", {"--strict", "--help"}}});
-  command->callback([options] { run(*options); });
+  group_help(*command, {{"Most used", {"--out", "--motion", "--band", "--map", "--shard"}},
+                        {"Question",
+                         {"--anatomy", "--vary", "--translation", "--depth", "--measures", "--resect",
+                          "--load", "--force", "--along"}},
+                        resection_group(),
+                        uncertainty_group(),
+                        {"Contact",
+                         {"--bearing", "--accept-reference-contact", "--exclude-reference-contacts", "--e",
+                          "--nu", "--thickness", "--law", "--casting", "--rule", "--reach"}},
+                        {"Output", {"--strict", "--help"}}});
+  command->callback([options] { study_command(*options); });
 }
 
 }  // namespace condyle::cli

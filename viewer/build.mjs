@@ -31,17 +31,16 @@ async function bundled(entry, define = {}) {
   return outputFiles[0].text;
 }
 
-// What would end the element that holds a script.
-const inScript = (text) => text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
 const hashOf = (text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
 
 const worker = await bundled("core/worker.ts");
-const script = inScript(await bundled("main.ts", { workerSource: JSON.stringify(worker) }));
+const script = await bundled("main.ts", { workerSource: JSON.stringify(worker) });
+const loader = (await transform(source("src/loader.js"), { loader: "js", minify: true, target: "es2022" })).code.trim();
 const style = (await transform(source("src/page.css"), { loader: "css", minify: true })).code;
 // The level and the date are said, so that the bytes are those of every machine.
 const packed = (bytes) => Buffer.from(gzipSync(bytes, { level: 9, mtime: 0 })).toString("base64");
 const core = packed(readFileSync(join(coreFolder, "page_core.wasm")));
-const policy = `default-src 'none'; script-src ${hashOf(script)} 'wasm-unsafe-eval'; style-src ${hashOf(style)}; worker-src blob:; ` +
+const policy = `default-src 'none'; script-src ${hashOf(loader)} ${hashOf(script)} 'wasm-unsafe-eval'; style-src ${hashOf(style)}; worker-src blob:; ` +
   "img-src data: blob:; base-uri 'none'; form-action 'none'";
 
 const manifest = (name) => JSON.parse(source(`node_modules/${name}/package.json`));
@@ -61,7 +60,7 @@ const texts = [
 const { outputFiles: [table] } = await build({ entryPoints: [join(here, "src/words.ts")], write: false, format: "esm" });
 const { words } = await import(`data:text/javascript;base64,${Buffer.from(table.contents).toString("base64")}`);
 
-const parts = { policy, style, licenceList, licences: packed(Buffer.from(texts)), core, script, noScripts: words.noScripts, unfinished: words.unfinished };
+const parts = { policy, style, licenceList, licences: packed(Buffer.from(texts)), core, script: packed(Buffer.from(script)), loader, noScripts: words.noScripts, unfinished: words.unfinished };
 const page = source("src/page.html").replaceAll(/@(\w+)@/g, (_, part) => parts[part]);
 writeFileSync(template, page);
-console.log(`${template}: ${(page.length / 1e6).toFixed(2)} MB, of it script ${(script.length / 1e6).toFixed(2)}, core ${(core.length / 1e6).toFixed(2)}`);
+console.log(`${template}: ${(page.length / 1e6).toFixed(2)} MB, of it script ${(parts.script.length / 1e6).toFixed(2)}, core ${(core.length / 1e6).toFixed(2)}`);

@@ -32,6 +32,7 @@
 ///     const auto range = answer_range(joint, placement, {.motions = hip_motions()});
 ///     const auto load  = answer_load(cartilages, {.X_FM = X_FM, .load = stance});
 ///     const auto gait  = answer_motion(bodies, &cartilages, {.X_FM = frames, .time_s = times});
+///     const auto shape = answer_measures(hip);
 
 namespace condyle {
 
@@ -317,6 +318,28 @@ std::vector<RangeNote> range_notes(const Joint& joint, std::span<const MotionLim
 /// Sentences on what these options leave out or accept.
 std::vector<std::string> range_caveats(const RangeOptions& options, const RangeOfMotion& range);
 
+// ---- the shape of a hip --------------------------------------------------------------------------------------------------
+
+/// Options of a query for the shape of a hip, with their defaults.
+struct MeasureQuery {
+  MeasureRequest measures = {};
+  std::optional<BandOptions> bands = {};
+};
+
+/// The measures of a hip, and how far they are certain.
+struct MeasureAnswer {
+  HipMeasures measures = {};
+  std::vector<MeasureBand> bands = {};  ///< in the order of measure_definitions() if requested, else none
+  BandOptions band_options = {};        ///< as requested
+};
+
+/// Measures, and their bands if requested. Empty if it was stopped. Stage: "joints of the band".
+///
+/// Throws UsageError as measure_hip() and measure_bands() do, and costs what they cost.
+std::optional<MeasureAnswer> answer_measures(const Joint& joint, const MeasureQuery& query,
+                                             const AnswerControl& control);
+MeasureAnswer answer_measures(const Joint& joint, const MeasureQuery& query = {});
+
 // ---- the bone that must go -----------------------------------------------------------------------------------------------
 
 /// Options of a query for a resection, with their defaults.
@@ -375,8 +398,19 @@ struct ResectionAnswer {
   std::vector<std::string> caveats = {};  ///< what the plan leaves out, a sentence each
 };
 
-/// Targets from "flexion=115 internal_rotation_at_90_flexion=30", parted by blanks or commas; each name as motion_named(). Throws
-/// UsageError for text that is none.
+/// How far a motion shall go, by its name.
+struct NamedReach {
+  std::string motion;
+  Angle reach;
+};
+
+/// Targets from "flexion=115 internal_rotation_at_90_flexion=30", separated by blanks or commas. Throws UsageError for other text, and
+/// for a motion that is given twice.
+std::vector<NamedReach> parse_reach(std::string_view text);
+
+/// Targets of these motions, each by its name as motion_named() finds it. Throws UsageError for a name that none has.
+std::vector<ReachTarget> reach_targets(std::span<const Motion> motions, std::span<const NamedReach> named);
+/// Those of a text, as parse_reach() reads it.
 std::vector<ReachTarget> reach_targets(std::span<const Motion> motions, std::string_view text);
 
 /// The bone that must go, the limits and the shape before and after, and what each degree costs. Empty if it was stopped. Stages:

@@ -1,10 +1,11 @@
-#include "condyle/hip_measures.hpp"
+#include "condyle/answer.hpp"
 
 #include <limits>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "interrupts.hpp"
+#include "io/joint/measure_request.hpp"
 
 namespace condyle::python {
 namespace {
@@ -47,25 +48,21 @@ py::object band_tuple(const std::vector<MeasureBand>& bands, std::size_t i) {
 py::dict measures_of(const JointHandle& handle, double pelvic_tilt_deg, std::size_t samples,
                      std::uint64_t seed, double centre_mm, double axes_deg, double surface_mm,
                      double surface_voxels, const py::object& progress) {
-  MeasureRequest request;
-  request.pelvic_tilt = Angle::degrees(pelvic_tilt_deg);
-  request.pelvis_frame = pelvis_frame_of(handle.loaded.report.file.joint.frame);
-  request.ischiofemoral_pose = handle.loaded.report.placement.reference_pose.angles;
-  const HipMeasures measures = [&] {
-    const py::gil_scoped_release released;
-    return measure_hip(handle.joint(), request);
-  }();
-  std::vector<MeasureBand> bands;
+  MeasureQuery query{measure_request_of(handle.loaded, Angle::degrees(pelvic_tilt_deg))};
   if (samples > 0)
-    bands = *followed(progress, [&](const auto& report, const std::stop_token& stop) {
-      const BandOptions options{.sigma = {centre_mm, Angle::degrees(axes_deg), surface_mm, surface_voxels},
-                                .samples = samples,
-                                .seed = seed};
-      return measure_bands(handle.joint(), request, options, {.progress = report, .stop = stop});
-    });
+    query.bands = {.sigma = {centre_mm, Angle::degrees(axes_deg), surface_mm, surface_voxels},
+                   .samples = samples,
+                   .seed = seed};
+  const MeasureAnswer answer = *followed(progress, [&](const auto& report, const std::stop_token& stop) {
+    return answer_measures(
+        handle.joint(), query,
+        {[&](std::string_view, std::size_t done, std::size_t total) { report(done, total); }, stop});
+  });
+  const HipMeasures& measures = answer.measures;
   py::list list;
   for (std::size_t i = 0; i < measure_definitions().size(); ++i)
-    list.append(py::make_tuple(measure_tuple(measure_definitions()[i], measures), band_tuple(bands, i)));
+    list.append(
+        py::make_tuple(measure_tuple(measure_definitions()[i], measures), band_tuple(answer.bands, i)));
   const auto& neck = measures.femur.around_neck;
   const auto& rim = measures.acetabulum.rim;
   Points points(rim.size());

@@ -7,6 +7,7 @@
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "interrupts.hpp"
+#include "io/joint/known_motions.hpp"
 #include "io/result/caveats.hpp"
 #include "io/result/rom_result.hpp"
 #include "motion.hpp"
@@ -86,10 +87,7 @@ py::dict free_angles(const RangeHandle& handle, std::size_t vary, const py::obje
 
 py::list built_in(const JointHandle& handle) {
   py::list list;
-  const Joint& joint = handle.joint();
-  for (const Motion& motion :
-       with_own_motions(built_in_motions(joint.kind, joint.anatomy), handle.loaded.report.file.motions))
-    list.append(tuple_of(motion));
+  for (const Motion& motion : known_motions(handle.loaded)) list.append(tuple_of(motion));
   return list;
 }
 

@@ -9,7 +9,9 @@
 #include "condyle/hip_measures.hpp"
 #include "condyle/io/picture.hpp"
 #include "interrupts.hpp"
+#include "io/joint/measure_request.hpp"
 #include "motion.hpp"
+#include "resection.hpp"
 
 namespace condyle::python {
 namespace {
@@ -30,8 +32,8 @@ RangeRequest request_of(const RangeHandle& range, std::vector<Motion> motions) {
 
 void report(const RangeHandle& range, const JointHandle& handle, const std::filesystem::path& path,
             const std::optional<std::string>& title, const py::list& given, std::size_t band_samples,
-            std::optional<std::uint64_t> seed, const std::optional<double>& past_deg,
-            const py::object& progress) {
+            std::optional<std::uint64_t> seed, const std::optional<double>& past_deg, bool with_measures,
+            const PlanHandle* plan, const py::object& progress) {
   const LoadedJoint& loaded = handle.loaded;
   const JointFile& file = loaded.report.file;
   RangeRequest request = request_of(range, motions_in(given));
@@ -46,11 +48,25 @@ void report(const RangeHandle& range, const JointHandle& handle, const std::file
     const auto answer = answer_range(loaded.joint, loaded.report.placement, request, {by_stage, stop});
     if (!answer) return true;
     const std::vector<JointNote> notes = check_joint(loaded.joint, loaded.report.placement);
-    const RomResult rom = rom_result_of(*answer, notes, from ? &*from : nullptr);
-    write_report(path, {.title = title.value_or(loaded.joint.name),
-                        .joint = loaded.joint,
-                        .reference_pose = loaded.report.placement.reference_pose,
-                        .rom = &rom});
+    Provenance* const provenance = from ? &*from : nullptr;
+    const RomResult rom = rom_result_of(*answer, notes, provenance);
+    Report page{.title = title.value_or(loaded.joint.name),
+                .joint = loaded.joint,
+                .reference_pose = loaded.report.placement.reference_pose,
+                .rom = &rom};
+    std::optional<MeasureAnswer> measures;
+    std::optional<MeasureResult> shape;
+    if (with_measures) {
+      measures =
+          answer_measures(loaded.joint, {measure_request_of(loaded), request.bands}, {by_stage, stop});
+      if (!measures) return true;
+      page.measures = &shape.emplace(MeasureResult{loaded.joint, *measures, notes, provenance});
+    }
+    std::optional<ResectionResult> cut;
+    if (plan)
+      page.plan = &cut.emplace(ResectionResult{plan->loaded.joint, plan->answer, notes, provenance,
+                                               &plan->loaded.report.file});
+    write_report(path, page);
     return true;
   });
 }

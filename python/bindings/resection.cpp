@@ -1,4 +1,4 @@
-#include "condyle/resection.hpp"
+#include "resection.hpp"
 
 #include <pybind11/stl.h>
 
@@ -6,6 +6,7 @@
 #include "bindings.hpp"
 #include "condyle/answer.hpp"
 #include "interrupts.hpp"
+#include "io/joint/measure_request.hpp"
 #include "motion.hpp"
 
 namespace condyle::python {
@@ -18,29 +19,16 @@ std::unique_ptr<JointHandle> handle_of(const JointHandle& handle, Joint joint) {
   return std::make_unique<JointHandle>(std::move(loaded));
 }
 
-KeptBone kept_in(const py::dict& given, const char* vertices) {
-  KeptBone kept;
-  kept.deepest_mm = given["deepest_mm"].cast<std::optional<double>>();
-  kept.within_mm = given["within_mm"].cast<std::optional<double>>();
-  kept.vertices = given[vertices].cast<std::vector<std::uint8_t>>();
-  return kept;
-}
-
 ResectionQuery query_in(const JointHandle& handle, const py::list& motions, const py::list& reach,
                         const py::dict& given) {
-  ResectionQuery query;
-  query.motions = motions_in(motions);
+  ResectionQuery query{.resection = cut_in(given), .motions = motions_in(motions)};
   for (const py::handle each : reach) {
     const auto target = each.cast<py::tuple>();
     query.resection.targets.push_back(
         {motion_in(target[0].cast<py::tuple>()), Angle::degrees(target[1].cast<double>())});
   }
-  query.resection.fixed_share = given["fixed_share"].cast<double>();
-  query.resection.mobile = kept_in(given, "keep_mobile");
-  query.resection.fixed = kept_in(given, "keep_fixed");
-  query.resection.margin_mm = given["margin_mm"].cast<double>();
-  query.resection.burr_mm = given["burr_mm"].cast<std::optional<double>>();
-  query.resection.edge_mm = given["edge_mm"].cast<double>();
+  query.resection.mobile.vertices = given["keep_mobile"].cast<std::vector<std::uint8_t>>();
+  query.resection.fixed.vertices = given["keep_fixed"].cast<std::vector<std::uint8_t>>();
   if (given["count_bearing"].cast<bool>()) query.resection.range.bearing.rule = BearingRule::count;
   query.resection.range.bearing.margin_mm = given["bearing_margin_mm"].cast<std::optional<double>>();
   query.curve_points = given["curve_points"].cast<std::size_t>();
@@ -50,7 +38,7 @@ ResectionQuery query_in(const JointHandle& handle, const py::list& motions, cons
                               .samples = samples,
                               .seed = given["seed"].cast<std::uint64_t>()};
   }
-  query.measures.ischiofemoral_pose = handle.loaded.report.placement.reference_pose.angles;
+  query.measures = measure_request_of(handle.loaded);
   return query;
 }
 
@@ -97,7 +85,7 @@ py::object shapes_of(const ResectionAnswer& answer) {
 py::dict resection(const JointHandle& handle, const py::list& motions, const py::list& reach,
                    const py::dict& given, const py::object& progress) {
   const ResectionQuery query = query_in(handle, motions, reach, given);
-  const ResectionAnswer answer = *followed(progress, [&](const auto& report, const std::stop_token& stop) {
+  ResectionAnswer answer = *followed(progress, [&](const auto& report, const std::stop_token& stop) {
     return answer_resection(
         handle.joint(), handle.loaded.report.placement, query,
         {[&](std::string_view, std::size_t done, std::size_t total) { report(done, total); }, stop});
@@ -125,6 +113,7 @@ py::dict resection(const JointHandle& handle, const py::list& motions, const py:
   dict["notes"] = notes;
   dict["margin_mm"] = answer.margin_mm;
   dict["caveats"] = answer.caveats;
+  dict["plan"] = std::make_unique<PlanHandle>(PlanHandle{handle.loaded, std::move(answer)});
   return dict;
 }
 
@@ -136,7 +125,21 @@ std::unique_ptr<JointHandle> with_mobile(const JointHandle& handle, const Mesh& 
 
 }  // namespace
 
+ResectionRequest cut_in(const py::dict& given) {
+  const auto optional = [&](const char* name) { return given[name].cast<std::optional<double>>(); };
+  const KeptBone kept{optional("deepest_mm"), optional("within_mm"), {}};
+  ResectionRequest request;
+  request.fixed_share = given["fixed_share"].cast<double>();
+  request.mobile = kept;
+  request.fixed = kept;
+  request.margin_mm = given["margin_mm"].cast<double>();
+  request.burr_mm = optional("burr_mm");
+  request.edge_mm = given["edge_mm"].cast<double>();
+  return request;
+}
+
 void bind_resection(py::module_& module) {
+  py::class_<PlanHandle>(module, "Plan");
   module.def("resection", &resection);
   module.def("with_mobile", &with_mobile);
 }

@@ -8,6 +8,7 @@
 #include "interrupts.hpp"
 #include "io/joint/grid_text.hpp"
 #include "io/result/sample_files.hpp"
+#include "resection.hpp"
 #include "surface_contact.hpp"
 
 namespace condyle::python {
@@ -70,6 +71,13 @@ StudyOptions study_options_in(const py::dict& given) {
   if (const auto pose = given["depth_at"].cast<std::string>(); !pose.empty())
     options.depth_at = study_pose(pose, options.anatomy);
   options.measures = given["measures"].cast<bool>();
+  if (const py::object given_cut = given["resection"]; !given_cut.is_none()) {
+    const auto cut = given_cut.cast<py::dict>();
+    options.resection.emplace();
+    for (const auto& [motion, degrees] : cut["reach"].cast<std::vector<std::pair<std::string, double>>>())
+      options.resection->targets.push_back({motion, Angle::degrees(degrees)});
+    options.resection->cut = cut_in(cut);
+  }
   if (const py::object load = given["load"]; !load.is_none())
     options.load = load_in(load.cast<py::dict>(), options.anatomy);
   return options;

@@ -39,7 +39,7 @@ from ._recorded_motion import ContactEnd, ContactInterval, JointMotion, MotionTa
 from ._recorded_motion import read_motion_table
 from ._resection import Blocked, CurvePoint, CutBone, ReachedTarget, Resection
 from ._sample import HIP_PARAMETERS, SampleCartilages, SampleHip, sample_cartilages, sample_hip
-from ._study import Study, StudyLoad, StudyTable, merge_study, read_study, run_study, sample_cohort
+from ._study import Study, StudyLoad, StudyResection, StudyTable, merge_study, read_study, run_study, sample_cohort
 from ._surface_contact import ContactTotals, NormalContact, SurfaceContact, thickness_to
 from ._tables import OccupiedArcs, RadialTable, RingTable
 
@@ -54,7 +54,7 @@ __all__ = [
     "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",
     "OutOfRangeError", "PathLimit", "Penetration", "Penetrations", "Pose", "Poses", "REASONS", "RadialTable",
     "RangeOfMotion", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits", "SampleCartilages",
-    "SampleHip", "SphereFit", "Study", "StudyLoad", "StudyTable", "SurfaceContact", "SurfaceCut", "TriMesh",
+    "SampleHip", "SphereFit", "Study", "StudyLoad", "StudyResection", "StudyTable", "SurfaceContact", "SurfaceCut", "TriMesh",
     "UnknownNameError", "UsageError", "VertexDepths", "VertexGaps", "VerticesInside", "WAYS", "__version__",
     "clock_face", "find_cylinder", "find_neck_axis", "find_rim_clock", "find_sphere", "fit_cylinder", "fit_sphere",
     "inspect", "merge_study", "neck_clock", "propose_joint", "read_joint", "read_labels", "read_mesh", "read_model",

@@ -23,6 +23,8 @@ from ._words import Path, Progress, count, number, path_of, progress_of, text_of
 if TYPE_CHECKING:
     import pandas
 
+    from ._resection import Resection
+
 
 class Bearing(TypedDict):
     """The surface on which head and socket slide: see :attr:`RangeOfMotion.bearing`."""
@@ -193,11 +195,14 @@ class RangeOfMotion:
         return tuple(self._zone_of(zone) for zone in found)
 
     def write_report(self, path: Path, *, title: Optional[str] = None, band_samples: int = 0,
-                     seed: Optional[int] = None, past_deg: Optional[float] = None, progress: Progress = None) -> None:
+                     seed: Optional[int] = None, past_deg: Optional[float] = None, measures: bool = False,
+                     plan: Optional[Resection[Any]] = None, progress: Progress = None) -> None:
         """Writes one HTML file that shows the joint with these limits in any browser and computes with it there.
 
         `band_samples` above 0: with the bands of the limits, as :meth:`bands`; `past_deg`: with the impingement zones, as
-        :meth:`zones`. Whole or not at all; FileError where it cannot be written.
+        :meth:`zones`; `measures`: with the shape of a hip, as :meth:`Joint.measures`, with bands if the limits have them. `plan`
+        shows the bone that must go: write it by the range of motion of `plan.joint`, whose limits the page has. Whole or not at
+        all; FileError where it cannot be written.
 
         C++: `condyle::answer_range` in condyle/answer.hpp; `condyle report`.
 
@@ -214,8 +219,8 @@ class RangeOfMotion:
             self._native, self._joint._native, path_of(path), None if title is None else text_of(title, "title"),
             [self._motions.tuple_of(limit.motion) for limit in self.limits], samples,
             None if seed is None else count(seed, "seed", high=2**64 - 1),
-            None if past_deg is None else number(past_deg, "past_deg"),
-            progress_of(progress))
+            None if past_deg is None else number(past_deg, "past_deg"), bool(measures),
+            None if plan is None else plan._shown_by(self._joint), progress_of(progress))
 
     def _zone_of(self, found: Optional[dict[str, Any]]) -> Optional[ImpingementZone]:
         if found is None:

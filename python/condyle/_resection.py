@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Callable, Generic, Mapping, NamedTuple, Optional, TypeVar
 
 import numpy as np
@@ -126,6 +126,18 @@ class Resection(Generic[OfJoint]):
     margin_mm: float
     notes: tuple[ContactNote, ...]
     caveats: list[str]
+    _plan: Optional[_native.Plan] = field(default=None, repr=False)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_plan": None}
+
+    def _shown_by(self, joint: DescribedJoint) -> _native.Plan:
+        """What a report shows of it beside the limits of this joint."""
+        if joint is not self.joint:
+            raise UsageError("plan: the limits are not those of plan.joint")
+        if self._plan is None:
+            raise UsageError("plan: was pickled, which leaves out what a report shows: ask for it again")
+        return self._plan
 
     @property
     def volume_mm3(self) -> float:
@@ -160,22 +172,31 @@ def _kept(marks: Optional[ArrayLike], mesh: TriMesh, what: str) -> NDArray[np.ui
     return merged
 
 
+def cut_options(cut: CutFrom, share: Optional[float], margin_mm: float, deepest_mm: Optional[float],
+                within_mm: Optional[float], burr_mm: Optional[float], edge_mm: float) -> dict[str, Any]:
+    """How bone is cut, checked."""
+    if share is not None and cut != "both":
+        raise UsageError('share: only with cut="both"')
+    shares = {"mobile": 0.0, "fixed": 1.0, "both": 0.5 if share is None else number(share, "share")}
+
+    def optional(value: Optional[float], name: str) -> Optional[float]:
+        return None if value is None else number(value, name)
+
+    return {"fixed_share": shares[word(cut, "cut", CutFrom)], "margin_mm": number(margin_mm, "margin_mm"),
+            "deepest_mm": optional(deepest_mm, "deepest_mm"), "within_mm": optional(within_mm, "within_mm"),
+            "burr_mm": optional(burr_mm, "burr_mm"), "edge_mm": number(edge_mm, "edge_mm")}
+
+
 def resection(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], reach: Mapping[str, float], cut: CutFrom, share: Optional[float], margin_mm: float,
               deepest_mm: Optional[float], within_mm: Optional[float], burr_mm: Optional[float], keep: Optional[ArrayLike],
               keep_fixed: Optional[ArrayLike], edge_mm: float, curve_points: int, band_samples: int, seed: Optional[int],
               bearing: BearingRule, bearing_margin_mm: Optional[float], progress: Progress) -> Resection[OfJoint]:
     known = Motions(joint._native)
-    if share is not None and cut != "both":
-        raise UsageError('share: only with cut="both"')
-    shares = {"mobile": 0.0, "fixed": 1.0, "both": 0.5 if share is None else number(share, "share")}
     centre_mm, axes_deg, surface_mm, usual_seed, voxels = _native.uncertainty(joint._native)
     options = {
-        "fixed_share": shares[word(cut, "cut", CutFrom)], "margin_mm": number(margin_mm, "margin_mm"),
-        "deepest_mm": None if deepest_mm is None else number(deepest_mm, "deepest_mm"),
-        "within_mm": None if within_mm is None else number(within_mm, "within_mm"),
-        "burr_mm": None if burr_mm is None else number(burr_mm, "burr_mm"),
+        **cut_options(cut, share, margin_mm, deepest_mm, within_mm, burr_mm, edge_mm),
         "keep_mobile": _kept(keep, joint.mobile, "keep"), "keep_fixed": _kept(keep_fixed, joint.fixed, "keep_fixed"),
-        "edge_mm": number(edge_mm, "edge_mm"), "curve_points": count(curve_points, "curve_points", 0, 1000),
+        "curve_points": count(curve_points, "curve_points", 0, 1000),
         "samples": band_samples and count(band_samples, "band_samples", FEWEST_SAMPLES, MOST_SAMPLES),
         "seed": usual_seed if seed is None else count(seed, "seed", high=2**64 - 1),
         "sigma": (centre_mm, axes_deg, surface_mm, voxels),
@@ -199,4 +220,4 @@ def resection(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], reach
         tuple(limit_of(each, joint) for each in found["before"]), tuple(limit_of(each, without) for each in found["after"]),
         found["shapes"] or {},
         tuple(CurvePoint(targets[target].motion, *rest) for target, *rest in found["curve"]), found["margin_mm"], reported(found["notes"]),
-        found["caveats"])
+        found["caveats"], found["plan"])

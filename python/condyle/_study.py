@@ -18,7 +18,8 @@ from . import _native
 from ._answer import html_of
 from ._errors import FileError, UsageError, unknown, warn
 from ._pressure import ElasticLayer
-from ._words import Anatomy, BearingRule, Bodies, FaceRule, Path, PressureLaw, Progress, count, number, number_array
+from ._resection import cut_options
+from ._words import Anatomy, BearingRule, Bodies, CutFrom, FaceRule, Path, PressureLaw, Progress, count, number, number_array
 from ._words import path_of, progress_of, text_of, word
 
 if TYPE_CHECKING:
@@ -125,6 +126,36 @@ class StudyLoad:
                 "rule": one_of(self.rule, "rule", FaceRule),
                 "reach_mm": None if self.reach_mm is None else number(self.reach_mm, "reach_mm"),
                 "law": one_of(self.law, "law", PressureLaw)}
+
+
+@dataclass(frozen=True)
+class StudyResection:
+    """The bone that must go, which :func:`run_study` finds for each joint: columns `resect_...` of `hips`, and limits
+    without it.
+
+    Attributes
+    ----------
+    reach : mapping of motions to degrees
+    cut, share, margin_mm, deepest_mm, within_mm, burr_mm, edge_mm
+        As :meth:`Joint.resection` takes them.
+    """
+
+    reach: Mapping[str, float]
+    cut: CutFrom = "mobile"
+    share: Optional[float] = None
+    margin_mm: float = 0
+    deepest_mm: Optional[float] = None
+    within_mm: Optional[float] = None
+    burr_mm: Optional[float] = None
+    edge_mm: float = 0.5
+
+    def _checked(self) -> dict[str, Any]:
+        if not isinstance(self.reach, Mapping) or not self.reach:
+            raise UsageError('reach: motions and their degrees are needed: {"flexion": 115}')
+        cut = cut_options(self.cut, self.share, self.margin_mm, self.deepest_mm, self.within_mm, self.burr_mm,
+                          self.edge_mm)
+        reach = [(text_of(name, "reach"), number(degrees, f"reach of {name}")) for name, degrees in self.reach.items()]
+        return {**cut, "reach": reach}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -279,7 +310,8 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
               map: Optional[tuple[Axis, Axis]] = None, vary: Optional[str] = None, band_samples: int = 0,
               seed: Optional[int] = None, sigma_centre_mm: Optional[float] = None,
               sigma_axes_deg: Optional[float] = None, sigma_surface_mm: Optional[float] = None, depth_at: str = "",
-              load: Optional[StudyLoad] = None, measures: bool = False, shard: Optional[tuple[int, int]] = None,
+              load: Optional[StudyLoad] = None, measures: bool = False, resection: Optional[StudyResection] = None,
+              shard: Optional[tuple[int, int]] = None,
               strict: bool = False, progress: Progress = None) -> Study:
     """Answers for every row of a table of joints and writes the results: docs/cohort.md has both.
 
@@ -304,6 +336,8 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
     measures : bool
         The shape of each hip, as of :meth:`Joint.measures`, in columns `measured_...` of `hips`; with bands if `band_samples` says
         so. The pelvis is tilted forwards by the table's column `pelvic_tilt_deg`.
+    resection : StudyResection, optional
+        The bone that must go so that motions reach their targets, and limits without it.
     shard : (number, of), optional
         (3, 7) is the third of seven parts, which :func:`merge_study` puts together.
     strict : bool
@@ -329,6 +363,8 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
         raise UsageError("motions and depth_at are texts")
     if load is not None and not isinstance(load, StudyLoad):
         raise UsageError(f"load: a StudyLoad is needed, not {type(load).__name__}")
+    if resection is not None and not isinstance(resection, StudyResection):
+        raise UsageError(f"resection: a StudyResection is needed, not {type(resection).__name__}")
     samples = count(band_samples, "band_samples", high=100_000)
     sigmas = dict(zip(_SIGMAS, (sigma_centre_mm, sigma_axes_deg, sigma_surface_mm)))
     for name, given in (("seed", seed), *sigmas.items()):
@@ -343,7 +379,7 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
         "band_samples": samples, "seed": None if seed is None else count(seed, "seed", high=2**64 - 1),
         **{name: None if given is None else number(given, name) for name, given in sigmas.items()},
         "depth_at": depth_at, "load": None if load is None else load._checked(),
-        "measures": bool(measures)}
+        "measures": bool(measures), "resection": None if resection is None else resection._checked()}
     out = path_of(folder, "folder")
     _warn_of(_native.run_study(path_of(table, "table"), out, options, part, bool(strict), progress_of(progress)))
     return read_study(out if part is None else os.path.join(out, "shards", f"{part[0]}_of_{part[1]}"))

@@ -290,11 +290,6 @@ bool add_curve(const ResectionQuery& query, Cuts& cuts, ResectionAnswer& answer)
   return true;
 }
 
-std::string_view trimmed_of_blanks(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
-  return first == text.npos ? std::string_view() : text.substr(first, last - first + 1);
-}
-
 }  // namespace
 
 std::string_view name_of(ResectionNoteCode code) noexcept {
@@ -325,14 +320,14 @@ std::string_view name_of(ResectionNoteCode code) noexcept {
   return "finer_triangles";
 }
 
-std::vector<ReachTarget> reach_targets(std::span<const Motion> motions, std::string_view text) {
-  std::vector<ReachTarget> targets;
+std::vector<NamedReach> parse_reach(std::string_view text) {
+  std::vector<NamedReach> named;
   while (true) {
     const auto first = text.find_first_not_of(" \t,");
     if (first == text.npos) break;
     text.remove_prefix(first);
     const auto end = std::min(text.find_first_of(" \t,"), text.size());
-    const std::string_view item = trimmed_of_blanks(text.substr(0, end));
+    const std::string_view item = text.substr(0, end);
     text.remove_prefix(end);
     const auto equals = item.find('=');
     double degrees = 0;
@@ -342,13 +337,23 @@ std::vector<ReachTarget> reach_targets(std::span<const Motion> motions, std::str
         stopped != number.data() + number.size() || !std::isfinite(degrees))
       throw UsageError("targets: \"" + std::string(item) +
                        "\" is not a motion and its degrees, as in flexion=115");
-    const Motion& motion = motion_named(motions, item.substr(0, equals));
-    for (const ReachTarget& other : targets)
-      if (other.motion.name == motion.name) throw UsageError("targets: " + motion.name + " is given twice");
-    targets.push_back({motion, Angle::degrees(degrees)});
+    const std::string motion(item.substr(0, equals));
+    for (const NamedReach& other : named)
+      if (other.motion == motion) throw UsageError("targets: " + motion + " is given twice");
+    named.push_back({motion, Angle::degrees(degrees)});
   }
-  if (targets.empty()) throw UsageError("targets: none is given, as in flexion=115");
+  if (named.empty()) throw UsageError("targets: none is given, as in flexion=115");
+  return named;
+}
+
+std::vector<ReachTarget> reach_targets(std::span<const Motion> motions, std::span<const NamedReach> named) {
+  std::vector<ReachTarget> targets;
+  for (const auto& [motion, reach] : named) targets.push_back({motion_named(motions, motion), reach});
   return targets;
+}
+
+std::vector<ReachTarget> reach_targets(std::span<const Motion> motions, std::string_view text) {
+  return reach_targets(motions, parse_reach(text));
 }
 
 std::optional<ResectionAnswer> answer_resection(const Joint& joint, const JointPlacement& placement,

@@ -93,7 +93,7 @@ std::optional<Resection> resect(const Joint& joint, const ResectionRequest& requ
     done.targets.push_back({target, target.reach, before.limit(target.motion), {}, {}});
     const Limit& end = done.targets.back().before.end;
     if (end.reason == LimitReason::contact_at_start)
-      throw UsageError(
+      throw MeshError(
           "resection: " + target.motion.name +
           " is in contact at its start: plan what brings the joint there first, and ask for this of "
           "the joint without that bone");

@@ -92,6 +92,58 @@ TEST_F(ReportCommand, ShowsBodiesInContactAndSaysWhyThereAreNoLimits) {
   EXPECT_EQ(answer(" --accept-reference-contact")["rom"]["motions"][0]["reason"], "contact_at_start");
 }
 
+/// The answer of another command without what the page has of the joint.
+Json without_joint(Json json) {
+  for (const char* key : {"condyle", "joint", "fixed", "mobile", "side", "notes", "scope", "provenance"})
+    json.erase(key);
+  return json;
+}
+
+TEST_F(ReportCommand, ShowsTheBoneThatMustGoAndTheJointWithoutIt) {
+  ASSERT_EQ(run("sample hip --scenario 1 --alpha-angle 70 --out hip").exit_code, 0);
+  const std::string cut = "internal_rotation_at_90_flexion=45 --curve 2 --deepest 8";
+  ASSERT_EQ(run("report hip/hip.toml --out report.html --measures --resect " + cut).exit_code, 0);
+  const ReportBlock block = report_block(io::read_whole_file(folder / "report.html"));
+  const Ran resect = run("resect hip/hip.toml --json --out plan --reach " + cut);
+  ASSERT_EQ(resect.exit_code, 0) << resect.err;
+  Json plan = block.json["plan"];
+  const Json surfaces = plan["surfaces"];
+  plan.erase("surfaces");
+  EXPECT_EQ(plan, without_joint(Json::parse(resect.out)));
+  // The joint and its limits are those of the file that condyle resect writes.
+  const Ran rom = run("rom plan/resected.toml --json");
+  for (std::size_t i = 0; i < 12; ++i)
+    EXPECT_EQ(block.json["rom"]["motions"][i]["limit_deg"], Json::parse(rom.out)["motions"][i]["limit_deg"]);
+  const Ran shape = run("measure plan/resected.toml --json");
+  const Json measures = without_joint(Json::parse(shape.out));
+  EXPECT_EQ(block.json["measures"]["measures"], measures["measures"]);
+
+  EXPECT_EQ(surfaces["fixed"], nullptr);
+  const auto lowered = block.array<std::uint32_t>(surfaces["mobile"]["lowered"], "u32");
+  const auto before = block.array<double>(surfaces["mobile"]["before"], "f64");
+  const auto depth = block.array<double>(surfaces["mobile"]["depth_mm"], "f64");
+  const auto after = block.array<double>("mobile_vertices", "f64");
+  ASSERT_EQ(before.size(), 3 * lowered.size());
+  EXPECT_EQ(*std::max_element(depth.begin(), depth.end()), plan["cuts"][0]["deepest_mm"]);
+  for (std::size_t i = 0; i < lowered.size(); ++i) {
+    const auto at = [&](const std::vector<double>& xyz, std::size_t v) {
+      return Vec3(xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]);
+    };
+    EXPECT_GE((at(after, lowered[i]) - at(before, i)).norm(), depth[i] * (1 - 1e-12));
+  }
+}
+
+TEST_F(ReportCommand, RefusesOptionsOfACutWithoutOneAndPlansThatAPageDoesNotShow) {
+  expect_refused(2, "report joint.toml --out report.html --margin 1", "--resect");
+  expect_refused(2, "report joint.toml --out report.html --resect flexion=500", "cannot reach 500 degrees");
+  write_joint(
+      "[contact]\ncasting = \"fixed\"\n[contact.fixed]\nyoungs_modulus_mpa = 10\npoisson_ratio = 0.45\n"
+      "thickness = 6\n");
+  expect_refused(2, "report joint.toml --out report.html --load --resect flexion=30", "not with --load");
+  EXPECT_EQ(answer("")["plan"], nullptr);
+  EXPECT_EQ(answer("")["measures"], nullptr);
+}
+
 TEST_F(ReportCommand, PlaysARecordedMotion) {
   folder.file("swing.csv", "time,flexion_deg\n0,0\n0.1,10\n0.2,\n0.3,30\n");
   const Ran ran = run("report joint.toml --motion swing.csv --out report.html");

@@ -82,7 +82,7 @@ def test_a_joint_is_proposed_as_the_command_does(command, hip_file):
 
 
 def test_another_joint_is_proposed_by_its_name(command, hip_file):
-    fixed, mobile, to = hip_file.parent / "hip_bone.ply", hip_file.parent / "femur.ply", hip_file.parent / "knee.toml"
+    fixed, mobile, to = hip_file.parent / "hip_bone.ply", hip_file.parent / "femur.ply", hip_file.parent / "proposed_knee.toml"
     subprocess.run([command, "init", fixed, mobile, "--joint", "knee", "-o", to], check=True, capture_output=True)
     proposal = condyle.propose_joint(fixed, mobile, to, joint="knee")
     assert proposal.toml == to.read_text() and 'joint = "knee"  # given' in proposal.toml

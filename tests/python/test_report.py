@@ -2,6 +2,7 @@
 
 import base64
 import json
+import pickle
 import re
 import subprocess
 import zlib
@@ -25,6 +26,27 @@ def test_a_report_is_that_of_the_command_but_for_its_name(command, hip, hip_file
     for text in (theirs, ours):
         del text["rom"]["provenance"]["command"]
     assert ours == theirs
+
+
+def test_a_report_shows_shape_and_plan_as_the_command_does(tmp_path, command):
+    subprocess.run([command, "sample", "hip", "--scenario", "1", "--alpha-angle", "70", "--out", tmp_path], check=True,
+                   capture_output=True)
+    joint = condyle.read_joint(tmp_path / "hip.toml")
+    with pytest.warns(condyle.JointWarning):
+        plan = joint.resection({"internal_rotation_at_90_flexion": 45}, curve_points=1)
+    plan.joint.range_of_motion().write_report(tmp_path / "python.html", measures=True, plan=plan)
+    subprocess.run([command, "report", tmp_path / "hip.toml", "--measures", "--curve", "1", "--resect",
+                    "internal_rotation_at_90_flexion=45", "--out", tmp_path / "command.html"], check=True, capture_output=True)
+    ours, said = (text_of(tmp_path / name) for name in ("python.html", "command.html"))
+    for block in (ours, said):
+        del block["rom"]["provenance"]
+    assert ours == said and said["plan"]["cuts"][0]["volume_mm3"] == plan.volume_mm3
+    with pytest.raises(condyle.UsageError, match="plan.joint"):
+        joint.range_of_motion(["flexion"]).write_report(tmp_path / "other.html", plan=plan)
+    again = pickle.loads(pickle.dumps(plan))
+    assert again.volume_mm3 == plan.volume_mm3
+    with pytest.raises(condyle.UsageError, match="pickled"):
+        again.joint.range_of_motion(["flexion"]).write_report(tmp_path / "other.html", plan=again)
 
 
 def test_a_report_has_the_motions_asked_for_and_the_title_given(hip, tmp_path):

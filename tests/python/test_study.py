@@ -77,9 +77,13 @@ def test_every_option_of_the_command_is_one_of_python(table: Path, command: str,
                       band_samples=20, seed=3, sigma_centre_mm=0.4, sigma_axes_deg=0.5, sigma_surface_mm=0.1,
                       depth_at="flexion=140", measures=True)
     same_files(tmp_path / "a", tmp_path / "b")
-    subprocess.run([command, "study", table, "--out", tmp_path / "c", "--motion", "flexion", "--bearing", "count"],
+    subprocess.run([command, "study", table, "--out", tmp_path / "c", "--motion", "flexion", "--bearing", "count", "--resect",
+                    "internal_rotation_at_90_flexion=60 flexion=130", "--from", "both", "--share", "0.25", "--margin", "0.2",
+                    "--burr", "3", "--deepest", "5", "--within", "30", "--edge", "1"],
                    check=True, capture_output=True)
-    condyle.run_study(table, tmp_path / "d", motions=["flexion"], bearing="count")
+    resection = condyle.StudyResection({"internal_rotation_at_90_flexion": 60, "flexion": 130}, cut="both", share=0.25,
+                                       margin_mm=0.2, burr_mm=3, deepest_mm=5, within_mm=30, edge_mm=1)
+    condyle.run_study(table, tmp_path / "d", motions=["flexion"], bearing="count", resection=resection)
     same_files(tmp_path / "c", tmp_path / "d")
 
 

@@ -1,13 +1,15 @@
 import { CoreClient } from "./core/client";
 import { lineOf } from "./core/error_line";
-import type { BothValues, Coordinates, JointArrays, MapQuestion, Quantity, Query, Values } from "./core/protocol";
+import type { BothValues, Coordinates, JointArrays, MapQuestion, Query, ShownQuantity, Values } from "./core/protocol";
 import { button, choice, html, named, section, shortened, spaced } from "./dom";
 import { DisplayPanel } from "./panels/display";
 import { DropPanel } from "./panels/drop";
 import { MotionPanel } from "./panels/motion";
 import { numbersPanel } from "./panels/numbers";
+import { PlanPanel } from "./panels/plan";
 import { PointerPanel } from "./panels/pointer";
 import { RecordedPanel, type Frame } from "./panels/recorded";
+import { shapePanel } from "./panels/shape";
 import { ZonePanel } from "./panels/zones";
 import { clockDrawing } from "./plots/clock";
 import { figure } from "./plots/figure";
@@ -22,9 +24,9 @@ import { readViewState, writeViewState } from "./view_state";
 import { words } from "./words";
 
 const translationNames = ["x", "y", "z"];
-const quantities = Object.keys(words.quantity) as Quantity[];
+const quantities = Object.keys(words.quantity) as ShownQuantity[];
 const canCompute = typeof WebAssembly !== "undefined";
-const storedQuantities: readonly Quantity[] = ["gap", "none"];
+const storedQuantities: readonly ShownQuantity[] = ["gap", "removed", "none"];
 
 function found<T extends HTMLElement>(id: string): T {
   return document.getElementById(id) as T;
@@ -56,6 +58,8 @@ class Page {
   private core: CoreClient | null = null;
   private mapPlot: MapPlot | null = null;
   private zones: ZonePanel | null = null;
+  private readonly plan: PlanPanel | null;
+  private readonly removed: BothValues | null;
   private fragmentTimer = 0;
   /// One of the report's poses, if the page cannot compute.
   private storedPose: StoredPose | null = null;
@@ -70,9 +74,13 @@ class Page {
     this.scene = sceneOf(arrays, text.parts, words.sceneLabel(names.fixed, names.mobile));
     this.motion = new MotionPanel(
       text, (at) => this.moved(at), (motion) => this.arrived(motion), canCompute ? null : (name) => this.showStored(name));
+    this.plan = report && text.plan && new PlanPanel(this.scene, report, text.plan, names);
+    const { fixed, mobile } = this.counts();
+    this.removed = this.plan && this.plan.values({ fixed: fixed[0], mobile: mobile[0] });
+    const has = { pressure: text.layers !== null, removed: this.plan !== null } as Partial<Record<ShownQuantity, boolean>>;
     this.display = new DisplayPanel(this.scene, {
-      names, parts: text.parts, marks: canCompute ? ["contact", "bearing"] : ["bearing"],
-      quantities: canCompute ? quantities.filter((key) => key !== "pressure" || text.layers) : storedQuantities,
+      names, parts: text.parts, marks: canCompute ? ["contact", "bearing"] : ["bearing"], removed_mm: this.plan?.deepest_mm ?? 0,
+      quantities: (canCompute ? quantities : storedQuantities).filter((key) => has[key] ?? true),
     }, () => this.recolour(), () => this.rememberView());
     if (report && text.zones.length) {
       this.zones = new ZonePanel(this.scene, report, text.zones, () => this.rememberView());
@@ -104,7 +112,7 @@ class Page {
     core.listen({
       shown: (_, shown, roundTrip_ms) => {
         this.scene?.setPose(shown.pose);
-        if (this.display.quantity === "none") this.show(null);
+        if (this.display.quantity === "none" || this.display.quantity === "removed") this.show(this.storedValues());
         const pairs = Array.from(shown.pairs);
         this.scene?.setMarked("contact", pairs.filter((_, i) => i % 2 === 0), pairs.filter((_, i) => i % 2 === 1));
         this.motion.show(shown, roundTrip_ms);
@@ -166,7 +174,12 @@ class Page {
   private recolour(): void {
     if (canCompute) return this.moved(this.motion.coordinates);
     const pose = this.display.quantity === "gap" ? this.storedPose : null;
-    this.show(pose && { fixed: this.storedGaps(pose.fixed_gaps), mobile: this.storedGaps(pose.mobile_gaps) });
+    this.show(pose ? { fixed: this.storedGaps(pose.fixed_gaps), mobile: this.storedGaps(pose.mobile_gaps) } : this.storedValues());
+  }
+
+  /// Values that do not depend on the pose.
+  private storedValues(): BothValues | null {
+    return this.display.quantity === "removed" ? this.removed : null;
   }
 
   /// A frame of the recorded motion: its pose is in the report, its colours are computed.
@@ -196,7 +209,9 @@ class Page {
       const clock = clockDrawing(rom.motions, rom.clock_plane, go);
       if (clock) made.push(section(words.clock, figure(clock)));
     }
+    if (this.plan) made.unshift(this.plan.element);
     if (this.text.joint.kind !== "hinge" && (map || canCompute)) made.push(this.mapSection(map));
+    if (this.text.measures) made.push(shapePanel(this.text.measures, this.scene));
     return made;
   }
 
@@ -241,7 +256,8 @@ class Page {
   }
 
   private moved(at: Coordinates): void {
-    this.core?.ask(at, this.display.quantity, this.motion.ranges());
+    const { quantity } = this.display;
+    this.core?.ask(at, quantity === "removed" ? "none" : quantity, this.motion.ranges());
     this.scene?.showContactPoint(null);
     this.rememberView();
   }

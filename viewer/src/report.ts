@@ -148,6 +148,70 @@ export interface Recorded {
   curves: { name: string; unit: string; values: string }[];
 }
 
+/// One measure of a hip; docs/measures.md.
+export interface StoredMeasure {
+  key: string;
+  part: "femur" | "acetabulum" | "both";
+  unit: string;
+  value: number | null;
+  why_none?: string;
+  note?: string;
+  definition: string;
+  source: string;
+  normal: { low: number; high: number; meaning: string; source: string } | null;
+  band: { p5: number | null; p95: number | null } | null;
+}
+
+type Three = [number, number, number];
+
+export interface StoredMeasures {
+  pelvis_frame: string;
+  measures: StoredMeasure[];
+  /// Points of the femur in M, those of the hip bone in F.
+  around_neck: { hour: number; alpha_deg: number | null; alpha_at_1mm_deg: number | null; alpha_point_mm: Three | null }[];
+  rim: { hour: number; point_mm: Three | null; centre_edge_deg: number | null; is_in_plane: boolean }[];
+  geometry: {
+    neck: { head_centre_mm: Three; direction: Three } | null;
+    shaft: { first_mm: Three; last_mm: Three } | null;
+    condyles: { medial_mm: Three; lateral_mm: Three } | null;
+    rim_plane: { centre_mm: Three; normal: Three; radius_mm: number } | null;
+  };
+}
+
+export interface EndOfMotion {
+  limit_deg: number;
+  reason: MotionAnswer["reason"];
+}
+
+/// The bone that must go; docs/planning.md. The joint of the page is the one without it.
+export interface StoredPlan {
+  margin_mm: number;
+  targets: {
+    motion: string;
+    reach_deg: number;
+    planned_deg: number;
+    before: EndOfMotion;
+    after: EndOfMotion;
+    blocked: { kept_by: "bearing" | "depth" | "zone" | "marked"; body: "fixed" | "mobile"; point_mm: Three } | null;
+  }[];
+  cuts: {
+    body: "fixed" | "mobile";
+    volume_mm3: number;
+    least_volume_mm3: number;
+    burr_volume_mm3: number;
+    area_mm2: number;
+    deepest_mm: number;
+    deepest_hour: number | null;
+  }[];
+  limits: { motion: string; before: EndOfMotion; after: EndOfMotion }[];
+  measures: { key: string; unit: string; before: number | null; after: number | null }[] | null;
+  curve: { motion: string; reached_deg: number; volume_mm3: number; deepest_mm: number }[];
+  resection_notes: { code: string; text: string }[];
+  caveats: string[];
+  /// Names of arrays: vertices that were lowered, where they were, and how far below that surface they are.
+  surfaces: Record<"fixed" | "mobile", { lowered: string; before: string; depth_mm: string } | null>;
+}
+
 export interface ReportText {
   version: string;
   title: string;
@@ -173,6 +237,8 @@ export interface ReportText {
   arrays: Record<string, ArrayPlace>;
   poses: StoredPose[];
   recorded: Recorded | null;
+  measures: StoredMeasures | null;
+  plan: StoredPlan | null;
 }
 
 const headBytes = 16;
@@ -248,6 +314,7 @@ export function textOfProposal(proposal: Proposal, fixed: string, mobile: string
     ],
     reference_deg: [0, 0, 0], reference_mm: [0, 0, 0],
     scope: proposal.rom.scope, rom: proposal.rom,
-    map: null, zones: [], layers: null, parts: { fixed: [], mobile: [] }, arrays: {}, poses: [], recorded: null,
+    map: null, zones: [], layers: null, parts: { fixed: [], mobile: [] }, arrays: {}, poses: [], recorded: null, measures: null,
+    plan: null,
   };
 }

@@ -71,6 +71,42 @@ const surface = object({
 });
 const part = object({ name: text, first_vertex: count, vertices: count, contact: oneOf("ends", "bearing", "soft") });
 
+const measures = object({
+  pelvis_frame: text,
+  measures: list(object({
+    key: text, part: oneOf("femur", "acetabulum", "both"), unit: text, value: orNull(number), why_none: ifThere(text), note: ifThere(text),
+    definition: text, source: text, normal: orNull(object({ low: number, high: number, meaning: text, source: text })),
+    band: orNull(object({ p5: orNull(number), p95: orNull(number) })),
+  })),
+  around_neck: list(object({ hour: number, alpha_deg: orNull(number), alpha_at_1mm_deg: orNull(number), alpha_point_mm: orNull(three) })),
+  rim: list(object({ hour: number, point_mm: orNull(three), centre_edge_deg: orNull(number), is_in_plane: flag })),
+  geometry: object({
+    neck: orNull(object({ head_centre_mm: three, direction: three })), shaft: orNull(object({ first_mm: three, last_mm: three })),
+    condyles: orNull(object({ medial_mm: three, lateral_mm: three })),
+    rim_plane: orNull(object({ centre_mm: three, normal: three, radius_mm: number })),
+  }),
+});
+
+const bodyName = oneOf("fixed", "mobile");
+const end = object({ limit_deg: number, reason: oneOf("contact", "end_of_range", "contact_at_start") });
+const cutSurface = orNull(object({ lowered: text, before: text, depth_mm: text }));
+const plan = object({
+  margin_mm: number,
+  targets: list(object({
+    motion: text, reach_deg: number, planned_deg: number, before: end, after: end,
+    blocked: orNull(object({ kept_by: oneOf("bearing", "depth", "zone", "marked"), body: bodyName, point_mm: three })),
+  })),
+  cuts: list(object({
+    body: bodyName, volume_mm3: number, least_volume_mm3: number, burr_volume_mm3: number, area_mm2: number, deepest_mm: number,
+    deepest_hour: orNull(number),
+  })),
+  limits: list(object({ motion: text, before: end, after: end })),
+  measures: orNull(list(object({ key: text, unit: text, before: orNull(number), after: orNull(number) }))),
+  curve: list(object({ motion: text, reached_deg: number, volume_mm3: number, deepest_mm: number })),
+  resection_notes: list(object({ code: text, text })), caveats: list(text),
+  surfaces: object({ fixed: cutSurface, mobile: cutSurface }),
+});
+
 const report = object({
   version: text, title: text,
   joint: object({
@@ -97,6 +133,7 @@ const report = object({
     name: text, axis: oneOf("time_s", "frame"), times_s: text, coordinates_deg: text, coordinates_mm: text, poses: text,
     curves: list(object({ name: text, unit: text, values: text })),
   })),
+  measures: orNull(measures), plan: orNull(plan),
 });
 
 /// The text of a block, every key that the page reads with it; throws ReportError that names the first one that is wrong.
@@ -131,6 +168,12 @@ function checkArrays(read: ReportText): void {
     read.poses.forEach((pose, i) => needed(`poses[${i}].${body}_gaps`, pose[`${body}_gaps`], "i16", many(vertices)));
     read.zones.forEach((zone, i) => needed(`zones[${i}].${body}`, zone[body], "u32", any));
     read.parts[body].forEach((known, i) => known.first_vertex + known.vertices <= vertices || wrong(`parts.${body}[${i}]`));
+    const cut = read.plan?.surfaces[body];
+    if (cut) {
+      const lowered = needed(`plan.surfaces.${body}.lowered`, cut.lowered, "u32", any);
+      needed(`plan.surfaces.${body}.before`, cut.before, "f64", many(3 * lowered));
+      needed(`plan.surfaces.${body}.depth_mm`, cut.depth_mm, "f64", many(lowered));
+    }
     const loaded = read.layers?.[body];
     if (!loaded) continue;
     if (loaded.first_vertex + loaded.vertices > vertices || loaded.first_triangle + loaded.triangles > triangles) wrong(`layers.${body}`);

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "condyle/answer.hpp"
 #include "condyle/control.hpp"
 #include "condyle/io/contact_entry.hpp"
 #include "condyle/io/pose_text.hpp"
@@ -50,6 +51,13 @@ struct StudyLoad {
   std::vector<Vec3> free_directions = {};
 };
 
+/// The bone of each joint that must go so that motions reach these targets.
+struct StudyResection {
+  std::vector<NamedReach> targets = {};
+  /// How; its targets and its range are those of each joint. No vertex is marked to stay.
+  ResectionRequest cut = {};
+};
+
 /// Queries for every joint of a study: its limits, and other options.
 struct StudyOptions {
   Anatomy anatomy = Anatomy::hip;         ///< of all of them; one of another is a failure
@@ -64,6 +72,7 @@ struct StudyOptions {
   std::optional<StudyLoad> load = {};
   /// The shape of each hip, with bands where `bands` says so: docs/measures.md. UsageError for other joints.
   bool measures = false;
+  std::optional<StudyResection> resection = {};
 };
 
 /// A part of the table: of n rows shard i of N has those after (i-1) n / N, up to i n / N, both rounded down.

@@ -17,10 +17,12 @@
 #include "condyle/version.hpp"
 #include "io/joint/given_degrees.hpp"
 #include "io/report/block_arrays.hpp"
+#include "io/report/plan_json.hpp"
 #include "io/report/surfaces_json.hpp"
 #include "io/result/caveats.hpp"
 #include "io/result/json.hpp"
 #include "io/result/map_result.hpp"
+#include "io/result/measure_object.hpp"
 #include "io/result/rom_parts.hpp"
 
 static_assert(std::endian::native == std::endian::little,
@@ -255,6 +257,15 @@ Json rom_of(const Report& report) {
   return rom;
 }
 
+/// As measures.json has it, but for what the page has of the joint.
+Json measures_of(const MeasureResult* measures) {
+  if (!measures) return nullptr;
+  Json json = measure_object(*measures);
+  for (const char* key : {"condyle", "joint", "fixed", "mobile", "side", "notes", "scope", "provenance"})
+    json.erase(key);
+  return json;
+}
+
 }  // namespace
 
 std::string data_block(const Report& report) {
@@ -283,6 +294,8 @@ std::string data_block(const Report& report) {
   json["parts"] = {{"fixed", parts_json(joint.fixed)}, {"mobile", parts_json(joint.mobile)}};
   json["poses"] = poses_json(report, arrays);
   json["recorded"] = report.recorded ? recorded_json(*report.recorded, joint, arrays) : Json(nullptr);
+  json["measures"] = measures_of(report.measures);
+  json["plan"] = report.plan ? plan_json(*report.plan, arrays) : Json(nullptr);
   json["arrays"] = arrays.directory();
   drop_negative_zeros(json);
   std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -5,7 +5,9 @@
 #include <string>
 
 #include "condyle/joint.hpp"
+#include "io/result/measure_result.hpp"
 #include "io/result/motion_result.hpp"
+#include "io/result/resection_result.hpp"
 #include "io/result/rom_result.hpp"
 
 /// The output of `condyle report`: one HTML file that shows a joint in any browser and computes with it there. It
@@ -37,6 +39,9 @@ struct Report {
   std::string rom_error = {};
   std::optional<ReportedMotion> recorded = {};
   std::optional<ReportedLayers> layers = {};
+  const MeasureResult* measures = nullptr;  ///< of a hip
+  /// The bone that must go: `joint` is the joint without it, and `rom` has its limits.
+  const ResectionResult* plan = nullptr;
 };
 
 /// The page. Vertices keep every bit. Radial gaps of all vertices are computed in the reference pose and at the

@@ -12,6 +12,7 @@
 #include "io/result/caveats.hpp"
 #include "io/result/csv_field.hpp"
 #include "io/result/json.hpp"
+#include "io/result/measure_object.hpp"
 #include "io/result/provenance_forms.hpp"
 
 namespace condyle {
@@ -160,12 +161,12 @@ std::string measure_text(const MeasureResult& result) {
   const Joint& joint = result.joint;
   std::string text = fmt::format("{}: measures of {} and {}, {} side\n", joint.name, joint.mobile.name,
                                  joint.fixed.name, name_of(joint.side));
-  text += fmt::format("  pelvis: {}\n", pelvis_text(result.measures));
+  text += fmt::format("  pelvis: {}\n", pelvis_text(result.answer.measures));
   std::size_t widest = 0;
   for (const MeasureDefinition& each : measure_definitions()) widest = std::max(widest, each.key.size());
   std::string_view heading;
   std::string reasons, notes;
-  const bool has_bands = !result.bands.empty();
+  const bool has_bands = !result.answer.bands.empty();
   for (std::size_t i = 0; i < measure_definitions().size(); ++i) {
     const MeasureDefinition& each = measure_definitions()[i];
     if (heading != heading_of(each.part)) {
@@ -173,9 +174,9 @@ std::string measure_text(const MeasureResult& result) {
       text += fmt::format("  {:<{}}  {:>10}{}  normal\n", heading, widest + 2, "",
                           has_bands ? fmt::format("  {:<16}", "5 to 95 %") : "");
     }
-    const Measure& measure = each.of(result.measures);
+    const Measure& measure = each.of(result.answer.measures);
     const std::string band =
-        has_bands ? fmt::format("  {:<16}", measure_band_text(each, result.bands[i])) : "";
+        has_bands ? fmt::format("  {:<16}", measure_band_text(each, result.answer.bands[i])) : "";
     std::string line = fmt::format("    {:<{}}  {:>10}{}  {}", each.key, widest,
                                    measured_value(each, measure), band, normal_text(each));
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
@@ -186,19 +187,20 @@ std::string measure_text(const MeasureResult& result) {
   if (!notes.empty()) text += "  to be read with:\n" + notes;
   if (has_bands)
     text += fmt::format("  5 to 95 % of {} joints with centre, axes and surfaces displaced, seed {}\n",
-                        result.band_options.samples, result.band_options.seed);
+                        result.answer.band_options.samples, result.answer.band_options.seed);
   text +=
       "  normal ranges are of other people, each by a method of its own: --json has what and whose they "
       "are\n";
   return text + fmt::format("  {}\n", scope_text(joint));
 }
 
-std::string measure_json(const MeasureResult& result) {
-  const HipMeasures& measures = result.measures;
+io::Json io::measure_object(const MeasureResult& result) {
+  const HipMeasures& measures = result.answer.measures;
   Json list = Json::array();
   for (std::size_t i = 0; i < measure_definitions().size(); ++i) {
     list.push_back(measure_entry(measure_definitions()[i], measures));
-    list.back()["band"] = result.bands.empty() ? Json(nullptr) : measure_band_json(result.bands[i]);
+    list.back()["band"] =
+        result.answer.bands.empty() ? Json(nullptr) : measure_band_json(result.answer.bands[i]);
   }
   Json json{{"condyle", io::format_version},
             {"joint", result.joint.name},
@@ -215,7 +217,11 @@ std::string measure_json(const MeasureResult& result) {
             {"scope", scope_text(result.joint)},
             {"provenance", io::provenance_json(result.provenance)}};
   io::drop_negative_zeros(json);
-  return io::document(std::move(json));
+  return json;
+}
+
+std::string measure_json(const MeasureResult& result) {
+  return io::document(io::measure_object(result));
 }
 
 std::string measures_csv(const MeasureResult& result) {
@@ -224,15 +230,15 @@ std::string measures_csv(const MeasureResult& result) {
       "key,part,value,unit,p5,p95,normal_low,normal_high,frame,why_none,note,definition,source\n";
   for (std::size_t i = 0; i < measure_definitions().size(); ++i) {
     const MeasureDefinition& each = measure_definitions()[i];
-    const MeasureBand band = result.bands.empty() ? MeasureBand{} : result.bands[i];
-    const Measure& measure = each.of(result.measures);
+    const MeasureBand band = result.answer.bands.empty() ? MeasureBand{} : result.answer.bands[i];
+    const Measure& measure = each.of(result.answer.measures);
     const auto normal = [&](double NormalRange::*end) {
       return each.normal ? fmt::format("{}", (*each.normal).*end) : "";
     };
     text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", each.key, heading_of(each.part),
                         csv_number(measure.value), each.unit, csv_number(band.p5), csv_number(band.p95),
                         normal(&NormalRange::low), normal(&NormalRange::high),
-                        each.in_pelvis_frame ? io::csv_field(stated_frame(result.measures)) : "",
+                        each.in_pelvis_frame ? io::csv_field(stated_frame(result.answer.measures)) : "",
                         io::csv_field(measure.why_none), io::csv_field(measure.note),
                         io::csv_field(each.definition), io::csv_field(each.source));
   }
@@ -242,7 +248,7 @@ std::string measures_csv(const MeasureResult& result) {
 std::string neck_csv(const MeasureResult& result) {
   std::string text =
       io::provenance_comments(result.provenance) + "hour,alpha_deg,alpha_at_1mm_deg,is_doubtful,offset_mm\n";
-  for (const NeckHour& at : result.measures.femur.around_neck)
+  for (const NeckHour& at : result.answer.measures.femur.around_neck)
     text += fmt::format("{},{},{},{},{}\n", at.hour, csv_number(at.alpha_deg),
                         csv_number(at.alpha_at_1mm_deg), at.is_doubtful ? 1 : 0, csv_number(at.offset_mm));
   return text;
@@ -251,7 +257,7 @@ std::string neck_csv(const MeasureResult& result) {
 std::string rim_csv(const MeasureResult& result) {
   std::string text = io::provenance_comments(result.provenance) +
                      "hour,x_mm,y_mm,z_mm,cover_deg,centre_edge_deg,is_in_plane\n";
-  for (const RimHour& at : result.measures.acetabulum.rim)
+  for (const RimHour& at : result.answer.measures.acetabulum.rim)
     text += at.point ? fmt::format("{},{},{},{},{},{},{}\n", at.hour, at.point->x(), at.point->y(),
                                    at.point->z(), at.cover_deg, at.centre_edge_deg, at.is_in_plane ? 1 : 0)
                      : fmt::format("{},,,,,,0\n", at.hour);
@@ -267,9 +273,10 @@ std::vector<std::filesystem::path> write_measures(const std::filesystem::path& f
   OutputFolder out(folder, is_of_measure, io::files_read(result.provenance), "measures.json");
   io::write_whole_file(out.file("measures.json"), measure_json(result));
   io::write_whole_file(out.file("measures.csv"), measures_csv(result));
-  if (!result.measures.femur.around_neck.empty())
+  if (!result.answer.measures.femur.around_neck.empty())
     io::write_whole_file(out.file("neck.csv"), neck_csv(result));
-  if (!result.measures.acetabulum.rim.empty()) io::write_whole_file(out.file("rim.csv"), rim_csv(result));
+  if (!result.answer.measures.acetabulum.rim.empty())
+    io::write_whole_file(out.file("rim.csv"), rim_csv(result));
   return out.commit();
 }
 

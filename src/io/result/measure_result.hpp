@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "condyle/hip_measures.hpp"
+#include "condyle/answer.hpp"
 #include "condyle/io/provenance.hpp"
 #include "condyle/joint_checks.hpp"
 
@@ -15,9 +15,7 @@ namespace condyle {
 
 struct MeasureResult {
   const Joint& joint;
-  const HipMeasures& measures;
-  std::span<const MeasureBand> bands = {};  ///< in the order of measure_definitions(); none if not requested
-  BandOptions band_options = {};
+  const MeasureAnswer& answer;
   std::span<const JointNote> notes = {};
   const Provenance* provenance = nullptr;
 };

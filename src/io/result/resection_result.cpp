@@ -16,6 +16,7 @@
 #include "io/result/csv_field.hpp"
 #include "io/result/json.hpp"
 #include "io/result/provenance_forms.hpp"
+#include "io/result/resection_object.hpp"
 #include "io/result/rom_result.hpp"
 
 namespace condyle {
@@ -249,7 +250,7 @@ std::string resection_text(const ResectionResult& result) {
   return text + fmt::format("  {}\n", scope_text(result.joint));
 }
 
-std::string resection_json(const ResectionResult& result) {
+io::Json io::resection_object(const ResectionResult& result) {
   const ResectionAnswer& answer = result.answer;
   Json targets = Json::array(), cuts = Json::array(), limits = Json::array();
   for (std::size_t i = 0; i < answer.resection.targets.size(); ++i) targets.push_back(target_json(answer, i));
@@ -278,7 +279,11 @@ std::string resection_json(const ResectionResult& result) {
             {"scope", scope_text(result.joint)},
             {"provenance", io::provenance_json(result.provenance)}};
   io::drop_negative_zeros(json);
-  return io::document(std::move(json));
+  return json;
+}
+
+std::string resection_json(const ResectionResult& result) {
+  return io::document(io::resection_object(result));
 }
 
 std::string resection_limits_csv(const ResectionResult& result) {

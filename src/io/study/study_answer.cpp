@@ -9,6 +9,7 @@
 #include "condyle/error.hpp"
 #include "io/file/failure.hpp"
 #include "io/file/in_quotes.hpp"
+#include "io/joint/known_motions.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/result/csv_field.hpp"
 #include "io/result/depth_parts.hpp"
@@ -18,6 +19,7 @@
 #include "io/study/study_joint.hpp"
 #include "io/study/study_load.hpp"
 #include "io/study/study_measures.hpp"
+#include "io/study/study_resection.hpp"
 
 namespace condyle::io {
 namespace {
@@ -52,8 +54,7 @@ void check_anatomy(const LoadedJoint& loaded, const StudyOptions& options) {
 }
 
 std::vector<Motion> motions_of(const LoadedJoint& loaded, const StudyOptions& options) {
-  std::vector<Motion> known =
-      with_own_motions(built_in_motions(loaded.joint.kind, loaded.joint.anatomy), loaded.report.file.motions);
+  std::vector<Motion> known = known_motions(loaded);
   if (options.motions.empty()) return known;
   std::vector<Motion> chosen;
   for (const std::string& name : options.motions) chosen.push_back(motion_named(known, name));
@@ -73,13 +74,15 @@ RangeRequest range_request_of(const LoadedJoint& loaded, const StudyOptions& opt
   return request;
 }
 
-std::string limit_lines(const Cells& row, const RomResult& result, const StudyOptions& options) {
+/// `more`: the fields behind those of each limit, none or as many as limits.
+std::string limit_lines(const Cells& row, const RomResult& result, const StudyOptions& options,
+                        const std::vector<Cells>& more) {
   const std::vector<const LimitField*> limit_fields = limit_fields_of(options);
   std::string lines;
   for (std::size_t i = 0; i < result.limits.size(); ++i) {
     Cells fields = row;
     for (const LimitField* field : limit_fields) append_texts(fields, *field, {result, i});
-    lines += csv_line(fields);
+    lines += more.empty() ? csv_line(fields) : line_of(std::move(fields), more[i]);
   }
   return lines;
 }
@@ -186,6 +189,12 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
     return answer_range(joint, loaded.report.placement, request, {{}, stop});
   });
   if (!answer) return std::nullopt;
+  std::optional<ResectionFields> resection;
+  if (options.resection) {
+    resection =
+        name_joint_file(place, [&] { return resection_fields(loaded, *options.resection, request, stop); });
+    if (!resection) return std::nullopt;
+  }
   const auto add_code = [&](const auto& note) {
     notes += (notes.empty() ? "" : " ") + std::string(name_of(note.code));
   };
@@ -198,8 +207,12 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
   if (depth_at) name_joint_file(place, [&] { add_depth(of_hip, joint, *depth_at); });
   for (std::string& field : load.fields) of_hip.push_back(std::move(field));
   if (measures) of_hip.insert(of_hip.end(), measures->begin(), measures->end());
-  return StudyAnswer{
-      limit_lines(of_row, rom_result_of(*answer, {}, nullptr), options), line_of(of_row, of_hip), {}, inputs};
+  if (resection) of_hip.insert(of_hip.end(), resection->of_hip.begin(), resection->of_hip.end());
+  return StudyAnswer{limit_lines(of_row, rom_result_of(*answer, {}, nullptr), options,
+                                 resection ? std::move(resection->of_limits) : std::vector<Cells>()),
+                     line_of(of_row, of_hip),
+                     {},
+                     inputs};
 }
 
 StudyAnswer failure_of(const StudyTable& table, const StudyRow& row) {

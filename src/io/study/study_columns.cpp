@@ -9,6 +9,7 @@
 #include "io/result/csv_field.hpp"
 #include "io/study/study_load.hpp"
 #include "io/study/study_measures.hpp"
+#include "io/study/study_resection.hpp"
 #include "io/study/study_table.hpp"
 
 namespace condyle::io {
@@ -68,6 +69,7 @@ Columns limit_columns(const StudyOptions& options) {
   Columns columns;
   for (const LimitField* field : limit_fields_of(options))
     append(columns, columns_of(*field, options.anatomy));
+  if (options.resection) append(columns, resected_limit_columns());
   return columns;
 }
 
@@ -111,6 +113,7 @@ StudyColumns study_columns(const StudyTable& table, const StudyOptions& options)
   if (options.depth_at) append(columns.hips, depth_columns());
   if (options.load) append(columns.hips, load_columns());
   if (options.measures) append(columns.hips, measure_columns(options.bands.has_value()));
+  if (options.resection) append(columns.hips, resection_columns(*options.resection));
   append(columns.failures, failure_columns());
   return columns;
 }
@@ -118,11 +121,13 @@ StudyColumns study_columns(const StudyTable& table, const StudyOptions& options)
 bool is_result_column(std::string_view name) {
   StudyOptions everything;
   everything.bands.emplace();
-  for (const Columns& columns : {id_columns(), limit_columns(everything), hip_columns(), map_columns(),
-                                 depth_columns(), load_columns(), measure_columns(true), failure_columns()})
+  everything.resection.emplace();
+  for (const Columns& columns :
+       {id_columns(), limit_columns(everything), hip_columns(), map_columns(), depth_columns(),
+        load_columns(), measure_columns(true), resection_columns(*everything.resection), failure_columns()})
     if (std::any_of(columns.begin(), columns.end(), [&](const auto& each) { return each.name == name; }))
       return true;
-  return false;
+  return name.starts_with(resection_prefix);  // its other columns are named after motions
 }
 
 std::string header_of(const std::vector<ResultColumn>& columns) {

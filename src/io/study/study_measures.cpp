@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include "condyle/error.hpp"
-#include "condyle/hip_measures.hpp"
+#include "condyle/answer.hpp"
 #include "io/file/in_quotes.hpp"
+#include "io/joint/measure_request.hpp"
 #include "io/mesh/parse.hpp"
 #include "io/result/csv_field.hpp"
 
@@ -64,22 +65,16 @@ std::optional<std::vector<std::string>> measure_fields(const StudyTable& table, 
                                                        const LoadedJoint& loaded,
                                                        const std::optional<BandOptions>& band_options,
                                                        std::stop_token stop) {
-  MeasureRequest request;
-  request.pelvic_tilt = tilt_in(table, row);
-  request.pelvis_frame = pelvis_frame_of(loaded.report.file.joint.frame);
-  request.ischiofemoral_pose = loaded.report.placement.reference_pose.angles;
-  const HipMeasures measures = measure_hip(loaded.joint, request);
-  std::optional<std::vector<MeasureBand>> bands;
-  if (band_options) {
-    bands = measure_bands(loaded.joint, request, *band_options, {{}, stop});
-    if (!bands) return std::nullopt;
-  }
+  const auto answer = answer_measures(
+      loaded.joint, {measure_request_of(loaded, tilt_in(table, row)), band_options}, {{}, stop});
+  if (!answer) return std::nullopt;
+  const auto& [measures, bands, as_requested] = *answer;
   std::vector<std::string> fields;
   for (std::size_t i = 0; i < measure_definitions().size(); ++i) {
     fields.push_back(number_or_empty(measure_definitions()[i].of(measures).value));
-    if (!bands) continue;
-    fields.push_back(number_or_empty((*bands)[i].p5));
-    fields.push_back(number_or_empty((*bands)[i].p95));
+    if (bands.empty()) continue;
+    fields.push_back(number_or_empty(bands[i].p5));
+    fields.push_back(number_or_empty(bands[i].p95));
   }
   fields.push_back(csv_field(stated_frame(measures)));
   fields.push_back(sentences(measures, &Measure::note));

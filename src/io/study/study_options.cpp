@@ -25,6 +25,19 @@ Json load_json(const StudyLoad& load, Anatomy joint) {
   return json;
 }
 
+Json resection_json(const StudyResection& resection) {
+  const ResectionRequest& cut = resection.cut;
+  Json json;
+  for (const auto& [motion, reach] : resection.targets) json["reach_deg"][motion] = asked_degrees(reach);
+  json["fixed_share"] = cut.fixed_share;
+  json["margin_mm"] = cut.margin_mm;
+  json["burr_mm"] = nullable(cut.burr_mm);
+  json["deepest_mm"] = nullable(cut.mobile.deepest_mm);
+  json["within_mm"] = nullable(cut.mobile.within_mm);
+  json["edge_mm"] = cut.edge_mm;
+  return json;
+}
+
 }  // namespace
 
 std::string options_json(const StudyOptions& options) {
@@ -48,6 +61,7 @@ std::string options_json(const StudyOptions& options) {
                      {"sigma_surface_mm", nullable(bands->sigma.surface_mm)}};
   if (options.depth_at) json["depth_at"] = pose_json(*options.depth_at, options.anatomy);
   if (options.measures) json["measures"] = true;
+  if (options.resection) json["resection"] = resection_json(*options.resection);
   if (options.load) json["load"] = load_json(*options.load, options.anatomy);
   return json.dump();
 }

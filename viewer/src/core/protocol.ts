@@ -3,6 +3,8 @@ import type { RomAnswer } from "../report";
 /// Messages between page and worker.
 
 export type Quantity = "gap" | "depth" | "nearest" | "pressure" | "none";
+/// With that of a plan, which the report holds.
+export type ShownQuantity = Quantity | "removed";
 /// Numbers of the quantities that condyle_shown() gives.
 export const quantityNumber = { gap: 0, depth: 1, nearest: 2 } as const;
 

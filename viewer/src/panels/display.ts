@@ -1,12 +1,12 @@
 import { button, checkbox, choice, html, named, section } from "../dom";
-import type { Quantity } from "../core/protocol";
+import type { ShownQuantity } from "../core/protocol";
 import type { Marked, Part } from "../scene/body";
 import { bodyNames, type BodyName, type ClipAxis, type JointScene, type View } from "../scene/scene";
 import { colourScale } from "../scene/colour_scale";
 import type { DisplayState } from "../view_state";
 import { words } from "../words";
 
-const usualEnd = { gap: 8, depth: 4, nearest: 8, pressure: 5 };
+const usualEnds = { gap: 8, depth: 4, nearest: 8, pressure: 5 };
 const clipRange_mm = 150;
 
 /// Parts of a joint that can be shown.
@@ -14,7 +14,9 @@ export interface Showable {
   names: Record<BodyName, string>;
   /// None for a body that is one mesh.
   parts: Record<BodyName, readonly Part[]>;
-  quantities: readonly Quantity[];
+  quantities: readonly ShownQuantity[];
+  /// Deepest cut of a plan, at which the scale of the bone that went ends.
+  removed_mm: number;
   marks: readonly Exclude<Marked, "zone">[];
 }
 
@@ -28,8 +30,9 @@ interface Shown {
 export class DisplayPanel {
   readonly element: HTMLElement;
   readonly legend = html("div", { id: "legend" });
-  private chosen: Quantity = "gap";
-  private readonly ends = { ...usualEnd };
+  private chosen: ShownQuantity;
+  private readonly usualEnds;
+  private readonly ends;
   private readonly scaleEnd = html("input", { type: "number", min: 0.1, step: 0.5 });
   private readonly unit = html("span", {});
   private readonly colour: HTMLSelectElement;
@@ -44,7 +47,10 @@ export class DisplayPanel {
   constructor(
     private readonly scene: JointScene | null, private readonly showable: Showable, private readonly recoloured: () => void,
     private readonly changed: () => void) {
-    const { names, parts, quantities, marks } = showable;
+    const { names, parts, quantities, marks, removed_mm } = showable;
+    this.usualEnds = { ...usualEnds, removed: Math.max(0.5, Math.ceil(2 * removed_mm) / 2) };
+    this.ends = { ...this.usualEnds };
+    this.chosen = this.usualQuantity;
     this.scaleEnd.addEventListener("input", () => {
       if (this.chosen === "none" || !(this.scaleEnd.valueAsNumber > 0)) return;
       this.ends[this.chosen] = this.scaleEnd.valueAsNumber;
@@ -79,12 +85,17 @@ export class DisplayPanel {
     this.drawScale();
   }
 
-  get quantity(): Quantity {
+  get quantity(): ShownQuantity {
     return this.chosen;
   }
 
+  /// A page of a plan shows first what goes.
+  private get usualQuantity(): ShownQuantity {
+    return this.showable.quantities.includes("removed") ? "removed" : "gap";
+  }
+
   get state(): DisplayState {
-    const scale = this.chosen === "none" || this.ends[this.chosen] === usualEnd[this.chosen] ? null : this.ends[this.chosen];
+    const scale = this.chosen === "none" || this.ends[this.chosen] === this.usualEnds[this.chosen] ? null : this.ends[this.chosen];
     return {
       colour: this.chosen, scale, hidden: [...this.shown].filter(([, { box }]) => !box.checked).map(([name]) => name),
       opacity: { fixed: this.opacity.fixed.valueAsNumber, mobile: this.opacity.mobile.valueAsNumber },
@@ -94,8 +105,8 @@ export class DisplayPanel {
 
   /// As a shared link says; what it does not know is as usual.
   apply(state: DisplayState): void {
-    const quantity = this.showable.quantities.find((key) => key === state.colour) ?? "gap";
-    if (quantity !== "none") this.ends[quantity] = state.scale ?? usualEnd[quantity];
+    const quantity = this.showable.quantities.find((key) => key === state.colour) ?? this.usualQuantity;
+    if (quantity !== "none") this.ends[quantity] = state.scale ?? this.usualEnds[quantity];
     for (const [name, { box, set }] of this.shown) {
       box.checked = !state.hidden.includes(name);
       set(box.checked);
@@ -111,7 +122,7 @@ export class DisplayPanel {
     this.choose(quantity);
   }
 
-  private choose(quantity: Quantity): void {
+  private choose(quantity: ShownQuantity): void {
     this.chosen = quantity;
     this.drawScale();
     this.recoloured();

@@ -2,21 +2,10 @@ import { html, named, section, shortened, spaced } from "../dom";
 import { limitAlone, toldBand } from "../plots/limits";
 import { scopeOf, type MeshSource, type MotionAnswer, type ReportText, type RomAnswer } from "../report";
 import { words } from "../words";
-
-/// More of a note, or of a path in the first column of a table, is not read.
-const longestLine = 1000, longestHead = 200;
+import { lines, longestLine, table } from "./table";
 
 function filesOf(mesh: MeshSource | { files: MeshSource[] }): MeshSource[] {
   return "files" in mesh ? mesh.files : [mesh];
-}
-
-function table(head: readonly string[], rows: readonly (readonly string[])[], title: string): HTMLElement {
-  const caption = shortened(title, longestLine);
-  return html("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
-    html("table", {}, html("caption", {}, caption),
-      html("thead", {}, html("tr", {}, ...head.map((text) => html("th", { scope: "col" }, text)))),
-      html("tbody", {}, ...rows.map(([first, ...cells]) =>
-        html("tr", {}, html("th", { scope: "row" }, shortened(first!, longestHead)), ...cells.map((cell) => html("td", {}, cell)))))));
 }
 
 /// All numbers of the report with their units, where they come from, and what they are not.
@@ -100,8 +89,4 @@ function howFound({ band, bearing, normal_range_source }: RomAnswer): string[] {
     ...(typeof bearing?.margin_mm === "number" ? [words.bearingMargin(mm(bearing.margin_mm))] : []),
     ...(normal_range_source ? [words.normalFrom(normal_range_source)] : []),
   ];
-}
-
-function lines(texts: readonly string[]): HTMLElement {
-  return html("ul", {}, ...texts.map((text) => html("li", {}, shortened(text, longestLine))));
 }

@@ -77,6 +77,22 @@ export class SceneBody {
     this.hidden.needsUpdate = true;
   }
 
+  /// The triangles around these vertices, with the vertices where they were.
+  surfaceBefore(vertices: Uint32Array, before: Float64Array): BufferGeometry {
+    const positions = new Float32Array(this.surface.vertices), moved = new Uint8Array(positions.length / 3);
+    vertices.forEach((vertex, i) => {
+      positions.set(before.subarray(3 * i, 3 * i + 3), 3 * vertex);
+      moved[vertex] = 1;
+    });
+    const { triangles } = this.surface;
+    const corners: number[] = [];
+    for (let t = 0; t < triangles.length; t += 3) {
+      const of = [triangles[t]!, triangles[t + 1]!, triangles[t + 2]!];
+      if (of.some((corner) => moved[corner])) corners.push(...of);
+    }
+    return new BufferGeometry().setAttribute("position", new BufferAttribute(positions, 3)).setIndex(corners);
+  }
+
   isHidden(vertex: number): boolean {
     return this.hidden.getX(vertex) === 1;
   }

@@ -1,10 +1,10 @@
 import { interpolateInferno, interpolateOrRd, interpolateYlGnBu } from "d3-scale-chromatic";
-import type { Quantity } from "../core/protocol";
+import type { ShownQuantity } from "../core/protocol";
 
 /// Colours of a quantity over mm or MPa, made of sequential scales that the colour blind can distinguish.
 ///
 ///     gap, distance   -end  dark red ... orange | 0 | dark blue ... pale  end, beyond it plain bone
-///     depth, pressure    0  light ... dark  end
+///     depth, pressure, bone that went    0  light ... dark  end
 export interface ColourScale {
   low: number;
   high: number;
@@ -14,10 +14,10 @@ export interface ColourScale {
   colour(amount: number): string;
 }
 
-export function colourScale(quantity: Exclude<Quantity, "none">, end: number): ColourScale {
+export function colourScale(quantity: Exclude<ShownQuantity, "none">, end: number): ColourScale {
   const share = (amount: number) => Math.min(1, Math.max(0, amount / end));
   // The lightest of the sequential map is left out: on a light bone it would not be seen.
-  if (quantity === "depth" || quantity === "pressure")
+  if (quantity !== "gap" && quantity !== "nearest")
     return { low: 0, high: end, plainAbove: false, colour: (amount) => interpolateInferno(0.85 * (1 - share(amount))) };
   return {
     low: -end, high: end, plainAbove: true,

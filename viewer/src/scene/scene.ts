@@ -1,12 +1,13 @@
 import {
-  AmbientLight, Box3, BufferGeometry, DirectionalLight, Line, LineBasicMaterial, Matrix4, Mesh, MeshBasicMaterial, PerspectiveCamera,
-  Plane, Raycaster, Scene, SphereGeometry, Spherical, Vector2, Vector3, WebGLRenderer, type Intersection,
+  AmbientLight, Box3, BufferAttribute, BufferGeometry, DirectionalLight, DoubleSide, Line, LineBasicMaterial, LineSegments, Matrix4, Mesh,
+  MeshBasicMaterial, type Object3D, PerspectiveCamera, Plane, Points, PointsMaterial, Raycaster, Scene, SphereGeometry, Spherical, Vector2, Vector3, WebGLRenderer, type Intersection,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { ViewHelper } from "three/addons/helpers/ViewHelper.js";
 import type { Surface } from "../core/protocol";
 import { SceneBody, type Marked, type Part } from "./body";
 import type { ColourScale } from "./colour_scale";
+import type { Marks } from "./measure_marks";
 import { words } from "../words";
 
 /// From where the joint is looked at, in the joint frame: X anterior, Y superior, Z right.
@@ -40,6 +41,8 @@ export class JointScene {
   private readonly rays = new Raycaster();
   private readonly contactPoint: Mesh;
   private measure: Line | null = null;
+  private marks: Object3D[] = [];
+  private readonly removed: Record<BodyName, Mesh | null> = { fixed: null, mobile: null };
   private frameAsked = false;
   private size = 100;
   private middle = new Vector3();
@@ -177,12 +180,38 @@ export class JointScene {
     this.draw();
   }
 
+  /// Lines and points that move with their bodies; null: none.
+  showMarks(marks: readonly Marks[] | null): void {
+    for (const mark of this.marks) mark.removeFromParent();
+    const geometry = (xyz: readonly number[]) => new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(xyz), 3));
+    this.marks = (marks ?? []).flatMap(({ body, colour, lines, points }) => {
+      // Axes lie inside the bones that they are of.
+      const drawn = [
+        new LineSegments(geometry(lines), new LineBasicMaterial({ color: colour, depthTest: false })),
+        new Points(geometry(points), new PointsMaterial({ color: colour, size: 3 })),
+      ];
+      for (const each of drawn) each.renderOrder = 2;
+      this.bodies[body].mesh.add(...drawn);
+      return drawn;
+    });
+    this.draw();
+  }
+
+  /// The surface that a body had before some of its vertices were lowered, over them, in a colour that no scale has; null: none.
+  showRemoved(body: BodyName, removed: { vertices: Uint32Array; before: Float64Array } | null): void {
+    this.removed[body]?.removeFromParent();
+    const mesh = removed && this.bodies[body].surfaceBefore(removed.vertices, removed.before);
+    this.removed[body] = mesh && new Mesh(mesh, new MeshBasicMaterial({ color: "#1b9e77", transparent: true, opacity: 0.6, side: DoubleSide }));
+    if (this.removed[body]) this.bodies[body].mesh.add(this.removed[body]);
+    this.draw();
+  }
+
   /// The vertex next to what is under a point of the page; null where no bone is.
   pick(event: { clientX: number; clientY: number }): Picked | null {
     const box = this.renderer.domElement.getBoundingClientRect();
     this.rays.setFromCamera(new Vector2(
       ((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2), this.camera);
-    for (const hit of this.rays.intersectObjects([this.bodies.fixed.mesh, this.bodies.mobile.mesh].filter((m) => m.visible))) {
+    for (const hit of this.rays.intersectObjects([this.bodies.fixed.mesh, this.bodies.mobile.mesh].filter((m) => m.visible), false)) {
       const body: BodyName = hit.object === this.bodies.fixed.mesh ? "fixed" : "mobile";
       const planes = this.bodies[body].mesh.material.clippingPlanes ?? [];
       const vertex = nearestCorner(hit);

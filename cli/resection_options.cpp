@@ -1,0 +1,67 @@
+#include "resection_options.hpp"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Validators.hpp>
+
+#include "condyle/error.hpp"
+
+namespace condyle::cli {
+namespace {
+
+double fixed_share(const ResectionGiven& given) {
+  if (given.share && given.from != "both") throw UsageError("--share: only with --from both");
+  if (given.from == "both") return given.share.value_or(0.5);
+  return given.from == "fixed" ? 1 : 0;
+}
+
+}  // namespace
+
+void add_cut(CLI::App& command, const std::shared_ptr<ResectionGiven>& given, CLI::Option* targets) {
+  const auto add = [&](CLI::Option* option, const char* value) {
+    option->option_text(value)->needs(targets);
+  };
+  add(command
+          .add_option("--from", given->from,
+                      "Cut this body: the moving one, the one that stays, as at a socket's rim, or both")
+          ->check(CLI::IsMember({"mobile", "fixed", "both"})),
+      "mobile|fixed|both (mobile)");
+  add(command.add_option("--share", given->share,
+                         "With --from both: cut the fixed body for this share of the depth, 0 to 1"),
+      "SHARE (0.5)");
+  add(command.add_option("--margin", given->margin_mm,
+                         "Keep what is left clear of the other bone's surface moved outwards by this, 0 to "
+                         "10"),
+      "MM (0)");
+  add(command.add_option("--burr", given->burr_mm,
+                         "Leave what a ball of this diameter can make, 0.5 to 30: no groove is narrower, and "
+                         "the answer reports what goes only for that"),
+      "MM");
+  add(command.add_option("--deepest", given->deepest_mm, "Remove no more than this anywhere"), "MM");
+  add(command.add_option("--within", given->within_mm,
+                         "Keep what is farther than this outside the ball of the bearing surface, the head's "
+                         "radius and margin: the head-neck junction is its border"),
+      "MM");
+  add(command.add_option("--edge", given->edge_mm, "Make triangles around the cut this small, 0.05 to 10"),
+      "MM (0.5)");
+}
+
+HelpGroup resection_group() {
+  return {"Bone that must go",
+          {"--from", "--share", "--margin", "--burr", "--deepest", "--within", "--edge"}};
+}
+
+ResectionRequest resection_request_of(const ResectionGiven& given) {
+  const KeptBone kept{given.deepest_mm, given.within_mm, {}};
+  ResectionRequest request;
+  request.fixed_share = fixed_share(given);
+  request.mobile = kept;
+  request.fixed = kept;
+  request.margin_mm = given.margin_mm;
+  request.burr_mm = given.burr_mm;
+  request.edge_mm = given.edge_mm;
+  return request;
+}
+
+}  // namespace condyle::cli

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "condyle/resection.hpp"
+#include "help_formatter.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+/// Options on the bone that must go, shared by the commands that plan it.
+
+namespace condyle::cli {
+
+struct ResectionGiven {
+  std::string targets;  ///< "flexion=115 fadir=30"; empty: nothing is planned
+  std::string from = "mobile";
+  std::optional<double> share, deepest_mm, within_mm, burr_mm;
+  double margin_mm = 0, edge_mm = ResectionRequest{}.edge_mm;
+};
+
+/// Adds the options of a cut. `targets` is the option that asks for one, which these need. `given` is written while arguments are
+/// read.
+void add_cut(CLI::App& command, const std::shared_ptr<ResectionGiven>& given, CLI::Option* targets);
+/// Their group in the help, where limits are the command's question.
+HelpGroup resection_group();
+
+/// What was given, but for the targets, marked vertices and what limits are computed by. Throws UsageError.
+ResectionRequest resection_request_of(const ResectionGiven& given);
+
+}  // namespace condyle::cli

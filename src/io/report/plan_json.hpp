@@ -1,0 +1,12 @@
+#pragma once
+
+#include "io/report/block_arrays.hpp"
+#include "io/result/resection_result.hpp"
+
+namespace condyle::io {
+
+/// The plan of a page whose joint is the one without the bone: as resection.json has it, and of each cut bone the vertices that were
+/// lowered, where they were and by how much.
+Json plan_json(const ResectionResult& plan, BlockArrays& arrays);
+
+}  // namespace condyle::io

@@ -1,0 +1,84 @@
+import { checkbox, html, named, section, spaced } from "../dom";
+import { figure } from "../plots/figure";
+import { planCurveDrawing } from "../plots/plan_curve";
+import type { EndOfMotion, Report, StoredPlan } from "../report";
+import type { Values } from "../core/protocol";
+import { bodyNames, type BodyName, type JointScene } from "../scene/scene";
+import { words } from "../words";
+import { measureName } from "./shape";
+import { lines, table } from "./table";
+
+function endText({ limit_deg, reason }: EndOfMotion): string {
+  if (reason === "contact_at_start") return words.reasons.contact_at_start;
+  const number = `${limit_deg.toFixed(1)}°`;
+  return reason === "end_of_range" ? words.over(number) : number;
+}
+
+/// The bone that must go: how much, what each motion gains, and what each degree costs. The joint of the page is without it.
+export class PlanPanel {
+  readonly element: HTMLElement;
+  readonly deepest_mm: number;
+
+  constructor(
+    private readonly scene: JointScene | null, private readonly report: Report, private readonly plan: StoredPlan,
+    names: Record<BodyName, string>) {
+    const { targets, cuts, limits, measures, curve, margin_mm, resection_notes, caveats } = plan;
+    this.deepest_mm = Math.max(0, ...cuts.map((cut) => cut.deepest_mm));
+    const parts: HTMLElement[] = [html("p", {}, words.withoutBone)];
+    parts.push(table(["", words.before, words.target, words.after], targets.map((target) => [
+      named(spaced(target.motion)), endText(target.before), `${Number(target.reach_deg.toFixed(2))}°`, endText(target.after),
+    ]), words.targets));
+    const blocked = targets.flatMap(({ motion, planned_deg, blocked: by }) =>
+      (by ? [words.blocked(named(spaced(motion)), planned_deg.toFixed(1), words.keptBy[by.kept_by], names[by.body])] : []));
+    if (blocked.length) parts.push(lines(blocked));
+    parts.push(cuts.length
+      ? lines(cuts.map((cut) => words.cut({ ...cut, name: names[cut.body], hour: cut.deepest_hour === null ? null : clockTime(cut.deepest_hour) })))
+      : html("p", {}, words.nothingGoes));
+    if (margin_mm > 0) parts.push(html("p", {}, words.plannedMargin(String(margin_mm))));
+    if (scene && cuts.length)
+      parts.push(html("div", { class: "row no-print" }, checkbox(words.showRemoved, false, (on) => this.showRemoved(on))));
+    const drawing = planCurveDrawing(curve);
+    if (drawing) parts.push(figure(drawing));
+    parts.push(table(["", words.before, words.after, words.gain], limits.map(({ motion, before, after }) => [
+      named(spaced(motion)), endText(before), endText(after), `${(after.limit_deg - before.limit_deg + 0).toFixed(1)}°`,
+    ]), words.limits));
+    const changed = (measures ?? []).filter(({ before, after }) => before?.toFixed(1) !== after?.toFixed(1));
+    const text = (value: number | null) => (value === null ? "–" : value.toFixed(1));
+    if (changed.length)
+      parts.push(table(["", words.before, words.after, words.unitHead], changed.map(({ key, unit, before, after }) =>
+        [measureName(key, unit), text(before), text(after), unit]), words.measuresThatChange));
+    if (resection_notes.length) parts.push(html("h3", {}, words.planNotes), lines(resection_notes.map(({ code, text: said }) => `${said} (${code})`)));
+    parts.push(html("h3", {}, words.readWith), lines(caveats));
+    this.element = section(words.plan, ...parts);
+  }
+
+  /// How far each vertex lies below the surface before, where it was lowered.
+  values(vertexCounts: Record<BodyName, number>): Record<BodyName, Values> {
+    const of = (body: BodyName): Values => {
+      const values = { shown: new Float32Array(vertexCounts[body]), marks: new Uint8Array(vertexCounts[body]) };
+      const cut = this.plan.surfaces[body];
+      if (!cut) return values;
+      const depths = this.report.array(cut.depth_mm, "f64");
+      this.report.array(cut.lowered, "u32").forEach((vertex, i) => {
+        values.shown[vertex] = depths[i]!;
+        values.marks[vertex] = 1;
+      });
+      return values;
+    };
+    return { fixed: of("fixed"), mobile: of("mobile") };
+  }
+
+  private showRemoved(on: boolean): void {
+    for (const body of bodyNames) {
+      const cut = this.plan.surfaces[body];
+      this.scene?.showRemoved(
+        body, on && cut ? { vertices: this.report.array(cut.lowered, "u32"), before: this.report.array(cut.before, "f64") } : null);
+    }
+  }
+}
+
+/// 1.5 as "1:30".
+function clockTime(hour: number): string {
+  const minutes = Math.round(hour * 60) % 720;
+  return `${Math.floor(minutes / 60) || 12}:${String(minutes % 60).padStart(2, "0")}`;
+}

@@ -1,0 +1,44 @@
+import { scaleLinear } from "d3-scale";
+import { line } from "d3-shape";
+import { svg } from "../dom";
+import type { Drawing } from "./figure";
+
+const width = 460, height = 190, left = 44, right = 18, top = 24, bottom = 24;
+const strokes = ["curve", "curve second"];
+
+interface Series {
+  name: string;
+  values: readonly (number | null)[];
+}
+
+/// Angles by the hour of a clock, 6 in the middle of both ends; null where no hour has one.
+export function hoursDrawing(
+  name: string, caption: string, axis: string, hours: readonly number[], series: readonly Series[]): Drawing | null {
+  const known = series.flatMap(({ values }) => values).filter((value): value is number => value !== null);
+  if (known.length === 0) return null;
+  // From 6 through 12 to 6: what matters is above.
+  const order = hours.map((_, i) => i).sort((a, b) => (hours[a]! + 6) % 12 - (hours[b]! + 6) % 12);
+  const x = scaleLinear([0, 12], [left, width - right]);
+  const y = scaleLinear([Math.min(0, ...known), Math.max(...known)], [height - bottom, top]).nice();
+  const at = (i: number) => x((hours[i]! + 6) % 12);
+  const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "plot" },
+    svg("text", { x: left, y: 11, class: "small" }, axis),
+    ...y.ticks(5).flatMap((tick) => [
+      svg("line", { x1: left, x2: width - right, y1: y(tick), y2: y(tick), class: "grid" }),
+      svg("text", { x: left - 6, y: y(tick) + 4, "text-anchor": "end" }, `${tick}°`),
+    ]),
+    ...[6, 7, 8, 9, 10, 11, 12, 1, 2, 3, 4, 5].map((hour, i) =>
+      svg("text", { x: x(i), y: height - 7, "text-anchor": "middle" }, String(hour))),
+    ...series.map(({ values }, s) => svg("path", {
+      class: strokes[s]!,
+      d: line<number>((i) => at(i)).y((i) => y(values[i]!)).defined((i) => values[i] !== null)(order) ?? "",
+    })),
+    ...(series.length > 1 ? series.flatMap(({ name: of }, s) => [
+      svg("line", { x1: 300, x2: 320, y1: 7 + 12 * s, y2: 7 + 12 * s, class: strokes[s]! }),
+      svg("text", { x: 325, y: 11 + 12 * s, class: "small" }, of),
+    ]) : []));
+  return {
+    name, caption, picture,
+    data: () => [["hour", ...series.map((each) => each.name)], ...order.map((i) => [hours[i]!, ...series.map(({ values }) => values[i] ?? null)])],
+  };
+}
