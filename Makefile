@@ -97,6 +97,8 @@ verify: bench_dependencies
 
 # The core compiled to WebAssembly, and its answers held against the native ones bit for bit. Emscripten's linker looks for
 # Debian's modules of node by NODE_PATH.
+# Not a python that a version manager looks up at each of some hundred calls.
+page-core: export EMSDK_PYTHON = /usr/bin/python3
 page-core: dependencies
 	@scripts/install_dependencies.sh page
 	@$(configure_all)

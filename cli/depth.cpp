@@ -30,7 +30,7 @@ namespace {
 
 enum class Scope { vertices_and_pairs, pairs_only };
 
-struct Options {
+struct DepthArguments {
   std::string joint, pose, matrix, out;
   DepthMethod method = DepthMethod::reliable;
   std::optional<std::string> about;
@@ -42,7 +42,7 @@ struct Options {
   AnswerForm form = AnswerForm::text;
 };
 
-DepthRequest request_of(const Options& options, const GivenPose& given, const ContactEntry& entry,
+DepthRequest request_of(const DepthArguments& options, const GivenPose& given, const ContactEntry& entry,
                         Anatomy joint) {
   DepthRequest request{.X_FM = given.X_FM, .pose = given.pose.angles(), .method = options.method};
   if (options.about) request.about = joint_angle_named(*options.about, joint);
@@ -53,7 +53,7 @@ DepthRequest request_of(const Options& options, const GivenPose& given, const Co
 }
 
 /// By its coordinates, as a matrix, or as a matrix in a file.
-GivenPose pose_of(const Options& options, const Joint& joint) {
+GivenPose pose_of(const DepthArguments& options, const Joint& joint) {
   if (options.matrix.empty()) return given_pose(options.pose, joint);
   const std::string text = io::read_whole_file(options.matrix);
   try {
@@ -71,7 +71,7 @@ std::string files_of(const std::vector<BodyMeshReport>& meshes) {
 }
 
 /// Whether the meshes allow the question: solids for vertices inside, outer sides for normals, nothing for pairs.
-void require_meshes(const LoadedJoint& loaded, const Options& options) {
+void require_meshes(const LoadedJoint& loaded, const DepthArguments& options) {
   const auto require = [&](const Mesh& mesh, const std::vector<BodyMeshReport>& reports) {
     if (options.method == DepthMethod::normal) return mesh::require_oriented(mesh, files_of(reports));
     if (options.scope == Scope::pairs_only) return;
@@ -96,7 +96,7 @@ Joint joint_of_surfaces(const ContactEntry& entry, Joint joint) {
   return joint;
 }
 
-void run(const Options& options, const CLI::App& command) {
+void depth_command(const DepthArguments& options, const CLI::App& command) {
   const bool by_normals = options.method == DepthMethod::normal;
   if (options.rays->any_of_rays() && !by_normals)
     throw UsageError("--casting, --rule, --reach: are for --method normal");
@@ -132,7 +132,7 @@ void add_depth(CLI::App& app) {
       "Example: condyle sample hip --out sample\n"
       "         condyle depth sample/hip.toml --pose \"flexion=110 internal_rotation=30\" --out deep\n"
       "         condyle depth sample/hip.toml --pose flexion=140 --method normal --casting mobile");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DepthArguments>();
   command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
   auto* pose = command->add_option(
       "--pose", options->pose,
@@ -183,7 +183,7 @@ void add_depth(CLI::App& app) {
                         {"Question", {"--matrix", "--about", "--pairs-only"}},
                         {"Contact", {"--casting", "--rule", "--reach"}},
                         {"Output", {"--frame", "--ascii", "--csv", "--help"}}});
-  command->callback([options, command] { run(*options, *command); });
+  command->callback([options, command] { depth_command(*options, *command); });
 }
 
 }  // namespace condyle::cli

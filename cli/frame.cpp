@@ -14,13 +14,13 @@
 namespace condyle::cli {
 namespace {
 
-struct Options {
+struct FrameArguments {
   std::string joint;
   Strictness strictness = Strictness::notes;
   AnswerForm form = AnswerForm::text;
 };
 
-void run(const Options& options, const CLI::App& command) {
+void frame_command(const FrameArguments& options, const CLI::App& command) {
   const LoadedJoint joint = read_joint(options.joint);
   const std::vector<JointNote> notes = noted(joint, options.strictness);
   const Provenance from = provenance_of(joint, words_of(command));
@@ -33,13 +33,13 @@ void add_frame(CLI::App& app) {
   auto* command =
       app.add_subcommand("frame", "Show the frame of a joint: centre, axes, fit, and what was converted");
   command->footer("Example: condyle frame right_hip.toml --json --strict");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FrameArguments>();
   command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
   command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; },
       "Print the answer as JSON, with every number in full");
   add_strict(*command, options->strictness);
-  command->callback([options, command] { run(*options, *command); });
+  command->callback([options, command] { frame_command(*options, *command); });
 }
 
 }  // namespace condyle::cli

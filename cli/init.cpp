@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct InitArguments {
   std::string fixed, mobile;  ///< files
   std::string joint;          ///< of a model, or which joint two meshes are
   std::shared_ptr<ModelOptions> model = std::make_shared<ModelOptions>();
@@ -46,7 +46,7 @@ void refuse_existing(const fs::path& path, const char* why) {
     throw FileError(path.string() + ": is there already; " + why);
 }
 
-void check_out(const Options& options) {
+void check_out(const InitArguments& options) {
   if (options.out.empty()) return;
   refuse_existing(options.out, "a joint file may have been edited and is not replaced");
   io::check_output_file(options.out);
@@ -64,7 +64,7 @@ std::optional<Anatomy> anatomy_of(const std::string& joint) {
   throw UsageError("--joint: two meshes are a hip, knee, ankle, elbow or shoulder, not " + joint);
 }
 
-void propose_from_meshes(const Options& options) {
+void propose_from_meshes(const InitArguments& options) {
   if (options.mobile.empty()) throw UsageError("MOBILE: the mesh of the body that moves is needed");
   const JointProposal proposal = propose_joint(ProposalRequest{.fixed = options.fixed,
                                                                .mobile = options.mobile,
@@ -78,7 +78,7 @@ void propose_from_meshes(const Options& options) {
   note("wrote " + options.out);
 }
 
-void check_labels(const Options& options) {
+void check_labels(const InitArguments& options) {
   if (options.out.empty())
     throw UsageError("--out: is needed, the surfaces of the bones are written beside the joint file");
   if (options.units) throw UsageError("--units: surfaces of label maps are in mm");
@@ -90,7 +90,7 @@ void check_labels(const Options& options) {
     throw UsageError("--fixed, --mobile: both labels are needed, by number or by name");
 }
 
-void propose_from_labels(const Options& options) {
+void propose_from_labels(const InitArguments& options) {
   check_labels(options);
   const auto bone = [&](const std::string& label) {
     return LabelBoneRequest{label, options.labels->task, options.labels->surface};
@@ -118,7 +118,7 @@ void propose_from_labels(const Options& options) {
   say_written(out.commit());
 }
 
-void propose_from_model(const Options& options) {
+void propose_from_model(const InitArguments& options) {
   if (!options.mobile.empty()) throw UsageError("MOBILE: a model has both bodies");
   if (options.units) throw UsageError("--units: lengths of a model are metres");
   if (!options.fixed_label.empty() || !options.mobile_label.empty())
@@ -138,7 +138,7 @@ void propose_from_model(const Options& options) {
   if (!proposed.missing_body.empty()) throw FileError(proposed.missing_body);
 }
 
-void run(const Options& options) {
+void init_command(const InitArguments& options) {
   check_out(options);
   if (is_model(options.fixed)) return propose_from_model(options);
   if (options.model->any())
@@ -165,7 +165,7 @@ void add_init(CLI::App& app) {
       "is MODEL.osim --joint NAME.\n"
       "What could not be inferred stands in the file as a comment to fill in. Read the file before you use "
       "it.");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InitArguments>();
   command
       ->add_option(
           "FIXED", options->fixed,
@@ -216,7 +216,7 @@ void add_init(CLI::App& app) {
                         {"Label maps", of_labels},
                         {"Images", label_file_names()},
                         {"Output", {"--out"}}});
-  command->callback([options] { run(*options); });
+  command->callback([options] { init_command(*options); });
 }
 
 }  // namespace condyle::cli

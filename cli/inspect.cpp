@@ -25,7 +25,7 @@
 namespace condyle::cli {
 namespace {
 
-struct Options {
+struct InspectArguments {
   std::vector<std::string> meshes;  ///< or label maps, or models
   std::shared_ptr<LabelOptions> labels = std::make_shared<LabelOptions>();
   std::vector<std::string> geometry;  ///< folders with meshes of models
@@ -40,7 +40,7 @@ std::string repaired_name(const std::filesystem::path& mesh) {
   return mesh.stem().string() + ".ply";
 }
 
-void check_names_differ(const Options& options) {
+void check_names_differ(const InspectArguments& options) {
   std::set<std::string> names;
   for (const std::string& mesh : options.meshes)
     if (!names.insert(repaired_name(mesh)).second)
@@ -55,7 +55,7 @@ FileKind kind_of(const std::string& path) {
 }
 
 /// The one kind that all files are of.
-FileKind kind_of(const Options& options) {
+FileKind kind_of(const InspectArguments& options) {
   const FileKind kind = kind_of(options.meshes.front());
   for (const std::string& path : options.meshes)
     if (kind_of(path) != kind)
@@ -70,14 +70,14 @@ FileKind kind_of(const Options& options) {
   return kind;
 }
 
-void inspect_models(const Options& options, const CLI::App& command) {
+void inspect_models(const InspectArguments& options, const CLI::App& command) {
   std::vector<Model> models;
   for (const std::string& path : options.meshes) models.push_back(model_of(path, options.geometry));
   print(options.form == AnswerForm::json ? io::models_json(models, words_of(command))
                                          : io::models_text(models));
 }
 
-void inspect_label_maps(const Options& options, const CLI::App& command) {
+void inspect_label_maps(const InspectArguments& options, const CLI::App& command) {
   std::vector<io::LabelInspection> images;
   for (const std::string& path : options.meshes)
     images.push_back(io::inspect_labels(path, options.labels->file));
@@ -85,7 +85,7 @@ void inspect_label_maps(const Options& options, const CLI::App& command) {
                                          : io::labels_text(images));
 }
 
-void run(const Options& options, const CLI::App& command) {
+void inspect_command(const InspectArguments& options, const CLI::App& command) {
   const FileKind kind = kind_of(options);
   if (kind == FileKind::model) return inspect_models(options, command);
   if (kind == FileKind::label_map) return inspect_label_maps(options, command);
@@ -127,7 +127,7 @@ void add_inspect(CLI::App& app) {
       "         condyle inspect femur.ply --repair drop_unreferenced,flip_inverted --out repaired\n"
       "         condyle sample hip --voxel 1 --out scan\n"
       "         condyle inspect scan/labels.nii.gz");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InspectArguments>();
   command
       ->add_option("MESH", options->meshes,
                    "Mesh files, .stl, .obj, .ply, .vtp or .vtk, or label maps, .nii, .nii.gz, .hdr, .nrrd, "
@@ -157,7 +157,7 @@ void add_inspect(CLI::App& app) {
                         {"Label maps", label_file_names()},
                         {"Models", {"--geometry"}},
                         {"Output", {"--json"}}});
-  command->callback([options, command] { run(*options, *command); });
+  command->callback([options, command] { inspect_command(*options, *command); });
 }
 
 }  // namespace condyle::cli

@@ -24,7 +24,7 @@ void end(int) {
 }
 
 /// The second one ends the process.
-void note(int signal) {
+void note_signal(int signal) {
   if (signalled.exchange(true)) end(signal);
 }
 
@@ -51,7 +51,7 @@ void say_when_interrupted() noexcept {
 
 InterruptWatch::InterruptWatch() {
   signalled = false;
-  for (std::size_t i = 0; i < signals.size(); ++i) handle(signals[i], note, &before_[i]);
+  for (std::size_t i = 0; i < signals.size(); ++i) handle(signals[i], note_signal, &before_[i]);
 }
 
 InterruptWatch::~InterruptWatch() {

@@ -21,7 +21,7 @@
 namespace condyle::cli {
 namespace {
 
-struct Options {
+struct LoadArguments {
   std::string joint, pose, out;
   std::shared_ptr<ContactChanges> contact = std::make_shared<ContactChanges>();
   std::shared_ptr<BalanceGiven> balance = std::make_shared<BalanceGiven>();
@@ -30,7 +30,7 @@ struct Options {
   AnswerForm form = AnswerForm::text;
 };
 
-void run(const Options& options, const CLI::App& command) {
+void load_command(const LoadArguments& options, const CLI::App& command) {
   const LoadedJoint loaded = read_joint(options.joint);
   const Joint& joint = loaded.joint;
   const GivenPose given = given_pose(options.pose, joint);
@@ -63,7 +63,7 @@ void add_load(CLI::App& app) {
   command->footer(
       "Example: condyle sample cartilages --scenario 7 --out sample\n"
       "         condyle load sample/cartilages.toml --e 12 --nu 0.42 --thickness 1.5 --force 0 1500 -200");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<LoadArguments>();
   command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
   command
       ->add_option(
@@ -85,7 +85,7 @@ void add_load(CLI::App& app) {
                         {"Question", {"--moment", "--force-frame", "--along", "--free-rotations"}},
                         {"Contact", {"--law", "--casting", "--rule", "--reach"}},
                         {"Output", {"--out", "--json", "--frame", "--ascii", "--strict", "--help"}}});
-  command->callback([options, command] { run(*options, *command); });
+  command->callback([options, command] { load_command(*options, *command); });
 }
 
 }  // namespace condyle::cli

@@ -27,7 +27,7 @@
 namespace condyle::cli {
 namespace {
 
-struct Options {
+struct MotionArguments {
   std::string joint, motion, loads, out;
   std::string model_joint;  ///< of a model in place of a joint file
   std::optional<Side> side;
@@ -43,7 +43,7 @@ struct Options {
 };
 
 /// The load of each frame, from a file. Frames without one are gaps of the motion.
-std::vector<std::optional<Load>> loads_of(const Options& options, JointMotion& motion) {
+std::vector<std::optional<Load>> loads_of(const MotionArguments& options, JointMotion& motion) {
   if (options.loads.empty()) return {};
   const MotionTable table = read_motion_table(options.loads);
   auto loads = io::loads_of(table, motion.times, options.balance->frame, options.balance->rotations);
@@ -56,7 +56,7 @@ std::vector<std::optional<Load>> loads_of(const Options& options, JointMotion& m
   return loads;
 }
 
-MotionRequest request_of(const Options& options, JointMotion& motion) {
+MotionRequest request_of(const MotionArguments& options, JointMotion& motion) {
   MotionRequest request{.loads = loads_of(options, motion)};
   request.X_FM = motion.X_FM;
   if (motion.times.in_seconds) request.time_s = motion.times.values;
@@ -66,7 +66,7 @@ MotionRequest request_of(const Options& options, JointMotion& motion) {
   return request;
 }
 
-LoadedJoint joint_of(const Options& options) {
+LoadedJoint joint_of(const MotionArguments& options) {
   if (is_model(options.joint)) {
     const Model model = model_of(options.joint, options.model->geometry);
     LoadedJoint loaded =
@@ -79,7 +79,7 @@ LoadedJoint joint_of(const Options& options) {
   return read_joint(options.joint);
 }
 
-void run(const Options& options, const CLI::App& command) {
+void motion_command(const MotionArguments& options, const CLI::App& command) {
   const LoadedJoint loaded = joint_of(options);
   JointMotion motion = motion_of(loaded, read_motion_table(options.motion));
   MotionRequest request = request_of(options, motion);
@@ -119,7 +119,7 @@ void add_motion(CLI::App& app) {
       "Example: condyle motion examples/tibiofemoral.toml --motion states.sto --load --out flexion\n"
       "The motion file's columns are those of [recorded_motion] in the joint file, or flexion_deg, x_mm and "
       "the like.");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MotionArguments>();
   command
       ->add_option("JOINT", options->joint,
                    "The joint file, .toml, or a model of OpenSim, .osim, with --joint")
@@ -183,7 +183,7 @@ void add_motion(CLI::App& app) {
        {"Models", of_models},
        {"Contact", {"--e", "--nu", "--thickness", "--law", "--casting", "--rule", "--reach"}},
        {"Output", {"--cycle", "--maps", "--jam", "--frame", "--ascii", "--strict", "--help"}}});
-  command->callback([options, command] { run(*options, *command); });
+  command->callback([options, command] { motion_command(*options, *command); });
 }
 
 }  // namespace condyle::cli

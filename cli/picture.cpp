@@ -23,7 +23,7 @@
 namespace condyle::cli {
 namespace {
 
-struct Options {
+struct PictureArguments {
   std::string joint, pose, out;
   std::string view = "anterior", size = "1200x900";
   std::optional<BodyRole> hidden, transparent;
@@ -43,7 +43,7 @@ void read_size(const std::string& text, PictureOptions& picture) {
   picture.width = width, picture.height = height;
 }
 
-BodyLook look_of(BodyRole body, const Options& options) {
+BodyLook look_of(BodyRole body, const PictureArguments& options) {
   return options.hidden == body        ? BodyLook::hidden
          : options.transparent == body ? BodyLook::transparent
                                        : BodyLook::solid;
@@ -58,7 +58,7 @@ std::vector<PictureMark> marks_of(const Joint& joint, const Pose& X_FM) {
   return measure_marks(measures, X_FM);
 }
 
-void run(const Options& options, const CLI::App& command) {
+void picture_command(const PictureArguments& options, const CLI::App& command) {
   const LoadedJoint loaded = read_joint(options.joint);
   const Joint& joint = loaded.joint;
   const GivenPose given = given_pose(options.pose, joint);
@@ -98,7 +98,7 @@ void add_picture(CLI::App& app) {
       "Example: condyle sample hip --out sample\n"
       "         condyle picture sample/hip.toml --pose \"flexion=110 internal_rotation=35\" --view "
       "anterior-superior --hide fixed --out deep.png");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PictureArguments>();
   command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
   command
       ->add_option("--pose", options->pose,
@@ -147,7 +147,7 @@ void add_picture(CLI::App& app) {
       *command,
       {{"Most used", {"--pose", "--view", "--colour", "--hide", "--out"}},
        {"Output", {"--transparent", "--measures", "--range", "--field", "--size", "--strict", "--help"}}});
-  command->callback([options, command] { run(*options, *command); });
+  command->callback([options, command] { picture_command(*options, *command); });
 }
 
 }  // namespace condyle::cli

@@ -44,7 +44,7 @@ Resolution resolution_of(const HipOptions& options) {
   return TriangleCounts{options.hip_bone_triangles, options.femur_triangles};
 }
 
-void run(const HipOptions& options) {
+void sample_command(const HipOptions& options) {
   SampleHip hip = sample_hip(options.hip, resolution_of(options));
   if (options.side == Side::left) hip = mirrored(hip);
   OutputFolder out(options.out);
@@ -61,7 +61,7 @@ CartilageResolution resolution_of(const CartilageOptions& options) {
   return CartilageCounts{options.acetabular_triangles, options.femoral_triangles};
 }
 
-void run(const CartilageOptions& options) {
+void sample_command(const CartilageOptions& options) {
   SampleCartilages cartilages = sample_cartilages(options.hip, options.cartilage, resolution_of(options));
   if (options.side == Side::left) cartilages = mirrored(cartilages);
   OutputFolder out(options.out);
@@ -171,7 +171,7 @@ void add_hip(CLI::App& sample) {
              {{"Most used", {"--out", "--side", "--scenario", "--alpha-angle", "--neck-shaft-angle"}},
               measures_group(),
               {"Resolution", {"--femur-triangles", "--hip-bone-triangles", "--voxel", "--help"}}});
-  command->callback([options] { run(*options); });
+  command->callback([options] { sample_command(*options); });
 }
 
 void add_cartilages(CLI::App& sample) {
@@ -203,7 +203,7 @@ void add_cartilages(CLI::App& sample) {
              {{"Most used", {"--out", "--side", "--scenario", "--clearance", "--femoral-thickness"}},
               measures_group(),
               {"Resolution", {"--femoral-triangles", "--acetabular-triangles", "--help"}}});
-  command->callback([options] { run(*options); });
+  command->callback([options] { sample_command(*options); });
 }
 
 struct CohortOptions {
@@ -212,7 +212,7 @@ struct CohortOptions {
   std::string out;
 };
 
-void run(const CohortOptions& options) {
+void sample_command(const CohortOptions& options) {
   SampleCohort cohort = options.cohort;
   cohort.scenario = static_cast<Scenario>(options.scenario);
   const auto written = followed("hips", [&](const auto& follow, std::stop_token stop) {
@@ -241,7 +241,7 @@ void add_cohort(CLI::App& sample) {
   command->add_flag_callback(
       "--meshes", [options] { options->cohort.meshes = CohortMeshes::in_files; },
       "Write meshes and joint file of each hip too. Without them a study makes each hip from its measures");
-  command->callback([options] { run(*options); });
+  command->callback([options] { sample_command(*options); });
 }
 
 }  // namespace

@@ -19,13 +19,13 @@
 namespace condyle::cli {
 namespace {
 
-struct Options {
+struct SurfaceArguments {
   std::string image, label, out;
   std::shared_ptr<LabelOptions> labels = std::make_shared<LabelOptions>();
   AnswerForm form = AnswerForm::text;
 };
 
-void run(const Options& options, const CLI::App& command) {
+void surface_command(const SurfaceArguments& options, const CLI::App& command) {
   check_written_mesh(options.out);
   const std::filesystem::path read[] = {options.image};
   io::check_output_file(options.out, read);
@@ -55,7 +55,7 @@ void add_surface(CLI::App& app) {
       "         condyle surface scan/labels.nii.gz --label 76 -o femur.ply\n"
       "         condyle surface scan/labels.nii.gz --task total --label femur_right -o femur.ply\n"
       "The surface is closed and in LPS, mm: it lies over its image in 3D Slicer.");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SurfaceArguments>();
   command->add_option("LABELS", options->image, "A label map: .nii, .nii.gz, .hdr, .nrrd, .nhdr, .mha, .mhd")
       ->required();
   command
@@ -74,7 +74,7 @@ void add_surface(CLI::App& app) {
   std::vector<std::string> of_bone{"--label"};
   for (const std::string& name : label_surface_names()) of_bone.push_back(name);
   group_help(*command, {{"Bone", of_bone}, {"Image", label_file_names()}, {"Output", {"--out", "--json"}}});
-  command->callback([options, command] { run(*options, *command); });
+  command->callback([options, command] { surface_command(*options, *command); });
 }
 
 }  // namespace condyle::cli

@@ -60,17 +60,32 @@ function(condyle_settings_for_precompiled target)
 endfunction()
 
 # Compiles the sources of a target several at a time, so that the headers that they share are read once for all of them: most of
-# their time is headers. Sources that Highway compiles once for every instruction set stay out.
+# their time is headers. Eight of one folder go together: private names have to differ within a folder only. Sources that Highway
+# compiles once for every instruction set stay out.
 function(condyle_unify target)
   if(NOT CONDYLE_UNITY)
     return()
   endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # A source that is included looks to GCC like a header, whose private types no class should hold; and where it inlines more, GCC 12
+  # sees members of empty optionals moved.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage -Wno-maybe-uninitialized>)
   get_target_property(sources ${target} SOURCES)
+  get_target_property(folder_of_target ${target} SOURCE_DIR)
   foreach(source IN LISTS sources)
-    file(STRINGS ${source} own_translation_unit REGEX "foreach_target\\.h" LIMIT_COUNT 1)
-    if(own_translation_unit)
-      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder_of_target} OUTPUT_VARIABLE path)
+    file(STRINGS ${path} own_translation_unit REGEX "foreach_target\\.h" LIMIT_COUNT 1)
+    if(own_translation_unit OR path MATCHES "/src/(measure|kinematics)/")
+      continue()
     endif()
+    cmake_path(GET path PARENT_PATH folder)
+    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${folder_of_target})
+    string(MAKE_C_IDENTIFIER "${folder}" group)
+    if(NOT DEFINED in_${group})
+      set(in_${group} 0)
+    endif()
+    math(EXPR batch "${in_${group}} / 8")
+    math(EXPR in_${group} "${in_${group}} + 1")
+    set_source_files_properties(${path} PROPERTIES UNITY_GROUP ${group}_${batch})
   endforeach()
 endfunction()

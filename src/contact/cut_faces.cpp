@@ -42,19 +42,19 @@ std::array<Barycentric, face_parts> part_centres() {
 }
 
 /// A place in a triangle and its share of the area.
-struct Node {
+struct QuadratureNode {
   Barycentric at;
   double weight;
 };
 
 /// Middles of the edges: exact for quadratic functions.
-constexpr std::array<Node, 3> nodes_of_degree_2 = {
+constexpr std::array<QuadratureNode, 3> nodes_of_degree_2 = {
     {{{0.5, 0.5, 0}, 1.0 / 3}, {{0, 0.5, 0.5}, 1.0 / 3}, {{0.5, 0, 0.5}, 1.0 / 3}}};
 
 /// Radon's seven nodes: exact to degree 5.
-std::array<Node, 7> nodes_of_degree_5() {
+std::array<QuadratureNode, 7> nodes_of_degree_5() {
   const double root = std::sqrt(15.0);
-  std::array<Node, 7> nodes;
+  std::array<QuadratureNode, 7> nodes;
   nodes[0] = {{1.0 / 3, 1.0 / 3, 1.0 / 3}, 9.0 / 40};
   std::size_t count = 1;
   for (const double sign : {-1.0, 1.0}) {
@@ -334,9 +334,9 @@ OverlapSampler::Part OverlapSampler::part_of(Index face, const RimFace* rim,
 void OverlapSampler::sample_part(Index face, const Part& part, Quadrature quadrature, bool with_thickness,
                                  Found& out) const {
   static const auto of_degree_5 = nodes_of_degree_5();
-  const std::span<const Node> nodes = quadrature == Quadrature::of_degree_2
-                                          ? std::span<const Node>(nodes_of_degree_2)
-                                          : std::span<const Node>(of_degree_5);
+  const std::span<const QuadratureNode> nodes = quadrature == Quadrature::of_degree_2
+                                                    ? std::span<const QuadratureNode>(nodes_of_degree_2)
+                                                    : std::span<const QuadratureNode>(of_degree_5);
   if (with_thickness) {
     for (std::size_t k = 0; k < part.size(); ++k)
       out.corners.push_back({face, part[k].depth, part[k].casting_thickness, part[k].target_thickness});

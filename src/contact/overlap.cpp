@@ -29,35 +29,39 @@ Pose to_general_axes() {
   return X;
 }
 
-struct Box {
+struct OverlapBox {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
   Vec3 high = Vec3::Constant(-std::numeric_limits<double>::infinity());
 
   bool empty() const noexcept { return !(low.array() <= high.array()).all(); }
   void add(const Vec3& p) noexcept { low = low.cwiseMin(p), high = high.cwiseMax(p); }
-  void add(const Box& other) noexcept { low = low.cwiseMin(other.low), high = high.cwiseMax(other.high); }
-  Box common_with(const Box& other) const noexcept {
-    Box common;
+  void add(const OverlapBox& other) noexcept {
+    low = low.cwiseMin(other.low), high = high.cwiseMax(other.high);
+  }
+  OverlapBox common_with(const OverlapBox& other) const noexcept {
+    OverlapBox common;
     common.low = low.cwiseMax(other.low), common.high = high.cwiseMin(other.high);
     return common;
   }
 };
 
-Box box_of(const TriMesh& mesh, std::size_t triangle) noexcept {
-  Box box;
+OverlapBox box_of(const TriMesh& mesh, std::size_t triangle) noexcept {
+  OverlapBox box;
   for (int k = 0; k < 3; ++k) box.add(mesh.corner(triangle, k));
   return box;
 }
 
 /// Holds everything that is inside both bodies: where the overlap ends along a direction, there is a vertex of one body inside the
 /// other, or two triangles meet.
-Box box_of_overlap(const OverlapBody& fixed, const OverlapBody& mobile, std::span<const TrianglePair> pairs) {
-  Box box;
+OverlapBox box_of_overlap(const OverlapBody& fixed, const OverlapBody& mobile,
+                          std::span<const TrianglePair> pairs) {
+  OverlapBox box;
   for (const OverlapBody* body : {&fixed, &mobile})
     for (std::size_t v = 0; v < body->states.size(); ++v)
       if (body->states[v] != PointState::outside) box.add(body->surface.vertices[v]);
   for (const TrianglePair& pair : pairs) {
-    const Box common = box_of(fixed.surface, pair.fixed).common_with(box_of(mobile.surface, pair.mobile));
+    const OverlapBox common =
+        box_of(fixed.surface, pair.fixed).common_with(box_of(mobile.surface, pair.mobile));
     // Exact tests say that the two meet, for coordinates that were rounded otherwise.
     box.add(common.empty() ? box_of(fixed.surface, pair.fixed) : common);
   }
@@ -78,7 +82,7 @@ struct Total {
 /// The overlap's box and both surfaces about it, turned so that nothing runs along z. z is 0 at the box's bottom.
 class Columns {
  public:
-  Columns(const OverlapBody& fixed, const OverlapBody& mobile, const Box& box_F)
+  Columns(const OverlapBody& fixed, const OverlapBody& mobile, const OverlapBox& box_F)
       : to_axes_(to_general_axes()),
         from_axes_(inverted(to_axes_)),
         origin_(box_F.low + (box_F.high - box_F.low) / 2) {
@@ -352,7 +356,7 @@ std::vector<PatchPart> patch_of(const OverlapBody& body, const std::vector<Index
 
 Overlap overlap_of(const OverlapBody& fixed, const OverlapBody& mobile, std::span<const TrianglePair> pairs) {
   Overlap out;
-  const Box box = box_of_overlap(fixed, mobile, pairs);
+  const OverlapBox box = box_of_overlap(fixed, mobile, pairs);
   if (box.empty()) return out;
   const Columns columns(fixed, mobile, box);
   if (!fixed.states.empty())

@@ -61,9 +61,9 @@ std::vector<Box> boxes_of_nodes(const TriangleTree& tree, const std::vector<Box>
   return boxes;
 }
 
-class Search {
+class CrossingSearch {
  public:
-  explicit Search(const TriangleTree& tree)
+  explicit CrossingSearch(const TriangleTree& tree)
       : tree_(tree),
         triangle_boxes_(boxes_of_triangles(tree)),
         node_boxes_(boxes_of_nodes(tree, triangle_boxes_)) {
@@ -146,7 +146,7 @@ struct KeptCrossings {
 
 const SelfCrossings& self_crossings_of(const Mesh& mesh) {
   return findings_of(mesh).get<KeptCrossings>().crossings.get(
-      [&](SelfCrossings& crossings) { crossings = Search(*tree_of(mesh)).run(); });
+      [&](SelfCrossings& crossings) { crossings = CrossingSearch(*tree_of(mesh)).run(); });
 }
 
 }  // namespace condyle::mesh

@@ -75,9 +75,9 @@ struct PlacedTriangle {
   }
 };
 
-class Search {
+class NearestSearch {
  public:
-  Search(const TriangleTree& a, const TriangleTree& b, const Pose& X_AB, double at_most_mm)
+  NearestSearch(const TriangleTree& a, const TriangleTree& b, const Pose& X_AB, double at_most_mm)
       : a_(a), b_(b), X_AB_(X_AB), best_mm_(at_most_mm) {
     const Eigen::Matrix3d R = X_AB.linear();
     to_a_size_ = R.cwiseAbs();
@@ -196,7 +196,7 @@ class Search {
 
 std::optional<ClosestPoints> closest_points(const TriangleTree& a, const TriangleTree& b, const Pose& X_AB,
                                             double at_most_mm) {
-  return Search(a, b, X_AB, at_most_mm).run();
+  return NearestSearch(a, b, X_AB, at_most_mm).run();
 }
 
 }  // namespace condyle::mesh

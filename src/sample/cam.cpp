@@ -16,7 +16,7 @@ constexpr double bump_radius = 0.55;
 constexpr Angle least_steepness = Angle::degrees(15), full_steepness = Angle::degrees(30);
 
 /// How far the bump is swept around the neck to either side: three quarters of an hour.
-constexpr Angle sweep = Angle::degrees(22.5);
+constexpr Angle cam_sweep = Angle::degrees(22.5);
 
 }  // namespace
 
@@ -24,14 +24,15 @@ FieldValue Cam::operator()(const Vec3& p) const noexcept {
   // The sweep's nearest place to p, by its angle around the neck, turned to the middle. The bar is the same
   // on both sides of its plane, so within the sweep its gradient lies in that plane and turns back with it.
   const Vec3 side = neck.cross(out);
-  const double at = std::clamp(std::atan2(p.dot(side), p.dot(out)), -sweep.radians(), sweep.radians());
+  const double at =
+      std::clamp(std::atan2(p.dot(side), p.dot(out)), -cam_sweep.radians(), cam_sweep.radians());
   const Eigen::AngleAxisd back(-at, neck);
   const FieldValue middle = bar(bump, end, back * p);
   return {middle.value, back.inverse() * middle.gradient};
 }
 
 std::array<Ball, 3> Cam::places() const noexcept {
-  const Eigen::AngleAxisd rotation(sweep.radians(), neck);
+  const Eigen::AngleAxisd rotation(cam_sweep.radians(), neck);
   return {bump, {rotation * bump.centre, bump.radius}, {rotation.inverse() * bump.centre, bump.radius}};
 }
 

@@ -9,16 +9,13 @@
 namespace condyle::sample {
 namespace {
 
-/// Socket radius at which the labrum and the fossa below were drawn, mm.
-constexpr double nominal_socket_radius = 27.5;
-
 /// Width over which edges are rounded, of the thickness: below one, so that the rounding of one side never
 /// reaches the other and both stay what they are.
 constexpr double rounding = 0.8;
 
 /// How far from the native alpha angle, as seen from the neck's axis, the femoral cartilage keeps: head and
 /// neck blend on the way there.
-constexpr Angle margin = Angle::degrees(15);
+constexpr Angle margin_off_neck = Angle::degrees(15);
 
 /// Room around the solids, mm.
 constexpr double room_around = 4;
@@ -95,7 +92,7 @@ Cartilage femoral_cartilage_shape(const HipParameters& hip, const CartilageParam
   without_cam.alpha_angle.reset();
   cartilage.femur = femur_shape(without_cam).field;
   cartilage.surface = {Vec3::Zero(), spheres.femoral};
-  cartilage.off_neck = {femur_axes(hip).neck, native_alpha_angle(hip) + margin};
+  cartilage.off_neck = {femur_axes(hip).neck, native_alpha_angle(hip) + margin_off_neck};
   cartilage.seam = rounding * spheres.femoral_thickness();
   return {{cartilage, box_about_centre(spheres.femoral + room_around), {}},
           [cartilage](const Vec3& p) { return cartilage.border_distance(p); }};

@@ -23,7 +23,7 @@ constexpr double nominal_head_radius = 24;
 constexpr Angle nominal_anteversion = Angle::degrees(15);
 
 /// Room around the balls for filled seams, mm at the nominal size.
-constexpr double margin_around = 10;
+constexpr double margin_around_femur = 10;
 
 /// The pieces of one femur, blended in this order.
 struct FemurPieces {
@@ -176,7 +176,7 @@ Solid femur_shape(const HipParameters& hip) {
                                      femur.greater_back,
                                      femur.lesser};
   const Box box = box_around(balls);
-  const Vec3 margin = Vec3::Constant(margin_around * femur.scale);
+  const Vec3 margin = Vec3::Constant(margin_around_femur * femur.scale);
   return {femur, {box.low - margin, box.high + margin}, details};
 }
 

@@ -9,9 +9,6 @@
 namespace condyle::sample {
 namespace {
 
-/// Socket radius at which the skeleton below was drawn, mm.
-constexpr double nominal_socket_radius = 27.5;
-
 /// Thickness of the socket's wall, mm at the nominal size: medial walls of 5 to 8 mm are usual.
 constexpr double socket_wall = 8;
 
@@ -19,7 +16,7 @@ constexpr double socket_wall = 8;
 constexpr double rim_seam = 4;
 
 /// Margin around the skeleton's sheet and ring for tips, seams and the socket's rim, mm at the nominal size.
-constexpr double margin_around = 20;
+constexpr double margin_around_hip_bone = 20;
 
 /// Control balls {x, y, z}, radius of the ilium, drawn after the proportions of adult hip bones.
 constexpr std::size_t ilium_balls = 22;
@@ -138,7 +135,7 @@ Solid hip_bone_shape(const HipParameters& hip) {
   bone.notch_end = {level + 1.6 * bone.socket.radius * notch, 10 * bone.scale};
 
   const Box sheet = box_around(bone.ilium_sheet.balls()), ring = box_around(bone.ring.balls());
-  const Vec3 margin = Vec3::Constant(margin_around);
+  const Vec3 margin = Vec3::Constant(margin_around_hip_bone);
   const Vec3 low = sheet.low.cwiseMin(ring.low) - margin, high = sheet.high.cwiseMax(ring.high) + margin;
   const Ball& tip = ischial_spine.back();
   const Ball lips = {level + 1.2 * bone.socket.radius * notch, 12 * bone.scale};

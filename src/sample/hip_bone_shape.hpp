@@ -21,6 +21,9 @@ struct Socket {
 };
 Socket socket_of(const HipParameters&) noexcept;
 
+/// Socket radius at which skeleton, labrum and fossa were drawn, mm; others are these scaled.
+inline constexpr double nominal_socket_radius = 27.5;
+
 /// Right hip bone: socket with rim and inferior notch, iliac wing with both spines, ischium with tuberosity
 /// and spine, both pubic rami about the obturator hole. Genus 1.
 Solid hip_bone_shape(const HipParameters&);

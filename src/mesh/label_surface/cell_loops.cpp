@@ -6,11 +6,11 @@
 namespace condyle::mesh {
 namespace {
 
-constexpr std::uint8_t none = 255;
+constexpr std::uint8_t no_edge = 255;
 
 constexpr auto edge_between = [] {
   std::array<std::array<std::uint8_t, cell_corners>, cell_corners> edge{};
-  for (auto& row : edge) row.fill(none);
+  for (auto& row : edge) row.fill(no_edge);
   for (std::size_t e = 0; e < cell_edges; ++e) {
     const auto a = static_cast<std::size_t>(edge_ends[e][0]), b = static_cast<std::size_t>(edge_ends[e][1]);
     edge[a][b] = edge[b][a] = static_cast<std::uint8_t>(e);
@@ -73,7 +73,7 @@ CellLoops loops_of_cell(unsigned inside, unsigned joined) {
   // On each face, counter-clockwise, the boundary enters the inside along one edge and leaves it along another. A
   // segment goes from where it enters to where it leaves; the face beyond the latter edge enters there.
   std::array<std::uint8_t, cell_edges> next;
-  next.fill(none);
+  next.fill(no_edge);
   for (std::size_t f = 0; f < cell_faces; ++f) {
     const Face face(f, inside);
     const bool joins = face.is_ambiguous() && ((joined >> f) & 1u) != 0;
@@ -89,13 +89,13 @@ CellLoops loops_of_cell(unsigned inside, unsigned joined) {
 
   CellLoops found;
   for (std::size_t start = 0; start < cell_edges; ++start) {
-    if (next[start] == none) continue;
+    if (next[start] == no_edge) continue;
     assert(found.size < 4);
     CellLoop& loop = found.loop[static_cast<std::size_t>(found.size++)];
-    for (std::size_t e = start; next[e] != none;) {
+    for (std::size_t e = start; next[e] != no_edge;) {
       loop.edge[static_cast<std::size_t>(loop.size++)] = static_cast<std::uint8_t>(e);
       const std::size_t following = next[e];
-      next[e] = none;
+      next[e] = no_edge;
       e = following;
     }
     for (int i = 0; i < loop.size; ++i) {

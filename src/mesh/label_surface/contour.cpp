@@ -8,6 +8,7 @@
 #include "condyle/error.hpp"
 #include "core/parallel.hpp"
 #include "mesh/label_surface/cell_loops.hpp"
+#include "mesh/label_surface/roundness.hpp"
 
 namespace condyle::mesh {
 namespace {
@@ -34,12 +35,6 @@ double crossing(float first, float second) {
   const double a = first, b = second, t = a / (a - b);
   constexpr double margin = contour_margin;
   return t < 2 * margin ? margin + t / 2 : t > 1 - 2 * margin ? 1 - (margin + (1 - t) / 2) : t;
-}
-
-/// Share of an equilateral triangle's area that a triangle of the same squared sides has, up to a factor.
-double roundness(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 ab = b - a, bc = c - b, ca = a - c;
-  return ab.cross(ca).norm() / (ab.squaredNorm() + bc.squaredNorm() + ca.squaredNorm());
 }
 
 /// Numbers of the vertices that belong to the samples of a layer: those on the edges from a sample along each axis, and

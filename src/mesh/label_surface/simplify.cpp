@@ -14,6 +14,7 @@
 #include "core/parallel.hpp"
 #include "mesh/editable_mesh.hpp"
 #include "mesh/enclosed_volume.hpp"
+#include "mesh/label_surface/roundness.hpp"
 #include "mesh/self_crossings.hpp"
 #include "mesh/surface_distance.hpp"
 
@@ -66,11 +67,6 @@ constexpr double point_share = 1e-3;
 constexpr double least_turn_cosine = 0.35;
 /// Triangles less round than this are not made of rounder ones; 0.29 is the roundest.
 constexpr double least_roundness = 0.03;
-
-double roundness(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return (b - a).cross(c - a).norm() /
-         ((b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm());
-}
 
 /// Sheets of the surface that a vertex is in: bit 0 for the bone, bit s for cap s.
 using Sheets = std::uint8_t;

@@ -14,21 +14,15 @@ namespace {
 /// Finer ones would run into the rounding that clearance() allows for.
 constexpr Angle finest = Angle::degrees(1e-6);
 
-/// Clearances need not be known beyond this.
-constexpr double far_enough = 0.5;
-
-/// Rounding of a step's length, relative; steps are shortened by it.
-constexpr double step_slack = 1e-12;
-
 /// Contact is looked for so many tolerances past where the search ends.
 constexpr int most_tolerances_past = 64;
 
 using Knots = std::span<const TranslationKnot>;
 
 /// The way of the mobile body along one motion.
-class Way {
+class FollowedWay {
  public:
-  Way(const Joint& joint, const Motion& motion)
+  FollowedWay(const Joint& joint, const Motion& motion)
       : system_(joint.coordinates()), frame_(joint.translation_frame), motion_(motion) {}
 
   Pose pose(const TranslationKnot& at) const {
@@ -42,7 +36,7 @@ class Way {
     const double along = (b - a).norm() / (to.turned - from.turned).radians();
     const double about =
         frame_ == TranslationFrame::fixed ? 0 : a.cwiseAbs().sum() + (b - a).cwiseAbs().sum();
-    return {.rotation = 1 + step_slack, .origin_mm = (along + about) * (1 + step_slack)};
+    return {.rotation = 1 + motion::step_slack, .origin_mm = (along + about) * (1 + motion::step_slack)};
   }
 
  private:
@@ -96,7 +90,7 @@ struct FollowedRange::Parts {
                                                                            const motion::Speed& speed) const {
     std::optional<std::pair<motion::Clearance, motion::PairOfParts>> found;
     for (const motion::PairOfParts& pair : pairs) {
-      const double least = found ? found->first.free_for : far_enough;
+      const double least = found ? found->first.free_for : motion::far_enough;
       const auto near = motion::clearance(fixed[pair.fixed], mobile[pair.mobile], X_FM, least, speed);
       if (near) found = {*near, pair};
     }
@@ -104,7 +98,7 @@ struct FollowedRange::Parts {
   }
 
   /// First contact of these between two knots; empty if there is none, or it was stopped.
-  std::optional<Met> first_met(PartPairs pairs, const Way& way, const TranslationKnot& from,
+  std::optional<Met> first_met(PartPairs pairs, const FollowedWay& way, const TranslationKnot& from,
                                const TranslationKnot& to, Angle tolerance, const std::stop_token& stop,
                                std::size_t& poses) const {
     const motion::Speed speed = way.speed(from, to);
@@ -114,7 +108,8 @@ struct FollowedRange::Parts {
       ++poses;
       if (near && near->first.free_for < tolerance.radians())
         return Met{turned, near->first, near->second, X_FM};
-      const Angle free = Angle::radians((near ? near->first.free_for : far_enough) * (1 - step_slack));
+      const Angle free =
+          Angle::radians((near ? near->first.free_for : motion::far_enough) * (1 - motion::step_slack));
       turned = free < to.turned - turned ? turned + free : to.turned;
     }
     return std::nullopt;
@@ -135,7 +130,7 @@ struct FollowedRange::Parts {
   }
 
   /// How far past it these parts meet, or the tolerance.
-  Angle error_bound(const Met& met, const Way& way, Knots knots, Angle tolerance) const {
+  Angle error_bound(const Met& met, const FollowedWay& way, Knots knots, Angle tolerance) const {
     for (int past = 1; past <= most_tolerances_past; past *= 2) {
       const Pose X_FM = way.pose(knot_at(knots, met.turned + tolerance * past));
       const auto points = mesh::closest_points(fixed[met.parts.fixed].triangle_tree(),
@@ -146,7 +141,7 @@ struct FollowedRange::Parts {
   }
 
   /// Whether bodies are in contact where a motion starts: exactly, as seen from the mobile body's origin.
-  Limit start_of(const Motion& motion, const Way& way, const TranslationKnot& start) const {
+  Limit start_of(const Motion& motion, const FollowedWay& way, const TranslationKnot& start) const {
     RangeOptions options{.bearing = {.rule = rule, .surface = bearing.surface, .roles = bearing.roles}};
     options.overlap.reference_contact = ReferenceContact::accept;
     const Vec3 origin = way.pose(start).translation();
@@ -158,7 +153,7 @@ struct FollowedRange::Parts {
   }
 
   /// The first contact of one kind that ends nothing, up to the limit.
-  std::optional<EarlierContact> earlier(ContactKind kind, const Way& way, Knots knots, Angle limit,
+  std::optional<EarlierContact> earlier(ContactKind kind, const FollowedWay& way, Knots knots, Angle limit,
                                         Angle tolerance, const std::stop_token& stop,
                                         std::size_t& poses) const {
     std::vector<motion::PairOfParts> pairs;
@@ -203,7 +198,7 @@ std::optional<FollowedLimit> FollowedRange::limit(const Motion& motion, const Ne
     knots.push_back(*knot);
     return true;
   };
-  const Way way(parts_->joint, motion);
+  const FollowedWay way(parts_->joint, motion);
   FollowedLimit out{.limit = {.motion = motion}};
   Limit& end = out.limit.end;
   if (!take_next()) {

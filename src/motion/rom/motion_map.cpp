@@ -15,7 +15,7 @@ namespace {
 
 /// How far past the last step an axis may end and still count as stopping on it, in steps: decimal steps such as 0.1
 /// are not exact in binary.
-constexpr double step_slack = 1e-6;
+constexpr double count_slack = 1e-6;
 
 /// Points that one thread takes at a time: neighbours share boxes in its caches and, where adduction is
 /// varied, a table.
@@ -30,7 +30,7 @@ void check_axis(const GridAxis& axis) {
 
 /// As many as the axis has values; a double, for it may be more than any integer.
 double count_of(const GridAxis& axis) noexcept {
-  return std::floor((axis.last_deg - axis.first_deg) / axis.step_deg + step_slack) + 1;
+  return std::floor((axis.last_deg - axis.first_deg) / axis.step_deg + count_slack) + 1;
 }
 
 /// The same points with flexion changing slowest, where adduction is varied: its tables depend on flexion.

@@ -12,12 +12,6 @@ namespace {
 /// Finer ones would run into the rounding that clearance() allows for.
 constexpr Angle finest_tolerance = Angle::degrees(1e-6);
 
-/// Clearances need not be known beyond this; a path this free takes a dozen steps per full turn.
-constexpr double far_enough = 0.5;
-
-/// Rounding of a step's length, relative; steps are shortened by it.
-constexpr double step_slack = 1e-12;
-
 void check_path(std::span<const JointAngles> waypoints, Angle tolerance, JointKind kind) {
   if (waypoints.size() < 2) throw UsageError("path: needs two waypoints or more");
   if (!(tolerance >= finest_tolerance) || !std::isfinite(tolerance.radians()))
@@ -42,7 +36,7 @@ JointAngles between(const JointAngles& from, const JointAngles& to, double fract
 }
 
 /// At least the angle by which M turns on the way.
-double most_rotation(const JointAngles& from, const JointAngles& to) noexcept {
+double largest_rotation(const JointAngles& from, const JointAngles& to) noexcept {
   const auto change = [&](JointAngle angle) {
     return std::abs((angle_of(to, angle) - angle_of(from, angle)).radians());
   };
@@ -75,7 +69,7 @@ struct PathFinder::Parts {
   std::optional<Nearest> nearest_at(const Pose& X_FM) const {
     std::optional<Nearest> nearest;
     for (const motion::PairOfParts& pair : included.ending) {
-      const auto found = motion::clearance(fixed[pair.fixed], mobile[pair.mobile], X_FM, far_enough);
+      const auto found = motion::clearance(fixed[pair.fixed], mobile[pair.mobile], X_FM, motion::far_enough);
       if (found && (!nearest || found->free_for < nearest->clearance.free_for)) nearest = {*found, pair};
     }
     return nearest;
@@ -111,7 +105,7 @@ PathLimit PathFinder::limit(std::span<const JointAngles> waypoints, Angle tolera
   }
   for (out.segment = 0; out.segment + 1 < waypoints.size(); ++out.segment) {
     const JointAngles &from = waypoints[out.segment], &to = waypoints[out.segment + 1];
-    const double rotation = most_rotation(from, to) * (1 + step_slack);
+    const double rotation = largest_rotation(from, to) * (1 + motion::step_slack);
     for (out.fraction = 0; out.fraction < 1;) {
       out.at = between(from, to, out.fraction);
       const Pose X_FM = pose_at(range.coordinates(), out.at);
@@ -123,9 +117,10 @@ PathLimit PathFinder::limit(std::span<const JointAngles> waypoints, Angle tolera
         out.distance_mm = nearest->clearance.distance_mm;
         return out;
       }
-      const double free = nearest ? nearest->clearance.free_for : far_enough;
-      out.fraction =
-          free < rotation * (1 - out.fraction) ? out.fraction + free / rotation * (1 - step_slack) : 1;
+      const double free = nearest ? nearest->clearance.free_for : motion::far_enough;
+      out.fraction = free < rotation * (1 - out.fraction)
+                         ? out.fraction + free / rotation * (1 - motion::step_slack)
+                         : 1;
     }
   }
   out.segment = waypoints.size() - 2;

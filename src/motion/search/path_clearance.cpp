@@ -36,10 +36,10 @@ Radii radii_of(const Corners3& t, const Vec3& origin) noexcept {
           std::max({(t[0] - origin).norm(), (t[1] - origin).norm(), (t[2] - origin).norm()})};
 }
 
-class Search {
+class ClearanceSearch {
  public:
-  Search(const FeatureTree& fixed, const FeatureTree& mobile, const Pose& X_FM, double enough,
-         const Speed& speed)
+  ClearanceSearch(const FeatureTree& fixed, const FeatureTree& mobile, const Pose& X_FM, double enough,
+                  const Speed& speed)
       : fixed_(fixed),
         mobile_(mobile),
         X_FM_(X_FM),
@@ -147,7 +147,7 @@ class Search {
 
 std::optional<Clearance> clearance(const FeatureTree& fixed, const FeatureTree& mobile, const Pose& X_FM,
                                    double enough, const Speed& speed) {
-  return Search(fixed, mobile, X_FM, enough, speed).run();
+  return ClearanceSearch(fixed, mobile, X_FM, enough, speed).run();
 }
 
 }  // namespace condyle::motion

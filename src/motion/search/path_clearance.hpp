@@ -21,6 +21,12 @@ struct Clearance {
   Vec3 fixed_point, mobile_point;         ///< nearest points, both in F
 };
 
+/// Clearances of a search along a path need not be known beyond this; a path this free takes a dozen steps per full turn.
+inline constexpr double far_enough = 0.5;
+
+/// Rounding of a step's length along a path, relative; steps are shortened by it.
+inline constexpr double step_slack = 1e-12;
+
 /// How much of a motion is free on either side of X_FM, whatever its path, the mobile body moving no faster than
 /// `speed`; empty if it is `enough` or more. For bodies that do not meet at X_FM. By default the motion is a
 /// rotation about M's origin, and its parameter the angle.

@@ -26,8 +26,8 @@ float cosine_to_corners(int n) {
   return static_cast<float>(std::max(0.0, 1 - half_diagonal * half_diagonal / 2));
 }
 
-RadiiView view_of(const CubeMap& map, const CubeTable& table, std::span<const TrianglePlane> planes,
-                  CellRadii& radii) {
+RadiiView radii_view_of(const CubeMap& map, const CubeTable& table, std::span<const TrianglePlane> planes,
+                        CellRadii& radii) {
   const int n = map.cells_per_side();
   return {.cells_per_side = n,
           .triangle = table.entries.triangle.data(),
@@ -51,7 +51,7 @@ void find_radii(const CubeMap& map, const CubeTable& table, CellRadii& radii) {
   if (!radii.of_entry.empty()) radii.of_entry.resize(table.entries.triangle.size());
   radii.of_cell.resize(map.cell_count());
   const SurfaceRadii all =
-      measure_rows(view_of(map, table, planes, radii), table.entries.row, radii.of_cell.data());
+      measure_rows(radii_view_of(map, table, planes, radii), table.entries.row, radii.of_cell.data());
   radii.least_squared = all.least, radii.greatest_squared = all.greatest;
 }
 
@@ -69,7 +69,7 @@ ChangedRadii find_radii_in(const CubeMap& map, const CubeTable& table, const Cha
   core::UninitialisedVector<ChangedEntry> scratch(changed.entry.size());
   ChangedRadii out;
   out.cells.resize(changed.cells.size());
-  out.cells.resize(measure_changed(view_of(map, table, {}, radii), table.entries.row.data(), changed,
+  out.cells.resize(measure_changed(radii_view_of(map, table, {}, radii), table.entries.row.data(), changed,
                                    scratch.data(), radii.of_cell.data(), all, out.cells.data()));
   radii.least_squared = all.least, radii.greatest_squared = all.greatest;
   return out;
