@@ -68,8 +68,8 @@ function(condyle_unify target)
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   # A source that is included looks to GCC like a header, whose private types no class should hold; and where it inlines more, GCC 12
-  # sees members of empty optionals moved.
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage -Wno-maybe-uninitialized>)
+  # sees members of empty optionals moved. A local name may be a private one of another file.
+  target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage -Wno-maybe-uninitialized>)
   get_target_property(sources ${target} SOURCES)
   get_target_property(folder_of_target ${target} SOURCE_DIR)
   foreach(source IN LISTS sources)

@@ -18,12 +18,11 @@ from ._limit_band import FEWEST_SAMPLES, MOST_SAMPLES, LimitBand
 from ._limits import FreeAngles, Limit, MotionLimit, motion_limit_of, witness_of
 from ._motion import Motion, MotionLike, Motions
 from ._motion_map import MotionMap, map_of
+from ._resection import OfJoint, Resection
 from ._words import Path, Progress, count, number, path_of, progress_of, text_of
 
 if TYPE_CHECKING:
     import pandas
-
-    from ._resection import Resection
 
 
 class Bearing(TypedDict):
@@ -196,7 +195,7 @@ class RangeOfMotion:
 
     def write_report(self, path: Path, *, title: Optional[str] = None, band_samples: int = 0,
                      seed: Optional[int] = None, past_deg: Optional[float] = None, measures: bool = False,
-                     plan: Optional[Resection[Any]] = None, progress: Progress = None) -> None:
+                     plan: Optional[Resection[OfJoint]] = None, progress: Progress = None) -> None:
         """Writes one HTML file that shows the joint with these limits in any browser and computes with it there.
 
         `band_samples` above 0: with the bands of the limits, as :meth:`bands`; `past_deg`: with the impingement zones, as

@@ -50,14 +50,14 @@ RangeRequest request_of(const Motion& motion, Follow follow) {
   return request;
 }
 
-RangeAnswer answered(const Joint& joint, const RangeRequest& request) {
+RangeAnswer answered_following(const Joint& joint, const RangeRequest& request) {
   return answer_range(joint, {}, request);
 }
 
 TEST(AnswerFollowedRange, PutsTheBodyWhereTheLoadIsCarried) {
   const BallInCup scene;
   const Motion flexion = hip_motions().front();
-  const RangeAnswer answer = answered(
+  const RangeAnswer answer = answered_following(
       scene.joint,
       request_of(flexion, FollowLoad{.layers = &scene.layers, .load = scene.up, .step = Angle::degrees(2)}));
   EXPECT_TRUE(answer.follows);
@@ -83,7 +83,7 @@ TEST(AnswerFollowedRange, PutsTheBodyWhereTheLoadIsCarried) {
 TEST(AnswerFollowedRange, SaysWhereNothingCarriesTheLoad) {
   const BallInCup scene;
   const Load out{.on_mobile = {Vec3(0, -800, 0), Vec3::Zero()}};  // out of the cup
-  const RangeAnswer answer = answered(
+  const RangeAnswer answer = answered_following(
       scene.joint, request_of(hip_motions().front(), FollowLoad{.layers = &scene.layers, .load = out}));
   EXPECT_EQ(answer.limits.front().end.reason, LimitReason::end_of_range);
   EXPECT_EQ(answer.limits.front().motion.range, Angle());
@@ -108,7 +108,8 @@ TEST(AnswerFollowedRange, GoesWhereTheRecordedMotionGoes) {
   post.joint.kind = JointKind::free;
   const Motion flexion = hip_motions().front();
   for (const double mm_per_degree : {-0.2, 0.0, 0.3}) {
-    const RangeAnswer answer = answered(post.joint, request_of(flexion, record(-10, 60, mm_per_degree)));
+    const RangeAnswer answer =
+        answered_following(post.joint, request_of(flexion, record(-10, 60, mm_per_degree)));
     // The arm's front, moved forwards with the arm, meets the post's edge: x cos a - y' sin a = half its width in the arm's frame.
     double low = 0, high = 60;
     for (int i = 0; i < 60; ++i) {
@@ -122,7 +123,7 @@ TEST(AnswerFollowedRange, GoesWhereTheRecordedMotionGoes) {
     EXPECT_GE((end.turned + end.error_bound).degrees(), low - 1e-9);
     EXPECT_NEAR(answer.limits.front().translation_mm->x(), mm_per_degree * end.turned.degrees(), 1e-9);
   }
-  const RangeAnswer short_one = answered(post.joint, request_of(flexion, record(0, 12, 0.1)));
+  const RangeAnswer short_one = answered_following(post.joint, request_of(flexion, record(0, 12, 0.1)));
   EXPECT_NEAR(short_one.limits.front().end.turned.degrees(), 12, 1e-12);
   EXPECT_EQ(short_one.notes.front().code, RangeNoteCode::translation_ends);
 }
@@ -148,7 +149,7 @@ TEST(AnswerFollowedRange, IsRefusedWhereItMeansNothing) {
   const RangeRequest follows = request_of(hip_motions().front(), record(0, 60, 0));
   const auto refusal = [&](const Joint& joint, const RangeRequest& request) {
     try {
-      answered(joint, request);
+      answered_following(joint, request);
     } catch (const UsageError& error) {
       return std::string(error.what());
     }

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "condyle/angle.hpp"
+#include "contact/brute_pairs.hpp"
 #include "mesh/triangle_intersection.hpp"
 #include "support/brute_force.hpp"
 #include "support/test_meshes.hpp"
@@ -15,12 +16,6 @@ namespace {
 
 using test::box;
 using test::sphere;
-
-std::vector<TrianglePair> brute_pairs(const TriMesh& fixed, const TriMesh& posed_mobile) {
-  std::vector<TrianglePair> pairs;
-  for (const auto& [f, m] : test::intersecting_pairs(fixed, posed_mobile)) pairs.push_back({f, m});
-  return pairs;
-}
 
 /// The same by the exact test in double, for larger meshes: each triangle with each whose box meets its own.
 std::vector<TrianglePair> each_with_each(const TriMesh& fixed, const TriMesh& posed_mobile) {
@@ -63,7 +58,7 @@ TEST(BodyPair, HasThePairsOfRationalArithmeticInEveryPose) {
   for (int i = 0; i < 8; ++i) {
     const Pose X = turned(31 * i, {1, 0.3 * i, -0.5}, Vec3(0.02 * i, i % 4 == 0 ? -2.4 : -0.1, 0));
     const auto pairs = bodies.pairs(X);
-    EXPECT_EQ(pairs, brute_pairs(fixed, posed(X, mobile)));
+    EXPECT_EQ(pairs, test::brute_pairs(fixed, posed(X, mobile)));
     EXPECT_EQ(bodies.touch(X), !pairs.empty());
     found += pairs.size();
     free_poses += pairs.empty();
@@ -175,7 +170,7 @@ TEST(BodyPair, IsRightFarFromTheOriginAndBeyondSinglePrecision) {
     const TriMesh mobile = box({-size, -size, -size}, {size, size, size});
     const contact::BodyPair bodies(fixed, mobile);
     EXPECT_TRUE(bodies.touch(Pose::Identity())) << size;
-    EXPECT_EQ(bodies.pairs(Pose::Identity()), brute_pairs(fixed, mobile)) << size;
+    EXPECT_EQ(bodies.pairs(Pose::Identity()), test::brute_pairs(fixed, mobile)) << size;
     EXPECT_FALSE(bodies.touch(shifted(-size * 0x1p-52))) << size;
   }
 }

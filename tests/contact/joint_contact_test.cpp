@@ -6,6 +6,7 @@
 #include <random>
 
 #include "condyle/error.hpp"
+#include "contact/brute_pairs.hpp"
 #include "support/brute_force.hpp"
 #include "support/test_meshes.hpp"
 
@@ -14,12 +15,6 @@ namespace {
 
 using test::box;
 using test::sphere;
-
-std::vector<TrianglePair> brute_pairs(const TriMesh& fixed, const TriMesh& posed_mobile) {
-  std::vector<TrianglePair> pairs;
-  for (const auto& [f, m] : test::intersecting_pairs(fixed, posed_mobile)) pairs.push_back({f, m});
-  return pairs;
-}
 
 Pose rotation(double degrees, const Vec3& axis, const Vec3& shift = Vec3::Zero()) {
   Pose X = Pose::Identity();
@@ -36,7 +31,7 @@ TEST(JointContact, PairsAreThoseOfRationalArithmeticOnBothMapsInEveryPose) {
     for (int i = 0; i < 12; ++i) {
       const Pose X = rotation(31 * i, {1, 0.3 * i, -0.5}, Vec3(0.02 * i, i % 4 == 0 ? -2.4 : -0.1, 0));
       const auto pairs = joint.pairs(X);
-      EXPECT_EQ(pairs, brute_pairs(fixed, posed(X, mobile)));
+      EXPECT_EQ(pairs, test::brute_pairs(fixed, posed(X, mobile)));
       found += pairs.size();
       free_poses += pairs.empty();
     }
@@ -50,7 +45,7 @@ TEST(JointContact, CoplanarFacesThatTouchAreInContact) {
   const JointContact joint(fixed, mobile);
   const RadialContact contact = joint.radial(Pose::Identity());
   EXPECT_TRUE(contact.in_contact);
-  EXPECT_EQ(contact.pairs, brute_pairs(fixed, mobile));
+  EXPECT_EQ(contact.pairs, test::brute_pairs(fixed, mobile));
   EXPECT_FALSE(contact.pairs.empty());
   EXPECT_EQ(std::count(contact.mobile_in_fixed->state.begin(), contact.mobile_in_fixed->state.end(),
                        PointState::on_surface),
@@ -85,7 +80,7 @@ TEST(JointContact, CrossedBarsTouchWithNoVertexInside) {
   EXPECT_EQ(std::count(contact.fixed_in_mobile->state.begin(), contact.fixed_in_mobile->state.end(),
                        PointState::outside),
             8);
-  EXPECT_EQ(contact.pairs, brute_pairs(fixed, mobile));
+  EXPECT_EQ(contact.pairs, test::brute_pairs(fixed, mobile));
 }
 
 TEST(JointContact, ExchangingTheBodiesExchangesTheAnswers) {
@@ -111,7 +106,7 @@ TEST(JointContact, AnOpenBodyStillHasItsPairs) {
   const RadialContact contact = JointContact(open, mobile).radial(Pose::Identity());
   EXPECT_FALSE(contact.mobile_in_fixed);
   EXPECT_TRUE(contact.fixed_in_mobile);
-  EXPECT_EQ(contact.pairs, brute_pairs(open, mobile));
+  EXPECT_EQ(contact.pairs, test::brute_pairs(open, mobile));
   EXPECT_FALSE(contact.pairs.empty());
 }
 
@@ -121,7 +116,7 @@ TEST(JointContact, AMobileTriangleThroughTheCentreIsTestedAgainstAll) {
   const TriMesh fixed = sphere({3, 0, 0}, 1, 2), mobile = box({-1, -1, -1}, {1, 1, 1});
   const JointContact joint(fixed, mobile);
   const Pose X = rotation(0, {0, 0, 1}, {1, 0, 0});
-  EXPECT_EQ(joint.pairs(X), brute_pairs(fixed, posed(X, mobile)));
+  EXPECT_EQ(joint.pairs(X), test::brute_pairs(fixed, posed(X, mobile)));
   EXPECT_FALSE(joint.pairs(X).empty());
 }
 

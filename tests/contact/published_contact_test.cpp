@@ -16,7 +16,7 @@ constexpr double half_a_digit = 0.5000001e-8;
 /// Uncertainty from single precision somewhere in OpenSim-JAM's computation, for a number or a vector's length.
 constexpr double relative = 2e-5;
 
-const ElasticLayer cartilage{10, 0.45, 3.0};
+const ElasticLayer published_cartilage{10, 0.45, 3.0};
 
 struct PublishedContact : testing::TestWithParam<const char*> {
   std::string contact = GetParam();
@@ -26,8 +26,8 @@ struct PublishedContact : testing::TestWithParam<const char*> {
             contact == "tf" ? knee.tibia_cartilage : knee.patella_cartilage,
             {.casting = Casting::mobile,
              .rays = {.rule = FaceRule::face_centre},
-             .fixed = cartilage,
-             .mobile = cartilage}};
+             .fixed = published_cartilage,
+             .mobile = published_cartilage}};
   }
   Pose pose(const test::Knee& knee, std::size_t frame) const {
     return contact == "tf" ? knee.tibia_at(frame) : knee.patella_at(frame);
@@ -78,8 +78,8 @@ TEST(PublishedBalance, IsFoundFromHalfAMillimetreOff) {
   const ElasticContact surfaces(knee->femur_cartilage, knee->tibia_cartilage,
                                 {.casting = Casting::mobile,
                                  .rays = {.rule = FaceRule::face_centre},
-                                 .fixed = cartilage,
-                                 .mobile = cartilage});
+                                 .fixed = published_cartilage,
+                                 .mobile = published_cartilage});
   for (const std::size_t frame : {0u, 100u, 250u}) {
     const auto value = [&](const char* name) { return knee->published("tf", frame, name); };
     const Vec3 force(value("contact_force_x"), value("contact_force_y"), value("contact_force_z"));

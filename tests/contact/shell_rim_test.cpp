@@ -17,12 +17,12 @@ namespace condyle {
 namespace {
 
 constexpr double inner = 25, outer = 31, ball_radius = 24.7;
-const ElasticLayer cartilage{10, 0.45, 3.0};
+const ElasticLayer shell_cartilage{10, 0.45, 3.0};
 const Vec3 moved(0.5, 0.8, -0.35);
-/// The stiffness of both layers, one on the other, MPa per mm.
-const double stiffness = cartilage.confined_modulus_mpa() / 6;
+/// The shell_stiffness of both layers, one on the other, MPa per mm.
+const double shell_stiffness = shell_cartilage.confined_modulus_mpa() / 6;
 /// How far the ball reaches beyond the hollow.
-const double depth = ball_radius + moved.norm() - inner;
+const double shell_depth = ball_radius + moved.norm() - inner;
 
 /// Faces of 0.8 mm; the ball's are as large. What facets of edge e take from depths: e^2 / (8 r), twice.
 constexpr double sag = 2 * 0.9 * 0.9 / (8 * ball_radius);
@@ -30,10 +30,10 @@ constexpr double sag = 2 * 0.9 * 0.9 / (8 * ball_radius);
 TriMesh shell(int levels) {
   return test::socket(Vec3::Zero(), inner, outer, levels);
 }
-ElasticContact ball_in_shell(Casting casting, FaceRule rule = FaceRule::cut_faces) {
+ElasticContact ball_in_rimmed_shell(Casting casting, FaceRule rule = FaceRule::cut_faces) {
   return {shell(6),
           posed(test::generic_turn(), test::sphere(Vec3::Zero(), ball_radius, 6)),
-          {.casting = casting, .rays = {.rule = rule}, .fixed = cartilage, .mobile = cartilage}};
+          {.casting = casting, .rays = {.rule = rule}, .fixed = shell_cartilage, .mobile = shell_cartilage}};
 }
 
 TEST(ShellRim, TheShellOfTheseTestsIsClosedAndLooksOutwards) {
@@ -46,11 +46,11 @@ TEST(ShellRim, TheShellOfTheseTestsIsClosedAndLooksOutwards) {
 class ShellRim : public testing::TestWithParam<Casting> {};
 
 TEST_P(ShellRim, IsNoPartOfTheContact) {
-  const auto results = ball_in_shell(GetParam()).at(test::translated(moved));
+  const auto results = ball_in_rimmed_shell(GetParam()).at(test::translated(moved));
   for (const auto* cast : {&results.fixed, &results.mobile}) {
     if (!*cast) continue;
-    EXPECT_NEAR((*cast)->totals.max_depth_mm, depth, sag);
-    EXPECT_NEAR((*cast)->totals.max_pressure_mpa, stiffness * depth, stiffness * sag);
+    EXPECT_NEAR((*cast)->totals.max_depth_mm, shell_depth, sag);
+    EXPECT_NEAR((*cast)->totals.max_pressure_mpa, shell_stiffness * shell_depth, shell_stiffness * sag);
     EXPECT_FALSE((*cast)->peak_is_oblique);
   }
   // Pressures act through the centre of the sphere that casts, the shell's at -moved from the ball's. Sums over facets miss it by some
@@ -75,7 +75,10 @@ const Vec3 over_the_rim(2.5, 0.3, 0);
 ElasticContact ball_over_rim(FaceRule rule) {
   return {mesh::subdivided(mesh::subdivided(shell(4))),
           test::sphere(Vec3::Zero(), ball_radius, 5),
-          {.casting = Casting::both, .rays = {.rule = rule}, .fixed = cartilage, .mobile = cartilage}};
+          {.casting = Casting::both,
+           .rays = {.rule = rule},
+           .fixed = shell_cartilage,
+           .mobile = shell_cartilage}};
 }
 
 TEST(ShellRim, IsCountedApart) {
@@ -120,13 +123,13 @@ TriMesh with_corners_in_another_order(TriMesh mesh) {
 }
 
 TEST(CornerOrder, ChangesNoForce) {
-  // At the rim faces are cut to quadrilaterals whose depth is no plane.
+  // At the rim faces are cut to quadrilaterals whose shell_depth is no plane.
   const TriMesh hollow = shell(5),
                 ball = posed(test::generic_turn(), test::sphere(Vec3::Zero(), ball_radius, 5));
   for (const PressureLaw law : {PressureLaw::linear, PressureLaw::logarithmic}) {
     for (const bool varies : {false, true}) {
       const auto load = [&](const TriMesh& fixed, const TriMesh& mobile) {
-        ElasticContactOptions options{.law = law, .fixed = cartilage, .mobile = cartilage};
+        ElasticContactOptions options{.law = law, .fixed = shell_cartilage, .mobile = shell_cartilage};
         if (varies) {
           std::vector<double> thickness;
           for (const double x : mobile.vertices.x) thickness.push_back(2 + 0.05 * x);

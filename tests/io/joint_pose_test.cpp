@@ -14,7 +14,7 @@ PoseDegrees degrees(double flexion, double adduction, double rotation) {
   return {flexion, adduction, rotation};
 }
 
-std::string refusal(std::string_view text, JointKind kind = JointKind::ball) {
+std::string pose_refusal(std::string_view text, JointKind kind = JointKind::ball) {
   try {
     parse_pose(text, kind, Anatomy::hip);
   } catch (const UsageError& error) {
@@ -60,26 +60,26 @@ TEST(PoseText, EveryDigitGivenIsKept) {
 }
 
 TEST(PoseText, WhatCannotBeMeantIsRefusedByName) {
-  EXPECT_EQ(refusal("flexion=10 flexion=20"), "pose: flexion is given twice");
-  EXPECT_EQ(refusal("flexion=10 extension=0"), "pose: flexion is given twice");
-  EXPECT_EQ(refusal("flexion"), "pose: 'flexion' is not of the form flexion=90");
-  EXPECT_EQ(refusal("flexion=").substr(0, 8), "pose: fl");
+  EXPECT_EQ(pose_refusal("flexion=10 flexion=20"), "pose: flexion is given twice");
+  EXPECT_EQ(pose_refusal("flexion=10 extension=0"), "pose: flexion is given twice");
+  EXPECT_EQ(pose_refusal("flexion"), "pose: 'flexion' is not of the form flexion=90");
+  EXPECT_EQ(pose_refusal("flexion=").substr(0, 8), "pose: fl");
   for (const char* number :
        {"", "ten", "10deg", "0x10", "--5", "+-5", "-+5", "1e999", "nan", "inf", "-inf", "1.2.3"})
-    EXPECT_NE(refusal("flexion=" + std::string(number)), "accepted") << number;
+    EXPECT_NE(pose_refusal("flexion=" + std::string(number)), "accepted") << number;
   for (const char* name : {"rotation=5", "Flexion=5", "=5", "flexio=5", "flexion =5"})
-    EXPECT_NE(refusal(name), "accepted") << name;
+    EXPECT_NE(pose_refusal(name), "accepted") << name;
 }
 
 TEST(PoseText, RefusalsAreShortAndOnOneLine) {
-  const std::string message = refusal(std::string(10000, 'x') + "\x01=5");
+  const std::string message = pose_refusal(std::string(10000, 'x') + "\x01=5");
   EXPECT_LT(message.size(), 250u);
-  EXPECT_EQ(refusal("a\x01\x02=5").find('\x01'), std::string::npos);
+  EXPECT_EQ(pose_refusal("a\x01\x02=5").find('\x01'), std::string::npos);
 }
 
 TEST(PoseText, AHingeRotatesInFlexionOnly) {
   EXPECT_EQ(parse_pose("flexion=30 adduction=0", JointKind::hinge, Anatomy::hip), degrees(30, 0, 0));
-  EXPECT_EQ(refusal("flexion=30 adduction=1", JointKind::hinge),
+  EXPECT_EQ(pose_refusal("flexion=30 adduction=1", JointKind::hinge),
             "pose: a hinge rotates in flexion only, not in adduction");
 }
 
@@ -125,7 +125,7 @@ TEST(PoseText, OnlyAFreeJointTranslates) {
             (PoseDegrees{30, 0, 0, {1.5, 0.25, -2}}));
   EXPECT_EQ(to_text(PoseDegrees{30, 0, 0, {1.5, 0, -2}}, Anatomy::knee),
             "flexion=30 adduction=0 internal_rotation=0 x=1.5 y=0 z=-2");
-  EXPECT_NE(refusal("x=1"), "accepted");
+  EXPECT_NE(pose_refusal("x=1"), "accepted");
   const auto refused = [](std::string_view text) {
     try {
       parse_pose(text, JointKind::free, Anatomy::knee);

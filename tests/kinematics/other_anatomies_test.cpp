@@ -14,7 +14,7 @@ namespace {
 using test::degrees_between, test::scanned;
 
 /// Of an axis and a place that are said: what the project asks of them.
-constexpr double most_deg = 3, most_mm = 2, noise = 0.3;
+constexpr double anatomy_most_deg = 3, anatomy_most_mm = 2, noise = 0.3;
 
 double degrees_between_lines(const Vec3& a, const Vec3& b) {
   const double deg = degrees_between(a, b);
@@ -28,10 +28,10 @@ TEST(AnkleAnatomy, OfADrawnAnkleIsFoundInAnyPose) {
     const Pose X = test::any_pose(i);
     const AnkleAnatomy ankle = ankle_anatomy(scanned(tibia, X, noise, i), scanned(talus, X, noise, i + 9));
     ASSERT_TRUE(ankle.dome.fit) << ankle.dome.why_none;
-    EXPECT_LT((ankle.centre - X.translation()).norm(), most_mm);
+    EXPECT_LT((ankle.centre - X.translation()).norm(), anatomy_most_mm);
     ASSERT_TRUE(ankle.axes) << ankle.why_no_axes;
-    EXPECT_LT(degrees_between(ankle.axes->right(), X.linear() * Vec3::UnitZ()), most_deg);
-    EXPECT_LT(degrees_between(ankle.axes->superior, X.linear() * Vec3::UnitY()), most_deg);
+    EXPECT_LT(degrees_between(ankle.axes->right(), X.linear() * Vec3::UnitZ()), anatomy_most_deg);
+    EXPECT_LT(degrees_between(ankle.axes->superior, X.linear() * Vec3::UnitY()), anatomy_most_deg);
   }
 }
 
@@ -66,13 +66,13 @@ TEST(ElbowAnatomy, OfADrawnElbowIsFoundInAnyPose) {
     const Pose X = test::any_pose(i);
     const ElbowAnatomy elbow = elbow_anatomy(scanned(humerus, X, noise, i), scanned(ulna, X, noise, i + 9));
     ASSERT_TRUE(elbow.trochlea.fit) << elbow.trochlea.why_none;
-    EXPECT_LT((elbow.centre - X.translation()).norm(), most_mm);
+    EXPECT_LT((elbow.centre - X.translation()).norm(), anatomy_most_mm);
     EXPECT_LT(degrees_between_lines(elbow.trochlea.fit->cylinder.direction, X.linear() * Vec3::UnitZ()),
-              most_deg);
+              anatomy_most_deg);
     ASSERT_TRUE(elbow.superior) << elbow.why_no_superior;
-    EXPECT_LT(degrees_between(*elbow.superior, X.linear() * Vec3::UnitY()), most_deg);
-    EXPECT_LT(degrees_between(*elbow.from_shaft_line, X.linear() * Vec3::UnitX()), most_deg);
-    EXPECT_NEAR(elbow.off_shaft_line_mm, 9, most_mm);
+    EXPECT_LT(degrees_between(*elbow.superior, X.linear() * Vec3::UnitY()), anatomy_most_deg);
+    EXPECT_LT(degrees_between(*elbow.from_shaft_line, X.linear() * Vec3::UnitX()), anatomy_most_deg);
+    EXPECT_NEAR(elbow.off_shaft_line_mm, 9, anatomy_most_mm);
   }
 }
 
@@ -88,12 +88,12 @@ TEST(ShoulderAnatomy, OfADrawnShoulderIsFoundInAnyPose) {
     const ShoulderAnatomy shoulder =
         shoulder_anatomy(scanned(scapula, X, noise, i), scanned(humerus, X, noise, i + 9));
     ASSERT_TRUE(shoulder.head) << shoulder.why_no_head;
-    EXPECT_LT((shoulder.head->fit.sphere.centre - X.translation()).norm(), most_mm);
+    EXPECT_LT((shoulder.head->fit.sphere.centre - X.translation()).norm(), anatomy_most_mm);
     EXPECT_NEAR(shoulder.head->fit.sphere.radius, 24, 0.5);
     ASSERT_TRUE(shoulder.glenoid) << shoulder.why_no_glenoid;
-    EXPECT_LT((shoulder.glenoid->fit.sphere.centre - X * Vec3(0, 0, 3)).norm(), most_mm);
-    EXPECT_NEAR(shoulder.glenoid->fit.sphere.radius, 30, most_mm);
-    EXPECT_LT(degrees_between(shoulder.glenoid->faces, X.linear() * Vec3::UnitZ()), most_deg);
+    EXPECT_LT((shoulder.glenoid->fit.sphere.centre - X * Vec3(0, 0, 3)).norm(), anatomy_most_mm);
+    EXPECT_NEAR(shoulder.glenoid->fit.sphere.radius, 30, anatomy_most_mm);
+    EXPECT_LT(degrees_between(shoulder.glenoid->faces, X.linear() * Vec3::UnitZ()), anatomy_most_deg);
     EXPECT_LT(degrees_between(*shoulder.towards_humerus, X.linear() * -Vec3::UnitY()), 20);
   }
 }

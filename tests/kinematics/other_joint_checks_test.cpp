@@ -42,12 +42,12 @@ Body of_parts(const char* name, const std::vector<TriMesh>& meshes) {
   return {name, Mesh(all), parts};
 }
 
-TriMesh moved(TriMesh mesh, const Vec3& by) {
+TriMesh shifted(TriMesh mesh, const Vec3& by) {
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, mesh.vertices[v] + by);
   return mesh;
 }
-Body moved(Body body, const Vec3& by) {
-  body.mesh = Mesh(moved(TriMesh(body.mesh), by));
+Body shifted(Body body, const Vec3& by) {
+  body.mesh = Mesh(shifted(TriMesh(body.mesh), by));
   return body;
 }
 Body turned(Body body, const Eigen::Matrix3d& by) {
@@ -84,11 +84,11 @@ TEST(ShoulderChecks, SayNothingOfARightShoulder) {
   EXPECT_EQ(codes_of(whole_shoulder()), Codes{});
   EXPECT_EQ(codes_of(mirrored(whole_shoulder())), Codes{});
   Joint glides = whole_shoulder();
-  glides.mobile = moved(glides.mobile, {0, 0.9, 0});
+  glides.mobile = shifted(glides.mobile, {0, 0.9, 0});
   EXPECT_EQ(codes_of(glides), Codes{});
   Joint worn = whole_shoulder();  // a head of a third of a sphere, 1.2 mm before a larger dish
   worn.fixed.parts.clear(), worn.mobile.parts.clear();
-  worn.fixed.mesh = Mesh(joined(moved(slab_with_dish(32), {0, 0, 6.8}), box({-15, 34, -10}, {15, 40, 30})));
+  worn.fixed.mesh = Mesh(joined(shifted(slab_with_dish(32), {0, 0, 6.8}), box({-15, 34, -10}, {15, 40, 30})));
   EXPECT_EQ(codes_of(worn), Codes{Code::self_crossings}) << "of ball and shaft";
 }
 
@@ -101,11 +101,11 @@ TEST(ShoulderChecks, NoteWhatIsWrong) {
   EXPECT_EQ(codes_after([](Joint& s) { std::swap(s.fixed, s.mobile); }), Codes{Code::swapped_bodies});
   EXPECT_EQ(codes_after([](Joint& s) { s.side = Side::left; }), Codes{Code::wrong_side});
   EXPECT_EQ(codes_after([](Joint& s) {
-              s.fixed = moved(s.fixed, {0, 3, 0}), s.mobile = moved(s.mobile, {0, 3, 0});
+              s.fixed = shifted(s.fixed, {0, 3, 0}), s.mobile = shifted(s.mobile, {0, 3, 0});
             }),
             Codes{Code::centre_off_head});
   EXPECT_EQ(codes_after([](Joint& s) {
-              s.fixed = moved(s.fixed, {0, 7, 0});
+              s.fixed = shifted(s.fixed, {0, 7, 0});
             }),
             Codes{Code::head_socket_apart});
   EXPECT_EQ(codes_after([](Joint& s) {
@@ -175,13 +175,13 @@ TEST(LongBoneChecks, NoteWhatIsWrong) {
         << "a foot has no shaft";
     EXPECT_EQ(codes_after(Anatomy::knee,
                           [](Joint& j) {
-                            j.fixed = moved(j.fixed, {20, 0, 0}), j.mobile = moved(j.mobile, {20, 0, 0});
+                            j.fixed = shifted(j.fixed, {20, 0, 0}), j.mobile = shifted(j.mobile, {20, 0, 0});
                           }),
               Codes{})
         << "43 mm from the axis at most";
     EXPECT_EQ(codes_after(Anatomy::knee,
                           [](Joint& j) {
-                            j.fixed = moved(j.fixed, {80, 0, 0}), j.mobile = moved(j.mobile, {80, 0, 0});
+                            j.fixed = shifted(j.fixed, {80, 0, 0}), j.mobile = shifted(j.mobile, {80, 0, 0});
                           }),
               unless_free(Code::far_centre));
   }
@@ -193,7 +193,7 @@ TEST(LongBoneChecks, NoteWhatIsWrong) {
 TEST(LongBoneChecks, TakeAFreeJointInItsReferencePose) {
   // Both bones in the frame of the upper one, whose origin is at its other end, as in OpenSim; the lower one is brought there.
   Joint joint = rods(JointKind::free, Anatomy::knee);
-  joint.fixed = moved(joint.fixed, {0, -400, 0});
+  joint.fixed = shifted(joint.fixed, {0, -400, 0});
   JointPlacement placement;
   placement.reference_pose.translation_mm = Vec3(0, -400, 0);
   EXPECT_EQ(codes_of(joint, placement), Codes{});
@@ -208,7 +208,7 @@ TEST(LongBoneChecks, KnowAWholeFemurByItsShaft) {
   double lowest = 0;
   for (const double y : femur.vertices.y) lowest = std::min(lowest, y);
   const Body tibia = of_parts("tibia", {box({-35, -60, -35}, {35, -30, 35})});
-  Joint knee{"knee", JointKind::hinge, Side::right, {"femur", moved(femur, {0, -lowest - 25, 0})}, tibia};
+  Joint knee{"knee", JointKind::hinge, Side::right, {"femur", shifted(femur, {0, -lowest - 25, 0})}, tibia};
   knee.anatomy = Anatomy::knee;
   const auto of_shape = [](const Joint& joint) {
     Codes codes = codes_of(joint);
@@ -221,7 +221,7 @@ TEST(LongBoneChecks, KnowAWholeFemurByItsShaft) {
   knee.fixed = {"femur", femur};  // the hip's frame
   EXPECT_EQ(of_shape(knee), (Codes{Code::axes_not_upright}));
   knee.fixed = {"femur", femur};
-  knee.mobile = moved(tibia, {0, lowest + 25, 0});
+  knee.mobile = shifted(tibia, {0, lowest + 25, 0});
   EXPECT_EQ(of_shape(knee), (Codes{Code::axes_not_upright, Code::far_centre}));
 }
 

@@ -20,7 +20,7 @@ namespace {
 
 using namespace test;
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double one_degree = std::numbers::pi / 180;
 
 HipParameters drawn(std::mt19937& random) {
   const auto between = [&](double low, double high) {
@@ -47,17 +47,17 @@ double alpha_of_shape(const sample::Field& femur, double R, const Vec3& neck, co
       if (femur(far * towards).value <= 0) return true;
     return false;
   };
-  double angle = 15 * degree;
-  while (solid_beyond(angle)) angle += 0.02 * degree;
-  double low = angle - 0.02 * degree, high = angle;
+  double angle = 15 * one_degree;
+  while (solid_beyond(angle)) angle += 0.02 * one_degree;
+  double low = angle - 0.02 * one_degree, high = angle;
   for (int i = 0; i < 20; ++i) (solid_beyond((low + high) / 2) ? low : high) = (low + high) / 2;
-  return high / degree;
+  return high / one_degree;
 }
 
 /// Where the roof of the shape ends in the frontal plane, seen from the head's centre.
 double lateral_edge_of_shape(const sample::Field& hip_bone, double R, double about_deg) {
   const auto is_wall = [&](double angle_deg) {
-    const Vec3 towards(0, std::cos(angle_deg * degree), std::sin(angle_deg * degree));
+    const Vec3 towards(0, std::cos(angle_deg * one_degree), std::sin(angle_deg * one_degree));
     for (double far = R; far < R + 10; far += 0.05)
       if (hip_bone(far * towards).value <= 0) return true;
     return false;

@@ -17,7 +17,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-TriMesh box() {
+TriMesh small_box() {
   return test::box({0, 0, 0}, {1, 1, 1});
 }
 
@@ -32,7 +32,7 @@ std::string refusal_of(TriMesh arrays) {
 }
 
 TEST(Mesh, TakesArraysAsTheyAre) {
-  const TriMesh arrays = box();
+  const TriMesh arrays = small_box();
   const Mesh mesh = arrays;
   EXPECT_EQ(mesh.arrays(), arrays);
   EXPECT_EQ(mesh.corner(3, 2), arrays.corner(3, 2));
@@ -40,13 +40,13 @@ TEST(Mesh, TakesArraysAsTheyAre) {
 }
 
 TEST(Mesh, ACopySharesTheArrays) {
-  const Mesh mesh = box(), copy = mesh;
+  const Mesh mesh = small_box(), copy = mesh;
   EXPECT_EQ(&copy.vertices(), &mesh.vertices());
 }
 
 TEST(Mesh, AVertexNumberOutOfRangeIsRefusedNamingTheFirstTriangle) {
   for (const Index number : {Index{8}, Index{1000}, no_index}) {
-    TriMesh arrays = box();
+    TriMesh arrays = small_box();
     arrays.triangles[7][1] = arrays.triangles[9][0] = number;
     EXPECT_EQ(refusal_of(arrays), "triangle 7 uses vertex " + std::to_string(number) + " of 8");
   }
@@ -56,19 +56,19 @@ TEST(Mesh, AVertexNumberOutOfRangeIsRefusedNamingTheFirstTriangle) {
 TEST(Mesh, ACoordinateThatIsNotFiniteIsRefusedNamingTheFirstVertex) {
   for (const double value : {nan, -nan, infinity, -infinity}) {
     for (const auto coordinate : {&Points::x, &Points::y, &Points::z}) {
-      TriMesh arrays = box();
+      TriMesh arrays = small_box();
       (arrays.vertices.*coordinate)[5] = (arrays.vertices.*coordinate)[6] = value;
       EXPECT_EQ(refusal_of(arrays), "vertex 5 has a coordinate that is not finite");
     }
   }
-  TriMesh arrays = box();
+  TriMesh arrays = small_box();
   arrays.vertices.x[2] = infinity, arrays.vertices.y[2] = -infinity;
   EXPECT_EQ(refusal_of(arrays), "vertex 2 has a coordinate that is not finite");
 }
 
 TEST(Mesh, CoordinatesAreAtMostTheLargestThatIsComputedWith) {
   constexpr double largest = 1e30;
-  TriMesh arrays = box();
+  TriMesh arrays = small_box();
   arrays.vertices.set(0, {largest, largest, largest}), arrays.vertices.set(1, {-largest, largest, 0});
   EXPECT_EQ(refusal_of(arrays), "");
   arrays.vertices.y[6] = -std::nextafter(largest, 2 * largest);
@@ -76,7 +76,7 @@ TEST(Mesh, CoordinatesAreAtMostTheLargestThatIsComputedWith) {
 }
 
 TEST(Mesh, ACoordinateMayBeAnyThatIsSmallButNotAllOfThem) {
-  TriMesh arrays = box();
+  TriMesh arrays = small_box();
   arrays.vertices.z[3] = std::numeric_limits<double>::denorm_min();
   EXPECT_EQ(refusal_of(arrays), "");
   for (auto* column : {&arrays.vertices.x, &arrays.vertices.y, &arrays.vertices.z})
@@ -90,21 +90,21 @@ TEST(Mesh, ACoordinateMayBeAnyThatIsSmallButNotAllOfThem) {
 
 TEST(Mesh, CoordinatesOfDifferentNumberAreRefused) {
   for (const auto coordinate : {&Points::x, &Points::y, &Points::z}) {
-    TriMesh more = box(), fewer = box();
+    TriMesh more = small_box(), fewer = small_box();
     (more.vertices.*coordinate).push_back(0), (fewer.vertices.*coordinate).pop_back();
     EXPECT_NE(refusal_of(more).find("not as many of each"), std::string::npos);
     EXPECT_NE(refusal_of(fewer).find("not as many of each"), std::string::npos);
   }
-  TriMesh arrays = box();
+  TriMesh arrays = small_box();
   arrays.vertices.y.pop_back();
   EXPECT_EQ(refusal_of(arrays), "coordinates are 8 x, 7 y and 8 z, not as many of each");
 }
 
 TEST(Mesh, KnowsWhetherItIsClosed) {
-  const Mesh closed = box();
+  const Mesh closed = small_box();
   EXPECT_TRUE(closed.is_closed());
   EXPECT_FALSE(closed.unbalanced_edge());
-  TriMesh arrays = box();
+  TriMesh arrays = small_box();
   const Triangle dropped = arrays.triangles[4];
   arrays.triangles.erase(arrays.triangles.begin() + 4);
   const Mesh open = arrays;

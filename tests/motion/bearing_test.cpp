@@ -8,6 +8,7 @@
 #include "condyle/impingement_zone.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "motion/joint_scenes.hpp"
+#include "motion/motion_cases.hpp"
 #include "support/shared_data.hpp"
 #include "support/test_meshes.hpp"
 
@@ -17,12 +18,6 @@ namespace condyle {
 namespace {
 
 using namespace test;
-
-constexpr double angle_tolerance = 5e-12;
-
-Motion flexion() {
-  return hip_motions().front();
-}
 
 TEST(BearingSurface, IsTheHeadWithinTheMarginOfItsSphere) {
   const Vec3 offset(0.1, -0.05, 0.15);

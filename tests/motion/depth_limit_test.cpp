@@ -6,6 +6,7 @@
 
 #include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
+#include "motion/motion_cases.hpp"
 #include "support/test_meshes.hpp"
 
 /// Limits by allowed depth, where the depth is known.
@@ -38,10 +39,6 @@ Joint spike_and_wall() {
 
 double limit_deg(double depth) {
   return std::asin(wall / (tip_radius - depth)) * 180 / std::numbers::pi - tip_angle;
-}
-
-Motion flexion() {
-  return hip_motions().front();
 }
 
 TEST(DepthLimit, IsWhereTheRadialDepthIsTheAllowedOne) {

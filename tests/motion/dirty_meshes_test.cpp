@@ -105,8 +105,8 @@ const std::vector<Defect>& defects() {
 TriMesh fixed_body() {
   return sphere({0, -20, 4}, 10, 2);
 }
-/// An arm from the joint centre that hangs beside the ball and swings into it.
-TriMesh arm() {
+/// An dirty_arm from the joint centre that hangs beside the ball and swings into it.
+TriMesh dirty_arm() {
   return box({-24, -30, -1}, {-20, -2, 9});
 }
 
@@ -138,7 +138,7 @@ Pairs found_pairs(const JointContact& joint, const Pose& X_FM) {
   return pairs;
 }
 
-/// Every vertex of the arm against exact winding numbers; says whether there was an answer.
+/// Every vertex of the dirty_arm against exact winding numbers; says whether there was an answer.
 bool expect_right_states(const JointContact& joint, const TriMesh& fixed, const TriMesh& mobile,
                          const Pose& X_FM) {
   std::optional<RadialResults> found;
@@ -163,7 +163,7 @@ bool expect_right_states(const JointContact& joint, const TriMesh& fixed, const 
   return true;
 }
 
-/// Where the arm stops by contact it is free before and in contact past the bound.
+/// Where the dirty_arm stops by contact it is free before and in contact past the bound.
 void expect_right_limit(const Mesh& fixed, const TriMesh& mobile) {
   const RangeOfMotion range({"dirty", JointKind::ball, Side::right, {"ball", fixed}, {"arm", Mesh(mobile)}},
                             {.bearing = {.rule = BearingRule::count}});
@@ -183,7 +183,7 @@ void check(const TriMesh& dirty, const std::vector<const Defect*>& made) {
   if (made.size() == 1) {
     EXPECT_TRUE(made[0]->is_reported(report));
   }
-  const TriMesh mobile = arm();
+  const TriMesh mobile = dirty_arm();
   const JointContact joint(fixed, Mesh(mobile)), exchanged(Mesh(mobile), fixed);
   for (const double degrees : {30.0, 45.0, 60.0}) {
     const Pose X_FM = turned(degrees);

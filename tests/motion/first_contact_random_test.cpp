@@ -15,7 +15,7 @@ using namespace test;
 
 constexpr double microdegree = 1e-6 * std::numbers::pi / 180;
 
-std::mt19937 any_random() {
+std::mt19937 random_by_rapidcheck() {
   return std::mt19937(*rc::gen::arbitrary<unsigned>());
 }
 
@@ -43,19 +43,19 @@ void expect_brute_force_agrees(const RotationScene& scene) {
 
 /// 100 runs of 100 pairs.
 RC_GTEST_PROP(FirstContactRandom, EqualsTheFirstOfAllPairsOfFeatures, ()) {
-  auto random = any_random();
+  auto random = random_by_rapidcheck();
   for (int i = 0; i < 100; ++i) expect_brute_force_agrees(random_scene(random));
 }
 
 RC_GTEST_PROP(FirstContactRandom, EqualsTheFirstOfAllPairsOfFeaturesTenMetresAway, ()) {
-  auto random = any_random();
+  auto random = random_by_rapidcheck();
   for (int i = 0; i < 10; ++i) expect_brute_force_agrees(moved(far_away(random), random_scene(random)));
 }
 
 /// Coordinates from a coarse lattice: coplanar faces, parallel edges, features on the axis and in planes of
 /// the motion.
 RC_GTEST_PROP(FirstContactRandom, EqualsTheFirstOfAllPairsOfFeaturesOnALattice, ()) {
-  auto random = any_random();
+  auto random = random_by_rapidcheck();
   for (int i = 0; i < 20; ++i) {
     RotationScene scene = random_scene(random);
     for (auto* mesh : {&scene.rotating, &scene.stationary}) {
@@ -69,7 +69,7 @@ RC_GTEST_PROP(FirstContactRandom, EqualsTheFirstOfAllPairsOfFeaturesOnALattice, 
 }
 
 RC_GTEST_PROP(FirstContactRandom, IsFreeJustBeforeAndTouchingJustAfterByExactTriangleTests, ()) {
-  auto random = any_random();
+  auto random = random_by_rapidcheck();
   for (int i = 0; i < 2; ++i) {
     const RotationScene scene = random_scene(random);
     const auto found = limits(scene);
@@ -90,7 +90,7 @@ RC_GTEST_PROP(FirstContactRandom, IsFreeJustBeforeAndTouchingJustAfterByExactTri
 
 /// Containment by an independent winding number.
 RC_GTEST_PROP(FirstContactRandom, StartsInContactExactlyWhereSurfacesTouchOrOneIsInside, ()) {
-  auto random = any_random();
+  auto random = random_by_rapidcheck();
   for (int i = 0; i < 5; ++i) {
     RotationScene scene = random_scene(random);
     const Vec3 c = scene.stationary.vertices[0];
@@ -110,7 +110,7 @@ RC_GTEST_PROP(FirstContactRandom, StartsInContactExactlyWhereSurfacesTouchOrOneI
 }
 
 RC_GTEST_PROP(FirstContactRandom, ExchangingTheBodiesNegatesAndAgrees, ()) {
-  auto random = any_random();
+  auto random = random_by_rapidcheck();
   for (int i = 0; i < 20; ++i) {
     const RotationScene scene = random_scene(random);
     const auto one = limits(scene), other = limits(exchanged(scene));
@@ -129,7 +129,7 @@ RC_GTEST_PROP(FirstContactRandom, ExchangingTheBodiesNegatesAndAgrees, ()) {
 }
 
 RC_GTEST_PROP(FirstContactRandom, SplittingEveryTriangleInPlaceChangesNothing, ()) {
-  auto random = any_random();
+  auto random = random_by_rapidcheck();
   for (int i = 0; i < 5; ++i) {
     const RotationScene scene = random_scene(random);
     const RotationScene finer{split_in_four(split_in_four(scene.rotating)), split_in_four(scene.stationary),
@@ -144,7 +144,7 @@ RC_GTEST_PROP(FirstContactRandom, SplittingEveryTriangleInPlaceChangesNothing, (
 }
 
 RC_GTEST_PROP(FirstContactRandom, TouchesAtOnePointOfBothBodies, ()) {
-  auto random = any_random();
+  auto random = random_by_rapidcheck();
   for (int i = 0; i < 10; ++i) {
     const RotationScene scene = moved(Pose(Eigen::Translation3d(1, 2, 3)), random_scene(random));
     const auto found = limits(scene);

@@ -24,7 +24,7 @@ using std::numbers::pi;
 constexpr double placing = 1e-10;
 
 /// The scene as it is, turned, far away, and turned far away.
-std::vector<RotationScene> everywhere(const RotationScene& scene) {
+std::vector<RotationScene> here_and_far_away(const RotationScene& scene) {
   std::mt19937 random(1);
   std::vector<RotationScene> scenes = {scene, moved(Pose(Eigen::Translation3d(1e4, 0, -1e4)), scene)};
   for (int i = 0; i < 6; ++i) scenes.push_back(moved(far_away(random), scene));
@@ -48,7 +48,7 @@ RotationScene door_on_post() {
 }
 
 TEST(Door, StopsAtThePostWhereTheArctangentSays) {
-  for (const RotationScene& scene : everywhere(door_on_post())) {
+  for (const RotationScene& scene : here_and_far_away(door_on_post())) {
     const auto found = limits(scene);
     expect_limit(found.positive, pi / 4);
     EXPECT_EQ(found.positive.contact->mobile_feature.kind, FeatureKind::face);
@@ -62,7 +62,7 @@ TEST(Door, StopsAtThePostWhereTheArctangentSays) {
 }
 
 TEST(Door, AndPostWithExchangedRolesTurnAFaceOnVertexIntoAVertexOnFace) {
-  for (const RotationScene& scene : everywhere(door_on_post())) {
+  for (const RotationScene& scene : here_and_far_away(door_on_post())) {
     const auto found = limits(exchanged(scene));
     expect_limit(found.negative, pi / 4);
     EXPECT_EQ(found.negative.contact->mobile_feature, (Feature{FeatureKind::vertex, 0}));
@@ -144,7 +144,7 @@ bool any_vertex_ever_touches(const RotationScene& scene) {
 
 TEST(CrossedPrisms, MeetRidgeOnRidgeWhichNoVertexEverSees) {
   for (const double ahead : {0.3, 1.0, 3.0, 5.5}) {
-    for (const RotationScene& scene : everywhere(crossed_prisms(ahead))) {
+    for (const RotationScene& scene : here_and_far_away(crossed_prisms(ahead))) {
       EXPECT_FALSE(any_vertex_ever_touches(scene));
       const auto found = limits(scene);
       expect_limit(found.positive, ahead);
@@ -163,7 +163,7 @@ TEST(CrossedPrisms, TouchAtTheCrossingOfTheirRidges) {
 
 TEST(BodyOfRevolution, BesideAnotherNeverTouches) {
   const RotationScene scene{torus(3, 1, 64, 16), box({4.5, -1, -1}, {6, 1, 1})};
-  for (const RotationScene& s : everywhere(scene)) {
+  for (const RotationScene& s : here_and_far_away(scene)) {
     for (const auto& found : {limits(s), limits(exchanged(s))}) {
       EXPECT_EQ(found.positive.reason, LimitReason::end_of_range);
       EXPECT_EQ(found.positive.turned.radians(), two_pi);
@@ -175,7 +175,7 @@ TEST(BodyOfRevolution, BesideAnotherNeverTouches) {
 
 TEST(BodyOfRevolution, CrossingAnotherAlwaysTouches) {
   const RotationScene scene{torus(3, 1, 64, 16), box({3, -1, -3}, {6, 1, 3})};
-  for (const RotationScene& s : everywhere(scene)) {
+  for (const RotationScene& s : here_and_far_away(scene)) {
     EXPECT_EQ(limits(s).positive.reason, LimitReason::contact_at_start);
     EXPECT_TRUE(limits(s).positive.contact);
   }

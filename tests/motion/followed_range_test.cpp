@@ -11,6 +11,7 @@
 #include "condyle/error.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "motion/joint_scenes.hpp"
+#include "motion/motion_cases.hpp"
 #include "support/test_meshes.hpp"
 
 /// Limits of joints whose centre is not held: free before them and in contact after them, as exact tests of triangles at poses say.
@@ -19,13 +20,6 @@ namespace condyle {
 namespace {
 
 using namespace test;
-
-TriMesh random_box(std::mt19937& random) {
-  std::uniform_real_distribution<double> place(-1, 1), far(25, 60), size(2, 9);
-  const Vec3 centre = Vec3(place(random), place(random), place(random)).normalized() * far(random);
-  const Vec3 half(size(random), size(random), size(random));
-  return box(centre - half, centre + half);
-}
 
 Joint random_joint(std::mt19937& random, TranslationFrame frame) {
   const auto body = [&](const char* name) {

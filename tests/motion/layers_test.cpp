@@ -13,6 +13,7 @@
 #include "condyle/limit_band.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "motion/joint_scenes.hpp"
+#include "motion/motion_cases.hpp"
 #include "support/test_meshes.hpp"
 
 /// Bodies of several meshes whose contact ends a motion, slides or gives way: each answer is that of the pairs of meshes, each pair
@@ -43,15 +44,6 @@ Body body_of(const char* name, std::span<const Layer> layers) {
 /// A joint without a head: only words distinguish contacts.
 Joint knee_of(Body fixed, Body mobile) {
   return {"layers", JointKind::ball, Side::right, std::move(fixed), std::move(mobile), Anatomy::knee};
-}
-
-/// A box somewhere between 25 and 60 mm from the centre.
-TriMesh random_box(std::mt19937& random) {
-  std::uniform_real_distribution<double> place(-1, 1), far(25, 60), size(2, 9);
-  Vec3 direction(place(random), place(random), place(random));
-  const Vec3 centre = direction.normalized() * far(random);
-  const Vec3 half(size(random), size(random), size(random));
-  return box(centre - half, centre + half);
 }
 
 std::vector<Layer> random_layers(std::mt19937& random) {

@@ -8,6 +8,7 @@
 
 #include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
+#include "motion/motion_cases.hpp"
 #include "support/real_hip.hpp"
 
 /// Bands of limits: in closed form, the same on any number of threads, and those of an independent run on real hips.
@@ -16,10 +17,6 @@ namespace condyle {
 namespace {
 
 using namespace test;
-
-Motion flexion() {
-  return hip_motions().front();
-}
 
 /// With the centre displaced in F, and in M by `arm_x` across the arm.
 double post_limit_deg(const Vec3& centre, double arm_x) {
@@ -158,21 +155,21 @@ TEST(LimitBand, EndsWhereItIsStopped) {
 }
 
 /// Quantiles of 200 samples drawn by another generator, and the widths that each source alone gives.
-struct Expected {
+struct ExpectedBand {
   double p5_deg, median_deg, p95_deg, centre_deg, axes_deg, surface_deg;
 };
-constexpr std::array<Expected, 12> vhf_bands{{{127.0, 133.7, 138.0, 10.1, 7.3, 5.0},
-                                              {68.0, 72.9, 79.5, 8.6, 8.0, 6.0},
-                                              {59.5, 61.3, 63.6, 4.0, 0.8, 2.6},
-                                              {37.4, 39.3, 41.3, 1.3, 3.5, 2.1},
-                                              {97.7, 102.7, 115.5, 16.0, 4.8, 8.3},
-                                              {50.9, 55.1, 60.8, 4.8, 7.5, 3.3},
-                                              {67.6, 75.2, 81.9, 13.0, 5.6, 6.0},
-                                              {49.8, 53.2, 56.4, 5.8, 4.0, 3.5},
-                                              {26.8, 32.5, 37.7, 10.5, 4.6, 5.1},
-                                              {104.6, 110.8, 116.3, 9.7, 6.9, 4.2},
-                                              {20.2, 26.0, 31.3, 10.5, 4.2, 5.1},
-                                              {85.8, 120.0, 120.0, 0.0, 30.7, 0.0}}};
+constexpr std::array<ExpectedBand, 12> vhf_bands{{{127.0, 133.7, 138.0, 10.1, 7.3, 5.0},
+                                                  {68.0, 72.9, 79.5, 8.6, 8.0, 6.0},
+                                                  {59.5, 61.3, 63.6, 4.0, 0.8, 2.6},
+                                                  {37.4, 39.3, 41.3, 1.3, 3.5, 2.1},
+                                                  {97.7, 102.7, 115.5, 16.0, 4.8, 8.3},
+                                                  {50.9, 55.1, 60.8, 4.8, 7.5, 3.3},
+                                                  {67.6, 75.2, 81.9, 13.0, 5.6, 6.0},
+                                                  {49.8, 53.2, 56.4, 5.8, 4.0, 3.5},
+                                                  {26.8, 32.5, 37.7, 10.5, 4.6, 5.1},
+                                                  {104.6, 110.8, 116.3, 9.7, 6.9, 4.2},
+                                                  {20.2, 26.0, 31.3, 10.5, 4.2, 5.1},
+                                                  {85.8, 120.0, 120.0, 0.0, 30.7, 0.0}}};
 
 TEST(RealHipBands, AgreeWithAnIndependentRun) {
   const auto hip = hip_vhf_right();
@@ -184,7 +181,7 @@ TEST(RealHipBands, AgreeWithAnIndependentRun) {
   const auto surface = limit_bands(joint, motions, {}, {.sigma = {.centre_mm = 0, .axes = Angle()}});
   for (std::size_t i = 0; i < motions.size(); ++i) {
     SCOPED_TRACE(motions[i].name);
-    const Expected& expected = vhf_bands[i];
+    const ExpectedBand& expected = vhf_bands[i];
     const auto near = [](Angle found, double expected_deg, double width_deg) {
       EXPECT_NEAR(found.degrees(), expected_deg, std::max(1.5, width_deg / 10));
     };

@@ -12,6 +12,7 @@
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
+#include "motion/motion_cases.hpp"
 
 /// Limits of a joint's motions: closed forms in all three angles and on both sides, the joint in other words,
 /// and the same bytes whichever way they are asked for.
@@ -20,10 +21,6 @@ namespace condyle {
 namespace {
 
 using namespace test;
-
-/// Coordinates go through at most two rotations and one arctangent: some ten roundings of angles of a few
-/// radians, each 2^-53 of it; contact itself is short by at most 4e-12.
-constexpr double angle_tolerance = 5e-12;
 
 void expect_same_end(const MotionLimit& a, const MotionLimit& b) {
   EXPECT_EQ(a.end.turned, b.end.turned) << a.motion.name;

@@ -8,7 +8,7 @@
 #include "condyle/range_of_motion.hpp"
 #include "support/shared_data.hpp"
 
-/// Every built-in motion of real hips, against the exact sets of intersecting triangles.
+/// Every built-in motion of real real_hips, against the exact sets of intersecting triangles.
 
 namespace condyle {
 namespace {
@@ -20,7 +20,7 @@ struct HipFiles {
   Side side;
   friend void PrintTo(const HipFiles& hip, std::ostream* out) { *out << hip.name; }
 };
-const HipFiles hips[] = {
+const HipFiles real_hips[] = {
     {"vhf", "hip_vhf_right/hip_bone.ply", "hip_vhf_right/femur.ply", Side::right},
     {"libhip_coarse", "hip_libhip_m1_left/coarse/hip_bone_2442.ply",
      "hip_libhip_m1_left/coarse/femur_1542.ply", Side::left},
@@ -44,7 +44,7 @@ class RealHipLimits : public testing::TestWithParam<HipFiles> {
 
   Joint joint_{{}, JointKind::ball, Side::right, {{}, TriMesh{}}, {{}, TriMesh{}}};
 };
-INSTANTIATE_TEST_SUITE_P(SharedData, RealHipLimits, testing::ValuesIn(hips),
+INSTANTIATE_TEST_SUITE_P(SharedData, RealHipLimits, testing::ValuesIn(real_hips),
                          [](const auto& hip) { return hip.param.name; });
 
 TEST_P(RealHipLimits, AreFreeAMicrodegreeBeforeAndInContactAMicrodegreeAfter) {

@@ -5,6 +5,7 @@
 #include "condyle/range_of_motion.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "motion/joint_scenes.hpp"
+#include "motion/motion_cases.hpp"
 #include "support/parametric_shoulder.hpp"
 
 /// A shoulder of parametric parts: what meets the acromion ends a motion, what slides in the glenoid does not.
@@ -13,8 +14,6 @@ namespace condyle {
 namespace {
 
 using namespace test;
-
-constexpr double angle_tolerance = 5e-12;
 
 Motion motion(const char* name) {
   return motion_named(built_in_motions(JointKind::ball, Anatomy::shoulder), name);

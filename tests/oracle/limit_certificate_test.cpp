@@ -12,23 +12,23 @@ namespace {
 
 using test::CgalOracle;
 
-struct HipFiles {
+struct SidedHipFiles {
   const char* name;
   const char* fixed;
   const char* mobile;
   Side side;
-  friend void PrintTo(const HipFiles& hip, std::ostream* out) { *out << hip.name; }
+  friend void PrintTo(const SidedHipFiles& hip, std::ostream* out) { *out << hip.name; }
 };
-const HipFiles hips[] = {
+const SidedHipFiles sided_hips[] = {
     {"vhf", "hip_vhf_right/hip_bone.ply", "hip_vhf_right/femur.ply", Side::right},
     {"libhip", "hip_libhip_m1_left/hip_bone.ply", "hip_libhip_m1_left/femur.ply", Side::left},
     {"libhip_coarse", "hip_libhip_m1_left/coarse/hip_bone_2442.ply",
      "hip_libhip_m1_left/coarse/femur_1542.ply", Side::left},
 };
 
-class LimitCertificate : public testing::TestWithParam<std::tuple<HipFiles, std::size_t>> {};
+class LimitCertificate : public testing::TestWithParam<std::tuple<SidedHipFiles, std::size_t>> {};
 INSTANTIATE_TEST_SUITE_P(SharedData, LimitCertificate,
-                         testing::Combine(testing::ValuesIn(hips),
+                         testing::Combine(testing::ValuesIn(sided_hips),
                                           testing::Range<std::size_t>(0, hip_motions().size())),
                          [](const auto& at) {
                            return std::string(std::get<0>(at.param).name) + "_" +

@@ -25,9 +25,9 @@ namespace {
 using test::made_hip;
 using test::topology;
 
-constexpr Scenario scenarios[] = {Scenario::one, Scenario::two, Scenario::three, Scenario::four};
+constexpr Scenario hip_scenarios[] = {Scenario::one, Scenario::two, Scenario::three, Scenario::four};
 
-void expect_sound(const TriMesh& mesh, int genus) {
+void expect_sound_hip(const TriMesh& mesh, int genus) {
   const auto found = topology(mesh);
   EXPECT_TRUE(found.is_closed_and_consistent);
   EXPECT_TRUE(found.has_manifold_vertices);
@@ -42,7 +42,7 @@ TEST(SampleHip, HasTheCountsOfThePapersTable1) {
   const std::size_t bone_vertices[] = {1221, 4884, 19536, 78144},
                     bone_triangles[] = {2442, 9768, 39072, 156288};
   for (int i = 0; i < 4; ++i) {
-    const SampleHip& hip = made_hip(scenarios[i]);
+    const SampleHip& hip = made_hip(hip_scenarios[i]);
     EXPECT_EQ(hip.femur.vertices.size(), femur_vertices[i]);
     EXPECT_EQ(hip.femur.triangles.size(), femur_triangles[i]);
     EXPECT_EQ(hip.hip_bone.vertices.size(), bone_vertices[i]);
@@ -51,14 +51,14 @@ TEST(SampleHip, HasTheCountsOfThePapersTable1) {
 }
 
 TEST(SampleHip, IsClosedManifoldAndWoundOutwardsWithOneHoleInTheHipBone) {
-  for (const Scenario scenario : scenarios) {
-    expect_sound(made_hip(scenario).femur, 0);
-    expect_sound(made_hip(scenario).hip_bone, 1);
+  for (const Scenario scenario : hip_scenarios) {
+    expect_sound_hip(made_hip(scenario).femur, 0);
+    expect_sound_hip(made_hip(scenario).hip_bone, 1);
   }
 }
 
 TEST(SampleHip, DoesNotRunIntoItself) {
-  for (const Scenario scenario : scenarios) {
+  for (const Scenario scenario : hip_scenarios) {
     EXPECT_FALSE(sample::first_self_intersection(made_hip(scenario).femur));
     EXPECT_FALSE(sample::first_self_intersection(made_hip(scenario).hip_bone));
   }
@@ -75,7 +75,7 @@ TEST(SampleHip, VerticesLieOnTheSolidsTheyWereMadeFrom) {
   };
   // laid_on leaves a distance of at most laid_tolerance / 4 by the local slope, and no field is steeper than
   // two.
-  for (const Scenario scenario : scenarios) {
+  for (const Scenario scenario : hip_scenarios) {
     EXPECT_LT(worst(femur, made_hip(scenario).femur), sample::laid_tolerance);
     EXPECT_LT(worst(hip_bone, made_hip(scenario).hip_bone), sample::laid_tolerance);
   }
@@ -83,8 +83,8 @@ TEST(SampleHip, VerticesLieOnTheSolidsTheyWereMadeFrom) {
 
 TEST(SampleHip, FinerScenariosKeepTheVerticesOfCoarserOnes) {
   for (int i = 0; i + 1 < 4; ++i) {
-    const auto& coarse = made_hip(scenarios[i]).hip_bone.vertices;
-    const auto& fine = made_hip(scenarios[i + 1]).hip_bone.vertices;
+    const auto& coarse = made_hip(hip_scenarios[i]).hip_bone.vertices;
+    const auto& fine = made_hip(hip_scenarios[i + 1]).hip_bone.vertices;
     for (std::size_t v = 0; v < coarse.size(); ++v) EXPECT_EQ(coarse[v], fine[v]);
   }
 }
@@ -92,7 +92,7 @@ TEST(SampleHip, FinerScenariosKeepTheVerticesOfCoarserOnes) {
 TEST(SampleHip, TrianglesAreNoSlivers) {
   // Remeshing avoids angles below 30 degrees; laying midpoints on a sharp lip takes some of that away again.
   constexpr double least_deg = 20;
-  for (const Scenario scenario : scenarios) {
+  for (const Scenario scenario : hip_scenarios) {
     EXPECT_GT(test::smallest_angles_deg(made_hip(scenario).femur).front(), least_deg);
     EXPECT_GT(test::smallest_angles_deg(made_hip(scenario).hip_bone).front(), least_deg);
   }
@@ -116,8 +116,8 @@ TEST(SampleHip, AnyEvenCountAndAnyEdgeLengthCanBeAskedFor) {
     const SampleHip hip = sample_hip({}, counts);
     EXPECT_EQ(hip.hip_bone.triangles.size(), counts.hip_bone);
     EXPECT_EQ(hip.femur.triangles.size(), counts.femur);
-    expect_sound(hip.hip_bone, 1);
-    expect_sound(hip.femur, 0);
+    expect_sound_hip(hip.hip_bone, 1);
+    expect_sound_hip(hip.femur, 0);
   }
   const TriMesh femur = sample_hip({}, EdgeLength{4}).femur;
   double sum = 0, count = 0;
@@ -276,8 +276,8 @@ TEST(SampleHip, CountsThatNoMeshCanHaveAreRefused) {
 TEST(SampleHip, LeftHipIsTheMirrorImage) {
   const SampleHip& right = made_hip(Scenario::one);
   const SampleHip left = mirrored(right);
-  expect_sound(left.femur, 0);
-  expect_sound(left.hip_bone, 1);
+  expect_sound_hip(left.femur, 0);
+  expect_sound_hip(left.hip_bone, 1);
   for (std::size_t v = 0; v < left.femur.vertices.size(); ++v) {
     EXPECT_EQ(left.femur.vertices[v], Vec3(1, 1, -1).cwiseProduct(right.femur.vertices[v]));
   }

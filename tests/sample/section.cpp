@@ -16,7 +16,7 @@ struct Segment {
   Edge from_edge, to_edge;
 };
 
-std::vector<Segment> cuts(const TriMesh& mesh, const Vec3& normal, double offset) {
+std::vector<Segment> triangle_cuts(const TriMesh& mesh, const Vec3& normal, double offset) {
   std::vector<Segment> found;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     Segment cut;
@@ -43,7 +43,7 @@ std::vector<Segment> cuts(const TriMesh& mesh, const Vec3& normal, double offset
 }  // namespace
 
 std::vector<SectionLoop> section(const TriMesh& mesh, const Vec3& normal, double offset) {
-  const auto segments = cuts(mesh, normal, offset);
+  const auto segments = triangle_cuts(mesh, normal, offset);
   std::map<Edge, std::size_t> starting_at;
   for (std::size_t i = 0; i < segments.size(); ++i) starting_at[segments[i].from_edge] = i;
 

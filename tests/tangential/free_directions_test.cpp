@@ -13,7 +13,7 @@
 namespace condyle {
 namespace {
 
-Vec3 on_circle(double rho, double angle, double z) {
+Vec3 at_radians(double rho, double angle, double z) {
   return {rho * std::cos(angle), rho * std::sin(angle), z};
 }
 
@@ -127,7 +127,7 @@ TEST(FreeDirections, TheWindingNumberInAFreeDirectionIsThatOfEveryPointThere) {
         const double rho = grid.rho_min + (column + weight(random)) * grid.rho_cell;
         const double z = grid.z_min + (row + weight(random)) * grid.z_cell;
         const double angle = tangential::FreeDirections::angle_of(anchor.direction).radians();
-        EXPECT_EQ(winding.at(on_circle(rho, angle, z)).winding, anchor.winding) << rho << " " << z;
+        EXPECT_EQ(winding.at(at_radians(rho, angle, z)).winding, anchor.winding) << rho << " " << z;
         inside += anchor.winding > 0, ++compared;
       }
     }

@@ -18,7 +18,7 @@
 namespace condyle {
 namespace {
 
-const AxisFrame z_axis(Vec3::Zero(), Vec3::UnitZ());
+const AxisFrame about_z_axis(Vec3::Zero(), Vec3::UnitZ());
 
 struct Listed {
   tangential::AxisVertices vertices;
@@ -28,7 +28,7 @@ struct Listed {
 
 Listed listed(const TriMesh& mesh, std::size_t cells) {
   Listed out;
-  out.vertices = tangential::vertices_in_axis_frame(mesh.vertices, z_axis);
+  out.vertices = tangential::vertices_in_axis_frame(mesh.vertices, about_z_axis);
   out.boxes = tangential::profile_boxes(out.vertices.rounded, mesh.triangles);
   out.lists = tangential::RingLists(out.vertices, mesh.triangles, out.boxes, cells);
   return out;
@@ -74,7 +74,7 @@ TEST(RingLists, TheCircleOfEveryPointOfATriangleFindsIt) {
           }
         }
         tangential::LocatedCircles circles;
-        tangential::locate_circles(z_axis, lists.grid(), points, circles);
+        tangential::locate_circles(about_z_axis, lists.grid(), points, circles);
         ASSERT_EQ(circles.size(), points.size()) << "shift " << shift << " scale " << scale;
         tangential::CandidatePairs pairs;
         std::set<std::pair<Index, Index>> found;
@@ -105,7 +105,7 @@ TEST(RingLists, ABoxIsNoWiderThanItsTriangleByMoreThanTwoPartsOfACell) {
     Points point;
     point.push_back({rho, 0, z});
     tangential::LocatedCircles circle;
-    tangential::locate_circles(z_axis, grid, point, circle);
+    tangential::locate_circles(about_z_axis, grid, point, circle);
     ASSERT_EQ(circle.size(), 1u);
     tangential::CandidatePairs pairs;
     gather_candidates(all.lists, circle.cell, 0, pairs);

@@ -7,7 +7,7 @@
 namespace condyle {
 namespace {
 
-test::LabelImage image(std::size_t layers = 1) {
+test::LabelImage labelled_image(std::size_t layers = 1) {
   return test::label_image(Eigen::Affine3d::Identity(), layers);
 }
 
@@ -21,15 +21,15 @@ LabelMap named_by_nifti(const std::string& labels) {
       "<VolumeType><![CDATA[Label]]></VolumeType>\n</VolumeInformation></CaretExtension>";
   const std::string extensions =
       std::string("\1\0\0\0", 4) + test::nifti_extension(6, "a comment") + test::nifti_extension(0, xml);
-  return read_labels(test::nifti(image(), {.extensions = extensions}), LabelFormat::nifti, "bones");
+  return read_labels(test::nifti(labelled_image(), {.extensions = extensions}), LabelFormat::nifti, "bones");
 }
 
 LabelMap named_by_slicer(const std::string& lines, std::size_t layers) {
-  return read_labels(test::nrrd(image(layers), {.more_lines = lines}), LabelFormat::nrrd, "bones");
+  return read_labels(test::nrrd(labelled_image(layers), {.more_lines = lines}), LabelFormat::nrrd, "bones");
 }
 
 LabelMap without_names() {
-  return read_labels(test::nifti(image()), LabelFormat::nifti, "bones");
+  return read_labels(test::nifti(labelled_image()), LabelFormat::nifti, "bones");
 }
 
 const std::string femurs =
@@ -143,7 +143,8 @@ TEST(ChosenLabels, ByNumberAreTakenAsGivenAndNoted) {
             "total.");
   EXPECT_EQ(choose_label(without_names(), "3").notes[0].text,
             "Label 3 is taken as given: neither the file nor a known table names it.");
-  EXPECT_EQ(chosen(without_names(), "90"), "no voxel has the label 90: the image holds 3, 75, 76, 120");
+  EXPECT_EQ(chosen(without_names(), "90"),
+            "no voxel has the label 90: the image holds 3, 75, 76, 120");
   EXPECT_TRUE(chosen(without_names(), "-3").starts_with("'-3': the file names no labels"));
 }
 

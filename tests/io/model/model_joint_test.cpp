@@ -10,6 +10,7 @@
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/model_file.hpp"
 #include "condyle/io/provenance.hpp"
+#include "io/model/pose_of_rows.hpp"
 #include "support/mesh_bytes.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
@@ -22,12 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-Pose pose_of_rows(const Json& rows) {
-  Pose X;
-  for (int i = 0; i < 16; ++i) X.matrix()(i / 4, i % 4) = rows[static_cast<std::size_t>(i)].get<double>();
-  return X;
-}
 
 /// The model in a folder of its own, every mesh it names a box of some centimetres.
 Model with_boxes(const fs::path& file, const fs::path& folder) {
@@ -96,7 +91,7 @@ TEST_P(ModelJoints, PlaceTheChildWhereTheModelDoes) {
       for (std::size_t i = 0; i < motion.X_FM.size(); ++i) {
         const Eigen::Affine3d X =
             from.fixed.source_from_joint * Eigen::Affine3d(*motion.X_FM[i]) * from.mobile.joint_from_source;
-        const Pose wanted = pose_of_rows(expected["poses"][i]["child_in_parent"]);
+        const Pose wanted = test::pose_of_rows(expected["poses"][i]["child_in_parent"]);
         EXPECT_LE((X.matrix() - wanted.matrix()).cwiseAbs().maxCoeff(), 1e-12) << expected["poses"][i]["q"];
       }
       ++joints;

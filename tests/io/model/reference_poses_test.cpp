@@ -7,6 +7,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/model_file.hpp"
+#include "io/model/pose_of_rows.hpp"
 #include "support/shared_data.hpp"
 
 // Poses of every joint of the shared models as an evaluator of another hand has them, which OpenSim's own positions of
@@ -16,12 +17,6 @@ namespace condyle {
 namespace {
 
 using Json = nlohmann::json;
-
-Pose pose_of_rows(const Json& rows) {
-  Pose X;
-  for (int i = 0; i < 16; ++i) X.matrix()(i / 4, i % 4) = rows[static_cast<std::size_t>(i)].get<double>();
-  return X;
-}
 
 class ReferencePoses : public ::testing::TestWithParam<const char*> {
  protected:
@@ -49,8 +44,8 @@ TEST_P(ReferencePoses, AreThoseOfEveryJoint) {
       EXPECT_EQ(joint.type, expected["type"]);
       EXPECT_EQ(joint.parent_body, expected["parent_body"]);
       EXPECT_EQ(joint.child_body, expected["child_body"]);
-      EXPECT_TRUE(joint.X_PF.isApprox(pose_of_rows(expected["parent_frame_in_parent_body"]), 1e-15));
-      EXPECT_TRUE(joint.X_CM.isApprox(pose_of_rows(expected["child_frame_in_child_body"]), 1e-15));
+      EXPECT_TRUE(joint.X_PF.isApprox(test::pose_of_rows(expected["parent_frame_in_parent_body"]), 1e-15));
+      EXPECT_TRUE(joint.X_CM.isApprox(test::pose_of_rows(expected["child_frame_in_child_body"]), 1e-15));
       ASSERT_EQ(joint.coordinates.size(), expected["coordinates"].size());
       for (std::size_t i = 0; i < joint.coordinates.size(); ++i) {
         const Json& coordinate = expected["coordinates"][i];
@@ -62,7 +57,7 @@ TEST_P(ReferencePoses, AreThoseOfEveryJoint) {
       for (const Json& pose : expected["poses"]) {
         const Pose X = pose_of(joint, pose["q"].get<std::vector<double>>());
         const double off =
-            (X.matrix() - pose_of_rows(pose["child_in_parent"]).matrix()).cwiseAbs().maxCoeff();
+            (X.matrix() - test::pose_of_rows(pose["child_in_parent"]).matrix()).cwiseAbs().maxCoeff();
         EXPECT_LE(off, 1e-12) << pose["q"];
         ++poses;
       }
@@ -90,7 +85,8 @@ TEST_P(ReferencePoses, AreOfBodiesWithTheseMeshes) {
           const Json& mesh = expected[key][i];
           for (int k = 0; k < 3; ++k)
             EXPECT_EQ(meshes[i].scale[k], mesh["scale_factors"][static_cast<std::size_t>(k)].get<double>());
-          EXPECT_TRUE(meshes[i].X_BG.isApprox(pose_of_rows(mesh["pose_in_body"]), 1e-14)) << mesh["file"];
+          EXPECT_TRUE(meshes[i].X_BG.isApprox(test::pose_of_rows(mesh["pose_in_body"]), 1e-14))
+              << mesh["file"];
         }
       }
     }

@@ -5,6 +5,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "io/motion/some_pose.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
@@ -13,16 +14,9 @@
 namespace condyle {
 namespace {
 
-Pose some_pose(double angle, const Vec3& axis, const Vec3& place) {
-  Pose X = Pose::Identity();
-  X.linear() = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
-  X.translation() = place;
-  return X;
-}
-
 /// Where the mobile body's frame is in the fixed body's, and the fixed body's in that of a laboratory.
-const Pose X_FM_recorded = some_pose(0.6, {1, -2, 3}, {12, -40, 7});
-const Pose X_LF = some_pose(2.1, {3, 1, -1}, {500, 120, -80});
+const Pose X_FM_recorded = test::some_pose(0.6, {1, -2, 3}, {12, -40, 7});
+const Pose X_LF = test::some_pose(2.1, {3, 1, -1}, {500, 120, -80});
 
 /// A mobile body, and as the fixed one the same where the recording has it: in the pose read, each vertex of the one is at
 /// that of the other, without any arithmetic of frames here.
@@ -126,7 +120,7 @@ TEST(JointMotion, TranslationsAreRecordedAlongTheAxesThatTheJointNames) {
 /// Turns about a point that stays where it is: a ball there, and no ball anywhere else.
 TEST(JointMotion, ABallDoesNotTranslate) {
   const Vec3 centre(5, -6, 70);
-  Pose about_centre = some_pose(0.6, {1, -2, 3}, Vec3::Zero());
+  Pose about_centre = test::some_pose(0.6, {1, -2, 3}, Vec3::Zero());
   about_centre.translation() = centre - about_centre.linear() * centre;
   const RecordedBodies bodies(1, about_centre);
   const auto ball = [&](const std::string& frame) {

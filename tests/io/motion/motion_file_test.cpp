@@ -16,21 +16,21 @@ using test::replaced;
 
 using Strings = std::vector<std::string>;
 
-const std::string mot =
+const std::string a_mot =
     "Coordinates\nversion=1\nnRows=2\nnColumns=3\ninDegrees=yes\n\nUnits are S.I. units\nAngles are in "
     "degrees.\n\n"
     "endheader\ntime\thip_flexion_r\tpelvis_tx\n  0.4\t 19.5\t -0.25\n  0.5\t 2e1\t +.125\n";
-const std::string csv = "# a comment\ntime,flexion,tx\n0,19.5,-0.25\n# another\n0.1,2e1,+.125\n";
+const std::string a_csv = "# a comment\ntime,flexion,tx\n0,19.5,-0.25\n# another\n0.1,2e1,+.125\n";
 
 TEST(MotionFile, ReadsWhatTheOpenSimHeaderIsFollowedBy) {
-  const MotionTable table = read_table("walk.mot", mot);
+  const MotionTable table = read_table("walk.mot", a_mot);
   EXPECT_EQ(table.columns, (Strings{"time", "hip_flexion_r", "pelvis_tx"}));
   EXPECT_EQ(table.rows, 2u);
   EXPECT_EQ(table.values, (std::vector<std::vector<double>>{{0.4, 0.5}, {19.5, 20}, {-0.25, 0.125}}));
   EXPECT_EQ(table.line_of_row, (std::vector<std::size_t>{12, 13}));
   EXPECT_EQ(table.in_degrees, true);
   EXPECT_EQ(table.processing, Strings{});
-  EXPECT_EQ(table.digest, digest_of(mot));
+  EXPECT_EQ(table.digest, digest_of(a_mot));
 }
 
 TEST(MotionFile, HeaderLinesComeInAnyOrderAndMayBeLeftOut) {
@@ -42,18 +42,18 @@ TEST(MotionFile, HeaderLinesComeInAnyOrderAndMayBeLeftOut) {
 }
 
 TEST(MotionFile, InDegreesIsFollowedAgainstTheWordsAndANoteSaysSo) {
-  const MotionTable table = read_table("a.mot", replaced(mot, "inDegrees=yes", "inDegrees=no"));
+  const MotionTable table = read_table("a.mot", replaced(a_mot, "inDegrees=yes", "inDegrees=no"));
   EXPECT_EQ(table.in_degrees, false);
   EXPECT_EQ(table.processing,
             Strings{"the header says inDegrees=no and in words that angles are in degrees: inDegrees=no is "
                     "followed"});
   // Words on their own are prose that programs leave unchanged: they decide nothing.
-  EXPECT_EQ(read_table("a.mot", replaced(mot, "inDegrees=yes\n", "")).in_degrees, std::nullopt);
+  EXPECT_EQ(read_table("a.mot", replaced(a_mot, "inDegrees=yes\n", "")).in_degrees, std::nullopt);
 }
 
 TEST(MotionFile, WrongCountsInTheHeaderAreNoted) {
   const MotionTable table =
-      read_table("a.mot", replaced(replaced(mot, "nRows=2", "nRows=1"), "nColumns=3", "nColumns=7"));
+      read_table("a.mot", replaced(replaced(a_mot, "nRows=2", "nRows=1"), "nColumns=3", "nColumns=7"));
   EXPECT_EQ(table.rows, 2u);
   EXPECT_EQ(table.processing,
             (Strings{"the header promises 1 rows and the file has 2: all of them are read",
@@ -61,7 +61,7 @@ TEST(MotionFile, WrongCountsInTheHeaderAreNoted) {
 }
 
 TEST(MotionFile, ReadsCsvWithComments) {
-  const MotionTable table = read_table("walk.csv", csv);
+  const MotionTable table = read_table("walk.csv", a_csv);
   EXPECT_EQ(table.columns, (Strings{"time", "flexion", "tx"}));
   EXPECT_EQ(table.values, (std::vector<std::vector<double>>{{0, 0.1}, {19.5, 20}, {-0.25, 0.125}}));
   EXPECT_EQ(table.line_of_row, (std::vector<std::size_t>{3, 5}));
@@ -75,11 +75,12 @@ TEST(MotionFile, CsvNamesMayBeQuotedAndHaveBlanksAroundThem) {
 }
 
 TEST(MotionFile, GapsAreKept) {
-  for (const auto& [name, text] : {std::pair<const char*, std::string>{"a.mot", replaced(mot, "19.5", "NaN")},
-                                   {"a.mot", replaced(mot, "19.5", "nan")},
-                                   {"a.mot", replaced(mot, "19.5", "-nan(ind)")},
-                                   {"a.csv", replaced(csv, "19.5", "")},
-                                   {"a.csv", replaced(csv, "19.5", " NaN ")}}) {
+  for (const auto& [name, text] :
+       {std::pair<const char*, std::string>{"a.mot", replaced(a_mot, "19.5", "NaN")},
+        {"a.mot", replaced(a_mot, "19.5", "nan")},
+        {"a.mot", replaced(a_mot, "19.5", "-nan(ind)")},
+        {"a.csv", replaced(a_csv, "19.5", "")},
+        {"a.csv", replaced(a_csv, "19.5", " NaN ")}}) {
     const MotionTable table = read_table(name, text);
     EXPECT_TRUE(std::isnan(table.values[1][0])) << text;
     EXPECT_EQ(table.values[1][1], 20) << text;
@@ -87,7 +88,7 @@ TEST(MotionFile, GapsAreKept) {
 }
 
 TEST(MotionFile, LineEndsMarksAndEmptyLinesAtTheEndMakeNoDifference) {
-  for (const auto& [name, text] : {std::pair<const char*, std::string>{"a.mot", mot}, {"a.csv", csv}}) {
+  for (const auto& [name, text] : {std::pair<const char*, std::string>{"a.mot", a_mot}, {"a.csv", a_csv}}) {
     std::string windows = "\xEF\xBB\xBF";
     for (const char c : text) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
     const MotionTable expected = read_table(name, text);
@@ -106,7 +107,7 @@ TEST(MotionFile, NumbersAreTheSameInEveryLocale) {
   const std::string before = std::setlocale(LC_ALL, nullptr);
   for (const char* locale : {"de_DE.UTF-8", "fr_FR.UTF-8", "C"}) {
     if (std::setlocale(LC_ALL, locale) == nullptr) continue;
-    EXPECT_EQ(read_table("a.mot", mot).values[2][0], -0.25) << locale;
+    EXPECT_EQ(read_table("a.mot", a_mot).values[2][0], -0.25) << locale;
   }
   std::setlocale(LC_ALL, before.c_str());
 }

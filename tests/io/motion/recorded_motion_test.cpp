@@ -8,6 +8,7 @@
 
 #include "core/predicates.hpp"
 #include "io/motion/motion_text.hpp"
+#include "io/motion/some_pose.hpp"
 #include "support/shared_data.hpp"
 
 namespace condyle {
@@ -108,7 +109,7 @@ Strings jam_names(const std::string& body) {
   return names;
 }
 
-Strings xmalab_names(const std::string& body) {
+Strings xmalab_columns(const std::string& body) {
   Strings names;
   for (const char* name : {"R11", "R12", "R13", "01", "R21", "R22", "R23", "02", "R31", "R32", "R33", "03",
                            "TX", "TY", "TY", "1"})
@@ -126,16 +127,9 @@ std::string csv_of(const Strings& fixed_names, const Strings& mobile_names,
   return text + "\n";
 }
 
-Pose some_pose(double angle, const Vec3& axis, const Vec3& place) {
-  Pose X = Pose::Identity();
-  X.linear() = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
-  X.translation() = place;
-  return X;
-}
-
 const std::vector<std::pair<Pose, Pose>> frames = {
-    {some_pose(0.3, {1, 2, 3}, {100, -200, 50}), some_pose(-1.2, {3, -1, 2}, {110, -190, 20})},
-    {some_pose(2.9, {0, 2, -1}, {10, 0, 5}), some_pose(0.7, {1, 1, 1}, {12, -400, 2})}};
+    {test::some_pose(0.3, {1, 2, 3}, {100, -200, 50}), test::some_pose(-1.2, {3, -1, 2}, {110, -190, 20})},
+    {test::some_pose(2.9, {0, 2, -1}, {10, 0, 5}), test::some_pose(0.7, {1, 1, 1}, {12, -400, 2})}};
 
 /// A product of two matrices of a rotation and of a difference of places below 700 mm, each entry three products.
 constexpr double rounding = 16 * core::rounding_unit;
@@ -157,19 +151,20 @@ TEST(RecordedPoses, BothConventionsAreToldByWhere0001Stands) {
     for (const bool of_jam : {false, true}) {
       const MotionTable table =
           read_table("a.csv", of_jam ? csv_of(jam_names("F"), jam_names("M"), frames, transposed)
-                                     : csv_of(xmalab_names("F"), xmalab_names("M"), frames, transposed));
+                                     : csv_of(xmalab_columns("F"), xmalab_columns("M"), frames, transposed));
       expect_X_FM(recorded_poses(table, {"F", "M", LengthUnit::millimetres}), 1);
       expect_X_FM(recorded_poses(table, {"F", "M", LengthUnit::metres}), 1000);
     }
 }
 
 TEST(RecordedPoses, WithoutAnyTranslationTheNamesTell) {
-  std::vector<std::pair<Pose, Pose>> turned = {{Pose::Identity(), some_pose(0.5, {0, 0, 1}, {0, 0, 0})}};
+  std::vector<std::pair<Pose, Pose>> turned = {
+      {Pose::Identity(), test::some_pose(0.5, {0, 0, 1}, {0, 0, 0})}};
   const double c = std::cos(0.5), s = std::sin(0.5);
   for (const bool of_jam : {false, true}) {
     const RecordedPoses poses = recorded_poses(
         read_table("a.csv", of_jam ? csv_of(jam_names("F"), jam_names("M"), turned, false)
-                                   : csv_of(xmalab_names("F"), xmalab_names("M"), turned, true)),
+                                   : csv_of(xmalab_columns("F"), xmalab_columns("M"), turned, true)),
         {"F", "M", {}});
     EXPECT_NEAR(poses.X_FM[0]->linear()(0, 0), c, rounding);
     EXPECT_NEAR(poses.X_FM[0]->linear()(1, 0), s, rounding);
