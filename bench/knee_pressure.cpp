@@ -30,7 +30,7 @@ const TableHead pressure_head{"knee_pressure",
                                {"ms_per_pose", "ms per pose"},
                                {"ns_per_ray", "ns per ray"}}};
 
-/// One contact as its example joint file has it, with another rule.
+/// One contact as its joint file has it, with another rule.
 struct KneeContact {
   std::string name;
   condyle::ElasticContact surfaces;
@@ -38,7 +38,8 @@ struct KneeContact {
 
   KneeContact(const std::string& contact, FaceRule rule, Effort effort)
       : KneeContact(contact, rule, effort,
-                    condyle::read_joint(fs::path(CONDYLE_SOURCE_DIR) / "examples" / (contact + ".toml"))) {}
+                    condyle::read_joint(fs::path(CONDYLE_SOURCE_DIR) / "tests/support/knee_by_hand" /
+                                        (contact + ".toml"))) {}
 
   void ask() const {
     for (const Pose& X : X_FM) surfaces.at(X);
@@ -75,7 +76,7 @@ struct KneeContact {
 
 bool ask_knee_pressure(Effort effort, Report& report) {
   if (!fs::is_directory(data_folder() / "knee_lenhart2015_right")) return false;
-  // The examples find their meshes by it.
+  // The joint files find their meshes by it.
   setenv("CONDYLE_DATA", data_folder().c_str(), 0);
   std::vector<KneeContact> contacts;
   std::vector<std::function<void()>> ways;

@@ -116,7 +116,8 @@ void add_motion(CLI::App& app) {
   auto* command = app.add_subcommand(
       "motion", "Compute contact in every frame of a recorded motion: area, depth, pressure, force");
   command->footer(
-      "Example: condyle motion examples/tibiofemoral.toml --motion states.sto --load --out flexion\n"
+      "Example: condyle motion knee.toml --motion states.sto --load --out flexion\n"
+      "         condyle motion lenhart2015.osim --joint knee_r --motion states.sto --load --out flexion\n"
       "The motion file's columns are those of [recorded_motion] in the joint file, or flexion_deg, x_mm and "
       "the like.");
   auto options = std::make_shared<MotionArguments>();

@@ -57,13 +57,16 @@ CLI::Option* add_map(CLI::App& command, const std::shared_ptr<RangeGiven>& given
                                                    : std::string();
               },
               "");
-  command
-      .add_option("--translation", given->translation,
-                  "Hold a free joint here in all motions, in mm. Without it where the reference pose has it")
-      ->option_text("\"x=X y=Y z=Z\"");
   command.add_option("--vary", given->vary, "With --map: the angle that turns over the grid")
       ->option_text("ANGLE (the third one)");
   return map;
+}
+
+CLI::Option* add_translation(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {
+  return command
+      .add_option("--translation", given->translation,
+                  "Hold a free joint here in all motions, in mm. Without it where the reference pose has it")
+      ->option_text("\"x=X y=Y z=Z\"");
 }
 
 CLI::Option* add_bearing(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {

@@ -32,6 +32,7 @@ struct RangeGiven {
 
 /// Each adds the options of one question and returns the first of them. `given` is written while arguments are read.
 CLI::Option* add_map(CLI::App& command, const std::shared_ptr<RangeGiven>& given);
+CLI::Option* add_translation(CLI::App& command, const std::shared_ptr<RangeGiven>& given);
 CLI::Option* add_bearing(CLI::App& command, const std::shared_ptr<RangeGiven>& given);
 CLI::Option* add_accept(CLI::App& command, const std::shared_ptr<RangeGiven>& given);
 CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeGiven>& given);

@@ -18,6 +18,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/joint.hpp"
+#include "follow_options.hpp"
 #include "followed.hpp"
 #include "help_formatter.hpp"
 #include "io/joint/known_motions.hpp"
@@ -42,6 +43,7 @@ struct ReportArguments {
   std::size_t curve_points = ResectionQuery{}.curve_points;
   std::shared_ptr<ResectionGiven> cut = std::make_shared<ResectionGiven>();
   std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
+  std::shared_ptr<FollowGiven> follow = std::make_shared<FollowGiven>();
   Strictness strictness = Strictness::notes;
 
   bool has_plan() const noexcept { return !cut->targets.empty(); }
@@ -130,10 +132,14 @@ void report_command(const ReportArguments& options, const CLI::App& command) {
   check_plan(options, loaded.joint);
   std::optional<MotionTable> table;
   if (!options.motion.empty()) table = read_motion_table(options.motion);
-  const RangeRequest request = range_request_of(*options.range, loaded, known_motions(loaded));
+  RangeRequest request = range_request_of(*options.range, loaded, known_motions(loaded));
+  std::optional<Followed> follows;
+  io::name_joint_file(options.joint,
+                      [&] { follows.emplace(*options.follow, loaded, io::MotionsAre::all, request); });
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   Provenance from = provenance_of(loaded, words_of(command));
-  if (table) from.read.emplace_back(options.motion);
+  for (const std::string& file : {options.motion, options.follow->record})
+    if (!file.empty()) from.read.emplace_back(file);
   // Where the file cannot be written is reported before the work, not after it.
   check_report_file(options.out, &from);
 
@@ -146,13 +152,13 @@ void report_command(const ReportArguments& options, const CLI::App& command) {
   }
   const LoadedJoint& shown = without_bone ? *without_bone : loaded;
   std::optional<Recorded> recorded;
-  std::vector<ContactNote> contact_notes;
+  std::vector<ContactNote> contact_notes = range_request_notes(request);
   if (table) {
     recorded.emplace(options, shown, *table);
     recorded->answer =
         answered_motion(recorded->question, {.X_FM = recorded->motion.X_FM, .between = BetweenFrames::never},
                         options.strictness);
-    contact_notes = recorded->answer.notes;
+    add_new(contact_notes, recorded->answer.notes);
   }
   ContactEntry contact;
   std::optional<ReportedLayers> layers;
@@ -237,11 +243,13 @@ void add_report(CLI::App& app) {
       ->option_text("N (10)")
       ->check(CLI::Range(0, 1000))
       ->needs(resect);
-  add_map(*command, options->range);
-  add_past(*command, options->range);
+  auto* map = add_map(*command, options->range);
+  auto* translation = add_translation(*command, options->range);
+  auto* past = add_past(*command, options->range);
   add_bearing(*command, options->range);
-  add_accept(*command, options->range);
-  add_band(*command, options->range);
+  auto* accept = add_accept(*command, options->range);
+  auto* band = add_band(*command, options->range);
+  add_follow(*command, options->follow, {map, translation, past, accept, band});
   add_strict(*command, options->strictness);
   HelpGroup of_cut = resection_group();
   of_cut.options.emplace_back("--curve");
@@ -249,6 +257,7 @@ void add_report(CLI::App& app) {
                         {"Question", {"--vary", "--past", "--translation", "--measures", "--resect"}},
                         of_cut,
                         uncertainty_group(),
+                        {"Centre not held", follow_names()},
                         {"Contact", {"--bearing", "--accept-reference-contact"}},
                         {"Output", {"--empty", "--title", "--strict", "--help"}}});
   command->callback([options, command] { report_command(*options, *command); });

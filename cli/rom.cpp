@@ -14,11 +14,9 @@
 #include "commands.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
-#include "condyle/io/contact_entry.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/pose_text.hpp"
-#include "condyle/io/recorded_motion.hpp"
-#include "contact_options.hpp"
+#include "follow_options.hpp"
 #include "help_formatter.hpp"
 #include "io/joint/known_motions.hpp"
 #include "io/joint/name_joint_file.hpp"
@@ -38,9 +36,7 @@ struct RomArguments {
   std::string joint, out;
   std::vector<std::string> motions;
   std::optional<double> allow_depth_mm;
-  std::string follow;
-  bool follows_load = false;
-  std::shared_ptr<BalanceGiven> balance = std::make_shared<BalanceGiven>();
+  std::shared_ptr<FollowGiven> follow = std::make_shared<FollowGiven>();
   ReferenceContacts reference_contacts = ReferenceContacts::count;
   std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
   Task task = Task::limits;
@@ -86,44 +82,6 @@ RangeRequest request_of(const RomArguments& options, const LoadedJoint& loaded, 
   return request;
 }
 
-/// Layers of the joint file, as a load is followed through them.
-struct Layers {
-  ContactEntry entry;
-  ContactSurfaces surfaces;
-  ElasticContact contact;
-
-  explicit Layers(const LoadedJoint& loaded)
-      : entry(contact_of({}, loaded.report.file, true)),
-        surfaces(surfaces_of(entry, loaded.joint)),
-        contact(surfaces.fixed.mesh, surfaces.mobile.mesh, elastic_options(entry, surfaces, loaded)) {}
-};
-
-/// What the translation follows, and the motions that it leads along where none is named.
-void follow(const RomArguments& options, const LoadedJoint& loaded, const std::optional<Layers>& layers,
-            RangeRequest& request) {
-  if (options.balance->any() && !options.follows_load)
-    throw UsageError("--force: only a translation that follows a load takes one: --follow-load");
-  if (layers) {
-    if (options.balance->force.empty()) throw UsageError("--follow-load: needs --force");
-    request.follow = FollowLoad{.layers = &layers->contact,
-                                .load = load_of(*options.balance),
-                                .balance = balance_options_of(*options.balance)};
-  }
-  if (options.follow.empty()) return;
-  const JointMotion motion = motion_of(loaded, read_motion_table(options.follow));
-  for (const std::string& remark : motion.processing) note(remark);
-  FollowRecord record{coordinates_of(loaded.joint, motion)};
-  if (options.motions.empty())
-    if (std::vector<Motion> recorded = motions_recorded(request.motions, record); !recorded.empty())
-      request.motions = std::move(recorded);
-  request.follow = std::move(record);
-  try {
-    check_range_request(loaded.joint, loaded.report.placement, request);
-  } catch (const UsageError& error) {
-    throw UsageError(fmt::format("{}: {}", options.follow, error.what()));
-  }
-}
-
 /// Where the bodies are in contact in the reference pose, the error names the options there are.
 RangeAnswer answer_of(const LoadedJoint& loaded, const RangeRequest& request) {
   return io::name_joint_file(loaded.report.file.path.string(), [&] {
@@ -142,15 +100,16 @@ void rom_command(const RomArguments& options, const CLI::App& command) {
   std::vector<Motion> motions = chosen_motions(known_motions(loaded), options.motions);
   if (options.task == Task::list_motions) return print(list_of(motions, loaded.joint.anatomy));
   RangeRequest request = request_of(options, loaded, std::move(motions));
-  std::optional<Layers> layers;
-  if (options.follows_load) layers.emplace(loaded);
+  std::optional<Followed> followed;
   io::name_joint_file(options.joint, [&] {
-    follow(options, loaded, layers, request);
+    followed.emplace(*options.follow, loaded,
+                     options.motions.empty() ? io::MotionsAre::all : io::MotionsAre::chosen, request);
     check_range_request(loaded.joint, loaded.report.placement, request);
   });
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
+  note_contact(range_request_notes(request), loaded, options.strictness);
   Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
-  if (!options.follow.empty()) from.read.emplace_back(options.follow);
+  if (!options.follow->record.empty()) from.read.emplace_back(options.follow->record);
   // A folder that cannot be written to is reported before the work, not after it.
   if (!options.out.empty()) check_rom_folder(options.out, &from);
 
@@ -183,7 +142,8 @@ void add_rom(CLI::App& app) {
       "--list-motions", [options] { options->task = Task::list_motions; },
       "Print the motions that the joint has, with their angles, and end");
   auto* map = add_map(*command, options->range);
-  add_past(*command, options->range);
+  auto* translation = add_translation(*command, options->range);
+  auto* past = add_past(*command, options->range);
   auto* bearing = add_bearing(*command, options->range);
   auto* contacts = command->add_flag_callback(
       "--exclude-reference-contacts",
@@ -197,22 +157,7 @@ void add_rom(CLI::App& app) {
   auto* accept = add_accept(*command, options->range);
   auto* band = add_band(*command, options->range);
   for (CLI::Option* other : {map, bearing, contacts, accept, band}) depth->excludes(other);
-  auto* record = command->add_option(
-      "--follow", options->follow,
-      "Do not hold the centre of a free joint: its translation at each angle is that of this recorded "
-      "motion, "
-      ".mot, .sto or .csv, as condyle motion reads it. Limits are then bounded, not exact");
-  record->option_text("FILE");
-  auto* follow_load = command->add_flag_callback(
-      "--follow-load", [options] { options->follows_load = true; },
-      "Do not hold the centre of a free joint: at each angle the layers of [contact] carry --force");
-  add_force(*command, options->balance, "With --follow-load: the force on the mobile body, in N");
-  for (CLI::Option* other : {map, bearing, contacts, accept, band, depth,
-                             command->get_option("--translation"), command->get_option("--past"), record})
-    if (other != bearing) follow_load->excludes(other);
-  for (CLI::Option* other : {map, contacts, accept, band, depth, command->get_option("--translation"),
-                             command->get_option("--past")})
-    record->excludes(other);
+  add_follow(*command, options->follow, {map, contacts, accept, band, depth, translation, past});
   command
       ->add_option_function<std::string>(
           "--clock",
@@ -238,7 +183,7 @@ void add_rom(CLI::App& app) {
              {{"Most used", {"--motion", "--band", "--map", "--out", "--json"}},
               {"Question", {"--list-motions", "--vary", "--past", "--translation", "--clock"}},
               uncertainty_group(),
-              {"Centre not held", {"--follow", "--follow-load", "--force", "--force-frame", "--along"}},
+              {"Centre not held", follow_names()},
               {"Contact",
                {"--bearing", "--accept-reference-contact", "--exclude-reference-contacts", "--allow-depth"}},
               {"Output", {"--frame", "--ascii", "--strict", "--help"}}});

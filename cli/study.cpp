@@ -22,6 +22,7 @@ namespace {
 struct StudyArguments {
   std::string table, out, anatomy = "hip", shard, depth;
   std::optional<std::string> load;
+  bool follows_load = false;
   std::vector<double> force, along;
   std::vector<std::string> motions;
   bool leaves_out_reference_contacts = false, measures = false;
@@ -45,6 +46,13 @@ StudyLoad load_of(const StudyArguments& given, Anatomy anatomy) {
   return load;
 }
 
+StudyFollowLoad follow_load_of(const StudyArguments& given) {
+  if (given.load)
+    throw UsageError("--follow-load: stands beside --load, and one of the two is meant by --force");
+  if (given.force.empty()) throw UsageError("--follow-load: needs --force");
+  return {Vec3(given.force[0], given.force[1], given.force[2]), directions_of(given.along), *given.contact};
+}
+
 StudyOptions study_options(const StudyArguments& given) {
   const RangeGiven& range = *given.range;
   StudyOptions options;
@@ -60,11 +68,13 @@ StudyOptions study_options(const StudyArguments& given) {
   options.measures = given.measures;
   if (!given.cut->targets.empty())
     options.resection = StudyResection{parse_reach(given.cut->targets), resection_request_of(*given.cut)};
-  if (given.load)
+  if (given.follows_load)
+    options.follow_load = follow_load_of(given);
+  else if (given.load)
     options.load = load_of(given, options.anatomy);
   else if (given.contact->any_of_rays() || given.contact->any_of_layers() || given.contact->law ||
            !given.force.empty() || !given.along.empty())
-    throw UsageError("--force, --e and all else on a load: needs --load");
+    throw UsageError("--force, --e and all else on a load: needs --load or --follow-load");
   return options;
 }
 
@@ -104,7 +114,8 @@ void add_study(CLI::App& app) {
       ->add_option(
           "TABLE", options->table,
           "A CSV file with a row per joint: id, then joint (a joint file), or fixed and mobile (meshes) with "
-          "side, units and axes, or sample (1 to 4) with measures. Other columns go into the results")
+          "side, units and axes, or sample (1 to 4) with measures. A column follow names the recorded motion "
+          "that the translation of a free joint follows. Other columns go into the results")
       ->required();
   command
       ->add_option("--out", options->out,
@@ -154,9 +165,15 @@ void add_study(CLI::App& app) {
                    "of the joint "
                    "files or those of --e, --nu and --thickness")
       ->option_text("POSE");
+  command->add_flag(
+      "--follow-load", options->follows_load,
+      "Do not hold the centre of free joints: at each angle the contact carries --force. Limits are then "
+      "bounded, not exact");
   command
-      ->add_option("--force", options->force,
-                   "With --load: move the mobile body to where the contact carries this force on it, in N")
+      ->add_option(
+          "--force", options->force,
+          "With --load or --follow-load: move the mobile body to where the contact carries this force "
+          "on it, in N")
       ->expected(3)
       ->option_text("ANTERIOR SUPERIOR LATERAL");
   command
@@ -172,8 +189,8 @@ void add_study(CLI::App& app) {
       "wrong (exit code 4)");
   group_help(*command, {{"Most used", {"--out", "--motion", "--band", "--map", "--shard"}},
                         {"Question",
-                         {"--anatomy", "--vary", "--translation", "--depth", "--measures", "--resect",
-                          "--load", "--force", "--along"}},
+                         {"--anatomy", "--vary", "--depth", "--measures", "--resect",
+                          "--load", "--follow-load", "--force", "--along"}},
                         resection_group(),
                         uncertainty_group(),
                         {"Contact",

@@ -128,18 +128,24 @@ def knee_data():
     return data
 
 
+def knee_geometry():
+    """The meshes that the knee's model names, made of those of the data."""
+    geometry = OUT / "knee_geometry"
+    run(sys.executable, knee_data().parent / "osim_lenhart2015/make_geometry.py", geometry)
+    return geometry
+
+
 def draw_knee():
-    data = knee_data()
-    for joint in ("tibiofemoral", "patellofemoral"):
-        condyle("motion", f"examples/{joint}.toml", "--motion", data / "passive_flexion_states.sto", "--load", "--maps",
-                "--out", OUT / joint)
-        draw(OUT / joint, {"pressure_map": f"{joint}_pressure.png"}, frames=[0, 100, 250])
+    data, geometry = knee_data(), knee_geometry()
+    for joint, name in (("knee_r", "tibiofemoral"), ("pf_r", "patellofemoral")):
+        condyle("motion", data.parent / "osim_lenhart2015/lenhart2015.osim", "--joint", joint, "--geometry", geometry,
+                "--motion", data / "passive_flexion_states.sto", "--load", "--maps", "--out", OUT / name)
+        draw(OUT / name, {"pressure_map": f"{name}_pressure.png"}, frames=[0, 100, 250])
 
 
 def draw_examples():
-    knee_data()
-    for name in ("cam_and_internal_rotation", "knee_over_motion"):
-        run("/usr/bin/python3", f"examples/python/{name}.py", IMAGES / f"{name}.png")
+    for name, arguments in (("cam_and_internal_rotation", []), ("knee_over_motion", [knee_geometry()])):
+        run("/usr/bin/python3", f"examples/python/{name}.py", *arguments, IMAGES / f"{name}.png")
         print(f"docs/images/{name}.png")
     run("/usr/bin/python3", "examples/python/deformable_cartilage.py", IMAGES / "python")
     print("docs/images/python")

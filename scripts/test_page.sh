@@ -40,7 +40,7 @@ else
 fi
 knee=$data/knee_lenhart2015_right
 if [ -d "$knee" ]; then
-  CONDYLE_DATA=$data "$condyle" report examples/tibiofemoral.toml --load --accept-reference-contact \
+  CONDYLE_DATA=$data "$condyle" report tests/support/knee_by_hand/tibiofemoral.toml --load --accept-reference-contact \
     --motion "$knee/passive_flexion_states.sto" --out "$out/knee.html"
 else
   echo "the knee is skipped: $knee is not there" >&2

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 """A knee over its motion: contact and pressure of a passively bent knee, with what is published of it drawn over ours.
 
-Usage: CONDYLE_DATA=... knee_over_motion.py [PICTURE [FRAMES]]
+Usage: CONDYLE_DATA=... knee_over_motion.py GEOMETRY [PICTURE [FRAMES]]
 
 The knee, its motion and the published contact are those of Lenhart et al. 2015 as OpenSim-JAM comes with them
-(docs/knee.md); CONDYLE_DATA is the folder that has knee_lenhart2015_right. Every FRAMES-th frame is computed, all if
-not given.
+(docs/knee.md). The joint is made of the model as it is, osim_lenhart2015/lenhart2015.osim in the folder CONDYLE_DATA;
+GEOMETRY is the folder of the meshes that it names. Every FRAMES-th frame is computed, all if not given.
 """
 import os
 import sys
@@ -15,8 +15,9 @@ import condyle
 import condyle.plot as figures
 import numpy as np
 
-KNEE = Path(os.environ.get("CONDYLE_DATA", "")) / "knee_lenhart2015_right"
-JOINT = Path(__file__).parents[1] / "tibiofemoral.toml"
+DATA = Path(os.environ.get("CONDYLE_DATA", ""))
+KNEE = DATA / "knee_lenhart2015_right"
+MODEL = DATA / "osim_lenhart2015" / "lenhart2015.osim"
 # Column of curves.csv: of the published table, and how many of our units are one of its.
 PUBLISHED = {"area_mm2": ("contact_area", 1e6), "mean_depth_mm": ("mean_proximity", 1e3),
              "max_depth_mm": ("max_proximity", 1e3), "mean_pressure_mpa": ("mean_pressure", 1e-6),
@@ -31,8 +32,8 @@ def published():
     return {"time_s": table["time"], **columns}
 
 
-def main(picture=None, every=1):
-    joint = condyle.read_joint(JOINT)
+def main(geometry, picture=None, every=1):
+    joint = condyle.Joint.from_model(condyle.read_model(MODEL, geometry=geometry), "knee_r")
     contact = condyle.ElasticContact.of_file(joint)
     motion = joint.motion(KNEE / "passive_flexion_states.sto")
     chosen = slice(None, None, int(every))

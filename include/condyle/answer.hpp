@@ -213,6 +213,8 @@ std::optional<std::size_t> frame_of_largest_force(const MotionAnswer& answer);
 /// with this angle, linear between two frames.
 struct FollowRecord {
   std::vector<JointCoordinates> frames = {};
+  std::vector<ContactNote> notes =
+      {};  ///< what looks wrong with the recorded numbers: the answer hands them on
 };
 
 /// The translation of a free joint follows a load: at each step it is where the contact of the layers carries the load, linear in
@@ -222,6 +224,7 @@ struct FollowLoad {
   Load load = {};
   BalanceOptions balance = {};  ///< rotations are held
   Angle step = Angle::degrees(1);
+  BodyNames names = {};  ///< as notes call the bodies
 };
 
 using Follow = std::variant<FollowRecord, FollowLoad>;
@@ -287,8 +290,9 @@ struct RangeAnswer {
   std::vector<RangeNote> notes = {};
   std::vector<std::optional<ImpingementZone>> zones = {};  ///< one per motion if requested
   std::optional<MotionMap> map = {};
-  std::vector<LimitBand> bands = {};  ///< one per motion if requested
-  BandOptions band_options = {};      ///< as requested
+  std::vector<LimitBand> bands = {};            ///< one per motion if requested
+  BandOptions band_options = {};                ///< as requested
+  std::vector<ContactNote> contact_notes = {};  ///< range_request_notes()
 };
 
 /// The translation that all motions of a free joint keep: the one requested, else that of its reference pose. Empty for joints
@@ -298,6 +302,9 @@ std::optional<Vec3> held_translation(const Joint& joint, const JointPlacement& p
 
 /// Throws UsageError for what answer_range() would refuse before it computes anything.
 void check_range_request(const Joint& joint, const JointPlacement& placement, const RangeRequest& request);
+
+/// What looks wrong with the recorded motion, or the layers and the load, that a translation follows: known before the work.
+std::vector<ContactNote> range_request_notes(const RangeRequest& request);
 
 /// Computes exact limits, or limits with a depth allowed, and what else is requested. Empty if it was stopped.
 ///

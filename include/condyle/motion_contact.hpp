@@ -61,16 +61,19 @@ std::optional<std::vector<std::optional<BalancedPose>>> balance_along(
 // sign is wrong. docs/checks.md has the table, with the sources of the bounds.
 
 enum class ContactNoteCode : std::uint8_t {
-  unlikely_modulus,        ///< No tissue or implant is so soft or stiff.
-  unlikely_poisson_ratio,  ///< Below 0, or so near to a half that it determines the stiffness by itself.
-  unlikely_thickness,      ///< No cartilage or implant is so thin or thick.
-  layer_on_bone,           ///< The layer is far thinner than the closed mesh that is to be its surface.
-  unlikely_load,           ///< A force beyond ten body weights.
-  deeper_than_layers,      ///< The bodies overlap by more than their layers are thick.
-  large_strain,            ///< By a large part of it.
+  unlikely_modulus,         ///< No tissue or implant is so soft or stiff.
+  unlikely_poisson_ratio,   ///< Below 0, or so near to a half that it determines the stiffness by itself.
+  unlikely_thickness,       ///< No cartilage or implant is so thin or thick.
+  thickness_beyond_bounds,  ///< A measured thickness is beyond the bounds that its file gives.
+  layer_on_bone,            ///< The layer is far thinner than the closed mesh that is to be its surface.
+  unlikely_load,            ///< A force beyond ten body weights.
+  deeper_than_layers,       ///< The bodies overlap by more than their layers are thick.
+  large_strain,             ///< By a large part of it.
   oblique_peak,  ///< The largest depth or pressure comes from a ray that meets the other surface at a slant.
   unlikely_angle,        ///< A recorded angle beyond two whole turns.
   unlikely_translation,  ///< A recorded translation beyond a metre.
+  beyond_range,          ///< A recorded coordinate beyond the range that its model gives it.
+  locked_coordinate,     ///< One that its model locks, recorded with other values.
   mostly_apart,          ///< The bodies are far from each other in most frames.
   mostly_deep,           ///< They are far within each other in most frames.
 };

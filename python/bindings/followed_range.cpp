@@ -1,9 +1,13 @@
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <functional>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "condyle/answer.hpp"
 #include "interrupts.hpp"
+#include "io/report/report.hpp"
 #include "motion.hpp"
 
 namespace condyle::python {
@@ -27,38 +31,78 @@ FollowLoad load_in(const ElasticContact& layers, const py::dict& given) {
   return load;
 }
 
-/// Limits, (code, text) of notes, caveats. `layers` is null with poses, and poses are none with layers. Motions that a record does
-/// not lead along are left out where `only_recorded`.
-py::tuple followed_limits(const JointHandle& handle, const py::list& motions, const py::object& poses,
-                          const ElasticContact* layers, const py::dict& given, const py::object& progress) {
+/// What is asked: `layers` is null with poses, and poses are none with layers. Motions that a record does not lead along are left
+/// out where `only_recorded`.
+RangeRequest followed_request_in(const JointHandle& handle, const py::list& motions, const py::object& poses,
+                                 const ElasticContact* layers, const py::dict& given) {
   RangeRequest request;
   request.motions = motions_in(motions);
   if (given["count_bearing"].cast<bool>()) request.range.bearing.rule = BearingRule::count;
   request.range.bearing.margin_mm = given["bearing_margin_mm"].cast<std::optional<double>>();
   if (layers) {
     request.follow = load_in(*layers, given);
-  } else {
-    FollowRecord record = record_in(handle.joint(), poses);
-    if (given["only_recorded"].cast<bool>()) request.motions = motions_recorded(request.motions, record);
-    request.follow = std::move(record);
+    return request;
   }
-  const RangeAnswer answer = followed(progress, [&](const auto& report, const std::stop_token& stop) {
+  FollowRecord record = record_in(handle.joint(), poses);
+  if (given["only_recorded"].cast<bool>())
+    // With none the answer is refused, and says why.
+    if (std::vector<Motion> led = motions_recorded(request.motions, record); !led.empty())
+      request.motions = std::move(led);
+  request.follow = std::move(record);
+  return request;
+}
+
+RangeAnswer followed_answer(const JointHandle& handle, const RangeRequest& request,
+                            const py::object& progress, const std::function<void(const RangeAnswer&)>& use) {
+  return followed(progress, [&](const auto& report, const std::stop_token& stop) {
     auto found = answer_range(
         handle.joint(), handle.loaded.report.placement, request,
         {[&](std::string_view, std::size_t done, std::size_t total) { report(done, total); }, stop});
+    if (found) use(*found);
     return found ? *found : RangeAnswer{.joint = handle.joint()};
   });
+}
+
+/// Limits, (code, text) of notes, caveats.
+py::tuple followed_limits(const JointHandle& handle, const py::list& motions, const py::object& poses,
+                          const ElasticContact* layers, const py::dict& given, const py::object& progress) {
+  const RangeAnswer answer =
+      followed_answer(handle, followed_request_in(handle, motions, poses, layers, given), progress,
+                      [](const RangeAnswer&) {});
   py::list limits, notes;
   for (const MotionLimit& limit : answer.limits) limits.append(dict_of(limit));
-  for (const RangeNote& note : answer.notes)
+  const auto add = [&](const auto& note) {
     notes.append(py::make_tuple(std::string(name_of(note.code)), note.text));
+  };
+  for (const ContactNote& note : answer.contact_notes) add(note);
+  for (const RangeNote& note : answer.notes) add(note);
   return py::make_tuple(limits, notes, answer.caveats);
+}
+
+void write_followed_report(const JointHandle& handle, const std::filesystem::path& path,
+                           const std::optional<std::string>& title, const py::list& motions,
+                           const py::object& poses, const ElasticContact* layers, const py::dict& given,
+                           const py::object& progress) {
+  const LoadedJoint& loaded = handle.loaded;
+  std::optional<Provenance> from;
+  if (!loaded.report.file.path.empty()) from = provenance_of(loaded, {"condyle.FollowedRange.write_report"});
+  check_report_file(path, from ? &*from : nullptr);
+  followed_answer(handle, followed_request_in(handle, motions, poses, layers, given), progress,
+                  [&](const RangeAnswer& answer) {
+                    const std::vector<JointNote> notes = check_joint(loaded.joint, loaded.report.placement);
+                    const RomResult rom = rom_result_of(answer, notes, from ? &*from : nullptr);
+                    write_report(path, {.title = title.value_or(loaded.joint.name),
+                                        .joint = loaded.joint,
+                                        .reference_pose = loaded.report.placement.reference_pose,
+                                        .rom = &rom});
+                  });
 }
 
 }  // namespace
 
 void bind_followed_range(py::module_& module) {
   module.def("followed_limits", &followed_limits);
+  module.def("write_followed_report", &write_followed_report);
 }
 
 }  // namespace condyle::python

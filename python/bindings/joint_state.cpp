@@ -131,8 +131,8 @@ void members(T& value, const Each& each) {
     auto& [rule, reach] = value;
     each(rule, reach);
   } else if constexpr (std::is_same_v<Struct, LayerEntry>) {
-    auto& [modulus, ratio, thickness, behind, file, unit] = value;
-    each(modulus, ratio, thickness, behind, file, unit);
+    auto& [modulus, ratio, thickness, behind, file, unit, bounds] = value;
+    each(modulus, ratio, thickness, behind, file, unit, bounds);
   } else if constexpr (std::is_same_v<Struct, HalfSpace>) {
     auto& [normal, offset] = value;
     each(normal, offset);
@@ -143,8 +143,8 @@ void members(T& value, const Each& each) {
     auto& [fixed_part, mobile_part, casting, rays, law, fixed, mobile, moment_on, regions] = value;
     each(fixed_part, mobile_part, casting, rays, law, fixed, mobile, moment_on, regions);
   } else if constexpr (std::is_same_v<Struct, ColumnOfCoordinate>) {
-    auto& [coordinate, kind, column, unit, sign, offset, otherwise] = value;
-    each(coordinate, kind, column, unit, sign, offset, otherwise);
+    auto& [coordinate, kind, column, unit, sign, offset, otherwise, range, is_locked] = value;
+    each(coordinate, kind, column, unit, sign, offset, otherwise, range, is_locked);
   } else if constexpr (std::is_same_v<Struct, ColumnsOfPoses>) {
     auto& [fixed_body, mobile_body, unit] = value;
     each(fixed_body, mobile_body, unit);

@@ -57,15 +57,14 @@ void report(const RangeHandle& range, const JointHandle& handle, const std::file
     std::optional<MeasureAnswer> measures;
     std::optional<MeasureResult> shape;
     if (with_measures) {
-      measures =
-          answer_measures(loaded.joint, {measure_request_of(loaded), request.bands}, {by_stage, stop});
+      measures = answer_measures(loaded.joint, {measure_request_of(loaded), request.bands}, {by_stage, stop});
       if (!measures) return true;
       page.measures = &shape.emplace(MeasureResult{loaded.joint, *measures, notes, provenance});
     }
     std::optional<ResectionResult> cut;
     if (plan)
-      page.plan = &cut.emplace(ResectionResult{plan->loaded.joint, plan->answer, notes, provenance,
-                                               &plan->loaded.report.file});
+      page.plan = &cut.emplace(
+          ResectionResult{plan->loaded.joint, plan->answer, notes, provenance, &plan->loaded.report.file});
     write_report(path, page);
     return true;
   });

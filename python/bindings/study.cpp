@@ -14,27 +14,43 @@
 namespace condyle::python {
 namespace {
 
-/// Of what StudyLoad of Python has checked.
-StudyLoad load_in(const py::dict& given, Anatomy anatomy) {
+// Of what StudyLoad of Python has checked.
+
+ContactChanges contact_in(const py::dict& given) {
   const auto numbers = [&](const char* name) { return given[name].cast<std::vector<double>>(); };
-  StudyLoad load;
-  load.at = study_pose(given["at"].cast<std::string>(), anatomy);
-  load.contact.youngs_modulus_mpa = numbers("youngs_modulus_mpa");
-  load.contact.poisson_ratio = numbers("poisson_ratio");
-  load.contact.thickness_mm = numbers("thickness_mm");
+  ContactChanges contact;
+  contact.youngs_modulus_mpa = numbers("youngs_modulus_mpa");
+  contact.poisson_ratio = numbers("poisson_ratio");
+  contact.thickness_mm = numbers("thickness_mm");
   if (const py::object casting = given["casting"]; !casting.is_none())
-    load.contact.casting = casting_in(casting.cast<std::string>());
+    contact.casting = casting_in(casting.cast<std::string>());
   if (const py::object rule = given["rule"]; !rule.is_none())
-    load.contact.rule = rays_in(rule.cast<std::string>(), NormalDepthOptions().reach_mm).rule;
-  load.contact.reach_mm = given["reach_mm"].cast<std::optional<double>>();
+    contact.rule = rays_in(rule.cast<std::string>(), NormalDepthOptions().reach_mm).rule;
+  contact.reach_mm = given["reach_mm"].cast<std::optional<double>>();
   if (const py::object law = given["law"]; !law.is_none())
-    load.contact.law =
-        law.cast<std::string>() == "logarithmic" ? PressureLaw::logarithmic : PressureLaw::linear;
+    contact.law = law.cast<std::string>() == "logarithmic" ? PressureLaw::logarithmic : PressureLaw::linear;
+  return contact;
+}
+
+std::vector<Vec3> directions_in(const py::dict& given) {
+  std::vector<Vec3> directions;
   for (const auto& direction : given["free_directions"].cast<std::vector<std::array<double, 3>>>())
-    load.free_directions.emplace_back(direction[0], direction[1], direction[2]);
-  if (const std::vector<double> force = numbers("force_n"); !force.empty())
-    load.force_n = Vec3(force.at(0), force.at(1), force.at(2));
-  return load;
+    directions.emplace_back(direction[0], direction[1], direction[2]);
+  return directions;
+}
+
+std::optional<Vec3> force_in(const py::dict& given) {
+  const auto force = given["force_n"].cast<std::vector<double>>();
+  return force.empty() ? std::nullopt : std::optional(Vec3(force.at(0), force.at(1), force.at(2)));
+}
+
+StudyLoad load_in(const py::dict& given, Anatomy anatomy) {
+  return {study_pose(given["at"].cast<std::string>(), anatomy), contact_in(given), force_in(given),
+          directions_in(given)};
+}
+
+StudyFollowLoad follow_load_in(const py::dict& given) {
+  return {force_in(given).value(), directions_in(given), contact_in(given)};
 }
 
 MapGrid grid_in(const py::tuple& given, Anatomy anatomy) {
@@ -80,6 +96,8 @@ StudyOptions study_options_in(const py::dict& given) {
   }
   if (const py::object load = given["load"]; !load.is_none())
     options.load = load_in(load.cast<py::dict>(), options.anatomy);
+  if (const py::object load = given["follow_load"]; !load.is_none())
+    options.follow_load = follow_load_in(load.cast<py::dict>());
   return options;
 }
 

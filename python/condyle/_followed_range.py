@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Optional, Sequence
+from typing import Any, Optional, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,7 +15,21 @@ from ._errors import UsageError
 from ._limits import MotionLimit, motion_limit_of
 from ._motion import MotionLike, Motions
 from ._pressure import ElasticContact
-from ._words import BearingRule, Body, Progress, number, progress_of, word
+from ._words import BearingRule, Body, Path, Progress, number, path_of, progress_of, text_of, word
+
+
+@dataclass(frozen=True, eq=False)
+class _Question:
+    """What limits were asked for, so that a report can ask again."""
+
+    joint: DescribedJoint
+    motions: list[Any]
+    poses: Optional[ArrayLike]
+    contact: Optional[ElasticContact]
+    options: dict[str, Any]
+
+    def arguments(self) -> tuple[list[Any], Any, Any, dict[str, Any]]:
+        return self.motions, self.poses, None if self.contact is None else self.contact._native, self.options
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -36,6 +50,19 @@ class FollowedRange:
     limits: tuple[MotionLimit, ...]
     notes: tuple[ContactNote, ...]
     caveats: list[str]
+    _question: _Question
+
+    def write_report(self, path: Path, *, title: Optional[str] = None, progress: Progress = None) -> None:
+        """Writes one HTML file that shows the joint with these limits in any browser, as `condyle report --follow` does.
+
+        Whole or not at all; FileError where it cannot be written.
+
+        C++: `condyle::answer_range` in condyle/answer.hpp.
+        """
+        question = self._question
+        _native.write_followed_report(
+            question.joint._asked, path_of(path), None if title is None else text_of(title, "title"), *question.arguments(),
+            progress_of(progress))
 
     def __getitem__(self, name: str) -> MotionLimit:
         for limit in self.limits:
@@ -64,7 +91,6 @@ def followed_range(joint: DescribedJoint, motions: Optional[Sequence[MotionLike]
                "only_recorded": motions is None, "force_n": np.zeros(3) if force_n is None else force_n,
                "frame": word(frame, "frame", Body), "free_directions": np.reshape(free_directions, (-1, 3)),
                "step_deg": number(step_deg, "step_deg")}
-    limits, notes, caveats = _native.followed_limits(
-        joint._asked, [known.tuple_of(each) for each in asked], poses, None if contact is None else contact._native, options,
-        progress_of(progress))
-    return FollowedRange(tuple(motion_limit_of(each, known, joint) for each in limits), reported(notes), caveats)
+    question = _Question(joint, [known.tuple_of(each) for each in asked], poses, contact, options)
+    limits, notes, caveats = _native.followed_limits(joint._asked, *question.arguments(), progress_of(progress))
+    return FollowedRange(tuple(motion_limit_of(each, known, joint) for each in limits), reported(notes), caveats, question)

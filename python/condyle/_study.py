@@ -310,8 +310,8 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
               map: Optional[tuple[Axis, Axis]] = None, vary: Optional[str] = None, band_samples: int = 0,
               seed: Optional[int] = None, sigma_centre_mm: Optional[float] = None,
               sigma_axes_deg: Optional[float] = None, sigma_surface_mm: Optional[float] = None, depth_at: str = "",
-              load: Optional[StudyLoad] = None, measures: bool = False, resection: Optional[StudyResection] = None,
-              shard: Optional[tuple[int, int]] = None,
+              load: Optional[StudyLoad] = None, follow_load: Optional[StudyLoad] = None, measures: bool = False,
+              resection: Optional[StudyResection] = None, shard: Optional[tuple[int, int]] = None,
               strict: bool = False, progress: Progress = None) -> Study:
     """Answers for every row of a table of joints and writes the results: docs/cohort.md has both.
 
@@ -333,6 +333,9 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
         How deep the bodies are in each other in this pose, such as "flexion=90 internal_rotation=30".
     load : StudyLoad, optional
         Contact pressure.
+    follow_load : StudyLoad, optional
+        The centre of free joints is not held: at each angle the contact carries this `force_n`. Limits are bounded then, not exact,
+        as those of rows whose column `follow` names a recorded motion: :meth:`Joint.range_following`.
     measures : bool
         The shape of each hip, as of :meth:`Joint.measures`, in columns `measured_...` of `hips`; with bands if `band_samples` says
         so. The pelvis is tilted forwards by the table's column `pelvic_tilt_deg`.
@@ -365,6 +368,10 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
         raise UsageError(f"load: a StudyLoad is needed, not {type(load).__name__}")
     if resection is not None and not isinstance(resection, StudyResection):
         raise UsageError(f"resection: a StudyResection is needed, not {type(resection).__name__}")
+    if follow_load is not None and not isinstance(follow_load, StudyLoad):
+        raise UsageError(f"follow_load: a StudyLoad is needed, not {type(follow_load).__name__}")
+    if follow_load is not None and (follow_load.force_n is None or follow_load.at):
+        raise UsageError("follow_load: needs force_n, and no pose: the motions have them")
     samples = count(band_samples, "band_samples", high=100_000)
     sigmas = dict(zip(_SIGMAS, (sigma_centre_mm, sigma_axes_deg, sigma_surface_mm)))
     for name, given in (("seed", seed), *sigmas.items()):
@@ -379,6 +386,7 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
         "band_samples": samples, "seed": None if seed is None else count(seed, "seed", high=2**64 - 1),
         **{name: None if given is None else number(given, name) for name, given in sigmas.items()},
         "depth_at": depth_at, "load": None if load is None else load._checked(),
+        "follow_load": None if follow_load is None else follow_load._checked(),
         "measures": bool(measures), "resection": None if resection is None else resection._checked()}
     out = path_of(folder, "folder")
     _warn_of(_native.run_study(path_of(table, "table"), out, options, part, bool(strict), progress_of(progress)))

@@ -242,6 +242,15 @@ std::vector<Motion> motions_recorded(std::span<const Motion> motions, const Foll
   return recorded;
 }
 
+std::vector<ContactNote> range_request_notes(const RangeRequest& request) {
+  if (!request.follow) return {};
+  if (const auto* record = std::get_if<FollowRecord>(&*request.follow)) return record->notes;
+  const auto& load = std::get<FollowLoad>(*request.follow);
+  std::vector<ContactNote> notes = check_layers(*load.layers, load.names);
+  add_new(notes, check_load(load.load));
+  return notes;
+}
+
 void answer::check_follow(const RangeRequest& request) {
   if (const auto* record = std::get_if<FollowRecord>(&*request.follow)) {
     for (const Motion& motion : request.motions)
@@ -259,7 +268,7 @@ void answer::check_follow(const RangeRequest& request) {
 
 std::optional<RangeAnswer> answer::followed_range(const Joint& joint, const JointPlacement& placement,
                                                   const RangeRequest& request, const AnswerControl& control) {
-  RangeAnswer answer{.joint = joint, .follows = true};
+  RangeAnswer answer{.joint = joint, .follows = true, .contact_notes = range_request_notes(request)};
   answer.clock_plane = request.clock;
   Followed followed(joint, placement, request, staged(control, "thousandths of motions"));
   answer.bearing = followed.range().bearing();

@@ -42,6 +42,9 @@ constexpr double largest_centre_bound_mm = 1, largest_axis_bound_deg = 5;
 /// How near the joint centre that of a sphere must be to be taken for the head of a bearing surface.
 constexpr double farthest_stray_sphere = 5;
 
+/// A hip bone without a socket, as in models of gait, is nearer to the head's centre than this, in its radii.
+constexpr double farthest_bone = 3;
+
 /// A shaft or a hip bone has its mass farther from the head's centre than this, in radii; a cartilage has not.
 constexpr double least_lever = 1;
 
@@ -262,6 +265,23 @@ void check_hip(const Joint& joint, const SphericalPatch& head, const SphericalPa
                   " opens backwards: front and back are mirrored, or the axes are turned by a quarter");
 }
 
+/// Coarse meshes, as those of models of gait, have no sockets.
+void check_side_without_socket(const Joint& joint, Notes& notes) {
+  if (auto note = kinematics::hip_side_note(joint)) notes.add({std::move(*note)});
+}
+
+/// Without a socket about the head the hip bone may be anywhere.
+void check_distance(const Joint& joint, const Sphere& head, Notes& notes) {
+  double squared = HUGE_VAL;
+  const auto& vertices = joint.fixed.mesh.vertices();
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    squared = std::min(squared, (vertices[v] - head.centre).squaredNorm());
+  if (const double off = std::sqrt(squared); off > farthest_bone * head.radius)
+    notes.add(
+        JointNoteCode::far_centre,
+        joint.fixed.name + formatted(" has nothing within %.0f mm of the head of ", off) + joint.mobile.name);
+}
+
 void check_ball(const Joint& joint, const JointPlacement& placement, Notes& notes) {
   const auto head = head_of(joint, placement);
   if (!head || head->coverage < fullest_stray_sphere) {
@@ -273,11 +293,17 @@ void check_ball(const Joint& joint, const JointPlacement& placement, Notes& note
       notes.add(JointNoteCode::low_coverage,
                 formatted("the sphere about the joint centre is %.0f %% of one on ", 100 * head->coverage) +
                     joint.mobile.name + ": too little for a head, and bearing contact is told by it");
+    check_side_without_socket(joint, notes);
     return;
   }
   const auto socket = kinematics::socket_around(joint.fixed.mesh, head->fit.sphere);
   check_centres(joint, head->fit.sphere, *socket, notes);
-  if (*socket) check_hip(joint, *head, **socket, notes);
+  if (*socket) {
+    check_hip(joint, *head, **socket, notes);
+  } else {
+    check_side_without_socket(joint, notes);
+    check_distance(joint, head->fit.sphere, notes);
+  }
 }
 
 /// Whether two meshes have the same triangles of the same shape, wherever each lies.

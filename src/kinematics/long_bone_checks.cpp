@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "condyle/error.hpp"
 #include "core/formatted.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "mesh/surface_to_surface.hpp"
@@ -34,6 +35,11 @@ constexpr double upright = 0.3, straight = 0.7;
 
 /// A knee's bones are nearest 20 to 40 mm from its axis, an ankle's 20, an elbow's 10.
 constexpr double farthest_from_axis_mm = 60;
+
+/// The head of a femur: its radius, how far from the end of the shaft's line it may be, in parts of the bone's length, 400 mm and
+/// more; its share of a sphere; and how far beside that line it must be, mm: a femur's is 25 and more.
+constexpr double smallest_head = 0.03, largest_head = 0.08, head_reach = 0.2, least_head_coverage = 0.4,
+                 least_offset_mm = 10;
 
 /// Where the area of a bone is, and the line along which it is spread most.
 struct Bone {
@@ -107,7 +113,74 @@ double distance_to_bones(const Joint& joint, const Pose& X_FM) {
   return joint.kind == JointKind::hinge ? std::hypot(middle.x(), middle.y()) : middle.norm();
 }
 
+/// A whole femur: from its condyles to its head, and how far the head lies to the right of the line along the bone, mm. That line
+/// passes between head and shaft.
+struct WholeFemur {
+  Vec3 up;
+  double head_to_right;
+};
+
+/// Empty if that end of the bone has no head.
+std::optional<WholeFemur> whole_femur(const Bone& femur, const TriMesh& mesh, const Vec3& towards_head) {
+  if (!femur.is_shaft) return std::nullopt;
+  const Vec3 up = femur.along.dot(towards_head) < 0 ? Vec3(-femur.along) : femur.along;
+  const Reach reach = reach_along(up, mesh, Pose::Identity());
+  const double length = reach.length();
+  const Vec3 end = femur.middle + (reach.end - femur.middle.dot(up)) * up;
+  try {
+    const SphericalPatch head = find_sphere(mesh, {.smallest_radius = smallest_head * length,
+                                                   .largest_radius = largest_head * length,
+                                                   .within = Sphere{end, head_reach * length}});
+    if (head.coverage < least_head_coverage) return std::nullopt;
+    const Vec3 from_line = head.fit.sphere.centre - femur.middle;
+    return WholeFemur{up, (from_line - from_line.dot(up) * up).z()};
+  } catch (const MeshError&) {
+    return std::nullopt;
+  }
+}
+
+double lateral_mm(const WholeFemur& femur, Side side) {
+  return side == Side::right ? femur.head_to_right : -femur.head_to_right;
+}
+
+const char* side_word(Side side) {
+  return side == Side::right ? "right" : "left";
+}
+
+/// The head of a femur lies above its condyles and medial of its shaft, wherever the frame has its origin.
+std::optional<JointNote> femur_note(const Joint& joint, const Bone& bone, const Vec3& other_bone) {
+  const auto femur = whole_femur(bone, joint.fixed.mesh, bone.middle - other_bone);
+  if (!femur) return std::nullopt;
+  const std::string& name = joint.fixed.name;
+  if (femur->up.y() < upright) {
+    if (joint.kind != JointKind::free) return std::nullopt;  // by its shaft
+    return JointNote{JointNoteCode::axes_not_upright,
+                     "the head of " + name + " does not lie above the joint: superior does not point up"};
+  }
+  if (lateral_mm(*femur, joint.side) < least_offset_mm) return std::nullopt;
+  return JointNote{JointNoteCode::wrong_side,
+                   "the side is " + std::string(side_word(joint.side)) + ", but the head of " + name +
+                       formatted(" lies %.0f mm lateral of its shaft: it is the other side's or mirrored, or "
+                                 "the axes are turned",
+                                 std::abs(femur->head_to_right))};
+}
+
 }  // namespace
+
+std::optional<JointNote> hip_side_note(const Joint& joint) {
+  const auto hip_bone = bone_of(joint.fixed.mesh), bone = bone_of(joint.mobile.mesh);
+  if (!hip_bone || !bone) return std::nullopt;
+  const auto femur = whole_femur(*bone, joint.mobile.mesh, -bone->middle);
+  if (!femur || femur->up.y() < upright || lateral_mm(*femur, joint.side) < least_offset_mm)
+    return std::nullopt;
+  const double outwards = (joint.side == Side::right ? 1 : -1) * hip_bone->middle.normalized().z();
+  if (outwards < upright) return std::nullopt;
+  return JointNote{
+      JointNoteCode::wrong_side,
+      "the side is " + std::string(side_word(joint.side)) + ", but " + joint.fixed.name +
+          " lies lateral of the joint, and the head of " + joint.mobile.name +
+          " lateral of its shaft: they are the other side's or mirrored, or the axes are turned"};
+}
 
 std::vector<JointNote> long_bone_notes(const Joint& joint, const JointPlacement& placement) {
   std::vector<JointNote> notes;
@@ -122,6 +195,8 @@ std::vector<JointNote> long_bone_notes(const Joint& joint, const JointPlacement&
                                             ": are the bodies exchanged, or does superior point down?"});
     return notes;
   }
+  if (joint.anatomy == Anatomy::knee)
+    if (auto note = femur_note(joint, *fixed, X_FM * mobile->middle)) notes.push_back(std::move(*note));
   if (joint.kind == JointKind::free) return notes;
   if (joint.anatomy != Anatomy::shoulder && begins_at_joint(*fixed, joint.fixed.mesh) &&
       fixed->along.y() < upright)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "condyle/joint_checks.hpp"
@@ -15,7 +16,11 @@ namespace condyle::kinematics {
 ///
 /// A shaft is what has its area spread along one line, at least twice as far as across it, and ends at the joint; a cartilage,
 /// a patella or a stump of a bone says nothing there. Which of two bones is above the other, in the reference pose, needs no
-/// shafts, only that they stand end to end. A free joint turns about no fixed point, and has that check only.
+/// shafts, only that they stand end to end. A free joint turns about no fixed point, and has that check only. A femur with its head
+/// says of a knee, of any kind, which way is up and which side it is of.
 std::vector<JointNote> long_bone_notes(const Joint& joint, const JointPlacement& placement);
+
+/// A hip that shows no socket: hip bone and whole femur both of the other side.
+std::optional<JointNote> hip_side_note(const Joint& joint);
 
 }  // namespace condyle::kinematics

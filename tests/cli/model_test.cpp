@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "condyle/io/mesh_file.hpp"
 #include "motion_scene.hpp"
+#include "support/knee_model.hpp"
 #include "support/shared_data.hpp"
 #include "support/test_meshes.hpp"
 
@@ -22,35 +25,18 @@ std::optional<fs::path> shared_model(const char* name) {
   return fs::absolute(*data / name);
 }
 
-/// STL as text in metres, with all digits, as the model of the published knee names it.
-void write_in_metres(const fs::path& path, const TriMesh& mesh) {
-  std::string text = "solid mesh\n";
-  for (const Triangle& triangle : mesh.triangles) {
-    text += "facet normal 0 0 0\nouter loop\n";
-    for (const Index v : triangle)
-      text += fmt::format("vertex {} {} {}\n", mesh.vertices.x[v] / 1000, mesh.vertices.y[v] / 1000,
-                          mesh.vertices.z[v] / 1000);
-    text += "endloop\nendfacet\n";
-  }
-  std::ofstream(path, std::ios::binary) << text << "endsolid mesh\n";
-}
-
 struct PublishedContact {
-  const char *joint, *example, *mobile;
+  const char *joint, *by_hand, *mobile;
 };
 class PublishedModel : public ::testing::TestWithParam<PublishedContact> {};
 
-TEST_P(PublishedModel, GivesTheNumbersOfTheJointFile) {
-  const auto model = shared_model("osim_lenhart2015"), knee = shared_model("knee_lenhart2015_right");
-  if (!model || !knee) GTEST_SKIP() << "the shared knee or its model is missing";
+TEST_P(PublishedModel, GivesTheNumbersOfAJointFileByHand) {
+  if (!has_knee_model()) GTEST_SKIP() << "the shared knee or its model is missing";
   ::setenv("CONDYLE_DATA", fs::absolute(shared_data_folder()).c_str(), 1);
   const TemporaryFolder folder;
-  fs::copy_file(*model / "lenhart2015.osim", folder / "lenhart2015.osim");
-  fs::create_directory(folder / "Geometry");
-  for (const std::string part : {"femur", GetParam().mobile})
-    write_in_metres(folder.path() / "Geometry" / ("lenhart2015-R-" + part + "-cartilage.stl"),
-                    read_mesh(*knee / (part + "_cartilage.ply")).mesh);
-  const std::string states = (*knee / "passive_flexion_states.sto").string();
+  write_knee_model(folder.path(), {"femur", GetParam().mobile});
+  const std::string states =
+      fs::absolute(shared_data_folder() / "knee_lenhart2015_right/passive_flexion_states.sto").string();
   const Ran made = run_condyle(
       folder.path(), fmt::format("init lenhart2015.osim --joint {} -o joint.toml", GetParam().joint));
   ASSERT_EQ(made.exit_code, 0) << made.err;
@@ -59,18 +45,18 @@ TEST_P(PublishedModel, GivesTheNumbersOfTheJointFile) {
   for (const std::string& from :
        {std::string("joint.toml") + question + "file",
         fmt::format("lenhart2015.osim --joint {}{}model", GetParam().joint, question),
-        fmt::format("{}/{}{}example", CONDYLE_EXAMPLES, GetParam().example, question)}) {
+        fmt::format("{}/{}{}hand", CONDYLE_KNEE_BY_HAND, GetParam().by_hand, question)}) {
     const Ran ran = run_condyle(folder.path(), "motion " + from);
     ASSERT_EQ(ran.exit_code, 0) << from << "\n" << ran.err;
   }
   const NumberTable file = csv_of(folder / "file/curves.csv"), direct = csv_of(folder / "model/curves.csv"),
-                    example = csv_of(folder / "example/curves.csv");
+                    hand = csv_of(folder / "hand/curves.csv");
   EXPECT_EQ(file.rows, direct.rows);
-  ASSERT_EQ(file.columns, example.columns);
+  ASSERT_EQ(file.columns, hand.columns);
   ASSERT_EQ(file.rows.size(), 251u);
   for (std::size_t row = 0; row < file.rows.size(); ++row)
     for (std::size_t column = 0; column < file.columns.size(); ++column) {
-      const double wanted = example.rows[row][column];
+      const double wanted = hand.rows[row][column];
       if (std::isnan(wanted)) continue;
       EXPECT_NEAR(file.rows[row][column], wanted, 1e-10 * std::max(1.0, std::abs(wanted)))
           << file.columns[column] << " in frame " << row;
@@ -92,17 +78,13 @@ class ModelHip : public testing::Test {
   }
   Ran run(const std::string& arguments) const { return run_condyle(folder_.path(), arguments); }
 
-  fs::path gait_;
-  TemporaryFolder folder_;
-};
-
-TEST_F(ModelHip, HasTheLimitsOfAJointFileByHand) {
-  const std::string model = (gait_ / "gait2354_simbody.osim").string();
-  const Ran made = run("init " + model + " --joint hip_r -o model.toml");
-  ASSERT_EQ(made.exit_code, 0) << made.err;
-  // The pelvis is three meshes; numbers are those that the model's text has.
-  const auto mesh = [&](const char* name) { return (gait_ / "Geometry" / name).string(); };
-  folder_.file("hand.toml", fmt::format(R"(condyle = 1
+  /// model.toml by init, and hand.toml: the pelvis is three meshes, and numbers are those that the model's text has.
+  void make_both() const {
+    const Ran made =
+        run("init " + (gait_ / "gait2354_simbody.osim").string() + " --joint hip_r -o model.toml");
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const auto mesh = [&](const char* name) { return (gait_ / "Geometry" / name).string(); };
+    folder_.file("hand.toml", fmt::format(R"(condyle = 1
 name = "hip"
 kind = "ball"
 side = "right"
@@ -119,8 +101,16 @@ centre = [-0.0707, -0.0661, 0.0835]
 anterior = [1, 0, 0]
 superior = [0, 1, 0]
 )",
-                                        mesh("sacrum.vtp"), mesh("pelvis.vtp"), mesh("l_pelvis.vtp"),
-                                        mesh("femur_r.vtp")));
+                                          mesh("sacrum.vtp"), mesh("pelvis.vtp"), mesh("l_pelvis.vtp"),
+                                          mesh("femur_r.vtp")));
+  }
+
+  fs::path gait_;
+  TemporaryFolder folder_;
+};
+
+TEST_F(ModelHip, HasTheLimitsOfAJointFileByHand) {
+  make_both();
   const std::string question = " --accept-reference-contact --bearing count --json";
   const Ran by_model = run("rom model.toml" + question), by_hand = run("rom hand.toml" + question);
   ASSERT_EQ(by_model.exit_code, 0) << by_model.err;
@@ -133,6 +123,33 @@ superior = [0, 1, 0]
     EXPECT_NEAR(limits[i]["limit_deg"].get<double>(), wanted[i]["limit_deg"].get<double>(), 1e-6)
         << limits[i]["name"];
   }
+}
+
+TEST_F(ModelHip, HasTheCurvesOfAWalkThatAJointFileByHandHas) {
+  const fs::path walk = fs::absolute(shared_data_folder() / "motion_gait2354_walk/subject01_walk1_ik.mot");
+  if (!fs::exists(walk)) GTEST_SKIP() << walk << " is missing";
+  make_both();
+  std::ofstream(folder_ / "hand.toml", std::ios::app)
+      << "[recorded_motion]\nflexion = \"hip_flexion_r\"\nadduction = \"hip_adduction_r\"\n"
+         "internal_rotation = \"hip_rotation_r\"\n";
+  for (const char* name : {"model", "hand"}) {
+    const Ran ran = run(fmt::format("motion {0}.toml --motion {1} --out {0}", name, walk.string()));
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  }
+  const NumberTable curves = csv_of(folder_ / "model/curves.csv"),
+                    wanted = csv_of(folder_ / "hand/curves.csv");
+  ASSERT_EQ(curves.columns, wanted.columns);
+  ASSERT_EQ(curves.rows.size(), wanted.rows.size());
+  ASSERT_GT(curves.rows.size(), 60u);
+  for (std::size_t row = 0; row < curves.rows.size(); ++row)
+    for (std::size_t column = 0; column < curves.columns.size(); ++column) {
+      const double by_hand = wanted.rows[row][column];
+      if (std::isnan(by_hand))
+        EXPECT_TRUE(std::isnan(curves.rows[row][column]));
+      else
+        EXPECT_NEAR(curves.rows[row][column], by_hand, 1e-9 * std::max(1.0, std::abs(by_hand)))
+            << curves.columns[column] << " in frame " << row;
+    }
 }
 
 TEST_F(ModelHip, IsInspected) {
@@ -190,6 +207,51 @@ TEST_F(ModelHip, SaysInOneLineWhatIsWrong) {
     EXPECT_EQ(ran.out, "") << arguments;
   }
   EXPECT_TRUE(fs::exists(folder_ / "out.toml")) << "the file is written with the names as they are";
+}
+
+TEST_F(ModelHip, NotesAMotionThatLeavesItsRanges) {
+  const std::string model = (gait_ / "gait2354_simbody.osim").string();
+  folder_.file("far.mot",
+               "inDegrees=yes\nendheader\ntime hip_flexion_r hip_adduction_r hip_rotation_r knee_angle_r\n"
+               "0 0 0 0 0\n1 130 0 0 20\n2 10 0 0 -60\n");
+  for (const char* joint : {"hip_r", "knee_r"}) {
+    const Ran ran = run(fmt::format("motion {} --joint {} --motion far.mot --json", model, joint));
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_NE(ran.err.find("condyle: note: beyond_range: "), std::string::npos) << ran.err;
+    const Json notes = Json::parse(ran.out)["notes"];
+    EXPECT_TRUE(std::any_of(notes.begin(), notes.end(),
+                            [](const Json& note) { return note["code"] == "beyond_range"; }));
+    EXPECT_NE(ran.err.find("in 1 of 3 frames"), std::string::npos) << ran.err;
+    EXPECT_EQ(run(fmt::format("motion {} --joint {} --motion far.mot --strict", model, joint)).exit_code, 4);
+  }
+}
+
+TEST(RefusedModels, EndInOneLineOnTheCommandLine) {
+  const auto refused = shared_model("osim_small/refused");
+  if (!refused) GTEST_SKIP() << "no models to refuse";
+  const TemporaryFolder folder;
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(*refused)) {
+    const std::string file = entry.path().string();
+    SCOPED_TRACE(file);
+    Ran ran = run_condyle(folder.path(), "inspect --json " + file);
+    if (ran.exit_code == 0) {
+      std::string joint;
+      const Json joints = Json::parse(ran.out)["models"][0]["joints"];
+      for (const Json& each : joints)
+        if (!each["refused"].is_null()) joint = each["name"].get<std::string>();
+      ASSERT_FALSE(joint.empty()) << "nothing is refused";
+      ran = run_condyle(folder.path(),
+                        fmt::format("init {} --joint {} --anatomy knee --side right -o a.toml", file, joint));
+    }
+    EXPECT_EQ(ran.exit_code, 3) << ran.err;
+    EXPECT_TRUE(is_one_error_line(ran.err)) << ran.err;
+    EXPECT_EQ(ran.err.find("condyle: " + file + ": "), 0u) << ran.err;
+    EXPECT_EQ(ran.out, "");
+    EXPECT_FALSE(fs::exists(folder / "a.toml"));
+    ++files;
+  }
+  EXPECT_EQ(files, 17u);
 }
 
 }  // namespace

@@ -194,7 +194,7 @@ TEST(NormalMethodOnAKnee, GivesThePublishedDepths) {
     add("adduction", Angle::radians(state("add")).degrees());
     add("internal_rotation", Angle::radians(state("rot")).degrees());
     for (const char* axis : {"x", "y", "z"}) add(axis, 1e3 * state(std::string("t") + axis));
-    const Ran ran = run_condyle(folder.path(), "depth " CONDYLE_EXAMPLES
+    const Ran ran = run_condyle(folder.path(), "depth " CONDYLE_KNEE_BY_HAND
                                                "/tibiofemoral.toml --method normal --json --pose \"" +
                                                    pose + "\"");
     ASSERT_EQ(ran.exit_code, 0) << ran.err;

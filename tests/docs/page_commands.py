@@ -7,8 +7,8 @@ Each page has an empty folder of its own, in which its commands run in their ord
 path: `python3 -m condyle.plot` only where the module can be imported, pages that name $CONDYLE_DATA only where it is
 set. Commands are
 
-- lines of fenced or indented blocks that begin with `condyle `, `python3 -m condyle` or `make ` (of which only the
-  target is tried);
+- lines of fenced or indented blocks that begin with `condyle `, `python3 -m condyle`, `python3 $CONDYLE_DATA/` or `make ` (of
+  which only the target is tried);
 - code in running text that begins so and names a file or, after --out, a folder;
 - after them, a fenced block of `text` is what the last command prints; its line `…` stands for any number of lines.
 
@@ -32,7 +32,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-PROGRAMS = ("condyle ", "python3 -m condyle", "make ")
+PROGRAMS = ("condyle ", "python3 -m condyle", "python3 $CONDYLE_DATA/", "make ")
 SYNOPSIS = re.compile(r"\[|…|\b(JOINT|FILE|MESH|DIR|POSE|OUT)\b")
 MARKER = re.compile(r"<!-- (run|exit|prints|leaves|says|same): (.*?) -->")
 OPTION = re.compile(r"(?<![\w-])--[a-z](?:[a-z-]*[a-z])?\b(?!-)")
@@ -249,7 +249,7 @@ class Page:
         self.printed = None
         if self.needs_data and not command.startswith("make ") and not os.environ.get("CONDYLE_DATA"):
             return self.skipped.append("CONDYLE_DATA is not set")
-        if command.startswith("python3 ") and not self.has_module:
+        if command.startswith("python3 -m condyle") and not self.has_module:
             return self.skipped.append("no module condyle.plot")
         if command.startswith("make "):
             # To run it here would build what is tested; that there is such a target is what can be wrong.

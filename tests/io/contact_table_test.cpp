@@ -149,7 +149,7 @@ TEST(ContactTable, RefusesLayersByLineAndKey) {
             "knee.toml: line 5: contact.fixed.thickness: must be a number, not a text");
   EXPECT_EQ(of(std::string(layer) + "thickness = 3\nstiffness = 4\n"),
             "knee.toml: line 6: contact.fixed.stiffness: unknown key; known here: behind, poisson_ratio, "
-            "thickness, thickness_file, youngs_modulus_mpa");
+            "thickness, thickness_bounds, thickness_file, youngs_modulus_mpa");
 }
 
 TEST(ContactTable, RefusesRegionsByLineAndKey) {

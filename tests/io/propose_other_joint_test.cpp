@@ -183,6 +183,15 @@ TEST_F(ProposedOther, OfTwoBoxesIsToBeFilledIn) {
   }
 }
 
+TEST_F(ProposedOther, OfAMeshInsideOutSaysSo) {
+  const std::string toml = proposed(flipped(femur_of({})), tibia_of_knee(), Anatomy::knee).toml;
+  EXPECT_NE(toml.find("the mesh of fixed is inside out: condyle inspect --repair flip_inverted"),
+            std::string::npos)
+      << toml;
+  const std::string open = proposed(box({-20, -20, -20}, {20, 20, 20}), tibia_of_knee(), Anatomy::knee).toml;
+  EXPECT_EQ(open.find("inside out"), std::string::npos) << open;
+}
+
 TEST_F(ProposedOther, HipIsProposedAsWithoutAnAnatomy) {
   const TriMesh fixed = box({-20, -20, -20}, {20, 20, 20}), mobile = sphere({30, 0, 0}, 25, 4);
   const std::string named = proposed(fixed, mobile, Anatomy::hip).toml;

@@ -225,6 +225,43 @@ TEST(LongBoneChecks, KnowAWholeFemurByItsShaft) {
   EXPECT_EQ(of_shape(knee), (Codes{Code::axes_not_upright, Code::far_centre}));
 }
 
+TEST(LongBoneChecks, KnowTheSideOfAWholeFemurByItsHead) {
+  const auto data = shared_data();
+  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  const TriMesh femur = read_ply(*data / "hip_vhf_right" / "femur.ply");
+  double lowest = 0;
+  for (const double y : femur.vertices.y) lowest = std::min(lowest, y);
+  const TriMesh bones[] = {shifted(femur, {0, -lowest - 25, 0}), box({-35, -60, -35}, {35, -30, 35})};
+  const auto codes = [&](JointKind kind, Side side, const Vec3& origin, const Eigen::Matrix3d& by) {
+    const auto made = [&](const TriMesh& bone) {
+      TriMesh mesh = shifted(bone, origin);
+      for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, by * mesh.vertices[v]);
+      return by.determinant() < 0 ? flipped(std::move(mesh)) : mesh;
+    };
+    Joint knee{"knee", kind, side, {"femur", made(bones[0])}, {"tibia", made(bones[1])}};
+    knee.anatomy = Anatomy::knee;
+    Codes found = codes_of(knee);
+    std::erase(found, Code::open_mesh), std::erase(found, Code::self_crossings);
+    return found;
+  };
+  const Eigen::Matrix3d as_it_is = Eigen::Matrix3d::Identity(), mirror = Vec3(1, 1, -1).asDiagonal(),
+                        about_up = half_turn(Vec3::UnitY()), head_down = half_turn(Vec3::UnitX());
+  for (const JointKind kind : {JointKind::free, JointKind::hinge, JointKind::ball}) {
+    const Vec3 here = Vec3::Zero();
+    EXPECT_EQ(codes(kind, Side::right, here, as_it_is), Codes{});
+    EXPECT_EQ(codes(kind, Side::left, here, mirror), Codes{});
+    EXPECT_EQ(codes(kind, Side::left, here, as_it_is), Codes{Code::wrong_side})
+        << "of the right side, named left";
+    EXPECT_EQ(codes(kind, Side::right, here, mirror), Codes{Code::wrong_side});
+    EXPECT_EQ(codes(kind, Side::right, here, about_up), Codes{Code::wrong_side});
+  }
+  // As in OpenSim, where a femur's origin is the centre of its head.
+  const Vec3 at_head(0, lowest + 25, 0);
+  EXPECT_EQ(codes(JointKind::free, Side::right, at_head, as_it_is), Codes{});
+  EXPECT_EQ(codes(JointKind::free, Side::left, at_head, as_it_is), Codes{Code::wrong_side});
+  EXPECT_EQ(codes(JointKind::free, Side::right, at_head, head_down), Codes{Code::swapped_bodies});
+}
+
 TEST(LongBoneChecks, SayNothingOfTheSharedKnee) {
   const auto data = shared_data();
   if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";

@@ -57,6 +57,26 @@ TEST(ContactChecks, NameWhatNoTissueOrImplantHas) {
   EXPECT_NE(notes[1].text.find("is it in micrometres?"), std::string::npos);
 }
 
+TEST(ContactChecks, NameThicknessesBeyondTheBoundsOfTheirFile) {
+  const Mesh mesh = cartilage();
+  std::vector<double> thickness(mesh.vertices().size(), 2.0);
+  thickness[3] = 0.5, thickness[7] = 0.8, thickness[9] = 4.5;
+  const auto of_bounds = [&](std::array<double, 2> bounds) {
+    return check_layers(ElasticContact(mesh, test::sphere(Vec3::Zero(), 24, 2),
+                                       {.fixed = ElasticLayer{10, 0.45, thickness, bounds}}),
+                        {"tibial cartilage", "head"});
+  };
+  EXPECT_EQ(codes_of(of_bounds({0.5, 4.5})), Codes{}) << "the bounds themselves are within";
+  const auto notes = of_bounds({1, 4});
+  ASSERT_EQ(codes_of(notes), Codes{ContactNoteCode::thickness_beyond_bounds});
+  EXPECT_EQ(notes[0].text, "the layer on tibial cartilage is 1 to 4 mm thick by its file, and measured at " +
+                               std::to_string(thickness.size()) +
+                               " vertices: 2 thinner, down to 0.5 mm, and 1 thicker, up to 4.5 mm");
+  EXPECT_EQ(codes_of(of_bounds({0, 4})), Codes{ContactNoteCode::thickness_beyond_bounds});
+  EXPECT_EQ(of_layer({10, 0.45, 3.0, std::array{1.0, 2.0}}), Codes{})
+      << "a layer of one thickness is not measured";
+}
+
 TEST(ContactChecks, NameABoneThatIsGivenALayer) {
   // A ball of radius 24: 2 V / A = 2 r / 3.
   EXPECT_EQ(of_layer({10, 0.45, 3.0}, test::sphere(Vec3::Zero(), 24, 3)),

@@ -6,6 +6,7 @@ import subprocess
 
 import numpy as np
 import pytest
+from report_data import text_of
 
 import condyle
 
@@ -282,6 +283,15 @@ def test_the_centre_follows_a_recorded_motion_or_a_load(tmp_path, command):
     assert found["flexion"].turned_deg == by_command["motions"][0]["limit_deg"]
     assert found["flexion"].translation_mm.tolist() == by_command["motions"][0]["translation_mm"]
     assert found.caveats == by_command["caveats"]
+    found.write_report(tmp_path / "python.html", title="hip")
+    subprocess.run([command, "report", tmp_path / "hip.toml", "--follow", tmp_path / "record.csv", "--title", "hip", "--out",
+                    tmp_path / "command.html"], check=True, capture_output=True)
+    pages = [text_of(tmp_path / name) for name in ("python.html", "command.html")]
+    assert pages[0]["rom"]["motions"] == pages[1]["rom"]["motions"] == by_command["motions"]
+    assert pages[0]["rom"]["exact"] is False and pages[0]["poses"] == pages[1]["poses"]
+    (tmp_path / "joints.csv").write_text("id,joint,follow\none,hip.toml,record.csv\n")
+    study = condyle.run_study(tmp_path / "joints.csv", tmp_path / "study")
+    assert study.limits["limit_deg"].tolist() == [found["flexion"].turned_deg] and study.hips["exact"].tolist() == [0]
     held = joint.range_of_motion(["flexion"])["flexion"]
     assert held.translation_mm is None and 0.1 < abs(held.turned_deg - found["flexion"].turned_deg) < 20
     contact = condyle.ElasticContact(layers.acetabular, layers.femoral, mobile_layer=condyle.ElasticLayer(12, 0.42, 1.5))
@@ -291,3 +301,8 @@ def test_the_centre_follows_a_recorded_motion_or_a_load(tmp_path, command):
         joint.range_following()
     with pytest.raises(condyle.UsageError, match="turns back"):
         joint.range_following(["flexion"], poses=joint.pose(flexion_deg=[0, 10, 5, 20]))
+    with pytest.raises(condyle.UsageError, match="turns back"):
+        joint.range_following(poses=joint.pose(flexion_deg=[0, 10, 5, 20]))
+    (tmp_path / "loads.csv").write_text("id,joint\none,hip.toml\n")
+    with pytest.raises(condyle.UsageError, match="needs force_n"):
+        condyle.run_study(tmp_path / "loads.csv", tmp_path / "loads", follow_load=condyle.StudyLoad())

@@ -1,21 +1,13 @@
 """Reports and pictures hold what the command's hold."""
 
-import base64
-import json
 import pickle
-import re
 import subprocess
-import zlib
 
 import numpy as np
 import pytest
+from report_data import text_of
 
 import condyle
-
-
-def text_of(path):
-    data = zlib.decompress(base64.b64decode(re.search(r'id="condyle-data">([^<]*)<', path.read_text()).group(1)))
-    return json.loads(data[16:16 + int.from_bytes(data[12:16], "little")])
 
 
 def test_a_report_is_that_of_the_command_but_for_its_name(command, hip, hip_file, tmp_path):

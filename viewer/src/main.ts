@@ -237,7 +237,7 @@ class Page {
     const ask = button(words.computeMap, () => {
       if (!this.core) return;
       ask.remove();
-      const question = { ...coarseMap(), held: this.text.rom?.held_translation_mm ?? [0, 0, 0] } satisfies MapQuestion;
+      const question = { ...coarseMap(), held: this.text.rom?.held_translation_mm ?? this.text.reference_mm } satisfies MapQuestion;
       const [column, row, vary] = [question.columnAngle, question.rowAngle, question.vary].map((i) => this.text.coordinates[i]!);
       showMap({
         columns: { angle: column!.name, opposite: column!.opposite, values_deg: question.columns },

@@ -28,6 +28,8 @@ export interface MotionAnswer {
   /// What meets; `part` of a body of several meshes.
   features?: Record<"fixed" | "mobile", { part?: string }> | null;
   contact_point_mm: [number, number, number] | null;
+  /// Of a joint whose centre is not held: where the mobile body is at the limit.
+  translation_mm?: [number, number, number] | null;
   clock_hour: number | null;
   vary: string;
   sense: "positive" | "negative";
@@ -58,6 +60,7 @@ export interface FittedSphere {
 }
 
 export interface RomAnswer {
+  exact?: boolean;
   bearing?: {
     rule: "count" | "leave_out";
     why_none?: string;

@@ -44,13 +44,13 @@ const motion = object({
   bearing_contact_deg: orNull(number), contact_point_mm: orNull(three), clock_hour: orNull(number), vary: text,
   sense: oneOf("positive", "negative"), range_deg: number, start_deg: each(number), at_limit_deg: each(number),
   normal_range_deg: orNull(number), band: orNull(object({ p5_deg: number, median_deg: number, p95_deg: number })),
-  soft_contact_deg: ifThere(orNull(number)), features: ifThere(orNull(object({ fixed: feature, mobile: feature }))),
+  translation_mm: ifThere(orNull(three)), soft_contact_deg: ifThere(orNull(number)), features: ifThere(orNull(object({ fixed: feature, mobile: feature }))),
   error_bound_deg: ifThere(number), caveats: ifThere(list(object({ code: text, text, source: orNull(text) }))),
 });
 
 const sphere = object({ radius_mm: number });
 const rom = object({
-  clock_plane: ifThere(orNull(oneOf("sagittal", "rim"))),
+  exact: ifThere(flag), clock_plane: ifThere(orNull(oneOf("sagittal", "rim"))),
   held_translation_mm: ifThere(orNull(three)), motions: list(motion), notes: list(object({ code: text, text })), caveats: list(text),
   normal_range_source: ifThere(orNull(text)), scope: text, bearing: ifThere(object({
     rule: oneOf("count", "leave_out"), why_none: ifThere(text), head: ifThere(orNull(sphere)), socket: ifThere(orNull(sphere)),

@@ -223,6 +223,8 @@ export const words = {
   how: "How limits were found",
   guarantee: "A limit is the first contact of the surfaces as the angle turns: free before it, in contact at it or past it by at most " +
     "its error bound.",
+  bounded: "Limits are bounded, not exact, for the centre is not held: the joint is free up to each, and past it by its error bound in " +
+    "contact, or nearer to contact than some micrometres.",
   bandsFrom: ({ samples, seed, centre_mm, axes_deg, surface_mm, surface_voxels }: BandSource) =>
     `Bands: 5 to 95 % of ${samples} displaced joints, seed ${seed}; standard deviations: centre ${centre_mm} mm, axes ${axes_deg}°, ` +
     `surfaces ${surface_voxels ? `${surface_voxels} voxels` : `${surface_mm} mm`}.`,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -24,6 +25,8 @@ struct LayerEntry {
   /// A text file with the thickness at each vertex of the surface, in the joint file's units; then nothing else is given.
   std::optional<std::filesystem::path> thickness_file = {};
   double mm_per_unit = 1;  ///< of that file
+  /// Of a thickness that varies: what lies beyond is noted.
+  std::optional<std::array<double, 2>> thickness_bounds_mm = {};
 };
 
 /// A part of the casting surface by its place: the faces whose centre is in all half-spaces.

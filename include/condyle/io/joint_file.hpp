@@ -130,7 +130,7 @@ struct JointMotion {
   std::vector<std::string> processing;    ///< of the table and of its reading
   std::filesystem::path path = {};        ///< of the table
   FileDigest digest = {};
-  std::vector<ContactNote> notes = {};  ///< what looks wrong with its numbers: their unit
+  std::vector<ContactNote> notes = {};  ///< what looks wrong with its numbers: their unit, ranges, locks
 };
 
 /// By the joint file's [recorded_motion]. Without one the table must have columns named after the joint's coordinates and

@@ -107,6 +107,8 @@ enum class ModelNoteCode : std::uint8_t {
   missing_mesh,         ///< It is left out.
   other_case,           ///< A mesh was found by a name in another case of letters.
   mirrored,             ///< A mesh by its scale factors; its triangles are turned round.
+  uneven_scale,         ///< Scale factors of a mesh that differ by more than twice.
+  repeated_mesh,        ///< One that is attached twice in one place; it is taken once.
   not_used,             ///< Kinds of components, and how many of each.
   welded,               ///< Bodies that are one.
   oblique_axis,         ///< A hinge does not turn about an axis to the side.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "condyle/io/file_digest.hpp"
 #include "condyle/mesh.hpp"
+#include "condyle/motion_contact.hpp"
 #include "condyle/pose.hpp"
 
 /// From a table of a recorded motion to one set of coordinates or one pose per frame. A mapping says which columns mean
@@ -63,6 +65,10 @@ struct ColumnOfCoordinate {
   double offset = 0;  ///< degrees or mm
   /// Stands in for the column, in degrees or mm, in a table that has no such column.
   std::optional<double> otherwise = {};
+  /// The column's lowest and highest value by the model that it is of, degrees or mm. It changes no pose: frames beyond it
+  /// are noted.
+  std::optional<std::array<double, 2>> range = {};
+  bool is_locked = false;  ///< by that model, at `otherwise`; likewise
 };
 
 /// Columns with poses of both bodies, 16 per body, in one frame L of a laboratory or scanner.
@@ -87,6 +93,7 @@ struct NamedCoordinates {
   /// Per frame one value for each name, in degrees or mm; nothing if one of their columns has a gap.
   std::vector<std::optional<std::vector<double>>> frames;
   std::vector<std::string> processing;  ///< of the table and of this reading
+  std::vector<ContactNote> notes = {};  ///< values that the columns' ranges and locks do not allow
 };
 
 /// Raises FileError for a column that is not there (naming one that was most likely meant) or could be two, and for an
@@ -100,6 +107,7 @@ struct RecordedPoses {
   /// X_FM = X_LF^-1 X_LM of the bodies' own frames, translation in mm; nothing if one of the 32 cells is a gap.
   std::vector<std::optional<Pose>> X_FM;
   std::vector<std::string> processing;  ///< of the table and of this reading
+  std::vector<ContactNote> notes = {};  ///< of a model: values that its ranges and locks do not allow
 };
 
 /// Poses from matrices of 4 x 4 numbers, row by row, in columns named

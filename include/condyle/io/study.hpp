@@ -51,6 +51,13 @@ struct StudyLoad {
   std::vector<Vec3> free_directions = {};
 };
 
+/// The translation of free joints follows this force on the mobile body: FollowLoad.
+struct StudyFollowLoad {
+  Vec3 force_n = Vec3::Zero();             ///< as of StudyLoad
+  std::vector<Vec3> free_directions = {};  ///< likewise
+  ContactChanges contact = {};             ///< likewise
+};
+
 /// The bone of each joint that must go so that motions reach these targets.
 struct StudyResection {
   std::vector<NamedReach> targets = {};
@@ -70,6 +77,8 @@ struct StudyOptions {
   std::optional<PoseDegrees> depth_at =
       {};  ///< how deep the bodies are in each other in this pose: study_pose()
   std::optional<StudyLoad> load = {};
+  /// Free joints are answered with this, or with a recorded motion of their row; without either they are failures.
+  std::optional<StudyFollowLoad> follow_load = {};
   /// The shape of each hip, with bands where `bands` says so: docs/measures.md. UsageError for other joints.
   bool measures = false;
   std::optional<StudyResection> resection = {};

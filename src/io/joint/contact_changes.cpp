@@ -19,7 +19,8 @@ void change_layer(std::optional<LayerEntry>& layer, const ContactChanges& change
   if (!layer) layer.emplace();
   take(changes.youngs_modulus_mpa, body, layer->youngs_modulus_mpa);
   take(changes.poisson_ratio, body, layer->poisson_ratio);
-  if (!changes.thickness_mm.empty()) layer->behind.reset(), layer->thickness_file.reset();
+  if (!changes.thickness_mm.empty())
+    layer->behind.reset(), layer->thickness_file.reset(), layer->thickness_bounds_mm.reset();
   take(changes.thickness_mm, body, layer->thickness_mm);
 }
 

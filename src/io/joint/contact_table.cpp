@@ -36,6 +36,13 @@ LayerEntry layer_entry(TomlTable& table, double mm_per_unit, const std::filesyst
     if (!(*thickness > 0)) table.fail("thickness", "must be above 0");
     layer.thickness_mm = mm_per_unit * *thickness;
   }
+  if (const auto bounds = table.pair("thickness_bounds")) {
+    if (!layer.behind && !layer.thickness_file)
+      table.fail("thickness_bounds", "is of a thickness that varies: by behind or thickness_file");
+    if (!(bounds->front() >= 0 && bounds->front() <= bounds->back()))
+      table.fail("thickness_bounds", "must be [least, greatest], both 0 or more");
+    layer.thickness_bounds_mm = {mm_per_unit * bounds->front(), mm_per_unit * bounds->back()};
+  }
   table.finish();
   return layer;
 }
@@ -145,7 +152,8 @@ ElasticContactOptions elastic_options(const ContactEntry& entry, const ContactSu
   const auto layer = [&](const std::optional<LayerEntry>& of, const Body& surface, const MeshOrigin& origin) {
     std::optional<ElasticLayer> made;
     if (!of) return made;
-    made.emplace(ElasticLayer{of->youngs_modulus_mpa, of->poisson_ratio, of->thickness_mm});
+    made.emplace(
+        ElasticLayer{of->youngs_modulus_mpa, of->poisson_ratio, of->thickness_mm, of->thickness_bounds_mm});
     if (of->thickness_file) made->thickness_mm = read_thickness(*of, surface);
     if (of->behind) made->thickness_mm = measured(surface, *of, origin, entry.rays.reach_mm);
     return made;

@@ -12,6 +12,7 @@
 #include "kinematics/elbow_anatomy.hpp"
 #include "kinematics/knee_anatomy.hpp"
 #include "kinematics/shoulder_anatomy.hpp"
+#include "mesh/enclosed_volume.hpp"
 #include "mesh/scale.hpp"
 
 namespace condyle::io {
@@ -253,6 +254,15 @@ ShownJoint shown(Anatomy anatomy, const TriMesh& fixed, const TriMesh& mobile) {
   }
 }
 
+/// Condyles, heads and domes of a mesh that is inside out are hollows.
+std::string inverted_text(const ProposedBody& fixed, const ProposedBody& mobile) {
+  for (const ProposedBody* body : {&fixed, &mobile})
+    if (const Mesh mesh(body->mesh); mesh.is_closed() && mesh::enclosed_volume(mesh) < 0)
+      return fmt::format("; the mesh of {} is inside out: condyle inspect --repair flip_inverted",
+                         body->name);
+  return {};
+}
+
 /// The side as the file has it.
 std::optional<Side> add_side(ProposalLines& lines, const std::optional<Stated<Side>>& stated,
                              const ShownJoint& joint, Anatomy anatomy) {
@@ -306,7 +316,8 @@ JointProposal proposal_of_other(ProposedBody fixed, ProposedBody mobile, Anatomy
   if (joint.centre.value)
     lines.key("centre", place_text(*joint.centre.value, units), joint.centre.says);
   else
-    lines.missing("centre", "[x, y, z]", fmt::format("{}; {}", joint.centre.says, centre_sets));
+    lines.missing("centre", "[x, y, z]",
+                  fmt::format("{}{}; {}", joint.centre.says, inverted_text(fixed, mobile), centre_sets));
   add_direction(lines, "anterior", joint.anterior, joint.anterior_choices);
   add_direction(lines, "superior", joint.superior, "[x, y, z]");
   for (const std::string& line : joint.evidence) lines.evidence(line);

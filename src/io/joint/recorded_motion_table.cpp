@@ -37,6 +37,11 @@ ColumnOfCoordinate column_of(TomlTable& file, const CoordinateName& coordinate) 
   if (out.sign != 1 && out.sign != -1) table.fail("sign", "must be 1 or -1");
   out.offset = table.number("offset").value_or(0);
   out.otherwise = table.number("default");
+  out.range = table.pair("range");
+  if (out.range && !(out.range->front() <= out.range->back()))
+    table.fail("range", "must be [lowest, highest]");
+  out.is_locked = table.flag("locked").value_or(false);
+  if (out.is_locked && !out.otherwise) table.fail("locked", "needs default, where the coordinate is locked");
   table.finish();
   return out;
 }

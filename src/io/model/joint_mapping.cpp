@@ -56,6 +56,10 @@ ColumnOfCoordinate column(const std::string& joint, const ModelCoordinate& coord
   out.sign = sign;
   out.offset = unit * offset + 0.0;
   out.otherwise = unit * coordinate.default_value + 0.0;
+  // "No range" is written as a huge one.
+  const auto end = [&](double value) { return std::clamp(unit * value, -1e9, 1e9) + 0.0; };
+  if (coordinate.range) out.range = {end(coordinate.range->front()), end(coordinate.range->back())};
+  out.is_locked = coordinate.is_locked;
   return out;
 }
 

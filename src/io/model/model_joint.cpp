@@ -31,6 +31,10 @@ std::string_view name_of(ModelNoteCode code) noexcept {
       return "other_case";
     case ModelNoteCode::mirrored:
       return "mirrored";
+    case ModelNoteCode::uneven_scale:
+      return "uneven_scale";
+    case ModelNoteCode::repeated_mesh:
+      return "repeated_mesh";
     case ModelNoteCode::not_used:
       return "not_used";
     case ModelNoteCode::welded:
@@ -86,19 +90,27 @@ const ModelJoint& joint_named(const Model& model, std::string_view name) {
                                core::did_you_mean(name, names), list.empty() ? "none" : list));
 }
 
+/// Relative: welds in a circle come back to where they began but for rounding.
+constexpr double same_place = 1e-9;
+
 std::vector<io::WeldedBody> io::welded_bodies(const Model& model, const ModelJoint& joint, BodyRole role) {
   std::vector<WeldedBody> bodies{{role == BodyRole::fixed ? joint.parent_body : joint.child_body}};
-  const auto add = [&](const std::string& body, const Pose& X) {
-    const auto is_this = [&](const WeldedBody& known) { return known.name == body; };
-    if (std::none_of(bodies.begin(), bodies.end(), is_this)) bodies.push_back({body, X});
+  const auto add = [&](const ModelJoint& weld, const std::string& body, const Pose& X) {
+    const auto known = std::find_if(bodies.begin(), bodies.end(),
+                                    [&](const WeldedBody& other) { return other.name == body; });
+    if (known == bodies.end())
+      bodies.push_back({body, X});
+    else if (!known->X.isApprox(X, same_place))
+      throw FileError(fmt::format("{}: line {}: joint {}: welds body {} where other welds do not have it",
+                                  model.path.string(), weld.line, in_quotes(weld.name), in_quotes(body)));
   };
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (const ModelJoint& weld : model.joints) {
       if (weld.type != "WeldJoint" || weld.name == joint.name) continue;
       const Pose X_parent_child = pose_of(weld, {});
       const WeldedBody body = bodies[i];
-      if (weld.parent_body == body.name) add(weld.child_body, body.X * X_parent_child);
-      if (weld.child_body == body.name) add(weld.parent_body, body.X * inverted(X_parent_child));
+      if (weld.parent_body == body.name) add(weld, weld.child_body, body.X * X_parent_child);
+      if (weld.child_body == body.name) add(weld, weld.parent_body, body.X * inverted(X_parent_child));
     }
   }
   return bodies;

@@ -17,6 +17,7 @@
 #include "io/joint/proposal_lines.hpp"
 #include "io/mesh/parse.hpp"
 #include "io/model/joint_mapping.hpp"
+#include "io/model/model_contact_lines.hpp"
 #include "io/model/model_joint_file.hpp"
 #include "io/model/spatial_transform.hpp"
 #include "io/model/welded_bodies.hpp"
@@ -35,6 +36,17 @@ std::string toml_pose(const Pose& X) {
   std::vector<double> rows;
   for (int i = 0; i < 16; ++i) rows.push_back(X.matrix()(i / 4, i % 4) + 0.0);
   return fmt::format("[{}]", fmt::join(rows, ", "));
+}
+
+/// Bones of people of other sizes are scaled by 0.7 to 1.3 along each axis.
+constexpr double most_uneven_scale = 2;
+
+/// The names, or the first of very many.
+std::string some_of(std::vector<std::string> names) {
+  constexpr std::size_t most_named = 20;
+  const std::size_t more = names.size() - std::min(names.size(), most_named);
+  names.resize(names.size() - more);
+  return fmt::format("{}{}", fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
 /// A mesh of a body under the name that it has among the others.
@@ -76,8 +88,7 @@ class ModelJointFile {
     mobile_bodies_ = welded_bodies(model_, joint_, BodyRole::mobile);
     require_two_bodies();
     for (const BodyRole role : {BodyRole::fixed, BodyRole::mobile})
-      for (const ModelMesh& mesh : meshes_of(model_, joint_, role))
-        add_mesh(meshes_of_role(role), mesh, fs::path(mesh.file).stem().string());
+      for (const ModelMesh& mesh : meshes_of(model_, joint_, role)) add_once(meshes_of_role(role), mesh);
     choose_contact();
     leave_out_missing();
   }
@@ -151,6 +162,18 @@ class ModelJointFile {
     return names;
   }
 
+  void add_once(std::vector<NamedMesh>& meshes, const ModelMesh& mesh) {
+    const bool is_there = std::any_of(meshes.begin(), meshes.end(),
+                                      [&](const NamedMesh& other) { return is_same(other.mesh, mesh); });
+    if (!is_there) {
+      add_mesh(meshes, mesh, fs::path(mesh.file).stem().string());
+      return;
+    }
+    note(ModelNoteCode::repeated_mesh,
+         fmt::format("mesh {} is attached to body {} twice in one place, and taken once",
+                     in_quotes(mesh.file), in_quotes(mesh.body)));
+  }
+
   const NamedMesh& add_mesh(std::vector<NamedMesh>& meshes, const ModelMesh& mesh, std::string name) const {
     if (mesh.scale.cwiseAbs().minCoeff() == 0)
       throw FileError(fmt::format("{}: line {}: mesh {}: scale_factors: a factor of 0 leaves no solid",
@@ -212,6 +235,12 @@ class ModelJointFile {
       note(ModelNoteCode::mirrored,
            fmt::format("mesh {} is mirrored by its scale factors: its triangles are turned round",
                        in_quotes(named.mesh.file)));
+    const Vec3 size = named.mesh.scale.cwiseAbs();
+    if (size.maxCoeff() > most_uneven_scale * size.minCoeff())
+      note(ModelNoteCode::uneven_scale, fmt::format("mesh {} is scaled by {:.4g}, {:.4g} and {:.4g} along "
+                                                    "its axes, which no bone of another size is",
+                                                    in_quotes(named.mesh.file), named.mesh.scale.x(),
+                                                    named.mesh.scale.y(), named.mesh.scale.z()));
   }
 
   void write_body(std::string_view role, const std::string& name, const std::vector<NamedMesh>& meshes,
@@ -277,7 +306,11 @@ class ModelJointFile {
       if (column.kind == CoordinateKind::length) line += ", unit = \"m\"";
       if (column.sign != 1) line += ", sign = -1";
       if (column.offset != 0) line += fmt::format(", offset = {}", column.offset);
-      add(line + fmt::format(", default = {} }}", *column.otherwise));
+      line += fmt::format(", default = {}", *column.otherwise);
+      if (column.range)
+        line += fmt::format(", range = [{}, {}]", column.range->front(), column.range->back());
+      if (column.is_locked) line += ", locked = true";
+      add(line + " }");
     }
   }
 
@@ -337,23 +370,20 @@ class ModelJointFile {
     if (contact_) attach_contact();
   }
 
-  void refuse(const std::string& what) const {
-    throw FileError(fmt::format("{}: line {}: contact {}: {}", model_.path.string(), contact_->line,
-                                in_quotes(contact_->name), what));
-  }
-
   /// Makes sure that both surfaces are among the meshes of their bodies.
   void attach_contact() {
     for (const std::string* name : {&contact_->casting, &contact_->target}) {
       const ModelContactMesh& mesh = contact_mesh(*name);
+      if (mesh.mesh.path) continue;
+      note(ModelNoteCode::contact_left_out,
+           fmt::format("contact {} is left out: mesh {} of {} is missing", in_quotes(contact_->name),
+                       in_quotes(mesh.mesh.file), in_quotes(*name)));
+      contact_ = nullptr;
+      return;
+    }
+    for (const std::string* name : {&contact_->casting, &contact_->target}) {
+      const ModelContactMesh& mesh = contact_mesh(*name);
       const auto [role, X] = *role_of(mesh);
-      if (!mesh.mesh.path) {
-        note(ModelNoteCode::contact_left_out,
-             fmt::format("contact {} is left out: mesh {} of {} is missing", in_quotes(contact_->name),
-                         in_quotes(mesh.mesh.file), in_quotes(*name)));
-        contact_ = nullptr;
-        return;
-      }
       ModelMesh placed = mesh.mesh;
       placed.X_BG = X;
       std::vector<NamedMesh>& meshes = meshes_of_role(role);
@@ -366,57 +396,18 @@ class ModelJointFile {
 
   void write_contact() {
     if (!contact_) return;
-    if (contact_->least_proximity != 0)
-      refuse(fmt::format("min_proximity {} is not 0", contact_->least_proximity));
     const ModelContactMesh& casting = contact_mesh(contact_->casting);
     const ModelContactMesh& target = contact_mesh(contact_->target);
-    for (const ModelContactMesh* mesh : {&casting, &target})
-      if (!(mesh->youngs_modulus_pa > 0 && mesh->thickness > 0 && mesh->least_thickness > 0))
-        refuse(fmt::format("elastic_modulus and thicknesses of {} must be above 0", in_quotes(mesh->name)));
-    for (const ModelContactMesh* mesh : {&casting, &target})
-      if (!(mesh->poisson_ratio < 0.5 && mesh->poisson_ratio > -1))
-        refuse(fmt::format("poissons_ratio {} of {} is not below 0.5", mesh->poisson_ratio,
-                           in_quotes(mesh->name)));
-    const bool is_mobile = role_of(casting)->first == BodyRole::mobile;
-    add(fmt::format("\n[contact]  # {} of the model", in_quotes(contact_->name)));
-    add(fmt::format("casting = \"{}\"", is_mobile ? "mobile" : "fixed"));
-    add("rule = \"face_centre\"  # a ray from each triangle's centre, as OpenSim-JAM casts them");
-    add(fmt::format("reach = {}", contact_->greatest_proximity));
-    add(fmt::format("law = \"{}\"", contact_->is_linear ? "linear" : "logarithmic"));
-    add("moment_on = \"target\"  # as OpenSim-JAM prints it; the force is on the casting body");
-    if (fixed_.size() > 1) add("fixed_part = " + toml_text(fixed_part_));
-    if (mobile_.size() > 1) add("mobile_part = " + toml_text(mobile_part_));
-    write_layer("fixed", is_mobile ? target : casting, is_mobile ? casting : target);
-    write_layer("mobile", is_mobile ? casting : target, is_mobile ? target : casting);
-  }
-
-  void write_layer(std::string_view role, const ModelContactMesh& mesh, const ModelContactMesh& other) {
-    double modulus = mesh.youngs_modulus_pa, ratio = mesh.poisson_ratio;
-    const bool is_mean =
-        contact_->is_lumped && (other.youngs_modulus_pa != modulus || other.poisson_ratio != ratio);
-    if (is_mean) {
-      modulus = (modulus + other.youngs_modulus_pa) / 2;
-      ratio = (ratio + other.poisson_ratio) / 2;
-    }
-    add(fmt::format("\n[contact.{}]{}", role,
-                    is_mean ? "  # the means of both: the model's contact is lumped" : ""));
-    add(fmt::format("youngs_modulus_mpa = {}", modulus / 1e6));
-    add(fmt::format("poisson_ratio = {}", ratio));
-    if (!mesh.has_variable_thickness) return add(fmt::format("thickness = {}", mesh.thickness));
-    if (!mesh.back_path)
-      refuse(
-          fmt::format("mesh_back_file {} of {} is missing", in_quotes(mesh.back_file), in_quotes(mesh.name)));
-    const auto [of_role, X] = *role_of(mesh);
-    if (mesh.mesh.scale != Vec3::Ones() || !X.matrix().isIdentity(0))
-      refuse(fmt::format("the thickness of {} varies, and its mesh is scaled or moved in its body",
-                         in_quotes(mesh.name)));
-    add("behind = " + toml_text(path_of(*mesh.back_path)));
-    add(fmt::format("thickness = {}  # of vertices with nothing behind them", mesh.least_thickness));
-    note(ModelNoteCode::measured_thickness,
-         fmt::format(
-             "the thickness of {} is measured at its vertices and has no bounds; OpenSim-JAM measures it at "
-             "triangles, between {} and {} m: pressures are near to its own, not equal",
-             in_quotes(mesh.name), mesh.least_thickness, mesh.greatest_thickness));
+    const auto [casting_role, X_casting] = *role_of(casting);
+    add(contact_lines(
+        model_,
+        {*contact_,
+         {casting, X_casting},
+         {target, role_of(target)->second},
+         casting_role,
+         fixed_.size() > 1 ? fixed_part_ : "",
+         mobile_.size() > 1 ? mobile_part_ : ""},
+        [&](const fs::path& file) { return path_of(file); }, out_.notes));
   }
 
   void note_what_is_left_out() {
@@ -427,8 +418,7 @@ class ModelJointFile {
     for (const BodyRole role : {BodyRole::fixed, BodyRole::mobile}) {
       std::vector<std::string> names;
       for (const WeldedBody& body : bodies_of_role(role)) names.push_back(body.name);
-      if (names.size() > 1)
-        note(ModelNoteCode::welded, fmt::format("welded to one body: {}", fmt::join(names, ", ")));
+      if (names.size() > 1) note(ModelNoteCode::welded, "welded to one body: " + some_of(names));
     }
     out_.notes.insert(out_.notes.end(), model_.notes.begin(), model_.notes.end());
     if (has_proximal_child(joint_))
@@ -465,7 +455,7 @@ ModelJointProposal propose_joint(const Model& model, const ModelJointRequest& re
   return io::ModelJointFile(model, request).proposal();
 }
 
-JointFile io::joint_file_of(const Model& model, ModelJointRequest request) {
+io::JointFileOfModel io::joint_file_of(const Model& model, ModelJointRequest request) {
   request.joint_file = model.path;
   ModelJointProposal proposed = propose_joint(model, request);
   if (!proposed.missing_body.empty()) throw FileError(proposed.missing_body);
@@ -476,11 +466,11 @@ JointFile io::joint_file_of(const Model& model, ModelJointRequest request) {
   std::vector<std::string> processing;
   for (const ModelNote& note : proposed.notes) processing.push_back(to_text(note));
   file.processing.insert(file.processing.begin(), processing.begin(), processing.end());
-  return file;
+  return {std::move(file), std::move(proposed.notes)};
 }
 
 LoadedJoint read_joint(const Model& model, const ModelJointRequest& request) {
-  return io::load_joint(io::joint_file_of(model, request));
+  return io::load_joint(io::joint_file_of(model, request).file);
 }
 
 }  // namespace condyle

@@ -61,7 +61,7 @@ ModelCoordinate coordinate_of(const Source& source, const XmlElement& element, c
     const std::vector<double> ends = values.numbers(*range);
     if (ends.size() != 2)
       values.fail_at(*range, fmt::format("range: two numbers are needed, not {}", ends.size()));
-    coordinate.range = {ends[0], ends[1]};
+    coordinate.range = {std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};
   }
   coordinate.is_clamped = values.flag("clamped", true);
   coordinate.is_locked = values.flag("locked", false);

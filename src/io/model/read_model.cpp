@@ -194,15 +194,20 @@ class ModelReader {
     return X;
   }
 
+  FoundMesh found_mesh(const std::string& file) {
+    FoundMesh found = find_mesh(file, folder_, folders_);
+    if (found.in_another_case)
+      model_.notes.push_back(
+          {ModelNoteCode::other_case, fmt::format("mesh {} was found as {}", in_quotes(file),
+                                                  in_quotes(found.path->filename().string()))});
+    return found;
+  }
+
   void add_mesh(ModelMesh mesh, std::string file, const ModelElement& of) {
     if (file.empty()) return;
     of.require_plain(file, "the name of its file");
     mesh.file = std::move(file);
-    FoundMesh found = find_mesh(mesh.file, folder_, folders_);
-    if (found.in_another_case)
-      model_.notes.push_back(
-          {ModelNoteCode::other_case, fmt::format("mesh {} was found as {}", in_quotes(mesh.file),
-                                                  in_quotes(found.path->filename().string()))});
+    FoundMesh found = found_mesh(mesh.file);
     mesh.path = std::move(found.path);
     mesh.looked_in = std::move(found.looked_in);
     model_.meshes.push_back(std::move(mesh));
@@ -220,7 +225,7 @@ class ModelReader {
     contact.mesh.scale = values.triple({"scale_factors"}, Vec3::Ones());
     contact.mesh.file = values.text("mesh_file");
     if (contact.mesh.file.empty()) values.fail("mesh_file is missing");
-    FoundMesh found = find_mesh(contact.mesh.file, folder_, folders_);
+    FoundMesh found = found_mesh(contact.mesh.file);
     contact.mesh.path = std::move(found.path);
     contact.mesh.looked_in = std::move(found.looked_in);
     contact.youngs_modulus_pa = values.number("elastic_modulus", 1e6);
@@ -228,7 +233,7 @@ class ModelReader {
     contact.thickness = values.number("thickness", 0.005);
     contact.has_variable_thickness = values.flag("use_variable_thickness", false);
     contact.back_file = values.text("mesh_back_file");
-    if (!contact.back_file.empty()) contact.back_path = find_mesh(contact.back_file, folder_, folders_).path;
+    if (!contact.back_file.empty()) contact.back_path = found_mesh(contact.back_file).path;
     contact.least_thickness = values.number("min_thickness", 0.001);
     contact.greatest_thickness = values.number("max_thickness", 0.01);
     model_.contact_meshes.push_back(std::move(contact));
@@ -356,6 +361,8 @@ Model read_model(std::string_view bytes, const std::filesystem::path& path,
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (bytes.starts_with(byte_order_mark)) bytes.remove_prefix(byte_order_mark.size());
   const io::Source source{bytes, name};
+  if (bytes.substr(0, 2) == "\xff\xfe" || bytes.substr(0, 2) == "\xfe\xff")
+    source.fail("line 1: is UTF-16: save it as UTF-8");
   const io::XmlElement root = io::xml_tree(source);
   if (root.name != "OpenSimDocument")
     source.fail(

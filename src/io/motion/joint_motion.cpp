@@ -41,7 +41,8 @@ std::vector<ColumnOfCoordinate> columns_by_name(const MotionTable& table, const 
 JointMotion of_coordinates(const Joint& joint, const MotionTable& table,
                            const std::vector<ColumnOfCoordinate>& mapping) {
   NamedCoordinates recorded = recorded_coordinates(table, mapping);
-  JointMotion motion{std::move(recorded.times), {}, std::move(recorded.processing), {}, {}};
+  JointMotion motion{
+      .times = std::move(recorded.times), .X_FM = {}, .processing = std::move(recorded.processing)};
   for (std::size_t i = 0; i < recorded.names.size(); ++i) {
     double largest = 0;
     for (const auto& frame : recorded.frames)
@@ -52,6 +53,7 @@ JointMotion of_coordinates(const Joint& joint, const MotionTable& table,
             check_recorded(name, is_length ? RecordedKind::length_mm : RecordedKind::angle_deg, largest))
       motion.notes.push_back(std::move(*check));
   }
+  add_new(motion.notes, std::move(recorded.notes));
   std::string missing;
   for (const io::CoordinateName& name : io::coordinate_names_of(joint.kind, joint.anatomy))
     if (std::find(recorded.names.begin(), recorded.names.end(), name.name) == recorded.names.end())
@@ -88,7 +90,10 @@ Pose joint_from_file(const MeshOrigin& origin, LengthUnit unit) {
 
 /// Of poses of the mobile body's own frame in the fixed body's.
 JointMotion of_poses(const LoadedJoint& loaded, const MotionTable& table, RecordedPoses recorded) {
-  JointMotion motion{std::move(recorded.times), {}, std::move(recorded.processing), {}, {}};
+  JointMotion motion{.times = std::move(recorded.times),
+                     .X_FM = {},
+                     .processing = std::move(recorded.processing),
+                     .notes = std::move(recorded.notes)};
   const Provenance from = provenance_of(loaded, {});
   const LengthUnit unit = loaded.report.file.joint.units;
   double farthest = 0;

@@ -11,6 +11,7 @@
 #include "io/file/in_quotes.hpp"
 #include "io/model/spatial_transform.hpp"
 #include "io/motion/column_names.hpp"
+#include "io/motion/coordinate_limits.hpp"
 #include "io/motion/gaps.hpp"
 
 namespace condyle::io {
@@ -39,10 +40,13 @@ class ModelMotion {
                                          mapping_.model.string(), model_.digest.sha256));
     require_columns();
     std::vector<std::vector<double>> values;
+    BeyondLimits beyond;
     for (const ModelCoordinate& coordinate : joint_->coordinates) {
       values.push_back(values_of(*joint_, coordinate, 0));
-      note_beyond(coordinate, values.back());
+      look_at(coordinate, values.back(), beyond);
+      check_unit(coordinate, values.back(), out.notes);
     }
+    add_new(out.notes, beyond.notes());
     std::vector<double> q(values.size());
     for (std::size_t row = 0; row < table_.rows; ++row) {
       for (std::size_t i = 0; i < q.size(); ++i) q[i] = values[i][row];
@@ -51,6 +55,9 @@ class ModelMotion {
         continue;
       }
       Pose X = pose_of(*joint_, q);
+      if (!X.matrix().allFinite())
+        throw FileError(fmt::format("{}: line {}: the functions of joint {} give no finite pose here",
+                                    table_.path.string(), table_.line_of_row[row], in_quotes(joint_->name)));
       X.translation() *= mm_per(LengthUnit::metres);
       out.X_FM.emplace_back(X);
     }
@@ -169,20 +176,28 @@ class ModelMotion {
     return values;
   }
 
-  /// None of this changes a pose.
-  void note_beyond(const ModelCoordinate& coordinate, const std::vector<double>& values) {
-    const bool has_column = column_of(table_, joint_->name, coordinate.name).has_value();
-    if (coordinate.is_locked && has_column)
-      processing_->push_back(fmt::format("coordinate {} is locked in the model; its column is used",
-                                         in_quotes(coordinate.name)));
-    if (!coordinate.range) return;
-    const double low = coordinate.range->front(), high = coordinate.range->back();
-    const auto beyond = std::count_if(values.begin(), values.end(),
-                                      [&](double value) { return value < low || value > high; });
-    if (beyond > 0)
-      processing_->push_back(
-          fmt::format("coordinate {} is beyond its range, {} to {}, in {} frames; it is used as it is",
-                      in_quotes(coordinate.name), low, high, beyond));
+  void look_at(const ModelCoordinate& coordinate, std::vector<double> values, BeyondLimits& beyond) const {
+    const bool is_length = coordinate.motion == CoordinateMotion::translational;
+    const double unit = is_length ? mm_per(LengthUnit::metres) : 180 / std::numbers::pi;
+    CoordinateLimits limits{joint_->name + "/" + coordinate.name,
+                            is_length ? CoordinateKind::length : CoordinateKind::angle};
+    if (coordinate.range) limits.range = {unit * coordinate.range->front(), unit * coordinate.range->back()};
+    if (coordinate.is_locked && column_of(table_, joint_->name, coordinate.name))
+      limits.locked_at = unit * coordinate.default_value;
+    for (double& value : values) value *= unit;
+    beyond.look_at(limits, values);
+  }
+
+  /// Of lengths the poses tell.
+  static void check_unit(const ModelCoordinate& coordinate, const std::vector<double>& values,
+                         std::vector<ContactNote>& notes) {
+    if (coordinate.motion == CoordinateMotion::translational) return;
+    double largest = 0;
+    for (const double value : values)
+      if (!std::isnan(value)) largest = std::max(largest, std::abs(value));
+    if (auto note =
+            check_recorded(coordinate.name, RecordedKind::angle_deg, largest * 180 / std::numbers::pi))
+      add_new(notes, {std::move(*note)});
   }
 
   const MotionTable& table_;

@@ -9,6 +9,7 @@
 #include "condyle/io/recorded_motion.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/motion/column_names.hpp"
+#include "io/motion/coordinate_limits.hpp"
 #include "io/motion/gaps.hpp"
 
 namespace condyle {
@@ -53,6 +54,10 @@ bool has_none(const MotionTable& table, const std::vector<ColumnOfCoordinate>& m
   });
 }
 
+io::CoordinateLimits coordinate_limits_of(const ColumnOfCoordinate& entry) {
+  return {entry.column, entry.kind, entry.range, entry.is_locked ? entry.otherwise : std::nullopt};
+}
+
 }  // namespace
 
 NamedCoordinates recorded_coordinates(const MotionTable& table,
@@ -64,6 +69,7 @@ NamedCoordinates recorded_coordinates(const MotionTable& table,
   if (!mapping.empty() && has_none(table, mapping))
     throw FileError(fmt::format("{}: has none of the joint's columns, {} and the others", table.path.string(),
                                 io::in_quotes(mapping.front().column)));
+  io::BeyondLimits beyond;
   for (const ColumnOfCoordinate& entry : mapping) {
     out.names.push_back(entry.coordinate);
     if (entry.otherwise && !io::find_column(table, entry.column)) {
@@ -73,19 +79,23 @@ NamedCoordinates recorded_coordinates(const MotionTable& table,
                                            is_angle ? "degrees" : "mm"));
       for (auto& frame : out.frames)
         if (frame) frame->push_back(entry.sign * *entry.otherwise + entry.offset);
+      beyond.look_at(coordinate_limits_of(entry), std::vector<double>(table.rows, *entry.otherwise));
       continue;
     }
-    const std::vector<double>& column = table.values[io::column_named(table, entry.column)];
+    std::vector<double> column = table.values[io::column_named(table, entry.column)];
     const ColumnUnit unit = unit_of(table, entry);
+    for (double& value : column) value = converted(value, unit);
+    beyond.look_at(coordinate_limits_of(entry), column);
     for (std::size_t row = 0; row < table.rows; ++row) {
       auto& frame = out.frames[row];
       if (!frame) continue;
       if (std::isnan(column[row]))
         frame.reset();
       else
-        frame->push_back(entry.sign * converted(column[row], unit) + entry.offset);
+        frame->push_back(entry.sign * column[row] + entry.offset);
     }
   }
+  out.notes = beyond.notes();
   io::note_gaps(table, out.frames, out.processing);
   return out;
 }

@@ -197,8 +197,8 @@ Json poses_json(const Report& report, BlockArrays& arrays) {
   for (const MotionLimit& limit : report.rom->limits) {
     std::optional<Vec3> point;
     if (limit.end.contact) point = frame.fixed_point(limit.end.contact->fixed_point);
-    poses.add(limit.motion.name,
-              {limit.angles_at_limit(), report.rom->held_translation_mm.value_or(Vec3::Zero())}, point);
+    const Vec3 held = report.rom->held_translation_mm.value_or(Vec3::Zero());
+    poses.add(limit.motion.name, {limit.angles_at_limit(), limit.translation_mm.value_or(held)}, point);
   }
   return std::move(poses).json();
 }

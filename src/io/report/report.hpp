@@ -33,8 +33,8 @@ struct Report {
   std::string title;  ///< any text; it stays text on the page
   const Joint& joint;
   JointCoordinates reference_pose = {};  ///< in which the mobile mesh was given
-  /// The limits of the joint, of a free one where it is held; null if they cannot be answered, and `rom_error`
-  /// says why.
+  /// The limits of the joint, of a free one where it is held or where its translation leads; null if they cannot be answered, and
+  /// `rom_error` says why.
   const RomResult* rom = nullptr;
   std::string rom_error = {};
   std::optional<ReportedMotion> recorded = {};

@@ -281,7 +281,7 @@ constexpr LimitField every_field[] = {
      "x, y and z of the mobile body's origin at the limit, if its translation follows a recorded motion or a "
      "load; else null",
      &translation_mm, point, "translation", "mm", number_column,
-     "at the limit, if it follows a recorded motion or a load", rom},
+     "at the limit, if it follows a recorded motion or a load", LimitTables::studies_that_follow},
     {"contact_point_mm",
      "where the bodies are in contact at the limit, in the fixed body's joint frame; null "
      "without contact, and if one body is inside the other and their surfaces do not meet",

@@ -33,7 +33,12 @@ enum class LimitColumns : std::uint8_t {
 };
 
 /// Whose tables have the columns.
-enum class LimitTables : std::uint8_t { rom, studies, studies_with_bands };
+enum class LimitTables : std::uint8_t {
+  rom,
+  studies,
+  studies_with_bands,
+  studies_that_follow,  ///< a recorded motion or a load
+};
 
 /// Whether `condyle rom` has the columns for joints other than hips.
 enum class LimitOfHips : std::uint8_t { too, only };

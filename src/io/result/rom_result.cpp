@@ -82,6 +82,7 @@ RomResult rom_result_of(const RangeAnswer& answer, std::span<const JointNote> no
           .follows = answer.follows,
           .notes = notes,
           .range_notes = answer.notes,
+          .contact_notes = answer.contact_notes,
           .depths = answer.depths,
           .zones = answer.zones,
           .map = answer.map ? &*answer.map : nullptr,

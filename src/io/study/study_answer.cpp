@@ -16,6 +16,7 @@
 #include "io/result/map_summary.hpp"
 #include "io/result/rom_result.hpp"
 #include "io/study/study_columns.hpp"
+#include "io/study/study_follow.hpp"
 #include "io/study/study_joint.hpp"
 #include "io/study/study_load.hpp"
 #include "io/study/study_measures.hpp"
@@ -43,14 +44,23 @@ std::string line_of(Cells fields, const Cells& more) {
   return csv_line(fields);
 }
 
-void check_anatomy(const LoadedJoint& loaded, const StudyOptions& options) {
+void check_kind(const StudyTable& table, const StudyRow& row, const LoadedJoint& loaded,
+                const StudyOptions& options) {
   const Joint& joint = loaded.joint;
   const std::string file = loaded.report.file.path.string();
   if (joint.anatomy != options.anatomy)
     throw FileError(fmt::format("{}: is of a {}, and this study of the {}", file, name_of(joint.anatomy),
                                 name_of(options.anatomy)));
-  if (joint.kind == JointKind::free)
-    throw FileError(fmt::format("{}: is a free joint, and a study takes ball joints and hinges", file));
+  if (joint.kind != JointKind::free) return;
+  if (!follows(table, row, options))
+    throw FileError(fmt::format(
+        "{}: is a free joint, and a study takes one with a translation to follow: a recorded motion in a "
+        "column follow, or a load",
+        file));
+  if (options.depth_at || options.load)
+    throw FileError(fmt::format(
+        "{}: is a free joint, and poses of a study have no translation: neither depth nor load is answered",
+        file));
 }
 
 std::vector<Motion> motions_of(const LoadedJoint& loaded, const StudyOptions& options) {
@@ -75,9 +85,8 @@ RangeRequest range_request_of(const LoadedJoint& loaded, const StudyOptions& opt
 }
 
 /// `more`: the fields behind those of each limit, none or as many as limits.
-std::string limit_lines(const Cells& row, const RomResult& result, const StudyOptions& options,
-                        const std::vector<Cells>& more) {
-  const std::vector<const LimitField*> limit_fields = limit_fields_of(options);
+std::string limit_lines(const Cells& row, const RomResult& result,
+                        const std::vector<const LimitField*>& limit_fields, const std::vector<Cells>& more) {
   std::string lines;
   for (std::size_t i = 0; i < result.limits.size(); ++i) {
     Cells fields = row;
@@ -141,10 +150,10 @@ Cells hip_fields(const LoadedJoint& loaded, const BearingFinding& bearing, std::
           surface ? fmt::format("{}", surface->margin_mm) : "", std::string(notes), std::string(inputs)};
 }
 
-/// Codes of what looks wrong with a joint that was read, as a sample hip is as it was made, and with its load. Throws MeshError if that is to end
+/// Codes of what looks wrong with a joint that was read, as a sample hip is as it was made, and with its load or motion. Throws MeshError if that is to end
 /// the run.
 std::string notes_on(const StudyTable& table, const StudyRow& row, const LoadedJoint& loaded,
-                     std::span<const ContactNote> of_load, BadJoint bad_joint) {
+                     std::span<const ContactNote> of_contact, BadJoint bad_joint) {
   std::string codes, texts;
   const auto take = [&](const auto& note) {
     codes += (codes.empty() ? "" : " ") + std::string(name_of(note.code));
@@ -152,7 +161,7 @@ std::string notes_on(const StudyTable& table, const StudyRow& row, const LoadedJ
   };
   if (!is_sample(table, row))
     for (const JointNote& note : check_joint(loaded.joint, loaded.report.placement)) take(note);
-  for (const ContactNote& note : of_load) take(note);
+  for (const ContactNote& note : of_contact) take(note);
   if (bad_joint == BadJoint::ends_run && !codes.empty())
     throw MeshError(fmt::format("{}: line {}: joint {}: {}", table.path.string(), row.line,
                                 in_quotes(table.id(row)), texts));
@@ -166,7 +175,7 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
   const StudyOptions& options = study.options;
   const StudyJoint of_joint = load_joint(table, row);
   const LoadedJoint& loaded = of_joint.loaded;
-  check_anatomy(loaded, options);
+  check_kind(table, row, loaded, options);
   const Joint& joint = loaded.joint;
   const std::string place = place_of(table, row);
   std::optional<PoseDegrees> depth_at;
@@ -177,8 +186,11 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
     posed.at = pose_of(table, row, joint, posed.at);
     load = name_joint_file(place, [&] { return load_fields(loaded, posed); });
   }
+  RangeRequest request = range_request_of(loaded, options);
+  const StudyFollow followed =
+      name_joint_file(place, [&] { return StudyFollow(table, row, loaded, options, request); });
+  add_new(load.notes, range_request_notes(request));
   std::string notes = notes_on(table, row, loaded, load.notes, study.bad_joint);
-  const RangeRequest request = range_request_of(loaded, options);
   std::optional<Cells> measures;
   if (options.measures) {
     measures =
@@ -198,17 +210,18 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
   const auto add_code = [&](const auto& note) {
     notes += (notes.empty() ? "" : " ") + std::string(name_of(note.code));
   };
-  for (const LabelNote& note : of_joint.notes) add_code(note);
+  for (const std::string& code : of_joint.codes) notes += (notes.empty() ? "" : " ") + code;
   for (const RangeNote& note : answer->notes) add_code(note);
   const Cells of_row = row_fields(table, row);
-  const std::string inputs = inputs_sha256(row, loaded);
+  const std::string inputs = inputs_sha256(table, row, loaded);
   Cells of_hip = hip_fields(loaded, answer->bearing, notes, inputs);
+  if (may_follow(table, options)) of_hip.emplace_back(answer->follows ? "0" : "1");
   if (answer->map) add_map(of_hip, *answer->map);
   if (depth_at) name_joint_file(place, [&] { add_depth(of_hip, joint, *depth_at); });
   for (std::string& field : load.fields) of_hip.push_back(std::move(field));
   if (measures) of_hip.insert(of_hip.end(), measures->begin(), measures->end());
   if (resection) of_hip.insert(of_hip.end(), resection->of_hip.begin(), resection->of_hip.end());
-  return StudyAnswer{limit_lines(of_row, rom_result_of(*answer, {}, nullptr), options,
+  return StudyAnswer{limit_lines(of_row, rom_result_of(*answer, {}, nullptr), limit_fields_of(table, options),
                                  resection ? std::move(resection->of_limits) : std::vector<Cells>()),
                      line_of(of_row, of_hip),
                      {},

@@ -7,6 +7,7 @@
 #include "condyle/sample/hip.hpp"
 #include "io/file/csv_fields.hpp"
 #include "io/result/csv_field.hpp"
+#include "io/study/study_follow.hpp"
 #include "io/study/study_load.hpp"
 #include "io/study/study_measures.hpp"
 #include "io/study/study_resection.hpp"
@@ -65,12 +66,31 @@ void append(Columns& columns, const Columns& more) {
   columns.insert(columns.end(), more.begin(), more.end());
 }
 
-Columns limit_columns(const StudyOptions& options) {
+/// Which values of limits have columns of a study.
+struct LimitsHave {
+  bool bands, following;
+};
+
+std::vector<const LimitField*> study_limit_fields(LimitsHave have) {
+  std::vector<const LimitField*> fields;
+  for (const LimitField& field : limit_fields())
+    if (field.columns != LimitColumns::none &&
+        (field.tables == LimitTables::studies ||
+         (field.tables == LimitTables::studies_with_bands && have.bands) ||
+         (field.tables == LimitTables::studies_that_follow && have.following)))
+      fields.push_back(&field);
+  return fields;
+}
+
+Columns limit_columns(LimitsHave have, Anatomy joint) {
   Columns columns;
-  for (const LimitField* field : limit_fields_of(options))
-    append(columns, columns_of(*field, options.anatomy));
-  if (options.resection) append(columns, resected_limit_columns());
+  for (const LimitField* field : study_limit_fields(have)) append(columns, columns_of(*field, joint));
   return columns;
+}
+
+Columns following_columns() {
+  return {{"exact", "", number_column,
+           "1 where limits are exact; 0 where the centre is not held, and they are bounded"}};
 }
 
 /// Name, unit and meaning of what is carried.
@@ -93,22 +113,19 @@ Columns failure_columns() {
 
 }  // namespace
 
-std::vector<const LimitField*> limit_fields_of(const StudyOptions& options) {
-  std::vector<const LimitField*> fields;
-  for (const LimitField& field : limit_fields())
-    if (field.columns != LimitColumns::none &&
-        (field.tables == LimitTables::studies ||
-         (field.tables == LimitTables::studies_with_bands && options.bands)))
-      fields.push_back(&field);
-  return fields;
+std::vector<const LimitField*> limit_fields_of(const StudyTable& table, const StudyOptions& options) {
+  return study_limit_fields({options.bands.has_value(), may_follow(table, options)});
 }
 
 StudyColumns study_columns(const StudyTable& table, const StudyOptions& options) {
   const Columns carried = carried_columns(table);
   StudyColumns columns{id_columns(), id_columns(), id_columns()};
   for (Columns* each : {&columns.limits, &columns.hips, &columns.failures}) append(*each, carried);
-  append(columns.limits, limit_columns(options));
+  const bool following = may_follow(table, options);
+  append(columns.limits, limit_columns({options.bands.has_value(), following}, options.anatomy));
+  if (options.resection) append(columns.limits, resected_limit_columns());
   append(columns.hips, hip_columns());
+  if (following) append(columns.hips, following_columns());
   if (options.map) append(columns.hips, map_columns());
   if (options.depth_at) append(columns.hips, depth_columns());
   if (options.load) append(columns.hips, load_columns());
@@ -120,11 +137,11 @@ StudyColumns study_columns(const StudyTable& table, const StudyOptions& options)
 
 bool is_result_column(std::string_view name) {
   StudyOptions everything;
-  everything.bands.emplace();
   everything.resection.emplace();
   for (const Columns& columns :
-       {id_columns(), limit_columns(everything), hip_columns(), map_columns(), depth_columns(),
-        load_columns(), measure_columns(true), resection_columns(*everything.resection), failure_columns()})
+       {id_columns(), limit_columns({.bands = true, .following = true}, Anatomy::hip), hip_columns(),
+        following_columns(), map_columns(), depth_columns(), load_columns(), measure_columns(true),
+        resected_limit_columns(), resection_columns(*everything.resection), failure_columns()})
     if (std::any_of(columns.begin(), columns.end(), [&](const auto& each) { return each.name == name; }))
       return true;
   return name.starts_with(resection_prefix);  // its other columns are named after motions

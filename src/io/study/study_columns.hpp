@@ -20,7 +20,7 @@ struct StudyColumns {
 StudyColumns study_columns(const StudyTable& table, const StudyOptions& options);
 
 /// The values of limits.csv that `condyle rom` has too, by these options.
-std::vector<const LimitField*> limit_fields_of(const StudyOptions& options);
+std::vector<const LimitField*> limit_fields_of(const StudyTable& table, const StudyOptions& options);
 
 /// Whether some study has a column of this name.
 bool is_result_column(std::string_view name);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "condyle/error.hpp"
 #include "condyle/io/label_joint.hpp"
 #include "condyle/io/pose_text.hpp"
@@ -153,8 +155,10 @@ StudyJoint segmented(const StudyTable& table, const StudyRow& row) {
     JointReport joint_report{std::move(file), {report(found.fixed)}, {report(found.mobile)}, {}, {}};
     PlacedJoint placed = make_joint(joint_report.file.joint, body(found.fixed), body(found.mobile));
     joint_report.placement = std::move(placed.placement);
-    std::erase_if(found.notes, [](const LabelNote& note) { return note.code == LabelNoteCode::cut_by_view; });
-    return {{std::move(placed.joint), std::move(joint_report)}, std::move(found.notes)};
+    std::vector<std::string> codes;
+    for (const LabelNote& note : found.notes)
+      if (note.code != LabelNoteCode::cut_by_view) codes.emplace_back(name_of(note.code));
+    return {{std::move(placed.joint), std::move(joint_report)}, std::move(codes)};
   } catch (const UsageError& error) {
     throw FileError(fmt::format("{}: {}", where, error.what()));
   } catch (const MeshError& error) {
@@ -163,7 +167,7 @@ StudyJoint segmented(const StudyTable& table, const StudyRow& row) {
 }
 
 /// The joint file that condyle init proposes for a joint of a model.
-JointFile of_model(const StudyTable& table, const StudyRow& row) {
+JointFileOfModel of_model(const StudyTable& table, const StudyRow& row) {
   const std::filesystem::path path = file_in(table, row, "opensim_model");
   ModelJointRequest request{.joint = std::string(table.field(row, "opensim_joint")), .joint_file = {}};
   if (request.joint.empty())
@@ -175,6 +179,16 @@ JointFile of_model(const StudyTable& table, const StudyRow& row) {
   } catch (const UsageError& error) {
     throw FileError(fmt::format("{}: line {}: {}", table.path.string(), row.line, error.what()));
   }
+}
+
+StudyJoint joint_of_model(const StudyTable& table, const StudyRow& row) {
+  JointFileOfModel proposed = of_model(table, row);
+  std::vector<std::string> codes;
+  for (const ModelNote& note : proposed.notes)
+    if (note.code != ModelNoteCode::not_used && note.code != ModelNoteCode::welded)
+      codes.emplace_back(name_of(note.code));
+  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+  return {load_joint(std::move(proposed.file)), std::move(codes)};
 }
 
 std::string sha256_of(const StudyRow& row, const std::vector<std::string>& files) {
@@ -205,6 +219,17 @@ void add_files(const JointFile& file, std::vector<std::string>& files) {
   add_layer_files(file, files);
 }
 
+/// Adds the recorded motion that is followed, and the model that reads it.
+void add_followed_files(const StudyTable& table, const StudyRow& row, const JointFile& file,
+                        std::vector<std::string>& files) {
+  const std::filesystem::path followed = followed_file(table, row);
+  if (followed.empty()) return;
+  files.push_back(sha256_of_file(followed));
+  if (!file.recorded_motion) return;
+  if (const auto* poses = std::get_if<PosesOfModel>(&*file.recorded_motion))
+    files.push_back(sha256_of_file(poses->model));
+}
+
 }  // namespace
 
 StudyJoint load_joint(const StudyTable& table, const StudyRow& row) {
@@ -219,7 +244,7 @@ StudyJoint load_joint(const StudyTable& table, const StudyRow& row) {
     case JointSource::labels:
       return segmented(table, row);
     case JointSource::model:
-      return {load_joint(of_model(table, row))};
+      return joint_of_model(table, row);
     case JointSource::sample:
       break;
   }
@@ -235,40 +260,51 @@ bool is_sample(const StudyTable& table, const StudyRow& row) {
   return source_of(table, row) == JointSource::sample;
 }
 
+std::filesystem::path followed_file(const StudyTable& table, const StudyRow& row) {
+  return table.field(row, "follow").empty() ? std::filesystem::path() : path_in(table, row, "follow");
+}
+
 std::vector<std::filesystem::path> files_of(const StudyTable& table, const StudyRow& row) {
   std::vector<std::filesystem::path> files;
-  for (const std::string_view column : {"joint", "fixed", "mobile", "labels", "opensim_model"})
+  for (const std::string_view column : {"joint", "fixed", "mobile", "labels", "opensim_model", "follow"})
     if (!table.field(row, column).empty()) files.push_back(path_in(table, row, column));
   if (table.field(row, "joint").empty()) return files;
   try {
-    return condyle::files_of(read_joint_file(path_in(table, row, "joint")));
+    const auto of_joint = condyle::files_of(read_joint_file(path_in(table, row, "joint")));
+    files.insert(files.end(), of_joint.begin(), of_joint.end());
   } catch (const FileError&) {
-    return files;  // the row will be a failure
+    // the row will be a failure
   }
+  return files;
 }
 
-std::string inputs_sha256(const StudyRow& row, const LoadedJoint& joint) {
+std::string inputs_sha256(const StudyTable& table, const StudyRow& row, const LoadedJoint& joint) {
   std::vector<std::string> files;
   if (!joint.report.file.digest.sha256.empty()) files.push_back(joint.report.file.digest.sha256);
   for (const auto* meshes : {&joint.report.fixed, &joint.report.mobile})
     for (const BodyMeshReport& mesh : *meshes) files.push_back(mesh.digest.sha256);
   add_layer_files(joint.report.file, files);
+  add_followed_files(table, row, joint.report.file, files);
   return sha256_of(row, files);
 }
 
 std::string inputs_sha256(const StudyTable& table, const StudyRow& row) {
   std::vector<std::string> files;
+  const auto add_all = [&](const JointFile& file) {
+    add_files(file, files);
+    add_followed_files(table, row, file, files);
+  };
   try {
     const JointSource source = source_of(table, row);
-    if (source == JointSource::meshes) add_files(described(table, row), files);
+    if (source == JointSource::meshes) add_all(described(table, row));
     if (source == JointSource::labels) files.assign(2, sha256_of_file(path_in(table, row, "labels")));
     if (source == JointSource::model) {
       files.push_back(sha256_of_file(path_in(table, row, "opensim_model")));
-      add_files(of_model(table, row), files);
+      add_all(of_model(table, row).file);
     }
     if (source == JointSource::joint_file) {
       files.push_back(sha256_of_file(path_in(table, row, "joint")));
-      add_files(read_joint_file(path_in(table, row, "joint")), files);
+      add_all(read_joint_file(path_in(table, row, "joint")));
     }
   } catch (const FileError&) {
     // The row's failure depends on everything up to here.

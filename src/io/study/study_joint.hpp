@@ -5,15 +5,15 @@
 #include <vector>
 
 #include "condyle/io/joint_file.hpp"
-#include "condyle/io/label_file.hpp"
 #include "io/study/study_table.hpp"
 
 namespace condyle::io {
 
-/// The joint of a row, and what its label map must be read with.
+/// The joint of a row, and codes of what its label map or model must be read with.
 struct StudyJoint {
   LoadedJoint loaded;
-  std::vector<LabelNote> notes = {};  ///< without those that check_joint() has too
+  /// Without those that check_joint() has too, and without what nearly every model has: `not_used`, `welded`.
+  std::vector<std::string> codes = {};
 };
 
 /// The joint of a joint file, of two meshes, of two bones of a label map, or a sample hip of its measures. Throws what read_joint()
@@ -29,8 +29,11 @@ bool is_sample(const StudyTable& table, const StudyRow& row);
 /// The files that the row names, those too that its joint file names; as many as can be known where one of them cannot be read.
 std::vector<std::filesystem::path> files_of(const StudyTable& table, const StudyRow& row);
 
+/// The recorded motion that the row's translation is to follow: column `follow`. Empty: none.
+std::filesystem::path followed_file(const StudyTable& table, const StudyRow& row);
+
 /// SHA-256 of the row and of the contents of the files it names, those that the joint was made of.
-std::string inputs_sha256(const StudyRow& row, const LoadedJoint& joint);
+std::string inputs_sha256(const StudyTable& table, const StudyRow& row, const LoadedJoint& joint);
 /// The same of the files as they are now, which need not be there.
 std::string inputs_sha256(const StudyTable& table, const StudyRow& row);
 

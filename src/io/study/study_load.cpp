@@ -15,14 +15,6 @@ using Cells = std::vector<std::string>;
 /// Columns that stay empty without a force.
 constexpr std::size_t of_balance = 5;
 
-ContactEntry contact_of(const LoadedJoint& loaded, const StudyLoad& load) {
-  const JointFile& file = loaded.report.file;
-  ContactEntry contact = changed(file.contact.value_or(ContactEntry{}), load.contact);
-  if (!contact.fixed && !contact.mobile)
-    throw FileError(fmt::format("{}: {}: no layers to carry a load", file.path.string(), loaded.joint.name));
-  return contact;
-}
-
 void add(Cells& fields, double value) {
   fields.push_back(fmt::format("{}", value));
 }
@@ -49,11 +41,6 @@ void add_surface(Cells& fields, const std::optional<SurfaceContact>& surface) {
   fields.resize(end);
 }
 
-Vec3 in_joint_frame(const Joint& joint, const Vec3& anterior_superior_lateral) {
-  const Vec3& v = anterior_superior_lateral;
-  return {v.x(), v.y(), joint.side == Side::left ? -v.z() : v.z()};
-}
-
 LoadRequest request_of(const Joint& joint, const StudyLoad& load, const BodyNames& names) {
   LoadRequest request{.X_FM = pose_at(joint.coordinates(), load.at.angles()), .names = names};
   if (load.force_n) request.load = Load{.on_mobile = {.force_n = in_joint_frame(joint, *load.force_n)}};
@@ -63,6 +50,19 @@ LoadRequest request_of(const Joint& joint, const StudyLoad& load, const BodyName
 }
 
 }  // namespace
+
+ContactEntry study_contact_of(const LoadedJoint& loaded, const ContactChanges& changes) {
+  const JointFile& file = loaded.report.file;
+  ContactEntry contact = changed(file.contact.value_or(ContactEntry{}), changes);
+  if (!contact.fixed && !contact.mobile)
+    throw FileError(fmt::format("{}: {}: no layers to carry a load", file.path.string(), loaded.joint.name));
+  return contact;
+}
+
+Vec3 in_joint_frame(const Joint& joint, const Vec3& anterior_superior_lateral) {
+  const Vec3& v = anterior_superior_lateral;
+  return {v.x(), v.y(), joint.side == Side::left ? -v.z() : v.z()};
+}
 
 std::vector<ResultColumn> load_columns() {
   std::vector<ResultColumn> columns = {
@@ -103,7 +103,7 @@ std::vector<ResultColumn> load_columns() {
 
 LoadFields load_fields(const LoadedJoint& loaded, const StudyLoad& load) {
   const Joint& joint = loaded.joint;
-  const ContactEntry contact = contact_of(loaded, load);
+  const ContactEntry contact = study_contact_of(loaded, load.contact);
   const ContactSurfaces surfaces = surfaces_of(contact, joint);
   const ElasticContact layers(surfaces.fixed.mesh, surfaces.mobile.mesh,
                               elastic_options(contact, surfaces, loaded));

@@ -12,6 +12,12 @@ namespace condyle::io {
 
 std::vector<ResultColumn> load_columns();
 
+/// The joint's surfaces and layers with these changes. FileError if it has no layers.
+ContactEntry study_contact_of(const LoadedJoint& loaded, const ContactChanges& changes);
+
+/// Components anterior, superior, lateral in the joint frame of either side.
+Vec3 in_joint_frame(const Joint& joint, const Vec3& anterior_superior_lateral);
+
 /// Those columns of this joint. FileError if it has no layers.
 struct LoadFields {
   std::vector<std::string> fields;

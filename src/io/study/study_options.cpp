@@ -7,14 +7,14 @@
 namespace condyle::io {
 namespace {
 
-Json load_json(const StudyLoad& load, Anatomy joint) {
-  const ContactChanges& given = load.contact;
-  Json json;
-  json["pose"] = pose_json(load.at, joint);
-  json["force_anterior_superior_lateral_n"] = load.force_n ? numbers(*load.force_n) : Json(nullptr);
+void add_forces(Json& json, const std::optional<Vec3>& force_n, const std::vector<Vec3>& free_directions) {
+  json["force_anterior_superior_lateral_n"] = force_n ? numbers(*force_n) : Json(nullptr);
   json["free_directions_anterior_superior_lateral"] = Json::array();
-  for (const Vec3& direction : load.free_directions)
+  for (const Vec3& direction : free_directions)
     json["free_directions_anterior_superior_lateral"].push_back(numbers(direction));
+}
+
+void add_contact(Json& json, const ContactChanges& given) {
   json["casting"] = given.casting ? Json(name_of(*given.casting)) : Json(nullptr);
   json["rule"] = given.rule ? Json(name_of(*given.rule)) : Json(nullptr);
   json["reach_mm"] = nullable(given.reach_mm);
@@ -22,6 +22,20 @@ Json load_json(const StudyLoad& load, Anatomy joint) {
   json["youngs_modulus_mpa"] = given.youngs_modulus_mpa;
   json["poisson_ratio"] = given.poisson_ratio;
   json["thickness_mm"] = given.thickness_mm;
+}
+
+Json load_json(const StudyLoad& load, Anatomy joint) {
+  Json json;
+  json["pose"] = pose_json(load.at, joint);
+  add_forces(json, load.force_n, load.free_directions);
+  add_contact(json, load.contact);
+  return json;
+}
+
+Json follow_load_json(const StudyFollowLoad& load) {
+  Json json;
+  add_forces(json, load.force_n, load.free_directions);
+  add_contact(json, load.contact);
   return json;
 }
 
@@ -63,6 +77,7 @@ std::string options_json(const StudyOptions& options) {
   if (options.measures) json["measures"] = true;
   if (options.resection) json["resection"] = resection_json(*options.resection);
   if (options.load) json["load"] = load_json(*options.load, options.anatomy);
+  if (options.follow_load) json["follow_load"] = follow_load_json(*options.follow_load);
   return json.dump();
 }
 

@@ -24,8 +24,8 @@ namespace {
 
 /// Columns that give the source of a joint; not carried.
 constexpr std::string_view source_columns[] = {
-    "id",     "joint",  "fixed",       "mobile",       "side", "units",         "axes",
-    "sample", "labels", "fixed_label", "mobile_label", "task", "opensim_model", "opensim_joint"};
+    "id",     "joint",       "fixed",        "mobile", "side",          "units",         "axes",  "sample",
+    "labels", "fixed_label", "mobile_label", "task",   "opensim_model", "opensim_joint", "follow"};
 
 bool is_source(std::string_view name) {
   return std::find(std::begin(source_columns), std::end(source_columns), name) != std::end(source_columns);

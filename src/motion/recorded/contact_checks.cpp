@@ -36,6 +36,30 @@ constexpr double largest_angle_deg = 720, largest_length_mm = 1000;
 /// mm. Bones of a joint are apart by its cartilage, some mm; and layers of a few mm overlap by less than these.
 constexpr double far_apart = 20, far_within = 10;
 
+/// Where a thickness that varies is beyond what is to be expected of it.
+void note_bounds(const ElasticLayer& layer, const std::string& name, std::vector<ContactNote>& notes) {
+  const auto* many = std::get_if<std::vector<double>>(&layer.thickness_mm);
+  if (!many || many->empty() || !layer.thickness_bounds_mm) return;
+  const auto [least, greatest] = *layer.thickness_bounds_mm;
+  const double rounding = 1e-9 * greatest;
+  std::size_t thinner = 0, thicker = 0;
+  for (const double thickness : *many) {
+    thinner += thickness < least - rounding;
+    thicker += thickness > greatest + rounding;
+  }
+  if (thinner + thicker == 0) return;
+  const auto [low, high] = std::minmax_element(many->begin(), many->end());
+  std::string beyond;
+  if (thinner > 0) beyond += formatted("%zu thinner, down to %.4g mm", thinner, *low);
+  if (thicker > 0)
+    beyond += formatted("%s%zu thicker, up to %.4g mm", thinner > 0 ? ", and " : "", thicker, *high);
+  notes.push_back({ContactNoteCode::thickness_beyond_bounds,
+                   "the layer on " + name +
+                       formatted(" is %.4g to %.4g mm thick by its file, and measured at %zu vertices: ",
+                                 least, greatest, many->size()) +
+                       beyond});
+}
+
 void note_layer(const std::optional<ElasticLayer>& layer, const Mesh& mesh, std::string_view body,
                 std::vector<ContactNote>& notes) {
   if (!layer) return;
@@ -66,6 +90,7 @@ void note_layer(const std::optional<ElasticLayer>& layer, const Mesh& mesh, std:
     const auto [low, high] = std::minmax_element(many.begin(), many.end());
     least = *low, most = *high;
   }
+  note_bounds(*layer, name, notes);
   if (least < thinnest || most > thickest)
     notes.push_back({ContactNoteCode::unlikely_thickness,
                      "the layer on " + name +
@@ -135,6 +160,8 @@ std::string_view name_of(ContactNoteCode code) noexcept {
       return "unlikely_poisson_ratio";
     case ContactNoteCode::unlikely_thickness:
       return "unlikely_thickness";
+    case ContactNoteCode::thickness_beyond_bounds:
+      return "thickness_beyond_bounds";
     case ContactNoteCode::layer_on_bone:
       return "layer_on_bone";
     case ContactNoteCode::unlikely_load:
@@ -149,6 +176,10 @@ std::string_view name_of(ContactNoteCode code) noexcept {
       return "unlikely_angle";
     case ContactNoteCode::unlikely_translation:
       return "unlikely_translation";
+    case ContactNoteCode::beyond_range:
+      return "beyond_range";
+    case ContactNoteCode::locked_coordinate:
+      return "locked_coordinate";
     case ContactNoteCode::mostly_apart:
       return "mostly_apart";
     case ContactNoteCode::mostly_deep:

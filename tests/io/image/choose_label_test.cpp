@@ -143,8 +143,7 @@ TEST(ChosenLabels, ByNumberAreTakenAsGivenAndNoted) {
             "total.");
   EXPECT_EQ(choose_label(without_names(), "3").notes[0].text,
             "Label 3 is taken as given: neither the file nor a known table names it.");
-  EXPECT_EQ(chosen(without_names(), "90"),
-            "no voxel has the label 90: the image holds 3, 75, 76, 120");
+  EXPECT_EQ(chosen(without_names(), "90"), "no voxel has the label 90: the image holds 3, 75, 76, 120");
   EXPECT_TRUE(chosen(without_names(), "-3").starts_with("'-3': the file names no labels"));
 }
 

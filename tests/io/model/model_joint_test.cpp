@@ -478,6 +478,32 @@ TEST_F(SmallModel, NeedsTwoBodiesThatMove) {
   EXPECT_NE(refusal(weld).find("does not move"), std::string::npos) << refusal(weld);
 }
 
+TEST_F(SmallModel, HasWeldsThatAgreeWhereBodiesAre) {
+  const auto weld = [](const char* name, const char* parent, const char* child, const char* along) {
+    return fmt::format(R"(<WeldJoint name="{0}"><socket_parent_frame>{0}_p</socket_parent_frame>
+<socket_child_frame>/bodyset/{2}</socket_child_frame><frames><PhysicalOffsetFrame name="{0}_p"><socket_parent>/bodyset/{1}</socket_parent>
+<translation>{3} 0 0</translation></PhysicalOffsetFrame></frames></WeldJoint>)",
+                       name, parent, child, along);
+  };
+  const auto with = [&](const std::string& welds) {
+    std::string text = Hip{}.text();
+    text.insert(text.find("<Body name=\"femur_r\""), "<Body name=\"a\"/><Body name=\"b\"/>");
+    return text.insert(text.find("<CustomJoint"), welds);
+  };
+  const std::string chain = weld("w1", "femur_r", "a", "0.1") + weld("w2", "a", "b", "0.2");
+  const Model closed = read_model(written(with(chain + weld("w3", "b", "femur_r", "-0.3"))));
+  EXPECT_NE(propose_joint(closed, {.joint = "hip_r", .joint_file = {}}).proposal.toml.find("femur"),
+            std::string::npos);
+  const Model open = read_model(written(with(chain + weld("w3", "b", "femur_r", "-0.31"))));
+  try {
+    propose_joint(open, {.joint = "hip_r", .joint_file = {}});
+    ADD_FAILURE() << "accepted";
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("where other welds do not have it"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(SmallModel, NamesFilesFromWhereTheJointFileReallyIs) {
   const Model model = this->model({});
   fs::create_directories(folder_.path() / "out/deep");
@@ -491,6 +517,26 @@ TEST_F(SmallModel, NamesFilesFromWhereTheJointFileReallyIs) {
   EXPECT_EQ(mesh_line(folder_.path() / "out/deep/../../out/hip.toml"), "mesh = '../pelvis.ply'");
   EXPECT_EQ(mesh_line(folder_.path() / "link/hip.toml"), "mesh = '../../pelvis.ply'");
   EXPECT_EQ(mesh_line(folder_.path() / "hip.toml"), "mesh = 'pelvis.ply'");
+}
+
+TEST_F(SmallModel, SaysWhatNobodyMeansOfItsMeshes) {
+  const auto notes_of = [&](const std::string& mesh) {
+    std::string codes;
+    for (const ModelNote& note :
+         propose_joint(model({.mesh = mesh}), {.joint = "hip_r", .joint_file = {}}).notes)
+      codes += fmt::format("{} ", name_of(note.code));
+    return codes;
+  };
+  const std::string file = "<mesh_file>femur.ply</mesh_file>";
+  EXPECT_EQ(notes_of(file + "<scale_factors>0.7 1.3 1</scale_factors>"), "");
+  EXPECT_EQ(notes_of(file + "<scale_factors>0.001 1 1</scale_factors>"), "uneven_scale ");
+  EXPECT_EQ(notes_of(file + "<scale_factors>1 -2.1 1</scale_factors>"), "mirrored uneven_scale ");
+  const std::string again = "</Mesh><Mesh name=\"g\">" + file;
+  EXPECT_EQ(notes_of(file + again), "repeated_mesh ");
+  EXPECT_EQ(notes_of(file + again + "<scale_factors>1 1 1.1</scale_factors>"), "") << "another mesh";
+  const LoadedJoint once = read_joint(model({.mesh = file + again}), {.joint = "hip_r", .joint_file = {}});
+  EXPECT_EQ(once.joint.mobile.mesh.triangles().size(), 12u);
+  EXPECT_TRUE(once.joint.mobile.parts.empty());
 }
 
 TEST_F(SmallModel, FindsMeshesInAnyCaseAndSaysSo) {
@@ -555,6 +601,7 @@ TEST_F(SmallModel, RefusesInOneLine) {
       {replaced("hip_r", "hip\xe9_r"), "its name is not UTF-8"},
       {replaced("femur.ply", "fe&#27;mur.ply"), "mesh_file has a control character"},
       {"{}", "no XML tag"},
+      {"\xff\xfe<" + std::string(1, '\0'), "line 1: is UTF-16: save it as UTF-8"},
       {"<html></html>", "no OpenSim model: it begins with 'html'"},
   };
   for (const auto& [text, wanted] : cases) {

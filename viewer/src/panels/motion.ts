@@ -71,22 +71,25 @@ export class MotionPanel {
     if (this.showStored) return this.showStored(motion.name);
     const angles = this.report.coordinates.map(({ name }) =>
       (name === motion.vary ? motion.at_limit_deg : motion.start_deg)[name] ?? 0);
-    this.goTo(angles, () => this.arrived(motion));
+    this.goTo(angles, () => this.arrived(motion), motion.translation_mm ?? this.report.rom?.held_translation_mm);
   }
 
   /// The joint turns there, at once where its user asked for less motion.
-  goTo(angles: readonly number[], there: () => void = () => undefined): void {
+  goTo(angles: readonly number[], there: () => void = () => undefined, given?: readonly number[] | null): void {
     cancelAnimationFrame(this.animation);
+    const from = this.coordinates, translation = given ?? from.translation;
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) {
-      this.set(angles);
+      this.set(angles, translation);
       there();
       return;
     }
-    const from = this.coordinates.angles, begun = performance.now(), duration_ms = 450;
+    const begun = performance.now(), duration_ms = 450;
     const step = () => {
       const share = Math.min(1, (performance.now() - begun) / duration_ms);
       const eased = share * share * (3 - 2 * share);
-      this.set(share === 1 ? angles : from.map((angle, i) => angle + eased * (angles[i]! - angle)));
+      const between = (first: readonly number[], last: readonly number[]) =>
+        share === 1 ? last : first.map((value, i) => value + eased * (last[i]! - value));
+      this.set(between(from.angles, angles), between(from.translation, translation));
       if (share < 1) this.animation = requestAnimationFrame(step);
       else there();
     };

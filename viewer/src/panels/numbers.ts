@@ -77,10 +77,10 @@ function limitsTable({ motions }: RomAnswer, joint: ReportText["joint"]): HTMLEl
 }
 
 /// By what rules and with what uncertainty limits were found, a line each.
-function howFound({ band, bearing, normal_range_source }: RomAnswer): string[] {
+function howFound({ exact, band, bearing, normal_range_source }: RomAnswer): string[] {
   const mm = (value: number) => value.toFixed(2);
   return [
-    words.guarantee,
+    exact === false ? words.bounded : words.guarantee,
     band ? words.bandsFrom({ samples: band.samples, seed: band.seed, ...band.sigma }) : words.noBand,
     ...(bearing ? [words.bearingRules[bearing.rule]] : []),
     ...(bearing?.why_none ? [words.bearingWhy(bearing.why_none)] : []),

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "condyle/answer.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "contact_options.hpp"
+#include "io/motion/follow.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+/// --follow, --follow-load and --force, shared by the commands that answer for a range of motion.
+
+namespace condyle::cli {
+
+struct FollowGiven {
+  std::string record;
+  bool load = false;
+  std::shared_ptr<BalanceGiven> balance = std::make_shared<BalanceGiven>();
+
+  bool any() const noexcept { return load || !record.empty(); }
+};
+
+/// `excluded`: options of which neither the one nor the other may be given beside.
+void add_follow(CLI::App& command, const std::shared_ptr<FollowGiven>& given,
+                const std::vector<CLI::Option*>& excluded);
+
+/// Their names, for a group of the help.
+std::vector<std::string> follow_names();
+
+/// What a request follows, which it points to. Says what was made of the recorded motion.
+class Followed {
+ public:
+  /// Makes the request follow what is given, or leaves it. UsageError for a load without a force and the reverse.
+  Followed(const FollowGiven& given, const LoadedJoint& loaded, io::MotionsAre motions,
+           RangeRequest& request);
+
+ private:
+  std::optional<io::FollowedLayers> layers_;
+};
+
+}  // namespace condyle::cli

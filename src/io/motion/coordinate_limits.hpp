@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "condyle/io/recorded_motion.hpp"
+
+namespace condyle::io {
+
+/// What a model allows one of its coordinates, in degrees or mm. It changes no pose, in OpenSim neither.
+struct CoordinateLimits {
+  std::string name;
+  CoordinateKind kind = CoordinateKind::angle;
+  std::optional<std::array<double, 2>> range = {};
+  std::optional<double> locked_at = {};
+};
+
+/// Collects what the recorded coordinates of a motion are beyond, to one note of each kind.
+class BeyondLimits {
+ public:
+  /// `values`: one per frame, degrees or mm, NaN for gaps.
+  void look_at(const CoordinateLimits& limits, std::span<const double> values);
+
+  std::vector<ContactNote> notes() const;
+
+ private:
+  std::string beyond_, unlocked_;
+};
+
+}  // namespace condyle::io
