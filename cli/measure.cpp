@@ -24,6 +24,7 @@ struct MeasureArguments {
   std::string joint, out;
   double tilt_deg = 0;
   std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
+  bool definitions = false;
   Strictness strictness = Strictness::notes;
   AnswerForm form = AnswerForm::text;
 };
@@ -39,7 +40,7 @@ void measure_command(const MeasureArguments& options, const CLI::App& command) {
     return followed_by_stage(
         [&](const AnswerControl& control) { return answer_measures(loaded.joint, query, control); });
   });
-  const MeasureResult result{loaded.joint, answer, notes, &from};
+  const MeasureResult result{loaded.joint, answer, notes, &from, options.definitions};
   if (!options.out.empty()) say_written(write_measures(options.out, result));
   print(options.form == AnswerForm::json ? measure_json(result) : measure_text(result));
 }
@@ -64,11 +65,13 @@ void add_measure(CLI::App& app) {
       ->add_option("--out", options->out,
                    "Write measures.json, measures.csv, neck.csv and rim.csv into this folder")
       ->option_text("FOLDER");
+  command->add_flag("--definitions", options->definitions,
+                    "Print what each measure is, by which planes and axes, and whose its normal range is");
   command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; },
       "Print the answer as JSON, with every number in full");
   add_strict(*command, options->strictness);
-  group_help(*command, {{"Most used", {"--band", "--tilt", "--out", "--json", "--strict"}},
+  group_help(*command, {{"Most used", {"--band", "--tilt", "--definitions", "--out", "--json", "--strict"}},
                         uncertainty_group(),
                         {"Output", {"--help"}}});
   command->callback([options, command] { measure_command(*options, *command); });

@@ -44,8 +44,10 @@ struct MeasureDefinition {
   std::string_view key;   ///< with its unit at the end, as in "alpha_1_30_deg"
   std::string_view unit;  ///< "mm", "deg", "h" or "1"
   MeasuredPart part;
-  bool in_pelvis_frame;               ///< It turns with the frame of the pelvis, and with its tilt.
-  std::string_view definition;        ///< one line
+  bool in_pelvis_frame;         ///< It turns with the frame of the pelvis, and with its tilt.
+  std::string_view definition;  ///< one line
+  /// The planes, axes and points that it is measured by, as files name them: "neck, shaft". Pictures draw them.
+  std::string_view measured_by;
   std::string_view source;            ///< of the definition
   std::optional<NormalRange> normal;  ///< only with a source and for this definition
   const Measure& (*of)(const HipMeasures&);
@@ -78,7 +80,7 @@ struct NeckHour {
   double circle_rms_mm;
   std::optional<double> alpha_deg;  ///< at 0.5 mm
   std::optional<double> alpha_at_1mm_deg;
-  std::string why_no_alpha;  ///< at 0.5 mm
+  std::string why_no_alpha, why_no_alpha_at_1mm;
   /// The two differ by more than alpha_doubt_deg: where the contour leaves its circle depends on how closely one looks.
   bool is_doubtful = false;
   /// Nearer to the head the contour is farther than 0.5 mm outside again, up to this angle: a cam with a groove behind it.
@@ -118,6 +120,7 @@ struct FemurMeasures {
   Measure offset_12, offset_1_30, offset_3, offset_ratio_12, offset_ratio_1_30, offset_ratio_3;
   Measure trochanter_height;
 
+  std::optional<Sphere> head;
   std::vector<NeckHour> around_neck;  ///< empty without a neck
   std::optional<NeckGeometry> neck;
   std::optional<ShaftGeometry> shaft;
@@ -179,6 +182,8 @@ struct HipMeasures {
   BothMeasures both;
   Angle pelvic_tilt;
   std::string pelvis_frame;
+  /// Pieces of a bone's mesh near the head that are not measured, such as the wall of its marrow or another bone: a sentence for each bone.
+  std::vector<std::string> left_out;
 };
 
 /// What a joint's axes are from: "anterior pelvic plane", "plane of ASIS and PSIS", "the femur's epicondyles, not the pelvis"; empty

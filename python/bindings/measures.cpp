@@ -6,13 +6,14 @@
 #include "bindings.hpp"
 #include "interrupts.hpp"
 #include "io/joint/measure_request.hpp"
+#include "io/result/measure_result.hpp"
 
 namespace condyle::python {
 namespace {
 
 constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
-/// (key, part, unit, value or None, why none, note, definition, source, in the pelvis frame, (low, high, meaning, source) or None).
+/// (key, part, unit, value or None, why none, note, definition, measured by, source, in the pelvis frame, (low, high, meaning, source) or None).
 py::tuple measure_tuple(const MeasureDefinition& each, const HipMeasures& measures) {
   const Measure& measure = each.of(measures);
   const auto text = [](std::string_view view) { return py::str(view.data(), view.size()); };
@@ -22,7 +23,7 @@ py::tuple measure_tuple(const MeasureDefinition& each, const HipMeasures& measur
                   : py::none();
   return py::make_tuple(text(each.key), text(name_of(each.part)), text(each.unit),
                         optional_number(measure.value), measure.why_none, measure.note, text(each.definition),
-                        text(each.source), each.in_pelvis_frame, normal);
+                        text(each.measured_by), text(each.source), each.in_pelvis_frame, normal);
 }
 
 /// A column of one number per direction, NaN where there is none.
@@ -34,6 +35,15 @@ py::array column_of(const Hours& hours, const Read& read) {
     values.push_back(value.value_or(not_measured));
   }
   return array_of(std::move(values));
+}
+
+/// A column of one flag per direction.
+template <class Hours, class Read>
+py::array flags_of(const Hours& hours, const Read& read) {
+  py::array_t<bool> flags(static_cast<py::ssize_t>(hours.size()));
+  for (std::size_t i = 0; i < hours.size(); ++i)
+    flags.mutable_at(static_cast<py::ssize_t>(i)) = read(hours[i]);
+  return flags;
 }
 
 /// (p5, median, p95, samples without a value), or None.
@@ -73,13 +83,17 @@ py::dict measures_of(const JointHandle& handle, double pelvic_tilt_deg, std::siz
   };
   py::dict dict;
   dict["measures"] = list;
+  dict["left_out"] = py::tuple(py::cast(measures.left_out));
+  dict["geometry"] = measure_geometry_json(measures);
   dict["pelvis_frame"] = stated_frame(measures);
   dict["neck_hour"] = column_of(neck, [](const NeckHour& at) { return std::optional(at.hour); });
   dict["alpha_deg"] = column_of(neck, [](const NeckHour& at) { return at.alpha_deg; });
   dict["alpha_at_1mm_deg"] = column_of(neck, [](const NeckHour& at) { return at.alpha_at_1mm_deg; });
+  dict["is_doubtful"] = flags_of(neck, [](const NeckHour& at) { return at.is_doubtful; });
   dict["offset_mm"] = column_of(neck, [](const NeckHour& at) { return at.offset_mm; });
   dict["rim_hour"] = column_of(rim, [](const RimHour& at) { return std::optional(at.hour); });
   dict["rim_points"] = array_of(points);
+  dict["is_in_plane"] = flags_of(rim, [](const RimHour& at) { return at.is_in_plane; });
   dict["cover_deg"] = column_of(rim, [&](const RimHour& at) { return if_there(at, at.cover_deg); });
   dict["centre_edge_deg"] =
       column_of(rim, [&](const RimHour& at) { return if_there(at, at.centre_edge_deg); });

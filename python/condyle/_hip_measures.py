@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 from typing import Iterator, Mapping, NamedTuple, Optional
 
@@ -37,7 +38,8 @@ class MeasureBand(NamedTuple):
 class HipMeasure:
     """One measure: `value` in `unit` ("mm", "deg", "h" or "1"), None where the meshes do not show it, and then `why_none`.
 
-    `note` is to be read with the value; `in_pelvis_frame`: the value turns with the frame of the pelvis, and with its tilt.
+    `note` is to be read with the value; `measured_by` names the planes, axes and points in :attr:`HipMeasures.geometry` that it is
+    measured by; `in_pelvis_frame`: the value turns with the frame of the pelvis, and with its tilt.
     """
 
     key: str
@@ -47,6 +49,7 @@ class HipMeasure:
     why_none: str
     note: str
     definition: str
+    measured_by: tuple[str, ...]
     source: str
     in_pelvis_frame: bool
     normal: Optional[NormalRange]
@@ -61,22 +64,33 @@ class HipMeasures(Mapping[str, HipMeasure]):
     neck_hour, alpha_deg, alpha_at_1mm_deg, offset_mm : (144,) float64
         Around the neck, 12 superior and 3 anterior: alpha angles at tolerances of 0.5 and 1 mm, head-neck offset; NaN where there
         is none. Empty without a neck.
+    is_doubtful : (144,) bool
+        Where the two alpha angles differ by more than 5 degrees.
     rim_hour, cover_deg, centre_edge_deg : (72,) float64
-        Around the socket. `rim_points` (72, 3) in the fixed body's frame, mm. Empty without a socket.
+        Around the socket. `rim_points` (72, 3) in the fixed body's frame, mm; `is_in_plane` (72,) bool: what the rim's plane was
+        fitted to. Empty without a socket.
     pelvis_frame : str
         Of every measure that turns with the pelvis: "as scanned", "anterior pelvic plane", with the tilt that was given.
+    geometry : dict
+        Planes, axes and points that measures were made with, as `geometry` of measures.json has them; None where not found.
+    left_out : tuple of str
+        Pieces of the meshes near the head that are not measured, a sentence for each bone.
     """
 
-    __slots__ = ("_by_key", "pelvis_frame", "neck_hour", "alpha_deg", "alpha_at_1mm_deg", "offset_mm", "rim_hour",
-                 "rim_points", "cover_deg", "centre_edge_deg")
+    __slots__ = ("_by_key", "pelvis_frame", "geometry", "left_out", "neck_hour", "alpha_deg", "alpha_at_1mm_deg", "is_doubtful",
+                 "offset_mm", "rim_hour", "rim_points", "is_in_plane", "cover_deg", "centre_edge_deg")
 
     pelvis_frame: str
+    geometry: dict[str, object]
+    left_out: tuple[str, ...]
     neck_hour: NDArray[np.float64]
     alpha_deg: NDArray[np.float64]
     alpha_at_1mm_deg: NDArray[np.float64]
+    is_doubtful: NDArray[np.bool_]
     offset_mm: NDArray[np.float64]
     rim_hour: NDArray[np.float64]
     rim_points: NDArray[np.float64]
+    is_in_plane: NDArray[np.bool_]
     cover_deg: NDArray[np.float64]
     centre_edge_deg: NDArray[np.float64]
 
@@ -90,9 +104,10 @@ class HipMeasures(Mapping[str, HipMeasure]):
             progress_of(progress))
         self._by_key: dict[str, HipMeasure] = {}
         for each in found.pop("measures"):
-            (key, part, unit, value, why_none, note, definition, source, in_pelvis_frame, normal), band = each
-            self._by_key[key] = HipMeasure(key, part, unit, value, why_none, note, definition, source, in_pelvis_frame,
-                                           normal and NormalRange(*normal), band and MeasureBand(*band))
+            (key, part, unit, value, why_none, note, definition, by, source, in_pelvis_frame, normal), band = each
+            self._by_key[key] = HipMeasure(key, part, unit, value, why_none, note, definition, tuple(by.split(", ")), source,
+                                           in_pelvis_frame, normal and NormalRange(*normal), band and MeasureBand(*band))
+        found["geometry"] = json.loads(found["geometry"])
         for name, values in found.items():
             setattr(self, name, values)
 

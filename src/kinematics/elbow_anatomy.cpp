@@ -11,9 +11,9 @@ namespace {
 /// Trochlea and capitellum are some 45 mm wide.
 constexpr double trochlea_reach_mm = 30, smallest_trochlea = 5, largest_trochlea = 14;
 /// The shaft begins beyond the epicondyles and the fossae; in radii of the trochlea.
-constexpr double shaft_begins = 4.5;
+constexpr double humeral_shaft_begins = 4.5;
 /// The axis lies across the shaft, to within 30 degrees.
-constexpr double most_along_shaft = 0.5;
+constexpr double most_along_humeral_shaft = 0.5;
 
 }  // namespace
 
@@ -32,12 +32,12 @@ ElbowAnatomy elbow_anatomy(const TriMesh& humerus, const TriMesh& ulna) {
     return elbow;
   }
   elbow.shaft = shaft_line(humerus, elbow.centre, (area_centroid(humerus) - elbow.centre).normalized(),
-                           shaft_begins * axis.radius, std::numeric_limits<double>::infinity());
+                           humeral_shaft_begins * axis.radius, std::numeric_limits<double>::infinity());
   if (!elbow.shaft) {
     elbow.why_no_superior = "the humerus does not go on far enough above the trochlea to show where up is";
     return elbow;
   }
-  if (std::abs(elbow.shaft->direction.dot(axis.direction)) > most_along_shaft) {
+  if (std::abs(elbow.shaft->direction.dot(axis.direction)) > most_along_humeral_shaft) {
     elbow.why_no_superior = "the cylinder does not lie across the humerus' shaft";
     return elbow;
   }

@@ -28,7 +28,7 @@ constexpr std::size_t first_points = 260, partners = 90, candidates_kept = 16;
 /// As in find_cylinder(): normals this far from parallel (sine) give a direction, radii seen from both may differ by this part.
 constexpr double smallest_sine = 0.2, radius_agreement = 0.15;
 /// The axis lies across the shaft, to within 30 degrees (sine): the way to the centroid of a cut femur is 25 off.
-constexpr double most_along_shaft = 0.5;
+constexpr double most_along_femoral_shaft = 0.5;
 
 /// A vertex belongs to a cylinder while its normal is within 30 degrees of its ray (cosine), and within these parts of the
 /// radius: at first, and once the fit has settled.
@@ -152,7 +152,7 @@ std::optional<Cylinder> through(const SurfacePoint& p, const SurfacePoint& q, co
   const double sine = across.norm();
   if (sine < smallest_sine) return std::nullopt;
   const Vec3 a = across / sine;
-  if (std::abs(a.dot(towards_shaft)) > most_along_shaft) return std::nullopt;
+  if (std::abs(a.dot(towards_shaft)) > most_along_femoral_shaft) return std::nullopt;
   const Vec3 between = p.position - q.position;
   const double s = between.cross(q.normal).dot(a) / sine, t = between.cross(p.normal).dot(a) / sine;
   const double radius = (s + t) / 2;

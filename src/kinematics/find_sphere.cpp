@@ -42,18 +42,18 @@ constexpr double farthest_cell = 1e9;
 constexpr std::size_t kept_per_radius = 4;
 
 /// A candidate this near (in radii) to a part already found would grow into the same part.
-constexpr double same_part = 0.25;
+constexpr double same_ball = 0.25;
 
 /// ... and what has come this near to one, in radii, ends in it: parts differ by more.
 constexpr double arrived = 0.02;
 
 /// A vertex belongs to a sphere while its normal is within 30 degrees of its ray (cosine).
-constexpr double smallest_cosine = 0.866;
+constexpr double smallest_ball_cosine = 0.866;
 
 /// ... and its distance within 3 robust deviations, at least and at most these parts of the radius: a head is
 /// round to 1 or 2 % of its radius, its neck leaves it by more.
-constexpr double deviations_kept = 3;
-constexpr double narrowest_band = 1e-6;
+constexpr double ball_deviations_kept = 3;
+constexpr double narrowest_ball_band = 1e-6;
 constexpr double first_band = 0.10;
 constexpr double widest_band = 0.05;
 
@@ -73,7 +73,7 @@ constexpr double floor_deviations = 3;
 /// A socket's ring without its fossa has less of the spread than a cap: 0.13 is one of 45 degrees.
 constexpr double smallest_coverage = 0.10;
 constexpr double smallest_head_spread = 0.15, smallest_socket_spread = 0.13;
-constexpr std::size_t fewest_vertices = 12;
+constexpr std::size_t fewest_ball_vertices = 12;
 
 /// The normals of a socket are means over cells of this side, mm: wider than the voxels of most label maps, whose steps turn
 /// normals by 30 degrees and more. At 3 mm the wall of a fossa 2 mm deep is no longer seen.
@@ -82,7 +82,7 @@ constexpr double normals_cell = 2;
 /// Candidates with less than this share of the votes of the fullest grow into parts that others grow into, or into none.
 constexpr double smallest_vote_share = 0.25;
 
-struct Candidate {
+struct BallCandidate {
   Sphere sphere;
   double votes;  ///< area that voted for it, in parts of the whole sphere
 };
@@ -110,8 +110,8 @@ struct CellHash {
 ///   |  -- cell --  |          part of the sphere that is there
 ///    \  /  |  \  /
 ///         | |   neck: goes elsewhere
-std::vector<Candidate> votes(const std::vector<kinematics::SurfacePoint>& points, double inwards,
-                             double radius) {
+std::vector<BallCandidate> votes(const std::vector<kinematics::SurfacePoint>& points, double inwards,
+                                 double radius) {
   struct CellSum {
     Cell cell;
     double area = 0;
@@ -143,26 +143,26 @@ std::vector<Candidate> votes(const std::vector<kinematics::SurfacePoint>& points
     sum.area += area;
     sum.weighted += area * centre;
   }
-  std::vector<Candidate> out;
+  std::vector<BallCandidate> out;
   for (const CellSum& sum : cells) {
-    const Candidate candidate{{sum.weighted / sum.area, radius}, sum.area / whole};
+    const BallCandidate candidate{{sum.weighted / sum.area, radius}, sum.area / whole};
     if (candidate.sphere.centre.allFinite()) out.push_back(candidate);
   }
   return out;
 }
 
 /// The order does not depend on that of the hash table.
-bool fuller(const Candidate& a, const Candidate& b) {
-  const auto key = [](const Candidate& c) {
+bool fuller(const BallCandidate& a, const BallCandidate& b) {
+  const auto key = [](const BallCandidate& c) {
     return std::array{-c.votes, c.sphere.radius, c.sphere.centre.x(), c.sphere.centre.y(),
                       c.sphere.centre.z()};
   };
   return key(a) < key(b);
 }
 
-std::vector<Candidate> candidates(const std::vector<kinematics::SurfacePoint>& points, double inwards,
-                                  const SphereSearch& search) {
-  std::vector<Candidate> found;
+std::vector<BallCandidate> candidates(const std::vector<kinematics::SurfacePoint>& points, double inwards,
+                                      const SphereSearch& search) {
+  std::vector<BallCandidate> found;
   for (double radius = search.smallest_radius; radius <= search.largest_radius * radius_ratio;
        radius *= radius_ratio) {
     auto here = votes(points, inwards, radius);
@@ -214,7 +214,7 @@ std::vector<Index> on_sphere(const std::vector<SurfacePoint>& points, const Poin
       const Vec3 ray = point.position - sphere.centre;
       const double distance = ray.norm();
       if (std::abs(distance - sphere.radius) > band) continue;
-      if (inwards * point.normal.dot(ray) < smallest_cosine * distance) continue;
+      if (inwards * point.normal.dot(ray) < smallest_ball_cosine * distance) continue;
       on.push_back(near[k]);
     }
   }
@@ -250,22 +250,23 @@ std::optional<Sphere> roughly_fitted(const Points& places, const std::vector<Ind
   return std::nullopt;
 }
 
-struct Part {
+struct BallPart {
   SphericalPatch patch;
   double spread;  ///< smallest eigenvalue of the mean of u u^T over the area, u the unit rays
   double
       support;  ///< area, mm^2: all of it where normals are along the rays, none if they are 30 degrees off
 };
 
-Part measured(const std::vector<kinematics::SurfacePoint>& points, const std::vector<Index>& part,
-              SphereFit fit) {
+BallPart measured(const std::vector<kinematics::SurfacePoint>& points, const std::vector<Index>& part,
+                  SphereFit fit) {
   Eigen::Matrix3d rays = Eigen::Matrix3d::Zero();
   const double area = area_of(points, part);
   double support = 0;
   for (const Index i : part) {
     const Vec3 u = (points[i].position - fit.sphere.centre).normalized();
     rays += points[i].area / area * u * u.transpose();
-    support += points[i].area * (std::abs(points[i].normal.dot(u)) - smallest_cosine) / (1 - smallest_cosine);
+    support += points[i].area * (std::abs(points[i].normal.dot(u)) - smallest_ball_cosine) /
+               (1 - smallest_ball_cosine);
   }
   const Vec3 spread =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(rays, Eigen::EigenvaluesOnly).eigenvalues();
@@ -295,8 +296,8 @@ struct SearchedPoints {
 /// back. On the way a rough fit does; where the vertices stay, they are fitted with care and must stay again. A vertex at the
 /// edge of the band may come and go for ever, as on surfaces of voxels: then the last vertices are taken if the sphere stays
 /// where it is. Empty where it comes to a part that is known.
-std::optional<Part> grown(const SearchedPoints& searched, Sphere sphere, double inwards,
-                          const SphereSearch& search, const std::vector<Part>& known) {
+std::optional<BallPart> grown(const SearchedPoints& searched, Sphere sphere, double inwards,
+                              const SphereSearch& search, const std::vector<BallPart>& known) {
   const auto& [mesh, points, neighbours, places] = searched;
   constexpr int most_rounds = 60;
   double band = first_band * sphere.radius;
@@ -311,7 +312,7 @@ std::optional<Part> grown(const SearchedPoints& searched, Sphere sphere, double 
     const double least_area = smallest_coverage * area_of(sphere);
     if (area_of(points, on) < least_area) return std::nullopt;
     auto next = neighbours.largest_connected_part(points, on);
-    if (next.size() < fewest_vertices || area_of(points, next) < least_area) return std::nullopt;
+    if (next.size() < fewest_ball_vertices || area_of(points, next) < least_area) return std::nullopt;
     same = next == part;
     if (same && fit) return measured(points, part, std::move(*fit));
     part = std::move(next);
@@ -325,14 +326,16 @@ std::optional<Part> grown(const SearchedPoints& searched, Sphere sphere, double 
     const Sphere before = std::exchange(sphere, rough ? *rough : fit->sphere);
     moved = (sphere.centre - before.centre).norm() + std::abs(sphere.radius - before.radius);
     if (sphere.radius < search.smallest_radius || sphere.radius > search.largest_radius) return std::nullopt;
-    const auto is_there = [&](const Part& other) { return near(sphere, other.patch.fit.sphere, arrived); };
+    const auto is_there = [&](const BallPart& other) {
+      return near(sphere, other.patch.fit.sphere, arrived);
+    };
     if (std::any_of(known.begin(), known.end(), is_there)) return std::nullopt;
     std::vector<double> residuals;
     residuals.reserve(part.size());
     for (const Index i : part)
       residuals.push_back((points[i].position - sphere.centre).norm() - sphere.radius);
-    band = std::clamp(deviations_kept * kinematics::robust_deviation(std::move(residuals)),
-                      narrowest_band * sphere.radius, widest_band * sphere.radius);
+    band = std::clamp(ball_deviations_kept * kinematics::robust_deviation(std::move(residuals)),
+                      narrowest_ball_band * sphere.radius, widest_band * sphere.radius);
   }
   if (!(moved < settled * sphere.radius)) return std::nullopt;
   try {
@@ -345,7 +348,8 @@ std::optional<Part> grown(const SearchedPoints& searched, Sphere sphere, double 
 /// A socket without the floor of its fossa, which lies a few millimetres deeper and draws the sphere towards it: fitted to
 /// the nearer two thirds of the part, again until they stay the same (concentration steps of least trimmed squares,
 /// Rousseeuw and Van Driessen 2006), then to all that lies within the deviations of these.
-Part without_floor(const TriMesh& mesh, const std::vector<kinematics::SurfacePoint>& points, Part whole) {
+BallPart without_floor(const TriMesh& mesh, const std::vector<kinematics::SurfacePoint>& points,
+                       BallPart whole) {
   constexpr int most_rounds = 100;
   SphereFit fit = whole.patch.fit;
   std::vector<Index> part;  // positions in `points`; both are ascending by vertex
@@ -374,7 +378,7 @@ Part without_floor(const TriMesh& mesh, const std::vector<kinematics::SurfacePoi
     std::vector<double> distances;
     for (const Index i : part) distances.push_back(distance(i));
     const double band = std::max(floor_deviations * kinematics::robust_deviation(std::move(distances)),
-                                 narrowest_band * fit.sphere.radius);
+                                 narrowest_ball_band * fit.sphere.radius);
     std::vector<Index> all;
     std::copy_if(part.begin(), part.end(), std::back_inserter(all),
                  [&](Index i) { return distance(i) <= band; });
@@ -429,7 +433,7 @@ std::optional<SphericalPatch> kinematics::patch_on(const TriMesh& mesh, const Sp
   const SearchedPoints searched(mesh, points);
   const std::vector<Index> part = searched.neighbours.largest_connected_part(
       points, on_sphere(points, searched.places, head, 1.0, known_head_band * head.radius));
-  if (part.size() < fewest_vertices) return std::nullopt;
+  if (part.size() < fewest_ball_vertices) return std::nullopt;
   // By area: the mesh may be finer in some places than in others.
   SphereFit fit{head, 0, 0, vertices_of(points, part)};
   for (const Index i : part) {
@@ -445,28 +449,28 @@ SphericalPatch find_sphere(const TriMesh& mesh, const SphereSearch& search) {
   const bool is_head = search.part == SphericalPart::head;
   auto points = kinematics::surface_points(mesh, search.within);
   if (!is_head) kinematics::average_normals(points, normals_cell);
-  std::vector<Part> parts;
-  if (points.size() >= fewest_vertices) {
+  std::vector<BallPart> parts;
+  if (points.size() >= fewest_ball_vertices) {
     const SearchedPoints searched(mesh, points);
     const double inwards = is_head ? 1.0 : -1.0;
     const auto all = candidates(points, inwards, search);
-    const std::vector<Part> none;
-    for (const Candidate& candidate : all) {
+    const std::vector<BallPart> none;
+    for (const BallCandidate& candidate : all) {
       if (candidate.votes < smallest_vote_share * all.front().votes) break;
-      const auto known = [&](const Part& part) {
-        return near(candidate.sphere, part.patch.fit.sphere, same_part);
+      const auto known = [&](const BallPart& part) {
+        return near(candidate.sphere, part.patch.fit.sphere, same_ball);
       };
       if (std::any_of(parts.begin(), parts.end(), known)) continue;
       // Sockets lie close to each other, the fossa beside the rest: none of them stands for another.
       auto part = grown(searched, candidate.sphere, inwards, search, is_head ? parts : none);
       // Most candidates of a socket grow into the same part.
-      const auto same = [&](const Part& other) {
+      const auto same = [&](const BallPart& other) {
         return other.patch.fit.vertices == part->patch.fit.vertices;
       };
       if (part && std::none_of(parts.begin(), parts.end(), same)) parts.push_back(std::move(*part));
     }
   }
-  std::erase_if(parts, [&](const Part& part) {
+  std::erase_if(parts, [&](const BallPart& part) {
     return part.patch.coverage < smallest_coverage ||
            part.spread < (is_head ? smallest_head_spread : smallest_socket_spread);
   });
@@ -482,8 +486,8 @@ SphericalPatch find_sphere(const TriMesh& mesh, const SphereSearch& search) {
   // A head is what covers most of its sphere. A socket covers little of its own: a part of it, or the fossa, covers as much
   // of a smaller one.
   if (!is_head)
-    for (Part& part : parts) part = without_floor(mesh, points, std::move(part));
-  const auto best = std::max_element(parts.begin(), parts.end(), [&](const Part& a, const Part& b) {
+    for (BallPart& part : parts) part = without_floor(mesh, points, std::move(part));
+  const auto best = std::max_element(parts.begin(), parts.end(), [&](const BallPart& a, const BallPart& b) {
     return is_head ? a.patch.coverage < b.patch.coverage : a.support < b.support;
   });
   if (search.resamples > 0)

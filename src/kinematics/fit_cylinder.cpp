@@ -16,7 +16,7 @@ using Mat4 = Eigen::Matrix4d;
 
 /// As for spheres: see fit_sphere.cpp.
 constexpr double local = 1e-6;
-constexpr double settled = 1e-13;
+constexpr double cylinder_settled = 1e-13;
 constexpr int most_steps = 100;
 
 /// Smallest over largest pivot of the normal equations (lengths in units of the patch) below which some
@@ -134,7 +134,7 @@ CylinderFit fit_cylinder(PointsView points, std::span<const Index> vertices, con
     return {a.point + (centroid - a.point).dot(a.direction) * a.direction, a.direction};
   };
   Axis axis = beside({start.point, start.direction.normalized()});
-  const double noise = settled * extent + 4 * core::rounding_unit * centroid.norm();
+  const double noise = cylinder_settled * extent + 4 * core::rounding_unit * centroid.norm();
   for (int i = 0; i < most_steps; ++i) {
     Vec4 step = axis_step(points, vertices, axis, extent);
     if (step.norm() > local * extent) {

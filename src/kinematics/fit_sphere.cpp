@@ -19,11 +19,11 @@ using Mat3 = Eigen::Matrix3d;
 constexpr double flat = 1e-9;
 
 /// Gauss-Newton converges here in some ten steps, lengths in units of the patch. A step that does not lower
-/// the sum of squares is halved; one shorter than `local` is taken as it is, for it changes the sum by its
-/// square, which rounding hides. A step shorter than `settled` is no news.
-constexpr double local = 1e-6;
-constexpr double settled = 1e-13;
-constexpr int most_steps = 100;
+/// the sum of squares is halved; one shorter than `local_step` is taken as it is, for it changes the sum by its
+/// square, which rounding hides. A step shorter than `sphere_settled` is no news.
+constexpr double local_step = 1e-6;
+constexpr double sphere_settled = 1e-13;
+constexpr int most_sphere_steps = 100;
 
 Vec3 mean_of(PointsView points, std::span<const Index> vertices) {
   Vec3 sum = Vec3::Zero();
@@ -163,13 +163,13 @@ SphereFit fit_sphere(PointsView points, std::span<const Index> vertices) {
 
   Vec3 centre = algebraic_centre(points, vertices, mean, C);
   const double patch = std::sqrt(variances[2]);
-  const double noise = settled * patch + 4 * core::rounding_unit * mean.norm();
+  const double noise = sphere_settled * patch + 4 * core::rounding_unit * mean.norm();
   Rays rays(points, vertices);
   rays.start_at(centre);
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < most_sphere_steps; ++step) {
     auto [move, squares] = rays.centre_step();
     rays.start_at(centre + move);
-    while (move.norm() > local * patch && !(rays.sum_of_squares() < squares)) {
+    while (move.norm() > local_step * patch && !(rays.sum_of_squares() < squares)) {
       move /= 2;
       rays.start_at(centre + move);
     }

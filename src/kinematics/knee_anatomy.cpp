@@ -18,7 +18,7 @@ namespace {
 using core::formatted;
 
 /// The shaft begins beyond the flare of the condyles; in radii of their cylinder.
-constexpr double shaft_begins = 2.5;
+constexpr double tibial_shaft_begins = 2.5;
 /// Epicondyles and trochlea lie within this distance of the axis, radii.
 constexpr double near_axis = 2.6;
 
@@ -29,9 +29,10 @@ constexpr double least_shaft_ahead = 0.5, least_notch = 0.3;
 constexpr double middle_share = 0.1;
 
 /// A femur this long, in radii, may have its head; which is so large, and so complete.
-constexpr double whole_femur = 10, smallest_head = 0.85, largest_head = 1.8, least_head_coverage = 0.35;
+constexpr double whole_femur_reach = 10, smallest_hip_head = 0.85, largest_hip_head = 1.8,
+                 least_hip_head_coverage = 0.35;
 /// The head is found around the far end within this distance, radii, and stands so far to the medial side of the shaft.
-constexpr double head_reach = 4.5, least_head_offset = 0.8;
+constexpr double hip_head_reach = 4.5, least_hip_head_offset = 0.8;
 
 /// Side of a femur without a head: its shaft leans outwards against the condyles' axis (81 degrees to the joint line on the
 /// lateral side, Paley 2002), and the lateral side of the trochlea stands farther forwards. Both are needed. Of the two
@@ -64,14 +65,14 @@ Epicondyles find_epicondyles(const TriMesh& femur, const Cylinder& axis) {
 
 /// How far the surface near the axis reaches towards `ahead`, in the two parts of a femur on either side of the notch and
 /// between them; -inf where there is nothing.
-struct Reach {
+struct ReachOfBone {
   double first, between, last;
 };
 
-Reach reach_of(const TriMesh& femur, const Condyles& condyles, const Vec3& ahead, const Vec3& up) {
+ReachOfBone reach_of(const TriMesh& femur, const Condyles& condyles, const Vec3& ahead, const Vec3& up) {
   constexpr double none = -std::numeric_limits<double>::infinity();
   const Cylinder& axis = condyles.fit.cylinder;
-  Reach reach{none, none, none};
+  ReachOfBone reach{none, none, none};
   for_each_corner(femur, [&](const Vec3& p) {
     const Vec3 q = p - axis.point;
     const double share = q.dot(axis.direction) / condyles.length_mm;
@@ -83,20 +84,21 @@ Reach reach_of(const TriMesh& femur, const Condyles& condyles, const Vec3& ahead
 }
 
 /// By how much both condyles stand clear of what is between them, radii; empty if nothing is.
-std::optional<double> clear_of_notch(const Reach& reach, double radius) {
+std::optional<double> clear_of_notch(const ReachOfBone& reach, double radius) {
   if (!std::isfinite(reach.between)) return std::nullopt;
   return (std::min(reach.first, reach.last) - reach.between) / radius;
 }
 
 /// The spherical head at the far end of a femur.
 std::optional<SphericalPatch> find_head(const TriMesh& femur, const Cylinder& axis, const ShaftLine& shaft) {
-  if (shaft.reach_mm < whole_femur * axis.radius) return std::nullopt;
+  if (shaft.reach_mm < whole_femur_reach * axis.radius) return std::nullopt;
   const Vec3 end = axis.point + shaft.reach_mm * shaft.direction;
   try {
-    SphericalPatch head = find_sphere(femur, {.smallest_radius = std::max(10.0, smallest_head * axis.radius),
-                                              .largest_radius = largest_head * axis.radius,
-                                              .within = Sphere{end, head_reach * axis.radius}});
-    if (head.coverage < least_head_coverage) return std::nullopt;
+    SphericalPatch head =
+        find_sphere(femur, {.smallest_radius = std::max(10.0, smallest_hip_head * axis.radius),
+                            .largest_radius = largest_hip_head * axis.radius,
+                            .within = Sphere{end, hip_head_reach * axis.radius}});
+    if (head.coverage < least_hip_head_coverage) return std::nullopt;
     return head;
   } catch (const MeshError&) {
     return std::nullopt;
@@ -149,7 +151,7 @@ void find_side(const TriMesh& femur, KneeAnatomy& knee) {
       formatted("side: upwards the shaft leans %.1f degrees to the %s against the condyles' axis, as of "
                 "a %s knee (needs %.0f)",
                 std::abs(lean), word(lean), word(lean), least_lean_deg));
-  const Reach front = reach_of(femur, *knee.condyles, knee.axes->anterior, knee.axes->superior);
+  const ReachOfBone front = reach_of(femur, *knee.condyles, knee.axes->anterior, knee.axes->superior);
   const double ridge =
       (axis.direction.dot(right) > 0 ? front.last - front.first : front.first - front.last) / axis.radius;
   knee.evidence.push_back(
@@ -164,9 +166,9 @@ void find_side(const TriMesh& femur, KneeAnatomy& knee) {
     knee.evidence.push_back(
         formatted("side: the femur's head lies %.1f radii of the condyles to the %s of the shaft, as of "
                   "a %s knee (needs %.1f, and decides)",
-                  std::abs(offset), word(-offset), word(offset), least_head_offset));
+                  std::abs(offset), word(-offset), word(offset), least_hip_head_offset));
     const bool contradicted = (leans && lean * offset < 0) || (has_ridge && ridge * offset < 0);
-    if (std::abs(offset) >= least_head_offset && !contradicted)
+    if (std::abs(offset) >= least_hip_head_offset && !contradicted)
       knee.side = side_of(offset);
     else
       knee.why_no_side = contradicted ? "head, shaft and trochlea contradict each other"
@@ -207,7 +209,7 @@ void look_at(const TriMesh& femur, const TriMesh& tibia, const FacingPart& facin
   const Cylinder& axis = knee.condyles->fit.cylinder;
   knee.epicondyles = find_epicondyles(femur, axis);
   knee.shaft = shaft_line(femur, axis.point, (area_centroid(femur) - axis.point).normalized(),
-                          shaft_begins * axis.radius, std::numeric_limits<double>::infinity());
+                          tibial_shaft_begins * axis.radius, std::numeric_limits<double>::infinity());
   if (!knee.shaft) {
     knee.why_no_axes = "the femur does not go on far enough beyond its condyles to show where up is";
     return;

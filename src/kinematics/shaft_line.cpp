@@ -17,7 +17,7 @@ constexpr double slice_mm = 5;
 constexpr double end_mm = 6;
 /// No bone is longer; a stray vertex may be farther.
 constexpr double longest_mm = 700;
-constexpr int most_rounds = 12;
+constexpr int most_line_rounds = 12;
 /// A slice with less of the usual area than this is one that the cut goes through.
 constexpr double least_slice = 0.5;
 constexpr std::size_t fewest_slices = 5;
@@ -96,7 +96,7 @@ std::optional<ShaftLine> shaft_line(const TriMesh& bone, const Vec3& joint, cons
                                     double begins_mm, double most_mm) {
   Vec3 along = direction;
   std::optional<ShaftLine> line;
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < most_line_rounds; ++round) {
     const auto slices = slices_of(bone, joint, along, line, begins_mm, most_mm);
     if (!slices) return std::nullopt;
     line = line_through(*slices, along);

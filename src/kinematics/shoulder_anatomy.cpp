@@ -10,19 +10,20 @@ namespace condyle::kinematics {
 namespace {
 
 /// Humeral heads, mm.
-constexpr double smallest_head = 14, largest_head = 34;
+constexpr double smallest_humeral_head = 14, largest_humeral_head = 34;
 /// A humeral head is a third of a sphere or more.
-constexpr double least_coverage = 0.25;
+constexpr double least_glenoid_coverage = 0.25;
 
 /// The glenoid faces the head (cosine of 35 degrees) across the cartilages, within so many head radii of its centre.
-constexpr double faces_head = 0.82, nearest = 0.85, farthest = 1.6;
+constexpr double faces_head = 0.82, nearest = 0.85, farthest_glenoid = 1.6;
 /// The sphere of the bone is as large as the head's or flatter; its area is a quarter of an adult glenoid's or more (some
 /// 8 cm^2); its points are as round as that.
-constexpr double smallest_ratio = 0.9, largest_ratio = 3, least_area_mm2 = 150, most_residual_mm = 1.2;
+constexpr double smallest_glenoid_ratio = 0.9, largest_glenoid_ratio = 3, least_area_mm2 = 150,
+                 most_residual_mm = 1.2;
 constexpr double normals_cell = 4;
 
 std::optional<Glenoid> find_glenoid(const TriMesh& scapula, const Sphere& head, std::string& why_none) {
-  auto points = surface_points(scapula, Sphere{head.centre, farthest * head.radius});
+  auto points = surface_points(scapula, Sphere{head.centre, farthest_glenoid * head.radius});
   const PointNeighbours neighbours(scapula, points);
   average_normals(points, normals_cell);
   std::vector<Index> facing;
@@ -51,13 +52,14 @@ std::optional<Glenoid> find_glenoid(const TriMesh& scapula, const Sphere& head, 
     return std::nullopt;
   }
   const double ratio = glenoid.fit.sphere.radius / head.radius;
-  if (ratio >= smallest_ratio && ratio <= largest_ratio && glenoid.fit.rms_residual <= most_residual_mm &&
+  if (ratio >= smallest_glenoid_ratio && ratio <= largest_glenoid_ratio &&
+      glenoid.fit.rms_residual <= most_residual_mm &&
       (glenoid.fit.sphere.centre - scapula.vertices[glenoid.fit.vertices[0]]).dot(glenoid.faces) > 0)
     return glenoid;
   why_none = core::formatted(
       "what faces the head has a sphere of %.1f head radii with rms %.1f mm (needs %.1f to %.0f, hollow, "
       "and %.1f)",
-      ratio, glenoid.fit.rms_residual, smallest_ratio, largest_ratio, most_residual_mm);
+      ratio, glenoid.fit.rms_residual, smallest_glenoid_ratio, largest_glenoid_ratio, most_residual_mm);
   return std::nullopt;
 }
 
@@ -73,13 +75,13 @@ ShoulderAnatomy shoulder_anatomy(const TriMesh& scapula, const TriMesh& humerus)
     return shoulder;
   }
   try {
-    shoulder.head = find_sphere(humerus, {.smallest_radius = smallest_head,
-                                          .largest_radius = largest_head,
-                                          .within = Sphere{facing->centre, 2 * largest_head},
+    shoulder.head = find_sphere(humerus, {.smallest_radius = smallest_humeral_head,
+                                          .largest_radius = largest_humeral_head,
+                                          .within = Sphere{facing->centre, 2 * largest_humeral_head},
                                           .resamples = 50});
-    if (shoulder.head->coverage < least_coverage) {
+    if (shoulder.head->coverage < least_glenoid_coverage) {
       shoulder.why_no_head = core::formatted("the best head has %.0f %% of a sphere (needs %.0f)",
-                                             100 * shoulder.head->coverage, 100 * least_coverage);
+                                             100 * shoulder.head->coverage, 100 * least_glenoid_coverage);
       shoulder.head.reset();
     } else if (*shoulder.head->centre_bound_mm > largest_place_bound_mm) {
       shoulder.why_no_head =

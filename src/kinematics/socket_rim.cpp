@@ -13,12 +13,12 @@ namespace condyle::kinematics {
 namespace {
 
 /// Wider than any joint space between bones, mm: surface further off is not the socket's.
-constexpr double widest_joint_space = 10;
+constexpr double widest_rim_space = 10;
 /// How far a socket may reach into the head where the two overlap, mm.
-constexpr double deepest_overlap = 2;
+constexpr double deepest_rim_overlap = 2;
 
 /// The rim is measured in so many sectors around the socket's opening, and must be found in most of them.
-constexpr std::size_t sectors = 36, fewest_sectors = 24;
+constexpr std::size_t rim_sectors = 36, fewest_rim_sectors = 24;
 
 /// The vertices that face the head's centre across the joint space, as rays from it.
 struct Facing {
@@ -32,7 +32,7 @@ Facing facing(const TriMesh& fixed, const Sphere& head) {
   for (std::size_t v = 0; v < fixed.vertices.size(); ++v) {
     const Vec3 ray = fixed.vertices[v] - head.centre;
     const double gap = ray.norm() - head.radius;
-    if (gap < -deepest_overlap || gap > widest_joint_space || !(normals[v].dot(ray) < 0)) continue;
+    if (gap < -deepest_rim_overlap || gap > widest_rim_space || !(normals[v].dot(ray) < 0)) continue;
     found.rays.push_back(ray);
     found.into_socket -= normals[v].dot(ray) / ray.squaredNorm() * ray;
   }
@@ -48,14 +48,14 @@ struct Crest {
   double towards_opening = -1, gap = 0;
   bool found = false;
 };
-using Crests = std::array<Crest, sectors>;
+using Crests = std::array<Crest, rim_sectors>;
 
 Crests crests_of(const std::vector<Vec3>& rays, const Vec3& opening, double head_radius) {
   const Vec3 x = opening.unitOrthogonal(), y = opening.cross(x);
   Crests crests{};
   for (const Vec3& ray : rays) {
     const double turn = std::atan2(ray.dot(y), ray.dot(x)) / (2 * std::numbers::pi) + 0.5;
-    Crest& crest = crests[std::min(static_cast<std::size_t>(turn * sectors), sectors - 1)];
+    Crest& crest = crests[std::min(static_cast<std::size_t>(turn * rim_sectors), rim_sectors - 1)];
     const double towards = ray.dot(opening) / ray.norm();
     if (crest.found && towards <= crest.towards_opening) continue;
     crest = {ray, towards, ray.norm() - head_radius, true};
@@ -63,7 +63,7 @@ Crests crests_of(const std::vector<Vec3>& rays, const Vec3& opening, double head
   return crests;
 }
 
-double quantile(std::vector<double> values, double q) {
+double rim_quantile(std::vector<double> values, double q) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size()));
   std::nth_element(values.begin(), at, values.end());
   return *at;
@@ -101,7 +101,7 @@ Plane rim_plane(const Crests& crests, const Vec3& opening) {
   for (int round = 0; round < rounds; ++round) {
     std::vector<double> off;
     for (const Vec3& p : all) off.push_back(std::abs(plane.height(p)));
-    const double most = quantile(off, 2.0 / 3);
+    const double most = rim_quantile(off, 2.0 / 3);
     std::vector<Vec3> near;
     for (std::size_t i = 0; i < all.size(); ++i)
       if (off[i] <= most) near.push_back(all[i]);
@@ -115,21 +115,21 @@ std::optional<RimPlane> plane_with_notch(const Crests& crests, const Vec3& openi
   constexpr double least_notch = 4;
   constexpr std::size_t reach = 3;
   const Plane plane = rim_plane(crests, opening);
-  const double usual_gap = quantile(gaps_of(crests), 0.5);
-  std::array<double, sectors> depth{};
-  for (std::size_t i = 0; i < sectors; ++i)
+  const double usual_gap = rim_quantile(gaps_of(crests), 0.5);
+  std::array<double, rim_sectors> depth{};
+  for (std::size_t i = 0; i < rim_sectors; ++i)
     if (crests[i].found)
       depth[i] = std::max(crests[i].gap - usual_gap, 0.0) + std::max(-plane.height(crests[i].ray), 0.0);
   const auto around = [&](std::size_t i) {
-    return depth[(i + sectors - 1) % sectors] + depth[i] + depth[(i + 1) % sectors];
+    return depth[(i + rim_sectors - 1) % rim_sectors] + depth[i] + depth[(i + 1) % rim_sectors];
   };
   std::size_t deepest = 0;
-  for (std::size_t i = 1; i < sectors; ++i)
+  for (std::size_t i = 1; i < rim_sectors; ++i)
     if (around(i) > around(deepest)) deepest = i;
   if (!(around(deepest) / 3 >= least_notch)) return std::nullopt;
   Vec3 towards = Vec3::Zero();
   for (std::size_t k = 0; k <= 2 * reach; ++k) {
-    const std::size_t i = (deepest + sectors - reach + k) % sectors;
+    const std::size_t i = (deepest + rim_sectors - reach + k) % rim_sectors;
     towards += depth[i] * (crests[i].ray - plane.point);
   }
   towards -= towards.dot(plane.normal) * plane.normal;
@@ -145,8 +145,8 @@ std::optional<SocketRim> socket_rim(const TriMesh& fixed, const Sphere& head) {
   const Vec3 opening = -found.into_socket.normalized();
   const Crests crests = crests_of(found.rays, opening, head.radius);
   const std::vector<double> gaps = gaps_of(crests);
-  if (gaps.size() < fewest_sectors) return SocketRim{opening, {}, {}};
-  return SocketRim{opening, quantile(gaps, 0.1), plane_with_notch(crests, opening)};
+  if (gaps.size() < fewest_rim_sectors) return SocketRim{opening, {}, {}};
+  return SocketRim{opening, rim_quantile(gaps, 0.1), plane_with_notch(crests, opening)};
 }
 
 }  // namespace condyle::kinematics

@@ -7,11 +7,10 @@
 #include <vector>
 
 #include "core/formatted.hpp"
+#include "measure/degree.hpp"
 
 namespace condyle::measure {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// Of the radius: farther off than a head's contour ever is.
 constexpr double farthest_off_circle = 0.25;
@@ -70,6 +69,7 @@ std::optional<CircleFit> head_circle(const Contour& section, double head_radius)
   const double slope = 1 / std::tan(circle_begins_deg * degree);
   const auto before = [&](const Vec2& p) { return p.x() - slope * std::abs(p.y()); };
   for (ContourPiece piece : section) {
+    if (!faces_outwards(piece)) continue;
     if (!clip_to_circle(piece, Vec2::Zero(), (1 + farthest_off_circle) * head_radius)) continue;
     if ((piece.from + piece.to).norm() / 2 < (1 - farthest_off_circle) * head_radius) continue;
     const double a = before(piece.from), b = before(piece.to);
@@ -112,6 +112,7 @@ AlphaFinding alpha_angle(const Contour& half, const Circle& circle, double head_
 std::optional<Vec2> narrowest_neck(const Contour& half, double head_radius) {
   std::optional<Vec2> nearest;
   for (ContourPiece piece : half) {
+    if (!faces_away_from_axis(piece)) continue;
     if (!clip_to_range(piece, neck_begins * head_radius, neck_reach * head_radius)) continue;
     for (const Vec2& p : {piece.from, piece.to})
       if (!nearest || p.y() < nearest->y()) nearest = p;

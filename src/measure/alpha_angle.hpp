@@ -28,7 +28,7 @@ struct AlphaFinding {
 };
 
 /// The circle of a head in a plane of the neck's axis, from both sides of its section. x is along the neck, from the head's
-/// centre. Empty if too little of a circle is there.
+/// centre. Walls of cavities in the bone are no part of it. Empty if too little of a circle is there.
 std::optional<CircleFit> head_circle(const Contour& section, double head_radius);
 
 /// The alpha angle on one side of the axis. Coming from the neck, the first angle at the circle's centre at which the
@@ -41,7 +41,7 @@ std::optional<CircleFit> head_circle(const Contour& section, double head_radius)
 /// `half` is that side, y >= 0; `circle` is mirrored with it. Exact for the contour as it is: no steps of the angle.
 AlphaFinding alpha_angle(const Contour& half, const Circle& circle, double head_radius, double tolerance_mm);
 
-/// The least distance of the contour from the neck's axis between 0.3 and 1.6 head radii from the centre; empty if there is none.
+/// The least distance of the bone's outside from the neck's axis between 0.3 and 1.6 head radii from the centre; empty if there is none.
 std::optional<Vec2> narrowest_neck(const Contour& half, double head_radius);
 
 }  // namespace condyle::measure

@@ -17,6 +17,10 @@ bool keep_between(ContourPiece& piece, double low, double high) {
   return true;
 }
 
+ContourPiece reversed(const ContourPiece& piece) {
+  return {piece.to, piece.from, piece.to_end, piece.from_end};
+}
+
 Contour half(const Contour& contour, double sign) {
   Contour out;
   for (ContourPiece piece : contour) {
@@ -29,6 +33,7 @@ Contour half(const Contour& contour, double sign) {
       (a < 0 ? piece.from : piece.to) = on_axis;
       (a < 0 ? piece.from_end : piece.to_end) = false;
     }
+    if (sign < 0) piece = reversed(piece);
     out.push_back(piece);
   }
   return out;
@@ -46,7 +51,8 @@ AxisSections::AxisSections(const TriMesh& mesh, const Vec3& centre, const Vec3& 
       quarter_(quarter),
       along_(mesh.vertices.size()),
       on_zero_(along_.size()),
-      on_quarter_(along_.size()) {
+      on_quarter_(along_.size()),
+      is_left_handed_(axis.cross(zero).dot(quarter) < 0) {
   for (std::size_t v = 0; v < along_.size(); ++v) {
     const Vec3 p = mesh.vertices[v] - centre;
     along_[v] = p.dot(axis), on_zero_[v] = p.dot(zero), on_quarter_[v] = p.dot(quarter);
@@ -72,7 +78,10 @@ Contour AxisSections::at(double turn) const {
     const auto [one, next, last] = a != b && a != d   ? Triangle{i, j, k}
                                    : b != a && b != d ? Triangle{j, k, i}
                                                       : Triangle{k, i, j};
-    contour.push_back({crossing(one, next), crossing(one, last), ends(one, next), ends(one, last)});
+    const ContourPiece piece{crossing(one, next), crossing(one, last), ends(one, next), ends(one, last)};
+    // Counter-clockwise around the triangle its border goes down through the plane where the piece begins, and up where it ends.
+    const bool goes_down_first = !(above[one] < 0);
+    contour.push_back(goes_down_first != is_left_handed_ ? piece : reversed(piece));
   }
   return contour;
 }
@@ -91,6 +100,14 @@ Contour upper_half(const Contour& contour) {
 
 Contour lower_half(const Contour& contour) {
   return half(contour, -1);
+}
+
+bool faces_outwards(const ContourPiece& piece) {
+  return piece.from.x() * piece.to.y() - piece.from.y() * piece.to.x() > 0;
+}
+
+bool faces_away_from_axis(const ContourPiece& piece) {
+  return piece.to.x() < piece.from.x();
 }
 
 bool clip_to_circle(ContourPiece& piece, const Vec2& centre, double radius) {

@@ -10,7 +10,7 @@ namespace condyle::measure {
 /// Point of a plane through an axis: x along the axis from the centre, y away from it.
 using Vec2 = Eigen::Vector2d;
 
-/// Where such a plane cuts a triangle.
+/// Where such a plane cuts a triangle: going from `from` to `to`, the solid is on the left, with x to the right and y up.
 struct ContourPiece {
   Vec2 from, to;
   bool from_end = false, to_end = false;  ///< whether the bone's mesh ends at that point
@@ -45,11 +45,17 @@ class AxisSections {
   std::vector<char> marks_;
   Vec3 centre_, axis_, zero_, quarter_;
   std::vector<double> along_, on_zero_, on_quarter_;  ///< coordinates of the vertices
+  bool is_left_handed_;                               ///< axis, zero and quarter
 };
 
-/// The pieces on the side of y > 0, cut where they cross the axis; or those of y < 0, mirrored.
+/// The pieces on the side of y > 0, cut where they cross the axis; or those of y < 0, mirrored. The solid stays on the left.
 Contour upper_half(const Contour& contour);
 Contour lower_half(const Contour& contour);
+
+/// Whether a piece faces away from the origin, as the outside of what lies around it does; a cavity's wall faces it.
+bool faces_outwards(const ContourPiece& piece);
+/// Likewise, away from the axis: for pieces of y >= 0.
+bool faces_away_from_axis(const ContourPiece& piece);
 
 /// The part of a piece within a circle about a point; empty if there is none.
 bool clip_to_circle(ContourPiece& piece, const Vec2& centre, double radius);

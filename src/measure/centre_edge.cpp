@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "measure/axis_sections.hpp"
+#include "measure/degree.hpp"
 #include "measure/rim.hpp"
 
 namespace condyle::measure {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// Wall that is interrupted by less goes on: a fold of a rough surface faces away over so much.
 constexpr double widest_fold = 2 * degree;
@@ -19,22 +18,23 @@ constexpr double widest_fold = 2 * degree;
 constexpr double farthest_behind = 60 * degree;
 
 /// Angles from superior under which wall is seen, and where the larger one is.
-struct Interval {
+struct CoveredArc {
   double begin, end;
   Vec2 at_end;
   bool mesh_ends;
 };
 
-std::vector<Interval> seen(const Contour& section, double reach) {
-  std::vector<Interval> out;
+std::vector<CoveredArc> seen(const Contour& section, double reach) {
+  std::vector<CoveredArc> out;
   for (ContourPiece piece : section) {
     if (!clip_to_circle(piece, Vec2::Zero(), reach)) continue;
     const double a = std::atan2(piece.from.y(), piece.from.x()), b = std::atan2(piece.to.y(), piece.to.x());
     if (std::abs(a - b) > std::numbers::pi) continue;  // straight below: no roof
-    out.push_back(a < b ? Interval{a, b, piece.to, piece.to_end}
-                        : Interval{b, a, piece.from, piece.from_end});
+    out.push_back(a < b ? CoveredArc{a, b, piece.to, piece.to_end}
+                        : CoveredArc{b, a, piece.from, piece.from_end});
   }
-  std::sort(out.begin(), out.end(), [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
+  std::sort(out.begin(), out.end(),
+            [](const CoveredArc& a, const CoveredArc& b) { return a.begin < b.begin; });
   return out;
 }
 
@@ -44,10 +44,10 @@ CentreEdgeFinding centre_edge(const SocketWall& wall, const Sphere& head, const 
                               const Vec3& direction) {
   const AxisSections sections(wall.mesh, head.centre, superior, direction, superior.cross(direction),
                               wall.ends);
-  std::optional<Interval> roof;
-  for (const Interval& next : seen(sections.at(0), head.radius + farthest_wall_mm)) {
+  std::optional<CoveredArc> roof;
+  for (const CoveredArc& next : seen(sections.at(0), head.radius + farthest_wall_mm)) {
     if (roof && next.begin <= roof->end + widest_fold) {
-      if (next.end > roof->end) roof = Interval{roof->begin, next.end, next.at_end, next.mesh_ends};
+      if (next.end > roof->end) roof = CoveredArc{roof->begin, next.end, next.at_end, next.mesh_ends};
       continue;
     }
     if (next.begin > 0) break;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "condyle/error.hpp"
@@ -11,11 +10,10 @@
 #include "kinematics/corners.hpp"
 #include "kinematics/find_condyles.hpp"
 #include "kinematics/hip_anatomy.hpp"
+#include "measure/degree.hpp"
 
 namespace condyle::measure {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// In radii of the head: a whole femur has 17, one cut above its condyles at most 14.
 constexpr double shortest_femur = 10;
@@ -50,23 +48,24 @@ BoneEnd end_of(const TriMesh& bone, const Vec3& from) {
   return end;
 }
 
-struct Seen {
+struct SeenFromBelow {
   double x, y;  ///< medial to lateral in some sense; anterior
   Index vertex;
 };
 
-double turn(const Seen& o, const Seen& a, const Seen& b) {
+double turn(const SeenFromBelow& o, const SeenFromBelow& a, const SeenFromBelow& b) {
   return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }
 
 /// Counter-clockwise (Andrew 1979).
-std::vector<Seen> convex_outline(std::vector<Seen> points) {
-  std::sort(points.begin(), points.end(),
-            [](const Seen& a, const Seen& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  std::vector<Seen> outline;
+std::vector<SeenFromBelow> convex_outline(std::vector<SeenFromBelow> points) {
+  std::sort(points.begin(), points.end(), [](const SeenFromBelow& a, const SeenFromBelow& b) {
+    return a.x != b.x ? a.x < b.x : a.y < b.y;
+  });
+  std::vector<SeenFromBelow> outline;
   for (const int pass : {0, 1}) {
     const std::size_t first = outline.size();
-    for (const Seen& p : points) {
+    for (const SeenFromBelow& p : points) {
       while (outline.size() >= first + 2 && !(turn(outline[outline.size() - 2], outline.back(), p) > 0))
         outline.pop_back();
       outline.push_back(p);
@@ -105,7 +104,7 @@ std::optional<CondyleGeometry> condyle_geometry(const TriMesh& femur, const Sphe
   const auto [middle, reach] = end_of(femur, head.centre);
   const Vec3 down = (middle - head.centre).normalized();
   const Vec3 front = square_to(axes.anterior, down).normalized(), side = front.cross(down);
-  std::vector<Seen> points;
+  std::vector<SeenFromBelow> points;
   for (const Triangle& t : femur.triangles)
     for (const Index v : t) {
       const Vec3 p = femur.vertices[v] - head.centre;
@@ -115,7 +114,7 @@ std::optional<CondyleGeometry> condyle_geometry(const TriMesh& femur, const Sphe
   std::optional<std::array<Index, 2>> found;
   double longest = least_width;
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Seen &a = outline[i], &b = outline[(i + 1) % outline.size()];
+    const SeenFromBelow &a = outline[i], &b = outline[(i + 1) % outline.size()];
     // Counter-clockwise, so that outwards is (dy, -dx).
     const double dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
     if (dx < least_facing * length || length <= longest) continue;

@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-
 #include <cmath>
 #include <utility>
 
@@ -14,6 +13,9 @@ namespace {
 /// mm: a step this short is none. Dropping settles in some twenty rounds.
 constexpr double settled = 1e-10;
 constexpr int most_steps = 50, most_rounds = 100;
+/// The distance at which the kept share ends is found to this, mm.
+constexpr double same_mm = 1e-12;
+constexpr int most_halvings = 60;
 /// Share of the contour that is kept: a cam of 90 degrees has 15 of the 210 that a head's circle is fitted to, the pit of the
 /// ligament some 30.
 constexpr double kept_share = 0.8;
@@ -28,16 +30,29 @@ struct Weighted {
   double weight;
 };
 
-/// The middles of parts of each piece that are short beside what is dropped, so that the share does not depend on the triangles.
-std::vector<Weighted> weighted(const Contour& pieces) {
+/// Of a contour, so short that the distance from a circle is linear along it, to some micrometres.
+struct Part {
+  Vec2 from, to;
+  double length;
+
+  Vec2 at(double share) const { return from + share * (to - from); }
+};
+
+std::vector<Part> parts_of(const Contour& pieces) {
   constexpr double longest_mm = 0.5;
-  std::vector<Weighted> points;
+  std::vector<Part> parts;
   for (const ContourPiece& piece : pieces) {
     const Vec2 along = piece.to - piece.from;
-    const double length = along.norm(), parts = std::max(1.0, std::ceil(length / longest_mm));
-    for (double i = 0; i < parts; ++i)
-      points.push_back({piece.from + (i + 0.5) / parts * along, length / parts});
+    const double length = along.norm(), count = std::max(1.0, std::ceil(length / longest_mm));
+    for (double i = 0; i < count; ++i)
+      parts.push_back({piece.from + i / count * along, piece.from + (i + 1) / count * along, length / count});
   }
+  return parts;
+}
+
+std::vector<Weighted> middles(const std::vector<Part>& parts) {
+  std::vector<Weighted> points;
+  for (const Part& part : parts) points.push_back({part.at(0.5), part.length});
   return points;
 }
 
@@ -82,36 +97,86 @@ double residual(const Circle& circle, const Vec2& p) {
   return (p - circle.centre).norm() - circle.radius;
 }
 
-/// The points nearest to a circle that have the kept share of the weight: the last of them counts with what is left of it.
+/// What of a contour is nearest to a circle and has the kept share of its length. Parts are cut where they leave the share, so that it does
+/// not hang on where they begin.
 class Trimmed {
  public:
-  explicit Trimmed(const std::vector<Weighted>& all) : all_(all), off_(all.size()) {
-    for (const Weighted& one : all) kept_weight_ += kept_share * one.weight;
+  explicit Trimmed(const std::vector<Part>& all) : all_(all), off_(all.size()) {
+    for (const Part& part : all) kept_length_ += kept_share * part.length;
   }
 
-  /// The mean of their squared distances.
+  /// The mean of the squared distances.
   double keep(const Circle& circle) {
     for (std::size_t i = 0; i < all_.size(); ++i)
-      off_[i] = {std::abs(residual(circle, all_[i].point)), static_cast<Index>(i)};
-    std::sort(off_.begin(), off_.end());
+      off_[i] = {residual(circle, all_[i].from), residual(circle, all_[i].to)};
+    const double most = farthest_kept();
     kept_.clear();
-    double left = kept_weight_, squares = 0;
-    for (const auto& [distance, i] : off_) {
-      const double weight = std::min(all_[i].weight, left);
-      if (!(weight > 0)) break;
-      kept_.push_back({all_[i].point, weight});
-      left -= weight, squares += weight * distance * distance;
+    double squares = 0;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      const auto [first, last] = within(off_[i], most);
+      const double weight = (last - first) * all_[i].length;
+      if (!(weight > 0)) continue;
+      kept_.push_back({all_[i].at((first + last) / 2), weight});
+      const double a = off_[i].at(first), b = off_[i].at(last);
+      squares += weight * (a * a + a * b + b * b) / 3;
     }
-    return squares / kept_weight_;
+    return squares / kept_length_;
   }
   const std::vector<Weighted>& kept() const noexcept { return kept_; }
-  double weight() const noexcept { return kept_weight_; }
+  double length() const noexcept { return kept_length_; }
 
  private:
-  const std::vector<Weighted>& all_;
-  std::vector<std::pair<double, Index>> off_;
+  /// Distances from the circle at both ends of a part, below 0 inside.
+  struct Off {
+    double from, to;
+
+    double at(double share) const { return from + share * (to - from); }
+  };
+
+  /// Between which shares of the way along a part it is no farther off.
+  static std::pair<double, double> within(const Off& off, double most) {
+    const double rise = off.to - off.from;
+    if (rise == 0) return std::abs(off.from) <= most ? std::pair(0.0, 1.0) : std::pair(0.0, 0.0);
+    double first = (-most - off.from) / rise, last = (most - off.from) / rise;
+    if (first > last) std::swap(first, last);
+    return {std::clamp(first, 0.0, 1.0), std::clamp(last, 0.0, 1.0)};
+  }
+
+  struct Within {
+    double length = 0, rise = 0;  ///< and by how much that grows with the distance
+  };
+
+  Within length_within(double most) const {
+    Within sum;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      const auto [first, last] = within(off_[i], most);
+      sum.length += (last - first) * all_[i].length;
+      if (!(last > first)) continue;
+      const int cut = (first > 0) + (last < 1);
+      if (cut > 0) sum.rise += cut * all_[i].length / std::abs(off_[i].to - off_[i].from);
+    }
+    return sum;
+  }
+
+  /// The length within a distance is made of straight lines: Newton's steps from where the last circle had it, or halves.
+  double farthest_kept() {
+    double low = 0, high = 0;
+    for (const Off& off : off_) high = std::max({high, std::abs(off.from), std::abs(off.to)});
+    double at = farthest_ > 0 && farthest_ < high ? farthest_ : high / 2;
+    for (int i = 0; i < most_halvings && high - low > same_mm; ++i) {
+      const Within sum = length_within(at);
+      (sum.length < kept_length_ ? low : high) = at;
+      const double step = sum.rise > 0 ? (kept_length_ - sum.length) / sum.rise : HUGE_VAL;
+      if (std::abs(step) <= same_mm) break;
+      at = at + step > low && at + step < high ? at + step : (low + high) / 2;
+    }
+    return farthest_ = at;
+  }
+
+  const std::vector<Part>& all_;
+  std::vector<Off> off_;
   std::vector<Weighted> kept_;
-  double kept_weight_ = 0;
+  double kept_length_ = 0, farthest_ = 0;
 };
 
 /// Circles to start from: of all points, and without each quarter of them as they lie around their middle.
@@ -135,11 +200,11 @@ std::vector<Circle> starts_of(const std::vector<Weighted>& all) {
 }  // namespace
 
 std::optional<CircleFit> fit_circle(const Contour& pieces) {
-  const std::vector<Weighted> all = weighted(pieces);
-  Trimmed trimmed(all);
+  const std::vector<Part> parts = parts_of(pieces);
+  Trimmed trimmed(parts);
   std::optional<Circle> best;
   double least = 0;
-  for (Circle circle : starts_of(all)) {
+  for (Circle circle : starts_of(middles(parts))) {
     for (int round = 0; round < first_rounds; ++round) {
       trimmed.keep(circle);
       if (!take_step(trimmed.kept(), circle)) return std::nullopt;
@@ -154,7 +219,7 @@ std::optional<CircleFit> fit_circle(const Contour& pieces) {
     if (!step) return std::nullopt;
     if (*step < settled) break;
   }
-  return CircleFit{*best, std::sqrt(trimmed.keep(*best)), trimmed.weight()};
+  return CircleFit{*best, std::sqrt(trimmed.keep(*best)), trimmed.length()};
 }
 
 std::optional<Circle> circle_through(const std::vector<Vec2>& points) {

@@ -19,6 +19,12 @@ Measure not_measured(std::string why) {
   return {{}, std::move(why), {}};
 }
 
+void add_note(Measure& measure, const std::string& note) {
+  if (!measure.value || note.empty()) return;
+  if (!measure.note.empty()) measure.note += "; ";
+  measure.note += note;
+}
+
 Measure measured_or(const std::optional<double>& value, const std::string& why) {
   return value ? measured(*value) : not_measured(why);
 }

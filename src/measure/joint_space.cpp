@@ -40,7 +40,8 @@ double median_of(std::vector<std::pair<double, double>> gap_and_area) {
 JointSpaceFinding joint_space(const Bones& bones, const Sphere& head, const std::vector<Index>& socket) {
   if (socket.empty()) return {{}, "the hip bone shows no socket's sphere around the head"};
   const double reach = farthest_head * head.radius;
-  const TriMesh near = near_part(bones.femur, {head.centre, reach}).mesh;
+  // The wall of a cavity in the head, as of marrow that is not filled, faces the centre.
+  const TriMesh near = averted_part(bones.femur, {head.centre, reach}).mesh;
   std::vector<mesh::Ray> rays;
   for (const Index v : socket)
     rays.push_back({head.centre, (bones.hip_bone.vertices[v] - head.centre).normalized()});

@@ -2,16 +2,15 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <vector>
 
 #include "measure/centre_edge.hpp"
+#include "measure/degree.hpp"
 #include "measure/rim.hpp"
 #include "measure/rim_chord.hpp"
 
 namespace condyle::measure {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 void set_opening(const RimGeometry& rim, const Sphere& head, const BodyAxes& axes, AcetabulumMeasures& out) {
   const double front = rim.normal.dot(axes.anterior), up = rim.normal.dot(axes.superior),
@@ -39,22 +38,35 @@ double coverage_of(const std::vector<RimHour>& rim) {
   return sum / static_cast<double>(count);
 }
 
-void set_chords(const std::vector<RimHour>& rim, const Sphere& head, const BodyAxes& axes,
-                AcetabulumMeasures& out) {
+void set_chords(const SocketWall& wall, const std::vector<RimHour>& rim, const Sphere& head,
+                const BodyAxes& axes, AcetabulumMeasures& out) {
   const std::array<std::pair<double, Measure*>, 4> heights{
       {{0, &out.version_0mm}, {5, &out.version_5mm}, {10, &out.version_10mm}, {15, &out.version_15mm}}};
   for (const auto& [height, measure] : heights) {
     const ChordFinding found = chord_at(rim, head, axes, height);
     *measure = found.chord ? measured(chord_version_deg(*found.chord, axes)) : not_measured(found.why_none);
-    if (found.chord) out.chords.push_back(*found.chord);
+    if (!found.chord) continue;
+    const std::string front = edge_grain_note(wall, head, found.chord->front);
+    add_note(*measure, front.empty() ? edge_grain_note(wall, head, found.chord->back) : front);
+    out.chords.push_back(*found.chord);
   }
+}
+
+/// Those of the rim's plane and of its points.
+std::vector<Measure*> plane_measures(AcetabulumMeasures& out) {
+  return {&out.inclination,          &out.version,      &out.inclination_radiographic,
+          &out.version_radiographic, &out.version_0mm,  &out.version_5mm,
+          &out.version_10mm,         &out.version_15mm, &out.coverage,
+          &out.rim_radius,           &out.rim_height};
 }
 
 void set_edges(const SocketWall& wall, const Sphere& head, const BodyAxes& axes, AcetabulumMeasures& out) {
   const auto set = [&](const Vec3& direction, Measure& measure, std::optional<Vec3>& edge) {
     const auto [found, why_none] = centre_edge(wall, head, axes.superior, direction);
     measure = found ? measured(found->angle_deg) : not_measured(why_none);
-    if (found) edge = found->edge;
+    if (!found) return;
+    add_note(measure, edge_grain_note(wall, head, found->edge));
+    edge = found->edge;
   };
   set(axes.lateral, out.centre_edge_lateral, out.lateral_edge);
   set(axes.anterior, out.centre_edge_anterior, out.anterior_edge);
@@ -65,16 +77,19 @@ void set_edges(const SocketWall& wall, const Sphere& head, const BodyAxes& axes,
 
 AcetabulumMeasures measure_acetabulum(const TriMesh& hip_bone, const Sphere& head, const FoundParts& parts,
                                       const BodyAxes& axes) {
-  if (!parts.opening) return acetabulum_not_measured("no socket faces the head", axes);
+  if (!parts.opening) return acetabulum_not_measured(parts.why_no_opening, axes);
   const SocketWall wall = socket_wall(hip_bone, head, parts.hip_bone_ends);
   RimFinding found = find_rim(wall, head, *parts.opening, axes);
   AcetabulumMeasures out = acetabulum_not_measured(found.why_none, axes);
   out.rim = std::move(found.hours);
   set_edges(wall, head, axes, out);
+  for (Measure* measure : {&out.centre_edge_lateral, &out.centre_edge_anterior, &out.centre_edge_posterior})
+    add_note(*measure, parts.socket_note);
   if (!found.plane) return out;
   set_opening(*found.plane, head, axes, out);
-  set_chords(out.rim, head, axes, out);
+  set_chords(wall, out.rim, head, axes, out);
   out.coverage = measured(coverage_of(out.rim));
+  for (Measure* measure : plane_measures(out)) add_note(*measure, parts.socket_note);
   out.plane = std::move(found.plane);
   return out;
 }

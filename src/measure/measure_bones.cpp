@@ -5,22 +5,31 @@
 #include <cmath>
 
 #include "condyle/error.hpp"
+#include "core/formatted.hpp"
 #include "core/lazy.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_parts.hpp"
 #include "kinematics/surface_points.hpp"
+#include "measure/bone_pieces.hpp"
 #include "measure/femoral_version.hpp"
+#include "measure/flat_ends.hpp"
 #include "measure/ischiofemoral.hpp"
 #include "measure/joint_space.hpp"
 #include "measure/measure_acetabulum.hpp"
 #include "measure/measure_femur.hpp"
+#include "measure/rim.hpp"
+#include "measure/solid_angle.hpp"
 #include "mesh/edge_table.hpp"
+#include "mesh/enclosed_volume.hpp"
 #include "mesh/findings.hpp"
 
 namespace condyle::measure {
 namespace {
 
-constexpr const char* no_head = "no spherical head is on the femur around the joint centre";
+/// Pieces of a mesh are looked at within so many radii of the head.
+constexpr double pieces_reach = 2;
+/// A head farther from the centre of its socket, in its radii, has left it: to there the plane of a rim is found as from the centre.
+constexpr double farthest_apart = 0.25;
 
 bool is_bone(const BodyPart& part) {
   return part.contact == PartContact::ends;
@@ -48,7 +57,67 @@ std::vector<char> ends_of(const Body& body, const Mesh& bone) {
   }
   if (body.image && !body.image->cuts.empty())
     for (std::size_t v = 0; v < ends.size(); ++v) ends[v] |= is_on_cut(body, bone.vertices()[v]);
+  if (const std::vector<ImageCut> flat = flat_ends(bone); !flat.empty())
+    for (std::size_t v = 0; v < ends.size(); ++v) ends[v] |= is_on_cut(flat, bone.vertices()[v]);
   return ends;
+}
+
+/// Its head, or its shaft's cortex: that of the piece which has the head.
+OwnPieces piece_with(const Mesh& femur, const std::string& name, const SphericalPatch& head) {
+  std::vector<char> is_head(femur.vertices().size());
+  for (const Index v : head.fit.vertices) is_head[v] = 1;
+  const Sphere& sphere = head.fit.sphere;
+  return own_pieces(femur, name, {sphere.centre, pieces_reach * sphere.radius}, [&](std::size_t t) {
+    const auto [i, j, k] = femur.triangles()[t];
+    return is_head[i] + is_head[j] + is_head[k];
+  });
+}
+
+/// The piece that faces most of the head across the joint space.
+OwnPieces piece_around(const Mesh& hip_bone, const std::string& name, const Sphere& head) {
+  return own_pieces(hip_bone, name, {head.centre, pieces_reach * head.radius}, [&](std::size_t t) {
+    const double gap = (hip_bone.corner(t, 0) - head.centre).norm() - head.radius;
+    return std::abs(gap) < farthest_wall_mm ? std::max(0.0, -solid_angle(hip_bone, t, head.centre)) : 0;
+  });
+}
+
+bool is_inside_out(const Mesh& bone) {
+  return bone.is_closed() && mesh::enclosed_volume(bone) < 0;
+}
+
+std::string why_no_head(const Body& femur, const Mesh& bone) {
+  if (is_inside_out(bone)) return femur.name + "'s triangles are wound the other way: heads are sockets";
+  return "no spherical head is on the femur around the joint centre";
+}
+
+/// The sphere of the socket, that which is stated or one that the head fits into.
+std::optional<SphericalPatch> socket_of(const Body& fixed, const Mesh& hip_bone, const Sphere& head) {
+  if (fixed.head) return kinematics::patch_on(hip_bone, *fixed.head);
+  const auto found = kinematics::socket_around(hip_bone, head);
+  if (!*found || !kinematics::fits_into(head, **found)) return std::nullopt;
+  return **found;
+}
+
+void set_socket(const Body& fixed, const Mesh& hip_bone, const Sphere& head, FoundParts& parts) {
+  const auto socket = socket_of(fixed, hip_bone, head);
+  if (!socket) {
+    parts.socket_note = "no socket's sphere was found around the head: what faces it may be no socket";
+    return;
+  }
+  parts.socket = socket->fit.vertices;
+  if (const double apart = (socket->fit.sphere.centre - head.centre).norm();
+      apart > farthest_apart * head.radius)
+    parts.socket_note = core::formatted("the centres of head and socket are %.0f mm apart", apart);
+}
+
+/// Of a hip bone that is inside out the wall behind the socket faces the head.
+void set_opening(const std::string& name, const Mesh& hip_bone, const Sphere& head, FoundParts& parts) {
+  if (is_inside_out(hip_bone))
+    parts.why_no_opening = name + "'s triangles are wound the other way: its socket faces away from the head";
+  else if (const auto rim = kinematics::rim_around(hip_bone, head); *rim)
+    parts.opening = (*rim)->opening;
+  else
+    parts.why_no_opening = "no socket faces the head";
 }
 
 /// Kept with the femur: the head that it is searched with is that of the mesh.
@@ -80,25 +149,35 @@ void check_measures(const Joint& joint, const MeasureRequest& request) {
 }
 
 BoneMeshes bones_of(const Joint& joint) {
-  return {bone_of(joint.fixed), bone_of(joint.mobile)};
+  BoneMeshes bones{bone_of(joint.fixed), bone_of(joint.mobile), {}};
+  if (joint.mobile.head) kinematics::keep_head(bones.femur, *joint.mobile.head);
+  const std::optional<SphericalPatch> head = kinematics::head_near_centre(bones.femur);
+  if (!head) return bones;
+  OwnPieces femur = piece_with(bones.femur, joint.mobile.name, *head),
+            hip_bone = piece_around(bones.hip_bone, joint.fixed.name, head->fit.sphere);
+  for (OwnPieces* own : {&femur, &hip_bone})
+    if (!own->left_out.empty()) bones.left_out.push_back(std::move(own->left_out));
+  bones.femur = std::move(femur.mesh), bones.hip_bone = std::move(hip_bone.mesh);
+  if (joint.mobile.head)
+    kinematics::keep_head(bones.femur, *joint.mobile.head);
+  else
+    kinematics::keep_head(bones.femur, head->fit.vertices);
+  return bones;
 }
 
 FoundParts find_parts(const Joint& joint, const BoneMeshes& bones) {
   FoundParts parts;
+  parts.left_out = bones.left_out;
   parts.hip_bone_ends = ends_of(joint.fixed, bones.hip_bone);
   parts.femur_ends = ends_of(joint.mobile, bones.femur);
-  if (joint.mobile.head) kinematics::keep_head(bones.femur, *joint.mobile.head);
   parts.head = kinematics::head_near_centre(bones.femur);
-  if (!parts.head) return parts;
-  const Sphere& head = parts.head->fit.sphere;
-  if (joint.fixed.head) {
-    if (const auto socket = kinematics::patch_on(bones.hip_bone, *joint.fixed.head))
-      parts.socket = socket->fit.vertices;
-  } else if (const auto socket = kinematics::socket_around(bones.hip_bone, head);
-             *socket && kinematics::fits_into(head, **socket)) {
-    parts.socket = (*socket)->fit.vertices;
+  if (!parts.head) {
+    parts.why_no_head = why_no_head(joint.mobile, bones.femur);
+    return parts;
   }
-  if (const auto rim = kinematics::rim_around(bones.hip_bone, head); *rim) parts.opening = (*rim)->opening;
+  const Sphere& head = parts.head->fit.sphere;
+  set_socket(joint.fixed, bones.hip_bone, head, parts);
+  set_opening(joint.fixed.name, bones.hip_bone, head, parts);
   parts.why_no_condyles =
       mesh::findings_of(bones.femur).get<KeptSearch>().why_no_condyles.get([&](std::string& why) {
         why = why_no_condyles(bones.femur, head);
@@ -113,11 +192,13 @@ HipMeasures measure_bones(const Bones& bones, const FoundParts& parts, Coordinat
   HipMeasures out;
   out.pelvic_tilt = request.pelvic_tilt;
   out.pelvis_frame = request.pelvis_frame;
+  out.left_out = parts.left_out;
   out.both.ischiofemoral_pose = request.ischiofemoral_pose;
   if (!parts.head) {
-    out.femur = femur_not_measured(no_head);
-    out.acetabulum = acetabulum_not_measured(no_head, pelvis_axes);
-    out.both.joint_space_least = out.both.joint_space_median = out.both.ischiofemoral = not_measured(no_head);
+    const std::string& why = parts.why_no_head;
+    out.femur = femur_not_measured(why);
+    out.acetabulum = acetabulum_not_measured(why, pelvis_axes);
+    out.both.joint_space_least = out.both.joint_space_median = out.both.ischiofemoral = not_measured(why);
     return out;
   }
   const Sphere& head = parts.head->fit.sphere;

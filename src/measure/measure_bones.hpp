@@ -7,9 +7,11 @@ namespace condyle::measure {
 /// Throws UsageError for what measure_hip() refuses.
 void check_measures(const Joint& joint, const MeasureRequest& request);
 
-/// Both bodies without their meshes that are called bearing or soft, each a mesh with its findings.
+/// Both bodies without their meshes that are called bearing or soft, and without pieces near the head that are not theirs, each a mesh
+/// with its findings.
 struct BoneMeshes {
   Mesh hip_bone, femur;
+  std::vector<std::string> left_out;  ///< what was left out of them, a sentence for each
 };
 BoneMeshes bones_of(const Joint& joint);
 

@@ -5,66 +5,76 @@
 
 #include "core/formatted.hpp"
 #include "kinematics/hip_anatomy.hpp"
+#include "measure/degree.hpp"
 #include "measure/femoral_version.hpp"
 #include "measure/neck_axis.hpp"
 #include "measure/neck_hours.hpp"
+#include "measure/shaft_axis.hpp"
+#include "measure/solid_angle.hpp"
+#include "measure/surface_grain.hpp"
 #include "measure/trochanter.hpp"
 
 namespace condyle::measure {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-
-/// The shaft begins below the lesser trochanter, in radii of the head below its centre, and curves beyond this length, mm.
-constexpr double shaft_begins = 2.6, longest_shaft = 90;
-
-using kinematics::ShaftLine;
-
-std::optional<ShaftLine> shaft_below(const TriMesh& femur, const Sphere& head) {
-  const Vec3 down = (kinematics::area_centroid(femur) - head.centre).normalized();
-  const double begins = shaft_begins * head.radius;
-  // A triangle that lies that far below has a corner that far away: no other one counts.
-  TriMesh away{femur.vertices, {}};
-  const auto is_away = [&](Index v) { return (femur.vertices[v] - head.centre).norm() >= begins; };
-  for (const Triangle& t : femur.triangles)
-    if (is_away(t[0]) || is_away(t[1]) || is_away(t[2])) away.triangles.push_back(t);
-  return kinematics::shaft_line(away, head.centre, down, begins, begins + longest_shaft);
-}
-
-ShaftGeometry geometry_of(const ShaftLine& line, const Vec3& head_centre) {
+ShaftGeometry geometry_of(const ShaftAxis& line, const Vec3& head_centre) {
   const double at = (line.point - head_centre).dot(line.direction);
   return {line.point + (line.first_mm - at) * line.direction,
           line.point + (line.last_mm - at) * line.direction, line.bound_deg};
 }
 
-void set_head(const SphericalPatch& head, FemurMeasures& out) {
+/// Share of all directions in which the head's part lies: a third of a triangle for each of its corners. A rough surface has more area
+/// than its sphere, and no more directions.
+double coverage_of(const TriMesh& femur, const SphereFit& head) {
+  std::vector<char> is_head(femur.vertices.size());
+  for (const Index v : head.vertices) is_head[v] = 1;
+  double sum = 0;
+  for (std::size_t t = 0; t < femur.triangles.size(); ++t) {
+    const auto [i, j, k] = femur.triangles[t];
+    if (const int corners = is_head[i] + is_head[j] + is_head[k]; corners > 0)
+      sum += corners * solid_angle(femur, t, head.sphere.centre) / 3;
+  }
+  return sum / (4 * std::numbers::pi);
+}
+
+void set_head(const TriMesh& femur, const SphericalPatch& head, FemurMeasures& out) {
   const SphereFit& fit = head.fit;
+  out.head = fit.sphere;
   out.head_radius = measured(fit.sphere.radius);
   out.head_rms = measured(fit.rms_residual);
   out.head_largest_residual = measured(fit.largest_residual);
   out.head_roundness = measured(fit.rms_residual / fit.sphere.radius);
-  out.head_coverage = measured(head.coverage);
+  out.head_coverage = measured(coverage_of(femur, fit));
 }
 
-void set_around_neck(const TriMesh& femur, const std::optional<ShaftLine>& shaft, const NeckLine& line,
-                     const Sphere& head, const BodyAxes& axes, FemurMeasures& out) {
+void set_around_neck(const TriMesh& femur, const std::optional<ShaftAxis>& shaft, const NeckLine& line,
+                     const SphericalPatch& head, const BodyAxes& axes, FemurMeasures& out) {
+  const Sphere& sphere = head.fit.sphere;
   const Vec3 up = shaft ? Vec3(-shaft->direction) : axes.superior;
   const auto clock = clock_about(line.direction, up, axes.anterior);
-  if (!clock) return;
-  out.neck = NeckGeometry{head, line.direction, line.outline, *clock,
+  if (!clock) {
+    const std::string why = std::string("the neck is parallel to the ") +
+                            (shaft ? "shaft" : "frame's superior") + ": it has no 12 o'clock";
+    for (Measure* measure : clock_measures(out)) *measure = not_measured(why);
+    return;
+  }
+  out.neck = NeckGeometry{sphere, line.direction, line.outline, *clock,
                           shaft ? ClockSource::shaft : ClockSource::frame};
   out.around_neck = around_neck(femur, *out.neck);
-  set_alpha(out.around_neck, head.radius, out);
+  set_alpha(out.around_neck, sphere.radius, out);
+  const std::string grain =
+      alpha_grain_note(grain_of(femur, head.fit.vertices, sphere.centre), sphere.radius);
+  for (Measure* measure : alpha_measures(out)) add_note(*measure, grain);
+  if (!shaft)
+    for (Measure* measure : clock_measures(out))
+      add_note(*measure, "no shaft: 12 o'clock is the frame's superior");
 }
 
-void set_shaft(const TriMesh& femur, const std::optional<ShaftLine>& shaft,
-               const std::optional<NeckLine>& neck, const std::string& no_neck, const Sphere& head,
-               const FoundParts& parts, FemurMeasures& out) {
+void set_shaft(const TriMesh& femur, const ShaftFinding& found, const std::optional<NeckLine>& neck,
+               const std::string& no_neck, const Sphere& head, const FoundParts& parts, FemurMeasures& out) {
+  const auto& shaft = found.shaft;
   if (!shaft) {
-    const std::string why =
-        core::formatted("no straight shaft of %.0f mm begins %.0f mm from the head's centre",
-                        kinematics::shortest_shaft_mm, shaft_begins * head.radius);
-    out.neck_shaft = out.trochanter_height = not_measured(why);
+    out.neck_shaft = out.trochanter_height = not_measured(found.why_none);
     return;
   }
   out.shaft = geometry_of(*shaft, head.centre);
@@ -77,7 +87,7 @@ void set_shaft(const TriMesh& femur, const std::optional<ShaftLine>& shaft,
   out.trochanter_height = trochanter.top ? measured(trochanter.height_mm) : not_measured(trochanter.why_none);
 }
 
-void set_version(const TriMesh& femur, const std::optional<ShaftLine>& shaft,
+void set_version(const TriMesh& femur, const std::optional<ShaftAxis>& shaft,
                  const std::optional<NeckLine>& neck, const std::string& no_neck, const Sphere& head,
                  const FoundParts& parts, const BodyAxes& axes, FemurMeasures& out) {
   if (parts.why_no_condyles.empty()) out.condyles = condyle_geometry(femur, head, axes);
@@ -90,7 +100,7 @@ void set_version(const TriMesh& femur, const std::optional<ShaftLine>& shaft,
                                                 : not_measured(parts.why_no_condyles);
   out.torsion_in_frame =
       measured(torsion_deg(neck->direction, shaft ? shaft->direction : Vec3(-axes.superior), axes));
-  if (!shaft) out.torsion_in_frame.note = "no shaft: seen along the frame's vertical";
+  if (!shaft) add_note(out.torsion_in_frame, "no shaft: seen along the frame's vertical");
 }
 
 }  // namespace
@@ -99,12 +109,12 @@ FemurMeasures measure_femur(const TriMesh& femur, const SphericalPatch& head, co
                             const BodyAxes& axes) {
   const Sphere& sphere = head.fit.sphere;
   const NeckFinding found = find_neck(femur, sphere);
-  const auto shaft = shaft_below(femur, sphere);
+  const ShaftFinding shaft = find_shaft(femur, sphere, parts.femur_ends);
   FemurMeasures out = femur_not_measured(found.why_none);
-  set_head(head, out);
-  if (found.neck) set_around_neck(femur, shaft, *found.neck, sphere, axes, out);
+  set_head(femur, head, out);
+  if (found.neck) set_around_neck(femur, shaft.shaft, *found.neck, head, axes, out);
   set_shaft(femur, shaft, found.neck, found.why_none, sphere, parts, out);
-  set_version(femur, shaft, found.neck, found.why_none, sphere, parts, axes, out);
+  set_version(femur, shaft.shaft, found.neck, found.why_none, sphere, parts, axes, out);
   return out;
 }
 

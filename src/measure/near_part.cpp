@@ -52,9 +52,10 @@ class Reach {
   std::vector<double> distance_;
 };
 
-bool faces(const TriMesh& mesh, std::size_t t, const Vec3& point) {
+/// Below 0 if the triangle faces the point.
+double averted(const TriMesh& mesh, std::size_t t, const Vec3& point) {
   const Vec3 a = mesh.corner(t, 0);
-  return (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).dot(a - point) < 0;
+  return (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).dot(a - point);
 }
 
 }  // namespace
@@ -65,7 +66,12 @@ MeshPart near_part(const TriMesh& mesh, const Sphere& ball) {
 
 MeshPart facing_part(const TriMesh& mesh, const Sphere& ball) {
   const Reach reaches(mesh, ball);
-  return kept_part(mesh, [&](std::size_t t) { return faces(mesh, t, ball.centre) && reaches(t); });
+  return kept_part(mesh, [&](std::size_t t) { return averted(mesh, t, ball.centre) < 0 && reaches(t); });
+}
+
+MeshPart averted_part(const TriMesh& mesh, const Sphere& ball) {
+  const Reach reaches(mesh, ball);
+  return kept_part(mesh, [&](std::size_t t) { return averted(mesh, t, ball.centre) > 0 && reaches(t); });
 }
 
 }  // namespace condyle::measure

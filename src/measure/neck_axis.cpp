@@ -15,7 +15,7 @@ namespace {
 /// A loop whose ends miss each other by more than this part of the sphere's radius is open.
 constexpr double closed = 1e-6;
 /// Shares of the sphere's great circle: less is a splinter, more is not a neck.
-constexpr double least_share = 0.02, largest_share = 0.7;
+constexpr double least_neck_share = 0.02, largest_share = 0.7;
 /// Cosine of the angle between the vector area and the middle of the outline.
 constexpr double least_alike = 0.7;
 
@@ -152,12 +152,12 @@ NeckFinding find_neck(const TriMesh& femur, const Sphere& head) {
   const Vec3 middle = found->moment / found->length;
   if (direction.dot(middle) < 0) direction = -direction;
   const double share = found->area.norm() / (std::numbers::pi * radius * radius);
-  if (!(share >= least_share && share <= largest_share))
+  if (!(share >= least_neck_share && share <= largest_share))
     return {
         {},
         core::formatted("what crosses a sphere of %.1f radii about the head has %.2f of its great circle: "
                         "no neck (needs %.2f to %.2f)",
-                        neck_sphere, share, least_share, largest_share)};
+                        neck_sphere, share, least_neck_share, largest_share)};
   if (direction.dot(middle) < least_alike * middle.norm())
     return {{}, "what crosses the sphere about the head does not lie to one side, as a neck does"};
   NeckLine neck{direction, found->area.norm(), found->outline};

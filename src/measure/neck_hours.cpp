@@ -31,15 +31,15 @@ NeckHour on_side(const Contour& half, const std::optional<CircleFit>& fit, doubl
     out.offset_point = sections.point(turn, *narrow);
   }
   if (!fit) {
-    out.why_no_alpha = "too little of the head's circle is in this plane";
+    out.why_no_alpha = out.why_no_alpha_at_1mm = "too little of the head's circle is in this plane";
     return out;
   }
   const Circle circle{{fit->circle.centre.x(), beside}, fit->circle.radius};
   out.circle_along_mm = circle.centre.x(), out.circle_beside_mm = beside;
   out.circle_radius_mm = circle.radius, out.circle_rms_mm = fit->rms_residual;
   AlphaFinding at_half = alpha_angle(half, circle, head_radius, alpha_tolerances_mm[0]);
-  const AlphaFinding at_one = alpha_angle(half, circle, head_radius, alpha_tolerances_mm[1]);
-  out.why_no_alpha = std::move(at_half.why_none);
+  AlphaFinding at_one = alpha_angle(half, circle, head_radius, alpha_tolerances_mm[1]);
+  out.why_no_alpha = std::move(at_half.why_none), out.why_no_alpha_at_1mm = std::move(at_one.why_none);
   if (at_half.alpha) {
     out.alpha_deg = at_half.alpha->alpha_deg;
     out.outside_again_deg = at_half.alpha->outside_again_deg;
@@ -53,11 +53,11 @@ NeckHour on_side(const Contour& half, const std::optional<CircleFit>& fit, doubl
 Measure alpha_at(const NeckHour& hour) {
   Measure out = measured_or(hour.alpha_deg, hour.why_no_alpha);
   if (hour.is_doubtful)
-    out.note = core::formatted("%.1f at a tolerance of 1 mm: the contour leaves its circle slowly",
-                               *hour.alpha_at_1mm_deg);
+    add_note(out, core::formatted("%.1f at a tolerance of 1 mm: the contour leaves its circle slowly",
+                                  *hour.alpha_at_1mm_deg));
   if (hour.outside_again_deg)
-    out.note += core::formatted("%sthe contour is outside its circle again up to %.1f",
-                                out.note.empty() ? "" : "; ", *hour.outside_again_deg);
+    add_note(out,
+             core::formatted("the contour is outside its circle again up to %.1f", *hour.outside_again_deg));
   return out;
 }
 
@@ -96,32 +96,70 @@ std::vector<NeckHour> around_neck(const TriMesh& femur, const NeckGeometry& neck
   return hours;
 }
 
+namespace {
+
+struct Largest {
+  const NeckHour* hour = nullptr;
+  std::optional<double> alpha_deg;
+  int places = 0, without = 0;
+
+  void look_at(const NeckHour& at, const std::optional<double>& alpha) {
+    ++places;
+    if (!alpha) return void(++without);
+    if (!alpha_deg || *alpha > *alpha_deg) hour = &at, alpha_deg = alpha;
+  }
+  std::string note() const {
+    return without == 0 ? std::string()
+                        : core::formatted("none at %d of %d places from 11 to 4 o'clock", without, places);
+  }
+};
+
+void set_largest(const std::vector<NeckHour>& hours, FemurMeasures& out) {
+  Largest at_half, at_1mm;
+  for (const NeckHour& hour : hours) {
+    if (!is_in_front(hour)) continue;
+    at_half.look_at(hour, hour.alpha_deg), at_1mm.look_at(hour, hour.alpha_at_1mm_deg);
+  }
+  const std::string none = "there is no alpha angle between 11 and 4 o'clock";
+  out.alpha_largest = at_half.hour ? alpha_at(*at_half.hour) : not_measured(none);
+  out.alpha_largest_hour = at_half.hour ? measured(at_half.hour->hour) : not_measured(none);
+  out.alpha_largest_at_1mm = measured_or(at_1mm.alpha_deg, none);
+  add_note(out.alpha_largest, at_half.note()), add_note(out.alpha_largest_hour, at_half.note());
+  add_note(out.alpha_largest_at_1mm, at_1mm.note());
+}
+
+void set_offset(const NeckHour& hour, double head_radius, Measure& offset, Measure& ratio) {
+  const std::string no_neck = "no contour of the neck is in this plane";
+  offset = measured_or(hour.offset_mm, no_neck);
+  ratio = hour.offset_mm ? measured(*hour.offset_mm / (2 * head_radius)) : not_measured(no_neck);
+}
+
+}  // namespace
+
 void set_alpha(const std::vector<NeckHour>& hours, double head_radius, FemurMeasures& out) {
   const NeckHour &at_12 = hours[neck_step(0)], &at_1_30 = hours[neck_step(1.5)], &at_3 = hours[neck_step(3)];
   out.alpha_12 = alpha_at(at_12), out.alpha_1_30 = alpha_at(at_1_30), out.alpha_3 = alpha_at(at_3);
-  out.alpha_12_at_1mm = measured_or(at_12.alpha_at_1mm_deg, at_12.why_no_alpha);
-  out.alpha_1_30_at_1mm = measured_or(at_1_30.alpha_at_1mm_deg, at_1_30.why_no_alpha);
-  out.alpha_3_at_1mm = measured_or(at_3.alpha_at_1mm_deg, at_3.why_no_alpha);
-  const NeckHour* largest = nullptr;
-  std::optional<double> largest_at_1mm;
-  for (const NeckHour& hour : hours) {
-    if (!is_in_front(hour)) continue;
-    if (hour.alpha_deg && (!largest || *hour.alpha_deg > *largest->alpha_deg)) largest = &hour;
-    if (hour.alpha_at_1mm_deg && (!largest_at_1mm || *hour.alpha_at_1mm_deg > *largest_at_1mm))
-      largest_at_1mm = hour.alpha_at_1mm_deg;
-  }
-  const std::string none = "there is no alpha angle between 11 and 4 o'clock";
-  out.alpha_largest = largest ? alpha_at(*largest) : not_measured(none);
-  out.alpha_largest_hour = largest ? measured(largest->hour) : not_measured(none);
-  out.alpha_largest_at_1mm = measured_or(largest_at_1mm, none);
-  const std::string no_neck = "no contour of the neck is in this plane";
-  const auto set_offset = [&](const NeckHour& hour, Measure& offset, Measure& ratio) {
-    offset = measured_or(hour.offset_mm, no_neck);
-    ratio = hour.offset_mm ? measured(*hour.offset_mm / (2 * head_radius)) : not_measured(no_neck);
-  };
-  set_offset(at_12, out.offset_12, out.offset_ratio_12);
-  set_offset(at_1_30, out.offset_1_30, out.offset_ratio_1_30);
-  set_offset(at_3, out.offset_3, out.offset_ratio_3);
+  out.alpha_12_at_1mm = measured_or(at_12.alpha_at_1mm_deg, at_12.why_no_alpha_at_1mm);
+  out.alpha_1_30_at_1mm = measured_or(at_1_30.alpha_at_1mm_deg, at_1_30.why_no_alpha_at_1mm);
+  out.alpha_3_at_1mm = measured_or(at_3.alpha_at_1mm_deg, at_3.why_no_alpha_at_1mm);
+  set_largest(hours, out);
+  set_offset(at_12, head_radius, out.offset_12, out.offset_ratio_12);
+  set_offset(at_1_30, head_radius, out.offset_1_30, out.offset_ratio_1_30);
+  set_offset(at_3, head_radius, out.offset_3, out.offset_ratio_3);
+}
+
+std::vector<Measure*> alpha_measures(FemurMeasures& femur) {
+  return {&femur.alpha_12,        &femur.alpha_1_30,         &femur.alpha_3,
+          &femur.alpha_12_at_1mm, &femur.alpha_1_30_at_1mm,  &femur.alpha_3_at_1mm,
+          &femur.alpha_largest,   &femur.alpha_largest_hour, &femur.alpha_largest_at_1mm};
+}
+
+std::vector<Measure*> clock_measures(FemurMeasures& femur) {
+  std::vector<Measure*> measures = alpha_measures(femur);
+  for (Measure* offset : {&femur.offset_12, &femur.offset_1_30, &femur.offset_3, &femur.offset_ratio_12,
+                          &femur.offset_ratio_1_30, &femur.offset_ratio_3})
+    measures.push_back(offset);
+  return measures;
 }
 
 }  // namespace condyle::measure

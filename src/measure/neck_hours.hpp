@@ -22,4 +22,8 @@ std::vector<NeckHour> around_neck(const TriMesh& femur, const NeckGeometry& neck
 /// The measures that are read off them.
 void set_alpha(const std::vector<NeckHour>& hours, double head_radius, FemurMeasures& out);
 
+/// The alpha angles, and the other measures that need a clock.
+std::vector<Measure*> alpha_measures(FemurMeasures& femur);
+std::vector<Measure*> clock_measures(FemurMeasures& femur);
+
 }  // namespace condyle::measure

@@ -3,26 +3,30 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/formatted.hpp"
 #include "kinematics/surface_points.hpp"
+#include "measure/degree.hpp"
 #include "measure/fit_circle.hpp"
 #include "measure/near_part.hpp"
 #include "measure/neck_hours.hpp"
+#include "measure/surface_grain.hpp"
 
 namespace condyle::measure {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// Points of a plane count less the farther they are from it, and not at all beyond so many robust deviations (Tukey's biweight), as a
 /// notch is. At 2.2 to 2.8 the inclination of the Visible Human's socket is between 52.3 and 51.9 degrees; at 4.7, which takes part of the
 /// notch in, 48.6. Distances below the other, mm, are none.
 constexpr double deviations_kept = 2.5, narrowest_mm = 0.05;
 /// Change of a normal that is none, and rounds after which what is left is.
-constexpr double settled = 1e-12;
-constexpr int most_rounds = 200;
+constexpr double plane_settled = 1e-12;
+constexpr int most_plane_rounds = 200;
+/// In radii of the head: so far beside the axis through its centre the circle of the rim is found as from the middle. A head that has left
+/// its socket sees the near part of it and what is beside it.
+constexpr double farthest_beside = 0.35;
+/// ... and narrower than the head only where the socket reaches around it, as in a protrusion: less is a hollow beside the socket.
+constexpr double narrowest_rim = 0.8;
 /// The rim about the opening, and about the normal of its plane: the third changes nothing that is seen.
 constexpr int rim_rounds = 3;
 
@@ -90,12 +94,12 @@ Plane plane_through(const std::vector<Vec3>& points, const std::vector<double>& 
 template <class Weight>
 Plane reweighted(const std::vector<Vec3>& points, Plane plane, const Weight& weight) {
   std::vector<double> weights(points.size());
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < most_plane_rounds; ++round) {
     for (std::size_t i = 0; i < points.size(); ++i) weights[i] = weight(plane.distance(points[i]));
     const Plane next = plane_through(points, weights, plane.normal);
     const double change = (next.normal - plane.normal).norm();
     plane = next;
-    if (change < settled) break;
+    if (change < plane_settled) break;
   }
   return plane;
 }
@@ -131,13 +135,47 @@ std::optional<RimGeometry> circle_in(const Plane& plane, const std::vector<RimHo
                      circle->radius, clock};
 }
 
+/// Why a rim is not that of the socket which the head is in; empty if it is.
+std::string why_not_of_head(const RimGeometry& rim, const Sphere& head) {
+  const Vec3 ray = rim.centre - head.centre;
+  const double beside = (ray - ray.dot(rim.normal) * rim.normal).norm();
+  if (rim.radius_mm >= narrowest_rim * head.radius && beside <= farthest_beside * head.radius) return {};
+  return core::formatted(
+      "what faces the head ends in a circle of %.0f mm radius, %.0f mm beside the head: no socket "
+      "that it is in",
+      rim.radius_mm, beside);
+}
+
+/// Of the triangles at each vertex.
+std::vector<double> mean_edges(const TriMesh& mesh) {
+  std::vector<double> sums(mesh.vertices.size()), counts(sums.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    double edges = 0;
+    for (int k = 0; k < 3; ++k) edges += (mesh.corner(t, k) - mesh.corner(t, (k + 1) % 3)).norm();
+    for (const Index v : mesh.triangles[t]) sums[v] += edges, counts[v] += 3;
+  }
+  for (std::size_t v = 0; v < sums.size(); ++v) sums[v] /= std::max(counts[v], 1.0);
+  return sums;
+}
+
 }  // namespace
 
 SocketWall socket_wall(const TriMesh& hip_bone, const Sphere& head, const std::vector<char>& ends) {
   MeshPart part = facing_part(hip_bone, {head.centre, head.radius + farthest_wall_mm});
-  SocketWall wall{std::move(part.mesh), {}};
+  SocketWall wall{std::move(part.mesh), {}, {}};
   for (const Index v : part.vertices) wall.ends.push_back(ends[v]);
+  wall.edge_mm = mean_edges(wall.mesh);
   return wall;
+}
+
+std::string edge_grain_note(const SocketWall& wall, const Sphere& head, const Vec3& point) {
+  double nearest = HUGE_VAL, edge = 0;
+  for (std::size_t v = 0; v < wall.edge_mm.size(); ++v)
+    if (const double off = (wall.mesh.vertices[v] - point).squaredNorm(); off < nearest)
+      nearest = off, edge = wall.edge_mm[v];
+  if (!(edge > coarse_edge_mm)) return {};
+  return core::formatted("triangles of %.1f mm cut off the rim here: it may end %.0f degrees farther", edge,
+                         std::atan2(edge / 2, (point - head.centre).norm()) / degree);
 }
 
 RimFinding find_rim(const SocketWall& wall, const Sphere& head, const Vec3& opening, const BodyAxes& axes) {
@@ -169,6 +207,8 @@ RimFinding find_rim(const SocketWall& wall, const Sphere& head, const Vec3& open
     }
     about = plane.normal;
   }
+  found.why_none = why_not_of_head(*found.plane, head);
+  if (!found.why_none.empty()) found.plane.reset();
   return found;
 }
 

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "kinematics/shaft_line.hpp"
 #include "measure/found_parts.hpp"
+#include "measure/shaft_axis.hpp"
 
 namespace condyle::measure {
 
@@ -21,7 +21,7 @@ struct TrochanterFinding {
 ///     |    \/           the neck's, and then there is no top.
 ///     |  |
 /// `ends` marks vertices where the mesh ends: a top there is none.
-TrochanterFinding greater_trochanter(const TriMesh& femur, const Sphere& head,
-                                     const kinematics::ShaftLine& shaft, const std::vector<char>& ends);
+TrochanterFinding greater_trochanter(const TriMesh& femur, const Sphere& head, const ShaftAxis& shaft,
+                                     const std::vector<char>& ends);
 
 }  // namespace condyle::measure

@@ -252,7 +252,7 @@ TEST(PictureMarks, OfMeasuresLieWhereTheyWereMeasured) {
   Pose X_FM = Pose::Identity();
   X_FM.translation() = Vec3(100, 0, 0);
   const std::vector<PictureMark> marks = measure_marks(measures, X_FM);
-  ASSERT_EQ(marks.size(), 4u);
+  ASSERT_EQ(marks.size(), 5u);
   const auto expect_bounds = [](const TriMesh& mesh, const Vec3& low, const Vec3& high, const char* what) {
     const BoundingBox box = mesh::bounds_of_surface(mesh);
     EXPECT_LT((box.low - low).cwiseAbs().maxCoeff(), 0.02) << what << ": " << box.low.transpose();
@@ -266,6 +266,8 @@ TEST(PictureMarks, OfMeasuresLieWhereTheyWereMeasured) {
                 "off it");
   expect_bounds(marks[3].mesh, Vec3(101 - line, 2 - 48, 3 - line), Vec3(101 + line, 2 + 1.3 * 24, 3 + line),
                 "the neck's axis, with the femur");
+  expect_bounds(marks[4].mesh, Vec3(101, 2 - line, 3 - line), Vec3(101 + 1.3 * 24, 2 + line, 3 + line),
+                "12 o'clock, with the femur");
 }
 
 TEST(Picture, FitsBothBodiesWhateverIsHidden) {

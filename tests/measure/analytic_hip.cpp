@@ -1,4 +1,5 @@
 #include "measure/analytic_hip.hpp"
+#include "measure/degree.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,8 +8,6 @@
 
 namespace condyle::test {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// Rings of points about an axis between two poles, outwards if they go from the axis's far end to its tip.
 TriMesh closed_rings(const Vec3& first, const std::vector<std::vector<Vec3>>& rings, const Vec3& last) {

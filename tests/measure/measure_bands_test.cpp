@@ -2,13 +2,17 @@
 #include <tbb/global_control.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <iostream>
+#include <numbers>
+#include <random>
 
 #include "condyle/error.hpp"
 #include "condyle/hip_measures.hpp"
 #include "condyle/sample/hip.hpp"
 #include "measure/analytic_hip.hpp"
-#include "measure/displaced_bones.hpp"
+#include "measure/displaced_by_hand.hpp"
 #include "support/real_hip.hpp"
 
 /// Bands of measures: in closed form, the same on any number of threads, and of as many joints as they say.
@@ -24,6 +28,12 @@ const Joint& some_hip() {
     return hip_of(std::move(bones.hip_bone), std::move(bones.femur));
   }();
   return hip;
+}
+
+/// Hours from p5 on around the clock.
+bool is_within(const MeasureDefinition& definition, double value, const MeasureBand& band) {
+  if (definition.unit == "h" && *band.p5 > *band.p95) return value >= *band.p5 || value <= *band.p95;
+  return value >= *band.p5 && value <= *band.p95;
 }
 
 const MeasureBand& band_of(const std::vector<MeasureBand>& bands, std::string_view key) {
@@ -106,25 +116,76 @@ TEST(MeasureBands, AStoppedBandIsEmptyAndProgressCounts) {
   EXPECT_THROW(measure_bands(hip, {}, {.samples = 19}), UsageError);
 }
 
-TEST(MeasureBands, NineTenthsOfOtherDisplacedJointsLieInsideThem) {
-  const auto hip = hip_vhf_right();
-  if (!hip) GTEST_SKIP() << "no real hip in CONDYLE_DATA";
-  const MeasureRequest request;
-  const auto bands = measure_bands(*hip, request, {.samples = 60});
-  const auto others = motion::displacements({.samples = 40, .seed = 2});
-  const measure::DisplacedBones bones(*hip, request, {});
-  double inside = 0, all = 0;
-  for (const motion::Displacement& by : others) {
-    const HipMeasures m = bones.measured(by);
-    for (std::size_t i = 0; i < bands.size(); ++i) {
-      const auto& value = measure_definitions()[i].of(m).value;
-      if (!value) continue;
-      ++all;
-      inside += *value >= *bands[i].p5 && *value <= *bands[i].p95;
+/// Drawn one by one, not by a Latin hypercube: three coordinates, three angles and two surfaces, each normal.
+HandDisplacement drawn(std::mt19937_64& random, const Uncertainty& sigma) {
+  const auto normal = [&] {
+    const auto uniform = [&] { return (static_cast<double>(random() >> 11) + 0.5) / 9007199254740992.0; };
+    return std::sqrt(-2 * std::log(uniform())) * std::cos(2 * std::numbers::pi * uniform());
+  };
+  const auto vector = [&](double deviation) {
+    return Vec3(deviation * normal(), deviation * normal(), deviation * normal());
+  };
+  const Vec3 centre = vector(sigma.centre_mm), axes = vector(sigma.axes.radians());
+  return {centre, axes, sigma.surface_mm * normal(), sigma.surface_mm * normal()};
+}
+
+/// Of each measure, in how many of the joints it could be measured and lies in its band.
+struct Counted {
+  int inside = 0, all = 0;
+};
+
+/// Measures of displaced joints as anybody would measure them: measures of the head by searching for it, since its residuals are those of its
+/// own fit, and the others with the head's centre stated where it is displaced to.
+std::vector<Counted> inside_bands(const Joint& hip, const std::vector<MeasureBand>& bands, int joints) {
+  const Sphere head = *measure_hip(hip).femur.head;
+  std::mt19937_64 random(77);
+  std::vector<Counted> counted(bands.size());
+  for (int i = 0; i < joints; ++i) {
+    const HandDisplacement by = drawn(random, {});
+    const HipMeasures stated = measure_hip(displaced_by_hand(hip, by, head)),
+                      searched = measure_hip(displaced_by_hand(hip, by, {}));
+    for (std::size_t m = 0; m < bands.size(); ++m) {
+      const MeasureDefinition& definition = measure_definitions()[m];
+      const bool is_of_head = definition.measured_by == "head";
+      const auto& value = definition.of(is_of_head ? searched : stated).value;
+      if (!value || !bands[m].p5) continue;
+      ++counted[m].all;
+      counted[m].inside += is_within(definition, *value, bands[m]);
     }
   }
-  EXPECT_GT(inside / all, 0.85);
-  EXPECT_LT(inside / all, 0.95);
+  return counted;
+}
+
+/// Which vertices are the head's is not what bands displace: a search in a displaced mesh takes some others, and these hang on them.
+bool hangs_on_the_search(const MeasureDefinition& definition) {
+  return definition.measured_by == "head" && definition.key != "head_radius_mm";
+}
+
+void expect_nine_tenths_inside(const Joint& hip, std::size_t samples, int joints) {
+  const auto bands = measure_bands(hip, {}, {.samples = samples});
+  const auto counted = inside_bands(hip, bands, joints);
+  for (std::size_t m = 0; m < bands.size(); ++m) {
+    const auto [inside, all] = counted[m];
+    const MeasureDefinition& definition = measure_definitions()[m];
+    if (all == 0 || hangs_on_the_search(definition)) continue;
+    const double share = static_cast<double>(inside) / all;
+    // 0.85 to 0.95, and three deviations of what so many joints show; hours are steps of five minutes, and both ends count.
+    const double chance = 3 * std::sqrt(0.9 * 0.1 / all);
+    EXPECT_GE(share, 0.85 - chance) << definition.key;
+    if (definition.unit != "h") {
+      EXPECT_LE(share, 0.95 + chance) << definition.key;
+    }
+    if (std::getenv("CONDYLE_LONG_TESTS"))
+      std::cout << definition.key << " " << share << " of " << all << "\n";
+  }
+}
+
+TEST(MeasureBands, NineTenthsOfJointsDisplacedAndMeasuredByHandLieInsideThem) {
+  const bool is_long = std::getenv("CONDYLE_LONG_TESTS");
+  expect_nine_tenths_inside(some_hip(), 200, is_long ? 1000 : 60);
+  const auto hip = hip_vhf_right();
+  if (!hip) GTEST_SKIP() << "no real hip in CONDYLE_DATA";
+  expect_nine_tenths_inside(*hip, 200, is_long ? 1000 : 60);
 }
 
 }  // namespace

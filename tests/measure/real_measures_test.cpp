@@ -49,7 +49,7 @@ void expect_published(const Joint& hip, std::initializer_list<Published> values)
 }
 
 // The prototype fitted heads and shafts of its own: the ranges are its bands for 1 mm of the centre and half a millimetre of surface.
-// Its version 15 mm up, 23.3, is left out: the roof begins there, ours is 24.3, and 24.4 with hours four times as fine.
+// Its alpha angles are whole degrees, of contours taken in steps. Its version 15 mm up, 23.3, is left out: the roof begins there, ours is 24.3, and 24.4 with hours four times as fine.
 TEST(RealMeasures, TheVisibleHumansRightHipIsAsThePrototypeMeasuredIt) {
   const auto hip = hip_vhf_right();
   SKIP_WITHOUT(hip);
@@ -57,7 +57,7 @@ TEST(RealMeasures, TheVisibleHumansRightHipIsAsThePrototypeMeasuredIt) {
                           {"neck_shaft_angle_deg", 121.7, 1.4},
                           {"femoral_version_deg", 8.8, 2.4},
                           {"alpha_12_deg", 40, 1},
-                          {"alpha_1_30_deg", 53, 1},
+                          {"alpha_1_30_deg", 53, 1.5},
                           {"alpha_3_deg", 54, 2},
                           {"acetabular_inclination_deg", 52.0, 1.2},
                           {"acetabular_version_deg", 25.3, 1},
@@ -70,14 +70,16 @@ TEST(RealMeasures, TheVisibleHumansRightHipIsAsThePrototypeMeasuredIt) {
                           {"ischiofemoral_distance_mm", 26.8, 0.1}});
 }
 
+// What there is of the shaft is short, and its axis is ours: torsion is seen along it, and 1:30 turned by it. The ranges of these two are the
+// shared file's for torsion and for alpha there.
 TEST(RealMeasures, TheLeftHipOfLibHipIsAsThePrototypeMeasuredItAndHasNoKnee) {
   const auto hip = hip_libhip_m1_left();
   SKIP_WITHOUT(hip);
   expect_published(*hip, {{"head_radius_mm", 26.16, 0.1},
                           {"neck_shaft_angle_deg", 131.3, 1.4},
-                          {"torsion_in_frame_deg", 42, 1},
+                          {"torsion_in_frame_deg", 42, 2.4},
                           {"alpha_12_deg", 41, 1},
-                          {"alpha_1_30_deg", 49, 1},
+                          {"alpha_1_30_deg", 49, 2},
                           {"alpha_3_deg", 47, 1},
                           {"acetabular_inclination_deg", 53.7, 1.2},
                           {"acetabular_version_deg", 17.4, 1},

@@ -9,11 +9,11 @@ namespace condyle {
 namespace {
 
 constexpr std::array<std::uint8_t, 3> blue = {0, 114, 178}, vermilion = {213, 94, 0}, grey = {110, 110, 110},
-                                      green = {0, 158, 115};
+                                      green = {0, 158, 115}, orange = {230, 159, 0}, purple = {204, 121, 167};
 
 /// Thickness of lines and size of dots, mm; the neck's axis in radii of the head on either side of its centre.
 constexpr double line_mm = 0.5, dot_mm = 0.9, small_dot_mm = 0.5;
-constexpr double axis_behind = 1.3, axis_ahead = 2.0;
+constexpr double axis_behind = 1.3, axis_ahead = 2.0, twelve_ahead = 1.3, up_ahead = 1.5;
 constexpr double normal_mm = 25;
 constexpr int ring_steps = 144, sides = 8;
 
@@ -70,6 +70,50 @@ void add_mark(std::vector<PictureMark>& marks, TriMesh mesh, const std::array<st
   if (!mesh.triangles.empty()) marks.push_back({std::move(mesh), rgb});
 }
 
+/// Shaft, condylar line, the line that version is seen along, 12 o'clock and the top of the trochanter, with the femur.
+TriMesh femur_axes(const FemurMeasures& femur, const Pose& X_FM) {
+  TriMesh mesh;
+  const auto line = [&](const Vec3& from, const Vec3& to) { add_line(mesh, X_FM * from, X_FM * to); };
+  if (femur.neck) {
+    const auto& [head, direction, outline, clock, source] = *femur.neck;
+    line(head.centre, head.centre + twelve_ahead * head.radius * clock.twelve);
+  }
+  if (femur.shaft) line(femur.shaft->first, femur.shaft->last);
+  if (femur.condyles) {
+    line(femur.condyles->medial, femur.condyles->lateral);
+    if (femur.head) line(femur.head->centre, femur.condyles->middle);
+  }
+  if (femur.trochanter_top) add_dot(mesh, X_FM * *femur.trochanter_top, dot_mm);
+  return mesh;
+}
+
+/// From the head's centre up and to the edges of the roof, and the chords of the rim.
+TriMesh roof_lines(const HipMeasures& measures) {
+  TriMesh mesh;
+  const AcetabulumMeasures& socket = measures.acetabulum;
+  bool has_edge = false;
+  if (measures.femur.head)
+    for (const auto* edge : {&socket.lateral_edge, &socket.anterior_edge, &socket.posterior_edge})
+      if (*edge) add_line(mesh, measures.femur.head->centre, **edge), has_edge = true;
+  if (has_edge) {
+    const Sphere& head = *measures.femur.head;
+    add_line(mesh, head.centre, head.centre + up_ahead * head.radius * socket.superior);
+  }
+  for (const RimChord& chord : socket.chords) add_line(mesh, chord.back, chord.front);
+  return mesh;
+}
+
+/// Where the bones are nearest, at the poses that this is measured in.
+TriMesh nearest_places(const BothMeasures& both) {
+  TriMesh mesh;
+  for (const auto* at : {&both.joint_space_at, &both.ischiofemoral_at})
+    if (*at) {
+      add_line(mesh, (*at)->fixed_point, (*at)->mobile_point);
+      add_dot(mesh, (*at)->fixed_point, dot_mm), add_dot(mesh, (*at)->mobile_point, dot_mm);
+    }
+  return mesh;
+}
+
 }  // namespace
 
 std::vector<PictureMark> measure_marks(const HipMeasures& measures, const Pose& X_FM) {
@@ -95,6 +139,9 @@ std::vector<PictureMark> measure_marks(const HipMeasures& measures, const Pose& 
   add_mark(marks, std::move(off_plane), grey);
   add_mark(marks, std::move(axis), blue);
   add_mark(marks, std::move(alpha), green);
+  add_mark(marks, femur_axes(femur, X_FM), blue);
+  add_mark(marks, roof_lines(measures), orange);
+  add_mark(marks, nearest_places(measures.both), purple);
   return marks;
 }
 

@@ -1,6 +1,7 @@
 #include "io/result/measure_result.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "io/result/caveats.hpp"
 #include "io/result/csv_field.hpp"
 #include "io/result/json.hpp"
+#include "io/result/measure_geometry.hpp"
 #include "io/result/measure_object.hpp"
 #include "io/result/provenance_forms.hpp"
 
@@ -26,6 +28,38 @@ std::string pelvis_text(const HipMeasures& measures) {
                             ? ": the pelvis may have lain turned, and acetabular angles turn with it"
                             : "";
   return stated_frame(measures) + warning;
+}
+
+/// "    alpha_12_deg, alpha_3_deg: ...", a line for each sentence, in the order of the measures.
+std::string by_sentence(const HipMeasures& measures, std::string Measure::*sentence) {
+  std::vector<std::pair<std::string, std::string>> keys_of;
+  for (const MeasureDefinition& each : measure_definitions()) {
+    const std::string& said = each.of(measures).*sentence;
+    if (said.empty()) continue;
+    const auto known =
+        std::find_if(keys_of.begin(), keys_of.end(), [&](const auto& one) { return one.first == said; });
+    if (known == keys_of.end())
+      keys_of.emplace_back(said, each.key);
+    else
+      known->second += fmt::format(", {}", each.key);
+  }
+  std::string text;
+  for (const auto& [said, keys] : keys_of) text += fmt::format("    {}: {}\n", keys, said);
+  return text;
+}
+
+/// What each measure is, by which planes and axes, and whose its normal range is.
+std::string definitions_text(const HipMeasures& measures) {
+  std::string text = "  definitions:\n";
+  for (const MeasureDefinition& each : measure_definitions()) {
+    text +=
+        fmt::format("    {}: {}\n      by {}{}; {}\n", each.key, each.definition, each.measured_by,
+                    each.in_pelvis_frame ? fmt::format(" ({})", stated_frame(measures)) : "", each.source);
+    if (each.normal)
+      text += fmt::format("      normal {:g} to {:g}: {}; {}\n", each.normal->low, each.normal->high,
+                          each.normal->meaning, each.normal->source);
+  }
+  return text;
 }
 
 /// With as many digits as its unit is read with.
@@ -69,16 +103,32 @@ Json measure_band_json(const MeasureBand& band) {
           {"samples_without_value", band.samples_without_value}};
 }
 
+Json text_or_null(const std::string& text) {
+  return text.empty() ? Json(nullptr) : Json(text);
+}
+
+/// "neck, shaft" as a list.
+Json names_in(std::string_view names) {
+  Json list = Json::array();
+  while (!names.empty()) {
+    const std::size_t end = std::min(names.find(", "), names.size());
+    list.push_back(names.substr(0, end));
+    names.remove_prefix(std::min(end + 2, names.size()));
+  }
+  return list;
+}
+
 Json measure_entry(const MeasureDefinition& definition, const HipMeasures& measures) {
   const Measure& measure = definition.of(measures);
   Json json{{"key", definition.key},
             {"part", heading_of(definition.part)},
             {"unit", definition.unit},
             {"value", io::nullable(measure.value)},
+            {"why_none", text_or_null(measure.why_none)},
+            {"note", text_or_null(measure.note)},
             {"definition", definition.definition},
+            {"measured_by", names_in(definition.measured_by)},
             {"source", definition.source}};
-  if (!measure.value) json["why_none"] = measure.why_none;
-  if (!measure.note.empty()) json["note"] = measure.note;
   json["frame"] = definition.in_pelvis_frame ? Json(stated_frame(measures)) : Json(nullptr);
   json["normal"] = definition.normal ? Json{{"low", definition.normal->low},
                                             {"high", definition.normal->high},
@@ -116,35 +166,6 @@ Json rim_json(const AcetabulumMeasures& acetabulum) {
   return json;
 }
 
-/// Planes and axes that measures were made with: the femur's in the mobile body's frame, the rest in the fixed one's.
-Json geometry_json(const HipMeasures& measures) {
-  const FemurMeasures& femur = measures.femur;
-  const AcetabulumMeasures& acetabulum = measures.acetabulum;
-  Json json;
-  json["neck"] = femur.neck
-                     ? Json{{"head_centre_mm", io::numbers(femur.neck->head.centre)},
-                            {"direction", io::numbers(femur.neck->direction)},
-                            {"clock_from", femur.neck->clock_from == ClockSource::shaft ? "shaft" : "frame"}}
-                     : Json(nullptr);
-  json["shaft"] = femur.shaft ? Json{{"first_mm", io::numbers(femur.shaft->first)},
-                                     {"last_mm", io::numbers(femur.shaft->last)},
-                                     {"bound_deg", femur.shaft->bound_deg}}
-                              : Json(nullptr);
-  json["condyles"] = femur.condyles ? Json{{"middle_mm", io::numbers(femur.condyles->middle)},
-                                           {"medial_mm", io::numbers(femur.condyles->medial)},
-                                           {"lateral_mm", io::numbers(femur.condyles->lateral)}}
-                                    : Json(nullptr);
-  json["trochanter_mm"] = point_or_null(femur.trochanter_top);
-  json["rim_plane"] = acetabulum.plane ? Json{{"centre_mm", io::numbers(acetabulum.plane->centre)},
-                                              {"normal", io::numbers(acetabulum.plane->normal)},
-                                              {"radius_mm", acetabulum.plane->radius_mm}}
-                                       : Json(nullptr);
-  json["pelvis"] = {{"anterior", io::numbers(acetabulum.anterior)},
-                    {"superior", io::numbers(acetabulum.superior)},
-                    {"lateral", io::numbers(acetabulum.lateral)}};
-  return json;
-}
-
 /// Whether some result has a file of this name.
 bool is_of_measure(std::string_view name) {
   static constexpr std::string_view names[] = {"measures.json", "measures.csv", "neck.csv", "rim.csv"};
@@ -165,7 +186,6 @@ std::string measure_text(const MeasureResult& result) {
   std::size_t widest = 0;
   for (const MeasureDefinition& each : measure_definitions()) widest = std::max(widest, each.key.size());
   std::string_view heading;
-  std::string reasons, notes;
   const bool has_bands = !result.answer.bands.empty();
   for (std::size_t i = 0; i < measure_definitions().size(); ++i) {
     const MeasureDefinition& each = measure_definitions()[i];
@@ -180,17 +200,21 @@ std::string measure_text(const MeasureResult& result) {
     std::string line = fmt::format("    {:<{}}  {:>10}{}  {}", each.key, widest,
                                    measured_value(each, measure), band, normal_text(each));
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-    if (!measure.value) reasons += fmt::format("    {}: {}\n", each.key, measure.why_none);
-    if (!measure.note.empty()) notes += fmt::format("    {}: {}\n", each.key, measure.note);
   }
-  if (!reasons.empty()) text += "  cannot be told:\n" + reasons;
+  if (const std::string reasons = by_sentence(result.answer.measures, &Measure::why_none); !reasons.empty())
+    text += "  cannot be told:\n" + reasons;
+  std::string notes;
+  for (const std::string& sentence : result.answer.measures.left_out)
+    notes += fmt::format("    {}\n", sentence);
+  notes += by_sentence(result.answer.measures, &Measure::note);
   if (!notes.empty()) text += "  to be read with:\n" + notes;
   if (has_bands)
     text += fmt::format("  5 to 95 % of {} joints with centre, axes and surfaces displaced, seed {}\n",
                         result.answer.band_options.samples, result.answer.band_options.seed);
   text +=
-      "  normal ranges are of other people, each by a method of its own: --json has what and whose they "
-      "are\n";
+      "  normal ranges are of other people, each by a method of its own: --definitions has whose, and what "
+      "each measure is\n";
+  if (result.with_definitions) text += definitions_text(result.answer.measures);
   return text + fmt::format("  {}\n", scope_text(joint));
 }
 
@@ -209,10 +233,11 @@ io::Json io::measure_object(const MeasureResult& result) {
             {"side", name_of(result.joint.side)},
             {"pelvis_frame", stated_frame(measures)},
             {"pelvic_tilt_deg", measures.pelvic_tilt.degrees()},
+            {"left_out", measures.left_out},
             {"measures", std::move(list)},
             {"around_neck", neck_json(measures.femur)},
             {"rim", rim_json(measures.acetabulum)},
-            {"geometry", geometry_json(measures)},
+            {"geometry", io::measure_geometry(measures)},
             {"notes", io::notes_json(result.notes)},
             {"scope", scope_text(result.joint)},
             {"provenance", io::provenance_json(result.provenance)}};
@@ -224,23 +249,43 @@ std::string measure_json(const MeasureResult& result) {
   return io::document(io::measure_object(result));
 }
 
+std::string measure_geometry_json(const HipMeasures& measures) {
+  Json json = io::measure_geometry(measures);
+  io::drop_negative_zeros(json);
+  return json.dump();
+}
+
 std::string measures_csv(const MeasureResult& result) {
-  std::string text =
-      io::provenance_comments(result.provenance) +
-      "key,part,value,unit,p5,p95,normal_low,normal_high,frame,why_none,note,definition,source\n";
+  std::string text = io::provenance_comments(result.provenance);
+  for (const std::string& sentence : result.answer.measures.left_out)
+    text += fmt::format("# left_out: {}\n", sentence);
+  text +=
+      "key,part,value,unit,p5,median,p95,samples_without_value,normal_low,normal_high,normal_meaning,"
+      "normal_source,frame,measured_by,why_none,note,definition,source\n";
   for (std::size_t i = 0; i < measure_definitions().size(); ++i) {
     const MeasureDefinition& each = measure_definitions()[i];
     const MeasureBand band = result.answer.bands.empty() ? MeasureBand{} : result.answer.bands[i];
     const Measure& measure = each.of(result.answer.measures);
-    const auto normal = [&](double NormalRange::*end) {
-      return each.normal ? fmt::format("{}", (*each.normal).*end) : "";
-    };
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", each.key, heading_of(each.part),
-                        csv_number(measure.value), each.unit, csv_number(band.p5), csv_number(band.p95),
-                        normal(&NormalRange::low), normal(&NormalRange::high),
-                        each.in_pelvis_frame ? io::csv_field(stated_frame(result.answer.measures)) : "",
-                        io::csv_field(measure.why_none), io::csv_field(measure.note),
-                        io::csv_field(each.definition), io::csv_field(each.source));
+    const std::string fields[] = {
+        std::string(each.key),
+        std::string(heading_of(each.part)),
+        csv_number(measure.value),
+        std::string(each.unit),
+        csv_number(band.p5),
+        csv_number(band.median),
+        csv_number(band.p95),
+        result.answer.bands.empty() ? "" : fmt::format("{}", band.samples_without_value),
+        each.normal ? fmt::format("{}", each.normal->low) : "",
+        each.normal ? fmt::format("{}", each.normal->high) : "",
+        each.normal ? io::csv_field(each.normal->meaning) : "",
+        each.normal ? io::csv_field(each.normal->source) : "",
+        each.in_pelvis_frame ? io::csv_field(stated_frame(result.answer.measures)) : "",
+        io::csv_field(each.measured_by),
+        io::csv_field(measure.why_none),
+        io::csv_field(measure.note),
+        io::csv_field(each.definition),
+        io::csv_field(each.source)};
+    text += fmt::format("{}\n", fmt::join(fields, ","));
   }
   return text;
 }

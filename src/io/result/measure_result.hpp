@@ -18,6 +18,7 @@ struct MeasureResult {
   const MeasureAnswer& answer;
   std::span<const JointNote> notes = {};
   const Provenance* provenance = nullptr;
+  bool with_definitions = false;  ///< In text; other forms have them always.
 };
 
 std::string measure_text(const MeasureResult& result);
@@ -28,6 +29,9 @@ std::string measures_csv(const MeasureResult& result);
 std::string neck_csv(const MeasureResult& result);
 /// A row for each direction around the socket: its rim and edge angles.
 std::string rim_csv(const MeasureResult& result);
+
+/// The object `geometry` of the JSON by itself.
+std::string measure_geometry_json(const HipMeasures& measures);
 
 /// FileError if the folder is not to be written to.
 void check_measure_folder(const std::filesystem::path& folder, const Provenance* from);

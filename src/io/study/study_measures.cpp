@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "condyle/error.hpp"
 #include "condyle/answer.hpp"
+#include "condyle/error.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/joint/measure_request.hpp"
 #include "io/mesh/parse.hpp"
@@ -44,18 +44,35 @@ std::string sentences(const HipMeasures& measures, std::string Measure::*sentenc
   return csv_field(text);
 }
 
+/// All that a measure's row in the files of one joint says of it.
+std::string meaning_of(const MeasureDefinition& each) {
+  std::string text = fmt::format("{}; by {}; {}", each.definition, each.measured_by, each.source);
+  if (each.normal)
+    text += fmt::format("; normal {:g} to {:g}: {}; {}", each.normal->low, each.normal->high,
+                        each.normal->meaning, each.normal->source);
+  return text;
+}
+
+/// The sentences of a list as one text.
+std::string joined(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences) text += (text.empty() ? "" : "; ") + sentence;
+  return text;
+}
+
 }  // namespace
 
 std::vector<ResultColumn> measure_columns(bool with_bands) {
   std::vector<ResultColumn> columns;
   for (const MeasureDefinition& each : measure_definitions()) {
     const std::string unit(each.unit == "1" ? "" : each.unit);
-    columns.push_back({column_name(each), unit, number_column, std::string(each.definition)});
+    columns.push_back({column_name(each), unit, number_column, meaning_of(each)});
     if (!with_bands) continue;
     columns.push_back({column_name(each, "_p5"), unit, number_column, "5 % of the displaced joints"});
     columns.push_back({column_name(each, "_p95"), unit, number_column, "95 % of the displaced joints"});
   }
   columns.push_back({"measured_frame", "", text_column, "frame of the measures that turn with the pelvis"});
+  columns.push_back({"measured_left_out", "", text_column, "pieces of the meshes that are not measured"});
   columns.push_back({"measured_notes", "", text_column, "what measures must be read with, by their keys"});
   columns.push_back({"measured_none", "", text_column, "why measures are empty, by their keys"});
   return columns;
@@ -77,6 +94,7 @@ std::optional<std::vector<std::string>> measure_fields(const StudyTable& table, 
     fields.push_back(number_or_empty(bands[i].p95));
   }
   fields.push_back(csv_field(stated_frame(measures)));
+  fields.push_back(csv_field(joined(measures.left_out)));
   fields.push_back(sentences(measures, &Measure::note));
   fields.push_back(sentences(measures, &Measure::why_none));
   return fields;

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <numbers>
+
+namespace condyle {
+
+/// In radians.
+inline constexpr double degree = std::numbers::pi / 180;
+
+}  // namespace condyle
