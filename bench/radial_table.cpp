@@ -19,22 +19,23 @@ using condyle::Pose;
 using condyle::RadialTable;
 using condyle::TriMesh;
 
-const TableHead building_head{"radial_table",
-                              "Radial table: made and updated; processor time, one thread",
-                              {{"scene", "scene"},
-                               {"fixed_triangles", "fixed triangles"},
-                               {"build_ns_per_triangle", "build, ns per triangle"},
-                               {"cold_build_ns_per_triangle", "caches empty"},
-                               {"embree_ns_per_triangle", "Embree's build, ns per triangle"},
-                               {"floor_ns_per_triangle", "corners read, as much written"},
-                               {"first_update_ns_per_triangle", "all vertices moved for the first time"},
-                               {"update_ns_per_triangle", "later, ns per triangle"},
-                               {"update_over_build", "over build"},
-                               {"part_us", "1 in 100 moved, µs"},
-                               {"part_over_build", "over build"},
-                               {"cold_part_us", "caches empty, µs"},
-                               {"bytes_per_triangle", "bytes per triangle, table alone"},
-                               {"bytes_after_updates", "after updates"}}};
+const TableHead table_building_head{
+    "radial_table",
+    "Radial table: made and updated; processor time, one thread",
+    {{"scene", "scene"},
+     {"fixed_triangles", "fixed triangles"},
+     {"build_ns_per_triangle", "build, ns per triangle"},
+     {"cold_build_ns_per_triangle", "caches empty"},
+     {"embree_ns_per_triangle", "Embree's build, ns per triangle"},
+     {"floor_ns_per_triangle", "corners read, as much written"},
+     {"first_update_ns_per_triangle", "all vertices moved for the first time"},
+     {"update_ns_per_triangle", "later, ns per triangle"},
+     {"update_over_build", "over build"},
+     {"part_us", "1 in 100 moved, µs"},
+     {"part_over_build", "over build"},
+     {"cold_part_us", "caches empty, µs"},
+     {"bytes_per_triangle", "bytes per triangle, table alone"},
+     {"bytes_after_updates", "after updates"}}};
 
 const TableHead sets_head{"instruction_sets",
                           "Every vertex at a pose on each instruction set of this processor; one thread",
@@ -146,7 +147,7 @@ void ask_building(const Scene& scene, int rounds, Report& report) {
   const double build = each(0), part_update = each(1) / (2 * patch_count), floor = each(2);
   const double update = median(samples[3]) / frames, embree_build = median(samples[4]);
   const double first_update = median(samples[5]) - median(samples[6]);
-  report.table(building_head)
+  report.table(table_building_head)
       .add({scene.joint.name, static_cast<std::int64_t>(fixed.triangles.size()), per_triangle(build),
             per_triangle(cold_build), embree ? Cell(per_triangle(embree_build)) : Cell("-"),
             per_triangle(floor), per_triangle(first_update), per_triangle(update), update / build,

@@ -7,14 +7,6 @@ if(PROJECT_IS_TOP_LEVEL)
   if(NOT CMAKE_BUILD_TYPE AND NOT multi_config)
     set(CMAKE_BUILD_TYPE Release)
   endif()
-
-  find_program(CONDYLE_CCACHE ccache)
-  if(CONDYLE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    # With precompiled headers it has to be told that defines and __TIME__ in them may be taken as they were, and to ask the
-    # compiler what a file depends on: it cannot preprocess with them.
-    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_DEPEND=1
-                                    ${CONDYLE_CCACHE})
-  endif()
 endif()
 
 function(condyle_settings_for target)
@@ -75,7 +67,7 @@ function(condyle_unify target)
   foreach(source IN LISTS sources)
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder_of_target} OUTPUT_VARIABLE path)
     file(STRINGS ${path} own_translation_unit REGEX "foreach_target\\.h" LIMIT_COUNT 1)
-    if(own_translation_unit OR path MATCHES "/src/(measure|kinematics)/")
+    if(own_translation_unit)
       continue()
     endif()
     cmake_path(GET path PARENT_PATH folder)

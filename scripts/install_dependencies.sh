@@ -12,7 +12,7 @@
 set -euo pipefail
 
 packages=(
-  g++ cmake make ninja-build ccache pkg-config
+  g++ cmake make ninja-build pkg-config
   libeigen3-dev libtbb-dev libboost-dev libhwy-dev   # the core
   libhdf5-dev libaec-dev zlib1g-dev liblz4-dev libfmt-dev nlohmann-json3-dev   # condyle_io
   libcli11-dev libtomlplusplus-dev                   # the command line and the joint file

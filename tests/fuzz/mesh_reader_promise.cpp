@@ -8,7 +8,7 @@
 namespace condyle::test {
 namespace {
 
-constexpr std::string_view name = "some.file";
+constexpr std::string_view mesh_name = "some.file";
 constexpr std::size_t longest_message = 400;  // characters: a line, however much of the file it quotes
 
 bool is_finite(const std::vector<double>& values) {
@@ -29,7 +29,7 @@ std::string broken_promise(const TriMesh& mesh) {
 }
 
 std::string broken_promise(std::string_view message) {
-  if (!message.starts_with(std::string(name) + ": ")) return "a message without the file's name";
+  if (!message.starts_with(std::string(mesh_name) + ": ")) return "a message without the file's name";
   if (message.size() > longest_message) return "a message too long for a line";
   if (!std::all_of(message.begin(), message.end(), [](char c) { return c >= ' ' && c <= '~'; })) {
     return "a message that is not one line of plain characters";
@@ -41,7 +41,7 @@ std::string broken_promise(std::string_view message) {
 
 std::string broken_promise(std::string_view bytes, MeshFormat format) {
   try {
-    return broken_promise(read_mesh(bytes, format, name).mesh);
+    return broken_promise(read_mesh(bytes, format, mesh_name).mesh);
   } catch (const FileError& error) {
     return broken_promise(std::string_view(error.what()));
   }

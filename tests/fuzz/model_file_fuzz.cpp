@@ -9,7 +9,7 @@
 namespace condyle::test {
 namespace {
 
-constexpr std::string_view name = "some.osim";
+constexpr std::string_view model_name = "some.osim";
 constexpr std::size_t most_joints = 8;
 
 /// A pose of a joint's defaults is a rotation and a place, whatever its functions are; numbers beyond a double's are not
@@ -30,7 +30,7 @@ std::string fault_of_proposal(const Model& model, const ModelJoint& joint) {
         model,
         {.joint = joint.name, .joint_file = "joint.toml", .anatomy = Anatomy::knee, .side = Side::right});
   } catch (const FileError& error) {
-    return fault_of_message(error.what(), std::string(name) + ": ");
+    return fault_of_message(error.what(), std::string(model_name) + ": ");
   } catch (const UsageError& error) {
     return fault_of_message(error.what());
   }
@@ -49,7 +49,7 @@ std::string fault_of(const Model& model) {
   for (std::size_t i = 0; i < std::min(model.joints.size(), most_joints); ++i) {
     const ModelJoint& joint = model.joints[i];
     if (!joint.transform) {
-      if (auto fault = fault_of_message(joint.why_not, std::string(name) + ": "); !fault.empty())
+      if (auto fault = fault_of_message(joint.why_not, std::string(model_name) + ": "); !fault.empty())
         return fault;
       continue;
     }
@@ -63,9 +63,9 @@ std::string fault_of(const Model& model) {
 
 std::string fuzz_model_file(std::string_view bytes) {
   try {
-    return fault_of(read_model(bytes, name));
+    return fault_of(read_model(bytes, model_name));
   } catch (const FileError& error) {
-    return fault_of_message(error.what(), std::string(name) + ": ");
+    return fault_of_message(error.what(), std::string(model_name) + ": ");
   }
 }
 

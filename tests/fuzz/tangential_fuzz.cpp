@@ -11,7 +11,7 @@
 namespace condyle::test {
 namespace {
 
-constexpr std::size_t most_points = 6;
+constexpr std::size_t most_ring_points = 6;
 /// Ends of arcs err by this at worst, where a circle only touches the surface.
 constexpr double end_error = 1e-7, near_an_end = 10 * end_error;
 
@@ -69,7 +69,7 @@ std::string fuzz_tangential(std::string_view bytes) {
     if (const auto cells = input.below(16); cells > 0)
       options.cells_per_triangle = 0.25 * static_cast<double>(cells);
     const Mesh mesh = input.mesh();
-    const Points points = input.points(most_points);
+    const Points points = input.points(most_ring_points);
     return fault_of(RingTable(mesh, axis, options), mesh, points);
   } catch (const MeshError& error) {
     return fault_of_message(error.what());
