@@ -1,6 +1,5 @@
 #include "plan/bone_cut.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,7 +9,9 @@
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
 #include "mesh/surface_distance.hpp"
+#include "mesh/triangle_distance.hpp"
 #include "plan/burr.hpp"
+#include "plan/grown.hpp"
 #include "plan/refine.hpp"
 
 namespace condyle::plan {
@@ -20,12 +21,9 @@ namespace {
 constexpr Angle beyond = Angle::degrees(0.005);
 /// A motion that kept bone stops is planned short of that.
 constexpr Angle short_of_kept = Angle::degrees(0.001);
-/// Where surfaces still meet, the feature that does is lowered by this, mm, and so often at most.
-constexpr double correction_mm = 0.02;
-constexpr int most_corrections = 300;
-/// After so many by twice as much, three times, and so on.
-constexpr int corrections_of_a_step = 25;
-constexpr double largest_correction_mm = 0.2;
+/// Where surfaces still meet they go down to where they are clear, and by this, mm, as often as that was; so often at most.
+constexpr double correction_mm = 0.002;
+constexpr int most_corrections = 60;
 /// Edges are split at bends of the depth that straight lines miss by more than this, mm at edges of 1 mm, and as the edges' square; in so
 /// many passes.
 constexpr double missed_at_bends = 0.04;
@@ -36,9 +34,6 @@ constexpr int most_burrs = 3;
 constexpr int most_stops = 20;
 /// Points in which a surface is asked for what goes: so far apart, and so far outside of it too, mm.
 constexpr double search_spacing_mm = 1, search_outside_mm = 1;
-/// A margin's tip around a sharp edge goes no farther than this many margins; directions across which triangles bend less than this
-/// share are flat.
-constexpr double longest_tip = 2, flat_share = 1e-3;
 /// What is removed is asked so far apart for what had to be, mm.
 constexpr double least_spacing_mm = 0.15;
 
@@ -58,49 +53,25 @@ motion::PartOfMesh counted(const Body& body, const Mesh& mesh, const Counting& c
   return {Mesh(std::move(part)), std::move(in_whole)};
 }
 
-/// With its surface moved outwards, mm: each vertex to where the planes of its triangles are, moved so far; in the sense of least squares
-/// with the angles that they have there as weights, where there are more than three, and then farther, until it is outside of all.
-Mesh grown(const Mesh& mesh, double by_mm) {
-  if (by_mm == 0) return mesh;
-  const std::size_t count = mesh.vertices().size();
-  std::vector<Eigen::Matrix3d> squares(count, Eigen::Matrix3d::Zero());
-  std::vector<Vec3> sums(count, Vec3::Zero());
-  const auto normal_of = [&](std::size_t t) {
-    return Vec3((mesh.corner(t, 1) - mesh.corner(t, 0))
-                    .cross(mesh.corner(t, 2) - mesh.corner(t, 0))
-                    .stableNormalized());
-  };
-  for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
-    const Triangle& v = mesh.triangles()[t];
-    const Vec3 normal = normal_of(t);
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 to_next = (mesh.corner(t, (k + 1) % 3) - mesh.corner(t, k)).stableNormalized(),
-                 to_last = (mesh.corner(t, (k + 2) % 3) - mesh.corner(t, k)).stableNormalized();
-      const double angle = std::acos(std::clamp(to_next.dot(to_last), -1.0, 1.0));
-      squares[v[k]] += angle * normal * normal.transpose();
-      sums[v[k]] += angle * normal;
-    }
+/// Points of a triangle so far apart at the most, its corners among them: in rows along its longest side.
+std::vector<Vec3> spread(const std::array<Vec3, 3>& corners, double spacing_mm) {
+  const auto side = [&](std::size_t k) { return Vec3(corners[(k + 1) % 3] - corners[k]); };
+  std::size_t longest = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (side(k).squaredNorm() > side(longest).squaredNorm()) longest = k;
+  const Vec3 &from = corners[longest], &to = corners[(longest + 1) % 3], &apex = corners[(longest + 2) % 3];
+  const double length = side(longest).norm(),
+               height = length > 0 ? side(longest).cross(apex - from).norm() / length : 0;
+  const auto parts = [&](double over) { return std::max(1, static_cast<int>(std::ceil(over / spacing_mm))); };
+  std::vector<Vec3> points{apex};
+  const int rows = parts(height);
+  for (int row = 1; row <= rows; ++row) {
+    const double down = static_cast<double>(row) / rows;
+    const int columns = parts(down * length);
+    for (int column = 0; column <= columns; ++column)
+      points.push_back(apex + down * (from + (to - from) * (static_cast<double>(column) / columns) - apex));
   }
-  std::vector<Vec3> tips(count, Vec3::Zero());
-  for (std::size_t v = 0; v < count; ++v) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(squares[v]);
-    for (int k = 0; k < 3; ++k)
-      if (axes.eigenvalues()[k] > flat_share * axes.eigenvalues()[2]) {
-        const Vec3 axis = axes.eigenvectors().col(k);
-        tips[v] += axis.dot(sums[v]) / axes.eigenvalues()[k] * axis;
-      }
-  }
-  std::vector<double> least(count, 1);  // that a plane moves by
-  for (std::size_t t = 0; t < mesh.triangles().size(); ++t)
-    if (const Vec3 normal = normal_of(t); normal != Vec3::Zero())
-      for (const Index v : mesh.triangles()[t]) least[v] = std::min(least[v], normal.dot(tips[v]));
-  Points moved = mesh.vertices();
-  for (std::size_t v = 0; v < count; ++v) {
-    if (tips[v] == Vec3::Zero()) continue;
-    const double most = longest_tip / tips[v].norm(), enough = least[v] > 0 ? 1 / least[v] : most;
-    moved.set(v, moved[v] + by_mm * std::min(enough, most) * tips[v]);
-  }
-  return mesh.moved_to(std::move(moved));
+  return points;
 }
 
 /// With all triangles that share a vertex with one of these.
@@ -153,8 +124,6 @@ BoneCut::BoneCut(const Joint& joint, BodyRole cut_role, const ResectionRequest& 
     exact_.push_back(std::make_unique<ExactReach>(joint, role_, ending, target.motion));
     reach_.push_back(target.reach);
   }
-  met_.assign(bone_.mesh.triangles().size(), 0);
-  wanted_ = with_neighbours(bone_.mesh, triangles_to_cut(bone_));
   refine();
   cut();
 }
@@ -169,33 +138,40 @@ std::vector<SweepTo> BoneCut::sweeps_to_reach() const {
   return all;
 }
 
-std::vector<std::uint8_t> BoneCut::triangles_to_cut(const Body& body) const {
-  const Mesh& mesh = body.mesh;
-  const std::optional<BearingBall> mobile_ball = role_ == BodyRole::mobile ? ball_ : std::nullopt;
+/// Of the pieces of triangles that are asked for, those with a point that is swept, on the surface or a little outside of it, and all that
+/// are in a place that was met.
+std::vector<std::uint8_t> BoneCut::to_cut(const TriMesh& pieces, const std::vector<Index>& before,
+                                          const std::vector<std::uint8_t>& asked) const {
   const Counting counts = counting(role_);
+  const auto bears = [&](const std::array<Vec3, 3>& corners) {
+    return role_ == BodyRole::mobile && ball_ && ball_->holds(corners[0]) && ball_->holds(corners[1]) &&
+           ball_->holds(corners[2]);
+  };
   Points points;
   std::vector<Index> of;
-  for (Index t = 0; t < mesh.triangles().size(); ++t) {
-    const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-    if (!counts(body, t) ||
-        (mobile_ball && mobile_ball->holds(a) && mobile_ball->holds(b) && mobile_ball->holds(c)))
-      continue;
-    const double longest = std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()});
-    const int n = std::max(1, static_cast<int>(std::ceil(longest / search_spacing_mm)));
-    const Vec3 outwards = (b - a).cross(c - a).stableNormalized();
-    for (int i = 0; i <= n; ++i)
-      for (int j = 0; i + j <= n; ++j)
-        for (const double off : {0.0, search_outside_mm}) {
-          points.push_back((i * a + j * b + (n - i - j) * c) / n + off * outwards);
-          of.push_back(t);
-        }
+  for (Index t = 0; t < pieces.triangles.size(); ++t) {
+    if (!asked[t] || !counts(bone_, before[t])) continue;
+    const std::array<Vec3, 3> corners{pieces.corner(t, 0), pieces.corner(t, 1), pieces.corner(t, 2)};
+    if (bears(corners)) continue;
+    const Vec3 outwards = (corners[1] - corners[0]).cross(corners[2] - corners[0]).stableNormalized();
+    for (const Vec3& p : spread(corners, search_spacing_mm))
+      for (const double off : {0.0, search_outside_mm}) {
+        points.push_back(p + off * outwards);
+        of.push_back(t);
+      }
   }
-  std::vector<std::uint8_t> marks(mesh.triangles().size(), 0);
+  std::vector<std::uint8_t> marks(pieces.triangles.size(), 0);
   for (const SweepTo& sweep : sweeps_to_reach()) {
     const std::vector<double> first = sweep.sweep->first_inside(points, sweep.reach);
     for (std::size_t i = 0; i < first.size(); ++i)
       if (std::isfinite(first[i])) marks[of[i]] = 1;
   }
+  for (const Place& place : met_)
+    for (Index t = 0; t < pieces.triangles.size(); ++t) {
+      const std::array<Vec3, 3> corners{pieces.corner(t, 0), pieces.corner(t, 1), pieces.corner(t, 2)};
+      if ((mesh::nearest_on_triangle(place.centre, corners) - place.centre).norm() <= place.radius_mm)
+        marks[t] = 1;
+    }
   return marks;
 }
 
@@ -235,13 +211,14 @@ std::vector<std::optional<KeptBy>> BoneCut::kept_vertices(const Body& body) cons
 
 /// The surface to be lowered, its triangles small around what goes, and with edges along the bends of its bottom.
 void BoneCut::refine() {
-  RefinedBody fine = refined(bone_, wanted_, request_.edge_mm);
+  std::vector<std::uint8_t> near;
+  RefinedBody fine = refined(
+      bone_,
+      [&](const TriMesh& pieces, const std::vector<Index>& before, const std::vector<std::uint8_t>& asked) {
+        return near = with_neighbours(pieces, to_cut(pieces, before, asked));
+      },
+      request_.edge_mm);
   triangle_before_ = std::move(fine.triangle_before);
-  std::vector<std::uint8_t> near = with_neighbours(fine.body.mesh, triangles_to_cut(fine.body));
-  for (std::size_t t = 0; t < near.size(); ++t) {
-    const Index before = triangle_before_[t];
-    near[t] = (near[t] && wanted_[before]) || met_[before];
-  }
   const auto put_surface = [&] {
     // Of the depth that is taken a share is cut.
     std::optional<double> deepest = kept().deepest_mm;
@@ -298,60 +275,63 @@ bool BoneCut::lower_for_reach() {
   return !stopped;
 }
 
-/// False if the surface must be lowered anew: with more of it near, or for a motion that kept bone stops.
-bool BoneCut::lower_at(std::size_t target, const Limit& limit, const Feature& feature, double by_mm) {
-  using Lowered = CutSurface::Lowered;
-  const Lowered lowered = surface_->lower_feature(feature, {target, limit.turned.radians()}, by_mm);
-  if (lowered == Lowered::some) return true;
-  const Mesh& mesh = surface_->body().mesh;
-  const Index corner = feature.kind == FeatureKind::face ? mesh.triangles()[feature.id][0] : feature.id;
-  if (lowered == Lowered::kept) {
-    stop(target, limit.turned, surface_->vertices()[corner].kept.value_or(KeptBy::depth),
-         limit.contact->mobile_point);
-    return false;
-  }
-  std::vector<Index> met;
-  for (Index t = 0; t < mesh.triangles().size(); ++t)
-    if (const Triangle& v = mesh.triangles()[t]; std::find(v.begin(), v.end(), corner) != v.end())
-      met.push_back(t);
-  want_too(met);
-  return false;
-}
-
-/// Refines what these triangles of the surface are pieces of, with their neighbours.
-void BoneCut::want_too(const std::vector<Index>& met) {
-  for (const Index t : met) met_[triangle_before_[t]] = 1;
-  met_ = with_neighbours(bone_.mesh, std::move(met_));
-  for (std::size_t t = 0; t < met_.size(); ++t) wanted_[t] |= met_[t];
+/// Looks for what goes around these places, too.
+void BoneCut::want_too(const std::vector<Place>& places) {
+  met_.insert(met_.end(), places.begin(), places.end());
   refine();
 }
 
-/// Lowers what the exact search still finds in the way. False if kept bone stops a motion.
-bool BoneCut::correct() {
-  std::size_t last = 0;  // the target that was short
-  for (int i = 0; i < most_corrections; ++i) {
-    const motion::PartOfMesh part = counted(surface_->body(), surface_->mesh(), counting(role_),
-                                            role_ == BodyRole::mobile ? ball_ : std::nullopt);
-    bool reached = true;
-    for (std::size_t t = 0; t < targets_.size(); ++t) {
-      const Limit limit = exact_[t]->limit(part.mesh, reach_[t]);
-      if (limit.reason == LimitReason::end_of_range) continue;
-      if (!limit.contact)
-        throw MeshError(bone_.name + ": what is left would lie inside the other bone at the start of " +
-                        targets_[t].motion.name);
-      reached = false;
-      last = t;
-      Feature feature = limit.contact->mobile_feature;
-      if (feature.kind == FeatureKind::face) feature.id = part.triangle_in_whole[feature.id];
-      if (!lower_at(t, limit, feature,
-                    std::min(correction_mm * (1 + i / corrections_of_a_step), largest_correction_mm)))
-        return false;
+/// All that still meets the other bone. Empty if every target is reached.
+std::vector<Met> BoneCut::what_meets() const {
+  const motion::PartOfMesh part = counted(surface_->body(), surface_->mesh(), counting(role_),
+                                          role_ == BodyRole::mobile ? ball_ : std::nullopt);
+  const motion::FeatureTree tree(part.mesh);
+  std::vector<Met> met;
+  for (std::size_t t = 0; t < targets_.size(); ++t) {
+    const auto contacts = exact_[t]->in_the_way(tree, reach_[t]);
+    if (!contacts)
+      throw MeshError(bone_.name + ": what is left would lie inside the other bone at the start of " +
+                      targets_[t].motion.name);
+    for (motion::FeatureContact contact : *contacts) {
+      if (contact.feature.kind == FeatureKind::face)
+        contact.feature.id = part.triangle_in_whole[contact.feature.id];
+      met.push_back({surface_->on_surface(contact.feature, contact.point), {t, contact.turned.radians()}});
     }
-    if (reached) return true;
+  }
+  return met;
+}
+
+/// False if the surface must be lowered anew: with more of it near, or for a motion that kept bone stops.
+bool BoneCut::may_all_go(const std::vector<Met>& met) {
+  std::vector<Place> elsewhere;
+  bool all = true;
+  for (const Met& each : met) {
+    const CutSurface::MayGo may = surface_->may_go(each.point);
+    if (may == CutSurface::MayGo::elsewhere)
+      elsewhere.push_back({surface_->before(each.point), search_spacing_mm});
+    if (may != CutSurface::MayGo::kept) continue;
+    all = false;
+    stop(each.need.target, Angle::radians(each.need.from_rad), surface_->kept_by(each.point),
+         surface_->before(each.point));
+  }
+  if (all && elsewhere.empty()) return true;
+  if (!elsewhere.empty()) want_too(elsewhere);
+  return false;
+}
+
+/// Lowers what the exact search still finds in the way. False if the surface must be lowered anew.
+bool BoneCut::correct() {
+  const std::vector<SweepTo> sweeps = sweeps_to_reach();
+  std::vector<Met> met;
+  for (int i = 0; i < most_corrections; ++i) {
+    met = what_meets();
+    if (met.empty()) return true;
+    if (!may_all_go(met)) return false;
+    surface_->lower_met(met, sweeps, (i + 1) * correction_mm);
   }
   throw MeshError(bone_.name + ": after " + std::to_string(most_corrections) +
-                  " corrections its cut surface still meets the other bone before " + asked(last) +
-                  ": ask for less");
+                  " corrections its cut surface still meets the other bone before " +
+                  asked(met.front().need.target) + ": ask for less");
 }
 
 /// The share of a cut that reaches its targets, as a burr can make it. False if the surface must be lowered anew, with more of it near.

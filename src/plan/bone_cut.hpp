@@ -57,20 +57,22 @@ class BoneCut {
  private:
   Counting counting(BodyRole role) const;
   std::vector<SweepTo> sweeps_to_reach() const;
-  std::vector<std::uint8_t> triangles_to_cut(const Body& body) const;
+  std::vector<std::uint8_t> to_cut(const TriMesh& pieces, const std::vector<Index>& before,
+                                   const std::vector<std::uint8_t>& asked) const;
   std::vector<std::optional<KeptBy>> kept_vertices(const Body& body) const;
   const KeptBone& kept() const;
   void refine();
-  void want_too(const std::vector<Index>& met);
+  void want_too(const std::vector<Place>& places);
   void cut();
   std::string fault() const;
   std::string asked(std::size_t target) const;
   bool lower_for_reach();
+  std::vector<Met> what_meets() const;
+  bool may_all_go(const std::vector<Met>& met);
   bool correct();
   bool finish();
   double removed_mm3() const;
   bool stop(std::size_t target, Angle at, KeptBy by, const Vec3& point);
-  bool lower_at(std::size_t target, const Limit& limit, const Feature& feature, double by_mm);
   double least_share() const;
 
   const Joint& joint_;
@@ -85,8 +87,7 @@ class BoneCut {
   std::vector<std::unique_ptr<ExactReach>> exact_;
   std::vector<Angle> reach_;
   std::vector<std::optional<StoppedAt>> stopped_;
-  std::vector<std::uint8_t> wanted_;    ///< of the triangles before: those to be refined
-  std::vector<std::uint8_t> met_;       ///< of the same: those that the exact search met elsewhere
+  std::vector<Place> met_;              ///< where bone has to go that no search for it found
   std::vector<Index> triangle_before_;  ///< of the refined triangles
   double smoothing_mm_ = 3;
   std::optional<CutSurface> surface_;

@@ -125,7 +125,7 @@ void Burr::lower_into(const Ball& ball, const Need& need) {
                     [&](Index v) { return surface_.vertices()[v].kept.has_value(); }))
       in_kept_mm_ = std::max(in_kept_mm_, inside);
     else
-      elsewhere_.push_back(t);
+      elsewhere_.push_back({ball.centre, radius_});
   }
 }
 

@@ -24,8 +24,8 @@ class Burr {
 
   /// Lowers the surface. False if bone that is not near must go first: `elsewhere`.
   bool make();
-  /// Triangles of the surface, as of the last make().
-  const std::vector<Index>& elsewhere() const noexcept { return elsewhere_; }
+  /// Where that is, on the surface before.
+  const std::vector<Place>& elsewhere() const noexcept { return elsewhere_; }
   /// By how much a ball enters bone that stays, at the most.
   double in_kept_mm() const noexcept { return in_kept_mm_; }
 
@@ -44,7 +44,7 @@ class Burr {
   std::vector<std::uint8_t> near_;  ///< of the triangles
   std::vector<std::uint8_t> made_,
       moved_;  ///< of the vertices: touched by a ball that is free; lowered in this round
-  std::vector<Index> elsewhere_;
+  std::vector<Place> elsewhere_;
   double in_kept_mm_ = 0;
 };
 

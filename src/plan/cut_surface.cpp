@@ -13,10 +13,6 @@
 namespace condyle::plan {
 namespace {
 
-/// Steps along a direction, mm; how often the last one is halved, and how many are asked for at once.
-constexpr double step_mm = 0.1;
-constexpr int halvings = 7;
-constexpr int steps_at_once = 8;
 /// Bone is not thicker: whoever has come so far does not come out.
 constexpr double farthest_mm = 40;
 /// A triangle is looked at in the points of a lattice with so many to a side: 45 points.
@@ -27,14 +23,13 @@ constexpr double none_mm = 1e-3;
 /// A triangle that faces less than this the way it did is taken for turned over: the cosine. Lowered so often at most.
 constexpr double least_facing = 0.02;
 constexpr int most_unfoldings = 200;
-/// The depth along an edge is asked in so many places between its ends; halved so often in each, from so much more than at the ends, mm.
-constexpr int along_edge = 7;
-constexpr int depth_halvings = 11;
-constexpr double more_than_ends_mm = 1;
-/// A bend nearer to an end of its edge than this share of its length is come nearer to by halving first, so that no triangle gets narrow; and
-/// no piece is shorter than this share of the edges that the surface was made with.
-constexpr double nearest_to_end = 0.2;
+/// No piece of a split edge is shorter than this share of the edges that the surface was made with.
 constexpr double shortest_piece = 0.04;
+/// The upper edge of a wall stands so far beside it, mm at edges of 1 mm, and as the edges' square: what chords of so long edges cut into a
+/// wall with a radius of 1 mm. Within these.
+constexpr double beside_wall = 0.12, least_beside_wall_mm = 0.005, largest_beside_wall = 0.2;
+/// Nearer to a kept corner or edge than this share of a triangle, its free corners would run away: it is kept bone that meets.
+constexpr double least_free = 0.1;
 /// What is kept may stand out by so much before that is said here: the exact search is to find whether it ends a motion.
 constexpr double left_mm = 0.02;
 /// It is looked for so deep where no corner may go.
@@ -42,50 +37,41 @@ constexpr double least_room_mm = 2 * left_mm;
 
 }  // namespace
 
-/// From here inwards: the direction is of about unit length.
-struct CutSurface::Probe {
-  Vec3 from, inwards;
-  double room;
-};
-
-/// The swept stretch below a point between the corners of a triangle, whose weights these are.
-struct CutSurface::LatticeStretch {
-  Index triangle;
-  std::array<double, 3> weights;
+/// The swept stretch below a point of a triangle.
+struct CutSurface::Swept {
+  SurfacePoint point;
   double length;
   Need need;
   Vec3 at, below;  ///< and a little farther inwards
 };
 
-/// The swept stretch that begins at a probe.
-struct CutSurface::Stretch {
-  double length = 0;
-  bool ends = true;  ///< false if it goes on past the room there is
-  std::optional<Need> need = {};
-};
+/// By how much vertices are to go deeper, so that points between them are clear.
+class CutSurface::Deeper {
+ public:
+  explicit Deeper(const CutSurface& surface)
+      : surface_(surface), by_(surface.vertices_.size(), 0), why_(surface.vertices_.size()) {}
 
-namespace {
-
-/// The share of the way along an edge at which two straight lines from its ends meet so that they follow the depths between best.
-double bend_of(const std::array<double, along_edge + 2>& depth) {
-  const auto along = [](std::size_t i) { return static_cast<double>(i) / (along_edge + 1); };
-  double best = 0, least = std::numeric_limits<double>::infinity();
-  for (int percent = 1; percent < 100; ++percent) {
-    const double at = percent / 100.0;
-    // Each depth is what the lines have without a bend, and a share of the unknown height of the bend.
-    double squares = 0, product = 0, rest = 0;
-    for (std::size_t i = 1; i <= along_edge; ++i) {
-      const double s = along(i), share = s < at ? s / at : (1 - s) / (1 - at),
-                   off = depth[i] - (1 - s) * depth.front() - s * depth.back();
-      squares += share * share, product += share * off, rest += off * off;
+  /// A point goes down by e if each of its corners that may go does by e w / (w . w), w the weights of these: the least that does it.
+  void add(const SurfacePoint& point, double e, const Need& need) {
+    const auto goes = [&](int k) { return point.weights[k] > 0 && surface_.may_go(point.corners[k]); };
+    double squares = 0;
+    for (int k = 0; k < 3; ++k)
+      if (goes(k)) squares += point.weights[k] * point.weights[k];
+    for (int k = 0; k < 3; ++k) {
+      if (!goes(k)) continue;
+      const Index v = point.corners[k];
+      const double by = e * point.weights[k] / squares;
+      if (by > by_[v]) by_[v] = by, why_[v] = need;
     }
-    const double missed = rest - product * product / squares;
-    if (missed < least) least = missed, best = at;
   }
-  return best;
-}
+  double by(Index v) const { return by_[v]; }
+  const std::optional<Need>& why(Index v) const { return why_[v]; }
 
-}  // namespace
+ private:
+  const CutSurface& surface_;
+  std::vector<double> by_;
+  std::vector<std::optional<Need>> why_;
+};
 
 CutSurface::CutSurface(Body body, const std::vector<std::uint8_t>& near,
                        std::vector<std::optional<KeptBy>> kept, std::optional<double> deepest_mm,
@@ -139,6 +125,7 @@ void CutSurface::go_on_from(const CutSurface& whole, const std::vector<Between>&
     vertices_[v].inwards = (1 - share) * from.inwards + share * to.inwards;
     if (vertices[v].from != vertices[v].to) continue;
     vertices_[v].depth_mm = from.depth_mm;
+    vertices_[v].looked_mm = from.looked_mm;
     vertices_[v].bends_seen = from.bends_seen;
   }
 }
@@ -163,163 +150,39 @@ Mesh CutSurface::mesh() const {
   return body_.mesh.moved_to(std::move(points));
 }
 
-std::vector<CutSurface::Stretch> CutSurface::stretches(const std::vector<Probe>& probes,
-                                                       const std::vector<SweepTo>& sweeps) const {
-  std::vector<Stretch> found(probes.size());
-  // Of each point the need of the first target that sweeps over it.
-  const auto needs_of = [&](const Points& points) {
-    std::vector<std::optional<Need>> needs(points.size());
-    for (std::size_t s = 0; s < sweeps.size(); ++s) {
-      const std::vector<double> first = sweeps[s].sweep->first_inside(points, sweeps[s].reach);
-      for (std::size_t i = 0; i < first.size(); ++i)
-        if (std::isfinite(first[i]) && (!needs[i] || first[i] < needs[i]->from_rad))
-          needs[i] = Need{s, first[i]};
-    }
-    return needs;
-  };
-  const auto note = [](Stretch& stretch, const Need& need) {
-    if (!stretch.need || stretch.need->from_rad > need.from_rad) stretch.need = need;
-  };
-
-  Points points;
-  for (const Probe& probe : probes) points.push_back(probe.from);
-  std::vector<std::size_t> going;
-  const auto begins = needs_of(points);
-  for (std::size_t i = 0; i < probes.size(); ++i)
-    if (begins[i]) note(found[i], *begins[i]), going.push_back(i);
-
-  // Whole steps, some at once.
-  std::vector<std::size_t> between;  // whose stretch ends within the next step
-  for (int step = 0; !going.empty(); step += steps_at_once) {
-    points = {};
-    for (const std::size_t i : going)
-      for (int k = 1; k <= steps_at_once; ++k)
-        points.push_back(probes[i].from + std::min((step + k) * step_mm, probes[i].room) * probes[i].inwards);
-    const auto needs = needs_of(points);
-    std::vector<std::size_t> go_on;
-    for (std::size_t g = 0; g < going.size(); ++g) {
-      Stretch& stretch = found[going[g]];
-      const double room = probes[going[g]].room;
-      int k = 0;
-      while (k < steps_at_once && needs[g * steps_at_once + k] && stretch.length < room) {
-        note(stretch, *needs[g * steps_at_once + k]);
-        stretch.length = std::min((step + ++k) * step_mm, room);
-      }
-      if (stretch.length >= room)
-        stretch.ends = false;
-      else if (k < steps_at_once)
-        between.push_back(going[g]);
-      else
-        go_on.push_back(going[g]);
-    }
-    going = std::move(go_on);
-  }
-  // The last step, halved.
-  double half = step_mm / 2;
-  for (int i = 0; i < halvings && !between.empty(); ++i, half /= 2) {
-    points = {};
-    for (const std::size_t b : between)
-      points.push_back(probes[b].from + std::min(found[b].length + half, probes[b].room) * probes[b].inwards);
-    const auto needs = needs_of(points);
-    for (std::size_t b = 0; b < between.size(); ++b)
-      if (needs[b]) {
-        Stretch& stretch = found[between[b]];
-        stretch.length = std::min(stretch.length + half, probes[between[b]].room);
-        note(stretch, *needs[b]);
-      }
-  }
-  // Past the last point that is swept.
-  for (const std::size_t b : between) found[b].length = std::min(found[b].length + 2 * half, probes[b].room);
-  return found;
-}
-
-/// Of each probe the depth at which its swept stretch ends, if it has one only: halved, where stretches() steps.
-std::vector<double> CutSurface::depths(const std::vector<Probe>& probes,
-                                       const std::vector<SweepTo>& sweeps) const {
-  const auto swept = [&](const std::vector<std::size_t>& which, const std::vector<double>& depth) {
-    Points points;
-    for (const std::size_t i : which) points.push_back(probes[i].from + depth[i] * probes[i].inwards);
-    std::vector<std::uint8_t> is(which.size(), 0);
-    for (const SweepTo& sweep : sweeps) {
-      const std::vector<double> first = sweep.sweep->first_inside(points, sweep.reach);
-      for (std::size_t k = 0; k < is.size(); ++k)
-        if (std::isfinite(first[k])) is[k] = 1;
-    }
-    return is;
-  };
-  std::vector<double> depth(probes.size(), 0);
-  std::vector<std::size_t> all(probes.size()), going;
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  const std::vector<std::uint8_t> at_surface = swept(all, depth);
-  for (const std::size_t i : all)
-    if (at_surface[i]) going.push_back(i);
-  std::vector<double> middle = depth, width(probes.size());
-  for (const std::size_t i : going) width[i] = probes[i].room;
-  for (int halving = 0; halving < depth_halvings && !going.empty(); ++halving) {
-    for (const std::size_t i : going) width[i] /= 2, middle[i] = depth[i] + width[i];
-    const std::vector<std::uint8_t> is = swept(going, middle);
-    for (std::size_t k = 0; k < going.size(); ++k)
-      if (is[k]) depth[going[k]] = middle[going[k]];
-  }
-  return depth;
-}
-
 std::vector<double> CutSurface::bends(const std::vector<SweepTo>& sweeps, double missed_mm) {
   std::vector<Index> not_lowered;
   for (const Index v : near_vertices_)
     if (!vertices_[v].bends_seen) not_lowered.push_back(v);
   lower_vertices(not_lowered, sweeps);
+  lower_overhangs(sweeps);
   const double shortest = shortest_piece * edge_mm_;
   const mesh::EdgeTable edges(body_.mesh);
-  std::vector<double> shares(edges.size(), 0);
   std::vector<std::uint8_t> asked(edges.size(), 0);
   std::vector<std::size_t> candidates;
+  std::vector<LoweredEdge> lowered;
   for (const Index t : near_)
     for (int k = 0; k < 3; ++k)
       if (const Index e = edges.edge_of(3 * t + k); e != no_index && !asked[e]) {
         asked[e] = 1;
         const auto& [a, b] = edges.ends(e);
         const Vertex &from = vertices_[a], &to = vertices_[b];
-        if (!from.kept && !to.kept && !(from.bends_seen && to.bends_seen) &&
-            (from.before - to.before).norm() > 2 * shortest)
-          candidates.push_back(e);
+        if (from.kept || to.kept || (from.bends_seen && to.bends_seen)) continue;
+        const LoweredEdge edge{from.before,
+                               to.before,
+                               from.inwards,
+                               to.inwards,
+                               from.depth_mm,
+                               to.depth_mm,
+                               std::min(from.room_mm, to.room_mm)};
+        if (edge.length() > 2 * shortest) candidates.push_back(e), lowered.push_back(edge);
       }
   for (const Index v : near_vertices_) vertices_[v].bends_seen = true;
-  const auto probe = [&](std::size_t e, double s) {
-    const auto [a, b] = edges.ends(e);
-    const Vertex &from = vertices_[a], &to = vertices_[b];
-    return Probe{
-        (1 - s) * from.before + s * to.before, (1 - s) * from.inwards + s * to.inwards,
-        std::min({from.room_mm, to.room_mm, std::max(from.depth_mm, to.depth_mm) + more_than_ends_mm})};
-  };
-  // Whether the middle is missed tells most edges apart; both ends of the others are asked too, with the same error.
-  const auto ask = [&](const std::vector<std::size_t>& which, int between) {
-    std::vector<Probe> probes;
-    for (const std::size_t e : which)
-      for (int i = 0; i <= between + 1; ++i)
-        probes.push_back(probe(e, static_cast<double>(i) / (between + 1)));
-    return depths(probes, sweeps);
-  };
-  const std::vector<double> coarse = ask(candidates, 1);
-  std::vector<std::size_t> bent;
-  for (std::size_t c = 0; c < candidates.size(); ++c)
-    if (std::abs(coarse[3 * c + 1] - (coarse[3 * c] + coarse[3 * c + 2]) / 2) > missed_mm / 4)
-      bent.push_back(candidates[c]);
-  const std::vector<double> fine = ask(bent, along_edge);
-  for (std::size_t c = 0; c < bent.size(); ++c) {
-    std::array<double, along_edge + 2> depth{};
-    std::copy_n(fine.begin() + static_cast<std::ptrdiff_t>(c * depth.size()), depth.size(), depth.begin());
-    double missed = 0;
-    for (std::size_t i = 1; i <= along_edge; ++i) {
-      const double s = static_cast<double>(i) / (along_edge + 1);
-      missed = std::max(missed, std::abs(depth[i] - (1 - s) * depth.front() - s * depth.back()));
-    }
-    if (missed <= missed_mm) continue;
-    const auto [a, b] = edges.ends(bent[c]);
-    const double bend = bend_of(depth), share = std::min(bend, 1 - bend) < nearest_to_end ? 0.5 : bend,
-                 length = (vertices_[a].before - vertices_[b].before).norm();
-    if (std::min(share, 1 - share) * length > shortest) shares[bent[c]] = share;
-  }
+  const double beside = std::clamp(beside_wall * edge_mm_ * edge_mm_, least_beside_wall_mm,
+                                   std::max(least_beside_wall_mm, largest_beside_wall * edge_mm_));
+  const std::vector<double> found = shares_at_bends(lowered, sweeps, {missed_mm, shortest, beside});
+  std::vector<double> shares(edges.size(), 0);
+  for (std::size_t c = 0; c < candidates.size(); ++c) shares[candidates[c]] = found[c];
   return shares;
 }
 
@@ -393,62 +256,51 @@ void CutSurface::lower_overhangs(const std::vector<SweepTo>& sweeps) {
   }
 }
 
-std::vector<CutSurface::LatticeStretch> CutSurface::stretches_between(
-    const std::vector<Index>& triangles, const std::vector<SweepTo>& sweeps) const {
+std::vector<CutSurface::Swept> CutSurface::swept_between(const std::vector<Index>& triangles,
+                                                         const std::vector<SweepTo>& sweeps) const {
   std::vector<std::array<double, 3>> weights;
   for (int i = 0; i <= lattice; ++i)
     for (int j = 0; i + j <= lattice; ++j)
       weights.push_back({double(i) / lattice, double(j) / lattice, double(lattice - i - j) / lattice});
+  std::vector<SurfacePoint> points;
+  for (const Index t : triangles)
+    for (const auto& w : weights) points.push_back({body_.mesh.triangles()[t], w});
   std::vector<Probe> probes;
-  for (const Index t : triangles) {
-    const Triangle& corner = body_.mesh.triangles()[t];
-    std::array<Vec3, 3> p{};
-    double room = least_room_mm;
-    bool any_free = false;
-    for (int k = 0; k < 3; ++k) {
-      p[k] = at(corner[k]);
-      const Vertex& vertex = vertices_[corner[k]];
-      if (vertex.kept) continue;
-      const double free = vertex.room_mm - vertex.depth_mm;
-      room = any_free ? std::min(room, free) : free;
-      any_free = true;
-    }
-    for (const auto& w : weights)
-      probes.push_back({w[0] * p[0] + w[1] * p[1] + w[2] * p[2],
-                        w[0] * vertices_[corner[0]].inwards + w[1] * vertices_[corner[1]].inwards +
-                            w[2] * vertices_[corner[2]].inwards,
-                        std::max(room, least_room_mm)});
-  }
+  for (const SurfacePoint& point : points) probes.push_back(probe_below(point));
   const std::vector<Stretch> found = stretches(probes, sweeps);
-  std::vector<LatticeStretch> swept;
+  std::vector<Swept> swept;
   for (std::size_t i = 0; i < found.size(); ++i)
     if (found[i].need)
-      swept.push_back({triangles[i / weights.size()], weights[i % weights.size()], found[i].length,
-                       *found[i].need, probes[i].from, probes[i].from + left_mm * probes[i].inwards});
+      swept.push_back({points[i], found[i].length, *found[i].need, probes[i].from, probes[i].at(left_mm)});
   return swept;
 }
 
-/// A point between corners goes deeper by e where each corner goes by e w / (w . w), w its weights: the least that does.
+/// As far inwards as all its corners that are free may go.
+Probe CutSurface::probe_below(const SurfacePoint& point) const {
+  Probe probe{Vec3::Zero(), Vec3::Zero(), std::numeric_limits<double>::infinity()};
+  for (int k = 0; k < 3; ++k) {
+    if (point.corners[k] == no_index) continue;
+    const Vertex& vertex = vertices_[point.corners[k]];
+    probe.from += point.weights[k] * at(point.corners[k]);
+    probe.inwards += point.weights[k] * vertex.inwards;
+    if (!vertex.kept) probe.room = std::min(probe.room, vertex.room_mm - vertex.depth_mm);
+  }
+  if (!std::isfinite(probe.room)) probe.room = 0;
+  probe.room = std::max(probe.room, least_room_mm);
+  return probe;
+}
+
 std::vector<Index> CutSurface::lower_between_vertices(const std::vector<Index>& triangles,
                                                       const std::vector<SweepTo>& sweeps) {
-  std::vector<double> more(vertices_.size(), 0);
-  std::vector<std::optional<Need>> why(vertices_.size());
-  for (const LatticeStretch& point : stretches_between(triangles, sweeps)) {
-    const Triangle& corner = body_.mesh.triangles()[point.triangle];
-    const auto& w = point.weights;
-    const double scale = point.length / (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
-    for (int k = 0; k < 3; ++k) {
-      const Index v = corner[k];
-      const double by = scale * w[k];
-      if (vertices_[v].depth_mm < vertices_[v].room_mm && by > more[v]) more[v] = by, why[v] = point.need;
-    }
-  }
+  Deeper deeper(*this);
+  for (const Swept& below : swept_between(triangles, sweeps))
+    deeper.add(below.point, below.length, below.need);
   std::vector<std::uint8_t> moved(vertices_.size(), 0);
   for (const Index v : near_vertices_) {
-    if (!why[v]) continue;
+    if (!deeper.why(v)) continue;
     // Beside what is kept a triangle cannot be lowered as a whole: its free corners would run away.
     const double before = vertices_[v].depth_mm;
-    take(v, before + std::min(more[v], edge_mm_), *why[v]);
+    take(v, before + std::min(deeper.by(v), edge_mm_), *deeper.why(v));
     moved[v] = vertices_[v].depth_mm > before + none_mm;
   }
   std::vector<Index> changed;
@@ -465,17 +317,15 @@ std::vector<InTheWay> CutSurface::left_in_the_way(const std::vector<SweepTo>& sw
     if (!before) before.emplace(body_.mesh);
     return before->at(p).winding != 0;
   };
-  for (const LatticeStretch& point : stretches_between(near_, sweeps)) {
-    if (point.length <= left_mm) continue;
+  for (const Swept& stands_out : swept_between(near_, sweeps)) {
+    if (stands_out.length <= left_mm) continue;
     // All corners are kept, or at the end of their room; where one is free the exact search decides.
-    const Triangle& corners = body_.mesh.triangles()[point.triangle];
-    if (std::any_of(corners.begin(), corners.end(),
-                    [&](Index v) { return vertices_[v].depth_mm < vertices_[v].room_mm; }))
-      continue;
-    KeptBy by = KeptBy::depth;
-    for (const Index v : corners) by = vertices_[v].kept.value_or(by);
+    const std::array<Index, 3>& corners = stands_out.point.corners;
+    if (std::any_of(corners.begin(), corners.end(), [&](Index v) { return may_go(v); })) continue;
     // Whoever was lowered through the whole bone looks at what lies behind it, which is in nobody's way.
-    if (is_bone(point.below)) left.push_back({point.need.target, point.need.from_rad, by, point.at});
+    if (is_bone(stands_out.below))
+      left.push_back(
+          {stands_out.need.target, stands_out.need.from_rad, kept_by(stands_out.point), stands_out.at});
   }
   return left;
 }
@@ -516,28 +366,80 @@ bool CutSurface::unfold() {
   return false;
 }
 
-CutSurface::Lowered CutSurface::lower_feature(const Feature& feature, const Need& need, double by_mm) {
-  std::array<Index, 3> corners{feature.id, no_index, no_index};
-  if (feature.kind == FeatureKind::edge) corners[1] = feature.other_end;
-  if (feature.kind == FeatureKind::face) corners = body_.mesh.triangles()[feature.id];
-  const auto may_go = [&](Index v) { return vertices_[v].depth_mm < vertices_[v].room_mm; };
-  std::vector<Index> lowered;
-  for (const Index v : corners) {
-    if (v == no_index) continue;
-    if (!std::binary_search(near_vertices_.begin(), near_vertices_.end(), v)) return Lowered::elsewhere;
-    if (may_go(v)) lowered.push_back(v);
+SurfacePoint CutSurface::on_surface(const Feature& feature, const Vec3& point) const {
+  if (feature.kind == FeatureKind::vertex) return {{feature.id, no_index, no_index}, {1, 0, 0}};
+  if (feature.kind == FeatureKind::edge) {
+    const Vec3 from = at(feature.id), along = at(feature.other_end) - from;
+    const double share =
+        along == Vec3::Zero() ? 0 : std::clamp((point - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    return {{feature.id, feature.other_end, no_index}, {1 - share, share, 0}};
   }
-  if (lowered.empty() && vertices_[corners[0]].kept == KeptBy::bearing)
-    for (const Index t : near_) {
-      const Triangle& triangle = body_.mesh.triangles()[t];
-      const auto has = [&](Index v) {
-        return std::find(triangle.begin(), triangle.end(), v) != triangle.end();
-      };
-      if (has(corners[0]) && (corners[1] == no_index || has(corners[1])))
-        std::copy_if(triangle.begin(), triangle.end(), std::back_inserter(lowered), may_go);
-    }
-  for (const Index v : lowered) take(v, vertices_[v].depth_mm + by_mm, need);
-  return lowered.empty() ? Lowered::kept : Lowered::some;
+  const Triangle& corners = body_.mesh.triangles()[feature.id];
+  const Vec3 a = at(corners[0]), b = at(corners[1]), c = at(corners[2]), across = (b - a).cross(c - a);
+  const auto share = [&](const Vec3& from, const Vec3& to) {
+    return std::max(0.0, (from - point).cross(to - point).dot(across));
+  };
+  const double wa = share(b, c), wb = share(c, a), wc = share(a, b), sum = wa + wb + wc;
+  if (!(sum > 0)) return {corners, {1. / 3, 1. / 3, 1. / 3}};
+  return {corners, {wa / sum, wb / sum, wc / sum}};
+}
+
+Vec3 CutSurface::before(const SurfacePoint& point) const {
+  Vec3 at = Vec3::Zero();
+  for (int k = 0; k < 3; ++k)
+    if (point.corners[k] != no_index) at += point.weights[k] * vertices_[point.corners[k]].before;
+  return at;
+}
+
+CutSurface::MayGo CutSurface::may_go(const SurfacePoint& point) const {
+  double free = 0;
+  for (int k = 0; k < 3; ++k) {
+    const Index v = point.corners[k];
+    if (v == no_index) continue;
+    if (!std::binary_search(near_vertices_.begin(), near_vertices_.end(), v)) return MayGo::elsewhere;
+    if (may_go(v)) free += point.weights[k];
+  }
+  return free > least_free || !beside(point).empty() ? MayGo::some : MayGo::kept;
+}
+
+KeptBy CutSurface::kept_by(const SurfacePoint& point) const {
+  for (const Index v : point.corners)
+    if (v != no_index && vertices_[v].kept) return *vertices_[v].kept;
+  return KeptBy::depth;
+}
+
+/// Of a point of the bearing surface, the vertices that may go of the triangles that it lies in.
+std::vector<Index> CutSurface::beside(const SurfacePoint& point) const {
+  std::vector<Index> found;
+  if (vertices_[point.corners[0]].kept != KeptBy::bearing) return found;
+  for (const Index t : near_) {
+    const Triangle& triangle = body_.mesh.triangles()[t];
+    const auto has = [&](Index v) {
+      return v == no_index || std::find(triangle.begin(), triangle.end(), v) != triangle.end();
+    };
+    if (has(point.corners[0]) && has(point.corners[1]) && has(point.corners[2]))
+      std::copy_if(triangle.begin(), triangle.end(), std::back_inserter(found),
+                   [&](Index v) { return may_go(v); });
+  }
+  return found;
+}
+
+void CutSurface::lower_met(const std::vector<Met>& met, const std::vector<SweepTo>& sweeps, double by_mm) {
+  std::vector<Probe> probes;
+  for (const Met& each : met) probes.push_back(probe_below(each.point));
+  const std::vector<Stretch> below = stretches(probes, sweeps);
+  Deeper deeper(*this);
+  for (std::size_t i = 0; i < met.size(); ++i) {
+    const SurfacePoint& point = met[i].point;
+    const auto may = [&](Index v) { return v != no_index && may_go(v); };
+    if (std::any_of(point.corners.begin(), point.corners.end(), may))
+      deeper.add(point, below[i].length + by_mm, met[i].need);
+    else
+      for (const Index v : beside(point))
+        deeper.add({{v, no_index, no_index}, {1, 0, 0}}, below[i].length + by_mm, met[i].need);
+  }
+  for (const Index v : near_vertices_)
+    if (deeper.why(v)) take(v, vertices_[v].depth_mm + deeper.by(v), *deeper.why(v));
 }
 
 }  // namespace condyle::plan

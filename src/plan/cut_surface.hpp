@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -7,22 +8,11 @@
 
 #include "condyle/joint.hpp"
 #include "condyle/resection.hpp"
+#include "plan/bends.hpp"
 #include "plan/refine.hpp"
-#include "plan/sweep.hpp"
+#include "plan/swept_stretch.hpp"
 
 namespace condyle::plan {
-
-/// A motion and how far it shall go.
-struct SweepTo {
-  const Sweep* sweep;
-  Angle reach;
-};
-
-/// Which target needs a piece of bone, and from which angle of its motion on.
-struct Need {
-  std::size_t target = 0;
-  double from_rad = std::numeric_limits<double>::infinity();
-};
 
 /// A place that stays in the way of a target.
 struct InTheWay {
@@ -30,6 +20,25 @@ struct InTheWay {
   double from_rad;  ///< where its motion is stopped
   KeptBy by;
   Vec3 point;  ///< of the surface before, in the cut bone's frame
+};
+
+/// A part of a bone.
+struct Place {
+  Vec3 centre;
+  double radius_mm;
+};
+
+/// A point of a surface between corners, by their weights: of a triangle, an edge or a vertex, whose corners come first. The others are
+/// no_index and weigh nothing.
+struct SurfacePoint {
+  std::array<Index, 3> corners;
+  std::array<double, 3> weights;
+};
+
+/// A point of the surface that meets the other bone on the way to a target.
+struct Met {
+  SurfacePoint point;
+  Need need;
 };
 
 /// The surface of a bone that is lowered along directions that stay what they are: at each vertex inwards along the normal, smoothed
@@ -68,11 +77,17 @@ class CutSurface {
   void lower_to(Index vertex, double depth_mm, const Need& need);
   /// Lowers what is higher around steep walls until no triangle is turned over; false if kept bone does not let it.
   bool unfold();
-  enum class Lowered { some, kept, elsewhere };
-  /// Lowers the corners of a feature of this mesh by a little: those that may be, if some may, and are near. If none may, those beside
-  /// them, in the triangles that share one: it is these triangles that are in the way, and where they come into the bearing ball they
-  /// are not.
-  Lowered lower_feature(const Feature& feature, const Need& need, double by_mm);
+  SurfacePoint on_surface(const Feature& feature, const Vec3& point) const;
+  /// Where the point was before anything was lowered.
+  Vec3 before(const SurfacePoint& point) const;
+  enum class MayGo { some, kept, elsewhere };
+  /// Whether something may be lowered there: a corner, or only what is beside it; or whether a corner is not near.
+  MayGo may_go(const SurfacePoint& point) const;
+  /// Why what is there stays.
+  KeptBy kept_by(const SurfacePoint& point) const;
+  /// Lowers what is in the way, in each point to where it is clear and by this at least. If no corner may go, those beside them do, in the
+  /// triangles that share one: it is these triangles that are in the way, and where they come into the bearing ball they are not.
+  void lower_met(const std::vector<Met>& met, const std::vector<SweepTo>& sweeps, double by_mm);
 
   const Body& body() const noexcept { return body_; }
   const std::vector<Vertex>& vertices() const noexcept { return vertices_; }
@@ -86,19 +101,19 @@ class CutSurface {
   const std::vector<Index>& moving() const noexcept { return moving_; }
 
  private:
-  struct Probe;
-  struct Stretch;
-  std::vector<Stretch> stretches(const std::vector<Probe>& probes, const std::vector<SweepTo>& sweeps) const;
-  std::vector<double> depths(const std::vector<Probe>& probes, const std::vector<SweepTo>& sweeps) const;
+  struct Swept;
+  class Deeper;
   void lower_vertices(const std::vector<Index>& which, const std::vector<SweepTo>& sweeps);
   void lower_overhangs(const std::vector<SweepTo>& sweeps);
-  struct LatticeStretch;
-  std::vector<LatticeStretch> stretches_between(const std::vector<Index>& triangles,
-                                                const std::vector<SweepTo>& sweeps) const;
+  std::vector<Swept> swept_between(const std::vector<Index>& triangles,
+                                   const std::vector<SweepTo>& sweeps) const;
   std::vector<Index> lower_between_vertices(const std::vector<Index>& triangles,
                                             const std::vector<SweepTo>& sweeps);
   std::vector<InTheWay> left_in_the_way(const std::vector<SweepTo>& sweeps) const;
+  Probe probe_below(const SurfacePoint& point) const;
+  std::vector<Index> beside(const SurfacePoint& point) const;
   void take(Index vertex, double depth, const Need& need);
+  bool may_go(Index vertex) const { return vertices_[vertex].depth_mm < vertices_[vertex].room_mm; }
 
   Body body_;
   double edge_mm_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "motion/rom/overlap.hpp"
@@ -8,15 +9,16 @@
 
 namespace condyle::plan {
 
-/// Exact first contact of a bone that is cut again and again with another that stays, along one motion.
+/// Exact contacts of a bone that is cut again and again with another that stays, along one motion.
 class ExactReach {
  public:
   /// `other`: what of the other body ends motions.
   ExactReach(const Joint& joint, BodyRole cut, const Mesh& other, const Motion& motion);
 
-  /// How far the motion goes, `reach` at most. In its witness the features are those of the meshes given: fixed the other's,
-  /// mobile the cut bone's.
-  Limit limit(const Mesh& cut, Angle reach) const;
+  /// Every feature of the cut bone that is in the way, with a point of it, in the bone's own frame; none if the motion goes as far as
+  /// `reach`. Of bodies that are in contact at the start one feature, or empty if no surfaces meet there: one is inside the other.
+  std::optional<std::vector<motion::FeatureContact>> in_the_way(const motion::FeatureTree& cut,
+                                                                Angle reach) const;
 
  private:
   motion::FeatureTree tree_;

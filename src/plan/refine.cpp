@@ -9,11 +9,12 @@
 namespace condyle::plan {
 namespace {
 
-/// A mesh on its way: which triangle of the first one each comes from, and of which part each vertex is.
+/// A mesh on its way: which triangle of the first one each comes from, of which part each vertex is, and which triangles may yet be halved.
 struct Pieces {
   TriMesh mesh;
   std::vector<Index> before;
   std::vector<Index> part_of_vertex;
+  std::vector<std::uint8_t> asked;
 };
 
 double length(const TriMesh& mesh, const std::array<Index, 2>& edge) {
@@ -28,8 +29,7 @@ std::vector<double> edges_to_halve(const Pieces& pieces, const mesh::EdgeTable& 
   const auto edge = [&](std::size_t t, int k) { return edges.edge_of(static_cast<Index>(3 * t + k)); };
   for (std::size_t t = 0; t < triangles; ++t)
     for (int k = 0; k < 3; ++k)
-      if (wanted[pieces.before[t]] && edge(t, k) != no_index &&
-          length(pieces.mesh, edges.ends(edge(t, k))) > longest)
+      if (wanted[t] && edge(t, k) != no_index && length(pieces.mesh, edges.ends(edge(t, k))) > longest)
         halve[edge(t, k)] = 0.5;
   for (bool changed = true; changed;) {
     changed = false;
@@ -66,10 +66,12 @@ void split(Pieces& pieces, const mesh::EdgeTable& edges, const std::vector<doubl
 
   std::vector<Triangle> triangles;
   std::vector<Index> before;
+  std::vector<std::uint8_t> asked;
   for (std::size_t t = 0; t < pieces.mesh.triangles.size(); ++t) {
     const auto add = [&](Index a, Index b, Index c) {
       triangles.push_back({a, b, c});
       before.push_back(pieces.before[t]);
+      asked.push_back(pieces.asked[t]);
     };
     std::array<Index, 3> m{};
     for (int k = 0; k < 3; ++k) {
@@ -102,12 +104,14 @@ void split(Pieces& pieces, const mesh::EdgeTable& edges, const std::vector<doubl
   }
   pieces.mesh.triangles = std::move(triangles);
   pieces.before = std::move(before);
+  pieces.asked = std::move(asked);
 }
 
 /// False if there was nothing to halve.
-bool halve_once(Pieces& pieces, const std::vector<std::uint8_t>& wanted, double longest) {
+bool halve_once(Pieces& pieces, const ToRefine& to_refine, double longest) {
+  pieces.asked = to_refine(pieces.mesh, pieces.before, pieces.asked);
   const mesh::EdgeTable edges(pieces.mesh);
-  const std::vector<double> halves = edges_to_halve(pieces, edges, wanted, longest);
+  const std::vector<double> halves = edges_to_halve(pieces, edges, pieces.asked, longest);
   if (std::all_of(halves.begin(), halves.end(), [](double share) { return share == 0; })) return false;
   split(pieces, edges, halves);
   return true;
@@ -115,8 +119,9 @@ bool halve_once(Pieces& pieces, const std::vector<std::uint8_t>& wanted, double 
 
 /// A body as one piece each.
 Pieces pieces_of(const Body& body) {
-  Pieces pieces{body.mesh.arrays(), {}, {}};
-  pieces.before.resize(pieces.mesh.triangles.size());
+  const std::size_t triangles = body.mesh.triangles().size();
+  Pieces pieces{
+      body.mesh.arrays(), std::vector<Index>(triangles), {}, std::vector<std::uint8_t>(triangles, 1)};
   std::iota(pieces.before.begin(), pieces.before.end(), Index{0});
   pieces.part_of_vertex.assign(pieces.mesh.vertices.size(), 0);
   for (std::size_t p = 0; p < body.parts.size(); ++p)
@@ -170,9 +175,9 @@ RefinedBody in_order_of_parts(Pieces pieces, const Body& body, std::vector<Betwe
 
 }  // namespace
 
-RefinedBody refined(const Body& body, const std::vector<std::uint8_t>& wanted, double longest_edge_mm) {
+RefinedBody refined(const Body& body, const ToRefine& to_refine, double longest_edge_mm) {
   Pieces pieces = pieces_of(body);
-  while (halve_once(pieces, wanted, longest_edge_mm)) {
+  while (halve_once(pieces, to_refine, longest_edge_mm)) {
   }
   return in_order_of_parts(std::move(pieces), body);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "condyle/joint.hpp"
@@ -13,9 +14,16 @@ struct RefinedBody {
   std::vector<Index> triangle_before;  ///< of each triangle: the one of the body before that it is a piece of
 };
 
-/// Halves edges until none of a wanted triangle is longer. A triangle with a side halved also has its longest one halved, so that
-/// triangles around do not become narrow; edges shared by any number of triangles stay shared. Parts of the body stay apart.
-RefinedBody refined(const Body& body, const std::vector<std::uint8_t>& wanted, double longest_edge_mm);
+/// Which triangles shall be small: marks of a mesh on its way, given which triangle of the body each is a piece of, and which are asked for.
+/// What is not asked for stays as it is.
+using ToRefine =
+    std::function<std::vector<std::uint8_t>(const TriMesh& pieces, const std::vector<Index>& triangle_before,
+                                            const std::vector<std::uint8_t>& asked)>;
+
+/// Halves edges until none of a triangle that shall be small is longer. Pieces of those that shall be are asked for again after each
+/// halving, so that of a large triangle only what is meant becomes small. A triangle with a side halved also has its longest one halved, so
+/// that triangles around do not become narrow; edges shared by any number of triangles stay shared. Parts of the body stay apart.
+RefinedBody refined(const Body& body, const ToRefine& to_refine, double longest_edge_mm);
 
 /// A vertex on an edge of the body before: a share of the way from one end to the other. One that was there already is both ends.
 struct Between {

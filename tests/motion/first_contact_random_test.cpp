@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "mesh/surface_distance.hpp"
 #include "motion/rotation_scenes.hpp"
 #include "support/brute_force.hpp"
 #include "support/test_meshes.hpp"
@@ -50,6 +51,35 @@ RC_GTEST_PROP(FirstContactRandom, EqualsTheFirstOfAllPairsOfFeatures, ()) {
 RC_GTEST_PROP(FirstContactRandom, EqualsTheFirstOfAllPairsOfFeaturesTenMetresAway, ()) {
   auto random = random_by_rapidcheck();
   for (int i = 0; i < 10; ++i) expect_brute_force_agrees(moved(far_away(random), random_scene(random)));
+}
+
+/// As of every pair of features, each at a point that the turn brings to where the other body is.
+RC_GTEST_PROP(FirstContactRandom, EveryFeatureThatMeetsIsFoundAtItsFirstContact, ()) {
+  auto random = any_random();
+  for (int i = 0; i < 50; ++i) {
+    const RotationScene scene = random_scene(random);
+    if (limits(scene).positive.reason == LimitReason::contact_at_start) continue;
+    const Mesh stationary_mesh = scene.stationary, rotating_mesh = scene.rotating;
+    const motion::FeatureTree stationary_tree(stationary_mesh), rotating_tree(rotating_mesh);
+    const motion::RotationTable stationary(stationary_tree, scene.axis);
+    motion::RotatingBody rotating(rotating_tree);
+    rotating.start_at(scene.axis, Pose::Identity());
+    for (const RotationSense sense : {RotationSense::negative, RotationSense::positive})
+      for (const double range : {0.5, 3.0}) {
+        const auto truth = brute_feature_contacts(scene, sense, range);
+        const auto found = motion::feature_contacts(stationary, rotating, sense, Angle::radians(range));
+        RC_ASSERT(found.size() == truth.size());
+        double last = 0;
+        for (const motion::FeatureContact& contact : found) {
+          RC_ASSERT(truth.at(contact.feature) == contact.turned.radians());
+          RC_ASSERT(last <= contact.turned.radians());
+          last = contact.turned.radians();
+          const Vec3 there = Eigen::AngleAxisd(sign_of(sense) * last, scene.axis.direction()) * contact.point;
+          RC_ASSERT(mesh::distance_to_surface(mesh::TriangleTree(scene.rotating), contact.point) < 1e-9);
+          RC_ASSERT(mesh::distance_to_surface(mesh::TriangleTree(scene.stationary), there) < 1e-9);
+        }
+      }
+  }
 }
 
 /// Coordinates from a coarse lattice: coplanar faces, parallel edges, features on the axis and in planes of

@@ -66,16 +66,18 @@ TriMesh turned(const RotationScene& scene, double angle) {
   return mesh;
 }
 
-std::optional<BruteLimit> brute_first_contact(const RotationScene& scene, RotationSense sense) {
+namespace {
+
+/// All events of pairs of features: the size of the rotation in the sense, and the pair.
+template <class Visit>
+void for_each_contact(const RotationScene& scene, RotationSense sense, const Visit& visit) {
   const auto m = points_about_axis(scene.rotating, scene.axis),
              f = points_about_axis(scene.stationary, scene.axis);
-  std::optional<BruteLimit> best;
   const auto record = [&](const motion::ContactEvents& events, const Feature& rotating,
                           const Feature& stationary) {
     for (const motion::ContactEvent& event : events) {
       const double size = sense == RotationSense::positive ? event.angle : two_pi - event.angle;
-      const BruteLimit found{std::max(0.0, size - event.error), {rotating, stationary}};
-      if (!best || std::tie(found.size, found.features) < std::tie(best->size, best->features)) best = found;
+      visit(BruteLimit{std::max(0.0, size - event.error), {rotating, stationary}});
     }
   };
   const auto face = [](const TriMesh& mesh, const std::vector<Point>& points, Index t) {
@@ -101,7 +103,27 @@ std::optional<BruteLimit> brute_first_contact(const RotationScene& scene, Rotati
              {FeatureKind::edge, c, d});
     }
   }
+}
+
+}  // namespace
+
+std::optional<BruteLimit> brute_first_contact(const RotationScene& scene, RotationSense sense) {
+  std::optional<BruteLimit> best;
+  for_each_contact(scene, sense, [&](const BruteLimit& found) {
+    if (!best || std::tie(found.size, found.features) < std::tie(best->size, best->features)) best = found;
+  });
   return best;
+}
+
+std::map<Feature, double> brute_feature_contacts(const RotationScene& scene, RotationSense sense,
+                                                 double range) {
+  std::map<Feature, double> first;
+  for_each_contact(scene, sense, [&](const BruteLimit& found) {
+    if (found.size > range) return;
+    const auto [place, is_new] = first.try_emplace(found.features.rotating, found.size);
+    if (!is_new) place->second = std::min(place->second, found.size);
+  });
+  return first;
 }
 
 bool brute_contact_at(const RotationScene& scene, double angle) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <random>
 
@@ -33,6 +34,10 @@ struct BruteLimit {
 };
 /// First contact of scenes that are free at the start, by every pair of features.
 std::optional<BruteLimit> brute_first_contact(const RotationScene& scene, RotationSense sense);
+
+/// Features of the rotating body that meet the other one within the range, rad, and where each does first, by every pair of features.
+std::map<Feature, double> brute_feature_contacts(const RotationScene& scene, RotationSense sense,
+                                                 double range);
 
 /// Whether the surfaces meet once the body has turned: exact, every pair of triangles, for the rounded mesh.
 bool brute_contact_at(const RotationScene& scene, double angle);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <map>
 #include <tuple>
 #include <vector>
 
@@ -52,17 +53,54 @@ Feature feature(const FeatureTree& tree, FeatureKind kind, Index slot) {
   return {FeatureKind::face, tree.mesh_triangle(slot)};
 }
 
+/// What a search is for: the first contact of all, which bounds what is left to be looked at.
+class FirstOfAll {
+ public:
+  explicit FirstOfAll(double range) : within_(range) {}
+
+  double within() const noexcept { return within_; }
+  void add(const Found& found) {
+    if (found_ && std::tie(found_->angle, found_->features) <= std::tie(found.angle, found.features)) return;
+    found_ = found;
+    within_ = found.angle;
+  }
+  const std::optional<Found>& found() const noexcept { return found_; }
+
+ private:
+  double within_;
+  std::optional<Found> found_;
+};
+
+/// The first contact of each feature of the rotating body.
+class FirstOfEach {
+ public:
+  explicit FirstOfEach(double range) : within_(range) {}
+
+  double within() const noexcept { return within_; }
+  void add(const Found& found) {
+    const auto [place, is_new] = found_.try_emplace(found.features.rotating, found);
+    Found& known = place->second;
+    if (!is_new && std::tie(found.angle, found.features) < std::tie(known.angle, known.features))
+      known = found;
+  }
+  const std::map<Feature, Found>& found() const noexcept { return found_; }
+
+ private:
+  double within_;
+  std::map<Feature, Found> found_;
+};
+
 /// Depth first, nearest first: the first contact found is usually the true one, and bounds the rest. Stationary is
 /// const RotationTable or RotatingBody.
-template <class Stationary>
+template <class Stationary, class Kept>
 class Search {
  public:
   Search(Stationary& stationary, RotatingBody& rotating, RotationSense sense, double range, SearchWork& work)
-      : stationary_(stationary), rotating_(rotating), sense_(sense), best_angle_(range), work_(work) {
+      : stationary_(stationary), rotating_(rotating), sense_(sense), kept_(range), work_(work) {
     narrow_window();
   }
 
-  const std::optional<Found>& run() {
+  const auto& run() {
     push(0, 0);
     while (!open_.empty()) {
       const NodePair pair = open_.back();
@@ -80,7 +118,7 @@ class Search {
         }
       }
     }
-    return found_;
+    return kept_.found();
   }
 
  private:
@@ -154,18 +192,16 @@ class Search {
     for (const ContactEvent& event : events) {
       const double size = sense_ == RotationSense::positive ? event.angle : two_pi - event.angle;
       const double angle = std::max(0.0, size - event.error);
-      if (angle > best_angle_) continue;
+      if (angle > kept_.within()) continue;
       const FeaturePair features{feature(rotating_.tree(), rotating_kind, rotating),
                                  feature(stationary_.tree(), stationary_kind, stationary)};
-      if (found_ && std::tie(found_->angle, found_->features) <= std::tie(angle, features)) continue;
-      found_ = Found{angle, event.error, features, rotating_kind, stationary_kind, rotating, stationary};
-      best_angle_ = angle;
+      kept_.add({angle, event.error, features, rotating_kind, stationary_kind, rotating, stationary});
       narrow_window();
     }
   }
 
   void narrow_window() {
-    reach_ = best_angle_ + keep_ties;
+    reach_ = kept_.within() + keep_ties;
     window_ =
         sense_ == RotationSense::positive ? AngleWindow::forward(reach_) : AngleWindow::backward(reach_);
   }
@@ -173,12 +209,11 @@ class Search {
   Stationary& stationary_;
   RotatingBody& rotating_;
   RotationSense sense_;
-  double best_angle_;
+  Kept kept_;
   double reach_ = 0;
   AngleWindow window_;
   SearchWork& work_;
   std::vector<NodePair> open_;
-  std::optional<Found> found_;
 };
 
 Vec3 about_axis(const Vec3& p, double angle) {
@@ -224,7 +259,8 @@ Limit limit_in(RotationSense sense, Angle range, Stationary& stationary, Rotatin
                SearchWork& work) {
   const Angle size = size_of(range);
   std::optional<Found> found;
-  if (size > Angle()) found = Search<Stationary>(stationary, rotating, sense, size.radians(), work).run();
+  if (size > Angle())
+    found = Search<Stationary, FirstOfAll>(stationary, rotating, sense, size.radians(), work).run();
   if (!found) return {size};
   return {Angle::radians(found->angle), LimitReason::contact,
           witness(stationary, rotating, *found, sign_of(sense) * found->angle),
@@ -260,6 +296,20 @@ RotationLimits first_contact(const RotationTable& stationary, RotatingBody& rota
 
 RotationLimits first_contact(RotatingBody& stationary, RotatingBody& rotating, const RotationRange& range) {
   return first_contact_of(stationary, rotating, range);
+}
+
+std::vector<FeatureContact> feature_contacts(const RotationTable& stationary, RotatingBody& rotating,
+                                             RotationSense sense, Angle range) {
+  std::vector<FeatureContact> contacts;
+  if (stationary.tree().empty() || rotating.tree().empty()) return contacts;
+  SearchWork work;
+  Search<const RotationTable, FirstOfEach> search(stationary, rotating, sense, range.radians(), work);
+  for (const auto& [feature, found] : search.run())
+    contacts.push_back({feature, Angle::radians(found.angle),
+                        witness(stationary, rotating, found, sign_of(sense) * found.angle).mobile_point});
+  std::stable_sort(contacts.begin(), contacts.end(),
+                   [](const FeatureContact& a, const FeatureContact& b) { return a.turned < b.turned; });
+  return contacts;
 }
 
 }  // namespace condyle::motion

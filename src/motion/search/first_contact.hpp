@@ -1,6 +1,7 @@
 #pragma once
 
 #include <compare>
+#include <vector>
 
 #include "condyle/first_contact.hpp"
 #include "motion/search/rotation_table.hpp"
@@ -23,5 +24,18 @@ RotationLimits first_contact(const RotationTable& stationary, RotatingBody& rota
 /// The same for a body that rests for a few searches only, at the pose where it starts: made ready as far as they look.
 RotationLimits first_contact(RotatingBody& stationary, RotatingBody& rotating,
                              const RotationRange& range = {});
+
+/// A feature of the rotating body where it first meets the stationary one.
+struct FeatureContact {
+  Feature feature;
+  Angle turned;
+  Vec3 point;  ///< in the rotating body's own frame, mm
+};
+
+/// Every feature of the rotating body that meets the stationary one on the way, once, in the order in which they do; of those at the same
+/// angle the lesser Feature first. As exact as first_contact(), and as long as one that meets nothing, if few do. The bodies must be free
+/// at the start.
+std::vector<FeatureContact> feature_contacts(const RotationTable& stationary, RotatingBody& rotating,
+                                             RotationSense sense, Angle range);
 
 }  // namespace condyle::motion

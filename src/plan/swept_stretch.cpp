@@ -1,0 +1,127 @@
+#include "plan/swept_stretch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace condyle::plan {
+namespace {
+
+/// How often the last step is halved, and how many are asked for at once.
+constexpr int halvings = 7;
+constexpr int steps_at_once = 8;
+/// A depth is halved so often; overhangs are looked for in steps of this, mm.
+constexpr int depth_halvings = 11;
+constexpr double overhang_step_mm = 0.2;
+
+void note(Stretch& stretch, const Need& need) {
+  if (!stretch.need || stretch.need->from_rad > need.from_rad) stretch.need = need;
+}
+
+/// Whether bone is swept at these depths of some of the probes.
+std::vector<std::uint8_t> swept(const std::vector<Probe>& probes, const std::vector<std::size_t>& which,
+                                const std::vector<double>& depth, const std::vector<SweepTo>& sweeps) {
+  Points points;
+  for (std::size_t k = 0; k < which.size(); ++k) points.push_back(probes[which[k]].at(depth[k]));
+  std::vector<std::uint8_t> is(which.size(), 0);
+  for (const SweepTo& sweep : sweeps) {
+    const std::vector<double> first = sweep.sweep->first_inside(points, sweep.reach);
+    for (std::size_t k = 0; k < is.size(); ++k)
+      if (std::isfinite(first[k])) is[k] = 1;
+  }
+  return is;
+}
+
+}  // namespace
+
+std::vector<std::optional<Need>> needs_of(const Points& points, const std::vector<SweepTo>& sweeps) {
+  std::vector<std::optional<Need>> needs(points.size());
+  for (std::size_t s = 0; s < sweeps.size(); ++s) {
+    const std::vector<double> first = sweeps[s].sweep->first_inside(points, sweeps[s].reach);
+    for (std::size_t i = 0; i < first.size(); ++i)
+      if (std::isfinite(first[i]) && (!needs[i] || first[i] < needs[i]->from_rad))
+        needs[i] = Need{s, first[i]};
+  }
+  return needs;
+}
+
+std::vector<Stretch> stretches(const std::vector<Probe>& probes, const std::vector<SweepTo>& sweeps) {
+  std::vector<Stretch> found(probes.size());
+  Points points;
+  for (const Probe& probe : probes) points.push_back(probe.from);
+  std::vector<std::size_t> going;
+  const auto begins = needs_of(points, sweeps);
+  for (std::size_t i = 0; i < probes.size(); ++i)
+    if (begins[i]) note(found[i], *begins[i]), going.push_back(i);
+
+  // Whole steps, some at once.
+  std::vector<std::size_t> between;  // whose stretch ends within the next step
+  for (int step = 0; !going.empty(); step += steps_at_once) {
+    points = {};
+    for (const std::size_t i : going)
+      for (int k = 1; k <= steps_at_once; ++k)
+        points.push_back(probes[i].at(std::min((step + k) * step_mm, probes[i].room)));
+    const auto needs = needs_of(points, sweeps);
+    std::vector<std::size_t> go_on;
+    for (std::size_t g = 0; g < going.size(); ++g) {
+      Stretch& stretch = found[going[g]];
+      const double room = probes[going[g]].room;
+      int k = 0;
+      while (k < steps_at_once && needs[g * steps_at_once + k] && stretch.length < room) {
+        note(stretch, *needs[g * steps_at_once + k]);
+        stretch.length = std::min((step + ++k) * step_mm, room);
+      }
+      if (stretch.length >= room) continue;
+      (k < steps_at_once ? between : go_on).push_back(going[g]);
+    }
+    going = std::move(go_on);
+  }
+  // The last step, halved.
+  double half = step_mm / 2;
+  for (int i = 0; i < halvings && !between.empty(); ++i, half /= 2) {
+    points = {};
+    for (const std::size_t b : between)
+      points.push_back(probes[b].at(std::min(found[b].length + half, probes[b].room)));
+    const auto needs = needs_of(points, sweeps);
+    for (std::size_t b = 0; b < between.size(); ++b)
+      if (needs[b]) {
+        Stretch& stretch = found[between[b]];
+        stretch.length = std::min(stretch.length + half, probes[between[b]].room);
+        note(stretch, *needs[b]);
+      }
+  }
+  // Past the last point that is swept.
+  for (const std::size_t b : between) found[b].length = std::min(found[b].length + 2 * half, probes[b].room);
+  return found;
+}
+
+std::vector<double> depths(const std::vector<Probe>& probes, const std::vector<SweepTo>& sweeps) {
+  std::vector<double> depth(probes.size(), 0), width(probes.size(), 0);
+  std::vector<std::size_t> all(probes.size()), going, scanned;
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  const std::vector<std::uint8_t> at_surface = swept(probes, all, depth, sweeps);
+  for (const std::size_t i : all)
+    if (at_surface[i]) going.push_back(i), width[i] = probes[i].room;
+  // Under an overhang the last step that is swept.
+  std::vector<double> scan;
+  for (const std::size_t i : all)
+    for (double down = overhang_step_mm; !at_surface[i] && down < probes[i].overhang;
+         down += overhang_step_mm)
+      scanned.push_back(i), scan.push_back(down);
+  const std::vector<std::uint8_t> below = swept(probes, scanned, scan, sweeps);
+  for (std::size_t k = 0; k < scan.size(); ++k)
+    if (below[k]) {
+      const std::size_t i = scanned[k];
+      if (width[i] == 0) going.push_back(i);
+      depth[i] = scan[k], width[i] = overhang_step_mm;
+    }
+  for (int halving = 0; halving < depth_halvings && !going.empty(); ++halving) {
+    std::vector<double> middle;
+    for (const std::size_t i : going) width[i] /= 2, middle.push_back(depth[i] + width[i]);
+    const std::vector<std::uint8_t> is = swept(probes, going, middle, sweeps);
+    for (std::size_t k = 0; k < going.size(); ++k)
+      if (is[k]) depth[going[k]] = middle[k];
+  }
+  return depth;
+}
+
+}  // namespace condyle::plan

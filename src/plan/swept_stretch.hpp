@@ -1,0 +1,53 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "plan/sweep.hpp"
+
+/// How far below a point what is swept goes.
+
+namespace condyle::plan {
+
+/// A motion and how far it shall go.
+struct SweepTo {
+  const Sweep* sweep;
+  Angle reach;
+};
+
+/// Which target needs a piece of bone, and from which angle of its motion on.
+struct Need {
+  std::size_t target = 0;
+  double from_rad = std::numeric_limits<double>::infinity();
+};
+
+/// From here inwards, as far as there is room, mm: the direction is of about unit length.
+struct Probe {
+  Vec3 from, inwards;
+  double room;
+  double overhang = 0;  ///< so deep it is looked for what is swept under bone that is not
+
+  Vec3 at(double depth) const { return from + depth * inwards; }
+};
+
+/// The swept stretch that begins at a probe; no need if it has none.
+struct Stretch {
+  double length = 0;
+  std::optional<Need> need = {};
+};
+
+/// Of each point the need of the sweep that covers it first.
+std::vector<std::optional<Need>> needs_of(const Points& points, const std::vector<SweepTo>& sweeps);
+
+/// Steps along a direction, mm: what is not swept for less than this is not seen.
+inline constexpr double step_mm = 0.1;
+
+/// Found by steps, and the last one halved; to within 0.001 mm past its end.
+std::vector<Stretch> stretches(const std::vector<Probe>& probes, const std::vector<SweepTo>& sweeps);
+
+/// Of each probe the depth to which bone goes: to the end of the swept stretch that begins at it, if it has no other one; of one that is not
+/// swept itself to the end of the deepest there is under an overhang. By halving, to 1/2000 of the room.
+std::vector<double> depths(const std::vector<Probe>& probes, const std::vector<SweepTo>& sweeps);
+
+}  // namespace condyle::plan
