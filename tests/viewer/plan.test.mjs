@@ -93,6 +93,7 @@ test("measures have their values, bands, reasons and definitions, and are drawn"
     if (note) assert.ok(said.includes(note), note);
     assert.ok(said.includes(definition), definition);
   }
+  for (const sentence of text.measures.left_out) assert.ok(said.includes(sentence), sentence);
   assert.equal(await count(page, isVermilion), 0);
   await page.getByLabel("Draw axes, rim and alpha points on the bones").check();
   assert.ok(await count(page, isVermilion) > 50);

@@ -157,8 +157,8 @@ export interface StoredMeasure {
   part: "femur" | "acetabulum" | "both";
   unit: string;
   value: number | null;
-  why_none?: string;
-  note?: string;
+  why_none: string | null;
+  note: string | null;
   definition: string;
   source: string;
   normal: { low: number; high: number; meaning: string; source: string } | null;
@@ -169,6 +169,8 @@ type Three = [number, number, number];
 
 export interface StoredMeasures {
   pelvis_frame: string;
+  /// Pieces of the meshes that are not measured, a sentence for each bone.
+  left_out: string[];
   measures: StoredMeasure[];
   /// Points of the femur in M, those of the hip bone in F.
   around_neck: { hour: number; alpha_deg: number | null; alpha_at_1mm_deg: number | null; alpha_point_mm: Three | null }[];

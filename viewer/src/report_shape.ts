@@ -72,9 +72,9 @@ const surface = object({
 const part = object({ name: text, first_vertex: count, vertices: count, contact: oneOf("ends", "bearing", "soft") });
 
 const measures = object({
-  pelvis_frame: text,
+  pelvis_frame: text, left_out: list(text),
   measures: list(object({
-    key: text, part: oneOf("femur", "acetabulum", "both"), unit: text, value: orNull(number), why_none: ifThere(text), note: ifThere(text),
+    key: text, part: oneOf("femur", "acetabulum", "both"), unit: text, value: orNull(number), why_none: orNull(text), note: orNull(text),
     definition: text, source: text, normal: orNull(object({ low: number, high: number, meaning: text, source: text })),
     band: orNull(object({ p5: orNull(number), p95: orNull(number) })),
   })),

@@ -27,7 +27,7 @@ function row({ key, unit, value, band, normal }: StoredMeasure, hasBands: boolea
   ];
 }
 
-function sentences(measures: readonly StoredMeasure[], said: (measure: StoredMeasure) => string | undefined): string[] {
+function sentences(measures: readonly StoredMeasure[], said: (measure: StoredMeasure) => string | null): string[] {
   return measures.filter((measure) => said(measure)).map((measure) => words.ofMeasure(measureName(measure.key, measure.unit), said(measure)!));
 }
 
@@ -55,8 +55,8 @@ export function shapePanel(shape: StoredMeasures, scene: JointScene | null): HTM
   const folded = (title: string, texts: string[]) => {
     if (texts.length) parts.push(html("details", { class: "folded" }, html("summary", {}, title), lines(texts)));
   };
-  const reasons = sentences(measures, ({ value, why_none }) => (value === null ? why_none : undefined));
-  const notes = sentences(measures, ({ note }) => note);
+  const reasons = sentences(measures, ({ value, why_none }) => (value === null ? why_none : null));
+  const notes = [...shape.left_out, ...sentences(measures, ({ note }) => note)];
   if (reasons.length) parts.push(html("h3", {}, words.notMeasured), lines(reasons));
   if (notes.length) parts.push(html("h3", {}, words.readWith), lines(notes));
   folded(words.definitions, measures.map(({ key, unit, definition, source }) =>
