@@ -189,8 +189,8 @@ void add_study(CLI::App& app) {
       "wrong (exit code 4)");
   group_help(*command, {{"Most used", {"--out", "--motion", "--band", "--map", "--shard"}},
                         {"Question",
-                         {"--anatomy", "--vary", "--depth", "--measures", "--resect",
-                          "--load", "--follow-load", "--force", "--along"}},
+                         {"--anatomy", "--vary", "--depth", "--measures", "--resect", "--load",
+                          "--follow-load", "--force", "--along"}},
                         resection_group(),
                         uncertainty_group(),
                         {"Contact",
