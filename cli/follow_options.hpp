@@ -23,8 +23,6 @@ struct FollowGiven {
   std::string record;
   bool load = false;
   std::shared_ptr<BalanceGiven> balance = std::make_shared<BalanceGiven>();
-
-  bool any() const noexcept { return load || !record.empty(); }
 };
 
 /// `excluded`: options of which neither the one nor the other may be given beside.

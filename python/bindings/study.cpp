@@ -14,7 +14,7 @@
 namespace condyle::python {
 namespace {
 
-// Of what StudyLoad of Python has checked.
+// These read what StudyLoad of Python has checked.
 
 ContactChanges contact_in(const py::dict& given) {
   const auto numbers = [&](const char* name) { return given[name].cast<std::vector<double>>(); };

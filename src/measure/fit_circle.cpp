@@ -30,7 +30,7 @@ struct Weighted {
   double weight;
 };
 
-/// Of a contour, so short that the distance from a circle is linear along it, to some micrometres.
+/// A part of a contour, so short that the distance from a circle is linear along it, to some micrometres.
 struct Part {
   Vec2 from, to;
   double length;

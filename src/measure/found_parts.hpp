@@ -21,7 +21,7 @@ struct FoundParts {
   std::string socket_note;      ///< what angles of the socket must be read with; empty if nothing
   std::optional<Vec3> opening;  ///< of the socket, roughly
   std::string why_no_opening;   ///< empty if there is one
-  /// Of each vertex whether the mesh ends there: on an open edge, on a face that closes the bone where its image ends, or on one that
+  /// A flag for each vertex: the mesh ends there, on an open edge, on a face that closes the bone where its image ends, or on one that
   /// looks like it.
   std::vector<char> hip_bone_ends, femur_ends;
   std::string why_no_condyles;  ///< of the femur; empty if it shows them

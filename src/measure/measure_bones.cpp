@@ -110,7 +110,7 @@ void set_socket(const Body& fixed, const Mesh& hip_bone, const Sphere& head, Fou
     parts.socket_note = core::formatted("the centres of head and socket are %.0f mm apart", apart);
 }
 
-/// Of a hip bone that is inside out the wall behind the socket faces the head.
+/// A hip bone that is inside out faces the head with the wall behind its socket.
 void set_opening(const std::string& name, const Mesh& hip_bone, const Sphere& head, FoundParts& parts) {
   if (is_inside_out(hip_bone))
     parts.why_no_opening = name + "'s triangles are wound the other way: its socket faces away from the head";

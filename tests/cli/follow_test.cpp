@@ -196,6 +196,9 @@ TEST_F(Follow, AStudyFollowsALoad) {
   const auto limits = rows_of(folder / "study/limits.csv");
   EXPECT_EQ(std::stod(field(limits, 1, "limit_deg")), limit["limit_deg"].get<double>());
   EXPECT_EQ(field(rows_of(folder / "study/hips.csv"), 1, "exact"), "0");
+  const Ran planned = run("study joints.csv --out planned --resect flexion=90" + force);
+  EXPECT_EQ(planned.exit_code, 3);
+  EXPECT_NE(planned.err.find("is a free joint, and a study plans none"), std::string::npos) << planned.err;
   for (const auto& [arguments, saying] : {std::pair{"--follow-load", "needs --force"},
                                           {"--force 1 2 3", "needs --load or --follow-load"},
                                           {"--follow-load --load \"\" --force 1 2 3", "stands beside --load"},

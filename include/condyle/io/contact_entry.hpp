@@ -25,7 +25,7 @@ struct LayerEntry {
   /// A text file with the thickness at each vertex of the surface, in the joint file's units; then nothing else is given.
   std::optional<std::filesystem::path> thickness_file = {};
   double mm_per_unit = 1;  ///< of that file
-  /// Of a thickness that varies: what lies beyond is noted.
+  /// Least and greatest thickness that a layer of varying thickness should have; a note names what lies beyond.
   std::optional<std::array<double, 2>> thickness_bounds_mm = {};
 };
 

@@ -188,7 +188,7 @@ class ModelMotion {
     beyond.look_at(limits, values);
   }
 
-  /// Of lengths the poses tell.
+  /// Notes angles that look like another unit. Lengths are checked by the poses that they lead to.
   static void check_unit(const ModelCoordinate& coordinate, const std::vector<double>& values,
                          std::vector<ContactNote>& notes) {
     if (coordinate.motion == CoordinateMotion::translational) return;

@@ -61,6 +61,11 @@ void check_kind(const StudyTable& table, const StudyRow& row, const LoadedJoint&
     throw FileError(fmt::format(
         "{}: is a free joint, and poses of a study have no translation: neither depth nor load is answered",
         file));
+  // A plan holds the translation, and would stand beside limits that do not.
+  if (options.resection)
+    throw FileError(fmt::format(
+        "{}: is a free joint, and a study plans none, whose limits follow a translation: condyle resect does",
+        file));
 }
 
 std::vector<Motion> motions_of(const LoadedJoint& loaded, const StudyOptions& options) {
