@@ -6,19 +6,20 @@
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
-#include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
 #include "mesh/surface_distance.hpp"
 #include "mesh/triangle_distance.hpp"
 #include "plan/burr.hpp"
 #include "plan/grown.hpp"
 #include "plan/refine.hpp"
+#include "plan/removed_bone.hpp"
+#include "plan/triangle_points.hpp"
 
 namespace condyle::plan {
 namespace {
 
 /// Asked beyond a target, so that what is left meets the other bone only past it.
-constexpr Angle beyond = Angle::degrees(0.005);
+constexpr Angle beyond = Angle::degrees(0.0005);
 /// A motion that kept bone stops is planned short of that.
 constexpr Angle short_of_kept = Angle::degrees(0.001);
 /// Where surfaces still meet they go down to where they are clear, and by this, mm, as often as that was; so often at most.
@@ -34,8 +35,6 @@ constexpr int most_burrs = 3;
 constexpr int most_stops = 20;
 /// Points in which a surface is asked for what goes: so far apart, and so far outside of it too, mm.
 constexpr double search_spacing_mm = 1, search_outside_mm = 1;
-/// What is removed is asked so far apart for what had to be, mm.
-constexpr double least_spacing_mm = 0.15;
 
 /// A body without what is soft, and without what lies in the ball; which triangles of the mesh these are.
 motion::PartOfMesh counted(const Body& body, const Mesh& mesh, const Counting& counts,
@@ -51,27 +50,6 @@ motion::PartOfMesh counted(const Body& body, const Mesh& mesh, const Counting& c
     in_whole.push_back(t);
   }
   return {Mesh(std::move(part)), std::move(in_whole)};
-}
-
-/// Points of a triangle so far apart at the most, its corners among them: in rows along its longest side.
-std::vector<Vec3> spread(const std::array<Vec3, 3>& corners, double spacing_mm) {
-  const auto side = [&](std::size_t k) { return Vec3(corners[(k + 1) % 3] - corners[k]); };
-  std::size_t longest = 0;
-  for (std::size_t k = 1; k < 3; ++k)
-    if (side(k).squaredNorm() > side(longest).squaredNorm()) longest = k;
-  const Vec3 &from = corners[longest], &to = corners[(longest + 1) % 3], &apex = corners[(longest + 2) % 3];
-  const double length = side(longest).norm(),
-               height = length > 0 ? side(longest).cross(apex - from).norm() / length : 0;
-  const auto parts = [&](double over) { return std::max(1, static_cast<int>(std::ceil(over / spacing_mm))); };
-  std::vector<Vec3> points{apex};
-  const int rows = parts(height);
-  for (int row = 1; row <= rows; ++row) {
-    const double down = static_cast<double>(row) / rows;
-    const int columns = parts(down * length);
-    for (int column = 0; column <= columns; ++column)
-      points.push_back(apex + down * (from + (to - from) * (static_cast<double>(column) / columns) - apex));
-  }
-  return points;
 }
 
 /// With all triangles that share a vertex with one of these.
@@ -154,7 +132,7 @@ std::vector<std::uint8_t> BoneCut::to_cut(const TriMesh& pieces, const std::vect
     const std::array<Vec3, 3> corners{pieces.corner(t, 0), pieces.corner(t, 1), pieces.corner(t, 2)};
     if (bears(corners)) continue;
     const Vec3 outwards = (corners[1] - corners[0]).cross(corners[2] - corners[0]).stableNormalized();
-    for (const Vec3& p : spread(corners, search_spacing_mm))
+    for (const Vec3& p : points_of_triangle(corners, search_spacing_mm))
       for (const double off : {0.0, search_outside_mm}) {
         points.push_back(p + off * outwards);
         of.push_back(t);
@@ -339,7 +317,7 @@ bool BoneCut::finish() {
   surface_->scale_depths(share_);
   surface_->unfold();
   if (!request_.burr_mm) return true;
-  before_burr_mm3_ = removed_mm3();
+  before_burr_mm3_ = removed_mm3(*surface_);
   // What is unfolded may be in the way of another ball.
   for (int i = 0; i < most_burrs; ++i) {
     Burr burr(*surface_, *request_.burr_mm / 2);
@@ -348,9 +326,9 @@ bool BoneCut::finish() {
       return false;
     }
     burr_in_kept_mm_ = burr.in_kept_mm();
-    const double made_mm3 = removed_mm3();
+    const double made_mm3 = removed_mm3(*surface_);
     surface_->unfold();
-    if (removed_mm3() == made_mm3) break;
+    if (removed_mm3(*surface_) == made_mm3) break;
   }
   return true;
 }
@@ -414,21 +392,6 @@ bool BoneCut::reaches_by_smaller_triangles() const {
   return false;
 }
 
-double BoneCut::removed_mm3() const {
-  const std::vector<CutSurface::Vertex>& vertices = surface_->vertices();
-  const auto deepest = std::max_element(vertices.begin(), vertices.end(),
-                                        [](const auto& a, const auto& b) { return a.depth_mm < b.depth_mm; });
-  const TriMesh& before = surface_->body().mesh;
-  const Mesh after = surface_->mesh();
-  mesh::CompensatedSum volume;
-  for (const Index t : surface_->moving())
-    if (std::any_of(before.triangles[t].begin(), before.triangles[t].end(),
-                    [&](Index v) { return vertices[v].depth_mm > 0; }))
-      volume.add(mesh::volume_below(before, t, deepest->before) -
-                 mesh::volume_below(after, t, deepest->before));
-  return volume.value();
-}
-
 CutBone BoneCut::cut_bone() const {
   CutBone cut{surface_->body(), surface_->body().mesh, {}, {}, {}, 0, 0, 0, 0, 0, 0, Vec3::Zero()};
   cut.body.mesh = surface_->mesh();
@@ -443,56 +406,14 @@ CutBone BoneCut::cut_bone() const {
     cut.needed_from_deg.push_back(goes ? Angle::radians(vertex.need->from_rad).degrees() : 0);
     if (depth > cut.deepest_mm) cut.deepest_mm = depth, cut.deepest_at = vertex.before;
   }
-  const TriMesh& before = cut.before;
-  for (const Index t : surface_->moving())
-    if (std::any_of(before.triangles[t].begin(), before.triangles[t].end(),
-                    [&](Index v) { return surface_->vertices()[v].depth_mm > 0; }))
-      cut.area_mm2 += (before.corner(t, 1) - before.corner(t, 0))
-                          .cross(before.corner(t, 2) - before.corner(t, 0))
-                          .norm() /
-                      2;
-  cut.volume_mm3 = removed_mm3();
+  cut.area_mm2 = removed_mm2(*surface_);
+  cut.volume_mm3 = removed_mm3(*surface_);
   if (request_.burr_mm) cut.burr_volume_mm3 = cut.volume_mm3 - before_burr_mm3_;
   cut.burr_in_kept_mm = burr_in_kept_mm_;
-  cut.least_volume_mm3 = cut.volume_mm3 * least_share();
+  std::vector<SweepTo> targets;
+  for (std::size_t i = 0; i < sweeps_.size(); ++i) targets.push_back({sweeps_[i].get(), reach_[i]});
+  cut.least_volume_mm3 = cut.volume_mm3 * swept_share(*surface_, targets);
   return cut;
-}
-
-/// Of what was removed, the share that the other bone sweeps over.
-double BoneCut::least_share() const {
-  Points points;
-  std::vector<double> weight;
-  for (const Index t : surface_->moving()) {
-    std::array<Vec3, 3> p{}, d{};
-    double deepest = 0;
-    for (int k = 0; k < 3; ++k) {
-      const CutSurface::Vertex& vertex = surface_->vertices()[surface_->body().mesh.triangles()[t][k]];
-      p[k] = vertex.before, d[k] = vertex.depth_mm * vertex.inwards;
-      deepest = std::max(deepest, vertex.depth_mm);
-    }
-    if (deepest == 0) continue;
-    const int layers = static_cast<int>(std::ceil(deepest / least_spacing_mm));
-    // The middles of the four triangles that halved sides make.
-    constexpr std::array<std::array<double, 2>, 4> middles{
-        {{1. / 3, 1. / 3}, {1. / 6, 1. / 6}, {2. / 3, 1. / 6}, {1. / 6, 2. / 3}}};
-    for (const auto& [u, v] : middles)
-      for (int layer = 0; layer < layers; ++layer) {
-        const double s = (layer + 0.5) / layers;
-        const Vec3 down = d[0] + u * (d[1] - d[0]) + v * (d[2] - d[0]);
-        points.push_back(p[0] + u * (p[1] - p[0]) + v * (p[2] - p[0]) + s * down);
-        const Vec3 along_u = p[1] - p[0] + s * (d[1] - d[0]), along_v = p[2] - p[0] + s * (d[2] - d[0]);
-        weight.push_back(-down.dot(along_u.cross(along_v)) / layers);
-      }
-  }
-  std::vector<std::uint8_t> goes(points.size(), 0);
-  for (std::size_t i = 0; i < sweeps_.size(); ++i) {
-    const std::vector<double> first = sweeps_[i]->first_inside(points, reach_[i]);
-    for (std::size_t k = 0; k < goes.size(); ++k)
-      if (std::isfinite(first[k])) goes[k] = 1;
-  }
-  double all = 0, gone = 0;
-  for (std::size_t k = 0; k < goes.size(); ++k) all += weight[k], gone += goes[k] ? weight[k] : 0;
-  return all > 0 ? gone / all : 0;
 }
 
 bool BoneCut::sweeps_bearing() const {

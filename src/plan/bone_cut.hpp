@@ -71,9 +71,7 @@ class BoneCut {
   bool may_all_go(const std::vector<Met>& met);
   bool correct();
   bool finish();
-  double removed_mm3() const;
   bool stop(std::size_t target, Angle at, KeptBy by, const Vec3& point);
-  double least_share() const;
 
   const Joint& joint_;
   BodyRole role_;

@@ -23,6 +23,8 @@ constexpr double none_mm = 1e-3;
 /// A triangle that faces less than this the way it did is taken for turned over: the cosine. Lowered so often at most.
 constexpr double least_facing = 0.02;
 constexpr int most_unfoldings = 200;
+/// Nor do straight lines miss a bend by more than this share of the deepest cut: a shallow cut would be too large by as much.
+constexpr double missed_of_deepest = 0.005;
 /// No piece of a split edge is shorter than this share of the edges that the surface was made with.
 constexpr double shortest_piece = 0.04;
 /// The upper edge of a wall stands so far beside it, mm at edges of 1 mm, and as the edges' square: what chords of so long edges cut into a
@@ -156,6 +158,9 @@ std::vector<double> CutSurface::bends(const std::vector<SweepTo>& sweeps, double
     if (!vertices_[v].bends_seen) not_lowered.push_back(v);
   lower_vertices(not_lowered, sweeps);
   lower_overhangs(sweeps);
+  double deepest_mm = 0;
+  for (const Index v : near_vertices_) deepest_mm = std::max(deepest_mm, vertices_[v].depth_mm);
+  missed_mm = std::min(missed_mm, missed_of_deepest * deepest_mm);
   const double shortest = shortest_piece * edge_mm_;
   const mesh::EdgeTable edges(body_.mesh);
   std::vector<std::uint8_t> asked(edges.size(), 0);

@@ -7,7 +7,7 @@ namespace condyle::plan {
 namespace {
 
 /// How often the last step is halved, and how many are asked for at once.
-constexpr int halvings = 7;
+constexpr int halvings = 9;
 constexpr int steps_at_once = 8;
 /// A depth is halved so often; overhangs are looked for in steps of this, mm.
 constexpr int depth_halvings = 11;
