@@ -76,7 +76,8 @@ struct CutBone {
   double burr_volume_mm3 = 0;  ///< Of what was removed, what goes only because a burr is no smaller.
   /// By how much the burr's ball would have to enter bone that stays, at the most; 0 where it need not.
   double burr_in_kept_mm = 0;
-  double area_mm2 = 0;  ///< of the surface before, where the cut is deeper than a per cent of its deepest place
+  double area_mm2 =
+      0;  ///< of the surface before, where the cut is deeper than a per cent of its deepest place
   double deepest_mm = 0;
   Vec3 deepest_at = Vec3::Zero();  ///< on the surface before
 };
