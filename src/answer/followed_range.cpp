@@ -70,7 +70,7 @@ RecordedWay way_of(const Motion& motion, const FollowRecord& record) {
     return {{},
             formatted("the recorded angle begins %.4g degrees past the motion's start",
                       knots.front().turned.degrees())};
-  if (!(knots.back().turned > Angle())) return {{}, "the recorded angle does not go past the motion's start"};
+  if (!(knots.back().turned > still)) return {{}, "the recorded angle does not go past the motion's start"};
   return way;
 }
 

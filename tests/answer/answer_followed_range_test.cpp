@@ -138,6 +138,7 @@ TEST(AnswerFollowedRange, ChoosesTheMotionsThatTheRecordLeadsAlong) {
   EXPECT_EQ(names(record(-10, 60, 0.1)), "flexion extension ");
   EXPECT_EQ(names(record(0, 60, 0.1)), "flexion ");
   EXPECT_EQ(names(record(5, 60, 0.1)), "");
+  EXPECT_EQ(names(record(-1e-7, 60, 0.1)), "flexion ") << "rounding is no motion";
   FollowRecord back = record(0, 30, 0.1);
   back.frames.push_back({{Angle::degrees(20), Angle(), Angle()}});
   EXPECT_EQ(names(back), "");

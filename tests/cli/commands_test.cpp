@@ -146,6 +146,8 @@ TEST_F(Command, ABadFileEndsWithThree) {
   expect_refused(3, "inspect .", ".");
   expect_refused(3, "frame none.toml", "none.toml");
   expect_refused(3, "frame femur.ply", "femur.ply: line 1: not TOML");
+  folder.file("in/model.osim", "<?xml version=\"1.0\"?>\n<OpenSimDocument Version=\"40000\"/>");
+  expect_refused(3, "rom model.osim", "condyle init model.osim --joint NAME makes a joint file of it");
   expect_refused(3, "frame .", ".");
   write_joint("\"right\"", "\"up\"");
   expect_refused(3, "frame right_hip.toml",

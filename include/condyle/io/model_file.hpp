@@ -112,6 +112,8 @@ enum class ModelNoteCode : std::uint8_t {
   not_used,             ///< Kinds of components, and how many of each.
   welded,               ///< Bodies that are one.
   oblique_axis,         ///< A hinge does not turn about an axis to the side.
+  turned_frame,         ///< The joint's frame is far from its body's: angles may not be what they are called.
+  given_otherwise,      ///< The side or the joint is given, and names say another.
   contact_left_out,     ///< It is not applied, or lacks a surface.
   several_contacts,     ///< Between the two bodies; one is taken.
   measured_thickness,   ///< Near to OpenSim-JAM's, not equal.

@@ -26,7 +26,18 @@ namespace {
 
 using io::TomlTable;
 
+/// Whether the text is XML, as models of OpenSim are, and no joint file.
+bool is_xml(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+  return first != text.npos && text[first] == '<';
+}
+
 toml::table parsed(std::string_view text, const std::filesystem::path& path) {
+  if (is_xml(text))
+    throw FileError(
+        fmt::format("{}: is XML and no joint file; if it is a model of OpenSim, condyle init {} "
+                    "--joint NAME makes a joint file of it",
+                    path.string(), path.string()));
   if (const auto line = io::line_nested_too_deep(text))
     throw FileError(fmt::format("{}: line {}: keys, lists and tables may be nested {} deep, not deeper",
                                 path.string(), *line, io::most_toml_levels));

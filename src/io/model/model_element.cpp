@@ -143,15 +143,17 @@ ModelFunction ModelElement::function_of(const XmlElement& element, int depth) co
 }
 
 std::optional<ModelFunction> ModelElement::function() const {
+  std::optional<ModelFunction> found;
   for (const XmlElement& child : element_->children) {
     const bool is_wrapper = child.name == "function" || child.name == "coupled_coordinates_function";
     if (is_wrapper && child.children.size() > 1)
       fail_at(child, fmt::format("{}: is more than one", child.name));
-    if (is_wrapper && !child.children.empty()) return function_of(child.children.front(), 0);
-    if (!is_wrapper && (child.name_attribute == "function" || is_function(child.name)))
-      return function_of(child, 0);
+    if (is_wrapper ? child.children.empty() : child.name_attribute != "function" && !is_function(child.name))
+      continue;
+    if (found) fail_at(child, "a second function");
+    found = function_of(is_wrapper ? child.children.front() : child, 0);
   }
-  return std::nullopt;
+  return found;
 }
 
 }  // namespace condyle::io

@@ -41,6 +41,10 @@ std::string_view name_of(ModelNoteCode code) noexcept {
       return "welded";
     case ModelNoteCode::oblique_axis:
       return "oblique_axis";
+    case ModelNoteCode::turned_frame:
+      return "turned_frame";
+    case ModelNoteCode::given_otherwise:
+      return "given_otherwise";
     case ModelNoteCode::contact_left_out:
       return "contact_left_out";
     case ModelNoteCode::several_contacts:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "condyle/error.hpp"
 #include "condyle/io/model_file.hpp"
@@ -40,6 +41,13 @@ std::string toml_pose(const Pose& X) {
 
 /// Bones of people of other sizes are scaled by 0.7 to 1.3 along each axis.
 constexpr double most_uneven_scale = 2;
+
+/// Frames of joints are turned against their bodies by less, subtalar axes by more.
+constexpr double most_turned_deg = 45;
+
+double farthest_axis_deg(const Eigen::Matrix3d& R) {
+  return std::acos(std::clamp(R.diagonal().minCoeff(), -1.0, 1.0)) * 180 / std::numbers::pi;
+}
 
 /// The names, or the first of very many.
 std::string some_of(std::vector<std::string> names) {
@@ -223,6 +231,33 @@ class ModelJointFile {
                     request_.side ? "given" : "by the ending of its name"));
     add("units = \"m\"");
     if (!mapping_.caveat.empty()) note(ModelNoteCode::oblique_axis, mapping_.caveat);
+    note_turned_frame();
+    note_given_otherwise();
+  }
+
+  /// Angles are named by the joint's frame. Bodies of OpenSim have X anterior, Y superior and Z to the right.
+  void note_turned_frame() {
+    const double degrees = farthest_axis_deg(mapping_.X_WF.linear());
+    if (degrees > most_turned_deg && mapping_.caveat.empty())
+      note(
+          ModelNoteCode::turned_frame,
+          fmt::format("an axis of the joint's frame is {:.0f} degrees from that of body {}, whose X, Y and Z "
+                      "should be anterior, superior and to the right: if they are, the names and the signs "
+                      "of the angles are not those of the anatomy",
+                      degrees, in_quotes(joint_.parent_body)));
+  }
+
+  void note_given_otherwise() {
+    const auto by_names = side_of(joint_);
+    if (by_names && *by_names != side_)
+      note(ModelNoteCode::given_otherwise,
+           fmt::format("the side is given as {}, and by its names joint {} is a {} one", name_of(side_),
+                       in_quotes(joint_.name), name_of(*by_names)));
+    const auto named = anatomy_of(joint_);
+    if (anatomy_ && named && *named != *anatomy_)
+      note(ModelNoteCode::given_otherwise,
+           fmt::format("the joint is given as {}, and by its names joint {} is of kind {}",
+                       name_of(*anatomy_), in_quotes(joint_.name), name_of(*named)));
   }
 
   void write_mesh(const NamedMesh& named, bool has_name) {
@@ -262,17 +297,18 @@ class ModelJointFile {
       add("# mesh = \"...\"  # to fill in: the model attaches none to this body");
       out_.proposal.to_fill_in.push_back(
           fmt::format("{}.mesh: the model attaches none to body {}", role, in_quotes(name)));
-    } else if (!meshes[0].mesh.path && out_.missing_body.empty()) {
-      out_.missing_body = missing(name, meshes);
+    } else if (!meshes[0].mesh.path) {
+      out_.missing_body += out_.missing_body.empty() ? model_.path.string() + ": " : "; ";
+      out_.missing_body += missing(name, meshes);
     }
   }
 
-  std::string missing(const std::string& body, const std::vector<NamedMesh>& meshes) const {
+  static std::string missing(const std::string& body, const std::vector<NamedMesh>& meshes) {
     std::vector<std::string> places;
     for (const NamedMesh& named : meshes)
       for (const fs::path& place : named.mesh.looked_in) places.push_back(place.string());
-    return fmt::format("{}: no mesh of body {} was found; looked for {}", model_.path.string(),
-                       in_quotes(body), fmt::join(places, ", "));
+    return fmt::format("no mesh of body {} was found; looked for {}", in_quotes(body),
+                       fmt::join(places, ", "));
   }
 
   void write_frame() {

@@ -37,14 +37,14 @@ std::optional<std::size_t> find_column(const MotionTable& table, std::string_vie
   const auto exact = std::find(columns.begin(), columns.end(), name);
   if (exact != columns.end()) return static_cast<std::size_t>(exact - columns.begin());
 
-  // Of a joint: its coordinate by itself, or paths that end with both names.
+  // A joint's coordinate has its plain name, or a path that ends with both names. A table that has both could mean either.
   const std::size_t slash = name.rfind('/');
+  std::optional<std::size_t> found;
   if (slash != name.npos)
     if (const auto plain = std::find(columns.begin(), columns.end(), name.substr(slash + 1));
         plain != columns.end())
-      return static_cast<std::size_t>(plain - columns.begin());
+      found = static_cast<std::size_t>(plain - columns.begin());
 
-  std::optional<std::size_t> found;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     if (name.empty() ||
         !(slash == name.npos ? coordinate_of(columns[c]) == name : is_path_of(columns[c], name)))

@@ -424,6 +424,7 @@ TEST_F(SmallModel, TakesColumnsOfItsJointOnly) {
   EXPECT_NEAR(flexion({"time", "hip_r/flex/value"}), 0.1, 1e-14);
   EXPECT_NEAR(flexion({"time", "/jointset/hip_l/flex/value", "/jointset/hip_r/flex/value"}), 0.2, 1e-14);
   EXPECT_THROW(flexion({"time", "/jointset/hip_l/flex/value"}), FileError);
+  EXPECT_THROW(flexion({"time", "flex", "/jointset/hip_r/flex/value"}), FileError) << "either";
   EXPECT_THROW(flexion({"time", "/jointset/chip_r/flex/value"}), FileError);
   EXPECT_THROW(flexion({"time", "/jointset/hip_r/flex/speed"}), FileError);
 }
@@ -462,6 +463,35 @@ TEST_F(SmallModel, SaysThatItsChildIsTheProximalBone) {
   EXPECT_TRUE(std::any_of(ankle.notes.begin(), ankle.notes.end(), [](const ModelNote& note) {
     return note.code == ModelNoteCode::exchanged_bodies;
   }));
+}
+
+TEST_F(SmallModel, SaysThatItsFrameIsTurnedInItsBody) {
+  const auto says = [&](std::string_view orientation) {
+    std::string text = Hip().text();
+    text.insert(text.find("<translation>"), fmt::format("<orientation>{}</orientation>", orientation));
+    const auto notes = propose_joint(read_model(written(text)), {.joint = "hip_r", .joint_file = {}}).notes;
+    return std::any_of(notes.begin(), notes.end(),
+                       [](const ModelNote& note) { return note.code == ModelNoteCode::turned_frame; });
+  };
+  for (const char* orientation : {"0 0 0", "0.7 0 0", "0 0.7 0", "0 0 -0.7"})
+    EXPECT_FALSE(says(orientation)) << orientation;
+  for (const char* orientation : {"0.9 0 0", "0 0.9 0", "0 3.14159 0", "0 0 -1.5708"})
+    EXPECT_TRUE(says(orientation)) << orientation;
+}
+
+TEST_F(SmallModel, SaysThatItIsGivenOtherwiseThanItIsCalled) {
+  const auto codes = [&](std::optional<Anatomy> anatomy, std::optional<Side> side) {
+    std::string text;
+    for (const ModelNote& note :
+         propose_joint(model({}), {.joint = "hip_r", .joint_file = {}, .anatomy = anatomy, .side = side})
+             .notes)
+      text += std::string(name_of(note.code)) + " ";
+    return text;
+  };
+  EXPECT_EQ(codes({}, {}), "");
+  EXPECT_EQ(codes(Anatomy::hip, Side::right), "");
+  EXPECT_EQ(codes({}, Side::left), "given_otherwise ");
+  EXPECT_EQ(codes(Anatomy::knee, {}), "given_otherwise ");
 }
 
 TEST_F(SmallModel, NeedsTwoBodiesThatMove) {
@@ -551,6 +581,11 @@ TEST_F(SmallModel, WithoutMeshesNamesWhereTheyWereLookedFor) {
   const ModelJointProposal proposed = propose_joint(model, {.joint = "hip_r", .joint_file = {}});
   EXPECT_NE(proposed.missing_body.find("no mesh of body 'femur_r' was found; looked for"), std::string::npos);
   EXPECT_NE(proposed.missing_body.find("Geometry/none.vtp"), std::string::npos);
+  fs::remove(folder_.path() / "pelvis.ply");
+  const ModelJointProposal neither =
+      propose_joint(read_model(folder_.path() / "model.osim"), {.joint = "hip_r", .joint_file = {}});
+  for (const char* body : {"no mesh of body 'pelvis'", "no mesh of body 'femur_r'"})
+    EXPECT_NE(neither.missing_body.find(body), std::string::npos) << neither.missing_body;
   EXPECT_NE(proposed.proposal.toml.find("none.vtp"), std::string::npos);
   EXPECT_THROW(read_joint(model, {.joint = "hip_r", .joint_file = {}}), FileError);
 }
@@ -660,12 +695,15 @@ TEST_F(SmallModel, FollowsSocketsAsTheyArePaths) {
 TEST_F(SmallModel, RefusesFunctionsThatItDoesNotRead) {
   for (const char* function :
        {"<FiberForceLengthCurve name=\"function\"/>", "<Polynomial name=\"function\"/>", "<GCVSpline/>",
-        "<Polynomial/>", "<function><Constant/><Constant/></function>"}) {
+        "<Polynomial/>", "<function><Constant/><Constant/></function>",
+        "<Constant><value>1</value></Constant><Constant><value>2</value></Constant>"}) {
     const Hip hip{.joint = axis("rotation1", "flex", "0 0 1", function) + axis("rotation2", "add", "1 0 0") +
                            axis("rotation3", "rot", "0 1 0")};
     const std::string said = refusal(hip.text());
     EXPECT_NE(said.find("rotation1: "), std::string::npos) << said;
-    EXPECT_TRUE(said.find("is not read") != said.npos || said.find("more than one") != said.npos) << said;
+    EXPECT_TRUE(said.find("is not read") != said.npos || said.find("more than one") != said.npos ||
+                said.find("a second function") != said.npos)
+        << said;
   }
 }
 
