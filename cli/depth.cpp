@@ -24,6 +24,7 @@
 #include "io/result/depth_result.hpp"
 #include "mesh/require_solid.hpp"
 #include "notes.hpp"
+#include "set_option.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -31,6 +32,7 @@ namespace {
 enum class Scope { vertices_and_pairs, pairs_only };
 
 struct DepthArguments {
+  ParametersGiven parameters;
   std::string joint, pose, matrix, out;
   DepthMethod method = DepthMethod::reliable;
   std::optional<std::string> about;
@@ -100,7 +102,7 @@ void depth_command(const DepthArguments& options, const CLI::App& command) {
   const bool by_normals = options.method == DepthMethod::normal;
   if (options.rays->any_of_rays() && !by_normals)
     throw UsageError("--casting, --rule, --reach: are for --method normal");
-  const LoadedJoint loaded = read_joint(options.joint);
+  const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
   const ContactEntry entry = contact_of(*options.rays, loaded.report.file, false);
   const Joint joint = by_normals ? joint_of_surfaces(entry, loaded.joint) : loaded.joint;
   const GivenPose given = pose_of(options, joint);
@@ -133,6 +135,7 @@ void add_depth(CLI::App& app) {
       "         condyle depth sample/hip.toml --pose \"flexion=110 internal_rotation=30\" --out deep\n"
       "         condyle depth sample/hip.toml --pose flexion=140 --method normal --casting mobile");
   auto options = std::make_shared<DepthArguments>();
+  options->parameters = add_set(*command);
   command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
   auto* pose = command->add_option(
       "--pose", options->pose,
@@ -180,7 +183,7 @@ void add_depth(CLI::App& app) {
       "Print the answer as JSON, with every number in full");
   add_strict(*command, options->strictness);
   group_help(*command, {{"Most used", {"--pose", "--method", "--out", "--json", "--strict"}},
-                        {"Question", {"--matrix", "--about", "--pairs-only"}},
+                        {"Question", {"--set", "--matrix", "--about", "--pairs-only"}},
                         {"Contact", {"--casting", "--rule", "--reach"}},
                         {"Output", {"--frame", "--ascii", "--csv", "--help"}}});
   command->callback([options, command] { depth_command(*options, *command); });

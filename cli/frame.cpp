@@ -10,18 +10,20 @@
 #include "commands.hpp"
 #include "io/result/frame_result.hpp"
 #include "notes.hpp"
+#include "set_option.hpp"
 
 namespace condyle::cli {
 namespace {
 
 struct FrameArguments {
+  ParametersGiven parameters;
   std::string joint;
   Strictness strictness = Strictness::notes;
   AnswerForm form = AnswerForm::text;
 };
 
 void frame_command(const FrameArguments& options, const CLI::App& command) {
-  const LoadedJoint joint = read_joint(options.joint);
+  const LoadedJoint joint = joint_at(read_joint(options.joint), options.parameters);
   const std::vector<JointNote> notes = noted(joint, options.strictness);
   const Provenance from = provenance_of(joint, words_of(command));
   print(options.form == AnswerForm::json ? to_json(joint, notes, &from) : to_text(joint));
@@ -34,6 +36,7 @@ void add_frame(CLI::App& app) {
       app.add_subcommand("frame", "Show the frame of a joint: centre, axes, fit, and what was converted");
   command->footer("Example: condyle frame right_hip.toml --json --strict");
   auto options = std::make_shared<FrameArguments>();
+  options->parameters = add_set(*command);
   command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
   command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; },

@@ -17,11 +17,13 @@
 #include "io/joint/name_joint_file.hpp"
 #include "io/result/load_result.hpp"
 #include "notes.hpp"
+#include "set_option.hpp"
 
 namespace condyle::cli {
 namespace {
 
 struct LoadArguments {
+  ParametersGiven parameters;
   std::string joint, pose, out;
   std::shared_ptr<ContactChanges> contact = std::make_shared<ContactChanges>();
   std::shared_ptr<BalanceGiven> balance = std::make_shared<BalanceGiven>();
@@ -31,7 +33,7 @@ struct LoadArguments {
 };
 
 void load_command(const LoadArguments& options, const CLI::App& command) {
-  const LoadedJoint loaded = read_joint(options.joint);
+  const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
   const Joint& joint = loaded.joint;
   const GivenPose given = given_pose(options.pose, joint);
   for (const std::string& remark : given.notes) note(remark);
@@ -64,6 +66,7 @@ void add_load(CLI::App& app) {
       "Example: condyle sample cartilages --scenario 7 --out sample\n"
       "         condyle load sample/cartilages.toml --e 12 --nu 0.42 --thickness 1.5 --force 0 1500 -200");
   auto options = std::make_shared<LoadArguments>();
+  options->parameters = add_set(*command);
   command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
   command
       ->add_option(
@@ -82,7 +85,7 @@ void add_load(CLI::App& app) {
       "Print the answer as JSON, with every number in full");
   add_strict(*command, options->strictness);
   group_help(*command, {{"Most used", {"--pose", "--force", "--e", "--nu", "--thickness"}},
-                        {"Question", {"--moment", "--force-frame", "--along", "--free-rotations"}},
+                        {"Question", {"--set", "--moment", "--force-frame", "--along", "--free-rotations"}},
                         {"Contact", {"--law", "--casting", "--rule", "--reach"}},
                         {"Output", {"--out", "--json", "--frame", "--ascii", "--strict", "--help"}}});
   command->callback([options, command] { load_command(*options, *command); });

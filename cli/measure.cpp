@@ -16,11 +16,13 @@
 #include "io/result/measure_result.hpp"
 #include "notes.hpp"
 #include "range_options.hpp"
+#include "set_option.hpp"
 
 namespace condyle::cli {
 namespace {
 
 struct MeasureArguments {
+  ParametersGiven parameters;
   std::string joint, out;
   double tilt_deg = 0;
   std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
@@ -30,7 +32,7 @@ struct MeasureArguments {
 };
 
 void measure_command(const MeasureArguments& options, const CLI::App& command) {
-  const LoadedJoint loaded = read_joint(options.joint);
+  const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   const Provenance from = provenance_of(loaded, words_of(command));
   if (!options.out.empty()) check_measure_folder(options.out, &from);
@@ -55,6 +57,7 @@ void add_measure(CLI::App& app) {
       "         condyle measure sample/hip.toml\n"
       "A measure that the meshes do not show is empty and says why.");
   auto options = std::make_shared<MeasureArguments>();
+  options->parameters = add_set(*command);
   command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
   command
       ->add_option("--tilt", options->tilt_deg,
@@ -71,9 +74,10 @@ void add_measure(CLI::App& app) {
       "--json", [options] { options->form = AnswerForm::json; },
       "Print the answer as JSON, with every number in full");
   add_strict(*command, options->strictness);
-  group_help(*command, {{"Most used", {"--band", "--tilt", "--definitions", "--out", "--json", "--strict"}},
-                        uncertainty_group(),
-                        {"Output", {"--help"}}});
+  group_help(*command,
+             {{"Most used", {"--band", "--tilt", "--definitions", "--out", "--json", "--strict", "--set"}},
+              uncertainty_group(),
+              {"Output", {"--help"}}});
   command->callback([options, command] { measure_command(*options, *command); });
 }
 

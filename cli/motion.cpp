@@ -23,11 +23,13 @@
 #include "io/result/motion_result.hpp"
 #include "model_options.hpp"
 #include "notes.hpp"
+#include "set_option.hpp"
 
 namespace condyle::cli {
 namespace {
 
 struct MotionArguments {
+  ParametersGiven parameters;
   std::string joint, motion, loads, out;
   std::string model_joint;  ///< of a model in place of a joint file
   std::optional<Side> side;
@@ -80,7 +82,7 @@ LoadedJoint joint_of(const MotionArguments& options) {
 }
 
 void motion_command(const MotionArguments& options, const CLI::App& command) {
-  const LoadedJoint loaded = joint_of(options);
+  const LoadedJoint loaded = joint_at(joint_of(options), options.parameters);
   JointMotion motion = motion_of(loaded, read_motion_table(options.motion));
   MotionRequest request = request_of(options, motion);
   check_motion_request(request);
@@ -121,6 +123,7 @@ void add_motion(CLI::App& app) {
       "The motion file's columns are those of [recorded_motion] in the joint file, or flexion_deg, x_mm and "
       "the like.");
   auto options = std::make_shared<MotionArguments>();
+  options->parameters = add_set(*command);
   command
       ->add_option("JOINT", options->joint,
                    "The joint file, .toml, or a model of OpenSim, .osim, with --joint")
@@ -177,13 +180,13 @@ void add_motion(CLI::App& app) {
   add_strict(*command, options->strictness);
   std::vector<std::string> of_models{"--joint", "--side"};
   for (const std::string& name : model_names()) of_models.push_back(name);
-  group_help(
-      *command,
-      {{"Most used", {"--motion", "--load", "--force", "--out", "--json"}},
-       {"Question", {"--between", "--loads", "--moment", "--force-frame", "--along", "--free-rotations"}},
-       {"Models", of_models},
-       {"Contact", {"--e", "--nu", "--thickness", "--law", "--casting", "--rule", "--reach"}},
-       {"Output", {"--cycle", "--maps", "--jam", "--frame", "--ascii", "--strict", "--help"}}});
+  group_help(*command,
+             {{"Most used", {"--motion", "--load", "--force", "--out", "--json"}},
+              {"Question",
+               {"--set", "--between", "--loads", "--moment", "--force-frame", "--along", "--free-rotations"}},
+              {"Models", of_models},
+              {"Contact", {"--e", "--nu", "--thickness", "--law", "--casting", "--rule", "--reach"}},
+              {"Output", {"--cycle", "--maps", "--jam", "--frame", "--ascii", "--strict", "--help"}}});
   command->callback([options, command] { motion_command(*options, *command); });
 }
 

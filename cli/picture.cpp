@@ -19,11 +19,13 @@
 #include "io/file/output_file.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "notes.hpp"
+#include "set_option.hpp"
 
 namespace condyle::cli {
 namespace {
 
 struct PictureArguments {
+  ParametersGiven parameters;
   std::string joint, pose, out;
   std::string view = "anterior", size = "1200x900";
   std::optional<BodyRole> hidden, transparent;
@@ -59,7 +61,7 @@ std::vector<PictureMark> marks_of(const Joint& joint, const Pose& X_FM) {
 }
 
 void picture_command(const PictureArguments& options, const CLI::App& command) {
-  const LoadedJoint loaded = read_joint(options.joint);
+  const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
   const Joint& joint = loaded.joint;
   const GivenPose given = given_pose(options.pose, joint);
   for (const std::string& remark : given.notes) note("pose: " + remark);
@@ -99,6 +101,7 @@ void add_picture(CLI::App& app) {
       "         condyle picture sample/hip.toml --pose \"flexion=110 internal_rotation=35\" --view "
       "anterior-superior --hide fixed --out deep.png");
   auto options = std::make_shared<PictureArguments>();
+  options->parameters = add_set(*command);
   command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
   command
       ->add_option("--pose", options->pose,
@@ -145,7 +148,7 @@ void add_picture(CLI::App& app) {
   add_strict(*command, options->strictness);
   group_help(
       *command,
-      {{"Most used", {"--pose", "--view", "--colour", "--hide", "--out"}},
+      {{"Most used", {"--pose", "--view", "--colour", "--hide", "--out", "--set"}},
        {"Output", {"--transparent", "--measures", "--range", "--field", "--size", "--strict", "--help"}}});
   command->callback([options, command] { picture_command(*options, *command); });
 }

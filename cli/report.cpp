@@ -29,6 +29,7 @@
 #include "range.hpp"
 #include "range_options.hpp"
 #include "resection_options.hpp"
+#include "set_option.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -36,6 +37,7 @@ namespace {
 enum class Content { joint, nothing };
 
 struct ReportArguments {
+  ParametersGiven parameters;
   Content content = Content::joint;
   std::string joint, out, motion;
   std::optional<std::string> title;
@@ -128,7 +130,7 @@ MeasureAnswer measured(const ReportArguments& options, const LoadedJoint& loaded
 void report_command(const ReportArguments& options, const CLI::App& command) {
   if (options.content == Content::nothing) return write_empty(options, command);
   if (options.joint.empty()) throw UsageError("report: JOINT is required, or --empty");
-  const LoadedJoint loaded = read_joint(options.joint);
+  const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
   check_plan(options, loaded.joint);
   std::optional<MotionTable> table;
   if (!options.motion.empty()) table = read_motion_table(options.motion);
@@ -211,6 +213,7 @@ void add_report(CLI::App& app) {
       "The file needs no server and no network, and sends nothing. Where limits cannot be answered it says "
       "why and shows the joint.");
   auto options = std::make_shared<ReportArguments>();
+  options->parameters = add_set(*command);
   command->add_option("JOINT", options->joint, "The joint file, .toml");
   command->add_flag_callback(
       "--empty", [options] { options->content = Content::nothing; },
@@ -253,13 +256,14 @@ void add_report(CLI::App& app) {
   add_strict(*command, options->strictness);
   HelpGroup of_cut = resection_group();
   of_cut.options.emplace_back("--curve");
-  group_help(*command, {{"Most used", {"--out", "--band", "--map", "--motion", "--load"}},
-                        {"Question", {"--vary", "--past", "--translation", "--measures", "--resect"}},
-                        of_cut,
-                        uncertainty_group(),
-                        {"Centre not held", follow_names()},
-                        {"Contact", {"--bearing", "--accept-reference-contact"}},
-                        {"Output", {"--empty", "--title", "--strict", "--help"}}});
+  group_help(*command,
+             {{"Most used", {"--out", "--band", "--map", "--motion", "--load"}},
+              {"Question", {"--set", "--vary", "--past", "--translation", "--measures", "--resect"}},
+              of_cut,
+              uncertainty_group(),
+              {"Centre not held", follow_names()},
+              {"Contact", {"--bearing", "--accept-reference-contact"}},
+              {"Output", {"--empty", "--title", "--strict", "--help"}}});
   command->callback([options, command] { report_command(*options, *command); });
 }
 

@@ -23,11 +23,13 @@
 #include "range.hpp"
 #include "range_options.hpp"
 #include "resection_options.hpp"
+#include "set_option.hpp"
 
 namespace condyle::cli {
 namespace {
 
 struct ResectArguments {
+  ParametersGiven parameters;
   std::string joint, out, protect_mobile, protect_fixed;
   std::size_t curve_points = ResectionQuery{}.curve_points;
   std::shared_ptr<ResectionGiven> cut = std::make_shared<ResectionGiven>();
@@ -42,7 +44,7 @@ std::vector<std::uint8_t> marks_in(const std::string& file, const Body& body) {
 }
 
 void resect_command(const ResectArguments& options, const CLI::App& command) {
-  const LoadedJoint loaded = read_joint(options.joint);
+  const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   Provenance from = provenance_of(loaded, words_of(command));
   for (const std::string& marks : {options.protect_mobile, options.protect_fixed})
@@ -81,6 +83,7 @@ void add_resect(CLI::App& app) {
       "         condyle rom plan/resected.toml\n"
       "Osseous: labrum, cartilage, capsule and the strength of the bone that is left are not modelled.");
   auto options = std::make_shared<ResectArguments>();
+  options->parameters = add_set(*command);
   command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
   CLI::Option* reach =
       command
@@ -117,7 +120,7 @@ void add_resect(CLI::App& app) {
       "Print the answer as JSON, with every number in full");
   add_strict(*command, options->strictness);
   group_help(*command,
-             {{"Most used", {"--reach", "--out", "--from", "--band", "--json", "--strict"}},
+             {{"Most used", {"--reach", "--out", "--from", "--band", "--json", "--strict", "--set"}},
               {"Bone that stays", {"--deepest", "--within", "--protect", "--protect-fixed", "--margin"}},
               {"Contact", {"--bearing", "--accept-reference-contact"}},
               uncertainty_group(),

@@ -25,6 +25,7 @@
 #include "notes.hpp"
 #include "range.hpp"
 #include "range_options.hpp"
+#include "set_option.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -33,6 +34,7 @@ enum class Task { limits, list_motions };
 enum class ReferenceContacts { count, leave_out };
 
 struct RomArguments {
+  ParametersGiven parameters;
   std::string joint, out;
   std::vector<std::string> motions;
   std::optional<double> allow_depth_mm;
@@ -96,7 +98,7 @@ RangeAnswer answer_of(const LoadedJoint& loaded, const RangeRequest& request) {
 }
 
 void rom_command(const RomArguments& options, const CLI::App& command) {
-  const LoadedJoint loaded = read_joint(options.joint);
+  const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
   std::vector<Motion> motions = chosen_motions(known_motions(loaded), options.motions);
   if (options.task == Task::list_motions) return print(list_of(motions, loaded.joint.anatomy));
   RangeRequest request = request_of(options, loaded, std::move(motions));
@@ -131,6 +133,7 @@ void add_rom(CLI::App& app) {
       "         condyle rom sample/hip.toml --map flexion=0:120:10 adduction=-30:20:10 --out range\n"
       "Exit code 6: the bodies are in contact in the reference pose and no option says what to do about it.");
   auto options = std::make_shared<RomArguments>();
+  options->parameters = add_set(*command);
   command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
   command
       ->add_option("--motion", options->motions,
@@ -181,7 +184,7 @@ void add_rom(CLI::App& app) {
   add_strict(*command, options->strictness);
   group_help(*command,
              {{"Most used", {"--motion", "--band", "--map", "--out", "--json"}},
-              {"Question", {"--list-motions", "--vary", "--past", "--translation", "--clock"}},
+              {"Question", {"--set", "--list-motions", "--vary", "--past", "--translation", "--clock"}},
               uncertainty_group(),
               {"Centre not held", follow_names()},
               {"Contact",

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "condyle/mesh.hpp"
 
 namespace condyle {
+
+enum class BodyRole { fixed, mobile };
 
 /// What contact of one of several meshes of a body means for a motion. With bone as `ends`, cartilage as `bearing` and a labrum
 /// as `soft`:
@@ -89,6 +92,73 @@ bool has_part(const Body& body, PartContact contact) noexcept;
 const BodyPart* part_of_vertex(const Body& body, std::size_t vertex) noexcept;
 const BodyPart* part_of_triangle(const Body& body, std::size_t triangle) noexcept;
 
+/// How a parameter moves its part, from its value v and the value v0 at which the meshes stand as they are given. With s = 1 of a
+/// right joint and -1 of a left one, about axes of the body's frame:
+///
+///     frontal       R_x(s (v - v0))     of a socket: more of it lies laterally
+///     inclination   R_x(-s (v - v0))    the same turned the other way: as a cup's inclination grows
+///     sagittal      R_z(v - v0)         top backwards
+///     tilt          R_z(-(v - v0))      top forwards, as an anterior tilt of the pelvis
+///     version       R_y(s (v - v0))     of the fixed body: its socket opens more to the front
+///                   R_y(-s (v - v0))    of the mobile body: its neck points more to the front
+///     translation   v - v0 along a direction
+///     size          v / v0, a factor of all lengths from the centre
+enum class ParameterKind : std::uint8_t {
+  frontal,
+  inclination,
+  sagittal,
+  tilt,
+  version,
+  translation,
+  size,
+};
+inline constexpr ParameterKind all_parameter_kinds[] = {
+    ParameterKind::frontal, ParameterKind::inclination, ParameterKind::sagittal, ParameterKind::tilt,
+    ParameterKind::version, ParameterKind::translation, ParameterKind::size};
+
+/// As in files: "inclination".
+std::string_view name_of(ParameterKind kind) noexcept;
+/// "deg", "mm", or "1" of a size, whose values have the unit of `as_given`.
+std::string_view unit_of(ParameterKind kind) noexcept;
+
+/// A number by which a part is moved. Rotations are in degrees, translations in mm.
+struct PartParameter {
+  std::string name;
+  ParameterKind kind = ParameterKind::frontal;
+  double low = 0, high = 0;       ///< the values that it may have
+  double value = 0;               ///< the value that it has
+  double described = 0;           ///< the value that the description of the joint, such as its file, gives it
+  double as_given = 0;            ///< at which the meshes stand as they are given
+  double sigma = 0;               ///< standard deviation, for bands
+  Vec3 direction = Vec3::Zero();  ///< of a translation: unit vector in the body's frame
+};
+
+/// Meshes of one body that move together against the rest of it, or a whole body that moves against its frame:
+///
+///     p' = c + t + R_x R_z R_y S (p - c)
+///
+/// turns them by version first, then in the sagittal, then in the frontal plane. docs/parts.md.
+struct PosedPart {
+  std::string name;
+  BodyRole body = BodyRole::fixed;
+  std::vector<std::string> meshes = {};  ///< names of its BodyParts; empty: the whole body
+  Vec3 centre = Vec3::Zero();            ///< c, in the body's frame, mm
+  std::vector<PartParameter> parameters = {};
+};
+
+/// A body before its parts are moved.
+struct BodyAsGiven {
+  Mesh mesh = Mesh(TriMesh{});
+  std::optional<BodyImage> image = {};
+  std::optional<Sphere> head = {};
+};
+
+/// The parts of a joint, and the bodies that they move.
+struct PosedParts {
+  std::vector<PosedPart> parts;
+  BodyAsGiven fixed, mobile;
+};
+
 /// Two bodies and how one rotates in the other. Both meshes are in the joint frame of joint_coordinates.hpp:
 /// millimetres, origin at the joint centre, X anterior, Y superior, Z to the subject's right. The mobile mesh
 /// is the one of zero angles: pose_at(coordinates(), angles) brings it to any other.
@@ -100,6 +170,7 @@ struct Joint {
   Body mobile;
   Anatomy anatomy = Anatomy::hip;  ///< of a hinge: the hip stands for any joint that flexes forwards
   TranslationFrame translation_frame = TranslationFrame::fixed;  ///< of a free joint
+  std::optional<PosedParts> posed = {};  ///< parts with a pose of their own; the bodies above have them moved
 
   CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
   /// False of a hinge that flexes forwards and is no joint in particular.
@@ -111,6 +182,26 @@ struct Joint {
   /// Whether its socket is a hip's, for everything inferred from that: clock faces, normal ranges, the checks of its axes.
   bool is_hip() const noexcept { return anatomy == Anatomy::hip && names_its_joint(); }
 };
+
+/// A value of a parameter, by the names of its part and of itself: "cup.inclination".
+struct ParameterValue {
+  std::string name;
+  double value = 0;
+};
+
+/// Values from "cup.inclination=42 cup.version=15", separated by blanks or commas. Throws UsageError for other text.
+std::vector<ParameterValue> parse_parameters(std::string_view text);
+
+/// The joint at these values; parameters that are not named keep theirs. Coordinates of a part that is moved are rounded once more; where
+/// all its parameters are as given, they keep every bit. Throws UsageError for a name that there is not, with the names there are, a
+/// value outside of its range, and one that is given twice. Linear in the meshes.
+Joint with_parameters(const Joint& joint, std::span<const ParameterValue> values);
+
+/// "cup.inclination 42 deg instead of 40": the parameters whose values differ from those of the description; empty if none does.
+std::string changed_parameters(const Joint& joint);
+
+/// Whether a parameter has a standard deviation.
+bool has_uncertain_parameters(const Joint& joint) noexcept;
 
 /// A joint whose mobile body keeps this translation, of the fixed body's axes in mm: the same joint seen from where the
 /// mobile body's origin is. With R_FM p_M + t = p_F and t held, p_F - t = R_FM p_M is a rotation about the origin, and all that

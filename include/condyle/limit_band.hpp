@@ -37,6 +37,7 @@ struct BandOptions {
 /// Widths of the band, 5 to 95 %, where only one source is uncertain.
 struct BandShares {
   Angle centre, axes, surface;
+  Angle parameters = {};  ///< of parts with a pose of their own: all of them together
 };
 
 /// The spread of one motion's limit.
@@ -47,12 +48,12 @@ struct LimitBand {
   double share_in_contact_at_start = 0;
 };
 
-/// Bands of these motions, in their order: each of `samples` joints has its centre displaced, its axes rotated and both
-/// surfaces moved, by a Latin hypercube of the seed; its limits are exact. If a bearing surface is known, that of the
+/// Bands of these motions, in their order: each of `samples` joints has its centre displaced, its axes rotated, both
+/// surfaces and its uncertain parts moved, by a Latin hypercube of the seed; its limits are exact. If a bearing surface is known, that of the
 /// joint as given is used in all. The same bits whatever the threads.
 ///
 /// Throws UsageError for fewer than 20 samples, a standard deviation that is negative or not finite, and motions that
-/// check_motion() refuses. Up to four searches per sample, one with all sources together and one with each source by
+/// check_motion() refuses. Up to five searches per sample, one with all sources together and one with each source by
 /// itself, of some milliseconds each for twelve motions of a hip.
 std::vector<LimitBand> limit_bands(const Joint& joint, std::span<const Motion> motions,
                                    const RangeOptions& range, const BandOptions& options = {});

@@ -21,8 +21,6 @@
 
 namespace condyle {
 
-enum class BodyRole { fixed, mobile };
-
 /// The axes of a joint frame as unit vectors in W: orthonormal within axis_tolerance or refused.
 struct FrameDirections {
   Vec3 anterior = Vec3::UnitX();
@@ -52,6 +50,12 @@ struct FrameDescription {
   std::optional<FemurLandmarks> mobile_axes = {};
 };
 
+/// A part, whose centre lies in W if it is not the joint centre.
+struct DescribedPart {
+  PosedPart part = {};
+  std::optional<Vec3> centre_in_W = {};  ///< mm
+};
+
 /// All that makes a joint of two meshes.
 struct JointDescription {
   std::string name;
@@ -65,6 +69,8 @@ struct JointDescription {
   TranslationFrame translation_frame = TranslationFrame::fixed;  ///< of a free joint
   /// X_WB of each body, in mm: where the frame B in which its mesh is given lies in W, in the reference pose.
   Pose fixed_in_W = Pose::Identity(), mobile_in_W = Pose::Identity();
+  /// Parts with a pose of their own: they move the bodies once these are placed.
+  std::vector<DescribedPart> parts = {};
 
   CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
 };

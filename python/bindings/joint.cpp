@@ -107,6 +107,27 @@ py::list parts_of(const Body& body) {
   return parts;
 }
 
+/// (name, kind, body, value, unit, in_joint_file, as_given, low, high, sigma) of each.
+py::list parameters_of(const JointHandle& handle) {
+  py::list list;
+  if (!handle.joint().posed) return list;
+  for (const PosedPart& part : handle.joint().posed->parts)
+    for (const PartParameter& p : part.parameters)
+      list.append(py::make_tuple(part.name + "." + p.name, std::string(name_of(p.kind)),
+                                 part.body == BodyRole::fixed ? "fixed" : "mobile", p.value,
+                                 std::string(unit_of(p.kind)), p.described, p.as_given, p.low, p.high,
+                                 p.sigma));
+  return list;
+}
+
+std::unique_ptr<JointHandle> moved_to(const JointHandle& handle,
+                                      const std::vector<std::pair<std::string, double>>& given) {
+  std::vector<ParameterValue> values;
+  for (const auto& [name, value] : given) values.push_back({name, value});
+  const py::gil_scoped_release released;
+  return std::make_unique<JointHandle>(with_parameters(handle.loaded, values));
+}
+
 /// The text of the file, the keys that it leaves to fill in, and the evidence for side and axes.
 py::tuple proposed(const std::filesystem::path& fixed, const std::filesystem::path& mobile,
                    const std::filesystem::path& joint_file, const std::optional<std::string>& joint,
@@ -166,6 +187,8 @@ void bind_joint(py::module_& module) {
       .def("poses_at", &poses_at)
       .def("coordinates_of", &coordinates_of)
       .def("checks", &checks_of)
+      .def("parameters", &parameters_of)
+      .def("with_parameters", &moved_to)
       .def(py::pickle([](const JointHandle& h) { return py::bytes(state_of(h.loaded)); },
                       [](const py::bytes& state) {
                         return std::make_unique<JointHandle>(joint_of_state(std::string_view(state)));

@@ -51,8 +51,23 @@ void members(T& value, const Each& each) {
     auto& [normal, offset] = value;
     each(normal, offset);
   } else if constexpr (std::is_same_v<Struct, Joint>) {
-    auto& [name, kind, side, fixed, mobile, anatomy, frame] = value;
-    each(name, kind, side, fixed, mobile, anatomy, frame);
+    auto& [name, kind, side, fixed, mobile, anatomy, frame, posed] = value;
+    each(name, kind, side, fixed, mobile, anatomy, frame, posed);
+  } else if constexpr (std::is_same_v<Struct, PosedParts>) {
+    auto& [parts, fixed, mobile] = value;
+    each(parts, fixed, mobile);
+  } else if constexpr (std::is_same_v<Struct, BodyAsGiven>) {
+    auto& [mesh, image, head] = value;
+    each(mesh, image, head);
+  } else if constexpr (std::is_same_v<Struct, PosedPart>) {
+    auto& [name, body, meshes, centre, parameters] = value;
+    each(name, body, meshes, centre, parameters);
+  } else if constexpr (std::is_same_v<Struct, DescribedPart>) {
+    auto& [part, centre_in_W] = value;
+    each(part, centre_in_W);
+  } else if constexpr (std::is_same_v<Struct, PartParameter>) {
+    auto& [name, kind, low, high, now, described, as_given, sigma, direction] = value;
+    each(name, kind, low, high, now, described, as_given, sigma, direction);
   } else if constexpr (std::is_same_v<Struct, Sphere>) {
     auto& [centre, radius] = value;
     each(centre, radius);
@@ -100,8 +115,9 @@ void members(T& value, const Each& each) {
     auto& [flexion, adduction, internal_rotation, translation] = value;
     each(flexion, adduction, internal_rotation, translation);
   } else if constexpr (std::is_same_v<Struct, JointDescription>) {
-    auto& [name, kind, side, units, frame, pose, anatomy, translation_frame, fixed_in_W, mobile_in_W] = value;
-    each(name, kind, side, units, frame, pose, anatomy, translation_frame, fixed_in_W, mobile_in_W);
+    auto& [name, kind, side, units, frame, pose, anatomy, translation_frame, fixed_in_W, mobile_in_W, parts] =
+        value;
+    each(name, kind, side, units, frame, pose, anatomy, translation_frame, fixed_in_W, mobile_in_W, parts);
   } else if constexpr (std::is_same_v<Struct, LikelyUnit>) {
     auto& [unit, reason] = value;
     each(unit, reason);

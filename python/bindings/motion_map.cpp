@@ -110,6 +110,7 @@ py::list bands_of(const RangeHandle& handle, const py::list& given, std::size_t 
     dict["width_from_centre_deg"] = band.width_from.centre.degrees();
     dict["width_from_axes_deg"] = band.width_from.axes.degrees();
     dict["width_from_surface_deg"] = band.width_from.surface.degrees();
+    dict["width_from_parameters_deg"] = band.width_from.parameters.degrees();
     dict["share_without_contact"] = band.share_without_contact;
     dict["share_in_contact_at_start"] = band.share_in_contact_at_start;
     list.append(dict);

@@ -10,7 +10,7 @@ error that the module raises on purpose is a :class:`CondyleError` of one line: 
 from ._clock_face import ClockFace, clock_face, find_neck_axis, find_rim_clock, neck_clock, sagittal_clock
 from ._contact_checks import ContactNote
 from ._depth_range import DeepestPlace, DepthLimit, DepthRange
-from ._described_joint import BodyPart, JointNote
+from ._described_joint import BodyPart, JointNote, PartParameter
 from ._errors import CondyleError, FileError, JointWarning, MeshError, OutOfRangeError, ReferenceContactError
 from ._errors import UnknownNameError, UsageError
 from ._first_contact import FirstContact, RotationLimits
@@ -48,7 +48,7 @@ __all__ = [
     "ContactEnd", "ContactFrames", "ContactInterval", "ContactMeasures", "ContactNote", "ContactPatch",
     "ContactTotals", "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit", "DepthRange", "Depths",
     "ElasticContact", "ElasticContactResults", "ElasticLayer", "FileError", "Finding", "FirstContact", "FrameContact",
-    "FollowedRange", "HipMeasure", "HipMeasures", "MeasureBand", "NormalRange", "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointMotion", "JointNote",
+    "FollowedRange", "HipMeasure", "HipMeasures", "MeasureBand", "NormalRange", "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointMotion", "JointNote", "PartParameter",
     "JointProposal", "JointWarning", "KINDS", "Label", "LabelMap", "LabelNote", "LabelPiece", "LabelSurface", "Limit",
     "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Model", "ModelCoordinate", "ModelJoint", "ModelMesh", "ModelNote", "Motion", "MotionLimit",
     "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",

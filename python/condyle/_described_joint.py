@@ -14,7 +14,7 @@ from ._errors import UsageError, unknown, warn
 from ._mesh import TriMesh
 from ._native import Joint as NativeJoint
 from ._poses import ManyNumbers, ManyPosesLike, OnePoseLike, Pose, PoseLike, Poses
-from ._words import Anatomy, Body, JointKind, PartContact, Side, TranslationFrame, text_of, word
+from ._words import Anatomy, Body, JointKind, ParameterKind, PartContact, Side, TranslationFrame, text_of, word
 
 
 @dataclass(frozen=True)
@@ -31,6 +31,25 @@ class BodyPart:
     first_triangle: int
     triangles: int
     contact: PartContact
+
+
+@dataclass(frozen=True)
+class PartParameter:
+    """A number by which a part of a body is moved: `[[part]]` of docs/parts.md.
+
+    `value` in `unit`: "deg", "mm", or "1" of a size. `in_joint_file` is the value of the joint's file, `as_given` the one at
+    which the meshes stand as they are given; `range` what it may be, `sigma` its standard deviation in bands.
+    """
+
+    name: str
+    kind: ParameterKind
+    body: Body
+    value: float
+    unit: str
+    in_joint_file: float
+    as_given: float
+    range: tuple[float, float]
+    sigma: float
 
 
 @dataclass(frozen=True)
@@ -74,6 +93,15 @@ class DescribedJoint:
     def side(self) -> Side:
         """"right" or "left"."""
         return self._native.side
+
+    @property
+    def parameters(self) -> dict[str, PartParameter]:
+        """The parameters of parts with a pose of their own, by their names ("cup.inclination"), in the file's order.
+
+        C++: `Joint::posed` in condyle/joint.hpp.
+        """
+        return {name: PartParameter(name, kind, body, value, unit, described, as_given, (low, high), sigma)
+                for name, kind, body, value, unit, described, as_given, low, high, sigma in self._native.parameters()}
 
     @property
     def fixed(self) -> TriMesh:

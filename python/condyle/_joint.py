@@ -147,6 +147,19 @@ class Joint(DescribedJoint):
         read = model if isinstance(model, Model) else read_model(model)
         return cls._of_native(read._joint(joint, anatomy, side, contact))
 
+    def with_parameters(self, values: Mapping[str, float]) -> Joint:
+        """The joint whose parts are moved to these values of :attr:`parameters`: {"cup.inclination": 42}.
+
+        Parameters that are not named keep their values. UsageError for a name that there is not, and a value outside of its
+        range. Lengths are mm.
+
+        C++: `condyle::with_parameters` in condyle/io/joint_file.hpp; `--set` of commands.
+        """
+        if not isinstance(values, Mapping):
+            raise UsageError("values: must be a mapping from names of parameters to numbers")
+        given = [(text_of(name, "values"), number(value, str(name))) for name, value in values.items()]
+        return Joint._of_native(self._native.with_parameters(given))
+
     # Copies. Nothing changes a joint: a copy is the joint itself, with the tables that it has built.
 
     def __copy__(self) -> Joint:

@@ -28,3 +28,4 @@ class LimitBand:
     width_from_surface_deg: float
     share_without_contact: float
     share_in_contact_at_start: float
+    width_from_parameters_deg: float = 0

@@ -7,11 +7,23 @@ namespace condyle {
 Joint held_at(const Joint& joint, const Vec3& translation_mm) {
   Joint held = joint;
   if (translation_mm == Vec3::Zero()) return held;
-  Points points = joint.fixed.mesh.vertices();
-  for (std::size_t v = 0; v < points.size(); ++v) points.set(v, points[v] - translation_mm);
-  held.fixed.mesh = joint.fixed.mesh.moved_to(std::move(points));
-  if (held.fixed.image)
-    for (ImageCut& cut : held.fixed.image->cuts) cut.offset_mm -= cut.normal.dot(translation_mm);
+  const auto moved = [&](const Mesh& mesh) {
+    Points points = mesh.vertices();
+    for (std::size_t v = 0; v < points.size(); ++v) points.set(v, points[v] - translation_mm);
+    return mesh.moved_to(std::move(points));
+  };
+  const auto move_cuts = [&](std::optional<BodyImage>& image) {
+    if (image)
+      for (ImageCut& cut : image->cuts) cut.offset_mm -= cut.normal.dot(translation_mm);
+  };
+  held.fixed.mesh = moved(joint.fixed.mesh);
+  move_cuts(held.fixed.image);
+  if (held.posed) {
+    held.posed->fixed.mesh = moved(held.posed->fixed.mesh);
+    move_cuts(held.posed->fixed.image);
+    for (PosedPart& part : held.posed->parts)
+      if (part.body == BodyRole::fixed) part.centre -= translation_mm;
+  }
   return held;
 }
 

@@ -10,6 +10,7 @@
 #include "core/formatted.hpp"
 #include "core/rounded.hpp"
 #include "kinematics/hip_parts.hpp"
+#include "kinematics/posed_parts.hpp"
 #include "kinematics/resampling.hpp"
 #include "mesh/enclosed_volume.hpp"
 
@@ -239,6 +240,21 @@ Pose mobile_frame(const JointDescription& description, const Pose& X_FW, JointPl
   }
 }
 
+/// The parts described, in the frames of their bodies, and the bodies as they are given.
+std::optional<PosedParts> placed_parts(const JointDescription& description, const Pose& X_FW,
+                                       const Pose& X_MW, const Body& fixed, const Body& mobile) {
+  if (description.parts.empty()) return std::nullopt;
+  PosedParts posed{{}, {fixed.mesh, fixed.image, fixed.head}, {mobile.mesh, mobile.image, mobile.head}};
+  for (const auto& [described, centre_in_W] : description.parts) {
+    PosedPart part = described;
+    part.centre = centre_in_W ? (part.body == BodyRole::fixed ? X_FW : X_MW) * *centre_in_W : Vec3::Zero();
+    for (PartParameter& parameter : part.parameters) parameter.described = parameter.value;
+    posed.parts.push_back(std::move(part));
+  }
+  kinematics::check_parts(posed.parts, fixed, mobile);
+  return posed;
+}
+
 }  // namespace
 
 PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mobile) {
@@ -263,12 +279,19 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
   const auto* fit = std::get_if<CentreFit>(&description.frame.centre);
   if (placement.sphere && fit && fit->body == BodyRole::mobile && !fit->within)
     kinematics::keep_head(mobile.mesh, placement.sphere->fit.vertices);
-  placement.fixed.bounds = bounds_of(fixed.mesh.vertices());
-  placement.mobile.bounds = bounds_of(mobile.mesh.vertices());
+  Joint joint{description.name,
+              description.kind,
+              description.side,
+              std::move(fixed),
+              std::move(mobile),
+              description.anatomy,
+              description.translation_frame};
+  joint.posed = placed_parts(description, X_FW, X_MW, joint.fixed, joint.mobile);
+  kinematics::pose_parts(joint);
+  placement.fixed.bounds = bounds_of(joint.fixed.mesh.vertices());
+  placement.mobile.bounds = bounds_of(joint.mobile.mesh.vertices());
   placement.processing = processing_of(placement);
-  return {Joint{description.name, description.kind, description.side, std::move(fixed), std::move(mobile),
-                description.anatomy, description.translation_frame},
-          std::move(placement)};
+  return {std::move(joint), std::move(placement)};
 }
 
 }  // namespace condyle

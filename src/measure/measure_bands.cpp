@@ -38,7 +38,7 @@ std::optional<std::vector<MeasureBand>> measure_bands(const Joint& joint, const 
   measure::check_measures(joint, request);
   motion::check_band(options);
   const measure::DisplacedBones bones(joint, request, options.sigma);
-  const auto samples = motion::displacements(options);
+  const auto samples = motion::displacements(options, kinematics::uncertain_parameters(joint));
   const auto definitions = measure_definitions();
 
   // Outcomes by measure and sample.

@@ -6,6 +6,7 @@
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "kinematics/posed_parts.hpp"
 #include "plan/bone_cut.hpp"
 
 namespace condyle {
@@ -76,6 +77,7 @@ Joint with_mobile_mesh(const Joint& joint, Mesh mesh) {
   other.mobile.mesh = std::move(mesh);
   other.mobile.parts.clear();
   other.mobile.image.reset();
+  other.posed.reset();
   return other;
 }
 
@@ -135,6 +137,7 @@ std::optional<Resection> resect(const Joint& joint, const ResectionRequest& requ
     }
     if (!report()) return std::nullopt;
   }
+  kinematics::take_as_moved(done.joint);
   const RangeOfMotion after(done.joint, request.range);
   for (ReachOutcome& outcome : done.targets) outcome.after = after.limit(outcome.target.motion);
   return done;

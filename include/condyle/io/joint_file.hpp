@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -96,6 +97,9 @@ struct LoadedJoint {
 /// Reads a joint file and its meshes, and makes the joint: docs/joint-frame.md, "Placement", and make_joint().
 /// Throws FileError, and MeshError if a fit finds nothing or a repair cannot be made.
 LoadedJoint read_joint(const std::filesystem::path& path);
+
+/// The joint at these values of its parts' parameters, as with_parameters() of its `joint`; and the report of that.
+LoadedJoint with_parameters(const LoadedJoint& loaded, std::span<const ParameterValue> values);
 
 /// Input of a proposal.
 struct ProposalRequest {

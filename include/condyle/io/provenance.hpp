@@ -81,6 +81,7 @@ struct Provenance {
   AnswerFrame frame;
   /// All files that were read for it, which no answer is written over: those of the joint, and what else the question took.
   std::vector<std::filesystem::path> read = {};
+  std::vector<PosedPart> parts = {};  ///< with the values that the answer is of
 };
 Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> command,
                          AnswerFrameName frame = AnswerFrameName::joint);

@@ -15,6 +15,7 @@
 #include "io/joint/contact_table.hpp"
 #include "io/joint/load_joint.hpp"
 #include "io/joint/mesh_path.hpp"
+#include "io/joint/part_tables.hpp"
 #include "io/joint/pose_matrix.hpp"
 #include "io/joint/recorded_motion_table.hpp"
 #include "io/joint/toml_nesting.hpp"
@@ -229,6 +230,20 @@ void refuse_moved_layer(const io::TomlTable& contact, std::string_view key,
       contact.fail(key,
                    "behind: the layer's mesh has a scale or a pose of its own; give thickness or "
                    "thickness_file instead");
+}
+
+/// Nor does it move with a part.
+void refuse_layer_of_part(const io::TomlTable& contact, std::string_view key,
+                          const std::optional<LayerEntry>& layer, const std::string& mesh, BodyRole body,
+                          const std::vector<DescribedPart>& parts) {
+  if (!layer || !layer->behind) return;
+  for (const auto& [part, centre] : parts)
+    if (part.body == body && (mesh.empty() || part.meshes.empty() ||
+                              std::find(part.meshes.begin(), part.meshes.end(), mesh) != part.meshes.end()))
+      contact.fail(key,
+                   fmt::format("behind: part {} moves the layer's mesh and not what lies behind it; give "
+                               "thickness or thickness_file instead",
+                               part.name));
 }
 
 CentreFit centre_fit(io::TomlTable& frame, const Lengths& lengths) {
@@ -467,6 +482,7 @@ JointFile io::joint_file_of(std::string_view text, const std::filesystem::path& 
   joint.mobile_in_W = body_pose(mobile, "mobile", joint.coordinates(), Lengths(joint.units), out.processing);
   fixed.finish();
   mobile.finish();
+  joint.parts = io::described_parts(file, joint.side, mm_per(joint.units));
   out.reference_pose = reference_pose(file, joint, Lengths(joint.units));
   joint.reference_pose = out.reference_pose.coordinates();
   out.motions = own_motions(file, joint);
@@ -475,6 +491,10 @@ JointFile io::joint_file_of(std::string_view text, const std::filesystem::path& 
     out.contact = io::contact_entry(*table, mm_per(joint.units), path.parent_path());
     refuse_moved_layer(*table, "fixed", out.contact->fixed, out.contact->fixed_part, out.fixed);
     refuse_moved_layer(*table, "mobile", out.contact->mobile, out.contact->mobile_part, out.mobile);
+    refuse_layer_of_part(*table, "fixed", out.contact->fixed, out.contact->fixed_part, BodyRole::fixed,
+                         joint.parts);
+    refuse_layer_of_part(*table, "mobile", out.contact->mobile, out.contact->mobile_part, BodyRole::mobile,
+                         joint.parts);
   }
   if (auto table = file.table("recorded_motion"))
     out.recorded_motion = io::recorded_motion_mapping(

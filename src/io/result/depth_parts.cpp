@@ -6,6 +6,7 @@
 #include "io/file/format_version.hpp"
 #include "io/result/csv_field.hpp"
 #include "io/result/movement_words.hpp"
+#include "io/result/parameters.hpp"
 
 namespace condyle::io {
 namespace {
@@ -48,7 +49,7 @@ std::string depth_headline(const DepthQuestion& question, const DepthAnswer& ans
   if (joint.kind == JointKind::free)
     text += fmt::format(", x {}, y {}, z {} mm", pose.translation_mm.x(), pose.translation_mm.y(),
                         pose.translation_mm.z());
-  text += "\n";
+  text += "\n" + parameters_text(joint);
   for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
   return text + fmt::format("  {}; {} intersecting triangle pairs\n",
                             answer.in_contact() ? "in contact" : "free", pairs);

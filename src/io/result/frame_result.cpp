@@ -9,6 +9,7 @@
 #include "core/rounded.hpp"
 #include "io/result/json.hpp"
 #include "io/result/movement_words.hpp"
+#include "io/result/parameters.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/repair_text.hpp"
 
@@ -125,6 +126,7 @@ std::string to_text(const LoadedJoint& loaded) {
   const JointPlacement& placement = report.placement;
   std::string out = fmt::format("{}: {} joint{}, {} side\n", joint.name, name_of(joint.kind),
                                 words_of_anatomy(joint), name_of(joint.side));
+  out += io::parameters_text(joint);
   out += fmt::format("  {:<8} {} mm in the frame of the meshes\n", "centre",
                      text_of(placement.X_WF.translation()));
   for (const auto& [name, axis] : axes_of(placement.X_WF))

@@ -158,16 +158,19 @@ Json of_band(const LimitOf& of, const auto& read) {
   return bands.empty() ? Json(nullptr) : Json(read(bands[of.index]));
 }
 Json band(const LimitOf& of) {
-  return of_band(of, [](const LimitBand& band) {
-    return Json{{"p5_deg", band.p5.degrees()},
-                {"median_deg", band.median.degrees()},
-                {"p95_deg", band.p95.degrees()},
-                {"width_from",
-                 {{"centre_deg", band.width_from.centre.degrees()},
-                  {"axes_deg", band.width_from.axes.degrees()},
-                  {"surface_deg", band.width_from.surface.degrees()}}},
-                {"share_without_contact", band.share_without_contact},
-                {"share_in_contact_at_start", band.share_in_contact_at_start}};
+  const bool has_parameters = has_uncertain_parameters(of.joint());
+  return of_band(of, [&](const LimitBand& band) {
+    Json json{{"p5_deg", band.p5.degrees()},
+              {"median_deg", band.median.degrees()},
+              {"p95_deg", band.p95.degrees()},
+              {"width_from",
+               {{"centre_deg", band.width_from.centre.degrees()},
+                {"axes_deg", band.width_from.axes.degrees()},
+                {"surface_deg", band.width_from.surface.degrees()}}},
+              {"share_without_contact", band.share_without_contact},
+              {"share_in_contact_at_start", band.share_in_contact_at_start}};
+    if (has_parameters) json["width_from"]["parameters_deg"] = band.width_from.parameters.degrees();
+    return json;
   });
 }
 Json band_p5(const LimitOf& of) {
@@ -340,7 +343,8 @@ constexpr LimitField every_field[] = {
     {"band",
      "`p5_deg`, `median_deg`, `p95_deg` of the limit over the joints of the band; "
      "`width_from`: what the width, 5 to 95 %, would be if only the centre (`centre_deg`), the "
-     "axes (`axes_deg`) or the surfaces (`surface_deg`) were uncertain; "
+     "axes (`axes_deg`), the surfaces (`surface_deg`) or parameters of parts (`parameters_deg`, if they have "
+     "standard deviations) were uncertain; "
      "`share_without_contact`, `share_in_contact_at_start` of the joints, 0 to 1. Null without "
      "`--band`",
      &band},

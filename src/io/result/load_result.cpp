@@ -12,6 +12,7 @@
 #include "io/result/caveats.hpp"
 #include "io/result/contact_terms.hpp"
 #include "io/result/json.hpp"
+#include "io/result/parameters.hpp"
 #include "io/result/pressure_map.hpp"
 #include "io/result/provenance_forms.hpp"
 
@@ -103,6 +104,7 @@ std::string load_text(const LoadQuestion& question, const LoadAnswer& answer) {
   const Joint& joint = question.joint;
   std::string text = fmt::format("{}: {} in {}, {}\n", joint.name, joint.mobile.name, joint.fixed.name,
                                  to_text(question.pose, joint.anatomy));
+  text += io::parameters_text(joint);
   text += io::contact_terms_text(question.contact, question.surfaces, true);
   for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
   if (answer.balanced) {

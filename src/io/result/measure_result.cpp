@@ -15,6 +15,7 @@
 #include "io/result/json.hpp"
 #include "io/result/measure_geometry.hpp"
 #include "io/result/measure_object.hpp"
+#include "io/result/parameters.hpp"
 #include "io/result/provenance_forms.hpp"
 
 namespace condyle {
@@ -182,6 +183,7 @@ std::string measure_text(const MeasureResult& result) {
   const Joint& joint = result.joint;
   std::string text = fmt::format("{}: measures of {} and {}, {} side\n", joint.name, joint.mobile.name,
                                  joint.fixed.name, name_of(joint.side));
+  text += io::parameters_text(joint);
   text += fmt::format("  pelvis: {}\n", pelvis_text(result.answer.measures));
   std::size_t widest = 0;
   for (const MeasureDefinition& each : measure_definitions()) widest = std::max(widest, each.key.size());

@@ -11,6 +11,7 @@
 #include "io/result/caveats.hpp"
 #include "io/result/contact_terms.hpp"
 #include "io/result/json.hpp"
+#include "io/result/parameters.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/rom_parts.hpp"
 
@@ -159,6 +160,7 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
   std::string text =
       fmt::format("{}: {} frames, {}{:g} to {:g}{}\n", joint.name, summary.frames,
                   times.in_seconds ? "" : "numbers ", times.values.front(), times.values.back(), unit);
+  text += io::parameters_text(joint);
   if (summary.gaps > 0) text += fmt::format("  {} frames are gaps: no answer there\n", summary.gaps);
   text += io::contact_terms_text(question.contact, question.surfaces, question.with_pressure);
   for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);

@@ -9,6 +9,7 @@
 #include "condyle/io/pose_text.hpp"
 #include "condyle/version.hpp"
 #include "io/file/in_quotes.hpp"
+#include "io/result/parameters.hpp"
 #include "io/result/provenance_forms.hpp"
 
 namespace condyle {
@@ -113,6 +114,14 @@ std::string file_text(const std::filesystem::path& path, const FileDigest& diges
   return one_line(fmt::format("{}, {} bytes, sha256 {}", path.string(), digest.bytes, digest.sha256));
 }
 
+std::string values_text(const std::vector<PosedPart>& parts) {
+  std::string text;
+  for (const PosedPart& part : parts)
+    for (const PartParameter& parameter : part.parameters)
+      text += fmt::format("{}{}.{}={}", text.empty() ? "" : " ", part.name, parameter.name, parameter.value);
+  return text;
+}
+
 std::string files_text(const MeshOrigin& mesh) {
   std::string text;
   for (const MeshSource& file : mesh.files)
@@ -174,7 +183,8 @@ Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> com
           origin_of(report.fixed, fixed_in_source(report), unit_mm),
           origin_of(report.mobile, mobile_in_source(report), unit_mm),
           AnswerFrame(frame, report),
-          files_of(report.file)};
+          files_of(report.file),
+          loaded.joint.posed ? loaded.joint.posed->parts : std::vector<PosedPart>{}};
 }
 
 namespace io {
@@ -185,13 +195,15 @@ Json file_json(const std::filesystem::path& path, const FileDigest& digest) {
 
 Json provenance_json(const Provenance* from) {
   if (from == nullptr) return nullptr;
-  return {{"version", condyle::version},
-          {"command", from->command},
-          {"joint_file", file_json(from->joint_path, from->joint_digest)},
-          {"side", name_of(from->side)},
-          {"frame", name_of(from->frame.name())},
-          {"fixed_mesh", mesh_json(from->fixed)},
-          {"mobile_mesh", mesh_json(from->mobile)}};
+  Json json{{"version", condyle::version},
+            {"command", from->command},
+            {"joint_file", file_json(from->joint_path, from->joint_digest)},
+            {"side", name_of(from->side)},
+            {"frame", name_of(from->frame.name())},
+            {"fixed_mesh", mesh_json(from->fixed)},
+            {"mobile_mesh", mesh_json(from->mobile)}};
+  if (!from->parts.empty()) json["parameters"] = parameters_json(from->parts);
+  return json;
 }
 
 std::vector<VtpField> provenance_fields(const Provenance* from) {
@@ -208,6 +220,7 @@ std::vector<VtpField> provenance_fields(const Provenance* from) {
   add("mobile_mesh", files_text(from->mobile));
   add("side", std::string(name_of(from->side)));
   add("frame", std::string(name_of(from->frame.name())));
+  if (!from->parts.empty()) add("parameters", values_text(from->parts));
   add("fixed_joint_from_source", row_by_row(from->fixed.joint_from_source));
   add("fixed_source_from_joint", row_by_row(from->fixed.source_from_joint));
   add("mobile_joint_from_source", row_by_row(from->mobile.joint_from_source));

@@ -15,6 +15,7 @@
 #include "io/result/clock_hour.hpp"
 #include "io/result/csv_field.hpp"
 #include "io/result/json.hpp"
+#include "io/result/parameters.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/resection_object.hpp"
 #include "io/result/rom_result.hpp"
@@ -240,6 +241,7 @@ std::string resection_text(const ResectionResult& result) {
   const ResectionAnswer& answer = result.answer;
   std::string text =
       fmt::format("{}: bone that must go, {} side\n", result.joint.name, name_of(result.joint.side));
+  text += io::parameters_text(result.joint);
   for (std::size_t i = 0; i < answer.resection.targets.size(); ++i)
     text += target_line(answer.resection.targets[i], answer.bands, i);
   for (const CutOfBody& cut : cuts_of(answer.resection)) text += cut_lines(result, cut);

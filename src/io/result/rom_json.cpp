@@ -33,6 +33,10 @@ Json json_of(const BandOptions& options, const Joint& joint) {
              {"surface_mm", options.sigma.surface_mm}};
   if (options.sigma.is_by_voxels(joint.fixed) || options.sigma.is_by_voxels(joint.mobile))
     sigma["surface_voxels"] = options.sigma.surface_voxels;
+  if (joint.posed)
+    for (const PosedPart& part : joint.posed->parts)
+      for (const PartParameter& parameter : part.parameters)
+        if (parameter.sigma > 0) sigma["parameters"][part.name + "." + parameter.name] = parameter.sigma;
   return {{"samples", options.samples}, {"seed", options.seed}, {"sigma", std::move(sigma)}};
 }
 

@@ -16,6 +16,7 @@
 #include "io/result/clock_hour.hpp"
 #include "io/result/json.hpp"
 #include "io/result/map_result.hpp"
+#include "io/result/parameters.hpp"
 #include "io/result/quoted_limit.hpp"
 #include "io/result/rom_parts.hpp"
 #include "io/result/rom_result.hpp"
@@ -202,13 +203,14 @@ std::string band_text(const RomResult& result) {
   const BandOptions& options = result.band_options;
   std::string text = fmt::format(
       "  band: 5 to 95 % of {} joints with the centre moved by {:g} mm, the axes by {:g} deg and the "
-      "surfaces by {}\n"
+      "surfaces by {}{}\n"
       "    (standard deviations, seed {}); its width where only one of them is moved:\n",
       options.samples, options.sigma.centre_mm, options.sigma.axes.degrees(),
-      surface_text(options.sigma, result.joint), options.seed);
+      surface_text(options.sigma, result.joint), io::sigmas_text(result.joint), options.seed);
   Column name{Align::left, {"motion"}}, median{Align::right, {"median"}}, low{Align::right, {"5 %"}},
       high{Align::right, {"95 %"}}, centre{Align::right, {"centre"}}, axes{Align::right, {"axes"}},
-      surface{Align::right, {"surface"}}, free{Align::right, {"no contact"}};
+      surface{Align::right, {"surface"}}, parameters{Align::right, {"parameters"}},
+      free{Align::right, {"no contact"}};
   for (std::size_t i = 0; i < result.bands.size(); ++i) {
     const LimitBand& band = result.bands[i];
     name.cells.push_back(result.limits[i].motion.name);
@@ -218,9 +220,13 @@ std::string band_text(const RomResult& result) {
     add(median, band.median), add(low, band.p5), add(high, band.p95);
     add(centre, band.width_from.centre), add(axes, band.width_from.axes),
         add(surface, band.width_from.surface);
+    add(parameters, band.width_from.parameters);
     free.cells.push_back(fmt::format("{:.0f} %", 100 * band.share_without_contact));
   }
-  return wrapped(text) + table_text(std::array{name, median, low, high, centre, axes, surface, free});
+  std::vector<Column> columns{name, median, low, high, centre, axes, surface};
+  if (has_uncertain_parameters(result.joint)) columns.push_back(parameters);
+  columns.push_back(free);
+  return wrapped(text) + table_text(columns);
 }
 
 /// Caveats on the usual ends of motions like these: a line for each, with its motions.
@@ -324,6 +330,7 @@ std::string rom_text(const RomResult& result) {
   const Joint& joint = result.joint;
   std::string text = wrapped(fmt::format("{}: {} in {}, {} side\n", joint.name, joint.mobile.name,
                                          joint.fixed.name, name_of(joint.side)));
+  text += wrapped(io::parameters_text(joint));
   text += wrapped(bearing_text(result) + meshes_text(result));
   for (const std::string& caveat : result.caveats) text += wrapped(fmt::format("  {}\n", caveat));
   text += clock_words(result);

@@ -232,7 +232,9 @@ void add_followed_files(const StudyTable& table, const StudyRow& row, const Join
 
 }  // namespace
 
-StudyJoint load_joint(const StudyTable& table, const StudyRow& row) {
+namespace {
+
+StudyJoint joint_as_described(const StudyTable& table, const StudyRow& row) {
   switch (source_of(table, row)) {
     case JointSource::joint_file:
       return {read_joint(file_in(table, row, "joint"))};
@@ -249,6 +251,20 @@ StudyJoint load_joint(const StudyTable& table, const StudyRow& row) {
       break;
   }
   return {made(table, row)};
+}
+
+}  // namespace
+
+StudyJoint load_joint(const StudyTable& table, const StudyRow& row) {
+  StudyJoint of_joint = joint_as_described(table, row);
+  const std::string_view values = table.field(row, "parameters");
+  if (values.empty()) return of_joint;
+  try {
+    of_joint.loaded = with_parameters(of_joint.loaded, parse_parameters(values));
+  } catch (const UsageError& error) {
+    throw FileError(fmt::format("{}: {}", table.place(row, "parameters"), error.what()));
+  }
+  return of_joint;
 }
 
 std::string place_of(const StudyTable& table, const StudyRow& row) {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <numbers>
@@ -14,6 +13,7 @@ namespace {
 
 constexpr std::size_t fewest_samples = 20;
 
+/// Of the centre, the axes and both surfaces.
 constexpr std::size_t dimensions = 8;
 
 /// Numbers in [0, 1) of the generator's upper 53 bits: std::uniform_real_distribution may differ between libraries.
@@ -31,12 +31,12 @@ class Uniform {
 
 }  // namespace
 
-std::vector<Displacement> displacements(const BandOptions& options) {
+std::vector<Displacement> displacements(const BandOptions& options, std::size_t parameters) {
   const std::size_t count = options.samples;
   Uniform uniform(options.seed);
-  std::vector<std::array<double, dimensions>> standard(count);
+  std::vector<std::vector<double>> standard(count, std::vector<double>(dimensions + parameters));
   std::vector<std::size_t> stratum(count);
-  for (std::size_t k = 0; k < dimensions; ++k) {
+  for (std::size_t k = 0; k < dimensions + parameters; ++k) {
     for (std::size_t i = 0; i < count; ++i) stratum[i] = i;
     for (std::size_t i = count; i-- > 1;) std::swap(stratum[i], stratum[uniform.below(i + 1)]);
     for (std::size_t i = 0; i < count; ++i) {
@@ -49,8 +49,11 @@ std::vector<Displacement> displacements(const BandOptions& options) {
   const Uncertainty& sigma = options.sigma;
   std::vector<Displacement> out;
   for (const auto& z : standard)
-    out.push_back({sigma.centre_mm * Vec3(z[0], z[1], z[2]), sigma.axes.radians() * Vec3(z[3], z[4], z[5]),
-                   z[6], z[7]});
+    out.push_back({sigma.centre_mm * Vec3(z[0], z[1], z[2]),
+                   sigma.axes.radians() * Vec3(z[3], z[4], z[5]),
+                   z[6],
+                   z[7],
+                   {z.begin() + dimensions, z.end()}});
   return out;
 }
 

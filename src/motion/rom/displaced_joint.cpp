@@ -50,18 +50,20 @@ std::vector<Group> grouped(std::span<const Motion> motions) {
 /// A body as its search reads it, its surface movable along its normals.
 class Surface {
  public:
-  Surface(const Body& body, const Mesh& part, const Uncertainty& sigma)
-      : vertices_(body, sigma), tree_(part) {}
+  Surface(const Body& body, const Mesh& part, const Uncertainty& sigma,
+          const kinematics::DisplacedParts& parts)
+      : vertices_(body, sigma), parts_(parts), tree_(part) {}
 
   const FeatureTree& tree() const noexcept { return tree_; }
   /// Moved by so many standard deviations; empty if it stays where it is.
-  std::optional<FeatureTree> moved_by(double standard_deviations) const {
-    const auto moved = vertices_.moved_by(standard_deviations);
+  std::optional<FeatureTree> moved_by(double standard_deviations, std::span<const double> parameters) const {
+    const auto moved = vertices_.moved_by(standard_deviations, parts_, parameters);
     return moved ? std::optional(tree_.moved_to(*moved)) : std::nullopt;
   }
 
  private:
   MovableSurface vertices_;
+  const kinematics::DisplacedParts& parts_;
   FeatureTree tree_;
 };
 
@@ -74,9 +76,13 @@ struct DisplacedJoint::Parts {
         X_ref_(pose_at(joint.coordinates(), reference)),
         motions_(motions),
         groups_(grouped(motions)),
-        ending_(parts.ending) {
-    for (const PartOfMesh& part : parts.fixed) fixed_.emplace_back(joint.fixed, part.mesh, sigma);
-    for (const PartOfMesh& part : parts.mobile) mobile_.emplace_back(joint.mobile, part.mesh, sigma);
+        ending_(parts.ending),
+        fixed_parts_(joint, BodyRole::fixed),
+        mobile_parts_(joint, BodyRole::mobile) {
+    for (const PartOfMesh& part : parts.fixed)
+      fixed_.emplace_back(joint.fixed, part.mesh, sigma, fixed_parts_);
+    for (const PartOfMesh& part : parts.mobile)
+      mobile_.emplace_back(joint.mobile, part.mesh, sigma, mobile_parts_);
   }
 
   /// Writes one outcome per motion. The frame G of the displaced joint lies at X_FG in F; with both bodies where the
@@ -92,8 +98,8 @@ struct DisplacedJoint::Parts {
   /// Where these surfaces end a motion sooner than noted.
   void take_limits(const Displacement& d, const Surface& of_fixed, const Surface& of_mobile,
                    std::span<DisplacedLimit> out) const {
-    const std::optional<FeatureTree> moved_fixed = of_fixed.moved_by(d.fixed_surface),
-                                     moved_mobile = of_mobile.moved_by(d.mobile_surface);
+    const std::optional<FeatureTree> moved_fixed = of_fixed.moved_by(d.fixed_surface, d.parameters),
+                                     moved_mobile = of_mobile.moved_by(d.mobile_surface, d.parameters);
     const auto &fixed = moved_fixed ? *moved_fixed : of_fixed.tree(),
                &mobile = moved_mobile ? *moved_mobile : of_mobile.tree();
     RotatingBody stationary_fixed(fixed), stationary_mobile(mobile), rotating_fixed(fixed),
@@ -128,6 +134,7 @@ struct DisplacedJoint::Parts {
   std::span<const Motion> motions_;
   std::vector<Group> groups_;
   std::vector<PairOfParts> ending_;
+  kinematics::DisplacedParts fixed_parts_, mobile_parts_;
   std::vector<Surface> fixed_, mobile_;
 };
 

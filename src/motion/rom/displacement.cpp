@@ -1,5 +1,7 @@
 #include "motion/rom/displacement.hpp"
 
+#include <algorithm>
+
 #include "mesh/vertex_normals.hpp"
 
 namespace condyle::motion {
@@ -30,6 +32,18 @@ std::optional<Points> MovableSurface::moved_by(double standard_deviations) const
   if (far == 0) return std::nullopt;
   Points moved(vertices_.size());
   for (std::size_t v = 0; v < moved.size(); ++v) moved.set(v, vertices_[v] + far * directions_[v]);
+  return moved;
+}
+
+std::optional<Points> MovableSurface::moved_by(double standard_deviations,
+                                               const kinematics::DisplacedParts& parts,
+                                               std::span<const double> parameters) const {
+  auto moved = moved_by(standard_deviations);
+  const std::vector<Eigen::Affine3d> motions = parts.motions(parameters);
+  if (std::all_of(motions.begin(), motions.end(), [](const auto& m) { return m.matrix().isIdentity(0); }))
+    return moved;
+  if (!moved) moved = vertices_;
+  parts.groups().move(motions, *moved);
   return moved;
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "condyle/limit_band.hpp"
 #include "condyle/pose.hpp"
+#include "kinematics/posed_parts.hpp"
 
 /// What one sample of a band displaces, and by how much: of limits and of measures.
 
@@ -15,13 +17,16 @@ struct Displacement {
   Vec3 centre = Vec3::Zero();                    ///< mm
   Vec3 axes = Vec3::Zero();                      ///< rotation vector, rad
   double fixed_surface = 0, mobile_surface = 0;  ///< along normals, in standard deviations
+  std::vector<double> parameters =
+      {};  ///< of each uncertain parameter of a part, in standard deviations; empty: none moves
 };
 
 /// Throws UsageError for fewer than 20 samples, and a standard deviation that is negative or not finite.
 void check_band(const BandOptions& options);
 
-/// A Latin hypercube: of every coordinate one value in each of as many strata of equal probability as there are samples.
-std::vector<Displacement> displacements(const BandOptions& options);
+/// A Latin hypercube: of every coordinate one value in each of as many strata of equal probability as there are samples. Those
+/// of the parameters are drawn last: the others do not depend on how many there are.
+std::vector<Displacement> displacements(const BandOptions& options, std::size_t parameters);
 
 /// Where the frame of a displaced joint lies in that of the joint given.
 Pose displaced_frame(const Displacement& by);
@@ -35,6 +40,9 @@ class MovableSurface {
 
   /// Its vertices, moved by so many standard deviations; empty if it stays where it is.
   std::optional<Points> moved_by(double standard_deviations) const;
+  /// The same, its parts displaced too.
+  std::optional<Points> moved_by(double standard_deviations, const kinematics::DisplacedParts& parts,
+                                 std::span<const double> parameters) const;
 
  private:
   Points vertices_, directions_;

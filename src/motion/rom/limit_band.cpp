@@ -13,7 +13,7 @@ namespace {
 using motion::Displacement;
 using motion::quantile;
 
-enum class Source { all, centre, axes, surface };
+enum class Source { all, centre, axes, surface, parameters };
 
 bool moves_surface(const Uncertainty& sigma, const Joint& joint) {
   return sigma.surface_mm > 0 || sigma.is_by_voxels(joint.fixed) || sigma.is_by_voxels(joint.mobile);
@@ -25,15 +25,17 @@ std::vector<Source> sources_of(const Uncertainty& sigma, const Joint& joint) {
   if (sigma.centre_mm > 0) moving.push_back(Source::centre);
   if (sigma.axes > Angle()) moving.push_back(Source::axes);
   if (moves_surface(sigma, joint)) moving.push_back(Source::surface);
+  if (kinematics::uncertain_parameters(joint) > 0) moving.push_back(Source::parameters);
   if (moving.size() < 2) return {Source::all};
   moving.insert(moving.begin(), Source::all);
   return moving;
 }
 
 bool moves(const Uncertainty& sigma, const Joint& joint, Source source) {
-  return source == Source::centre ? sigma.centre_mm > 0
-         : source == Source::axes ? sigma.axes > Angle()
-                                  : moves_surface(sigma, joint);
+  return source == Source::centre       ? sigma.centre_mm > 0
+         : source == Source::axes       ? sigma.axes > Angle()
+         : source == Source::parameters ? kinematics::uncertain_parameters(joint) > 0
+                                        : moves_surface(sigma, joint);
 }
 
 /// Only the part of the displacement that one source moves.
@@ -41,6 +43,7 @@ Displacement only(Source source, Displacement d) {
   if (source == Source::all) return d;
   if (source != Source::centre) d.centre.setZero();
   if (source != Source::axes) d.axes.setZero();
+  if (source != Source::parameters) d.parameters.clear();
   if (source != Source::surface) d.fixed_surface = d.mobile_surface = 0;
   return d;
 }
@@ -57,7 +60,8 @@ std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<
                                                   const Control& control) {
   check(options, motions, joint.kind);
   const motion::DisplacedJoint displaced(joint, motions, range, options.sigma);
-  const std::vector<Displacement> samples = motion::displacements(options);
+  const std::vector<Displacement> samples =
+      motion::displacements(options, kinematics::uncertain_parameters(joint));
 
   // Outcomes by source, sample and motion.
   const std::vector<Source> sources = sources_of(options.sigma, joint);
@@ -101,7 +105,8 @@ std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<
     bands.push_back({Angle::radians(quantile(all, 0.05)),
                      Angle::radians(quantile(all, 0.5)),
                      Angle::radians(quantile(all, 0.95)),
-                     {width_of(Source::centre), width_of(Source::axes), width_of(Source::surface)},
+                     {width_of(Source::centre), width_of(Source::axes), width_of(Source::surface),
+                      width_of(Source::parameters)},
                      share(LimitReason::end_of_range),
                      share(LimitReason::contact_at_start)});
   }

@@ -1,0 +1,36 @@
+#include "set_option.hpp"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <string>
+#include <utility>
+
+#include "condyle/error.hpp"
+
+namespace condyle::cli {
+
+ParametersGiven add_set(CLI::App& command) {
+  auto given = std::make_shared<std::vector<std::string>>();
+  command
+      .add_option(
+          "--set", *given,
+          "Move a part of the joint file to this value of its parameter, such as cup.inclination=42, or "
+          "several in one text; any number")
+      ->expected(1)
+      ->take_all()
+      ->option_text("PART.PARAMETER=VALUE ...");
+  return given;
+}
+
+LoadedJoint joint_at(LoadedJoint loaded, const ParametersGiven& given) {
+  if (given->empty()) return loaded;
+  std::string text;
+  for (const std::string& words : *given) text += words + " ";
+  try {
+    return with_parameters(loaded, parse_parameters(text));
+  } catch (const UsageError& error) {
+    throw UsageError(std::string("--set: ") + error.what());
+  }
+}
+
+}  // namespace condyle::cli

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "condyle/io/joint_file.hpp"
+
+/// --set, of every command that reads a joint.
+
+namespace condyle::cli {
+
+using ParametersGiven = std::shared_ptr<std::vector<std::string>>;
+
+/// Adds the option; what it is given is written while arguments are read.
+ParametersGiven add_set(CLI::App& command);
+
+/// The joint at the values given. Throws UsageError that begins with the option.
+LoadedJoint joint_at(LoadedJoint loaded, const ParametersGiven& given);
+
+}  // namespace condyle::cli

@@ -1,0 +1,87 @@
+#include "io/joint/part_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace condyle::io {
+namespace {
+
+std::optional<ParameterKind> kind_named(std::string_view name) {
+  for (const ParameterKind kind : all_parameter_kinds)
+    if (name_of(kind) == name) return kind;
+  return std::nullopt;
+}
+
+ParameterKind kind_of(TomlTable& table, const std::string& name) {
+  if (!table.has("kind")) {
+    if (const auto kind = kind_named(name)) return *kind;
+    table.fail_missing("kind",
+                       fmt::format("parameter {}, whose name says nothing of how it moves its part", name));
+  }
+  return all_parameter_kinds[table.required_word(
+      "kind", {"frontal", "inclination", "sagittal", "tilt", "version", "translation", "size"})];
+}
+
+/// A word, or a vector of the joint frame.
+Vec3 direction_of(TomlTable& table, Side side) {
+  if (table.is_text("along")) {
+    const double right = side == Side::right ? 1 : -1;
+    const Vec3 directions[] = {Vec3::UnitX(), Vec3::UnitY(), Vec3(0, 0, right)};
+    return directions[table.required_word("along", {"anterior", "superior", "lateral"})];
+  }
+  const Vec3 along = table.required("along", table.triple("along"));
+  if (!(std::abs(along.norm() - 1) <= axis_tolerance)) table.fail("along", "must be a unit vector");
+  return along.normalized();
+}
+
+PartParameter parameter_of(TomlTable& table, Side side, double mm) {
+  PartParameter parameter;
+  parameter.name = table.required("name", table.text("name"));
+  parameter.kind = kind_of(table, parameter.name);
+  const bool moves = parameter.kind == ParameterKind::translation;
+  const double unit = moves ? mm : 1;
+  const auto [low, high] = table.required("range", table.pair("range"));
+  parameter.low = unit * low;
+  parameter.high = unit * high;
+  parameter.as_given =
+      unit * table.number("as_given").value_or(parameter.kind == ParameterKind::size ? 1 : 0);
+  const auto value = table.number("value");
+  parameter.value = value ? unit * *value : parameter.as_given;
+  if (parameter.value < parameter.low || parameter.value > parameter.high)
+    table.fail(value ? "value" : "range",
+               fmt::format("{} lies outside of the range, {} to {}", parameter.value / unit, low, high));
+  parameter.sigma = unit * table.number("sigma").value_or(0);
+  if (parameter.sigma < 0) table.fail("sigma", "must be 0 or more");
+  if (moves)
+    parameter.direction = direction_of(table, side);
+  else if (table.has("along"))
+    table.fail("along", "is for a translation");
+  table.finish();
+  return parameter;
+}
+
+}  // namespace
+
+std::vector<DescribedPart> described_parts(TomlTable& file, Side side, double mm) {
+  std::vector<DescribedPart> parts;
+  for (TomlTable& table : file.tables("part")) {
+    DescribedPart described;
+    PosedPart& part = described.part;
+    part.name = table.required("name", table.text("name"));
+    part.body = table.required_word("body", {"fixed", "mobile"}) == 0 ? BodyRole::fixed : BodyRole::mobile;
+    part.meshes = table.texts("meshes").value_or(std::vector<std::string>{});
+    if (table.has("meshes") && part.meshes.empty()) table.fail("meshes", "must name one mesh or more");
+    if (const auto centre = table.triple("centre")) described.centre_in_W = mm * *centre;
+    for (TomlTable& parameter : table.tables("parameter"))
+      part.parameters.push_back(parameter_of(parameter, side, mm));
+    table.finish();
+    parts.push_back(std::move(described));
+  }
+  return parts;
+}
+
+}  // namespace condyle::io

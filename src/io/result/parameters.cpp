@@ -1,0 +1,40 @@
+#include "io/result/parameters.hpp"
+
+#include <fmt/format.h>
+
+namespace condyle::io {
+
+std::string parameters_text(const Joint& joint) {
+  const std::string changed = changed_parameters(joint);
+  return changed.empty() ? "" : fmt::format("  not as in the joint file: {}\n", changed);
+}
+
+std::string sigmas_text(const Joint& joint) {
+  std::string text;
+  if (!joint.posed) return text;
+  for (const PosedPart& part : joint.posed->parts)
+    for (const PartParameter& parameter : part.parameters)
+      if (parameter.sigma > 0)
+        text += fmt::format(
+            ", {}.{} by {:g}{}", part.name, parameter.name, parameter.sigma,
+            parameter.kind == ParameterKind::size ? "" : fmt::format(" {}", unit_of(parameter.kind)));
+  return text;
+}
+
+Json parameters_json(std::span<const PosedPart> parts) {
+  Json json = Json::array();
+  for (const PosedPart& part : parts)
+    for (const PartParameter& parameter : part.parameters)
+      json.push_back({{"name", part.name + "." + parameter.name},
+                      {"kind", name_of(parameter.kind)},
+                      {"body", part.body == BodyRole::fixed ? "fixed" : "mobile"},
+                      {"value", parameter.value},
+                      {"unit", unit_of(parameter.kind)},
+                      {"in_joint_file", parameter.described},
+                      {"as_given", parameter.as_given},
+                      {"range", {parameter.low, parameter.high}},
+                      {"sigma", parameter.sigma}});
+  return json;
+}
+
+}  // namespace condyle::io
