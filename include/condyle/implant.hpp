@@ -125,15 +125,16 @@ struct TotalHip {
   /// With these a trapezoid across the neck in place of a circle: twice the neck's radius high, so wide above and below.
   double neck_upper_width_mm = 0, neck_lower_width_mm = 0;
   Angle liner_half_angle = Angle::degrees(90);
-  Angle chamfer = {};  ///< by which the outer edge of the liner's face is nearer to the pole than the inner one
-  Angle lip = {};      ///< by which the rim is raised where it is highest
+  Angle chamfer =
+      {};          ///< by which the outer edge of the liner's face is nearer to the pole than the inner one
+  Angle lip = {};  ///< by which the rim is raised where it is highest
   /// Where on the rim the lip is highest, from its uppermost place backwards.
   Angle lip_towards = Angle::degrees(45);
   Angle lip_width = Angle::degrees(120);  ///< of the rim that is raised
   double cup_radius_mm = 27;              ///< outside
   double offset_mm = 40;                  ///< from the centre of the head to the axis of the stem
   double stem_radius_mm = 7;
-  double stem_length_mm = 90;  ///< below where the neck's axis meets the stem's
+  double stem_length_mm = 80;  ///< below where the neck's axis meets the stem's
   double leg_length_mm = 0;    ///< by which the leg becomes longer: moves the bone, not the implant
   int facets = default_facets;
 
@@ -202,8 +203,9 @@ struct ImplantMeshes {
   std::vector<ImplantMesh> fixed, mobile;
 };
 
-/// Throws UsageError as check_implant(). The same bytes for the same sizes.
-ImplantMeshes implant_meshes(const Implant& implant, Side side);
+/// Throws UsageError as check_implant(). `stem_down` is where the stem points, of a right joint: that of a bone whose shaft leans leans with
+/// it, and the angle of the neck stays that from Y. The same bytes for the same sizes.
+ImplantMeshes implant_meshes(const Implant& implant, Side side, const Vec3& stem_down = -Vec3::UnitY());
 
 /// The plane across the neck of a total hip where the bone of the femur is cut: between neck and stem.
 struct NeckCut {

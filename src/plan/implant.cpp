@@ -61,8 +61,8 @@ std::span<const ImplantParameter> hip_sizes() noexcept {
       parameter<SizeOf<&T::stem_version>>("stem_version", "deg", -30, 60, "Anteversion of the stem's neck"),
       parameter<SizeOf<&T::head_radius_mm>>("head_radius", "mm", 9, 40,
                                             "Radius of the liner inside, and of its head"),
-      parameter<SizeOf<&T::clearance_mm>>("clearance", "mm", 0.2, 3,
-                                          "By which the mesh of the head is smaller, so that it never touches"),
+      parameter<SizeOf<&T::clearance_mm>>(
+          "clearance", "mm", 0.2, 3, "By which the mesh of the head is smaller, so that it never touches"),
       parameter<SizeOf<&T::neck_radius_mm>>("neck_radius", "mm", 2, 20,
                                             "Radius of the neck at the centre of the head"),
       parameter<SizeOf<&T::neck_taper>>("neck_taper", "deg", -8, 15,
@@ -73,8 +73,9 @@ std::span<const ImplantParameter> hip_sizes() noexcept {
                                                  "Width of a trapezoid neck below"),
       parameter<SizeOf<&T::liner_half_angle>>("liner_half_angle", "deg", 50, 120,
                                               "How far the liner reaches from its pole; 90: half a ball"),
-      parameter<SizeOf<&T::chamfer>>("chamfer", "deg", -30, 30,
-                                     "How far the rim's outer edge lies behind the inner one, seen from the centre"),
+      parameter<SizeOf<&T::chamfer>>(
+          "chamfer", "deg", -30, 30,
+          "How far the rim's outer edge lies behind the inner one, seen from the centre"),
       parameter<SizeOf<&T::lip>>("lip", "deg", 0, 30, "How far the rim is raised where its lip is highest"),
       parameter<SizeOf<&T::lip_towards>>("lip_towards", "deg", -180, 180,
                                          "Where on the rim the lip is highest, from the top backwards"),
@@ -103,21 +104,21 @@ std::span<const ImplantParameter> shoulder_sizes() noexcept {
       parameter<SizeOf<&T::retroversion>>("retroversion", "deg", -45, 90, "Retroversion of the cup's axis"),
       parameter<SizeOf<&T::head_radius_mm>>("head_radius", "mm", 12, 30,
                                             "Radius of the cup inside, and of its ball"),
-      parameter<SizeOf<&T::clearance_mm>>("clearance", "mm", 0.2, 3,
-                                          "By which the mesh of the ball is smaller, so that it never touches"),
+      parameter<SizeOf<&T::clearance_mm>>(
+          "clearance", "mm", 0.2, 3, "By which the mesh of the ball is smaller, so that it never touches"),
       parameter<SizeOf<&T::neck_radius_mm>>("neck_radius", "mm", 2, 20, "Radius of the pillar of the ball"),
       parameter<SizeOf<&T::neck_taper>>("neck_taper", "deg", -8, 15,
                                         "Half-angle of a conical pillar that widens towards the scapula"),
       parameter<SizeOf<&T::liner_half_angle>>("liner_half_angle", "deg", 30, 100,
                                               "How far the cup reaches from its pole; 90: half a ball"),
-      parameter<SizeOf<&T::chamfer>>("chamfer", "deg", -30, 30,
-                                     "How far the rim's outer edge lies behind the inner one, seen from the centre"),
+      parameter<SizeOf<&T::chamfer>>(
+          "chamfer", "deg", -30, 30,
+          "How far the rim's outer edge lies behind the inner one, seen from the centre"),
       parameter<SizeOf<&T::cup_radius_mm>>("cup_radius", "mm", 14, 45, "Radius of the cup outside"),
       parameter<SizeOf<&T::pillar_length_mm>>("pillar_length", "mm", 20, 60,
                                               "Length of the pillar, from the centre of the ball"),
       parameter<SizeOf<&T::stem_radius_mm>>("stem_radius", "mm", 3, 10, "Radius of the stem"),
-      parameter<SizeOf<&T::stem_length_mm>>("stem_length", "mm", 30, 200,
-                                            "Length of the stem below the cup"),
+      parameter<SizeOf<&T::stem_length_mm>>("stem_length", "mm", 30, 200, "Length of the stem below the cup"),
   };
   return all;
 }
@@ -157,10 +158,9 @@ void check_ranges(const Implant& implant) {
   for (const ImplantParameter& each : implant_parameters(implant)) {
     const double value = each.value(implant);
     if (value >= each.low && value <= each.high) continue;
-    throw UsageError(
-        implant_line(each.name) +
-        core::formatted(" is %g, must be %g to %g %s", value, each.low, each.high,
-                        each.unit == "deg" ? "degrees" : "mm"));
+    throw UsageError(implant_line(each.name) + core::formatted(" is %g, must be %g to %g %s", value, each.low,
+                                                               each.high,
+                                                               each.unit == "deg" ? "degrees" : "mm"));
   }
 }
 
@@ -168,18 +168,21 @@ void check_sizes(const Sizes& sizes) {
   const auto refuse = [](const std::string& what) { throw UsageError(implant_line(what)); };
   constexpr int fewest = 24, most = 2880;
   if (sizes.facets < fewest || sizes.facets > most || sizes.facets % 4 != 0)
-    refuse(core::formatted("facets is %d, must be a multiple of 4 from %d to %d", sizes.facets, fewest, most));
+    refuse(
+        core::formatted("facets is %d, must be a multiple of 4 from %d to %d", sizes.facets, fewest, most));
   const LinerShape& liner = sizes.liner;
   constexpr double thinnest = 1;
   if (liner.outer_radius_mm < liner.radius_mm + thinnest)
-    refuse(core::formatted("a head of radius %g mm is too large for a cup of radius %g mm outside: its wall "
-                           "needs %g mm",
-                           liner.radius_mm, liner.outer_radius_mm, thinnest));
+    refuse(
+        core::formatted("a head of radius %g mm is too large for a cup of radius %g mm outside: its wall "
+                        "needs %g mm",
+                        liner.radius_mm, liner.outer_radius_mm, thinnest));
   const double chamfer_cosine = core::sine_cosine(liner.chamfer.radians()).cosine;
   if (chamfer_cosine * liner.outer_radius_mm <= liner.radius_mm)
-    refuse(core::formatted("a chamfer of %g degrees is too much for walls from %g to %g mm: it would run into "
-                           "the head",
-                           written_degrees(liner.chamfer), liner.radius_mm, liner.outer_radius_mm));
+    refuse(
+        core::formatted("a chamfer of %g degrees is too much for walls from %g to %g mm: it would run into "
+                        "the head",
+                        written_degrees(liner.chamfer), liner.radius_mm, liner.outer_radius_mm));
   const double t = std::tan(sizes.neck.taper.radians());
   const double at_end = sizes.neck.radius_mm + t * sizes.neck_end_mm;
   constexpr double thinnest_neck = 1;
@@ -192,9 +195,10 @@ void check_sizes(const Sizes& sizes) {
   constexpr double beyond = 2;
   // The neck ends in a plane: its end is beyond the cup all over if its middle is.
   if (sizes.neck_end_mm < liner.outer_radius_mm + beyond)
-    refuse(core::formatted("the neck ends %.3g mm from the centre of the head, too near to a cup of radius %g mm "
-                           "outside: it must end %g mm beyond, by a larger %s",
-                           sizes.neck_end_mm, liner.outer_radius_mm, beyond, sizes.neck_end_by));
+    refuse(core::formatted(
+        "the neck ends %.3g mm from the centre of the head, too near to a cup of radius %g mm "
+        "outside: it must end %g mm beyond, by a larger %s",
+        sizes.neck_end_mm, liner.outer_radius_mm, beyond, sizes.neck_end_by));
   if (!(contact_half_angle(liner, sizes.neck) > Angle::degrees(1)))
     refuse("the neck is too thick for the opening of the liner: both would always be in contact");
 }
@@ -208,9 +212,10 @@ void check_design(const TotalHip& hip) {
         std::hypot(hip.neck_radius_mm, std::max(hip.neck_upper_width_mm, hip.neck_lower_width_mm) / 2);
     if (farthest + std::tan(hip.neck_taper.radians()) * hip.head_radius_mm >=
         hip.head_radius_mm - hip.clearance_mm)
-      refuse(core::formatted("the neck, whose corners are %.3g mm from its axis, is thicker than the head, of "
-                             "radius %g mm",
-                             farthest, hip.head_radius_mm - hip.clearance_mm));
+      refuse(
+          core::formatted("the neck, whose corners are %.3g mm from its axis, is thicker than the head, of "
+                          "radius %g mm",
+                          farthest, hip.head_radius_mm - hip.clearance_mm));
   }
   if (hip.lip > Angle()) {
     LinerShape raised{hip.head_radius_mm, hip.cup_radius_mm, hip.liner_half_angle + hip.lip, hip.chamfer};

@@ -97,8 +97,7 @@ TriMesh liner_mesh(const AxisAcross& frame, const LinerShape& liner, int facets,
     }));
   };
   for (int i = 1; i <= steps; ++i) add(liner.radius_mm, static_cast<double>(i) / steps, {});
-  for (int i = steps; i >= 1; --i)
-    add(liner.outer_radius_mm, static_cast<double>(i) / steps, liner.chamfer);
+  for (int i = steps; i >= 1; --i) add(liner.outer_radius_mm, static_cast<double>(i) / steps, liner.chamfer);
   return lofted(-liner.radius_mm * frame.axis, rings, -liner.outer_radius_mm * frame.axis);
 }
 
@@ -128,8 +127,7 @@ TriMesh neck_mesh(const AxisAcross& frame, const std::vector<SectionPoint>& sect
     Ring inner;
     for (const Vec3& p : on_ball) {
       const Vec3 across = p - p.dot(frame.axis) * frame.axis;
-      const auto [sine, cosine] =
-          sine_cosine(core::arctangent(across.norm(), p.dot(frame.axis)) * i / steps);
+      const auto [sine, cosine] = sine_cosine(core::arctangent(across.norm(), p.dot(frame.axis)) * i / steps);
       inner.push_back(start * (cosine * frame.axis + sine * across.normalized()));
     }
     rings.push_back(std::move(inner));
@@ -149,7 +147,8 @@ std::vector<SectionPoint> round_section(double radius, int facets) {
 }
 
 std::vector<SectionPoint> trapezoid_section(const TotalHip& hip) {
-  const double h = hip.neck_radius_mm, upper = hip.neck_upper_width_mm / 2, lower = hip.neck_lower_width_mm / 2;
+  const double h = hip.neck_radius_mm, upper = hip.neck_upper_width_mm / 2,
+               lower = hip.neck_lower_width_mm / 2;
   const SectionPoint corners[] = {{h, -upper}, {h, upper}, {-h, lower}, {-h, -lower}};
   std::vector<SectionPoint> section;
   const int side = hip.facets / 4;
@@ -162,13 +161,13 @@ std::vector<SectionPoint> trapezoid_section(const TotalHip& hip) {
   return section;
 }
 
-/// A stem: a tube of round sections along a parabola from `start` in the sense of `along` to the vertical, then straight down. All of it is
+/// A stem: a tube of round sections along a parabola from `start` in the sense of `along` to the axis of the stem, then straight on. All of it is
 /// farther from the centre than the cup, which it never reaches.
 TriMesh stem_mesh(const Vec3& start, const Vec3& along, double bend, double first_radius, double radius,
-                  double length) {
+                  double length, const Vec3& down) {
   constexpr int around = 72, in_bend = 20, in_shaft = 8;
   constexpr double tip_share = 0.6;
-  const Vec3 corner = start + bend * along, down = -Vec3::UnitY();
+  const Vec3 corner = start + bend * along;
   const Vec3 across = along.cross(down).normalized();
   std::vector<Ring> rings;
   const auto add = [&](const Vec3& middle, const Vec3& tangent, double r) {
@@ -180,8 +179,7 @@ TriMesh stem_mesh(const Vec3& start, const Vec3& along, double bend, double firs
   };
   for (int i = 0; i <= in_bend; ++i) {
     const double s = static_cast<double>(i) / in_bend;
-    const Vec3 middle =
-        (1 - s) * (1 - s) * start + 2 * s * (1 - s) * corner + s * s * (corner + bend * down);
+    const Vec3 middle = (1 - s) * (1 - s) * start + 2 * s * (1 - s) * corner + s * s * (corner + bend * down);
     add(middle, (1 - s) * along + s * down, first_radius + s * (radius - first_radius));
   }
   for (int i = 1; i <= in_shaft; ++i) {
@@ -191,7 +189,7 @@ TriMesh stem_mesh(const Vec3& start, const Vec3& along, double bend, double firs
   return lofted(start, rings, corner + length * down);
 }
 
-ImplantMeshes meshes_of(const TotalHip& hip) {
+ImplantMeshes meshes_of(const TotalHip& hip, const Vec3& stem_down) {
   const plan::ImplantAxes axes = plan::axes_of(hip, Side::right);
   const AxisAcross cup(axes.liner), neck(axes.neck);
   const LinerShape liner{hip.head_radius_mm, hip.cup_radius_mm, hip.liner_half_angle, hip.chamfer};
@@ -212,14 +210,14 @@ ImplantMeshes meshes_of(const TotalHip& hip) {
   made.fixed.push_back({"liner", liner_mesh(cup, liner, hip.facets, rim)});
   made.mobile.push_back({"head", ball_mesh(neck, ball)});
   made.mobile.push_back({"neck", neck_mesh(neck, section, shape, ball, end - joint_gap_mm)});
-  made.mobile.push_back({"stem", stem_mesh((end + joint_gap_mm) * neck.axis, neck.axis,
-                                           plan::stem_bend_mm(hip) - joint_gap_mm,
-                                           std::min(hip.stem_radius_mm, hip.neck_radius_mm),
-                                           hip.stem_radius_mm, hip.stem_length_mm)});
+  made.mobile.push_back(
+      {"stem", stem_mesh((end + joint_gap_mm) * neck.axis, neck.axis, plan::stem_bend_mm(hip) - joint_gap_mm,
+                         std::min(hip.stem_radius_mm, hip.neck_radius_mm), hip.stem_radius_mm,
+                         hip.stem_length_mm, stem_down)});
   return made;
 }
 
-ImplantMeshes meshes_of(const ReverseShoulder& shoulder) {
+ImplantMeshes meshes_of(const ReverseShoulder& shoulder, const Vec3& stem_down) {
   const plan::ImplantAxes axes = plan::axes_of(shoulder, Side::right);
   const AxisAcross cup(axes.liner), pillar(axes.neck);
   const LinerShape liner{shoulder.head_radius_mm, shoulder.cup_radius_mm, shoulder.liner_half_angle,
@@ -231,11 +229,11 @@ ImplantMeshes meshes_of(const ReverseShoulder& shoulder) {
   made.fixed.push_back(
       {"pillar", neck_mesh(pillar, round_section(shoulder.neck_radius_mm, shoulder.facets),
                            {shoulder.neck_radius_mm, shoulder.neck_taper}, ball, shoulder.pillar_length_mm)});
-  made.mobile.push_back({"liner", liner_mesh(cup, liner, shoulder.facets,
-                                             [&](double) { return shoulder.liner_half_angle; })});
-  made.mobile.push_back({"stem", stem_mesh(-stem_start * cup.axis, -cup.axis, plan::least_stem_bend_mm,
-                                           shoulder.stem_radius_mm, shoulder.stem_radius_mm,
-                                           shoulder.stem_length_mm)});
+  made.mobile.push_back(
+      {"liner", liner_mesh(cup, liner, shoulder.facets, [&](double) { return shoulder.liner_half_angle; })});
+  made.mobile.push_back(
+      {"stem", stem_mesh(-stem_start * cup.axis, -cup.axis, plan::least_stem_bend_mm, shoulder.stem_radius_mm,
+                         shoulder.stem_radius_mm, shoulder.stem_length_mm, stem_down)});
   return made;
 }
 
@@ -272,9 +270,9 @@ double plan::stem_bend_mm(const TotalHip& hip) {
   return neck_length_mm(hip) - neck_end_mm(hip);
 }
 
-ImplantMeshes implant_meshes(const Implant& implant, Side side) {
+ImplantMeshes implant_meshes(const Implant& implant, Side side, const Vec3& stem_down) {
   check_implant(implant);
-  ImplantMeshes made = std::visit([](const auto& design) { return meshes_of(design); }, implant);
+  ImplantMeshes made = std::visit([&](const auto& design) { return meshes_of(design, stem_down); }, implant);
   for (auto* body : {&made.fixed, &made.mobile})
     for (ImplantMesh& each : *body) put_on_side(each.mesh, side);
   return made;

@@ -38,19 +38,75 @@ struct Design {
 
 /// Designs and their limits to 1e-4 degrees, computed independently of this code: by the closed form, A, B and E by meshes too.
 const Design designs[] = {
-    {"A", 40, 15, 135, 15, 16, 6, 90, 67.9757,
+    {"A",
+     40,
+     15,
+     135,
+     15,
+     16,
+     6,
+     90,
+     67.9757,
      {128.7064, 61.1268, 59.5838, 67.5978, -1, 70.5273, -1, 45.3956, 38.6748, 108.6748, 30.7376, -1}},
-    {"B", 45, 20, 135, 15, 18, 6, 90, 70.5288,
+    {"B",
+     45,
+     20,
+     135,
+     15,
+     18,
+     6,
+     90,
+     70.5288,
      {144.5010, 61.0067, 65.6158, 63.6298, -1, 62.7349, -1, 54.4941, 52.0859, 112.0859, 44.2217, -1}},
-    {"C", 40, 15, 125, 10, 14, 6, 90, 64.6231,
+    {"C",
+     40,
+     15,
+     125,
+     10,
+     14,
+     6,
+     90,
+     64.6231,
      {132.1862, 65.7721, 46.2858, 75.4594, -1, 56.9386, 73.7332, 48.1649, 29.2663, 109.2663, 24.4711, -1}},
-    {"D", 50, 5, 130, 5, 18, 6.5, 90, 68.8316,
+    {"D",
+     50,
+     5,
+     130,
+     5,
+     18,
+     6.5,
+     90,
+     68.8316,
      {135.6716, -1, 68.4441, 68.2289, 106.4383, 83.4074, -1, 31.8628, 31.4352, 101.4352, 20.1107, -1}},
-    {"E", 35, 25, 127, 20, 16, 5, 85, 76.7900,
+    {"E",
+     35,
+     25,
+     127,
+     20,
+     16,
+     5,
+     85,
+     76.7900,
      {160.6957, 52.5694, 50.4907, 83.0374, -1, 54.9653, 87.3278, 88.0955, 57.0441, -1, 54.7120, -1}},
-    {"F", 45, 15, 135, 0, 20, 6, 95, 67.5424,
+    {"F",
+     45,
+     15,
+     135,
+     0,
+     20,
+     6,
+     95,
+     67.5424,
      {122.0266, 80.5195, 66.7044, 66.7044, -1, 80.5195, 82.7130, 34.2201, 28.0620, 118.0620, 18.8545, -1}},
-    {"G", 30, 10, 132, 15, 16, 6.75, 90, 65.0470,
+    {"G",
+     30,
+     10,
+     132,
+     15,
+     16,
+     6.75,
+     90,
+     65.0470,
      {111.0629, 55.9717, 44.8840, 78.9053, -1, 78.1255, 83.3512, 36.2233, 20.3117, 110.3117, 14.2686, -1}},
 };
 
@@ -71,7 +127,8 @@ Body body_of(const char* name, const std::vector<ImplantMesh>& meshes) {
   std::vector<BodyPart> parts;
   for (const auto& [part, mesh] : meshes) {
     const auto first = static_cast<Index>(all.vertices.size());
-    parts.push_back({part, all.vertices.size(), mesh.vertices.size(), all.triangles.size(), mesh.triangles.size()});
+    parts.push_back(
+        {part, all.vertices.size(), mesh.vertices.size(), all.triangles.size(), mesh.triangles.size()});
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) all.vertices.push_back(mesh.vertices[v]);
     for (Triangle t : mesh.triangles) {
       for (Index& corner : t) corner += first;
@@ -134,7 +191,8 @@ TEST(CupAngles, ConvertBetweenMurraysDefinitions) {
 
 TEST(CupAngles, GoToAnAxisAndBackOnBothSides) {
   for (const Side side : {Side::right, Side::left})
-    for (const auto definition : {CupDefinition::radiographic, CupDefinition::anatomic, CupDefinition::operative})
+    for (const auto definition :
+         {CupDefinition::radiographic, CupDefinition::anatomic, CupDefinition::operative})
       for (double inclination = 1; inclination < 90; inclination += 7.5)
         for (double anteversion = -40; anteversion <= 60; anteversion += 12.5) {
           const CupAngles given = cup(inclination, anteversion, definition);
@@ -148,7 +206,8 @@ TEST(CupAngles, GoToAnAxisAndBackOnBothSides) {
 }
 
 TEST(CupAngles, AreNamed) {
-  for (const auto definition : {CupDefinition::radiographic, CupDefinition::anatomic, CupDefinition::operative})
+  for (const auto definition :
+       {CupDefinition::radiographic, CupDefinition::anatomic, CupDefinition::operative})
     EXPECT_EQ(cup_definition_named(name_of(definition)), definition);
   EXPECT_THROW(cup_definition_named("surgical"), UsageError);
 }
@@ -159,7 +218,8 @@ double half_angle(LinerShape liner, NeckShape neck) {
 
 TEST(ContactHalfAngle, OfASharpRimAndACylinderIsClosed) {
   for (const Design& d : designs)
-    EXPECT_NEAR(half_angle({d.head, d.head + 5, Angle::degrees(d.reach)}, {d.neck}), d.half_angle, 5e-5) << d.name;
+    EXPECT_NEAR(half_angle({d.head, d.head + 5, Angle::degrees(d.reach)}, {d.neck}), d.half_angle, 5e-5)
+        << d.name;
   EXPECT_NEAR(half_angle({16, 20}, {6}), 90 - std::asin(6.0 / 16) * in_degrees, 1e-11);
 }
 
@@ -180,7 +240,8 @@ TEST(ClosedLimit, IsThatOfTheTables) {
     for (std::size_t m = 0; m < motions.size(); ++m) {
       const ClosedLimit limit = closed_limit(pair, right_hip, motions[m]);
       const bool ends = d.limits[m] < 0;
-      EXPECT_EQ(limit.reason, ends ? LimitReason::end_of_range : LimitReason::contact) << d.name << motions[m].name;
+      EXPECT_EQ(limit.reason, ends ? LimitReason::end_of_range : LimitReason::contact)
+          << d.name << motions[m].name;
       EXPECT_NEAR(limit.turned.degrees(), ends ? motions[m].range.degrees() : d.limits[m], 6e-5)
           << d.name << " " << motions[m].name;
     }
@@ -271,7 +332,8 @@ std::array<double, 2> free_anteversion(const Vec3& neck, Angle half_angle, doubl
   const auto safe = [&](double ra) { return is_safe(neck, half_angle, ri, ra); };
   std::vector<double> ends;
   for (double ra = -60; ra < 80; ra += step)
-    if (safe(ra) != safe(ra + step)) ends.push_back(safe(ra) ? border(safe, ra, ra + step) : border(safe, ra + step, ra));
+    if (safe(ra) != safe(ra + step))
+      ends.push_back(safe(ra) ? border(safe, ra, ra + step) : border(safe, ra + step, ra));
   if (ends.empty()) return {0, 0};
   EXPECT_EQ(ends.size(), 2) << "at an inclination of " << ri;
   return {ends.front(), ends.back()};
@@ -283,10 +345,30 @@ TEST(SafeZone, HasTheAreasAndBordersOfTheTables) {
     std::array<std::array<double, 2>, 4> at;  ///< RI 35, 40, 45, 50
   };
   const Zone zones[] = {
-      {135, 15, 16, 6, 658.125, {{{11.2369, 32.4068}, {6.3320, 31.9068}, {1.7514, 31.0689}, {-2.4486, 29.8754}}}},
-      {135, 15, 18, 6, 818.368, {{{7.6080, 34.9678}, {2.8258, 34.4907}, {-1.6271, 33.6911}, {-5.7009, 32.5523}}}},
-      {127, 5, 18, 6, 622.383, {{{19.6889, 34.8306}, {12.6346, 36.0835}, {5.8768, 36.1254}, {-0.3976, 35.8579}}}},
-      {135, 25, 14, 5, 782.216, {{{0.2912, 28.2969}, {-3.8534, 27.3609}, {-7.5898, 26.0803}, {-10.9091, 24.4341}}}},
+      {135,
+       15,
+       16,
+       6,
+       658.125,
+       {{{11.2369, 32.4068}, {6.3320, 31.9068}, {1.7514, 31.0689}, {-2.4486, 29.8754}}}},
+      {135,
+       15,
+       18,
+       6,
+       818.368,
+       {{{7.6080, 34.9678}, {2.8258, 34.4907}, {-1.6271, 33.6911}, {-5.7009, 32.5523}}}},
+      {127,
+       5,
+       18,
+       6,
+       622.383,
+       {{{19.6889, 34.8306}, {12.6346, 36.0835}, {5.8768, 36.1254}, {-0.3976, 35.8579}}}},
+      {135,
+       25,
+       14,
+       5,
+       782.216,
+       {{{0.2912, 28.2969}, {-3.8534, 27.3609}, {-7.5898, 26.0803}, {-10.9091, 24.4341}}}},
   };
   for (const Zone& zone : zones) {
     const Vec3 neck = neck_axis(Angle::degrees(zone.neck_shaft), Angle::degrees(zone.version), Side::right);
@@ -310,7 +392,8 @@ TEST(ImplantMeshes, AreClosedWoundOutwardsAndApart) {
   TotalHip lipped;
   lipped.lip = Angle::degrees(15), lipped.chamfer = Angle::degrees(10);
   TotalHip trapezoid;
-  trapezoid.neck_upper_width_mm = 8, trapezoid.neck_lower_width_mm = 12, trapezoid.neck_taper = Angle::degrees(2);
+  trapezoid.neck_upper_width_mm = 8, trapezoid.neck_lower_width_mm = 12,
+  trapezoid.neck_taper = Angle::degrees(2);
   TotalHip bent;
   bent.neck_shaft = Angle::degrees(110), bent.stem_radius_mm = 10, bent.offset_mm = 50;
   for (const Implant& implant :
@@ -354,7 +437,8 @@ TEST(ImplantMeshes, OfConesAndChamfersEndMotionsWhereTheClosedFormDoes) {
 }
 
 std::string part_that_met(const Body& body, const Feature& feature) {
-  return (feature.kind == FeatureKind::face ? part_of_triangle(body, feature.id) : part_of_vertex(body, feature.id))
+  return (feature.kind == FeatureKind::face ? part_of_triangle(body, feature.id)
+                                            : part_of_vertex(body, feature.id))
       ->name;
 }
 
@@ -374,15 +458,22 @@ TEST(ReverseShoulder, IsTheSamePairWithRolesExchanged) {
   EXPECT_NEAR(pair.half_angle.degrees(), 102.607312, 1e-6);
   const std::vector<Motion> motions{
       {"abduction", JointAngle::adduction, RotationSense::positive, {}, Angle::degrees(180)},
-      {"horizontal_flexion", JointAngle::flexion, RotationSense::positive, {Angle(), Angle::degrees(90), Angle()},
+      {"horizontal_flexion",
+       JointAngle::flexion,
+       RotationSense::positive,
+       {Angle(), Angle::degrees(90), Angle()},
        Angle::degrees(180)},
       {"internal_rotation", JointAngle::internal_rotation, RotationSense::positive, {}, Angle::degrees(120)},
-      {"elevation in the plane 90", JointAngle::adduction, RotationSense::positive, {Angle::degrees(90), Angle(), Angle()},
+      {"elevation in the plane 90",
+       JointAngle::adduction,
+       RotationSense::positive,
+       {Angle::degrees(90), Angle(), Angle()},
        Angle::degrees(180)},
   };
   const double known[] = {139.7805, 79.1543, 99.3252, 39.9971};
   for (std::size_t m = 0; m < motions.size(); ++m)
-    EXPECT_NEAR(closed_limit(pair, {Anatomy::shoulder, Side::right}, motions[m]).turned.degrees(), known[m], 6e-5)
+    EXPECT_NEAR(closed_limit(pair, {Anatomy::shoulder, Side::right}, motions[m]).turned.degrees(), known[m],
+                6e-5)
         << motions[m].name;
   for (const Side side : {Side::right, Side::left}) EXPECT_LT(largest_difference(shoulder, side), 0.01);
 }
@@ -392,11 +483,13 @@ TEST(TotalHip, TurnsFartherWithALargerHeadAndLessFarWithARaisedRim) {
   larger.head_radius_mm = 18;
   TotalHip raised;
   raised.lip = Angle::degrees(15), raised.lip_width = Angle::degrees(360);
-  const auto usual = mesh_limits(TotalHip{}), with_larger = mesh_limits(larger), with_raised = mesh_limits(raised);
+  const auto usual = mesh_limits(TotalHip{}), with_larger = mesh_limits(larger),
+             with_raised = mesh_limits(raised);
   double gain = 0, loss = 0;
   for (std::size_t m = 0; m < usual.size(); ++m) {
     EXPECT_GE(with_larger[m].end.turned, usual[m].end.turned) << usual[m].motion.name;
-    EXPECT_LE(with_raised[m].end.turned.radians(), usual[m].end.turned.radians() + 1e-9) << usual[m].motion.name;
+    EXPECT_LE(with_raised[m].end.turned.radians(), usual[m].end.turned.radians() + 1e-9)
+        << usual[m].motion.name;
     gain += (with_larger[m].end.turned - usual[m].end.turned).degrees();
     loss += (usual[m].end.turned - with_raised[m].end.turned).degrees();
   }
@@ -416,7 +509,8 @@ TEST(TotalHip, WithMoreAnteversionBendsFartherAndExtendsLess) {
 
 TEST(TotalHip, WithALipBehindLosesWhereTheNeckComesToIt) {
   TotalHip behind;
-  behind.lip = Angle::degrees(15), behind.lip_towards = Angle::degrees(120), behind.lip_width = Angle::degrees(120);
+  behind.lip = Angle::degrees(15), behind.lip_towards = Angle::degrees(120),
+  behind.lip_width = Angle::degrees(120);
   const auto usual = mesh_limits(TotalHip{}), raised = mesh_limits(behind);
   // External rotation and extension bring the neck to the rim behind; flexion to the one in front.
   for (const auto& [m, loses] : {std::pair(0, false), std::pair(5, true)})
@@ -439,8 +533,9 @@ TEST(TotalHip, RefusesWrongSizesInOneLine) {
     return refused(hip);
   };
   EXPECT_EQ(with([](TotalHip&) {}), "");
-  EXPECT_EQ(with([](TotalHip& h) { h.head_radius_mm = 28; }),
-            "implant: a head of radius 28 mm is too large for a cup of radius 27 mm outside: its wall needs 1 mm");
+  EXPECT_EQ(
+      with([](TotalHip& h) { h.head_radius_mm = 28; }),
+      "implant: a head of radius 28 mm is too large for a cup of radius 27 mm outside: its wall needs 1 mm");
   EXPECT_EQ(with([](TotalHip& h) { h.clearance_mm = -1; }),
             "implant: a clearance of -1 mm makes the head larger than the liner");
   EXPECT_EQ(with([](TotalHip& h) { h.neck_radius_mm = 17; }),
@@ -452,7 +547,8 @@ TEST(TotalHip, RefusesWrongSizesInOneLine) {
   EXPECT_EQ(with([](TotalHip& h) { h.facets = 181; }),
             "implant: facets is 181, must be a multiple of 4 from 24 to 2880");
   EXPECT_EQ(with([](TotalHip& h) { h.offset_mm = 20; }),
-            "implant: the neck ends 16.3 mm from the centre of the head, too near to a cup of radius 27 mm outside: "
+            "implant: the neck ends 16.3 mm from the centre of the head, too near to a cup of radius 27 mm "
+            "outside: "
             "it must end 2 mm beyond, by a larger offset");
   EXPECT_EQ(with([](TotalHip& h) { h.neck_lower_width_mm = 9; }),
             "implant: a trapezoid neck has both widths, neck_upper_width and neck_lower_width");
