@@ -14,9 +14,9 @@ namespace {
 void require_fitting(const TotalHip& implant, const HipParameters& bones) {
   const double socket = bones.head_radius_mm + bones.joint_space_mm;
   if (implant.cup_radius_mm < socket) return;
-  throw UsageError(
-      fmt::format("sample replacement: a cup of radius {:g} mm is not inside the pelvis: the socket has {:g} mm",
-                  implant.cup_radius_mm, socket));
+  throw UsageError(fmt::format(
+      "sample replacement: a cup of radius {:g} mm is not inside the pelvis: the socket has {:g} mm",
+      implant.cup_radius_mm, socket));
 }
 
 /// By how much the femur moves so that its shaft has its axis where the stem has it, and the leg its length.

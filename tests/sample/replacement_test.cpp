@@ -93,8 +93,8 @@ TEST(SampleReplacement, EndsEachMotionWhereTheFirstOfItsPartsDoes) {
                pelvis = limits_with(meshes, fixed_bone, mobile_implant, side);
     int by_bone = 0, by_implant = 0;
     for (std::size_t m = 0; m < together.size(); ++m) {
-      const Angle first = std::min({implant[m].end.turned, bones[m].end.turned, liner[m].end.turned,
-                                    pelvis[m].end.turned});
+      const Angle first =
+          std::min({implant[m].end.turned, bones[m].end.turned, liner[m].end.turned, pelvis[m].end.turned});
       EXPECT_NEAR(together[m].end.turned.radians(), first.radians(), 1e-9) << together[m].motion.name;
       by_bone += bones[m].end.turned < implant[m].end.turned;
       by_implant += implant[m].end.turned < bones[m].end.turned;
@@ -115,7 +115,8 @@ TEST(SampleReplacement, MovesTheBoneByOffsetAndLegLength) {
   const auto before = limits_with(usual, fixed_implant, mobile_implant),
              after = limits_with(moved, fixed_implant, mobile_implant);
   for (std::size_t m = 0; m < before.size(); ++m)
-    EXPECT_NEAR(before[m].end.turned.radians(), after[m].end.turned.radians(), 1e-12) << before[m].motion.name;
+    EXPECT_NEAR(before[m].end.turned.radians(), after[m].end.turned.radians(), 1e-12)
+        << before[m].motion.name;
 }
 
 TEST(SampleReplacement, RefusesACupLargerThanTheSocket) {
@@ -125,8 +126,9 @@ TEST(SampleReplacement, RefusesACupLargerThanTheSocket) {
     replaced(large);
     FAIL();
   } catch (const UsageError& error) {
-    EXPECT_STREQ(error.what(),
-                 "sample replacement: a cup of radius 30 mm is not inside the pelvis: the socket has 27.5 mm");
+    EXPECT_STREQ(
+        error.what(),
+        "sample replacement: a cup of radius 30 mm is not inside the pelvis: the socket has 27.5 mm");
   }
 }
 

@@ -4,6 +4,8 @@
 
 #include <limits>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "condyle/error.hpp"
@@ -12,6 +14,7 @@
 #include "io/file/format_version.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/image/write_labels.hpp"
+#include "io/joint/implant_table.hpp"
 #include "mesh/voxelise.hpp"
 
 namespace condyle {
@@ -21,29 +24,46 @@ struct BodyFile {
   const char *name, *mesh;
 };
 
-std::string joint_file_text(const std::string& joint, const BodyFile& fixed, const BodyFile& mobile,
-                            Side side) {
+std::string joint_file_text(const std::string& joint, const std::string& fixed, const std::string& mobile,
+                            Side side, std::string_view anatomy = {}) {
   return fmt::format(R"(condyle = {}
 name = "{}"
 kind = "ball"
-side = "{}"
+{}side = "{}"
 units = "mm"
 
 [fixed]
-name = "{}"
-mesh = "{}"
-
+{}
 [mobile]
-name = "{}"
-mesh = "{}"
-
+{}
 [frame]
 centre = [0.0, 0.0, 0.0]
 anterior = [1.0, 0.0, 0.0]
 superior = [0.0, 1.0, 0.0]
 )",
-                     io::format_version, joint, name_of(side), fixed.name, fixed.mesh, mobile.name,
-                     mobile.mesh);
+                     io::format_version, joint,
+                     anatomy.empty() ? "" : fmt::format("joint = \"{}\"\n", anatomy), name_of(side), fixed,
+                     mobile);
+}
+
+std::string joint_file_text(const std::string& joint, const BodyFile& fixed, const BodyFile& mobile,
+                            Side side) {
+  const auto body = [](const BodyFile& file) {
+    return fmt::format("name = \"{}\"\nmesh = \"{}\"\n", file.name, file.mesh);
+  };
+  return joint_file_text(joint, body(fixed), body(mobile), side);
+}
+
+/// Writes a mesh for each part.
+std::string body_of_parts(OutputFolder& out, std::string_view name, const std::vector<ImplantMesh>& parts) {
+  std::string meshes;
+  for (const auto& [part, mesh] : parts) {
+    const std::string file = part + ".ply";
+    write_mesh(out.file(file), mesh);
+    meshes += fmt::format("{}{{ name = \"{}\", mesh = \"{}\" }}", meshes.empty() ? "" : ",\n          ", part,
+                          file);
+  }
+  return fmt::format("name = \"{}\"\nmeshes = [{}]\n", name, meshes);
 }
 
 }  // namespace
@@ -54,6 +74,22 @@ void write_sample_hip(OutputFolder& out, const SampleHip& hip, Side side) {
   write_mesh(out.file(femur.mesh), hip.femur);
   io::write_whole_file(out.file("hip.toml"),
                        joint_file_text(fmt::format("sample {} hip", name_of(side)), hip_bone, femur, side));
+}
+
+void write_sample_implant(OutputFolder& out, const ImplantMeshes& meshes, const Implant& implant, Side side) {
+  const bool is_hip = std::holds_alternative<TotalHip>(implant);
+  // A body of one mesh is called after it, as there answers name no part.
+  const std::string fixed = body_of_parts(out,
+                                          meshes.fixed.size() == 1 ? meshes.fixed.front().part
+                                          : is_hip                 ? "pelvis"
+                                                                   : "scapula",
+                                          meshes.fixed);
+  const std::string mobile = body_of_parts(out, is_hip ? "femur" : "humerus", meshes.mobile);
+  const std::string name = fmt::format("{} replacement of the {} {}", is_hip ? "total" : "reverse",
+                                       name_of(side), is_hip ? "hip" : "shoulder");
+  io::write_whole_file(out.file(is_hip ? "hip.toml" : "shoulder.toml"),
+                       joint_file_text(name, fixed, mobile, side, is_hip ? "hip" : "shoulder") + "\n" +
+                           io::implant_text(implant));
 }
 
 void write_sample_labels(OutputFolder& out, const SampleHip& hip, Side side, double voxel_mm) {
