@@ -45,7 +45,8 @@ std::string implant_lines(const Implant& implant, Side side) {
     text += "\n";
   }
   const auto pair = revolved_pair(implant, side);
-  text += pair ? fmt::format("neck meets liner where their axes are {:.4f} degrees apart\n", pair->half_angle.degrees())
+  text += pair ? fmt::format("neck meets liner where their axes are {:.4f} degrees apart\n",
+                             pair->half_angle.degrees())
                : fmt::format("limits of meshes only: {}\n", why_not_revolved(implant));
   return text;
 }
@@ -63,7 +64,8 @@ void sample_implant_command(const ImplantOptions& options) {
   std::string text, files;
   for (const auto* body : {&meshes.fixed, &meshes.mobile})
     for (const auto& [part, mesh] : *body) {
-      text += fmt::format("{}: {} vertices, {} triangles\n", part, mesh.vertices.size(), mesh.triangles.size());
+      text +=
+          fmt::format("{}: {} vertices, {} triangles\n", part, mesh.vertices.size(), mesh.triangles.size());
       files += part + ".ply, ";
     }
   const char* joint = std::holds_alternative<TotalHip>(options.implant) ? "hip.toml" : "shoulder.toml";
@@ -86,7 +88,8 @@ std::vector<std::string> add_sizes(CLI::App& command, const std::shared_ptr<Impl
         .add_option_function<double>(
             names.back(), [options, set = each.set](double value) { set(options->implant, value); },
             std::string(each.meaning))
-        ->option_text(fmt::format("{} ({:g})", each.unit == "mm" ? "MM" : "DEG", each.value(options->implant)));
+        ->option_text(
+            fmt::format("{} ({:g})", each.unit == "mm" ? "MM" : "DEG", each.value(options->implant)));
   }
   return names;
 }
@@ -97,15 +100,19 @@ void add_common(CLI::App& command, const std::shared_ptr<ImplantOptions>& option
       ->option_text("FOLDER");
   command
       .add_option_function<std::string>(
-          "--side", [options](const std::string& name) { options->side = name == "left" ? Side::left : Side::right; },
+          "--side",
+          [options](const std::string& name) { options->side = name == "left" ? Side::left : Side::right; },
           "The side of the body. A left implant is the right one mirrored")
       ->check(CLI::IsMember({"right", "left"}))
       ->option_text("right|left (right)");
   command
       .add_option_function<int>(
           "--facets",
-          [options](int facets) { std::visit([&](auto& design) { design.facets = facets; }, options->implant); },
-          "Facets around liner and neck: with 360 limits are within 0.01 degrees of the closed form; the error goes with the square")
+          [options](int facets) {
+            std::visit([&](auto& design) { design.facets = facets; }, options->implant);
+          },
+          "Facets around liner and neck: with 360 limits are within 0.01 degrees of the closed form; the "
+          "error goes with the square")
       ->option_text(fmt::format("N ({})", default_facets));
 }
 
@@ -132,7 +139,9 @@ void add_replacement(CLI::App& sample) {
   command
       ->add_option_function<std::string>(
           "--bones",
-          [options](const std::string& word) { options->bones = word == "none" ? Bones::none : Bones::sample; },
+          [options](const std::string& word) {
+            options->bones = word == "none" ? Bones::none : Bones::sample;
+          },
           "Bones around the implant: the sample hip with its usual measures, or none")
       ->check(CLI::IsMember({"sample", "none"}))
       ->option_text("sample|none (sample)");
@@ -156,7 +165,8 @@ void add_reverse_shoulder(CLI::App& sample) {
   options->implant = ReverseShoulder{};
   add_common(*command, options, "a mesh for each part and shoulder.toml");
   const std::vector<std::string> sizes = add_sizes(*command, options);
-  group_help(*command, {{"Most used", {"--out", "--side"}}, {"Sizes", sizes}, {"Resolution", {"--facets", "--help"}}});
+  group_help(*command,
+             {{"Most used", {"--out", "--side"}}, {"Sizes", sizes}, {"Resolution", {"--facets", "--help"}}});
   command->callback([options] { sample_implant_command(*options); });
 }
 

@@ -19,9 +19,10 @@ Ran made_implant(const TemporaryFolder& folder, const std::string& arguments) {
 
 TEST(SampleReplacementCommand, WritesTheMeshesThatTheLibraryMakesWithTheSizesInTheJointFile) {
   const TemporaryFolder folder;
-  const Ran ran = made_implant(folder,
-                               "replacement --inclination 45 --anteversion 20 --definition anatomic --neck-shaft 130 "
-                               "--head-radius 18 --neck-taper 2 --facets 120 --side left --out made");
+  const Ran ran =
+      made_implant(folder,
+                   "replacement --inclination 45 --anteversion 20 --definition anatomic --neck-shaft 130 "
+                   "--head-radius 18 --neck-taper 2 --facets 120 --side left --out made");
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   TotalHip hip;
   hip.cup = {Angle::degrees(45), Angle::degrees(20), CupDefinition::anatomic};
@@ -29,7 +30,8 @@ TEST(SampleReplacementCommand, WritesTheMeshesThatTheLibraryMakesWithTheSizesInT
   hip.facets = 120;
   const ImplantMeshes expected = *sample_replacement(hip, {}, Scenario::one, Side::left);
   for (const auto* body : {&expected.fixed, &expected.mobile})
-    for (const auto& [part, mesh] : *body) EXPECT_EQ(read_mesh(folder / ("made/" + part + ".ply")).mesh, mesh) << part;
+    for (const auto& [part, mesh] : *body)
+      EXPECT_EQ(read_mesh(folder / ("made/" + part + ".ply")).mesh, mesh) << part;
   const JointFile file = read_joint_file(folder / "made/hip.toml");
   ASSERT_TRUE(file.implant);
   EXPECT_EQ(std::get<TotalHip>(*file.implant), hip);
@@ -49,13 +51,17 @@ TEST(SampleReplacementCommand, RefusesWrongSizesInOneLineAndWritesNothing) {
   const TemporaryFolder folder;
   for (const auto& [arguments, line] :
        {std::pair("replacement --head-radius 28",
-                  "condyle: implant: a head of radius 28 mm is too large for a cup of radius 27 mm outside: its wall "
+                  "condyle: implant: a head of radius 28 mm is too large for a cup of radius 27 mm outside: "
+                  "its wall "
                   "needs 1 mm\n"),
-        std::pair("replacement --neck-radius nan", "condyle: implant: neck_radius is nan, must be 2 to 20 mm\n"),
+        std::pair("replacement --neck-radius nan",
+                  "condyle: implant: neck_radius is nan, must be 2 to 20 mm\n"),
         std::pair("replacement --cup-radius 29 --offset 50",
-                  "condyle: sample replacement: a cup of radius 29 mm is not inside the pelvis: the socket has 27.5 mm\n"),
+                  "condyle: sample replacement: a cup of radius 29 mm is not inside the pelvis: the socket "
+                  "has 27.5 mm\n"),
         std::pair("reverse-shoulder --pillar-length 22",
-                  "condyle: implant: the neck ends 22 mm from the centre of the head, too near to a cup of radius 25 mm "
+                  "condyle: implant: the neck ends 22 mm from the centre of the head, too near to a cup of "
+                  "radius 25 mm "
                   "outside: it must end 2 mm beyond, by a larger pillar_length\n")}) {
     const Ran ran = made_implant(folder, std::string(arguments) + " --out made");
     EXPECT_EQ(ran.exit_code, 2);

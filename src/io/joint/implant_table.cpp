@@ -40,8 +40,8 @@ std::string implant_text(const Implant& implant) {
     text += fmt::format("definition = \"{}\"\n", name_of(hip->cup.definition));
   for (const ImplantParameter& each : implant_parameters(implant))
     text += fmt::format("{} = {}\n", each.name, each.value(implant));
-  return text + fmt::format("facets = {}\n",
-                            std::visit([](const auto& design) { return design.facets; }, implant));
+  return text +
+         fmt::format("facets = {}\n", std::visit([](const auto& design) { return design.facets; }, implant));
 }
 
 }  // namespace condyle::io
