@@ -13,6 +13,7 @@
 #include "followed.hpp"
 #include "help_formatter.hpp"
 #include "io/result/sample_files.hpp"
+#include "sample_implants.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -252,6 +253,7 @@ void add_sample(CLI::App& app) {
   add_hip(*sample);
   add_cartilages(*sample);
   add_cohort(*sample);
+  add_sample_implants(*sample);
 }
 
 }  // namespace condyle::cli

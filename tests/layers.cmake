@@ -17,7 +17,7 @@ set(motion_uses core mesh kinematics radial tangential contact)
 set(measure_uses core mesh kinematics motion)
 set(plan_uses core mesh kinematics tangential motion)
 set(answer_uses core kinematics contact motion measure plan)
-set(sample_uses core mesh)
+set(sample_uses core mesh plan)
 set(io_uses core mesh kinematics contact motion measure plan answer sample)
 
 # The layer of each public header. An AxisFrame is made in kinematics; as a plain value it is everybody's.
@@ -31,7 +31,7 @@ set(contact_headers contact contact_measures normal_depth pressure)
 set(motion_headers bearing first_contact impingement_zone limit_band motion_contact motion_map
                    range_of_motion recorded_contact)
 set(measure_headers hip_measures)
-set(plan_headers resection)
+set(plan_headers implant resection)
 set(answer_headers answer)
 set(sample_headers)
 set(io_headers)

@@ -171,9 +171,23 @@ void members(T& value, const Each& each) {
     auto& [bytes, sha256] = value;
     each(bytes, sha256);
   } else if constexpr (std::is_same_v<Struct, JointFile>) {
-    auto& [path, joint, fixed, mobile, motions, uncertainty, seed, pose, contact, recorded, digest, notes] =
-        value;
-    each(path, joint, fixed, mobile, motions, uncertainty, seed, pose, contact, recorded, digest, notes);
+    auto& [path, joint, fixed, mobile, motions, uncertainty, seed, pose, contact, recorded, implant, digest,
+           notes] = value;
+    each(path, joint, fixed, mobile, motions, uncertainty, seed, pose, contact, recorded, implant, digest,
+         notes);
+  } else if constexpr (std::is_same_v<Struct, CupAngles>) {
+    auto& [inclination, anteversion, definition] = value;
+    each(inclination, anteversion, definition);
+  } else if constexpr (std::is_same_v<Struct, TotalHip>) {
+    auto& [cup, neck_shaft, version, head, clearance, neck, taper, upper, lower, half_angle, chamfer, lip,
+           towards, width, cup_radius, offset, stem, length, leg, facets] = value;
+    each(cup, neck_shaft, version, head, clearance, neck, taper, upper, lower, half_angle, chamfer, lip,
+         towards, width, cup_radius, offset, stem, length, leg, facets);
+  } else if constexpr (std::is_same_v<Struct, ReverseShoulder>) {
+    auto& [inclination, version, neck_shaft, retroversion, head, clearance, neck, taper, half_angle, chamfer,
+           cup_radius, pillar, stem, length, facets] = value;
+    each(inclination, version, neck_shaft, retroversion, head, clearance, neck, taper, half_angle, chamfer,
+         cup_radius, pillar, stem, length, facets);
   } else if constexpr (std::is_same_v<Struct, RepairDone>) {
     auto& [repair, count] = value;
     each(repair, count);

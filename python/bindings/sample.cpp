@@ -1,13 +1,18 @@
 #include <pybind11/stl.h>
 
 #include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "bindings.hpp"
 #include "condyle/mesh.hpp"
 #include "condyle/sample/cartilages.hpp"
 #include "condyle/sample/hip.hpp"
+#include "condyle/sample/replacement.hpp"
 #include "interrupts.hpp"
+#include "io/result/sample_files.hpp"
+#include "joint.hpp"
 
 namespace condyle::python {
 namespace {
@@ -60,11 +65,59 @@ py::tuple cartilages(const std::map<std::string, double>& parameters, double cle
   }));
 }
 
+/// Sizes by the names that files have, with their unit in Python: "neck_radius_mm".
+void set_sizes(Implant& implant, const std::map<std::string, double>& given) {
+  for (const ImplantParameter& each : implant_parameters(implant))
+    if (const auto found = given.find(std::string(each.name) + "_" + std::string(each.unit));
+        found != given.end())
+      each.set(implant, found->second);
+}
+
+std::vector<std::string> names_of_sizes(bool is_hip) {
+  std::vector<std::string> names;
+  for (const ImplantParameter& each :
+       implant_parameters(is_hip ? Implant(TotalHip{}) : Implant(ReverseShoulder{})))
+    names.push_back(std::string(each.name) + "_" + std::string(each.unit));
+  return names;
+}
+
+/// Names and meshes of the parts of both bodies, the joint of them, the half-angle of neck and liner in degrees or why there is
+/// none.
+py::tuple implant(bool is_hip, const std::map<std::string, double>& sizes, const std::string& definition,
+                  int facets, std::optional<int> scenario, bool is_left) {
+  Implant design = is_hip ? Implant(TotalHip{}) : Implant(ReverseShoulder{});
+  set_sizes(design, sizes);
+  std::visit([&](auto& each) { each.facets = facets; }, design);
+  if (is_hip) std::get<TotalHip>(design).cup.definition = cup_definition_named(definition);
+  const Side side = is_left ? Side::left : Side::right;
+  using Made = std::optional<std::pair<ImplantMeshes, std::unique_ptr<JointHandle>>>;
+  Made made = followed(py::none(), [&](const auto&, const std::stop_token& stop) -> Made {
+    std::optional<ImplantMeshes> meshes =
+        scenario
+            ? sample_replacement(std::get<TotalHip>(design), {}, static_cast<Scenario>(*scenario), side, stop)
+            : implant_meshes(design, side);
+    if (!meshes) return std::nullopt;
+    auto joint = std::make_unique<JointHandle>(sample_implant_joint(*meshes, design, side));
+    return std::pair(std::move(*meshes), std::move(joint));
+  });
+  const auto parts_of = [](std::vector<ImplantMesh>& parts) {
+    py::list list;
+    for (auto& [part, mesh] : parts) list.append(py::make_tuple(part, Mesh(std::move(mesh))));
+    return list;
+  };
+  const auto pair = revolved_pair(design, side);
+  return py::make_tuple(parts_of(made->first.fixed), parts_of(made->first.mobile), std::move(made->second),
+                        pair ? py::object(py::float_(pair->half_angle.degrees())) : py::object(py::none()),
+                        why_not_revolved(design));
+}
+
 }  // namespace
 
 void bind_sample(py::module_& module) {
   module.def("sample_hip", &hip);
   module.def("sample_cartilages", &cartilages);
+  module.def("sample_implant", &implant);
+  module.def("implant_sizes", &names_of_sizes);
 }
 
 }  // namespace condyle::python

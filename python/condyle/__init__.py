@@ -17,6 +17,8 @@ from ._first_contact import FirstContact, RotationLimits
 from ._fit import CylinderFit, SphereFit, find_cylinder, find_sphere, fit_cylinder, fit_sphere
 from ._gaps import WAYS, ContactMeasures, ContactPatch, Depths, Gaps, VertexDepths, VertexGaps
 from ._impingement_zone import BodyZone, ImpingementZone
+from ._implant import REPLACEMENT_SIZES, REVERSE_SHOULDER_SIZES, SampleImplant, sample_replacement
+from ._implant import sample_reverse_shoulder
 from ._inspect import Finding, MeshComponent, MeshReport, inspect
 from ._joint import Joint, read_joint
 from ._labels import Label, LabelMap, LabelNote, LabelPiece, LabelSurface, SurfaceCut, read_labels, surface
@@ -52,12 +54,12 @@ __all__ = [
     "JointProposal", "JointWarning", "KINDS", "Label", "LabelMap", "LabelNote", "LabelPiece", "LabelSurface", "Limit",
     "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Model", "ModelCoordinate", "ModelJoint", "ModelMesh", "ModelNote", "Motion", "MotionLimit",
     "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",
-    "OutOfRangeError", "PathLimit", "Penetration", "Penetrations", "Pose", "Poses", "REASONS", "RadialTable",
+    "OutOfRangeError", "PathLimit", "Penetration", "Penetrations", "Pose", "Poses", "REASONS", "REPLACEMENT_SIZES", "REVERSE_SHOULDER_SIZES", "RadialTable",
     "RangeOfMotion", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits", "SampleCartilages",
-    "SampleHip", "SphereFit", "Study", "StudyLoad", "StudyResection", "StudyTable", "SurfaceContact", "SurfaceCut", "TriMesh",
+    "SampleHip", "SampleImplant", "SphereFit", "Study", "StudyLoad", "StudyResection", "StudyTable", "SurfaceContact", "SurfaceCut", "TriMesh",
     "UnknownNameError", "UsageError", "VertexDepths", "VertexGaps", "VerticesInside", "WAYS", "__version__",
     "clock_face", "find_cylinder", "find_neck_axis", "find_rim_clock", "find_sphere", "fit_cylinder", "fit_sphere",
     "inspect", "merge_study", "neck_clock", "propose_joint", "read_joint", "read_labels", "read_mesh", "read_model",
     "read_motion_table", "read_study", "run_study", "sagittal_clock", "sample_cartilages", "sample_cohort",
-    "sample_hip", "surface", "thickness_to", "write_mesh",
+    "sample_hip", "sample_replacement", "sample_reverse_shoulder", "surface", "thickness_to", "write_mesh",
 ]

@@ -273,7 +273,7 @@ def help_reader(condyle: Path, has_module: bool):
 
     of_all = defined(condyle)
     known = {name: of_all | defined(condyle, name) for name in re.findall(r"^  ([a-z]+)  +\S", help_of(condyle), re.M)}
-    for made in ("hip", "cartilages", "cohort"):
+    for made in ("hip", "cartilages", "cohort", "replacement", "reverse-shoulder"):
         known["sample"] |= defined(condyle, "sample", made)
     if has_module:
         known["plot"] = defined(sys.executable, "-m", "condyle.plot")

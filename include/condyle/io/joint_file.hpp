@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "condyle/implant.hpp"
 #include "condyle/inspect.hpp"
 #include "condyle/io/contact_entry.hpp"
 #include "condyle/io/file_digest.hpp"
@@ -59,6 +60,7 @@ struct JointFile {
   PoseDegrees reference_pose = {};  ///< digit by digit as the file gives it
   std::optional<ContactEntry> contact = {};                   ///< of the [contact] table
   std::optional<RecordedMotionMapping> recorded_motion = {};  ///< of the [recorded_motion] table
+  std::optional<Implant> implant = {};                        ///< of the [implant] table
   FileDigest digest = {};
   std::vector<std::string> processing = {};  ///< one line each: what was corrected in reading
 };

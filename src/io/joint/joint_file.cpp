@@ -13,6 +13,7 @@
 #include "io/file/in_quotes.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/joint/contact_table.hpp"
+#include "io/joint/implant_table.hpp"
 #include "io/joint/load_joint.hpp"
 #include "io/joint/mesh_path.hpp"
 #include "io/joint/part_tables.hpp"
@@ -451,6 +452,14 @@ std::vector<Motion> own_motions(io::TomlTable& file, const JointDescription& joi
   return motions;
 }
 
+Implant implant_of_joint(io::TomlTable& table, const JointDescription& joint) {
+  Implant implant = io::implant_entry(table, mm_per(joint.units));
+  const Anatomy anatomy = std::holds_alternative<TotalHip>(implant) ? Anatomy::hip : Anatomy::shoulder;
+  if (joint.kind != JointKind::ball || joint.anatomy != anatomy)
+    table.fail("kind", fmt::format("a {} is of a ball that is a {}", name_of(implant), name_of(anatomy)));
+  return implant;
+}
+
 }  // namespace
 
 JointFile io::joint_file_of(std::string_view text, const std::filesystem::path& path) {
@@ -499,6 +508,7 @@ JointFile io::joint_file_of(std::string_view text, const std::filesystem::path& 
   if (auto table = file.table("recorded_motion"))
     out.recorded_motion = io::recorded_motion_mapping(
         *table, io::coordinate_names_of(joint.kind, joint.anatomy), path.parent_path());
+  if (auto table = file.table("implant")) out.implant = implant_of_joint(*table, joint);
   refuse_other_names(file);
   file.finish();
   return out;

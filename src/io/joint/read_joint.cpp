@@ -7,6 +7,7 @@
 #include "condyle/io/mesh_file.hpp"
 #include "core/one_line.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/joint/append_mesh.hpp"
 #include "io/joint/load_joint.hpp"
 #include "io/result/repair_text.hpp"
 
@@ -64,13 +65,6 @@ LoadedMesh load(const MeshEntry& entry, const std::string& key, const std::files
   return {std::move(file.mesh), std::move(report)};
 }
 
-/// Appends a mesh to those before it.
-void append(TriMesh& whole, const TriMesh& mesh) {
-  const auto first = static_cast<Index>(whole.vertices.size());
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) whole.vertices.push_back(mesh.vertices[v]);
-  for (const auto& [a, b, c] : mesh.triangles) whole.triangles.push_back({a + first, b + first, c + first});
-}
-
 LoadedBody load(const BodyEntry& entry, const std::string& key, const std::filesystem::path& joint_file) {
   if (entry.meshes.size() == 1) {
     const bool in_list = !entry.meshes.front().part.empty();
@@ -91,7 +85,7 @@ LoadedBody load(const BodyEntry& entry, const std::string& key, const std::files
     LoadedMesh one = load(entry.meshes[i], fmt::format("{}.meshes[{}]", key, i), joint_file);
     parts.push_back({one.report.part, whole.vertices.size(), one.report.vertices, whole.triangles.size(),
                      one.report.triangles, entry.meshes[i].contact});
-    append(whole, one.mesh);
+    io::append_mesh(whole, one.mesh);
     reports.push_back(std::move(one.report));
     files += (files.empty() ? "" : " + ") + entry.meshes[i].mesh.string();
   }

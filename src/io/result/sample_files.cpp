@@ -4,6 +4,8 @@
 
 #include <limits>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "condyle/error.hpp"
@@ -12,6 +14,8 @@
 #include "io/file/format_version.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/image/write_labels.hpp"
+#include "io/joint/append_mesh.hpp"
+#include "io/joint/implant_table.hpp"
 #include "mesh/voxelise.hpp"
 
 namespace condyle {
@@ -21,29 +25,74 @@ struct BodyFile {
   const char *name, *mesh;
 };
 
-std::string joint_file_text(const std::string& joint, const BodyFile& fixed, const BodyFile& mobile,
-                            Side side) {
+std::string joint_file_text(const std::string& joint, const std::string& fixed, const std::string& mobile,
+                            Side side, std::string_view anatomy = {}) {
   return fmt::format(R"(condyle = {}
 name = "{}"
 kind = "ball"
-side = "{}"
+{}side = "{}"
 units = "mm"
 
 [fixed]
-name = "{}"
-mesh = "{}"
-
+{}
 [mobile]
-name = "{}"
-mesh = "{}"
-
+{}
 [frame]
 centre = [0.0, 0.0, 0.0]
 anterior = [1.0, 0.0, 0.0]
 superior = [0.0, 1.0, 0.0]
 )",
-                     io::format_version, joint, name_of(side), fixed.name, fixed.mesh, mobile.name,
-                     mobile.mesh);
+                     io::format_version, joint,
+                     anatomy.empty() ? "" : fmt::format("joint = \"{}\"\n", anatomy), name_of(side), fixed,
+                     mobile);
+}
+
+std::string joint_file_text(const std::string& joint, const BodyFile& fixed, const BodyFile& mobile,
+                            Side side) {
+  const auto body = [](const BodyFile& file) {
+    return fmt::format("name = \"{}\"\nmesh = \"{}\"\n", file.name, file.mesh);
+  };
+  return joint_file_text(joint, body(fixed), body(mobile), side);
+}
+
+/// Writes a mesh for each part.
+std::string body_of_parts(OutputFolder& out, std::string_view name, const std::vector<ImplantMesh>& parts) {
+  std::string meshes;
+  for (const auto& [part, mesh] : parts) {
+    const std::string file = part + ".ply";
+    write_mesh(out.file(file), mesh);
+    meshes += fmt::format("{}{{ name = \"{}\", mesh = \"{}\" }}", meshes.empty() ? "" : ",\n          ", part,
+                          file);
+  }
+  return fmt::format("name = \"{}\"\nmeshes = [{}]\n", name, meshes);
+}
+
+struct ImplantNames {
+  std::string joint, fixed, mobile;
+};
+
+/// A body of one mesh is called after it, as there answers name no part.
+ImplantNames names_of(const ImplantMeshes& meshes, const Implant& implant, Side side) {
+  const bool is_hip = std::holds_alternative<TotalHip>(implant);
+  return {fmt::format("{} replacement of the {} {}", is_hip ? "total" : "reverse", name_of(side),
+                      is_hip ? "hip" : "shoulder"),
+          meshes.fixed.size() == 1 ? meshes.fixed.front().part
+          : is_hip                 ? "pelvis"
+                                   : "scapula",
+          is_hip ? "femur" : "humerus"};
+}
+
+Body joined_body(const std::string& name, const std::vector<ImplantMesh>& parts) {
+  TriMesh whole;
+  Body body{name, TriMesh{}};
+  for (const auto& [part, mesh] : parts) {
+    if (parts.size() > 1)
+      body.parts.push_back(
+          {part, whole.vertices.size(), mesh.vertices.size(), whole.triangles.size(), mesh.triangles.size()});
+    io::append_mesh(whole, mesh);
+  }
+  body.mesh = Mesh(std::move(whole));
+  return body;
 }
 
 }  // namespace
@@ -54,6 +103,31 @@ void write_sample_hip(OutputFolder& out, const SampleHip& hip, Side side) {
   write_mesh(out.file(femur.mesh), hip.femur);
   io::write_whole_file(out.file("hip.toml"),
                        joint_file_text(fmt::format("sample {} hip", name_of(side)), hip_bone, femur, side));
+}
+
+void write_sample_implant(OutputFolder& out, const ImplantMeshes& meshes, const Implant& implant, Side side) {
+  const ImplantNames names = names_of(meshes, implant, side);
+  const std::string fixed = body_of_parts(out, names.fixed, meshes.fixed),
+                    mobile = body_of_parts(out, names.mobile, meshes.mobile);
+  const bool is_hip = std::holds_alternative<TotalHip>(implant);
+  io::write_whole_file(out.file(is_hip ? "hip.toml" : "shoulder.toml"),
+                       joint_file_text(names.joint, fixed, mobile, side, is_hip ? "hip" : "shoulder") + "\n" +
+                           io::implant_text(implant));
+}
+
+LoadedJoint sample_implant_joint(const ImplantMeshes& meshes, const Implant& implant, Side side) {
+  const ImplantNames names = names_of(meshes, implant, side);
+  JointReport report;
+  report.file.implant = implant;
+  report.file.joint.name = names.joint;
+  report.file.joint.side = side;
+  report.file.joint.anatomy = std::holds_alternative<TotalHip>(implant) ? Anatomy::hip : Anatomy::shoulder;
+  report.file.joint.frame.centre = Vec3(Vec3::Zero());
+  auto [joint, placement] = make_joint(report.file.joint, joined_body(names.fixed, meshes.fixed),
+                                       joined_body(names.mobile, meshes.mobile));
+  report.processing = placement.processing;
+  report.placement = std::move(placement);
+  return {std::move(joint), std::move(report)};
 }
 
 void write_sample_labels(OutputFolder& out, const SampleHip& hip, Side side, double voxel_mm) {

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "condyle/control.hpp"
+#include "condyle/implant.hpp"
+#include "condyle/io/joint_file.hpp"
 #include "condyle/joint_coordinates.hpp"
 #include "condyle/sample/cartilages.hpp"
 #include "condyle/sample/hip.hpp"
@@ -25,6 +27,13 @@ void write_sample_labels(OutputFolder& out, const SampleHip& hip, Side side, dou
 /// The same for the cartilages: acetabular_cartilage.ply, which is fixed, femoral_cartilage.ply and
 /// cartilages.toml.
 void write_sample_cartilages(OutputFolder& out, const SampleCartilages& cartilages, Side side);
+
+/// Puts an implant into a folder as a joint: hip.toml or shoulder.toml, with the sizes of the implant in it, and a mesh for each part, named
+/// after it. The meshes are those of the side given.
+void write_sample_implant(OutputFolder& out, const ImplantMeshes& meshes, const Implant& implant, Side side);
+
+/// The joint that reading these files makes.
+LoadedJoint sample_implant_joint(const ImplantMeshes& meshes, const Implant& implant, Side side);
 
 /// Where a study gets the hips of a cohort from.
 enum class CohortMeshes {

@@ -1,0 +1,50 @@
+#include "condyle/sample/replacement.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "condyle/error.hpp"
+#include "sample/cut_neck.hpp"
+#include "sample/femur_shape.hpp"
+
+namespace condyle {
+namespace {
+
+void require_fitting(const TotalHip& implant, const HipParameters& bones) {
+  const double socket = bones.head_radius_mm + bones.joint_space_mm;
+  if (implant.cup_radius_mm < socket) return;
+  throw UsageError(fmt::format(
+      "sample replacement: a cup of radius {:g} mm is not inside the pelvis: the socket has {:g} mm",
+      implant.cup_radius_mm, socket));
+}
+
+/// By how much the femur moves so that its shaft has its axis where the stem has it, and the leg its length.
+Vec3 shift_of(const sample::FemurAxes& axes, const TotalHip& implant, const NeckCut& cut) {
+  const Vec3 to_stem = cut.stem_axis_point - axes.foot;
+  return to_stem - (to_stem.y() + implant.leg_length_mm) / axes.distal.y() * axes.distal;
+}
+
+}  // namespace
+
+std::optional<ImplantMeshes> sample_replacement(const TotalHip& implant, const HipParameters& bones,
+                                                const Resolution& resolution, Side side,
+                                                const std::stop_token& stop) {
+  check_implant(implant);
+  require_fitting(implant, bones);
+  std::optional<SampleHip> hip = sample_hip(bones, resolution, stop);
+  if (!hip) return std::nullopt;
+  const NeckCut cut = neck_cut(implant, Side::right);
+  const sample::FemurAxes axes = sample::femur_axes(bones);
+  const Vec3 shift = shift_of(axes, implant, cut);
+  ImplantMeshes parts = implant_meshes(implant, side, axes.distal);
+  TriMesh& femur = hip->femur;
+  for (std::size_t v = 0; v < femur.vertices.size(); ++v) femur.vertices.set(v, femur.vertices[v] + shift);
+  femur = sample::cut_neck(femur, cut.normal, cut.offset_mm);
+  if (side == Side::left) *hip = mirrored(*hip);
+  parts.fixed.insert(parts.fixed.begin(), {"hip_bone", std::move(hip->hip_bone)});
+  parts.mobile.insert(parts.mobile.begin(), {"femur", std::move(hip->femur)});
+  return parts;
+}
+
+}  // namespace condyle

@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "command.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "condyle/sample/replacement.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace condyle::test {
+namespace {
+
+Ran made_implant(const TemporaryFolder& folder, const std::string& arguments) {
+  return run_condyle(folder.path(), "sample " + arguments);
+}
+
+TEST(SampleReplacementCommand, WritesTheMeshesThatTheLibraryMakesWithTheSizesInTheJointFile) {
+  const TemporaryFolder folder;
+  const Ran ran =
+      made_implant(folder,
+                   "replacement --inclination 45 --anteversion 20 --definition anatomic --neck-shaft 130 "
+                   "--head-radius 18 --neck-taper 2 --facets 120 --side left --out made");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  TotalHip hip;
+  hip.cup = {Angle::degrees(45), Angle::degrees(20), CupDefinition::anatomic};
+  hip.neck_shaft = Angle::degrees(130), hip.head_radius_mm = 18, hip.neck_taper = Angle::degrees(2);
+  hip.facets = 120;
+  const ImplantMeshes expected = *sample_replacement(hip, {}, Scenario::one, Side::left);
+  for (const auto* body : {&expected.fixed, &expected.mobile})
+    for (const auto& [part, mesh] : *body)
+      EXPECT_EQ(read_mesh(folder / ("made/" + part + ".ply")).mesh, mesh) << part;
+  const JointFile file = read_joint_file(folder / "made/hip.toml");
+  ASSERT_TRUE(file.implant);
+  EXPECT_EQ(std::get<TotalHip>(*file.implant), hip);
+  EXPECT_EQ(file.joint.side, Side::left);
+}
+
+TEST(SampleReplacementCommand, NamesThePartsThatEndMotions) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(made_implant(folder, "replacement --out made").exit_code, 0);
+  const Ran rom = run_condyle(folder.path(), "rom made/hip.toml");
+  EXPECT_EQ(rom.exit_code, 0) << rom.err;
+  EXPECT_NE(rom.out.find("neck on liner: flexion"), std::string::npos) << rom.out;
+  EXPECT_NE(rom.out.find("femur on hip_bone: adduction"), std::string::npos) << rom.out;
+}
+
+TEST(SampleReplacementCommand, RefusesWrongSizesInOneLineAndWritesNothing) {
+  const TemporaryFolder folder;
+  for (const auto& [arguments, line] :
+       {std::pair("replacement --head-radius 28",
+                  "condyle: implant: a head of radius 28 mm is too large for a cup of radius 27 mm outside: "
+                  "its wall "
+                  "needs 1 mm\n"),
+        std::pair("replacement --neck-radius nan",
+                  "condyle: implant: neck_radius is nan, must be 2 to 20 mm\n"),
+        std::pair("replacement --cup-radius 29 --offset 50",
+                  "condyle: sample replacement: a cup of radius 29 mm is not inside the pelvis: the socket "
+                  "has 27.5 mm\n"),
+        std::pair("reverse-shoulder --pillar-length 22",
+                  "condyle: implant: the neck ends 22 mm from the centre of the head, too near to a cup of "
+                  "radius 25 mm "
+                  "outside: it must end 2 mm beyond, by a larger pillar_length\n")}) {
+    const Ran ran = made_implant(folder, std::string(arguments) + " --out made");
+    EXPECT_EQ(ran.exit_code, 2);
+    EXPECT_EQ(ran.err, line);
+    EXPECT_FALSE(std::filesystem::exists(folder / "made"));
+  }
+}
+
+TEST(SampleReverseShoulder, IsAShoulderWithItsSizesInTheJointFile) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(made_implant(folder, "reverse-shoulder --retroversion 25 --out made").exit_code, 0);
+  const JointFile file = read_joint_file(folder / "made/shoulder.toml");
+  EXPECT_EQ(file.joint.anatomy, Anatomy::shoulder);
+  ReverseShoulder expected;
+  expected.retroversion = Angle::degrees(25);
+  ASSERT_TRUE(file.implant);
+  EXPECT_EQ(std::get<ReverseShoulder>(*file.implant), expected);
+}
+
+}  // namespace
+}  // namespace condyle::test

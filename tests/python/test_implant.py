@@ -1,0 +1,60 @@
+"""Implants of sizes: the same meshes and errors as of the command."""
+import os
+import pickle
+import subprocess
+
+import numpy as np
+import pytest
+
+import condyle
+
+
+def test_the_meshes_are_those_of_the_command(tmp_path):
+    made = condyle.sample_replacement(inclination_deg=45, anteversion_deg=20, definition="operative", head_radius_mm=18,
+                                      facets=96, side="left")
+    subprocess.run([os.environ["CONDYLE_COMMAND"], "sample", "replacement", "--inclination", "45", "--anteversion", "20",
+                    "--definition", "operative", "--head-radius", "18", "--facets", "96", "--side", "left", "--out",
+                    str(tmp_path)], check=True, capture_output=True)
+    for part, mesh in (*made.fixed.items(), *made.mobile.items()):
+        written = condyle.read_mesh(tmp_path / f"{part}.ply")
+        assert np.array_equal(written.vertices, mesh.vertices) and np.array_equal(written.triangles, mesh.triangles)
+    read = condyle.read_joint(tmp_path / "hip.toml")
+    assert read.name == made.joint.name and read.side == made.joint.side
+    assert np.array_equal(read.mobile.vertices, made.joint.mobile.vertices)
+
+
+@pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+def test_limits_name_the_parts_and_are_those_of_the_closed_form():
+    hip = condyle.sample_replacement(bones="none").joint
+    rom = hip.range_of_motion(bearing="count")
+    flexion = rom.limit("flexion")
+    assert flexion.turned_deg == pytest.approx(128.7064, abs=0.002)
+    assert flexion.mobile_part == "neck"
+
+
+def test_a_joint_with_an_implant_is_pickled():
+    joint = condyle.sample_reverse_shoulder(facets=48).joint
+    copy = pickle.loads(pickle.dumps(joint))
+    assert np.array_equal(copy.fixed.vertices, joint.fixed.vertices)
+
+
+def test_what_is_no_body_of_revolution_has_a_reason():
+    lipped = condyle.sample_replacement(bones="none", lip_deg=15)
+    assert lipped.half_angle_deg is None
+    assert lipped.why_no_half_angle == "a liner with a lip is no body of revolution"
+
+
+@pytest.mark.parametrize("arguments, line", [
+    ({"head_radius_mm": 28}, "a head of radius 28 mm is too large for a cup of radius 27 mm outside: its wall needs 1 mm"),
+    ({"neck_radius_mm": 17}, "the neck, of radius 17 mm, is thicker than the head, of radius 15.5 mm"),
+    ({"cup_radius_mm": 29, "offset_mm": 50}, "a cup of radius 29 mm is not inside the pelvis: the socket has 27.5 mm"),
+    ({"inclination_deg": float("nan")}, "inclination"),
+    ({"definition": "surgical"}, "surgical"),
+    ({"haed_radius_mm": 16}, "haed_radius_mm"),
+    ({"facets": 181}, "facets is 181, must be a multiple of 4 from 24 to 2880"),
+    ({"bones": "some"}, "some"),
+])
+def test_wrong_sizes_are_one_line(arguments, line):
+    with pytest.raises(condyle.UsageError) as error:
+        condyle.sample_replacement(**arguments)
+    assert line in str(error.value) and "\n" not in str(error.value)
