@@ -148,8 +148,9 @@ void add_picture(CLI::App& app) {
   add_strict(*command, options->strictness);
   group_help(
       *command,
-      {{"Most used", {"--pose", "--view", "--colour", "--hide", "--out", "--set"}},
-       {"Output", {"--transparent", "--measures", "--range", "--field", "--size", "--strict", "--help"}}});
+      {{"Most used", {"--pose", "--view", "--colour", "--hide", "--out"}},
+       {"Output",
+        {"--set", "--transparent", "--measures", "--range", "--field", "--size", "--strict", "--help"}}});
   command->callback([options, command] { picture_command(*options, *command); });
 }
 

@@ -37,8 +37,8 @@ PartParameter& parameter_named(PosedParts& posed, const std::string& name) {
   const std::vector<std::string> names = names_of(posed);
   std::string list;
   for (const std::string& each : names) list += (list.empty() ? "" : ", ") + each;
-  throw UsageError("there is no parameter \"" + core::one_line(name) + "\"" + core::did_you_mean(name, names) +
-                   "; there are " + core::one_line(list, 2000));
+  throw UsageError("there is no parameter \"" + core::one_line(name) + "\"" +
+                   core::did_you_mean(name, names) + "; there are " + core::one_line(list, 2000));
 }
 
 void set(PosedParts& posed, const ParameterValue& given) {
@@ -76,7 +76,8 @@ std::vector<ParameterValue> parse_parameters(std::string_view text) {
     const auto [stopped, error] = std::from_chars(number.data(), number.data() + number.size(), value);
     if (equals == item.npos || equals == 0 || error != std::errc() ||
         stopped != number.data() + number.size() || !std::isfinite(value))
-      throw UsageError("\"" + core::one_line(item) + "\" is not a parameter and its value, as in cup.inclination=42");
+      throw UsageError("\"" + core::one_line(item) +
+                       "\" is not a parameter and its value, as in cup.inclination=42");
     values.push_back({std::string(item.substr(0, equals)), value});
   }
   if (values.empty()) throw UsageError("no parameter is given, as in cup.inclination=42");
@@ -89,7 +90,8 @@ Joint with_parameters(const Joint& joint, std::span<const ParameterValue> values
   if (!moved.posed) throw UsageError("the joint has no part with parameters: its file has no [[part]]");
   for (std::size_t i = 0; i < values.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k)
-      if (values[k].name == values[i].name) throw UsageError(core::one_line(values[i].name) + " is given twice");
+      if (values[k].name == values[i].name)
+        throw UsageError(core::one_line(values[i].name) + " is given twice");
     set(*moved.posed, values[i]);
   }
   kinematics::pose_parts(moved);
@@ -102,8 +104,9 @@ std::string changed_parameters(const Joint& joint) {
   for (const PosedPart& part : joint.posed->parts)
     for (const PartParameter& parameter : part.parameters)
       if (parameter.value != parameter.described)
-        text += (text.empty() ? "" : ", ") + full_name(part, parameter) + formatted(" %.10g", parameter.value) +
-                unit_text(parameter) + formatted(" instead of %.10g", parameter.described);
+        text += (text.empty() ? "" : ", ") + full_name(part, parameter) +
+                formatted(" %.10g", parameter.value) + unit_text(parameter) +
+                formatted(" instead of %.10g", parameter.described);
   return text;
 }
 
