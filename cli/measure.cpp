@@ -74,10 +74,10 @@ void add_measure(CLI::App& app) {
       "--json", [options] { options->form = AnswerForm::json; },
       "Print the answer as JSON, with every number in full");
   add_strict(*command, options->strictness);
-  group_help(*command,
-             {{"Most used", {"--band", "--tilt", "--definitions", "--out", "--json", "--strict", "--set"}},
-              uncertainty_group(),
-              {"Output", {"--help"}}});
+  group_help(*command, {{"Most used", {"--band", "--tilt", "--out", "--json", "--strict"}},
+                        {"Question", {"--set", "--definitions"}},
+                        uncertainty_group(),
+                        {"Output", {"--help"}}});
   command->callback([options, command] { measure_command(*options, *command); });
 }
 

@@ -120,12 +120,13 @@ void add_resect(CLI::App& app) {
       "Print the answer as JSON, with every number in full");
   add_strict(*command, options->strictness);
   group_help(*command,
-             {{"Most used", {"--reach", "--out", "--from", "--band", "--json", "--strict", "--set"}},
+             {{"Most used", {"--reach", "--out", "--from", "--band", "--json"}},
+              {"Question", {"--set"}},
               {"Bone that stays", {"--deepest", "--within", "--protect", "--protect-fixed", "--margin"}},
               {"Contact", {"--bearing", "--accept-reference-contact"}},
               uncertainty_group(),
               {"Cut", {"--share", "--burr", "--edge", "--curve"}},
-              {"Output", {"--help"}}});
+              {"Output", {"--strict", "--help"}}});
   command->callback([options, command] { resect_command(*options, *command); });
 }
 

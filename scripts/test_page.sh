@@ -16,6 +16,8 @@ sed 's/^centre = .*/centre = [-2, -2, 0]/' "$out/sample/hip.toml" >"$out/sample/
 "$condyle" report "$out/sample/shifted.toml" --bearing count --out "$out/counted.html"
 "$condyle" report "$out/sample/hip.toml" --past 5 --out "$out/zones.html"
 "$condyle" report "$out/sample/hip.toml" --measures --band=20 --resect "fadir=50 flexion=138" --curve 4 --out "$out/plan.html"
+printf '[[part]]\nname = "pelvis"\nbody = "fixed"\n[[part.parameter]]\nname = "tilt"\nrange = [-20, 20]\nsigma = 3\n' | cat "$out/sample/hip.toml" - >"$out/sample/tilts.toml"
+"$condyle" report "$out/sample/tilts.toml" --set pelvis.tilt=10 --band=20 --out "$out/tilted.html"
 "$condyle" sample cartilages --scenario 5 --out "$out/cartilages" >/dev/null
 sed -e 's|^mesh = "femur.ply"|meshes = [{ name = "bone", mesh = "femur.ply" }, { name = "cartilage", mesh = "../cartilages/femoral_cartilage.ply", bearing = true }]|' \
   "$out/sample/hip.toml" >"$out/sample/parts.toml"

@@ -16,11 +16,16 @@ Joint held_at(const Joint& joint, const Vec3& translation_mm) {
     if (image)
       for (ImageCut& cut : image->cuts) cut.offset_mm -= cut.normal.dot(translation_mm);
   };
+  const auto move_socket = [&](std::optional<Sphere>& socket) {
+    if (socket) socket->centre -= translation_mm;
+  };
   held.fixed.mesh = moved(joint.fixed.mesh);
   move_cuts(held.fixed.image);
+  move_socket(held.fixed.head);
   if (held.posed) {
     held.posed->fixed.mesh = moved(held.posed->fixed.mesh);
     move_cuts(held.posed->fixed.image);
+    move_socket(held.posed->fixed.head);
     for (PosedPart& part : held.posed->parts)
       if (part.body == BodyRole::fixed) part.centre -= translation_mm;
   }

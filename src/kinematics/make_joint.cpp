@@ -173,16 +173,6 @@ Pose frame_of(const JointDescription& description, const Body& fixed, const Body
   return frame_about(centre ? *centre : Vec3(Vec3::Zero()), description);
 }
 
-BoundingBox bounds_of(const Points& points) {
-  if (points.size() == 0) return {Vec3::Zero(), Vec3::Zero()};
-  BoundingBox box{points[0], points[0]};
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    box.low = box.low.cwiseMin(points[v]);
-    box.high = box.high.cwiseMax(points[v]);
-  }
-  return box;
-}
-
 std::vector<std::string> processing_of(const JointPlacement& placement) {
   std::vector<std::string> notes;
   if (const AxisErrors& errors = placement.axis_errors; !errors.none())
@@ -288,8 +278,8 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
               description.translation_frame};
   joint.posed = placed_parts(description, X_FW, X_MW, joint.fixed, joint.mobile);
   kinematics::pose_parts(joint);
-  placement.fixed.bounds = bounds_of(joint.fixed.mesh.vertices());
-  placement.mobile.bounds = bounds_of(joint.mobile.mesh.vertices());
+  placement.fixed.bounds = mesh::bounds_of_vertices(joint.fixed.mesh);
+  placement.mobile.bounds = mesh::bounds_of_vertices(joint.mobile.mesh);
   placement.processing = processing_of(placement);
   return {std::move(joint), std::move(placement)};
 }

@@ -97,7 +97,7 @@ void check_parameter(const PartParameter& parameter, const std::string& where) {
     refuse(where, "along: must be a unit vector");
   if (parameter.kind != ParameterKind::size) return;
   if (!(parameter.low > 0 && parameter.as_given > 0)) refuse(where, "a size must be above 0");
-  // Of a normal distribution nothing that a band draws is farther than five standard deviations from the mean.
+  // A band draws no value farther than some five standard deviations from the mean: sizes stay above 0.
   if (parameter.sigma > parameter.low / 10)
     refuse(where, "sigma: must be at most a tenth of the smallest size");
 }
@@ -256,8 +256,8 @@ std::size_t PartMotions::group_of(std::size_t vertex) const {
 }
 
 std::size_t PartMotions::group_on(const Points& points, const Sphere& sphere) const {
-  constexpr double near =
-      0.2;  // of the radius: bone lies so far from a head's sphere at most, where there is cartilage between
+  // In parts of the radius: with cartilage between, bone lies at most this far from a head's sphere.
+  constexpr double near = 0.2;
   std::vector<std::size_t> counts(groups_.size(), 0);
   for (std::size_t g = 0; g < groups_.size(); ++g)
     for (const auto& [first, count] : groups_[g].vertices)
@@ -307,13 +307,20 @@ void take_as_moved(Joint& joint) {
   for (const BodyRole role : {BodyRole::fixed, BodyRole::mobile}) {
     const Body& body = role == BodyRole::fixed ? joint.fixed : joint.mobile;
     BodyAsGiven& given = role == BodyRole::fixed ? joint.posed->fixed : joint.posed->mobile;
-    if (given.mesh.vertices().size() == body.mesh.vertices().size()) continue;
     const PartMotions groups(body, role, joint.posed->parts);
     std::vector<Eigen::Affine3d> back = groups.motions(joint.posed->parts, joint.side);
+    Points points = given.mesh.vertices();
+    if (points.size() == body.mesh.vertices().size()) groups.move(back, points);
+    const bool is_as_posed = points == body.mesh.vertices();
     for (Eigen::Affine3d& motion : back) motion = motion.inverse();
-    Points points = body.mesh.vertices();
-    groups.move(back, points);
-    given.mesh = body.mesh.moved_to(std::move(points));
+    if (!is_as_posed) {
+      points = body.mesh.vertices();
+      groups.move(back, points);
+      given.mesh = body.mesh.moved_to(std::move(points));
+    }
+    if (!body.head) continue;
+    const Eigen::Affine3d& motion = back[groups.group_on(body.mesh.vertices(), *body.head)];
+    given.head = Sphere{motion * body.head->centre, scale_of(motion) * body.head->radius};
   }
 }
 

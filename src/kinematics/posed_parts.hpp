@@ -66,7 +66,8 @@ class DisplacedParts {
 /// Throws UsageError for parts that contradict themselves or the bodies: "part cup: ...".
 void check_parts(std::span<const PosedPart> parts, const Body& fixed, const Body& mobile);
 
-/// Takes the bodies of a joint as those that the values of its parts have moved, such as bodies that were cut where they are.
+/// Takes the bodies of a joint, with the spheres that are known of them, as those that the values of its parts have moved: such as bodies
+/// that were cut where they are. A mesh that is where its parts have it keeps every bit of what was given.
 void take_as_moved(Joint& joint);
 
 /// Moves the bodies of a joint to where the values of its parts have them.

@@ -13,6 +13,17 @@ BoundingBox bounds_of_surface(const TriMesh& mesh) {
   return bounds;
 }
 
+BoundingBox bounds_of_vertices(const TriMesh& mesh) {
+  const Points& points = mesh.vertices;
+  if (points.size() == 0) return {Vec3::Zero(), Vec3::Zero()};
+  BoundingBox box{points[0], points[0]};
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    box.low = box.low.cwiseMin(points[v]);
+    box.high = box.high.cwiseMax(points[v]);
+  }
+  return box;
+}
+
 double enclosed_volume(const TriMesh& mesh) {
   const BoundingBox bounds = bounds_of_surface(mesh);
   const Vec3 centre = (bounds.low + bounds.high) / 2;

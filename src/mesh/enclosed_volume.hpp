@@ -28,6 +28,9 @@ class CompensatedSum {
 /// Bounds of the triangles; the origin where there are none.
 BoundingBox bounds_of_surface(const TriMesh& mesh);
 
+/// Around all vertices, those of no triangle among them; a point if there are none.
+BoundingBox bounds_of_vertices(const TriMesh& mesh);
+
 /// Signed volume of the tetrahedron from p to a triangle. From the centre of the bounds the terms are small,
 /// and a mesh far from the origin loses nothing.
 inline double volume_below(const TriMesh& mesh, std::size_t triangle, const Vec3& p) {

@@ -65,7 +65,8 @@ class CutSurface {
   /// turned over as long as the whole one was not.
   void go_on_from(const CutSurface& whole, const std::vector<Between>& vertices);
   /// Where edges are to be split so that triangles can follow the bottom of a cut: near the bend of the depth along each, if a straight line
-  /// between its ends misses the depth by more than this. Shares as of split_at(). Lowers the vertices.
+  /// between its ends misses the depth by more than this, or by more than half a per cent of the deepest place. Shares as of split_at(). Lowers the
+  /// vertices.
   std::vector<double> bends(const std::vector<SweepTo>& sweeps, double missed_mm);
   /// Back to where it was.
   void restore();

@@ -128,6 +128,12 @@ TEST(AnswerFollowedRange, GoesWhereTheRecordedMotionGoes) {
   EXPECT_EQ(short_one.notes.front().code, RangeNoteCode::translation_ends);
 }
 
+TEST(AnswerFollowedRange, HoldsAKnownSocketWithItsBody) {
+  Joint joint = BallInCup().joint;
+  joint.fixed.head = Sphere{{1, 2, 3}, 20};
+  EXPECT_EQ(held_at(joint, {5, 0, -1}).fixed.head->centre, Vec3(-4, 2, 4));
+}
+
 TEST(AnswerFollowedRange, ChoosesTheMotionsThatTheRecordLeadsAlong) {
   const std::vector<Motion> all = hip_motions();
   const auto names = [&](const FollowRecord& record) {

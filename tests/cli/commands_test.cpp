@@ -200,9 +200,27 @@ TEST_F(Command, HelpAndVersionAreAnswers) {
 }
 
 TEST_F(Command, HelpFitsATerminalAndHasAnExample) {
-  for (const char* command :
-       {"", "init", "surface", "inspect", "frame", "depth", "rom", "load", "motion", "picture", "report",
-        "sample", "sample hip", "sample cartilages", "sample cohort", "study", "merge"}) {
+  for (const char* command : {"",
+                              "init",
+                              "surface",
+                              "inspect",
+                              "frame",
+                              "depth",
+                              "rom",
+                              "load",
+                              "motion",
+                              "picture",
+                              "report",
+                              "measure",
+                              "resect",
+                              "sample",
+                              "sample hip",
+                              "sample cartilages",
+                              "sample cohort",
+                              "sample replacement",
+                              "sample reverse-shoulder",
+                              "study",
+                              "merge"}) {
     SCOPED_TRACE(command);
     std::istringstream help(run(std::string(command) + " --help").out);
     bool has_example = false;
@@ -216,8 +234,8 @@ TEST_F(Command, HelpFitsATerminalAndHasAnExample) {
 
 /// Every option in one group, and first the five that matter most.
 TEST_F(Command, HelpBeginsWithFiveOptionsAndLeavesNoneWithoutAGroup) {
-  for (const char* command :
-       {"depth", "rom", "load", "motion", "picture", "report", "sample hip", "sample cartilages", "study"}) {
+  for (const char* command : {"depth", "rom", "load", "motion", "measure", "resect", "picture", "report",
+                              "sample hip", "sample cartilages", "study"}) {
     SCOPED_TRACE(command);
     std::istringstream help(run(std::string(command) + " --help").out);
     std::map<std::string, std::set<std::string>> options;

@@ -8,8 +8,11 @@
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/provenance.hpp"
+#include "condyle/range_of_motion.hpp"
+#include "condyle/resection.hpp"
 #include "condyle/sample/hip.hpp"
 #include "io/result/provenance_forms.hpp"
+#include "kinematics/posed_parts.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
@@ -255,6 +258,35 @@ TEST_P(PosedParts, StandInTheProvenance) {
   EXPECT_EQ(json[0]["unit"], "deg");
   const Provenance without = provenance_of(read_joint(write("")), {});
   EXPECT_FALSE(io::provenance_json(&without).contains("parameters"));
+}
+
+/// A resected bone is what parts move from then on: at the values that it was cut at, and at others.
+TEST_P(PosedParts, StayWithoutTheBoneThatWasCut) {
+  const Joint joint =
+      read_joint(write(part_text("name = \"femur\"\nbody = \"mobile\"", parameter_text("version")))).joint;
+  const ParameterValue eight{"femur.version", 8}, as_given{"femur.version", 0};
+  const Joint turned = with_parameters(joint, {&eight, 1});
+  const Motion motion = motion_named(hip_motions(), "internal_rotation_at_90_flexion");
+  const auto limit = [&](const Joint& of) { return RangeOfMotion(of).limit(motion).end.turned.degrees(); };
+  ResectionRequest request;
+  request.targets = {{motion, Angle::degrees(limit(turned) + 3)}};
+  const Joint cut = resect(turned, request).joint;
+  const Joint again = with_parameters(cut, {&eight, 1});
+  EXPECT_LT(distance(again.mobile.mesh.arrays(), cut.mobile.mesh.arrays()), rounding_mm);
+  EXPECT_EQ(again.fixed.mesh.arrays(), cut.fixed.mesh.arrays());
+  ASSERT_TRUE(again.mobile.head);
+  EXPECT_LT((again.mobile.head->centre - cut.mobile.head->centre).norm(), rounding_mm);
+  // Version turns the limits of internal rotation exactly, with the cut as without.
+  EXPECT_NEAR(limit(with_parameters(cut, {&as_given, 1})), limit(cut) - 8, 1e-6);
+
+  // As many vertices as before, one of them elsewhere.
+  Joint moved = turned;
+  Points points = moved.mobile.mesh.vertices();
+  points.set(0, points[0] + Vec3(0, 1, 0));
+  moved.mobile.mesh = moved.mobile.mesh.moved_to(std::move(points));
+  kinematics::take_as_moved(moved);
+  EXPECT_LT(distance(with_parameters(moved, {&eight, 1}).mobile.mesh.arrays(), moved.mobile.mesh.arrays()),
+            rounding_mm);
 }
 
 TEST_P(PosedParts, WidenBandsByTheirStandardDeviations) {

@@ -199,3 +199,12 @@ test("the numbers say how they were found: bounds, bands, bearing contact, norma
   assert.ok(Math.max(...heights) < 75, `a row of ${Math.max(...heights)} pixels`);
   await page.context().close();
 });
+
+test("parameters of parts that are not as in the joint file are named, and their uncertainty in the bands", async () => {
+  const { page, complaints } = await openPage(browser, pathOf("tilted"));
+  const said = await page.locator("body").textContent();
+  assert.ok(said.includes("Not as in the joint file: pelvis.tilt 10 deg instead of 0."), said);
+  assert.match(said, /surfaces 0\.25 mm, pelvis\.tilt 3\./);
+  assert.deepEqual(complaints, []);
+  await page.context().close();
+});

@@ -68,7 +68,7 @@ export interface RomAnswer {
     socket?: FittedSphere | null;
     margin_mm?: number | null;
   };
-  band?: { samples: number; seed: number; sigma: { centre_mm: number; axes_deg: number; surface_mm: number; surface_voxels?: number } } | null;
+  band?: { samples: number; seed: number; sigma: BandSigma } | null;
   clock_plane?: "sagittal" | "rim" | null;  // null for joints other than hips
   held_translation_mm?: [number, number, number] | null;
   motions: MotionAnswer[];
@@ -83,7 +83,24 @@ export interface RomAnswer {
     joint_file?: MeshSource;
     fixed_mesh: MeshSource | { files: MeshSource[] };
     mobile_mesh: MeshSource | { files: MeshSource[] };
+    parameters?: PartParameter[];
   };
+}
+
+/// A number by which a part of a body is moved.
+export interface PartParameter {
+  name: string;
+  value: number;
+  unit: string;  // "1" of a size
+  in_joint_file: number;
+}
+
+export interface BandSigma {
+  centre_mm: number;
+  axes_deg: number;
+  surface_mm: number;
+  surface_voxels?: number;
+  parameters?: Record<string, number>;
 }
 
 export interface MapAxis {

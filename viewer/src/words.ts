@@ -1,10 +1,8 @@
-interface BandSource {
+import type { BandSigma } from "./report";
+
+interface BandSource extends BandSigma {
   samples: number;
   seed: number;
-  centre_mm: number;
-  axes_deg: number;
-  surface_mm: number;
-  surface_voxels?: number;
 }
 
 /// Every text of the page, in one table: another language is another table.
@@ -225,9 +223,12 @@ export const words = {
     "its error bound.",
   bounded: "Limits are bounded, not exact, for the centre is not held: the joint is free up to each, and past it by its error bound in " +
     "contact, or nearer to contact than some micrometres.",
-  bandsFrom: ({ samples, seed, centre_mm, axes_deg, surface_mm, surface_voxels }: BandSource) =>
+  bandsFrom: ({ samples, seed, centre_mm, axes_deg, surface_mm, surface_voxels, parameters }: BandSource) =>
     `Bands: 5 to 95 % of ${samples} displaced joints, seed ${seed}; standard deviations: centre ${centre_mm} mm, axes ${axes_deg}°, ` +
-    `surfaces ${surface_voxels ? `${surface_voxels} voxels` : `${surface_mm} mm`}.`,
+    `surfaces ${surface_voxels ? `${surface_voxels} voxels` : `${surface_mm} mm`}` +
+    Object.entries(parameters ?? {}).map(([name, sigma]) => `, ${name} ${sigma}`).join("") + ".",
+  notAsInFile: (changed: string) => `Not as in the joint file: ${changed}.`,
+  changedTo: (name: string, value: string, inFile: string) => `${name} ${value} instead of ${inFile}`,
   bearingRules: {
     leave_out: "Contact of the bearing surface does not end a motion.", count: "Every contact ends a motion.",
   },

@@ -10,6 +10,7 @@
 #include "io/joint/append_mesh.hpp"
 #include "io/joint/load_joint.hpp"
 #include "io/result/repair_text.hpp"
+#include "mesh/enclosed_volume.hpp"
 
 namespace condyle {
 namespace {
@@ -134,17 +135,6 @@ std::vector<std::string> processing_of(const JointReport& report) {
   return notes;
 }
 
-BoundingBox bounds_of_vertices(const Mesh& mesh) {
-  const Points& points = mesh.vertices();
-  if (points.size() == 0) return {Vec3::Zero(), Vec3::Zero()};
-  BoundingBox box{points[0], points[0]};
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    box.low = box.low.cwiseMin(points[v]);
-    box.high = box.high.cwiseMax(points[v]);
-  }
-  return box;
-}
-
 }  // namespace
 
 LoadedJoint io::load_joint(JointFile file) {
@@ -162,8 +152,8 @@ LoadedJoint read_joint(const std::filesystem::path& path) {
 
 LoadedJoint with_parameters(const LoadedJoint& loaded, std::span<const ParameterValue> values) {
   LoadedJoint moved{with_parameters(loaded.joint, values), loaded.report};
-  moved.report.placement.fixed.bounds = bounds_of_vertices(moved.joint.fixed.mesh);
-  moved.report.placement.mobile.bounds = bounds_of_vertices(moved.joint.mobile.mesh);
+  moved.report.placement.fixed.bounds = mesh::bounds_of_vertices(moved.joint.fixed.mesh);
+  moved.report.placement.mobile.bounds = mesh::bounds_of_vertices(moved.joint.mobile.mesh);
   return moved;
 }
 

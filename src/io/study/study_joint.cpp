@@ -230,10 +230,6 @@ void add_followed_files(const StudyTable& table, const StudyRow& row, const Join
     files.push_back(sha256_of_file(poses->model));
 }
 
-}  // namespace
-
-namespace {
-
 StudyJoint joint_as_described(const StudyTable& table, const StudyRow& row) {
   switch (source_of(table, row)) {
     case JointSource::joint_file:
@@ -256,15 +252,15 @@ StudyJoint joint_as_described(const StudyTable& table, const StudyRow& row) {
 }  // namespace
 
 StudyJoint load_joint(const StudyTable& table, const StudyRow& row) {
-  StudyJoint of_joint = joint_as_described(table, row);
+  StudyJoint joint = joint_as_described(table, row);
   const std::string_view values = table.field(row, "parameters");
-  if (values.empty()) return of_joint;
+  if (values.empty()) return joint;
   try {
-    of_joint.loaded = with_parameters(of_joint.loaded, parse_parameters(values));
+    joint.loaded = with_parameters(joint.loaded, parse_parameters(values));
   } catch (const UsageError& error) {
     throw FileError(fmt::format("{}: {}", table.place(row, "parameters"), error.what()));
   }
-  return of_joint;
+  return joint;
 }
 
 std::string place_of(const StudyTable& table, const StudyRow& row) {

@@ -16,9 +16,8 @@ struct StudyJoint {
   std::vector<std::string> codes = {};
 };
 
-/// The joint of a joint file, of two meshes, of two bones of a label map, or a sample hip of its measures; at the
-/// values in the column `parameters`. Throws what read_joint()
-/// does; FileError if the row does not say which, or a field is not what it must be.
+/// The joint of a joint file, of two meshes, of two bones of a label map, or a sample hip of its measures; at the values in the column `parameters`. Throws what
+/// read_joint() does; FileError if the row does not say which, or a field is not what it must be.
 StudyJoint load_joint(const StudyTable& table, const StudyRow& row);
 
 /// Start of messages about the joint: its joint file, else the row's line, "table.csv: line 7".

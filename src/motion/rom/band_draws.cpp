@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t fewest_samples = 20;
 
-/// Of the centre, the axes and both surfaces.
+/// Three for the centre, three for the axes, one for each surface.
 constexpr std::size_t dimensions = 8;
 
 /// Numbers in [0, 1) of the generator's upper 53 bits: std::uniform_real_distribution may differ between libraries.

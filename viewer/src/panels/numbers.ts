@@ -1,6 +1,6 @@
 import { html, named, section, shortened, spaced } from "../dom";
 import { limitAlone, toldBand } from "../plots/limits";
-import { scopeOf, type MeshSource, type MotionAnswer, type ReportText, type RomAnswer } from "../report";
+import { scopeOf, type MeshSource, type MotionAnswer, type PartParameter, type ReportText, type RomAnswer } from "../report";
 import { words } from "../words";
 import { lines, longestLine, table } from "./table";
 
@@ -76,10 +76,16 @@ function limitsTable({ motions }: RomAnswer, joint: ReportText["joint"]): HTMLEl
     }), words.limits);
 }
 
+function changedParameter({ name, value, unit, in_joint_file }: PartParameter): string {
+  return words.changedTo(name, unit === "1" ? String(value) : `${value} ${unit}`, String(in_joint_file));
+}
+
 /// By what rules and with what uncertainty limits were found, a line each.
-function howFound({ exact, band, bearing, normal_range_source }: RomAnswer): string[] {
+function howFound({ exact, band, bearing, normal_range_source, provenance }: RomAnswer): string[] {
   const mm = (value: number) => value.toFixed(2);
+  const changed = (provenance?.parameters ?? []).filter(({ value, in_joint_file }) => value !== in_joint_file);
   return [
+    ...(changed.length ? [words.notAsInFile(changed.map(changedParameter).join(", "))] : []),
     exact === false ? words.bounded : words.guarantee,
     band ? words.bandsFrom({ samples: band.samples, seed: band.seed, ...band.sigma }) : words.noBand,
     ...(bearing ? [words.bearingRules[bearing.rule]] : []),
