@@ -36,6 +36,19 @@ TEST(SampleReplacementCommand, WritesTheMeshesThatTheLibraryMakesWithTheSizesInT
   ASSERT_TRUE(file.implant);
   EXPECT_EQ(std::get<TotalHip>(*file.implant), hip);
   EXPECT_EQ(file.joint.side, Side::left);
+  EXPECT_EQ(file.uncertainty.centre_mm, 0);
+  EXPECT_EQ(file.uncertainty.surface_mm, 0);
+}
+
+TEST(SampleReplacementCommand, HasBandsOfItsAxesInWhichTheHeadNeverMeetsTheLiner) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(made_implant(folder, "replacement --bones none --facets 120 --out made").exit_code, 0);
+  const Ran rom = run_condyle(folder.path(), "rom made/hip.toml --motion flexion --band=20 --json");
+  ASSERT_EQ(rom.exit_code, 0) << rom.err;
+  const auto motion = nlohmann::json::parse(rom.out)["motions"][0];
+  // Axes 1 degree off about each of the three turn a limit by some degrees; a head in its liner would end it anywhere.
+  EXPECT_GT(motion["band"]["p5_deg"], motion["limit_deg"].get<double>() - 8);
+  EXPECT_EQ(motion["band"]["width_from"]["centre_deg"], 0);
 }
 
 TEST(SampleReplacementCommand, NamesThePartsThatEndMotions) {

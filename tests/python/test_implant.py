@@ -1,5 +1,4 @@
 """Implants of sizes: the same meshes and errors as of the command."""
-import os
 import pickle
 import subprocess
 
@@ -9,10 +8,11 @@ import pytest
 import condyle
 
 
-def test_the_meshes_are_those_of_the_command(tmp_path):
+@pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+def test_the_meshes_are_those_of_the_command(command, tmp_path):
     made = condyle.sample_replacement(inclination_deg=45, anteversion_deg=20, definition="operative", head_radius_mm=18,
                                       facets=96, side="left")
-    subprocess.run([os.environ["CONDYLE_COMMAND"], "sample", "replacement", "--inclination", "45", "--anteversion", "20",
+    subprocess.run([command, "sample", "replacement", "--inclination", "45", "--anteversion", "20",
                     "--definition", "operative", "--head-radius", "18", "--facets", "96", "--side", "left", "--out",
                     str(tmp_path)], check=True, capture_output=True)
     for part, mesh in (*made.fixed.items(), *made.mobile.items()):
@@ -21,6 +21,7 @@ def test_the_meshes_are_those_of_the_command(tmp_path):
     read = condyle.read_joint(tmp_path / "hip.toml")
     assert read.name == made.joint.name and read.side == made.joint.side
     assert np.array_equal(read.mobile.vertices, made.joint.mobile.vertices)
+    assert read.range_of_motion().bands(["flexion"], samples=20) == made.joint.range_of_motion().bands(["flexion"], samples=20)
 
 
 @pytest.mark.filterwarnings("ignore::condyle.JointWarning")

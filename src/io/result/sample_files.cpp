@@ -112,7 +112,9 @@ void write_sample_implant(OutputFolder& out, const ImplantMeshes& meshes, const 
   const bool is_hip = std::holds_alternative<TotalHip>(implant);
   io::write_whole_file(out.file(is_hip ? "hip.toml" : "shoulder.toml"),
                        joint_file_text(names.joint, fixed, mobile, side, is_hip ? "hip" : "shoulder") + "\n" +
-                           io::implant_text(implant));
+                           io::implant_text(implant) +
+                           "\n[uncertainty]  # sizes of an implant are given, not measured\n"
+                           "centre = 0.0\nsurface = 0.0\n");
 }
 
 LoadedJoint sample_implant_joint(const ImplantMeshes& meshes, const Implant& implant, Side side) {
@@ -123,6 +125,7 @@ LoadedJoint sample_implant_joint(const ImplantMeshes& meshes, const Implant& imp
   report.file.joint.side = side;
   report.file.joint.anatomy = std::holds_alternative<TotalHip>(implant) ? Anatomy::hip : Anatomy::shoulder;
   report.file.joint.frame.centre = Vec3(Vec3::Zero());
+  report.file.uncertainty = {.centre_mm = 0, .surface_mm = 0, .surface_voxels = 0};
   auto [joint, placement] = make_joint(report.file.joint, joined_body(names.fixed, meshes.fixed),
                                        joined_body(names.mobile, meshes.mobile));
   report.processing = placement.processing;

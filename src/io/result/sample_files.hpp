@@ -29,7 +29,7 @@ void write_sample_labels(OutputFolder& out, const SampleHip& hip, Side side, dou
 void write_sample_cartilages(OutputFolder& out, const SampleCartilages& cartilages, Side side);
 
 /// Puts an implant into a folder as a joint: hip.toml or shoulder.toml, with the sizes of the implant in it, and a mesh for each part, named
-/// after it. The meshes are those of the side given.
+/// after it. Bands move its axes only: a centre displaced by as much as the clearance would bring head and liner into contact. The meshes are those of the side given.
 void write_sample_implant(OutputFolder& out, const ImplantMeshes& meshes, const Implant& implant, Side side);
 
 /// The joint that reading these files makes.
