@@ -78,9 +78,10 @@ TriMesh ball_mesh(const AxisAcross& frame, double radius) {
   constexpr int around = 120, rings = 59;
   std::vector<Ring> all;
   for (int r = 1; r <= rings; ++r) {
-    const auto [sine, cosine] = sine_cosine(two_pi / 2 * r / (rings + 1));
-    all.push_back(
-        ring_of(around, [&](int, double turn) { return frame.at(radius * cosine, radius * sine, turn); }));
+    const core::SineCosine from_pole = sine_cosine(two_pi / 2 * r / (rings + 1));
+    all.push_back(ring_of(around, [&](int, double turn) {
+      return frame.at(radius * from_pole.cosine, radius * from_pole.sine, turn);
+    }));
   }
   return lofted(radius * frame.axis, all, -radius * frame.axis);
 }
