@@ -25,11 +25,13 @@ function(condyle_settings_for target)
   endif()
 endfunction()
 
-# Has the headers that most files of a target include compiled once for all of them: condyle_precompile(target header...).
+# Has the headers that most files of a target include compiled once for all of them: condyle_precompile(target [FEW_UNITS]
+# header...). With FEW_UNITS not where sources compile several at a time: to precompile then takes longer than it spares.
 # What keeps forgotten includes from passing unseen: docs/decisions/0006-faster-builds.md.
 function(condyle_precompile target)
-  if(CONDYLE_PRECOMPILED_HEADERS)
-    target_precompile_headers(${target} PRIVATE ${ARGN})
+  cmake_parse_arguments(PARSE_ARGV 1 precompile "FEW_UNITS" "" "")
+  if(CONDYLE_PRECOMPILED_HEADERS AND NOT (precompile_FEW_UNITS AND CONDYLE_UNITY))
+    target_precompile_headers(${target} PRIVATE ${precompile_UNPARSED_ARGUMENTS})
     condyle_settings_for_precompiled(${target})
   endif()
 endfunction()
@@ -51,13 +53,15 @@ function(condyle_settings_for_precompiled target)
   endif()
 endfunction()
 
-# Compiles the sources of a target several at a time, so that the headers that they share are read once for all of them: most of
-# their time is headers. Eight of one folder go together: private names have to differ within a folder only. Sources that Highway
-# compiles once for every instruction set stay out.
+# Compiles the sources of a target several at a time, so that the headers that they share are read once for all of them, and the
+# templates that they share compiled once: most of their time. Those of one layer (the first folder below the target's) go
+# together, in units of about equal size: private names have to differ within a layer. Sources that Highway compiles once for every
+# instruction set stay out.
 function(condyle_unify target)
   if(NOT CONDYLE_UNITY)
     return()
   endif()
+  set(largest_unit 250000)  # bytes of source: half a minute and less than 2 GB of memory
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   # A source that is included looks to GCC like a header, whose private types no class should hold; and where it inlines more, GCC 12
   # sees members of empty optionals moved. A local name may be a private one of another file.
@@ -72,12 +76,19 @@ function(condyle_unify target)
     endif()
     cmake_path(GET path PARENT_PATH folder)
     cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${folder_of_target})
-    string(MAKE_C_IDENTIFIER "${folder}" group)
-    if(NOT DEFINED in_${group})
-      set(in_${group} 0)
+    string(REGEX MATCH "^[^/]+" layer "${folder}")
+    string(MAKE_C_IDENTIFIER "${layer}" layer)
+    file(SIZE ${path} bytes)
+    if(NOT DEFINED unit_of_${layer})
+      set(unit_of_${layer} 0)
+      set(bytes_of_${layer} ${bytes})
+    else()
+      math(EXPR bytes_of_${layer} "${bytes_of_${layer}} + ${bytes}")
+      if(bytes_of_${layer} GREATER largest_unit)
+        math(EXPR unit_of_${layer} "${unit_of_${layer}} + 1")
+        set(bytes_of_${layer} ${bytes})
+      endif()
     endif()
-    math(EXPR batch "${in_${group}} / 8")
-    math(EXPR in_${group} "${in_${group}} + 1")
-    set_source_files_properties(${path} PROPERTIES UNITY_GROUP ${group}_${batch})
+    set_source_files_properties(${path} PROPERTIES UNITY_GROUP ${layer}_${unit_of_${layer}})
   endforeach()
 endfunction()

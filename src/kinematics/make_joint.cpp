@@ -95,6 +95,15 @@ Pose frame_about(const Vec3& centre, const JointDescription& description) {
   }
 }
 
+/// Takes one direction into another less than half a turn away, as Eigen's FromTwoVectors does: that one's singular value
+/// decomposition for opposite directions takes a compiler six seconds.
+Eigen::Matrix3d smallest_rotation(const Vec3& from, const Vec3& to) {
+  const Vec3 a = from.normalized(), b = to.normalized();
+  const double s = std::sqrt((1 + b.dot(a)) * 2);
+  const Vec3 v = a.cross(b) * (1 / s);
+  return Eigen::Quaterniond(s * 0.5, v.x(), v.y(), v.z()).toRotationMatrix();
+}
+
 /// Rotates the frame by the smallest rotation that lays its Z axis along the fitted cylinder's, in the nearer
 /// sense.
 Pose rotated_to_axis(const Pose& X_WF, const Vec3& fitted, JointPlacement& placement) {
@@ -108,7 +117,7 @@ Pose rotated_to_axis(const Pose& X_WF, const Vec3& fitted, JointPlacement& place
                   "more than %g is not taken for the same axis (limit the fit with fit_within)",
                   placement.axis_rotation.degrees(), largest_turn_deg));
   Pose rotated = X_WF;
-  rotated.linear() = Eigen::Quaterniond::FromTwoVectors(z, axis).toRotationMatrix() * X_WF.linear();
+  rotated.linear() = smallest_rotation(z, axis) * X_WF.linear();
   return rotated;
 }
 

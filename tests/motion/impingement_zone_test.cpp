@@ -90,7 +90,8 @@ TriMesh head_and_neck(const Vec3& direction) {
   bar = TriMesh{};
   for (int k = 0; k < 35; ++k) bar = joined(bar, box({-9, -9, 10. + 2 * k}, {9, 9, 12. + 2 * k}));
   Pose X = Pose::Identity();
-  X.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), direction).toRotationMatrix();
+  const Vec3 about = Vec3::UnitZ().cross(direction).normalized();
+  X.linear() = Eigen::AngleAxisd(std::acos(direction.z()), about).toRotationMatrix();
   return joined(sphere({0, 0, 0}, 24, 3), posed(X, bar));
 }
 

@@ -19,9 +19,9 @@ struct Known {
   std::optional<ContactWitness> contact = {};
 };
 
-class Search {
+class ScrewSearch {
  public:
-  Search(const PosedBodies& bodies, const ScrewMotion& motion, double resolution)
+  ScrewSearch(const PosedBodies& bodies, const ScrewMotion& motion, double resolution)
       : bodies_(bodies), motion_(motion), resolution_(resolution) {}
 
   ScrewContacts run() {
@@ -107,7 +107,7 @@ class Search {
 }  // namespace
 
 ScrewContacts screw_contacts(const PosedBodies& bodies, const ScrewMotion& motion, double resolution) {
-  return Search(bodies, motion, resolution).run();
+  return ScrewSearch(bodies, motion, resolution).run();
 }
 
 }  // namespace condyle::motion
