@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "condyle/io/contact_entry.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/pressure.hpp"
 

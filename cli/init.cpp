@@ -12,7 +12,7 @@
 #include "commands.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
-#include "condyle/io/label_joint.hpp"
+#include "condyle/io/label_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "followed.hpp"

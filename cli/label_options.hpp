@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "condyle/io/label_joint.hpp"
+#include "condyle/io/label_file.hpp"
 
 /// Options of commands that read label maps.
 

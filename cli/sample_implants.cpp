@@ -14,7 +14,7 @@
 #include "answer.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
-#include "condyle/sample/replacement.hpp"
+#include "condyle/sample/hip.hpp"
 #include "help_formatter.hpp"
 #include "io/result/sample_files.hpp"
 

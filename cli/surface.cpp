@@ -7,7 +7,7 @@
 #include "answer.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
-#include "condyle/io/label_joint.hpp"
+#include "condyle/io/label_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "followed.hpp"
 #include "help_formatter.hpp"

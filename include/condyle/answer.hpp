@@ -22,7 +22,6 @@
 #include "condyle/normal_depth.hpp"
 #include "condyle/pressure.hpp"
 #include "condyle/range_of_motion.hpp"
-#include "condyle/recorded_contact.hpp"
 #include "condyle/resection.hpp"
 
 /// One function per question: a request in, an owning result out. The command, the Python module, studies, reports and the page

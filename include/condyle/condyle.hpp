@@ -16,12 +16,10 @@
 // Surfaces.
 #include "condyle/mesh.hpp"
 #include "condyle/inspect.hpp"
-#include "condyle/voxel_mask.hpp"
 #include "condyle/label_surface.hpp"
 
 // Joints.
 #include "condyle/joint_coordinates.hpp"
-#include "condyle/joint_frame.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/fit.hpp"
 #include "condyle/make_joint.hpp"
@@ -43,7 +41,6 @@
 #include "condyle/motion_map.hpp"
 #include "condyle/motion_contact.hpp"
 #include "condyle/impingement_zone.hpp"
-#include "condyle/recorded_contact.hpp"
 #include "condyle/resection.hpp"
 #include "condyle/implant.hpp"
 #include "condyle/hip_measures.hpp"

@@ -4,7 +4,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "condyle/error.hpp"
-#include "condyle/io/label_joint.hpp"
+#include "condyle/io/label_file.hpp"
 #include "interrupts.hpp"
 
 /// Label maps, and surfaces and joints made of them.

@@ -7,7 +7,7 @@
 #include "bindings.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/recorded_motion.hpp"
-#include "condyle/recorded_contact.hpp"
+#include "condyle/motion_contact.hpp"
 #include "interrupts.hpp"
 #include "io/result/motion_result.hpp"
 #include "motion.hpp"

@@ -9,7 +9,6 @@
 #include "condyle/mesh.hpp"
 #include "condyle/sample/cartilages.hpp"
 #include "condyle/sample/hip.hpp"
-#include "condyle/sample/replacement.hpp"
 #include "interrupts.hpp"
 #include "io/result/sample_files.hpp"
 #include "joint.hpp"

@@ -56,7 +56,7 @@ def sample_replacement(*, bones: Bones = "sample", definition: CupDefinition = "
     `neck_radius_mm`. `definition` says which of Murray's definitions inclination and anteversion are by. Parts are `liner` and
     `hip_bone`, fixed, and `head`, `neck`, `stem` and `femur`, mobile. UsageError for a size that is out of its range or does not fit.
 
-    C++: `condyle::sample_replacement` in condyle/sample/replacement.hpp; `condyle sample replacement`.
+    C++: `condyle::sample_replacement` in condyle/sample/hip.hpp; `condyle sample replacement`.
 
     >>> hip = sample_replacement(inclination_deg=45, head_radius_mm=18, bones="none")
     >>> list(hip.mobile), round(hip.half_angle_deg, 4)

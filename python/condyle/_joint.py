@@ -126,7 +126,7 @@ class Joint(DescribedJoint):
         the labels' names, else inferred from the bones. Notes on the bones are warned of. UsageError where something cannot be
         inferred, or for labels that are not there.
 
-        C++: `condyle::propose_joint` in condyle/io/label_joint.hpp; `condyle init`.
+        C++: `condyle::propose_joint` in condyle/io/label_file.hpp; `condyle init`.
         """
         bone, other, found = joint_bones(labels, fixed, mobile, mobile_labels, task,
                                          None if side is None else word(side, "side", Side), pieces, cavities, triangles,
@@ -412,7 +412,7 @@ class Joint(DescribedJoint):
         where the centre moves they lie between two moments whose state is certain. UsageError for times that do not
         ascend, neighbours more than 179 degrees apart, gaps.
 
-        C++: `condyle::contact_between` in condyle/recorded_contact.hpp.
+        C++: `condyle::contact_between` in condyle/motion_contact.hpp.
 
         >>> import condyle
         >>> bones = condyle.sample_hip()

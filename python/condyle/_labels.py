@@ -165,7 +165,7 @@ class LabelMap:
         Without `label` the only label of the map. `triangles`: simplified to about so many. UsageError for a label that is not
         there or means several, MeshError for one too small for a bone.
 
-        C++: `condyle::bone_of` in condyle/io/label_joint.hpp; `condyle surface`.
+        C++: `condyle::bone_of` in condyle/io/label_file.hpp; `condyle surface`.
         """
         return _surface_of(_native.label_bone(
             self._native, self._file, _label_text(label, "label"), "" if task is None else word(task, "task", LabelTask),

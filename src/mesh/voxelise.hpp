@@ -1,7 +1,7 @@
 #pragma once
 
+#include "condyle/label_surface.hpp"
 #include "condyle/mesh.hpp"
-#include "condyle/voxel_mask.hpp"
 
 namespace condyle::mesh {
 

@@ -1,4 +1,4 @@
-#include "condyle/sample/replacement.hpp"
+#include "condyle/sample/hip.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 
 #include "command.hpp"
 #include "condyle/io/joint_file.hpp"
-#include "condyle/sample/replacement.hpp"
+#include "condyle/sample/hip.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace condyle::test {

@@ -1,4 +1,4 @@
-#include "condyle/joint_frame.hpp"
+#include "condyle/make_joint.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,4 +1,4 @@
-#include "condyle/recorded_contact.hpp"
+#include "condyle/motion_contact.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

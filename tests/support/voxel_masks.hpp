@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "condyle/inspect.hpp"
-#include "condyle/voxel_mask.hpp"
+#include "condyle/label_surface.hpp"
 #include "support/sound_mesh.hpp"
 
 /// Masks of simple bodies, and what every surface of one must fulfil.

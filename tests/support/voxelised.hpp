@@ -3,7 +3,7 @@
 #include <string>
 
 #include "condyle/joint.hpp"
-#include "condyle/voxel_mask.hpp"
+#include "condyle/label_surface.hpp"
 #include "mesh/voxelise.hpp"
 
 namespace condyle::test {

@@ -10,7 +10,7 @@
 
 #include "condyle/answer.hpp"
 #include "condyle/control.hpp"
-#include "condyle/io/contact_entry.hpp"
+#include "condyle/io/joint_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/motion_map.hpp"

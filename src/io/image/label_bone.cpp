@@ -4,7 +4,7 @@
 #include <cctype>
 
 #include "condyle/error.hpp"
-#include "condyle/io/label_joint.hpp"
+#include "condyle/io/label_file.hpp"
 #include "io/file/plain_text.hpp"
 
 namespace condyle {

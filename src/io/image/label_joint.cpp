@@ -1,4 +1,4 @@
-#include "condyle/io/label_joint.hpp"
+#include "condyle/io/label_file.hpp"
 
 #include <fmt/format.h>
 

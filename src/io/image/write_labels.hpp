@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <span>
 
-#include "condyle/voxel_mask.hpp"
+#include "condyle/label_surface.hpp"
 
 namespace condyle::io {
 

@@ -1,4 +1,4 @@
-#include "condyle/io/contact_entry.hpp"
+#include "condyle/io/joint_file.hpp"
 
 #include <cstddef>
 #include <utility>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "condyle/io/contact_entry.hpp"
+#include "condyle/io/joint_file.hpp"
 #include "io/joint/toml_table.hpp"
 
 namespace condyle::io {

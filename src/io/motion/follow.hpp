@@ -1,7 +1,6 @@
 #pragma once
 
 #include "condyle/answer.hpp"
-#include "condyle/io/contact_entry.hpp"
 #include "condyle/io/joint_file.hpp"
 
 /// Requests for a range of motion whose translation follows a recorded motion, or a load through layers: the command, reports and

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "condyle/io/contact_entry.hpp"
+#include "condyle/io/joint_file.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/range_of_motion.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "condyle/io/contact_entry.hpp"
+#include "condyle/io/joint_file.hpp"
 #include "io/result/json.hpp"
 
 /// Assumptions behind depths and pressures of surfaces in contact, worded the same in every answer.

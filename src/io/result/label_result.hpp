@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "condyle/io/label_joint.hpp"
+#include "condyle/io/label_file.hpp"
 
 /// Results of `condyle surface` and of `condyle inspect` for label maps. Keys of the JSON are listed in docs/label-maps.md.
 

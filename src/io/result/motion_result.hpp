@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "condyle/answer.hpp"
-#include "condyle/io/contact_entry.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/provenance.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "condyle/error.hpp"
-#include "condyle/io/label_joint.hpp"
+#include "condyle/io/label_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/sample/hip.hpp"
 #include "core/one_line.hpp"

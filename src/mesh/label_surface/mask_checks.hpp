@@ -1,6 +1,6 @@
 #pragma once
 
-#include "condyle/voxel_mask.hpp"
+#include "condyle/label_surface.hpp"
 
 namespace condyle::mesh {
 
