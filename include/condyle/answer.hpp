@@ -257,8 +257,9 @@ enum class RangeNoteCode : std::uint8_t {
   centre_moves_limits,  ///< Head and socket have different centres, and limits depend on which one the joint turns about.
   narrow_bearing_margin,  ///< Head and rim are too close for bearing contact to be distinguished from impingement.
   limit_on_cut,           ///< A motion ends on a face that closes a bone where its image ends: no limit.
-  sliding_surfaces,  ///< Surfaces slide on each other by nature, and where they first touch a motion ends.
-  translation_ends,  ///< What the translation follows ends before the motion's range does.
+  limit_on_part_cut,  ///< A motion ends on a face in which a part was cut from its body.
+  sliding_surfaces,   ///< Surfaces slide on each other by nature, and where they first touch a motion ends.
+  translation_ends,   ///< What the translation follows ends before the motion's range does.
 };
 
 /// As in files: "centre_moves_limits".

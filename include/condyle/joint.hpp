@@ -40,6 +40,8 @@ struct BodyPart {
   std::size_t first_vertex, vertices;
   std::size_t first_triangle, triangles;
   PartContact contact = PartContact::ends;
+  /// The last of its triangles: flat faces in which a part was cut from it, or it from the other. Artificial, but surface as any other.
+  std::size_t cut_triangles = 0;
 };
 
 /// A flat face that closes a bone where its image ends: the plane normal . p = offset, the normal unit and outwards.
@@ -88,6 +90,10 @@ Mesh mesh_of_part(const Body& body, std::string_view part);
 /// Whether a mesh of this body has that word.
 bool has_part(const Body& body, PartContact contact) noexcept;
 
+/// Whether a part was cut from a mesh of this body, and whether a triangle is of a face in which one was.
+bool is_cut(const Body& body) noexcept;
+bool is_cut_face(const Body& body, std::size_t triangle) noexcept;
+
 /// The part that a vertex or a triangle of the body's mesh is of; null if the body is one mesh.
 const BodyPart* part_of_vertex(const Body& body, std::size_t vertex) noexcept;
 const BodyPart* part_of_triangle(const Body& body, std::size_t triangle) noexcept;
@@ -133,6 +139,11 @@ struct PartParameter {
   Vec3 direction = Vec3::Zero();  ///< of a translation: unit vector in the body's frame
 };
 
+/// A plane that a part is cut from a mesh by: the part lies on the side that the unit normal points away from.
+struct CutPlane {
+  Vec3 point = Vec3::Zero(), normal = Vec3::UnitX();
+};
+
 /// Meshes of one body that move together against the rest of it, or a whole body that moves against its frame:
 ///
 ///     p' = c + t + R_x R_z R_y S (p - c)
@@ -144,6 +155,10 @@ struct PosedPart {
   std::vector<std::string> meshes = {};  ///< names of its BodyParts; empty: the whole body
   Vec3 centre = Vec3::Zero();            ///< c, in the body's frame, mm
   std::vector<PartParameter> parameters = {};
+  /// Planes behind all of which it was cut from the mesh of this name, in the body's frame as it is given, mm. The first of its meshes is what was
+  /// cut off, with the part's own name.
+  std::vector<CutPlane> cut = {};
+  std::string cut_from = {};
 };
 
 /// A body before its parts are moved.

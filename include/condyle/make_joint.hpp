@@ -116,7 +116,8 @@ struct FrameDescription {
   std::optional<FemurLandmarks> mobile_axes = {};
 };
 
-/// A part, whose centre lies in W if it is not the joint centre.
+/// A part, whose centre lies in W if it is not the joint centre. Planes that it is cut by lie in W, and then the first of its meshes is the one
+/// that is cut: the only one of the body if it names none.
 struct DescribedPart {
   PosedPart part = {};
   std::optional<Vec3> centre_in_W = {};  ///< mm

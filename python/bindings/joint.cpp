@@ -103,7 +103,7 @@ py::list parts_of(const Body& body) {
   py::list parts;
   for (const BodyPart& part : body.parts)
     parts.append(py::make_tuple(part.name, part.first_vertex, part.vertices, part.first_triangle,
-                                part.triangles, std::string(name_of(part.contact))));
+                                part.triangles, std::string(name_of(part.contact)), part.cut_triangles));
   return parts;
 }
 

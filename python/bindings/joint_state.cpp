@@ -39,8 +39,8 @@ void members(T& value, const Each& each) {
     auto& [vertices, triangles] = value;
     each(vertices, triangles);
   } else if constexpr (std::is_same_v<Struct, BodyPart>) {
-    auto& [name, first_vertex, vertices, first_triangle, triangles, contact] = value;
-    each(name, first_vertex, vertices, first_triangle, triangles, contact);
+    auto& [name, first_vertex, vertices, first_triangle, triangles, contact, cut_triangles] = value;
+    each(name, first_vertex, vertices, first_triangle, triangles, contact, cut_triangles);
   } else if constexpr (std::is_same_v<Struct, Body>) {
     auto& [name, mesh, parts, image, head, bearing_margin_mm] = value;
     each(name, mesh, parts, image, head, bearing_margin_mm);
@@ -60,8 +60,11 @@ void members(T& value, const Each& each) {
     auto& [mesh, image, head] = value;
     each(mesh, image, head);
   } else if constexpr (std::is_same_v<Struct, PosedPart>) {
-    auto& [name, body, meshes, centre, parameters] = value;
-    each(name, body, meshes, centre, parameters);
+    auto& [name, body, meshes, centre, parameters, cut, cut_from] = value;
+    each(name, body, meshes, centre, parameters, cut, cut_from);
+  } else if constexpr (std::is_same_v<Struct, CutPlane>) {
+    auto& [point, normal] = value;
+    each(point, normal);
   } else if constexpr (std::is_same_v<Struct, DescribedPart>) {
     auto& [part, centre_in_W] = value;
     each(part, centre_in_W);

@@ -22,7 +22,7 @@ class BodyPart:
     """Which vertices and triangles of a body's mesh came from one of several meshes: a first one, and how many.
 
     `contact`: what touching it means for a motion. "ends": the motion ends; "bearing": it slides on what is bearing of the other
-    body, as cartilage does; "soft": it gives way, as a labrum does.
+    body, as cartilage does; "soft": it gives way, as a labrum does. `cut_triangles`: the last of its triangles are cut faces.
     """
 
     name: str
@@ -31,6 +31,7 @@ class BodyPart:
     first_triangle: int
     triangles: int
     contact: PartContact
+    cut_triangles: int
 
 
 @dataclass(frozen=True)

@@ -71,6 +71,38 @@ void note_cuts(const Joint& joint, std::span<const MotionLimit> limits, std::vec
   }
 }
 
+/// Whether a feature is of a face in which a part was cut, or at its edge.
+bool is_of_cut(const Body& body, const Feature& feature) {
+  if (feature.kind == FeatureKind::face) return is_cut_face(body, feature.id);
+  for (std::size_t t = 0; t < body.mesh.triangles().size(); ++t) {
+    if (!is_cut_face(body, t)) continue;
+    const Triangle& corners = body.mesh.triangles()[t];
+    const auto has = [&](Index v) { return std::find(corners.begin(), corners.end(), v) != corners.end(); };
+    if (has(feature.id) && (feature.kind == FeatureKind::vertex || has(feature.other_end))) return true;
+  }
+  return false;
+}
+
+/// Motions that end on the face in which a part was cut from a bone: the planes are the joint file's.
+void note_part_cuts(const Joint& joint, std::span<const MotionLimit> limits, std::vector<RangeNote>& notes) {
+  for (const Body* body : {&joint.fixed, &joint.mobile}) {
+    if (!is_cut(*body)) continue;
+    std::string motions;
+    for (const MotionLimit& limit : limits) {
+      const std::optional<ContactWitness>& contact = limit.end.contact;
+      if (!contact) continue;
+      const Feature& feature = body == &joint.fixed ? contact->fixed_feature : contact->mobile_feature;
+      if (is_of_cut(*body, feature)) motions += (motions.empty() ? "" : ", ") + limit.motion.name;
+    }
+    if (!motions.empty())
+      notes.push_back({RangeNoteCode::limit_on_part_cut,
+                       motions + (motions.find(',') == motions.npos ? " ends" : " end") +
+                           " on a face or an edge in which a part of " + body->name +
+                           " is cut: where the planes lie decides " +
+                           (motions.find(',') == motions.npos ? "this limit" : "these limits")});
+  }
+}
+
 std::string_view with_article(const Joint& joint) noexcept {
   if (!joint.names_its_joint()) return "a hinge";
   switch (joint.anatomy) {
@@ -127,6 +159,8 @@ std::string_view name_of(RangeNoteCode code) noexcept {
       return "narrow_bearing_margin";
     case RangeNoteCode::limit_on_cut:
       return "limit_on_cut";
+    case RangeNoteCode::limit_on_part_cut:
+      return "limit_on_part_cut";
     case RangeNoteCode::sliding_surfaces:
       return "sliding_surfaces";
     case RangeNoteCode::translation_ends:
@@ -139,6 +173,7 @@ std::vector<RangeNote> range_notes(const Joint& joint, std::span<const MotionLim
                                    const RangeOptions& range, const BearingFinding& bearing) {
   std::vector<RangeNote> notes;
   note_cuts(joint, limits, notes);
+  note_part_cuts(joint, limits, notes);
   std::vector<Motion> motions;
   for (const MotionLimit& limit : limits) motions.push_back(limit.motion);
   // A shallow socket is wider than its head and has another centre by nature, about which nothing turns.

@@ -43,6 +43,16 @@ std::string_view name_of(PartContact contact) noexcept {
   return "soft";
 }
 
+bool is_cut(const Body& body) noexcept {
+  return std::any_of(body.parts.begin(), body.parts.end(),
+                     [](const BodyPart& part) { return part.cut_triangles > 0; });
+}
+
+bool is_cut_face(const Body& body, std::size_t triangle) noexcept {
+  const BodyPart* part = part_of_triangle(body, triangle);
+  return part && triangle - part->first_triangle >= part->triangles - part->cut_triangles;
+}
+
 const BodyPart* part_of_vertex(const Body& body, std::size_t vertex) noexcept {
   for (const BodyPart& part : body.parts)
     if (vertex - part.first_vertex < part.vertices) return &part;

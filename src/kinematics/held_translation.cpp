@@ -27,7 +27,10 @@ Joint held_at(const Joint& joint, const Vec3& translation_mm) {
     move_cuts(held.posed->fixed.image);
     move_socket(held.posed->fixed.head);
     for (PosedPart& part : held.posed->parts)
-      if (part.body == BodyRole::fixed) part.centre -= translation_mm;
+      if (part.body == BodyRole::fixed) {
+        part.centre -= translation_mm;
+        for (CutPlane& plane : part.cut) plane.point -= translation_mm;
+      }
   }
   return held;
 }

@@ -9,6 +9,7 @@
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
 #include "core/rounded.hpp"
+#include "kinematics/cut_parts.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_parts.hpp"
 #include "kinematics/long_bone_checks.hpp"
@@ -229,7 +230,8 @@ void check_hip(const Joint& joint, const SphericalPatch& head, const SphericalPa
       shaft.norm() < least_lever * head.fit.sphere.radius)
     return;
   const std::string &fixed = joint.fixed.name, &mobile = joint.mobile.name;
-  const Evidence bone = of_hip_bone(mass, open_side(joint.fixed.mesh, socket), rightwards);
+  const Evidence bone =
+      of_hip_bone(mass, open_side(kinematics::uncut_surface(joint.fixed), socket), rightwards);
   if (bone.superior < upright) {
     notes.add(JointNoteCode::axes_not_upright,
               fixed + " does not lie above its socket: superior does not point up");
@@ -296,7 +298,7 @@ void check_ball(const Joint& joint, const JointPlacement& placement, Notes& note
     check_side_without_socket(joint, notes);
     return;
   }
-  const auto socket = kinematics::socket_around(joint.fixed.mesh, head->fit.sphere);
+  const auto socket = kinematics::socket_around(kinematics::uncut_surface(joint.fixed), head->fit.sphere);
   check_centres(joint, head->fit.sphere, *socket, notes);
   if (*socket) {
     check_hip(joint, *head, **socket, notes);
@@ -329,7 +331,7 @@ void check_stated_joint(const Joint& joint, Notes& notes) {
   if (!head || head->coverage < least_femoral_coverage || head->fit.sphere.radius < least_femoral_radius_mm ||
       head->fit.sphere.centre.norm() > farthest_stray_sphere)
     return;
-  const auto socket = kinematics::socket_around(joint.fixed.mesh, head->fit.sphere);
+  const auto socket = kinematics::socket_around(kinematics::uncut_surface(joint.fixed), head->fit.sphere);
   if (!*socket || !kinematics::fits_into(head->fit.sphere, **socket)) return;
   notes.add(JointNoteCode::unlikely_joint,
             std::string(joint.kind == JointKind::hinge ? "the joint is said to be a hinge"

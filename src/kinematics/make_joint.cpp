@@ -1,6 +1,7 @@
 #include "condyle/make_joint.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "core/coordinate_range.hpp"
 #include "core/formatted.hpp"
 #include "core/rounded.hpp"
+#include "kinematics/cut_parts.hpp"
 #include "kinematics/hip_parts.hpp"
 #include "kinematics/posed_parts.hpp"
 #include "kinematics/resampling.hpp"
@@ -239,19 +241,29 @@ Pose mobile_frame(const JointDescription& description, const Pose& X_FW, JointPl
   }
 }
 
-/// The parts described, in the frames of their bodies, and the bodies as they are given.
-std::optional<PosedParts> placed_parts(const JointDescription& description, const Pose& X_FW,
-                                       const Pose& X_MW, const Body& fixed, const Body& mobile) {
-  if (description.parts.empty()) return std::nullopt;
-  PosedParts posed{{}, {fixed.mesh, fixed.image, fixed.head}, {mobile.mesh, mobile.image, mobile.head}};
+/// The parts described, in the frames of their bodies.
+std::vector<PosedPart> placed_parts(const JointDescription& description, const Pose& X_FW, const Pose& X_MW) {
+  std::vector<PosedPart> parts;
   for (const auto& [described, centre_in_W] : description.parts) {
     PosedPart part = described;
-    part.centre = centre_in_W ? (part.body == BodyRole::fixed ? X_FW : X_MW) * *centre_in_W : Vec3::Zero();
+    const Pose& X_BW = part.body == BodyRole::fixed ? X_FW : X_MW;
+    part.centre = centre_in_W ? X_BW * *centre_in_W : Vec3::Zero();
+    for (CutPlane& plane : part.cut) plane = {X_BW * plane.point, X_BW.linear() * plane.normal};
     for (PartParameter& parameter : part.parameters) parameter.described = parameter.value;
-    posed.parts.push_back(std::move(part));
+    parts.push_back(std::move(part));
   }
-  kinematics::check_parts(posed.parts, fixed, mobile);
-  return posed;
+  return parts;
+}
+
+/// Vertices of a mesh by their numbers after it was cut.
+std::vector<Index> numbers_after(const std::vector<Index>& vertex_before,
+                                 const std::vector<Index>& vertices) {
+  if (vertex_before.empty()) return vertices;
+  std::vector<Index> after;
+  for (std::size_t v = 0; v < vertex_before.size(); ++v)
+    if (std::find(vertices.begin(), vertices.end(), vertex_before[v]) != vertices.end())
+      after.push_back(static_cast<Index>(v));
+  return after;
 }
 
 }  // namespace
@@ -273,11 +285,15 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
   mobile.image = placed_image(X_MW * description.mobile_in_W, mobile.image);
   fixed.head = placed_head(X_FW * description.fixed_in_W, fixed.head);
   mobile.head = placed_head(X_MW * description.mobile_in_W, mobile.head);
+  std::vector<PosedPart> parts = placed_parts(description, X_FW, X_MW);
+  const kinematics::CutParts cut = kinematics::cut_parts(parts, fixed, mobile);
+  kinematics::check_parts(parts, fixed, mobile);
   if (mobile.head) kinematics::keep_head(mobile.mesh, *mobile.head);
   // A search about the joint centre finds the head that a search of the whole body found.
   const auto* fit = std::get_if<CentreFit>(&description.frame.centre);
   if (placement.sphere && fit && fit->body == BodyRole::mobile && !fit->within)
-    kinematics::keep_head(mobile.mesh, placement.sphere->fit.vertices);
+    kinematics::keep_head(mobile.mesh,
+                          numbers_after(cut.mobile_vertex_before, placement.sphere->fit.vertices));
   Joint joint{description.name,
               description.kind,
               description.side,
@@ -285,11 +301,15 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
               std::move(mobile),
               description.anatomy,
               description.translation_frame};
-  joint.posed = placed_parts(description, X_FW, X_MW, joint.fixed, joint.mobile);
+  if (!parts.empty())
+    joint.posed = PosedParts{std::move(parts),
+                             {joint.fixed.mesh, joint.fixed.image, joint.fixed.head},
+                             {joint.mobile.mesh, joint.mobile.image, joint.mobile.head}};
   kinematics::pose_parts(joint);
   placement.fixed.bounds = mesh::bounds_of_vertices(joint.fixed.mesh);
   placement.mobile.bounds = mesh::bounds_of_vertices(joint.mobile.mesh);
   placement.processing = processing_of(placement);
+  placement.processing.insert(placement.processing.end(), cut.processing.begin(), cut.processing.end());
   return {std::move(joint), std::move(placement)};
 }
 

@@ -1,4 +1,5 @@
 #include "kinematics/shoulder_checks.hpp"
+#include "kinematics/cut_parts.hpp"
 
 #include <optional>
 
@@ -93,7 +94,7 @@ std::vector<JointNote> shoulder_notes(const Joint& joint, const JointPlacement& 
                      formatted("the joint centre is %.1f mm from that of the head of ", off) + mobile +
                          formatted(", a sphere of radius %.1f mm about ", sphere.radius) +
                          core::rounded(sphere.centre, 1)});
-  const auto socket = shallow_socket_around(joint.fixed.mesh, sphere);
+  const auto socket = shallow_socket_around(uncut_surface(joint.fixed), sphere);
   if (*socket && (*socket)->sphere && is_socket_of(sphere, *(*socket)->sphere))
     check_glenoid(joint, sphere, **socket, notes);
   return notes;

@@ -14,12 +14,25 @@ double area_of(const TriMesh& mesh, std::size_t t) {
   return (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).norm() / 2;
 }
 
+/// Gives all pieces that were cut from each other the number of the first of them.
+void join_cut_pieces(const Mesh& bone, const std::vector<char>& cut, std::vector<Index>& of_triangle,
+                     std::size_t count) {
+  std::vector<char> is_cut(count);
+  for (std::size_t t = 0; t < of_triangle.size(); ++t)
+    for (const Index v : bone.triangles()[t]) is_cut[of_triangle[t]] |= cut[v];
+  const auto first = static_cast<Index>(std::find(is_cut.begin(), is_cut.end(), 1) - is_cut.begin());
+  for (Index& piece : of_triangle)
+    if (is_cut[piece]) piece = first;
+}
+
 }  // namespace
 
-OwnPieces own_pieces(const Mesh& bone, const std::string& name, const Sphere& ball, const PieceVote& vote) {
-  const mesh::ConnectedComponents pieces = mesh::edges_of(bone).components();
+OwnPieces own_pieces(const Mesh& bone, const std::string& name, const Sphere& ball,
+                     const std::vector<char>& cut, const PieceVote& vote) {
+  mesh::ConnectedComponents pieces = mesh::edges_of(bone).components();
   const std::size_t count = pieces.first_triangle.size();
   if (count < 2) return {bone, {}};
+  if (!cut.empty()) join_cut_pieces(bone, cut, pieces.of_triangle, count);
   std::vector<double> votes(count), areas(count);
   std::vector<char> is_near(count);
   for (std::size_t t = 0; t < bone.triangles().size(); ++t) {

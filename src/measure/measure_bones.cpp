@@ -7,6 +7,7 @@
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
 #include "core/lazy.hpp"
+#include "kinematics/cut_parts.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_parts.hpp"
 #include "kinematics/surface_points.hpp"
@@ -35,14 +36,17 @@ bool is_bone(const BodyPart& part) {
   return part.contact == PartContact::ends;
 }
 
+/// Without faces in which parts were cut from it.
 Mesh bone_of(const Body& body) {
   const bool some = std::any_of(body.parts.begin(), body.parts.end(), is_bone);
-  if (!some || std::all_of(body.parts.begin(), body.parts.end(), is_bone)) return body.mesh;
+  if (!some || std::all_of(body.parts.begin(), body.parts.end(), is_bone))
+    return kinematics::uncut_surface(body);
   TriMesh bone{body.mesh.vertices(), {}};
   for (const BodyPart& part : body.parts) {
     if (!is_bone(part)) continue;
     const auto first = body.mesh.triangles().begin() + static_cast<std::ptrdiff_t>(part.first_triangle);
-    bone.triangles.insert(bone.triangles.end(), first, first + static_cast<std::ptrdiff_t>(part.triangles));
+    bone.triangles.insert(bone.triangles.end(), first,
+                          first + static_cast<std::ptrdiff_t>(part.triangles - part.cut_triangles));
   }
   return bone;
 }
@@ -54,6 +58,9 @@ std::vector<char> ends_of(const Body& body, const Mesh& bone) {
     for (std::size_t e = 0; e < edges.size(); ++e)
       if (edges.balance(bone, e) != 0)
         for (const Index v : edges.ends(e)) ends[v] = 1;
+    // Where a part was cut off the bone goes on.
+    const std::vector<char> cut = kinematics::cut_vertices(body);
+    for (std::size_t v = 0; v < cut.size(); ++v) ends[v] &= !cut[v];
   }
   if (body.image && !body.image->cuts.empty())
     for (std::size_t v = 0; v < ends.size(); ++v) ends[v] |= is_on_cut(body, bone.vertices()[v]);
@@ -63,22 +70,26 @@ std::vector<char> ends_of(const Body& body, const Mesh& bone) {
 }
 
 /// Its head, or its shaft's cortex: that of the piece which has the head.
-OwnPieces piece_with(const Mesh& femur, const std::string& name, const SphericalPatch& head) {
+OwnPieces piece_with(const Mesh& femur, const Body& body, const SphericalPatch& head) {
   std::vector<char> is_head(femur.vertices().size());
   for (const Index v : head.fit.vertices) is_head[v] = 1;
   const Sphere& sphere = head.fit.sphere;
-  return own_pieces(femur, name, {sphere.centre, pieces_reach * sphere.radius}, [&](std::size_t t) {
+  const auto vote = [&](std::size_t t) {
     const auto [i, j, k] = femur.triangles()[t];
     return is_head[i] + is_head[j] + is_head[k];
-  });
+  };
+  return own_pieces(femur, body.name, {sphere.centre, pieces_reach * sphere.radius},
+                    kinematics::cut_vertices(body), vote);
 }
 
 /// The piece that faces most of the head across the joint space.
-OwnPieces piece_around(const Mesh& hip_bone, const std::string& name, const Sphere& head) {
-  return own_pieces(hip_bone, name, {head.centre, pieces_reach * head.radius}, [&](std::size_t t) {
+OwnPieces piece_around(const Mesh& hip_bone, const Body& body, const Sphere& head) {
+  const auto vote = [&](std::size_t t) {
     const double gap = (hip_bone.corner(t, 0) - head.centre).norm() - head.radius;
     return std::abs(gap) < farthest_wall_mm ? std::max(0.0, -solid_angle(hip_bone, t, head.centre)) : 0;
-  });
+  };
+  return own_pieces(hip_bone, body.name, {head.centre, pieces_reach * head.radius},
+                    kinematics::cut_vertices(body), vote);
 }
 
 bool is_inside_out(const Mesh& bone) {
@@ -153,8 +164,8 @@ BoneMeshes bones_of(const Joint& joint) {
   if (joint.mobile.head) kinematics::keep_head(bones.femur, *joint.mobile.head);
   const std::optional<SphericalPatch> head = kinematics::head_near_centre(bones.femur);
   if (!head) return bones;
-  OwnPieces femur = piece_with(bones.femur, joint.mobile.name, *head),
-            hip_bone = piece_around(bones.hip_bone, joint.fixed.name, head->fit.sphere);
+  OwnPieces femur = piece_with(bones.femur, joint.mobile, *head),
+            hip_bone = piece_around(bones.hip_bone, joint.fixed, head->fit.sphere);
   for (OwnPieces* own : {&femur, &hip_bone})
     if (!own->left_out.empty()) bones.left_out.push_back(std::move(own->left_out));
   bones.femur = std::move(femur.mesh), bones.hip_bone = std::move(hip_bone.mesh);

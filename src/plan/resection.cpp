@@ -67,6 +67,11 @@ void check_resection(const Joint& joint, const ResectionRequest& request) {
                                           std::tuple(&request.fixed, &joint.fixed, request.fixed_share)})
     if (!kept->vertices.empty() && share == 0)
       throw UsageError("resection: vertices of " + body->name + " are marked to stay, and it is not cut");
+  for (const auto& [body, share] :
+       {std::pair(&joint.mobile, 1 - request.fixed_share), std::pair(&joint.fixed, request.fixed_share)})
+    if (share > 0 && is_cut(*body))
+      throw UsageError("resection: a part is cut from " + body->name +
+                       ": bone can be taken from the other body only");
   check_kept(request.mobile, joint.mobile);
   check_kept(request.fixed, joint.fixed);
 }

@@ -17,6 +17,7 @@ of its --help, no more and no fewer. Every option that stands as code anywhere m
 rest, each on a line of its own:
 
     <!-- run: no, 20 minutes -->       the next block is not run
+    <!-- append: a/b.toml -->          the next block of TOML is added to this file
     <!-- exit: 6 -->                   with which code the next block's last command ends; else 0
     <!-- prints: some words -->        a command of the block before printed this
     <!-- leaves: a/b.json c.vtp -->    these files are there, and not empty
@@ -34,7 +35,7 @@ from pathlib import Path
 
 PROGRAMS = ("condyle ", "python3 -m condyle", "python3 $CONDYLE_DATA/", "make ")
 SYNOPSIS = re.compile(r"\[|…|\b(JOINT|FILE|MESH|DIR|POSE|OUT)\b")
-MARKER = re.compile(r"<!-- (run|exit|prints|leaves|says|same): (.*?) -->")
+MARKER = re.compile(r"<!-- (run|exit|prints|leaves|says|same|append): (.*?) -->")
 OPTION = re.compile(r"(?<![\w-])--[a-z](?:[a-z-]*[a-z])?\b(?!-)")
 #: Their options are their own, on a line or in code that begins with one of these words.
 OTHER_PROGRAMS = ("cmake", "ctest", "snakemake", "sbatch", "pip", "pkg-config", "git", "node", "scripts/", "build/",
@@ -78,8 +79,8 @@ def parts_of(page: str):
                 i += 1
             if language in ("", "sh"):
                 yield "commands", "\n".join(block), number + 1
-            elif language == "text":
-                yield "text", "\n".join(block), number + 1
+            elif language in ("text", "toml"):
+                yield language, "\n".join(block), number + 1
         elif line.startswith("    ") and (i == 0 or not lines[i - 1].strip()):
             yield from inline()
             block = []
@@ -120,6 +121,8 @@ class Page:
         #: Of the last command, and of all of its block; None where it was not run.
         self.printed, self.printed_by_block = None, ""
         self.next_is_run, self.next_exit = True, 0
+        #: The file that the next block of TOML is added to.
+        self.append_to = None
         self.errors: "list[str]" = []
         #: By command: where on the page the first stands, and the options that all name.
         self.synopses: "dict[str, tuple[int, set[str]]]" = {}
@@ -179,6 +182,15 @@ class Page:
         if not re.fullmatch(pattern, self.printed):
             raise self.wrong(line, f"this is not what the command prints:\n{self.printed}")
         self.held += 1
+
+    def on_append(self, text: str, line: int) -> None:
+        self.append_to = text
+
+    def on_toml(self, block: str, line: int) -> None:
+        name, self.append_to = self.append_to, None
+        if name and self.printed is not None:
+            with open(self.folder / name, "a", encoding="utf-8") as file:
+                file.write(f"\n{block}\n")
 
     def on_unknown(self, text: str, line: int) -> None:
         raise self.wrong(line, f"a comment that means nothing: {text}")

@@ -26,15 +26,29 @@ name = "version"
 range = [-30, 30]
 """
 
+CUT = """
+[[part]]
+name = "fragment"
+body = "fixed"
+cut = [{ point = [0, 46, 0], normal = [0, 0.96, -0.28] }, { point = [-44, 0, 0], normal = [-1, 0, 0] }]
+[[part.parameter]]
+name = "frontal"
+range = [-20, 20]
+"""
+
 
 @pytest.fixture
 def joint(tmp_path):
+    return written_joint(tmp_path, PARTS)
+
+
+def written_joint(tmp_path, parts):
     bones = condyle.sample_hip()
     for name, mesh in (("hip_bone", bones.hip_bone), ("femur", bones.femur)):
         condyle.write_mesh(tmp_path / f"{name}.ply", mesh)
     (tmp_path / "hip.toml").write_text(
         'condyle = 1\nname = "hip"\nkind = "ball"\nside = "right"\nunits = "mm"\n[fixed]\nmesh = "hip_bone.ply"\n'
-        '[mobile]\nmesh = "femur.ply"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n' + PARTS)
+        '[mobile]\nmesh = "femur.ply"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n' + parts)
     return condyle.read_joint(tmp_path / "hip.toml")
 
 
@@ -64,6 +78,22 @@ def test_a_pickled_joint_keeps_its_parts(joint):
     assert moved.parameters["pelvis.tilt"].value == 10
     back = moved.with_parameters({"pelvis.tilt": 0})
     assert np.array_equal(back.fixed.vertices, joint.fixed.vertices)
+
+
+def test_a_part_is_cut_from_its_bone(tmp_path, command):
+    joint = written_joint(tmp_path, CUT)
+    rest, fragment = joint.fixed_parts
+    assert (rest.name, fragment.name) == ("fixed", "fragment")
+    assert rest.cut_triangles == fragment.cut_triangles > 0
+    pieces = [joint.part(each.name, "fixed") for each in joint.fixed_parts]
+    assert all(each.is_closed for each in pieces)
+    turned = pickle.loads(pickle.dumps(joint)).with_parameters({"fragment.frontal": 10})
+    assert np.array_equal(turned.part("fixed", "fixed").vertices, pieces[0].vertices)
+    ran = subprocess.run([command, "rom", tmp_path / "hip.toml", "--set", "fragment.frontal=10", "--json"], check=True,
+                         capture_output=True, text=True)
+    answer = json.loads(ran.stdout)
+    assert {m["name"]: m["limit_deg"] for m in answer["motions"]} == limits_of(turned)
+    assert [each["part"] for each in answer["provenance"]["cuts"]] == ["fragment"]
 
 
 def test_bands_know_how_wide_parameters_make_them(joint):

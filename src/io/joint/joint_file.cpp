@@ -247,6 +247,17 @@ void refuse_layer_of_part(const io::TomlTable& contact, std::string_view key,
                                part.name));
 }
 
+/// Faces in which a part was cut carry no load.
+void refuse_cut_contact(const io::TomlTable& contact, std::string_view key, const std::string& mesh,
+                        BodyRole body, const std::vector<DescribedPart>& parts) {
+  for (const auto& [part, centre] : parts)
+    if (part.body == body && !part.cut.empty() &&
+        (mesh.empty() || mesh == part.name || (!part.meshes.empty() && mesh == part.meshes.front())))
+      contact.fail(
+          key,
+          fmt::format("part {} is cut from it: name a mesh that is not cut, such as a cartilage", part.name));
+}
+
 CentreFit centre_fit(io::TomlTable& frame, const Lengths& lengths) {
   CentreFit fit;
   if (frame.has("fit_body"))
@@ -504,6 +515,8 @@ JointFile io::joint_file_of(std::string_view text, const std::filesystem::path& 
                          joint.parts);
     refuse_layer_of_part(*table, "mobile", out.contact->mobile, out.contact->mobile_part, BodyRole::mobile,
                          joint.parts);
+    refuse_cut_contact(*table, "fixed_part", out.contact->fixed_part, BodyRole::fixed, joint.parts);
+    refuse_cut_contact(*table, "mobile_part", out.contact->mobile_part, BodyRole::mobile, joint.parts);
   }
   if (auto table = file.table("recorded_motion"))
     out.recorded_motion = io::recorded_motion_mapping(

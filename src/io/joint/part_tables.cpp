@@ -64,6 +64,20 @@ PartParameter parameter_of(TomlTable& table, Side side, double mm) {
   return parameter;
 }
 
+/// Planes that the part is cut by, in the frame of the joint's centre.
+std::vector<CutPlane> planes_of(TomlTable& table, double mm) {
+  std::vector<CutPlane> planes;
+  for (TomlTable& plane : table.tables("cut")) {
+    const Vec3 point = plane.required("point", plane.triple("point")),
+               normal = plane.required("normal", plane.triple("normal"));
+    if (!(std::abs(normal.norm() - 1) <= axis_tolerance)) plane.fail("normal", "must be a unit vector");
+    plane.finish();
+    planes.push_back({mm * point, normal.normalized()});
+  }
+  if (table.has("cut") && planes.empty()) table.fail("cut", "needs one plane or more");
+  return planes;
+}
+
 }  // namespace
 
 std::vector<DescribedPart> described_parts(TomlTable& file, Side side, double mm) {
@@ -75,6 +89,7 @@ std::vector<DescribedPart> described_parts(TomlTable& file, Side side, double mm
     part.body = table.required_word("body", {"fixed", "mobile"}) == 0 ? BodyRole::fixed : BodyRole::mobile;
     part.meshes = table.texts("meshes").value_or(std::vector<std::string>{});
     if (table.has("meshes") && part.meshes.empty()) table.fail("meshes", "must name one mesh or more");
+    part.cut = planes_of(table, mm);
     if (const auto centre = table.triple("centre")) described.centre_in_W = mm * *centre;
     for (TomlTable& parameter : table.tables("parameter"))
       part.parameters.push_back(parameter_of(parameter, side, mm));

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "condyle/error.hpp"
@@ -66,15 +67,18 @@ LoadedMesh load(const MeshEntry& entry, const std::string& key, const std::files
   return {std::move(file.mesh), std::move(report)};
 }
 
-LoadedBody load(const BodyEntry& entry, const std::string& key, const std::filesystem::path& joint_file) {
+/// `is_cut`: a part is cut from the body, which has its mesh named for that.
+LoadedBody load(const BodyEntry& entry, const std::string& key, bool is_cut,
+                const std::filesystem::path& joint_file) {
   if (entry.meshes.size() == 1) {
-    const bool in_list = !entry.meshes.front().part.empty();
-    LoadedMesh only = load(entry.meshes.front(), in_list ? key + ".meshes[0]" : key, joint_file);
-    return {{entry.meshes.front().mesh.string(),
-             std::move(only.mesh),
-             {},
-             entry.image,
-             entry.head,
+    const MeshEntry& mesh = entry.meshes.front();
+    const bool in_list = !mesh.part.empty();
+    LoadedMesh only = load(mesh, in_list ? key + ".meshes[0]" : key, joint_file);
+    std::vector<BodyPart> parts;
+    if (is_cut)
+      parts.push_back({in_list ? mesh.part : entry.name, 0, only.mesh.vertices.size(), 0,
+                       only.mesh.triangles.size(), mesh.contact});
+    return {{mesh.mesh.string(), std::move(only.mesh), std::move(parts), entry.image, entry.head,
              entry.bearing_margin_mm},
             {std::move(only.report)}};
   }
@@ -138,7 +142,13 @@ std::vector<std::string> processing_of(const JointReport& report) {
 }  // namespace
 
 LoadedJoint io::load_joint(JointFile file) {
-  LoadedBody fixed = load(file.fixed, "fixed", file.path), mobile = load(file.mobile, "mobile", file.path);
+  const auto is_cut = [&](BodyRole body) {
+    return std::any_of(file.joint.parts.begin(), file.joint.parts.end(), [&](const DescribedPart& part) {
+      return part.part.body == body && !part.part.cut.empty();
+    });
+  };
+  LoadedBody fixed = load(file.fixed, "fixed", is_cut(BodyRole::fixed), file.path),
+             mobile = load(file.mobile, "mobile", is_cut(BodyRole::mobile), file.path);
   PlacedJoint made = placed(file, std::move(fixed.body), std::move(mobile.body));
   JointReport report{
       std::move(file), std::move(fixed.reports), std::move(mobile.reports), std::move(made.placement), {}};

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace condyle::io {
 
 std::string parameters_text(const Joint& joint) {
@@ -34,6 +36,21 @@ Json parameters_json(std::span<const PosedPart> parts) {
                       {"as_given", parameter.as_given},
                       {"range", {parameter.low, parameter.high}},
                       {"sigma", parameter.sigma}});
+  return json;
+}
+
+Json cuts_json(std::span<const PosedPart> parts) {
+  Json json = Json::array();
+  for (const PosedPart& part : parts) {
+    if (part.cut.empty()) continue;
+    Json planes = Json::array();
+    for (const CutPlane& plane : part.cut)
+      planes.push_back({{"point_mm", numbers(plane.point)}, {"normal", numbers(plane.normal)}});
+    json.push_back({{"part", part.name},
+                    {"body", part.body == BodyRole::fixed ? "fixed" : "mobile"},
+                    {"mesh", part.cut_from},
+                    {"planes", std::move(planes)}});
+  }
   return json;
 }
 

@@ -19,4 +19,7 @@ std::string sigmas_text(const Joint& joint);
 /// An object for each parameter of each part, in their order.
 Json parameters_json(std::span<const PosedPart> parts);
 
+/// An object for each part that was cut from a mesh: which, and the planes in the joint frame of its body. Empty if none was.
+Json cuts_json(std::span<const PosedPart> parts);
+
 }  // namespace condyle::io

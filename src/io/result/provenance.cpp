@@ -203,6 +203,7 @@ Json provenance_json(const Provenance* from) {
             {"fixed_mesh", mesh_json(from->fixed)},
             {"mobile_mesh", mesh_json(from->mobile)}};
   if (!from->parts.empty()) json["parameters"] = parameters_json(from->parts);
+  if (Json cuts = cuts_json(from->parts); !cuts.empty()) json["cuts"] = std::move(cuts);
   return json;
 }
 

@@ -7,6 +7,7 @@
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "kinematics/cut_parts.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_parts.hpp"
 #include "motion/rom/contact_roles.hpp"
@@ -35,16 +36,16 @@ TriMesh marked_part(const TriMesh& mesh, const std::vector<std::uint8_t>& marks)
 /// The socket round the head, and the gaps that limit a margin.
 void find_socket(const Joint& joint, BearingSurface& surface) {
   const Sphere& head = surface.head;
+  const Mesh& fixed = kinematics::uncut_surface(joint.fixed);
   if (joint.is_hip()) {
-    if (const auto socket = kinematics::socket_around(joint.fixed.mesh, head);
+    if (const auto socket = kinematics::socket_around(fixed, head);
         *socket && kinematics::fits_into(head, **socket))
       surface.socket = (*socket)->fit.sphere;
-    if (const auto rim = kinematics::rim_around(joint.fixed.mesh, head); *rim)
-      surface.rim_gap_mm = (*rim)->gap_mm;
+    if (const auto rim = kinematics::rim_around(fixed, head); *rim) surface.rim_gap_mm = (*rim)->gap_mm;
     if (joint.fixed.head) surface.socket = joint.fixed.head;
     return;
   }
-  const auto socket = kinematics::shallow_socket_around(joint.fixed.mesh, head);
+  const auto socket = kinematics::shallow_socket_around(fixed, head);
   if (*socket) {
     surface.rim_gap_mm = (*socket)->rim_gap_mm;
     if (const auto& sphere = (*socket)->sphere; sphere && kinematics::is_socket_of(head, *sphere))
@@ -53,7 +54,7 @@ void find_socket(const Joint& joint, BearingSurface& surface) {
   if (joint.fixed.head) surface.socket = joint.fixed.head;
   // No rotation about the joint centre brings a point of the head farther from it than this.
   const double farthest = head.radius + head.centre.norm();
-  const double beside = kinematics::nearest_beside(joint.fixed.mesh, head, *socket) - farthest;
+  const double beside = kinematics::nearest_beside(fixed, head, *socket) - farthest;
   if (std::isfinite(beside)) surface.beside_gap_mm = beside;
 }
 

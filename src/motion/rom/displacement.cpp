@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kinematics/cut_parts.hpp"
 #include "mesh/vertex_normals.hpp"
 
 namespace condyle::motion {
@@ -16,7 +17,7 @@ Pose displaced_frame(const Displacement& by) {
 
 MovableSurface::MovableSurface(const Body& body, const Uncertainty& sigma)
     : vertices_(body.mesh.vertices()),
-      directions_(mesh::area_normals(body.mesh)),
+      directions_(mesh::area_normals(kinematics::uncut_surface(body))),
       sigma_(sigma.is_by_voxels(body) ? 1 : sigma.surface_mm) {
   for (std::size_t v = 0; v < directions_.size(); ++v) {
     if (!(directions_[v].squaredNorm() > 0)) continue;
