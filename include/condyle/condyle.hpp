@@ -45,6 +45,7 @@
 #include "condyle/impingement_zone.hpp"
 #include "condyle/recorded_contact.hpp"
 #include "condyle/resection.hpp"
+#include "condyle/sweep.hpp"
 #include "condyle/implant.hpp"
 #include "condyle/hip_measures.hpp"
 #include "condyle/answer.hpp"
