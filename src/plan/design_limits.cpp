@@ -1,7 +1,6 @@
 #include "plan/design_limits.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -159,7 +158,6 @@ struct DesignLimits::Parts {
   std::vector<core::Lazy<Table>> tables;  ///< by mesh and turn, of meshes that do not move
   mutable std::vector<Kept> kept;         ///< by pair and turn
   mutable core::PerThread<Worker> workers;
-  mutable std::atomic<std::int64_t> searches = 0, forms = 0;
 
   Parts(const Joint& given, const RangeOptions& options, std::span<const SweepTarget> all,
         std::span<const std::string> names_swept)
@@ -269,7 +267,6 @@ struct DesignLimits::Parts {
   /// The first contact of two meshes along a turn.
   Ended search(const PairOfMeshes& pair, std::size_t turn, std::span<const PosedPart> parts,
                std::span<const double> values, Angle range) const {
-    ++searches;
     Worker& worker = workers.local();
     const Turn& of = turns[turn];
     const SweptMesh &f = *meshes[pair.fixed], &m = *meshes[pair.mobile];
@@ -377,15 +374,19 @@ struct DesignLimits::Parts {
   bool take_form(Best& best, const PairOfMeshes& pair, const Motion& motion, Angle reach,
                  const ClosedForm& form) const {
     if (!form.pair) return false;
-    ++forms;
     if (motion.range == Angle()) return take_start(best, pair, motion, *form.pair);
-    const ClosedLimit closed = closed_limit(*form.pair, joint.coordinates(), motion);
+    // Past the range too: an end just beyond it is one that is certain.
+    Motion wide = motion;
+    wide.range = motion.range + Angle::degrees(1);
+    const ClosedLimit closed = closed_limit(*form.pair, joint.coordinates(), wide);
     const Angle low = closed.of_facets_low - closed_form_slack,
                 high = closed.of_facets_high + closed_form_slack;
+    if (!(low < motion.range)) return true;
     const Angle other = Angle::radians(best.ended.turned);
     if (best.ended.reason != LimitReason::end_of_range && other < low) return true;
     if (reach > low && !(reach > high)) return false;
     if (best.ended.reason != LimitReason::end_of_range && other < high) return false;
+    if (!(closed.turned < motion.range)) return true;
     best.take({closed.turned.radians(), closed.reason}, pair.name, LimitKnownBy::closed_form);
     return true;
   }
@@ -446,10 +447,6 @@ bool DesignLimits::reaches_all(std::span<const double> values) const {
 
 const std::vector<EndingPair>& DesignLimits::pairs() const noexcept {
   return parts_->names;
-}
-
-DesignLimits::Work DesignLimits::work() const noexcept {
-  return {parts_->searches, parts_->forms};
 }
 
 }  // namespace condyle::plan

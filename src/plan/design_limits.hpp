@@ -35,11 +35,6 @@ class DesignLimits {
 
   const std::vector<EndingPair>& pairs() const noexcept;
 
-  struct Work {
-    std::int64_t searches = 0, closed_forms = 0;
-  };
-  Work work() const noexcept;
-
  private:
   struct Parts;
   std::unique_ptr<Parts> parts_;

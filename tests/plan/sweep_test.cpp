@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -22,7 +23,7 @@
 namespace condyle::test {
 namespace {
 
-Body body_of(const std::string& name, const std::vector<ImplantMesh>& parts) {
+Body joined_of_parts(const std::string& name, const std::vector<ImplantMesh>& parts) {
   TriMesh whole;
   Body body{name, TriMesh{}};
   for (const auto& [part, mesh] : parts) {
@@ -60,8 +61,8 @@ PlacedJoint replaced_hip(const TotalHip& hip, const ImplantMeshes& meshes, doubl
   JointDescription description{.name = "replaced hip"};
   description.frame.centre = Vec3(Vec3::Zero());
   description.parts = {{cup}, {stem}};
-  PlacedJoint placed =
-      make_joint(description, body_of("pelvis", meshes.fixed), body_of("femur", meshes.mobile));
+  PlacedJoint placed = make_joint(description, joined_of_parts("pelvis", meshes.fixed),
+                                  joined_of_parts("femur", meshes.mobile));
   placed.joint.implant = implant_in_joint(hip, placed.joint);
   return placed;
 }
@@ -70,19 +71,19 @@ PlacedJoint implant_alone(const TotalHip& hip, double cup_sigma = 0) {
   return replaced_hip(hip, implant_meshes(hip, Side::right), cup_sigma);
 }
 
-SweepTarget target(const std::string& motion, double reach_deg) {
+SweepTarget turn_to(const std::string& motion, double reach_deg) {
   return {motion, motion_named(hip_motions(), motion), Angle::degrees(reach_deg)};
 }
 
 /// The targets of the reference zones.
 std::vector<SweepTarget> seven_targets() {
-  return {target("flexion", 110),
-          target("extension", 30),
-          target("internal_rotation_at_90_flexion", 30),
-          target("external_rotation", 40),
-          target("abduction", 45),
-          target("adduction", 20),
-          target("adduction_at_90_flexion", 10)};
+  return {turn_to("flexion", 110),
+          turn_to("extension", 30),
+          turn_to("internal_rotation_at_90_flexion", 30),
+          turn_to("external_rotation", 40),
+          turn_to("abduction", 45),
+          turn_to("adduction", 20),
+          turn_to("adduction_at_90_flexion", 10)};
 }
 
 struct Zone {
@@ -172,7 +173,7 @@ TEST(Sweep, SearchesMeshesWhereTheClosedFormIsNotUsedAndFindsTheSame) {
 
 /// A sample hip whose pelvis tilts and turns and whose femur turns and shifts.
 PlacedJoint hip_of_parts(Side side = Side::right) {
-  const SampleHip hip = *sample_hip({}, Scenario::one);
+  const SampleHip hip = sample_hip({}, Scenario::one);
   PosedPart pelvis{.name = "pelvis", .body = BodyRole::fixed};
   pelvis.parameters = {parameter("tilt", ParameterKind::tilt, -30, 30),
                        parameter("frontal", ParameterKind::frontal, -30, 30)};
@@ -249,7 +250,8 @@ TEST(Sweep, OfBoneAndImplantTogetherEndsAtTheEarlierOfBoth) {
   JointDescription description{.name = "bones"};
   description.frame.centre = Vec3(Vec3::Zero());
   const Joint bone =
-      make_joint(description, body_of("pelvis", bones.fixed), body_of("femur", bones.mobile)).joint;
+      make_joint(description, joined_of_parts("pelvis", bones.fixed), joined_of_parts("femur", bones.mobile))
+          .joint;
   const PlacedJoint alone = implant_alone(hip);
   const std::vector<std::string> swept{"cup.inclination", "cup.anteversion"};
   std::vector<SweepTarget> targets;
@@ -287,7 +289,7 @@ TEST(Sweep, OfBoneAndImplantTogetherEndsAtTheEarlierOfBoth) {
 
 TEST(Sweep, TiltsThePelvisByTurningItBackInFlexion) {
   const PlacedJoint placed = hip_of_parts();
-  SweepTarget standing = target("flexion", 20), at_90 = target("internal_rotation_at_90_flexion", 10);
+  SweepTarget standing = turn_to("flexion", 20), at_90 = turn_to("internal_rotation_at_90_flexion", 10);
   standing.pelvic_tilt = at_90.pelvic_tilt = Angle::degrees(7);
   const std::vector<SweepTarget> tilted{standing, at_90};
   RangeOptions options;
@@ -357,7 +359,7 @@ TEST(Sweep, SaysWhichDesignsAreInContactInTheReferencePose) {
   const SweepAnswer sweep =
       answer_sweep(placed.joint, placed.placement,
                    {.parameters = parse_sweep("cup.inclination=40:40:1 cup.anteversion=-60:75:5"),
-                    .targets = {target("flexion", 20)}});
+                    .targets = {turn_to("flexion", 20)}});
   for (std::size_t i = 0; i < sweep.designs(); ++i) {
     const Joint turned = with_parameters(
         placed.joint, std::vector<ParameterValue>{{"cup.anteversion", sweep.values_of(i)[1]}});
@@ -374,7 +376,7 @@ TEST(Sweep, NotesAnImplantWhoseMeshesAreNotThoseOfItsSizes) {
   said.neck_radius_mm = 7;
   placed.joint.implant = implant_in_joint(said, placed.joint);
   const SweepQuery query{.parameters = parse_sweep("cup.anteversion=10:20:10"),
-                         .targets = {target("flexion", 110)}};
+                         .targets = {turn_to("flexion", 110)}};
   const SweepAnswer sweep = answer_sweep(placed.joint, placed.placement, query);
   ASSERT_FALSE(sweep.notes.empty());
   EXPECT_EQ(sweep.notes[0].code, SweepNoteCode::differs_from_closed_form);
@@ -400,7 +402,9 @@ TEST(ClosedForm, StandsBesideTheLimitsOfMeshesAndAgrees) {
     EXPECT_LT((turned.mobile_axis - pair.mobile_axis).norm(), 1e-14);
     const RangeAnswer range = answer_range(joint, placed.placement, {.motions = hip_motions()});
     ASSERT_EQ(range.closed.size(), range.limits.size());
-    EXPECT_TRUE(range.notes.empty());
+    EXPECT_TRUE(std::none_of(range.notes.begin(), range.notes.end(), [](const RangeNote& note) {
+      return note.code == RangeNoteCode::differs_from_closed_form;
+    }));
     for (std::size_t i = 0; i < range.limits.size(); ++i) {
       EXPECT_EQ(range.closed[i].reason, range.limits[i].end.reason);
       EXPECT_NEAR(range.closed[i].turned.degrees(), range.limits[i].end.turned.degrees(), 0.01);
@@ -431,8 +435,8 @@ TEST(CupAngles, OfAPartAreThoseOfTheCupThatIsMadeWithThem) {
       JointDescription description{.name = "hip", .side = side};
       description.frame.centre = Vec3(Vec3::Zero());
       description.parts = {{cup}};
-      PlacedJoint placed =
-          make_joint(description, body_of("pelvis", meshes.fixed), body_of("femur", meshes.mobile));
+      PlacedJoint placed = make_joint(description, joined_of_parts("pelvis", meshes.fixed),
+                                      joined_of_parts("femur", meshes.mobile));
       placed.joint.implant = implant_in_joint(given, placed.joint);
       const Joint turned = with_parameters(
           placed.joint, std::vector<ParameterValue>{{"cup.inclination", 33}, {"cup.anteversion", -7}});
@@ -457,12 +461,11 @@ TEST(Sweep, RefusesWhatItCannotAnswerInOneLine) {
     }
     return std::string("accepted");
   };
-  const std::vector<SweepTarget> one{target("flexion", 90)};
+  const std::vector<SweepTarget> one{turn_to("flexion", 90)};
   EXPECT_EQ(line("cup.inclination=30:50:1", one), "accepted");
   EXPECT_EQ(line("cup.inclinaton=30:50:1", one),
-            "there is no parameter \"cup.inclinaton\", did you mean \"cup.inclination\"?; there are "
-            "cup.inclination, "
-            "cup.anteversion, stem.version");
+            "there is no parameter \"cup.inclinaton\" (did you mean \"cup.inclination\"?); there are "
+            "cup.inclination, cup.anteversion, stem.version");
   EXPECT_EQ(line("cup.inclination=30:95:1", one), "cup.inclination: 95 deg is outside of its range, 0 to 90");
   EXPECT_EQ(line("cup.inclination=50:30:1", one),
             "cup.inclination: the last value, 30, lies below the first, 50");
@@ -472,9 +475,9 @@ TEST(Sweep, RefusesWhatItCannotAnswerInOneLine) {
             "cup.inclination=30:50:1");
   EXPECT_EQ(line("cup.inclination=30:50:1 cup.inclination=30:50:1", one), "cup.inclination is given twice");
   EXPECT_EQ(line("cup.inclination=30:50:1", {}), "a sweep needs one target or more");
-  EXPECT_EQ(line("cup.inclination=30:50:1", {target("flexion", 200)}),
+  EXPECT_EQ(line("cup.inclination=30:50:1", {turn_to("flexion", 200)}),
             "target flexion: 200 degrees, must be above 0 and up to the motion's range, 180");
-  EXPECT_EQ(line("cup.inclination=30:50:1", {target("flexion", 20), target("flexion", 30)}),
+  EXPECT_EQ(line("cup.inclination=30:50:1", {turn_to("flexion", 20), turn_to("flexion", 30)}),
             "target flexion is given twice");
   EXPECT_EQ(line("cup.inclination=0:90:0.001 cup.anteversion=0:60:0.01", one),
             "540096001 designs are too many: up to 10000000");
