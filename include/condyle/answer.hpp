@@ -417,6 +417,16 @@ struct SweepShare {
   std::size_t number = 1, of = 1;
 };
 
+/// Further values of a design, computed from the joint at its values: shape, pressure.
+struct SweepQuantities {
+  std::vector<std::string> names;  ///< as columns have them, each with its unit at the end
+  /// One for each name, NaN where there is none. May be called from any thread.
+  std::function<std::vector<double>(const Joint&)> of;
+};
+
+/// Measures of a hip's shape, by their keys. Throws UsageError for a key that no measure has.
+SweepQuantities measured_quantities(std::span<const std::string> keys, const MeasureRequest& request);
+
 /// Options of a query for a sweep, with their defaults.
 struct SweepQuery {
   std::vector<SweptParameter> parameters = {};  ///< one to four; the last one changes fastest
@@ -424,6 +434,8 @@ struct SweepQuery {
   RangeOptions range = {};
   /// The probability that a design leaves all targets free, over the standard deviations of parameters; the others of `sigma` are not used.
   std::optional<BandOptions> bands = {};
+  /// A joint is made anew for each design that has any: up to a second each.
+  std::vector<SweepQuantities> quantities = {};
   SweepShare share = {};
 };
 
@@ -454,7 +466,10 @@ struct SweepAnswer {
   /// Of each design the least of what its limits have over the targets' reach: safe where >= 0. NaN of one in contact in its reference pose.
   std::vector<double> margin_deg = {};
   std::vector<double> probability = {};  ///< of each design if requested, 0 to 1
-  std::vector<SafeInterval> safe = {};   ///< ascending by line and value
+  std::vector<std::string> quantity_names = {};
+  std::vector<double> quantities = {};  ///< of each design one per name; NaN where there is none
+  std::vector<double> quantities_here = {};
+  std::vector<SafeInterval> safe = {};  ///< ascending by line and value
   /// Of what is safe, by the trapezoidal rule over the lines, and of the whole window; of the share its lines' part. In the product of
   /// the parameters' units.
   double safe_measure = 0, window_measure = 0;
@@ -477,7 +492,8 @@ std::size_t designs_of(std::span<const SweptParameter> parameters);
 /// values outside of a parameter's range, a reach beyond its motion's range, a tilt of what is no hip, a size.
 void check_sweep(const Joint& joint, const SweepQuery& query);
 
-/// Limits of every design of the share. Empty if it was stopped. Stages: "designs", "borders", "displaced designs".
+/// Limits of every design of the share. Empty if it was stopped. Stages: "designs", "borders", "displaced designs",
+/// "joints of designs".
 ///
 /// Throws UsageError as check_sweep(), MeshError if nothing of a body could end a motion. Designs of an implant whose bones do not move cost
 /// some microseconds a target; where the meshes decide, a millisecond a target and pair of meshes.

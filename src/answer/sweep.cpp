@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include "answer/staged.hpp"
@@ -123,6 +124,31 @@ class Sweeping {
     });
   }
 
+  bool quantities(const Joint& joint, const Control& control) {
+    const std::vector<std::string> names = names_of(query_.parameters);
+    for (const SweepQuantities& each : query_.quantities)
+      answer_.quantity_names.insert(answer_.quantity_names.end(), each.names.begin(), each.names.end());
+    const std::size_t width = answer_.quantity_names.size();
+    const auto of_values = [&](std::span<const double> values) {
+      std::vector<ParameterValue> named;
+      for (std::size_t p = 0; p < names.size(); ++p) named.push_back({names[p], values[p]});
+      const Joint design = with_parameters(joint, named);
+      std::vector<double> found;
+      for (const SweepQuantities& quantities : query_.quantities) {
+        const std::vector<double> of = quantities.of(design);
+        found.insert(found.end(), of.begin(), of.end());
+      }
+      return found;
+    };
+    answer_.quantities_here = of_values(answer_.here);
+    answer_.quantities.resize(answer_.designs() * width);
+    return each(answer_.designs(), control, [&](std::size_t i) {
+      const std::vector<double> found = of_values(answer_.values_of(answer_.first_design + i));
+      std::copy(found.begin(), found.end(),
+                answer_.quantities.begin() + static_cast<std::ptrdiff_t>(i * width));
+    });
+  }
+
  private:
   bool uses_closed_forms() const {
     return std::none_of(answer_.notes.begin(), answer_.notes.end(), [](const SweepNote& note) {
@@ -230,6 +256,30 @@ std::optional<std::string> difference_from_closed_form(const Joint& joint, const
 
 }  // namespace
 
+SweepQuantities measured_quantities(std::span<const std::string> keys, const MeasureRequest& request) {
+  SweepQuantities quantities;
+  std::vector<const MeasureDefinition*> definitions;
+  for (const std::string& key : keys) {
+    const MeasureDefinition* definition = measure_definition(key);
+    if (definition == nullptr) {
+      std::string known;
+      for (const MeasureDefinition& each : measure_definitions())
+        known += (known.empty() ? "" : ", ") + std::string(each.key);
+      throw UsageError("there is no measure \"" + core::one_line(key) + "\"; there are " + known);
+    }
+    definitions.push_back(definition);
+    quantities.names.push_back("measured_" + key);
+  }
+  quantities.of = [definitions, request](const Joint& joint) {
+    const HipMeasures measures = measure_hip(joint, request);
+    std::vector<double> values;
+    for (const MeasureDefinition* each : definitions)
+      values.push_back(each->of(measures).value.value_or(std::numeric_limits<double>::quiet_NaN()));
+    return values;
+  };
+  return quantities;
+}
+
 std::vector<double> SweepAnswer::values_of(std::size_t design) const {
   std::vector<double> values(parameters.size());
   for (std::size_t p = parameters.size(); p-- > 0;) {
@@ -305,6 +355,8 @@ std::optional<SweepAnswer> answer_sweep(const Joint& joint, const JointPlacement
     return std::nullopt;
   if (query.bands &&
       !sweeping.probabilities(joint, *query.bands, answer::staged(control, "displaced designs")))
+    return std::nullopt;
+  if (!query.quantities.empty() && !sweeping.quantities(joint, answer::staged(control, "joints of designs")))
     return std::nullopt;
   answer::summarise_sweep(answer);
   if (query.bands)

@@ -156,6 +156,7 @@ SweepAnswer merged_sweep(std::span<const SweepAnswer> shares) {
     whole.limits.insert(whole.limits.end(), share.limits.begin(), share.limits.end());
     whole.margin_deg.insert(whole.margin_deg.end(), share.margin_deg.begin(), share.margin_deg.end());
     whole.probability.insert(whole.probability.end(), share.probability.begin(), share.probability.end());
+    whole.quantities.insert(whole.quantities.end(), share.quantities.begin(), share.quantities.end());
     whole.safe.insert(whole.safe.end(), share.safe.begin(), share.safe.end());
   }
   whole.share = {};

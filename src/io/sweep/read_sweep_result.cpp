@@ -116,6 +116,12 @@ void read_document(const Json& json, SweepResult& result) {
   for (const Json& each : json.at("sweep_notes"))
     if (each.at("code").get<std::string>() == condyle::name_of(SweepNoteCode::differs_from_closed_form))
       sweep.notes.push_back({SweepNoteCode::differs_from_closed_form, each.at("text").get<std::string>()});
+  for (const Json& each : json.at("quantities")) {
+    sweep.quantity_names.push_back(each.get<std::string>());
+    const Json& here = json.at("here").at("quantities").at(sweep.quantity_names.back());
+    sweep.quantities_here.push_back(here.is_null() ? std::numeric_limits<double>::quiet_NaN()
+                                                   : here.get<double>());
+  }
   for (const Json& each : json.at("caveats")) sweep.caveats.push_back(each.get<std::string>());
   if (const Json& band = json.at("band"); !band.is_null()) {
     result.band_options.samples = band.at("samples").get<std::size_t>();
@@ -135,14 +141,17 @@ SweepResult read_sweep_result(const Json& json, std::string_view designs, std::s
     throw FileError(fmt::format("{}: sweep.json: is not whole: {}", name, error.what()));
   }
   const bool has_probability = !json.at("band").is_null();
-  const std::size_t first_target = sweep.parameters.size() + 2 + (has_probability ? 1 : 0);
+  const std::size_t first_quantity = sweep.parameters.size() + 2 + (has_probability ? 1 : 0);
+  const std::size_t first_target = first_quantity + sweep.quantity_names.size();
   const std::string designs_name = fmt::format("{}/designs.csv", name),
                     safe_name = fmt::format("{}/safe.csv", name);
   for (const auto& row : rows_of(designs, designs_name)) {
     if (row.size() != first_target + 4 * sweep.targets.size())
       throw FileError(designs_name + ": has other columns than sweep.json says");
     sweep.margin_deg.push_back(number_in(row[sweep.parameters.size()], designs_name));
-    if (has_probability) sweep.probability.push_back(number_in(row[first_target - 1], designs_name));
+    if (has_probability) sweep.probability.push_back(number_in(row[first_quantity - 1], designs_name));
+    for (std::size_t c = first_quantity; c < first_target; ++c)
+      sweep.quantities.push_back(number_in(row[c], designs_name));
     for (std::size_t c = first_target; c < row.size(); c += 4)
       sweep.limits.push_back({number_in(row[c], designs_name), reason_in(row[c + 1]), known_in(row[c + 3]),
                               pair_in(sweep, row[c + 2])});

@@ -58,6 +58,12 @@ void write_zone(const fs::path& path, const SweepResult& result, const Provenanc
   const SweepAnswer& sweep = result.answer;
   std::vector<MeshArray> arrays{{"margin_deg", sweep.margin_deg}};
   if (!sweep.probability.empty()) arrays.push_back({"probability", sweep.probability});
+  for (std::size_t q = 0; q < sweep.quantity_names.size(); ++q) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < sweep.designs(); ++i)
+      values.push_back(sweep.quantities[i * sweep.quantity_names.size() + q]);
+    arrays.push_back({sweep.quantity_names[q], std::move(values)});
+  }
   for (std::size_t t = 0; t < sweep.targets.size(); ++t) {
     std::vector<double> limits;
     for (std::size_t i = 0; i < sweep.designs(); ++i)
@@ -123,8 +129,10 @@ void check_sweep_folder(const fs::path& folder, const Provenance* from) {
   OutputFolder{folder, is_of_sweep, files_read(from)};
 }
 
-std::string sweep_key(const Provenance& from, const SweepQuery& query, std::string_view targets) {
-  nlohmann::json all{std::string(version), digest_text(targets), from.joint_digest.sha256};
+std::string sweep_key(const Provenance& from, const SweepQuery& query, std::string_view targets,
+                      std::string_view quantities) {
+  nlohmann::json all{std::string(version), digest_text(targets), from.joint_digest.sha256,
+                     std::string(quantities)};
   for (const MeshOrigin* body : {&from.fixed, &from.mobile})
     for (const MeshSource& mesh : body->files) all.push_back(mesh.digest.sha256);
   for (const PosedPart& part : from.parts)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "condyle/io/pose_text.hpp"
 #include "io/file/format_version.hpp"
@@ -23,6 +24,35 @@ using io::Json;
 std::span<const DesignLimit> limits_of(const SweepAnswer& sweep, std::size_t design) {
   return std::span(sweep.limits)
       .subspan((design - sweep.first_design) * sweep.targets.size(), sweep.targets.size());
+}
+
+std::span<const double> quantities_of(const SweepAnswer& sweep, std::size_t design) {
+  const std::size_t width = sweep.quantity_names.size();
+  return std::span(sweep.quantities).subspan((design - sweep.first_design) * width, width);
+}
+
+/// A line for each quantity, of the joint as it is and of the best design; its least and greatest value.
+std::string quantities_text(const SweepAnswer& sweep) {
+  std::string text;
+  const auto shown = [](double value) {
+    return std::isnan(value) ? std::string("-") : fmt::format("{:.4g}", value);
+  };
+  for (std::size_t q = 0; q < sweep.quantity_names.size(); ++q) {
+    double low = std::numeric_limits<double>::quiet_NaN(), high = low;
+    for (std::size_t i = q; i < sweep.quantities.size(); i += sweep.quantity_names.size())
+      low = std::fmin(low, sweep.quantities[i]), high = std::fmax(high, sweep.quantities[i]);
+    text += fmt::format(
+        "  {}: here {}, best {}, all {} to {}\n", sweep.quantity_names[q], shown(sweep.quantities_here[q]),
+        sweep.best ? shown(quantities_of(sweep, *sweep.best)[q]) : "-", shown(low), shown(high));
+  }
+  return text;
+}
+
+Json quantities_json(const SweepAnswer& sweep, std::span<const double> values) {
+  Json json = Json::object();
+  for (std::size_t q = 0; q < values.size(); ++q)
+    json[sweep.quantity_names[q]] = std::isnan(values[q]) ? Json(nullptr) : Json(values[q]);
+  return json;
 }
 
 double margin_of(const SweepAnswer& sweep, std::size_t design) {
@@ -190,7 +220,7 @@ std::string sweep_text(const SweepResult& result) {
                                            static_cast<std::size_t>(most - sweep.probability.begin()))),
         100 * *most, result.band_options.samples);
   }
-  text += table_of_targets(sweep);
+  text += table_of_targets(sweep) + quantities_text(sweep);
   if (const std::size_t forms = known_by_form(sweep); forms > 0)
     text += fmt::format("  {} of {} limits in closed form, the others by the meshes\n", forms,
                         sweep.limits.size());
@@ -217,6 +247,7 @@ Json io::sweep_object(const SweepResult& result) {
   if (sweep.best)
     best = {{"values", values_json(sweep, sweep.values_of(*sweep.best))},
             {"margin_deg", margin_of(sweep, *sweep.best)},
+            {"quantities", quantities_json(sweep, quantities_of(sweep, *sweep.best))},
             {"limits", limit_json(sweep, limits_of(sweep, *sweep.best))}};
   Json json{{"condyle", io::format_version},
             {"joint", result.joint},
@@ -231,9 +262,12 @@ Json io::sweep_object(const SweepResult& result) {
             {"safe_measure", sweep.safe_measure},
             {"window_measure", sweep.window_measure},
             {"here",
-             {{"values", values_json(sweep, sweep.here)}, {"limits", limit_json(sweep, sweep.limits_here)}}},
+             {{"values", values_json(sweep, sweep.here)},
+              {"quantities", quantities_json(sweep, sweep.quantities_here)},
+              {"limits", limit_json(sweep, sweep.limits_here)}}},
             {"best", std::move(best)},
             {"ending_pairs", std::move(pairs)},
+            {"quantities", sweep.quantity_names},
             {"limits_in_closed_form", known_by_form(sweep)},
             {"band", sweep.probability.empty() ? Json(nullptr)
                                                : Json{{"samples", result.band_options.samples},
@@ -256,6 +290,7 @@ std::string designs_csv(const SweepResult& result) {
   for (const SweptParameter& parameter : sweep.parameters) text += io::csv_field(parameter.name) + ",";
   text += "margin_deg,safe";
   if (!sweep.probability.empty()) text += ",probability";
+  for (const std::string& name : sweep.quantity_names) text += "," + io::csv_field(name);
   for (const SweepTarget& target : sweep.targets)
     for (const char* column : {"limit_deg", "reason", "ended_by", "known_by"})
       text += "," + io::csv_field(fmt::format("{}_{}", target.name, column));
@@ -265,6 +300,8 @@ std::string designs_csv(const SweepResult& result) {
     const double margin = sweep.margin_deg[i];
     text += std::isnan(margin) ? ",0" : fmt::format("{},{}", margin, margin >= 0 ? 1 : 0);
     if (!sweep.probability.empty()) text += fmt::format(",{}", sweep.probability[i]);
+    for (const double value : quantities_of(sweep, sweep.first_design + i))
+      text += std::isnan(value) ? "," : fmt::format(",{}", value);
     for (const DesignLimit& limit : limits_of(sweep, sweep.first_design + i)) {
       text += std::isnan(limit.turned_deg) ? "," : fmt::format(",{}", limit.turned_deg);
       text += fmt::format(",{},{},{}", name_of(limit.reason), io::csv_field(ending_text(sweep, limit)),
