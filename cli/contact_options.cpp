@@ -119,6 +119,15 @@ std::vector<Vec3> directions_of(const std::vector<double>& along) {
   return directions;
 }
 
+StudyLoad study_load_of(const std::string& pose, const std::vector<double>& force,
+                        const std::vector<double>& along, const ContactChanges& contact, Anatomy anatomy) {
+  if (force.empty() && !along.empty()) throw UsageError("--along: needs --force");
+  StudyLoad load{study_pose(pose, anatomy), contact, {}};
+  if (!force.empty()) load.force_n = Vec3(force[0], force[1], force[2]);
+  load.free_directions = directions_of(along);
+  return load;
+}
+
 Load load_of(const BalanceGiven& given) {
   return {.on_mobile = {vector_of(given.force), vector_of(given.moment)}, .frame = given.frame};
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "condyle/io/joint_file.hpp"
+#include "condyle/io/study.hpp"
 #include "condyle/pressure.hpp"
 
 namespace CLI {
@@ -36,6 +37,9 @@ void add_force(CLI::App& command, const std::shared_ptr<BalanceGiven>& given, co
 void add_balance(CLI::App& command, const std::shared_ptr<BalanceGiven>& given);
 /// Directions of --along; UsageError for a count that is not whole directions.
 std::vector<Vec3> directions_of(const std::vector<double>& along);
+/// A load at a pose, its force and directions in components anterior, superior and lateral.
+StudyLoad study_load_of(const std::string& pose, const std::vector<double>& force,
+                        const std::vector<double>& along, const ContactChanges& contact, Anatomy anatomy);
 Load load_of(const BalanceGiven& given);
 BalanceOptions balance_options_of(const BalanceGiven& given);
 

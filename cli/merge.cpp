@@ -9,19 +9,33 @@
 #include "answer.hpp"
 #include "commands.hpp"
 #include "condyle/io/study.hpp"
+#include "io/sweep/sweep_files.hpp"
 
 namespace condyle::cli {
+namespace {
+
+void merge_shares(const std::string& folder) {
+  const io::MergedSweep merged = io::merge_sweep(folder);
+  for (const SweepNote& each : merged.result.answer.notes)
+    note(fmt::format("{}: {}", name_of(each.code), each.text));
+  say_written(merged.written);
+  print(sweep_text(merged.result));
+}
+
+}  // namespace
 
 void add_merge(CLI::App& app) {
-  auto* command = app.add_subcommand("merge", "Put the shards of a study together");
+  auto* command = app.add_subcommand("merge", "Put the shards of a study or of a sweep together");
   command->footer(
       "Example: condyle merge study\n"
       "The tables are those of a run of the whole table, byte for byte.\n"
       "Exit code 3: a shard is missing or not whole, or is of another table, other options or another "
       "version. Where no joint was answered: that of the first failure.");
   auto folder = std::make_shared<std::string>();
-  command->add_option("DIR", *folder, "The folder that condyle study --shard had as --out")->required();
+  command->add_option("DIR", *folder, "The folder that condyle study --shard or sweep --shard had as --out")
+      ->required();
   command->callback([folder] {
+    if (io::has_sweep_shards(*folder)) return merge_shares(*folder);
     const StudyDone done = merge_study(*folder);
     for (const NotedJoint& joint : done.noted) note(joint.id + ": " + joint.codes);
     say_written(done.written);

@@ -38,14 +38,6 @@ Anatomy anatomy_named(std::string_view name) {
   throw UsageError("--anatomy: there are hip, knee, ankle, elbow and shoulder");
 }
 
-StudyLoad load_of(const StudyArguments& given, Anatomy anatomy) {
-  if (given.force.empty() && !given.along.empty()) throw UsageError("--along: needs --force");
-  StudyLoad load{study_pose(*given.load, anatomy), *given.contact, {}};
-  if (!given.force.empty()) load.force_n = Vec3(given.force[0], given.force[1], given.force[2]);
-  load.free_directions = directions_of(given.along);
-  return load;
-}
-
 StudyFollowLoad follow_load_of(const StudyArguments& given) {
   if (given.load)
     throw UsageError("--follow-load: stands beside --load, and one of the two is meant by --force");
@@ -71,7 +63,7 @@ StudyOptions study_options(const StudyArguments& given) {
   if (given.follows_load)
     options.follow_load = follow_load_of(given);
   else if (given.load)
-    options.load = load_of(given, options.anatomy);
+    options.load = study_load_of(*given.load, given.force, given.along, *given.contact, options.anatomy);
   else if (given.contact->any_of_rays() || given.contact->any_of_layers() || given.contact->law ||
            !given.force.empty() || !given.along.empty())
     throw UsageError("--force, --e and all else on a load: needs --load or --follow-load");

@@ -14,6 +14,7 @@
 #include "condyle/contact_measures.hpp"
 #include "condyle/hip_measures.hpp"
 #include "condyle/impingement_zone.hpp"
+#include "condyle/implant.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/make_joint.hpp"
@@ -23,6 +24,7 @@
 #include "condyle/pressure.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "condyle/resection.hpp"
+#include "condyle/sweep.hpp"
 
 /// One function per question: a request in, an owning result out. The command, the Python module, studies, reports and the page
 /// all ask here, so that they say the same bits, notes included.
@@ -260,6 +262,7 @@ enum class RangeNoteCode : std::uint8_t {
   limit_on_part_cut,  ///< A motion ends on a face in which a part was cut from its body.
   sliding_surfaces,   ///< Surfaces slide on each other by nature, and where they first touch a motion ends.
   translation_ends,   ///< What the translation follows ends before the motion's range does.
+  differs_from_closed_form,  ///< Meshes of an implant end a motion elsewhere than bodies of its sizes do.
 };
 
 /// As in files: "centre_moves_limits".
@@ -282,7 +285,9 @@ struct RangeAnswer {
   bool follows = false;                          ///< the centre is not held: limits are bounded, not exact
   std::vector<MotionLimit> limits = {};          ///< one per motion
   std::vector<DepthLimit> depths = {};           ///< one per motion if a depth is allowed, else none
-  BearingFinding bearing = {};                   ///< what contacts are classified by
+  /// Of an implant whose liner and neck are bodies of revolution, one per motion: where these two end it. Else none.
+  std::vector<ClosedLimit> closed = {};
+  BearingFinding bearing = {};  ///< what contacts are classified by
   BearingRule bearing_rule = BearingRule::count;
   ClockFace clock = sagittal_clock();
   ClockPlane clock_plane = ClockPlane::sagittal;
@@ -404,6 +409,103 @@ struct ResectionAnswer {
   std::vector<ResectionNote> notes = {};
   std::vector<std::string> caveats = {};  ///< what the plan leaves out, a sentence each
 };
+
+// ---- designs --------------------------------------------------------------------------------------------------------------
+
+/// One of several parts of a sweep: whole lines of designs along the last parameter.
+struct SweepShare {
+  std::size_t number = 1, of = 1;
+};
+
+/// Further values of a design, computed from the joint at its values: shape, pressure.
+struct SweepQuantities {
+  std::vector<std::string> names;  ///< as columns have them, each with its unit at the end
+  /// One for each name, NaN where there is none. May be called from any thread.
+  std::function<std::vector<double>(const Joint&)> of;
+};
+
+/// Measures of a hip's shape, by their keys. Throws UsageError for a key that no measure has.
+SweepQuantities measured_quantities(std::span<const std::string> keys, const MeasureRequest& request);
+
+/// Options of a query for a sweep, with their defaults.
+struct SweepQuery {
+  std::vector<SweptParameter> parameters = {};  ///< one to four; the last one changes fastest
+  std::vector<SweepTarget> targets = {};        ///< one or more
+  RangeOptions range = {};
+  /// The probability that a design leaves all targets free, over the standard deviations of parameters; the others of `sigma` are not used.
+  std::optional<BandOptions> bands = {};
+  /// A joint is made anew for each design that has any: up to a second each.
+  std::vector<SweepQuantities> quantities = {};
+  SweepShare share = {};
+};
+
+enum class SweepNoteCode : std::uint8_t {
+  differs_from_closed_form,  ///< Meshes of the implant do not have the limits of its sizes: every limit is searched for.
+  nothing_is_safe,     ///< No design leaves every target free.
+  everything_is_safe,  ///< All do.
+  zone_leaves_window,  ///< Designs at the border of what was swept are safe: the zone goes on beyond.
+  separate_intervals,  ///< Along some line the safe designs are not side by side.
+};
+
+/// As in files: "nothing_is_safe".
+std::string_view name_of(SweepNoteCode code) noexcept;
+
+struct SweepNote {
+  SweepNoteCode code;
+  std::string text;  ///< one sentence
+};
+
+/// The limits of all designs of a share, and where they are safe.
+struct SweepAnswer {
+  std::vector<SweptParameter> parameters;
+  std::vector<SweepTarget> targets;
+  std::vector<EndingPair> pairs;
+  SweepShare share;
+  std::size_t first_design = 0;          ///< of the share
+  std::vector<DesignLimit> limits = {};  ///< of each design one per target
+  /// Of each design the least of what its limits have over the targets' reach: safe where >= 0. NaN of one in contact in its reference pose.
+  std::vector<double> margin_deg = {};
+  std::vector<double> probability = {};  ///< of each design if requested, 0 to 1
+  std::vector<std::string> quantity_names = {};
+  std::vector<double> quantities = {};  ///< of each design one per name; NaN where there is none
+  std::vector<double> quantities_here = {};
+  std::vector<SafeInterval> safe = {};  ///< ascending by line and value
+  /// Of what is safe, by the trapezoidal rule over the lines, and of the whole window; of the share its lines' part. In the product of
+  /// the parameters' units.
+  double safe_measure = 0, window_measure = 0;
+  std::optional<std::size_t> best =
+      {};  ///< the design of the largest margin, the first of equals; empty if all are in contact
+  std::vector<double> here = {};              ///< the values that the joint has of the swept parameters
+  std::vector<DesignLimit> limits_here = {};  ///< one per target
+  std::vector<SweepNote> notes = {};
+  std::vector<std::string> caveats = {};
+
+  std::size_t designs() const noexcept { return margin_deg.size(); }
+  /// The values of a design, counted from the first of the whole sweep.
+  std::vector<double> values_of(std::size_t design) const;
+};
+
+/// Designs of all axes together.
+std::size_t designs_of(std::span<const SweptParameter> parameters);
+
+/// Throws UsageError for what answer_sweep() would refuse before it computes anything: no target or parameter, more than four of these,
+/// values outside of a parameter's range, a reach beyond its motion's range, a tilt of what is no hip, a size.
+void check_sweep(const Joint& joint, const SweepQuery& query);
+
+/// Limits of every design of the share. Empty if it was stopped. Stages: "designs", "borders", "displaced designs",
+/// "joints of designs".
+///
+/// Throws UsageError as check_sweep(), MeshError if nothing of a body could end a motion. Designs of an implant whose bones do not move cost
+/// some microseconds a target; where the meshes decide, a millisecond a target and pair of meshes.
+std::optional<SweepAnswer> answer_sweep(const Joint& joint, const JointPlacement& placement,
+                                        const SweepQuery& query, const AnswerControl& control);
+SweepAnswer answer_sweep(const Joint& joint, const JointPlacement& placement, const SweepQuery& query);
+
+/// The shares of one sweep, all of them in their order, as one: the answer of the sweep that was not shared. Throws UsageError if one does not
+/// follow the one before.
+SweepAnswer merged_sweep(std::span<const SweepAnswer> shares);
+
+// ---- the bone that must go, by words --------------------------------------------------------------------------------------
 
 /// How far a motion shall go, by its name.
 struct NamedReach {

@@ -10,6 +10,7 @@
 
 #include "condyle/angle.hpp"
 #include "condyle/first_contact.hpp"
+#include "condyle/joint.hpp"
 #include "condyle/joint_coordinates.hpp"
 #include "condyle/mesh.hpp"
 #include "condyle/points.hpp"
@@ -21,18 +22,6 @@
 namespace condyle {
 
 // ---- how a cup is oriented -----------------------------------------------------------------------------------------------
-
-/// Murray's three pairs of angles of an axis (1993).
-enum class CupDefinition : std::uint8_t {
-  radiographic,  ///< inclination in the frontal plane; anteversion from that plane
-  anatomic,      ///< inclination from the vertical; anteversion in the transverse plane
-  operative,     ///< inclination from the sagittal plane; anteversion in that plane
-};
-
-/// As in files: "radiographic".
-std::string_view name_of(CupDefinition definition) noexcept;
-/// Throws UsageError with the words there are.
-CupDefinition cup_definition_named(std::string_view word);
 
 struct CupAngles {
   Angle inclination, anteversion;
@@ -87,15 +76,6 @@ struct NeckShape {
 ///
 /// To 1e-12 rad. For a neck that reaches beyond the liner's outer radius. Zero or below if the neck never fits.
 Angle contact_half_angle(const LinerShape& liner, const NeckShape& neck) noexcept;
-
-/// Two bodies of revolution whose axes go through the joint centre: contact depends on the angle between the axes only.
-struct RevolvedPair {
-  Vec3 fixed_axis, mobile_axis;  ///< out of the liner's opening, and along the neck; unit, at zero angles
-  Angle half_angle;              ///< contact where the axes are farther apart
-  /// Between these is the half-angle of meshes with the implant's facets: chords of the rim stand into the opening, chords
-  /// of the neck lie within it.
-  Angle of_facets_low, of_facets_high;
-};
 
 /// Where a motion of a RevolvedPair ends.
 struct ClosedLimit {
@@ -187,6 +167,21 @@ void check_implant(const Implant& implant);
 std::optional<RevolvedPair> revolved_pair(const Implant& implant, Side side);
 /// Empty if there is a closed form.
 std::string why_not_revolved(const Implant& implant);
+
+/// Where the liner and the neck of an implant are in a joint: meshes by the names of implant_meshes().
+JointImplant implant_in_joint(const Implant& implant, const Joint& joint);
+
+/// Where the parts of the joint have the axis of its cup; empty if it has none.
+std::optional<CupAngles> cup_angles(const Joint& joint, CupDefinition definition);
+
+/// The closed form of a joint with an implant, where its parts have it, or why there is none: a lip, a part that is shifted.
+struct ClosedForm {
+  std::optional<RevolvedPair> pair = {};
+  std::string why_none = {};  ///< empty if there is a pair, and of a joint without an implant
+};
+ClosedForm closed_form(const Joint& joint);
+/// The same at other values of its parts' parameters.
+ClosedForm closed_form(const Joint& joint, std::span<const PosedPart> parts);
 
 /// One closed mesh of an implant, by its name as a part of a body.
 struct ImplantMesh {

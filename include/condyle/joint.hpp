@@ -98,6 +98,20 @@ bool is_cut_face(const Body& body, std::size_t triangle) noexcept;
 const BodyPart* part_of_vertex(const Body& body, std::size_t vertex) noexcept;
 const BodyPart* part_of_triangle(const Body& body, std::size_t triangle) noexcept;
 
+/// Murray's three pairs of angles of the axis of a cup (1993).
+enum class CupDefinition : std::uint8_t {
+  radiographic,  ///< inclination in the frontal plane; anteversion from that plane
+  anatomic,      ///< inclination from the vertical; anteversion in the transverse plane
+  operative,     ///< inclination from the sagittal plane; anteversion in that plane
+};
+inline constexpr CupDefinition all_cup_definitions[] = {CupDefinition::radiographic, CupDefinition::anatomic,
+                                                        CupDefinition::operative};
+
+/// As in files: "radiographic".
+std::string_view name_of(CupDefinition definition) noexcept;
+/// Throws UsageError with the words there are.
+CupDefinition cup_definition_named(std::string_view word);
+
 /// How a parameter moves its part, from its value v and the value v0 at which the meshes stand as they are given. With s = 1 of a
 /// right joint and -1 of a left one, about axes of the body's frame:
 ///
@@ -109,6 +123,11 @@ const BodyPart* part_of_triangle(const Body& body, std::size_t triangle) noexcep
 ///                   R_y(-s (v - v0))    of the mobile body: its neck points more to the front
 ///     translation   v - v0 along a direction
 ///     size          v / v0, a factor of all lengths from the centre
+///
+/// and two kinds that a part has together, of a cup that is fixed: the angles of its opening's axis by a CupDefinition, from those at which
+/// its meshes stand as they are given, R(v) R(v0)^T with R(i, a) of inclination i and anteversion a
+///
+///     radiographic  R_x(-s i) R_z(a)      anatomic  R_y(s a) R_x(-s i)      operative  R_z(a) R_x(-s i)
 enum class ParameterKind : std::uint8_t {
   frontal,
   inclination,
@@ -117,10 +136,13 @@ enum class ParameterKind : std::uint8_t {
   version,
   translation,
   size,
+  cup_inclination,
+  cup_anteversion,
 };
 inline constexpr ParameterKind all_parameter_kinds[] = {
-    ParameterKind::frontal, ParameterKind::inclination, ParameterKind::sagittal, ParameterKind::tilt,
-    ParameterKind::version, ParameterKind::translation, ParameterKind::size};
+    ParameterKind::frontal, ParameterKind::inclination,     ParameterKind::sagittal,
+    ParameterKind::tilt,    ParameterKind::version,         ParameterKind::translation,
+    ParameterKind::size,    ParameterKind::cup_inclination, ParameterKind::cup_anteversion};
 
 /// As in files: "inclination".
 std::string_view name_of(ParameterKind kind) noexcept;
@@ -154,6 +176,8 @@ struct PosedPart {
   BodyRole body = BodyRole::fixed;
   std::vector<std::string> meshes = {};  ///< names of its BodyParts; empty: the whole body
   Vec3 centre = Vec3::Zero();            ///< c, in the body's frame, mm
+  /// Of a part with ParameterKind::cup_inclination and cup_anteversion: what these angles are.
+  CupDefinition definition = CupDefinition::radiographic;
   std::vector<PartParameter> parameters = {};
   /// Planes behind all of which it was cut from the mesh of this name, in the body's frame as it is given, mm. The first of its meshes is what was
   /// cut off, with the part's own name.
@@ -174,6 +198,23 @@ struct PosedParts {
   BodyAsGiven fixed, mobile;
 };
 
+/// Two bodies of revolution whose axes go through the joint centre: contact depends on the angle between the axes only.
+struct RevolvedPair {
+  Vec3 fixed_axis, mobile_axis;  ///< out of the liner's opening, and along the neck; unit, at zero angles
+  Angle half_angle;              ///< contact where the axes are farther apart
+  /// Between these is the half-angle of meshes with the implant's facets: chords of the rim stand into the opening, chords
+  /// of the neck lie within it.
+  Angle of_facets_low, of_facets_high;
+};
+
+/// What is known of an implant in a joint, from its sizes: which meshes are its liner and its neck, and their axes.
+struct JointImplant {
+  std::string fixed_mesh, mobile_mesh;  ///< names of BodyParts; empty of a body that is one mesh
+  std::optional<Vec3> cup_axis = {};    ///< of a total hip: out of the opening, unit, of the meshes as given
+  std::optional<RevolvedPair> pair = {};  ///< of the meshes as given
+  std::string why_no_pair = {};           ///< what is no body of revolution
+};
+
 /// Two bodies and how one rotates in the other. Both meshes are in the joint frame of joint_coordinates.hpp:
 /// millimetres, origin at the joint centre, X anterior, Y superior, Z to the subject's right. The mobile mesh
 /// is the one of zero angles: pose_at(coordinates(), angles) brings it to any other.
@@ -186,6 +227,7 @@ struct Joint {
   Anatomy anatomy = Anatomy::hip;  ///< of a hinge: the hip stands for any joint that flexes forwards
   TranslationFrame translation_frame = TranslationFrame::fixed;  ///< of a free joint
   std::optional<PosedParts> posed = {};  ///< parts with a pose of their own; the bodies above have them moved
+  std::optional<JointImplant> implant = {};
 
   CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
   /// False of a hinge that flexes forwards and is no joint in particular.

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "answer/closed_limits.hpp"
 #include "answer/followed_range.hpp"
 #include "answer/staged.hpp"
 #include "condyle/answer.hpp"
@@ -62,6 +63,7 @@ bool add_exact_limits(RangeAnswer& answer, const RangeRequest& request, const Ra
   RangeOptions again = options;
   again.bearing.surface = answer.bearing.surface;
   answer.notes = range_notes(answer.joint, answer.limits, again, answer.bearing);
+  answer::add_closed_limits(answer);
   if (request.zones_past) {
     const ZoneFinder finder(
         answer.joint, {.bearing = again.bearing, .past = *request.zones_past, .socket_clock = answer.clock});

@@ -165,6 +165,8 @@ std::string_view name_of(RangeNoteCode code) noexcept {
       return "sliding_surfaces";
     case RangeNoteCode::translation_ends:
       return "translation_ends";
+    case RangeNoteCode::differs_from_closed_form:
+      return "differs_from_closed_form";
   }
   return "";
 }

@@ -52,9 +52,29 @@ void set(PosedParts& posed, const ParameterValue& given) {
 
 }  // namespace
 
+std::string_view name_of(CupDefinition definition) noexcept {
+  switch (definition) {
+    case CupDefinition::radiographic:
+      return "radiographic";
+    case CupDefinition::anatomic:
+      return "anatomic";
+    case CupDefinition::operative:
+      break;
+  }
+  return "operative";
+}
+
+CupDefinition cup_definition_named(std::string_view word) {
+  for (const CupDefinition definition : all_cup_definitions)
+    if (name_of(definition) == word) return definition;
+  throw UsageError("definition \"" + core::one_line(word) +
+                   "\" of a cup's angles is unknown; there are radiographic, anatomic, operative");
+}
+
 std::string_view name_of(ParameterKind kind) noexcept {
-  constexpr std::string_view names[] = {"frontal", "inclination", "sagittal", "tilt",
-                                        "version", "translation", "size"};
+  constexpr std::string_view names[] = {"frontal", "inclination",     "sagittal",
+                                        "tilt",    "version",         "translation",
+                                        "size",    "cup_inclination", "cup_anteversion"};
   return names[static_cast<std::size_t>(kind)];
 }
 

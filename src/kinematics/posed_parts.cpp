@@ -41,11 +41,9 @@ std::optional<int> axis_of(ParameterKind kind) noexcept {
     case ParameterKind::sagittal:
     case ParameterKind::tilt:
       return 2;
-    case ParameterKind::translation:
-    case ParameterKind::size:
-      break;
+    default:
+      return std::nullopt;
   }
-  return std::nullopt;
 }
 
 /// The rotation of a value, about its axis of the frame and in degrees.
@@ -64,6 +62,43 @@ double turn_of(const PartParameter& parameter, BodyRole body, Side side) noexcep
     default:
       return degrees;
   }
+}
+
+bool is_of_cup(ParameterKind kind) noexcept {
+  return kind == ParameterKind::cup_inclination || kind == ParameterKind::cup_anteversion;
+}
+
+const PartParameter* parameter_of(const PosedPart& part, ParameterKind kind) noexcept {
+  for (const PartParameter& parameter : part.parameters)
+    if (parameter.kind == kind) return &parameter;
+  return nullptr;
+}
+
+/// Brings an axis that points down to the one out of a cup of these angles, in degrees, and the rest of the cup with it.
+Eigen::Matrix3d cup_rotation(double inclination, double anteversion, CupDefinition definition, Side side) {
+  const double sense = side == Side::right ? 1 : -1;
+  const Eigen::Matrix3d opened = rotation_about(0, -sense * inclination);
+  switch (definition) {
+    case CupDefinition::radiographic:
+      return opened * rotation_about(2, anteversion);
+    case CupDefinition::anatomic:
+      return rotation_about(1, sense * anteversion) * opened;
+    case CupDefinition::operative:
+      break;
+  }
+  return rotation_about(2, anteversion) * opened;
+}
+
+/// From the angles at which the meshes of a cup stand as they are given to those that it has; the identity, to the bit, if these are
+/// the same.
+Eigen::Matrix3d cup_turn(const PosedPart& part, Side side) {
+  const PartParameter* inclination = parameter_of(part, ParameterKind::cup_inclination);
+  const PartParameter* anteversion = parameter_of(part, ParameterKind::cup_anteversion);
+  if (!inclination || !anteversion ||
+      (inclination->value == inclination->as_given && anteversion->value == anteversion->as_given))
+    return Eigen::Matrix3d::Identity();
+  return cup_rotation(inclination->value, anteversion->value, part.definition, side) *
+         cup_rotation(inclination->as_given, anteversion->as_given, part.definition, side).transpose();
 }
 
 bool is_name(std::string_view text) noexcept {
@@ -92,6 +127,11 @@ void check_parameter(const PartParameter& parameter, const std::string& where) {
   if (parameter.sigma < 0) refuse(where, "sigma: must be 0 or more");
   if (axis_of(parameter.kind) && std::max(-parameter.low, parameter.high) > 360)
     refuse(where, "range: must lie within -360 and 360 degrees");
+  // Beyond these an axis has other angles too.
+  const double least = parameter.kind == ParameterKind::cup_inclination ? 0 : -90;
+  if (is_of_cup(parameter.kind) && (std::min(parameter.low, parameter.as_given) < least ||
+                                    std::max(parameter.high, parameter.as_given) > 90))
+    refuse(where, formatted("range: the angles of a cup lie within %g and 90 degrees", least));
   if (parameter.kind == ParameterKind::translation &&
       !(std::abs(parameter.direction.norm() - 1) <= axis_tolerance))
     refuse(where, "along: must be a unit vector");
@@ -100,6 +140,22 @@ void check_parameter(const PartParameter& parameter, const std::string& where) {
   // A band draws no value farther than some five standard deviations from the mean: sizes stay above 0.
   if (parameter.sigma > parameter.low / 10)
     refuse(where, "sigma: must be at most a tenth of the smallest size");
+}
+
+void check_cup(const PosedPart& part, const std::string& where) {
+  const auto count = [&](const auto& is_one) {
+    return std::count_if(part.parameters.begin(), part.parameters.end(),
+                         [&](const PartParameter& parameter) { return is_one(parameter.kind); });
+  };
+  const auto angles = count(&is_of_cup);
+  if (angles == 0) return;
+  if (angles != 2 || !parameter_of(part, ParameterKind::cup_inclination) ||
+      !parameter_of(part, ParameterKind::cup_anteversion))
+    refuse(where, "a cup has one cup_inclination and one cup_anteversion");
+  if (count([](ParameterKind kind) { return axis_of(kind).has_value(); }) > 0)
+    refuse(where,
+           "a part that has the angles of a cup is not turned by others: these go into a part that holds it");
+  if (part.body == BodyRole::mobile) refuse(where, "the angles of a cup are those of the fixed body");
 }
 
 void check_parameters(const PosedPart& part, const std::string& where) {
@@ -118,6 +174,7 @@ void check_parameters(const PosedPart& part, const std::string& where) {
         refuse(where, other.name + " and " + parameter.name + " are both sizes");
     }
   }
+  check_cup(part, where);
 }
 
 void check_meshes(const PosedPart& part, const Body& body, const std::string& where) {
@@ -135,12 +192,6 @@ void check_meshes(const PosedPart& part, const Body& body, const std::string& wh
         part.meshes.begin() + static_cast<std::ptrdiff_t>(i))
       refuse(where, "mesh " + core::one_line(mesh) + " is named twice");
   }
-}
-
-bool is_in(const PosedPart& part, BodyRole role, const BodyPart* mesh) {
-  if (part.body != role) return false;
-  return part.meshes.empty() ||
-         (mesh && std::find(part.meshes.begin(), part.meshes.end(), mesh->name) != part.meshes.end());
 }
 
 bool moves_nothing(const Eigen::Affine3d& motion) noexcept {
@@ -200,13 +251,29 @@ Eigen::Affine3d motion_of(const PosedPart& part, Side side) {
       turns[*axis] = rotation_about(*axis, turn_of(parameter, part.body, side));
     else if (parameter.kind == ParameterKind::size)
       scale = parameter.value / parameter.as_given;
-    else
+    else if (parameter.kind == ParameterKind::translation)
       translation += (parameter.value - parameter.as_given) * parameter.direction;
   }
   Eigen::Affine3d motion = Eigen::Affine3d::Identity();
-  motion.linear() = scale * (turns[0] * turns[2] * turns[1]);
+  const Eigen::Matrix3d R = parameter_of(part, ParameterKind::cup_inclination)
+                                ? cup_turn(part, side)
+                                : turns[0] * turns[2] * turns[1];
+  motion.linear() = scale * R;
   if (!motion.linear().isIdentity(0)) motion.translation() = part.centre - motion.linear() * part.centre;
   motion.translation() += translation;
+  return motion;
+}
+
+bool moves_mesh(const PosedPart& part, BodyRole role, std::string_view mesh) noexcept {
+  return part.body == role && (part.meshes.empty() ||
+                               std::find(part.meshes.begin(), part.meshes.end(), mesh) != part.meshes.end());
+}
+
+Eigen::Affine3d motion_of_mesh(std::span<const PosedPart> parts, Side side, BodyRole role,
+                               std::string_view mesh) {
+  Eigen::Affine3d motion = Eigen::Affine3d::Identity();
+  for (const PosedPart& part : parts)
+    if (moves_mesh(part, role, mesh)) motion = motion_of(part, side) * motion;
   return motion;
 }
 
@@ -214,7 +281,7 @@ PartMotions::PartMotions(const Body& body, BodyRole role, std::span<const PosedP
   const auto add = [&](const BodyPart* mesh, std::size_t first, std::size_t count) {
     std::vector<std::size_t> in;
     for (std::size_t p = 0; p < parts.size(); ++p)
-      if (is_in(parts[p], role, mesh)) in.push_back(p);
+      if (moves_mesh(parts[p], role, mesh ? mesh->name : std::string_view())) in.push_back(p);
     auto group = std::find_if(groups_.begin(), groups_.end(), [&](const Group& g) { return g.parts == in; });
     if (group == groups_.end()) group = groups_.insert(groups_.end(), {std::move(in), {}});
     group->vertices.emplace_back(first, count);

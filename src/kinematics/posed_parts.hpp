@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "condyle/joint.hpp"
@@ -12,8 +13,15 @@
 
 namespace condyle::kinematics {
 
-/// p' = c + t + R_x R_z R_y S (p - c), in the frame of the part's body.
+/// p' = c + t + R S (p - c), in the frame of the part's body: R is R_x R_z R_y, or that of the angles of a cup.
 Eigen::Affine3d motion_of(const PosedPart& part, Side side);
+
+/// Whether a part moves this mesh of a body; the name of a body that is one mesh is empty.
+bool moves_mesh(const PosedPart& part, BodyRole role, std::string_view mesh) noexcept;
+
+/// How parts move one mesh of a body from where it is given.
+Eigen::Affine3d motion_of_mesh(std::span<const PosedPart> parts, Side side, BodyRole role,
+                               std::string_view mesh);
 
 /// Which vertices of a body move together, and how: all that lie in the same parts.
 class PartMotions {

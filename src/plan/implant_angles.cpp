@@ -1,8 +1,6 @@
 #include <cmath>
 
-#include "condyle/error.hpp"
 #include "condyle/implant.hpp"
-#include "core/one_line.hpp"
 #include "core/trigonometry.hpp"
 
 namespace condyle {
@@ -26,26 +24,6 @@ Vec3 on_side(Vec3 of_right, Side side) noexcept {
 }
 
 }  // namespace
-
-std::string_view name_of(CupDefinition definition) noexcept {
-  switch (definition) {
-    case CupDefinition::radiographic:
-      return "radiographic";
-    case CupDefinition::anatomic:
-      return "anatomic";
-    case CupDefinition::operative:
-      break;
-  }
-  return "operative";
-}
-
-CupDefinition cup_definition_named(std::string_view word) {
-  for (const auto definition :
-       {CupDefinition::radiographic, CupDefinition::anatomic, CupDefinition::operative})
-    if (name_of(definition) == word) return definition;
-  throw UsageError("definition \"" + core::one_line(word) +
-                   "\" of a cup's angles is unknown; there are radiographic, anatomic, operative");
-}
 
 Vec3 cup_axis(const CupAngles& angles, Side side) noexcept {
   const auto [si, ci] = of_angle(angles.inclination);

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "condyle/implant.hpp"
 #include "condyle/io/file_digest.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/mesh.hpp"
@@ -82,6 +83,7 @@ struct Provenance {
   /// All files that were read for it, which no answer is written over: those of the joint, and what else the question took.
   std::vector<std::filesystem::path> read = {};
   std::vector<PosedPart> parts = {};  ///< with the values that the answer is of
+  std::vector<CupAngles> cup = {};    ///< of a total hip, by each definition
 };
 Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> command,
                          AnswerFrameName frame = AnswerFrameName::joint);

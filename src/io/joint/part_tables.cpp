@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -23,7 +24,8 @@ ParameterKind kind_of(TomlTable& table, const std::string& name) {
                        fmt::format("parameter {}, whose name says nothing of how it moves its part", name));
   }
   return all_parameter_kinds[table.required_word(
-      "kind", {"frontal", "inclination", "sagittal", "tilt", "version", "translation", "size"})];
+      "kind", {"frontal", "inclination", "sagittal", "tilt", "version", "translation", "size",
+               "cup_inclination", "cup_anteversion"})];
 }
 
 /// A word, or a vector of the joint frame.
@@ -78,6 +80,19 @@ std::vector<CutPlane> planes_of(TomlTable& table, double mm) {
   return planes;
 }
 
+/// Of the angles of a cup, which mean nothing without it.
+CupDefinition definition_of(TomlTable& table, const PosedPart& part) {
+  const bool is_cup =
+      std::any_of(part.parameters.begin(), part.parameters.end(), [](const PartParameter& parameter) {
+        return parameter.kind == ParameterKind::cup_inclination ||
+               parameter.kind == ParameterKind::cup_anteversion;
+      });
+  if (is_cup)
+    return all_cup_definitions[table.required_word("definition", {"radiographic", "anatomic", "operative"})];
+  if (table.has("definition")) table.fail("definition", "is for cup_inclination and cup_anteversion");
+  return CupDefinition::radiographic;
+}
+
 }  // namespace
 
 std::vector<DescribedPart> described_parts(TomlTable& file, Side side, double mm) {
@@ -93,10 +108,38 @@ std::vector<DescribedPart> described_parts(TomlTable& file, Side side, double mm
     if (const auto centre = table.triple("centre")) described.centre_in_W = mm * *centre;
     for (TomlTable& parameter : table.tables("parameter"))
       part.parameters.push_back(parameter_of(parameter, side, mm));
+    part.definition = definition_of(table, part);
     table.finish();
     parts.push_back(std::move(described));
   }
   return parts;
+}
+
+std::string parts_text(std::span<const PosedPart> parts) {
+  std::string text;
+  for (const PosedPart& part : parts) {
+    text += fmt::format("\n[[part]]\nname = \"{}\"\nbody = \"{}\"\n", part.name,
+                        part.body == BodyRole::fixed ? "fixed" : "mobile");
+    if (!part.meshes.empty()) {
+      std::string names;
+      for (const std::string& mesh : part.meshes)
+        names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", mesh);
+      text += fmt::format("meshes = [{}]\n", names);
+    }
+    if (std::any_of(part.parameters.begin(), part.parameters.end(), [](const PartParameter& parameter) {
+          return parameter.kind == ParameterKind::cup_inclination;
+        }))
+      text += fmt::format("definition = \"{}\"\n", name_of(part.definition));
+    for (const PartParameter& parameter : part.parameters) {
+      text += fmt::format("\n[[part.parameter]]\nname = \"{}\"\n", parameter.name);
+      if (parameter.name != name_of(parameter.kind))
+        text += fmt::format("kind = \"{}\"\n", name_of(parameter.kind));
+      text +=
+          fmt::format("as_given = {}\nrange = [{}, {}]\n", parameter.as_given, parameter.low, parameter.high);
+      if (parameter.sigma > 0) text += fmt::format("sigma = {}\n", parameter.sigma);
+    }
+  }
+  return text;
 }
 
 }  // namespace condyle::io

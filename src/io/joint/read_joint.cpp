@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "condyle/error.hpp"
+#include "condyle/implant.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "core/one_line.hpp"
@@ -103,6 +104,7 @@ PlacedJoint placed(const JointFile& file, Body fixed, Body mobile) {
     PlacedJoint made = make_joint(file.joint, std::move(fixed), std::move(mobile));
     made.joint.fixed.name = file.fixed.name;
     made.joint.mobile.name = file.mobile.name;
+    if (file.implant) made.joint.implant = implant_in_joint(*file.implant, made.joint);
     return made;
   } catch (const UsageError& error) {
     throw FileError(fmt::format("{}: {}", file.path.string(), error.what()));

@@ -220,6 +220,13 @@ Json depth(const LimitOf& of) {
           {"ray_to_normal_deg", depth.at_limit.ray_to_normal.degrees()},
           {"grows", depth.depth_grows}};
 }
+Json closed_form(const LimitOf& of) {
+  if (of.result.closed.empty()) return left_out();
+  const ClosedLimit& closed = of.result.closed[of.index];
+  return {{"limit_deg", closed.turned.degrees()},
+          {"reason", condyle::name_of(closed.reason)},
+          {"of_facets_deg", {closed.of_facets_low.degrees(), closed.of_facets_high.degrees()}}};
+}
 Json zone(const LimitOf& of) {
   if (of.result.zones.empty()) return left_out();
   return zone_json(of.result.zones[of.index], frame_of(of.result));
@@ -339,6 +346,10 @@ constexpr LimitField every_field[] = {
      "codes of what usually ends such a motion, with blanks between", studies},
     {"guarantee", "what is guaranteed of the limit, in words", &guarantee},
     {"depth", "only with `--allow-depth`, below", &depth},
+    {"closed_form",
+     "only of an implant whose liner and neck are bodies of revolution: where these two end the motion, "
+     "`limit_deg` and `reason`, and `of_facets_deg`, between which their meshes do",
+     &closed_form},
     {"zone", "only with `--past`, below; null for motions that did not end by contact", &zone},
     {"band",
      "`p5_deg`, `median_deg`, `p95_deg` of the limit over the joints of the band; "

@@ -7,8 +7,24 @@
 namespace condyle::io {
 
 std::string parameters_text(const Joint& joint) {
-  const std::string changed = changed_parameters(joint);
-  return changed.empty() ? "" : fmt::format("  not as in the joint file: {}\n", changed);
+  std::string text;
+  if (const std::string changed = changed_parameters(joint); !changed.empty())
+    text += fmt::format("  not as in the joint file: {}\n", changed);
+  for (const CupDefinition definition : all_cup_definitions)
+    if (const auto cup = cup_angles(joint, definition))
+      text +=
+          fmt::format("{}{:.2f} {:.2f} {}",
+                      text.ends_with('\n') || text.empty() ? "  cup, inclination and anteversion: " : ", ",
+                      cup->inclination.degrees(), cup->anteversion.degrees(), name_of(definition));
+  return text.empty() || text.ends_with('\n') ? text : text + "\n";
+}
+
+Json cup_json(std::span<const CupAngles> cup) {
+  Json json;
+  for (const CupAngles& angles : cup)
+    json[name_of(angles.definition)] = {{"inclination_deg", angles.inclination.degrees()},
+                                        {"anteversion_deg", angles.anteversion.degrees()}};
+  return json;
 }
 
 std::string sigmas_text(const Joint& joint) {

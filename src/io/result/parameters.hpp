@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 
+#include "condyle/implant.hpp"
 #include "condyle/joint.hpp"
 #include "io/result/json.hpp"
 
@@ -10,8 +11,12 @@
 
 namespace condyle::io {
 
-/// A line that names the parameters whose values are not those of the joint file; nothing if there are none.
+/// Lines on the parameters whose values are not those of the joint file, and on the angles of the cup of an implant by each definition;
+/// nothing if there is neither.
 std::string parameters_text(const Joint& joint);
+
+/// An object for each of Murray's definitions: inclination_deg and anteversion_deg.
+Json cup_json(std::span<const CupAngles> cup);
 
 /// ", cup.inclination by 4 deg": the standard deviations of parameters, for the sentence on a band.
 std::string sigmas_text(const Joint& joint);

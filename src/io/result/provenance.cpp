@@ -15,6 +15,13 @@
 namespace condyle {
 namespace {
 
+std::vector<CupAngles> cup_of(const Joint& joint) {
+  std::vector<CupAngles> cup;
+  for (const CupDefinition definition : all_cup_definitions)
+    if (const auto angles = cup_angles(joint, definition)) cup.push_back(*angles);
+  return cup;
+}
+
 double mm_of(LengthUnit unit) noexcept {
   return unit == LengthUnit::metres ? 1000.0 : 1.0;
 }
@@ -184,7 +191,8 @@ Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> com
           origin_of(report.mobile, mobile_in_source(report), unit_mm),
           AnswerFrame(frame, report),
           files_of(report.file),
-          loaded.joint.posed ? loaded.joint.posed->parts : std::vector<PosedPart>{}};
+          loaded.joint.posed ? loaded.joint.posed->parts : std::vector<PosedPart>{},
+          cup_of(loaded.joint)};
 }
 
 namespace io {
@@ -204,6 +212,7 @@ Json provenance_json(const Provenance* from) {
             {"mobile_mesh", mesh_json(from->mobile)}};
   if (!from->parts.empty()) json["parameters"] = parameters_json(from->parts);
   if (Json cuts = cuts_json(from->parts); !cuts.empty()) json["cuts"] = std::move(cuts);
+  if (!from->cup.empty()) json["cup"] = cup_json(from->cup);
   return json;
 }
 

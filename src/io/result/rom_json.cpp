@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "condyle/io/pose_text.hpp"
@@ -125,6 +128,19 @@ Json bearing_json(const RomResult& result) {
   return json;
 }
 
+/// What is known in closed form of the joint's implant.
+Json implant_json(const Joint& joint) {
+  const ClosedForm form = closed_form(joint);
+  Json json{{"fixed_part", joint.implant->fixed_mesh}, {"mobile_part", joint.implant->mobile_mesh}};
+  json["half_angle_deg"] = form.pair ? Json(form.pair->half_angle.degrees()) : Json(nullptr);
+  json["between_axes_deg"] =
+      form.pair ? Json(std::acos(std::clamp(form.pair->fixed_axis.dot(form.pair->mobile_axis), -1.0, 1.0)) *
+                       (180 / std::numbers::pi))
+                : Json(nullptr);
+  if (!form.pair) json["why_no_closed_form"] = form.why_none;
+  return json;
+}
+
 }  // namespace
 
 Json io::rom_object(const RomResult& result) {
@@ -145,6 +161,7 @@ Json io::rom_object(const RomResult& result) {
             {"caveats", result.caveats},
             {"notes", io::notes_json(result.notes, result.contact_notes, result.range_notes)},
             {"band", result.bands.empty() ? Json(nullptr) : json_of(result.band_options, result.joint)}};
+  if (result.joint.implant) json["implant"] = implant_json(result.joint);
   json["motions"] = Json::array();
   for (std::size_t i = 0; i < result.limits.size(); ++i) json["motions"].push_back(motion_json(result, i));
   if (result.map) json["map"] = json_of(*result.map);

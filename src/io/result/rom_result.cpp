@@ -84,6 +84,7 @@ RomResult rom_result_of(const RangeAnswer& answer, std::span<const JointNote> no
           .range_notes = answer.notes,
           .contact_notes = answer.contact_notes,
           .depths = answer.depths,
+          .closed = answer.closed,
           .zones = answer.zones,
           .map = answer.map ? &*answer.map : nullptr,
           .bands = answer.bands,

@@ -46,6 +46,8 @@ struct RomResult {
   std::span<const ContactNote> contact_notes = {};
   /// One per limit where a depth was allowed, none where limits are exact.
   std::span<const DepthLimit> depths = {};
+  /// One per limit of an implant that has a closed form, none if not.
+  std::span<const ClosedLimit> closed = {};
   /// One per limit where zones were computed, none if not.
   std::span<const std::optional<ImpingementZone>> zones = {};
   /// Null if none was computed.

@@ -161,6 +161,19 @@ std::string met_text(const RomResult& result) {
   return text.empty() ? "" : "  ended by:\n" + wrapped(text);
 }
 
+/// What the column of closed forms is of; why there is none for an implant.
+std::string closed_text(const RomResult& result) {
+  const Joint& joint = result.joint;
+  if (!joint.implant || !result.depths.empty()) return "";
+  const ClosedForm form = closed_form(joint);
+  if (!form.pair) return wrapped(fmt::format("  no closed form: {}\n", form.why_none));
+  return wrapped(fmt::format(
+      "  closed form: {} on {} as bodies of revolution, in contact where their axes are {:.4f} deg apart\n",
+      joint.implant->mobile_mesh.empty() ? joint.mobile.name : joint.implant->mobile_mesh,
+      joint.implant->fixed_mesh.empty() ? joint.fixed.name : joint.implant->fixed_mesh,
+      form.pair->half_angle.degrees()));
+}
+
 enum class Align { left, right };
 
 struct Column {
@@ -310,7 +323,7 @@ std::string rom_text(const RomResult& result) {
   Column name{Align::left, {"motion"}}, turned{Align::right, {"limit (deg)"}},
       reason{Align::left, {"ended by"}}, point{Align::left, {"contact point (mm)"}},
       clock{Align::right, {"clock"}}, bearing{Align::right, {"bearing (deg)"}},
-      soft{Align::right, {"soft (deg)"}};
+      soft{Align::right, {"soft (deg)"}}, closed{Align::right, {"closed form"}};
   const auto earlier_text = [](const std::optional<EarlierContact>& contact) {
     return contact ? fmt::format("{:.2f}", contact->turned.degrees()) : "-";
   };
@@ -324,6 +337,10 @@ std::string rom_text(const RomResult& result) {
                               : "-");
     bearing.cells.push_back(earlier_text(limit.end.bearing_contact));
     soft.cells.push_back(earlier_text(limit.end.soft_contact));
+    if (!result.closed.empty())
+      closed.cells.push_back(result.closed[i].reason == LimitReason::end_of_range
+                                 ? "-"
+                                 : fmt::format("{:.2f}", result.closed[i].turned.degrees()));
     const auto hour = io::clock_hour(result, limit);
     clock.cells.push_back(hour ? io::clock_text(*hour) : "-");
   }
@@ -343,7 +360,9 @@ std::string rom_text(const RomResult& result) {
   if (std::any_of(result.limits.begin(), result.limits.end(),
                   [](const MotionLimit& limit) { return limit.end.soft_contact.has_value(); }))
     shown.push_back(std::move(soft));
+  if (!result.closed.empty()) shown.push_back(std::move(closed));
   text += table_text(shown);
+  text += closed_text(result);
   text += met_text(result);
   text += zones_text(result);
   text += band_text(result);

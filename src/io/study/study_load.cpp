@@ -101,14 +101,18 @@ std::vector<ResultColumn> load_columns() {
   return columns;
 }
 
-LoadFields load_fields(const LoadedJoint& loaded, const StudyLoad& load) {
-  const Joint& joint = loaded.joint;
+StudyLoadAnswer study_load_answer(const LoadedJoint& loaded, const StudyLoad& load) {
   const ContactEntry contact = study_contact_of(loaded, load.contact);
-  const ContactSurfaces surfaces = surfaces_of(contact, joint);
+  const ContactSurfaces surfaces = surfaces_of(contact, loaded.joint);
   const ElasticContact layers(surfaces.fixed.mesh, surfaces.mobile.mesh,
                               elastic_options(contact, surfaces, loaded));
-  const LoadRequest request = request_of(joint, load, {surfaces.fixed.name, surfaces.mobile.name});
+  LoadRequest request = request_of(loaded.joint, load, {surfaces.fixed.name, surfaces.mobile.name});
   LoadAnswer answer = answer_load(layers, request);
+  return {std::move(request), std::move(answer)};
+}
+
+LoadFields load_fields(const LoadedJoint& loaded, const StudyLoad& load) {
+  auto [request, answer] = study_load_answer(loaded, load);
   Cells fields;
   if (answer.balanced) {
     fields.emplace_back(name_of(answer.balanced->outcome));

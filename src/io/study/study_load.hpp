@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "condyle/answer.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/study.hpp"
 #include "condyle/motion_contact.hpp"
@@ -17,6 +18,13 @@ ContactEntry study_contact_of(const LoadedJoint& loaded, const ContactChanges& c
 
 /// Components anterior, superior, lateral in the joint frame of either side.
 Vec3 in_joint_frame(const Joint& joint, const Vec3& anterior_superior_lateral);
+
+/// A load on this joint, and what was asked for. FileError if it has no layers.
+struct StudyLoadAnswer {
+  LoadRequest request;
+  LoadAnswer answer;
+};
+StudyLoadAnswer study_load_answer(const LoadedJoint& loaded, const StudyLoad& load);
 
 /// Those columns of this joint. FileError if it has no layers.
 struct LoadFields {

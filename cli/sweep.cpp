@@ -1,0 +1,203 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "answer.hpp"
+#include "command_line.hpp"
+#include "commands.hpp"
+#include "condyle/answer.hpp"
+#include "condyle/error.hpp"
+#include "condyle/io/study.hpp"
+#include "contact_options.hpp"
+#include "followed.hpp"
+#include "help_formatter.hpp"
+#include "io/file/whole_file.hpp"
+#include "io/joint/known_motions.hpp"
+#include "io/joint/measure_request.hpp"
+#include "io/joint/name_joint_file.hpp"
+#include "io/sweep/load_quantities.hpp"
+#include "io/sweep/sweep_files.hpp"
+#include "io/sweep/target_table.hpp"
+#include "notes.hpp"
+#include "range.hpp"
+#include "range_options.hpp"
+#include "set_option.hpp"
+
+namespace condyle::cli {
+namespace {
+
+struct SweepArguments {
+  ParametersGiven parameters;
+  std::string joint, vary, targets, out, shard;
+  std::vector<std::string> measures;
+  std::optional<std::string> load;
+  std::vector<double> force, along;
+  std::shared_ptr<ContactChanges> contact = std::make_shared<ContactChanges>();
+  std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
+  Strictness strictness = Strictness::notes;
+  AnswerForm form = AnswerForm::text;
+};
+
+SweepShare share_of(const std::string& text) {
+  if (text.empty()) return {};
+  const Shard shard = Shard::parse(text);
+  return {shard.number, shard.of};
+}
+
+void note_sweep(const SweepAnswer& answer) {
+  for (const SweepNote& each : answer.notes) note(fmt::format("{}: {}", name_of(each.code), each.text));
+}
+
+/// What else is computed of each design, and all that this depends on beside the joint.
+std::string add_quantities(const SweepArguments& options, const LoadedJoint& loaded, SweepQuery& query) {
+  std::string text;
+  std::vector<std::string> keys;
+  for (const std::string& list : options.measures)
+    for (const std::string& key : CLI::detail::split(list, ',')) keys.push_back(key), text += key + " ";
+  if (!keys.empty()) query.quantities.push_back(measured_quantities(keys, measure_request_of(loaded)));
+  if (options.load) {
+    const StudyLoad load =
+        study_load_of(*options.load, options.force, options.along, *options.contact, loaded.joint.anatomy);
+    query.quantities.push_back(io::load_quantities(loaded, load));
+    text += io::load_text(load, loaded.joint.anatomy);
+  } else if (!options.force.empty() || !options.along.empty() || options.contact->any_of_rays() ||
+             options.contact->any_of_layers() || options.contact->law) {
+    throw UsageError("--force, --e and all else on a load: needs --load");
+  }
+  return text;
+}
+
+void sweep_command(const SweepArguments& options, const CLI::App& command) {
+  const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
+  const std::string targets = io::read_whole_file(options.targets);
+  RangeRequest range = range_request_of(*options.range, loaded, {});
+  SweepQuery query{.parameters = parse_sweep(options.vary),
+                   .targets = io::parse_targets(targets, options.targets, known_motions(loaded),
+                                                loaded.joint.kind, loaded.joint.anatomy),
+                   .range = range.range,
+                   .bands = range.bands,
+                   .share = share_of(options.shard)};
+  const std::string quantities = add_quantities(options, loaded, query);
+  if (query.share.of > 1 && options.out.empty())
+    throw UsageError("--shard: needs --out, where its results lie");
+  io::name_joint_file(options.joint, [&] { check_sweep(loaded.joint, query); });
+  const std::vector<JointNote> notes = noted(loaded, options.strictness);
+  Provenance from = provenance_of(loaded, words_of(command));
+  from.read.emplace_back(options.targets);
+  const std::string key = io::sweep_key(from, query, targets, quantities);
+  const std::filesystem::path folder = io::sweep_folder(options.out, query.share);
+  std::optional<SweepResult> result;
+  if (!options.out.empty()) {
+    io::check_sweep_folder(folder, &from);
+    result = io::sweep_there(folder, key);
+  }
+  if (result) {
+    note("is there already, of the same inputs, options and version");
+  } else {
+    SweepAnswer answer = io::name_joint_file(options.joint, [&] {
+      return followed_by_stage([&](const AnswerControl& control) {
+        return answer_sweep(loaded.joint, loaded.report.placement, query, control);
+      });
+    });
+    result = sweep_result_of(loaded, std::move(answer), query, notes, &from);
+    if (!options.out.empty()) say_written(io::write_sweep(folder, *result, key, &from));
+  }
+  note_sweep(result->answer);
+  print(options.form == AnswerForm::json ? sweep_json(*result) : sweep_text(*result));
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app) {
+  auto* command = app.add_subcommand(
+      "sweep",
+      "Compute limits over values of parameters of parts, and which designs leave target motions free");
+  command->footer(
+      "Example: condyle sample replacement --out thr\n"
+      "         printf 'name,motion,reach_deg\\nsitting,flexion,110\\npivoting,external_rotation,40\\n' > "
+      "daily.csv\n"
+      "         condyle sweep thr/hip.toml --vary \"cup.inclination=30:50:1 cup.anteversion=0:30:1\" "
+      "--targets "
+      "daily.csv --out zone\n"
+      "         python3 -m condyle.plot zone\n"
+      "A share that was done before with the same inputs, options and version is not done again; condyle "
+      "merge puts shares "
+      "together.");
+  auto options = std::make_shared<SweepArguments>();
+  options->parameters = add_set(*command);
+  command->add_option("JOINT", options->joint, "The joint file, .toml, with [[part]]")->required();
+  command
+      ->add_option(
+          "--vary", options->vary,
+          "One to four parameters with their first and last value and a step: \"cup.inclination=30:50:1 "
+          "cup.anteversion=0:30:1\"")
+      ->required()
+      ->option_text("PART.PARAMETER=FIRST:LAST:STEP ...");
+  command
+      ->add_option(
+          "--targets", options->targets,
+          "A CSV file with a row for each motion that must be free: name, motion (or start and movement), "
+          "reach_deg, and pelvic_tilt_deg of the posture")
+      ->required()
+      ->option_text("FILE");
+  command
+      ->add_option(
+          "--out", options->out,
+          "Write sweep.json, designs.csv, safe.csv and zone.vtp into this folder. python3 -m condyle.plot "
+          "FOLDER draws them")
+      ->option_text("FOLDER");
+  command
+      ->add_option("--shard", options->shard,
+                   "Compute only part i of N of the designs, into FOLDER/shards. condyle merge puts the "
+                   "parts together")
+      ->option_text("i/N");
+  command
+      ->add_option("--measures", options->measures,
+                   "Measure the shape of each design's hip too, by keys of condyle measure: "
+                   "lateral_centre_edge_deg,...")
+      ->expected(1)
+      ->take_all()
+      ->option_text("KEY[,KEY...]");
+  command
+      ->add_option("--load", options->load,
+                   "Compute contact pressure of each design in this pose too (\"\" is the reference pose), "
+                   "with the layers "
+                   "of the joint file or those of --e, --nu and --thickness")
+      ->option_text("POSE");
+  command
+      ->add_option("--force", options->force,
+                   "With --load: move the mobile body to where the contact carries this force on it, in N")
+      ->expected(3)
+      ->option_text("ANTERIOR SUPERIOR LATERAL");
+  command
+      ->add_option("--along", options->along,
+                   "With --force: move along this direction only, or in the plane of two")
+      ->expected(3, 6)
+      ->option_text("ANTERIOR SUPERIOR LATERAL [...]");
+  add_rays(*command, options->contact, "With --load: ");
+  add_layers(*command, options->contact);
+  add_band(*command, options->range);
+  add_bearing(*command, options->range);
+  add_accept(*command, options->range);
+  command->add_flag_callback(
+      "--json", [options] { options->form = AnswerForm::json; },
+      "Print the answer as JSON, without the designs, which --out writes");
+  add_strict(*command, options->strictness);
+  group_help(*command, {{"Most used", {"--vary", "--targets", "--out", "--band", "--shard"}},
+                        {"Question", {"--set", "--measures", "--load", "--force", "--along"}},
+                        {"Contact",
+                         {"--bearing", "--accept-reference-contact", "--e", "--nu", "--thickness", "--law",
+                          "--casting", "--rule", "--reach"}},
+                        uncertainty_group(),
+                        {"Output", {"--json", "--strict", "--help"}}});
+  command->callback([options, command] { sweep_command(*options, *command); });
+}
+
+}  // namespace condyle::cli

@@ -1,0 +1,374 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "answer/staged.hpp"
+#include "answer/sweep_summary.hpp"
+#include "condyle/answer.hpp"
+#include "condyle/error.hpp"
+#include "core/formatted.hpp"
+#include "core/one_line.hpp"
+#include "core/parallel.hpp"
+#include "motion/rom/displacement.hpp"
+#include "plan/design_limits.hpp"
+
+namespace condyle {
+namespace {
+
+using core::formatted;
+
+constexpr std::size_t most_parameters = 4;
+
+std::vector<std::string> names_of(std::span<const SweptParameter> parameters) {
+  std::vector<std::string> names;
+  for (const SweptParameter& each : parameters) names.push_back(each.name);
+  return names;
+}
+
+/// Names of the parameters that have a standard deviation, in the order of the draws.
+std::vector<std::string> uncertain_names(const Joint& joint) {
+  std::vector<std::string> names;
+  for (const PosedPart& part : joint.posed->parts)
+    for (const PartParameter& parameter : part.parameters)
+      if (parameter.sigma > 0) names.push_back(part.name + "." + parameter.name);
+  return names;
+}
+
+const PartParameter& parameter_named(const Joint& joint, const std::string& name) {
+  for (const PosedPart& part : joint.posed->parts)
+    for (const PartParameter& parameter : part.parameters)
+      if (part.name + "." + parameter.name == name) return parameter;
+  throw UsageError("there is no parameter " + name);
+}
+
+void check_target(const SweepTarget& target, const Joint& joint) {
+  const std::string named = "target " + core::one_line(target.name) + ": ";
+  try {
+    check_motion(target.motion, joint.kind);
+  } catch (const UsageError& error) {
+    throw UsageError(named + error.what());
+  }
+  const double reach = target.reach.degrees(), range = target.motion.range.degrees();
+  if (!(target.reach > Angle()) || !(target.reach <= target.motion.range))
+    throw UsageError(named + formatted("%.10g degrees, must be above 0 and up to the motion's range, %.10g",
+                                       reach, range));
+  if (!std::isfinite(target.pelvic_tilt.radians()))
+    throw UsageError(named + "the tilt must be a finite number");
+  if (target.pelvic_tilt.radians() != 0 && !joint.is_hip())
+    throw UsageError(named + "a pelvic tilt is of a hip");
+}
+
+/// Designs that differ in the last parameter only.
+struct Lines {
+  std::size_t first, count, length;
+
+  Lines(const SweepQuery& query) : length(query.parameters.back().count()) {
+    const std::size_t all = designs_of(query.parameters) / length;
+    first = (query.share.number - 1) * all / query.share.of;
+    count = query.share.number * all / query.share.of - first;
+  }
+};
+
+/// The sweep of a share, line by line.
+class Sweeping {
+ public:
+  Sweeping(const SweepQuery& query, const plan::DesignLimits& limits, SweepAnswer& answer)
+      : query_(query), limits_(limits), answer_(answer), lines_(query) {
+    answer.first_design = lines_.first * lines_.length;
+    answer.limits.resize(lines_.count * lines_.length * query.targets.size());
+    answer.margin_deg.resize(lines_.count * lines_.length);
+  }
+
+  /// False if it was stopped.
+  bool designs(const Control& control) {
+    return each(answer_.designs(), control, [&](std::size_t i) {
+      limits_.limits(answer_.values_of(answer_.first_design + i), limits_of(i));
+      answer_.margin_deg[i] = answer::least_margin(query_.targets, limits_of(i));
+    });
+  }
+
+  bool borders(const Control& control) {
+    std::vector<std::vector<SafeInterval>> of_line(lines_.count);
+    if (!each(lines_.count, control, [&](std::size_t line) { of_line[line] = intervals(line); }))
+      return false;
+    for (const auto& safe : of_line) answer_.safe.insert(answer_.safe.end(), safe.begin(), safe.end());
+    return true;
+  }
+
+  bool probabilities(const Joint& joint, const BandOptions& options, const Control& control) {
+    std::vector<std::string> names = names_of(query_.parameters);
+    const std::vector<std::string> uncertain = uncertain_names(joint);
+    // Where each uncertain parameter stands among the values of a design.
+    std::vector<std::size_t> place;
+    for (const std::string& name : uncertain) {
+      const auto known = std::find(names.begin(), names.end(), name);
+      place.push_back(static_cast<std::size_t>(known - names.begin()));
+      if (known == names.end()) names.push_back(name);
+    }
+    const plan::DesignLimits displaced(joint, query_.range, query_.targets, names, uses_closed_forms());
+    const auto draws = motion::displacements(options, uncertain.size());
+    answer_.probability.resize(answer_.designs());
+    return each(answer_.designs(), control, [&](std::size_t i) {
+      std::vector<double> given = answer_.values_of(answer_.first_design + i);
+      for (std::size_t k = given.size(); k < names.size(); ++k)
+        given.push_back(parameter_named(joint, names[k]).value);
+      std::size_t safe = 0;
+      for (const motion::Displacement& draw : draws) {
+        std::vector<double> values = given;
+        for (std::size_t u = 0; u < uncertain.size(); ++u)
+          values[place[u]] += parameter_named(joint, uncertain[u]).sigma * draw.parameters[u];
+        safe += displaced.reaches_all(values);
+      }
+      answer_.probability[i] = static_cast<double>(safe) / static_cast<double>(draws.size());
+    });
+  }
+
+  bool quantities(const Joint& joint, const Control& control) {
+    const std::vector<std::string> names = names_of(query_.parameters);
+    for (const SweepQuantities& each : query_.quantities)
+      answer_.quantity_names.insert(answer_.quantity_names.end(), each.names.begin(), each.names.end());
+    const std::size_t width = answer_.quantity_names.size();
+    const auto of_values = [&](std::span<const double> values) {
+      std::vector<ParameterValue> named;
+      for (std::size_t p = 0; p < names.size(); ++p) named.push_back({names[p], values[p]});
+      const Joint design = with_parameters(joint, named);
+      std::vector<double> found;
+      for (const SweepQuantities& quantities : query_.quantities) {
+        const std::vector<double> of = quantities.of(design);
+        found.insert(found.end(), of.begin(), of.end());
+      }
+      return found;
+    };
+    answer_.quantities_here = of_values(answer_.here);
+    answer_.quantities.resize(answer_.designs() * width);
+    return each(answer_.designs(), control, [&](std::size_t i) {
+      const std::vector<double> found = of_values(answer_.values_of(answer_.first_design + i));
+      std::copy(found.begin(), found.end(),
+                answer_.quantities.begin() + static_cast<std::ptrdiff_t>(i * width));
+    });
+  }
+
+ private:
+  bool uses_closed_forms() const {
+    return std::none_of(answer_.notes.begin(), answer_.notes.end(), [](const SweepNote& note) {
+      return note.code == SweepNoteCode::differs_from_closed_form;
+    });
+  }
+
+  std::span<DesignLimit> limits_of(std::size_t i) {
+    return std::span(answer_.limits).subspan(i * query_.targets.size(), query_.targets.size());
+  }
+
+  /// False if it was stopped.
+  bool each(std::size_t count, const Control& control, const auto& body) {
+    std::mutex mutex;
+    std::size_t done = 0;
+    // So many at a time: reports cost a lock.
+    const std::size_t batch = std::max<std::size_t>(1, count / 1000);
+    core::parallel_chunks(count, batch, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last && !control.stop.stop_requested(); ++i) body(i);
+      if (!control.progress) return;
+      const std::lock_guard lock(mutex);
+      done += last - first;
+      control.progress(done, count);
+    });
+    return !control.stop.stop_requested();
+  }
+
+  struct End {
+    double value;
+    std::optional<std::size_t> target;
+  };
+
+  /// Between a safe design and an unsafe one beside it: the border, by halving, then linearly between the last two if both have
+  /// limits.
+  End border(std::vector<double> values, double safe, double safe_margin, double unsafe,
+             std::span<const DesignLimit> beyond) {
+    std::vector<DesignLimit> limits(beyond.begin(), beyond.end()), tried(beyond.size());
+    double unsafe_margin = answer::least_margin(query_.targets, limits);
+    const double near = border_share * query_.parameters.back().step;
+    while (std::abs(unsafe - safe) > near) {
+      const double middle = safe + (unsafe - safe) / 2;
+      values.back() = middle;
+      limits_.limits(values, tried);
+      const double margin = answer::least_margin(query_.targets, tried);
+      if (margin >= 0) {
+        safe = middle, safe_margin = margin;
+      } else {
+        unsafe = middle, unsafe_margin = margin;
+        std::copy(tried.begin(), tried.end(), limits.begin());
+      }
+    }
+    // Of a design in contact in its reference pose no target has a limit.
+    if (std::isnan(unsafe_margin)) return {safe, std::nullopt};
+    const double share = safe_margin / (safe_margin - unsafe_margin);
+    return {safe + share * (unsafe - safe), answer::least_target(query_.targets, limits)};
+  }
+
+  std::vector<SafeInterval> intervals(std::size_t line) {
+    const std::size_t first = line * lines_.length;
+    const auto values_at = [&](std::size_t k) { return answer_.values_of(answer_.first_design + first + k); };
+    const auto margin = [&](std::size_t k) { return answer_.margin_deg[first + k]; };
+    const auto end_between = [&](std::size_t safe, std::size_t unsafe) {
+      return border(values_at(safe), values_at(safe).back(), margin(safe), values_at(unsafe).back(),
+                    limits_of(first + unsafe));
+    };
+    std::vector<SafeInterval> found;
+    for (std::size_t k = 0; k < lines_.length; ++k) {
+      if (!(margin(k) >= 0)) continue;
+      SafeInterval interval{lines_.first + line, values_at(k).back(), 0};
+      if (k > 0) {
+        const End end = end_between(k, k - 1);
+        interval.low = end.value, interval.low_target = end.target;
+      }
+      while (k + 1 < lines_.length && margin(k + 1) >= 0) ++k;
+      interval.high = values_at(k).back();
+      if (k + 1 < lines_.length) {
+        const End end = end_between(k, k + 1);
+        interval.high = end.value, interval.high_target = end.target;
+      }
+      found.push_back(interval);
+    }
+    return found;
+  }
+
+  const SweepQuery& query_;
+  const plan::DesignLimits& limits_;
+  SweepAnswer& answer_;
+  Lines lines_;
+};
+
+/// The limits of the joint as it is: they show whether its meshes are those of its implant's sizes.
+std::optional<std::string> difference_from_closed_form(const Joint& joint, const JointPlacement& placement,
+                                                       const SweepQuery& query) {
+  if (!closed_form(joint).pair) return std::nullopt;
+  RangeRequest request{.range = query.range};
+  request.range.overlap.reference_contact = ReferenceContact::accept;
+  for (const SweepTarget& target : query.targets) {
+    request.motions.push_back(target.without_tilt());
+    request.motions.back().name = target.name;
+  }
+  for (const RangeNote& note : answer_range(joint, placement, request).notes)
+    if (note.code == RangeNoteCode::differs_from_closed_form) return note.text;
+  return std::nullopt;
+}
+
+}  // namespace
+
+SweepQuantities measured_quantities(std::span<const std::string> keys, const MeasureRequest& request) {
+  SweepQuantities quantities;
+  std::vector<const MeasureDefinition*> definitions;
+  for (const std::string& key : keys) {
+    const MeasureDefinition* definition = measure_definition(key);
+    if (definition == nullptr) {
+      std::string known;
+      for (const MeasureDefinition& each : measure_definitions())
+        known += (known.empty() ? "" : ", ") + std::string(each.key);
+      throw UsageError("there is no measure \"" + core::one_line(key) + "\"; there are " + known);
+    }
+    definitions.push_back(definition);
+    quantities.names.push_back("measured_" + key);
+  }
+  quantities.of = [definitions, request](const Joint& joint) {
+    const HipMeasures measures = measure_hip(joint, request);
+    std::vector<double> values;
+    for (const MeasureDefinition* each : definitions)
+      values.push_back(each->of(measures).value.value_or(std::numeric_limits<double>::quiet_NaN()));
+    return values;
+  };
+  return quantities;
+}
+
+std::vector<double> SweepAnswer::values_of(std::size_t design) const {
+  std::vector<double> values(parameters.size());
+  for (std::size_t p = parameters.size(); p-- > 0;) {
+    values[p] = parameters[p].value(design % parameters[p].count());
+    design /= parameters[p].count();
+  }
+  return values;
+}
+
+std::size_t designs_of(std::span<const SweptParameter> parameters) {
+  double all = 1;
+  for (const SweptParameter& each : parameters) all *= static_cast<double>(each.count());
+  if (all > static_cast<double>(most_designs))
+    throw UsageError(formatted("%.0f designs are too many: up to %zu", all, most_designs));
+  return static_cast<std::size_t>(all);
+}
+
+void check_sweep(const Joint& joint, const SweepQuery& query) {
+  if (joint.kind == JointKind::free) throw UsageError("a sweep needs a joint whose centre is held");
+  if (query.targets.empty()) throw UsageError("a sweep needs one target or more");
+  if (query.parameters.empty() || query.parameters.size() > most_parameters)
+    throw UsageError("a sweep is over one to four parameters");
+  if (query.share.of < 1 || query.share.number < 1 || query.share.number > query.share.of)
+    throw UsageError("the share of a sweep is a number from 1 to how many there are");
+  if (query.range.overlap.leave_out_reference_contacts)
+    throw UsageError(
+        "a sweep leaves no contacts of the reference pose out: they differ from design to design");
+  std::vector<ParameterValue> low, high;
+  for (const SweptParameter& swept : query.parameters) {
+    low.push_back({swept.name, swept.first});
+    high.push_back({swept.name, swept.value(swept.count() - 1)});
+  }
+  with_parameters(joint, low);  // throws for names and values that there are not
+  with_parameters(joint, high);
+  for (const SweptParameter& swept : query.parameters)
+    if (parameter_named(joint, swept.name).kind == ParameterKind::size)
+      throw UsageError(swept.name + ": sizes are not swept: rotations and translations of parts are");
+  designs_of(query.parameters);
+  for (std::size_t t = 0; t < query.targets.size(); ++t) {
+    check_target(query.targets[t], joint);
+    for (std::size_t k = 0; k < t; ++k)
+      if (query.targets[k].name == query.targets[t].name)
+        throw UsageError("target " + core::one_line(query.targets[t].name) + " is given twice");
+  }
+  if (!query.bands) return;
+  motion::check_band(*query.bands);
+  if (!has_uncertain_parameters(joint))
+    throw UsageError("a band needs a parameter with a standard deviation: sigma of [[part.parameter]]");
+}
+
+std::optional<SweepAnswer> answer_sweep(const Joint& joint, const JointPlacement& placement,
+                                        const SweepQuery& query, const AnswerControl& control) {
+  check_sweep(joint, query);
+  RangeOptions range = query.range;
+  range.overlap.reference_pose = placement.reference_pose.angles;
+  SweepQuery asked = query;
+  asked.range = range;
+  SweepAnswer answer{query.parameters, query.targets, {}, query.share};
+  const std::vector<std::string> names = names_of(query.parameters);
+  const auto difference = difference_from_closed_form(joint, placement, query);
+  if (difference)
+    answer.notes.push_back(
+        {SweepNoteCode::differs_from_closed_form, *difference + "; every limit is searched for"});
+  const plan::DesignLimits limits(joint, range, query.targets, names, !difference);
+  answer.pairs = limits.pairs();
+  for (const std::string& name : names) answer.here.push_back(parameter_named(joint, name).value);
+  answer.limits_here.resize(query.targets.size());
+  limits.limits(answer.here, answer.limits_here);
+
+  Sweeping sweeping(asked, limits, answer);
+  if (!sweeping.designs(answer::staged(control, "designs")) ||
+      !sweeping.borders(answer::staged(control, "borders")))
+    return std::nullopt;
+  if (query.bands &&
+      !sweeping.probabilities(joint, *query.bands, answer::staged(control, "displaced designs")))
+    return std::nullopt;
+  if (!query.quantities.empty() && !sweeping.quantities(joint, answer::staged(control, "joints of designs")))
+    return std::nullopt;
+  answer::summarise_sweep(answer);
+  if (query.bands)
+    answer.caveats.emplace_back(
+        "probabilities are over the standard deviations of the parts' parameters only: not of the joint's "
+        "centre, axes and surfaces");
+  answer.caveats.emplace_back("which part of a head bears is that of the joint as it is, for all designs");
+  return answer;
+}
+
+SweepAnswer answer_sweep(const Joint& joint, const JointPlacement& placement, const SweepQuery& query) {
+  return *answer_sweep(joint, placement, query, {});
+}
+
+}  // namespace condyle

@@ -1,0 +1,167 @@
+#include "answer/sweep_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "condyle/error.hpp"
+#include "core/formatted.hpp"
+
+namespace condyle {
+namespace answer {
+namespace {
+
+using core::formatted;
+
+double last_value(const SweptParameter& parameter) {
+  return parameter.value(parameter.count() - 1);
+}
+
+/// A line's share of the window by the trapezoidal rule over all parameters but the last one.
+double line_weight(std::span<const SweptParameter> parameters, std::size_t line) {
+  double weight = 1;
+  for (std::size_t p = parameters.size() - 1; p-- > 0;) {
+    const std::size_t count = parameters[p].count(), at = line % count;
+    line /= count;
+    if (count > 1) weight *= parameters[p].step * (at == 0 || at + 1 == count ? 0.5 : 1.0);
+  }
+  return weight;
+}
+
+void measure(SweepAnswer& sweep) {
+  const SweptParameter& last = sweep.parameters.back();
+  const std::size_t length = last.count(), first = sweep.first_design / length;
+  sweep.window_measure = sweep.safe_measure = 0;
+  for (std::size_t line = 0; line < sweep.designs() / length; ++line)
+    sweep.window_measure += line_weight(sweep.parameters, first + line) * (last_value(last) - last.first);
+  for (const SafeInterval& interval : sweep.safe)
+    sweep.safe_measure += line_weight(sweep.parameters, interval.line) * (interval.high - interval.low);
+}
+
+void find_best(SweepAnswer& sweep) {
+  sweep.best.reset();
+  for (std::size_t i = 0; i < sweep.designs(); ++i)
+    if (!std::isnan(sweep.margin_deg[i]) &&
+        (!sweep.best || sweep.margin_deg[i] > sweep.margin_deg[*sweep.best - sweep.first_design]))
+      sweep.best = sweep.first_design + i;
+}
+
+/// By how much which target is missed, where that is least.
+std::string nothing_text(const SweepAnswer& sweep) {
+  if (!sweep.best) return "no design is safe: all are in contact in the reference pose";
+  const std::size_t best = *sweep.best - sweep.first_design;
+  const auto limits = std::span(sweep.limits).subspan(best * sweep.targets.size(), sweep.targets.size());
+  return "no design is safe: the best one falls short of " +
+         sweep.targets[least_target(sweep.targets, limits)].name +
+         formatted(" by %.2f degrees", -sweep.margin_deg[best]);
+}
+
+bool is_safe_at(const SweepAnswer& sweep, std::size_t p, std::size_t wanted) {
+  std::size_t stride = 1;
+  for (std::size_t k = p + 1; k < sweep.parameters.size(); ++k) stride *= sweep.parameters[k].count();
+  for (std::size_t i = 0; i < sweep.designs(); ++i)
+    if (sweep.margin_deg[i] >= 0 && (sweep.first_design + i) / stride % sweep.parameters[p].count() == wanted)
+      return true;
+  return false;
+}
+
+/// "cup.inclination 50": the ends of what was swept at which a design is safe.
+std::string safe_ends(const SweepAnswer& sweep) {
+  std::string ends;
+  for (std::size_t p = 0; p < sweep.parameters.size(); ++p) {
+    const std::size_t count = sweep.parameters[p].count();
+    if (count < 2) continue;
+    for (const std::size_t end : {std::size_t{0}, count - 1})
+      if (is_safe_at(sweep, p, end))
+        ends += (ends.empty() ? "" : ", ") + sweep.parameters[p].name +
+                formatted(" %.10g", sweep.parameters[p].value(end));
+  }
+  return ends;
+}
+
+void note(SweepAnswer& sweep) {
+  const auto add = [&](SweepNoteCode code, std::string text) {
+    sweep.notes.push_back({code, std::move(text)});
+  };
+  const auto safe = static_cast<std::size_t>(std::count_if(sweep.margin_deg.begin(), sweep.margin_deg.end(),
+                                                           [](double margin) { return margin >= 0; }));
+  if (safe == 0) return add(SweepNoteCode::nothing_is_safe, nothing_text(sweep));
+  if (safe == sweep.designs())
+    return add(SweepNoteCode::everything_is_safe,
+               "every design leaves all targets free: the zone goes on beyond what was swept");
+  if (const std::string ends = safe_ends(sweep); !ends.empty())
+    add(SweepNoteCode::zone_leaves_window, "the safe zone goes on beyond what was swept, at " + ends);
+  std::size_t gaps = 0;
+  for (std::size_t k = 1; k < sweep.safe.size(); ++k) gaps += sweep.safe[k].line == sweep.safe[k - 1].line;
+  if (gaps > 0)
+    add(SweepNoteCode::separate_intervals,
+        "safe values of " + sweep.parameters.back().name +
+            formatted(" are not side by side everywhere: %zu gaps between them", gaps));
+}
+
+}  // namespace
+
+double least_margin(std::span<const SweepTarget> targets, std::span<const DesignLimit> limits) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    const double margin = limits[t].turned_deg - targets[t].reach.degrees();
+    if (!(margin >= least)) least = margin;  // NaN stays
+    if (std::isnan(least)) break;
+  }
+  return least;
+}
+
+std::size_t least_target(std::span<const SweepTarget> targets, std::span<const DesignLimit> limits) {
+  std::size_t least = 0;
+  const auto over = [&](std::size_t t) { return limits[t].turned_deg - targets[t].reach.degrees(); };
+  for (std::size_t t = 1; t < targets.size(); ++t)
+    if (over(t) < over(least)) least = t;
+  return least;
+}
+
+void summarise_sweep(SweepAnswer& sweep) {
+  measure(sweep);
+  find_best(sweep);
+  std::erase_if(sweep.notes,
+                [](const SweepNote& each) { return each.code != SweepNoteCode::differs_from_closed_form; });
+  note(sweep);
+}
+
+}  // namespace answer
+
+std::string_view name_of(SweepNoteCode code) noexcept {
+  switch (code) {
+    case SweepNoteCode::differs_from_closed_form:
+      return "differs_from_closed_form";
+    case SweepNoteCode::nothing_is_safe:
+      return "nothing_is_safe";
+    case SweepNoteCode::everything_is_safe:
+      return "everything_is_safe";
+    case SweepNoteCode::zone_leaves_window:
+      return "zone_leaves_window";
+    case SweepNoteCode::separate_intervals:
+      break;
+  }
+  return "separate_intervals";
+}
+
+SweepAnswer merged_sweep(std::span<const SweepAnswer> shares) {
+  SweepAnswer whole = shares.front();
+  for (std::size_t i = 1; i < shares.size(); ++i) {
+    const SweepAnswer& share = shares[i];
+    if (share.first_design != whole.first_design + whole.designs())
+      throw UsageError(formatted("share %zu of a sweep does not follow share %zu", i + 1, i));
+    whole.limits.insert(whole.limits.end(), share.limits.begin(), share.limits.end());
+    whole.margin_deg.insert(whole.margin_deg.end(), share.margin_deg.begin(), share.margin_deg.end());
+    whole.probability.insert(whole.probability.end(), share.probability.begin(), share.probability.end());
+    whole.quantities.insert(whole.quantities.end(), share.quantities.begin(), share.quantities.end());
+    whole.safe.insert(whole.safe.end(), share.safe.begin(), share.safe.end());
+  }
+  whole.share = {};
+  answer::summarise_sweep(whole);
+  return whole;
+}
+
+}  // namespace condyle

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "condyle/answer.hpp"
+
+namespace condyle::answer {
+
+/// What the limits of a design have over the targets' reach, the least of it; NaN if there are no limits.
+double least_margin(std::span<const SweepTarget> targets, std::span<const DesignLimit> limits);
+
+/// The target that has that.
+std::size_t least_target(std::span<const SweepTarget> targets, std::span<const DesignLimit> limits);
+
+/// Fills in what follows from limits, margins and safe intervals: measures, the best design, and the notes on the zone.
+void summarise_sweep(SweepAnswer& answer);
+
+}  // namespace condyle::answer

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "condyle/answer.hpp"
+#include "condyle/io/provenance.hpp"
+#include "condyle/joint_checks.hpp"
+#include "io/result/json.hpp"
+
+/// Results of `condyle sweep`. Every key, column, unit and sign is in docs/sweeps.md.
+
+namespace condyle {
+
+/// A sweep and what it must be read with.
+struct SweepResult {
+  std::string joint;
+  Anatomy anatomy = Anatomy::hip;
+  Side side = Side::right;
+  std::string scope;
+  SweepAnswer answer;
+  BandOptions band_options = {};
+  io::Json notes = io::Json::array();  ///< on the joint's set-up
+  io::Json provenance = nullptr;
+};
+
+SweepResult sweep_result_of(const LoadedJoint& loaded, SweepAnswer answer, const SweepQuery& query,
+                            std::span<const JointNote> notes, const Provenance* from);
+
+std::string sweep_text(const SweepResult& result);
+std::string sweep_json(const SweepResult& result);
+/// A row for each design: its values, its margin, and where each target ends.
+std::string designs_csv(const SweepResult& result);
+/// A row for each safe interval along the last parameter.
+std::string safe_csv(const SweepResult& result);
+
+namespace io {
+
+/// sweep_json() before it is text.
+Json sweep_object(const SweepResult& result);
+
+/// What sweep.json, designs.csv and safe.csv of a share say; `name` is what errors call the folder. Raises FileError.
+SweepResult read_sweep_result(const Json& json, std::string_view designs, std::string_view safe,
+                              std::string_view name);
+
+}  // namespace io
+}  // namespace condyle

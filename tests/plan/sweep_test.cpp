@@ -1,0 +1,504 @@
+#include "condyle/sweep.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "condyle/answer.hpp"
+#include "condyle/error.hpp"
+#include "condyle/implant.hpp"
+#include "condyle/make_joint.hpp"
+#include "condyle/sample/hip.hpp"
+#include "condyle/sample/replacement.hpp"
+#include "plan/design_limits.hpp"
+
+/// Sweeps against the closed forms of docs/mathematics/13-implants.md, and against joints made anew for each design.
+
+namespace condyle::test {
+namespace {
+
+Body joined_of_parts(const std::string& name, const std::vector<ImplantMesh>& parts) {
+  TriMesh whole;
+  Body body{name, TriMesh{}};
+  for (const auto& [part, mesh] : parts) {
+    if (parts.size() > 1)
+      body.parts.push_back(
+          {part, whole.vertices.size(), mesh.vertices.size(), whole.triangles.size(), mesh.triangles.size()});
+    const auto first = static_cast<Index>(whole.vertices.size());
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) whole.vertices.push_back(mesh.vertices[v]);
+    for (const auto& [a, b, c] : mesh.triangles) whole.triangles.push_back({a + first, b + first, c + first});
+  }
+  body.mesh = Mesh(std::move(whole));
+  return body;
+}
+
+PartParameter parameter(std::string name, ParameterKind kind, double low, double high, double value = 0,
+                        double sigma = 0) {
+  PartParameter made{.name = std::move(name), .kind = kind, .low = low, .high = high};
+  made.value = made.described = made.as_given = value;
+  made.sigma = sigma;
+  if (kind == ParameterKind::translation) made.direction = Vec3::UnitY();
+  return made;
+}
+
+/// A total hip whose cup and stem are parts, with or without bones.
+PlacedJoint replaced_hip(const TotalHip& hip, const ImplantMeshes& meshes, double cup_sigma = 0) {
+  const bool has_bones = meshes.fixed.size() > 1;
+  PosedPart cup{.name = "cup", .body = BodyRole::fixed, .definition = hip.cup.definition};
+  PosedPart stem{.name = "stem", .body = BodyRole::mobile};
+  if (has_bones) cup.meshes = {"liner"}, stem.meshes = {"head", "neck", "stem"};
+  cup.parameters = {parameter("inclination", ParameterKind::cup_inclination, 0, 90,
+                              hip.cup.inclination.degrees(), cup_sigma),
+                    parameter("anteversion", ParameterKind::cup_anteversion, -60, 75,
+                              hip.cup.anteversion.degrees(), cup_sigma)};
+  stem.parameters = {parameter("version", ParameterKind::version, -30, 60, hip.stem_version.degrees())};
+  JointDescription description{.name = "replaced hip"};
+  description.frame.centre = Vec3(Vec3::Zero());
+  description.parts = {{cup}, {stem}};
+  PlacedJoint placed = make_joint(description, joined_of_parts("pelvis", meshes.fixed),
+                                  joined_of_parts("femur", meshes.mobile));
+  placed.joint.implant = implant_in_joint(hip, placed.joint);
+  return placed;
+}
+
+PlacedJoint implant_alone(const TotalHip& hip, double cup_sigma = 0) {
+  return replaced_hip(hip, implant_meshes(hip, Side::right), cup_sigma);
+}
+
+SweepTarget turn_to(const std::string& motion, double reach_deg) {
+  return {motion, motion_named(hip_motions(), motion), Angle::degrees(reach_deg)};
+}
+
+/// The targets of the reference zones.
+std::vector<SweepTarget> seven_targets() {
+  return {turn_to("flexion", 110),
+          turn_to("extension", 30),
+          turn_to("internal_rotation_at_90_flexion", 30),
+          turn_to("external_rotation", 40),
+          turn_to("abduction", 45),
+          turn_to("adduction", 20),
+          turn_to("adduction_at_90_flexion", 10)};
+}
+
+struct Zone {
+  double neck_shaft, version, head, neck, area;
+  double free[4][2];  ///< anteversions at inclinations of 35, 40, 45, 50
+};
+
+/// By the closed form, independently of this code.
+const Zone zones[] = {
+    {135, 15, 16, 6, 658.125, {{11.2369, 32.4068}, {6.3320, 31.9068}, {1.7514, 31.0689}, {-2.4486, 29.8754}}},
+    {135, 15, 18, 6, 818.368, {{7.6080, 34.9678}, {2.8258, 34.4907}, {-1.6271, 33.6911}, {-5.7009, 32.5523}}},
+    {127, 5, 18, 6, 622.383, {{19.6889, 34.8306}, {12.6346, 36.0835}, {5.8768, 36.1254}, {-0.3976, 35.8579}}},
+    {135,
+     25,
+     14,
+     5,
+     782.216,
+     {{0.2912, 28.2969}, {-3.8534, 27.3609}, {-7.5898, 26.0803}, {-10.9091, 24.4341}}},
+};
+
+TEST(SafeZone, HasTheAreaAndTheBorderOfTheClosedForm) {
+  for (const Zone& zone : zones) {
+    TotalHip hip;
+    hip.neck_shaft = Angle::degrees(zone.neck_shaft), hip.stem_version = Angle::degrees(zone.version);
+    hip.head_radius_mm = zone.head, hip.neck_radius_mm = zone.neck;
+    const PlacedJoint placed = implant_alone(hip);
+    const SweepAnswer sweep =
+        answer_sweep(placed.joint, placed.placement,
+                     {.parameters = parse_sweep("cup.inclination=30:55:1 cup.anteversion=-25:45:1"),
+                      .targets = seven_targets()});
+    EXPECT_NEAR(sweep.safe_measure, zone.area, 0.01 * zone.area) << zone.neck_shaft << " " << zone.head;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t line = 5 + 5 * i;
+      std::vector<SafeInterval> on_line;
+      for (const SafeInterval& each : sweep.safe)
+        if (each.line == line) on_line.push_back(each);
+      ASSERT_EQ(on_line.size(), 1u);
+      // Limits in closed form: only the linear end of the search is left, of a hundredth of a step.
+      EXPECT_NEAR(on_line[0].low, zone.free[i][0], 2e-3);
+      EXPECT_NEAR(on_line[0].high, zone.free[i][1], 2e-3);
+    }
+    EXPECT_EQ(sweep.window_measure, 25 * 70);
+  }
+}
+
+TEST(SafeZone, CountsDesignsAsTheGridDoes) {
+  const PlacedJoint placed = implant_alone({});
+  const SweepAnswer sweep =
+      answer_sweep(placed.joint, placed.placement,
+                   {.parameters = parse_sweep("cup.inclination=30:55:1 cup.anteversion=-25:45:1"),
+                    .targets = seven_targets()});
+  std::size_t safe = 0, by_form = 0;
+  for (const double margin : sweep.margin_deg) safe += margin >= 0;
+  for (const DesignLimit& limit : sweep.limits) by_form += limit.by == LimitKnownBy::closed_form;
+  // The area of squares around safe designs differs from the zone's by less than half a square along its border.
+  EXPECT_NEAR(static_cast<double>(safe), 658.125 + 0.5 * (27.4 + 21.2), 30);
+  EXPECT_GT(by_form, sweep.limits.size() * 9 / 10);
+  ASSERT_TRUE(sweep.best);
+  for (const double margin : sweep.margin_deg) EXPECT_LE(margin, sweep.margin_deg[*sweep.best]);
+}
+
+TEST(Sweep, SearchesMeshesWhereTheClosedFormIsNotUsedAndFindsTheSame) {
+  TotalHip hip;
+  hip.facets = 120;
+  const PlacedJoint placed = implant_alone(hip);
+  const std::vector<SweepTarget> targets = seven_targets();
+  const std::vector<std::string> swept{"cup.inclination", "cup.anteversion", "stem.version"};
+  const plan::DesignLimits fast(placed.joint, {}, targets, swept),
+      slow(placed.joint, {}, targets, swept, false);
+  std::vector<DesignLimit> a(targets.size()), b(targets.size());
+  for (const auto& values : {std::vector<double>{40, 15, 15}, {33, -5, 10}, {50, 25, 0}, {45, 8, 22}}) {
+    fast.limits(values, a), slow.limits(values, b);
+    const RevolvedPair pair =
+        *closed_form(with_parameters(placed.joint, std::vector<ParameterValue>{{"cup.inclination", values[0]},
+                                                                               {"cup.anteversion", values[1]},
+                                                                               {"stem.version", values[2]}}))
+             .pair;
+    for (std::size_t t = 0; t < targets.size(); ++t) {
+      const ClosedLimit closed = closed_limit(pair, placed.joint.coordinates(), targets[t].motion);
+      EXPECT_EQ(b[t].by, LimitKnownBy::meshes);
+      EXPECT_GE(b[t].turned_deg, closed.of_facets_low.degrees() - 1e-4);
+      EXPECT_LE(b[t].turned_deg, closed.of_facets_high.degrees() + 1e-4);
+      EXPECT_EQ(a[t].turned_deg >= targets[t].reach.degrees(), b[t].turned_deg >= targets[t].reach.degrees());
+    }
+  }
+}
+
+/// A sample hip whose pelvis tilts and turns and whose femur turns and shifts.
+PlacedJoint hip_of_parts(Side side = Side::right) {
+  const SampleHip hip = sample_hip({}, Scenario::one);
+  PosedPart pelvis{.name = "pelvis", .body = BodyRole::fixed};
+  pelvis.parameters = {parameter("tilt", ParameterKind::tilt, -30, 30),
+                       parameter("frontal", ParameterKind::frontal, -30, 30)};
+  PosedPart femur{.name = "femur", .body = BodyRole::mobile};
+  femur.parameters = {parameter("version", ParameterKind::version, -30, 30),
+                      parameter("height", ParameterKind::translation, -2, 2)};
+  JointDescription description{.name = "hip", .side = side};
+  description.frame.centre = Vec3(Vec3::Zero());
+  description.parts = {{pelvis}, {femur}};
+  const SampleHip used = side == Side::left ? mirrored(hip) : hip;
+  return make_joint(description, {"hip bone", used.hip_bone}, {"femur", used.femur});
+}
+
+class DesignsOfAHip : public testing::TestWithParam<std::string> {};
+
+TEST_P(DesignsOfAHip, HaveTheLimitsOfJointsMadeAnew) {
+  const Side side = GetParam().ends_with("left") ? Side::left : Side::right;
+  const PlacedJoint placed = hip_of_parts(side);
+  std::vector<SweepTarget> targets;
+  for (const Motion& motion : hip_motions()) targets.push_back({motion.name, motion, Angle::degrees(10)});
+  // Which one changes fastest decides whose tables are kept.
+  const std::vector<std::string> swept =
+      GetParam().starts_with("pelvis last")
+          ? std::vector<std::string>{"femur.version", "pelvis.tilt", "pelvis.frontal"}
+          : std::vector<std::string>{"pelvis.tilt", "femur.height", "femur.version"};
+  RangeOptions options;
+  options.overlap.reference_contact = ReferenceContact::accept;
+  options.bearing.margin_mm = 1;  // as the joint given has it: each joint made anew would find its own
+  const plan::DesignLimits limits(placed.joint, options, targets, swept);
+  std::mt19937 random(7);
+  std::vector<DesignLimit> found(targets.size());
+  for (int design = 0; design < 6; ++design) {
+    std::vector<double> values;
+    std::vector<ParameterValue> named;
+    for (const std::string& name : swept) {
+      const double reach = name == "femur.height" ? 1 : 15;
+      values.push_back(std::uniform_real_distribution<double>(-reach, reach)(random));
+      named.push_back({name, values.back()});
+    }
+    limits.limits(values, found);
+    const Joint joint = with_parameters(placed.joint, named);
+    RangeOptions anew = options;
+    anew.bearing.surface = find_bearing_surface(placed.joint, options.bearing).surface;
+    const RangeOfMotion range(joint, anew);
+    for (std::size_t t = 0; t < targets.size(); ++t) {
+      const MotionLimit limit = range.limit(targets[t].motion);
+      EXPECT_NEAR(found[t].turned_deg, limit.end.turned.degrees(), 1e-9) << targets[t].name;
+      EXPECT_EQ(found[t].reason, limit.end.reason) << targets[t].name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Orders, DesignsOfAHip,
+                         testing::Values("pelvis last", "femur last", "pelvis last, left",
+                                         "femur last, left"),
+                         [](const auto& of) {
+                           std::string name;
+                           for (const char c : of.param)
+                             name += std::isalpha(static_cast<unsigned char>(c)) ? c : '_';
+                           return name;
+                         });
+
+TEST(Sweep, OfBoneAndImplantTogetherEndsAtTheEarlierOfBoth) {
+  const TotalHip hip;
+  const ImplantMeshes all = *sample_replacement(hip, {}, Scenario::one, Side::right);
+  const PlacedJoint both = replaced_hip(hip, all);
+  ImplantMeshes bones = all, implant = all;
+  for (auto* body : {&bones.fixed, &bones.mobile})
+    std::erase_if(*body,
+                  [](const ImplantMesh& mesh) { return mesh.part != "hip_bone" && mesh.part != "femur"; });
+  for (auto* body : {&implant.fixed, &implant.mobile})
+    std::erase_if(*body,
+                  [](const ImplantMesh& mesh) { return mesh.part == "hip_bone" || mesh.part == "femur"; });
+  JointDescription description{.name = "bones"};
+  description.frame.centre = Vec3(Vec3::Zero());
+  const Joint bone =
+      make_joint(description, joined_of_parts("pelvis", bones.fixed), joined_of_parts("femur", bones.mobile))
+          .joint;
+  const PlacedJoint alone = implant_alone(hip);
+  const std::vector<std::string> swept{"cup.inclination", "cup.anteversion"};
+  std::vector<SweepTarget> targets;
+  for (const Motion& motion : hip_motions()) targets.push_back({motion.name, motion, Angle::degrees(10)});
+  RangeOptions every_contact;
+  every_contact.bearing.rule = BearingRule::count;
+  const plan::DesignLimits limits(both.joint, every_contact, targets, swept);
+  const RangeOfMotion of_bone(bone, every_contact);
+  std::vector<DesignLimit> found(targets.size());
+  std::size_t by_bone = 0, by_implant = 0;
+  for (const auto& values : {std::vector<double>{40, 15}, {35, 0}, {50, 25}}) {
+    limits.limits(values, found);
+    const Joint turned = with_parameters(
+        alone.joint,
+        std::vector<ParameterValue>{{"cup.inclination", values[0]}, {"cup.anteversion", values[1]}});
+    const RangeOfMotion of_implant(turned, every_contact);
+    for (std::size_t t = 0; t < targets.size(); ++t) {
+      const Limit a = of_bone.limit(targets[t].motion).end, b = of_implant.limit(targets[t].motion).end;
+      const bool bone_first = a.reason != LimitReason::end_of_range &&
+                              (b.reason == LimitReason::end_of_range || a.turned < b.turned);
+      const Limit& first = bone_first ? a : b;
+      // Meshes of 360 facets lie within 0.0013 degrees of the closed form that stands for them here.
+      EXPECT_NEAR(found[t].turned_deg, first.turned.degrees(), bone_first ? 1e-9 : 2e-3) << targets[t].name;
+      if (first.reason == LimitReason::end_of_range) continue;
+      ASSERT_LT(found[t].pair, limits.pairs().size());
+      const EndingPair& pair = limits.pairs()[found[t].pair];
+      const bool is_of_bones = pair.fixed == "hip_bone" && pair.mobile == "femur";
+      EXPECT_EQ(is_of_bones, bone_first && found[t].by == LimitKnownBy::meshes) << targets[t].name;
+      (bone_first ? by_bone : by_implant) += 1;
+    }
+  }
+  EXPECT_GT(by_bone, 3u);
+  EXPECT_GT(by_implant, 3u);
+}
+
+TEST(Sweep, TiltsThePelvisByTurningItBackInFlexion) {
+  const PlacedJoint placed = hip_of_parts();
+  SweepTarget standing = turn_to("flexion", 20), at_90 = turn_to("internal_rotation_at_90_flexion", 10);
+  standing.pelvic_tilt = at_90.pelvic_tilt = Angle::degrees(7);
+  const std::vector<SweepTarget> tilted{standing, at_90};
+  RangeOptions options;
+  options.overlap.reference_contact = ReferenceContact::accept;
+  options.bearing.rule = BearingRule::count;
+  const std::vector<std::string> swept{"femur.version"};
+  const plan::DesignLimits limits(placed.joint, options, tilted, swept);
+  std::vector<DesignLimit> found(2);
+  limits.limits(std::vector<double>{0}, found);
+  const Joint by_hand = with_parameters(placed.joint, std::vector<ParameterValue>{{"pelvis.tilt", 7}});
+  const RangeOfMotion range(by_hand, options);
+  for (std::size_t t = 0; t < 2; ++t)
+    EXPECT_NEAR(found[t].turned_deg, range.limit(tilted[t].motion).end.turned.degrees(), 1e-9);
+}
+
+TEST(Sweep, OfSharesIsThatOfTheWhole) {
+  const PlacedJoint placed = implant_alone({}, 4);
+  SweepQuery query{.parameters = parse_sweep("cup.inclination=30:50:4 cup.anteversion=-20:40:5"),
+                   .targets = seven_targets(),
+                   .bands = BandOptions{.samples = 40}};
+  const SweepAnswer whole = answer_sweep(placed.joint, placed.placement, query);
+  std::vector<SweepAnswer> shares;
+  for (std::size_t number = 1; number <= 4; ++number) {
+    query.share = {number, 4};
+    shares.push_back(answer_sweep(placed.joint, placed.placement, query));
+  }
+  const SweepAnswer merged = merged_sweep(shares);
+  EXPECT_EQ(merged.margin_deg, whole.margin_deg);
+  EXPECT_EQ(merged.probability, whole.probability);
+  EXPECT_EQ(merged.safe_measure, whole.safe_measure);
+  EXPECT_EQ(merged.window_measure, whole.window_measure);
+  EXPECT_EQ(merged.best, whole.best);
+  ASSERT_EQ(merged.safe.size(), whole.safe.size());
+  for (std::size_t i = 0; i < whole.safe.size(); ++i) {
+    EXPECT_EQ(merged.safe[i].line, whole.safe[i].line);
+    EXPECT_EQ(merged.safe[i].low, whole.safe[i].low);
+    EXPECT_EQ(merged.safe[i].high_target, whole.safe[i].high_target);
+  }
+  ASSERT_EQ(merged.notes.size(), whole.notes.size());
+  std::swap(shares[1], shares[2]);
+  EXPECT_THROW(merged_sweep(shares), UsageError);
+}
+
+TEST(Sweep, GivesTheProbabilityOfANormalDistributionOverTheSafeInterval) {
+  // Of two uncertain angles only the anteversion matters if the inclination has no deviation.
+  PlacedJoint placed = implant_alone({}, 4);
+  placed.joint.posed->parts[0].parameters[0].sigma = 0;
+  constexpr std::size_t samples = 400;
+  const SweepAnswer sweep =
+      answer_sweep(placed.joint, placed.placement,
+                   {.parameters = parse_sweep("cup.inclination=40:40:1 cup.anteversion=-10:45:5"),
+                    .targets = seven_targets(),
+                    .bands = BandOptions{.samples = samples}});
+  ASSERT_EQ(sweep.safe.size(), 1u);
+  const auto below = [](double z) { return 0.5 * std::erfc(-z / std::sqrt(2)); };
+  for (std::size_t i = 0; i < sweep.designs(); ++i) {
+    const double at = sweep.values_of(i)[1];
+    const double expected = below((sweep.safe[0].high - at) / 4) - below((sweep.safe[0].low - at) / 4);
+    // One draw in each stratum: either end of the interval lies in one of them.
+    EXPECT_NEAR(sweep.probability[i], expected, 2.0 / samples) << at;
+  }
+}
+
+TEST(Sweep, SaysWhichDesignsAreInContactInTheReferencePose) {
+  const PlacedJoint placed = implant_alone({});
+  // At an inclination of 0 the opening points down and the neck, 45 degrees up from it and more, is inside the liner's angle no longer.
+  const SweepAnswer sweep =
+      answer_sweep(placed.joint, placed.placement,
+                   {.parameters = parse_sweep("cup.inclination=40:40:1 cup.anteversion=-60:75:5"),
+                    .targets = {turn_to("flexion", 20)}});
+  for (std::size_t i = 0; i < sweep.designs(); ++i) {
+    const Joint turned = with_parameters(
+        placed.joint, std::vector<ParameterValue>{{"cup.anteversion", sweep.values_of(i)[1]}});
+    const RevolvedPair pair = *closed_form(turned).pair;
+    const bool apart = pair.fixed_axis.dot(pair.mobile_axis) < std::cos(pair.half_angle.radians());
+    EXPECT_EQ(std::isnan(sweep.margin_deg[i]), apart) << sweep.values_of(i)[1];
+  }
+}
+
+TEST(Sweep, NotesAnImplantWhoseMeshesAreNotThoseOfItsSizes) {
+  const TotalHip made;
+  PlacedJoint placed = implant_alone(made);
+  TotalHip said = made;
+  said.neck_radius_mm = 7;
+  placed.joint.implant = implant_in_joint(said, placed.joint);
+  const SweepQuery query{.parameters = parse_sweep("cup.anteversion=10:20:10"),
+                         .targets = {turn_to("flexion", 110)}};
+  const SweepAnswer sweep = answer_sweep(placed.joint, placed.placement, query);
+  ASSERT_FALSE(sweep.notes.empty());
+  EXPECT_EQ(sweep.notes[0].code, SweepNoteCode::differs_from_closed_form);
+  for (const DesignLimit& limit : sweep.limits) EXPECT_EQ(limit.by, LimitKnownBy::meshes);
+  const RangeAnswer range = answer_range(placed.joint, placed.placement, {.motions = hip_motions()});
+  EXPECT_TRUE(std::any_of(range.notes.begin(), range.notes.end(), [](const RangeNote& note) {
+    return note.code == RangeNoteCode::differs_from_closed_form;
+  }));
+}
+
+TEST(ClosedForm, StandsBesideTheLimitsOfMeshesAndAgrees) {
+  for (const double stem : {5.0, 15.0, 30.0}) {
+    const PlacedJoint placed = implant_alone({});
+    const Joint joint = with_parameters(
+        placed.joint,
+        std::vector<ParameterValue>{{"cup.inclination", 47}, {"cup.anteversion", 8}, {"stem.version", stem}});
+    // The same implant made of its sizes: its cup and neck are where the parts have turned them.
+    TotalHip made;
+    made.cup = {Angle::degrees(47), Angle::degrees(8)};
+    made.stem_version = Angle::degrees(stem);
+    const RevolvedPair turned = *closed_form(joint).pair, pair = *revolved_pair(made, Side::right);
+    EXPECT_LT((turned.fixed_axis - pair.fixed_axis).norm(), 1e-14);
+    EXPECT_LT((turned.mobile_axis - pair.mobile_axis).norm(), 1e-14);
+    const RangeAnswer range = answer_range(joint, placed.placement, {.motions = hip_motions()});
+    ASSERT_EQ(range.closed.size(), range.limits.size());
+    EXPECT_TRUE(std::none_of(range.notes.begin(), range.notes.end(), [](const RangeNote& note) {
+      return note.code == RangeNoteCode::differs_from_closed_form;
+    }));
+    for (std::size_t i = 0; i < range.limits.size(); ++i) {
+      EXPECT_EQ(range.closed[i].reason, range.limits[i].end.reason);
+      EXPECT_NEAR(range.closed[i].turned.degrees(), range.limits[i].end.turned.degrees(), 0.01);
+    }
+  }
+}
+
+TEST(ClosedForm, IsNoneOfAnImplantThatIsShifted) {
+  PlacedJoint placed = implant_alone({});
+  PosedPart& cup = placed.joint.posed->parts[0];
+  cup.parameters.push_back(parameter("height", ParameterKind::translation, -5, 5));
+  EXPECT_TRUE(closed_form(placed.joint).pair);
+  const Joint shifted = with_parameters(placed.joint, std::vector<ParameterValue>{{"cup.height", 2}});
+  EXPECT_FALSE(closed_form(shifted).pair);
+  EXPECT_NE(closed_form(shifted).why_none.find("shifts"), std::string::npos);
+}
+
+TEST(CupAngles, OfAPartAreThoseOfTheCupThatIsMadeWithThem) {
+  for (const CupDefinition definition : all_cup_definitions)
+    for (const Side side : {Side::right, Side::left}) {
+      TotalHip given, wanted;
+      given.cup = {Angle::degrees(41), Angle::degrees(12), definition};
+      wanted.cup = {Angle::degrees(33), Angle::degrees(-7), definition};
+      const ImplantMeshes meshes = implant_meshes(given, side);
+      PosedPart cup{.name = "cup", .body = BodyRole::fixed, .definition = definition};
+      cup.parameters = {parameter("inclination", ParameterKind::cup_inclination, 0, 90, 41),
+                        parameter("anteversion", ParameterKind::cup_anteversion, -60, 75, 12)};
+      JointDescription description{.name = "hip", .side = side};
+      description.frame.centre = Vec3(Vec3::Zero());
+      description.parts = {{cup}};
+      PlacedJoint placed = make_joint(description, joined_of_parts("pelvis", meshes.fixed),
+                                      joined_of_parts("femur", meshes.mobile));
+      placed.joint.implant = implant_in_joint(given, placed.joint);
+      const Joint turned = with_parameters(
+          placed.joint, std::vector<ParameterValue>{{"cup.inclination", 33}, {"cup.anteversion", -7}});
+      const CupAngles angles = *cup_angles(turned, definition);
+      EXPECT_NEAR(angles.inclination.degrees(), 33, 1e-12);
+      EXPECT_NEAR(angles.anteversion.degrees(), -7, 1e-12);
+      // The axis of the turned mesh itself: the mean of its vertices lies on it.
+      Vec3 mean = Vec3::Zero();
+      const PointsView vertices = turned.fixed.mesh.vertices().view();
+      for (std::size_t v = 0; v < vertices.size(); ++v) mean += vertices[v];
+      EXPECT_GT(-mean.normalized().dot(cup_axis(wanted.cup, side)), 1 - 1e-9);
+    }
+}
+
+TEST(Sweep, RefusesWhatItCannotAnswerInOneLine) {
+  const PlacedJoint placed = implant_alone({});
+  const auto line = [&](const std::string& vary, std::vector<SweepTarget> targets) {
+    try {
+      check_sweep(placed.joint, {.parameters = parse_sweep(vary), .targets = std::move(targets)});
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const std::vector<SweepTarget> one{turn_to("flexion", 90)};
+  EXPECT_EQ(line("cup.inclination=30:50:1", one), "accepted");
+  EXPECT_EQ(line("cup.inclinaton=30:50:1", one),
+            "there is no parameter \"cup.inclinaton\" (did you mean \"cup.inclination\"?); there are "
+            "cup.inclination, cup.anteversion, stem.version");
+  EXPECT_EQ(line("cup.inclination=30:95:1", one), "cup.inclination: 95 deg is outside of its range, 0 to 90");
+  EXPECT_EQ(line("cup.inclination=50:30:1", one),
+            "cup.inclination: the last value, 30, lies below the first, 50");
+  EXPECT_EQ(line("cup.inclination=30:50:0", one), "cup.inclination: the step must be above 0");
+  EXPECT_EQ(line("cup.inclination=30:50", one),
+            "\"cup.inclination=30:50\" is not a parameter with its first and last value and a step, as in "
+            "cup.inclination=30:50:1");
+  EXPECT_EQ(line("cup.inclination=30:50:1 cup.inclination=30:50:1", one), "cup.inclination is given twice");
+  EXPECT_EQ(line("cup.inclination=30:50:1", {}), "a sweep needs one target or more");
+  EXPECT_EQ(line("cup.inclination=30:50:1", {turn_to("flexion", 200)}),
+            "target flexion: 200 degrees, must be above 0 and up to the motion's range, 180");
+  EXPECT_EQ(line("cup.inclination=30:50:1", {turn_to("flexion", 20), turn_to("flexion", 30)}),
+            "target flexion is given twice");
+  EXPECT_EQ(line("cup.inclination=0:90:0.001 cup.anteversion=0:60:0.01", one),
+            "540096001 designs are too many: up to 10000000");
+}
+
+TEST(Sweep, SaysWhereItsZoneEnds) {
+  const PlacedJoint placed = implant_alone({});
+  const auto codes = [&](const std::string& vary, std::vector<SweepTarget> targets) {
+    std::string text;
+    for (const SweepNote& note :
+         answer_sweep(placed.joint, placed.placement,
+                      {.parameters = parse_sweep(vary), .targets = std::move(targets)})
+             .notes)
+      text += std::string(name_of(note.code)) + " ";
+    return text;
+  };
+  EXPECT_EQ(codes("cup.anteversion=-20:45:5", seven_targets()), "");
+  EXPECT_EQ(codes("cup.anteversion=10:45:5", seven_targets()), "zone_leaves_window ");
+  EXPECT_EQ(codes("cup.anteversion=10:20:5", seven_targets()), "everything_is_safe ");
+  EXPECT_EQ(codes("cup.anteversion=-20:0:5", seven_targets()), "nothing_is_safe ");
+}
+
+}  // namespace
+}  // namespace condyle::test
