@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "condyle/error.hpp"
-#include "condyle/joint_frame.hpp"
+#include "condyle/make_joint.hpp"
 #include "core/formatted.hpp"
 #include "core/lazy.hpp"
 #include "core/one_line.hpp"

@@ -15,7 +15,6 @@
 #include "condyle/implant.hpp"
 #include "condyle/make_joint.hpp"
 #include "condyle/sample/hip.hpp"
-#include "condyle/sample/replacement.hpp"
 #include "plan/design_limits.hpp"
 
 /// Sweeps against the closed forms of docs/mathematics/13-implants.md, and against joints made anew for each design.
