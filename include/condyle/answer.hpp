@@ -513,8 +513,7 @@ struct NamedReach {
   Angle reach;
 };
 
-/// Targets from "flexion=115 internal_rotation_at_90_flexion=30", separated by blanks or commas. Throws UsageError for other text, and
-/// for a motion that is given twice.
+/// Targets from "flexion=115 internal_rotation_at_90_flexion=30", separated by blanks or commas. Throws UsageError for other text.
 std::vector<NamedReach> parse_reach(std::string_view text);
 
 /// Targets of these motions, each by its name as motion_named() finds it. Throws UsageError for a name that none has.

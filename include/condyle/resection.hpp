@@ -108,11 +108,12 @@ struct Resection {
   }
 };
 
-/// The joint with another mesh in the mobile body's place, in its frame M: the same bone after something was done to it. The head
-/// stays the one that the bearing surface of this joint has, which a fit to a mesh with smaller triangles in places would move.
+/// The joint with another mesh in the mobile body's place, in its frame M: the same bone after something was done to it. Head, socket and
+/// margin stay those that the bearing surface of this joint has: a fit to a mesh with smaller triangles in places would move them.
 Joint with_mobile_mesh(const Joint& joint, Mesh mesh);
 
-/// Throws UsageError for a request without targets, reaches that are not within the motion's range, and values outside theirs.
+/// Throws UsageError for a request without targets, two of one motion, reaches that are not within the motion's range, and values outside
+/// theirs.
 void check_resection(const Joint& joint, const ResectionRequest& request);
 
 /// The bone that must go so that each motion reaches its target, and the joint without it. What is removed holds everything that

@@ -49,18 +49,18 @@ std::string in_degrees(Angle angle) {
   return formatted("%.1f", angle.degrees());
 }
 
-std::string_view why_kept(KeptBy by) {
+std::string what_is_kept(KeptBy by, const std::string& body) {
   switch (by) {
     case KeptBy::bearing:
-      return "its bearing surface";
+      return "the bearing surface of " + body;
     case KeptBy::depth:
-      return "bone deeper than may be removed";
+      return "bone of " + body + " that lies deeper than may be removed";
     case KeptBy::zone:
-      return "bone farther from the bearing surface than may be removed";
+      return "bone of " + body + " that lies farther from the bearing surface than may be removed";
     case KeptBy::marked:
       break;
   }
-  return "bone that is marked to stay";
+  return "bone of " + body + " that is marked to stay";
 }
 
 /// The largest share of the neck's width, across it where a vertex lies, that goes there; 0 if the cut is not at the neck.
@@ -100,8 +100,7 @@ void note_targets(ResectionAnswer& answer) {
         answer.margin_mm > 0 ? formatted(" with a margin of %.6g mm", answer.margin_mm) : std::string();
     answer.notes.push_back({ResectionNoteCode::target_blocked,
                             outcome.target.motion.name + " cannot reach " + in_degrees(outcome.target.reach) +
-                                " degrees" + margin + ": " + std::string(why_kept(outcome.blocked->by)) +
-                                " of " + body.name +
+                                " degrees" + margin + ": " + what_is_kept(outcome.blocked->by, body.name) +
                                 formatted(" at (%.1f, %.1f, %.1f) mm", p.x(), p.y(), p.z()) +
                                 " stops it at " + in_degrees(outcome.planned)});
   }
@@ -337,10 +336,7 @@ std::vector<NamedReach> parse_reach(std::string_view text) {
         stopped != number.data() + number.size() || !std::isfinite(degrees))
       throw UsageError("targets: \"" + std::string(item) +
                        "\" is not a motion and its degrees, as in flexion=115");
-    const std::string motion(item.substr(0, equals));
-    for (const NamedReach& other : named)
-      if (other.motion == motion) throw UsageError("targets: " + motion + " is given twice");
-    named.push_back({motion, Angle::degrees(degrees)});
+    named.push_back({std::string(item.substr(0, equals)), Angle::degrees(degrees)});
   }
   if (named.empty()) throw UsageError("targets: none is given, as in flexion=115");
   return named;

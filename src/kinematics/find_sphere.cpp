@@ -57,9 +57,6 @@ constexpr double narrowest_ball_band = 1e-6;
 constexpr double first_band = 0.10;
 constexpr double widest_band = 0.05;
 
-/// A vertex belongs to a head that is known within this part of its radius.
-constexpr double known_head_band = 0.04;
-
 /// A sphere that moves by less, in parts of its radius, stays where it is.
 constexpr double settled = 1e-4;
 
@@ -428,18 +425,33 @@ SphericalPatch kinematics::patch_of(const TriMesh& mesh, const std::vector<Index
   return measured(points, part, fit_sphere(mesh.vertices, vertices)).patch;
 }
 
-std::optional<SphericalPatch> kinematics::patch_on(const TriMesh& mesh, const Sphere& head) {
-  const auto points = surface_points(mesh, std::nullopt);
+std::optional<SphericalPatch> kinematics::patch_on(const TriMesh& mesh, const Sphere& sphere,
+                                                   SphericalPart of) {
+  const bool is_head = of == SphericalPart::head;
+  auto points = is_head ? surface_points(mesh, std::nullopt)
+                        : surface_points(mesh, Sphere{sphere.centre, (1 + widest_band) * sphere.radius});
+  if (!is_head) average_normals(points, normals_cell);
   const SearchedPoints searched(mesh, points);
-  const std::vector<Index> part = searched.neighbours.largest_connected_part(
-      points, on_sphere(points, searched.places, head, 1.0, known_head_band * head.radius));
+  const auto distance = [&](Index i) {
+    return std::abs((points[i].position - sphere.centre).norm() - sphere.radius);
+  };
+  const auto within = [&](double band) {
+    return searched.neighbours.largest_connected_part(
+        points, on_sphere(points, searched.places, sphere, is_head ? 1.0 : -1.0, band));
+  };
+  // All that may belong to it; and of that, what lies within the deviations, as a sphere that is fitted keeps it.
+  const double widest = widest_band * sphere.radius;
+  std::vector<double> distances;
+  for (const Index i : within(widest)) distances.push_back(distance(i));
+  const std::vector<Index> part =
+      within(std::clamp(ball_deviations_kept * kinematics::robust_deviation(std::move(distances)),
+                        narrowest_ball_band * sphere.radius, widest));
   if (part.size() < fewest_ball_vertices) return std::nullopt;
   // By area: the mesh may be finer in some places than in others.
-  SphereFit fit{head, 0, 0, vertices_of(points, part)};
+  SphereFit fit{sphere, 0, 0, vertices_of(points, part)};
   for (const Index i : part) {
-    const double off = std::abs((points[i].position - head.centre).norm() - head.radius);
-    fit.rms_residual += points[i].area * off * off;
-    fit.largest_residual = std::max(fit.largest_residual, off);
+    fit.rms_residual += points[i].area * distance(i) * distance(i);
+    fit.largest_residual = std::max(fit.largest_residual, distance(i));
   }
   fit.rms_residual = std::sqrt(fit.rms_residual / area_of(points, part));
   return measured(points, part, std::move(fit)).patch;

@@ -67,7 +67,7 @@ void keep_head(const Mesh& mobile, const std::vector<Index>& vertices) {
 
 void keep_head(const Mesh& mobile, const Sphere& head) {
   kept_with(mobile).head_near_centre.get(
-      [&](std::optional<SphericalPatch>& known) { known = patch_on(mobile, head); });
+      [&](std::optional<SphericalPatch>& known) { known = patch_on(mobile, head, SphericalPart::head); });
 }
 
 const std::optional<SphericalPatch>& fitted_head(const Mesh& mobile) {

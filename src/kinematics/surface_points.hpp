@@ -48,9 +48,9 @@ std::vector<Index> vertices_of(const std::vector<SurfacePoint>& points, const st
 /// if no sphere fits them.
 SphericalPatch patch_of(const TriMesh& mesh, const std::vector<Index>& vertices);
 
-/// The part of a surface that lies on this head, which stays as it is: what find_sphere() would take for it without fitting anew.
-/// Empty if nothing does.
-std::optional<SphericalPatch> patch_on(const TriMesh& mesh, const Sphere& head);
+/// The part of a surface that lies on this head or in this socket, whose sphere stays as it is: what find_sphere() would take for it
+/// without fitting anew. Empty if nothing does.
+std::optional<SphericalPatch> patch_on(const TriMesh& mesh, const Sphere& sphere, SphericalPart of);
 
 /// 1.4826 times the median magnitude: the standard deviation of a normal distribution, given by the better
 /// half of the residuals and deaf to the rest.

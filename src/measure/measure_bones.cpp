@@ -103,7 +103,7 @@ std::string why_no_head(const Body& femur, const Mesh& bone) {
 
 /// The sphere of the socket, that which is stated or one that the head fits into.
 std::optional<SphericalPatch> socket_of(const Body& fixed, const Mesh& hip_bone, const Sphere& head) {
-  if (fixed.head) return kinematics::patch_on(hip_bone, *fixed.head);
+  if (fixed.head) return kinematics::patch_on(hip_bone, *fixed.head, SphericalPart::socket);
   const auto found = kinematics::socket_around(hip_bone, head);
   if (!*found || !kinematics::fits_into(head, **found)) return std::nullopt;
   return **found;

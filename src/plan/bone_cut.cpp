@@ -6,6 +6,8 @@
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "kinematics/hip_parts.hpp"
+#include "mesh/require_solid.hpp"
 #include "mesh/self_crossings.hpp"
 #include "mesh/surface_distance.hpp"
 #include "mesh/triangle_distance.hpp"
@@ -94,6 +96,9 @@ BoneCut::BoneCut(const Joint& joint, BodyRole cut_role, const ResectionRequest& 
     throw MeshError(other.name + ": its mesh is open, and bone that an open mesh sweeps over cannot be told");
   if (!bone_.mesh.is_closed())
     throw MeshError(bone_.name + ": its mesh is open, and no bone can be removed from it");
+  // Nothing is inside a body whose triangles are wound the other way.
+  mesh::require_oriented(solid, other.name);
+  mesh::require_oriented(bone_.mesh, bone_.name);
   const Mesh around = grown(solid, request.margin_mm);
   const Mesh ending =
       cuts_mobile ? around : counted(other, grown(other.mesh, request.margin_mm), of_other, ball_).mesh;
@@ -209,6 +214,8 @@ void BoneCut::refine() {
   for (int pass = 0; pass < passes_at_bends; ++pass) {
     const std::vector<double> bends =
         surface_->bends(sweeps, missed_at_bends * request_.edge_mm * request_.edge_mm);
+    // Smaller triangles reach no deeper.
+    if (pass == 0) refuse_too_deep(surface_->left_at_room(sweeps));
     if (std::all_of(bends.begin(), bends.end(), [](double share) { return share == 0; })) return;
     SplitBody split = split_at(fine.body, bends);
     fine = std::move(split.refined);
@@ -225,11 +232,17 @@ void BoneCut::refine() {
   }
 }
 
+/// What no vertex reaches from where it is may go from elsewhere: no bone stops that motion, but no depth can follow it.
+void BoneCut::refuse_too_deep(const std::vector<InTheWay>& left) const {
+  if (kept().deepest_mm) return;
+  for (const InTheWay& each : left)
+    if (each.by == KeptBy::depth)
+      throw MeshError(bone_.name + ": a cut for " + asked(each.target) +
+                      " goes deeper than a depth below the surface can follow: ask for less");
+}
+
 bool BoneCut::stop(std::size_t target, Angle at, KeptBy by, const Vec3& point) {
-  // What no vertex reaches from where it is may go from elsewhere: no bone stops that motion, but no depth can follow it.
-  if (by == KeptBy::depth && !kept().deepest_mm)
-    throw MeshError(bone_.name + ": a cut for " + asked(target) +
-                    " goes deeper than a depth below the surface can follow: ask for less");
+  refuse_too_deep({{target, at.radians(), by, point}});
   const Angle possible = std::max(targets_[target].now, at) - short_of_kept;
   if (!(possible < reach_[target])) return false;
   reach_[target] = possible;
@@ -373,11 +386,18 @@ Joint BoneCut::joint() const {
   bone = surface_->body();
   bone.mesh = surface_->mesh();
   // Smaller triangles around a cut weigh more in a fit, and a rim that is cut is farther from the head: what bears is what it was.
-  if (bearing_) {
+  if (!bearing_) return joint;
+  joint.mobile.bearing_margin_mm = bearing_->margin_mm;
+  if (bearing_->parts.empty()) {
     joint.mobile.head = bearing_->head;
-    joint.mobile.bearing_margin_mm = bearing_->margin_mm;
-    joint.fixed.head = bearing_->socket;
+  } else if (!joint.mobile.head) {
+    // Meshes that bear are not cut, and found again as they are; the head that is stated is the bone's, which is measured.
+    const Mesh bone = counted(joint_.mobile, joint_.mobile.mesh, {true}, std::nullopt).mesh;
+    if (const auto& head = kinematics::head_near_centre(bone)) joint.mobile.head = head->fit.sphere;
   }
+  const auto is_bone = [](const BodyPart& part) { return part.contact == PartContact::ends; };
+  if (std::all_of(joint.fixed.parts.begin(), joint.fixed.parts.end(), is_bone))
+    joint.fixed.head = bearing_->socket;
   return joint;
 }
 

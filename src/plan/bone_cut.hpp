@@ -71,6 +71,7 @@ class BoneCut {
   bool may_all_go(const std::vector<Met>& met);
   bool correct();
   bool finish();
+  void refuse_too_deep(const std::vector<InTheWay>& left) const;
   bool stop(std::size_t target, Angle at, KeptBy by, const Vec3& point);
 
   const Joint& joint_;

@@ -315,14 +315,15 @@ std::vector<Index> CutSurface::lower_between_vertices(const std::vector<Index>& 
   return changed;
 }
 
-std::vector<InTheWay> CutSurface::left_in_the_way(const std::vector<SweepTo>& sweeps) const {
+std::vector<InTheWay> CutSurface::left_in_the_way(const std::vector<Index>& triangles,
+                                                  const std::vector<SweepTo>& sweeps) const {
   std::vector<InTheWay> left;
   std::optional<mesh::WindingNumber> before;
   const auto is_bone = [&](const Vec3& p) {
     if (!before) before.emplace(body_.mesh);
     return before->at(p).winding != 0;
   };
-  for (const Swept& stands_out : swept_between(near_, sweeps)) {
+  for (const Swept& stands_out : swept_between(triangles, sweeps)) {
     if (stands_out.length <= left_mm) continue;
     // All corners are kept, or at the end of their room; where one is free the exact search decides.
     const std::array<Index, 3>& corners = stands_out.point.corners;
@@ -341,7 +342,18 @@ std::vector<InTheWay> CutSurface::lower(const std::vector<SweepTo>& sweeps) {
   std::vector<Index> changed = near_;
   for (int round = 0; round < rounds && !changed.empty(); ++round)
     changed = lower_between_vertices(changed, sweeps);
-  return left_in_the_way(sweeps);
+  return left_in_the_way(near_, sweeps);
+}
+
+std::vector<InTheWay> CutSurface::left_at_room(const std::vector<SweepTo>& sweeps) const {
+  std::vector<Index> ended;
+  for (const Index t : near_) {
+    const Triangle& corners = body_.mesh.triangles()[t];
+    if (std::all_of(corners.begin(), corners.end(),
+                    [&](Index v) { return !vertices_[v].kept && vertices_[v].depth_mm > 0 && !may_go(v); }))
+      ended.push_back(t);
+  }
+  return left_in_the_way(ended, sweeps);
 }
 
 bool CutSurface::unfold() {

@@ -6,6 +6,7 @@
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "kinematics/hip_parts.hpp"
 #include "kinematics/posed_parts.hpp"
 #include "plan/bone_cut.hpp"
 
@@ -47,8 +48,12 @@ std::string_view name_of(KeptBy by) noexcept {
 
 void check_resection(const Joint& joint, const ResectionRequest& request) {
   if (request.targets.empty()) throw UsageError("resection: no motion has a target to reach");
-  for (const auto& [motion, reach] : request.targets) {
+  for (auto target = request.targets.begin(); target != request.targets.end(); ++target) {
+    const auto& [motion, reach] = *target;
     check_motion(motion, joint.kind);
+    if (std::any_of(request.targets.begin(), target,
+                    [&](const ReachTarget& other) { return other.motion.name == motion.name; }))
+      throw UsageError("resection: " + motion.name + " has two targets");
     if (!(reach > Angle() && reach <= motion.range))
       throw UsageError("resection: " + motion.name + " cannot reach " + degrees(reach) +
                        " degrees: its range is above 0 and at most " + degrees(motion.range));
@@ -78,8 +83,14 @@ void check_resection(const Joint& joint, const ResectionRequest& request) {
 
 Joint with_mobile_mesh(const Joint& joint, Mesh mesh) {
   Joint other = joint;
-  if (const auto bearing = find_bearing_surface(joint).surface) other.mobile.head = bearing->head;
-  other.mobile.mesh = std::move(mesh);
+  // By itself: a head may have been fitted to this mesh already.
+  other.mobile.mesh = Mesh(mesh.arrays());
+  if (const auto bearing = find_bearing_surface(joint).surface) {
+    other.mobile.head = bearing->head;
+    other.mobile.bearing_margin_mm = bearing->margin_mm;
+    other.fixed.head = bearing->socket;
+    kinematics::keep_head(other.mobile.mesh, bearing->head);
+  }
   other.mobile.parts.clear();
   other.mobile.image.reset();
   other.posed.reset();

@@ -100,10 +100,27 @@ TEST_F(ResectCommand, WhatSmallerTrianglesGainIsSaid) {
 // Neither the joint space nor what bears depends on the triangles around a cut.
 TEST_F(ResectCommand, ARimThatIsCutLeavesHeadSocketAndMarginWhatTheyWere) {
   const Json json = answer("--reach internal_rotation_at_90_flexion=45 --from fixed --curve 0 --out plan");
+  std::size_t spaces = 0;
   for (const Json& measure : json["measures"])
     if (measure["key"] == "joint_space_least_mm") {
+      ASSERT_TRUE(measure["before"].is_number() && measure["after"].is_number());
       EXPECT_GE(measure["after"], measure["before"]);
+      ++spaces;
     }
+  EXPECT_EQ(spaces, 1u);
+  // The socket that resected.toml states is found on its mesh.
+  const Ran measured = run("measure plan/resected.toml --json");
+  ASSERT_EQ(measured.exit_code, 0) << measured.err;
+  const Json shape = Json::parse(measured.out);
+  for (std::size_t i = 0; i < shape["measures"].size(); ++i) {
+    const Json &value = shape["measures"][i]["value"], &after = json["measures"][i]["after"];
+    ASSERT_EQ(value.is_null(), after.is_null()) << shape["measures"][i]["key"];
+    if (!value.is_null()) {
+      EXPECT_NEAR(value.get<double>(), after.get<double>(), 1e-6) << shape["measures"][i]["key"];
+    }
+    const std::string note = shape["measures"][i]["note"].is_null() ? "" : shape["measures"][i]["note"];
+    EXPECT_EQ(note.find("no socket"), note.npos) << note;
+  }
   const BearingFinding before = find_bearing_surface(read_joint(folder / "hip.toml").joint),
                        after = find_bearing_surface(read_joint(folder / "plan/resected.toml").joint);
   EXPECT_EQ(after.surface->margin_mm, before.surface->margin_mm);

@@ -13,6 +13,7 @@
 #include "condyle/hip_measures.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/picture/colour_scale.hpp"
+#include "io/picture/depth_bands.hpp"
 #include "io/picture/legend.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/subdivide.hpp"
@@ -359,6 +360,24 @@ TEST(PicturePng, ReadsBackWithItsProvenance) {
   EXPECT_NE(io::read_whole_file(folder / "new/p.png").find("picture joint.toml"), std::string::npos);
   folder.file("file", "in the way");
   EXPECT_THROW(write_png(folder / "file/p.png", picture), FileError);
+}
+
+/// A bone of which a millimetre goes at one vertex.
+CutBone cut_at(const Vec3& place) {
+  const TriMesh surface = box(place, place + Vec3(10, 10, 10));
+  CutBone cut{{"bone", surface}, surface, {}, {}, {}, 0, 0, 0, 0, 0, 0, Vec3::Zero()};
+  cut.depth_mm.assign(surface.vertices.size(), 0);
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v)
+    if (surface.vertices[v] == place) cut.depth_mm[v] = 1;
+  return cut;
+}
+
+// Seen from in front, superior up: pictures are four wide and three high, about the joint centre.
+TEST(Picture, ACutIsInItsPictureHoweverFarFromTheJointCentre) {
+  const ViewDirection from_in_front;
+  EXPECT_EQ(io::field_of(cut_at({20, -40, 60}), from_in_front), 110);
+  EXPECT_NEAR(io::field_of(cut_at({20, -80, 60}), from_in_front), 2.2 * 80, 1e-9);
+  EXPECT_NEAR(io::field_of(cut_at({20, -40, -100}), from_in_front), 2.2 * 75, 1e-9);
 }
 
 }  // namespace

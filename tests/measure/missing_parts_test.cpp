@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "condyle/bearing.hpp"
 #include "condyle/error.hpp"
 #include "condyle/hip_measures.hpp"
 #include "condyle/sample/hip.hpp"
@@ -100,6 +101,26 @@ TEST(MissingParts, WithoutARimThereIsNoOpeningAndWithoutASocketNothingOfIt) {
   expect_why(m.acetabulum.coverage, "no socket faces the head");
   expect_why(m.both.joint_space_least, "no socket's sphere");
   EXPECT_TRUE(m.femur.alpha_12.value);
+}
+
+// A joint without bone that had to go states its socket, so that nothing fits it anew.
+TEST(MissingParts, ASocketThatIsStatedIsOnTheMeshAsOneThatIsFound) {
+  std::vector<Joint> hips{hip_of(sample().hip_bone, sample().femur)};
+  if (const auto real = hip_vhf_right()) hips.push_back(*real);
+  for (Joint& hip : hips) {
+    const HipMeasures found = measure_hip(hip);
+    const auto bearing = find_bearing_surface(hip).surface;
+    ASSERT_TRUE(bearing && bearing->socket);
+    hip.fixed.head = bearing->socket;
+    const HipMeasures stated = measure_hip(hip);
+    ASSERT_TRUE(stated.both.joint_space_least.value) << stated.both.joint_space_least.why_none;
+    // The floor of a fossa is left out by deviations from the sphere that is stated, or from one fitted without it.
+    EXPECT_NEAR(*stated.both.joint_space_least.value, *found.both.joint_space_least.value, 1e-9);
+    EXPECT_NEAR(*stated.both.joint_space_median.value, *found.both.joint_space_median.value, 0.1);
+    EXPECT_EQ(stated.acetabulum.inclination.note, found.acetabulum.inclination.note);
+    hip.fixed.head->centre += Vec3(80, 0, 0);
+    expect_why(measure_hip(hip).both.joint_space_least, "no socket's sphere");
+  }
 }
 
 TEST(MissingParts, WithoutAHeadNothingIsMeasured) {

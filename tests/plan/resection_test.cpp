@@ -10,6 +10,8 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <string>
+#include <utility>
 
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
@@ -515,9 +517,55 @@ TEST(Resection, RequestsThatSayNothingAreRefused) {
   EXPECT_THROW(resect(joint, request), UsageError);
   EXPECT_THROW(reach_targets(motions, "flexion"), UsageError);
   EXPECT_THROW(reach_targets(motions, "flexion=nan"), UsageError);
-  EXPECT_THROW(reach_targets(motions, "flexion=1 flexion=2"), UsageError);
+  // A name may be given in any letters.
+  EXPECT_THROW(resect(joint, reaching(reach_targets(motions, "flexion=70 Flexion=71"))), UsageError);
   EXPECT_THROW(reach_targets(motions, " "), UsageError);
   EXPECT_EQ(reach_targets(motions, "flexion=115, fadir=30").size(), 2u);
+}
+
+// What bears is the cartilage; what is measured before and after is the bone.
+TEST(Resection, MeasuresAreThoseOfTheBoneUnderACartilage) {
+  HipParameters parameters;
+  parameters.alpha_angle = Angle::degrees(70);
+  auto [hip_bone, femur] = sample_hip(parameters, Scenario::one);
+  const TriMesh cartilage = ball_at(Vec3::Zero(), parameters.head_radius_mm + 1);
+  const std::size_t vertices = femur.vertices.size(), triangles = femur.triangles.size();
+  TriMesh both = femur;
+  for (std::size_t v = 0; v < cartilage.vertices.size(); ++v) both.vertices.push_back(cartilage.vertices[v]);
+  for (const auto& [a, b, c] : cartilage.triangles) {
+    const auto first = static_cast<Index>(vertices);
+    both.triangles.push_back({first + a, first + b, first + c});
+  }
+  Joint joint = hip_of(std::move(hip_bone), std::move(both));
+  joint.mobile.parts = {{"bone", 0, vertices, 0, triangles},
+                        {"cartilage", vertices, cartilage.vertices.size(), triangles,
+                         cartilage.triangles.size(), PartContact::bearing}};
+  const auto radius = [](const HipMeasures& shape) { return *shape.femur.head_radius.value; };
+  const ResectionAnswer answer = answer_resection(
+      joint, {}, {.resection = reaching({target("internal_rotation_at_90_flexion", 45)}), .curve_points = 0});
+  ASSERT_TRUE(answer.resection.mobile);
+  expect_reached(joint, answer.resection);
+  EXPECT_NEAR(find_bearing_surface(answer.resection.joint).surface->head.radius,
+              parameters.head_radius_mm + 1, 0.05);
+  EXPECT_NEAR(radius(*answer.shape_before), radius(measure_hip(joint)), 1e-9);
+  EXPECT_NEAR(radius(*answer.shape_after), radius(measure_hip(joint)), 1e-9);
+}
+
+// Nothing would be inside the one and nothing would be left of the other.
+TEST(Resection, BodiesThatAreInsideOutAreRefused) {
+  const Joint joint = hip_of(socket(16, 20), neck(6));
+  for (Body Joint::*body : {&Joint::fixed, &Joint::mobile}) {
+    Joint inverted = joint;
+    TriMesh mesh = (joint.*body).mesh;
+    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+    (inverted.*body).mesh = Mesh(std::move(mesh));
+    try {
+      resect(inverted, reaching({target("flexion", 70)}));
+      FAIL() << (joint.*body).name;
+    } catch (const MeshError& error) {
+      EXPECT_NE(std::string(error.what()).find("inverted orientation"), std::string::npos) << error.what();
+    }
+  }
 }
 
 struct GainCase {
@@ -536,6 +584,18 @@ TEST(Resection, TheVisibleHumansHipLosesLittleMoreThanTheLeast) {
     EXPECT_GE(done.volume_mm3(), 0.97 * least);
     EXPECT_LE(done.mobile->deepest_mm, deepest);
   }
+  // The same bone in its place is the same joint, also if a head was fitted to it by itself.
+  const Resection done = resect(*hip, reaching({target("internal_rotation_at_90_flexion", 42.686)}));
+  const Mesh& cut_femur = done.mobile->body.mesh;
+  Joint anew = *hip;
+  anew.mobile.mesh = cut_femur;
+  EXPECT_NE(find_bearing_surface(anew).surface->head.radius,
+            find_bearing_surface(done.joint).surface->head.radius);
+  const auto motions = hip_motions();
+  const auto placed = RangeOfMotion(with_mobile_mesh(*hip, cut_femur)).limits(motions),
+             planned = RangeOfMotion(done.joint).limits(motions);
+  for (std::size_t i = 0; i < motions.size(); ++i)
+    EXPECT_EQ(placed[i].end.turned, planned[i].end.turned) << motions[i].name;
   ResectionRequest burr = reaching({target("internal_rotation_at_90_flexion", 42.686)});
   burr.burr_mm = 5.5;
   const Resection made = resect(*hip, burr);

@@ -82,4 +82,16 @@ ViewDirection view_of(const CutBone& cut) {
   return {outwards, (up - up.dot(outwards) * outwards).normalized()};
 }
 
+double field_of(const CutBone& cut, const ViewDirection& view) {
+  constexpr double head_and_neck_mm = 110, width_to_height = 4. / 3, with_border = 1.1;
+  const Vec3 across = view.up.cross(view.towards_viewer);
+  double beside = 0;
+  for (std::size_t v = 0; v < cut.depth_mm.size(); ++v)
+    if (cut.depth_mm[v] > least_drawn_mm) {
+      const Vec3 p = cut.before.vertices[v];
+      beside = std::max({beside, std::abs(p.dot(view.up)), std::abs(p.dot(across)) / width_to_height});
+    }
+  return std::max(head_and_neck_mm, 2 * with_border * beside);
+}
+
 }  // namespace condyle::io

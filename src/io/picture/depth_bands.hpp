@@ -15,4 +15,7 @@ std::vector<PictureMark> depth_bands(const CutBone& cut);
 /// From where the cut is seen best: along its mean normal.
 ViewDirection view_of(const CutBone& cut);
 
+/// Height of a picture about the joint centre that holds the cut, mm: that of a hip's head and neck, or more. Widths are 4 to 3.
+double field_of(const CutBone& cut, const ViewDirection& view);
+
 }  // namespace condyle::io

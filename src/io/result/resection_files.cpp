@@ -36,9 +36,6 @@ void write_depths(OutputFolder& out, std::string_view role, const CutBone& cut,
             {VtpEncoding::binary, io::provenance_fields(result.provenance)});
 }
 
-/// Height of the picture of a cut about the joint centre, mm.
-constexpr double cut_field_mm = 110;
-
 /// The bone alone, without what goes, which is drawn in bands of depth.
 void draw_depths(OutputFolder& out, std::string_view role, const CutBone& cut,
                  const ResectionResult& result) {
@@ -47,7 +44,7 @@ void draw_depths(OutputFolder& out, std::string_view role, const CutBone& cut,
   options.view = io::view_of(cut);
   options.colour = PictureColour::none;
   (role == "mobile" ? options.fixed : options.mobile) = BodyLook::hidden;
-  options.field_mm = cut_field_mm;
+  options.field_mm = io::field_of(cut, options.view);
   options.marks = io::depth_bands(cut);
   write_png(out.file(fmt::format("depth_{}.png", role)),
             draw_joint(result.answer.resection.joint, {}, Pose::Identity(), options), result.provenance);
