@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
@@ -62,6 +66,29 @@ std::vector<std::string> caveats_of(const DepthRequest& request) {
       request.method == DepthMethod::reliable ? "; no depths along arcs are computed" : "")};
 }
 
+const std::vector<TrianglePair>& pairs_of(const DepthAnswer& answer) {
+  struct {
+    const std::vector<TrianglePair>& operator()(const RayDepths& of) const { return of.contact.pairs; }
+    const std::vector<TrianglePair>& operator()(const ArcDepths& of) const { return of.contact.pairs; }
+    const std::vector<TrianglePair>& operator()(const NormalContact& of) const { return of.pairs; }
+  } read;
+  return std::visit(read, answer.depths);
+}
+
+/// Where a body meets a face in which a part of the other was cut.
+void add_cut_caveats(DepthAnswer& answer, const Joint& joint) {
+  const auto add = [&](const Body& cut, const Body& other, Index TrianglePair::*triangle) {
+    if (!is_cut(cut)) return;
+    const auto& pairs = pairs_of(answer);
+    if (std::any_of(pairs.begin(), pairs.end(),
+                    [&](const TrianglePair& pair) { return is_cut_face(cut, pair.*triangle); }))
+      answer.caveats.push_back(other.name + " meets a face in which a part of " + cut.name +
+                               " is cut: depths end there, and contact areas count it");
+  };
+  add(joint.fixed, joint.mobile, &TrianglePair::fixed);
+  add(joint.mobile, joint.fixed, &TrianglePair::mobile);
+}
+
 }  // namespace
 
 bool DepthAnswer::in_contact() const noexcept {
@@ -106,6 +133,7 @@ DepthAnswer answer_depth(const JointContact& bodies, const Joint& joint, const D
       add_normal_depths(answer, bodies);
       break;
   }
+  add_cut_caveats(answer, joint);
   return answer;
 }
 

@@ -255,13 +255,13 @@ std::vector<PosedPart> placed_parts(const JointDescription& description, const P
   return parts;
 }
 
-/// Vertices of a mesh by their numbers after it was cut.
+/// Ascending numbers of vertices of a mesh after it was cut.
 std::vector<Index> numbers_after(const std::vector<Index>& vertex_before,
                                  const std::vector<Index>& vertices) {
   if (vertex_before.empty()) return vertices;
   std::vector<Index> after;
   for (std::size_t v = 0; v < vertex_before.size(); ++v)
-    if (std::find(vertices.begin(), vertices.end(), vertex_before[v]) != vertices.end())
+    if (std::binary_search(vertices.begin(), vertices.end(), vertex_before[v]))
       after.push_back(static_cast<Index>(v));
   return after;
 }

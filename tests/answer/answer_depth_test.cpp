@@ -1,12 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
+#include "condyle/make_joint.hpp"
 #include "support/test_meshes.hpp"
 
 /// One answer for every shell: depths as their own functions give them, with the caveats that they must be read with.
@@ -44,6 +46,25 @@ TEST_F(DepthAnswers, AreThoseOfTheirOwnFunctions) {
 
   const DepthAnswer by_joint = answer_depth(joint, {.X_FM = X_FM, .pose = pose});
   EXPECT_EQ(std::get<RayDepths>(by_joint.depths).reliable.mobile->depth_mm, expected.mobile->depth_mm);
+}
+
+TEST_F(DepthAnswers, SayWhereTheyEndOnAFaceInWhichAPartIsCut) {
+  const auto caveats = [&](double height, DepthMethod method) {
+    JointDescription description{.name = "arm", .kind = JointKind::ball, .side = Side::right};
+    PosedPart top{.name = "top", .body = BodyRole::fixed};
+    top.parameters = {{.name = "tilt", .kind = ParameterKind::tilt, .low = -9, .high = 9}};
+    top.cut = {{{50, height, 0}, {0, -1, 0}}};
+    description.parts = {{top}};
+    const Joint cut = make_joint(description, {"wall", joint.fixed.mesh}, {"arm", joint.mobile.mesh}).joint;
+    return answer_depth(cut, {.X_FM = X_FM, .pose = pose, .method = method}).caveats;
+  };
+  // The arm's end is in the wall between 86 and 92 mm below the joint.
+  const std::string sentence =
+      "arm meets a face in which a part of wall is cut: depths end there, and contact areas count it";
+  EXPECT_EQ(caveats(-60, DepthMethod::reliable), std::vector<std::string>{});
+  EXPECT_EQ(caveats(-88, DepthMethod::reliable), std::vector<std::string>{sentence});
+  EXPECT_EQ(caveats(-88, DepthMethod::tangential), std::vector<std::string>{sentence});
+  EXPECT_EQ(caveats(-88, DepthMethod::normal).back(), sentence);
 }
 
 TEST_F(DepthAnswers, WithoutMeasuresHaveTheSameDepths) {

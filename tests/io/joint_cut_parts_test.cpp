@@ -168,6 +168,34 @@ TEST_F(CutParts, TurnedHaveTheLimitsOfMeshesTurnedByHand) {
   EXPECT_NEAR(lateral(there), lateral(cut) + 10, off_centre_deg);
 }
 
+/// An osteotomy of the femur: its head keeps what a fit found, by other numbers.
+TEST_F(CutParts, OfAFemurLeaveItsHeadAndLimitsAsTheyAre) {
+  const auto fitted = [&](std::string_view more, std::string_view name) {
+    std::string text = cut_parts::file_text("mesh = \"hip_bone.ply\"", "mesh = \"femur.ply\"", more);
+    text.replace(text.find("[0, 0, 0]"), 9, "\"fit\"");
+    return read_joint(folder.file(name, text));
+  };
+  const LoadedJoint whole = fitted("", "whole.toml"),
+                    cut = fitted(
+                        "[[part]]\nname = \"shaft\"\nbody = \"mobile\"\ncentre = [0, -40, 38]\n"
+                        "cut = [{ point = [0, -40, 0], normal = [0, 1, 0] }]\n"
+                        "[[part.parameter]]\nname = \"version\"\nrange = [-40, 40]\n",
+                        "cut.toml");
+  ASSERT_TRUE(is_cut(cut.joint.mobile));
+  cut_parts::expect_same(cut_parts::limits_of(cut), cut_parts::limits_of(whole), 1e-9);
+  const auto a = answer_measures(cut.joint).measures, b = answer_measures(whole.joint).measures;
+  EXPECT_NEAR(*a.femur.head_radius.value, *b.femur.head_radius.value, 1e-12);
+  EXPECT_NEAR(*a.femur.neck_shaft.value, *b.femur.neck_shaft.value, 1e-9);
+  EXPECT_NEAR(*a.femur.alpha_1_30.value, *b.femur.alpha_1_30.value, 1e-9);
+  EXPECT_NEAR(*a.femur.trochanter_height.value, *b.femur.trochanter_height.value, 1e-9);
+  EXPECT_TRUE(a.left_out.empty());
+  // The shaft turns about its own point, the head stays.
+  const ParameterValue fifteen{"shaft.version", 15};
+  const LoadedJoint turned = with_parameters(cut, {&fifteen, 1});
+  EXPECT_EQ(mesh_of_part(turned.joint.mobile, "femur").arrays(),
+            mesh_of_part(cut.joint.mobile, "femur").arrays());
+}
+
 TEST_F(CutParts, AreCutWhereTheFileSaysInItsFrameAndUnits) {
   const LoadedJoint joint = read(cut_parts::fragment_text(cut_parts::around_socket));
   TriMesh metres = hip_bone, femur_metres = femur;
@@ -255,6 +283,8 @@ TEST_F(CutParts, AreRefusedInOneLine) {
           "[[part]]\nname = \"other\"\nbody = \"fixed\"\nmeshes = [\"pelvis\"]\ncut = [{ point = [0, 90, 0], "
           "normal = [0, -1, 0] }]\n[[part.parameter]]\nname = \"tilt\"\nrange = [-9, 9]\n",
       "part other: cut: pelvis is cut already");
+  refused(fragment(cut_parts::around_socket) + "[contact]\ncasting = \"mobile\"\n",
+          "contact.fixed_part: part fragment is cut from that mesh: name one that is not cut");
   TriMesh open = hip_bone;
   open.triangles.pop_back();
   write_mesh(folder / "hip_bone.ply", open);

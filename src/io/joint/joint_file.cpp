@@ -253,9 +253,9 @@ void refuse_cut_contact(const io::TomlTable& contact, std::string_view key, cons
   for (const auto& [part, centre] : parts)
     if (part.body == body && !part.cut.empty() &&
         (mesh.empty() || mesh == part.name || (!part.meshes.empty() && mesh == part.meshes.front())))
-      contact.fail(
-          key,
-          fmt::format("part {} is cut from it: name a mesh that is not cut, such as a cartilage", part.name));
+      contact.fail(key,
+                   fmt::format("part {} is cut from that mesh: name one that is not cut, such as a cartilage",
+                               part.name));
 }
 
 CentreFit centre_fit(io::TomlTable& frame, const Lengths& lengths) {
