@@ -101,7 +101,7 @@ void note_targets(ResectionAnswer& answer) {
     answer.notes.push_back({ResectionNoteCode::target_blocked,
                             outcome.target.motion.name + " cannot reach " + in_degrees(outcome.target.reach) +
                                 " degrees" + margin + ": " + what_is_kept(outcome.blocked->by, body.name) +
-                                formatted(" at (%.1f, %.1f, %.1f) mm", p.x(), p.y(), p.z()) +
+                                formatted(", at (%.1f, %.1f, %.1f) mm,", p.x(), p.y(), p.z()) +
                                 " stops it at " + in_degrees(outcome.planned)});
   }
 }

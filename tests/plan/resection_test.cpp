@@ -596,6 +596,15 @@ TEST(Resection, TheVisibleHumansHipLosesLittleMoreThanTheLeast) {
              planned = RangeOfMotion(done.joint).limits(motions);
   for (std::size_t i = 0; i < motions.size(); ++i)
     EXPECT_EQ(placed[i].end.turned, planned[i].end.turned) << motions[i].name;
+  // From the rim, and from both: what poses 0.2 degrees apart sweep over, in voxels of 0.25 mm.
+  for (const auto& [share, of_rim] : {std::pair(1.0, 149.6), {0.5, 73.1}}) {
+    ResectionRequest request = reaching({target("internal_rotation_at_90_flexion", 42.686)});
+    request.fixed_share = share;
+    const Resection rim = resect(*hip, request);
+    expect_reached(*hip, rim);
+    expect_sound(*rim.fixed);
+    EXPECT_NEAR(rim.fixed->volume_mm3 / of_rim, 1, 0.01);
+  }
   ResectionRequest burr = reaching({target("internal_rotation_at_90_flexion", 42.686)});
   burr.burr_mm = 5.5;
   const Resection made = resect(*hip, burr);
