@@ -282,6 +282,11 @@ def test_the_centre_follows_a_recorded_motion_or_a_load(tmp_path, command):
                                            check=True, capture_output=True, text=True).stdout)
     assert found["flexion"].turned_deg == by_command["motions"][0]["limit_deg"]
     assert found["flexion"].translation_mm.tolist() == by_command["motions"][0]["translation_mm"]
+    assert found["flexion"].translation_ends is by_command["motions"][0]["translation_ends"] is False
+    (tmp_path / "short.csv").write_text("time,flexion_deg,x_mm,y_mm\n" + "".join(rows.splitlines(True)[:5]))
+    with pytest.warns(condyle.JointWarning, match="recorded motion ends 8 degrees"):
+        short = joint.range_following(poses=joint.motion(tmp_path / "short.csv").X_FM)["flexion"]
+    assert short.translation_ends is True and short.turned_deg == pytest.approx(8, abs=1e-9)
     assert found.caveats == by_command["caveats"]
     found.write_report(tmp_path / "python.html", title="hip")
     subprocess.run([command, "report", tmp_path / "hip.toml", "--follow", tmp_path / "record.csv", "--title", "hip", "--out",
