@@ -137,7 +137,7 @@ py::dict path_limit(const JointHandle& handle, const py::object& given, double t
   return dict;
 }
 
-/// Of a limit's contact as dict_of() gives it.
+/// The side of a limit's contact, given as dict_of() returns it.
 py::object side_of_contact(const JointHandle& handle, const py::dict& contact,
                            const py::object& translation_mm) {
   MotionLimit limit;

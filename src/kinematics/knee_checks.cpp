@@ -25,7 +25,7 @@ std::string_view word_of(Side side) {
   return side == Side::right ? "right" : "left";
 }
 
-/// Of condyles whose axis lies along Z, in either sense, below a shaft.
+/// For condyles whose axis lies along Z, in either sense, below a shaft.
 std::optional<JointNote> note_on_front_and_side(const Joint& joint, const KneeAnatomy& knee) {
   const std::string& femur = joint.fixed.name;
   const bool is_backwards = knee.axes->right().z() < 0;

@@ -23,7 +23,7 @@ export interface MotionAnswer {
   limit_deg: number;
   reason: "contact" | "end_of_range" | "contact_at_start";
   contact_kind: string | null;
-  /// Of a shoulder: the side of its centre on which it is met.
+  /// The side of a shoulder's centre on which it is met.
   contact_side?: string | null;
   bearing_contact_deg: number | null;
   soft_contact_deg?: number | null;

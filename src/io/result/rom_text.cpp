@@ -151,7 +151,7 @@ const ContactWitness* soft_contact_of(const MotionLimit& limit) {
   return soft && soft->contact ? &*soft->contact : nullptr;
 }
 
-/// Of bodies of several meshes, which of them met in which motions.
+/// Which meshes met in which motions, if a body has several.
 std::string met_text(const RomResult& result, std::string_view heading, ContactOf contact_of) {
   const Joint& joint = result.joint;
   std::vector<std::pair<std::string, std::vector<std::string_view>>> lines;
