@@ -138,8 +138,9 @@ void propose_from_model(const InitArguments& options) {
   if (!proposed.missing_body.empty()) throw FileError(proposed.missing_body);
 }
 
-void init_command(const InitArguments& options) {
+void init_command(const InitArguments& options, const CLI::App& command) {
   check_out(options);
+  if (!label_format_of(options.fixed)) refuse_label_options(command, options.fixed);
   if (is_model(options.fixed)) return propose_from_model(options);
   if (options.model->any())
     throw UsageError("--anatomy, --contact, --geometry: are for models of OpenSim, .osim");
@@ -216,7 +217,7 @@ void add_init(CLI::App& app) {
                         {"Label maps", of_labels},
                         {"Images", label_file_names()},
                         {"Output", {"--out"}}});
-  command->callback([options] { init_command(*options); });
+  command->callback([options, command] { init_command(*options, *command); });
 }
 
 }  // namespace condyle::cli

@@ -87,6 +87,7 @@ void inspect_label_maps(const InspectArguments& options, const CLI::App& command
 
 void inspect_command(const InspectArguments& options, const CLI::App& command) {
   const FileKind kind = kind_of(options);
+  if (kind != FileKind::label_map) refuse_label_options(command, options.meshes.front());
   if (kind == FileKind::model) return inspect_models(options, command);
   if (kind == FileKind::label_map) return inspect_label_maps(options, command);
   std::vector<Repair> repairs;

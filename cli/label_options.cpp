@@ -4,6 +4,7 @@
 #include <CLI/Formatter.hpp>
 
 #include "answer.hpp"
+#include "condyle/error.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -71,6 +72,13 @@ std::vector<std::string> label_file_names() {
 
 std::vector<std::string> label_surface_names() {
   return {"--task", "--pieces", "--cavities", "--triangles"};
+}
+
+void refuse_label_options(const CLI::App& command, const std::string& file) {
+  for (const auto& names : {label_file_names(), label_surface_names()})
+    for (const std::string& name : names)
+      if (const CLI::Option* option = command.get_option_no_throw(name); option && option->count() > 0)
+        throw UsageError(name + ": is for label maps, and " + file + " is none");
 }
 
 void note_labels(const std::vector<LabelNote>& notes) {

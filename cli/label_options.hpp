@@ -29,6 +29,9 @@ void add_label_surface(CLI::App& command, const std::shared_ptr<LabelOptions>& o
 std::vector<std::string> label_file_names();
 std::vector<std::string> label_surface_names();
 
+/// Throws UsageError for the first of these options that was given: the file is no label map.
+void refuse_label_options(const CLI::App& command, const std::string& file);
+
 /// Notes on standard error.
 void note_labels(const std::vector<LabelNote>& notes);
 

@@ -28,10 +28,10 @@ enum class JointNoteCode : std::uint8_t {
   head_socket_apart,  ///< Head and socket have different centres, or a humeral head is beside its glenoid.
   socket_smaller_than_head,  ///< By their fitted radii.
   axes_not_upright,          ///< Superior does not point up the bones.
-  axes_turned,               ///< Front and side are both exchanged, as where LPS is read as RAS.
-  wrong_side,                ///< The hip bone lies lateral of its socket.
-  mirrored,                  ///< Only front and back are exchanged.
-  bodies_disagree,           ///< The two bodies are of different sides.
+  axes_turned,      ///< About superior: by 180 degrees, as where LPS is read as RAS, or a knee's by others.
+  wrong_side,       ///< The hip bone lies lateral of its socket, or a femur is shaped as the other side's.
+  mirrored,         ///< Only front and back are exchanged.
+  bodies_disagree,  ///< The two bodies are of different sides.
 };
 
 /// As in files: "wrong_side".
@@ -50,7 +50,7 @@ inline constexpr double farthest_head_from_socket_mm = 1.5;
 /// Looks at a joint as make_joint() placed it. Changes nothing and decides nothing: an answer stays what it is. Checks
 /// that do not apply say nothing: most of those of anatomy are for hips, known by a ball joint with most of a head on the
 /// mobile body, a shaft beyond it, and a socket round it on the fixed one. Shoulders have those of head and glenoid and
-/// of the side, long bones of other joints those that their shafts allow.
+/// of the side, knees those of axes and side by the femur's condyles, long bones of other joints those that their shafts allow.
 ///
 ///           hip bone
 ///         |  mass: above and medial     ^ superior

@@ -147,9 +147,22 @@ struct MotionLimit {
   std::optional<HeadAtLimit> head = {};  ///< where a bearing surface is known
   /// Of a joint whose centre is not held, at the limit: x, y and z of its translation frame.
   std::optional<Vec3> translation_mm = {};
+  /// What its translation follows ends at the limit, before the motion's range does: the joint may turn farther.
+  bool translation_ends = false;
 
   JointAngles angles_at_limit() const noexcept;
 };
+
+/// Side of the joint centre, seen along the joint's Z.
+enum class ContactSide : std::uint8_t { superior, anterior, inferior, posterior };
+
+/// As in files: "superior".
+std::string_view name_of(ContactSide side) noexcept;
+
+/// On which side of a shoulder's centre a motion ended in contact that is no bearing contact: superior, where the acromion is, anterior
+/// (coracoid process), inferior (lower rim and neck of the scapula: notching) or posterior; the nearest of the four. Empty for other
+/// joints, without a contact point, and for one that lies within 30 degrees of the joint's Z.
+std::optional<ContactSide> contact_side(const Joint& joint, const MotionLimit& limit) noexcept;
 
 /// These angles with one of them changed by `by`.
 JointAngles turned_by(JointAngles from, JointAngle angle, Angle by) noexcept;

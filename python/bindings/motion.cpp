@@ -69,6 +69,7 @@ py::dict dict_of(const Limit& limit) {
   };
   dict["bearing_contact_deg"] = degrees(limit.bearing_contact);
   dict["soft_contact_deg"] = degrees(limit.soft_contact);
+  dict["soft_contact"] = limit.soft_contact ? dict_of(limit.soft_contact->contact) : py::none();
   return dict;
 }
 
@@ -79,6 +80,7 @@ py::dict dict_of(const MotionLimit& limit) {
   dict["centre_distance_mm"] = limit.head ? optional_number(limit.head->centre_distance_mm) : py::none();
   dict["joint_space_mm"] = limit.head ? optional_number(limit.head->joint_space_mm) : py::none();
   dict["translation_mm"] = optional_array(limit.translation_mm);
+  dict["translation_ends"] = limit.translation_ends;
   return dict;
 }
 

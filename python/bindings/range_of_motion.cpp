@@ -137,6 +137,20 @@ py::dict path_limit(const JointHandle& handle, const py::object& given, double t
   return dict;
 }
 
+/// The side of a limit's contact, given as dict_of() returns it.
+py::object side_of_contact(const JointHandle& handle, const py::dict& contact,
+                           const py::object& translation_mm) {
+  MotionLimit limit;
+  limit.end.contact.emplace();
+  limit.end.contact->fixed_point = vector_in(contact["fixed_point"], "contact");
+  limit.end.contact->kind = contact["kind"].cast<std::string>() == name_of(ContactKind::bearing)
+                                ? ContactKind::bearing
+                                : ContactKind::impingement;
+  if (!translation_mm.is_none()) limit.translation_mm = vector_in(translation_mm, "translation_mm");
+  const auto side = contact_side(handle.joint(), limit);
+  return side ? py::object(py::str(name_of(*side))) : py::none();
+}
+
 }  // namespace
 
 void bind_range_of_motion(py::module_& module) {
@@ -154,6 +168,7 @@ void bind_range_of_motion(py::module_& module) {
   module.def("motions", &built_in);
   module.def("motion_caveats", &caveats);
   module.def("path_limit", &path_limit);
+  module.def("contact_side", &side_of_contact);
 }
 
 }  // namespace condyle::python

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from ._limits import Limit, witness_of
+from ._limits import Limit, limit_of
 from ._mesh import MeshLike, TriMesh
 from ._words import number
 
@@ -58,8 +58,7 @@ class FirstContact:
         return RotationLimits(*map(self._limit_of, found))
 
     def _limit_of(self, found: dict[str, Any]) -> Limit:
-        found["contact"] = witness_of(found["contact"], self._fixed, self._mobile)
-        return Limit(**found)
+        return limit_of(found, self._fixed, self._mobile)
 
     def __repr__(self) -> str:
         return f"FirstContact(fixed={self._fixed!r}, mobile={self._mobile!r})"

@@ -71,9 +71,11 @@ class FollowedRange:
         raise UsageError(f"no limit of {name} was computed")
 
     def __repr__(self) -> str:
+        def end(limit: MotionLimit) -> str:
+            return "" if limit.reason == "contact" else " translation_ends" if limit.translation_ends else f" {limit.reason}"
+
         return "FollowedRange(" + ", ".join(
-            f"{limit.motion.name} {limit.turned_deg:.1f}{'' if limit.reason == 'contact' else ' ' + limit.reason}"
-            for limit in self.limits) + ")"
+            f"{limit.motion.name} {limit.turned_deg:.1f}{end(limit)}" for limit in self.limits) + ")"
 
 
 def followed_range(joint: DescribedJoint, motions: Optional[Sequence[MotionLike]], poses: Optional[ArrayLike],

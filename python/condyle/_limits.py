@@ -14,7 +14,7 @@ from ._described_joint import BodyPart, DescribedJoint
 from ._errors import UsageError
 from ._mesh import TriMesh
 from ._motion import Angles, Motion, Motions
-from ._words import ContactKind, LimitReason, number
+from ._words import ContactKind, ContactSide, LimitReason, number
 
 
 #: Values of `reason` in maps, by number.
@@ -30,7 +30,7 @@ class ContactWitness:
     """A pair of features in contact. Each is ("vertex", number), ("edge", vertex, vertex) or ("face", triangle).
 
     `fixed_point` and `mobile_point` are (3,), each in its own body's frame, mm. `kind` is "bearing", "impingement", "cut"
-    (on a face that closes a bone where its image ends) or "unknown".
+    (on a face that closes a bone where its image ends), "soft" (of a mesh called soft, on the way to a limit) or "unknown".
     """
 
     fixed_feature: Feature
@@ -58,6 +58,8 @@ class Limit:
         Where bearing contact does not count: the first one, if it comes before the limit.
     soft_contact_deg : float or None
         The first contact of a mesh called soft, which never counts, if it comes before the limit.
+    soft_contact : ContactWitness or None
+        What touches there.
     """
 
     turned_deg: float
@@ -66,6 +68,7 @@ class Limit:
     error_bound_deg: float
     bearing_contact_deg: Optional[float]
     soft_contact_deg: Optional[float]
+    soft_contact: Optional[ContactWitness]
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.turned_deg:.6g} deg, {self.reason})"
@@ -89,8 +92,10 @@ class MotionLimit(Limit):
 
     Besides what a :class:`Limit` has: `motion`; `angles_deg`, the joint's angles there by name; `centre_distance_mm`
     between head and socket and `joint_space_mm` of the bearing surface, None where not known; `fixed_part` and
-    `mobile_part`, names of the meshes that meet, None without contact and of a body of one mesh; `translation_mm` (3,) at the
-    limit of :meth:`Joint.range_following`, else None; `caveats`, a list of
+    `mobile_part`, names of the meshes that meet, None without contact and of a body of one mesh; `soft_fixed_part` and
+    `soft_mobile_part`, of those of `soft_contact`; `translation_mm` (3,) at the limit of :meth:`Joint.range_following`, else None;
+    `translation_ends`, True if what it follows ends there, so that nothing is known past the limit; `contact_side`, of a shoulder the side of its centre on which the scapula is met:
+    "superior" (acromion), "anterior" (coracoid process), "inferior" or "posterior", else None; `caveats`, a list of
     :class:`Caveat`: whether bone usually ends such a motion of a hip, and what is not modelled; empty for other joints.
     """
 
@@ -100,7 +105,11 @@ class MotionLimit(Limit):
     joint_space_mm: Optional[float]
     fixed_part: Optional[str]
     mobile_part: Optional[str]
+    soft_fixed_part: Optional[str]
+    soft_mobile_part: Optional[str]
     translation_mm: Optional[NDArray[np.float64]]
+    translation_ends: bool
+    contact_side: Optional[ContactSide]
     caveats: list[Caveat]
 
     def __repr__(self) -> str:
@@ -171,6 +180,12 @@ def witness_of(found: Optional[dict[str, Any]], fixed: TriMesh, mobile: TriMesh)
     return ContactWitness(**found)
 
 
+def limit_of(found: dict[str, Any], fixed: TriMesh, mobile: TriMesh) -> Limit:
+    for key in ("contact", "soft_contact"):
+        found[key] = witness_of(found[key], fixed, mobile)
+    return Limit(**found)
+
+
 def part_named(parts: Sequence[BodyPart], feature: Sequence[Any]) -> Optional[str]:
     """Which of several meshes a feature of the compiled part's numbers is of."""
     kind, number = feature[:2]
@@ -182,10 +197,13 @@ def part_named(parts: Sequence[BodyPart], feature: Sequence[Any]) -> Optional[st
 
 
 def motion_limit_of(found: dict[str, Any], motions: Motions, joint: DescribedJoint) -> MotionLimit:
-    contact = found["contact"]
+    contact, soft = found["contact"], found["soft_contact"]
     for body, parts in (("fixed", joint.fixed_parts), ("mobile", joint.mobile_parts)):
         found[f"{body}_part"] = contact and part_named(parts, contact[f"{body}_feature"])
+        found[f"soft_{body}_part"] = soft and part_named(parts, soft[f"{body}_feature"])
+    found["contact_side"] = contact and _native.contact_side(joint._native, contact, found["translation_mm"])
     found["contact"] = witness_of(contact, joint.fixed, joint.mobile)
+    found["soft_contact"] = witness_of(soft, joint.fixed, joint.mobile)
     found["caveats"] = [Caveat(*each) for each in motions.caveats(found["motion"])]
     found["motion"] = motions.motion_of(found["motion"])
     found["angles_deg"] = motions.named(found["angles_deg"])

@@ -5,7 +5,7 @@ from typing import Any, Optional
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._words import Anatomy, Body, JointKind, ParameterKind, PartContact, Progress, Side, TranslationFrame
+from ._words import Anatomy, Body, ContactSide, JointKind, ParameterKind, PartContact, Progress, Side, TranslationFrame
 
 version: str
 
@@ -183,6 +183,7 @@ class RangeOfMotion:
 
 def range_of_motion(joint: Joint, translation_mm: Optional[ArrayLike], options: dict[str, Any]) -> RangeOfMotion: ...
 def motions(joint: Joint) -> list[tuple[Any, ...]]: ...
+def contact_side(joint: Joint, contact: dict[str, Any], translation_mm: Optional[ArrayLike]) -> Optional[ContactSide]: ...
 def motion_caveats(joint: Joint, motion: tuple[Any, ...]) -> list[tuple[str, str, Optional[str]]]: ...
 class Plan: ...
 

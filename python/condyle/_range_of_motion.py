@@ -15,7 +15,7 @@ from ._described_joint import DescribedJoint
 from ._errors import UsageError, unknown
 from ._impingement_zone import ImpingementZone, body_zone_of
 from ._limit_band import FEWEST_SAMPLES, MOST_SAMPLES, LimitBand
-from ._limits import FreeAngles, Limit, MotionLimit, motion_limit_of, witness_of
+from ._limits import FreeAngles, Limit, MotionLimit, limit_of, motion_limit_of
 from ._motion import Motion, MotionLike, Motions
 from ._motion_map import MotionMap, map_of
 from ._resection import OfJoint, Resection
@@ -58,8 +58,7 @@ class RangeOfMotion:
         self.notes = reported(native.notes([self._motions.tuple_of(each) for each in motions]))
 
     def _limit_of(self, found: dict[str, Any]) -> Limit:
-        found["contact"] = witness_of(found["contact"], self._joint.fixed, self._joint.mobile)
-        return Limit(**found)
+        return limit_of(found, self._joint.fixed, self._joint.mobile)
 
     def _motion_limit_of(self, found: dict[str, Any]) -> MotionLimit:
         return motion_limit_of(found, self._motions, self._joint)
@@ -274,5 +273,6 @@ class RangeOfMotion:
              "kind": limit.contact.kind if limit.contact else "unknown", "error_bound_deg": limit.error_bound_deg,
              "bearing_contact_deg": math.nan if limit.bearing_contact_deg is None else limit.bearing_contact_deg,
              "soft_contact_deg": math.nan if limit.soft_contact_deg is None else limit.soft_contact_deg,
-             "fixed_part": limit.fixed_part, "mobile_part": limit.mobile_part}
+             "fixed_part": limit.fixed_part, "mobile_part": limit.mobile_part,
+             "soft_fixed_part": limit.soft_fixed_part, "soft_mobile_part": limit.soft_mobile_part}
             for limit in self.limits])

@@ -168,12 +168,12 @@ class Followed {
       if (!before.empty()) report(before.back().turned, motion);
       return before.size() < knots.size() ? std::optional(knots[before.size()]) : std::nullopt;
     };
-    const auto found = range_.limit(motion, next, control_.stop);
+    auto found = range_.limit(motion, next, control_.stop);
     if (!found) return std::nullopt;
     if (ended_early(found->limit, motion))
-      note(motion, formatted("the recorded motion ends %.4g degrees past its start",
-                             found->limit.end.turned.degrees()));
-    return found->limit;
+      note_end(found->limit, formatted("the recorded motion ends %.4g degrees past its start",
+                                       found->limit.end.turned.degrees()));
+    return std::move(found->limit);
   }
 
   std::optional<MotionLimit> along(const Motion& motion, const FollowLoad& load) {
@@ -182,11 +182,11 @@ class Followed {
       if (!before.empty()) report(before.back().turned, motion);
       return way.next(before);
     };
-    const auto found = range_.limit(motion, next, control_.stop);
+    auto found = range_.limit(motion, next, control_.stop);
     if (!found) return std::nullopt;
     bend_mm_ = std::max(bend_mm_, way.bend_mm());
-    if (ended_early(found->limit, motion)) note(motion, way.ended_by());
-    return found->limit;
+    if (ended_early(found->limit, motion)) note_end(found->limit, way.ended_by());
+    return std::move(found->limit);
   }
 
   /// In thousandths of motions.
@@ -201,8 +201,9 @@ class Followed {
   static bool ended_early(const MotionLimit& limit, const Motion& motion) noexcept {
     return limit.end.reason == LimitReason::end_of_range && limit.end.turned < motion.range;
   }
-  void note(const Motion& motion, const std::string& why) {
-    notes_.push_back({RangeNoteCode::translation_ends, motion.name + ": " + why});
+  void note_end(MotionLimit& limit, const std::string& why) {
+    limit.translation_ends = true;
+    notes_.push_back({RangeNoteCode::translation_ends, limit.motion.name + ": " + why});
   }
 
   const Joint& joint_;

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "condyle/fit.hpp"
+#include "condyle/pose.hpp"
 
 namespace condyle::kinematics {
 
@@ -18,5 +19,9 @@ inline constexpr double facing_depth_mm = 10;
 
 /// Empty if either bone has no surface, or coordinates that overflow. Linear in the bone, and in the other.
 std::optional<FacingPart> facing_part(const TriMesh& bone, const TriMesh& other);
+
+/// The same of some 1000 vertices of each, the other bone posed in the frame of this one: the centre is off by a few mm.
+std::optional<FacingPart> facing_part_roughly(const TriMesh& bone, const TriMesh& other,
+                                              const Pose& X_bone_other);
 
 }  // namespace condyle::kinematics

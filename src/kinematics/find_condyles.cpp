@@ -40,8 +40,9 @@ constexpr int first_rounds = 4, most_rounds = 30;
 /// patella, along one condyle) have 0.28 times as much between as on a side, or more.
 constexpr double least_common_arc_deg = 150, least_width = 2.2, largest_width = 4.5, most_between = 0.1;
 
-constexpr int arcs = 36;
-/// An arc of 10 degrees is there if it has a strip of this width, mm.
+/// Arcs of a turn in which both condyles may have surface: of 10 degrees, and of 20 where there is a point for each cell only.
+constexpr std::size_t fine_arcs = 36, coarse_arcs = 18;
+/// An arc is there if it has a strip of this width, mm.
 constexpr double least_strip = 3;
 constexpr std::size_t fewest_points = 12;
 
@@ -85,7 +86,8 @@ std::pair<double, double> ends_of(const std::vector<Place>& places) {
   return {low, at(98)};
 }
 
-Support support_of(const std::vector<SurfacePoint>& points, const Cylinder& c, double band) {
+Support support_of(const std::vector<SurfacePoint>& points, const Cylinder& c, double band,
+                   std::size_t arcs) {
   Support support;
   std::vector<Place> places;
   const Vec3 e1 = c.direction.unitOrthogonal(), e2 = c.direction.cross(e1);
@@ -97,7 +99,7 @@ Support support_of(const std::vector<SurfacePoint>& points, const Cylinder& c, d
   if (places.size() < fewest_points) return support;
   const auto [low, high] = ends_of(places);
   support.length = high - low;
-  std::array<std::array<double, arcs>, 2> by_arc{};
+  std::array<std::array<double, fine_arcs>, 2> by_arc{};
   std::array<double, 2> area{}, moment{};
   double between = 0;
   for (const Place& place : places) {
@@ -106,14 +108,16 @@ Support support_of(const std::vector<SurfacePoint>& points, const Cylinder& c, d
       between += place.area;
       continue;
     }
-    by_arc[last][std::min(static_cast<std::size_t>(place.turn * arcs), std::size_t{arcs - 1})] += place.area;
+    by_arc[last][std::min(static_cast<std::size_t>(place.turn * static_cast<double>(arcs)), arcs - 1)] +=
+        place.area;
     area[last] += place.area, moment[last] += place.area * place.height;
   }
   support.area_of_smaller = std::min(area[0], area[1]);
   if (!(support.area_of_smaller > 0)) return support;
-  const double least_area = least_strip * c.radius * two_pi / arcs;
+  const double least_area = least_strip * c.radius * two_pi / static_cast<double>(arcs);
   for (std::size_t k = 0; k < arcs; ++k)
-    if (by_arc[0][k] >= least_area && by_arc[1][k] >= least_area) support.common_arc_deg += 360.0 / arcs;
+    if (by_arc[0][k] >= least_area && by_arc[1][k] >= least_area)
+      support.common_arc_deg += 360.0 / static_cast<double>(arcs);
   support.between = between / support.area_of_smaller;
   support.middle = (moment[0] / area[0] + moment[1] / area[1]) / 2;
   return support;
@@ -175,8 +179,7 @@ bool alike(const Cylinder& a, const Cylinder& b) {
 }
 
 /// The best that are not alike.
-std::vector<Candidate> candidates(const std::vector<SurfacePoint>& points, const Vec3& towards_shaft) {
-  const auto means = cell_means(points);
+std::vector<Candidate> candidates(const std::vector<SurfacePoint>& means, const Vec3& towards_shaft) {
   std::vector<Candidate> found;
   const std::size_t step = std::max<std::size_t>(1, means.size() / first_points);
   for (std::size_t i = 0; i < means.size(); i += step)
@@ -185,7 +188,7 @@ std::vector<Candidate> candidates(const std::vector<SurfacePoint>& points, const
       const std::size_t j = (k * means.size() / partners + i) % means.size();
       const auto cylinder = through(means[i], means[j], towards_shaft);
       if (!cylinder) continue;
-      const Support support = support_of(means, *cylinder, first_band);
+      const Support support = support_of(means, *cylinder, first_band, fine_arcs);
       if (support.length >= least_width * cylinder->radius && support.common_arc_deg > 0)
         found.push_back({*cylinder, support.common_arc_deg / (1 + support.between),
                          support.area_of_smaller / (cylinder->radius * cylinder->radius)});
@@ -208,15 +211,15 @@ struct Fitted {
 };
 
 /// Fits what lies on the cylinder, and again, until the same vertices come back.
-std::optional<Fitted> settled(const TriMesh& femur, const std::vector<SurfacePoint>& points,
-                              Cylinder cylinder) {
+std::optional<Fitted> settled(PointsView vertices, const std::vector<SurfacePoint>& points, Cylinder cylinder,
+                              std::size_t arcs) {
   std::optional<Fitted> found;
   for (int round = 0; round < most_rounds; ++round) {
-    Support support = support_of(points, cylinder, round < first_rounds ? first_band : last_band);
+    Support support = support_of(points, cylinder, round < first_rounds ? first_band : last_band, arcs);
     if (support.points.size() < fewest_points) return std::nullopt;
     const bool same = round > first_rounds && support.points == found->support.points;
     try {
-      auto fit = fit_cylinder(femur.vertices, vertices_of(points, support.points), cylinder);
+      auto fit = fit_cylinder(vertices, vertices_of(points, support.points), cylinder);
       cylinder = fit.cylinder;
       found = Fitted{std::move(fit), std::move(support)};
     } catch (const MeshError&) {
@@ -225,7 +228,7 @@ std::optional<Fitted> settled(const TriMesh& femur, const std::vector<SurfacePoi
     if (!(cylinder.radius >= smallest_radius && cylinder.radius <= largest_radius)) return std::nullopt;
     if (same) break;
   }
-  found->support = support_of(points, cylinder, last_band);
+  found->support = support_of(points, cylinder, last_band, arcs);
   return found;
 }
 
@@ -269,14 +272,14 @@ bool better(const Fitted& a, const Fitted& b) {
 }
 
 /// The best of its fits from starts a few degrees off: on rough surfaces a search ends beside the best fit.
-Fitted polished(const TriMesh& femur, const std::vector<SurfacePoint>& points, Fitted best) {
+Fitted polished(PointsView vertices, const std::vector<SurfacePoint>& points, Fitted best, std::size_t arcs) {
   const Cylinder found = best.fit.cylinder;
   const Vec3 middle = found.point + best.support.middle * found.direction;
   constexpr double off = 0.06;  // radians, 3.4 degrees: as far as the nearest other fits have been found
   const Vec3 e1 = found.direction.unitOrthogonal(), e2 = found.direction.cross(e1);
   for (const Vec3& side : {e1, Vec3(-e1), e2, Vec3(-e2)}) {
     const Cylinder start{middle, (found.direction + off * side).normalized(), found.radius};
-    if (auto fitted = settled(femur, points, start); fitted && better(*fitted, best))
+    if (auto fitted = settled(vertices, points, start, arcs); fitted && better(*fitted, best))
       best = std::move(*fitted);
   }
   return best;
@@ -302,29 +305,50 @@ void require_bounds(const CylinderFit& fit) {
                       largest_place_bound_mm));
 }
 
-}  // namespace
-
-Condyles find_condyles(const TriMesh& femur, const Vec3& facing, const Vec3& towards_shaft) {
-  auto points = surface_points(femur, Sphere{facing, search_reach});
-  average_normals(points, cell);
+/// The best fit to points of the surface, from candidates of their means. `vertices` are numbered as the points say. Throws
+/// MeshError, which says what is missing.
+Fitted best_fit(PointsView vertices, const std::vector<SurfacePoint>& points,
+                const std::vector<SurfacePoint>& means, const Vec3& towards_shaft, std::size_t arcs) {
   std::optional<Fitted> best;
   if (points.size() >= fewest_points)
-    for (const Candidate& candidate : candidates(points, towards_shaft))
-      if (auto fitted = settled(femur, points, candidate.cylinder);
+    for (const Candidate& candidate : candidates(means, towards_shaft))
+      if (auto fitted = settled(vertices, points, candidate.cylinder, arcs);
           fitted && (!best || better(*fitted, *best)))
         best = std::move(fitted);
   if (!best)
     throw MeshError(core::formatted(
         "no cylinder common to two condyles among the %zu vertices that face the other bone", points.size()));
-  best = polished(femur, points, std::move(*best));
+  best = polished(vertices, points, std::move(*best), arcs);
   require_condyles(*best);
-  CylinderFit& fit = best->fit;
-  const double middle = best->support.middle;
-  add_bounds(femur, fit, middle);
-  require_bounds(fit);
-  fit.cylinder.point += middle * fit.cylinder.direction;
-  fit.coverage = best->support.common_arc_deg / 360;
-  return {std::move(fit), best->support.length, best->support.common_arc_deg, best->support.between};
+  return std::move(*best);
+}
+
+Condyles condyles_of(Fitted found) {
+  CylinderFit& fit = found.fit;
+  fit.cylinder.point += found.support.middle * fit.cylinder.direction;
+  fit.coverage = found.support.common_arc_deg / 360;
+  return {std::move(fit), found.support.length, found.support.common_arc_deg, found.support.between};
+}
+
+}  // namespace
+
+Condyles find_condyles(const TriMesh& femur, const Vec3& facing, const Vec3& towards_shaft) {
+  auto points = surface_points(femur, Sphere{facing, search_reach});
+  average_normals(points, cell);
+  Fitted best = best_fit(femur.vertices, points, cell_means(points), towards_shaft, fine_arcs);
+  add_bounds(femur, best.fit, best.support.middle);
+  require_bounds(best.fit);
+  return condyles_of(std::move(best));
+}
+
+Condyles find_condyles_roughly(const TriMesh& femur, const Vec3& facing, const Vec3& towards_shaft) {
+  auto means = cell_means(surface_points(femur, Sphere{facing, search_reach}));
+  Points places;
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    means[i].vertex = static_cast<Index>(i);
+    places.push_back(means[i].position);
+  }
+  return condyles_of(best_fit(places, means, means, towards_shaft, coarse_arcs));
 }
 
 }  // namespace condyle::kinematics

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
@@ -38,6 +39,9 @@ constexpr double hip_head_reach = 4.5, least_hip_head_offset = 0.8;
 /// lateral side, Paley 2002), and the lateral side of the trochlea stands farther forwards. Both are needed. Of the two
 /// femora measured one has 4.1 degrees and 0.18 radii, the other, with a head, 5.0 and 0.04.
 constexpr double least_lean_deg = 3, least_ridge = 0.1;
+
+/// A femoral head is half of a sphere or more, of so many radii of a cylinder through it; condyles are less.
+constexpr double least_stray_head_coverage = 0.5, smallest_stray_head = 0.8, largest_stray_head = 1.25;
 
 /// Of the mobile body's centroid below the condyles: hyperextension and a sloping plateau, and the deepest squat.
 constexpr double most_in_front_deg = 30, most_behind_deg = 165;
@@ -102,6 +106,26 @@ std::optional<SphericalPatch> find_head(const TriMesh& femur, const Cylinder& ax
     return head;
   } catch (const MeshError&) {
     return std::nullopt;
+  }
+}
+
+/// A femoral head and a trochanter may share a cylinder too: where bones lie in unrelated frames, any part of a femur may be what
+/// faces the other body. Empty if these are condyles.
+std::string why_no_condyles_here(const TriMesh& femur, const Condyles& found) {
+  const Cylinder& axis = found.fit.cylinder;
+  const double reach = found.length_mm / 2 + largest_stray_head * axis.radius;
+  try {
+    const SphericalPatch sphere = find_sphere(femur, {.smallest_radius = smallest_stray_head * axis.radius,
+                                                      .largest_radius = largest_stray_head * axis.radius,
+                                                      .within = Sphere{axis.point, reach}});
+    if (sphere.coverage < least_stray_head_coverage) return {};
+    return formatted(
+        "what faces the other body is a head, %.0f %% of a sphere of radius %.1f mm, and no condyles: do "
+        "both "
+        "meshes lie in one frame?",
+        100 * sphere.coverage, sphere.fit.sphere.radius);
+  } catch (const MeshError&) {
+    return {};
   }
 }
 
@@ -198,17 +222,29 @@ void check_tibia(const TriMesh& tibia, KneeAnatomy& knee) {
   knee.why_no_axes = "the mobile body does not lie below or behind the condyles, as a tibia does";
 }
 
-void look_at(const TriMesh& femur, const TriMesh& tibia, const FacingPart& facing, KneeAnatomy& knee) {
-  const Vec3 towards_shaft = (area_centroid(femur) - facing.centre).normalized();
+using FindCondyles = Condyles (*)(const TriMesh& femur, const Vec3& facing, const Vec3& towards_shaft);
+
+/// Condyles, shaft, head and axes.
+void look_at_femur(const TriMesh& femur, const std::optional<FacingPart>& facing, FindCondyles find,
+                   KneeAnatomy& knee) {
+  if (!facing) {
+    knee.why_no_condyles = "a bone has no surface";
+    return;
+  }
+  if (facing->apart_mm > farthest_apart_mm) {
+    knee.why_no_condyles = formatted("the bones are %.0f mm apart", facing->apart_mm);
+    return;
+  }
+  const Vec3 centroid = area_centroid(femur);
   try {
-    knee.condyles = find_condyles(femur, facing.centre, towards_shaft);
+    knee.condyles = find(femur, facing->centre, (centroid - facing->centre).normalized());
   } catch (const MeshError& error) {
     knee.why_no_condyles = error.what();
     return;
   }
   const Cylinder& axis = knee.condyles->fit.cylinder;
   knee.epicondyles = find_epicondyles(femur, axis);
-  knee.shaft = shaft_line(femur, axis.point, (area_centroid(femur) - axis.point).normalized(),
+  knee.shaft = shaft_line(femur, axis.point, (centroid - axis.point).normalized(),
                           tibial_shaft_begins * axis.radius, std::numeric_limits<double>::infinity());
   if (!knee.shaft) {
     knee.why_no_axes = "the femur does not go on far enough beyond its condyles to show where up is";
@@ -216,24 +252,43 @@ void look_at(const TriMesh& femur, const TriMesh& tibia, const FacingPart& facin
   }
   knee.head = find_head(femur, axis, *knee.shaft);
   find_axes(femur, knee);
-  if (knee.axes) check_tibia(tibia, knee);
-  if (knee.axes) find_side(femur, knee);
+}
+
+/// Without what was taken from a head for condyles.
+KneeAnatomy without_head_for_condyles(const TriMesh& femur, KneeAnatomy knee) {
+  if (!knee.condyles) return knee;
+  std::string why = why_no_condyles_here(femur, *knee.condyles);
+  if (why.empty()) return knee;
+  KneeAnatomy none;
+  none.why_no_condyles = std::move(why);
+  return none;
+}
+
+KneeAnatomy with_side(const TriMesh& femur, KneeAnatomy knee) {
+  if (!knee.condyles) knee.why_no_axes = "no condyles were found";
+  if (knee.axes)
+    find_side(femur, knee);
+  else
+    knee.why_no_side = "the axes are not known";
+  return knee;
 }
 
 }  // namespace
 
 KneeAnatomy knee_anatomy(const TriMesh& femur, const TriMesh& tibia) {
   KneeAnatomy knee;
-  const auto facing = facing_part(femur, tibia);
-  if (!facing)
-    knee.why_no_condyles = "a bone has no surface";
-  else if (facing->apart_mm > farthest_apart_mm)
-    knee.why_no_condyles = formatted("the bones are %.0f mm apart", facing->apart_mm);
-  else
-    look_at(femur, tibia, *facing, knee);
-  if (!knee.condyles) knee.why_no_axes = "no condyles were found";
-  if (!knee.axes) knee.why_no_side = "the axes are not known";
-  return knee;
+  look_at_femur(femur, facing_part(femur, tibia), find_condyles, knee);
+  knee = without_head_for_condyles(femur, std::move(knee));
+  if (knee.axes) check_tibia(tibia, knee);
+  return with_side(femur, std::move(knee));
+}
+
+KneeAnatomy knee_anatomy_roughly(const TriMesh& femur, const TriMesh& mobile, const Pose& X_FM) {
+  KneeAnatomy knee;
+  look_at_femur(femur, facing_part_roughly(femur, mobile, X_FM), find_condyles_roughly, knee);
+  // With a notch behind and a shaft in front of it they are condyles.
+  if (!knee.axes) knee = without_head_for_condyles(femur, std::move(knee));
+  return with_side(femur, std::move(knee));
 }
 
 }  // namespace condyle::kinematics

@@ -44,4 +44,8 @@ struct KneeAnatomy {
 /// Of meshes in mm. Less than two seconds for 60,000 triangles.
 KneeAnatomy knee_anatomy(const TriMesh& femur, const TriMesh& tibia);
 
+/// What the femur shows by itself, with the condyles found roughly; the mobile body, posed in its frame, only shows where they are,
+/// and may be a patella. Some tens of milliseconds: for checks, where directions are known and may be wrong.
+KneeAnatomy knee_anatomy_roughly(const TriMesh& femur, const TriMesh& mobile, const Pose& X_FM);
+
 }  // namespace condyle::kinematics

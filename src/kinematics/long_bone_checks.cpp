@@ -8,6 +8,7 @@
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
 #include "kinematics/hip_anatomy.hpp"
+#include "kinematics/knee_checks.hpp"
 #include "mesh/surface_to_surface.hpp"
 #include "mesh/triangle_tree.hpp"
 
@@ -195,10 +196,14 @@ std::vector<JointNote> long_bone_notes(const Joint& joint, const JointPlacement&
                                             ": are the bodies exchanged, or does superior point down?"});
     return notes;
   }
-  if (joint.anatomy == Anatomy::knee)
-    if (auto note = femur_note(joint, *fixed, X_FM * mobile->middle)) notes.push_back(std::move(*note));
+  if (joint.anatomy == Anatomy::knee) {
+    auto note = condyle_note(joint, X_FM);
+    if (!note) note = femur_note(joint, *fixed, X_FM * mobile->middle);
+    if (note) notes.push_back(std::move(*note));
+  }
   if (joint.kind == JointKind::free) return notes;
-  if (joint.anatomy != Anatomy::shoulder && begins_at_joint(*fixed, joint.fixed.mesh) &&
+  const bool said_already = !notes.empty() && notes.back().code == JointNoteCode::axes_not_upright;
+  if (!said_already && joint.anatomy != Anatomy::shoulder && begins_at_joint(*fixed, joint.fixed.mesh) &&
       fixed->along.y() < upright)
     notes.push_back({JointNoteCode::axes_not_upright,
                      fixed_name +

@@ -99,8 +99,11 @@ std::optional<ShaftLine> shaft_line(const TriMesh& bone, const Vec3& joint, cons
   for (int round = 0; round < most_line_rounds; ++round) {
     const auto slices = slices_of(bone, joint, along, line, begins_mm, most_mm);
     if (!slices) return std::nullopt;
-    line = line_through(*slices, along);
+    const ShaftLine next = line_through(*slices, along);
+    const bool is_settled = line && line->point == next.point && line->direction == next.direction;
+    line = next;
     along = line->direction;
+    if (is_settled) break;
   }
   if (!(line->bound_deg <= largest_shaft_bound_deg)) return std::nullopt;
   return line;

@@ -87,6 +87,8 @@ TEST(AnswerFollowedRange, SaysWhereNothingCarriesTheLoad) {
       scene.joint, request_of(hip_motions().front(), FollowLoad{.layers = &scene.layers, .load = out}));
   EXPECT_EQ(answer.limits.front().end.reason, LimitReason::end_of_range);
   EXPECT_EQ(answer.limits.front().motion.range, Angle());
+  EXPECT_TRUE(answer.limits.front().translation_ends);
+  EXPECT_FALSE(answer.limits.front().translation_mm);
   ASSERT_EQ(answer.notes.size(), 1u);
   EXPECT_EQ(answer.notes.front().code, RangeNoteCode::translation_ends);
   EXPECT_NE(answer.notes.front().text.find("no contact carries the load"), std::string::npos);
@@ -122,10 +124,12 @@ TEST(AnswerFollowedRange, GoesWhereTheRecordedMotionGoes) {
     EXPECT_LE(end.turned.degrees(), low + 1e-9);
     EXPECT_GE((end.turned + end.error_bound).degrees(), low - 1e-9);
     EXPECT_NEAR(answer.limits.front().translation_mm->x(), mm_per_degree * end.turned.degrees(), 1e-9);
+    EXPECT_FALSE(answer.limits.front().translation_ends);
   }
   const RangeAnswer short_one = answered_following(post.joint, request_of(flexion, record(0, 12, 0.1)));
   EXPECT_NEAR(short_one.limits.front().end.turned.degrees(), 12, 1e-12);
   EXPECT_EQ(short_one.notes.front().code, RangeNoteCode::translation_ends);
+  EXPECT_TRUE(short_one.limits.front().translation_ends);
 }
 
 TEST(AnswerFollowedRange, HoldsAKnownSocketWithItsBody) {

@@ -76,6 +76,38 @@ TEST_F(Follow, ALoadMovesTheCentre) {
   EXPECT_EQ(limit["bearing_contact_deg"], 0.0) << "the cartilage is pressed together from the start";
 }
 
+TEST_F(Follow, WhatItFollowsMayEndBeforeTheMotion) {
+  std::ofstream(folder / "short.csv") << "time,flexion_deg,x_mm\n0,0,0\n1,12,-1\n";
+  const auto motion = [&](const std::string& follow) {
+    const Ran ran = run("rom joint.toml --motion flexion --json " + follow);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return Json::parse(ran.out)["motions"][0];
+  };
+  EXPECT_EQ(motion("--follow record.csv")["translation_ends"], false);
+  EXPECT_TRUE(Json::parse(run("rom joint.toml --motion flexion --json").out)["motions"][0]["translation_ends"]
+                  .is_null());
+  const Json ends = motion("--follow short.csv");
+  EXPECT_EQ(ends["translation_ends"], true);
+  EXPECT_NEAR(ends["limit_deg"].get<double>(), 12, 1e-9);
+  EXPECT_EQ(ends["guarantee"],
+            "free over 12 deg, as far as what the translation follows goes; unknown past it");
+  const Ran text = run("rom joint.toml --motion flexion --follow short.csv");
+  EXPECT_NE(text.out.find("12.00  no contact, translation ends"), std::string::npos) << text.out;
+  EXPECT_EQ(text.out.find("no contact in range"), std::string::npos) << text.out;
+
+  const std::string out_of_the_cup = "--follow-load --force 0 -900 0";
+  const Json none = motion(out_of_the_cup);
+  EXPECT_EQ(none["translation_ends"], true);
+  EXPECT_TRUE(none["translation_mm"].is_null());
+  EXPECT_EQ(none["guarantee"], "none: no contact carries the load at the start");
+  const Ran said = run("rom joint.toml --motion flexion " + out_of_the_cup);
+  EXPECT_NE(said.out.find("-  unknown: load not carried"), std::string::npos) << said.out;
+  EXPECT_NE(
+      said.err.find("note: translation_ends: flexion: no contact carries the load 0 degrees past its start"),
+      std::string::npos)
+      << said.err;
+}
+
 TEST_F(Follow, IsRefusedInOneLine) {
   const auto refusal = [&](const std::string& arguments, int exit_code, const std::string& what) {
     const Ran ran = run("rom joint.toml " + arguments);
@@ -176,6 +208,7 @@ TEST_F(Follow, AStudyHasTheSameLimits) {
   ASSERT_EQ(limits.size(), 2u);
   EXPECT_EQ(std::stod(field(limits, 1, "limit_deg")), limit["limit_deg"].get<double>());
   EXPECT_EQ(std::stod(field(limits, 1, "translation_x_mm")), limit["translation_mm"][0].get<double>());
+  EXPECT_EQ(field(limits, 1, "translation_ends"), "false");
   EXPECT_EQ(field(hips, 1, "exact"), "0");
   ASSERT_EQ(failures.size(), 4u);
   EXPECT_NE(field(failures, 1, "message").find("is a free joint"), std::string::npos);

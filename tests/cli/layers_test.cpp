@@ -69,9 +69,10 @@ TEST_F(Layers, AreNamedWhereTheyEndAMotionAndWhereTheyDoNot) {
   EXPECT_NEAR(limit["soft_contact_deg"].get<double>(), stop_deg(5, -60, 1), 1e-9);
   EXPECT_EQ(limit["soft_contact_parts"], (Json{{"fixed", "labrum"}, {"mobile", "arm"}}));
   const std::string text = run("rom joint.toml --motion flexion").out;
-  for (const auto line : {"bearing: sleeve slides on pad; contact of the two does not end a motion",
-                          "soft: labrum; contact on it does not end a motion", "soft (deg)", "bearing (deg)",
-                          "arm on post: flexion"})
+  for (const auto line :
+       {"bearing: sleeve slides on pad; contact of the two does not end a motion",
+        "soft: labrum; contact on it does not end a motion", "soft (deg)", "bearing (deg)",
+        "arm on post: flexion", "  soft meshes touched on the way:\n    arm on labrum: flexion\n"})
     EXPECT_NE(text.find(line), text.npos) << line << "\n" << text;
   EXPECT_EQ(text.find("sliding_surfaces"), text.npos) << "meshes say what slides";
 }
@@ -100,6 +101,7 @@ TEST_F(Layers, AreTheSameInFilesAndStudies) {
   const std::string limits = io::read_whole_file(folder / "study/limits.csv");
   EXPECT_NE(limits.find("soft_contact_deg"), limits.npos);
   EXPECT_NE(limits.find(",post,arm"), limits.npos) << limits;
+  for (const std::string& table : {csv, limits}) EXPECT_NE(table.find(",labrum,arm,"), table.npos) << table;
 }
 
 TEST_F(Layers, AreRefusedWhereNothingEndsAMotion) {

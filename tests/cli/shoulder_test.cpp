@@ -6,6 +6,7 @@
 
 #include "command.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "io/file/whole_file.hpp"
 #include "support/parametric_shoulder.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -52,12 +53,15 @@ TEST_F(Shoulder, IsStoppedByItsAcromion) {
   const Json& abduction = json["motions"][0];
   EXPECT_NEAR(abduction["limit_deg"].get<double>(), shaft_limit(shape) * 180 / std::numbers::pi, 1e-9);
   EXPECT_EQ(abduction["contact_kind"], "impingement");
+  EXPECT_EQ(abduction["contact_side"], "superior");
   EXPECT_TRUE(json["normal_range_source"].is_null());
   EXPECT_EQ(json["bearing"]["rule"], "leave_out");
   EXPECT_NEAR(json["bearing"]["beside_gap_mm"].get<double>(), 10, 1e-9);
   EXPECT_FALSE(has_code(json, "sliding_surfaces"));
   const Ran text = run("rom joint.toml");
-  EXPECT_NE(text.out.find("impingement"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("impingement, superior"), std::string::npos) << text.out;
+  ASSERT_EQ(run("rom joint.toml --motion abduction --out out").exit_code, 0);
+  EXPECT_NE(io::read_whole_file(folder / "out/limits.csv").find(",superior,"), std::string::npos);
   EXPECT_NE(text.out.find("within 1.50 mm of the head's sphere"), std::string::npos) << text.out;
   EXPECT_EQ(text.out.find("beside its socket"), std::string::npos) << "which limits nothing here";
 }

@@ -95,6 +95,27 @@ TEST(KneeAnatomy, OfOtherBodiesIsEmptyWithTheReason) {
   EXPECT_EQ(knee_anatomy(femur, TriMesh{}).why_no_condyles, "a bone has no surface");
 }
 
+/// As where each mesh lies in a frame of its own: what is nearest the tibia is the femur's head.
+TEST(KneeAnatomy, OfMeshesInUnrelatedFramesTakesNoHeadForCondyles) {
+  const auto data = test::shared_data();
+  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  const TriMesh femur = test::read_ply(*data / "hip_vhf_right/femur.ply");
+  for (const TriMesh& tibia :
+       {test::read_ply(*data / "knee_lenhart2015_right/tibia_bone.ply"),
+        test::box({-30, 25, -30}, {30, 50, 30}), test::box({-30, -60, -60}, {30, -10, -10})}) {
+    const KneeAnatomy thorough = knee_anatomy(femur, tibia),
+                      rough = knee_anatomy_roughly(femur, tibia, Pose::Identity());
+    for (const KneeAnatomy& knee : {thorough, rough}) {
+      EXPECT_FALSE(knee.condyles);
+      EXPECT_FALSE(knee.axes || knee.side);
+    }
+  }
+  const KneeAnatomy knee =
+      knee_anatomy(femur, test::read_ply(*data / "knee_lenhart2015_right/tibia_bone.ply"));
+  EXPECT_NE(knee.why_no_condyles.find("is a head, "), std::string::npos) << knee.why_no_condyles;
+  EXPECT_NE(knee.why_no_condyles.find("do both meshes lie in one frame?"), std::string::npos);
+}
+
 class SharedKnee : public testing::Test {
  protected:
   void SetUp() override {

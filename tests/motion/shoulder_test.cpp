@@ -79,6 +79,31 @@ TEST(ShoulderLimits, AreThoseOfTheAcromionInClosedForm) {
   }
 }
 
+TEST(ShoulderLimits, SayOnWhichSideOfTheCentreTheyAre) {
+  const Joint joint = shoulder({});
+  const auto side_at = [&](const Vec3& point, ContactKind kind = ContactKind::impingement) {
+    MotionLimit limit;
+    limit.end.reason = LimitReason::contact;
+    limit.end.contact = {{}, {}, point, point, kind};
+    return contact_side(joint, limit);
+  };
+  EXPECT_EQ(side_at({3, 34, -10}), ContactSide::superior);
+  EXPECT_EQ(side_at({30, 20, -20}), ContactSide::anterior) << "a coracoid process";
+  EXPECT_EQ(side_at({5, -30, -20}), ContactSide::inferior);
+  EXPECT_EQ(side_at({-30, 29, 0}), ContactSide::posterior);
+  EXPECT_EQ(side_at({-30, 31, 0}), ContactSide::superior);
+  EXPECT_FALSE(side_at({3, 4, -30})) << "medial of the centre";
+  EXPECT_FALSE(side_at({3, 34, -10}, ContactKind::bearing));
+  EXPECT_FALSE(side_at(Vec3::Zero()));
+  Joint hip = joint;
+  hip.anatomy = Anatomy::hip;
+  MotionLimit limit;
+  limit.end.contact.emplace();
+  limit.end.contact->fixed_point = Vec3(0, 30, 0);
+  EXPECT_TRUE(contact_side(joint, limit));
+  EXPECT_FALSE(contact_side(hip, limit));
+}
+
 TEST(ShoulderLimits, InFlexionAndExtensionAreThoseOfTheArmAsItHangs) {
   ParametricShoulder in_front, behind;
   in_front.tubercle = Vec3(35, 10, 0), behind.tubercle = Vec3(-35, 10, 0);

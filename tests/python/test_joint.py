@@ -190,6 +190,10 @@ def test_what_contact_of_each_mesh_means(tmp_path, command):
     assert (limit.fixed_part, limit.mobile_part) == ("post", "arm")
     assert limit.soft_contact_deg == by_command["soft_contact_deg"] < limit.bearing_contact_deg < limit.turned_deg
     assert limit.bearing_contact_deg == by_command["bearing_contact_deg"]
+    assert limit.soft_contact.kind == "soft"
+    assert limit.soft_contact.fixed_point.tolist() == by_command["soft_contact_point_mm"]
+    assert {"fixed": limit.soft_fixed_part, "mobile": limit.soft_mobile_part} == by_command["soft_contact_parts"]
+    assert limit.soft_fixed_part == "labrum"
 
 
 def test_measures_are_those_of_the_command(tmp_path, command):

@@ -282,6 +282,13 @@ def test_the_centre_follows_a_recorded_motion_or_a_load(tmp_path, command):
                                            check=True, capture_output=True, text=True).stdout)
     assert found["flexion"].turned_deg == by_command["motions"][0]["limit_deg"]
     assert found["flexion"].translation_mm.tolist() == by_command["motions"][0]["translation_mm"]
+    assert found["flexion"].translation_ends is by_command["motions"][0]["translation_ends"] is False
+    (tmp_path / "short.csv").write_text("time,flexion_deg,x_mm,y_mm\n" + "".join(rows.splitlines(True)[:5]))
+    with pytest.warns(condyle.JointWarning, match="recorded motion ends 8 degrees"):
+        led = joint.range_following(poses=joint.motion(tmp_path / "short.csv").X_FM)
+    short = led["flexion"]
+    assert repr(led) == "FollowedRange(flexion 8.0 translation_ends)"
+    assert short.translation_ends is True and short.turned_deg == pytest.approx(8, abs=1e-9)
     assert found.caveats == by_command["caveats"]
     found.write_report(tmp_path / "python.html", title="hip")
     subprocess.run([command, "report", tmp_path / "hip.toml", "--follow", tmp_path / "record.csv", "--title", "hip", "--out",
@@ -306,3 +313,12 @@ def test_the_centre_follows_a_recorded_motion_or_a_load(tmp_path, command):
     (tmp_path / "loads.csv").write_text("id,joint\none,hip.toml\n")
     with pytest.raises(condyle.UsageError, match="needs force_n"):
         condyle.run_study(tmp_path / "loads.csv", tmp_path / "loads", follow_load=condyle.StudyLoad())
+
+
+def test_contact_of_a_shoulder_has_the_side_that_the_command_says(tmp_path, command):
+    subprocess.run([command, "sample", "reverse-shoulder", "--out", tmp_path], check=True, capture_output=True)
+    by_command = json.loads(subprocess.run([command, "rom", tmp_path / "shoulder.toml", "--json"], check=True,
+                                           capture_output=True, text=True).stdout)["motions"]
+    limits = condyle.read_joint(tmp_path / "shoulder.toml").range_of_motion().limits
+    sides = [limit.contact_side for limit in limits]
+    assert sides == [motion["contact_side"] for motion in by_command] and "superior" in sides

@@ -23,13 +23,19 @@ export interface MotionAnswer {
   limit_deg: number;
   reason: "contact" | "end_of_range" | "contact_at_start";
   contact_kind: string | null;
+  /// The side of a shoulder's centre on which it is met.
+  contact_side?: string | null;
   bearing_contact_deg: number | null;
   soft_contact_deg?: number | null;
+  /// Names of the meshes that touch there, null of a body of one mesh.
+  soft_contact_parts?: Record<"fixed" | "mobile", string | null> | null;
   /// What meets; `part` of a body of several meshes.
   features?: Record<"fixed" | "mobile", { part?: string }> | null;
   contact_point_mm: [number, number, number] | null;
   /// Of a joint whose centre is not held: where the mobile body is at the limit.
   translation_mm?: [number, number, number] | null;
+  /// What the translation follows ends at the limit: nothing is known past it. Without a translation it does not even begin.
+  translation_ends?: boolean | null;
   clock_hour: number | null;
   vary: string;
   sense: "positive" | "negative";

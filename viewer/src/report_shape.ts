@@ -44,7 +44,9 @@ const motion = object({
   bearing_contact_deg: orNull(number), contact_point_mm: orNull(three), clock_hour: orNull(number), vary: text,
   sense: oneOf("positive", "negative"), range_deg: number, start_deg: each(number), at_limit_deg: each(number),
   normal_range_deg: orNull(number), band: orNull(object({ p5_deg: number, median_deg: number, p95_deg: number })),
-  translation_mm: ifThere(orNull(three)), soft_contact_deg: ifThere(orNull(number)), features: ifThere(orNull(object({ fixed: feature, mobile: feature }))),
+  translation_mm: ifThere(orNull(three)), soft_contact_deg: ifThere(orNull(number)), contact_side: ifThere(orNull(text)),
+  soft_contact_parts: ifThere(orNull(object({ fixed: orNull(text), mobile: orNull(text) }))), translation_ends: ifThere(orNull(flag)),
+  features: ifThere(orNull(object({ fixed: feature, mobile: feature }))),
   error_bound_deg: ifThere(number), caveats: ifThere(list(object({ code: text, text, source: orNull(text) }))),
 });
 

@@ -116,9 +116,9 @@ export const words = {
   reason: "ends by",
   endsBy: (reason: string, kind: string) => `${reason} (${kind})`,
   meshOn: (mobile: string, fixed: string) => `${mobile} on ${fixed}`,
-  softFrom: (angle: string) => `soft contact from ${angle}`,
+  softFrom: (angle: string, met: string | null) => `soft contact from ${angle}${met ? `: ${met}` : ""}`,
   contactKinds: {
-    impingement: "impingement", bearing: "bearing", unknown: "kind unknown", cut: "cut of the image: no limit",
+    impingement: "impingement", bearing: "bearing", unknown: "kind unknown", cut: "cut of the image: no limit", soft: "soft contact",
   } as Record<string, string>,
   band: "band",
   bandEnds: (low: string, high: string) => `${low} to ${high}°`,
@@ -127,6 +127,8 @@ export const words = {
   noLimits: "Limits cannot be told: ",
   noBand: "Bands are unknown: the report was made without them.",
   reasons: { contact: "contact", end_of_range: "end of range", contact_at_start: "in contact at the start" },
+  translationEnds: "no contact, translation ends",
+  notCarried: "unknown: load not carried",
 
   plan: "Bone that must go",
   withoutBone: "The joint is shown without the bone that must go for its motions to reach their targets; limits are those without it.",

@@ -148,7 +148,7 @@ struct Model {
 
 /// Reads a model, and finds its meshes: in the model's folder, its folder Geometry, and the folders given, in this order. No
 /// mesh is opened. A joint that cannot be read says so and leaves the others as they are. Throws FileError, one line with
-/// the line of the file, for everything else that is not as it must be.
+/// the line of the file, for everything else that is not as it must be, and for a folder that there is not.
 Model read_model(const std::filesystem::path& path,
                  std::span<const std::filesystem::path> geometry_folders = {});
 

@@ -320,6 +320,13 @@ class ModelReader {
   std::map<std::string, std::size_t> shapes_;  ///< spheres, bricks and the like among the meshes
 };
 
+void check_folders(std::span<const std::filesystem::path> folders) {
+  std::error_code ignored;
+  for (const std::filesystem::path& folder : folders)
+    if (!std::filesystem::is_directory(folder, ignored))
+      throw FileError(folder.string() + ": is no folder that meshes can be looked for in");
+}
+
 int version_of(const XmlElement& root, const Source& source) {
   const std::string text = root.label();
   int version = 0;
@@ -356,6 +363,7 @@ Model read_model(const std::filesystem::path& path, std::span<const std::filesys
 
 Model read_model(std::string_view bytes, const std::filesystem::path& path,
                  std::span<const std::filesystem::path> geometry_folders) {
+  io::check_folders(geometry_folders);
   const std::string name = path.string();
   Model model{.path = path, .digest = digest_of(bytes)};
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";

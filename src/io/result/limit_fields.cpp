@@ -64,6 +64,16 @@ Json soft_contact_parts(const LimitOf& of) {
   return {{"fixed", part_name(of.joint().fixed, soft->contact->fixed_feature)},
           {"mobile", part_name(of.joint().mobile, soft->contact->mobile_feature)}};
 }
+Json soft_part(const LimitOf& of, const Body& body, Feature ContactWitness::*feature) {
+  const auto& soft = of.limit().end.soft_contact;
+  return soft && soft->contact ? part_name(body, (*soft->contact).*feature) : Json(nullptr);
+}
+Json soft_fixed_part(const LimitOf& of) {
+  return soft_part(of, of.joint().fixed, &ContactWitness::fixed_feature);
+}
+Json soft_mobile_part(const LimitOf& of) {
+  return soft_part(of, of.joint().mobile, &ContactWitness::mobile_feature);
+}
 Json centre_distance_mm(const LimitOf& of) {
   return of.limit().head ? nullable(of.limit().head->centre_distance_mm) : Json(nullptr);
 }
@@ -109,6 +119,13 @@ Json translation_mm(const LimitOf& of) {
   return translation ? numbers(*translation) : Json(nullptr);
 }
 
+Json translation_ends(const LimitOf& of) {
+  return of.result.follows ? Json(of.limit().translation_ends) : Json(nullptr);
+}
+Json translation_ends_word(const LimitOf& of) {
+  return of.result.follows ? Json(of.limit().translation_ends ? "true" : "false") : Json(nullptr);
+}
+
 Json contact_point_mm(const LimitOf& of) {
   const auto& contact = of.limit().end.contact;
   return contact ? numbers(frame_of(of.result).fixed_point(contact->fixed_point)) : Json(nullptr);
@@ -147,6 +164,10 @@ Json fixed_part(const LimitOf& of) {
 Json mobile_part(const LimitOf& of) {
   const auto& contact = of.limit().end.contact;
   return contact ? part_name(of.joint().mobile, contact->mobile_feature) : Json(nullptr);
+}
+Json side(const LimitOf& of) {
+  const auto found = contact_side(of.joint(), of.limit());
+  return found ? Json(condyle::name_of(*found)) : Json(nullptr);
 }
 Json hour(const LimitOf& of) {
   return nullable(clock_hour(of.result, of.limit()));
@@ -262,6 +283,10 @@ constexpr LimitField every_field[] = {
     {"soft_contact_parts",
      "`fixed` and `mobile`: names of the meshes that touch there, null of a body of one mesh",
      &soft_contact_parts},
+    {"", "", &soft_fixed_part, one, "soft_fixed_part", "", text_column,
+     "which mesh of the fixed body is touched there, if it has several", studies},
+    {"", "", &soft_mobile_part, one, "soft_mobile_part", "", text_column,
+     "which mesh of the mobile body is touched there, if it has several", studies},
     {"centre_distance_mm", "between the centres of head and socket at the limit; null without either",
      &centre_distance_mm, one, "centre_distance_mm", "mm", number_column,
      "between head and socket at the limit", studies},
@@ -292,6 +317,16 @@ constexpr LimitField every_field[] = {
      "load; else null",
      &translation_mm, point, "translation", "mm", number_column,
      "at the limit, if it follows a recorded motion or a load", LimitTables::studies_that_follow},
+    {"translation_ends",
+     "whether what the translation follows ends at the limit, before the motion does: there is no contact up "
+     "to it, and nothing is "
+     "known past it. With `translation_mm` null no contact carries the load at the start either, and "
+     "`limit_deg` is 0; null if "
+     "nothing is followed",
+     &translation_ends},
+    {"", "", &translation_ends_word, one, "translation_ends", "", text_column,
+     "true if what the translation follows ends there: no contact up to it, nothing known past it",
+     LimitTables::studies_that_follow},
     {"contact_point_mm",
      "where the bodies are in contact at the limit, in the fixed body's joint frame; null "
      "without contact, and if one body is inside the other and their surfaces do not meet",
@@ -313,13 +348,22 @@ constexpr LimitField every_field[] = {
      "which mesh of the fixed body, if it has several", studies},
     {"", "", &mobile_part, one, "mobile_part", "", text_column,
      "which mesh of the mobile body, if it has several", studies},
+    {"contact_side",
+     "of a shoulder the side of the joint centre on which contact that is not bearing contact ended the "
+     "motion: `\"superior\"`, where "
+     "the acromion is, `\"anterior\"` (coracoid process), `\"inferior\"` (lower rim and neck of the scapula) "
+     "or `\"posterior\"`; null for "
+     "other joints, without contact, and within 30 degrees of the joint's Z",
+     &side, one, "contact_side", "", text_column,
+     "of a shoulder: side of the joint centre, superior at the acromion, anterior at the coracoid process",
+     studies, LimitJoints::shoulders},
     {"clock_hour",
      "direction of the contact on the socket's clock face, in [0, 12): 0 superior, 3 anterior "
      "on either side of the body, in the plane that `clock_plane` says; null for joints other "
      "than hips, without contact, and for contacts farther than 1.6 head radii from the joint "
      "centre, which are not at the rim",
      &hour, one, "clock_hour", "h", number_column,
-     "of the contact on the socket, 12 superior, 3 anterior, sagittal plane", studies, LimitOfHips::only},
+     "of the contact on the socket, 12 superior, 3 anterior, sagittal plane", studies, LimitJoints::hips},
     {"", "", &band_p5, one, "band_p5_deg", "deg", number_column,
      "5 % of the limits of the displaced joints are below", with_bands},
     {"", "", &band_median, one, "band_median_deg", "deg", number_column,

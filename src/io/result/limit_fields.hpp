@@ -40,8 +40,8 @@ enum class LimitTables : std::uint8_t {
   studies_that_follow,  ///< a recorded motion or a load
 };
 
-/// Whether `condyle rom` has the columns for joints other than hips.
-enum class LimitOfHips : std::uint8_t { too, only };
+/// Whether `condyle rom` has the columns for hips and other joints, hips only, or shoulders only.
+enum class LimitJoints : std::uint8_t { all, hips, shoulders };
 
 struct LimitField {
   const char* key;      ///< in rom.json; empty: in tables only
@@ -54,7 +54,7 @@ struct LimitField {
   ColumnKind kind = ColumnKind::text;
   const char* column_meaning = "";
   LimitTables tables = LimitTables::rom;
-  LimitOfHips hips = LimitOfHips::too;
+  LimitJoints joints = LimitJoints::all;
 };
 
 /// In the order of the files.

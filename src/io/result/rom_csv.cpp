@@ -3,11 +3,26 @@
 #include "io/result/rom_result.hpp"
 
 namespace condyle {
+namespace {
+
+bool has_columns(const io::LimitField& field, const Joint& joint) {
+  switch (field.joints) {
+    case io::LimitJoints::all:
+      return true;
+    case io::LimitJoints::hips:
+      return joint.is_hip();
+    case io::LimitJoints::shoulders:
+      return joint.anatomy == Anatomy::shoulder;
+  }
+  return false;
+}
+
+}  // namespace
 
 std::string rom_csv(const RomResult& result) {
   std::vector<const io::LimitField*> fields;
   for (const io::LimitField& field : io::limit_fields())
-    if (field.hips == io::LimitOfHips::too || result.joint.is_hip()) fields.push_back(&field);
+    if (has_columns(field, result.joint)) fields.push_back(&field);
 
   std::vector<std::string> line;
   for (const auto* field : fields)

@@ -39,6 +39,11 @@ std::string guarantee_text(const MotionLimit& limit) {
         "some "
         "micrometres",
         limit.end.error_bound.degrees());
+  if (limit.translation_ends && !limit.translation_mm)
+    return "none: no contact carries the load at the start";
+  if (limit.translation_ends)
+    return fmt::format("free over {:g} deg, as far as what the translation follows goes; unknown past it",
+                       limit.end.turned.degrees());
   switch (limit.end.reason) {
     case LimitReason::contact:
       return fmt::format("free before the limit; in contact at it or past it by at most {:.2g} deg",

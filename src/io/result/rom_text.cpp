@@ -115,6 +115,8 @@ std::string meshes_text(const RomResult& result) {
 }
 
 std::string_view words_of(const MotionLimit& limit) noexcept {
+  if (limit.translation_ends)
+    return limit.translation_mm ? "no contact, translation ends" : "unknown: load not carried";
   switch (limit.end.reason) {
     case LimitReason::contact:
       switch (limit.end.kind()) {
@@ -138,14 +140,26 @@ std::string_view words_of(const MotionLimit& limit) noexcept {
   return "";
 }
 
-/// Of bodies of several meshes, which of them ended which motions.
-std::string met_text(const RomResult& result) {
+/// The contact that a motion is listed by, null if it has none.
+using ContactOf = const ContactWitness* (*)(const MotionLimit& limit);
+
+const ContactWitness* end_of(const MotionLimit& limit) {
+  return limit.end.contact ? &*limit.end.contact : nullptr;
+}
+const ContactWitness* soft_contact_of(const MotionLimit& limit) {
+  const auto& soft = limit.end.soft_contact;
+  return soft && soft->contact ? &*soft->contact : nullptr;
+}
+
+/// Which meshes met in which motions, if a body has several.
+std::string met_text(const RomResult& result, std::string_view heading, ContactOf contact_of) {
   const Joint& joint = result.joint;
   std::vector<std::pair<std::string, std::vector<std::string_view>>> lines;
   for (const MotionLimit& limit : result.limits) {
-    if (!limit.end.contact) continue;
-    const BodyPart *fixed = io::part_of(joint.fixed, limit.end.contact->fixed_feature),
-                   *mobile = io::part_of(joint.mobile, limit.end.contact->mobile_feature);
+    const ContactWitness* contact = contact_of(limit);
+    if (!contact) continue;
+    const BodyPart *fixed = io::part_of(joint.fixed, contact->fixed_feature),
+                   *mobile = io::part_of(joint.mobile, contact->mobile_feature);
     if (!fixed && !mobile) continue;
     std::string met = fmt::format("{} on {}", mobile ? mobile->name : joint.mobile.name,
                                   fixed ? fixed->name : joint.fixed.name);
@@ -158,7 +172,7 @@ std::string met_text(const RomResult& result) {
   }
   std::string text;
   for (const auto& [met, motions] : lines) text += fmt::format("    {}: {}\n", met, fmt::join(motions, ", "));
-  return text.empty() ? "" : "  ended by:\n" + wrapped(text);
+  return text.empty() ? "" : fmt::format("  {}:\n", heading) + wrapped(text);
 }
 
 /// What the column of closed forms is of; why there is none for an implant.
@@ -315,7 +329,8 @@ std::string zones_text(const RomResult& result) {
 }  // namespace
 
 std::string rom_text(const RomResult& result) {
-  const auto limit_text = [&](std::size_t i) {
+  const auto limit_text = [&](std::size_t i) -> std::string {
+    if (result.limits[i].translation_ends && !result.limits[i].translation_mm) return "-";
     const Angle turned = result.limits[i].end.turned;
     return result.bands.empty() ? fmt::format("{:.2f}", turned.degrees())
                                 : io::quoted_limit(turned, result.bands[i]);
@@ -331,7 +346,8 @@ std::string rom_text(const RomResult& result) {
     const MotionLimit& limit = result.limits[i];
     name.cells.push_back(limit.motion.name);
     turned.cells.push_back(limit_text(i));
-    reason.cells.emplace_back(words_of(limit));
+    const auto side = contact_side(result.joint, limit);
+    reason.cells.push_back(std::string(words_of(limit)) + (side ? fmt::format(", {}", name_of(*side)) : ""));
     point.cells.push_back(limit.end.contact
                               ? core::rounded(frame_of(result).fixed_point(limit.end.contact->fixed_point), 2)
                               : "-");
@@ -363,7 +379,8 @@ std::string rom_text(const RomResult& result) {
   if (!result.closed.empty()) shown.push_back(std::move(closed));
   text += table_text(shown);
   text += closed_text(result);
-  text += met_text(result);
+  text += met_text(result, "ended by", end_of);
+  text += met_text(result, "soft meshes touched on the way", soft_contact_of);
   text += zones_text(result);
   text += band_text(result);
   if (std::any_of(result.limits.begin(), result.limits.end(),

@@ -54,12 +54,15 @@ function caveatsOf({ motions }: RomAnswer): string[] {
 const degrees = (value: number | null) => (value === null ? "–" : `${value.toFixed(1)}°`);
 
 /// What ended a motion: of bodies of several meshes which of them, and what soft meshes it met before.
-function endOf({ reason, contact_kind, features, soft_contact_deg }: MotionAnswer, joint: ReportText["joint"]): string {
+function endOf(motion: MotionAnswer, joint: ReportText["joint"]): string {
+  const { reason, contact_kind, contact_side, features, soft_contact_deg, soft_contact_parts: soft } = motion;
   const fixed = features?.fixed.part, mobile = features?.mobile.part;
   const kind = contact_kind !== null && (words.contactKinds[contact_kind] ?? contact_kind);
-  const how = [kind, (fixed || mobile) && words.meshOn(mobile ?? joint.mobile, fixed ?? joint.fixed),
-    typeof soft_contact_deg === "number" && words.softFrom(degrees(soft_contact_deg))].filter(Boolean).join(", ");
-  return how ? words.endsBy(words.reasons[reason], how) : words.reasons[reason];
+  const how = [kind, contact_side, (fixed || mobile) && words.meshOn(mobile ?? joint.mobile, fixed ?? joint.fixed),
+    typeof soft_contact_deg === "number" && words.softFrom(
+      degrees(soft_contact_deg), soft ? words.meshOn(soft.mobile ?? joint.mobile, soft.fixed ?? joint.fixed) : null)].filter(Boolean).join(", ");
+  const end = !motion.translation_ends ? words.reasons[reason] : motion.translation_mm ? words.translationEnds : words.notCarried;
+  return how ? words.endsBy(end, how) : end;
 }
 
 function limitsTable({ motions }: RomAnswer, joint: ReportText["joint"]): HTMLElement {

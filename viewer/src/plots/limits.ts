@@ -14,7 +14,8 @@ export function toldBand({ band, reason }: MotionAnswer): Band | null {
 }
 
 /// Without its band.
-export function limitAlone({ reason, limit_deg }: MotionAnswer): string {
+export function limitAlone({ reason, limit_deg, translation_ends, translation_mm }: MotionAnswer): string {
+  if (translation_ends && !translation_mm) return "–";
   const number = `${limit_deg.toFixed(1)}°`;
   return reason === "end_of_range" ? words.over(number) : number;
 }
