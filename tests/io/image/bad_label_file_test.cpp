@@ -15,7 +15,7 @@ using test::put;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Message of the reader's error; "read" if there is none.
-std::string complaint(std::string_view bytes, LabelFormat format) {
+std::string label_complaint(std::string_view bytes, LabelFormat format) {
   try {
     read_labels(bytes, format, "bones");
   } catch (const FileError& error) {
@@ -24,7 +24,7 @@ std::string complaint(std::string_view bytes, LabelFormat format) {
   return "read";
 }
 
-std::string complaint(const std::filesystem::path& path) {
+std::string label_complaint(const std::filesystem::path& path) {
   try {
     read_labels(path);
   } catch (const FileError& error) {
@@ -33,7 +33,7 @@ std::string complaint(const std::filesystem::path& path) {
   return "read";
 }
 
-std::string with(std::string text, std::string_view old_part, std::string_view new_part) {
+std::string with_text(std::string text, std::string_view old_part, std::string_view new_part) {
   const auto at = text.find(old_part);
   EXPECT_NE(at, std::string::npos) << old_part;
   return at == std::string::npos ? text : text.replace(at, old_part.size(), new_part);
@@ -91,8 +91,8 @@ std::vector<Damage> damaged_nifti() {
       {"other_bytes", std::string(1000, 'x'), "bones: sizeof_hdr: neither 348 nor 540: no NIfTI file"},
       {"analyze", good.substr(0, 344) + std::string(4, '\0') + good.substr(348),
        "bones: magic: neither 'n+1' nor 'ni1': no NIfTI-1 file (Analyze 7.5 is not read)"},
-      {"magic_2", with(good_2, "n+2", "n+3"), "bones: magic: neither 'n+2' nor 'ni2': no NIfTI-2 file"},
-      {"detached", with(good, "n+1", "ni1"), "bones: magic: the data lie in another file, '.img'"},
+      {"magic_2", with_text(good_2, "n+2", "n+3"), "bones: magic: neither 'n+2' nor 'ni2': no NIfTI-2 file"},
+      {"detached", with_text(good, "n+1", "ni1"), "bones: magic: the data lie in another file, '.img'"},
       {"two_dimensions", i16(40, 2), "bones: dim[0]: 2 dimensions: only images of 3 are read"},
       {"eight_dimensions", i16(40, 8), "bones: dim[0]: 8 dimensions: only images of 3 are read"},
       {"negative_dimensions", i16(40, -1), "bones: dim[0]: -1 dimensions: only images of 3 are read"},
@@ -189,94 +189,97 @@ std::vector<Damage> damaged_nrrd() {
   return {
       {"empty", "", "bones: the file is empty"},
       {"other_bytes", "PNG\n\n", "bones: does not begin with 'NRRD000': no NRRD file"},
-      {"version", with(good, "NRRD0004", "NRRD0009"), "bones: 'NRRD0009': versions 1 to 5 of NRRD are read"},
-      {"old_version", with(good, "NRRD0004", "NRRD00.01"),
+      {"version", with_text(good, "NRRD0004", "NRRD0009"),
+       "bones: 'NRRD0009': versions 1 to 5 of NRRD are read"},
+      {"old_version", with_text(good, "NRRD0004", "NRRD00.01"),
        "bones: 'NRRD00.01': versions 1 to 5 of NRRD are read"},
       {"only_magic", "NRRD0004\n\n", "bones: dimension: is missing"},
       {"unknown_field", more("spacing: 1 2 3\n"), "bones: line 12: 'spacing: 1 2 3' is no field of NRRD"},
       {"control_characters", more("\x1b[31m\n"), "bones: line 12: '?[31m' is no field of NRRD"},
       {"field_twice", more("type: short\n"), "bones: line 12: the field 'type' is given twice"},
       {"key_twice", more("a:=1\na:=2\n"), "bones: line 13: the key 'a' is given twice"},
-      {"dimension_2", with(good, "dimension: 3", "dimension: 2"),
+      {"dimension_2", with_text(good, "dimension: 3", "dimension: 2"),
        "bones: dimension: 2: 3, and 4 with an axis of layers, are read"},
-      {"dimension_16", with(good, "dimension: 3", "dimension: 16"),
+      {"dimension_16", with_text(good, "dimension: 3", "dimension: 16"),
        "bones: dimension: 16: 3, and 4 with an axis of layers, are read"},
-      {"dimension_text", with(good, "dimension: 3", "dimension: three"),
+      {"dimension_text", with_text(good, "dimension: 3", "dimension: three"),
        "bones: dimension: 'three' is no whole number"},
-      {"sizes_missing", with(good, "sizes: 5 4 3\n", ""), "bones: sizes: is missing"},
-      {"sizes_two", with(good, "sizes: 5 4 3", "sizes: 5 4"), "bones: sizes: has 2 values instead of 3"},
-      {"sizes_zero", with(good, "sizes: 5 4 3", "sizes: 5 0 3"), "bones: sizes: a size of 0"},
-      {"sizes_negative", with(good, "sizes: 5 4 3", "sizes: 5 4 -3"), "bones: sizes: a size of -3"},
-      {"sizes_text", with(good, "sizes: 5 4 3", "sizes: 5 4 x"), "bones: sizes: 'x' is no whole number"},
-      {"sizes_beyond_64_bits", with(good, "sizes: 5 4 3", "sizes: 5 4 18446744073709551619"),
+      {"sizes_missing", with_text(good, "sizes: 5 4 3\n", ""), "bones: sizes: is missing"},
+      {"sizes_two", with_text(good, "sizes: 5 4 3", "sizes: 5 4"), "bones: sizes: has 2 values instead of 3"},
+      {"sizes_zero", with_text(good, "sizes: 5 4 3", "sizes: 5 0 3"), "bones: sizes: a size of 0"},
+      {"sizes_negative", with_text(good, "sizes: 5 4 3", "sizes: 5 4 -3"), "bones: sizes: a size of -3"},
+      {"sizes_text", with_text(good, "sizes: 5 4 3", "sizes: 5 4 x"), "bones: sizes: 'x' is no whole number"},
+      {"sizes_beyond_64_bits", with_text(good, "sizes: 5 4 3", "sizes: 5 4 18446744073709551619"),
        "bones: sizes: '18446744073709551619' is no whole number"},
-      {"sizes_colossal", with(good, "sizes: 5 4 3", "sizes: 4294967296 4294967296 2"),
+      {"sizes_colossal", with_text(good, "sizes: 5 4 3", "sizes: 4294967296 4294967296 2"),
        "bones: sizes: 4294967296 x 4294967296 x 2 voxels are more than 2^40"},
-      {"promises_too_much", with(good, "sizes: 5 4 3", "sizes: 8192 8192 8192"),
+      {"promises_too_much", with_text(good, "sizes: 5 4 3", "sizes: 8192 8192 8192"),
        "bones: data: the file is too short for the 1099511627776 bytes that the header promises"},
-      {"promises_too_much_compressed", with(gz, "sizes: 5 4 3", "sizes: 8192 8192 8192"),
+      {"promises_too_much_compressed", with_text(gz, "sizes: 5 4 3", "sizes: 8192 8192 8192"),
        "bones: data: the file is too short for the 1099511627776 bytes that the header promises"},
-      {"layers_none", with(layered, "sizes: 3 5 4 3", "sizes: 0 5 4 3"),
+      {"layers_none", with_text(layered, "sizes: 3 5 4 3", "sizes: 0 5 4 3"),
        "bones: sizes: 0 layers: 1 to 1024 are read"},
-      {"layers_many", with(layered, "sizes: 3 5 4 3", "sizes: 5000 5 4 3"),
+      {"layers_many", with_text(layered, "sizes: 3 5 4 3", "sizes: 5000 5 4 3"),
        "bones: sizes: 5000 layers: 1 to 1024 are read"},
-      {"type_missing", with(good, "type: short\n", ""), "bones: type: is missing"},
-      {"type_block", with(good, "type: short", "type: block"), "bones: type: 'block' is not read"},
-      {"encoding_missing", with(good, "encoding: raw\n", ""), "bones: encoding: is missing"},
-      {"encoding_ascii", with(good, "encoding: raw", "encoding: ascii"),
+      {"type_missing", with_text(good, "type: short\n", ""), "bones: type: is missing"},
+      {"type_block", with_text(good, "type: short", "type: block"), "bones: type: 'block' is not read"},
+      {"encoding_missing", with_text(good, "encoding: raw\n", ""), "bones: encoding: is missing"},
+      {"encoding_ascii", with_text(good, "encoding: raw", "encoding: ascii"),
        "bones: encoding: 'ascii' is not read: 'raw' and 'gzip' are"},
-      {"encoding_bzip2", with(good, "encoding: raw", "encoding: bz2"),
+      {"encoding_bzip2", with_text(good, "encoding: raw", "encoding: bz2"),
        "bones: encoding: 'bz2' is not read: 'raw' and 'gzip' are"},
-      {"endian_missing", with(good, "endian: little\n", ""), "bones: endian: is missing"},
-      {"endian_middle", with(good, "endian: little", "endian: middle"),
+      {"endian_missing", with_text(good, "endian: little\n", ""), "bones: endian: is missing"},
+      {"endian_middle", with_text(good, "endian: little", "endian: middle"),
        "bones: endian: 'middle' is neither 'little' nor 'big'"},
-      {"space_unknown", with(good, "left-posterior-superior", "left-posterior-inferior"),
+      {"space_unknown", with_text(good, "left-posterior-superior", "left-posterior-inferior"),
        "bones: space: 'left-posterior-inferior' is not read"},
-      {"space_in_time", with(good, "left-posterior-superior", "LPST"), "bones: space: 'lpst' is not read"},
-      {"space_missing", with(good, "space: left-posterior-superior\n", ""),
+      {"space_in_time", with_text(good, "left-posterior-superior", "LPST"),
+       "bones: space: 'lpst' is not read"},
+      {"space_missing", with_text(good, "space: left-posterior-superior\n", ""),
        "bones: space: missing or no named one: the file does not say how its axes lie in the body; state it"},
-      {"space_only_handed", with(good, "left-posterior-superior", "3D-right-handed"),
+      {"space_only_handed", with_text(good, "left-posterior-superior", "3D-right-handed"),
        "bones: space: missing or no named one: the file does not say how its axes lie in the body; state it"},
-      {"only_spacings", with(good, "space directions: " + directions, "spacings: 1 1 1"),
+      {"only_spacings", with_text(good, "space directions: " + directions, "spacings: 1 1 1"),
        "bones: space directions: missing or no named one: the file does not say how its axes lie in the "
        "body; "
        "state it"},
-      {"no_axes", with(good, "space directions: " + directions + "\n", ""), "bones: spacings: is missing"},
+      {"no_axes", with_text(good, "space directions: " + directions + "\n", ""),
+       "bones: spacings: is missing"},
       {"space_units", more("space units: \"mm\" \"mm\" \"cm\"\n"),
        "bones: space units: are not three times the same unit"},
       {"space_units_unknown", more("space units: \"s\" \"s\" \"s\"\n"),
        "bones: space units: '\"s\"' is no unit of length that is read"},
-      {"directions_two", with(good, directions, "(0.5,0,0) (0,0.75,0)"),
+      {"directions_two", with_text(good, directions, "(0.5,0,0) (0,0.75,0)"),
        "bones: space directions: '' is no vector"},
-      {"directions_four", with(good, directions, directions + " (1,0,0)"),
+      {"directions_four", with_text(good, directions, directions + " (1,0,0)"),
        "bones: space directions: are more than the 3 axes"},
-      {"directions_with_none", with(good, directions, "none (0,0.75,0) (0,0,2)"),
+      {"directions_with_none", with_text(good, directions, "none (0,0.75,0) (0,0,2)"),
        "bones: space directions: name 2 axes of space instead of 3"},
-      {"directions_without_none", with(layered, "none " + directions, directions + " (1,1,1)"),
+      {"directions_without_none", with_text(layered, "none " + directions, directions + " (1,1,1)"),
        "bones: space directions: name 4 axes of space instead of 3"},
-      {"directions_of_two", with(good, directions, "(0.5,0) (0,0.75) (0,0)"),
+      {"directions_of_two", with_text(good, directions, "(0.5,0) (0,0.75) (0,0)"),
        "bones: space directions: a vector has another number of components than 3"},
-      {"directions_of_four", with(good, directions, "(0.5,0,0,0) (0,0.75,0,0) (0,0,2,0)"),
+      {"directions_of_four", with_text(good, directions, "(0.5,0,0,0) (0,0.75,0,0) (0,0,2,0)"),
        "bones: space directions: a vector has another number of components than 3"},
-      {"directions_open", with(good, directions, "(0.5,0,0 (0,0.75,0 (0,0,2"),
+      {"directions_open", with_text(good, directions, "(0.5,0,0 (0,0.75,0 (0,0,2"),
        "bones: space directions: '(0.5,0,0 (0,0.75,0 (0,0,2' is no vector"},
-      {"directions_text", with(good, directions, "(0.5,0,x) (0,0.75,0) (0,0,2)"),
+      {"directions_text", with_text(good, directions, "(0.5,0,x) (0,0.75,0) (0,0,2)"),
        "bones: space directions: 'x' is no number"},
-      {"directions_nan", with(good, directions, "(nan,0,0) (0,0.75,0) (0,0,2)"),
+      {"directions_nan", with_text(good, directions, "(nan,0,0) (0,0.75,0) (0,0,2)"),
        "bones: space directions: places voxels at (nan, ..."},
-      {"directions_flat", with(good, directions, "(0.5,0,0) (0,0.75,0) (1,1,0)"),
+      {"directions_flat", with_text(good, directions, "(0.5,0,0) (0,0.75,0) (1,1,0)"),
        "bones: space directions: the three axes lie in one plane"},
-      {"directions_zero", with(good, directions, "(0.5,0,0) (0,0.75,0) (0,0,0)"),
+      {"directions_zero", with_text(good, directions, "(0.5,0,0) (0,0.75,0) (0,0,0)"),
        "bones: space directions: voxels have an extent of 0 mm along axis 2"},
-      {"origin_text", with(good, "space origin: (-20,30,400)", "space origin: -20 30 400"),
+      {"origin_text", with_text(good, "space origin: (-20,30,400)", "space origin: -20 30 400"),
        "bones: space origin: '-20 30 400' is no vector"},
-      {"origin_none", with(good, "space origin: (-20,30,400)", "space origin: none"),
+      {"origin_none", with_text(good, "space origin: (-20,30,400)", "space origin: none"),
        "bones: space origin: is no single vector"},
-      {"origin_infinite", with(good, "space origin: (-20,30,400)", "space origin: (inf,30,400)"),
+      {"origin_infinite", with_text(good, "space origin: (-20,30,400)", "space origin: (inf,30,400)"),
        "bones: space directions: places voxels at (inf, 30, 400) mm, which is not finite or beyond 1e30"},
-      {"kinds_too_few", with(good, "kinds: domain domain domain", "kinds: domain"),
+      {"kinds_too_few", with_text(good, "kinds: domain domain domain", "kinds: domain"),
        "bones: kinds: are 1 instead of 3"},
-      {"kinds_colours", with(layered, "kinds: list", "kinds: RGB-color"),
+      {"kinds_colours", with_text(layered, "kinds: list", "kinds: RGB-color"),
        "bones: kinds: 'rgb-color' is no axis of layers: 'list' and 'vector' are"},
       {"line_skip", more("line skip: 1000\n"), "bones: line skip: the file of the data has fewer lines"},
       {"line_skip_negative", more("line skip: -1\n"), "bones: line skip: -1 is no number of lines"},
@@ -307,46 +310,46 @@ std::vector<Damage> damaged_metaimage() {
   return {
       {"empty", "", "bones: the file is empty"},
       {"other_bytes", "hello", "bones: line 1: 'hello' is no 'key = value'"},
-      {"no_data_file", with(good, "ElementDataFile = LOCAL\n", ""), "bones: line 13: ..."},
+      {"no_data_file", with_text(good, "ElementDataFile = LOCAL\n", ""), "bones: line 13: ..."},
       {"ends_in_header", good.substr(0, good.find("CompressedData")), "bones: ElementDataFile: is missing"},
       {"key_twice", more("NDims = 3\n"), "bones: line 12: the key 'NDims' is given twice"},
       {"alias_too", more("Origin = 0 0 0\n"), "bones: Origin: Offset says the same already"},
-      {"object_type", with(good, "= Image", "= Tube"), "bones: ObjectType: 'Tube' is no Image"},
-      {"dimensions_missing", with(good, "NDims = 3\n", ""), "bones: NDims: is missing"},
-      {"dimensions_2", with(good, "NDims = 3", "NDims = 2"),
+      {"object_type", with_text(good, "= Image", "= Tube"), "bones: ObjectType: 'Tube' is no Image"},
+      {"dimensions_missing", with_text(good, "NDims = 3\n", ""), "bones: NDims: is missing"},
+      {"dimensions_2", with_text(good, "NDims = 3", "NDims = 2"),
        "bones: NDims: 2 dimensions: only images of 3 are read"},
-      {"text_data", with(good, "BinaryData = True", "BinaryData = False"),
+      {"text_data", with_text(good, "BinaryData = True", "BinaryData = False"),
        "bones: BinaryData: voxels written as text are not read"},
-      {"neither_true_nor_false", with(good, "BinaryData = True", "BinaryData = Yes"),
+      {"neither_true_nor_false", with_text(good, "BinaryData = True", "BinaryData = Yes"),
        "bones: BinaryData: 'Yes' is neither True nor False"},
       {"channels", more("ElementNumberOfChannels = 3\n"),
        "bones: ElementNumberOfChannels: several values in a voxel are not read"},
       {"slope", more("ElementToIntensityFunctionSlope = 0.5\n"),
        "bones: ElementToIntensityFunctionSlope: a slope other than 1 is not read"},
-      {"sizes_missing", with(good, "DimSize = 5 4 3\n", ""), "bones: DimSize: is missing"},
-      {"sizes_four", with(good, "DimSize = 5 4 3", "DimSize = 5 4 3 1"),
+      {"sizes_missing", with_text(good, "DimSize = 5 4 3\n", ""), "bones: DimSize: is missing"},
+      {"sizes_four", with_text(good, "DimSize = 5 4 3", "DimSize = 5 4 3 1"),
        "bones: DimSize: has 4 values instead of 3"},
-      {"sizes_zero", with(good, "DimSize = 5 4 3", "DimSize = 0 4 3"), "bones: DimSize: a size of 0"},
-      {"sizes_half", with(good, "DimSize = 5 4 3", "DimSize = 5 4.5 3"),
+      {"sizes_zero", with_text(good, "DimSize = 5 4 3", "DimSize = 0 4 3"), "bones: DimSize: a size of 0"},
+      {"sizes_half", with_text(good, "DimSize = 5 4 3", "DimSize = 5 4.5 3"),
        "bones: DimSize: '4.5' is no whole number"},
-      {"promises_too_much", with(compressed, "DimSize = 5 4 3", "DimSize = 8192 8192 8192"),
+      {"promises_too_much", with_text(compressed, "DimSize = 5 4 3", "DimSize = 8192 8192 8192"),
        "bones: data: the file is too short for the 1099511627776 bytes that the header promises"},
-      {"type_missing", with(good, "ElementType = MET_SHORT\n", ""), "bones: ElementType: is missing"},
-      {"type_array", with(good, "MET_SHORT", "MET_SHORT_ARRAY"),
+      {"type_missing", with_text(good, "ElementType = MET_SHORT\n", ""), "bones: ElementType: is missing"},
+      {"type_array", with_text(good, "MET_SHORT", "MET_SHORT_ARRAY"),
        "bones: ElementType: 'MET_SHORT_ARRAY' is not read"},
-      {"type_long", with(good, "MET_SHORT", "MET_LONG"),
+      {"type_long", with_text(good, "MET_SHORT", "MET_LONG"),
        "bones: ElementType: MET_LONG has 4 bytes in some programs and 8 in others: is not read"},
-      {"spacing_missing", with(good, "ElementSpacing = 0.5 0.75 2\n", ""),
+      {"spacing_missing", with_text(good, "ElementSpacing = 0.5 0.75 2\n", ""),
        "bones: ElementSpacing: is missing"},
-      {"spacing_zero", with(good, "ElementSpacing = 0.5 0.75 2", "ElementSpacing = 0.5 0 2"),
+      {"spacing_zero", with_text(good, "ElementSpacing = 0.5 0.75 2", "ElementSpacing = 0.5 0 2"),
        "bones: TransformMatrix: voxels have an extent of 0 mm along axis 1"},
-      {"matrix_of_eight", with(good, matrix, "TransformMatrix = 1 0 0 0 1 0 0 0"),
+      {"matrix_of_eight", with_text(good, matrix, "TransformMatrix = 1 0 0 0 1 0 0 0"),
        "bones: TransformMatrix: has 8 values instead of 9"},
-      {"matrix_text", with(good, matrix, "TransformMatrix = 1 0 0 0 1 0 0 0 one"),
+      {"matrix_text", with_text(good, matrix, "TransformMatrix = 1 0 0 0 1 0 0 0 one"),
        "bones: TransformMatrix: 'one' is no number"},
-      {"matrix_flat", with(good, matrix, "TransformMatrix = 1 0 0 0 1 0 1 1 0"),
+      {"matrix_flat", with_text(good, matrix, "TransformMatrix = 1 0 0 0 1 0 1 1 0"),
        "bones: TransformMatrix: the three axes lie in one plane"},
-      {"matrix_infinite", with(good, matrix, "TransformMatrix = inf 0 0 0 1 0 0 0 1"),
+      {"matrix_infinite", with_text(good, matrix, "TransformMatrix = inf 0 0 0 1 0 0 0 1"),
        "bones: TransformMatrix: places voxels at (..."},
       {"units", more("DistanceUnits = inch\n"),
        "bones: DistanceUnits: 'inch' is no unit of length that is read"},
@@ -359,15 +362,15 @@ std::vector<Damage> damaged_metaimage() {
       {"compressed_size",
        test::meta(image(), {.is_compressed = true, .more_lines = "CompressedDataSize = 100000\n"}),
        "bones: CompressedDataSize: the file holds fewer than 100000 bytes of data"},
-      {"data_file", with(good, "LOCAL", "x.raw"),
+      {"data_file", with_text(good, "LOCAL", "x.raw"),
        "bones: ElementDataFile: the data lie in another file, 'x.raw'"},
-      {"data_files_listed", with(good, "LOCAL", "LIST"),
+      {"data_files_listed", with_text(good, "LOCAL", "LIST"),
        "bones: ElementDataFile: 'LIST': data in several files are not read"},
-      {"data_files_numbered", with(good, "LOCAL", "a%03d.raw 1 3 1"),
+      {"data_files_numbered", with_text(good, "LOCAL", "a%03d.raw 1 3 1"),
        "bones: ElementDataFile: 'a%03d.raw 1 3 1': data in several files are not read"},
       {"cut", good.substr(0, good.size() - 1),
        "bones: data: the file is too short for the 120 bytes that the header promises"},
-      {"not_compressed", with(good, "CompressedData = False", "CompressedData = True"),
+      {"not_compressed", with_text(good, "CompressedData = False", "CompressedData = True"),
        "bones: the compressed data ..."},
       {"compressed_cut", compressed.substr(0, compressed.size() - 3),
        "bones: the compressed data end too early, after ..."},
@@ -391,7 +394,7 @@ bool is_like(std::string_view message, std::string_view expected) {
 
 void expect_one_line_for_each(const std::vector<Damage>& damages, LabelFormat format) {
   for (const auto& damage : damages) {
-    const auto message = complaint(damage.bytes, format);
+    const auto message = label_complaint(damage.bytes, format);
     EXPECT_TRUE(is_like(message, damage.message))
         << damage.name << ": " << message << "\ninstead of " << damage.message;
     EXPECT_TRUE(message.starts_with("bones: ")) << damage.name << ": " << message;
@@ -417,7 +420,7 @@ TEST(BadLabelFile, WithANumberThatIsNotFiniteAnywhereInItsAffineIsRefused) {
                                   std::numeric_limits<float>::infinity()};
   for (const float value : not_finite)
     for (std::size_t at = 280; at < 328; at += 4) {
-      const auto message = complaint(changed(test::nifti(image()), at, value), LabelFormat::nifti);
+      const auto message = label_complaint(changed(test::nifti(image()), at, value), LabelFormat::nifti);
       EXPECT_TRUE(message.starts_with("bones: srow: places voxels at (")) << at << ": " << message;
     }
 }
@@ -429,9 +432,9 @@ TEST(BadLabelFile, CutAnywhereEndsInOneLine) {
       {test::nrrd(image(), {.is_gzip = true}), LabelFormat::nrrd},
       {test::meta(image(), {.is_compressed = true}), LabelFormat::metaimage}};
   for (const auto& [bytes, format] : files) {
-    EXPECT_EQ(complaint(bytes, format), "read");
+    EXPECT_EQ(label_complaint(bytes, format), "read");
     for (std::size_t size = 0; size < bytes.size(); ++size) {
-      const auto message = complaint(bytes.substr(0, size), format);
+      const auto message = label_complaint(bytes.substr(0, size), format);
       EXPECT_TRUE(message.starts_with("bones: ")) << size << " of " << bytes.size() << ": " << message;
     }
   }
@@ -441,21 +444,21 @@ TEST(BadLabelFile, MissingAFolderUnknownOrWithoutItsDataIsNamed) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directories(folder / "inside.nii");
   const auto missing = folder / "bones.nii", inside = folder / "inside.nii";
-  EXPECT_EQ(complaint(missing), missing.string() + ": no such file");
-  EXPECT_EQ(complaint(inside), inside.string() + ": is a folder, not a file");
+  EXPECT_EQ(label_complaint(missing), missing.string() + ": no such file");
+  EXPECT_EQ(label_complaint(inside), inside.string() + ": is a folder, not a file");
   const auto unknown = folder.file("bones.dcm", "x");
-  EXPECT_EQ(complaint(unknown),
+  EXPECT_EQ(label_complaint(unknown),
             unknown.string() +
                 ": unknown extension '.dcm': label maps in .nii, .nii.gz, .hdr, .nrrd, .nhdr, .mha and .mhd "
                 "are read");
   const auto header = folder.file("bones.hdr", test::nifti_header(image(), {.is_detached = true}));
-  EXPECT_EQ(complaint(header),
+  EXPECT_EQ(label_complaint(header),
             header.string() + ": magic: 'bones.img' cannot be opened or is no regular file");
   const auto nhdr = folder.file("bones.nhdr", test::nrrd_header(image(), {.data_file = "/etc/passwd"}));
-  EXPECT_EQ(complaint(nhdr),
+  EXPECT_EQ(label_complaint(nhdr),
             nhdr.string() + ": data file: '/etc/passwd' lies outside the folder of the header");
   const auto mhd = folder.file("bones.mhd", test::meta_header(image(), {.data_file = "../../x.raw"}));
-  EXPECT_EQ(complaint(mhd),
+  EXPECT_EQ(label_complaint(mhd),
             mhd.string() + ": ElementDataFile: '../../x.raw' lies outside the folder of the header");
 }
 
@@ -467,9 +470,9 @@ TEST(BadLabelFile, ThatInflatesToMoreThanItPromisesIsReadNoFurther) {
 }
 
 TEST(BadLabelFile, WithAnEndlessHeaderIsRefused) {
-  EXPECT_EQ(complaint("NRRD0004\n# " + std::string(std::size_t{20} << 20, 'x'), LabelFormat::nrrd),
+  EXPECT_EQ(label_complaint("NRRD0004\n# " + std::string(std::size_t{20} << 20, 'x'), LabelFormat::nrrd),
             "bones: the header is longer than 16 MB");
-  EXPECT_EQ(complaint(std::string(std::size_t{20} << 20, 'x'), LabelFormat::metaimage),
+  EXPECT_EQ(label_complaint(std::string(std::size_t{20} << 20, 'x'), LabelFormat::metaimage),
             "bones: the header is longer than 16 MB");
 }
 
