@@ -110,7 +110,7 @@ std::vector<Index> in_body(std::vector<Index> of_mesh, std::size_t first_vertex)
   return of_mesh;
 }
 
-/// How many triangles of a mesh that was cut before are of its faces still: they are the last of it, and planes keep the order.
+/// A second part would have faces of the first for surface of the bone.
 void refuse_second_cut(const PosedPart& part, const BodyPart& mesh) {
   if (mesh.cut_triangles > 0)
     refuse_part(part, "cut: " + core::one_line(mesh.name) + " is cut already: one part is cut from a mesh");

@@ -14,8 +14,8 @@ struct CutParts {
   std::vector<std::string> processing = {};  ///< a line for each part that was cut
 };
 
-/// Cuts the parts that have planes from the first of their meshes, in their order: what lies behind all planes becomes a mesh that has the part's
-/// name, after the mesh that it is cut from, which keeps the rest and its own. Parts then name the meshes that they move.
+/// Cuts the parts that have planes from the first of their meshes, in their order: what lies behind all planes becomes a mesh that has the
+/// part's name, after the mesh that it is cut from, which keeps the rest and its own name. Parts then name the meshes that they move.
 ///
 /// Throws UsageError ("part fragment: ...") for a mesh that there is not, one that lies on both sides of the planes beside the one that is cut,
 /// and what cut_by_planes() refuses; MeshError for a mesh without an inside.

@@ -17,7 +17,8 @@ namespace condyle::mesh {
 ///       |___|__________|____|
 ///
 /// Vertices of the mesh keep every bit, and both sides share those of the faces: volumes add up but for the rounding of points on edges. A
-/// vertex nearer to a plane than on_plane_mm counts as on it. Triangles that lie in a plane belong to the side that their solid is on.
+/// vertex nearer to a plane than on_plane_mm counts as on it. Triangles that lie in a plane belong to the side that their solid is on. If a
+/// hollow only touches a plane, in a vertex or an edge, the outer side touches its own face there.
 
 /// A side of triangles cut nearer than this to a vertex would be narrower than what points on edges are rounded to allows: mm.
 inline constexpr double on_plane_mm = 1e-6;

@@ -168,7 +168,7 @@ TEST_F(CutParts, TurnedHaveTheLimitsOfMeshesTurnedByHand) {
   EXPECT_NEAR(lateral(there), lateral(cut) + 10, off_centre_deg);
 }
 
-/// An osteotomy of the femur: its head keeps what a fit found, by other numbers.
+/// The head of a femur that is cut keeps what a fit found, by other numbers.
 TEST_F(CutParts, OfAFemurLeaveItsHeadAndLimitsAsTheyAre) {
   const auto fitted = [&](std::string_view more, std::string_view name) {
     std::string text = cut_parts::file_text("mesh = \"hip_bone.ply\"", "mesh = \"femur.ply\"", more);

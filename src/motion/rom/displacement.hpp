@@ -32,8 +32,8 @@ std::vector<Displacement> displacements(const BandOptions& options, std::size_t 
 Pose displaced_frame(const Displacement& by);
 
 /// A body's surface, movable along its normals: the mean of the triangles around each vertex weighted by area, without faces in which parts
-/// were cut; zero if no triangle uses it. A surface that is off by a share of a voxel has the width of the share in the normal's direction instead of a length:
-/// slices are thicker than their pixels.
+/// were cut; zero if no triangle uses it. A surface that is off by a share of a voxel has the width of the share in the normal's direction
+/// instead of a length: slices are thicker than their pixels.
 class MovableSurface {
  public:
   MovableSurface(const Body& body, const Uncertainty& sigma);
