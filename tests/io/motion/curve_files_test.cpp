@@ -31,7 +31,7 @@ Curves some_curves() {
                       1 + std::numeric_limits<double>::epsilon(), -7}}};
 }
 
-void expect_same_bits(const std::vector<double>& read, const std::vector<double>& written) {
+void expect_equal_columns(const std::vector<double>& read, const std::vector<double>& written) {
   ASSERT_EQ(read.size(), written.size());
   for (std::size_t i = 0; i < read.size(); ++i) {
     if (std::isnan(written[i]))
@@ -45,10 +45,10 @@ void expect_same_bits(const std::vector<double>& read, const std::vector<double>
 void expect_read_back(const MotionTable& table, const Curves& curves) {
   ASSERT_EQ(table.columns.size(), 1 + curves.names.size());
   EXPECT_EQ(table.columns[0], curves.axis);
-  expect_same_bits(table.values[0], curves.at);
+  expect_equal_columns(table.values[0], curves.at);
   for (std::size_t c = 0; c < curves.names.size(); ++c) {
     EXPECT_EQ(table.columns[c + 1], curves.names[c]);
-    expect_same_bits(table.values[c + 1], curves.values[c]);
+    expect_equal_columns(table.values[c + 1], curves.values[c]);
   }
   EXPECT_EQ(table.processing, std::vector<std::string>{});
 }
@@ -145,8 +145,8 @@ TEST(CycleOf, DoesNotBridgeGaps) {
                                  .values = {{0, 10, none, 30, 40}, {0, 1, 2, 3, 4}}},
                                 0, 4, 9);
   const std::vector<double> expected = {0, 5, 10, none, none, none, 30, 35, 40};
-  expect_same_bits(cycle.values[0], expected);
-  expect_same_bits(cycle.values[1], {0, 0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4});
+  expect_equal_columns(cycle.values[0], expected);
+  expect_equal_columns(cycle.values[1], {0, 0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4});
 }
 
 TEST(CycleOf, RefusesACycleThatIsNotInTheMotion) {
