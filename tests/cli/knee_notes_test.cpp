@@ -44,7 +44,7 @@ class KneeNotes : public ::testing::Test {
   const TemporaryFolder folder;
 };
 
-bool has_note(const Json& answer, const std::string& code) {
+bool notes_of_knee_have(const Json& answer, const std::string& code) {
   return std::any_of(answer["notes"].begin(), answer["notes"].end(),
                      [&](const Json& note) { return note["code"] == code; });
 }
@@ -62,9 +62,9 @@ TEST_F(KneeNotes, StandInEveryAnswer) {
       const Ran ran = asked(joint), right = asked("right.toml");
       ASSERT_EQ(ran.exit_code, 0) << ran.err;
       EXPECT_NE(ran.err.find("condyle: note: " + code + ": "), std::string::npos) << ran.err;
-      EXPECT_TRUE(has_note(Json::parse(ran.out), code)) << question;
+      EXPECT_TRUE(notes_of_knee_have(Json::parse(ran.out), code)) << question;
       for (const char* wrong : {"wrong_side", "axes_turned", "mirrored", "axes_not_upright"})
-        EXPECT_FALSE(has_note(Json::parse(right.out), wrong)) << question;
+        EXPECT_FALSE(notes_of_knee_have(Json::parse(right.out), wrong)) << question;
     }
   EXPECT_EQ(run("rom left.toml --strict").exit_code, 4);
   EXPECT_EQ(run("rom right.toml --motion flexion --strict").exit_code, 0);
@@ -73,7 +73,7 @@ TEST_F(KneeNotes, StandInEveryAnswer) {
 TEST_F(KneeNotes, StandInReportsAndStudies) {
   ASSERT_EQ(run("report left.toml --follow record.csv --out page.html").exit_code, 0);
   const Json page = report_block(io::read_whole_file(folder / "page.html")).json;
-  EXPECT_TRUE(has_note(page["rom"], "wrong_side")) << page["rom"]["notes"];
+  EXPECT_TRUE(notes_of_knee_have(page["rom"], "wrong_side")) << page["rom"]["notes"];
   write_joint("one.toml", "left", "[1, 0, 0]", "ball");
   write_joint("other.toml", "right", "[1, 0, 0]", "ball");
   std::ofstream(folder / "knees.csv") << "id,joint\none,one.toml\nother,other.toml\n";
