@@ -87,6 +87,7 @@ void note(SweepAnswer& sweep) {
   };
   const auto safe = static_cast<std::size_t>(std::count_if(sweep.margin_deg.begin(), sweep.margin_deg.end(),
                                                            [](double margin) { return margin >= 0; }));
+  if (sweep.designs() == 0) return;  // of more shares than lines
   if (safe == 0) return add(SweepNoteCode::nothing_is_safe, nothing_text(sweep));
   if (safe == sweep.designs())
     return add(SweepNoteCode::everything_is_safe,

@@ -46,9 +46,12 @@ TEST(SampleReplacementCommand, HasBandsOfItsAxesInWhichTheHeadNeverMeetsTheLiner
   const Ran rom = run_condyle(folder.path(), "rom made/hip.toml --motion flexion --band=20 --json");
   ASSERT_EQ(rom.exit_code, 0) << rom.err;
   const auto motion = nlohmann::json::parse(rom.out)["motions"][0];
-  // Axes 1 degree off about each of the three turn a limit by some degrees; a head in its liner would end it anywhere.
-  EXPECT_GT(motion["band"]["p5_deg"], motion["limit_deg"].get<double>() - 8);
+  // Axes 1 degree off about each of the three turn a limit by some degrees, cups of 4 and stems of 2 by more; a head in its liner would
+  // end it anywhere.
+  EXPECT_GT(motion["band"]["p5_deg"], motion["limit_deg"].get<double>() - 20);
   EXPECT_EQ(motion["band"]["width_from"]["centre_deg"], 0);
+  EXPECT_LT(motion["band"]["width_from"]["axes_deg"], 8);
+  EXPECT_GT(motion["band"]["width_from"]["parameters_deg"], motion["band"]["width_from"]["axes_deg"]);
 }
 
 TEST(SampleReplacementCommand, NamesThePartsThatEndMotions) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "answer/sweep_summary.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/file/csv_fields.hpp"
@@ -92,9 +93,11 @@ void read_document(const Json& json, SweepResult& result) {
   result.scope = json.at("scope").get<std::string>();
   result.notes = json.at("notes");
   result.provenance = json.at("provenance");
-  for (const Json& each : json.at("parameters"))
+  for (const Json& each : json.at("parameters")) {
     sweep.parameters.push_back({each.at("name").get<std::string>(), each.at("first").get<double>(),
                                 each.at("last").get<double>(), each.at("step").get<double>()});
+    result.units.push_back(each.at("unit").get<std::string>());
+  }
   for (const Json& each : json.at("targets")) sweep.targets.push_back(target_in(each, result.anatomy));
   for (const Json& each : json.at("ending_pairs"))
     sweep.pairs.push_back({each.at("fixed").get<std::string>(), each.at("mobile").get<std::string>()});
@@ -124,8 +127,9 @@ void read_document(const Json& json, SweepResult& result) {
   }
   for (const Json& each : json.at("caveats")) sweep.caveats.push_back(each.get<std::string>());
   if (const Json& band = json.at("band"); !band.is_null()) {
-    result.band_options.samples = band.at("samples").get<std::size_t>();
-    result.band_options.seed = band.at("seed").get<std::uint64_t>();
+    result.bands.emplace();
+    result.bands->samples = band.at("samples").get<std::size_t>();
+    result.bands->seed = band.at("seed").get<std::uint64_t>();
   }
 }
 
@@ -140,7 +144,7 @@ SweepResult read_sweep_result(const Json& json, std::string_view designs, std::s
   } catch (const nlohmann::json::exception& error) {
     throw FileError(fmt::format("{}: sweep.json: is not whole: {}", name, error.what()));
   }
-  const bool has_probability = !json.at("band").is_null();
+  const bool has_probability = result.bands.has_value();
   const std::size_t first_quantity = sweep.parameters.size() + 2 + (has_probability ? 1 : 0);
   const std::size_t first_target = first_quantity + sweep.quantity_names.size();
   const std::string designs_name = fmt::format("{}/designs.csv", name),
@@ -174,6 +178,7 @@ SweepResult read_sweep_result(const Json& json, std::string_view designs, std::s
     sweep.safe.push_back({line, number_in(row[others], safe_name), number_in(row[others + 1], safe_name),
                           target_in(row[others + 2]), target_in(row[others + 3])});
   }
+  answer::summarise_sweep(sweep);
   return result;
 }
 

@@ -54,7 +54,8 @@ TriMesh sheet_of(const SweepAnswer& sweep, const std::vector<std::size_t>& axes)
   return sheet;
 }
 
-void write_zone(const fs::path& path, const SweepResult& result, const Provenance* from) {
+/// Without provenance, which sweep.json beside it has: bytes that do not depend on how the sweep was shared.
+void write_zone(const fs::path& path, const SweepResult& result) {
   const SweepAnswer& sweep = result.answer;
   std::vector<MeshArray> arrays{{"margin_deg", sweep.margin_deg}};
   if (!sweep.probability.empty()) arrays.push_back({"probability", sweep.probability});
@@ -70,8 +71,7 @@ void write_zone(const fs::path& path, const SweepResult& result, const Provenanc
       limits.push_back(sweep.limits[i * sweep.targets.size() + t].turned_deg);
     arrays.push_back({fmt::format("{}_limit_deg", sweep.targets[t].name), std::move(limits)});
   }
-  write_vtp(path, sheet_of(sweep, axes_of(sweep)), arrays, {},
-            {VtpEncoding::binary, provenance_fields(from)});
+  write_vtp(path, sheet_of(sweep, axes_of(sweep)), arrays, {}, {VtpEncoding::binary, {}});
 }
 
 struct SweepTexts {
@@ -109,6 +109,20 @@ std::set<std::size_t> counts_in(const fs::path& folder) {
       counts.insert(of);
   }
   return counts;
+}
+
+/// The words of the command without its share.
+void leave_out_shard(Json& provenance) {
+  if (provenance.is_null()) return;
+  Json words = Json::array();
+  const Json& given = provenance.at("command");
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (given[i] == "--shard")
+      ++i;
+    else
+      words.push_back(given[i]);
+  }
+  provenance["command"] = std::move(words);
 }
 
 /// What is the same in all shares of one sweep.
@@ -161,7 +175,7 @@ std::vector<fs::path> write_sweep(const fs::path& folder, const SweepResult& res
   write_whole_file(out.file("safe.csv"), safe);
   const std::vector<std::size_t> axes = axes_of(result.answer);
   if (axes.size() == 2 && result.answer.designs() / result.answer.parameters[axes[1]].count() > 1)
-    write_zone(out.file("zone.vtp"), result, from);
+    write_zone(out.file("zone.vtp"), result);
   Json json = sweep_object(result);
   json["family"] = key;
   json["files"] = {{"designs.csv", digest_text(designs)}, {"safe.csv", digest_text(safe)}};
@@ -211,6 +225,7 @@ MergedSweep merge_sweep(const fs::path& folder) {
                                 missing.size(), of, missing.size() == 1 ? "is" : "are",
                                 fmt::join(missing, ", ")));
   first->answer = merged_sweep(shares);
+  leave_out_shard(first->provenance);
   const std::string key = common.at("family").get<std::string>();
   std::vector<fs::path> written = write_sweep(folder, *first, key, nullptr);
   return {std::move(*first), std::move(written)};

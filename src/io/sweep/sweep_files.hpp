@@ -31,7 +31,7 @@ std::vector<std::filesystem::path> write_sweep(const std::filesystem::path& fold
 /// Whether the folder has shards of a sweep.
 bool has_sweep_shards(const std::filesystem::path& folder);
 
-/// Puts the shards in the folder together and writes the whole. FileError for a shard that is missing, not whole, or of another sweep.
+/// Puts the shards in the folder together and writes the whole: the bytes of a sweep that was not shared. FileError for a shard that is missing, not whole, or of another sweep.
 struct MergedSweep {
   SweepResult result;
   std::vector<std::filesystem::path> written;

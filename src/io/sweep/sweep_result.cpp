@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/file/format_version.hpp"
 #include "io/joint/given_degrees.hpp"
@@ -174,6 +175,13 @@ std::size_t known_by_form(const SweepAnswer& sweep) {
                     [](const DesignLimit& limit) { return limit.by == LimitKnownBy::closed_form; }));
 }
 
+ParameterKind swept_kind(const Joint& joint, const std::string& name) {
+  for (const PosedPart& part : joint.posed->parts)
+    for (const PartParameter& parameter : part.parameters)
+      if (part.name + "." + parameter.name == name) return parameter.kind;
+  throw UsageError("there is no parameter \"" + name + "\"");  // callers have checked it
+}
+
 std::string target_name(const SweepAnswer& sweep, const std::optional<std::size_t>& target) {
   return target ? io::csv_field(sweep.targets[*target].name) : std::string();
 }
@@ -187,7 +195,9 @@ SweepResult sweep_result_of(const LoadedJoint& loaded, SweepAnswer answer, const
                      .side = loaded.joint.side,
                      .scope = scope_text(loaded.joint),
                      .answer = std::move(answer)};
-  if (query.bands) result.band_options = *query.bands;
+  for (const SweptParameter& swept : result.answer.parameters)
+    result.units.emplace_back(unit_of(swept_kind(loaded.joint, swept.name)));
+  result.bands = query.bands;
   result.notes = io::notes_json(notes);
   result.provenance = io::provenance_json(from);
   return result;
@@ -218,7 +228,7 @@ std::string sweep_text(const SweepResult& result) {
         "  most likely safe: {}: {:.1f} % of {} displaced designs\n",
         values_text(sweep, sweep.values_of(sweep.first_design +
                                            static_cast<std::size_t>(most - sweep.probability.begin()))),
-        100 * *most, result.band_options.samples);
+        100 * *most, result.bands->samples);
   }
   text += table_of_targets(sweep) + quantities_text(sweep);
   if (const std::size_t forms = known_by_form(sweep); forms > 0)
@@ -232,12 +242,15 @@ std::string sweep_text(const SweepResult& result) {
 Json io::sweep_object(const SweepResult& result) {
   const SweepAnswer& sweep = result.answer;
   Json parameters = Json::array(), targets = Json::array(), pairs = Json::array(), notes = Json::array();
-  for (const SweptParameter& each : sweep.parameters)
+  for (std::size_t p = 0; p < sweep.parameters.size(); ++p) {
+    const SweptParameter& each = sweep.parameters[p];
     parameters.push_back({{"name", each.name},
+                          {"unit", result.units[p]},
                           {"first", each.first},
                           {"last", each.last},
                           {"step", each.step},
                           {"count", each.count()}});
+  }
   for (const SweepTarget& target : sweep.targets) targets.push_back(target_json(target, result.anatomy));
   for (const EndingPair& pair : sweep.pairs)
     pairs.push_back({{"fixed", pair.fixed}, {"mobile", pair.mobile}});
@@ -269,9 +282,8 @@ Json io::sweep_object(const SweepResult& result) {
             {"ending_pairs", std::move(pairs)},
             {"quantities", sweep.quantity_names},
             {"limits_in_closed_form", known_by_form(sweep)},
-            {"band", sweep.probability.empty() ? Json(nullptr)
-                                               : Json{{"samples", result.band_options.samples},
-                                                      {"seed", result.band_options.seed}}},
+            {"band", result.bands ? Json{{"samples", result.bands->samples}, {"seed", result.bands->seed}}
+                                  : Json(nullptr)},
             {"sweep_notes", std::move(notes)},
             {"caveats", sweep.caveats},
             {"notes", result.notes},
@@ -289,7 +301,7 @@ std::string designs_csv(const SweepResult& result) {
   std::string text;
   for (const SweptParameter& parameter : sweep.parameters) text += io::csv_field(parameter.name) + ",";
   text += "margin_deg,safe";
-  if (!sweep.probability.empty()) text += ",probability";
+  if (result.bands) text += ",probability";
   for (const std::string& name : sweep.quantity_names) text += "," + io::csv_field(name);
   for (const SweepTarget& target : sweep.targets)
     for (const char* column : {"limit_deg", "reason", "ended_by", "known_by"})
@@ -299,7 +311,7 @@ std::string designs_csv(const SweepResult& result) {
     for (const double value : sweep.values_of(sweep.first_design + i)) text += fmt::format("{},", value);
     const double margin = sweep.margin_deg[i];
     text += std::isnan(margin) ? ",0" : fmt::format("{},{}", margin, margin >= 0 ? 1 : 0);
-    if (!sweep.probability.empty()) text += fmt::format(",{}", sweep.probability[i]);
+    if (result.bands) text += fmt::format(",{}", sweep.probability[i]);
     for (const double value : quantities_of(sweep, sweep.first_design + i))
       text += std::isnan(value) ? "," : fmt::format(",{}", value);
     for (const DesignLimit& limit : limits_of(sweep, sweep.first_design + i)) {

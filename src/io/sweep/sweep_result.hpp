@@ -22,7 +22,8 @@ struct SweepResult {
   Side side = Side::right;
   std::string scope;
   SweepAnswer answer;
-  BandOptions band_options = {};
+  std::vector<std::string> units = {};  ///< of each parameter: "deg" or "mm"
+  std::optional<BandOptions> bands = {};
   io::Json notes = io::Json::array();  ///< on the joint's set-up
   io::Json provenance = nullptr;
 };
