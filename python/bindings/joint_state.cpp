@@ -51,8 +51,14 @@ void members(T& value, const Each& each) {
     auto& [normal, offset] = value;
     each(normal, offset);
   } else if constexpr (std::is_same_v<Struct, Joint>) {
-    auto& [name, kind, side, fixed, mobile, anatomy, frame, posed] = value;
-    each(name, kind, side, fixed, mobile, anatomy, frame, posed);
+    auto& [name, kind, side, fixed, mobile, anatomy, frame, posed, implant] = value;
+    each(name, kind, side, fixed, mobile, anatomy, frame, posed, implant);
+  } else if constexpr (std::is_same_v<Struct, JointImplant>) {
+    auto& [fixed_mesh, mobile_mesh, cup_axis, pair, why_no_pair] = value;
+    each(fixed_mesh, mobile_mesh, cup_axis, pair, why_no_pair);
+  } else if constexpr (std::is_same_v<Struct, RevolvedPair>) {
+    auto& [fixed_axis, mobile_axis, half_angle, of_facets_low, of_facets_high] = value;
+    each(fixed_axis, mobile_axis, half_angle, of_facets_low, of_facets_high);
   } else if constexpr (std::is_same_v<Struct, PosedParts>) {
     auto& [parts, fixed, mobile] = value;
     each(parts, fixed, mobile);
@@ -60,8 +66,8 @@ void members(T& value, const Each& each) {
     auto& [mesh, image, head] = value;
     each(mesh, image, head);
   } else if constexpr (std::is_same_v<Struct, PosedPart>) {
-    auto& [name, body, meshes, centre, parameters] = value;
-    each(name, body, meshes, centre, parameters);
+    auto& [name, body, meshes, centre, definition, parameters] = value;
+    each(name, body, meshes, centre, definition, parameters);
   } else if constexpr (std::is_same_v<Struct, DescribedPart>) {
     auto& [part, centre_in_W] = value;
     each(part, centre_in_W);
