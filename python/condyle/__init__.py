@@ -43,20 +43,21 @@ from ._resection import Blocked, CurvePoint, CutBone, ReachedTarget, Resection
 from ._sample import HIP_PARAMETERS, SampleCartilages, SampleHip, sample_cartilages, sample_hip
 from ._study import Study, StudyLoad, StudyResection, StudyTable, merge_study, read_study, run_study, sample_cohort
 from ._surface_contact import ContactTotals, NormalContact, SurfaceContact, thickness_to
+from ._sweep import KNOWN_BY, Design, EndingPair, SafeInterval, Sweep, Target
 from ._tables import OccupiedArcs, RadialTable, RingTable
 
 __all__ = [
     "BalanceOptions", "BalancedPose", "Bearing", "Blocked", "CurvePoint", "CutBone", "ReachedTarget", "Resection", "BodyPart", "BodyZone", "Caveat", "ClockFace", "CondyleError",
     "ContactEnd", "ContactFrames", "ContactInterval", "ContactMeasures", "ContactNote", "ContactPatch",
-    "ContactTotals", "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit", "DepthRange", "Depths",
-    "ElasticContact", "ElasticContactResults", "ElasticLayer", "FileError", "Finding", "FirstContact", "FrameContact",
+    "ContactTotals", "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit", "DepthRange", "Depths", "Design",
+    "ElasticContact", "ElasticContactResults", "ElasticLayer", "EndingPair", "FileError", "Finding", "FirstContact", "FrameContact",
     "FollowedRange", "HipMeasure", "HipMeasures", "MeasureBand", "NormalRange", "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointMotion", "JointNote", "PartParameter",
-    "JointProposal", "JointWarning", "KINDS", "Label", "LabelMap", "LabelNote", "LabelPiece", "LabelSurface", "Limit",
+    "JointProposal", "JointWarning", "KINDS", "KNOWN_BY", "Label", "LabelMap", "LabelNote", "LabelPiece", "LabelSurface", "Limit",
     "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Model", "ModelCoordinate", "ModelJoint", "ModelMesh", "ModelNote", "Motion", "MotionLimit",
     "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",
     "OutOfRangeError", "PathLimit", "Penetration", "Penetrations", "Pose", "Poses", "REASONS", "REPLACEMENT_SIZES", "REVERSE_SHOULDER_SIZES", "RadialTable",
     "RangeOfMotion", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits", "SampleCartilages",
-    "SampleHip", "SampleImplant", "SphereFit", "Study", "StudyLoad", "StudyResection", "StudyTable", "SurfaceContact", "SurfaceCut", "TriMesh",
+    "SafeInterval", "SampleHip", "SampleImplant", "SphereFit", "Study", "StudyLoad", "StudyResection", "StudyTable", "SurfaceContact", "SurfaceCut", "Sweep", "Target", "TriMesh",
     "UnknownNameError", "UsageError", "VertexDepths", "VertexGaps", "VerticesInside", "WAYS", "__version__",
     "clock_face", "find_cylinder", "find_neck_axis", "find_rim_clock", "find_sphere", "fit_cylinder", "fit_sphere",
     "inspect", "merge_study", "neck_clock", "propose_joint", "read_joint", "read_labels", "read_mesh", "read_model",

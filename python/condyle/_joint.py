@@ -30,6 +30,7 @@ from ._range_of_motion import RangeOfMotion
 from ._resection import Resection, resection
 from ._recorded_motion import JointMotion, RecordedContact, recorded_contact
 from ._surface_contact import NormalContact, normal_contact
+from ._sweep import Sweep, TargetLike, sweep
 from ._words import Anatomy, Axes, Ball, BearingRule, Bodies, Body, Cavities, Colour, CutFrom, DepthMethod, FaceRule, GapMethod
 from ._words import JointKind, LabelTask, LengthUnit, Look, Path, Pieces, Progress, Side, TranslationFrame, count, number, path_of, progress_of
 from ._words import text_of, word
@@ -534,6 +535,47 @@ class Joint(DescribedJoint):
         """
         return resection(self, Joint._of_native, reach, cut, share, margin_mm, deepest_mm, within_mm, burr_mm, keep, keep_fixed, edge_mm,
                          curve_points, band_samples, seed, bearing, bearing_margin_mm, progress)
+
+    def sweep(self, vary: Mapping[str, Sequence[float]], targets: Union[Path, Sequence[TargetLike]], *, band_samples: int = 0,
+              seed: Optional[int] = None, bearing: BearingRule = "leave_out", bearing_margin_mm: Optional[float] = None,
+              accept_reference_contact: bool = False, progress: Progress = None) -> Sweep:
+        """Limits over values of one to four :attr:`parameters`, and the designs that leave every target motion free.
+
+        Osseous and prosthetic: soft tissue is not modelled.
+
+        Parameters
+        ----------
+        vary : mapping of parameters to (first, last, step)
+            In deg or mm; the last one changes fastest.
+        targets : path, or sequence of Target or of (name, motion, reach_deg[, pelvic_tilt_deg])
+            The motions that must be free: a CSV table as the command reads it (docs/sweeps.md), or a list of them.
+        band_samples : int
+            Above 0: the probability that each design is safe, of so many displaced by the standard deviations of the parameters.
+        seed : int, optional
+            That of the joint file if not given.
+        bearing, bearing_margin_mm, accept_reference_contact :
+            As :meth:`range_of_motion` takes them.
+
+        Raises
+        ------
+        UsageError
+            For parameters and motions that there are not, and values outside their ranges. FileError for a wrong table.
+
+        Ctrl-C ends it; `progress` is called with (done, total).
+
+        C++: `condyle::answer_sweep` in condyle/answer.hpp; `condyle sweep`.
+
+        >>> import condyle
+        >>> hip = condyle.sample_replacement(bones="none", facets=120).joint
+        >>> zone = hip.sweep({"cup.inclination": (40, 50, 10), "cup.anteversion": (-20, 40, 10)},
+        ...                  [("sitting", "flexion", 110), ("pivoting", "external_rotation", 40)])
+        >>> zone.safe.astype(int)
+        array([[0, 0, 1, 1, 1, 1, 0],
+               [0, 0, 1, 1, 1, 0, 0]])
+        >>> zone.safe_intervals[1].high_target
+        'pivoting'
+        """
+        return sweep(self, vary, targets, band_samples, seed, bearing, bearing_margin_mm, accept_reference_contact, progress)
 
     def with_mobile(self, mesh: MeshLike) -> Joint:
         """The joint with this mesh in the mobile body's place: the same bone after something was done to it, in the frame M of

@@ -1,6 +1,6 @@
 """The compiled part of the module: arrays in, arrays out. The other files give it names, units and words."""
 
-from typing import Any, Optional
+from typing import Any, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -189,6 +189,11 @@ class Plan: ...
 
 def resection(joint: Joint, motions: list[tuple[Any, ...]], reach: list[tuple[tuple[Any, ...], float]], options: dict[str, Any],
               progress: Progress) -> dict[str, Any]: ...
+class Sweep:
+    def write(self, folder: str) -> list[str]: ...
+
+def sweep(joint: Joint, vary: list[tuple[str, float, float, float]], targets: Union[str, list[tuple[Any, ...]]], options: dict[str, Any],
+          progress: Progress) -> dict[str, Any]: ...
 def with_mobile(joint: Joint, mesh: Mesh) -> Joint: ...
 def hip_measures_of(joint: Joint, pelvic_tilt_deg: float, samples: int, seed: int, centre_mm: float, axes_deg: float,
                     surface_mm: float, surface_voxels: float, progress: Progress) -> dict[str, Any]: ...

@@ -31,6 +31,7 @@ from .motion_curves import curve, cycles, panels, table_of
 from .motion_grid import MotionGrid
 from .pressure_surface import pressure_map
 from .rim_clock import clock_face
+from .safe_zone import margins_along, safe_zone, safe_zones
 from .style import DOUBLE_COLUMN_MM, SINGLE_COLUMN_MM, print_style, save, size_mm
 
 __all__ = [
@@ -53,11 +54,14 @@ __all__ = [
     "limit_distributions",
     "limits",
     "many_methods",
+    "margins_along",
     "motion_map",
     "on_plane",
     "panels",
     "pressure_map",
     "print_style",
+    "safe_zone",
+    "safe_zones",
     "save",
     "size_mm",
     "style",

@@ -37,8 +37,9 @@ def _refuse(line: str, code: int) -> None:
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="python3 -m condyle.plot", formatter_class=argparse.RawDescriptionHelpFormatter, epilog=EXAMPLES,
-        description="Draws what condyle rom, condyle motion or condyle measure left in a folder: limits, clock_face, "
-        "map_MOVEMENT and map_free_range;\ncurves, cycle and pressure_map; hip_shape. Names what was written.")
+        description="Draws what condyle rom, condyle motion, condyle measure or condyle sweep left in a folder: limits, "
+        "clock_face, map_MOVEMENT\nand map_free_range; curves, cycle and pressure_map; hip_shape; safe_zone and "
+        "safe_probability. Names what was written.")
     parser.add_argument("folder", metavar="FOLDER", type=Path, help="what was given to --out")
     parser.add_argument("--format", choices=("pdf", "svg", "png"), default="pdf",
                         help="vectors (pdf, svg) or 300 dots per inch (png); pdf if not said")

@@ -1,4 +1,4 @@
-"""Reads what `condyle rom`, `motion`, `depth` and `measure` write with `--out`, for figures.
+"""Reads what `condyle rom`, `motion`, `depth`, `measure` and `sweep` write with `--out`, for figures.
 
 Every reader raises `ReadError` with one line that names file and place.
 """
@@ -118,6 +118,53 @@ def read_rom(folder: PathLike) -> Dict[str, Any]:
     if "map" in result:
         result["grid"] = _read_grid(folder, result["map"], path)
     return result
+
+
+def read_sweep(folder: PathLike) -> Dict[str, Any]:
+    """`sweep.json`, `designs.csv` and `safe.csv` of a folder, as `safe_zone` draws them."""
+    folder = Path(folder)
+    path = folder / "sweep.json"
+    answer = read_json(path)
+    try:
+        axes = {each["name"]: each["first"] + each["step"] * np.arange(each["count"]) for each in answer["parameters"]}
+        units = {each["name"]: each["unit"] for each in answer["parameters"]}
+        reach = {each["name"]: float(each["reach_deg"]) for each in answer["targets"]}
+        here = {name: float(answer["here"]["values"][name]) for name in axes}
+        best = answer["best"] and {name: float(answer["best"]["values"][name]) for name in axes}
+        share, has_probability = answer["share"]["of"], answer["band"] is not None
+    except (KeyError, TypeError, ValueError):
+        raise ReadError(f"{path}: not what condyle sweep writes") from None
+    if share != 1:
+        raise ReadError(f"{folder}: is a share of a sweep: condyle merge puts shares together")
+    shape = tuple(len(axis) for axis in axes.values())
+    table = _columns_of(folder / "designs.csv", ["margin_deg", *(f"{name}_limit_deg" for name in reach)] + ["probability"] * has_probability)
+    if len(table["margin_deg"]) != math.prod(shape):
+        raise ReadError(f"{folder / 'designs.csv'}: {len(table['margin_deg'])} designs, not {math.prod(shape)}")
+    limits = np.stack([table[f"{name}_limit_deg"] for name in reach], axis=-1)
+    return {"axes": axes, "units": units, "targets": list(reach), "over_deg": (limits - np.array(list(reach.values()))).reshape(*shape, -1),
+            "margin_deg": table["margin_deg"].reshape(shape),
+            "probability": table["probability"].reshape(shape) if has_probability else None,
+            "intervals": _safe_intervals(folder / "safe.csv", list(axes)), "here": here, "best": best}
+
+
+def _columns_of(path: Path, wanted: List[str]) -> Dict[str, Array]:
+    names, rows = _rows(path)
+    for name in wanted:
+        if name not in names:
+            raise ReadError(f"{path}: no column '{name}'")
+    return {name: np.array([_number(path, i, name, fields[names.index(name)]) for i, fields in rows]) for name in wanted}
+
+
+def _safe_intervals(path: Path, parameters: List[str]) -> List[Tuple[Any, ...]]:
+    *others, last = parameters
+    names, rows = _rows(path, 0)
+    if names != [*others, f"{last}_low", f"{last}_high", "low_target", "high_target"]:
+        raise ReadError(f"{path}: other columns than sweep.json says")
+    intervals = []
+    for i, fields in rows:
+        numbers = [_number(path, i, name, field) for name, field in zip(names, fields[:-2])]
+        intervals.append((tuple(numbers[:-2]), *numbers[-2:], fields[-2] or None, fields[-1] or None))
+    return intervals
 
 
 def _check_motion(where: str, motion: Any) -> None:

@@ -16,6 +16,7 @@ from .map_contours import VIEWS, View, motion_map
 from .motion_curves import QUANTITIES, curve, has, panels
 from .pressure_surface import Projection, add_scale, laid_flat, pressure_map, quantity_label
 from .rim_clock import clock_face
+from .safe_zone import Zone, margins_along, safe_zone, safe_zones, zone_of
 
 Drawing = Tuple[str, Callable[[], Figure]]
 """Name of a figure without its ending, and what draws it."""
@@ -35,13 +36,33 @@ def drawings(folder: Path, frames: Optional[Sequence[int]] = None, projection: P
         shape = files.read_measures(folder)
         if shape["neck_hour"].size or shape["rim_hour"].size:
             found.append(("hip_shape", lambda: hip_shape(shape)))
+    if (folder / "sweep.json").exists():
+        found += _of_sweep(files.read_sweep(folder))
     if (folder / "curves.csv").exists():
         found += _of_motion(folder, frames, projection)
     elif frames:
         raise files.ReadError(f"{folder}: no curves.csv in it, so no frames to draw")
     if not found:
-        raise files.ReadError(f"{folder}: neither rom.json nor curves.csv nor measures.json of a hip in it")
+        raise files.ReadError(f"{folder}: neither rom.json nor curves.csv nor sweep.json nor measures.json of a hip in it")
     return found
+
+
+def _of_sweep(result: Dict[str, Any]) -> List[Drawing]:
+    zone = zone_of(result)
+    if len(zone.names) == 1:
+        return [("safe_zone", lambda: margins_along(zone).figure)]
+    found: List[Drawing] = []
+    for quantity in ("margin",) if zone.probability is None else ("margin", "probability"):
+        name = "safe_zone" if quantity == "margin" else "safe_probability"
+        if len(zone.names) == 2:
+            found.append((name, functools.partial(_plane, zone, quantity)))
+        else:
+            found.append((name, functools.partial(safe_zones, zone, quantity=quantity)))
+    return found
+
+
+def _plane(zone: Zone, quantity: str) -> Figure:
+    return safe_zone(zone, quantity=quantity).figure
 
 
 def _of_rom(result: Dict[str, Any]) -> List[Drawing]:

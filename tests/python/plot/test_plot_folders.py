@@ -195,7 +195,7 @@ def test_limits_beside_a_map_that_is_free_nowhere_are_drawn(tmp_path):
 
 
 def test_folders_without_results_are_refused(tmp_path):
-    for folder, words in ((tmp_path, "neither rom.json nor curves.csv nor measures.json"), (tmp_path / "none", "not a folder")):
+    for folder, words in ((tmp_path, "neither rom.json nor curves.csv nor sweep.json nor measures.json"), (tmp_path / "none", "not a folder")):
         ran = run(folder)
         assert (ran.returncode, ran.stdout) == (3, "")
         assert words in ran.stderr

@@ -1,0 +1,143 @@
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <limits>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "condyle/answer.hpp"
+#include "interrupts.hpp"
+#include "io/joint/given_degrees.hpp"
+#include "io/joint/known_motions.hpp"
+#include "io/sweep/sweep_files.hpp"
+#include "io/sweep/target_table.hpp"
+#include "motion.hpp"
+
+namespace condyle::python {
+namespace {
+
+/// A sweep as Python holds it, for its files.
+struct SweepHandle {
+  LoadedJoint loaded;
+  SweepQuery query;
+  SweepAnswer answer;
+};
+
+/// (name, first, last, step) of each, read as the command reads them: its words for what is wrong are these.
+std::vector<SweptParameter> parameters_in(const py::list& given) {
+  std::vector<SweptParameter> swept;
+  for (const py::handle each : given) {
+    const auto axis = each.cast<py::tuple>();
+    for (SweptParameter& parameter :
+         parse_sweep(fmt::format("{}={}:{}:{}", axis[0].cast<std::string>(), axis[1].cast<double>(),
+                                 axis[2].cast<double>(), axis[3].cast<double>())))
+      swept.push_back(std::move(parameter));
+  }
+  return swept;
+}
+
+/// The path of a table, or (name, motion, reach_deg, pelvic_tilt_deg, source) of each.
+std::vector<SweepTarget> sweep_targets_in(const JointHandle& handle, const py::object& given) {
+  const Joint& joint = handle.joint();
+  if (py::isinstance<py::str>(given))
+    return io::read_targets(given.cast<std::string>(), known_motions(handle.loaded), joint.kind,
+                            joint.anatomy);
+  std::vector<SweepTarget> targets;
+  for (const py::handle each : given) {
+    const auto target = each.cast<py::tuple>();
+    targets.push_back({target[0].cast<std::string>(), motion_in(target[1].cast<py::tuple>()),
+                       Angle::degrees(target[2].cast<double>()), Angle::degrees(target[3].cast<double>()),
+                       target[4].cast<std::string>()});
+  }
+  return targets;
+}
+
+py::dict dict_of_limits(std::span<const DesignLimit> limits) {
+  std::vector<double> turned;
+  std::vector<std::int8_t> reason, known_by;
+  std::vector<std::int32_t> pair;
+  for (const DesignLimit& limit : limits) {
+    turned.push_back(limit.turned_deg);
+    reason.push_back(static_cast<std::int8_t>(limit.reason));
+    known_by.push_back(static_cast<std::int8_t>(limit.by));
+    pair.push_back(limit.pair == DesignLimit::no_pair ? -1 : limit.pair);
+  }
+  py::dict dict;
+  dict["limits_deg"] = array_of(std::move(turned));
+  dict["reason"] = array_of(std::move(reason));
+  dict["known_by"] = array_of(std::move(known_by));
+  dict["ended_by"] = array_of(std::move(pair));
+  return dict;
+}
+
+py::list list_of(const std::vector<SafeInterval>& safe) {
+  py::list list;
+  for (const SafeInterval& each : safe)
+    list.append(py::make_tuple(each.line, each.low, each.high, each.low_target, each.high_target));
+  return list;
+}
+
+py::dict sweep(const JointHandle& handle, const py::list& vary, const py::object& targets,
+               const py::dict& given, const py::object& progress) {
+  SweepQuery query{.parameters = parameters_in(vary), .targets = sweep_targets_in(handle, targets)};
+  if (given["count_bearing"].cast<bool>()) query.range.bearing.rule = BearingRule::count;
+  query.range.bearing.margin_mm = given["bearing_margin_mm"].cast<std::optional<double>>();
+  if (given["accept_reference_contact"].cast<bool>())
+    query.range.overlap.reference_contact = ReferenceContact::accept;
+  if (const auto samples = given["samples"].cast<std::size_t>(); samples > 0) {
+    query.bands.emplace();
+    query.bands->samples = samples;
+    query.bands->seed = given["seed"].cast<std::uint64_t>();
+  }
+  SweepAnswer answer = *followed(progress, [&](const auto& report, const std::stop_token& stop) {
+    return answer_sweep(
+        handle.joint(), handle.loaded.report.placement, query,
+        {[&](std::string_view, std::size_t done, std::size_t total) { report(done, total); }, stop});
+  });
+  py::list axes, described, pairs, notes;
+  for (const SweptParameter& each : answer.parameters) {
+    std::vector<double> values(each.count());
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = each.value(i);
+    axes.append(py::make_tuple(each.name, array_of(std::move(values))));
+  }
+  for (const SweepTarget& each : answer.targets)
+    described.append(py::make_tuple(each.name, tuple_of(each.motion), io::given_degrees(each.reach),
+                                    io::given_degrees(each.pelvic_tilt), each.source));
+  for (const EndingPair& each : answer.pairs) pairs.append(py::make_tuple(each.fixed, each.mobile));
+  for (const SweepNote& note : answer.notes)
+    notes.append(py::make_tuple(std::string(name_of(note.code)), note.text));
+  py::dict dict = dict_of_limits(answer.limits);
+  dict["axes"] = axes;
+  dict["targets"] = described;
+  dict["pairs"] = pairs;
+  dict["margin_deg"] = array_of(std::vector<double>(answer.margin_deg));
+  dict["probability"] =
+      query.bands ? py::object(array_of(std::vector<double>(answer.probability))) : py::none();
+  dict["safe_intervals"] = list_of(answer.safe);
+  dict["safe_measure"] = answer.safe_measure;
+  dict["window_measure"] = answer.window_measure;
+  dict["best"] = answer.best;
+  dict["here"] = py::make_tuple(answer.here, dict_of_limits(answer.limits_here));
+  dict["notes"] = notes;
+  dict["caveats"] = answer.caveats;
+  dict["sweep"] =
+      std::make_unique<SweepHandle>(SweepHandle{handle.loaded, std::move(query), std::move(answer)});
+  return dict;
+}
+
+std::vector<std::string> write(const SweepHandle& handle, const std::string& folder) {
+  const py::gil_scoped_release released;
+  const SweepResult result = sweep_result_of(handle.loaded, handle.answer, handle.query, {}, nullptr);
+  std::vector<std::string> written;
+  for (const auto& path : io::write_sweep(folder, result, "", nullptr)) written.push_back(path.string());
+  return written;
+}
+
+}  // namespace
+
+void bind_sweep(py::module_& module) {
+  py::class_<SweepHandle>(module, "Sweep").def("write", &write);
+  module.def("sweep", &sweep);
+}
+
+}  // namespace condyle::python

@@ -1,0 +1,175 @@
+"""Sweeps over parameters of parts, as the command has them."""
+
+import csv
+import json
+import pickle
+import subprocess
+
+import numpy as np
+import pytest
+
+import condyle
+
+VARY = {"cup.inclination": (30, 50, 10), "cup.anteversion": (-20, 40, 10)}
+TARGETS = [("sitting", "flexion", 110, -5), condyle.Target("pivoting", "external_rotation", 40)]
+TABLE = "name,motion,reach_deg,pelvic_tilt_deg\nsitting,flexion,110,-5\npivoting,external_rotation,40,\n"
+
+pytestmark = pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+
+
+@pytest.fixture(scope="module")
+def hip():
+    return condyle.sample_replacement(facets=120).joint
+
+
+@pytest.fixture(scope="module")
+def zone(hip):
+    return hip.sweep(VARY, TARGETS, band_samples=20, seed=3)
+
+
+def rows_of(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_it_is_that_of_the_command(zone, command, tmp_path):
+    (tmp_path / "daily.csv").write_text(TABLE)
+    subprocess.run([command, "sample", "replacement", "--facets", "120", "--out", tmp_path], check=True, capture_output=True)
+    subprocess.run([command, "sweep", tmp_path / "hip.toml", "--vary", "cup.inclination=30:50:10 cup.anteversion=-20:40:10",
+                    "--targets", tmp_path / "daily.csv", "--band=20", "--seed", "3", "--out", tmp_path / "zone"], check=True,
+                   capture_output=True)
+    said = json.loads((tmp_path / "zone/sweep.json").read_text())
+    rows = rows_of(tmp_path / "zone/designs.csv")
+    assert list(zone.axes) == [each["name"] for each in said["parameters"]]
+    inclination, anteversion = (axis.ravel() for axis in np.meshgrid(*zone.axes.values(), indexing="ij"))
+    for i, row in enumerate(rows):
+        at = np.unravel_index(i, zone.margin_deg.shape)
+        assert (float(row["cup.inclination"]), float(row["cup.anteversion"])) == (inclination[i], anteversion[i])
+        assert float(row["probability"]) == zone.probability[at]
+        assert int(row["safe"]) == zone.safe[at]
+        if row["margin_deg"]:
+            assert float(row["margin_deg"]) == zone.margin_deg[at]
+        else:
+            assert np.isnan(zone.margin_deg[at])
+        for t, target in enumerate(zone.targets):
+            assert float(row[f"{target.name}_limit_deg"] or "nan") == pytest.approx(zone.limits_deg[at][t], abs=0, nan_ok=True)
+            assert row[f"{target.name}_reason"] == condyle.REASONS[zone.reason[at][t]]
+            assert row[f"{target.name}_known_by"] == condyle.KNOWN_BY[zone.known_by[at][t]]
+            pair = zone.ended_by[at][t]
+            by = "" if pair < 0 else f"{zone.pairs[pair].mobile} on {zone.pairs[pair].fixed}"
+            assert row[f"{target.name}_ended_by"] == by
+    safe = rows_of(tmp_path / "zone/safe.csv")
+    assert len(safe) == len(zone.safe_intervals) > 1
+    for row, interval in zip(safe, zone.safe_intervals):
+        assert float(row["cup.inclination"]) == interval.values["cup.inclination"]
+        assert float(row["cup.anteversion_low"]) == interval.low and float(row["cup.anteversion_high"]) == interval.high
+        assert row["low_target"] == (interval.low_target or "") and row["high_target"] == (interval.high_target or "")
+    assert (zone.safe_measure, zone.window_measure) == (said["safe_measure"], said["window_measure"])
+    assert zone.best.values == said["best"]["values"] and zone.best.margin_deg == said["best"]["margin_deg"]
+    assert zone.best.margin_deg == np.nanmax(zone.margin_deg)
+    assert zone.here.values == said["here"]["values"]
+    assert list(zone.here.limits_deg) == [each["limit_deg"] for each in said["here"]["limits"]]
+    assert [note.text for note in zone.notes] == [note["text"] for note in said["sweep_notes"]]
+    assert zone.caveats == said["caveats"]
+
+
+def test_a_table_is_read_as_the_command_reads_it(hip, zone, tmp_path):
+    (tmp_path / "daily.csv").write_text(TABLE)
+    read = hip.sweep(VARY, tmp_path / "daily.csv")
+    assert read.targets == zone.targets and read.targets[0].pelvic_tilt_deg == -5
+    assert np.array_equal(read.limits_deg, zone.limits_deg, equal_nan=True)
+    assert read.probability is None
+
+
+def test_its_files_are_those_of_the_command_but_where_it_comes_from(zone, command, tmp_path):
+    zone.write(tmp_path / "python")
+    (tmp_path / "daily.csv").write_text(TABLE)
+    subprocess.run([command, "sample", "replacement", "--facets", "120", "--out", tmp_path], check=True, capture_output=True)
+    subprocess.run([command, "sweep", tmp_path / "hip.toml", "--vary", "cup.inclination=30:50:10 cup.anteversion=-20:40:10",
+                    "--targets", tmp_path / "daily.csv", "--band=20", "--seed", "3", "--out", tmp_path / "command"], check=True,
+                   capture_output=True)
+    for name in ("designs.csv", "safe.csv", "zone.vtp"):
+        assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "command" / name).read_bytes(), name
+
+
+def test_limits_are_those_of_joints_with_these_parameters(hip, zone):
+    for i, inclination in enumerate(zone.axes["cup.inclination"]):
+        moved = hip.with_parameters({"cup.inclination": inclination, "cup.anteversion": zone.axes["cup.anteversion"][3]})
+        limit = moved.range_of_motion(["external_rotation"]).limits[0]
+        # Meshes of 120 facets lie near the closed form that stands for them.
+        assert zone.limits_deg[i, 3, 1] == pytest.approx(limit.turned_deg, abs=0.02)
+
+
+def test_one_parameter_and_a_motion_of_its_own(hip):
+    own = condyle.Motion("tailor", "external_rotation", 60, {"flexion": 80, "adduction": -20})
+    line = hip.sweep({"stem.version": (0, 30, 10)}, [("tailor", own, 25), ("turning", "internal_rotation_at_90_flexion", 20)])
+    assert line.limits_deg.shape == (4, 2) and line.margin_deg.shape == (4,)
+    motion = line.targets[0].motion
+    assert (motion.name, motion.vary, motion.range_deg) == (own.name, own.vary, pytest.approx(own.range_deg))
+    assert motion.start_deg["flexion"] == pytest.approx(80)
+    # A stem's version adds itself to internal rotation where neck and liner end it.
+    assert line.limits_deg[1, 1] - line.limits_deg[0, 1] == pytest.approx(10, abs=0.01)
+    assert all(interval.values == {} for interval in line.safe_intervals)
+
+
+def test_it_becomes_a_dataset(zone):
+    pytest.importorskip("xarray")
+    data = zone.to_xarray()
+    assert data.limit_deg.dims == ("cup.inclination", "cup.anteversion", "target")
+    assert float(data.margin_deg.sel({"cup.inclination": 40, "cup.anteversion": 10})) == zone.margin_deg[1, 3]
+    assert set(np.unique(data.known_by)) <= set(condyle.KNOWN_BY)
+
+
+def test_it_is_pickled_without_its_files(zone, tmp_path):
+    copy = pickle.loads(pickle.dumps(zone))
+    assert np.array_equal(copy.limits_deg, zone.limits_deg, equal_nan=True) and repr(copy) == repr(zone)
+    with pytest.raises(condyle.UsageError, match="pickled"):
+        copy.write(tmp_path)
+
+
+def test_a_pickled_joint_has_its_implant(hip, zone):
+    again = pickle.loads(pickle.dumps(hip)).sweep(VARY, TARGETS)
+    assert np.array_equal(again.limits_deg, zone.limits_deg, equal_nan=True)
+    assert np.array_equal(again.known_by, zone.known_by)
+
+
+def test_its_zone_is_noted(hip):
+    with pytest.warns(condyle.JointWarning, match="nothing_is_safe"):
+        zone = hip.sweep({"cup.anteversion": (-40, -20, 10)}, TARGETS)
+    assert [note.code for note in zone.notes] == ["nothing_is_safe"]
+
+
+@pytest.mark.parametrize("vary, targets, words", [
+    ({"cup.inclinaton": (30, 50, 10)}, TARGETS, 'did you mean "cup.inclination"'),
+    ({"cup.inclination": (30, 95, 5)}, TARGETS, "outside of its range"),
+    ({"cup.inclination": (30, 50, 0)}, TARGETS, "the step must be above 0"),
+    ({"cup.inclination": (30, 50)}, TARGETS, "a first and a last value and a step"),
+    ({"cup.inclination": (30, "a", 1)}, TARGETS, "a number is needed"),
+    ({3: (30, 50, 1)}, TARGETS, "a text is needed"),
+    ([1], TARGETS, "parameters by their names"),
+    ({}, TARGETS, "one to four parameters"),
+    (VARY, [], "one target or more"),
+    (VARY, [("a", "flexoin", 20)], "flexoin"),
+    (VARY, [("a", "flexion")], "name, motion and reach_deg"),
+    (VARY, [("a", "flexion", "far")], "target a: reach_deg: a number is needed"),
+    (VARY, [("a", "flexion", 200)], "up to the motion's range, 180"),
+    (VARY, [("a", "flexion", 20), ("a", "extension", 20)], "given twice"),
+    (VARY, 3, "targets: a path is needed"),
+])
+def test_what_cannot_be_swept_is_refused(hip, vary, targets, words):
+    with pytest.raises(condyle.UsageError, match=words) as error:
+        hip.sweep(vary, targets)
+    assert "\n" not in str(error.value)
+
+
+def test_a_wrong_table_is_refused_with_its_line(hip, tmp_path):
+    (tmp_path / "daily.csv").write_text("name,motion,reach_deg\na,flexion,far\n")
+    with pytest.raises(condyle.FileError, match="daily.csv: line 2: reach_deg: 'far' is no number"):
+        hip.sweep(VARY, tmp_path / "daily.csv")
+
+
+def test_a_joint_without_parts_is_refused():
+    bones = condyle.sample_hip()
+    joint = condyle.Joint(bones.hip_bone, bones.femur)
+    with pytest.raises(condyle.UsageError, match="no part with parameters"):
+        joint.sweep(VARY, TARGETS)
