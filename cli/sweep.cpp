@@ -161,7 +161,7 @@ void add_sweep(CLI::App& app) {
   command
       ->add_option("--measures", options->measures,
                    "Measure the shape of each design's hip too, by keys of condyle measure: "
-                   "lateral_centre_edge_deg,...")
+                   "centre_edge_lateral_section_deg,...")
       ->expected(1)
       ->take_all()
       ->option_text("KEY[,KEY...]");

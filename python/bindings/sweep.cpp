@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <array>
 #include <limits>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -9,6 +13,8 @@
 #include "interrupts.hpp"
 #include "io/joint/given_degrees.hpp"
 #include "io/joint/known_motions.hpp"
+#include "io/joint/measure_request.hpp"
+#include "io/sweep/load_quantities.hpp"
 #include "io/sweep/sweep_files.hpp"
 #include "io/sweep/target_table.hpp"
 #include "motion.hpp"
@@ -89,6 +95,14 @@ py::dict sweep(const JointHandle& handle, const py::list& vary, const py::object
     query.bands->samples = samples;
     query.bands->seed = given["seed"].cast<std::uint64_t>();
   }
+  if (const auto keys = given["measures"].cast<std::vector<std::string>>(); !keys.empty())
+    query.quantities.push_back(measured_quantities(keys, measure_request_of(handle.loaded)));
+  if (const auto pose = given["load"].cast<std::optional<std::string>>()) {
+    StudyLoad load{study_pose(*pose, handle.joint().anatomy), {}, {}};
+    if (const auto force = given["force_n"].cast<std::optional<std::array<double, 3>>>())
+      load.force_n = Vec3((*force)[0], (*force)[1], (*force)[2]);
+    query.quantities.push_back(io::load_quantities(handle.loaded, load));
+  }
   SweepAnswer answer = *followed(progress, [&](const auto& report, const std::stop_token& stop) {
     return answer_sweep(
         handle.joint(), handle.loaded.report.placement, query,
@@ -113,6 +127,9 @@ py::dict sweep(const JointHandle& handle, const py::list& vary, const py::object
   dict["margin_deg"] = array_of(std::vector<double>(answer.margin_deg));
   dict["probability"] =
       query.bands ? py::object(array_of(std::vector<double>(answer.probability))) : py::none();
+  dict["quantity_names"] = answer.quantity_names;
+  dict["quantities"] = array_of(std::vector<double>(answer.quantities));
+  dict["quantities_here"] = answer.quantities_here;
   dict["safe_intervals"] = list_of(answer.safe);
   dict["safe_measure"] = answer.safe_measure;
   dict["window_measure"] = answer.window_measure;

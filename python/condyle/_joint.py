@@ -537,7 +537,8 @@ class Joint(DescribedJoint):
                          curve_points, band_samples, seed, bearing, bearing_margin_mm, progress)
 
     def sweep(self, vary: Mapping[str, Sequence[float]], targets: Union[Path, Sequence[TargetLike]], *, band_samples: int = 0,
-              seed: Optional[int] = None, bearing: BearingRule = "leave_out", bearing_margin_mm: Optional[float] = None,
+              seed: Optional[int] = None, measures: Sequence[str] = (), load: Optional[str] = None,
+              force_n: Optional[ArrayLike] = None, bearing: BearingRule = "leave_out", bearing_margin_mm: Optional[float] = None,
               accept_reference_contact: bool = False, progress: Progress = None) -> Sweep:
         """Limits over values of one to four :attr:`parameters`, and the designs that leave every target motion free.
 
@@ -553,6 +554,12 @@ class Joint(DescribedJoint):
             Above 0: the probability that each design is safe, of so many displaced by the standard deviations of the parameters.
         seed : int, optional
             That of the joint file if not given.
+        measures : sequence of str
+            Keys of :meth:`measures`, such as "centre_edge_lateral_section_deg": the shape of each design's hip too.
+        load : str, optional
+            A pose such as "flexion=30" ("" is the reference pose): contact pressure of each design there, with the layers of the joint file.
+        force_n : (3,), optional
+            With `load`: anterior, superior and lateral components of the force on the mobile body that the contact is to carry, in N.
         bearing, bearing_margin_mm, accept_reference_contact :
             As :meth:`range_of_motion` takes them.
 
@@ -575,7 +582,7 @@ class Joint(DescribedJoint):
         >>> zone.safe_intervals[1].high_target
         'pivoting'
         """
-        return sweep(self, vary, targets, band_samples, seed, bearing, bearing_margin_mm, accept_reference_contact, progress)
+        return sweep(self, vary, targets, band_samples, seed, measures, load, force_n, bearing, bearing_margin_mm, accept_reference_contact, progress)
 
     def with_mobile(self, mesh: MeshLike) -> Joint:
         """The joint with this mesh in the mobile body's place: the same bone after something was done to it, in the frame M of

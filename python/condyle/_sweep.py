@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Mapping, NamedTuple, Optional, Sequence, Union, get_args
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._answer import html_of
@@ -55,7 +55,8 @@ class EndingPair(NamedTuple):
 class Design:
     """One choice of the swept parameters, and where each target ends with it, (T,) each, as :class:`Sweep` has them.
 
-    `margin_deg` is the least of what the limits have over the reach; NaN if it is in contact in its reference pose.
+    `margin_deg` is the least of what the limits have over the reach; NaN if it is in contact in its reference pose. `quantities` are
+    measures and pressures, if asked for, by their names; NaN where there is none.
     """
 
     values: dict[str, float]
@@ -64,6 +65,7 @@ class Design:
     known_by: NDArray[np.int8]
     ended_by: NDArray[np.int32]
     margin_deg: float
+    quantities: dict[str, float] = field(default_factory=dict)
 
     @property
     def safe(self) -> bool:
@@ -112,6 +114,8 @@ class Sweep:
         Where every target is free: `margin_deg` 0 and more.
     probability : (n1, ...) float64 or None
         That a design is safe, over the standard deviations of the parameters, if asked for.
+    quantities : dict of (n1, ...) float64
+        Measures of the shape and pressures of each design, if asked for, by their names with the unit; NaN where there is none.
     safe_intervals : tuple of SafeInterval
         Along the last parameter, their ends to a hundredth of a step.
     safe_measure, window_measure : float
@@ -135,6 +139,7 @@ class Sweep:
     margin_deg: NDArray[np.float64]
     safe: NDArray[np.bool_]
     probability: Optional[NDArray[np.float64]]
+    quantities: dict[str, NDArray[np.float64]]
     safe_intervals: tuple[SafeInterval, ...]
     safe_measure: float
     window_measure: float
@@ -169,6 +174,7 @@ class Sweep:
             "margin_deg": (over, self.margin_deg), "safe": (over, self.safe)}
         if self.probability is not None:
             variables["probability"] = (over, self.probability)
+        variables.update({name: (over, values) for name, values in self.quantities.items()})
         return xarray.Dataset(variables, coords={
             **self.axes, "target": [each.name for each in self.targets],
             "reach_deg": ("target", [each.reach_deg for each in self.targets])})
@@ -204,13 +210,22 @@ def _target_of(given: TargetLike, known: Motions) -> tuple[Any, ...]:
             number(given.pelvic_tilt_deg, f"target {name}: pelvic_tilt_deg"), text_of(given.source, f"target {name}: source"))
 
 
-def _design_of(values: Sequence[float], axes: Sequence[str], found: Mapping[str, Any], margin_deg: float) -> Design:
+def _force_of(given: ArrayLike) -> list[float]:
+    components = [number(each, "force_n") for each in np.ravel(np.asarray(given, dtype=object))]
+    if len(components) != 3:
+        raise UsageError(f"force_n: three numbers are needed, not {len(components)}")
+    return components
+
+
+def _design_of(values: Sequence[float], axes: Sequence[str], found: Mapping[str, Any], margin_deg: float,
+               quantities: dict[str, float]) -> Design:
     return Design(dict(zip(axes, map(float, values))), found["limits_deg"], found["reason"], found["known_by"],
-                  found["ended_by"], margin_deg)
+                  found["ended_by"], margin_deg, quantities)
 
 
 def sweep(joint: DescribedJoint, vary: Mapping[str, Sequence[float]], targets: Union[Path, Sequence[TargetLike]],
-          band_samples: int, seed: Optional[int], bearing: BearingRule, bearing_margin_mm: Optional[float],
+          band_samples: int, seed: Optional[int], measures: Sequence[str], load: Optional[str],
+          force_n: Optional[ArrayLike], bearing: BearingRule, bearing_margin_mm: Optional[float],
           accept_reference_contact: bool, progress: Progress) -> Sweep:
     known = Motions(joint._native)
     asked: Union[str, list[tuple[Any, ...]]]
@@ -218,7 +233,12 @@ def sweep(joint: DescribedJoint, vary: Mapping[str, Sequence[float]], targets: U
         asked = [_target_of(each, known) for each in targets]
     else:
         asked = path_of(targets, "targets")
+    if force_n is not None and load is None:
+        raise UsageError("force_n: needs load, the pose that it is carried at")
     options = {
+        "measures": [text_of(key, "measures") for key in ([measures] if isinstance(measures, str) else measures)],
+        "load": None if load is None else text_of(load, "load"),
+        "force_n": None if force_n is None else _force_of(force_n),
         "samples": band_samples and count(band_samples, "band_samples", FEWEST_SAMPLES, MOST_SAMPLES),
         "seed": _native.uncertainty(joint._native)[3] if seed is None else count(seed, "seed", high=2**64 - 1),
         "count_bearing": word(bearing, "bearing", BearingRule) == "count",
@@ -231,14 +251,18 @@ def sweep(joint: DescribedJoint, vary: Mapping[str, Sequence[float]], targets: U
                      for name, motion, reach, tilt, source in found["targets"])
     limits = {key: found[key].reshape(*shape, len(resolved)) for key in ("limits_deg", "reason", "known_by", "ended_by")}
     margin = found["margin_deg"].reshape(shape)
+    width = len(found["quantity_names"])
+    quantities = {name: found["quantities"][i::width].reshape(shape) for i, name in enumerate(found["quantity_names"])}
     best: Optional[Design] = None
     if found["best"] is not None:
         at = np.unravel_index(found["best"], shape)
         best = _design_of([axis[i] for axis, i in zip(axes.values(), at)], names,
-                          {key: values[at] for key, values in limits.items()}, float(margin[at]))
+                          {key: values[at] for key, values in limits.items()}, float(margin[at]),
+                          {name: float(values[at]) for name, values in quantities.items()})
     values, ends = found["here"]
     over = ends["limits_deg"] - np.array([each.reach_deg for each in resolved])
-    here = _design_of(values, names, ends, math.nan if np.isnan(over).any() else float(over.min()))
+    here = _design_of(values, names, ends, math.nan if np.isnan(over).any() else float(over.min()),
+                      dict(zip(found["quantity_names"], found["quantities_here"])))
 
     def named(target: Optional[int]) -> Optional[str]:
         return None if target is None else resolved[target].name
@@ -252,6 +276,6 @@ def sweep(joint: DescribedJoint, vary: Mapping[str, Sequence[float]], targets: U
     return Sweep(
         axes, {name: joint.parameters[name].unit for name in names}, resolved, limits["limits_deg"], limits["reason"], limits["known_by"], limits["ended_by"],
         tuple(EndingPair(*each) for each in found["pairs"]), margin, margin >= 0,
-        None if probability is None else probability.reshape(shape),
+        None if probability is None else probability.reshape(shape), quantities,
         tuple(interval(*each) for each in found["safe_intervals"]), found["safe_measure"], found["window_measure"], best, here,
         reported(found["notes"]), found["caveats"], found["sweep"])

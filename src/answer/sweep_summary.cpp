@@ -153,7 +153,7 @@ SweepAnswer merged_sweep(std::span<const SweepAnswer> shares) {
   for (std::size_t i = 1; i < shares.size(); ++i) {
     const SweepAnswer& share = shares[i];
     if (share.first_design != whole.first_design + whole.designs())
-      throw UsageError(formatted("share %zu of a sweep does not follow share %zu", i + 1, i));
+      throw UsageError(core::formatted("share %zu of a sweep does not follow share %zu", i + 1, i));
     whole.limits.insert(whole.limits.end(), share.limits.begin(), share.limits.end());
     whole.margin_deg.insert(whole.margin_deg.end(), share.margin_deg.begin(), share.margin_deg.end());
     whole.probability.insert(whole.probability.end(), share.probability.begin(), share.probability.end());
