@@ -392,8 +392,8 @@ Joint BoneCut::joint() const {
     joint.mobile.head = bearing_->head;
   } else if (!joint.mobile.head) {
     // Meshes that bear are not cut, and found again as they are; the head that is stated is the bone's, which is measured.
-    const Mesh bone = counted(joint_.mobile, joint_.mobile.mesh, {true}, std::nullopt).mesh;
-    if (const auto& head = kinematics::head_near_centre(bone)) joint.mobile.head = head->fit.sphere;
+    const Mesh ends = counted(joint_.mobile, joint_.mobile.mesh, {true}, std::nullopt).mesh;
+    if (const auto& head = kinematics::head_near_centre(ends)) joint.mobile.head = head->fit.sphere;
   }
   const auto is_bone = [](const BodyPart& part) { return part.contact == PartContact::ends; };
   if (std::all_of(joint.fixed.parts.begin(), joint.fixed.parts.end(), is_bone))
