@@ -49,7 +49,8 @@ std::string_view name_of(KeptBy by) noexcept {
 void check_resection(const Joint& joint, const ResectionRequest& request) {
   if (request.targets.empty()) throw UsageError("resection: no motion has a target to reach");
   for (auto target = request.targets.begin(); target != request.targets.end(); ++target) {
-    const auto& [motion, reach] = *target;
+    const Motion& motion = target->motion;
+    const Angle reach = target->reach;
     check_motion(motion, joint.kind);
     if (std::any_of(request.targets.begin(), target,
                     [&](const ReachTarget& other) { return other.motion.name == motion.name; }))
