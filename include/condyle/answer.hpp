@@ -285,7 +285,7 @@ struct RangeAnswer {
   bool follows = false;                          ///< the centre is not held: limits are bounded, not exact
   std::vector<MotionLimit> limits = {};          ///< one per motion
   std::vector<DepthLimit> depths = {};           ///< one per motion if a depth is allowed, else none
-  /// Of an implant whose liner and neck are bodies of revolution, one per motion: where these two end it. Else none.
+  /// One per motion if liner and neck of an implant are bodies of revolution: where these two end it. Else none.
   std::vector<ClosedLimit> closed = {};
   BearingFinding bearing = {};  ///< what contacts are classified by
   BearingRule bearing_rule = BearingRule::count;
@@ -463,14 +463,14 @@ struct SweepAnswer {
   SweepShare share;
   std::size_t first_design = 0;          ///< of the share
   std::vector<DesignLimit> limits = {};  ///< of each design one per target
-  /// Of each design the least of what its limits have over the targets' reach: safe where >= 0. NaN of one in contact in its reference pose.
+  /// One per design: the least of what its limits have over the targets' reach; safe where >= 0, NaN if in contact in its reference pose.
   std::vector<double> margin_deg = {};
   std::vector<double> probability = {};  ///< of each design if requested, 0 to 1
   std::vector<std::string> quantity_names = {};
   std::vector<double> quantities = {};  ///< of each design one per name; NaN where there is none
   std::vector<double> quantities_here = {};
   std::vector<SafeInterval> safe = {};  ///< ascending by line and value
-  /// Of what is safe, by the trapezoidal rule over the lines, and of the whole window; of the share its lines' part. In the product of
+  /// Measures of what is safe, by the trapezoidal rule over the lines, and of the whole window; a share has its lines' part. In the product of
   /// the parameters' units.
   double safe_measure = 0, window_measure = 0;
   std::optional<std::size_t> best =

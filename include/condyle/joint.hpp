@@ -176,7 +176,7 @@ struct PosedPart {
   BodyRole body = BodyRole::fixed;
   std::vector<std::string> meshes = {};  ///< names of its BodyParts; empty: the whole body
   Vec3 centre = Vec3::Zero();            ///< c, in the body's frame, mm
-  /// Of a part with ParameterKind::cup_inclination and cup_anteversion: what these angles are.
+  /// What the angles of a part with ParameterKind::cup_inclination and cup_anteversion are.
   CupDefinition definition = CupDefinition::radiographic;
   std::vector<PartParameter> parameters = {};
   /// Planes behind all of which it was cut from the mesh of this name, in the body's frame as it is given, mm. The first of its meshes is what was

@@ -200,7 +200,7 @@ class Sweeping {
         std::copy(tried.begin(), tried.end(), limits.begin());
       }
     }
-    // Of a design in contact in its reference pose no target has a limit.
+    // No target has a limit with a design that is in contact in its reference pose.
     if (std::isnan(unsafe_margin)) return {safe, std::nullopt};
     const double share = safe_margin / (safe_margin - unsafe_margin);
     return {safe + share * (unsafe - safe), answer::least_target(query_.targets, limits)};

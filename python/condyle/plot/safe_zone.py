@@ -25,7 +25,7 @@ ZONE = "#cfe8f7"
 LINES = ("-", (0, (3, 1)), (0, (1, 1)))
 MOST_PANELS = 12
 MOST_CONTOURS = 8
-#: Designs that miss by more are not told apart.
+#: Designs that miss by more have one colour.
 LOWEST_CONTOUR_DEG = -30.0
 
 

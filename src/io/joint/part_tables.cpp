@@ -80,7 +80,7 @@ std::vector<CutPlane> planes_of(TomlTable& table, double mm) {
   return planes;
 }
 
-/// Of the angles of a cup, which mean nothing without it.
+/// What the angles of a cup are, which mean nothing without it.
 CupDefinition definition_of(TomlTable& table, const PosedPart& part) {
   const bool is_cup =
       std::any_of(part.parameters.begin(), part.parameters.end(), [](const PartParameter& parameter) {

@@ -76,7 +76,7 @@ std::uint16_t pair_in(const SweepAnswer& sweep, std::string_view fixed, std::str
   return DesignLimit::no_pair;
 }
 
-/// Of "neck on liner", whose names may hold " on " too.
+/// The pair of "neck on liner", whose names may hold " on " too.
 std::uint16_t pair_in(const SweepAnswer& sweep, std::string_view text) {
   for (std::size_t i = 0; i < sweep.pairs.size(); ++i)
     if (text == fmt::format("{} on {}", sweep.pairs[i].mobile, sweep.pairs[i].fixed))
