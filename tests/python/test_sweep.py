@@ -173,3 +173,21 @@ def test_a_joint_without_parts_is_refused():
     joint = condyle.Joint(bones.hip_bone, bones.femur)
     with pytest.raises(condyle.UsageError, match="no part with parameters"):
         joint.sweep(VARY, TARGETS)
+
+
+def test_it_measures_and_loads_each_design_as_the_joint_at_its_values(command, tmp_path):
+    subprocess.run([command, "sample", "hip", "--out", tmp_path], check=True, capture_output=True)
+    with open(tmp_path / "hip.toml", "a") as file:
+        file.write('[contact]\nfixed = { youngs_modulus_mpa = 10.0, poisson_ratio = 0.45, thickness = 2.0 }\n'
+                   '[[part]]\nname = "pelvis"\nbody = "fixed"\n[[part.parameter]]\nname = "frontal"\nrange = [-20, 20]\n')
+    joint = condyle.read_joint(tmp_path / "hip.toml")
+    key = "centre_edge_lateral_section_deg"
+    zone = joint.sweep({"pelvis.frontal": (-10, 10, 10)}, [("bent", "flexion", 60)], measures=[key], load="flexion=150")
+    measured = zone.quantities["measured_" + key]
+    for value, found in zip(zone.axes["pelvis.frontal"], measured):
+        assert found == joint.with_parameters({"pelvis.frontal": value}).measures()[key].value
+    assert np.diff(measured) == pytest.approx(10, abs=1e-3)  # a frontal turn adds as much to the edge
+    assert zone.here.quantities["measured_" + key] == measured[1]
+    assert (zone.quantities["load_max_pressure_mpa"] > 0).any()
+    with pytest.raises(condyle.UsageError, match="there is no measure"):
+        joint.sweep({"pelvis.frontal": (-10, 10, 10)}, [("bent", "flexion", 60)], measures=["edge"])
