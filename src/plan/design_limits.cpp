@@ -26,6 +26,9 @@ constexpr Angle closed_form_slack = Angle::degrees(1e-3);
 /// Distances from the centre that are no farther apart may meet.
 constexpr double shell_gap_mm = 1e-6;
 
+/// Results kept of one pair and one motion, some 10 MB: displaced designs hardly ever have the same values again.
+constexpr std::size_t most_kept = 100'000;
+
 /// One mesh of a body, or what of it counts.
 struct SweptMesh {
   BodyRole role;
@@ -323,7 +326,8 @@ struct DesignLimits::Parts {
     }
     const Ended found = search(pair, turn, parts, values, turns[turn].motion.range);
     const std::lock_guard lock(at.mutex);
-    return at.by_values.emplace(std::move(key), found).first->second;
+    if (at.by_values.size() < most_kept) at.by_values.emplace(std::move(key), found);
+    return found;
   }
 
   struct Best {
