@@ -2,6 +2,10 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "answer/staged.hpp"
 #include "answer/sweep_summary.hpp"
@@ -239,19 +243,20 @@ class Sweeping {
   Lines lines_;
 };
 
-/// The limits of the joint as it is: they show whether its meshes are those of its implant's sizes.
-std::optional<std::string> difference_from_closed_form(const Joint& joint, const JointPlacement& placement,
-                                                       const SweepQuery& query) {
-  if (!closed_form(joint).pair) return std::nullopt;
-  RangeRequest request{.range = query.range};
-  request.range.overlap.reference_contact = ReferenceContact::accept;
-  for (const SweepTarget& target : query.targets) {
-    request.motions.push_back(target.without_tilt());
-    request.motions.back().name = target.name;
+/// What liner and neck by themselves do at the joint's own values and in the corners of the sweep: bone that ends a motion before would hide
+/// meshes that are not those of the implant's sizes.
+std::string difference_from_closed_form(const plan::DesignLimits& limits, const SweepAnswer& sweep) {
+  std::string difference = limits.difference_from_form(sweep.here);
+  const std::size_t corners = std::size_t{1} << sweep.parameters.size();
+  for (std::size_t corner = 0; corner < corners && difference.empty(); ++corner) {
+    std::vector<double> values;
+    for (std::size_t p = 0; p < sweep.parameters.size(); ++p) {
+      const SweptParameter& parameter = sweep.parameters[p];
+      values.push_back(parameter.value(corner >> p & 1 ? parameter.count() - 1 : 0));
+    }
+    difference = limits.difference_from_form(values);
   }
-  for (const RangeNote& note : answer_range(joint, placement, request).notes)
-    if (note.code == RangeNoteCode::differs_from_closed_form) return note.text;
-  return std::nullopt;
+  return difference;
 }
 
 }  // namespace
@@ -339,13 +344,18 @@ std::optional<SweepAnswer> answer_sweep(const Joint& joint, const JointPlacement
   asked.range = range;
   SweepAnswer answer{query.parameters, query.targets, {}, query.share};
   const std::vector<std::string> names = names_of(query.parameters);
-  const auto difference = difference_from_closed_form(joint, placement, query);
-  if (difference)
-    answer.notes.push_back(
-        {SweepNoteCode::differs_from_closed_form, *difference + "; every limit is searched for"});
-  const plan::DesignLimits limits(joint, range, query.targets, names, !difference);
-  answer.pairs = limits.pairs();
   for (const std::string& name : names) answer.here.push_back(parameter_named(joint, name).value);
+  std::optional<plan::DesignLimits> made(std::in_place, joint, range, query.targets, names);
+  if (const std::string difference = difference_from_closed_form(*made, answer); !difference.empty()) {
+    answer.notes.push_back(
+        {SweepNoteCode::differs_from_closed_form,
+         "the meshes of the implant end motions elsewhere than bodies of the sizes in the joint "
+         "file, so that every limit is searched for: " +
+             difference});
+    made.emplace(joint, range, query.targets, names, false);
+  }
+  const plan::DesignLimits& limits = *made;
+  answer.pairs = limits.pairs();
   answer.limits_here.resize(query.targets.size());
   limits.limits(answer.here, answer.limits_here);
 

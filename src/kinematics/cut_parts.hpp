@@ -9,7 +9,7 @@ namespace condyle::kinematics {
 
 /// What was cut from the meshes of a joint.
 struct CutParts {
-  /// Of each vertex of the mobile body its number before; no_index of a new one. Empty if the body is whole.
+  /// The number before of each vertex of the mobile body, no_index of a new one. Empty if the body is whole.
   std::vector<Index> mobile_vertex_before = {};
   std::vector<std::string> processing = {};  ///< a line for each part that was cut
 };

@@ -10,6 +10,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/implant.hpp"
+#include "core/formatted.hpp"
 #include "core/lazy.hpp"
 #include "core/per_thread.hpp"
 #include "kinematics/posed_parts.hpp"
@@ -44,7 +45,7 @@ struct SweptMesh {
       : role(body), name(part), mesh(std::move(triangles)), tree(mesh) {}
 };
 
-/// Of a triangle and the centre.
+/// Between a triangle and the centre.
 double distance_from_centre(const TriMesh& mesh, const Triangle& triangle) {
   const Vec3 zero = Vec3::Zero();
   return std::sqrt(mesh::between_triangles(
@@ -447,6 +448,27 @@ bool DesignLimits::reaches_all(std::span<const double> values) const {
     if (end.ended.reason != LimitReason::end_of_range && end.ended.turned < reach.radians()) return false;
   }
   return true;
+}
+
+std::string DesignLimits::difference_from_form(std::span<const double> values) const {
+  const std::vector<PosedPart> parts = parts_->parts_at(values);
+  const ClosedForm form = closed_form(parts_->joint, parts);
+  std::string text;
+  if (!form.pair) return text;
+  for (const Parts::PairOfMeshes& pair : parts_->pairs) {
+    if (pair.known != Parts::PairOfMeshes::Known::by_form) continue;
+    for (std::size_t t = 0; t < parts_->targets.size(); ++t) {
+      const Motion& motion = parts_->turns[t].motion;
+      const Angle turned = Angle::radians(parts_->search(pair, t, parts, values, motion.range).turned);
+      const ClosedLimit closed = closed_limit(*form.pair, parts_->joint.coordinates(), motion);
+      if (turned > closed.of_facets_low - closed_form_slack &&
+          turned < closed.of_facets_high + closed_form_slack)
+        continue;
+      text += (text.empty() ? "" : ", ") + parts_->targets[t].name +
+              core::formatted(" %.3f, closed form %.3f", turned.degrees(), closed.turned.degrees());
+    }
+  }
+  return text;
 }
 
 const std::vector<EndingPair>& DesignLimits::pairs() const noexcept {

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "condyle/joint.hpp"
@@ -32,6 +33,10 @@ class DesignLimits {
   void limits(std::span<const double> values, std::span<DesignLimit> out) const;
   /// Whether every target is reached at these values: sooner known than the limits.
   bool reaches_all(std::span<const double> values) const;
+
+  /// Where the meshes of liner and neck by themselves end targets elsewhere than their facets let the closed form be: "flexion 120.000, closed form
+  /// 128.706"; empty if nowhere, and without a closed form.
+  std::string difference_from_form(std::span<const double> values) const;
 
   const std::vector<EndingPair>& pairs() const noexcept;
 

@@ -333,7 +333,7 @@ TEST(Sweep, OfSharesIsThatOfTheWhole) {
 }
 
 TEST(Sweep, GivesTheProbabilityOfANormalDistributionOverTheSafeInterval) {
-  // Of two uncertain angles only the anteversion matters if the inclination has no deviation.
+  // Only the anteversion matters if the inclination has no deviation.
   PlacedJoint placed = implant_alone({}, 4);
   placed.joint.posed->parts[0].parameters[0].sigma = 0;
   constexpr std::size_t samples = 400;
@@ -384,6 +384,20 @@ TEST(Sweep, NotesAnImplantWhoseMeshesAreNotThoseOfItsSizes) {
   EXPECT_TRUE(std::any_of(range.notes.begin(), range.notes.end(), [](const RangeNote& note) {
     return note.code == RangeNoteCode::differs_from_closed_form;
   }));
+}
+
+TEST(Sweep, NotesThatAlsoWhereBoneEndsTheMotionsBefore) {
+  const TotalHip made;
+  PlacedJoint placed = replaced_hip(made, *sample_replacement(made, {}, Scenario::one, Side::right));
+  TotalHip said = made;
+  said.neck_radius_mm = 7;
+  placed.joint.implant = implant_in_joint(said, placed.joint);
+  const SweepAnswer sweep = answer_sweep(
+      placed.joint, placed.placement,
+      {.parameters = parse_sweep("cup.anteversion=10:20:10"), .targets = {turn_to("adduction", 20)}});
+  ASSERT_LT(sweep.limits_here[0].turned_deg, 40);  // femur on hip bone; the neck would meet the liner at 67.6
+  ASSERT_FALSE(sweep.notes.empty());
+  EXPECT_EQ(sweep.notes[0].code, SweepNoteCode::differs_from_closed_form);
 }
 
 TEST(ClosedForm, StandsBesideTheLimitsOfMeshesAndAgrees) {
