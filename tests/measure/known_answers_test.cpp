@@ -30,13 +30,13 @@ struct ConeCase {
 };
 
 TEST(KnownMeasures, AlphaOfAConeOnASphereIsThatOfTheToleranceFormulaAtEveryHour) {
-  for (const auto& [R, r0, m, at_half, at_one] :
-       {ConeCase{24, 14, 0, 34.850, 34.056}, ConeCase{24, 12, 0.15, 37.502, 36.870}}) {
+  for (const ConeCase& cone : {ConeCase{24, 14, 0, 34.850, 34.056}, ConeCase{24, 12, 0.15, 37.502, 36.870}}) {
+    const double R = cone.R, r0 = cone.r0, m = cone.m;
     const auto formula = [&](double tau) {
       return (std::asin(r0 / ((R + tau) * std::sqrt(1 + m * m))) + std::atan(m)) / degree;
     };
-    EXPECT_NEAR(formula(0.5), at_half, 0.001);
-    EXPECT_NEAR(formula(1), at_one, 0.001);
+    EXPECT_NEAR(formula(0.5), cone.at_half, 0.001);
+    EXPECT_NEAR(formula(1), cone.at_one, 0.001);
     const FemurMeasures femur = measure_hip(hip_of(some_cup(), head_with_cone(neck_axis, R, r0, m))).femur;
     ASSERT_TRUE(femur.neck);
     EXPECT_LT((femur.neck->direction - neck_axis).norm(), 1e-6);
