@@ -60,7 +60,7 @@ struct Outcome {
   PoseTimes query;
   double cold_seconds = 0;  ///< Mean per pose, all caches emptied before; 0 where not taken.
   double ours_seconds = 0;  ///< Mean per pose of Condyle's answer at the same poses, in turn with it.
-  /// Of `touch` alone: their time over Condyle's at the poses without and with a contact; 0 where there is
+  /// Only for `touch`: their time over Condyle's at the poses without and with a contact; 0 where there is
   /// none.
   double free_ratio = 0, touching_ratio = 0;
   double build_seconds = 0;               ///< Made ready once.

@@ -25,7 +25,7 @@ const Outcome* find(const ExperimentResult& result, Question question, std::stri
   return at == result.outcomes.end() ? nullptr : &*at;
 }
 
-/// Of the question which vertices are inside: how many times as long as Condyle Embree is to take, with a ray
+/// How many times as long as Condyle Embree is to take to find which vertices are inside, with a ray
 /// for every vertex and with those culled that cannot be inside.
 struct InsideGoal {
   std::string_view scene;

@@ -67,7 +67,7 @@ class Method {
   /// The same method for another thread, sharing what was built; null where the method has no such thing.
   virtual std::unique_ptr<Method> for_another_thread();
 
-  /// Of what was built, without the two meshes it was built from, as far as it can be told; 0 where not.
+  /// Memory of what was built, without the two meshes it was built from, as far as it can be known; else 0.
   virtual std::size_t bytes() const { return 0; }
 
   virtual Work work() const { return {}; }
@@ -90,7 +90,7 @@ struct MethodKind {
   bool is_exact = false;
   std::function<std::unique_ptr<Method>(const Bodies&)> make;
   bool is_slow_to_make = false;  ///< Seconds even for the smallest scene.
-  /// Of both bodies together: above, being made ready takes minutes.
+  /// Triangles of both bodies together above which being made ready takes minutes.
   std::size_t most_triangles = std::numeric_limits<std::size_t>::max();
 };
 

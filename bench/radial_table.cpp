@@ -191,7 +191,7 @@ void ask_instruction_sets(const Scene& scene, int rounds, Report& report) {
                seconds[static_cast<std::size_t>(at - sets.begin())] / best, report);
   };
   goal("AVX2", 2);
-  // Of what is older, the slowest that there is: no vectors at all.
+  // The slowest of the older ones: no vectors at all.
   goal("SCALAR", 10);
 }
 

@@ -16,7 +16,7 @@ namespace {
 using condyle::Pose;
 using condyle::TriMesh;
 
-/// Of a whole turn in steps of a degree.
+/// A whole turn in steps of a degree.
 constexpr int poses_per_turn = 360;
 
 const TableHead ring_head{"ring_table",

@@ -20,7 +20,7 @@ struct SeenEdge {
     const double area = (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());
     return is_reversed ? -area : area;
   }
-  /// Of the point shifted by (e, e^2) where `side` is zero.
+  /// Decides for the point shifted by (e, e^2) where `side` is zero.
   bool has_left(double side) const noexcept { return is_left(side, {from.y() - to.y(), to.x() - from.x()}); }
 };
 

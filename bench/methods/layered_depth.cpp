@@ -59,7 +59,7 @@ class LayeredDepth final : public Method {
   }
 
   std::unique_ptr<Method> for_another_thread() override { return std::make_unique<LayeredDepth>(*this); }
-  /// Of the image that was drawn last.
+  /// Memory of the image that was drawn last.
   std::size_t bytes() const override { return image_.bytes(); }
   Work work() const override { return {{"layers", layers_}, {"vertices in the volume", looked_up_}}; }
 

@@ -17,7 +17,7 @@ struct Layer {
   condyle::Index triangle;
 };
 
-/// Of two at one place, where a line touches an edge of the solid's outline, the way in comes first.
+/// If two lie at one place, because a line touches an edge of the solid's outline, the entry comes first.
 inline bool nearer(const Layer& a, const Layer& b) noexcept {
   return a.position < b.position || (a.position == b.position && a.step > b.step);
 }

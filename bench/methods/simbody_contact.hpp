@@ -31,7 +31,7 @@ class SimbodyContact {
     int triangle;
     double distance;
   };
-  /// Of the fixed surface.
+  /// Nearest point of the fixed surface.
   Nearest nearest(const std::array<double, 3>& point) const;
 
  private:

@@ -244,7 +244,7 @@ struct RangeRequest {
   std::optional<AllowedDepth> allowed_depth = {};
   /// The translation that a free joint keeps, mm, in the fixed body's axes; default: that of its reference pose.
   std::optional<Vec3> translation_mm = {};
-  /// Of a free joint: its centre is not held but follows this. Limits are bounded then, not exact. Excludes a held translation, maps,
+  /// The centre of a free joint is not held but follows this. Limits are bounded then, not exact. Excludes a held translation, maps,
   /// bands, zones, an allowed depth and contacts that are left out.
   std::optional<Follow> follow = {};
   std::optional<MapGrid> map = {};
@@ -363,7 +363,7 @@ struct ResectionQuery {
   std::optional<BandOptions> bands = {};
   /// Points of each target's curve of degrees against removed volume; 0 for none.
   std::size_t curve_points = 10;
-  /// Of a hip: how its shape is measured before and after.
+  /// How the shape of a hip is measured before and after.
   MeasureRequest measures = {};
 };
 
@@ -396,7 +396,7 @@ struct ResectionNote {
   std::string text;  ///< one sentence
 };
 
-/// Of the neck's width, what may go without a note.
+/// Share of the neck's width that may go without a note.
 inline constexpr double neck_width_share = 0.3;
 
 struct ResectionAnswer {

@@ -42,7 +42,7 @@ struct BearingSurface {
   double margin_mm = 0;                 ///< as used
   std::vector<std::string> parts = {};  ///< the meshes called bearing
   std::optional<double> rim_gap_mm;     ///< between head and rim; empty if no rim was found
-  /// Of a shoulder: between the head, wherever a rotation brings it, and what lies beside its socket, as an acromion does. Below 0
+  /// Gap of a shoulder between the head, wherever a rotation brings it, and what lies beside its socket, as an acromion does. Below 0
   /// if the two can meet; empty for hips.
   std::optional<double> beside_gap_mm = {};
   std::optional<Sphere> socket;         ///< in F, fitted; empty if the fixed body has no spherical socket

@@ -66,7 +66,7 @@ struct MeasureRequest {
   Angle pelvic_tilt = {};
   /// What the axes of the hip bone are from: pelvis_frame_of(); empty: not stated, which is as scanned.
   std::string pelvis_frame = {};
-  /// Of the femur, for the ischiofemoral distance.
+  /// Pose of the femur at which the ischiofemoral distance is measured.
   JointAngles ischiofemoral_pose = {};
 };
 
@@ -75,7 +75,7 @@ struct MeasureRequest {
 /// One direction around the neck.
 struct NeckHour {
   double hour;  ///< 0 to below 12, in steps of five minutes
-  /// Of the head's contour on this side and the other: from the head's centre along the neck, and beside it.
+  /// Circle of the head's contour on this side and the other: its centre from the head's, along the neck and beside it.
   double circle_along_mm, circle_beside_mm, circle_radius_mm;
   double circle_rms_mm;
   std::optional<double> alpha_deg;  ///< at 0.5 mm

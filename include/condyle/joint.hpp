@@ -70,7 +70,7 @@ struct Body {
   /// The sphere that slides on it, in the body's frame, mm, where it is known, as that of a bone that was cut: of the mobile body its head, of
   /// the fixed one its socket. Else it is searched for.
   std::optional<Sphere> head = {};
-  /// Of the mobile body with a known head: how far outside of it bearing surface reaches. Else as BearingOptions::margin_mm.
+  /// How far the bearing surface reaches outside a known head of the mobile body. Default: BearingOptions::margin_mm.
   std::optional<double> bearing_margin_mm = {};
 };
 

@@ -145,7 +145,7 @@ struct MotionLimit {
   Motion motion = {};
   Limit end = {};
   std::optional<HeadAtLimit> head = {};  ///< where a bearing surface is known
-  /// Of a joint whose centre is not held, at the limit: x, y and z of its translation frame.
+  /// Translation at the limit, x, y and z of its frame; only of a joint whose centre is not held.
   std::optional<Vec3> translation_mm = {};
   /// What its translation follows ends at the limit, before the motion's range does: the joint may turn farther.
   bool translation_ends = false;

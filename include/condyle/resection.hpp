@@ -49,13 +49,12 @@ struct KeptBone {
 
 struct ResectionRequest {
   std::vector<ReachTarget> targets = {};
-  /// Of the depth that the mobile body alone would lose, the share that the fixed body is cut for instead: 0 cuts the mobile body
-  /// only, 1 the fixed body only.
+  /// Share of the depth for which the fixed body is cut in place of the mobile one: 0 cuts the mobile body only, 1 the fixed body only.
   double fixed_share = 0;
   KeptBone mobile = {}, fixed = {};
   /// The bone that is left stays clear of the other one with its surface moved outwards by this, mm, along the way to the target.
   double margin_mm = 0;
-  /// Of the ball of a burr, its diameter, mm: what is left is what a ball of this size can make, no groove is narrower. Without one the
+  /// Diameter of a burr's ball, mm: the surface left is one that a ball of this size can make, and no groove is narrower. Without it the
   /// cut has any shape.
   std::optional<double> burr_mm = {};
   double edge_mm = 0.5;  ///< Triangles around the cut become so small.
@@ -71,9 +70,9 @@ struct CutBone {
   std::vector<double>
       needed_from_deg;  ///< the angle of its motion from which on it is in the way; 0 where nothing goes
   double volume_mm3 = 0;
-  /// Of what was removed, what the other bone really sweeps over: no cut could do with less.
+  /// The part of what was removed that the other bone sweeps over: no cut could do with less.
   double least_volume_mm3 = 0;
-  double burr_volume_mm3 = 0;  ///< Of what was removed, what goes only because a burr is no smaller.
+  double burr_volume_mm3 = 0;  ///< the part of what was removed that goes only because a burr is no smaller
   /// By how much the burr's ball would have to enter bone that stays, at the most; 0 where it need not.
   double burr_in_kept_mm = 0;
   double area_mm2 =

@@ -61,7 +61,7 @@ std::string fault_of(const Pose& pose) {
   return rotation.determinant() < 0 ? "a reflection is no pose" : "";
 }
 
-/// Of a (4, 4) or (N, 4, 4) array, not looked at.
+/// Matrices of a (4, 4) or (N, 4, 4) array, their values not checked.
 PosesIn matrices_in(const py::object& given, std::string_view name) {
   constexpr std::string_view wanted = "(4, 4) or (N, 4, 4)";
   py::array array = array_in(given, name, wanted);

@@ -23,7 +23,7 @@ static py::dict dict_of(ReliableDepths&& depths) {
 
 namespace {
 
-/// Of a body that is held against a closed one.
+/// Results of a body that is held against a closed one.
 template <class Results>
 py::object optional_dict(std::optional<Results>& results) {
   if (!results) return py::none();

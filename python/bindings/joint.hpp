@@ -16,7 +16,7 @@ struct JointHandle {
   const Joint& joint() const noexcept { return loaded.joint; }
 };
 
-/// Of the three, by its position.
+/// One of the three angles, by its position.
 JointAngle angle_numbered(std::size_t number);
 
 }  // namespace condyle::python

@@ -23,7 +23,7 @@ struct ContactFaces {
 /// Faces in contact as columns that keep the list alive, "faces", and what they add up to.
 py::dict dict_of(SurfaceContact&& contact, const Mesh& casting, FaceRule rule);
 py::dict dict_of(const ContactTotals& totals);
-/// Of what each body casts.
+/// Results of what each body casts.
 py::dict dict_of(ElasticContactResults&& results, const ElasticContact& surfaces);
 py::tuple tuple_of(const Wrench& wrench);
 /// (code, text) of each.

@@ -111,7 +111,7 @@ py::dict query_rings(const RingTable& table, const py::object& given, bool is_ne
   return dict_of(std::move(results));
 }
 
-/// Of all points, point i owning [offset[i], offset[i + 1]).
+/// Arcs of all points, point i owning [offset[i], offset[i + 1]).
 py::dict occupied_arcs(const RingTable& table, const py::object& given) {
   const PointsIn points(given, "points");
   std::vector<std::int64_t> offset{0};

@@ -16,7 +16,7 @@ using core::formatted;
 constexpr double band_margin_step_mm = 0.5, largest_band_margin_mm = 4, band_margin_within_mm = 0.13;
 constexpr int most_band_plans = 11;
 
-/// Of what must go, the share, and mm3, that may go beside it without a note.
+/// How much bone may go beside what must, without a note: a share of that, and mm3.
 constexpr double unasked_share = 0.1, unasked_mm3 = 0.5;
 
 /// An alpha angle that falls by less stays as it was, as far as the contour tells.

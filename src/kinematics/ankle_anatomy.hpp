@@ -26,7 +26,7 @@ struct AnkleAnatomy {
   std::vector<std::string> evidence;
 };
 
-/// Of meshes in mm.
+/// Takes meshes in mm.
 AnkleAnatomy ankle_anatomy(const TriMesh& tibia, const TriMesh& talus);
 
 }  // namespace condyle::kinematics

@@ -22,7 +22,7 @@ struct ElbowAnatomy {
   double off_shaft_line_mm = 0;
 };
 
-/// Of meshes in mm.
+/// Takes meshes in mm.
 ElbowAnatomy elbow_anatomy(const TriMesh& humerus, const TriMesh& ulna);
 
 }  // namespace condyle::kinematics

@@ -43,7 +43,7 @@ constexpr double least_lean_deg = 3, least_ridge = 0.1;
 /// A femoral head is half of a sphere or more, of so many radii of a cylinder through it; condyles are less.
 constexpr double least_stray_head_coverage = 0.5, smallest_stray_head = 0.8, largest_stray_head = 1.25;
 
-/// Of the mobile body's centroid below the condyles: hyperextension and a sloping plateau, and the deepest squat.
+/// Bounds of where the mobile body's centroid lies below the condyles: hyperextension and a sloping plateau, and the deepest squat.
 constexpr double most_in_front_deg = 30, most_behind_deg = 165;
 
 constexpr double degrees_per_radian = 180 / std::numbers::pi;

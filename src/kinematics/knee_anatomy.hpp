@@ -41,7 +41,7 @@ struct KneeAnatomy {
   std::vector<std::string> evidence;  ///< one line each, for axes and side, with what it needs
 };
 
-/// Of meshes in mm. Less than two seconds for 60,000 triangles.
+/// Takes meshes in mm. Less than two seconds for 60,000 triangles.
 KneeAnatomy knee_anatomy(const TriMesh& femur, const TriMesh& tibia);
 
 /// What the femur shows by itself, with the condyles found roughly; the mobile body, posed in its frame, only shows where they are,

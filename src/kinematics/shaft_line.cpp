@@ -11,7 +11,7 @@
 namespace condyle::kinematics {
 namespace {
 
-/// Of a slice, mm: several triangles of a fine mesh.
+/// Thickness of a slice, mm: several triangles of a fine mesh.
 constexpr double slice_mm = 5;
 /// The last slices are those of a cut, or of another joint.
 constexpr double end_mm = 6;

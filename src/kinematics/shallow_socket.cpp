@@ -136,7 +136,7 @@ std::optional<SphericalPatch> sphere_through(const TriMesh& fixed, const std::ve
   }
 }
 
-/// Of the border's gaps the smallest tenth; a border is what lies farthest towards the opening in its sector.
+/// The border's gap that a tenth of its gaps are below; a border is what lies farthest towards the opening in its sector.
 std::optional<double> rim_gap(const TriMesh& fixed, const std::vector<Index>& within, const Vec3& opening,
                               const Sphere& head) {
   struct Crest {

@@ -25,7 +25,7 @@ struct ShoulderAnatomy {
       towards_humerus;  ///< unit: from the head to the centroid of the humerus' surface, down a hanging arm
 };
 
-/// Of meshes in mm.
+/// Takes meshes in mm.
 ShoulderAnatomy shoulder_anatomy(const TriMesh& scapula, const TriMesh& humerus);
 
 }  // namespace condyle::kinematics

@@ -12,7 +12,7 @@
 namespace condyle::measure {
 namespace {
 
-/// Of the radius: farther off than a head's contour ever is.
+/// Share of the radius: farther off than a head's contour ever is.
 constexpr double farthest_off_circle = 0.25;
 /// Contour that a circle needs, as an angle at its centre: a third of a turn of the 210 degrees that there are.
 constexpr double least_arc = 120 * degree;

@@ -80,7 +80,7 @@ Vec3 square_to(const Vec3& v, const Vec3& axis) {
   return v - v.dot(axis) * axis;
 }
 
-/// Of two directions seen along an axis: by how much -neck is in front of `medial`.
+/// By how much -neck is in front of `medial`, both seen along an axis.
 double forward_deg(const Vec3& neck, const Vec3& medial, const Vec3& anterior) {
   return std::atan2(-neck.dot(anterior), -neck.dot(medial)) / degree;
 }

@@ -146,7 +146,7 @@ std::string why_not_of_head(const RimGeometry& rim, const Sphere& head) {
       rim.radius_mm, beside);
 }
 
-/// Of the triangles at each vertex.
+/// Mean edge of the triangles at each vertex.
 std::vector<double> mean_edges(const TriMesh& mesh) {
   std::vector<double> sums(mesh.vertices.size()), counts(sums.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -14,7 +14,7 @@ struct SurfaceGrain {
   double roughness_mm = 0;
 };
 
-/// Of the triangles whose corners are all among the vertices. Linear in the mesh.
+/// Grain of the triangles whose corners are all among the vertices. Linear in the mesh.
 SurfaceGrain grain_of(const TriMesh& mesh, const std::vector<Index>& vertices, const Vec3& centre);
 
 /// Triangles longer than this cut off of a rim and of a contour what a measure of theirs depends on, mm: on sample hips with longer ones

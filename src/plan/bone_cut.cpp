@@ -121,8 +121,8 @@ std::vector<SweepTo> BoneCut::sweeps_to_reach() const {
   return all;
 }
 
-/// Of the pieces of triangles that are asked for, those with a point that is swept, on the surface or a little outside of it, and all that
-/// are in a place that was met.
+/// The pieces, among those that are asked for, with a point that is swept, on the surface or a little outside of it, and all that are in a
+/// place that was met.
 std::vector<std::uint8_t> BoneCut::to_cut(const TriMesh& pieces, const std::vector<Index>& before,
                                           const std::vector<std::uint8_t>& asked) const {
   const Counting counts = counting(role_);
@@ -162,7 +162,7 @@ const KeptBone& BoneCut::kept() const {
   return role_ == BodyRole::mobile ? request_.mobile : request_.fixed;
 }
 
-/// Of the refined body.
+/// Why vertices of the refined body are kept.
 std::vector<std::optional<KeptBy>> BoneCut::kept_vertices(const Body& body) const {
   const KeptBone& keep = kept();
   const Mesh& mesh = body.mesh;
@@ -203,7 +203,7 @@ void BoneCut::refine() {
       request_.edge_mm);
   triangle_before_ = std::move(fine.triangle_before);
   const auto put_surface = [&] {
-    // Of the depth that is taken a share is cut.
+    // This body is cut for a share of the depth only.
     std::optional<double> deepest = kept().deepest_mm;
     if (deepest) *deepest /= share_;
     surface_.emplace(fine.body, near, kept_vertices(fine.body), deepest, request_.edge_mm);

@@ -71,7 +71,7 @@ Burr::Around Burr::in_ball(const Vec3& centre) const {
   return found;
 }
 
-/// Of the balls that touch p, one that enters bone the least: away from where it enters most, again and again.
+/// A ball that touches p and enters bone as little as can be: moves away from where it enters most, again and again.
 Burr::Ball Burr::freest(const Vec3& p, const Vec3& outwards) const {
   const TriMesh& mesh = surface_.body().mesh;
   Ball ball{p + radius_ * outwards, 0}, best{ball.centre, 2 * radius_};

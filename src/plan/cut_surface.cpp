@@ -425,7 +425,7 @@ KeptBy CutSurface::kept_by(const SurfacePoint& point) const {
   return KeptBy::depth;
 }
 
-/// Of a point of the bearing surface, the vertices that may go of the triangles that it lies in.
+/// The vertices that may go of the triangles in which a point of the bearing surface lies.
 std::vector<Index> CutSurface::beside(const SurfacePoint& point) const {
   std::vector<Index> found;
   if (vertices_[point.corners[0]].kept != KeptBy::bearing) return found;

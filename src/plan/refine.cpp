@@ -42,7 +42,7 @@ std::vector<double> edges_to_halve(const Pieces& pieces, const mesh::EdgeTable& 
         if (e == no_index) continue;
         any = any || halve[e] > 0;
         const double l = length(pieces.mesh, edges.ends(e));
-        // Of two as long the same one from either side.
+        // If two are as long, both neighbours choose the same one.
         if (l > most || (l == most && e < longest_side)) most = l, longest_side = e;
       }
       if (any && longest_side != no_index && halve[longest_side] == 0)

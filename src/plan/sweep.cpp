@@ -65,7 +65,7 @@ std::vector<double> Sweep::first_inside(PointsView points, Angle reach) const {
 }
 
 double Sweep::first_of(const Vec3& started, std::span<const OccupiedArc> arcs, double reach) const {
-  // Of the fixed body, points count where the mobile bone that they are in is outside the ball.
+  // Points of the fixed body count if the mobile bone that they are in is outside the ball.
   std::optional<Interval> counts = Interval{0, 2 * two_pi};
   if (ball_ && cut_ == BodyRole::fixed)
     counts = while_outside(turning_.axis, started, ball_->centre, ball_->radius_mm);

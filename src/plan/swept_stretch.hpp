@@ -37,7 +37,7 @@ struct Stretch {
   std::optional<Need> need = {};
 };
 
-/// Of each point the need of the sweep that covers it first.
+/// For each point the need of the sweep that covers it first.
 std::vector<std::optional<Need>> needs_of(const Points& points, const std::vector<SweepTo>& sweeps);
 
 /// Steps along a direction, mm: what is not swept for less than this is not seen.
@@ -46,7 +46,7 @@ inline constexpr double step_mm = 0.1;
 /// Found by steps, and the last one halved; to within 0.001 mm past its end.
 std::vector<Stretch> stretches(const std::vector<Probe>& probes, const std::vector<SweepTo>& sweeps);
 
-/// Of each probe the depth to which bone goes: to the end of the swept stretch that begins at it, if it has no other one; of one that is not
+/// For each probe the depth to which bone goes: to the end of the swept stretch that begins at it, if it has no other one; of one that is not
 /// swept itself to the end of the deepest there is under an overhang. By halving, to 1/2000 of the room.
 std::vector<double> depths(const std::vector<Probe>& probes, const std::vector<SweepTo>& sweeps);
 

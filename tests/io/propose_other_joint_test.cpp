@@ -14,7 +14,7 @@
 namespace condyle::test {
 namespace {
 
-/// Of an axis and a place that are said: what the project asks of them.
+/// Largest errors of an axis and a place that are inferred.
 constexpr double most_deg = 3, most_mm = 2;
 
 class ProposedOther : public testing::Test {
@@ -71,7 +71,7 @@ TriMesh scaled(TriMesh mesh, double scale) {
   return mesh;
 }
 
-/// Of the shared knee, whose model turns about Z through the origin with Y along the femur.
+/// The shared knee's model turns about Z through the origin with Y along the femur.
 TEST_F(ProposedOther, KneeOfRealBonesHasTheFrameOfItsModelInAllAxesUnitsAndMirrored) {
   const auto data = shared_data();
   if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";

@@ -18,7 +18,7 @@ namespace {
 
 using test::degrees_between, test::mirrored, test::scanned;
 
-/// Of an axis that is said: what the project asks of one.
+/// Largest errors of an axis that is inferred.
 constexpr double most_deg = 3, most_mm = 2;
 
 KneeAnatomy seen(const TriMesh& femur, const TriMesh& tibia, const Pose& X = Pose::Identity(),

@@ -13,7 +13,7 @@ namespace {
 
 using test::degrees_between, test::scanned;
 
-/// Of an axis and a place that are said: what the project asks of them.
+/// Largest errors of an axis and a place that are inferred.
 constexpr double anatomy_most_deg = 3, anatomy_most_mm = 2, noise = 0.3;
 
 double degrees_between_lines(const Vec3& a, const Vec3& b) {

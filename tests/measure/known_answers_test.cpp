@@ -169,7 +169,7 @@ TEST(KnownMeasures, APelvisThatTiltsForwardsTurnsItsOpeningAndNothingOfTheFemur)
 }
 
 TEST(KnownMeasures, ANecksVectorAreaIsThatOfTheLoopItCuts) {
-  // Of a prism about the axis the loop's vector area is the prism's own cross-section, whatever the sphere.
+  // A prism about the axis gives a loop whose vector area is the prism's own cross-section, whatever the sphere.
   const Sphere head{Vec3::Zero(), 24};
   constexpr int facets = 6;
   const TriMesh femur = revolved(neck_axis, {{-10, 0}, {-10, 12}, {70, 12}, {70, 0}}, facets);

@@ -129,7 +129,7 @@ HandDisplacement drawn(std::mt19937_64& random, const Uncertainty& sigma) {
   return {centre, axes, sigma.surface_mm * normal(), sigma.surface_mm * normal()};
 }
 
-/// Of each measure, in how many of the joints it could be measured and lies in its band.
+/// In how many of the joints a measure could be measured, and lies in its band.
 struct Counted {
   int inside = 0, all = 0;
 };

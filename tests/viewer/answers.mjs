@@ -1,7 +1,7 @@
 // Scenes and answers of page_core_answers, as files.
 import { readFileSync, writeFileSync } from "node:fs";
 
-/// Of a typed array's bytes at an offset that is a multiple of its elements, a copy.
+/// Copies a typed array's bytes from an offset that is a multiple of its elements.
 function reader(path) {
   const file = readFileSync(path);
   const bytes = file.buffer.slice(file.byteOffset, file.byteOffset + file.length);

@@ -70,7 +70,7 @@ const answerers = {
     count.penetrating += Number(fields[0]);
     return penetrations(1);
   },
-  // Of the last pose; its angles are where they were.
+  // Depth at the last pose; its angles are where they were.
   depth() {
     checked(core._condyle_depth(joint, pose, angles, depth));
     ++count.depths;

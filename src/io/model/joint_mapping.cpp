@@ -105,7 +105,7 @@ bool are_different(const std::vector<ColumnOfCoordinate>& columns) {
   return true;
 }
 
-/// Of a joint with one rotation about an axis at rest: Z along the axis, to the right, X as near to the model's as can be.
+/// Maps a joint with one rotation about an axis at rest: Z along the axis, to the right, X as near to the model's as can be.
 JointMapping hinge(const ModelJoint& joint, std::size_t turning, JointMapping mapping,
                    std::optional<Anatomy> anatomy, Side side) {
   const SpatialTransform& axes = joint.transform->axes;

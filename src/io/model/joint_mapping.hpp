@@ -19,7 +19,7 @@ struct JointMapping {
   std::string caveat = {};  ///< one line, or nothing
 };
 
-/// Of a joint without anatomy a hinge alone can be said: it flexes forwards.
+/// Without an anatomy only a hinge can be mapped: it flexes forwards.
 JointMapping mapping_of(const ModelJoint& joint, std::optional<Anatomy> anatomy, Side side);
 
 /// The joint that names of a model's joint and bodies speak of; nothing if they speak of none.

@@ -62,7 +62,7 @@ SimmSpline::SimmSpline(std::vector<double> x, std::vector<double> y) : x_(std::m
   sixths_ = solved(std::move(diagonal), widths, std::move(right));
 }
 
-/// Of the tangent where piece i begins.
+/// Slope of the tangent where piece i begins.
 double SimmSpline::slope_after(std::size_t i) const noexcept {
   return rise(x_, y_, i) - (x_[i + 1] - x_[i]) * (sixths_[i + 1] + 2 * sixths_[i]);
 }

@@ -88,7 +88,7 @@ Pose joint_from_file(const MeshOrigin& origin, LengthUnit unit) {
   return X;
 }
 
-/// Of poses of the mobile body's own frame in the fixed body's.
+/// The motion from poses of the mobile body's own frame in the fixed body's.
 JointMotion of_poses(const LoadedJoint& loaded, const MotionTable& table, RecordedPoses recorded) {
   JointMotion motion{.times = std::move(recorded.times),
                      .X_FM = {},

@@ -31,7 +31,7 @@ bool uses(const Triangle& corners, const Feature& feature) noexcept {
   return has(feature.id) && (feature.kind != FeatureKind::edge || has(feature.other_end));
 }
 
-/// Of the feature's triangles together: where they differ, that of the one that ends most.
+/// Role of a feature's triangles together: if they differ, that of the one that ends most.
 ContactRole role_of(const TriMesh& mesh, const std::vector<ContactRole>& roles,
                     const Feature& feature) noexcept {
   if (roles.empty()) return ContactRole::ends;

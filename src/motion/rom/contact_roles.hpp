@@ -14,10 +14,10 @@ namespace condyle::motion {
 /// Marks of the triangles with all three corners within the margin of the head.
 std::vector<std::uint8_t> triangles_within(const TriMesh& mobile, const BearingSurface& surface);
 
-/// Of the words of the meshes and the bearing surface. Linear in the triangles.
+/// Roles by the words of the meshes and by the bearing surface. Linear in the triangles.
 ContactRoles contact_roles(const Joint& joint, const std::optional<BearingSurface>& surface);
 
-/// Of a contact of two such triangles.
+/// Kind of the contact of two such triangles.
 ContactKind kind_of(ContactRole fixed, ContactRole mobile) noexcept;
 
 }  // namespace condyle::motion

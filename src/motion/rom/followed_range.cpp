@@ -85,7 +85,7 @@ struct FollowedRange::Parts {
 
   using PartPairs = std::span<const motion::PairOfParts>;
 
-  /// Of two parts, what less of the motion brings together than of any others.
+  /// The pair of parts that the motion can bring together first.
   std::optional<std::pair<motion::Clearance, motion::PairOfParts>> nearest(PartPairs pairs, const Pose& X_FM,
                                                                            const motion::Speed& speed) const {
     std::optional<std::pair<motion::Clearance, motion::PairOfParts>> found;

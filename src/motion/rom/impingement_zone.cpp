@@ -50,8 +50,8 @@ void take_triangles(const TriMesh& mesh, std::vector<Index> triangles, BodyZone&
   if (zone.area_mm2 > 0) zone.centroid_mm = moment / zone.area_mm2;
 }
 
-/// Of one body: the numbers its triangles have in the whole mesh, their roles, and of each vertex that of the triangle that ends
-/// most; soft where no triangle counts.
+/// One body: the numbers its triangles have in the whole mesh, their roles, and for each vertex the role of the triangle that ends
+/// most; soft if no triangle counts.
 struct CountedBody {
   std::vector<Index> triangle_in_whole;
   std::vector<ContactRole> triangles, vertices;

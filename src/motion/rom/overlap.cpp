@@ -58,7 +58,7 @@ std::string deepest(const Body& body, const Body& other, const RadialBodySummary
          " mm from its surface";
 }
 
-/// Of one body: the roles of its triangles, and which of them are not left out.
+/// The roles of one body's triangles, and which of them are not left out.
 struct RolesOfBody {
   const Body& body;
   const std::vector<ContactRole>& roles;

@@ -247,7 +247,7 @@ struct RangeOfMotion::Parts {
     return motion::contact_set(rotation.stationary, rotation.rotating, core::ArcSet(known));
   }
 
-  /// Of all parts whose contact ends a motion.
+  /// Angles of contact between all parts whose contact ends a motion.
   core::ArcSet contact_angles(Worker& worker, JointAngle vary, const JointAngles& start,
                               std::vector<core::Arc> known) const {
     for (std::size_t i = 0; i + 1 < ending.size(); ++i)
