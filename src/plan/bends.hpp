@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "plan/swept_stretch.hpp"
+#include "plan/swept_interval.hpp"
 
 namespace condyle::plan {
 

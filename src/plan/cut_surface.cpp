@@ -39,7 +39,7 @@ constexpr double least_room_mm = 2 * left_mm;
 
 }  // namespace
 
-/// The swept stretch below a point of a triangle.
+/// The swept interval below a point of a triangle.
 struct CutSurface::Swept {
   SurfacePoint point;
   double length;
@@ -206,7 +206,7 @@ void CutSurface::lower_vertices(const std::vector<Index>& which, const std::vect
     probes.push_back({vertex.before, vertex.inwards, vertex.room_mm});
     of.push_back(v);
   }
-  const std::vector<Stretch> found = stretches(probes, sweeps);
+  const std::vector<SweptInterval> found = swept_intervals(probes, sweeps);
   for (std::size_t i = 0; i < found.size(); ++i)
     if (found[i].need) take(of[i], found[i].length, *found[i].need);
 }
@@ -246,7 +246,7 @@ void CutSurface::lower_overhangs(const std::vector<SweepTo>& sweeps) {
         any = true;
       }
     }
-    // To the end of the stretch that the last swept point lies in.
+    // To the end of the interval that the last swept point lies in.
     std::vector<Probe> probes;
     std::vector<Index> lowered;
     for (std::size_t i = 0; i < of.size(); ++i) {
@@ -255,7 +255,7 @@ void CutSurface::lower_overhangs(const std::vector<SweepTo>& sweeps) {
       probes.push_back({at(of[i].first), vertex.inwards, vertex.room_mm - vertex.depth_mm});
       lowered.push_back(of[i].first);
     }
-    const std::vector<Stretch> rest = stretches(probes, sweeps);
+    const std::vector<SweptInterval> rest = swept_intervals(probes, sweeps);
     for (std::size_t i = 0; i < rest.size(); ++i)
       if (rest[i].need) take(lowered[i], vertices_[lowered[i]].depth_mm + rest[i].length, *rest[i].need);
   }
@@ -272,7 +272,7 @@ std::vector<CutSurface::Swept> CutSurface::swept_between(const std::vector<Index
     for (const auto& w : weights) points.push_back({body_.mesh.triangles()[t], w});
   std::vector<Probe> probes;
   for (const SurfacePoint& point : points) probes.push_back(probe_below(point));
-  const std::vector<Stretch> found = stretches(probes, sweeps);
+  const std::vector<SweptInterval> found = swept_intervals(probes, sweeps);
   std::vector<Swept> swept;
   for (std::size_t i = 0; i < found.size(); ++i)
     if (found[i].need)
@@ -444,7 +444,7 @@ std::vector<Index> CutSurface::beside(const SurfacePoint& point) const {
 void CutSurface::lower_met(const std::vector<Met>& met, const std::vector<SweepTo>& sweeps, double by_mm) {
   std::vector<Probe> probes;
   for (const Met& each : met) probes.push_back(probe_below(each.point));
-  const std::vector<Stretch> below = stretches(probes, sweeps);
+  const std::vector<SweptInterval> below = swept_intervals(probes, sweeps);
   Deeper deeper(*this);
   for (std::size_t i = 0; i < met.size(); ++i) {
     const SurfacePoint& point = met[i].point;

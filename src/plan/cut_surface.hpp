@@ -10,7 +10,7 @@
 #include "condyle/resection.hpp"
 #include "plan/bends.hpp"
 #include "plan/refine.hpp"
-#include "plan/swept_stretch.hpp"
+#include "plan/swept_interval.hpp"
 
 namespace condyle::plan {
 

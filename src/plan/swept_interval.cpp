@@ -1,4 +1,4 @@
-#include "plan/swept_stretch.hpp"
+#include "plan/swept_interval.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,8 @@ constexpr int steps_at_once = 8;
 constexpr int depth_halvings = 11;
 constexpr double overhang_step_mm = 0.2;
 
-void note(Stretch& stretch, const Need& need) {
-  if (!stretch.need || stretch.need->from_rad > need.from_rad) stretch.need = need;
+void note(SweptInterval& interval, const Need& need) {
+  if (!interval.need || interval.need->from_rad > need.from_rad) interval.need = need;
 }
 
 /// Whether bone is swept at these depths of some of the probes.
@@ -44,8 +44,9 @@ std::vector<std::optional<Need>> needs_of(const Points& points, const std::vecto
   return needs;
 }
 
-std::vector<Stretch> stretches(const std::vector<Probe>& probes, const std::vector<SweepTo>& sweeps) {
-  std::vector<Stretch> found(probes.size());
+std::vector<SweptInterval> swept_intervals(const std::vector<Probe>& probes,
+                                           const std::vector<SweepTo>& sweeps) {
+  std::vector<SweptInterval> found(probes.size());
   Points points;
   for (const Probe& probe : probes) points.push_back(probe.from);
   std::vector<std::size_t> going;
@@ -54,7 +55,7 @@ std::vector<Stretch> stretches(const std::vector<Probe>& probes, const std::vect
     if (begins[i]) note(found[i], *begins[i]), going.push_back(i);
 
   // Whole steps, some at once.
-  std::vector<std::size_t> between;  // whose stretch ends within the next step
+  std::vector<std::size_t> between;  // whose interval ends within the next step
   for (int step = 0; !going.empty(); step += steps_at_once) {
     points = {};
     for (const std::size_t i : going)
@@ -63,14 +64,14 @@ std::vector<Stretch> stretches(const std::vector<Probe>& probes, const std::vect
     const auto needs = needs_of(points, sweeps);
     std::vector<std::size_t> go_on;
     for (std::size_t g = 0; g < going.size(); ++g) {
-      Stretch& stretch = found[going[g]];
+      SweptInterval& interval = found[going[g]];
       const double room = probes[going[g]].room;
       int k = 0;
-      while (k < steps_at_once && needs[g * steps_at_once + k] && stretch.length < room) {
-        note(stretch, *needs[g * steps_at_once + k]);
-        stretch.length = std::min((step + ++k) * step_mm, room);
+      while (k < steps_at_once && needs[g * steps_at_once + k] && interval.length < room) {
+        note(interval, *needs[g * steps_at_once + k]);
+        interval.length = std::min((step + ++k) * step_mm, room);
       }
-      if (stretch.length >= room) continue;
+      if (interval.length >= room) continue;
       (k < steps_at_once ? between : go_on).push_back(going[g]);
     }
     going = std::move(go_on);
@@ -84,9 +85,9 @@ std::vector<Stretch> stretches(const std::vector<Probe>& probes, const std::vect
     const auto needs = needs_of(points, sweeps);
     for (std::size_t b = 0; b < between.size(); ++b)
       if (needs[b]) {
-        Stretch& stretch = found[between[b]];
-        stretch.length = std::min(stretch.length + half, probes[between[b]].room);
-        note(stretch, *needs[b]);
+        SweptInterval& interval = found[between[b]];
+        interval.length = std::min(interval.length + half, probes[between[b]].room);
+        note(interval, *needs[b]);
       }
   }
   // Past the last point that is swept.

@@ -31,8 +31,8 @@ struct Probe {
   Vec3 at(double depth) const { return from + depth * inwards; }
 };
 
-/// The swept stretch that begins at a probe; no need if it has none.
-struct Stretch {
+/// The swept interval that begins at a probe; no need if it has none.
+struct SweptInterval {
   double length = 0;
   std::optional<Need> need = {};
 };
@@ -44,9 +44,10 @@ std::vector<std::optional<Need>> needs_of(const Points& points, const std::vecto
 inline constexpr double step_mm = 0.1;
 
 /// Found by steps, and the last one halved; to within 0.001 mm past its end.
-std::vector<Stretch> stretches(const std::vector<Probe>& probes, const std::vector<SweepTo>& sweeps);
+std::vector<SweptInterval> swept_intervals(const std::vector<Probe>& probes,
+                                           const std::vector<SweepTo>& sweeps);
 
-/// For each probe the depth to which bone goes: to the end of the swept stretch that begins at it, if it has no other one; of one that is not
+/// For each probe the depth to which bone goes: to the end of the swept interval that begins at it, if it has no other one; of one that is not
 /// swept itself to the end of the deepest there is under an overhang. By halving, to 1/2000 of the room.
 std::vector<double> depths(const std::vector<Probe>& probes, const std::vector<SweepTo>& sweeps);
 
