@@ -9,6 +9,7 @@
 #include "interrupts.hpp"
 #include "io/report/report.hpp"
 #include "motion.hpp"
+#include "report_labels.hpp"
 
 namespace condyle::python {
 namespace {
@@ -82,7 +83,7 @@ py::tuple followed_limits(const JointHandle& handle, const py::list& motions, co
 void write_followed_report(const JointHandle& handle, const std::filesystem::path& path,
                            const std::optional<std::string>& title, const py::list& motions,
                            const py::object& poses, const ElasticContact* layers, const py::dict& given,
-                           const py::object& progress) {
+                           const LabelsGiven& labels, const py::object& progress) {
   const LoadedJoint& loaded = handle.loaded;
   std::optional<Provenance> from;
   if (!loaded.report.file.path.empty()) from = provenance_of(loaded, {"condyle.FollowedRange.write_report"});
@@ -94,7 +95,8 @@ void write_followed_report(const JointHandle& handle, const std::filesystem::pat
                     write_report(path, {.title = title.value_or(loaded.joint.name),
                                         .joint = loaded.joint,
                                         .reference_pose = loaded.report.placement.reference_pose,
-                                        .rom = &rom});
+                                        .rom = &rom,
+                                        .labels = report_labels_of(labels)});
                   });
 }
 

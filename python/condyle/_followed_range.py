@@ -15,7 +15,7 @@ from ._errors import UsageError
 from ._limits import MotionLimit, motion_limit_of
 from ._motion import MotionLike, Motions
 from ._pressure import ElasticContact
-from ._words import BearingRule, Body, Path, Progress, number, path_of, progress_of, text_of, word
+from ._words import BearingRule, Body, Path, Progress, number, path_of, progress_of, report_labels, text_of, word
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,17 +52,19 @@ class FollowedRange:
     caveats: list[str]
     _question: _Question
 
-    def write_report(self, path: Path, *, title: Optional[str] = None, progress: Progress = None) -> None:
+    def write_report(self, path: Path, *, title: Optional[str] = None, case: Optional[str] = None, note: Optional[str] = None,
+                     date: Optional[str] = None, whole_paths: bool = False, progress: Progress = None) -> None:
         """Writes one HTML file that shows the joint with these limits in any browser, as `condyle report --follow` does.
 
-        Whole or not at all; FileError where it cannot be written.
+        `case`, `note`, `date`, `whole_paths` as of :meth:`RangeOfMotion.write_report`. Whole or not at all; FileError where it
+        cannot be written.
 
         C++: `condyle::answer_range` in condyle/answer.hpp.
         """
         question = self._question
         _native.write_followed_report(
             question.joint._asked, path_of(path), None if title is None else text_of(title, "title"), *question.arguments(),
-            progress_of(progress))
+            report_labels(case, note, date, whole_paths), progress_of(progress))
 
     def __getitem__(self, name: str) -> MotionLimit:
         for limit in self.limits:

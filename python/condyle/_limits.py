@@ -22,6 +22,12 @@ REASONS: tuple[LimitReason, ...] = get_args(LimitReason)
 #: Values of `kind` in maps, by number.
 KINDS: tuple[ContactKind, ...] = get_args(ContactKind)
 
+
+def end_text(turned_deg: float, reason: LimitReason) -> str:
+    """ "134.8", or ">120" where the range ends without contact."""
+    return f">{round(turned_deg, 1):g}" if reason == "end_of_range" else f"{turned_deg:.1f}"
+
+
 Feature = Union[tuple[Literal["vertex"], int], tuple[Literal["edge"], int, int], tuple[Literal["face"], int]]
 
 

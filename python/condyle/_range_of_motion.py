@@ -15,11 +15,11 @@ from ._described_joint import DescribedJoint
 from ._errors import UsageError, unknown
 from ._impingement_zone import ImpingementZone, body_zone_of
 from ._limit_band import FEWEST_SAMPLES, MOST_SAMPLES, LimitBand
-from ._limits import FreeAngles, Limit, MotionLimit, limit_of, motion_limit_of
+from ._limits import FreeAngles, Limit, MotionLimit, end_text, limit_of, motion_limit_of
 from ._motion import Motion, MotionLike, Motions
 from ._motion_map import MotionMap, map_of
 from ._resection import OfJoint, Resection
-from ._words import Path, Progress, count, number, path_of, progress_of, text_of
+from ._words import Path, Progress, count, number, path_of, progress_of, report_labels, text_of
 
 if TYPE_CHECKING:
     import pandas
@@ -194,13 +194,15 @@ class RangeOfMotion:
 
     def write_report(self, path: Path, *, title: Optional[str] = None, band_samples: int = 0,
                      seed: Optional[int] = None, past_deg: Optional[float] = None, measures: bool = False,
-                     plan: Optional[Resection[OfJoint]] = None, progress: Progress = None) -> None:
+                     plan: Optional[Resection[OfJoint]] = None, case: Optional[str] = None, note: Optional[str] = None,
+                     date: Optional[str] = None, whole_paths: bool = False, progress: Progress = None) -> None:
         """Writes one HTML file that shows the joint with these limits in any browser and computes with it there.
 
         `band_samples` above 0: with the bands of the limits, as :meth:`bands`; `past_deg`: with the impingement zones, as
         :meth:`zones`; `measures`: with the shape of a hip, as :meth:`Joint.measures`, with bands if the limits have them. `plan`
-        shows the bone that must go: write it by the range of motion of `plan.joint`, whose limits the page has. Whole or not at
-        all; FileError where it cannot be written.
+        shows the bone that must go: write it by the range of motion of `plan.joint`, whose limits the page has. `case` and `date`
+        stand in the heading and `note` under the result, as given: nothing is taken from the clock. Files are named without their
+        folders unless `whole_paths`. Whole or not at all; FileError where it cannot be written.
 
         C++: `condyle::answer_range` in condyle/answer.hpp; `condyle report`.
 
@@ -218,7 +220,8 @@ class RangeOfMotion:
             [self._motions.tuple_of(limit.motion) for limit in self.limits], samples,
             None if seed is None else count(seed, "seed", high=2**64 - 1),
             None if past_deg is None else number(past_deg, "past_deg"), bool(measures),
-            None if plan is None else plan._shown_by(self._joint), progress_of(progress))
+            None if plan is None else plan._shown_by(self._joint), report_labels(case, note, date, whole_paths),
+            progress_of(progress))
 
     def _zone_of(self, found: Optional[dict[str, Any]]) -> Optional[ImpingementZone]:
         if found is None:
@@ -257,11 +260,11 @@ class RangeOfMotion:
 
     def __repr__(self) -> str:
         return "RangeOfMotion(" + ", ".join(
-            f"{limit.motion.name} {limit.turned_deg:.1f}{'' if limit.reason == 'contact' else ' ' + limit.reason}"
+            f"{limit.motion.name} {end_text(limit.turned_deg, limit.reason)}{' ' + limit.reason if limit.reason == 'contact_at_start' else ''}"
             for limit in self.limits) + ")"
 
     def _repr_html_(self) -> str:
-        return html_of(self._joint.name, [(limit.motion.name, f"{limit.turned_deg:.1f} deg, {limit.reason}")
+        return html_of(self._joint.name, [(limit.motion.name, f"{end_text(limit.turned_deg, limit.reason)} deg, {limit.reason}")
                                           for limit in self.limits])
 
     def to_dataframe(self) -> pandas.DataFrame:

@@ -114,6 +114,14 @@ def text_of(given: Any, name: str) -> str:
     return given
 
 
+def report_labels(
+        case: Optional[str], note: Optional[str], date: Optional[str], whole_paths: bool,
+) -> tuple[Optional[str], Optional[str], Optional[str], bool]:
+    """What a report says as it was given."""
+    case, note, date = (None if given is None else text_of(given, name) for given, name in ((case, "case"), (note, "note"), (date, "date")))
+    return case, note, date, bool(whole_paths)
+
+
 def word(given: object, name: str, of: object) -> str:
     """One of the words of a Literal, or of a tuple where the joint or the answer says which there are."""
     known: tuple[str, ...] = of if isinstance(of, tuple) else get_args(of)

@@ -184,7 +184,7 @@ TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
   EXPECT_EQ(lines[8].find("in contact at start"), column + 1);
   EXPECT_NE(lines[6].find(" 70.74 "), std::string::npos);  // 1.2345678901 rad
   EXPECT_TRUE(lines[6].ends_with(" 63.03")) << "bearing contact at 1.1 rad: " << lines[6];
-  EXPECT_NE(lines[7].find(" 40.00 "), std::string::npos);
+  EXPECT_NE(lines[7].find(" >40 "), std::string::npos) << lines[7];
 }
 
 TEST(RomText, SaysWhereNoRimWasFoundAndNoMinusBeforeZero) {

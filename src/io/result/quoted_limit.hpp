@@ -2,11 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string>
 
 #include "condyle/limit_band.hpp"
 
 namespace condyle::io {
+
+/// ">120": where the range ends without contact; the band behind it where some displaced joints do meet in the range.
+inline std::string beyond_range(Angle range, const LimitBand* band) {
+  const std::string end = fmt::format(">{:g}", std::round(10 * range.degrees()) / 10);
+  if (!band) return end;
+  const std::string p5 = fmt::format("{:.0f}", band->p5.degrees()), p95 = fmt::format("{:.0f}", band->p95.degrees());
+  return p5 == p95 ? end + "\xC2\xB0" : fmt::format("{}\xC2\xB0 ({}\xE2\x80\x93{})", end, p5, p95);
+}
 
 /// "131.9° (126–135)": a limit with its band, as it may be quoted.
 inline std::string quoted_limit(Angle limit, const LimitBand& band) {

@@ -17,6 +17,7 @@
 #include "io/result/json.hpp"
 #include "io/result/parameters.hpp"
 #include "io/result/provenance_forms.hpp"
+#include "io/result/quoted_limit.hpp"
 #include "io/result/resection_object.hpp"
 #include "io/result/rom_result.hpp"
 
@@ -94,8 +95,8 @@ std::string cut_lines(const ResectionResult& result, const CutOfBody& cut) {
 }
 
 std::string limit_value(const MotionLimit& limit) {
-  return fmt::format("{:.1f}{}", limit.end.turned.degrees(),
-                     limit.end.reason == LimitReason::end_of_range ? "+" : "");
+  if (limit.end.reason == LimitReason::end_of_range) return io::beyond_range(limit.end.turned, nullptr);
+  return fmt::format("{:.1f}", limit.end.turned.degrees());
 }
 
 /// To the digit that is shown, and 0 without a sign.
