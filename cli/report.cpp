@@ -41,6 +41,7 @@ struct ReportArguments {
   Content content = Content::joint;
   std::string joint, out, motion;
   std::optional<std::string> title;
+  ReportLabels labels;
   bool with_pressure = false, measures = false;
   std::size_t curve_points = ResectionQuery{}.curve_points;
   std::shared_ptr<ResectionGiven> cut = std::make_shared<ResectionGiven>();
@@ -182,7 +183,8 @@ void report_command(const ReportArguments& options, const CLI::App& command) {
                 .joint = shown.joint,
                 .reference_pose = loaded.report.placement.reference_pose,
                 .rom = rom ? &*rom : nullptr,
-                .rom_error = error};
+                .rom_error = error,
+                .labels = options.labels};
   if (layers) report.layers.emplace(std::move(*layers));
   if (recorded)
     report.recorded.emplace(ReportedMotion{std::filesystem::path(options.motion).filename().string(),
@@ -223,6 +225,13 @@ void add_report(CLI::App& app) {
       ->option_text("FILE");
   command->add_option("--title", options->title, "Put this heading on the page")
       ->option_text("TEXT (the joint's name)");
+  command->add_option("--case", options->labels.case_name, "Begin the heading with this: a number or a pseudonym")
+      ->option_text("TEXT");
+  command->add_option("--note", options->labels.note, "Put this under the result")->option_text("TEXT");
+  command->add_option("--date", options->labels.date, "Put this date into the heading; none is taken from the clock")
+      ->option_text("TEXT");
+  command->add_flag("--paths", options->labels.whole_paths,
+                    "Name files by their paths as they were given, not by their names alone");
   command
       ->add_option("--motion", options->motion,
                    "Show the frames of this recorded motion, .mot, .sto or .csv, and their curves")
@@ -263,7 +272,7 @@ void add_report(CLI::App& app) {
               uncertainty_group(),
               {"Centre not held", follow_names()},
               {"Contact", {"--bearing", "--accept-reference-contact"}},
-              {"Output", {"--empty", "--title", "--strict", "--help"}}});
+              {"Output", {"--empty", "--title", "--case", "--note", "--date", "--paths", "--strict", "--help"}}});
   command->callback([options, command] { report_command(*options, *command); });
 }
 

@@ -11,6 +11,7 @@
 #include "interrupts.hpp"
 #include "io/joint/measure_request.hpp"
 #include "motion.hpp"
+#include "report_labels.hpp"
 #include "resection.hpp"
 
 namespace condyle::python {
@@ -33,7 +34,7 @@ RangeRequest request_of(const RangeHandle& range, std::vector<Motion> motions) {
 void report(const RangeHandle& range, const JointHandle& handle, const std::filesystem::path& path,
             const std::optional<std::string>& title, const py::list& given, std::size_t band_samples,
             std::optional<std::uint64_t> seed, const std::optional<double>& past_deg, bool with_measures,
-            const PlanHandle* plan, const py::object& progress) {
+            const PlanHandle* plan, const LabelsGiven& labels, const py::object& progress) {
   const LoadedJoint& loaded = handle.loaded;
   const JointFile& file = loaded.report.file;
   RangeRequest request = request_of(range, motions_in(given));
@@ -53,7 +54,8 @@ void report(const RangeHandle& range, const JointHandle& handle, const std::file
     Report page{.title = title.value_or(loaded.joint.name),
                 .joint = loaded.joint,
                 .reference_pose = loaded.report.placement.reference_pose,
-                .rom = &rom};
+                .rom = &rom,
+                .labels = report_labels_of(labels)};
     std::optional<MeasureAnswer> measures;
     std::optional<MeasureResult> shape;
     if (with_measures) {
@@ -86,7 +88,7 @@ py::array_t<std::uint8_t> picture(const JointHandle& handle, const py::object& p
                                   const std::string& colour, const std::string& fixed,
                                   const std::string& mobile, std::size_t width, std::size_t height,
                                   const std::optional<double>& range_mm,
-                                  const std::optional<double>& field_mm, bool with_measures) {
+                                  const std::optional<double>& field_mm, bool with_measures, bool is_plain) {
   const Pose X_FM = one_pose(pose, "pose");
   const Joint& joint = handle.joint();
   PictureOptions options{.view = view_named(view, joint.side),
@@ -96,7 +98,8 @@ py::array_t<std::uint8_t> picture(const JointHandle& handle, const py::object& p
                          .width = width,
                          .height = height,
                          .range_mm = range_mm,
-                         .field_mm = field_mm};
+                         .field_mm = field_mm,
+                         .is_annotated = !is_plain};
   const Picture drawn = followed(py::none(), [&](const auto&, const std::stop_token&) {
     if (with_measures) options.marks = measure_marks(measure_hip(joint), X_FM);
     return draw_joint(joint, angles_at(joint.coordinates(), X_FM), X_FM, options);

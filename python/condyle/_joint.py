@@ -620,7 +620,7 @@ class Joint(DescribedJoint):
 
     def picture(self, pose: OnePoseLike, *, view: str = "anterior", colour: Colour = "depth", fixed: Look = "solid",
                 mobile: Look = "solid", width: int = 1200, height: int = 900, range_mm: Optional[float] = None,
-                field_mm: Optional[float] = None, measures: bool = False) -> NDArray[np.uint8]:
+                field_mm: Optional[float] = None, measures: bool = False, plain: bool = False) -> NDArray[np.uint8]:
         """Both bodies at one pose, drawn without a display: (height, width, 3) uint8, red, green, blue, from the top left.
 
         Parameters
@@ -635,6 +635,10 @@ class Joint(DescribedJoint):
         measures : bool
             Draw what :meth:`measures` measures a hip by too, as far as it was found: axis of the neck, points and plane of
             the rim, where the head's contour ends.
+        plain : bool
+            Leave out the scale bar, the letters of the sides (A, P, S, I, R, L) and the line of the pose.
+
+        Where depths are shown and both bodies are solid, the outer one is drawn as glass: the depths would be hidden.
 
         MeshError where a depth or a gap is asked of an open mesh. `matplotlib.pyplot.imsave(path, pixels)` writes it.
 
@@ -651,7 +655,7 @@ class Joint(DescribedJoint):
             word(colour, "colour", Colour), word(fixed, "fixed", Look), word(mobile, "mobile", Look),
             count(width, "width"), count(height, "height"),
             None if range_mm is None else number(range_mm, "range_mm"),
-            None if field_mm is None else number(field_mm, "field_mm"), bool(measures))
+            None if field_mm is None else number(field_mm, "field_mm"), bool(measures), bool(plain))
 
     def path_limit(self, waypoints: Sequence[Mapping[str, float]], *, tolerance_deg: float = 1e-3) -> PathLimit:
         """Where a path of straight segments in the joint's angles ends, several of which may change at once.

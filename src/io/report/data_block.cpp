@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "condyle/version.hpp"
 #include "io/joint/given_degrees.hpp"
 #include "io/report/block_arrays.hpp"
+#include "io/report/file_names.hpp"
 #include "io/report/plan_json.hpp"
 #include "io/report/surfaces_json.hpp"
 #include "io/result/caveats.hpp"
@@ -254,7 +256,12 @@ Json rom_of(const Report& report) {
   if (!report.rom) return nullptr;
   Json rom = rom_object(*report.rom);
   if (report.rom->map) rom["map"].erase("intervals");
+  if (!report.labels.whole_paths) name_files_only(rom["provenance"]);
   return rom;
+}
+
+Json text_or_null(const std::optional<std::string>& text) {
+  return text ? Json(*text) : Json(nullptr);
 }
 
 /// As measures.json has it, but for what the page has of the joint.
@@ -281,6 +288,9 @@ std::string data_block(const Report& report) {
 
   Json json{{"version", version},
             {"title", report.title},
+            {"case", text_or_null(report.labels.case_name)},
+            {"note", text_or_null(report.labels.note)},
+            {"date", text_or_null(report.labels.date)},
             {"joint", joint_json(joint)},
             {"coordinates", coordinates_json(joint.anatomy)},
             {"reference_deg", degrees_json(report.reference_pose.angles)},

@@ -28,6 +28,13 @@ struct ReportedLayers {
   ElasticContactOptions options;  ///< elastic_options() of the entry
 };
 
+/// What is said on the page as it was given: any text, which stays text; nothing of it is taken from the machine.
+struct ReportLabels {
+  std::optional<std::string> case_name = {}, note = {}, date = {};
+  /// Whether files are named by their whole paths, and the command as it was given; else by their names alone.
+  bool whole_paths = false;
+};
+
 /// Contents of a report.
 struct Report {
   std::string title;  ///< any text; it stays text on the page
@@ -42,6 +49,7 @@ struct Report {
   const MeasureResult* measures = nullptr;  ///< of a hip
   /// The bone that must go: `joint` is the joint without it, and `rom` has its limits.
   const ResectionResult* plan = nullptr;
+  ReportLabels labels = {};
 };
 
 /// The page. Vertices keep every bit. Radial gaps of all vertices are computed in the reference pose and at the

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <tuple>
+
+#include "io/report/report.hpp"
+
+namespace condyle::python {
+
+/// Case, note, date, and whether files are named by their whole paths.
+using LabelsGiven = std::tuple<std::optional<std::string>, std::optional<std::string>, std::optional<std::string>, bool>;
+
+inline ReportLabels report_labels_of(const LabelsGiven& given) {
+  const auto& [case_name, note, date, whole_paths] = given;
+  return {case_name, note, date, whole_paths};
+}
+
+}  // namespace condyle::python
