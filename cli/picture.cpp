@@ -138,19 +138,23 @@ void add_picture(CLI::App& app) {
       "--measures", options->measures,
       "Draw what condyle measure measures a hip by: axis of the neck, points and plane of the rim, where "
       "the head's contour ends");
+  command->add_flag_callback(
+      "--plain", [options] { options->picture.is_annotated = false; },
+      "Leave out the scale bar, the letters of the sides and the line of the pose");
   add_body(*command, "--hide", options->hidden, "Do not draw this body");
-  add_body(*command, "--transparent", options->transparent, "Draw this body as glass");
+  add_body(
+      *command, "--transparent", options->transparent,
+      "Draw this body as glass. Where depths are shown and this and --hide are not given, the outer one is");
   command->add_option("--size", options->size, "Width and height in pixels, 64 to 8192 each")
       ->option_text("WIDTHxHEIGHT (1200x900)");
   command->add_option("--out", options->out, "Write the picture to this file, .png")
       ->required()
       ->option_text("FILE");
   add_strict(*command, options->strictness);
-  group_help(
-      *command,
-      {{"Most used", {"--pose", "--view", "--colour", "--hide", "--out"}},
-       {"Output",
-        {"--set", "--transparent", "--measures", "--range", "--field", "--size", "--strict", "--help"}}});
+  group_help(*command, {{"Most used", {"--pose", "--view", "--colour", "--hide", "--out"}},
+                        {"Output",
+                         {"--set", "--transparent", "--measures", "--range", "--field", "--plain", "--size",
+                          "--strict", "--help"}}});
   command->callback([options, command] { picture_command(*options, *command); });
 }
 

@@ -63,7 +63,7 @@ def draw_pictures():
     condyle("sample", "hip", "--scenario", 3, "--out", OUT / "sample3")
     pose = ["--pose", "flexion=110 adduction=15 internal_rotation=35"]
     for name, options in (
-        ("impingement", [*pose, "--colour", "none", "--size", "600x560"]),
+        ("impingement", [*pose, "--field", "150", "--size", "600x560"]),
         (
             "impingement_femur",
             [*pose, "--view", "anterior-superior", "--hide", "fixed", "--field", "130", "--size", "700x560"],

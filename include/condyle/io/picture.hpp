@@ -54,6 +54,7 @@ std::vector<PictureMark> measure_marks(const HipMeasures& measures, const Pose& 
 struct PictureOptions {
   ViewDirection view = {};
   PictureColour colour = PictureColour::depth;
+  /// Where depths are shown and both are solid, the outer one is drawn as glass: they would be hidden.
   BodyLook fixed = BodyLook::solid, mobile = BodyLook::solid;
   std::size_t width = 1200, height = 900;  ///< pixels, 64 to 8192
   /// End of the colours; where not given 8 mm, for depths the first of 1, 2, 5, 10 ... that holds them.
@@ -61,6 +62,7 @@ struct PictureOptions {
   /// Height of what is shown, about the joint centre, 0.1 mm to 100 m; where not given both bodies fit, hidden or not.
   std::optional<double> field_mm = {};
   std::vector<PictureMark> marks = {};
+  bool is_annotated = true;  ///< with a scale bar, letters of where the sides are, and a line of the pose
 };
 
 /// Red, green, blue of each pixel, row by row from the top left.

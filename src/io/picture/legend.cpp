@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <vector>
 
-#include "io/picture/lettering.hpp"
-#include "io/picture/rasteriser.hpp"
+#include "io/picture/text.hpp"
 
 namespace condyle::io {
 namespace {
@@ -28,53 +26,6 @@ struct Layout {
   double bar_bottom() const noexcept { return std::round(top + 0.42 * height); }
   /// Height of digits; letters are wider than high, so that a narrow picture has smaller ones.
   double letter_size() const noexcept { return std::min(0.24 * height, 0.02 * width); }
-};
-
-enum class Alignment { left, centre, right };
-
-/// Letters at places in pixels, drawn all at once.
-class Text {
- public:
-  void add(const std::string& text, double x, double base_line, double size, Alignment alignment) {
-    const TriMesh letters = lettering(text);
-    const auto [low, high] = std::minmax_element(letters.vertices.x.begin(), letters.vertices.x.end());
-    const double width = size * (*high - *low);
-    const double left = x - size * *low -
-                        (alignment == Alignment::left    ? 0
-                         : alignment == Alignment::right ? width
-                                                         : width / 2);
-    const auto first = static_cast<Index>(mesh_.vertices.size());
-    for (std::size_t v = 0; v < letters.vertices.size(); ++v)
-      mesh_.vertices.push_back(
-          {left + size * letters.vertices.x[v], base_line - size * letters.vertices.y[v], 0});
-    for (const Triangle& t : letters.triangles)
-      mesh_.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  }
-
-  /// Over the rows from `top` on.
-  void draw(Picture& picture, std::size_t top) const {
-    FlatMesh flat{.vertices = Points(mesh_.vertices.size()), .triangles = mesh_.triangles};
-    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v)
-      flat.vertices.set(
-          v, {samples * mesh_.vertices.x[v], samples * (mesh_.vertices.y[v] - static_cast<double>(top)), 0});
-    const std::size_t columns = samples * picture.width, rows = samples * (picture.height - top);
-    const Rasteriser letters(flat, columns, rows, samples);
-    for (std::size_t row = top; row < picture.height; ++row) {
-      std::vector<Hit> hits(columns * samples);
-      letters.draw(row - top, hits);
-      for (std::size_t column = 0; column < picture.width; ++column) {
-        std::size_t covered = 0;
-        for (std::size_t i = 0; i < samples * samples; ++i)
-          covered += hits[i / samples * columns + column * samples + i % samples].triangle != no_index;
-        if (covered == 0) continue;
-        const double behind = 255.0 * static_cast<double>(samples * samples - covered) / (samples * samples);
-        set_pixel(picture, column, row, {behind, behind, behind});
-      }
-    }
-  }
-
- private:
-  TriMesh mesh_;
 };
 
 /// Colours pixels whose middles lie in a rectangle by colour_at(x, y).
@@ -111,6 +62,12 @@ Rgb hatching(double x, double y) noexcept {
   return std::fmod(x + y, period) < dark ? hatch_dark : hatch_light;
 }
 
+Rgb striped(const Rgb& colour, double x, double y) noexcept {
+  constexpr double period = 8, light = 2;
+  const double across = std::fmod(x - y, period);
+  return (across < 0 ? across + period : across) < light ? white : colour;
+}
+
 std::size_t legend_height(const PictureOptions& options) noexcept {
   if (options.colour == PictureColour::none) return 0;
   return std::max<std::size_t>(24, options.height * 9 / 100);
@@ -128,6 +85,20 @@ void draw_legend(Picture& picture, const PictureOptions& options, const ColourSc
   fill(picture, zero - 1, zero + 1, top - 4, below, [](double, double) { return black; });
   Text text;
   const double ticks = below + 1.4 * size, beside = (top + bottom + size) / 2;
+  double right_end = right, left_end = left;
+  // What is beyond the scale is not of its colours: a swatch of its own on that side.
+  const auto add_beyond = [&](bool is_above) {
+    const double wide = std::round(2 * size), gap = std::round(0.5 * size);
+    const double from = is_above ? right + gap : left - gap - wide;
+    fill_framed(picture, from, from + wide, top, bottom, [&](double x, double y) {
+      return scale.is_plain_above() && is_above ? fixed_bone
+                                                : striped(*scale.at(is_above ? high : low), x, y);
+    });
+    text.add(is_above ? ">" : "<", from + wide / 2, ticks, size, Alignment::centre);
+    (is_above ? right_end : left_end) = is_above ? from + wide : from;
+  };
+  if (scale.may_end_within) add_beyond(true);
+  if (low < 0) add_beyond(false);
   const auto add_tick = [&](double mm) {
     text.add(fmt::format("{:g}", mm), left + (right - left) * (mm - low) / (high - low), ticks, size,
              Alignment::centre);
@@ -135,13 +106,13 @@ void draw_legend(Picture& picture, const PictureOptions& options, const ColourSc
   if (low < 0) add_tick(low);
   add_tick(0);
   add_tick(high);
-  text.add(words_of(options.colour), left - 1.2 * size, beside, size, Alignment::right);
+  text.add(words_of(options.colour), left_end - 1.2 * size, beside, size, Alignment::right);
   if (options.colour == PictureColour::depth) {
-    const double swatch = std::round(right + 2 * size), end = std::round(swatch + 2 * size);
+    const double swatch = std::round(right_end + 2 * size), end = std::round(swatch + 2 * size);
     fill_framed(picture, swatch, end, top, bottom, hatching);
     text.add("only a bound", end + 0.8 * size, beside, size, Alignment::left);
   }
-  text.draw(picture, static_cast<std::size_t>(at.top));
+  text.draw(picture, {static_cast<std::size_t>(at.top), picture.height});
 }
 
 }  // namespace condyle::io

@@ -11,7 +11,7 @@
 namespace condyle::io {
 namespace {
 
-constexpr double half_width = 0.055, between_letters = 0.14;
+constexpr double between_letters = 0.14;
 
 struct Place {
   double x, y;
@@ -146,6 +146,25 @@ Letter letter_of(char c) {
       return {0.5, {{{0.04, 0.61}, {0.26, 0.05}}, {{0.46, 0.61}, {0.14, -0.25}}}};
     case 'z':
       return {0.46, {{{0.04, 0.61}, {0.42, 0.61}, {0.04, 0.05}, {0.42, 0.05}}}};
+    case 'A':
+      return {0.64, {{{0.04, 0.05}, {0.32, 0.95}, {0.6, 0.05}}, {{0.15, 0.36}, {0.49, 0.36}}}};
+    case 'I':
+      return {0.1, {{{0.05, 0.95}, {0.05, 0.05}}}};
+    case 'L':
+      return {0.5, {{{0.05, 0.95}, {0.05, 0.05}, {0.47, 0.05}}}};
+    case 'P':
+      return {0.56,
+              {Stroke({{0.05, 0.05}, {0.05, 0.95}}).arc({0.28, 0.71}, 0.23, 0.24, 90, -90).to({0.05, 0.47})}};
+    case 'R':
+      return {0.58,
+              {Stroke({{0.05, 0.05}, {0.05, 0.95}}).arc({0.28, 0.71}, 0.23, 0.24, 90, -90).to({0.05, 0.47}),
+               {{0.28, 0.47}, {0.54, 0.05}}}};
+    case 'S':
+      return {0.58, {arc({0.29, 0.72}, 0.23, 0.23, 40, 270).arc({0.29, 0.27}, 0.25, 0.22, 90, -145)}};
+    case '<':
+      return {0.46, {{{0.4, 0.72}, {0.06, 0.45}, {0.4, 0.18}}}};
+    case '>':
+      return {0.46, {{{0.06, 0.72}, {0.4, 0.45}, {0.06, 0.18}}}};
     case '-':
       return {0.4, {{{0.05, 0.42}, {0.35, 0.42}}}};
     case '+':
@@ -167,7 +186,7 @@ Index add_place(TriMesh& mesh, double x, double y) {
 }
 
 /// An octagon: ends and corners are round at the size of letters.
-void add_dot(TriMesh& mesh, Place at) {
+void add_dot(TriMesh& mesh, Place at, double half_width) {
   constexpr Index corners = 8;
   const auto first = static_cast<Index>(mesh.vertices.size());
   for (Index i = 0; i < corners; ++i) {
@@ -177,7 +196,7 @@ void add_dot(TriMesh& mesh, Place at) {
   for (Index i = 2; i < corners; ++i) mesh.triangles.push_back({first, first + i - 1, first + i});
 }
 
-void add_line(TriMesh& mesh, Place from, Place to) {
+void add_line(TriMesh& mesh, Place from, Place to, double half_width) {
   const double length = std::hypot(to.x - from.x, to.y - from.y);
   if (!(length > 0)) return;
   const double across_x = -half_width * (to.y - from.y) / length,
@@ -192,7 +211,7 @@ void add_line(TriMesh& mesh, Place from, Place to) {
 
 }  // namespace
 
-TriMesh lettering(const std::string& text) {
+TriMesh lettering(const std::string& text, double half_width) {
   TriMesh mesh;
   double left = 0;
   for (const char c : text) {
@@ -201,8 +220,8 @@ TriMesh lettering(const std::string& text) {
       const std::vector<Place>& places = stroke.places();
       for (std::size_t i = 0; i < places.size(); ++i) {
         const Place at{left + places[i].x, places[i].y};
-        add_dot(mesh, at);
-        if (i > 0) add_line(mesh, {left + places[i - 1].x, places[i - 1].y}, at);
+        add_dot(mesh, at, half_width);
+        if (i > 0) add_line(mesh, {left + places[i - 1].x, places[i - 1].y}, at, half_width);
       }
     }
     left += letter.width + between_letters;

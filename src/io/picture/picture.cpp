@@ -8,6 +8,7 @@
 
 #include "condyle/error.hpp"
 #include "core/parallel.hpp"
+#include "io/picture/annotations.hpp"
 #include "io/picture/colour_scale.hpp"
 #include "io/picture/legend.hpp"
 #include "io/picture/rasteriser.hpp"
@@ -135,7 +136,8 @@ class Surface {
       if (mean(values_.outside) >= 0) return bone_;
       if (mean(values_.is_bound) > 0.5) return hatching(x / samples, y / samples);
     }
-    return scale_.at(mm).value_or(bone_);
+    const Rgb colour = scale_.at(mm).value_or(bone_);
+    return scale_.is_beyond(mm) ? striped(colour, x / samples, y / samples) : colour;
   }
 
   Points normals_;
@@ -211,6 +213,41 @@ double range_of_depths(const BothValues& values) {
   for (double decade = 1;; decade *= 10)
     for (const double step : {1.0, 2.0, 5.0})
       if (step * decade >= deepest) return step * decade;
+}
+
+/// Samples of a coarse picture, in which it is found which body is before the other: along the longer side.
+constexpr double coarse_samples = 400;
+
+/// How much of a body's part inside the other one faces the viewer where that body is seen alone, in coarse samples.
+std::size_t seen_inside(const TriMesh& mesh, const SurfaceValues& values, const Camera& camera,
+                        std::size_t columns, std::size_t rows) {
+  const FlatMesh flat = camera.laid(mesh);
+  const Rasteriser rasteriser(flat, columns, rows, rows);
+  std::vector<Hit> hits(columns * rows);
+  rasteriser.draw(0, hits);
+  const auto is_inside = [&](const Hit& hit) {
+    if (hit.triangle == no_index) return false;
+    const Triangle& corners = mesh.triangles[hit.triangle];
+    return std::any_of(corners.begin(), corners.end(), [&](Index v) { return values.outside[v] < 0; });
+  };
+  return static_cast<std::size_t>(std::count_if(hits.begin(), hits.end(), is_inside));
+}
+
+/// A body's part inside the other is behind that one's surface: where both are solid no depth is seen. The outer one becomes glass, that
+/// behind which more is seen; the fixed one where it is even.
+void make_outer_glass(PictureOptions& options, const TriMesh& fixed, const TriMesh& mobile,
+                      const BothValues& values, Camera camera, double columns, double rows) {
+  if (options.colour != PictureColour::depth || options.fixed != BodyLook::solid ||
+      options.mobile != BodyLook::solid)
+    return;
+  const double coarser = std::min(1.0, coarse_samples / std::max(columns, rows));
+  camera.samples_per_mm *= coarser, camera.origin_x *= coarser, camera.origin_y *= coarser;
+  const auto across = static_cast<std::size_t>(std::ceil(coarser * columns)),
+             down = static_cast<std::size_t>(std::ceil(coarser * rows));
+  const std::size_t of_mobile = seen_inside(mobile, values.mobile, camera, across, down),
+                    of_fixed = seen_inside(fixed, values.fixed, camera, across, down);
+  if (of_mobile + of_fixed == 0) return;
+  (of_mobile >= of_fixed ? options.fixed : options.mobile) = BodyLook::transparent;
 }
 
 /// Colour at a sample: the nearer body over the other one over white.
@@ -295,14 +332,15 @@ ViewDirection view_named(std::string_view name, Side side) {
   return {towards_viewer, up};
 }
 
-Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM,
-                   const PictureOptions& options) {
+Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM, const PictureOptions& given) {
+  PictureOptions options = given;
   io::check(options);
   const io::BothValues values = io::surface_values(options.colour, joint, at, X_FM);
-  const io::ColourScale scale{options.colour, options.range_mm ? *options.range_mm
-                                              : options.colour == PictureColour::depth
-                                                  ? io::range_of_depths(values)
-                                                  : io::usual_range_mm};
+  const io::ColourScale scale{options.colour,
+                              options.range_mm                         ? *options.range_mm
+                              : options.colour == PictureColour::depth ? io::range_of_depths(values)
+                                                                       : io::usual_range_mm,
+                              options.range_mm || options.colour != PictureColour::depth};
   Picture picture{options.width, options.height,
                   std::vector<std::uint8_t>(3 * options.width * options.height, 255)};
   const std::size_t rows_of_scene = options.height - io::legend_height(options);
@@ -310,6 +348,8 @@ Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM,
   const std::size_t columns = options.width * io::samples, rows = rows_of_scene * io::samples;
   const io::Camera camera =
       io::camera_of(options, fixed, mobile, static_cast<double>(columns), static_cast<double>(rows));
+  io::make_outer_glass(options, fixed, mobile, values, camera, static_cast<double>(columns),
+                       static_cast<double>(rows));
   const io::Surface fixed_surface(fixed, values.fixed, scale, io::fixed_bone, options.fixed, camera, columns,
                                   rows);
   const io::Surface mobile_surface(mobile, values.mobile, scale, io::mobile_bone, options.mobile, camera,
@@ -320,6 +360,9 @@ Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM,
     for (std::size_t strip = first; strip < end; ++strip)
       io::draw_strip(fixed_surface, mobile_surface, marks, strip, picture, rows_of_scene);
   });
+  if (options.is_annotated)
+    io::draw_annotations(picture, rows_of_scene, options.view, camera.samples_per_mm / io::samples,
+                         io::pose_line(joint, at, X_FM));
   io::draw_legend(picture, options, scale);
   return picture;
 }

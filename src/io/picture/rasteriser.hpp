@@ -37,6 +37,8 @@ class Rasteriser {
 
   /// The hits of a strip, row by row: strip_rows * columns of them. Triangles of either winding are seen.
   void draw(std::size_t strip, std::span<Hit> hits) const;
+  /// Whether a strip has no triangles.
+  bool is_empty(std::size_t strip) const noexcept { return strips_[strip].empty(); }
 
  private:
   const FlatMesh& mesh_;
