@@ -16,7 +16,8 @@ async function drawPlan() {
   condyle("report", join(folder, "hip.toml"), "--measures", "--resect", "internal_rotation_at_90_flexion=45", "--out", join(folder, "plan.html"));
   const { page } = await openPage(browser, join(folder, "plan.html"), { width: 1200, height: 760, fragment: "#hidden=fixed" });
   await settled(page);
-  await page.getByRole("region", { name: "Bone that must go", exact: true }).scrollIntoViewIfNeeded();
+  await page.getByRole("tab", { name: "Plan", exact: true }).click();
+  await settled(page);
   await page.screenshot({ path: join(root, "docs/images/plan_page.png") });
 }
 try {

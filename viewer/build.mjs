@@ -36,7 +36,7 @@ const hashOf = (text) => `'sha256-${createHash("sha256").update(text).digest("ba
 const worker = await bundled("core/worker.ts");
 const script = await bundled("main.ts", { workerSource: JSON.stringify(worker) });
 const loader = (await transform(source("src/loader.js"), { loader: "js", minify: true, target: "es2022" })).code.trim();
-const style = (await transform(source("src/page.css"), { loader: "css", minify: true })).code;
+const style = (await transform(source("src/page.css") + source("src/scene/scene.css"), { loader: "css", minify: true })).code;
 // The level and the date are said, so that the bytes are those of every machine.
 const packed = (bytes) => Buffer.from(gzipSync(bytes, { level: 9, mtime: 0 })).toString("base64");
 const core = packed(readFileSync(join(coreFolder, "page_core.wasm")));

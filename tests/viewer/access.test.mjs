@@ -1,46 +1,73 @@
 // The page for everybody: accessibility rules, keyboard, touch, small and large windows, light and dark.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { axeSource, keep, openPage, pathOf, settled, sharedBrowser } from "./browser.mjs";
+import { angleOf, axeSource, has, keep, openPage, openTab, pathOf, settled, sharedBrowser, turnTo } from "./browser.mjs";
 
 const browser = await sharedBrowser();
 
 for (const colorScheme of ["light", "dark"])
-  test(`axe finds nothing serious (${colorScheme})`, async () => {
-    const { page } = await openPage(browser, pathOf("sample"), { colorScheme });
-    await settled(page);
-    await page.evaluate(axeSource);
-    const { violations } = await page.evaluate(() => globalThis.axe.run());
-    const serious = violations.filter(({ impact }) => ["serious", "critical"].includes(impact));
-    assert.deepEqual(serious.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" ")}`), []);
-    await keep(page, `whole_${colorScheme}`, { fullPage: true });
-    await page.context().close();
-  });
+  for (const name of ["sample", "plan", "knee"])
+    test(`axe finds nothing in any tab of ${name} (${colorScheme})`, { skip: !has(name) && "not made" }, async () => {
+      const { page } = await openPage(browser, pathOf(name), { colorScheme });
+      await settled(page);
+      await page.evaluate(axeSource);
+      for (const tab of await page.getByRole("tab").allTextContents()) {
+        await openTab(page, tab);
+        const { violations } = await page.evaluate(() => globalThis.axe.run());
+        assert.deepEqual(violations.map(({ id, nodes }) => `${tab}: ${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" ")}`), []);
+        await keep(page, `${name}_${tab}_${colorScheme}`);
+      }
+      await page.context().close();
+    });
 
-test("everything is reached and moved by the keyboard alone", async () => {
+test("everything is reached and moved by the keyboard alone, in few stops of the tabulator", async () => {
   const { page } = await openPage(browser, pathOf("sample"), { reducedMotion: "reduce" });
+  await settled(page);
   const focused = () => page.evaluate(() => document.activeElement.getAttribute("aria-label") ?? document.activeElement.textContent);
-  const reached = [];
-  for (let i = 0; i < 120; ++i) {
-    await page.keyboard.press("Tab");
-    const name = await focused();
-    reached.push(name);
-    if (/^flexion, degrees/.test(name) && (await page.evaluate(() => document.activeElement.type)) === "range") {
-      await page.keyboard.press("End");
-      await settled(page);
-      assert.match(await page.locator("#answer").textContent(), /^In contact/);
-      await page.keyboard.press("Home");
+  const round = async () => {
+    const reached = [];
+    for (let i = 0; i < 60; ++i) {
+      await page.keyboard.press("Tab");
+      if (await page.evaluate(() => document.activeElement === document.body)) break;
+      reached.push(await focused());
     }
-    if (/^Go to the end of fadir/.test(name)) {
-      await page.keyboard.press("Enter");
-      await settled(page);
-    }
-  }
-  for (const wanted of [/three dimensions/, /^flexion, degrees/, /^Back to zero/, /^fadir/, /^front/, /^Go to the end of fadir/, /Save as SVG/])
-    assert.ok(reached.some((name) => wanted.test(name ?? "")), String(wanted));
-  assert.equal(await page.getByRole("spinbutton", { name: "adduction, degrees" }).inputValue(), "15");
+    return reached;
+  };
+  const motion = await round();
+  assert.ok(motion.length <= 30, `${motion.length} stops: ${motion.join(" | ")}`);
+  assert.equal(motion[0], "Skip to the motions");
+  for (const wanted of [/three dimensions/, /^flexion, degrees/, /^Back to zero/, /^Copy link/, /^View options/, /^Motion$/, /^flexion 1/])
+    assert.ok(motion.some((name) => wanted.test(name ?? "")), `${wanted} of ${motion.join(" | ")}`);
+  // Slider, tiles, tabs and cells of the map by arrow keys.
+  await page.locator("#angle-flexion").focus();
+  await page.keyboard.press("End");
+  await settled(page);
+  assert.match(await page.locator("#answer").textContent(), /^In contact/);
+  await page.locator(".tile").first().focus();
+  for (let i = 0; i < 2; ++i) await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("ArrowRight");
+  assert.match(await focused(), /^FADIR/);
+  await page.keyboard.press("Enter");
+  await settled(page);
+  assert.equal(await angleOf(page, "adduction"), 15);
+  await page.locator("#tab-motion").focus();
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await page.locator("#panel-figures").isVisible(), true);
+  await page.locator("#side rect.cell").first().focus();
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("Enter");
+  await settled(page);
+  assert.equal(await angleOf(page, "flexion"), 10);
+  await page.keyboard.press("u");
+  assert.equal(await angleOf(page, "adduction"), 15);
+  await page.keyboard.press("?");
+  assert.equal(await page.locator("#help").evaluate((card) => card.open), true);
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("1");
+  assert.equal(await page.locator("#panel-motion").isVisible(), true);
   const camera = () => page.evaluate(() => location.hash);
-  await page.locator("#scene canvas").focus();
+  await page.locator("#scene > canvas").first().focus();
   await page.waitForTimeout(400);
   const before = await camera();
   for (let i = 0; i < 4; ++i) await page.keyboard.press("ArrowLeft");
@@ -59,40 +86,61 @@ for (const [name, size] of [["phone", { width: 390, height: 844, isMobile: true,
     await page.context().close();
   });
 
-test("all of the scene, its scale and what the pointer tells are on the first screen", async () => {
-  const { page } = await openPage(browser, pathOf("sample"));
+/// Whether all of it is in the window.
+const isSeen = (page, selector) => page.locator(selector).evaluateAll((all) => all.length > 0 && all.every((element) => {
+  const { top, bottom, left, right, width } = element.getBoundingClientRect();
+  return width > 0 && top >= 0 && left >= 0 && bottom <= innerHeight + 0.5 && right <= innerWidth + 0.5;
+}));
+
+for (const [width, height, options] of [[1440, 900, {}], [390, 844, { isMobile: true, hasTouch: true }], [3840, 2160, {}]])
+  test(`the first screen of ${width} × ${height} has four results, the sentence and the joint`, async () => {
+    const { page } = await openPage(browser, pathOf("sample"), { width, height, ...options });
+    await settled(page);
+    await keep(page, `first_${width}`);
+    assert.equal(await page.locator(".result").count(), 4);
+    assert.ok(await isSeen(page, ".result"));
+    assert.ok(await isSeen(page, "#sentence"));
+    assert.ok(await isSeen(page, "#scene"));
+    assert.match(await page.locator("#sentence").textContent(), /^Internal rotation at 90° flexion ends at [\d.]+° \(\d+–\d+\), neck on rim at \d+:\d\d\.$/);
+    if (width > 1000) {
+      // Nothing scrolls: neither the page nor a panel but the details.
+      for (const tab of ["Motion", "Figures"]) {
+        const button = page.getByRole("tab", { name: tab, exact: true });
+        if (await button.isVisible()) await button.click();
+        assert.deepEqual(await page.evaluate(() => [document.documentElement, ...document.querySelectorAll(".panel:not([hidden])")]
+          .filter((element) => element.scrollHeight > element.clientHeight + 1 || element.scrollWidth > element.clientWidth + 1)
+          .map((element) => `${element.id || element.tagName} ${element.scrollHeight} of ${element.clientHeight}`)), []);
+      }
+      if (width > 3000) assert.ok(await isSeen(page, "#panel-figures"), "figures stand beside the motions");
+    } else {
+      // The scene stays while the sliders go by.
+      await page.locator("#angle-internal_rotation").scrollIntoViewIfNeeded();
+      await page.evaluate(() => scrollBy(0, 200));
+      const { top, height: high } = await page.locator("#scene").evaluate((element) => element.getBoundingClientRect().toJSON());
+      assert.ok(Math.abs(top) < 1 && Math.abs(high / height - 0.45) < 0.01, `${top}, ${high}`);
+    }
+    await page.context().close();
+  });
+
+test("pressing everything moves nothing", async () => {
+  const { page } = await openPage(browser, pathOf("sample"), { width: 1440, height: 900, reducedMotion: "reduce" });
   await settled(page);
-  for (const part of ["#scene", "#legend", "#hover"]) {
-    const { y, height } = await page.locator(part).evaluate((element) => element.getBoundingClientRect().toJSON());
-    assert.ok(y >= 0 && y + height <= 800, `${part} ends at ${y + height} of 800`);
+  const boxes = () => page.evaluate(() => [...document.querySelectorAll("header button, .result, #sentence, #scene, [role=tab], .slider, .tile, .motion-row button, #status")]
+    .filter((element) => element.getClientRects().length)
+    .map((element) => Object.values(element.getBoundingClientRect().toJSON()).join()));
+  const before = await boxes();
+  assert.ok(before.length > 25);
+  const presses = page.locator(".result, .tile, .motion-row button, #view-tools > button");
+  const count = await presses.count();
+  for (let i = 0; i < count; ++i) {
+    if (await presses.nth(i).isDisabled()) continue;
+    await presses.nth(i).click();
+    await settled(page);
+    assert.deepEqual(await boxes(), before, await presses.nth(i).textContent());
   }
-  await page.context().close();
-});
-
-test("on a large screen letters are larger and panels take their share", async () => {
-  const { page } = await openPage(browser, pathOf("sample"), { width: 3840, height: 2160 });
-  await settled(page);
-  const [scene, panels] = [await page.locator("#scene").boundingBox(), await page.locator("#panels").boundingBox()];
-  assert.ok(panels.width > 0.6 * scene.width, `${panels.width} beside ${scene.width}`);
-  assert.ok(Number.parseFloat(await page.evaluate(() => getComputedStyle(document.body).fontSize)) >= 20);
-  const [motion, map] = await page.evaluate(() => ["motion", "range-of-motion-map"].map((name) =>
-    document.querySelector(`[aria-labelledby=section-${name}]`).getBoundingClientRect().left));
-  assert.ok(map > motion + 400, "in two columns");
-  await page.context().close();
-});
-
-test("fields show all digits of a limit", async () => {
-  const { page } = await openPage(browser, pathOf("sample"), { reducedMotion: "reduce" });
-  await page.getByRole("button", { name: "flexion", exact: true }).click();
-  await settled(page);
-  const field = page.getByRole("spinbutton", { name: "flexion, degrees", exact: true });
-  assert.ok((await field.inputValue()).length > 12);
-  assert.ok(await field.evaluate((input) => {
-    const context = document.createElement("canvas").getContext("2d");
-    context.font = getComputedStyle(input).font;
-    // The stepper takes a sixth of an inch.
-    return context.measureText(input.value).width < input.clientWidth - 16 - 16;
-  }));
+  await turnTo(page, { flexion: 120, internal_rotation: 60 });
+  await page.locator("#way-out:visible").waitFor();
+  assert.deepEqual(await boxes(), before);
   await page.context().close();
 });
 
@@ -102,7 +150,7 @@ test("fingers turn the joint", async () => {
   await page.locator("#scene").scrollIntoViewIfNeeded();
   await page.waitForTimeout(400);
   const before = await page.evaluate(() => location.hash);
-  const box = await page.locator("#scene canvas").boundingBox();
+  const box = await page.locator("#scene > canvas").boundingBox();
   const client = await page.context().newCDPSession(page);
   const touch = (type, x) => client.send("Input.dispatchTouchEvent", {
     type, touchPoints: type === "touchEnd" ? [] : [{ x, y: box.y + box.height / 2 }],

@@ -72,7 +72,7 @@ export async function turnTo(page, angles) {
 export async function pixels(page) {
   // As text: millions of numbers one by one take a browser's protocol minutes.
   const { width, height, text } = await page.evaluate(() => {
-    const canvas = document.querySelector("#scene canvas");
+    const canvas = document.querySelector("#scene > canvas");
     const copy = document.createElement("canvas");
     [copy.width, copy.height] = [canvas.width, canvas.height];
     const context = copy.getContext("2d");
@@ -109,8 +109,29 @@ export async function keep(page, name, options = {}) {
 export const isHipBone = (r, g, b) => r > b + 12 && r >= g;
 export const isFemur = (r, g, b) => b > r + 8;
 
+/// Opens the drawer of what the scene shows, or closes it.
+export async function viewOptions(page, open = true) {
+  const drawer = page.locator("#view-options");
+  if ((await drawer.evaluate((element) => element.open)) !== open) await drawer.locator("summary").click();
+}
+
+export async function openTab(page, name) {
+  await page.getByRole("tab", { name, exact: true }).click();
+}
+
+/// The tile of a motion, by the words that are on it: "flexion", "internal rotation at 90° flexion", "FADIR".
+export function tile(page, name) {
+  return page.locator(".tile", { has: page.locator(".tile-name", { hasText: new RegExp(`^${name}$`) }) });
+}
+
+/// All of its digits: the field shows a tenth of a degree.
+export async function angleOf(page, name) {
+  return Number(await page.locator(`input[role=spinbutton][aria-label="${name.replaceAll("_", " ")}, degrees"]`).getAttribute("aria-valuenow"));
+}
+
 /// Plain bones, without colours of contact.
 export async function plain(page) {
+  await viewOptions(page);
   await page.getByLabel("Colour", { exact: true }).selectOption("none");
   await page.getByLabel("Mark triangles in contact").uncheck();
   await settled(page);

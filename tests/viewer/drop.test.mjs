@@ -40,14 +40,14 @@ test("two meshes dropped on the empty page answer as the same files do on the co
       positive: motion.sense === "positive", range_deg: motion.range_deg,
     });
     assert.equal(limit.turned_deg, motion.limit_deg, motion.name);
-    const row = await page.locator(".plot title").nth(i).textContent();
-    assert.ok(row.includes(motion.limit_deg.toFixed(1)), row);
+    const row = await page.locator(".tile").nth(i).textContent();
+    assert.ok(row.includes(motion.reason === "end_of_range" ? `>${motion.limit_deg.toFixed(0)}°` : motion.limit_deg.toFixed(1)), row);
   }
   assert.equal(motions.length, 12);
   // The clock face, and what the numbers are told with.
-  assert.equal(await page.locator(".plot .mark").count(), motions.filter(({ clock_hour }) => clock_hour !== null).length);
-  assert.equal(await page.locator(".plot .normal").count(), motions.filter(({ normal_range_deg }) => normal_range_deg !== null).length);
-  const told = await page.locator("#panels").innerText();
+  assert.equal(await page.locator("#side .plot .mark").count(), motions.filter(({ clock_hour }) => clock_hour !== null).length);
+  assert.equal(await page.locator("#side .normal-mark").count(), motions.filter(({ normal_range_deg }) => normal_range_deg !== null).length);
+  const told = await page.locator("#side").textContent();
   for (const words of [provenance.version, provenance.fixed_mesh.sha256, provenance.mobile_mesh.sha256, String(provenance.mobile_mesh.bytes),
     normal_range_source, `radius ${bearing.head.radius_mm.toFixed(2)} mm`, `reaches ${bearing.margin_mm.toFixed(2)} mm`, "centre: the head's",
     scope.slice(1), ...motions.flatMap(({ caveats }) => caveats.map(({ text }) => text))])
@@ -91,7 +91,7 @@ test("meshes compressed as VTK compresses them are read, and damaged ones told a
     await page.locator("#files").setInputFiles(dropped);
     await page.waitForFunction(() => Number(document.documentElement.dataset.answered) > 0);
     await settled(page);
-    const limits = await page.locator(".plot title").allTextContents();
+    const limits = await page.locator(".tile").allTextContents();
     await page.context().close();
     return limits;
   };
@@ -170,7 +170,7 @@ test("a side that is given counts, and one that the bones speak against is refus
   await side.selectOption("right");
   await page.locator("#files").setInputFiles(sampleFiles);
   await answered(page);
-  assert.ok((await page.locator("#panels").innerText()).includes("side: right, given"));
+  assert.ok((await page.locator("#side").textContent()).includes("side: right, given"));
   await page.context().close();
 });
 
@@ -182,15 +182,15 @@ test("files dropped into the scene make a joint, and others after them are refus
   await answered(page);
   await settled(page);
   assert.equal(await page.getByText("Drop the meshes of a hip on this page").count(), 0);
-  assert.equal(await page.locator("#title").textContent(), "femur.ply in hip_bone.ply");
+  assert.match(await page.locator("#title").textContent(), /^Right hip · femur.ply \/ hip_bone.ply/);
   for (let again = 0; again < 2; ++again) {
     await drop(page, sampleFiles);
     await page.getByRole("alert").waitFor();
     assert.match(await page.getByRole("alert").textContent(), /reload it, then drop others/);
     assert.equal(await page.getByRole("alert").count(), 1);
   }
-  assert.equal(await page.locator("#scene canvas").count(), 1);
-  assert.equal(await page.getByRole("heading", { name: "Motion", exact: true }).count(), 1);
+  assert.equal(await page.locator("#scene > canvas").count(), 1);
+  assert.equal(await page.getByRole("tab", { name: "Motion", exact: true }).count(), 1);
   assert.deepEqual(complaints, []);
   await page.context().close();
 });
@@ -213,6 +213,6 @@ test("files dropped while others are read, or three at once, are refused in one 
   assert.equal(await page.getByRole("alert").count(), 1);
   await drop(page, sampleFiles);
   await answered(page);
-  assert.equal(await page.locator("#scene canvas").count(), 1);
+  assert.equal(await page.locator("#scene > canvas").count(), 1);
   await page.context().close();
 });

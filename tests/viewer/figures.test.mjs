@@ -2,61 +2,112 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { has, keep, openPage, pathOf, settled, sharedBrowser } from "./browser.mjs";
+import { angleOf, has, keep, openPage, openTab, pathOf, settled, sharedBrowser, tile, turnTo } from "./browser.mjs";
 import { readReport, withText } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
 const textOf = (name) => readReport(pathOf(name)).text;
 
-test("strips mark contacts and bands, and nothing where only the range ends", async () => {
-  const { page } = await openPage(browser, pathOf("sample"));
-  await settled(page);
-  await page.waitForFunction(() => [...document.querySelectorAll(".told")].every(({ textContent }) => textContent !== ""));
-  const { coordinates, rom } = textOf("sample");
-  const strips = await page.evaluate(() => [...document.querySelectorAll(".strip")].map((strip) => {
-    const marks = (kind) => [...strip.querySelectorAll(`.${kind}`)].map((rect) => {
-      const x = Number(rect.getAttribute("x"));
-      return [x, x + Number(rect.getAttribute("width"))];
-    });
-    const input = strip.previousElementSibling;
-    return { low: Number(input.min), high: Number(input.max), limits: marks("limit"), bands: marks("band"), free: marks("free") };
-  }));
-  let ended = 0;
-  coordinates.forEach(({ name }, i) => {
-    const { low, high, limits, bands, free } = strips[i];
-    const x = (deg) => (400 * (Math.min(high, Math.max(low, deg)) - low)) / (high - low);
-    const motions = rom.motions.filter(({ vary, start_deg }) => vary === name && Object.values(start_deg).every((start) => start === 0));
-    const sign = ({ sense }) => (sense === "positive" ? 1 : -1);
-    const near = (found, wanted) => {
-      assert.equal(found.length, wanted.length, name);
-      found.forEach((ends, k) => ends.forEach((end, m) => assert.ok(Math.abs(end - wanted[k][m]) < 1e-6, `${name}: ${end} and not ${wanted[k][m]}`)));
-    };
-    const met = motions.filter(({ reason }) => reason === "contact");
-    near(limits, met.map((motion) => [x(sign(motion) * motion.limit_deg) - 1, x(sign(motion) * motion.limit_deg) + 1]));
-    near(bands, met.map((motion) => {
-      const ends = [motion.band.p5_deg, motion.band.p95_deg].map((end) => x(sign(motion) * end)).sort((a, b) => a - b);
-      return [ends[0], Math.max(ends[1], ends[0] + 1)];
-    }));
-    ended += motions.length - met.length;
-    assert.equal(free.length, 1);
+/// The free intervals of an angle at a pose, of the core.
+const freeOf = (page, at, vary) => page.evaluate(([angles, angle]) => {
+  const [columnAngle, rowAngle] = [0, 1, 2].filter((other) => other !== angle);
+  return condyle.query({ of: "mapPoint", point: 0, question: { columnAngle, rowAngle, vary: angle, columns: [angles[columnAngle]], rows: [angles[rowAngle]] } });
+}, [at, vary]);
+const told = (page) => page.waitForFunction(() => [...document.querySelectorAll(".told")].every(({ textContent }) => textContent !== ""));
+const degrees = (value) => `${value.toFixed(1).replace("-", "\u2212")}°`;
+
+for (const start of [[0, 0, 0], [40, 10, 0], [100, 10, 0]])
+  test(`tracks show what is free of the pose ${start}, and no mark of another`, async () => {
+    const { page } = await openPage(browser, pathOf("sample"), { fragment: `#flexion=${start[0]}&adduction=${start[1]}&internal_rotation=${start[2]}` });
+    await settled(page);
+    await told(page);
+    await page.waitForTimeout(500);
+    const tracks = await page.evaluate(() => [...document.querySelectorAll(".track-strip")].map((strip) => ({
+      free: [...strip.querySelectorAll(".free")].map((rect) => [Number(rect.getAttribute("x")), Number(rect.getAttribute("x")) + Number(rect.getAttribute("width"))]),
+      kinds: [...new Set([...strip.children].map((rect) => rect.getAttribute("class")))],
+      low: Number(strip.nextElementSibling.min), high: Number(strip.nextElementSibling.max),
+      told: strip.closest(".slider").querySelector(".told").textContent,
+    })));
+    assert.equal(tracks.length, 3);
+    for (const [vary, { free, kinds, low, high, told: text }] of tracks.entries()) {
+      const all = await freeOf(page, start, vary);
+      const wanted = all.filter(([from, to]) => to >= low && from <= high);
+      const x = (deg) => (100 * (Math.min(high, Math.max(low, deg)) - low)) / (high - low);
+      assert.equal(free.length, wanted.length);
+      wanted.forEach(([from, to], i) => assert.ok(Math.abs(free[i][0] - x(from)) < 1e-6 && Math.abs(free[i][1] - Math.max(x(to), x(from) + 0.3)) < 1e-6));
+      const [from, to] = all.find(([least, most]) => least <= start[vary] && start[vary] <= most);
+      assert.equal(text, `free ${degrees(from)} to ${degrees(to)}`);
+      assert.ok(kinds.every((kind) => ["blocked", "free", "band"].includes(kind)), kinds.join());
+    }
+    await page.context().close();
   });
-  assert.equal(ended, 1, "internal rotation goes on to the end of its range");
+
+test("in contact there is a way on: the least turn that leaves it, pressed, leaves it", async () => {
+  const { page } = await openPage(browser, pathOf("sample"), { reducedMotion: "reduce" });
+  const start = [120, 10, 40];
+  await turnTo(page, { flexion: start[0], adduction: start[1], internal_rotation: start[2] });
+  const way = page.locator("#way-out:visible");
+  await way.waitFor();
+  assert.match(await page.locator("#status-text").textContent(), /^In contact/);
+  await page.waitForFunction(() => /In contact · [\d.]+ mm, \d+ mm², \d+ mm³/.test(document.getElementById("status-text").textContent));
+  let least = Infinity;
+  for (const vary of [0, 1, 2])
+    for (const [low, high] of await freeOf(page, start, vary)) least = Math.min(least, Math.abs(Math.min(high, Math.max(low, start[vary])) - start[vary]));
+  const [, turn] = /^free after ([\d.]+)° of /.exec(await way.textContent());
+  assert.ok(Math.abs(Number(turn) - least) <= (least < 10 ? 0.051 : 0.51), `${turn} and not ${least}`);
+  await way.click();
+  await settled(page);
+  await page.waitForFunction(() => document.getElementById("status").dataset.state === "free");
+  await page.getByRole("button", { name: "Undo" }).click();
+  await settled(page);
+  assert.equal(await angleOf(page, "flexion"), start[0]);
+  assert.equal(await angleOf(page, "internal_rotation"), start[2]);
   await page.context().close();
 });
 
-test("how far an angle is free from here is what the core says of this pose", async () => {
-  const { page } = await openPage(browser, pathOf("sample"), { fragment: "#flexion=40&adduction=10" });
+test("what is typed and is no angle in the range is refused in words, and the joint stays", async () => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  await turnTo(page, { flexion: 30 });
+  const field = page.getByRole("spinbutton", { name: "flexion, degrees", exact: true });
+  for (const [typed, says] of [["500", /^500° is not between \u2212180° and 180°: not taken\.$/], ["", /no number/], ["far", /no number/]]) {
+    await field.fill(typed);
+    assert.match(await page.locator("#refusal").textContent(), says);
+    assert.equal(await field.getAttribute("aria-invalid"), "true");
+    assert.equal(await angleOf(page, "flexion"), 30);
+    await field.blur();
+    assert.equal(await field.inputValue(), "30.0");
+    assert.equal(await page.locator("#refusal").textContent(), "");
+  }
+  await field.fill("\u221212,5");
+  assert.equal(await angleOf(page, "flexion"), -12.5);
+  await field.blur();
+  assert.equal(await field.inputValue(), "\u221212.5");
+  await page.context().close();
+});
+
+test("a limit keeps all of its digits, and shows as many as mean something", async () => {
+  const { page } = await openPage(browser, pathOf("sample"), { reducedMotion: "reduce" });
+  const { motions } = textOf("sample").rom;
+  await tile(page, "flexion").click();
   await settled(page);
-  await page.waitForFunction(() => [...document.querySelectorAll(".told")].every(({ textContent }) => textContent !== ""));
-  const told = await page.locator(".told").allTextContents();
-  const start = [40, 10, 0];
-  for (const [vary, name] of ["flexion", "adduction", "internal rotation"].entries()) {
-    const ends = [];
-    for (const positive of [false, true]) {
-      const limit = await page.evaluate((question) => condyle.query({ of: "limit", limit: question }), { start, vary, positive, range_deg: 180 });
-      ends.push(`${(start[vary] + (positive ? 1 : -1) * limit.turned_deg).toFixed(1)}° (${limit.reason.replaceAll("_", " ")})`);
-    }
-    assert.equal(told[vary], `${name} is free from ${ends[0]} to ${ends[1]} from here`);
+  assert.equal(await angleOf(page, "flexion"), motions[0].limit_deg);
+  assert.equal(await page.getByRole("spinbutton", { name: "flexion, degrees", exact: true }).inputValue(), motions[0].limit_deg.toFixed(1));
+  assert.match(await page.locator("#status-text").textContent(), /^At the limit, first contact: /);
+  const seen = await page.locator("#screen").innerText();
+  assert.doesNotMatch(seen, /\d\.\d{4}/);
+  assert.doesNotMatch(seen, /(^|[ (])-\d/m);
+  await page.context().close();
+});
+
+test("where the range ends without contact every figure says so in the same way", async () => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  const faber = textOf("sample").rom.motions.find(({ name }) => name === "faber");
+  assert.equal(faber.reason, "end_of_range");
+  const says = `>${Number(faber.limit_deg.toFixed(1))}°`;
+  assert.ok((await tile(page, "FABER").textContent()).includes(says));
+  for (const selector of ["#section-limits + *, [aria-labelledby=section-limits]", "#paper"]) {
+    const said = (await page.locator(selector).allTextContents()).join();
+    assert.ok(said.includes(says) && !/over \d/.test(said), said);
   }
   await page.context().close();
 });
@@ -73,76 +124,104 @@ for (const name of ["sample", "vhf_right", "libhip_left"])
   test(`no label of the figures of ${name} lies on another`, { skip: !has(name) && "not made" }, async () => {
     const { page } = await openPage(browser, pathOf(name));
     await settled(page);
-    assert.deepEqual(await overlaps(page, ".clock text"), []);
-    assert.deepEqual(await overlaps(page, "[aria-labelledby=section-limits] text"), []);
+    await openTab(page, "Figures");
+    if (await page.getByLabel("Show", { exact: true }).count()) await page.getByLabel("Show", { exact: true }).selectOption("map");
+    assert.deepEqual(await overlaps(page, "#side .clock text"), []);
     // All labels lie within their pictures.
-    assert.deepEqual(await page.evaluate(() => [...document.querySelectorAll(".plot text")].filter((text) => {
+    assert.deepEqual(await page.evaluate(() => [...document.querySelectorAll("#side .plot text")].filter((text) => {
       const box = text.getBoundingClientRect(), picture = text.closest("svg").getBoundingClientRect();
       return box.width > 0 && (box.left < picture.left - 0.5 || box.right > picture.right + 0.5);
     }).map(({ textContent }) => textContent)), []);
-    await page.locator(".clock").scrollIntoViewIfNeeded();
-    await keep(page, `clock_${name}`);
+        await keep(page, `clock_${name}`);
     await page.context().close();
   });
 
 test("the clock says in which plane it is, and a contact pressed moves the joint there", async () => {
   const { page } = await openPage(browser, pathOf("sample"), { reducedMotion: "reduce" });
-  assert.equal(await page.getByText(/^Sagittal clock position/).count(), 1);
-  assert.equal(await page.getByText("socket's rim").count(), 0);
+  await openTab(page, "Figures");
+  assert.equal(await page.locator("#side").getByText(/^Sagittal clock position/).count(), 1);
+  assert.equal(await page.locator("#side").getByText("socket's rim").count(), 0);
   const { motions } = textOf("sample").rom;
   await page.getByRole("button", { name: /^ER90, Go to the end of/ }).locator("text").click();
   await settled(page);
   const [wanted] = motions.filter(({ name }) => name === "external_rotation_at_90_flexion");
-  for (const angle of ["flexion", "internal_rotation"])
-    assert.equal(Number(await page.getByRole("spinbutton", { name: `${angle.replace("_", " ")}, degrees`, exact: true }).inputValue()),
-      wanted.at_limit_deg[angle]);
+  for (const angle of ["flexion", "internal_rotation"]) assert.equal(await angleOf(page, angle), wanted.at_limit_deg[angle]);
+  // Contacts without an hour are named.
+  const without = motions.filter(({ reason, clock_hour }) => reason === "contact" && clock_hour === null);
+  assert.ok(without.length > 0);
+  const caption = await page.locator(".clock-section figcaption").textContent();
+  for (const { name } of without) assert.ok(caption.split("Without an hour")[1].includes(name.replaceAll("_", " ").replace(/ at (\d+)/, " at $1°")), name);
   await page.context().close();
   const rim = await openPage(browser, withText("rim", (text) => (text.rom.clock_plane = "rim")));
-  assert.equal(await rim.page.getByText(/^Where on the socket's rim each motion ends/).count(), 1);
+  assert.equal(await rim.page.locator("#side").getByText(/^Where on the socket's rim each motion ends/).count(), 1);
   await rim.page.context().close();
 });
 
 test("cells of the map tell their angles to who does not see them, and the outlines are explained", async () => {
   const { page } = await openPage(browser, pathOf("sample"));
   const { map } = textOf("sample");
-  const labels = await page.locator("rect.cell").evaluateAll((cells) => cells.map((cell) => cell.getAttribute("aria-label")));
+  const labels = await page.locator("#side rect.cell").evaluateAll((cells) => cells.map((cell) => cell.getAttribute("aria-label")));
+  const sign = (value) => String(value).replace("-", "\u2212");
   assert.deepEqual(labels, map.intervals.map((list, point) => {
-    const held = `flexion ${map.columns.values_deg[point % map.columns.values_deg.length]}°, adduction ` +
-      `${map.rows.values_deg[Math.floor(point / map.columns.values_deg.length)]}°`;
-    const free = list.map(([low, high]) => `free from ${low.toFixed(1)}° to ${high.toFixed(1)}°`).join(", ");
+    const held = `flexion ${sign(map.columns.values_deg[point % map.columns.values_deg.length])}°, adduction ` +
+      `${sign(map.rows.values_deg[Math.floor(point / map.columns.values_deg.length)])}°`;
+    const free = list.map(([low, high]) => `free from ${degrees(low)} to ${degrees(high)}`).join(", ");
     return `${held}: internal rotation ${free || "nowhere free"}`;
   }));
-  assert.equal(await page.getByText("more than one free interval").count(), 1);
+  assert.equal(await page.locator("#side").getByText("more than one free interval").count(), 1);
+  // Degrees stand in the cells.
+  const numbers = await page.locator("#side .cell-number").allTextContents();
+  const from = (list) => list.find(([low, high]) => low <= map.start_deg && map.start_deg <= high);
+  assert.deepEqual(numbers, map.intervals.map((list) => (from(list) ? (from(list)[1] - map.start_deg).toFixed(0) : "")));
+  // The cross is where the joint is, and drags it.
+  await openTab(page, "Figures");
+  const cell = async (place) => page.locator("#side rect.cell").nth(place).boundingBox();
+  const [a, b] = [await cell(0), await cell(map.columns.values_deg.length + 3)];
+  await page.mouse.move(a.x + a.width / 2, a.y + a.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(b.x + b.width / 2, b.y + b.height / 2, { steps: 5 });
+  await page.mouse.up();
+  await settled(page);
+  assert.ok(Math.abs((await angleOf(page, "flexion")) - map.columns.values_deg[3]) < 0.5);
+  assert.ok(Math.abs((await angleOf(page, "adduction")) - map.rows.values_deg[1]) < 0.5);
+  const cross = await page.locator("#side .cross").boundingBox();
+  assert.ok(Math.abs(cross.x + cross.width / 2 - b.x - b.width / 2) < 3 && Math.abs(cross.y + cross.height / 2 - b.y - b.height / 2) < 3);
   await page.context().close();
 });
 
-test("curves that change come first, those that are zero or empty are one line", { skip: !has("walk") && "not made" }, async () => {
+test("a walk that touches nothing draws its gap, and says what is zero or empty", { skip: !has("walk") && "not made" }, async () => {
   const { page } = await openPage(browser, pathOf("walk"));
   const { text, array } = readReport(pathOf("walk"));
-  const kind = ({ values }) => {
-    const finite = Array.from(array(values)).filter(Number.isFinite);
-    return finite.length === 0 ? "empty" : finite.every((value) => value === 0) ? "zero" : "changes";
-  };
-  const count = (wanted) => text.recorded.curves.filter((curve) => kind(curve) === wanted).length;
-  assert.ok(count("zero") > 0, "a walk of a hip that touches nothing has curves that are zero");
-  assert.equal(await page.locator(".curve-plot:visible").count(), count("changes"));
-  assert.match(await page.locator("details.folded summary").first().textContent(), /^Zero throughout: /);
-  assert.equal(await page.locator("details.folded").count(), Number(count("zero") > 0) + Number(count("empty") > 0));
-  assert.equal(await page.locator(".curve-plot:visible").first().getByText("time, s").count(), 1);
-  await page.locator("details.folded").last().scrollIntoViewIfNeeded();
+  const finite = ({ values }) => Array.from(array(values)).filter(Number.isFinite);
+  const gap = text.recorded.curves.find(({ name }) => name === "smallest_gap_mm");
+  assert.ok(finite(gap).every((mm) => mm > 0), "nothing touches");
+  await openTab(page, "Figures");
+  const lanes = await page.locator(".curve-plot text").allTextContents();
+  assert.equal(lanes[0], "smallest gap, mm");
+  assert.equal(await page.locator(".curve-plot path.curve").count(), 4);
+  assert.ok(lanes.includes("time, s"));
+  const said = (await page.locator(".silent").allTextContents()).join();
+  for (const curve of text.recorded.curves) {
+    const title = curve.name.replace(/_(mm2|mm|deg)$/, "").replaceAll("_", " ");
+    const isSilent = finite(curve).every((value) => value === 0);
+    if (isSilent) assert.ok(said.includes(title), title);
+  }
+  await page.locator("summary", { hasText: "Quantities" }).click();
+  await page.getByLabel("flexion, °").uncheck();
+  assert.equal(await page.locator(".curve-plot path.curve").count(), 3);
   await keep(page, "curves");
   await page.context().close();
 });
 
 test("a curve is pressed and moved through by arrow keys", { skip: !has("walk") && "not made" }, async () => {
   const { page } = await openPage(browser, pathOf("walk"));
-  const frame = async () => Number(await page.getByRole("slider", { name: "Frame" }).inputValue());
-  const curve = page.locator(".curve-plot:visible").first();
-  await curve.scrollIntoViewIfNeeded();
-  const box = await curve.boundingBox();
+  const frame = async () => Number(await page.getByRole("slider", { name: "Frame", exact: true }).inputValue());
+  await openTab(page, "Figures");
+  const curve = page.locator(".curve-plot");
+  // From end to end of the axis of time.
+  const box = await curve.locator("line.grid").first().boundingBox();
   const last = readReport(pathOf("walk")).array(textOf("walk").recorded.times_s).length - 1;
-  // Half way between the ends of the axis, 52 and 442 of 460.
-  await page.mouse.click(box.x + (247 / 460) * box.width, box.y + box.height / 2);
+  await page.mouse.click(box.x + box.width / 2, box.y + 20);
   assert.ok(Math.abs((await frame()) - last / 2) <= 2, String(await frame()));
   await curve.focus();
   const before = await frame();
@@ -152,7 +231,7 @@ test("a curve is pressed and moved through by arrow keys", { skip: !has("walk") 
   assert.equal(await frame(), before + 1);
   assert.equal(await curve.getAttribute("aria-valuenow"), String(before + 1));
   const flexion = readReport(pathOf("walk")).array(textOf("walk").recorded.coordinates_deg)[3 * (before + 1)];
-  assert.equal(Number(await page.getByRole("spinbutton", { name: "flexion, degrees", exact: true }).inputValue()), flexion);
+  assert.equal(await angleOf(page, "flexion"), flexion);
   await page.keyboard.press("End");
   assert.equal(await frame(), last);
   await page.context().close();
@@ -166,12 +245,13 @@ test("a motion recorded without times plays frame by frame and says so", { skip:
     text.arrays.frame_numbers = text.arrays[readReport(pathOf("walk")).text.recorded.times_s];
   }, "walk");
   const { page } = await openPage(browser, path);
-  assert.equal(await page.locator(".curve-plot:visible").first().getByText("frame", { exact: true }).count(), 1);
+  await openTab(page, "Figures");
+  assert.equal(await page.locator(".curve-plot").getByText("frame", { exact: true }).count(), 1);
   assert.equal(await page.getByText("time, s").count(), 0);
   const count = readReport(pathOf("walk")).array(textOf("walk").recorded.times_s).length;
   assert.equal(await page.getByText(`: ${count} frames`).count(), 1);
   const [download] = await Promise.all([page.waitForEvent("download"),
-    page.locator("section", { has: page.getByRole("heading", { name: "Recorded motion" }) }).getByRole("button", { name: "Save data" }).first().click()]);
+    page.locator("section", { has: page.getByRole("heading", { name: "Recorded motion" }) }).last().getByRole("button", { name: "Save data" }).first().click()]);
   assert.match(readFileSync(await download.path(), "utf8"), /^frame,/);
   await page.context().close();
 });
@@ -179,7 +259,7 @@ test("a motion recorded without times plays frame by frame and says so", { skip:
 test("the numbers say how they were found: bounds, bands, bearing contact, normal ranges", async () => {
   const { page } = await openPage(browser, pathOf("sample"));
   const { rom } = textOf("sample");
-  const panel = page.locator("[aria-labelledby=section-numbers]");
+  const panel = page.locator("#panel-details");
   const told = await panel.textContent();
   for (const wanted of ["free before it, in contact at it or past it by at most its error bound", `of ${rom.band.samples} displaced joints, seed ${rom.band.seed}`,
     `centre ${rom.band.sigma.centre_mm} mm, axes ${rom.band.sigma.axes_deg}°, surfaces ${rom.band.sigma.surface_mm} mm`,
@@ -187,14 +267,16 @@ test("the numbers say how they were found: bounds, bands, bearing contact, norma
     `radius ${rom.bearing.socket.radius_mm.toFixed(2)} mm`, `reaches ${rom.bearing.margin_mm.toFixed(2)} mm`, "Normal ranges: AAOS 1965", "right, ball joint",
     `${rom.scope.slice(1)}.`, ...rom.motions.flatMap(({ caveats }) => caveats.map(({ text, source }) => source === null ? text : `${text} (${source})`))])
     assert.ok(told.includes(wanted), wanted);
-  const rows = await panel.locator("table").nth(1).locator("tbody tr").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  const rows = await panel.locator("[aria-labelledby=section-limits] table").locator("tbody tr").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
   rows.forEach((cells, i) => {
     const motion = rom.motions[i];
     assert.equal(cells[0], motion.name.replaceAll("_", " "));
-    assert.ok(cells[1].includes(motion.limit_deg.toFixed(1)), cells[1]);
+    assert.ok(cells[1].includes(motion.reason === "contact" ? motion.limit_deg.toFixed(1) : `>${motion.limit_deg.toFixed(0)}°`), cells[1]);
     assert.equal(cells[3], motion.reason === "contact" ? "contact (impingement)" : "end of range");
     assert.equal(cells[6], motion.reason === "contact" ? `${motion.error_bound_deg.toPrecision(2)}°` : "–");
   });
+  await openTab(page, "Details");
+  await page.locator("summary", { hasText: /^Limits$/ }).click();
   const heights = await panel.locator("tbody tr").evaluateAll((all) => all.map((row) => row.getBoundingClientRect().height));
   assert.ok(Math.max(...heights) < 75, `a row of ${Math.max(...heights)} pixels`);
   await page.context().close();

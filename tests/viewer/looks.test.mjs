@@ -1,7 +1,7 @@
 // What the scene shows, pixel by pixel: bones where they should be, colours as the scale says, after slider, clip and hide.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { isFemur, isHipBone, keep, openPage, pathOf, pixels, plain, region, settled, sharedBrowser, turnTo } from "./browser.mjs";
+import { isFemur, isHipBone, keep, openPage, pathOf, pixels, plain, region, settled, sharedBrowser, turnTo, viewOptions } from "./browser.mjs";
 
 const browser = await sharedBrowser();
 
@@ -60,25 +60,27 @@ for (const [what, angles] of [["at zero", {}], ["on a tilted pose", { flexion: 4
   test(`colours are those of the scale ${what}`, async (t) => {
     const { page } = await openPage(browser, pathOf("scenario_3"));
     await turnTo(page, angles);
+    await viewOptions(page);
     await page.getByLabel("Shading").uncheck();
     await page.getByLabel("Mark triangles in contact").uncheck();
     await page.getByLabel("Show femur").uncheck();
     await page.getByRole("button", { name: "right", exact: true }).click();
+    const end = Number(await page.getByLabel("Scale to").inputValue());
+    await viewOptions(page, false);
     await settled(page);
     await keep(page, "socket");
     const scale = await page.evaluate(() => {
-      const canvas = document.querySelector("#legend canvas");
+      const canvas = document.querySelector(".scene-legend canvas.bar");
       const data = Array.from(canvas.getContext("2d").getImageData(0, 0, canvas.width, 1).data);
       return Array.from({ length: canvas.width }, (_, i) => data.slice(4 * i, 4 * i + 3));
     });
-    const end = Number(await page.getByLabel("Scale to").inputValue());
     const nearest = (colour) => {
       const distance = (other) => Math.hypot(...other.map((value, k) => value - colour[k]));
       const best = scale.reduce((found, other, i) => (distance(other) < distance(scale[found]) ? i : found), 0);
       return { mm: -end + (2 * end * best) / (scale.length - 1), off: distance(scale[best]) };
     };
     const seen = await pixels(page);
-    const box = await page.locator("#scene canvas").boundingBox();
+    const box = await page.locator("#scene > canvas").boundingBox();
     const coloured = [];
     for (let row = 0; row < seen.height - 150; row += 3)
       for (let column = 0; column < seen.width; column += 3)
@@ -88,7 +90,7 @@ for (const [what, angles] of [["at zero", {}], ["on a tilted pose", { flexion: 4
       const [column, row] = coloured[Math.floor(coloured.length * ((i * 0.618) % 1))];
       await page.mouse.move(box.x + ((column + 0.5) / seen.width) * box.width, box.y + ((row + 0.5) / seen.height) * box.height);
       await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
-      const value = / (-?[\d.]+) mm$/.exec(await page.locator("#hover").textContent());
+      const value = / (-?[\d.]+) mm$/.exec((await page.locator("#hover").textContent()).replace("\u2212", "-"));
       if (!value || Math.abs(Number(value[1])) > 0.8 * end) continue;
       const { mm } = nearest(seen.at(column, row).slice(0, 3));
       // Of the nearest corner of a triangle whose edges are a millimetre or two long, on a socket that opens by as much.
@@ -102,13 +104,15 @@ for (const [what, angles] of [["at zero", {}], ["on a tilted pose", { flexion: 4
 
 test("depths that are only bounds are hatched grey, and never a colour of the scale", async (t) => {
   const { page } = await openPage(browser, pathOf("scenario_3"));
+  await viewOptions(page);
   await page.getByLabel("Colour", { exact: true }).selectOption("depth");
   await turnTo(page, { flexion: 130, adduction: 40, internal_rotation: 90 });
   await page.getByLabel("Shading").uncheck();
   await page.getByLabel("Mark triangles in contact").uncheck();
   await page.getByLabel("Show hip bone").uncheck();
   await page.getByRole("button", { name: "left", exact: true }).click();
-  const box = await page.locator("#scene canvas").boundingBox();
+  await viewOptions(page, false);
+  const box = await page.locator("#scene > canvas").boundingBox();
   await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
   for (let i = 0; i < 12; ++i) await page.mouse.wheel(0, -200);
   await settled(page);

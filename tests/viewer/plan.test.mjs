@@ -1,7 +1,7 @@
 // The shape of a hip and the bone that must go, as the page shows them: against the numbers of the report.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { keep, openPage, pathOf, pixels, region, settled, sharedBrowser, turnTo } from "./browser.mjs";
+import { keep, openPage, openTab, pathOf, pixels, region, settled, sharedBrowser, turnTo, viewOptions } from "./browser.mjs";
 import { readReport } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
@@ -10,9 +10,11 @@ const { text, array } = readReport(pathOf("plan"));
 async function opened(options = {}) {
   const { page, complaints } = await openPage(browser, pathOf("plan"), options);
   if (options.answers !== false) await settled(page);
+  await openTab(page, "Plan");
   return { page, complaints };
 }
 
+const detailsOf = (page, title) => page.locator(".fold", { has: page.locator("h2", { hasText: new RegExp(`^${title}$`) }) });
 const panelOf = (page, name) => page.getByRole("region", { name, exact: true });
 
 /// So many pixels of the scene have such a colour.
@@ -37,7 +39,7 @@ test("targets, gains and what goes are those of the report", async () => {
   assert.deepEqual(target.slice(1), [`${before.limit_deg.toFixed(1)}°`, `${reach_deg}°`, `${after.limit_deg.toFixed(1)}°`]);
   assert.ok(after.limit_deg >= reach_deg);
   const panel = panelOf(page, "Bone that must go");
-  const said = await panel.textContent();
+  const said = (await panel.textContent()) + (await detailsOf(page, "Limits and notes of the plan").textContent());
   const [cut] = text.plan.cuts;
   assert.ok(said.includes(`${cut.volume_mm3.toFixed(1)} mm³ go`) && said.includes(`${cut.deepest_mm.toFixed(2)} mm at the deepest`), said);
   for (const { text: note } of text.plan.resection_notes) assert.ok(said.includes(note), note);
@@ -52,17 +54,21 @@ test("targets, gains and what goes are those of the report", async () => {
 
 test("the bone that went is a colour, in every pose, and a surface over the cut", async () => {
   const { page } = await opened({ fragment: "#hidden=fixed" });
+  await viewOptions(page);
   assert.equal(await page.getByLabel("Colour", { exact: true }).inputValue(), "removed");
   const deepest = text.plan.cuts[0].deepest_mm, depths = array(text.plan.surfaces.mobile.depth_mm), vertices = array(text.plan.surfaces.mobile.lowered);
   const vertex = vertices[depths.indexOf(Math.max(...depths))];
+  await viewOptions(page);
   const tells = async () => {
     await page.getByLabel("Vertex of").selectOption("mobile");
     await page.getByLabel("Number of a vertex").fill(String(vertex));
-    await page.getByRole("button", { name: "Tell" }).click();
+    await page.getByRole("button", { name: "Show vertex" }).click();
     return page.locator("#hover").textContent();
   };
   assert.match(await tells(), new RegExp(`vertex ${vertex}: ${deepest.toFixed(2)}`));
+  await openTab(page, "Motion");
   await turnTo(page, { flexion: 60 });
+  await openTab(page, "Plan");
   assert.match(await tells(), new RegExp(`vertex ${vertex}: ${deepest.toFixed(2)}`));
   assert.equal(await count(page, isGreen), 0);
   await page.getByLabel("Show the bone that went").check();
@@ -75,8 +81,9 @@ test("the bone that went is a colour, in every pose, and a surface over the cut"
 
 test("measures have their values, bands, reasons and definitions, and are drawn", async () => {
   const { page, complaints } = await opened({ fragment: "#fixed_opacity=0.4&colour=none" });
+  await page.locator("summary", { hasText: "Shape of the hip" }).click();
   const panel = panelOf(page, "Shape of the hip");
-  const said = await panel.textContent();
+  const said = (await panel.textContent()) + (await detailsOf(page, "Measures of the hip").textContent());
   for (const [part, caption] of [["femur", "Femur"], ["acetabulum", "Acetabulum"], ["both", "Both bones"]]) {
     const measures = text.measures.measures.filter((measure) => measure.part === part);
     const rows = await rowsOf(page, caption);
@@ -105,6 +112,7 @@ test("measures have their values, bands, reasons and definitions, and are drawn"
 test("without WebAssembly the plan is there too", async () => {
   const { page } = await opened({ script: "delete globalThis.WebAssembly", answers: false });
   await panelOf(page, "Bone that must go").waitFor();
+  await viewOptions(page);
   assert.equal(await page.getByLabel("Colour", { exact: true }).inputValue(), "removed");
   await page.context().close();
 });

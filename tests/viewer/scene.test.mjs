@@ -1,7 +1,7 @@
 // What hands do in the scene: turn, move and zoom by mouse and fingers, point and measure, see through, mark, colour.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { isFemur, isHipBone, keep, openPage, pathOf, pixels, plain, region, settled, sharedBrowser, turnTo } from "./browser.mjs";
+import { isFemur, isHipBone, keep, openPage, pathOf, pixels, plain, region, settled, sharedBrowser, turnTo, viewOptions } from "./browser.mjs";
 import { readReport } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
@@ -18,7 +18,7 @@ const length = (a) => Math.hypot(...a);
 test("a mouse turns, moves and zooms", async () => {
   const { page } = await openPage(browser, pathOf("sample"));
   await settled(page);
-  const box = await page.locator("#scene canvas").boundingBox();
+  const box = await page.locator("#scene > canvas").boundingBox();
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
   const drag = async (button, dx, dy) => {
     await page.mouse.move(x, y);
@@ -50,7 +50,7 @@ test("two fingers zoom", async () => {
   await settled(page);
   await page.locator("#scene").scrollIntoViewIfNeeded();
   const before = await camera(page);
-  const box = await page.locator("#scene canvas").boundingBox();
+  const box = await page.locator("#scene > canvas").boundingBox();
   const client = await page.context().newCDPSession(page);
   const touch = (type, apart) => client.send("Input.dispatchTouchEvent", {
     type, touchPoints: type === "touchEnd" ? []
@@ -96,7 +96,6 @@ test("a cut leaves nothing beyond its plane", async () => {
 
 test("what is before is seen through", async () => {
   const { page } = await openPage(browser, pathOf("sample"));
-  await page.getByRole("button", { name: "right", exact: true }).click();
   await plain(page);
   await page.getByRole("button", { name: "left", exact: true }).click();
   await settled(page);
@@ -112,6 +111,7 @@ test("what is before is seen through", async () => {
 
 test("triangles in contact are orange, the bearing surface green, and neither where it is not asked for", async () => {
   const { page } = await openPage(browser, pathOf("scenario_3"));
+  await viewOptions(page);
   await page.getByLabel("Colour", { exact: true }).selectOption("none");
   await page.getByLabel("Show hip bone").uncheck();
   await page.getByLabel("Shading").uncheck();
@@ -159,9 +159,10 @@ function vertexOf(name, body, vertex) {
 test("a vertex is asked for by its number, and two of them measured", async () => {
   const { page } = await openPage(browser, pathOf("sample"));
   await settled(page);
+  await viewOptions(page);
   await page.evaluate(() => condyle.query({ of: "values", at: { angles: [0, 0, 0], translation: [0, 0, 0] }, quantity: "gap" }));
   const body = page.getByLabel("Vertex of"), number = page.getByRole("spinbutton", { name: "Number of a vertex" });
-  const tell = page.getByRole("button", { name: "Tell", exact: true }), told = () => page.locator("#hover").textContent();
+  const tell = page.getByRole("button", { name: "Show vertex", exact: true }), told = () => page.locator("#hover").textContent();
   const { shown, marks } = await page.evaluate(async () => {
     const { mobile } = await condyle.query({ of: "values", at: { angles: [0, 0, 0], translation: [0, 0, 0] }, quantity: "gap" });
     return { shown: Array.from(mobile.shown), marks: Array.from(mobile.marks) };
@@ -169,7 +170,7 @@ test("a vertex is asked for by its number, and two of them measured", async () =
   const vertex = marks.indexOf(1);
   await number.fill(String(vertex));
   await tell.click();
-  assert.equal(await told(), `femur, vertex ${vertex}: ${shown[vertex].toFixed(2)} mm`);
+  assert.equal((await told()).replace("\u2212", "-"), `femur, vertex ${vertex}: ${shown[vertex].toFixed(2)} mm`);
   await number.fill("100000");
   await number.press("Enter");
   assert.equal(await told(), `femur has vertices 0 to ${shown.length - 1}`);
@@ -187,7 +188,8 @@ test("a vertex is asked for by its number, and two of them measured", async () =
 test("two picked points have the distance of their vertices", async () => {
   const { page } = await openPage(browser, pathOf("sample"));
   await plain(page);
-  const box = await page.locator("#scene canvas").boundingBox();
+  await viewOptions(page, false);
+  const box = await page.locator("#scene > canvas").boundingBox();
   const femur = region(await pixels(page), isFemur), hip = region(await pixels(page), isHipBone);
   const places = [femur, { x: hip.x, y: hip.y - 0.1 }].map(({ x, y }) => [box.x + x * box.width, box.y + y * box.height]);
   const vertices = [];
@@ -197,7 +199,9 @@ test("two picked points have the distance of their vertices", async () => {
     assert.equal(name, ["femur", "hip bone"][i]);
     vertices.push(vertexOf("sample", ["mobile", "fixed"][i], Number(vertex)));
   }
+  await viewOptions(page);
   await page.getByLabel("Measure between two points").check();
+  await viewOptions(page, false);
   for (const place of places) await page.mouse.click(...place);
   assert.equal(await page.locator("#hover").textContent(), `Distance ${length(minus(...vertices)).toFixed(2)} mm`);
   await page.context().close();

@@ -1,7 +1,7 @@
 // The address of the page remembers what is seen, and brings it back.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { keep, openPage, pathOf, pixels, settled, sharedBrowser, turnTo } from "./browser.mjs";
+import { keep, openPage, pathOf, pixels, settled, sharedBrowser, turnTo, viewOptions } from "./browser.mjs";
 
 const browser = await sharedBrowser();
 
@@ -20,7 +20,7 @@ test("a slider turns the joint, the address remembers it, and another page opene
 });
 
 /// What controls show.
-const controls = (page) => page.evaluate(() => [...document.querySelectorAll("#panels input, #panels select")].map((control) =>
+const controls = (page) => page.evaluate(() => [...document.querySelectorAll("#side input, #side select, #view-options input, #view-options select")].map((control) =>
   `${control.getAttribute("aria-label") ?? control.id ?? control.labels[0]?.textContent}: ${control.type === "checkbox" ? control.checked : control.value}`));
 
 /// Waits for the colours of the pose that was asked for last.
@@ -34,6 +34,7 @@ async function coloured(page) {
 
 test("camera, colours, scale, hidden bones, opacity, cut and zone come back with a link, pixel by pixel", async () => {
   const { page } = await openPage(browser, pathOf("zones"));
+  await viewOptions(page);
   await page.getByRole("button", { name: "right", exact: true }).click();
   await page.getByLabel("Colour", { exact: true }).selectOption("nearest");
   await page.getByLabel("Scale to").fill("5");
@@ -65,12 +66,13 @@ test("camera, colours, scale, hidden bones, opacity, cut and zone come back with
 test("another address in an open page is applied, and what it leaves out is as usual", async () => {
   const { page } = await openPage(browser, pathOf("zones"), { fragment: "#flexion=30&hidden=fixed&fixed_opacity=0.5&clip=x:10&colour=depth&scale=2" });
   await settled(page);
+  await viewOptions(page);
   assert.equal(await page.getByLabel("Show hip bone").isChecked(), false);
   assert.equal(await page.getByLabel("Colour", { exact: true }).inputValue(), "depth");
   assert.equal(await page.getByLabel("Scale to").inputValue(), "2");
   await page.evaluate(() => (location.hash = "#adduction=-20&zone=fadir&hidden=mobile"));
-  await page.waitForFunction(() => document.querySelector("input[aria-label='adduction, degrees'][type=number]").value === "-20");
-  assert.equal(await page.getByRole("spinbutton", { name: "flexion, degrees", exact: true }).inputValue(), "0");
+  await page.waitForFunction(() => document.querySelector("input[aria-label='adduction, degrees'][role=spinbutton]").getAttribute("aria-valuenow") === "-20");
+  assert.equal(await page.getByRole("spinbutton", { name: "flexion, degrees", exact: true }).inputValue(), "0.0");
   assert.equal(await page.getByLabel("Show hip bone").isChecked(), true);
   assert.equal(await page.getByLabel("Show femur").isChecked(), false);
   assert.equal(await page.getByRole("slider", { name: "Opacity of hip bone" }).inputValue(), "1");

@@ -27,6 +27,13 @@ export function section(title: string, ...children: Child[]): HTMLElement {
   return html("section", { "aria-labelledby": id }, html("h2", { id }, title), ...children);
 }
 
+/// A title that opens what is under it, as one landmark of the page.
+export function fold(title: string, open: boolean, ...children: Child[]): HTMLDetailsElement {
+  const id = `section-${title.toLowerCase().replaceAll(/[^a-z]+/g, "-")}`;
+  return html("details", { class: "fold", open },
+    html("summary", {}, html("h2", { id }, title)), html("section", { "aria-labelledby": id }, ...children));
+}
+
 export function button(text: string, pressed: () => void, attributes: Attributes = {}): HTMLButtonElement {
   const element = html("button", { type: "button", ...attributes }, text);
   element.addEventListener("click", pressed);

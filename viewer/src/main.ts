@@ -1,32 +1,48 @@
 import { CoreClient } from "./core/client";
 import { lineOf } from "./core/error_line";
 import type { BothValues, Coordinates, JointArrays, MapQuestion, Query, ShownQuantity, Values } from "./core/protocol";
-import { button, choice, html, named, section, shortened, spaced } from "./dom";
+import { button, checkbox, choice, fold, html, named, section, shortened, spaced } from "./dom";
+import { jointArraysOf } from "./joint_arrays";
+import { clockTime, fixed } from "./numbers";
+import { Clearance } from "./panels/clearance";
 import { DisplayPanel } from "./panels/display";
 import { DropPanel } from "./panels/drop";
+import { figuresPanel } from "./panels/figures";
+import { FreeAngles } from "./panels/free_angles";
+import { actions, copyLink, headingOf, listenToKeys } from "./panels/header";
 import { MotionPanel } from "./panels/motion";
-import { numbersPanel } from "./panels/numbers";
+import { numberFolds } from "./panels/numbers";
+import { catchDrops } from "./panels/page_drop";
+import { Paper } from "./panels/paper";
 import { PlanPanel } from "./panels/plan";
+import { addPlanPanel } from "./panels/plan_tab";
 import { PointerPanel } from "./panels/pointer";
 import { RecordedPanel, type Frame } from "./panels/recorded";
 import { shapePanel } from "./panels/shape";
+import { placeOf, ResultStrip, sentenceOf } from "./panels/strip";
+import { Tabs } from "./panels/tabs";
+import { pictureOf } from "./panels/worst_picture";
 import { ZonePanel } from "./panels/zones";
 import { clockDrawing } from "./plots/clock";
 import { figure } from "./plots/figure";
-import { limitsDrawing } from "./plots/limits";
 import { MapPlot } from "./plots/map";
+import { Plateau } from "./plots/plateau";
 import {
   bytesOf, inflated, Report, scopeOf, textOfProposal, type MapAnswer, type MotionAnswer, type ReportText, type StoredPose,
 } from "./report";
-import { jointArraysOf } from "./joint_arrays";
-import { JointScene } from "./scene/scene";
+import { toldFirst } from "./result";
+import { saveBlob } from "./save";
+import { JointScene, type BodyName } from "./scene/scene";
 import { readViewState, writeViewState } from "./view_state";
-import { words } from "./words";
+import { motionName, words } from "./words";
 
 const translationNames = ["x", "y", "z"];
 const quantities = Object.keys(words.quantity) as ShownQuantity[];
-const canCompute = typeof WebAssembly !== "undefined";
 const storedQuantities: readonly ShownQuantity[] = ["gap", "removed", "none"];
+/// From here on figures stand beside the other panels.
+const wide = matchMedia("(min-width: 150rem)");
+/// The picture for paper waits until the page has answered and rests.
+const pictureAfter_ms = 1500;
 
 function found<T extends HTMLElement>(id: string): T {
   return document.getElementById(id) as T;
@@ -36,14 +52,24 @@ function textOf(id: string): string | null {
   return document.getElementById(id)?.textContent ?? null;
 }
 
+/// A line over the scene: nothing else moves for it.
+function tell(role: "alert" | "status", message: string, ...parts: HTMLElement[]): void {
+  const line = html("p", { class: "warning" }, html("span", { role }, message), ...parts);
+  if (role === "status") found("messages").querySelectorAll("[role=status]").forEach((old) => old.parentElement!.remove());
+  line.append(button("×", () => line.remove(), { "aria-label": words.dismiss, class: "quiet-button" }));
+  found("messages").append(line);
+}
+
 function warn(message: string): void {
-  found("messages").append(html("p", { class: "warning", role: "alert" }, message));
+  // The same line once.
+  const known = [...found("messages").querySelectorAll("[role=alert]")];
+  if (!known.some(({ textContent }) => textContent === message)) tell("alert", message);
 }
 
 /// A scene, or nothing but a line where the browser shows none.
 function sceneOf(arrays: JointArrays, parts: ReportText["parts"], label: string): JointScene | null {
   try {
-    return new JointScene(found("scene"), arrays.fixed, arrays.mobile, parts, label);
+    return new JointScene(found("scene"), arrays.fixed, arrays.mobile, parts, label, arrays.side === 0 ? "right" : "left");
   } catch {
     warn(words.noWebGl);
     return null;
@@ -55,8 +81,15 @@ class Page {
   private readonly scene: JointScene | null;
   private readonly display: DisplayPanel;
   private readonly motion: MotionPanel;
+  private readonly strip: ResultStrip;
+  private readonly tabs: Tabs;
+  private readonly paper: Paper;
+  private readonly recorded: RecordedPanel | null;
   private core: CoreClient | null = null;
+  private freeAngles: FreeAngles | null = null;
+  private clearance: Clearance | null = null;
   private mapPlot: MapPlot | null = null;
+  private plateau: { plot: Plateau; body: BodyName } | null = null;
   private zones: ZonePanel | null = null;
   private readonly plan: PlanPanel | null;
   private readonly removed: BothValues | null;
@@ -64,37 +97,173 @@ class Page {
   /// One of the report's poses, if the page cannot compute.
   private storedPose: StoredPose | null = null;
   private poseChoice: HTMLSelectElement | null = null;
+  private readonly closed = new AbortController();
 
-  /// `report` holds the arrays of figures and poses that a joint dropped on the page has not.
-  constructor(private readonly text: ReportText, private readonly arrays: JointArrays, private readonly report: Report | null) {
-    const { anatomy, side } = text.joint, names = { fixed: named(text.joint.fixed), mobile: named(text.joint.mobile) };
+  /// `report` holds the arrays of figures and poses that a joint dropped on the page has not; `computes` where the core answers.
+  constructor(
+    private readonly text: ReportText, private readonly arrays: JointArrays, private readonly report: Report | null, private readonly computes: boolean) {
+    const names = { fixed: named(text.joint.fixed), mobile: named(text.joint.mobile) };
+    const heading = headingOf(text);
     document.title = words.pageTitle(shortened(text.title));
-    found("title").textContent = text.title;
-    found("subtitle").textContent = words.subtitle(words.sides[side], words.anatomies[anatomy], names);
+    found("title").textContent = heading;
+    found("title").title = heading;
     this.scene = sceneOf(arrays, text.parts, words.sceneLabel(names.fixed, names.mobile));
-    this.motion = new MotionPanel(
-      text, (at) => this.moved(at), (motion) => this.arrived(motion), canCompute ? null : (name) => this.showStored(name));
+    this.scene?.setJointRadius(text.rom?.bearing?.head?.radius_mm ?? null);
+    this.motion = new MotionPanel(text, {
+      moved: (at) => this.moved(at), arrived: (motion) => this.arrived(motion), showStored: computes ? null : (name) => this.showStored(name),
+    });
+    this.recorded = report && text.recorded ? new RecordedPanel(report, text.recorded, (frame) => this.showFrame(frame)) : null;
+    const extremes = this.recorded?.extremes() ?? [];
+    this.strip = new ResultStrip(text, (motion) => this.motion.goToEnd(motion), (motion) => this.motion.canGo(motion), extremes, () => this.showNotes());
+    found("strip-place").replaceChildren(this.strip.element);
     this.plan = report && text.plan && new PlanPanel(this.scene, report, text.plan, names);
-    const { fixed, mobile } = this.counts();
-    this.removed = this.plan && this.plan.values({ fixed: fixed[0], mobile: mobile[0] });
+    const { fixed: fixedCount, mobile: mobileCount } = this.counts();
+    this.removed = this.plan && this.plan.values({ fixed: fixedCount[0], mobile: mobileCount[0] });
     const has = { pressure: text.layers !== null, removed: this.plan !== null } as Partial<Record<ShownQuantity, boolean>>;
     this.display = new DisplayPanel(this.scene, {
-      names, parts: text.parts, marks: canCompute ? ["contact", "bearing"] : ["bearing"], removed_mm: this.plan?.deepest_mm ?? 0,
-      quantities: (canCompute ? quantities : storedQuantities).filter((key) => has[key] ?? true),
+      names, parts: text.parts, marks: computes ? ["contact", "bearing"] : ["bearing"], removed_mm: this.plan?.deepest_mm ?? 0,
+      quantities: (computes ? quantities : storedQuantities).filter((key) => has[key] ?? true),
     }, () => this.recolour(), () => this.rememberView());
     if (report && text.zones.length) {
       this.zones = new ZonePanel(this.scene, report, text.zones, () => this.rememberView());
       this.display.element.append(this.zones.element);
     }
-    found("legend-place").append(this.display.legend);
-    if (this.scene) {
-      const unit = () => (this.display.quantity === "none" ? "" : words.unit[this.display.quantity]);
-      found("pointer-place").append(new PointerPanel(this.scene, names, unit).element);
-      this.scene.onViewChange(() => this.rememberView());
-    }
-    found("panels").append(this.motion.element, this.display.element, ...this.plots(), numbersPanel(text, this.counts()));
+    this.placeViewTools(names);
+    const shape = text.measures ? shapePanel(text.measures, this.scene) : null;
+    this.tabs = this.placeTabs(shape?.details ?? null);
+    if (this.plan) addPlanPanel(this.plan.element);
+    if (shape) addPlanPanel(shape.element);
+    this.paper = new Paper(text, this.counts(), extremes);
+    found("paper").replaceChildren(this.paper.element);
+    this.placeActions();
+    this.listen();
     this.applyFragment();
-    window.addEventListener("hashchange", () => this.applyFragment());
+  }
+
+  /// Takes the page's parts away, so that another page can be made of the same joint.
+  close(): void {
+    this.closed.abort();
+    for (const place of ["scene", "strip-place", "view-tools", "legend-place", "side", "paper", "actions"]) found(place).replaceChildren();
+    found("help").remove();
+  }
+
+  /// Whether the page is about load: it opens on what was recorded.
+  private get opensOnLoad(): boolean {
+    return this.text.layers !== null && this.recorded !== null;
+  }
+
+  private placeViewTools(names: Record<BodyName, string>): void {
+    const { scene } = this, tools: HTMLElement[] = [];
+    if (scene) {
+      tools.push(button(words.fitJoint, () => scene.fitJoint()), button(words.fitAll, () => scene.fitAll()));
+      const unit = () => (this.display.quantity === "none" ? "" : words.unit[this.display.quantity]);
+      const pointer = new PointerPanel(scene, names, unit);
+      this.display.element.append(this.display.legend, pointer.element);
+      this.display.element.append(html("div", { class: "row" }, checkbox(words.orthographic, false, (on) => scene.setOrthographic(on))));
+      found("legend-place").replaceChildren(pointer.told);
+      scene.onViewChange(() => this.rememberView());
+    }
+    const drawer = html("details", { id: "view-options", class: "popup" }, html("summary", {}, words.viewOptions), this.display.element);
+    found("view-tools").replaceChildren(...tools, drawer);
+  }
+
+  private placeTabs(measures: HTMLDetailsElement | null): Tabs {
+    const { text } = this, details = html("section", { "aria-label": words.tab.details });
+    const planPanels = html("div", { id: "plan-panels" }), planTab = html("section", { "aria-label": words.tab.plan }, planPanels);
+    const licences = html("pre", { id: "licences", tabindex: 0 });
+    const licencesFold = fold(words.licences, false, licences);
+    licencesFold.addEventListener("toggle", () => void showLicences(licences), { once: true });
+    details.append(
+      ...numberFolds(text, this.counts(), [this.motion.answer, this.motion.depth, this.motion.took]), ...(this.plan ? [this.plan.details] : []),
+      ...(measures ? [measures] : []), html("p", {}, words.scope(scopeOf(text))), licencesFold);
+    const figures = this.figures();
+    const tabs = new Tabs(words.tabs, [
+      { id: "motion", title: words.tab.motion, panel: this.motion.element }, { id: "figures", title: words.tab.figures, panel: figures },
+      { id: "plan", title: words.tab.plan, panel: planTab }, { id: "details", title: words.tab.details, panel: details },
+    ], () => undefined);
+    tabs.setShown("plan", false);
+    planPanels.addEventListener("filled", () => tabs.setShown("plan", true));
+    found("side").replaceChildren(tabs.list, ...tabs.panels);
+    const hasFigures = figures.querySelector("figure, button") !== null;
+    const arrange = () => {
+      tabs.setBeside("figures", wide.matches && hasFigures);
+      document.body.classList.toggle("wide", wide.matches && hasFigures);
+      if (!hasFigures) tabs.setShown("figures", false);
+    };
+    wide.addEventListener("change", arrange, { signal: this.closed.signal });
+    arrange();
+    if (this.opensOnLoad) tabs.show("figures");
+    return tabs;
+  }
+
+  private placeActions(): void {
+    found("actions").replaceChildren(...actions({
+      picture: this.scene && (() => void this.savePicture()), print: () => window.print(),
+      copyLink: () => {
+        this.writeView();
+        void copyLink((message, ...parts) => tell("status", message, ...parts));
+      },
+    }));
+  }
+
+  private listen(): void {
+    const { signal } = this.closed;
+    window.addEventListener("hashchange", () => this.applyFragment(), { signal });
+    // Where no picture was made for paper it shows the joint as it is.
+    window.addEventListener("beforeprint", () => this.takePictureForPaper(), { signal });
+    listenToKeys({
+      "1": () => this.tabs.showNumber(1), "2": () => this.tabs.showNumber(2), "3": () => this.tabs.showNumber(3), "4": () => this.tabs.showNumber(4),
+      f: () => this.scene?.fitJoint(), u: () => this.motion.undo(), "0": () => this.motion.set(this.text.reference_deg, this.text.reference_mm),
+      " ": () => this.recorded?.toggle(), "?": () => found<HTMLDialogElement>("help").showModal(),
+    }, signal);
+  }
+
+  private showNotes(): void {
+    this.tabs.show("details");
+    const notes = found<HTMLDetailsElement>("checks");
+    notes.open = true;
+    notes.scrollIntoView();
+  }
+
+  private async savePicture(): Promise<void> {
+    const { scene } = this;
+    if (!scene) return;
+    const title = `${headingOf(this.text)} · ${this.poseLine()}`;
+    const blob = await scene.picture(title);
+    saveBlob(`${shortened(this.text.title, 40).replaceAll(/[^\p{L}\p{N}]+/gu, "_")}.png`, blob);
+  }
+
+  /// "flexion 90.0°, adduction 0.0°, internal rotation 20.0°"
+  private poseLine(): string {
+    const { angles } = this.motion.coordinates;
+    return this.text.coordinates.slice(0, this.text.joint.kind === "hinge" ? 1 : 3).map(({ name }, i) => `${spaced(name)} ${fixed(angles[i]!, 1)}°`).join(", ");
+  }
+
+  private hasWorstPicture = false;
+
+  private takePictureForPaper(): void {
+    if (this.hasWorstPicture || !this.scene) return;
+    this.paper.setPicture(this.scene.pictureCanvas("").toDataURL("image/png"), `${words.poseHere} ${this.poseLine()}`);
+  }
+
+  /// The limit that the sentence is about, drawn for paper while nobody waits.
+  private drawWorst(): void {
+    const { text, arrays } = this, { rom, joint } = text;
+    const told = rom && toldFirst(rom, joint.anatomy === "hip" && joint.kind !== "hinge");
+    const pose = told && text.poses.find(({ name }) => name === told.name);
+    if (!told || !pose || told.reason !== "contact" || !this.scene) return;
+    window.setTimeout(() => {
+      if (this.closed.signal.aborted) return;
+      void pictureOf(text, arrays, pose, this.labelOf(told), rom.bearing?.head?.radius_mm ?? null).then((picture) => {
+        if (!picture) return;
+        this.hasWorstPicture = true;
+        this.paper.setPicture(picture, sentenceOf(told, text));
+      });
+    }, pictureAfter_ms);
+  }
+
+  private labelOf(motion: MotionAnswer): string {
+    return [motionName(motion.name), placeOf(motion, this.text)].filter(Boolean).join(": ");
   }
 
   /// The view that the address says.
@@ -104,24 +273,34 @@ class Page {
     if (camera && this.scene) this.scene.viewpoint = camera;
     this.display.apply(display);
     this.zones?.show(zone);
-    if (canCompute) this.motion.set(values.slice(0, 3), values.slice(3));
+    if (this.computes) this.motion.set(values.slice(0, 3), values.slice(3));
+    if (this.opensOnLoad && Object.keys(coordinates).length === 0) this.recorded?.show(0);
   }
 
   /// The joint is ready in the worker; poses are answered from now on.
   compute(core: CoreClient): void {
+    const count = this.text.joint.kind === "hinge" ? 1 : 3;
+    this.freeAngles = new FreeAngles(core, count, (vary, at, intervals) => this.motion.setFree(vary, at, intervals));
+    this.clearance = new Clearance(core, this.arrays.mobile, (at, clear_mm) => this.motion.setClearance(at, clear_mm));
+    if (this.arrays.bearing !== "found" && !this.arrays.bearing.counts) this.clearance.leaveOut(this.arrays.bearing.mobile ?? []);
     core.listen({
-      shown: (_, shown, roundTrip_ms) => {
+      shown: (at, shown, roundTrip_ms) => {
         this.scene?.setPose(shown.pose);
         if (this.display.quantity === "none" || this.display.quantity === "removed") this.show(this.storedValues());
         const pairs = Array.from(shown.pairs);
         this.scene?.setMarked("contact", pairs.filter((_, i) => i % 2 === 0), pairs.filter((_, i) => i % 2 === 1));
         this.motion.show(shown, roundTrip_ms);
+        this.freeAngles?.ask(at, shown.pose);
+        if (!shown.inContact) this.clearance?.ask(at);
         document.documentElement.dataset["answered"] = String(Number(document.documentElement.dataset["answered"] ?? 0) + 1);
       },
       values: (values) => this.show(values),
-      limit: (at, limit) => this.motion.setLimit(at, limit),
+      limit: () => undefined,
       depth: (depth) => this.motion.showDepth(depth),
-      bearing: (triangles) => this.markBearing(triangles),
+      bearing: (triangles) => {
+        if (this.arrays.bearing === "found") this.clearance?.leaveOut(triangles);
+        this.markBearing(triangles);
+      },
       mapPoint: (point, intervals) => {
         this.mapPlot?.set(point, intervals);
         found("map-progress").textContent = this.mapPlot?.progress() ?? "";
@@ -130,31 +309,35 @@ class Page {
     });
     this.core = core;
     // For scripts in the console and for tests: docs/report.md, "From a script".
-    Object.assign(globalThis, { condyle: { query: (query: Query) => core.query(query) } });
+    Object.assign(globalThis, { condyle: { query: (query: Query) => core.query(query), scene: this.scene } });
     this.moved(this.motion.coordinates);
     core.askBearing();
+    this.drawWorst();
   }
 
   private show(values: BothValues | null): void {
     this.scene?.bodies.fixed.show(values?.fixed ?? null);
     this.scene?.bodies.mobile.show(values?.mobile ?? null);
     this.scene?.draw();
+    const { quantity } = this.display;
+    if (this.plateau && quantity !== "none") this.plateau.plot.show(values?.[this.plateau.body] ?? null, quantity, this.display.end);
   }
 
   private markBearing(triangles: Uint8Array): void {
     this.scene?.setMarked("bearing", [], [...triangles.keys()].filter((t) => triangles[t]));
   }
 
-  /// For browsers without WebAssembly: poses that the report holds.
-  useStoredPoses(): void {
-    warn(words.noWebAssembly);
+  /// For pages that cannot compute: poses that the report holds.
+  useStoredPoses(why: string): void {
+    warn(why);
     if ("mobile_roles" in this.text.arrays) this.markBearing(this.report!.array("mobile_roles", "u8").map((role) => role % 2));
     const names = this.text.poses.map(({ name }) => name);
+    this.drawWorst();
     if (names.length === 0) return;
     const poses = choice<string>(
       words.precomputed, Object.fromEntries(names.map((name) => [name, spaced(name)])), names[0]!, (name) => this.showStored(name));
     this.poseChoice = poses.querySelector("select");
-    found("panels").prepend(section(words.precomputed, poses));
+    this.motion.element.prepend(html("div", { class: "row" }, poses));
     this.showStored(names[0]!);
   }
 
@@ -166,13 +349,16 @@ class Page {
     this.storedPose = pose;
     this.scene?.setPose(pose.pose);
     this.recolour();
-    this.scene?.showContactPoint(pose.contact_point_mm);
+    const motion = this.text.rom?.motions.find((known) => known.name === name) ?? null;
+    this.motion.markEnd(motion);
+    if (motion) return this.arrived({ ...motion, contact_point_mm: pose.contact_point_mm });
+    this.scene?.leaveLimit();
     this.zones?.show(name);
   }
 
   /// Another quantity is asked for.
   private recolour(): void {
-    if (canCompute) return this.moved(this.motion.coordinates);
+    if (this.computes) return this.ask(this.motion.coordinates);
     const pose = this.display.quantity === "gap" ? this.storedPose : null;
     this.show(pose ? { fixed: this.storedGaps(pose.fixed_gaps), mobile: this.storedGaps(pose.mobile_gaps) } : this.storedValues());
   }
@@ -182,10 +368,11 @@ class Page {
     return this.display.quantity === "removed" ? this.removed : null;
   }
 
-  /// A frame of the recorded motion: its pose is in the report, its colours are computed.
+  /// A frame of the recorded motion: its pose is in the report, its colours are computed. A gap has no pose: the joint stays.
   private showFrame({ angles, translation, X_FM }: Frame): void {
+    if (angles.some(Number.isNaN)) return;
     this.motion.set(angles, translation);
-    if (canCompute || X_FM.some(Number.isNaN)) return;
+    if (this.computes || X_FM.some(Number.isNaN)) return;
     this.storedPose = null;
     this.scene?.setPose(X_FM);
     this.recolour();
@@ -198,21 +385,34 @@ class Page {
     };
   }
 
-  private plots(): HTMLElement[] {
-    const { rom, map, recorded } = this.text;
-    const made: HTMLElement[] = [];
-    if (recorded && this.report)
-      made.push(new RecordedPanel(this.report, recorded, (frame) => this.showFrame(frame)).element);
-    const go = canCompute || this.text.poses.length ? (motion: MotionAnswer) => this.motion.goToEnd(motion) : null;
-    if (rom) {
-      made.push(section(words.limits, figure(limitsDrawing(rom.motions, go))));
-      const clock = clockDrawing(rom.motions, rom.clock_plane, go);
-      if (clock) made.push(section(words.clock, figure(clock)));
-    }
-    if (this.plan) made.unshift(this.plan.element);
-    if (this.text.joint.kind !== "hinge" && (map || canCompute)) made.push(this.mapSection(map));
-    if (this.text.measures) made.push(shapePanel(this.text.measures, this.scene));
-    return made;
+  private figures(): HTMLElement {
+    const { rom, map, joint } = this.text;
+    const go = this.computes || this.text.poses.length ? (motion: MotionAnswer) => this.motion.goToEnd(motion) : null;
+    const hasLimits = rom?.motions.some(({ reason }) => reason !== "contact_at_start") ?? false;
+    const clock = rom && clockDrawing(rom.motions, rom.clock_plane, go);
+    return figuresPanel([
+      { key: "curves", figures: [...this.plateaus(), ...(this.recorded ? [this.recorded.element] : [])] },
+      { key: "map", figures: [
+        ...(joint.kind !== "hinge" && (map || (this.computes && hasLimits)) ? [this.mapSection(map)] : []),
+        ...(clock ? [clockSection(figure(clock))] : []),
+      ] },
+    ]);
+  }
+
+  /// The surface of a tibia that carries load.
+  private plateaus(): HTMLElement[] {
+    const { layers, joint } = this.text;
+    if (!layers || joint.anatomy !== "knee" || !this.computes) return [];
+    const height = (body: BodyName) => {
+      const { vertices } = this.arrays[body];
+      let sum = 0;
+      for (let i = 1; i < vertices.length; i += 3) sum += vertices[i]!;
+      return sum / vertices.length;
+    };
+    const body: BodyName = height("fixed") < height("mobile") ? "fixed" : "mobile";
+    const plot = new Plateau(this.arrays[body], layers[body], named(joint[body]));
+    this.plateau = { plot, body };
+    return [plot.element];
   }
 
   /// The report's map, or a button that has the page compute one.
@@ -220,13 +420,22 @@ class Page {
     const place = section(words.map);
     const showMap = (answer: MapAnswer) => {
       const angle = (name: string) => this.text.coordinates.findIndex((c) => c.name === name);
-      this.mapPlot = new MapPlot(answer, canCompute ? (column, row) => {
-        const angles: number[] = [0, 0, 0];
+      const at = (column: number, row: number): [number, number, number] => {
+        const { angles } = this.motion.coordinates;
         angles[angle(answer.columns.angle)] = column;
         angles[angle(answer.rows.angle)] = row;
-        angles[angle(answer.vary)] = answer.start_deg;
-        this.motion.goTo(angles);
+        return angles;
+      };
+      this.mapPlot = new MapPlot(answer, this.computes ? {
+        go: (column, row) => {
+          const angles = at(column, row);
+          angles[angle(answer.vary)] = answer.start_deg;
+          this.motion.goTo(angles);
+        },
+        drag: (column, row) => this.motion.drag(at(column, row)),
       } : null);
+      this.mapAngles = [angle(answer.columns.angle), angle(answer.rows.angle)];
+      this.markOnMap(this.motion.coordinates);
       place.append(this.mapPlot.element);
     };
     if (map) {
@@ -250,15 +459,36 @@ class Page {
     return place;
   }
 
+  /// Numbers of the angles of the map's columns and rows.
+  private mapAngles: [number, number] | null = null;
+
+  private markOnMap({ angles }: Coordinates): void {
+    if (this.mapAngles) this.mapPlot?.setPose(angles[this.mapAngles[0]]!, angles[this.mapAngles[1]]!);
+  }
+
   private arrived(motion: MotionAnswer): void {
-    this.scene?.showContactPoint(motion.contact_point_mm);
+    this.scene?.arriveAt(motion.contact_point_mm, this.pinOf(motion), "mobile");
     this.zones?.show(motion.name);
+    this.strip.tell(motion);
+  }
+
+  /// "1:08, neck on rim"
+  private pinOf(motion: MotionAnswer): string {
+    const place = placeOf({ ...motion, clock_hour: motion.clock_hour }, this.text);
+    return motion.clock_hour === null ? place : `${clockTime(motion.clock_hour)}, ${place.replace(` at ${clockTime(motion.clock_hour)}`, "")}`;
+  }
+
+  private ask(at: Coordinates): void {
+    const { quantity } = this.display;
+    this.core?.ask(at, quantity === "removed" ? "none" : quantity, null);
   }
 
   private moved(at: Coordinates): void {
-    const { quantity } = this.display;
-    this.core?.ask(at, quantity === "removed" ? "none" : quantity, this.motion.ranges());
-    this.scene?.showContactPoint(null);
+    this.clearance?.drop();
+    this.ask(at);
+    this.scene?.leaveLimit();
+    this.strip.unmark();
+    this.markOnMap(at);
     this.rememberView();
   }
 
@@ -274,22 +504,31 @@ class Page {
   /// Browsers refuse an address that changes at every frame.
   private rememberView(): void {
     clearTimeout(this.fragmentTimer);
-    this.fragmentTimer = window.setTimeout(() => {
-      const { angles, translation } = this.motion.coordinates;
-      const values = [...angles, ...translation];
-      const coordinates = Object.fromEntries(
-        Object.entries(this.referencePose()).map(([name, reference], i) => [name, values[i]!, reference] as const)
-          .filter(([, value, reference]) => value !== reference));
-      history.replaceState(null, "", writeViewState({
-        coordinates, display: this.display.state, zone: this.zones?.motion ?? "", camera: this.scene?.viewpoint ?? null,
-      }));
-    }, 300);
+    this.fragmentTimer = window.setTimeout(() => this.writeView(), 300);
+  }
+
+  private writeView(): void {
+    if (this.closed.signal.aborted) return;
+    const { angles, translation } = this.motion.coordinates;
+    const values = [...angles, ...translation];
+    const coordinates = Object.fromEntries(
+      Object.entries(this.referencePose()).map(([name, reference], i) => [name, values[i]!, reference] as const)
+        .filter(([, value, reference]) => value !== reference));
+    history.replaceState(null, "", writeViewState({
+      coordinates, display: this.display.state, zone: this.zones?.motion ?? "", camera: this.scene?.viewpoint ?? null,
+    }));
   }
 
   private counts(): { fixed: [number, number]; mobile: [number, number] } {
     const of = ({ vertices, triangles }: JointArrays["fixed"]): [number, number] => [vertices.length / 3, triangles.length / 3];
     return { fixed: of(this.arrays.fixed), mobile: of(this.arrays.mobile) };
   }
+}
+
+function clockSection(drawn: HTMLElement): HTMLElement {
+  const made = section(words.clock, drawn);
+  made.classList.add("clock-section");
+  return made;
 }
 
 /// Internal rotation over flexion and adduction, every ten degrees.
@@ -299,55 +538,72 @@ function coarseMap(): MapQuestion {
 }
 
 /// In full, once they are asked for.
-async function showLicences(): Promise<void> {
+async function showLicences(place: HTMLElement): Promise<void> {
   const texts = new TextDecoder().decode(await inflated(bytesOf(textOf("licence-texts") ?? ""), "gzip"));
-  found("licences").textContent = `${textOf("licence-list") ?? ""}\n\n${texts}`;
+  place.textContent = `${textOf("licence-list") ?? ""}\n\n${texts}`;
 }
 
-function wasmBytes(): Promise<ArrayBuffer> {
-  return inflated(bytesOf(textOf("core") ?? ""), "gzip");
+/// The part of the file that computes cannot be read.
+class CoreDamage extends Error {}
+
+async function wasmBytes(): Promise<ArrayBuffer> {
+  try {
+    return await inflated(bytesOf(textOf("core") ?? ""), "gzip");
+  } catch {
+    throw new CoreDamage();
+  }
+}
+
+function isCoreDamage(error: unknown): boolean {
+  return error instanceof CoreDamage || /Aborted|WebAssembly|CompileError/.test(lineOf(error));
 }
 
 /// The page without a joint takes one from files.
 function openEmpty(): void {
   if (!canCompute) return warn(words.noWebAssemblyToRead);
-  found("subtitle").textContent = words.noData;
+  found("title").textContent = words.noData;
   found("scene").append(html("p", { class: "drop-hint" }, words.dropHint));
   const warnOnly = (message: string) => {
     found("messages").replaceChildren();
     warn(message);
   };
-  const panel = new DropPanel(async (fixed, mobile, side) => {
+  const panel = new DropPanel(async (fixedFile, mobileFile, side) => {
     try {
-      const { core, proposal } = await CoreClient.propose(await wasmBytes(), fixed, mobile, side);
+      const { core, proposal } = await CoreClient.propose(await wasmBytes(), fixedFile, mobileFile, side);
       found("messages").replaceChildren();
       panel.element.remove();
       found("scene").replaceChildren();
-      const text = textOfProposal(proposal, fixed.name, mobile.name);
-      found("scope").textContent = words.scope(scopeOf(text));
-      new Page(text, proposal.joint, null).compute(core);
+      const text = textOfProposal(proposal, fixedFile.name, mobileFile.name);
+      new Page(text, proposal.joint, null, true).compute(core);
       return true;
     } catch (error) {
-      warnOnly(lineOf(error));
+      warnOnly(isCoreDamage(error) ? words.coreDamagedToRead : lineOf(error));
       return false;
     }
   }, warnOnly);
-  found("panels").append(panel.element);
+  found("side").append(panel.element);
 }
+
+const canCompute = typeof WebAssembly !== "undefined";
 
 async function open(): Promise<void> {
   found("unfinished").remove();
-  found("licences-title").textContent = words.licences;
-  found("licences-place").addEventListener("toggle", () => void showLicences(), { once: true });
-  found("scope").textContent = words.scope(null);
+  found("skip").textContent = words.skip;
+  found("scope").textContent = words.footer;
   const data = textOf("condyle-data");
   if (data === null) return openEmpty();
+  // A file that misses its mark does not replace the report.
+  catchDrops(() => warn(words.dropOnReport));
   const report = await Report.read(data);
-  found("scope").textContent = words.scope(scopeOf(report.text));
   const arrays = jointArraysOf(report);
-  const page = new Page(report.text, arrays, report);
-  if (!canCompute) return page.useStoredPoses();
-  page.compute(await CoreClient.open(await wasmBytes(), structuredClone(arrays)));
+  const page = new Page(report.text, arrays, report, canCompute);
+  if (!canCompute) return page.useStoredPoses(words.noWebAssembly);
+  try {
+    page.compute(await CoreClient.open(await wasmBytes(), structuredClone(arrays)));
+  } catch (error) {
+    page.close();
+    new Page(report.text, arrays, report, false).useStoredPoses(isCoreDamage(error) ? words.coreDamaged : lineOf(error));
+  }
 }
 
 open().catch((error: unknown) => {

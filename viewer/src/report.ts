@@ -243,6 +243,10 @@ export interface StoredPlan {
 export interface ReportText {
   version: string;
   title: string;
+  /// As given on the command line, each null where it was not; never taken from the clock.
+  case?: string | null;
+  note?: string | null;
+  date?: string | null;
   joint: {
     name: string;
     kind: "ball" | "hinge" | "free";

@@ -111,7 +111,7 @@ const plan = object({
 });
 
 const report = object({
-  version: text, title: text,
+  version: text, title: text, case: ifThere(orNull(text)), note: ifThere(orNull(text)), date: ifThere(orNull(text)),
   joint: object({
     name: text, kind: oneOf("ball", "hinge", "free"), anatomy: oneOf("hip", "knee", "ankle", "elbow", "shoulder"),
     side: oneOf("right", "left"), fixed: text, mobile: text, translation_frame: oneOf("fixed", "joint_axes"),

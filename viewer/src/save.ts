@@ -1,11 +1,15 @@
 /// Offers bytes as a file, from memory.
-export function save(name: string, type: string, text: string): void {
-  const url = URL.createObjectURL(new Blob([text], { type }));
+export function saveBlob(name: string, blob: Blob): void {
+  const url = URL.createObjectURL(blob);
   const link = document.createElement("a");
   link.href = url;
   link.download = name;
   link.click();
   URL.revokeObjectURL(url);
+}
+
+export function save(name: string, type: string, text: string): void {
+  saveBlob(name, new Blob([text], { type }));
 }
 
 /// Lines of cells as CSV; what holds a comma, a quote or a line break is quoted.

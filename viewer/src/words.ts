@@ -5,11 +5,94 @@ interface BandSource extends BandSigma {
   seed: number;
 }
 
+/// "internal rotation at 90° flexion", "FADIR".
+export function motionName(name: string): string {
+  const said = name.replaceAll("_", " ");
+  return /^(fadir|faber)$/.test(said) ? said.toUpperCase() : said.replace(/ at (\d+) /, " at $1° ");
+}
+
 /// Every text of the page, in one table: another language is another table.
 export const words = {
   pageTitle: (title: string) => `${title} – Condyle`,
-  subtitle: (side: string, anatomy: string, { fixed, mobile }: { fixed: string; mobile: string }) =>
-    `${side} ${anatomy}: ${mobile} in ${fixed}`,
+  heading: (side: string, anatomy: string, { fixed, mobile }: { fixed: string; mobile: string }) =>
+    `${side.charAt(0).toUpperCase()}${side.slice(1)} ${anatomy} · ${mobile} / ${fixed}`,
+  versionShown: (version: string) => `condyle ${version}`,
+  skip: "Skip to the motions",
+  copyLink: "Copy link",
+  linkCopied: "The link to this view is copied.",
+  linkShown: "Copy the link to this view from here:",
+  picture: "Picture",
+  print: "Print",
+  help: "?",
+  helpLabel: "Help",
+  closeHelp: "Close",
+  /// Sixty words.
+  helpText:
+    "The strip says where motions end, with a 90 % band and the normal range. Press a figure and the joint goes there. Drag the bones to turn " +
+    "them, the sliders to move the joint: solid bars are free, hatched ones blocked. Figures has the map and the clock face, Details the method " +
+    "and files. Only bone is computed: soft tissue usually stops a hip earlier. Undo takes a step back.",
+  keys: [
+    ["1 2 3 4", "tabs"], ["F", "fit the joint"], ["U", "undo"], ["0", "back to zero"], ["Space", "play"], ["?", "this card"],
+    ["arrows, + and −", "on the scene: turn and zoom"],
+  ] as const,
+  keysTitle: "Keys",
+  tabs: "Views of the joint",
+  tab: { motion: "Motion", figures: "Figures", plan: "Plan", details: "Details" },
+  figures: "Figures",
+  figureGroup: "Show",
+  figureGroups: { curves: "curves", map: "map and clock face" } as Record<string, string>,
+  fitJoint: "Fit joint",
+  fitAll: "Fit all",
+  viewOptions: "View options",
+  orthographic: "Without perspective",
+  result: "Result",
+  footer: "Research software, not a medical device. Nothing leaves this computer.",
+  normalIs: (deg: string) => `normal ${deg}°`,
+  short: (lacks: string, normal: string) => `${lacks}° short of ${normal}°`,
+  lacks: (lacks: string, normal: string) => `${lacks}° short of normal (${normal}°)`,
+  neckOnRim: "neck on rim",
+  atHour: (meets: string, hour: string) => `${meets} at ${hour}`,
+  awayFromRim: "away from the rim",
+  endsSentence: (name: string, limit: string, lacks: string | null, place: string) =>
+    `${[`${name} ends at ${limit}`, lacks, place].filter(Boolean).join(", ")}.`,
+  freeSentence: (name: string, deg: string) => `${name} meets no bone up to ${deg}°, where its range ends.`,
+  translationSentence: (name: string, limit: string) => `${name} is known to ${limit}: what its translation follows ends there.`,
+  startsInContactSentence: (name: string) => `${name} starts in contact.`,
+  noLimitsInContact: "The surfaces are in contact where motions start: no motion has a limit from there.",
+  noted: (count: number) => (count === 1 ? "1 note of the checks:" : `${count} notes of the checks:`),
+  readNotes: "Read",
+  tileKey: "Bar: limit; band: 5 to 95 %; line: normal. Press to go there.",
+  saveLimits: "Save limits, CSV",
+  isFree: "Free",
+  freeClear: (mm: string) => `Free · ${mm} mm clear`,
+  atLimit: (place: string) => `At the limit, first contact: ${place}`,
+  freeAfter: (deg: string, movement: string) => `free after ${deg}° of ${movement}`,
+  dismiss: "Close this line",
+  undo: "Undo",
+  undoKey: "One step back (U)",
+  noNumber: "That is no number: not taken.",
+  notTaken: (said: string, low: string, high: string) => `${said} is not between ${low} and ${high}: not taken.`,
+  thisPose: "This pose",
+  method: "Method and data",
+  sourceFiles: "Source files",
+  planDetails: "Limits and notes of the plan",
+  measures: "Measures of the hip",
+  dropOnReport: "This page shows a joint and takes no other files. To look at other bones open a page without a joint: condyle report --empty.",
+  coreDamaged:
+    "The part of this file that computes is damaged: the page shows the poses that were stored in it, and none in between. Make the report anew.",
+  coreDamagedToRead: "The part of this file that computes is damaged: it reads no meshes. Make the page anew.",
+  paperPicture: (name: string, sentence: string) => `${name}: ${sentence}`,
+  poseHere: "The joint as it was shown when this was printed.",
+  speed: "Speed",
+  speeds: { "0.25": "¼×", "0.5": "½×", "1": "1×", "2": "2×" } as Record<string, string>,
+  loop: "Loop",
+  quantities: "Quantities",
+  seconds: (s: string) => `${s} s`.replace("-", "\u2212"),
+  frameNumber: (frame: string) => `frame ${frame}`,
+  largest: (title: string) => `largest ${title}`,
+  curvesCaption: "Curves of the recorded motion. The line is the frame that the scene shows: drag it, or use the arrow keys.",
+  plateau: (name: string, quantity: string) => `${name} from above, front up: ${quantity}`,
+  withoutHour: (names: string) => `Without an hour, as they are not at the rim: ${names}.`,
   sides: { right: "right", left: "left" },
   anatomies: { hip: "hip", knee: "knee", ankle: "ankle", elbow: "elbow", shoulder: "shoulder" },
   kinds: { ball: "ball joint", hinge: "hinge", free: "free joint" },
@@ -37,23 +120,25 @@ export const words = {
   sceneLabel: (fixed: string, mobile: string) =>
     `The joint in three dimensions: ${fixed} and ${mobile}. Drag to turn, wheel or pinch to zoom, drag with two fingers or the ` +
     "right button to move; with the keyboard arrows turn, plus and minus zoom.",
-  /// Anterior, superior, right.
-  axisLetters: ["A", "S", "R"] as const,
+  scaleBar: (mm: number) => `${mm} mm`,
+  scaleBarAtCentre: "at the centre",
+  legendTitle: (quantity: string, unit: string) => `${quantity}, ${unit}`,
+  onlyABound: "only a bound",
   views: "Look from",
   view: {
     anterior: "front", posterior: "back", superior: "above", inferior: "below", right: "right", left: "left",
   },
   colour: "Colour",
   quantity: {
-    gap: "gap along rays", depth: "depth to read", nearest: "nearest distance", pressure: "pressure", removed: "bone that went", none: "none",
+    gap: "clearance toward the centre", depth: "depth", nearest: "nearest distance", pressure: "pressure", removed: "bone that went", none: "none",
   },
   unit: { gap: "mm", depth: "mm", nearest: "mm", pressure: "MPa", removed: "mm" },
   quantityHelp: {
-    gap: "Distance along the ray from the joint centre, mm: below zero the vertex is inside the other bone.",
-    depth: "How deep a vertex is inside the other bone, mm, where its ray measures that; hatched: a lower bound only.",
-    nearest: "Distance to the nearest point of the other bone, mm: below zero inside.",
-    pressure: "Load on the triangles around a vertex over their area, MPa, of thin layers on rigid bones.",
-    removed: "How far the surface lies below the one before the cut, mm.",
+    gap: "To the other bone along the ray from the joint centre: below zero a vertex is inside it.",
+    depth: "How deep a vertex is inside the other bone; hatched: at least so deep.",
+    nearest: "To the nearest point of the other bone: below zero inside it.",
+    pressure: "Load over area around a vertex, of thin layers on rigid bones.",
+    removed: "How far the surface lies below the one before the cut.",
     none: "Plain bones.",
   },
   scaleEnd: "Scale to",
@@ -75,7 +160,7 @@ export const words = {
   hover: (body: string, vertex: number, value: string) => `${body}, vertex ${vertex}: ${value}`,
   vertexOf: "Vertex of",
   vertexNumber: "Number of a vertex",
-  tellVertex: "Tell",
+  tellVertex: "Show vertex",
   noVertex: (body: string, last: number) => `${body} has vertices 0 to ${last}`,
   bound: "at least",
   noValue: "no value",
@@ -84,9 +169,9 @@ export const words = {
   reset: "Back to zero",
   coordinate: (name: string) => `${name}, degrees`,
   translation: (axis: string) => `${axis}, mm`,
-  free: (name: string, low: string, high: string) => `${name} is free from ${low} to ${high} from here`,
-  startsInContact: "in contact here",
-  manoeuvres: "Go to the end of",
+  free: (low: string, high: string) => `free ${low} to ${high}`,
+  contactFreeFrom: (deg: string) => `in contact, free from ${deg}`,
+  startsInContact: "in contact",
   inContact: "In contact",
   notInContact: "Not in contact",
   inside: (body: string, { count }: { count: number }) => `${count} vertices of ${body} inside`,
@@ -108,8 +193,8 @@ export const words = {
   limits: "Limits",
   limitsCaption:
     "How far each motion goes before bone meets bone. Bar: the limit; whisker: 5 to 95 % of its band; line: normal range.",
-  over: (limit: string) => `over ${limit}`,
-  bandOf: (low: string, high: string) => `(${low} to ${high})`,
+  over: (limit: string) => `>${limit}`,
+  bandOf: (low: string, high: string) => `(${low}–${high})`,
   limit: "limit",
   normal: "normal range",
   bearingContact: "bearing contact",
@@ -179,10 +264,11 @@ export const words = {
   computeMap: "Compute a map",
   mapProgress: (done: number, total: number) => `Computing the map: ${done} of ${total} points`,
   mapCaption: (vary: string, column: string, row: string) =>
-    `How far ${vary} goes at every ${column} and ${row}, from its start. Hatched: not free at the start.`,
-  mapPlace: (column: string, column_deg: number, row: string, row_deg: number) => `${column} ${column_deg}°, ${row} ${row_deg}°`,
+    `Degrees of ${vary} at every ${column} and ${row}. Hatched: not free at the start; cross: the joint.`,
+  mapPlace: (column: string, column_deg: string, row: string, row_deg: string) => `${column} ${column_deg}°, ${row} ${row_deg}°`,
   mapPoint: (place: string, vary: string, intervals: string) => `${place}: ${vary} ${intervals}`,
-  severalFree: "more than one free interval: press to see all",
+  severalKey: "more than one free interval",
+  severalFree: "Press a cell to go there and see all of its free intervals.",
   freeFrom: (low: string, high: string) => `free from ${low}° to ${high}°`,
   orMore: (degrees: number) => `${degrees}° or more`,
   notFree: "nowhere free",
@@ -208,7 +294,7 @@ export const words = {
     "Drop the meshes of a hip here, or choose them: the hip bone first, or a file named femur (STL, OBJ, PLY, VTP, VTK). They stay " +
     "on this computer.",
   dropSide: "Side",
-  dropSides: { told: "as the bones tell", right: "right", left: "left" },
+  dropSides: { told: "automatic", right: "right", left: "left" },
   dropSecond: (name: string) => `${name} is the bone that stays; now the one that moves.`,
   dropHint: "Drop the meshes of a hip on this page",
   dropTwo: "A joint has two meshes: drop these two, or one after the other.",
@@ -218,7 +304,6 @@ export const words = {
   saveSvg: "Save as SVG",
   saveData: "Save data",
 
-  numbers: "Numbers",
   ofBodies: (side: string, kind: string) => `Bodies of the joint: ${side}, ${kind}`,
   how: "How limits were found",
   guarantee: "A limit is the first contact of the surfaces as the angle turns: free before it, in contact at it or past it by at most " +

@@ -29,7 +29,8 @@ interface Shown {
 /// Controls of the scene's display; the colour scale with it.
 export class DisplayPanel {
   readonly element: HTMLElement;
-  readonly legend = html("div", { id: "legend" });
+  /// What the colours mean; their scale stands within the scene.
+  readonly legend = html("p", { class: "small" });
   private chosen: ShownQuantity;
   private readonly usualEnds;
   private readonly ends;
@@ -70,7 +71,7 @@ export class DisplayPanel {
     this.clipAxis = clipAxis.querySelector("select")!;
     this.clipAt.addEventListener("input", () => this.cut());
     this.element = section(words.scene,
-      html("div", { class: "row" }, html("span", {}, words.views), ...(Object.keys(words.view) as View[]).map((view) =>
+      html("div", { class: "row views" }, html("span", {}, words.views), ...(Object.keys(words.view) as View[]).map((view) =>
         button(words.view[view], () => {
           scene?.look(view);
           changed();
@@ -85,13 +86,18 @@ export class DisplayPanel {
     this.drawScale();
   }
 
+  /// End of the scale.
+  get end(): number {
+    return this.chosen === "none" ? 1 : this.ends[this.chosen];
+  }
+
   get quantity(): ShownQuantity {
     return this.chosen;
   }
 
-  /// A page of a plan shows first what goes.
+  /// A page of a plan shows first what goes, one of layers their pressure.
   private get usualQuantity(): ShownQuantity {
-    return this.showable.quantities.includes("removed") ? "removed" : "gap";
+    return (["removed", "pressure"] as const).find((key) => this.showable.quantities.includes(key)) ?? "gap";
   }
 
   get state(): DisplayState {
@@ -155,25 +161,16 @@ export class DisplayPanel {
 
   private drawScale(): void {
     const quantity = this.chosen;
-    this.legend.replaceChildren();
+    this.legend.textContent = words.quantityHelp[quantity];
     this.scaleEnd.disabled = quantity === "none";
-    if (quantity === "none") return;
+    if (quantity === "none") {
+      this.scene?.setScale(null);
+      return;
+    }
     const end = this.ends[quantity];
     this.unit.textContent = words.unit[quantity];
     this.scaleEnd.value = String(end);
-    const scale = colourScale(quantity, end);
-    this.scene?.setScale(scale);
-    const canvas = html("canvas", { width: 256, height: 1, "aria-hidden": "true" });
-    const context = canvas.getContext("2d")!;
-    for (let i = 0; i < canvas.width; ++i) {
-      context.fillStyle = scale.colour(scale.low + ((scale.high - scale.low) * i) / (canvas.width - 1));
-      context.fillRect(i, 0, 1, 1);
-    }
-    const ticks = scale.low === 0 ? [0, end / 2, end] : [-end, 0, end];
-    this.legend.append(
-      html("span", {}, `${words.quantity[quantity]}, ${words.unit[quantity]}`), canvas,
-      html("span", { class: "ticks" }, ...ticks.map((tick) => html("span", {}, String(Number(tick.toFixed(2)))))),
-      html("span", { class: "small" }, words.quantityHelp[quantity]));
+    this.scene?.setScale(colourScale(quantity, end));
   }
 }
 

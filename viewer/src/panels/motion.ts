@@ -1,83 +1,130 @@
-import { scaleLinear } from "d3-scale";
-import { button, html, named, section, shortened, spaced, svg } from "../dom";
-import type { Coordinates, Depth, LiveLimit, Shown } from "../core/protocol";
-import { toldBand } from "../plots/limits";
-import type { MotionAnswer, ReportText } from "../report";
+import { button, html, named, spaced, svg } from "../dom";
+import type { Coordinates, Depth, Shown } from "../core/protocol";
+import { fixed, plain } from "../numbers";
+import type { Interval, MotionAnswer, ReportText } from "../report";
+import { toldBand } from "../result";
 import { words } from "../words";
+import { NumberField } from "./angle_field";
+import { intervalAt, wayOut } from "./free_angles";
+import { ManoeuvreGrid } from "./manoeuvres";
+import { StatusChip, type WayOut } from "./status";
+import { placeOf } from "./strip";
 
-const stripWidth = 400, stripHeight = 18;
-const usualRange_deg = 120, translationRange_mm = 20, farthest_deg = 180;
+const usualRange_deg = 120, translationRange_mm = 20, farthest_deg = 180, mostUndone = 100;
+/// Steps of one drag are one step back.
+const gesture_ms = 800;
 const axes = ["x", "y", "z"] as const;
 
 interface Slider {
   name: string;
   input: HTMLInputElement;
-  number: HTMLInputElement;
-  strip: SVGSVGElement;
+  field: NumberField;
+  track: SVGSVGElement;
   told: HTMLElement;
   low: number;
   high: number;
-  limits: { negative: LiveLimit | null; positive: LiveLimit | null };
+  /// As it was told of the pose shown; null until it is.
+  free: Interval[] | null;
 }
 
-/// Sliders of the joint's coordinates with the limits from where it is, and what the pose shows.
+export interface MotionHooks {
+  moved: (at: Coordinates) => void;
+  /// A motion that was asked for has come to its end.
+  arrived: (motion: MotionAnswer) => void;
+  /// Where the page cannot compute: the joint then takes the poses that the report holds, by their names, and none in between.
+  showStored: ((name: string) => void) | null;
+}
+
+/// What the pose is, sliders of the joint's coordinates with what is free from there, and the end of each motion.
 export class MotionPanel {
   readonly element: HTMLElement;
+  /// Of the pose, in full: among the details.
+  readonly answer = html("p", { id: "answer" });
+  readonly depth = html("p", { id: "depth" });
+  readonly took = html("p", { class: "small no-print", "aria-hidden": "true" });
+  private readonly status: StatusChip;
   private readonly sliders: Slider[];
-  private readonly translations: HTMLInputElement[] = [];
-  private readonly answer = html("p", { id: "answer", "aria-live": "polite" });
-  private readonly depth = html("p", { id: "depth", "aria-live": "polite" });
-  private readonly took = html("p", { class: "small no-print", "aria-hidden": "true" });
+  private readonly translations: NumberField[] = [];
+  private readonly grid: ManoeuvreGrid | null;
+  private readonly undoButton: HTMLButtonElement;
+  private readonly refusal = html("p", { id: "refusal", role: "status" });
+  private readonly past: Coordinates[] = [];
+  private angles: [number, number, number];
+  private translation: [number, number, number];
   private animation = 0;
-  private toldAt = 0;
+  private rememberedAt = -Infinity;
   private isWarm = false;
+  private inContact = false;
+  private clear_mm: number | null = null;
+  private lastDepth: Depth | null = null;
+  /// At whose end the joint is.
+  private end: MotionAnswer | null = null;
 
-  /// `arrived` where a motion that was asked for has come to its end. `showStored` where the page cannot compute: the joint then
-  /// takes the poses that the report holds, by their names, and none in between.
-  constructor(
-    private readonly report: ReportText, private readonly moved: (at: Coordinates) => void,
-    private readonly arrived: (motion: MotionAnswer) => void, private readonly showStored: ((name: string) => void) | null) {
+  constructor(private readonly report: ReportText, private readonly hooks: MotionHooks) {
+    const { showStored } = hooks;
+    this.angles = [...report.reference_deg];
+    this.translation = [...report.reference_mm];
+    this.status = new StatusChip((way) => this.leave(way));
     const count = report.joint.kind === "hinge" ? 1 : 3;
     this.sliders = report.coordinates.slice(0, count).map((_, angle) => this.slider(angle));
-    const rows = this.sliders.map(({ name, input, number, strip, told }) =>
-      html("div", { class: "slider" }, html("label", { for: `angle-${name}` }, spaced(name)), number, input, strip, told));
-    if (report.joint.kind === "free") rows.push(html("div", { class: "row" }, ...axes.map((axis) => this.translation(axis))));
-    const manoeuvres = (report.rom?.motions ?? []).map((motion) =>
-      button(shortened(spaced(motion.name)), () => this.goToEnd(motion), { class: "manoeuvre", disabled: !this.hasPose(motion.name) }));
-    this.element = section(words.motion, ...rows, this.answer, this.depth, this.took,
-      html("div", { class: "row no-print" },
-        button(words.reset, () => (showStored ? showStored("reference") : this.goTo([...report.reference_deg])),
-          { disabled: !this.hasPose("reference") }),
-        ...(manoeuvres.length ? [html("span", {}, words.manoeuvres)] : []), ...manoeuvres));
+    const rows = this.sliders.map(({ name, input, field, track, told }) =>
+      html("div", { class: "slider" }, html("label", { for: `angle-${name}` }, spaced(name)), told, field.input,
+        html("div", { class: "track-place" }, track, input)));
+    if (report.joint.kind === "free") rows.push(html("div", { class: "row translations" }, ...axes.map((axis) => this.moveAlong(axis))));
+    this.sliders.forEach((slider, i) => this.write(slider, this.angles[i]!));
+    const motions = (report.rom?.motions ?? []).filter(({ reason }) => reason !== "contact_at_start");
+    this.grid = motions.length ? new ManoeuvreGrid(report.rom!.motions, (motion) => this.goToEnd(motion), ({ name }) => this.hasPose(name)) : null;
+    this.undoButton = button(words.undo, () => this.undo(), { disabled: true, title: words.undoKey });
+    this.element = html("section", { "aria-label": words.motion }, this.status.element, html("div", { class: "sliders" }, ...rows),
+      html("div", { class: "row motion-row no-print" },
+        button(words.reset, () => (showStored ? showStored("reference") : this.goTo([...report.reference_deg], () => undefined, report.reference_mm)),
+          { disabled: !this.hasPose("reference") }), this.undoButton, this.refusal),
+      ...(this.grid ? [this.grid.element] : []));
   }
 
   get coordinates(): Coordinates {
-    const angles: [number, number, number] = [0, 0, 0];
-    this.sliders.forEach(({ number }, i) => (angles[i] = number.valueAsNumber || 0));
-    const translation: [number, number, number] = [...this.report.reference_mm];
-    this.translations.forEach((input, i) => (translation[i] = input.valueAsNumber || 0));
-    return { angles, translation };
+    return { angles: [...this.angles], translation: [...this.translation] };
   }
 
   /// As said, at once.
   set(angles: readonly number[], translation?: readonly number[]): void {
-    this.sliders.forEach((slider, i) => this.write(slider, angles[i]!));
-    if (translation) this.translations.forEach((input, i) => (input.value = String(translation[i]!)));
-    this.moved(this.coordinates);
+    this.sliders.forEach((slider, i) => {
+      this.angles[i] = angles[i]!;
+      this.write(slider, angles[i]!);
+    });
+    if (translation) this.translation = [translation[0]!, translation[1]!, translation[2]!];
+    this.translations.forEach((field, i) => field.show(this.translation[i]!));
+    this.hasMoved();
+  }
+
+  /// Other angles, in the hand: a map's cross that is dragged.
+  drag(angles: readonly number[]): void {
+    cancelAnimationFrame(this.animation);
+    this.remember();
+    this.set(angles);
+  }
+
+  canGo(motion: MotionAnswer): boolean {
+    return this.hasPose(motion.name);
   }
 
   /// To where a motion ends: the angle that varies to its last bit, the others as they were given.
   goToEnd(motion: MotionAnswer): void {
-    if (this.showStored) return this.showStored(motion.name);
+    if (this.hooks.showStored) return this.hooks.showStored(motion.name);
     const angles = this.report.coordinates.map(({ name }) =>
       (name === motion.vary ? motion.at_limit_deg : motion.start_deg)[name] ?? 0);
-    this.goTo(angles, () => this.arrived(motion), motion.translation_mm ?? this.report.rom?.held_translation_mm);
+    this.goTo(angles, () => {
+      this.markEnd(motion);
+      this.hooks.arrived(motion);
+    }, motion.translation_mm ?? this.report.rom?.held_translation_mm);
   }
 
   /// The joint turns there, at once where its user asked for less motion.
   goTo(angles: readonly number[], there: () => void = () => undefined, given?: readonly number[] | null): void {
     cancelAnimationFrame(this.animation);
-    const from = this.coordinates, translation = given ?? from.translation;
+    this.remember(true);
+    const from = this.coordinates;
+    const translation = given ?? from.translation;
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) {
       this.set(angles, translation);
       there();
@@ -96,19 +143,40 @@ export class MotionPanel {
     step();
   }
 
-  /// How far each angle is searched for its limits, back and forth.
-  ranges(): [number, number][] {
-    return this.sliders.map(() => [farthest_deg, farthest_deg]);
+  undo(): void {
+    const last = this.past.pop();
+    this.undoButton.disabled = this.past.length === 0;
+    if (!last || this.hooks.showStored) return;
+    cancelAnimationFrame(this.animation);
+    this.rememberedAt = -Infinity;
+    this.set(last.angles, last.translation);
   }
 
-  setLimit(at: Coordinates, limit: LiveLimit): void {
-    const slider = this.sliders[limit.vary]!;
-    slider.limits[limit.positive ? "positive" : "negative"] = limit;
-    this.drawStrip(slider, at.angles[limit.vary]!);
+  /// One of the report's poses, where the page cannot compute.
+  markEnd(motion: MotionAnswer | null): void {
+    this.end = motion;
+    this.grid?.mark(motion);
+    this.drawStatus();
+  }
+
+  setFree(vary: number, at: Coordinates, intervals: Interval[]): void {
+    // What is told of another pose is nobody's.
+    if (at.angles.some((deg, i) => deg !== this.angles[i]) || at.translation.some((mm, i) => mm !== this.translation[i])) return;
+    const slider = this.sliders[vary]!;
+    slider.free = intervals;
+    this.drawTrack(slider, at.angles[vary]!);
+    this.drawWay();
+  }
+
+  setClearance(at: Coordinates, clear_mm: number | null): void {
+    if (this.inContact || at.angles.some((deg, i) => deg !== this.angles[i])) return;
+    this.clear_mm = clear_mm;
+    this.drawStatus();
   }
 
   /// Comes once the joint rests, as `condyle depth` answers.
-  showDepth({ deepest, withoutDepth, area_mm2, volume_mm3, volumeError_mm3, coveredAgain_mm3 }: Depth): void {
+  showDepth(depth: Depth): void {
+    const { deepest, withoutDepth, area_mm2, volume_mm3, volumeError_mm3, coveredAgain_mm3 } = depth;
     const bodies = { fixed: named(this.report.joint.fixed), mobile: named(this.report.joint.mobile) };
     const lines: string[] = [];
     if (deepest) {
@@ -125,74 +193,131 @@ export class MotionPanel {
     if (volume_mm3 !== null) lines.push(words.penetrationVolume(volume_mm3, volumeError_mm3!));
     if (coveredAgain_mm3) lines.push(words.coveredAgain(coveredAgain_mm3));
     this.depth.textContent = lines.join("; ");
+    this.lastDepth = depth;
+    this.drawStatus();
   }
 
   show(shown: Shown, roundTrip_ms: number): void {
     // That of another pose is nobody's.
     this.depth.textContent = "";
-    const fixed = named(this.report.joint.fixed), mobile = named(this.report.joint.mobile);
-    const inside = ([["mobile", mobile], ["fixed", fixed]] as const)
+    this.lastDepth = null;
+    this.inContact = shown.inContact;
+    const fixedName = named(this.report.joint.fixed), mobile = named(this.report.joint.mobile);
+    const inside = ([["mobile", mobile], ["fixed", fixedName]] as const)
       .filter(([key]) => shown.inside[key].count > 0)
       .map(([key, name]) => words.inside(name, shown.inside[key]));
-    const text = [
+    this.answer.textContent = [
       shown.inContact ? words.inContact : words.notInContact, ...inside,
       ...(shown.pairs.length ? [words.pairsCount(shown.pairs.length / 2)] : []),
     ].join("; ");
-    // A reader that speaks is not interrupted at every step of a slider.
-    const now = performance.now();
-    if (this.answer.textContent !== text || now - this.toldAt > 1000) {
-      this.answer.textContent = text;
-      this.toldAt = now;
-    }
     this.answer.classList.toggle("contact", shown.inContact);
     // The first answer waits for tables that are made once.
     if (this.isWarm) this.took.textContent = words.stepTook(roundTrip_ms);
     this.isWarm = true;
+    this.drawStatus();
+  }
+
+  private hasMoved(): void {
+    this.end = null;
+    this.clear_mm = null;
+    for (const slider of this.sliders) slider.free = null;
+    this.grid?.mark(null);
+    this.hooks.moved(this.coordinates);
+  }
+
+  private drawStatus(): void {
+    if (this.inContact) {
+      this.status.inContact(this.lastDepth);
+      this.drawWay();
+    } else if (this.end && this.end.reason === "contact") {
+      this.status.atLimit(placeOf(this.end, this.report));
+    } else {
+      this.status.free(this.clear_mm);
+    }
+  }
+
+  /// The least turn of one angle that leaves contact, once all angles are told.
+  private drawWay(): void {
+    if (!this.inContact || this.sliders.some(({ free }) => free === null)) return;
+    const ways = this.sliders.flatMap(({ free }, vary): WayOut[] => {
+      const way = wayOut(free!, this.angles[vary]!);
+      return way ? [{ vary, ...way }] : [];
+    });
+    const way = ways.reduce<WayOut | null>((least, each) => (least && Math.abs(least.turn_deg) <= Math.abs(each.turn_deg) ? least : each), null);
+    if (!way) return this.status.setWay(null, "");
+    const { name, opposite } = this.report.coordinates[way.vary]!, turn = Math.abs(way.turn_deg);
+    this.status.setWay(way, words.freeAfter(plain(turn, turn < 10 ? 1 : 0), spaced(way.turn_deg < 0 ? opposite : name)));
+  }
+
+  private leave({ vary, to_deg }: WayOut): void {
+    const angles = [...this.angles];
+    angles[vary] = to_deg;
+    this.goTo(angles);
+  }
+
+  /// The pose that is left, once for a gesture.
+  private remember(always = false): void {
+    const now = performance.now(), isNew = always || now - this.rememberedAt > gesture_ms;
+    this.rememberedAt = now;
+    if (!isNew) return;
+    this.past.push(this.coordinates);
+    if (this.past.length > mostUndone) this.past.shift();
+    this.undoButton.disabled = false;
   }
 
   private hasPose(name: string): boolean {
-    return !this.showStored || this.report.poses.some((pose) => pose.name === name);
+    return !this.hooks.showStored || this.report.poses.some((pose) => pose.name === name);
   }
 
   private slider(angle: number): Slider {
     const { name } = this.report.coordinates[angle]!;
     const [low, high] = this.rangeOf(angle);
-    const input = html("input", {
-      type: "range", id: `angle-${name}`, min: low, max: high, step: 0.1, value: 0, "aria-label": words.coordinate(spaced(name)),
-      disabled: this.showStored !== null,
+    const label = words.coordinate(spaced(name)), disabled = this.hooks.showStored !== null;
+    const input = html("input", { type: "range", id: `angle-${name}`, min: low, max: high, step: 0.1, value: 0, "aria-label": label, disabled });
+    const taken = (value: number) => {
+      cancelAnimationFrame(this.animation);
+      this.remember();
+      this.angles[angle] = value;
+    };
+    const field = new NumberField(label, -farthest_deg, farthest_deg, 0.1, "°", disabled, (value) => {
+      taken(value);
+      input.value = String(value);
+      this.hasMoved();
+    }, (why) => this.refuse(why));
+    input.addEventListener("input", () => {
+      taken(input.valueAsNumber);
+      field.show(input.valueAsNumber);
+      this.hasMoved();
     });
-    const number = html("input", { type: "number", min: -farthest_deg, max: farthest_deg, step: 0.1, value: 0,
-      "aria-label": words.coordinate(spaced(name)), disabled: this.showStored !== null });
-    const slider: Slider = {
-      name, input, number, low, high, limits: { negative: null, positive: null },
-      strip: svg("svg", { viewBox: `0 0 ${stripWidth} ${stripHeight}`, class: "strip", preserveAspectRatio: "none",
-        "aria-hidden": "true" }),
+    return {
+      name, input, field, low, high, free: null,
+      track: svg("svg", { viewBox: "0 0 100 10", class: "track-strip", preserveAspectRatio: "none", "aria-hidden": "true" }),
       told: html("span", { class: "small told" }),
     };
-    input.addEventListener("input", () => {
-      cancelAnimationFrame(this.animation);
-      number.value = input.value;
-      this.moved(this.coordinates);
-    });
-    number.addEventListener("input", () => {
-      input.value = number.value;
-      this.moved(this.coordinates);
-    });
-    return slider;
   }
 
-  private translation(axis: (typeof axes)[number]): HTMLLabelElement {
-    const input = html("input", { type: "number", min: -translationRange_mm, max: translationRange_mm, step: 0.1,
-      value: this.report.reference_mm[axes.indexOf(axis)]!, disabled: this.showStored !== null });
-    input.addEventListener("input", () => this.moved(this.coordinates));
-    this.translations.push(input);
-    return html("label", {}, `${words.translation(axis)} `, input);
+  private moveAlong(axis: (typeof axes)[number]): HTMLLabelElement {
+    const i = axes.indexOf(axis);
+    const field = new NumberField(words.translation(axis), -translationRange_mm + Math.min(0, this.report.reference_mm[i]!),
+      translationRange_mm + Math.max(0, this.report.reference_mm[i]!), 0.1, " mm", this.hooks.showStored !== null, (value) => {
+        this.remember();
+        this.translation[i] = value;
+        this.hasMoved();
+      }, (why) => this.refuse(why));
+    field.show(this.report.reference_mm[i]!);
+    this.translations.push(field);
+    return html("label", {}, `${words.translation(axis)} `, field.input);
   }
 
-  private write({ input, number }: Slider, angle: number): void {
-    // A limit is quoted to its last bit; the slider shows what it can.
-    number.value = String(angle);
+  private refuse(why: string | null): void {
+    this.refusal.textContent = why ?? "";
+  }
+
+  private write({ input, field }: Slider, angle: number): void {
+    // A limit is kept to its last bit; slider and field show what they can.
+    field.show(angle);
     input.value = String(angle);
+    input.setAttribute("aria-valuetext", `${fixed(angle, 1)}°`);
   }
 
   /// From where motions start to where they may end.
@@ -208,33 +333,30 @@ export class MotionPanel {
     return [Math.max(-farthest_deg, low || -usualRange_deg), Math.min(farthest_deg, high || usualRange_deg)];
   }
 
-  /// Free from here, and the bands of the motions that start at zero.
-  private drawStrip(slider: Slider, at: number): void {
-    const { negative, positive } = slider.limits;
-    if (!negative || !positive) return;
-    const x = scaleLinear([slider.low, slider.high], [0, stripWidth]).clamp(true);
-    const low = at - negative.turned_deg, high = at + positive.turned_deg;
-    const startsInContact = positive.reason === "contact_at_start";
-    const marks: SVGElement[] = [svg("rect", { x: 0, y: 7, width: stripWidth, height: 4, class: "track" })];
-    if (!startsInContact)
-      marks.push(svg("rect", { x: x(low), y: 4, width: Math.max(1, x(high) - x(low)), height: 10, class: "free" }));
+  /// What is free of this angle, the others as they are; and of a motion that starts from here the band of its end.
+  private drawTrack(slider: Slider, at: number): void {
+    const { low, high, free } = slider;
+    if (!free) return;
+    const x = (deg: number) => (100 * (Math.min(high, Math.max(low, deg)) - low)) / (high - low);
+    const bar = (from: number, to: number, kind: string, y: number, height: number) =>
+      svg("rect", { x: x(from), y, width: Math.max(0.3, x(to) - x(from)), height, class: kind });
+    const marks = [bar(low, high, "blocked", 3, 4)];
+    for (const [from, to] of free) if (to >= low && from <= high) marks.push(bar(from, to, "free", 2, 6));
     for (const motion of this.report.rom?.motions ?? []) {
-      if (motion.vary !== slider.name || Object.values(motion.start_deg).some((start) => start !== 0)) continue;
-      const sign = motion.sense === "positive" ? 1 : -1;
       const band = toldBand(motion);
-      if (band) {
-        const ends = [sign * band.p5_deg, sign * band.p95_deg].sort((a, b) => a - b);
-        marks.push(svg("rect", { x: x(ends[0]!), y: 0, width: Math.max(1, x(ends[1]!) - x(ends[0]!)), height: stripHeight,
-          class: "band" }));
-      }
-      // Where the range ends nothing meets.
-      if (motion.reason !== "end_of_range")
-        marks.push(svg("rect", { x: x(sign * motion.limit_deg) - 1, y: 0, width: 2, height: stripHeight, class: "limit" }));
+      if (!band || motion.vary !== slider.name || !this.startsHere(motion)) continue;
+      const start = motion.start_deg[slider.name] ?? 0, sign = motion.sense === "positive" ? 1 : -1;
+      const ends = [start + sign * band.p5_deg, start + sign * band.p95_deg].sort((a, b) => a - b) as [number, number];
+      marks.push(bar(...ends, "band", 0, 10));
     }
-    slider.strip.replaceChildren(...marks);
-    const end = (deg: number, { reason }: LiveLimit) =>
-      `${deg.toFixed(1)}° (${words.reasons[reason]})`;
-    slider.told.textContent = startsInContact ? words.startsInContact
-      : words.free(spaced(slider.name), end(low, negative), end(high, positive));
+    slider.track.replaceChildren(...marks);
+    const here = intervalAt(free, at), way = here ? null : wayOut(free, at);
+    slider.told.textContent = here ? words.free(`${fixed(here[0], 1)}°`, `${fixed(here[1], 1)}°`)
+      : way ? words.contactFreeFrom(`${fixed(way.to_deg, 1)}°`) : words.startsInContact;
+  }
+
+  /// Whether a motion's other angles are those of the pose.
+  private startsHere({ vary, start_deg }: MotionAnswer): boolean {
+    return this.report.coordinates.every(({ name }, i) => name === vary || Math.abs((start_deg[name] ?? 0) - this.angles[i]!) < 1e-9);
   }
 }

@@ -1,6 +1,7 @@
-import { html, named, section, shortened, spaced } from "../dom";
-import { limitAlone, toldBand } from "../plots/limits";
-import { scopeOf, type MeshSource, type MotionAnswer, type PartParameter, type ReportText, type RomAnswer } from "../report";
+import { fold, html, named, shortened, spaced } from "../dom";
+import { fixed } from "../numbers";
+import type { MeshSource, MotionAnswer, PartParameter, ReportText, RomAnswer } from "../report";
+import { limitAlone, toldBand } from "../result";
 import { words } from "../words";
 import { lines, longestLine, table } from "./table";
 
@@ -8,31 +9,44 @@ function filesOf(mesh: MeshSource | { files: MeshSource[] }): MeshSource[] {
   return "files" in mesh ? mesh.files : [mesh];
 }
 
-/// All numbers of the report with their units, where they come from, and what they are not.
-export function numbersPanel(report: ReportText, counts: { fixed: [number, number]; mobile: [number, number] }): HTMLElement {
+/// All numbers of the report with their units, where they come from, and what they are not, each group under a title that opens it.
+export function numberFolds(
+  report: ReportText, counts: { fixed: [number, number]; mobile: [number, number] }, ofPose: readonly HTMLElement[]): HTMLDetailsElement[] {
   const { joint, rom } = report;
-  const parts: HTMLElement[] = [
+  const folds = [fold(words.thisPose, true, ...ofPose)];
+  if (rom) {
+    const told = rom.motions.some(({ reason }) => reason !== "contact_at_start");
+    if (told) folds.push(fold(words.limits, false, limitsTable(rom, joint)));
+    const notes = fold(words.notes, rom.notes.length > 0,
+      rom.notes.length ? lines(rom.notes.map(({ code, text }) => `${text} (${code})`)) : html("p", {}, words.noNotes));
+    notes.id = "checks";
+    folds.push(notes);
+  }
+  folds.push(fold(words.method, false, ...methodOf(report, counts)));
+  if (rom?.provenance) folds.push(fold(words.sourceFiles, false, ...sourcesOf(rom.provenance)));
+  return folds;
+}
+
+/// How the report's numbers were found, and what they must be read with.
+export function methodOf(report: ReportText, counts: { fixed: [number, number]; mobile: [number, number] }): HTMLElement[] {
+  const { joint, rom } = report, caveats = rom ? caveatsOf(rom) : [];
+  return [
+    ...(report.note ? [html("p", {}, report.note)] : []),
     table(["", words.vertices, words.triangles], (["fixed", "mobile"] as const).map((body) => [named(joint[body]), ...counts[body].map(String)]),
       words.ofBodies(words.sides[joint.side], words.kinds[joint.kind])),
+    ...(rom ? [html("h3", {}, words.how), lines(howFound(rom))] : [html("p", { class: "warning" }, words.noLimits + (report.rom_error ?? ""))]),
+    ...(caveats.length ? [html("h3", {}, words.caveats), lines(caveats)] : []),
+    ...(rom?.caveats.length ? [html("h3", {}, words.readWith), lines(rom.caveats)] : []),
   ];
-  if (rom) {
-    parts.push(limitsTable(rom, joint), html("h3", {}, words.how), lines(howFound(rom)), html("h3", {}, words.notes));
-    parts.push(rom.notes.length ? lines(rom.notes.map(({ code, text }) => `${text} (${code})`)) : html("p", {}, words.noNotes));
-    const caveats = caveatsOf(rom);
-    if (caveats.length) parts.push(html("h3", {}, words.caveats), lines(caveats));
-    if (rom.caveats.length) parts.push(html("h3", {}, words.readWith), lines(rom.caveats));
-    if (rom.provenance) {
-      const { provenance } = rom;
-      const { version, command, joint_file } = provenance;
-      const files = [...(joint_file ? [joint_file] : []), ...filesOf(provenance.fixed_mesh), ...filesOf(provenance.mobile_mesh)];
-      parts.push(
-        html("h3", {}, words.made), html("p", {}, shortened(command ? words.madeBy(version, command.join(" ")) : words.madeHere(version), longestLine)),
-        table([words.file, words.bytes, words.sha256], files.map(({ path, bytes, sha256 }) => [path, String(bytes), sha256]), words.files));
-    }
-  } else {
-    parts.push(html("p", { class: "warning" }, words.noLimits + (report.rom_error ?? "")));
-  }
-  return section(words.numbers, ...parts, html("p", {}, words.scope(scopeOf(report))));
+}
+
+export function sourcesOf(provenance: NonNullable<RomAnswer["provenance"]>): HTMLElement[] {
+  const { version, command, joint_file } = provenance;
+  const files = [...(joint_file ? [joint_file] : []), ...filesOf(provenance.fixed_mesh), ...filesOf(provenance.mobile_mesh)];
+  return [
+    html("p", {}, shortened(command ? words.madeBy(version, command.join(" ")) : words.madeHere(version), longestLine)),
+    table([words.file, words.bytes, words.sha256], files.map(({ path, bytes, sha256 }) => [path, String(bytes), sha256]), words.files),
+  ];
 }
 
 /// A line for each caveat, with the motions that it is about.
@@ -51,14 +65,14 @@ function caveatsOf({ motions }: RomAnswer): string[] {
   return [...about].map(([text, { names, source }]) => words.caveat(names.join(", "), text, source));
 }
 
-const degrees = (value: number | null) => (value === null ? "–" : `${value.toFixed(1)}°`);
+const degrees = (value: number | null) => (value === null ? "–" : `${fixed(value, 1)}°`);
 
 /// What ended a motion: of bodies of several meshes which of them, and what soft meshes it met before.
 function endOf(motion: MotionAnswer, joint: ReportText["joint"]): string {
   const { reason, contact_kind, contact_side, features, soft_contact_deg, soft_contact_parts: soft } = motion;
-  const fixed = features?.fixed.part, mobile = features?.mobile.part;
+  const fixedPart = features?.fixed.part, mobile = features?.mobile.part;
   const kind = contact_kind !== null && (words.contactKinds[contact_kind] ?? contact_kind);
-  const how = [kind, contact_side, (fixed || mobile) && words.meshOn(mobile ?? joint.mobile, fixed ?? joint.fixed),
+  const how = [kind, contact_side, (fixedPart || mobile) && words.meshOn(mobile ?? joint.mobile, fixedPart ?? joint.fixed),
     typeof soft_contact_deg === "number" && words.softFrom(
       degrees(soft_contact_deg), soft ? words.meshOn(soft.mobile ?? joint.mobile, soft.fixed ?? joint.fixed) : null)].filter(Boolean).join(", ");
   const end = !motion.translation_ends ? words.reasons[reason] : motion.translation_mm ? words.translationEnds : words.notCarried;
@@ -71,7 +85,7 @@ function limitsTable({ motions }: RomAnswer, joint: ReportText["joint"]): HTMLEl
     motions.map((motion) => {
       const band = toldBand(motion);
       return [
-        named(spaced(motion.name)), limitAlone(motion), band ? words.bandEnds(band.p5_deg.toFixed(0), band.p95_deg.toFixed(0)) : "–",
+        named(spaced(motion.name)), limitAlone(motion), band ? words.bandEnds(fixed(band.p5_deg, 0), fixed(band.p95_deg, 0)) : "–",
         endOf(motion, joint),
         degrees(motion.bearing_contact_deg), degrees(motion.normal_range_deg),
         motion.reason !== "contact" || motion.error_bound_deg === undefined ? "–" : `${motion.error_bound_deg.toPrecision(2)}°`,

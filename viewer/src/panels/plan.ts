@@ -1,22 +1,20 @@
-import { checkbox, html, named, section, spaced } from "../dom";
+import { checkbox, fold, html, named, section, spaced } from "../dom";
+import { clockTime, fixed } from "../numbers";
 import { figure } from "../plots/figure";
 import { planCurveDrawing } from "../plots/plan_curve";
-import type { EndOfMotion, Report, StoredPlan } from "../report";
+import type { Report, StoredPlan } from "../report";
 import type { Values } from "../core/protocol";
 import { bodyNames, type BodyName, type JointScene } from "../scene/scene";
+import { endText } from "../result";
 import { words } from "../words";
 import { measureName } from "./shape";
 import { lines, table } from "./table";
 
-function endText({ limit_deg, reason }: EndOfMotion): string {
-  if (reason === "contact_at_start") return words.reasons.contact_at_start;
-  const number = `${limit_deg.toFixed(1)}°`;
-  return reason === "end_of_range" ? words.over(number) : number;
-}
-
 /// The bone that must go: how much, what each motion gains, and what each degree costs. The joint of the page is without it.
 export class PlanPanel {
   readonly element: HTMLElement;
+  /// What is read with it: all limits, measures that change, notes.
+  readonly details: HTMLDetailsElement;
   readonly deepest_mm: number;
 
   constructor(
@@ -39,16 +37,17 @@ export class PlanPanel {
       parts.push(html("div", { class: "row no-print" }, checkbox(words.showRemoved, false, (on) => this.showRemoved(on))));
     const drawing = planCurveDrawing(curve);
     if (drawing) parts.push(figure(drawing));
-    parts.push(table(["", words.before, words.after, words.gain], limits.map(({ motion, before, after }) => [
-      named(spaced(motion)), endText(before), endText(after), `${(after.limit_deg - before.limit_deg + 0).toFixed(1)}°`,
-    ]), words.limits));
+    const more: HTMLElement[] = [table(["", words.before, words.after, words.gain], limits.map(({ motion, before, after }) => [
+      named(spaced(motion)), endText(before), endText(after), `${fixed(after.limit_deg - before.limit_deg, 1)}°`,
+    ]), words.limits)];
     const changed = (measures ?? []).filter(({ before, after }) => before?.toFixed(1) !== after?.toFixed(1));
-    const text = (value: number | null) => (value === null ? "–" : value.toFixed(1));
+    const text = (value: number | null) => (value === null ? "–" : fixed(value, 1));
     if (changed.length)
-      parts.push(table(["", words.before, words.after, words.unitHead], changed.map(({ key, unit, before, after }) =>
+      more.push(table(["", words.before, words.after, words.unitHead], changed.map(({ key, unit, before, after }) =>
         [measureName(key, unit), text(before), text(after), unit]), words.measuresThatChange));
-    if (resection_notes.length) parts.push(html("h3", {}, words.planNotes), lines(resection_notes.map(({ code, text: said }) => `${said} (${code})`)));
-    parts.push(html("h3", {}, words.readWith), lines(caveats));
+    if (resection_notes.length) more.push(html("h3", {}, words.planNotes), lines(resection_notes.map(({ code, text: said }) => `${said} (${code})`)));
+    more.push(html("h3", {}, words.readWith), lines(caveats));
+    this.details = fold(words.planDetails, false, ...more);
     this.element = section(words.plan, ...parts);
   }
 
@@ -75,10 +74,4 @@ export class PlanPanel {
         body, on && cut ? { vertices: this.report.array(cut.lowered, "u32"), before: this.report.array(cut.before, "f64") } : null);
     }
   }
-}
-
-/// 1.5 as "1:30".
-function clockTime(hour: number): string {
-  const minutes = Math.round(hour * 60) % 720;
-  return `${Math.floor(minutes / 60) || 12}:${String(minutes % 60).padStart(2, "0")}`;
 }

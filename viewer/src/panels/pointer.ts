@@ -1,4 +1,5 @@
 import { button, checkbox, choice, html } from "../dom";
+import { fixed } from "../numbers";
 import type { BodyName, JointScene, Picked } from "../scene/scene";
 import { words } from "../words";
 
@@ -7,7 +8,8 @@ const clickTolerance_px = 4;
 /// Values at the pointer, or at a vertex's number: the vertex and its value, and the distance between two vertices.
 export class PointerPanel {
   readonly element: HTMLElement;
-  private readonly told = html("p", { id: "hover", "aria-live": "polite" });
+  /// Over the scene, where the pointer is.
+  readonly told = html("p", { id: "hover", "aria-live": "polite" });
   private measures = false;
   private first: Picked | null = null;
   private pressedAt: [number, number] = [0, 0];
@@ -21,7 +23,7 @@ export class PointerPanel {
         this.first = null;
         scene.showDistance(null);
         this.told.textContent = on ? words.measureFirst : "";
-      }), ...this.byNumber()), this.told);
+      }), ...this.byNumber()));
     let asked = false;
     scene.canvas.addEventListener("pointermove", (event) => {
       if (asked || event.buttons !== 0) return;
@@ -70,7 +72,7 @@ export class PointerPanel {
       return;
     }
     const value = this.scene.bodies[picked.body].valueOf(picked.vertex);
-    const text = value ? `${value.isBound ? `${words.bound} ` : ""}${value.amount.toFixed(2)} ${this.unit()}` : words.noValue;
+    const text = value ? `${value.isBound ? `${words.bound} ` : ""}${fixed(value.amount, 2)} ${this.unit()}` : words.noValue;
     this.told.textContent = words.hover(this.names[picked.body], picked.vertex, text);
   }
 

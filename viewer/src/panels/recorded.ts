@@ -1,8 +1,10 @@
-import { button, html, named, section } from "../dom";
-import { CurvePlot, type CurveKind } from "../plots/curves";
+import { button, checkbox, choice, html, named, section } from "../dom";
+import { plain } from "../numbers";
+import { CurveStack, curveOf, shownAtOnce, told, usualCurves, type Curve, type CurveKind } from "../plots/curves";
 import { figure } from "../plots/figure";
 import type { Report, Recorded } from "../report";
 import { words } from "../words";
+import type { Extreme } from "./strip";
 
 /// Where a file has no times its frames are played one by one, slow enough to be seen.
 const untimedFrames_per_s = 20;
@@ -21,64 +23,124 @@ export class RecordedPanel {
   private readonly angles: Float64Array;
   private readonly translations: Float64Array;
   private readonly poses: Float64Array;
-  private readonly plots: CurvePlot[];
+  private readonly curves: Curve[];
+  private readonly stack: CurveStack;
   private readonly slider: HTMLInputElement;
   private readonly playButton: HTMLButtonElement;
+  private readonly time = html("span", { class: "time" });
+  private speed = 1;
+  private loops = false;
   private playing = 0;
+  private stretch = { frame: 0, begun: 0 };
 
   constructor(report: Report, private readonly recorded: Recorded, private readonly go: (frame: Frame) => void) {
     this.times = report.array(recorded.times_s, "f64");
     this.angles = report.array(recorded.coordinates_deg, "f64");
     this.translations = report.array(recorded.coordinates_mm, "f64");
     this.poses = report.array(recorded.poses, "f64");
-    this.plots = recorded.curves.map((curve) => new CurvePlot(
-      curve, recorded.axis, this.times, report.array(curve.values, "f64"), (frame) => this.show(frame), () => this.slider.valueAsNumber));
+    this.curves = recorded.curves.map((curve) => curveOf(curve, report.array(curve.values, "f64")));
+    this.stack = new CurveStack(recorded.axis, this.times, (frame) => this.show(frame));
     const last = this.times.length - 1;
     this.slider = html("input", { type: "range", min: 0, max: last, step: 1, value: 0, "aria-label": words.frame });
     this.slider.addEventListener("input", () => this.show(this.slider.valueAsNumber));
-    this.playButton = button(words.play, () => this.toggle());
+    this.playButton = button(words.play, () => this.toggle(), { class: "play" });
     const span = recorded.axis === "frame" ? words.recordedFrames(last + 1)
-      : words.recordedOver(last + 1, String(this.times[0]!), String(this.times[last]!));
-    this.element = section(words.recorded, html("p", {}, `${named(recorded.name)}: ${span}`),
-      html("div", { class: "row no-print" }, this.playButton, this.slider), ...this.figuresOf("changes"),
-      ...this.folded("zero", words.zeroCurves), ...this.folded("empty", words.emptyCurves));
+      : words.recordedOver(last + 1, plain(this.times[0]!, 3), plain(this.times[last]!, 3));
+    const chosen = usualCurves(this.curves);
+    this.element = section(words.recorded,
+      html("p", { class: "small" }, `${named(recorded.name)}: ${span}`),
+      html("div", { class: "row no-print playing" }, this.playButton, this.slider, this.time,
+        choice(words.speed, words.speeds, "1", (speed) => this.setSpeed(Number(speed))), checkbox(words.loop, false, (on) => (this.loops = on)),
+        ...this.chooser(chosen)),
+      figure(this.stack.drawing(), ...this.silent()));
+    this.stack.show(chosen);
+    this.tell(0);
   }
 
-  private figuresOf(kind: CurveKind): HTMLElement[] {
-    return this.plots.filter((plot) => plot.kind === kind).map((plot) => figure(plot.drawing));
+  /// The largest values of the curves that are looked at first, and when.
+  extremes(): Extreme[] {
+    return usualCurves(this.curves).flatMap(({ name, title, unit, values }) => {
+      const isGap = name === "smallest_gap_mm";
+      let frame = -1;
+      values.forEach((value, i) => {
+        if (Number.isFinite(value) && (frame < 0 || (isGap ? value < values[frame]! : Math.abs(value) > Math.abs(values[frame]!)))) frame = i;
+      });
+      if (frame < 0) return [];
+      return [{ name: isGap ? title : words.largest(title), value: told(values[frame]!, unit), at: this.timeText(frame), go: () => this.show(frame) }];
+    });
   }
 
-  /// Curves that say nothing, in one line that opens.
-  private folded(kind: CurveKind, line: (names: string) => string): HTMLElement[] {
-    const names = this.plots.filter((plot) => plot.kind === kind).map(({ title }) => title);
-    if (names.length === 0) return [];
-    return [html("details", { class: "folded" }, html("summary", {}, line(names.map(named).join(", "))), ...this.figuresOf(kind))];
+  show(frame: number): void {
+    // A frame that is gone to by hand is where playing goes on from.
+    this.stretch = { frame, begun: performance.now() };
+    this.put(frame);
   }
 
-  private show(frame: number): void {
-    this.slider.value = String(frame);
-    this.plots.forEach((plot) => plot.setFrame(frame));
-    const of = (numbers: Float64Array, each: number) => Array.from(numbers.subarray(each * frame, each * frame + each));
-    this.go({ angles: of(this.angles, 3), translation: of(this.translations, 3), X_FM: of(this.poses, 16) });
-  }
-
-  private toggle(): void {
+  toggle(): void {
     cancelAnimationFrame(this.playing);
     const starts = this.playing === 0;
     this.playing = 0;
     this.playButton.textContent = starts ? words.pause : words.play;
     if (!starts) return;
-    const first = this.slider.valueAsNumber < this.times.length - 1 ? this.slider.valueAsNumber : 0;
-    const perSecond = this.recorded.axis === "frame" ? untimedFrames_per_s : 1;
-    const begun = performance.now();
+    this.stretch = { frame: this.slider.valueAsNumber < this.times.length - 1 ? this.slider.valueAsNumber : 0, begun: performance.now() };
     const step = () => {
-      const time = this.times[first]! + (perSecond * (performance.now() - begun)) / 1000;
-      let frame = first;
+      const perSecond = this.speed * (this.recorded.axis === "frame" ? untimedFrames_per_s : 1);
+      const time = this.times[this.stretch.frame]! + (perSecond * (performance.now() - this.stretch.begun)) / 1000;
+      let { frame } = this.stretch;
       while (frame + 1 < this.times.length && this.times[frame + 1]! <= time) ++frame;
-      this.show(frame);
-      if (frame + 1 < this.times.length) this.playing = requestAnimationFrame(step);
+      this.put(frame);
+      if (frame + 1 === this.times.length && this.loops) this.stretch = { frame: 0, begun: performance.now() };
+      if (frame + 1 < this.times.length || this.loops) this.playing = requestAnimationFrame(step);
       else this.toggle();
     };
     this.playing = requestAnimationFrame(step);
+  }
+
+  private put(frame: number): void {
+    this.slider.value = String(frame);
+    this.stack.setFrame(frame);
+    this.tell(frame);
+    const of = (numbers: Float64Array, each: number) => Array.from(numbers.subarray(each * frame, each * frame + each));
+    this.go({ angles: of(this.angles, 3), translation: of(this.translations, 3), X_FM: of(this.poses, 16) });
+  }
+
+  private tell(frame: number): void {
+    this.time.textContent = this.timeText(frame);
+    this.slider.setAttribute("aria-valuetext", this.timeText(frame));
+  }
+
+  private timeText(frame: number): string {
+    return this.recorded.axis === "frame" ? words.frameNumber(plain(this.times[frame]!)) : words.seconds(this.times[frame]!.toFixed(2));
+  }
+
+  private setSpeed(speed: number): void {
+    this.speed = speed;
+    this.stretch = { frame: this.slider.valueAsNumber, begun: performance.now() };
+  }
+
+  /// Which quantities are drawn, a few at once.
+  private chooser(usual: readonly Curve[]): HTMLElement[] {
+    let chosen = new Set(usual);
+    const boxes = this.curves.filter(({ kind }) => kind === "changes").map((curve) => {
+      const label = checkbox(curve.unit ? `${curve.title}, ${curve.unit}` : curve.title, chosen.has(curve), (on) => {
+        if (on) chosen.add(curve);
+        else chosen.delete(curve);
+        // As many as can be read: the one that was chosen first goes.
+        if (chosen.size > shownAtOnce + 1) chosen = new Set([...chosen].slice(1));
+        boxes.forEach(({ of, box }) => (box.checked = chosen.has(of)));
+        this.stack.show(this.curves.filter((each) => chosen.has(each)));
+      });
+      return { of: curve, box: label.querySelector("input")!, label };
+    });
+    return [html("details", { class: "popup" }, html("summary", {}, words.quantities), html("div", {}, ...boxes.map(({ label }) => label)))];
+  }
+
+  /// Curves that say nothing, in a line.
+  private silent(): HTMLElement[] {
+    const line = (kind: CurveKind, said: (names: string) => string) => {
+      const names = this.curves.filter((curve) => curve.kind === kind).map(({ title }) => title);
+      return names.length ? [html("p", { class: "small silent" }, said(names.join(", ")))] : [];
+    };
+    return [...line("zero", words.zeroCurves), ...line("empty", words.emptyCurves)];
   }
 }

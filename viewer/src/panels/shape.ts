@@ -1,4 +1,5 @@
-import { checkbox, html, section } from "../dom";
+import { checkbox, fold, html, section } from "../dom";
+import { fixed } from "../numbers";
 import { figure } from "../plots/figure";
 import { hoursDrawing } from "../plots/hours";
 import type { StoredMeasure, StoredMeasures } from "../report";
@@ -10,7 +11,7 @@ import { lines, table } from "./table";
 const digits: Record<string, number> = { "1": 3, h: 2 };
 
 function shown(value: number | null, unit: string): string {
-  return value === null ? "–" : value.toFixed(digits[unit] ?? 1);
+  return value === null ? "–" : fixed(value, digits[unit] ?? 1);
 }
 
 /// "alpha 1:30" of "alpha_1_30_deg": without the unit, which has a column.
@@ -32,17 +33,17 @@ function sentences(measures: readonly StoredMeasure[], said: (measure: StoredMea
 }
 
 /// The shape of a hip: its measures with bands and normal ranges, around the clock, and drawn on the bones.
-export function shapePanel(shape: StoredMeasures, scene: JointScene | null): HTMLElement {
+export function shapePanel(shape: StoredMeasures, scene: JointScene | null): { element: HTMLElement; details: HTMLDetailsElement } {
   const { measures } = shape;
   const hasBands = measures.some(({ band }) => band !== null);
   const head = ["", words.value, ...(hasBands ? [words.band] : []), words.normal];
-  const parts: HTMLElement[] = [html("p", {}, words.pelvisFrame(shape.pelvis_frame))];
+  const parts: HTMLElement[] = [], more: HTMLElement[] = [html("p", {}, words.pelvisFrame(shape.pelvis_frame))];
   if (scene)
     parts.push(html("div", { class: "row no-print" },
       checkbox(words.drawMeasures, false, (on) => scene.showMarks(on ? measureMarks(shape) : null))));
   for (const part of ["femur", "acetabulum", "both"] as const) {
     const rows = measures.filter((measure) => measure.part === part).map((measure) => row(measure, hasBands));
-    if (rows.length) parts.push(table(head, rows, words.measuredPart[part]));
+    if (rows.length) more.push(table(head, rows, words.measuredPart[part]));
   }
   const alpha = hoursDrawing("alpha_by_hour", words.alphaCaption, words.alphaAxis, shape.around_neck.map(({ hour }) => hour), [
     { name: words.alphaAt("0.5"), values: shape.around_neck.map(({ alpha_deg }) => alpha_deg) },
@@ -53,15 +54,15 @@ export function shapePanel(shape: StoredMeasures, scene: JointScene | null): HTM
   ]);
   for (const drawing of [alpha, edge]) if (drawing) parts.push(figure(drawing));
   const folded = (title: string, texts: string[]) => {
-    if (texts.length) parts.push(html("details", { class: "folded" }, html("summary", {}, title), lines(texts)));
+    if (texts.length) more.push(html("details", { class: "folded" }, html("summary", {}, title), lines(texts)));
   };
   const reasons = sentences(measures, ({ value, why_none }) => (value === null ? why_none : null));
   const notes = [...shape.left_out, ...sentences(measures, ({ note }) => note)];
-  if (reasons.length) parts.push(html("h3", {}, words.notMeasured), lines(reasons));
-  if (notes.length) parts.push(html("h3", {}, words.readWith), lines(notes));
+  if (reasons.length) more.push(html("h3", {}, words.notMeasured), lines(reasons));
+  if (notes.length) more.push(html("h3", {}, words.readWith), lines(notes));
   folded(words.definitions, measures.map(({ key, unit, definition, source }) =>
     words.ofMeasure(measureName(key, unit), words.definedBy(definition, source))));
   folded(words.normalSources, measures.flatMap(({ key, unit, normal }) =>
     (normal ? [words.ofMeasure(measureName(key, unit), words.definedBy(normal.meaning, normal.source))] : [])));
-  return section(words.shape, ...parts);
+  return { element: section(words.shape, ...parts), details: fold(words.measures, false, ...more) };
 }

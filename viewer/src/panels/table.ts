@@ -8,7 +8,7 @@ export function table(head: readonly string[], rows: readonly (readonly string[]
   const caption = shortened(title, longestLine);
   return html("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
     html("table", {}, html("caption", {}, caption),
-      html("thead", {}, html("tr", {}, ...head.map((text) => html("th", { scope: "col" }, text)))),
+      html("thead", {}, html("tr", {}, ...head.map((text) => (text ? html("th", { scope: "col" }, text) : html("td"))))),
       html("tbody", {}, ...rows.map(([first, ...cells]) =>
         html("tr", {}, html("th", { scope: "row" }, shortened(first!, longestHead)), ...cells.map((cell) => html("td", {}, cell)))))));
 }

@@ -1,22 +1,30 @@
 import { named, spaced, svg } from "../dom";
 import type { MotionAnswer, RomAnswer } from "../report";
-import { words } from "../words";
+import { clockTime } from "../numbers";
+import { roving } from "../roving";
+import { motionName, words } from "../words";
 import { pressable, type Drawing } from "./figure";
 
-const width = 320, radius = 92, labelRadius = radius + 26, lineHeight = 15, height = 2 * (labelRadius + lineHeight);
+const width = 300, radius = 92, labelRadius = radius + 26, lineHeight = 15, height = 2 * (labelRadius + lineHeight);
 /// Centre of the dial; names stand beside it, so that the picture is wider than high.
 const middle = { x: width / 2, y: height / 2 };
 
 /// The end of each motion at its hour on the clock face; null where none has one.
 export function clockDrawing(
-  motions: readonly MotionAnswer[], plane: RomAnswer["clock_plane"], go: ((motion: MotionAnswer) => void) | null): Drawing | null {
+  motions: readonly MotionAnswer[], plane: RomAnswer["clock_plane"], go: ((motion: MotionAnswer) => void) | null,
+  socket: { href: string; radius: number } | null = null): Drawing | null {
   const placed = motions.filter((motion) => motion.clock_hour !== null);
+  const without = motions.filter(({ reason, clock_hour }) => reason === "contact" && clock_hour === null);
   if (placed.length === 0) return null;
   const at = (hour: number, r: number): [number, number] => {
     const angle = (hour / 12) * 2 * Math.PI;
     return [middle.x + r * Math.sin(angle), middle.y - r * Math.cos(angle)];
   };
   const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "plot clock" },
+    ...(socket ? [svg("image", {
+      href: socket.href, x: middle.x - socket.radius * radius, y: middle.y - socket.radius * radius, width: 2 * socket.radius * radius,
+      height: 2 * socket.radius * radius, class: "socket",
+    })] : []),
     svg("circle", { cx: middle.x, cy: middle.y, r: radius, class: "dial" }));
   for (let hour = 1; hour <= 12; ++hour) {
     const [x, y] = at(hour, radius - 14);
@@ -35,16 +43,21 @@ export function clockDrawing(
         svg("circle", { cx: x, cy: y, r: 5, class: "mark" }),
         svg("text", { x: labelX + (toLeft ? -3 : 3), y: labelY + 4, "text-anchor": toLeft ? "end" : "start", class: "small" },
           abbreviated(motion.name)),
-        svg("title", {}, `${name}: ${motion.clock_hour!.toFixed(1)}`));
+        svg("title", {}, `${name}: ${clockTime(motion.clock_hour!)}`));
       picture.append(
-        pressable(mark, `${abbreviated(motion.name)}, ${words.goThere(name)}: ${motion.clock_hour!.toFixed(1)}`, go && (() => go(motion))));
+        pressable(mark, `${abbreviated(motion.name)}, ${words.goThere(name)}: ${clockTime(motion.clock_hour!)}`, go && (() => go(motion))));
     });
   }
+  if (go) roving([...picture.querySelectorAll<SVGElement>(".pressable")]);
+  const names = (of: readonly MotionAnswer[]) => of.map((m) => `${abbreviated(m.name)}: ${named(spaced(m.name))}`).join("; ");
   return {
     name: "clock",
-    caption: `${words.clockCaption[plane ?? "sagittal"]} ${sorted.map((m) => `${abbreviated(m.name)}: ${named(spaced(m.name))}`).join("; ")}.`,
+    caption: [
+      words.clockCaption[plane ?? "sagittal"], `${names(sorted)}.`,
+      ...(without.length ? [words.withoutHour(without.map(({ name }) => named(motionName(name))).join(", "))] : []),
+    ].join(" "),
     picture,
-    data: () => [["motion", "clock_hour", "limit_deg"], ...sorted.map((m) => [m.name, m.clock_hour, m.limit_deg])],
+    data: () => [["motion", "clock_hour", "limit_deg"], ...[...sorted, ...without].map((m) => [m.name, m.clock_hour, m.limit_deg])],
   };
 }
 

@@ -12,15 +12,16 @@ export interface Drawing {
   data: () => (string | number | null)[][];
 }
 
-export function figure({ name, caption, picture, role, data }: Drawing): HTMLElement {
+/// `beside` stands between the picture and its caption.
+export function figure({ name, caption, picture, role, data }: Drawing, ...beside: HTMLElement[]): HTMLElement {
   picture.setAttribute("role", role ?? "group");
   picture.setAttribute("aria-label", caption);
   return html("figure", {},
-    picture,
-    html("figcaption", {}, caption),
-    html("div", { class: "row no-print" },
-      button(words.saveSvg, () => save(`${name}.svg`, "image/svg+xml", standalone(picture))),
-      button(words.saveData, () => save(`${name}.csv`, "text/csv", csv(data())))));
+    html("div", { class: "picture" }, picture), ...beside,
+    html("div", { class: "under" }, html("figcaption", {}, caption),
+      html("div", { class: "row no-print" },
+        button(words.saveSvg, () => save(`${name}.svg`, "image/svg+xml", standalone(picture)), { class: "quiet-button" }),
+        button(words.saveData, () => save(`${name}.csv`, "text/csv", csv(data())), { class: "quiet-button" }))));
 }
 
 /// Other programs show a browser's `transparent` as black.

@@ -1,6 +1,7 @@
 import { scaleLinear } from "d3-scale";
 import { line } from "d3-shape";
 import { svg } from "../dom";
+import { plain } from "../numbers";
 import type { Drawing } from "./figure";
 
 const width = 460, height = 190, left = 44, right = 18, top = 24, bottom = 24;
@@ -25,7 +26,7 @@ export function hoursDrawing(
     svg("text", { x: left, y: 11, class: "small" }, axis),
     ...y.ticks(5).flatMap((tick) => [
       svg("line", { x1: left, x2: width - right, y1: y(tick), y2: y(tick), class: "grid" }),
-      svg("text", { x: left - 6, y: y(tick) + 4, "text-anchor": "end" }, `${tick}°`),
+      svg("text", { x: left - 6, y: y(tick) + 4, "text-anchor": "end" }, `${plain(tick)}°`),
     ]),
     ...[6, 7, 8, 9, 10, 11, 12, 1, 2, 3, 4, 5].map((hour, i) =>
       svg("text", { x: x(i), y: height - 7, "text-anchor": "middle" }, String(hour))),

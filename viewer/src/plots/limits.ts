@@ -1,6 +1,8 @@
 import { scaleLinear } from "d3-scale";
 import { named, spaced, svg } from "../dom";
-import type { Band, MotionAnswer } from "../report";
+import { fixed } from "../numbers";
+import type { MotionAnswer } from "../report";
+import { limitText, toldBand } from "../result";
 import { words } from "../words";
 import { pressable, type Drawing } from "./figure";
 
@@ -8,29 +10,38 @@ const width = 460, rowHeight = 24, left = 206, right = 20, top = 6, bottom = 30;
 /// Labels of four digits stay apart from each other.
 const tickCount = 4;
 
-/// The band that says something: where nothing ends a motion in its range, nothing does so in most displaced joints either.
-export function toldBand({ band, reason }: MotionAnswer): Band | null {
-  return band && (reason === "contact" || band.p5_deg.toFixed(0) !== band.p95_deg.toFixed(0)) ? band : null;
+/// The largest angle that a bar of these motions has to show.
+export function mostOf(motions: readonly MotionAnswer[]): number {
+  return Math.max(10, ...motions.map((m) => Math.max(m.limit_deg, m.band?.p95_deg ?? 0, m.normal_range_deg ?? 0)));
 }
 
-/// Without its band.
-export function limitAlone({ reason, limit_deg, translation_ends, translation_mm }: MotionAnswer): string {
-  if (translation_ends && !translation_mm) return "–";
-  const number = `${limit_deg.toFixed(1)}°`;
-  return reason === "end_of_range" ? words.over(number) : number;
-}
-
-function limitText(motion: MotionAnswer): string {
-  if (motion.reason === "contact_at_start") return words.reasons.contact_at_start;
+/// How far a motion goes as a bar, with its band and the normal range, on a line as wide as its place.
+export function limitBar(motion: MotionAnswer, most: number): SVGSVGElement {
+  const x = (deg: number) => (100 * Math.min(most, Math.max(0, deg))) / most;
+  const picture = svg("svg", { viewBox: "0 0 100 10", preserveAspectRatio: "none", class: "limit-bar", "aria-hidden": "true" },
+    svg("rect", { x: 0, y: 3, width: 100, height: 4, class: "track" }));
+  if (motion.reason !== "contact_at_start") picture.append(svg("rect", { x: 0, y: 3, width: x(motion.limit_deg), height: 4, class: "bar" }));
   const band = toldBand(motion);
-  return limitAlone(motion) + (band ? ` ${words.bandOf(band.p5_deg.toFixed(0), band.p95_deg.toFixed(0))}` : "");
+  if (band) picture.append(svg("rect", { x: x(band.p5_deg), y: 1, width: Math.max(1, x(band.p95_deg) - x(band.p5_deg)), height: 8, class: "band" }));
+  if (motion.normal_range_deg !== null) picture.append(svg("rect", { x: x(motion.normal_range_deg) - 0.75, y: 0, width: 1.5, height: 10, class: "normal-mark" }));
+  return picture;
 }
 
-/// A bar for each motion, with band and normal range; one pressed goes to its end.
+/// Every limit with all of its digits.
+export function limitRows(motions: readonly MotionAnswer[]): (string | number | null)[][] {
+  return [
+    ["motion", "limit_deg", "reason", "contact_kind", "bearing_contact_deg", "normal_range_deg", "p5_deg", "median_deg", "p95_deg", "clock_hour"],
+    ...motions.map((m) => [
+      m.name, m.limit_deg, m.reason, m.contact_kind, m.bearing_contact_deg, m.normal_range_deg, m.band?.p5_deg ?? null,
+      m.band?.median_deg ?? null, m.band?.p95_deg ?? null, m.clock_hour,
+    ]),
+  ];
+}
+
+/// A bar for each motion, with band, number and normal range: the limits on paper.
 export function limitsDrawing(motions: readonly MotionAnswer[], go: ((motion: MotionAnswer) => void) | null): Drawing {
-  const height = top + motions.length * rowHeight + bottom;
-  const most = Math.max(10, ...motions.map((m) => Math.max(m.limit_deg, m.band?.p95_deg ?? 0, m.normal_range_deg ?? 0)));
-  const x = scaleLinear([0, most], [left, width - right]).nice(tickCount);
+  const height = top + motions.length * rowHeight + bottom, numbers = 92;
+  const x = scaleLinear([0, mostOf(motions)], [left, width - right - numbers]).nice(tickCount);
   const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "plot" });
   const axisY = height - bottom;
   for (const tick of x.ticks(tickCount))
@@ -43,7 +54,8 @@ export function limitsDrawing(motions: readonly MotionAnswer[], go: ((motion: Mo
     const row = svg("g", {},
       svg("rect", { x: 0, y, width, height: rowHeight, class: "row-back" }),
       svg("text", { x: left - 8, y: middle + 4, "text-anchor": "end" }, name),
-      svg("rect", { x: x(0), y: y + 6, width: Math.max(0, x(motion.limit_deg) - x(0)), height: rowHeight - 12, class: "bar" }));
+      svg("rect", { x: x(0), y: y + 6, width: Math.max(0, x(motion.limit_deg) - x(0)), height: rowHeight - 12, class: "bar" }),
+      svg("text", { x: width - 4, y: middle + 4, "text-anchor": "end" }, motion.reason === "contact_at_start" ? "–" : limitText(motion)));
     const band = toldBand(motion);
     if (band)
       row.append(
@@ -54,19 +66,8 @@ export function limitsDrawing(motions: readonly MotionAnswer[], go: ((motion: Mo
       row.append(svg("line", {
         x1: x(motion.normal_range_deg), x2: x(motion.normal_range_deg), y1: y + 2, y2: y + rowHeight - 2, class: "normal",
       }));
-    row.append(svg("title", {}, `${name}: ${limitText(motion)}`));
+    row.append(svg("title", {}, `${name}: ${limitText(motion)}${motion.normal_range_deg === null ? "" : `; ${words.normalIs(fixed(motion.normal_range_deg, 0))}`}`));
     picture.append(pressable(row, `${words.goThere(name)}: ${limitText(motion)}`, go && (() => go(motion))));
   });
-  return {
-    name: "limits",
-    caption: words.limitsCaption,
-    picture,
-    data: () => [
-      ["motion", "limit_deg", "reason", "contact_kind", "bearing_contact_deg", "normal_range_deg", "p5_deg", "median_deg", "p95_deg"],
-      ...motions.map((m) => [
-        m.name, m.limit_deg, m.reason, m.contact_kind, m.bearing_contact_deg, m.normal_range_deg, m.band?.p5_deg ?? null,
-        m.band?.median_deg ?? null, m.band?.p95_deg ?? null,
-      ]),
-    ],
-  };
+  return { name: "limits", caption: words.limitsCaption, picture, data: () => limitRows(motions) };
 }

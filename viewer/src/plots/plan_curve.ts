@@ -1,6 +1,7 @@
 import { scaleLinear } from "d3-scale";
 import { line } from "d3-shape";
 import { named, spaced, svg } from "../dom";
+import { plain } from "../numbers";
 import type { StoredPlan } from "../report";
 import { words } from "../words";
 import type { Drawing } from "./figure";
@@ -23,7 +24,7 @@ export function planCurveDrawing(curve: StoredPlan["curve"]): Drawing | null {
       svg("line", { x1: left, x2: width - right, y1: y(tick), y2: y(tick), class: "grid" }),
       svg("text", { x: left - 6, y: y(tick) + 4, "text-anchor": "end" }, String(tick)),
     ]),
-    ...x.ticks(6).map((tick) => svg("text", { x: x(tick), y: height - 24, "text-anchor": "middle" }, `${tick}°`)),
+    ...x.ticks(6).map((tick) => svg("text", { x: x(tick), y: height - 24, "text-anchor": "middle" }, `${plain(tick)}°`)),
     ...motions.flatMap((motion, i) => {
       const points = curve.filter((point) => point.motion === motion);
       return [

@@ -1,4 +1,4 @@
-import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, type Plane } from "three";
+import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Mesh, MeshLambertMaterial, type Plane } from "three";
 import type { Surface, Values } from "../core/protocol";
 import { BodyMaterial } from "./body_material";
 
@@ -14,10 +14,22 @@ export interface Part {
   contact: "ends" | "bearing" | "soft";
 }
 
+/// A surface of its own, in the frame of a body.
+export interface Ghost {
+  vertices: ArrayLike<number>;
+  triangles: ArrayLike<number>;
+}
+
+const ghostColour = "#7fa8c9", ghostOpacity = 0.35;
+
 /// One bone of the scene. Its vertices have the numbers they have everywhere.
 export class SceneBody {
   readonly mesh: Mesh<BufferGeometry, BodyMaterial>;
   values: Values | null = null;
+  surface: Surface;
+  /// Draws nothing but depths, before a transparent body: of that body only the surface nearest to the viewer is seen, as of glass.
+  private readonly veil: Mesh<BufferGeometry, BodyMaterial>;
+  private ghost: Mesh | null = null;
   private readonly shown: BufferAttribute;
   private readonly mark: BufferAttribute;
   private readonly tints: BufferAttribute;
@@ -26,7 +38,8 @@ export class SceneBody {
   private readonly showsMarked: Record<Marked, boolean> = { bearing: false, contact: true, zone: true };
 
   /// In a body of several meshes, those that are not bone have a colour of their own.
-  constructor(readonly surface: Surface, bone: string, cartilage: string, parts: readonly Part[]) {
+  constructor(surface: Surface, private readonly bone: string, private readonly cartilage: string, private readonly parts: readonly Part[]) {
+    this.surface = surface;
     const count = surface.vertices.length / 3;
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(new Float32Array(surface.vertices), 3));
@@ -42,6 +55,47 @@ export class SceneBody {
       .forEach(([name, attribute]) => geometry.setAttribute(name, attribute));
     geometry.computeVertexNormals();
     this.mesh = new Mesh(geometry, new BodyMaterial(bone, cartilage));
+    this.veil = new Mesh(geometry, new BodyMaterial(bone, cartilage));
+    this.veil.material.colorWrite = false;
+    // Of the transparent, which are drawn in an order of their own.
+    this.veil.material.transparent = true;
+    this.veil.visible = false;
+    this.mesh.add(this.veil);
+  }
+
+  /// Other positions of the same vertices. What was given before stays as it was.
+  replaceVertices(vertices: ArrayLike<number>): void {
+    this.surface = { vertices: Float64Array.from(vertices), triangles: this.surface.triangles };
+    const { geometry } = this.mesh, position = geometry.getAttribute("position") as BufferAttribute;
+    position.array.set(this.surface.vertices);
+    position.needsUpdate = true;
+    geometry.computeVertexNormals();
+    geometry.computeBoundingSphere();
+    geometry.boundingBox = null;
+  }
+
+  /// Another state of this body, seen through, where it stands; null: none.
+  setGhost(ghost: Ghost | null): void {
+    this.ghost?.removeFromParent();
+    this.ghost?.geometry.dispose();
+    this.ghost = null;
+    if (!ghost) return;
+    const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(ghost.vertices), 3));
+    geometry.setIndex(new BufferAttribute(new Uint32Array(ghost.triangles), 1));
+    geometry.computeVertexNormals();
+    this.ghost = new Mesh(geometry, new MeshLambertMaterial({
+      color: ghostColour, transparent: true, opacity: ghostOpacity, side: DoubleSide, depthWrite: false, clippingPlanes: this.mesh.material.clippingPlanes,
+    }));
+    this.ghost.renderOrder = 5;
+    this.mesh.add(this.ghost);
+  }
+
+  /// Transparent bodies are drawn after what is behind them; `isVeiled` shows of this one the nearest surface alone.
+  setOpacity(opacity: number, isGlass: boolean, isVeiled: boolean): void {
+    this.mesh.material.setOpacity(opacity, isGlass);
+    this.veil.visible = isVeiled;
+    this.veil.renderOrder = 1;
+    this.mesh.renderOrder = opacity < 1 || isGlass ? 2 : 0;
   }
 
   /// Null: no colours.
@@ -97,8 +151,19 @@ export class SceneBody {
     return this.hidden.getX(vertex) === 1;
   }
 
+  isMarked(as: Marked, vertex: number): boolean {
+    return this.showsMarked[as] && this.tints.getComponent(vertex, marked[as]) > 0.5;
+  }
+
+  /// CSS colour of a vertex without a value.
+  plainColour(vertex: number): string {
+    const isOf = ({ first_vertex, vertices, contact }: Part) => contact !== "ends" && vertex >= first_vertex && vertex < first_vertex + vertices;
+    return this.parts.some(isOf) ? this.cartilage : this.bone;
+  }
+
   setClipping(planes: Plane[]): void {
-    this.mesh.material.clippingPlanes = planes;
+    this.mesh.material.clippingPlanes = this.veil.material.clippingPlanes = planes;
+    if (this.ghost) (this.ghost.material as MeshLambertMaterial).clippingPlanes = planes;
   }
 
   /// Value shown at a vertex.

@@ -1,0 +1,24 @@
+/// Numbers as they are read: a true minus sign, and no minus before a zero.
+export const minusSign = "\u2212";
+
+export function fixed(value: number, digits: number): string {
+  const text = value.toFixed(digits);
+  return Number(text) === 0 ? text.replace("-", "") : text.replace("-", minusSign);
+}
+
+/// As short as it can be said: 120, 0.5, −30.
+export function plain(value: number, digits = 1): string {
+  return String(Number(value.toFixed(digits))).replace("-", minusSign);
+}
+
+/// The number of a text that a hand typed, with either minus sign and a decimal point or comma; null for anything else.
+export function typed(text: string): number | null {
+  const said = text.trim().replaceAll(minusSign, "-").replace(",", ".").replace(/°$/, "");
+  return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(said) ? Number(said) : null;
+}
+
+/// 1.5 as "1:30".
+export function clockTime(hour: number): string {
+  const minutes = Math.round(hour * 60) % 720;
+  return `${Math.floor(minutes / 60) || 12}:${String(minutes % 60).padStart(2, "0")}`;
+}

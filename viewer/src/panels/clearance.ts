@@ -1,0 +1,47 @@
+import type { CoreClient } from "../core/client";
+import type { BothValues, Coordinates, Surface, Values } from "../core/protocol";
+
+/// The joint rests when it has not been moved for so long.
+const rest_ms = 250;
+
+/// How far apart the bodies are where contact would count, once the joint rests: from the vertices of either to the nearest point of
+/// the other. Where the bearing surface is left out only vertices of the mobile body beside it are looked at.
+export class Clearance {
+  private counting: Uint8Array | null = null;
+  private timer = 0;
+  private asked = 0;
+
+  constructor(private readonly core: CoreClient, private readonly mobile: Surface, private readonly told: (at: Coordinates, clear_mm: number | null) => void) {}
+
+  /// Per triangle of the mobile body, not 0 where its contact ends no motion.
+  leaveOut(triangles: ArrayLike<number>): void {
+    this.counting = null;
+    if (!Array.from(triangles).some((role) => role !== 0)) return;
+    this.counting = new Uint8Array(this.mobile.vertices.length / 3);
+    for (let t = 0; t < triangles.length; ++t)
+      if (triangles[t] === 0) for (let k = 0; k < 3; ++k) this.counting[this.mobile.triangles[3 * t + k]!] = 1;
+  }
+
+  ask(at: Coordinates): void {
+    clearTimeout(this.timer);
+    const asked = ++this.asked;
+    this.timer = window.setTimeout(() => {
+      this.core.query({ of: "values", at, quantity: "nearest" }).then((values) => {
+        if (asked === this.asked) this.told(at, this.least(values as BothValues));
+      }, () => undefined);
+    }, rest_ms);
+  }
+
+  drop(): void {
+    clearTimeout(this.timer);
+    ++this.asked;
+  }
+
+  private least({ mobile, fixed }: BothValues): number | null {
+    const counting = this.counting;
+    const of = ({ shown, marks }: Values, counts: (vertex: number) => boolean) =>
+      shown.reduce((least, mm, vertex) => (marks[vertex] === 1 && counts(vertex) && mm < least ? mm : least), Infinity);
+    const least = counting ? of(mobile, (vertex) => counting[vertex] === 1) : Math.min(of(mobile, () => true), of(fixed, () => true));
+    return Number.isFinite(least) ? Math.max(0, least) : null;
+  }
+}

@@ -1,0 +1,61 @@
+import { button, html, named, shortened } from "../dom";
+import type { ReportText } from "../report";
+import { words } from "../words";
+
+/// "Right hip · femur / hip bone · date · version", begun with the case where one was given.
+export function headingOf({ joint, title, version, case: given, date }: ReportText): string {
+  const names = { fixed: named(joint.fixed), mobile: named(joint.mobile) };
+  return [
+    ...(given ? [shortened(given)] : []), ...(title !== joint.name ? [shortened(title)] : []),
+    words.heading(words.sides[joint.side], words.anatomies[joint.anatomy], names), ...(date ? [shortened(date)] : []),
+    ...(version ? [words.versionShown(version)] : []),
+  ].join(" · ");
+}
+
+/// What can be done with the whole page.
+export function actions(does: { picture: (() => void) | null; print: () => void; copyLink: () => void }): HTMLElement[] {
+  const card = helpCard();
+  document.body.append(card);
+  return [
+    button(words.copyLink, does.copyLink), ...(does.picture ? [button(words.picture, does.picture)] : []), button(words.print, does.print),
+    button(words.help, () => card.showModal(), { "aria-label": words.helpLabel, id: "help-button" }),
+  ];
+}
+
+function helpCard(): HTMLDialogElement {
+  const card = html("dialog", { id: "help", "aria-label": words.helpLabel },
+    html("p", {}, words.helpText), html("h2", {}, words.keysTitle),
+    html("dl", {}, ...words.keys.flatMap(([key, does]) => [html("dt", {}, html("kbd", {}, key)), html("dd", {}, does)])),
+    button(words.closeHelp, () => card.close()));
+  card.addEventListener("click", (event) => {
+    if (event.target === card) card.close();
+  });
+  return card;
+}
+
+/// Copies what the address says, or shows it where a browser does not let pages copy.
+export async function copyLink(say: (message: string, ...parts: HTMLElement[]) => void): Promise<void> {
+  try {
+    await navigator.clipboard.writeText(location.href);
+    say(words.linkCopied);
+  } catch {
+    const field = html("input", { type: "text", readonly: true, value: location.href, "aria-label": words.linkShown });
+    say(words.linkShown, field);
+    field.select();
+  }
+}
+
+/// One key does what a button does, where no field is typed in.
+export function listenToKeys(does: Record<string, () => void>, signal: AbortSignal): void {
+  document.addEventListener("keydown", (event) => {
+    const { target, key } = event;
+    if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
+    if (target instanceof HTMLElement && target.closest("input:not([type=range], [type=checkbox]), select, textarea")) return;
+    // What has the focus is pressed by the space bar itself.
+    if (key === " " && target instanceof Element && target.closest("button, summary, input, [role=button]")) return;
+    const act = does[key.toLowerCase()];
+    if (!act) return;
+    event.preventDefault();
+    act();
+  }, { signal });
+}

@@ -1,0 +1,9 @@
+/// A file that is dropped anywhere on the page does not replace it: `taken` is told of it.
+export function catchDrops(taken: (files: File[]) => void): void {
+  document.addEventListener("dragover", (event) => event.preventDefault());
+  document.addEventListener("drop", (event) => {
+    event.preventDefault();
+    const files = [...(event.dataTransfer?.files ?? [])];
+    if (files.length) taken(files);
+  });
+}

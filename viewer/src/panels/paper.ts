@@ -1,0 +1,57 @@
+import { html, named } from "../dom";
+import { clockDrawing } from "../plots/clock";
+import { limitsDrawing } from "../plots/limits";
+import { MapPlot } from "../plots/map";
+import { scopeOf, type ReportText } from "../report";
+import { bandText, firstFigures, limitAlone, toldFirst } from "../result";
+import { motionName, words } from "../words";
+import { headingOf } from "./header";
+import { normalText } from "./manoeuvres";
+import { methodOf, sourcesOf } from "./numbers";
+import { sentenceOf, type Extreme } from "./strip";
+
+/// The page on paper, two sheets: the answer with its picture, limits and scope; then the map, the method and the files.
+export class Paper {
+  readonly element: HTMLElement;
+  private readonly image = html("img", { alt: "" });
+  private readonly caption = html("p", { class: "small" });
+
+  constructor(text: ReportText, counts: { fixed: [number, number]; mobile: [number, number] }, extremes: readonly Extreme[]) {
+    const { rom, map } = text, isHip = text.joint.anatomy === "hip" && text.joint.kind !== "hinge";
+    const told = rom ? toldFirst(rom, isHip) : null, hasLimits = rom?.motions.some(({ reason }) => reason !== "contact_at_start") ?? false;
+    const figures = rom && hasLimits
+      ? firstFigures(rom, isHip).map((motion) => [motionName(motion.name), limitAlone(motion), bandText(motion), normalText(motion)] as const)
+      : extremes.map(({ name, value, at }) => [name, value, "", at] as const);
+    const clock = rom && clockDrawing(rom.motions, rom.clock_plane, null);
+    const notes = rom?.notes ?? [];
+    const scope = html("p", { class: "small" }, words.scope(scopeOf(text)));
+    const first = html("div", { class: "sheet" }, html("h1", {}, headingOf(text)),
+      ...(text.note ? [html("p", {}, text.note)] : []),
+      html("div", { class: "paper-results" }, ...figures.map(([name, value, band, normal]) =>
+        html("div", {}, html("span", {}, named(name)), html("b", {}, value), html("span", {}, [band, normal].filter(Boolean).join(" "))))),
+      html("p", {}, hasLimits && told ? sentenceOf(told, text) : rom ? words.noLimitsInContact : words.noLimits + (text.rom_error ?? "")),
+      ...(notes.length ? [html("p", { class: "warning" }, html("b", {}, words.noted(notes.length)), " ", notes.map((note) => note.text).join("; "))] : []),
+      html("div", { class: "paper-picture" }, this.image, this.caption),
+      ...(rom && hasLimits ? [html("div", { class: "paper-figures" }, drawn(limitsDrawing(rom.motions, null)), ...(clock ? [drawn(clock)] : []))] : []),
+      scope);
+    const second = html("div", { class: "sheet" },
+      ...(map ? [html("div", { class: "paper-map" }, new MapPlot(map, null, "paper-").element)] : []),
+      html("h2", {}, words.method), ...methodOf(text, counts),
+      ...(rom?.provenance ? [html("h2", {}, words.sourceFiles), ...sourcesOf(rom.provenance)] : []));
+    this.element = html("div", {}, first, second);
+    // What is read on the screen is not read twice.
+    for (const region of this.element.querySelectorAll("[tabindex]")) region.removeAttribute("tabindex");
+    for (const region of this.element.querySelectorAll("[role=button]")) region.removeAttribute("role");
+  }
+
+  /// A picture of the scene and what it shows.
+  setPicture(source: string, caption: string): void {
+    this.image.src = source;
+    this.image.alt = caption;
+    this.caption.textContent = caption;
+  }
+}
+
+function drawn({ picture, caption }: { picture: SVGSVGElement; caption: string }): HTMLElement {
+  return html("figure", {}, picture, html("figcaption", {}, caption));
+}

@@ -1,0 +1,98 @@
+import { button, html, named, shortened, spaced } from "../dom";
+import { clockTime, fixed } from "../numbers";
+import type { MotionAnswer, ReportText } from "../report";
+import { bandText, deficitOf, firstFigures, limitAlone, limitText, toldFirst } from "../result";
+import { motionName, words } from "../words";
+import { normalText } from "./manoeuvres";
+
+/// A figure of the strip that is not a limit: the largest value of a curve.
+export interface Extreme {
+  name: string;
+  value: string;
+  at: string;
+  go: () => void;
+}
+
+/// What meets at the end of a motion and at which hour, as far as it is known.
+export function placeOf(motion: MotionAnswer, { joint, rom }: ReportText): string {
+  if (motion.reason !== "contact") return "";
+  const { features, clock_hour, contact_side } = motion;
+  const fixedPart = features?.fixed.part, mobilePart = features?.mobile.part, isHip = joint.anatomy === "hip";
+  const meets = !fixedPart && !mobilePart && isHip && clock_hour !== null ? words.neckOnRim
+    : words.meshOn(spaced(named(mobilePart ?? joint.mobile)), spaced(named(fixedPart ?? joint.fixed)));
+  if (clock_hour !== null) return words.atHour(meets, clockTime(clock_hour));
+  return [meets, contact_side, isHip && rom?.bearing?.head ? words.awayFromRim : null].filter(Boolean).join(", ");
+}
+
+/// One sentence of a motion: where it ends, how sure that is, what it lacks, what meets where.
+export function sentenceOf(motion: MotionAnswer, report: ReportText): string {
+  const name = capital(named(motionName(motion.name)));
+  if (motion.reason === "contact_at_start") return words.startsInContactSentence(name);
+  if (motion.translation_ends) return words.translationSentence(name, limitAlone(motion));
+  if (motion.reason === "end_of_range") return words.freeSentence(name, fixed(motion.limit_deg, 0));
+  const lacks = deficitOf(motion);
+  return words.endsSentence(name, limitText(motion),
+    lacks === null ? null : words.lacks(fixed(lacks, 0), fixed(motion.normal_range_deg!, 0)), placeOf(motion, report));
+}
+
+function capital(text: string): string {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+/// The answer first: four figures, a sentence, and what the checks noted. It stays where it is, whatever is pressed.
+export class ResultStrip {
+  readonly element: HTMLElement;
+  private readonly sentence = html("p", { id: "sentence", "aria-live": "polite" });
+  private readonly cards = new Map<string, HTMLButtonElement>();
+
+  constructor(
+    private readonly report: ReportText, go: (motion: MotionAnswer) => void, canGo: (motion: MotionAnswer) => boolean, extremes: readonly Extreme[],
+    showNotes: () => void) {
+    const { rom } = report, isHip = report.joint.anatomy === "hip" && report.joint.kind !== "hinge";
+    const hasLimits = rom !== null && rom.motions.some(({ reason }) => reason !== "contact_at_start");
+    const cards = hasLimits
+      ? firstFigures(rom, isHip).map((motion) => {
+        const lacks = deficitOf(motion) !== null;
+        const made = card(motionName(motion.name), limitAlone(motion), bandText(motion), normalText(motion), () => go(motion), !canGo(motion));
+        made.classList.toggle("short", lacks);
+        this.cards.set(motion.name, made);
+        return made;
+      })
+      : extremes.map(({ name, value, at, go: show }) => card(name, value, "", at, show, false));
+    const told = rom && hasLimits ? toldFirst(rom, isHip) : null;
+    this.sentence.textContent = told ? sentenceOf(told, report)
+      : rom ? words.noLimitsInContact : words.noLimits + shortened(report.rom_error ?? "", 300);
+    const notes = rom?.notes ?? [];
+    this.element = html("section", { id: "strip", "aria-label": words.result },
+      ...(cards.length ? [html("div", { id: "results" }, ...cards)] : []),
+      html("div", { id: "said" }, this.sentence, ...(report.note ? [html("p", { id: "note", class: "quiet" }, shortened(report.note, 500))] : [])),
+      ...(notes.length ? [this.noted(notes, showNotes)] : []));
+  }
+
+  /// The sentence of a motion that the joint has gone to.
+  tell(motion: MotionAnswer): void {
+    this.sentence.textContent = sentenceOf(motion, this.report);
+    for (const [name, made] of this.cards) {
+      if (name === motion.name) made.setAttribute("aria-current", "true");
+      else made.removeAttribute("aria-current");
+    }
+  }
+
+  /// The sentence stays: where the joint is no longer at the end of a motion no figure is marked.
+  unmark(): void {
+    for (const made of this.cards.values()) made.removeAttribute("aria-current");
+  }
+
+  private noted(notes: readonly { text: string }[], showNotes: () => void): HTMLElement {
+    return html("div", { id: "noted", class: "warning" }, html("span", { class: "noted-text" }, html("b", {}, words.noted(notes.length)), " ",
+      notes.map(({ text }) => text).join("; ")), button(words.readNotes, showNotes, { class: "quiet-button" }));
+  }
+}
+
+function card(name: string, value: string, band: string, normal: string, go: () => void, disabled: boolean): HTMLButtonElement {
+  const made = button("", go, { class: "result", disabled });
+  made.append(html("span", { class: "result-name" }, shortened(named(name), 48)), " ",
+    html("span", { class: "result-value" }, html("b", {}, value), " ", html("span", { class: "quiet" }, band)), " ",
+    html("span", { class: "result-normal" }, normal));
+  return made;
+}

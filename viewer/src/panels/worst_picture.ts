@@ -1,0 +1,44 @@
+import { html } from "../dom";
+import type { JointArrays } from "../core/protocol";
+import type { ReportText, StoredPose } from "../report";
+import { JointScene } from "../scene/scene";
+
+const size_px = { width: 1200, height: 720 };
+/// The camera has turned by then.
+const arrived_ms = 700;
+/// Beyond so many triangles a second scene costs more than a picture is worth: paper shows the one on the screen.
+const most = 600_000;
+
+/// A picture of the joint at one of the report's poses, drawn beside the page; null where it is too large or nothing draws.
+export async function pictureOf(
+  text: ReportText, { fixed, mobile }: JointArrays, pose: StoredPose, label: string, radius_mm: number | null): Promise<string | null> {
+  if ((fixed.triangles.length + mobile.triangles.length) / 3 > most) return null;
+  const place = html("div", { class: "beside-page", "aria-hidden": "true" });
+  place.style.width = `${size_px.width}px`;
+  place.style.height = `${size_px.height}px`;
+  document.body.append(place);
+  try {
+    const scene = new JointScene(place, fixed, mobile, text.parts, "", text.joint.side);
+    scene.canvas.tabIndex = -1;
+    scene.setJointRadius(radius_mm);
+    scene.setPose(pose.pose);
+    scene.arriveAt(pose.contact_point_mm, label, "mobile");
+    await new Promise((done) => setTimeout(done, arrived_ms));
+    const blob = await scene.picture("");
+    scene.canvas.getContext("webgl2")?.getExtension("WEBGL_lose_context")?.loseContext();
+    return await dataUrlOf(blob);
+  } catch {
+    return null;
+  } finally {
+    place.remove();
+  }
+}
+
+function dataUrlOf(blob: Blob): Promise<string> {
+  return new Promise((done, fail) => {
+    const reader = new FileReader();
+    reader.onload = () => done(reader.result as string);
+    reader.onerror = () => fail(reader.error ?? new Error());
+    reader.readAsDataURL(blob);
+  });
+}

@@ -1,0 +1,72 @@
+import { fixed, plain } from "./numbers";
+import type { Band, MotionAnswer, RomAnswer } from "./report";
+import { words } from "./words";
+
+/// What is said first of a joint's limits, and by which rule: docs/report.md, "The answer first".
+
+const ofHips = ["flexion", "internal_rotation_at_90_flexion", "fadir"];
+const shownFirst = 4;
+
+/// How much a motion lacks of its normal range, in degrees; null where it lacks nothing or has none.
+export function deficitOf({ reason, limit_deg, normal_range_deg, translation_ends }: MotionAnswer): number | null {
+  if (normal_range_deg === null || reason === "end_of_range" || translation_ends) return null;
+  const lacks = normal_range_deg - (reason === "contact_at_start" ? 0 : limit_deg);
+  return lacks > 0 ? lacks : null;
+}
+
+/// The motion that lacks most; null where none lacks anything.
+export function worstOf(motions: readonly MotionAnswer[]): MotionAnswer | null {
+  return motions.reduce<MotionAnswer | null>(
+    (worst, motion) => ((deficitOf(motion) ?? 0) > (worst ? deficitOf(worst)! : 0) ? motion : worst), null);
+}
+
+/// The motion that lacks most, or where none lacks anything that which is nearest to its normal range; null where none has one.
+function nearestToNormal(motions: readonly MotionAnswer[]): MotionAnswer | null {
+  const beyond = ({ limit_deg, normal_range_deg }: MotionAnswer) => limit_deg - normal_range_deg!;
+  const compared = motions.filter(({ normal_range_deg, reason }) => normal_range_deg !== null && reason === "contact");
+  return worstOf(motions) ?? compared.reduce<MotionAnswer | null>(
+    (nearest, motion) => (nearest && beyond(nearest) <= beyond(motion) ? nearest : motion), null);
+}
+
+/// The four of the strip: those that a hip is examined by, or else the first ones; and among the others that which lacks most of its
+/// normal range, or is nearest to it, or else the next one.
+export function firstFigures({ motions }: RomAnswer, isHip: boolean): MotionAnswer[] {
+  const named = isHip ? ofHips.flatMap((name) => motions.find((motion) => motion.name === name) ?? []) : [];
+  const shown = [...named, ...motions.filter((motion) => !named.includes(motion))].slice(0, shownFirst - 1);
+  const others = motions.filter((motion) => !shown.includes(motion));
+  const last = nearestToNormal(others) ?? others[0];
+  return last ? [...shown, last] : shown;
+}
+
+/// The motion that the sentence is about: that which lacks most; where none does, of a hip internal rotation at 90° flexion, of others
+/// the first of the strip that ends by contact.
+export function toldFirst(rom: RomAnswer, isHip: boolean): MotionAnswer | null {
+  const byContact = ({ reason }: MotionAnswer) => reason === "contact";
+  return worstOf(rom.motions) ?? (isHip && rom.motions.find((motion) => motion.name === ofHips[1] && byContact(motion)) ||
+    (firstFigures(rom, isHip).find(byContact) ?? rom.motions[0] ?? null));
+}
+
+/// The band that says something: where nothing ends a motion in its range, nothing does so in most displaced joints either.
+export function toldBand({ band, reason }: MotionAnswer): Band | null {
+  return band && (reason === "contact" || band.p5_deg.toFixed(0) !== band.p95_deg.toFixed(0)) ? band : null;
+}
+
+/// "134.8°", ">120°" where the range ends without contact.
+export function endText({ limit_deg, reason }: { limit_deg: number; reason: MotionAnswer["reason"] }): string {
+  if (reason === "contact_at_start") return words.reasons.contact_at_start;
+  return reason === "end_of_range" ? words.over(`${plain(limit_deg)}°`) : `${fixed(limit_deg, 1)}°`;
+}
+
+/// Without its band.
+export function limitAlone(motion: MotionAnswer): string {
+  return motion.translation_ends && !motion.translation_mm ? "–" : endText(motion);
+}
+
+export function bandText(motion: MotionAnswer): string {
+  const band = toldBand(motion);
+  return band ? words.bandOf(fixed(band.p5_deg, 0), fixed(band.p95_deg, 0)) : "";
+}
+
+export function limitText(motion: MotionAnswer): string {
+  return [limitAlone(motion), bandText(motion)].filter(Boolean).join(" ");
+}

@@ -1,0 +1,77 @@
+import { html, svg } from "../dom";
+import { words } from "../words";
+import type { ColourScale } from "./colour_scale";
+import { legendElement } from "./legend";
+
+/// What is written over the scene, in pixels of the page from its top left corner.
+export interface Written {
+  width: number;
+  height: number;
+  /// Letters of where the edges are.
+  edges: { top: string; bottom: string; left: string; right: string };
+  scaleBar: { length: number; mm: number; isTrueEverywhere: boolean };
+  pin: { x: number; y: number; label: string } | null;
+}
+
+const pinAside = 34, pinAbove = 40, border = 6;
+export const edgeNames = ["top", "bottom", "left", "right"] as const;
+
+/// The corner of a pin's label that is nearest to its point, so that all of it is within the scene.
+export function placeOfLabel({ width, height, pin }: Written, labelWidth: number, labelHeight: number): { x: number; y: number } {
+  const { x, y } = pin!;
+  const isRight = x > width / 2;
+  const left = isRight ? x + pinAside : x - pinAside - labelWidth, top = y - pinAbove - labelHeight;
+  return {
+    x: Math.min(Math.max(border, left), Math.max(border, width - labelWidth - border)),
+    y: Math.min(Math.max(border, top < border ? y + pinAbove : top), Math.max(border, height - labelHeight - border)),
+  };
+}
+
+export function scaleBarText({ mm, isTrueEverywhere }: Written["scaleBar"]): string {
+  return isTrueEverywhere ? words.scaleBar(mm) : `${words.scaleBar(mm)} ${words.scaleBarAtCentre}`;
+}
+
+/// Elements over the canvas: letters, a scale bar, the legend and a pin. None takes the pointer.
+export class SceneOverlay {
+  readonly element = html("div", { class: "scene-overlay" });
+  private readonly letters = Object.fromEntries(edgeNames.map((name) => [name, html("span", { class: `edge ${name}`, "aria-hidden": "true" })]));
+  private readonly barText = html("span", {});
+  private readonly bar = html("div", { class: "length" });
+  private readonly legend = html("div", { id: "legend", class: "scene-legend" });
+  private readonly leader = svg("line", { class: "leader" });
+  private readonly ring = svg("circle", { r: 5, class: "ring" });
+  private readonly pinDrawing = svg("svg", { class: "scene-pin-drawing", "aria-hidden": "true" }, this.leader, this.ring);
+  private readonly pinLabel = html("div", { class: "scene-pin", role: "status" });
+
+  constructor() {
+    this.pinLabel.hidden = true;
+    this.element.append(
+      ...Object.values(this.letters), html("div", { class: "scene-scale" }, this.bar, this.barText), this.legend, this.pinDrawing, this.pinLabel);
+  }
+
+  setScale(scale: ColourScale | null): void {
+    this.legend.replaceChildren(...(scale ? legendElement(scale) : []));
+    this.legend.hidden = scale === null;
+  }
+
+  update(written: Written): void {
+    for (const name of edgeNames) setText(this.letters[name]!, written.edges[name]);
+    this.bar.style.width = `${written.scaleBar.length}px`;
+    setText(this.barText, scaleBarText(written.scaleBar));
+    const { pin } = written;
+    this.pinLabel.hidden = pin === null;
+    this.pinDrawing.toggleAttribute("hidden", pin === null);
+    if (!pin) return;
+    setText(this.pinLabel, pin.label);
+    const { offsetWidth: width, offsetHeight: height } = this.pinLabel, at = placeOfLabel(written, width, height);
+    this.pinLabel.style.transform = `translate(${at.x}px, ${at.y}px)`;
+    const set = (element: SVGElement, values: Record<string, number>) =>
+      Object.entries(values).forEach(([name, value]) => element.setAttribute(name, value.toFixed(1)));
+    set(this.ring, { cx: pin.x, cy: pin.y });
+    set(this.leader, { x1: pin.x, y1: pin.y, x2: at.x + width / 2, y2: at.y + height / 2 });
+  }
+}
+
+function setText(element: HTMLElement, text: string): void {
+  if (element.textContent !== text) element.textContent = text;
+}
