@@ -225,10 +225,14 @@ void add_report(CLI::App& app) {
       ->option_text("FILE");
   command->add_option("--title", options->title, "Put this heading on the page")
       ->option_text("TEXT (the joint's name)");
-  command->add_option("--case", options->labels.case_name, "Begin the heading with this: a number or a pseudonym")
+  command
+      ->add_option("--case", options->labels.case_name,
+                   "Begin the heading with this: a number or a pseudonym")
       ->option_text("TEXT");
   command->add_option("--note", options->labels.note, "Put this under the result")->option_text("TEXT");
-  command->add_option("--date", options->labels.date, "Put this date into the heading; none is taken from the clock")
+  command
+      ->add_option("--date", options->labels.date,
+                   "Put this date into the heading; none is taken from the clock")
       ->option_text("TEXT");
   command->add_flag("--paths", options->labels.whole_paths,
                     "Name files by their paths as they were given, not by their names alone");
@@ -265,14 +269,15 @@ void add_report(CLI::App& app) {
   add_strict(*command, options->strictness);
   HelpGroup of_cut = resection_group();
   of_cut.options.emplace_back("--curve");
-  group_help(*command,
-             {{"Most used", {"--out", "--band", "--map", "--motion", "--load"}},
-              {"Question", {"--set", "--vary", "--past", "--translation", "--measures", "--resect"}},
-              of_cut,
-              uncertainty_group(),
-              {"Centre not held", follow_names()},
-              {"Contact", {"--bearing", "--accept-reference-contact"}},
-              {"Output", {"--empty", "--title", "--case", "--note", "--date", "--paths", "--strict", "--help"}}});
+  group_help(
+      *command,
+      {{"Most used", {"--out", "--band", "--map", "--motion", "--load"}},
+       {"Question", {"--set", "--vary", "--past", "--translation", "--measures", "--resect"}},
+       of_cut,
+       uncertainty_group(),
+       {"Centre not held", follow_names()},
+       {"Contact", {"--bearing", "--accept-reference-contact"}},
+       {"Output", {"--empty", "--title", "--case", "--note", "--date", "--paths", "--strict", "--help"}}});
   command->callback([options, command] { report_command(*options, *command); });
 }
 

@@ -14,14 +14,14 @@ const browser = await launchedBrowser();
 async function drawPlan() {
   condyle("sample", "hip", "--alpha-angle", "70", "--out", folder);
   condyle("report", join(folder, "hip.toml"), "--measures", "--resect", "internal_rotation_at_90_flexion=45", "--out", join(folder, "plan.html"));
-  const { page } = await openPage(browser, join(folder, "plan.html"), { width: 1200, height: 760, fragment: "#hidden=fixed" });
+  const { page } = await openPage(browser, join(folder, "plan.html"), { width: 1440, height: 900, fragment: "#hidden=fixed" });
   await settled(page);
   await page.getByRole("tab", { name: "Plan", exact: true }).click();
   await settled(page);
   await page.screenshot({ path: join(root, "docs/images/plan_page.png") });
 }
 try {
-  const { page } = await openPage(browser, join(folder, "report.html"), { width: 1200, height: 760, fragment: "#flexion=70&internal_rotation=20" });
+  const { page } = await openPage(browser, join(folder, "report.html"), { width: 1440, height: 900, fragment: "#flexion=70&internal_rotation=20" });
   await settled(page);
   await page.waitForFunction(() => [...document.querySelectorAll(".told")].every(({ textContent }) => textContent !== ""));
   await page.screenshot({ path: join(root, "docs/images/page.png") });

@@ -9,7 +9,8 @@
 namespace condyle::python {
 
 /// Case, note, date, and whether files are named by their whole paths.
-using LabelsGiven = std::tuple<std::optional<std::string>, std::optional<std::string>, std::optional<std::string>, bool>;
+using LabelsGiven =
+    std::tuple<std::optional<std::string>, std::optional<std::string>, std::optional<std::string>, bool>;
 
 inline ReportLabels report_labels_of(const LabelsGiven& given) {
   const auto& [case_name, note, date, whole_paths] = given;

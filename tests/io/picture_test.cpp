@@ -51,12 +51,13 @@ constexpr std::size_t side_px = 200;
 constexpr double field_mm = 100;
 
 /// 2 pixels a mm, the joint centre in the middle.
-PictureOptions square_without_legend(std::string_view view, Side side = Side::right) {
+PictureOptions bare_square(std::string_view view, Side side = Side::right) {
   return {.view = view_named(view, side),
           .colour = PictureColour::none,
           .width = side_px,
           .height = side_px,
-          .field_mm = field_mm};
+          .field_mm = field_mm,
+          .is_annotated = false};
 }
 
 Rgb at_mm(const Picture& picture, double right, double up) {
@@ -79,7 +80,7 @@ TEST_P(Views, ShowBonesWhereTheyAre) {
   const Vec3 of_fixed(30, 20, 10), of_mobile(-10, -30, -20), half(4, 4, 4);
   const Joint joint = joint_of(fine_box(of_fixed - half, of_fixed + half),
                                fine_box(of_mobile - half, of_mobile + half), side);
-  const Picture picture = draw_joint(joint, {}, Pose::Identity(), square_without_legend(view, side));
+  const Picture picture = draw_joint(joint, {}, Pose::Identity(), bare_square(view, side));
   ASSERT_EQ(picture.rgb.size(), 3 * side_px * side_px);
   const auto place = [](const Vec3& p, const std::array<double, 3>& along) {
     return p.x() * along[0] + p.y() * along[1] + p.z() * along[2];
@@ -126,7 +127,7 @@ enum class Hidden { none, fixed, mobile };
 
 Picture coloured(const Joint& joint, PictureColour colour, std::optional<double> range_mm = std::nullopt,
                  Hidden hidden = Hidden::none) {
-  PictureOptions options = square_without_legend("anterior");
+  PictureOptions options = bare_square("anterior");
   options.colour = colour, options.range_mm = range_mm;
   if (hidden == Hidden::fixed) options.fixed = BodyLook::hidden;
   if (hidden == Hidden::mobile) options.mobile = BodyLook::hidden;
@@ -208,7 +209,7 @@ std::size_t pixels_like(const Picture& picture, const Rgb& colour) {
 
 TEST(Picture, LeavesOutWhatIsHiddenAndShowsThroughGlass) {
   const Joint joint = plate_before_plate();
-  PictureOptions options = square_without_legend("anterior");
+  PictureOptions options = bare_square("anterior");
   const auto count = [&](const Rgb& bone) {
     return pixels_like(draw_joint(joint, {}, Pose::Identity(), options), bone);
   };
@@ -227,7 +228,7 @@ TEST(Picture, LeavesOutWhatIsHiddenAndShowsThroughGlass) {
 
 TEST(PictureMarks, CoverBonesBehindThemAndShineThroughThoseBeforeThem) {
   const Joint joint = joint_of(fine_box({-5, -40, -40}, {5, 40, 40}), fine_box({-60, -1, -1}, {-58, 1, 1}));
-  PictureOptions options = square_without_legend("anterior");
+  PictureOptions options = bare_square("anterior");
   const Rgb blue = {0, 114, 178};
   options.marks = {{box({20, -10, -30}, {21, 10, -20}), {0, 114, 178}},
                    {box({-30, -10, 20}, {-29, 10, 30}), {0, 114, 178}},
@@ -273,7 +274,7 @@ TEST(PictureMarks, OfMeasuresLieWhereTheyWereMeasured) {
 
 TEST(Picture, FitsBothBodiesWhateverIsHidden) {
   Joint joint = joint_of(fine_box({-5, 300, -5}, {5, 310, 5}), fine_box({-5, -80, -5}, {5, -70, 5}));
-  PictureOptions options = square_without_legend("anterior");
+  PictureOptions options = bare_square("anterior");
   options.field_mm.reset();
   const Picture both = draw_joint(joint, {}, Pose::Identity(), options);
   // 390 mm within 92 % of 200 pixels: the boxes are 4.7 pixels high, at either end of the picture's middle column.
@@ -289,7 +290,7 @@ TEST(Picture, SmoothsEdges) {
   // An edge through the middle of pixels: 2 pixels a mm, from z = -10.25 to 10.25.
   const Joint joint =
       joint_of(fine_box({0, -10, -10.25}, {5, 10, 10.25}), fine_box({-60, -1, -1}, {-58, 1, 1}));
-  const Picture picture = draw_joint(joint, {}, Pose::Identity(), square_without_legend("anterior"));
+  const Picture picture = draw_joint(joint, {}, Pose::Identity(), bare_square("anterior"));
   const double shade = at_mm(picture, 10.1, 0.3)[2], inside = at_mm(picture, 9.6, 0.3)[2];
   EXPECT_NEAR(shade, (inside + 255) / 2, 8);
 }

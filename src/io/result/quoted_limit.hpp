@@ -13,7 +13,8 @@ namespace condyle::io {
 inline std::string beyond_range(Angle range, const LimitBand* band) {
   const std::string end = fmt::format(">{:g}", std::round(10 * range.degrees()) / 10);
   if (!band) return end;
-  const std::string p5 = fmt::format("{:.0f}", band->p5.degrees()), p95 = fmt::format("{:.0f}", band->p95.degrees());
+  const std::string p5 = fmt::format("{:.0f}", band->p5.degrees()),
+                    p95 = fmt::format("{:.0f}", band->p95.degrees());
   return p5 == p95 ? end + "\xC2\xB0" : fmt::format("{}\xC2\xB0 ({}\xE2\x80\x93{})", end, p5, p95);
 }
 
