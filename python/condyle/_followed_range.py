@@ -12,7 +12,7 @@ from . import _native
 from ._contact_checks import ContactNote, reported
 from ._described_joint import DescribedJoint
 from ._errors import UsageError
-from ._limits import MotionLimit, motion_limit_of
+from ._limits import MotionLimit, end_text, motion_limit_of
 from ._motion import MotionLike, Motions
 from ._pressure import ElasticContact
 from ._words import BearingRule, Body, Path, Progress, number, path_of, progress_of, report_labels, text_of, word
@@ -74,10 +74,11 @@ class FollowedRange:
 
     def __repr__(self) -> str:
         def end(limit: MotionLimit) -> str:
-            return "" if limit.reason == "contact" else " translation_ends" if limit.translation_ends else f" {limit.reason}"
+            if limit.translation_ends:
+                return f"{limit.turned_deg:.1f} translation_ends"
+            return end_text(limit.turned_deg, limit.reason) + (" contact_at_start" if limit.reason == "contact_at_start" else "")
 
-        return "FollowedRange(" + ", ".join(
-            f"{limit.motion.name} {limit.turned_deg:.1f}{end(limit)}" for limit in self.limits) + ")"
+        return "FollowedRange(" + ", ".join(f"{limit.motion.name} {end(limit)}" for limit in self.limits) + ")"
 
 
 def followed_range(joint: DescribedJoint, motions: Optional[Sequence[MotionLike]], poses: Optional[ArrayLike],

@@ -57,9 +57,10 @@ export function endText({ limit_deg, reason }: { limit_deg: number; reason: Moti
   return reason === "end_of_range" ? words.over(`${plain(limit_deg)}°`) : `${fixed(limit_deg, 1)}°`;
 }
 
-/// Without its band.
+/// Without its band. Where what a translation follows ends, the motion is known to there, not free beyond.
 export function limitAlone(motion: MotionAnswer): string {
-  return motion.translation_ends && !motion.translation_mm ? "–" : endText(motion);
+  if (motion.translation_ends) return motion.translation_mm ? `${fixed(motion.limit_deg, 1)}°` : "–";
+  return endText(motion);
 }
 
 export function bandText(motion: MotionAnswer): string {

@@ -332,7 +332,8 @@ std::string rom_text(const RomResult& result) {
   const auto limit_text = [&](std::size_t i) -> std::string {
     if (result.limits[i].translation_ends && !result.limits[i].translation_mm) return "-";
     const Angle turned = result.limits[i].end.turned;
-    if (result.limits[i].end.reason == LimitReason::end_of_range)
+    // Where what a translation follows ends, the motion is known to there, not free beyond.
+    if (result.limits[i].end.reason == LimitReason::end_of_range && !result.limits[i].translation_ends)
       return io::beyond_range(turned, result.bands.empty() ? nullptr : &result.bands[i]);
     return result.bands.empty() ? fmt::format("{:.2f}", turned.degrees())
                                 : io::quoted_limit(turned, result.bands[i]);
