@@ -71,6 +71,8 @@ class JointContact {
   /// The meshes of a joint, which are in the joint frame.
   explicit JointContact(const Joint& joint, RadialOptions options = {});
   JointContact(Mesh fixed, Mesh mobile, RadialOptions options = {});
+  /// The same joint with another mesh in a body's place: what was made of the other body is shared.
+  JointContact(const JointContact& before, BodyRole changed, Mesh mesh);
   ~JointContact();
   JointContact(JointContact&&) noexcept;
   JointContact& operator=(JointContact&&) noexcept;

@@ -95,29 +95,44 @@ class ContactBody {
 }  // namespace
 
 struct JointContact::Parts {
-  ContactBody fixed, mobile;
-  core::Lazy<std::optional<contact::BodyPair>> trees;
-
-  Parts(Mesh fixed_mesh, Mesh mobile_mesh, const RadialOptions& options)
-      : fixed("fixed body", std::move(fixed_mesh), options),
-        mobile("mobile body", std::move(mobile_mesh), options) {}
+  /// Joints that differ in the other body share it.
+  std::shared_ptr<const ContactBody> fixed, mobile;
+  RadialOptions options;
+  core::Lazy<std::optional<contact::BodyPair>> trees = {};
 
   const contact::BodyPair& bodies() const {
     return *trees.get(
-        [&](std::optional<contact::BodyPair>& pair) { pair.emplace(fixed.mesh(), mobile.mesh()); });
+        [&](std::optional<contact::BodyPair>& pair) { pair.emplace(fixed->mesh(), mobile->mesh()); });
   }
   std::shared_ptr<const RingTable> fixed_rings(const Vec3& axis_F) const {
-    return fixed.ring_table(Vec3::Zero(), axis_F);
+    return fixed->ring_table(Vec3::Zero(), axis_F);
   }
   std::shared_ptr<const RingTable> mobile_rings(const Pose& X_MF, const Vec3& axis_F) const {
-    return mobile.ring_table(X_MF.translation(), core::turned(X_MF, axis_F));
+    return mobile->ring_table(X_MF.translation(), core::turned(X_MF, axis_F));
   }
 };
+
+namespace {
+
+std::shared_ptr<const ContactBody> fixed_body(Mesh mesh, const RadialOptions& options) {
+  return std::make_shared<const ContactBody>("fixed body", std::move(mesh), options);
+}
+std::shared_ptr<const ContactBody> mobile_body(Mesh mesh, const RadialOptions& options) {
+  return std::make_shared<const ContactBody>("mobile body", std::move(mesh), options);
+}
+
+}  // namespace
 
 JointContact::JointContact(const Joint& joint, RadialOptions options)
     : JointContact(joint.fixed.mesh, joint.mobile.mesh, options) {}
 JointContact::JointContact(Mesh fixed, Mesh mobile, RadialOptions options)
-    : parts_(std::make_unique<Parts>(std::move(fixed), std::move(mobile), options)) {}
+    : parts_(new Parts{fixed_body(std::move(fixed), options), mobile_body(std::move(mobile), options),
+                       options}) {}
+JointContact::JointContact(const JointContact& before, BodyRole changed, Mesh mesh) {
+  const auto& [fixed, mobile, options, trees] = *before.parts_;
+  parts_.reset(changed == BodyRole::fixed ? new Parts{fixed_body(std::move(mesh), options), mobile, options}
+                                          : new Parts{fixed, mobile_body(std::move(mesh), options), options});
+}
 JointContact::~JointContact() = default;
 JointContact::JointContact(JointContact&&) noexcept = default;
 JointContact& JointContact::operator=(JointContact&&) noexcept = default;
@@ -127,16 +142,16 @@ const contact::BodyPair& contact::body_pair_of(const JointContact& joint) {
 }
 
 const Mesh& JointContact::fixed() const noexcept {
-  return parts_->fixed.mesh();
+  return parts_->fixed->mesh();
 }
 const Mesh& JointContact::mobile() const noexcept {
-  return parts_->mobile.mesh();
+  return parts_->mobile->mesh();
 }
 const RadialTable& JointContact::fixed_table() const {
-  return parts_->fixed.table();
+  return parts_->fixed->table();
 }
 const RadialTable& JointContact::mobile_table() const {
-  return parts_->mobile.table();
+  return parts_->mobile->table();
 }
 
 Contact JointContact::at(const Pose& X_FM) const {
@@ -149,11 +164,11 @@ Contact JointContact::at(const Pose& X_FM) const {
 }
 
 void JointContact::mobile_in_fixed(const Pose& X_FM, Penetrations& out) const {
-  parts_->fixed.table().penetrations(parts_->mobile.sorted_vertices(), X_FM, out);
+  parts_->fixed->table().penetrations(parts_->mobile->sorted_vertices(), X_FM, out);
 }
 
 void JointContact::fixed_in_mobile(const Pose& X_FM, Penetrations& out) const {
-  parts_->mobile.table().penetrations(parts_->fixed.sorted_vertices(), inverted(X_FM), out);
+  parts_->mobile->table().penetrations(parts_->fixed->sorted_vertices(), inverted(X_FM), out);
 }
 
 RadialContact JointContact::radial(const Pose& X_FM) const {

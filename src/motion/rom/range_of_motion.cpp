@@ -7,6 +7,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/tangential.hpp"
+#include "core/latest_few.hpp"
 #include "core/lazy.hpp"
 #include "core/parallel.hpp"
 #include "core/per_thread.hpp"
@@ -26,6 +27,11 @@ struct IncludedBody {
 
   explicit IncludedBody(motion::PartOfMesh part)
       : mesh(std::move(part.mesh)), tree(mesh), triangle_in_whole(std::move(part.triangle_in_whole)) {}
+  /// The same triangles over vertices elsewhere.
+  IncludedBody(const IncludedBody& before, const Points& vertices)
+      : mesh(before.mesh.moved_to(vertices)),
+        tree(before.tree.moved_to(vertices)),
+        triangle_in_whole(before.triangle_in_whole) {}
 
   /// Vertices that its triangles use, spread over all of it: neighbours in the tree are neighbours in space.
   Points spread_vertices(std::size_t most) const {
@@ -57,6 +63,9 @@ enum class Rotating { fixed, mobile };
 /// Coarser than usual: such a table is asked once.
 constexpr RingTableOptions coarse_rings{.cells_per_triangle = 0.03};
 
+/// Tables about the axis of adduction that a part of the fixed body keeps: built-in motions change adduction at two flexions.
+constexpr std::size_t adductions_kept = 2;
+
 /// With the bodies in each other's role.
 ContactWitness exchanged(const ContactWitness& contact) {
   return {contact.mobile_feature, contact.fixed_feature, contact.mobile_point, contact.fixed_point,
@@ -80,9 +89,20 @@ struct RangeOfMotion::Parts {
   struct FixedPart {
     IncludedBody body;
     motion::RotationTable flexion_table;
+    core::LatestFew<Angle, std::optional<motion::RotationTable>, adductions_kept> adduction_tables = {};
 
     FixedPart(motion::PartOfMesh part, CoordinateSystem system)
         : body(std::move(part)), flexion_table(body.tree, flexion_axis(system)) {}
+    FixedPart(const FixedPart& before, const Points& vertices, CoordinateSystem system)
+        : body(before.body, vertices), flexion_table(body.tree, flexion_axis(system)) {}
+
+    /// About the axis that the angles of a start have.
+    std::shared_ptr<const std::optional<motion::RotationTable>> adduction_table(
+        CoordinateSystem system, const JointAngles& start) const {
+      return adduction_tables.get(start.flexion, [&](std::optional<motion::RotationTable>& table) {
+        table.emplace(body.tree, AxisFrame(Vec3::Zero(), axis_of(JointAngle::adduction, system, start)));
+      });
+    }
   };
 
   /// A part of the mobile body.
@@ -95,6 +115,10 @@ struct RangeOfMotion::Parts {
     MobilePart(motion::PartOfMesh part, CoordinateSystem system)
         : body(std::move(part)),
           rotation_axis(rotation_axis_in_M(system)),
+          probed_vertices(body.spread_vertices(most_probed_vertices)) {}
+    MobilePart(const MobilePart& before, const Points& vertices)
+        : body(before.body, vertices),
+          rotation_axis(before.rotation_axis),
           probed_vertices(body.spread_vertices(most_probed_vertices)) {}
 
     /// The part stationary about the axis of internal rotation.
@@ -110,15 +134,15 @@ struct RangeOfMotion::Parts {
   BearingFinding bearing;
   LeftOut left_out;
   std::vector<motion::PairOfParts> ending, earlier;
-  // Neither moves: tables and threads refer to their trees.
-  std::vector<std::unique_ptr<FixedPart>> fixed = {};
-  std::vector<std::unique_ptr<MobilePart>> mobile = {};
+  // Neither moves: tables and threads refer to their trees. Joints that differ in the other body share them.
+  std::vector<std::shared_ptr<const FixedPart>> fixed = {};
+  std::vector<std::shared_ptr<const MobilePart>> mobile = {};
 
   /// Storage of one thread for a part of the fixed body: ready to rotate, and the table of the flexion of its last adduction.
   struct FixedWorker {
     motion::RotatingBody rotating;
     std::optional<Angle> flexion = {};
-    std::unique_ptr<motion::RotationTable> adduction_table = {};
+    std::shared_ptr<const std::optional<motion::RotationTable>> adduction_table = {};
     /// About the axis whose contacts it last collected.
     std::optional<RingTable> rings = {};
   };
@@ -145,20 +169,42 @@ struct RangeOfMotion::Parts {
         earlier(std::move(included.earlier)),
         workers([this] { return Worker(*this); }) {
     for (motion::PartOfMesh& part : included.fixed)
-      fixed.push_back(std::make_unique<FixedPart>(std::move(part), system));
+      fixed.push_back(std::make_shared<const FixedPart>(std::move(part), system));
     for (motion::PartOfMesh& part : included.mobile)
-      mobile.push_back(std::make_unique<MobilePart>(std::move(part), system));
+      mobile.push_back(std::make_shared<const MobilePart>(std::move(part), system));
+  }
+
+  /// The same with the vertices of one body elsewhere.
+  Parts(const Parts& before, BodyRole moved, const Points& vertices)
+      : kind(before.kind),
+        system(before.system),
+        whole_fixed(before.whole_fixed),
+        whole_mobile(before.whole_mobile),
+        bearing_rule(before.bearing_rule),
+        bearing(before.bearing),
+        left_out(before.left_out),
+        ending(before.ending),
+        earlier(before.earlier),
+        fixed(before.fixed),
+        mobile(before.mobile),
+        workers([this] { return Worker(*this); }) {
+    if (moved == BodyRole::fixed) {
+      whole_fixed = whole_fixed.moved_to(vertices);
+      for (auto& part : fixed) part = std::make_shared<const FixedPart>(*part, vertices, system);
+    } else {
+      whole_mobile = whole_mobile.moved_to(vertices);
+      for (auto& part : mobile) part = std::make_shared<const MobilePart>(*part, vertices);
+    }
   }
 
   const motion::RotationTable& adduction_table(Worker& worker, std::size_t part,
                                                const JointAngles& start) const {
     FixedWorker& of_part = worker.fixed[part];
     if (of_part.flexion != start.flexion) {
-      of_part.adduction_table = std::make_unique<motion::RotationTable>(
-          fixed[part]->body.tree, AxisFrame(Vec3::Zero(), axis_of(JointAngle::adduction, system, start)));
+      of_part.adduction_table = fixed[part]->adduction_table(system, start);
       of_part.flexion = start.flexion;
     }
-    return *of_part.adduction_table;
+    return **of_part.adduction_table;
   }
 
   /// One part of each body, ready to turn by an angle from its start: whichever has the axis at rest has its table.
@@ -294,6 +340,9 @@ RangeOfMotion::RangeOfMotion(const Joint& joint, const RangeOptions& options) {
   if (!both_limits(JointAngle::flexion, overlap.reference_pose, {Angle(), Angle()}).free_at_start())
     throw ReferenceContactError(motion::explain_overlap(joint, overlap.reference_pose));
 }
+
+RangeOfMotion::RangeOfMotion(const RangeOfMotion& before, BodyRole moved, const Points& vertices)
+    : parts_(std::make_unique<Parts>(*before.parts_, moved, vertices)) {}
 
 RangeOfMotion::~RangeOfMotion() = default;
 
