@@ -31,7 +31,7 @@ set(contact_headers contact contact_measures normal_depth pressure)
 set(motion_headers bearing first_contact impingement_zone limit_band motion_contact motion_map
                    range_of_motion)
 set(measure_headers hip_measures)
-set(plan_headers implant resection sweep)
+set(plan_headers brush implant resection sweep)
 set(answer_headers answer)
 set(sample_headers)
 set(io_headers)

@@ -42,6 +42,7 @@
 #include "condyle/motion_contact.hpp"
 #include "condyle/impingement_zone.hpp"
 #include "condyle/resection.hpp"
+#include "condyle/brush.hpp"
 #include "condyle/sweep.hpp"
 #include "condyle/implant.hpp"
 #include "condyle/hip_measures.hpp"

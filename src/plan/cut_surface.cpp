@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "mesh/edge_table.hpp"
-#include "mesh/vertex_normals.hpp"
 #include "mesh/winding_number.hpp"
+#include "plan/inward_ways.hpp"
 
 namespace condyle::plan {
 namespace {
@@ -104,20 +104,11 @@ CutSurface::CutSurface(Body body, const std::vector<std::uint8_t>& near,
 }
 
 void CutSurface::smooth_directions(double over_mm) {
-  const Mesh& mesh = body_.mesh;
-  const Points normals = mesh::area_normals(mesh);
-  for (const Index v : near_vertices_) vertices_[v].inwards = -normals[v].stableNormalized();
   // Means over neighbours, as far as the near triangles go.
   const double turns = over_mm / edge_mm_;
-  std::vector<Vec3> sum(vertices_.size());
-  for (int i = 0; i < static_cast<int>(turns * turns); ++i) {
-    for (const Index v : near_vertices_) sum[v] = vertices_[v].inwards;
-    for (const Index t : near_) {
-      const Triangle& corner = mesh.triangles()[t];
-      for (int k = 0; k < 3; ++k) sum[corner[k]] += vertices_[corner[(k + 1) % 3]].inwards;
-    }
-    for (const Index v : near_vertices_) vertices_[v].inwards = sum[v].stableNormalized();
-  }
+  const std::vector<Vec3> inwards =
+      inward_ways(body_.mesh, near_vertices_, near_, static_cast<int>(turns * turns));
+  for (const Index v : near_vertices_) vertices_[v].inwards = inwards[v];
 }
 
 void CutSurface::go_on_from(const CutSurface& whole, const std::vector<Between>& vertices) {
