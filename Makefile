@@ -108,6 +108,7 @@ page-core: dependencies
 	@mkdir -p build/page_core/test
 	@build/release/page_core_answers --sample build/page_core/test
 	@node tests/viewer/same_bits.mjs build/page_core/page_core.js build/page_core/test
+	@node tests/viewer/same_edits.mjs build/page_core/page_core.js build/page_core/test
 
 # The page of condyle report, made anew: its committed template has to be what its sources make. Then in a real browser.
 page: page-core

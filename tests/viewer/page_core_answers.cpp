@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -14,10 +15,11 @@
 #include "condyle/range_of_motion.hpp"
 #include "condyle/sample/hip.hpp"
 #include "page_core.hpp"
+#include "page_edit.hpp"
 #include "page_pressure.hpp"
 
 /// Asks a joint a thousand poses, its limits and a map through the functions of the page, compiled natively, and writes the
-/// answers. The joint and the poses are those of FOLDER/scene.bin, which is made of a sample hip with --sample:
+/// answers. The joint and the poses are those of FOLDER/scene.bin, which is made of a sample hip with --sample, and then brushed:
 ///     page_core_answers [--sample] FOLDER
 
 namespace {
@@ -164,13 +166,17 @@ void answer_shown(CondyleJoint* joint, const double X[16], const std::size_t (&v
     }
 }
 
+std::array<double, 3> start_of(const Motion& motion) {
+  return {motion.start.flexion.degrees(), motion.start.adduction.degrees(),
+          motion.start.internal_rotation.degrees()};
+}
+
 void answer_limit(CondyleJoint* joint, const Motion& motion, std::ostream& answers) {
-  const double start[] = {motion.start.flexion.degrees(), motion.start.adduction.degrees(),
-                          motion.start.internal_rotation.degrees()};
+  const std::array start = start_of(motion);
   const double held[] = {0, 0, 0};
   double limit[7];
-  checked(condyle_limit(joint, static_cast<int>(motion.vary), motion.sense == RotationSense::positive, start,
-                        held, motion.range.degrees(), limit));
+  checked(condyle_limit(joint, static_cast<int>(motion.vary), motion.sense == RotationSense::positive,
+                        start.data(), held, motion.range.degrees(), limit));
   answers << "limit " << static_cast<int>(motion.vary) << ' ' << (motion.sense == RotationSense::positive);
   for (const double value : start) answers << ' ' << bits(value);
   answers << ' ' << bits(motion.range.degrees());
@@ -204,13 +210,108 @@ void add_layers(CondyleJoint* joint, const Scene& scene) {
   checked(condyle_elastic(joint, 2, 0, 1, 20));
 }
 
-void answer(const Scene& scene, const std::string& folder) {
+CondyleJoint* joint_of(const Scene& scene) {
   CondyleJoint* joint =
       condyle_joint(0, 0, 0, 0, scene.fixed.data(), static_cast<int>(scene.fixed.size() / 3),
                     scene.fixed_triangles.data(), static_cast<int>(scene.fixed_triangles.size() / 3),
                     scene.mobile.data(), static_cast<int>(scene.mobile.size() / 3),
                     scene.mobile_triangles.data(), static_cast<int>(scene.mobile_triangles.size() / 3));
   if (!joint) throw std::runtime_error(condyle_error());
+  return joint;
+}
+
+/// Vertices of a body from the nearest to the farthest from a point; only the first are in order.
+std::vector<std::uint32_t> vertices_near(const std::vector<double>& xyz, const Vec3& point,
+                                         std::size_t count) {
+  std::vector<std::uint32_t> vertices(xyz.size() / 3);
+  for (std::uint32_t v = 0; v < vertices.size(); ++v) vertices[v] = v;
+  const auto distance = [&](std::uint32_t v) {
+    return (Vec3(xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]) - point).norm();
+  };
+  std::partial_sort(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(count), vertices.end(),
+                    [&](auto a, auto b) { return distance(a) < distance(b); });
+  vertices.resize(count);
+  return vertices;
+}
+
+/// FNV-1a of 32 bits.
+std::uint32_t digest_of(const std::vector<double>& values) {
+  const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
+  std::uint32_t hash = 2166136261u;
+  for (std::size_t i = 0; i < values.size() * sizeof(double); ++i) hash = (hash ^ bytes[i]) * 16777619u;
+  return hash;
+}
+
+/// Volume, deepest place, its vertex, edges; and every vertex with its depth.
+std::string brushed(const CondyleJoint* joint, int of_fixed, std::size_t vertices) {
+  double removed[4];
+  checked(condyle_removed(joint, of_fixed, removed));
+  std::vector<double> xyz(3 * vertices), depths(vertices);
+  checked(condyle_brushed(joint, of_fixed, xyz.data(), depths.data()));
+  std::string text;
+  for (const double value : removed) text += bits(value) + ' ';
+  return text + std::to_string(digest_of(xyz)) + ' ' + std::to_string(digest_of(depths));
+}
+
+void answer_stroke(CondyleJoint* joint, int of_fixed, int action, const std::vector<std::uint32_t>& along,
+                   double radius_mm, double depth_mm, std::size_t vertices, std::ostream& answers) {
+  std::uint32_t outcome[3];
+  checked(condyle_stroke(joint, of_fixed, action, along.data(), static_cast<int>(along.size()), radius_mm,
+                         depth_mm, outcome));
+  answers << "stroke " << of_fixed << ' ' << action << ' ' << bits(radius_mm) << ' ' << bits(depth_mm);
+  for (const std::uint32_t v : along) answers << ' ' << v;
+  answers << " =";
+  for (const std::uint32_t count : outcome) answers << ' ' << count;
+  answers << ' ' << brushed(joint, of_fixed, vertices) << '\n';
+}
+
+void answer_about(CondyleJoint* joint, const Motion& motion, std::ostream& answers) {
+  const std::array start = start_of(motion);
+  double limit[7];
+  checked(condyle_limit_about(joint, static_cast<int>(motion.vary), motion.sense == RotationSense::positive,
+                              start.data(), motion.range.degrees(), limit));
+  answers << "about " << static_cast<int>(motion.vary) << ' ' << (motion.sense == RotationSense::positive);
+  for (const double value : start) answers << ' ' << bits(value);
+  answers << ' ' << bits(motion.range.degrees()) << " =";
+  for (const double value : limit) answers << ' ' << bits(value);
+  answers << '\n';
+}
+
+/// Strokes on both bones where internal rotation ends at 90 degrees of flexion, the limits after each, one stroke taken back, and the limits
+/// about another centre.
+void answer_edits(const Scene& scene, const std::string& folder) {
+  CondyleJoint* joint = joint_of(scene);
+  std::ofstream answers(folder + "/edits.txt");
+  const std::size_t vertices[] = {scene.mobile.size() / 3, scene.fixed.size() / 3};
+  const SampleHip hip = sample_hip({}, Scenario::two);
+  const Joint named{"sample", JointKind::ball, Side::right, {"hip bone", hip.hip_bone}, {"femur", hip.femur}};
+  const auto contact =
+      *RangeOfMotion(named).limit(motion_named(hip_motions(), "internal_rotation_at_90_flexion")).end.contact;
+  const std::vector<std::uint32_t> along[] = {vertices_near(scene.mobile, contact.mobile_point, 3),
+                                              vertices_near(scene.fixed, contact.fixed_point, 3)};
+  const auto answer_limits = [&] {
+    for (const Motion& motion : hip_motions()) answer_limit(joint, motion, answers);
+  };
+  for (const int of_fixed : {0, 1}) {
+    answers << "brush " << of_fixed << " = " << checked(condyle_brush(joint, of_fixed, nullptr)) << '\n';
+    answer_stroke(joint, of_fixed, 0, along[of_fixed], 6, 1.5, vertices[of_fixed], answers);
+    answer_limits();
+    answer_stroke(joint, of_fixed, 0, {along[of_fixed][0]}, 3, 12, vertices[of_fixed], answers);
+    answer_stroke(joint, of_fixed, 1, {along[of_fixed][1]}, 4, 1, vertices[of_fixed], answers);
+    answer_limits();
+    answers << "undo " << of_fixed << " = " << checked(condyle_undo_stroke(joint, of_fixed)) << ' '
+            << brushed(joint, of_fixed, vertices[of_fixed]) << '\n';
+  }
+  const double centre[] = {1.5, -2, 0.5}, reference[] = {0, 0, 0};
+  checked(condyle_move_centre(joint, centre, reference));
+  answers << "centre " << bits(centre[0]) << ' ' << bits(centre[1]) << ' ' << bits(centre[2]) << " = 0\n";
+  for (const Motion& motion : hip_motions()) answer_about(joint, motion, answers);
+  condyle_free(joint);
+  if (!answers) throw std::runtime_error(folder + " cannot be written");
+}
+
+void answer(const Scene& scene, const std::string& folder) {
+  CondyleJoint* joint = joint_of(scene);
   add_layers(joint, scene);
   const std::size_t vertices[] = {scene.mobile.size() / 3, scene.fixed.size() / 3};
   std::ofstream answers(folder + "/answers.txt"), shown(folder + "/shown.bin", std::ios::binary);
@@ -235,7 +336,9 @@ int main(int count, char** arguments) try {
   if (count != 2 && !is_sample) return 2;
   const std::string folder = arguments[count - 1], path = folder + "/scene.bin";
   if (is_sample) write_scene(path, sample_scene());
-  answer(read_scene(path), folder);
+  const Scene scene = read_scene(path);
+  answer(scene, folder);
+  if (is_sample) answer_edits(scene, folder);
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());

@@ -26,10 +26,6 @@ Mesh mesh_of(const double* vertices, int vertex_count, const std::uint32_t* tria
   return Mesh(std::move(mesh));
 }
 
-JointAngles angles_of(const double* deg) {
-  return {Angle::degrees(deg[0]), Angle::degrees(deg[1]), Angle::degrees(deg[2])};
-}
-
 /// The other body's surface, for vertices of this one.
 const mesh::SurfaceDistance& other_surface(CondyleJoint& joint, bool of_fixed) {
   auto& surface = of_fixed ? joint.to_mobile : joint.to_fixed;
@@ -114,6 +110,10 @@ int number_of(ContactKind kind) {
 
 }  // namespace
 
+JointAngles angles_of(const double* deg) {
+  return {Angle::degrees(deg[0]), Angle::degrees(deg[1]), Angle::degrees(deg[2])};
+}
+
 Pose pose_of(const double* rows) {
   Pose pose = Pose::Identity();
   for (int r = 0; r < 3; ++r)
@@ -125,7 +125,7 @@ const RangeOfMotion& range_of(CondyleJoint& joint, const Vec3& held_mm) {
   if (!joint.range || joint.range_held_at != held_mm) {
     RangeOptions options{.bearing = joint.bearing};
     options.overlap.reference_contact = ReferenceContact::accept;
-    joint.range.emplace(held_at(joint.joint, held_mm), options);
+    joint.range = std::make_shared<const RangeOfMotion>(held_at(joint.joint, held_mm), options);
     joint.range_held_at = held_mm;
   }
   return *joint.range;
@@ -292,23 +292,26 @@ const std::uint32_t* condyle_pair_triangles(const CondyleJoint* joint) {
   return joint->pair_triangles.data();
 }
 
+void put_limit(const RangeOfMotion& range, const PageMotion& motion, const Vec3& origin, double limit[7]) {
+  const Angle most = Angle::degrees(motion.range_deg);
+  const RotationLimits ends = range.both_limits(
+      all_joint_angles.at(static_cast<std::size_t>(motion.vary)), angles_of(motion.start_deg),
+      {motion.is_positive ? Angle() : -most, motion.is_positive ? most : Angle()});
+  const Limit& end = motion.is_positive ? ends.positive : ends.negative;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const Vec3 point = end.contact ? Vec3(end.contact->fixed_point + origin) : Vec3(none, none, none);
+  limit[0] = end.turned.degrees();
+  limit[1] = number_of(end.reason);
+  limit[2] = number_of(end.kind());
+  limit[3] = end.bearing_contact ? end.bearing_contact->turned.degrees() : -1;
+  for (int i = 0; i < 3; ++i) limit[4 + i] = point[i];
+}
+
 int condyle_limit(CondyleJoint* joint, int vary, int positive, const double* start_deg, const double* held_mm,
                   double range_deg, double limit[7]) {
   return guarded(-1, [&] {
-    const Angle range = Angle::degrees(range_deg);
     const Vec3 held(held_mm[0], held_mm[1], held_mm[2]);
-    const RotationLimits ends =
-        range_of(*joint, held)
-            .both_limits(all_joint_angles.at(static_cast<std::size_t>(vary)), angles_of(start_deg),
-                         {positive ? Angle() : -range, positive ? range : Angle()});
-    const Limit& end = positive ? ends.positive : ends.negative;
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    const Vec3 point = end.contact ? Vec3(end.contact->fixed_point + held) : Vec3(none, none, none);
-    limit[0] = end.turned.degrees();
-    limit[1] = number_of(end.reason);
-    limit[2] = number_of(end.kind());
-    limit[3] = end.bearing_contact ? end.bearing_contact->turned.degrees() : -1;
-    for (int i = 0; i < 3; ++i) limit[4 + i] = point[i];
+    put_limit(range_of(*joint, held), {vary, positive != 0, start_deg, range_deg}, held, limit);
     return 0;
   });
 }

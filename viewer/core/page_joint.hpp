@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <exception>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "condyle/brush.hpp"
 #include "condyle/contact.hpp"
 #include "condyle/io/file_digest.hpp"
 #include "condyle/joint_checks.hpp"
@@ -41,21 +43,32 @@ struct PageProposal {
   PageFile fixed, mobile;
 };
 
+/// Bones that are brushed, and the joint about another centre.
+struct PageEdit {
+  std::optional<condyle::Brush> fixed = {}, mobile = {};
+  std::shared_ptr<const condyle::RangeOfMotion> about = {};
+  condyle::Vec3 centre_mm = condyle::Vec3::Zero();
+};
+
 /// A joint of the page, and what its last answers left.
 struct CondyleJoint {
   condyle::Joint joint;
   condyle::JointContact bodies;
   condyle::BearingOptions bearing = {};
-  std::optional<condyle::RangeOfMotion> range = {};
+  std::shared_ptr<const condyle::RangeOfMotion> range = {};
   condyle::Vec3 range_held_at = condyle::Vec3::Zero();
   condyle::Penetrations penetrations = {};
   std::vector<std::uint32_t> pair_triangles = {};
   std::vector<double> intervals = {};
   std::optional<condyle::mesh::SurfaceDistance> to_fixed = {}, to_mobile = {};
   PagePressure pressure = {};
+  PageEdit edit = {};
   PageProposal proposal = {};  ///< empty if the joint was given
   std::string description = {};
 };
+
+/// Three angles, in degrees.
+condyle::JointAngles angles_of(const double* deg);
 
 /// Pose from 16 numbers, row by row.
 condyle::Pose pose_of(const double* rows);
@@ -63,6 +76,17 @@ condyle::Pose pose_of(const double* rows);
 /// Made ready for rotations of a body that keeps this translation, in F: at the first call and whenever it is another one.
 const condyle::RangeOfMotion& range_of(CondyleJoint& joint,
                                        const condyle::Vec3& held_mm = condyle::Vec3::Zero());
+
+/// How far an angle, numbered in the joint's order, turns from a start.
+struct PageMotion {
+  int vary;
+  bool is_positive;
+  const double* start_deg;
+  double range_deg;
+};
+/// The seven numbers of condyle_limit(); points of the range's own frame lie at `origin`.
+void put_limit(const condyle::RangeOfMotion& range, const PageMotion& motion, const condyle::Vec3& origin,
+               double limit[7]);
 
 /// The line that condyle_error() gives.
 std::string& last_error();
