@@ -121,12 +121,16 @@ Json motion_json(const Joint& joint, const MotionLimit& limit, const std::option
           {"band", nullptr}};
 }
 
+Json sphere_json(const Sphere& sphere) {
+  return {{"centre_mm", io::numbers(sphere.centre)}, {"radius_mm", sphere.radius}};
+}
+
 Json bearing_json(const BearingFinding& found) {
   if (!found.surface) return {{"rule", "count"}, {"why_none", found.why_none}};
   const auto& surface = *found.surface;
   return {{"rule", "leave_out"},
-          {"head", {{"radius_mm", surface.head.radius}}},
-          {"socket", surface.socket ? Json{{"radius_mm", surface.socket->radius}} : Json(nullptr)},
+          {"head", sphere_json(surface.head)},
+          {"socket", surface.socket ? sphere_json(*surface.socket) : Json(nullptr)},
           {"margin_mm", surface.margin_mm}};
 }
 

@@ -1,14 +1,17 @@
 import { CoreClient } from "./core/client";
 import { lineOf } from "./core/error_line";
-import type { BothValues, Coordinates, JointArrays, MapQuestion, Query, ShownQuantity, Values } from "./core/protocol";
+import type { BothValues, Brushed, Coordinates, JointArrays, MapQuestion, Query, ShownQuantity, Values } from "./core/protocol";
 import { button, checkbox, choice, fold, html, named, section, shortened, spaced } from "./dom";
 import { jointArraysOf } from "./joint_arrays";
 import { clockTime, fixed } from "./numbers";
+import { BrushPanel } from "./panels/brush";
+import { CentrePanel } from "./panels/centre";
 import { Clearance } from "./panels/clearance";
 import { DisplayPanel } from "./panels/display";
 import { DropPanel } from "./panels/drop";
 import { figuresPanel } from "./panels/figures";
 import { FreeAngles } from "./panels/free_angles";
+import { questionsOf } from "./panels/live_limits";
 import { actions, copyLink, headingOf, listenToKeys } from "./panels/header";
 import { MotionPanel } from "./panels/motion";
 import { numberFolds } from "./panels/numbers";
@@ -312,7 +315,39 @@ class Page {
     Object.assign(globalThis, { condyle: { query: (query: Query) => core.query(query), scene: this.scene } });
     this.moved(this.motion.coordinates);
     core.askBearing();
+    this.addEditPanels(core);
     this.drawWorst();
+  }
+
+  /// What changes the joint by hand, where limits are exact and nothing lies on the bones.
+  private addEditPanels(core: CoreClient): void {
+    const { text, arrays, scene } = this, { rom, layers, plan, joint } = text;
+    if (!rom || rom.exact === false || layers || questionsOf(text).length === 0) return;
+    const centre = joint.kind === "free" ? null : new CentrePanel(core, text);
+    const brush = new BrushPanel(core, scene, {
+      text, arrays, names: { fixed: named(joint.fixed), mobile: named(joint.mobile) },
+      before: { fixed: this.beforePlan("fixed"), mobile: this.beforePlan("mobile") },
+      limitsBefore: new Map((plan?.limits ?? []).map(({ motion, before }) => [motion, before])),
+      changed: (brushed, rests) => this.takeBrushed(brushed, rests), limited: (limits) => centre?.setBefore(limits),
+    });
+    addPlanPanel(brush.element);
+    if (centre) addPlanPanel(centre.element);
+  }
+
+  /// Where the surface of a bone was before a plan cut it; null of one that is as it was.
+  private beforePlan(body: BodyName): Float64Array | null {
+    const cut = this.text.plan?.surfaces[body];
+    if (!cut) return null;
+    const xyz = this.arrays[body].vertices.slice(), before = this.report!.array(cut.before, "f64");
+    this.report!.array(cut.lowered, "u32").forEach((vertex, i) => xyz.set(before.subarray(3 * i, 3 * i + 3), 3 * vertex));
+    return xyz;
+  }
+
+  /// What the pose shows is then asked anew: the bone is another one.
+  private takeBrushed({ body, vertices, depths_mm }: Brushed, rests: boolean): void {
+    this.scene?.replaceBody(body, vertices);
+    if (this.removed) this.removed[body] = { shown: Float32Array.from(depths_mm), marks: Uint8Array.from(depths_mm, (mm) => (mm > 0 ? 1 : 0)) };
+    if (rests) this.ask(this.motion.coordinates);
   }
 
   private show(values: BothValues | null): void {

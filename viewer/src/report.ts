@@ -63,6 +63,7 @@ export interface MeshSource {
 
 export interface FittedSphere {
   radius_mm: number;
+  centre_mm?: [number, number, number];
 }
 
 export interface RomAnswer {

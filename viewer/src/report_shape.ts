@@ -50,7 +50,7 @@ const motion = object({
   error_bound_deg: ifThere(number), caveats: ifThere(list(object({ code: text, text, source: orNull(text) }))),
 });
 
-const sphere = object({ radius_mm: number });
+const sphere = object({ radius_mm: number, centre_mm: ifThere(three) });
 const rom = object({
   exact: ifThere(flag), clock_plane: ifThere(orNull(oneOf("sagittal", "rim"))),
   held_translation_mm: ifThere(orNull(three)), motions: list(motion), notes: list(object({ code: text, text })), caveats: list(text),

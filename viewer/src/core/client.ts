@@ -1,5 +1,5 @@
 import type {
-  BothValues, Coordinates, Depth, DroppedFile, FromWorker, GivenSide, JointArrays, LiveLimit, MapQuestion, Proposal, Quantity, Query,
+  BothValues, Brushed, Coordinates, Depth, DroppedFile, Edit, FromWorker, GivenSide, JointArrays, LimitQuestion, LiveLimit, MapQuestion, Proposal, Quantity, Query,
   QueryAnswer, Shown, ToWorker,
 } from "./protocol";
 
@@ -12,6 +12,13 @@ export interface Answers {
   depth(depth: Depth): void;
   bearing(triangles: Uint8Array): void;
   mapPoint(point: number, intervals: [number, number, number, number][]): void;
+  failed(message: string): void;
+}
+
+/// What an edit gives: the bone, then limits one by one.
+export interface EditAnswers {
+  edited(brushed: Brushed | null): void;
+  limit(number: number, limit: LiveLimit): void;
   failed(message: string): void;
 }
 
@@ -29,6 +36,7 @@ export class CoreClient {
   private answered: { id: number; at: Coordinates } | null = null;
   private count = 0;
   private readonly queries = new Map<number, (answer: QueryAnswer | null, error: string) => void>();
+  private readonly edits = new Map<number, { answers: EditAnswers; last: number }>();
   private answers: Answers | null = null;
 
   private constructor() {
@@ -85,6 +93,13 @@ export class CoreClient {
     this.say({ type: "map", question });
   }
 
+  /// Changes the joint; limits after the change are answered in their order, before anything about the pose.
+  edit(edit: Edit, limits: LimitQuestion[], answers: EditAnswers): void {
+    const id = ++this.count;
+    this.edits.set(id, { answers, last: limits.length - 1 });
+    this.say({ type: "edit", id, edit, limits });
+  }
+
   /// One question by itself, after what the page asks: all are answered, in their order.
   query(query: Query): Promise<QueryAnswer> {
     const id = ++this.count;
@@ -134,6 +149,19 @@ export class CoreClient {
         this.queries.get(message.id)?.(message.answer, message.error);
         this.queries.delete(message.id);
         return;
+      case "edited": {
+        const { answers, last } = this.edits.get(message.id)!;
+        if (message.error || last < 0) this.edits.delete(message.id);
+        if (message.error) answers.failed(message.error);
+        else answers.edited(message.brushed);
+        return;
+      }
+      case "editLimit": {
+        const asked = this.edits.get(message.id);
+        if (asked?.last === message.number) this.edits.delete(message.id);
+        asked?.answers.limit(message.number, message.limit);
+        return;
+      }
       case "bearing":
         this.answers?.bearing(message.triangles);
         return;

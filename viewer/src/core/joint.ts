@@ -1,8 +1,9 @@
 import pageCore, { type PageCore } from "page-core";
 import {
-  quantityNumber, type BothPenetrations, type BothValues, type Coordinates, type Depth, type Details, type DroppedFile, type GivenSide,
+  quantityNumber, type BothPenetrations, type BothValues, type Brushed, type Coordinates, type Depth, type Details, type DroppedFile, type Edit,
+  type GivenSide,
   type Inside, type JointArrays, type Layers, type LimitQuestion, type LiveLimit, type MapQuestion, type Penetrations,
-  type Proposal, type Quantity, type Shown, type Surface, type Values,
+  type Proposal, type Quantity, type Shown, type Stroke, type Surface, type Values,
 } from "./protocol";
 import { unzip } from "./unzip";
 
@@ -21,6 +22,7 @@ export class CoreJoint {
   private readonly marksPlace: number;
   private readonly vertices: { fixed: number; mobile: number };
   private readonly mobileTriangles: number;
+  private readonly protectedVertices = { fixed: 0, mobile: 0 };
 
   static async open(wasm: ArrayBuffer, arrays: JointArrays): Promise<CoreJoint> {
     const memory = new Memory(await pageCore({ wasmBinary: wasm, unzip }));
@@ -107,11 +109,64 @@ export class CoreJoint {
     this.put(this.otherThree, held ?? atRest);
     this.checked(this.core._condyle_limit(
       this.joint, vary, positive ? 1 : 0, this.three, this.otherThree, range_deg, this.answer));
+    return this.limitThere(vary, positive);
+  }
+
+  /// About the centre as it was moved last.
+  limitAbout({ start, vary, positive, range_deg }: LimitQuestion): LiveLimit {
+    this.put(this.three, start);
+    this.checked(this.core._condyle_limit_about(this.joint, vary, positive ? 1 : 0, this.three, range_deg, this.answer));
+    return this.limitThere(vary, positive);
+  }
+
+  private limitThere(vary: number, positive: boolean): LiveLimit {
     const [turned_deg, reason, kind, bearing, x, y, z] = this.f64(this.answer, 7) as unknown as number[];
     return {
       vary, positive, turned_deg: turned_deg!, reason: reasons[reason!]!, kind: kinds[kind!]!,
       bearing_deg: bearing! < 0 ? null : bearing!, point: Number.isNaN(x!) ? null : [x!, y!, z!],
     };
+  }
+
+  /// Null where no bone changes.
+  edit(edit: Edit): Brushed | null {
+    if (edit.of === "centre") {
+      this.put(this.three, edit.offset_mm);
+      this.put(this.otherThree, edit.reference_deg);
+      this.checked(this.core._condyle_move_centre(this.joint, this.three, this.otherThree));
+      return null;
+    }
+    const { body } = edit, ofFixed = body === "fixed" ? 1 : 0;
+    if (edit.of === "brush") this.prepareBrush(body, edit.before);
+    if (edit.of === "undo" || (edit.of === "stroke" && edit.replaces)) this.checked(this.core._condyle_undo_stroke(this.joint, ofFixed));
+    return this.brushed(body, edit.of === "stroke" ? this.stroke(ofFixed, edit.stroke) : null);
+  }
+
+  private prepareBrush(body: "fixed" | "mobile", before: Float64Array | null): void {
+    const place = before ? this.memory.copied(before) : 0;
+    this.protectedVertices[body] = this.checked(this.core._condyle_brush(this.joint, body === "fixed" ? 1 : 0, place));
+    if (place) this.memory.free(place);
+  }
+
+  private stroke(ofFixed: number, { action, along, radius_mm, depth_mm }: Stroke): Brushed["outcome"] {
+    const path = this.memory.copied(Uint32Array.from(along));
+    const done = this.core._condyle_stroke(
+      this.joint, ofFixed, action === "lower" ? 0 : 1, path, along.length, radius_mm, depth_mm, this.answer);
+    this.memory.free(path);
+    this.checked(done);
+    const [moved, kept, limited] = this.u32(this.answer, 3) as unknown as [number, number, number];
+    return { moved, kept, limited };
+  }
+
+  private brushed(body: "fixed" | "mobile", outcome: Brushed["outcome"]): Brushed {
+    const { core, joint } = this, ofFixed = body === "fixed" ? 1 : 0, count = this.vertices[body];
+    this.checked(core._condyle_removed(joint, ofFixed, this.answer));
+    const [volume_mm3, deepest_mm, , edge_mm] = this.f64(this.answer, 4) as unknown as [number, number, number, number];
+    const vertices = core._malloc(24 * count), depths = core._malloc(8 * count);
+    this.checked(core._condyle_brushed(joint, ofFixed, vertices, depths));
+    const bone = { vertices: this.f64(vertices, 3 * count), depths_mm: this.f64(depths, count) };
+    this.memory.free(vertices, depths);
+    const steps = this.checked(core._condyle_strokes(joint, ofFixed));
+    return { body, ...bone, volume_mm3, deepest_mm, edge_mm, steps, protectedVertices: this.protectedVertices[body], outcome };
   }
 
   /// As `condyle depth` answers.

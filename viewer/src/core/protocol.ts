@@ -141,6 +141,41 @@ export interface LimitQuestion {
   range_deg: number;
 }
 
+/// A path of the brush over a bone: condyle/brush.hpp.
+export interface Stroke {
+  action: "lower" | "restore";
+  /// Vertices of the bone.
+  along: number[];
+  radius_mm: number;
+  depth_mm: number;
+}
+
+/// A change of the joint by hand. A bone is made ready once, with where its surface was before a cut, if there is one; a stroke replaces
+/// the last one while the hand draws it. A centre is moved along the axes of F, the bones standing as the reference pose has them.
+export type Edit =
+  | { of: "brush"; body: "fixed" | "mobile"; before: Float64Array | null }
+  | { of: "stroke"; body: "fixed" | "mobile"; stroke: Stroke; replaces: boolean }
+  | { of: "undo"; body: "fixed" | "mobile" }
+  | { of: "centre"; offset_mm: [number, number, number]; reference_deg: [number, number, number] };
+
+/// A bone as its brush has it.
+export interface Brushed {
+  body: "fixed" | "mobile";
+  vertices: Float64Array;
+  /// Of each vertex, its distance from the surface before.
+  depths_mm: Float64Array;
+  volume_mm3: number;
+  deepest_mm: number;
+  /// Mean length of the edges: a cut is no finer.
+  edge_mm: number;
+  /// How often undo has something to take back.
+  steps: number;
+  /// Vertices that stay whatever passes over them.
+  protectedVertices: number;
+  /// Of the last stroke: vertices that moved, that must stay, that are less deep than asked for.
+  outcome: { moved: number; kept: number; limited: number } | null;
+}
+
 export type Query =
   | { of: "pose"; at: Coordinates }
   /// 16 numbers, row by row.
@@ -176,6 +211,8 @@ export type ToWorker =
   | { type: "open"; wasm: ArrayBuffer; joint: JointArrays }
   | { type: "pose"; id: number; at: Coordinates; quantity: Quantity; ranges: [number, number][] | null }
   | { type: "query"; id: number; query: Query }
+  /// The limits are those after the edit, in this order.
+  | { type: "edit"; id: number; edit: Edit; limits: LimitQuestion[] }
   | { type: "bearing" }
   | { type: "map"; question: MapQuestion };
 
@@ -188,5 +225,8 @@ export type FromWorker =
   | { type: "limit"; id: number; limit: LiveLimit }
   | { type: "depth"; id: number; depth: Depth }
   | { type: "queried"; id: number; answer: QueryAnswer | null; error: string }
+  /// Null of an edit that is of no bone, and of one that failed.
+  | { type: "edited"; id: number; brushed: Brushed | null; error: string }
+  | { type: "editLimit"; id: number; number: number; limit: LiveLimit }
   | { type: "bearing"; triangles: Uint8Array }
   | { type: "mapPoint"; point: number; intervals: [number, number, number, number][] };

@@ -25,6 +25,16 @@ declare module "page-core" {
       joint: number, vary: number, positive: number, start: number, held: number, range: number, limit: number): number;
     _condyle_free_angles(joint: number, vary: number, start: number, held: number, back: number, forth: number): number;
     _condyle_intervals(joint: number): number;
+    _condyle_brush(joint: number, ofFixed: number, before: number): number;
+    _condyle_stroke(
+      joint: number, ofFixed: number, action: number, along: number, count: number, radius: number, depth: number, outcome: number): number;
+    _condyle_undo_stroke(joint: number, ofFixed: number): number;
+    _condyle_strokes(joint: number, ofFixed: number): number;
+    _condyle_removed(joint: number, ofFixed: number, removed: number): number;
+    _condyle_brushed(joint: number, ofFixed: number, vertices: number, depths: number): number;
+    _condyle_move_centre(joint: number, centre: number, reference: number): number;
+    _condyle_limit_about(
+      joint: number, vary: number, positive: number, start: number, range: number, limit: number): number;
     _condyle_set_roles(joint: number, countBearing: number, fixed: number, mobile: number): number;
     _condyle_surface(
       joint: number, ofFixed: number, firstVertex: number, vertices: number, firstTriangle: number, triangles: number,

@@ -1,15 +1,18 @@
 import { lineOf } from "./error_line";
 import { CoreJoint } from "./joint";
-import type { FromWorker, MapQuestion, Quantity, Query, QueryAnswer, ToWorker } from "./protocol";
+import type { Edit, FromWorker, LimitQuestion, MapQuestion, Quantity, Query, QueryAnswer, ToWorker } from "./protocol";
 
-/// Answers in the order of what matters to the eye: the latest pose, then its colours, its limits one by one, its depth, then all else. A
-/// message that arrives meanwhile comes in between; what is left to say of a pose that is past is dropped.
+/// Answers in the order of what matters to the eye: changes by hand, the latest pose, limits after the last change, then the pose's colours, its
+/// limits one by one, its depth, then all else. A message that arrives meanwhile comes in between; what is left to say of a pose that is past is
+/// dropped. All limits after a change come before the next change.
 
 type PoseQuestion = Extract<ToWorker, { type: "pose" }>;
 
 let joint: CoreJoint | null = null;
 let latest: PoseQuestion | null = null;
 let aboutPose: (() => void)[] = [];
+const edits: (() => void)[] = [];
+const afterEdit: (() => void)[] = [];
 const afterwards: (() => void)[] = [];
 
 function say(message: FromWorker, transfer: Transferable[] = []): void {
@@ -33,7 +36,9 @@ function soon(): void {
 
 function next(): void {
   if (!joint) return;
-  if (latest) {
+  if (edits.length && !afterEdit.length) {
+    edits.shift()!();
+  } else if (latest) {
     const asked = latest;
     latest = null;
     aboutPose = [];
@@ -48,15 +53,31 @@ function next(): void {
     // Last: it takes longest.
     if (shown.inContact) aboutPose.push(() => say({ type: "depth", id: asked.id, depth: joint!.depth(asked.at) }));
   } else {
-    (aboutPose.shift() ?? afterwards.shift())?.();
+    (afterEdit.shift() ?? aboutPose.shift() ?? afterwards.shift())?.();
   }
-  if (latest || aboutPose.length || afterwards.length) soon();
+  if (latest || edits.length || afterEdit.length || aboutPose.length || afterwards.length) soon();
 }
 
 function sayValues({ id, at }: PoseQuestion, quantity: Exclude<Quantity, "none">): void {
   const values = joint!.values(at, quantity);
   const arrays = [values.mobile.shown, values.mobile.marks, values.fixed.shown, values.fixed.marks];
   say({ type: "values", id, values }, arrays.map((array) => array.buffer as ArrayBuffer));
+}
+
+function askEdit(id: number, edit: Edit, limits: readonly LimitQuestion[]): void {
+  edits.push(() => {
+    try {
+      const brushed = joint!.edit(edit);
+      say({ type: "edited", id, brushed, error: "" }, brushed ? [brushed.vertices.buffer as ArrayBuffer, brushed.depths_mm.buffer as ArrayBuffer] : []);
+    } catch (error) {
+      return say({ type: "edited", id, brushed: null, error: lineOf(error) });
+    }
+    const about = edit.of === "centre" && edit.offset_mm.some((mm) => mm !== 0);
+    limits.forEach((question, number) => afterEdit.push(() => {
+      const limit = about ? joint!.limitAbout(question) : joint!.limit(question);
+      say({ type: "editLimit", id, number, limit });
+    }));
+  });
 }
 
 function askMap(question: MapQuestion): void {
@@ -115,6 +136,9 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
       break;
     case "query":
       askQuery(data.id, data.query);
+      break;
+    case "edit":
+      askEdit(data.id, data.edit, data.limits);
       break;
     case "bearing":
       afterwards.push(() => {

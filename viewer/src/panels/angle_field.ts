@@ -29,6 +29,11 @@ export class NumberField {
     this.show(0);
   }
 
+  /// As it was taken last.
+  get number(): number {
+    return this.value;
+  }
+
   /// To a tenth: the number itself keeps all of its digits.
   show(value: number): void {
     this.value = value;

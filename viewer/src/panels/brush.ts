@@ -1,0 +1,309 @@
+import type { CoreClient } from "../core/client";
+import type { Brushed, Details, Edit, JointArrays, LiveLimit, Stroke } from "../core/protocol";
+import { button, checkbox, choice, html, named, section } from "../dom";
+import { jointFileOf, meshFilesOf, stlOf } from "../joint_file";
+import { fixed } from "../numbers";
+import type { EndOfMotion, ReportText } from "../report";
+import { toldFirst } from "../result";
+import { save, saveBlob } from "../save";
+import { bodyNames, type BodyName, type JointScene } from "../scene/scene";
+import { motionName, words } from "../words";
+import { NumberField } from "./angle_field";
+import { LiveLimits, questionsOf } from "./live_limits";
+import { Painter } from "./painter";
+
+const usual = { radius_mm: 6, depth_mm: 2 }, most = { radius_mm: 30, depth_mm: 20 }, least_mm = 0.1;
+
+type Change = Exclude<Edit, { of: "brush" | "centre" }>;
+
+/// A change that waits; strokes of one drag have one number.
+interface Asked {
+  edit: Change;
+  rests: boolean;
+  hand: number;
+}
+
+export interface BrushOptions {
+  text: ReportText;
+  arrays: JointArrays;
+  names: Record<BodyName, string>;
+  /// Of a bone that a plan cuts: where its surface was.
+  before: Record<BodyName, Float64Array | null>;
+  /// Limits of the joint before a plan, by the names of motions; none without a plan.
+  limitsBefore: ReadonlyMap<string, EndOfMotion>;
+  /// A bone is another one now; `rests` once the hand does.
+  changed: (brushed: Brushed, rests: boolean) => void;
+  /// All limits are known, in the order of questionsOf().
+  limited: (limits: readonly LiveLimit[]) => void;
+}
+
+/// Strokes of a brush on the bones, what they take, and what each motion gains, live.
+export class BrushPanel {
+  readonly element: HTMLElement;
+  private readonly limits: LiveLimits;
+  private readonly asked;
+  private readonly said = html("p", { role: "status", class: "small brush-said" });
+  private readonly took = html("span", { class: "small", "aria-hidden": "true" });
+  private readonly radius: NumberField;
+  private readonly depth: NumberField;
+  private readonly vertex: HTMLInputElement;
+  private readonly bodies: HTMLSelectElement;
+  private readonly shows: HTMLInputElement;
+  private readonly undoButton: HTMLButtonElement;
+  private readonly painter: Painter | null;
+  private readonly brushed: Partial<Record<BodyName, Brushed>> = {};
+  private readonly prepared = new Map<BodyName, Promise<void>>();
+  /// Bones in the order of their steps.
+  private readonly steps: BodyName[] = [];
+  private readonly latest: (LiveLimit | null)[];
+  private action: Stroke["action"] = "lower";
+  private shown: number;
+  private isBusy = false;
+  private hand = 0;
+  private waiting: Asked[] = [];
+
+  constructor(private readonly core: CoreClient, private readonly scene: JointScene | null, private readonly options: BrushOptions) {
+    const { text, names, limitsBefore } = options;
+    this.asked = questionsOf(text);
+    this.latest = this.asked.map(() => null);
+    const motions = this.asked.map(({ motion }) => motion);
+    this.limits = new LiveLimits(words.liveLimits, motions.map((motion) => limitsBefore.get(motion.name) ?? motion), motions, motions);
+    const first = toldFirst(text.rom!, text.joint.anatomy === "hip" && text.joint.kind !== "hinge");
+    this.shown = Math.max(0, motions.findIndex((motion) => motion === first));
+    this.radius = this.sizeField(words.brushRadius, most.radius_mm, usual.radius_mm);
+    this.depth = this.sizeField(words.brushDepth, most.depth_mm, usual.depth_mm);
+    this.depth.input.title = words.brushDepthHelp;
+    this.vertex = html("input", { type: "number", min: 0, step: 1, value: 0, "aria-label": words.brushVertex });
+    const bodies = choice<BodyName>(words.brushBone, { mobile: names.mobile, fixed: names.fixed }, "mobile", () => this.saySize());
+    this.bodies = bodies.querySelector("select")!;
+    const paint = checkbox(words.paint, false, (on) => this.painter?.setActive(on));
+    const shows = checkbox(words.showBrushed, false, () => this.showTaken());
+    this.shows = shows.querySelector("input")!;
+    this.undoButton = button(words.undoStroke, () => void this.undo(), { disabled: true });
+    this.painter = scene && new Painter(scene, {
+      isOpen: () => this.element.checkVisibility(), radius_mm: () => this.radius.number,
+      drawn: (body, along, isFirst, rests) => void this.draw(body, along, isFirst, rests),
+    });
+    bodyNames.forEach((body) => {
+      if (options.before[body]) this.steps.push(body);
+    });
+    this.undoButton.disabled = this.steps.length === 0;
+    this.element = section(words.brush,
+      html("div", { class: "row no-print" }, ...(scene ? [paint] : []),
+        choice<Stroke["action"]>(words.brushAction, words.brushActions, this.action, (action) => (this.action = action)),
+        html("label", {}, `${words.brushRadius} `, this.radius.input), html("label", {}, `${words.brushDepth} `, this.depth.input)),
+      html("div", { class: "row no-print" }, bodies, this.vertex, button(words.strokeAtVertex, () => void this.strokeAtVertex())),
+      html("div", { class: "row no-print" }, this.motionChoice(motions.map(({ name }) => name)),
+        button(words.strokeAtLimit, () => void this.strokeAtLimit()), this.undoButton),
+      this.said, this.limits.element,
+      html("p", { class: "small" }, options.before.mobile || options.before.fixed ? `${words.planIsStart} ` : "", words.brushNote, " ", this.took),
+      html("div", { class: "row no-print" }, ...(scene ? [shows] : []), button(words.saveStl, () => this.saveMeshes()),
+        button(words.saveJointFile, () => void this.saveJointFile())));
+    this.limits.mark(this.shown);
+    // What is made once is made before the first stroke.
+    this.element.addEventListener("focusin", () => void this.prepare(this.body));
+    this.element.addEventListener("pointerenter", () => void this.prepare(this.body));
+  }
+
+  private get body(): BodyName {
+    return this.bodies.value as BodyName;
+  }
+
+  private sizeField(label: string, largest: number, value: number): NumberField {
+    const field = new NumberField(label, least_mm, largest, 0.5, " mm", false, () => undefined, (why) => this.say(why ?? ""));
+    field.show(value);
+    return field;
+  }
+
+  private motionChoice(names: readonly string[]): HTMLElement {
+    const texts = Object.fromEntries(names.map((name, i) => [String(i), named(motionName(name))])) as Record<string, string>;
+    return choice(words.shownMotion, texts, String(this.shown), (number) => {
+      this.shown = Number(number);
+      this.limits.mark(this.shown);
+    });
+  }
+
+  private say(text: string): void {
+    this.said.textContent = text;
+  }
+
+  private saySize(): void {
+    this.vertex.max = String(this.options.arrays[this.body].vertices.length / 3 - 1);
+  }
+
+  // -- edits ------------------------------------------------------------------------------------------------------------------------
+
+  /// The bone is made ready for strokes, once.
+  private prepare(body: BodyName): Promise<void> {
+    const known = this.prepared.get(body);
+    if (known) return known;
+    const ready = new Promise<void>((done, failed) => this.core.edit({ of: "brush", body, before: this.options.before[body] }, [], {
+      edited: (brushed) => {
+        this.brushed[body] = brushed!;
+        if (!this.said.textContent) this.say(words.noStroke(fixed(brushed!.edge_mm, 1)) + ` ${words.protectedBone(this.options.names[body], brushed!.protectedVertices)}`);
+        this.saySize();
+        done();
+      },
+      limit: () => undefined,
+      failed: (message) => {
+        this.say(message);
+        failed(new Error(message));
+      },
+    }));
+    // Who waits hears of it; nobody need.
+    ready.catch(() => undefined);
+    this.prepared.set(body, ready);
+    return ready;
+  }
+
+  /// One change is under way at a time; of the strokes of one drag that come meanwhile only the latest is made.
+  private async ask(edit: Change, rests: boolean): Promise<void> {
+    if (!(edit.of === "stroke" && edit.replaces)) ++this.hand;
+    const { hand } = this;
+    try {
+      await this.prepare(edit.body);
+    } catch {
+      return;
+    }
+    const last = this.waiting.at(-1);
+    if (last?.hand === hand && last.edit.of === "stroke" && edit.of === "stroke") {
+      edit = { ...edit, replaces: last.edit.replaces };
+      this.waiting.pop();
+    }
+    this.waiting.push({ edit, rests, hand });
+    if (!this.isBusy) this.goOn();
+  }
+
+  private send(edit: Change, rests: boolean): void {
+    const begun = performance.now(), order = [this.shown, ...this.asked.keys()].filter((i, at) => at === 0 || i !== this.shown);
+    const wanted = rests ? order : order.slice(0, 1);
+    let first_ms = 0;
+    this.limits.wait();
+    this.core.edit(edit, wanted.map((i) => this.asked[i]!.question), {
+      edited: (brushed) => this.take(brushed!, edit, rests),
+      limit: (number, limit) => {
+        const i = wanted[number]!;
+        this.latest[i] = limit;
+        this.limits.showLimit(i, limit);
+        if (number === 0) {
+          first_ms = performance.now() - begun;
+          this.element.dataset["shownAfter"] = first_ms.toFixed(1);
+        }
+        if (number === 0 && !rests) this.goOn();
+        if (number < wanted.length - 1 || !rests) return;
+        this.took.textContent = words.tookLimits(first_ms.toFixed(0), (performance.now() - begun).toFixed(0));
+        this.element.dataset["allAfter"] = (performance.now() - begun).toFixed(1);
+        this.options.limited(this.latest as LiveLimit[]);
+        this.goOn();
+      },
+      failed: (message) => {
+        this.say(message);
+        this.goOn();
+      },
+    });
+  }
+
+  private goOn(): void {
+    const next = this.waiting.shift();
+    this.isBusy = next !== undefined;
+    if (next) this.send(next.edit, next.rests);
+  }
+
+  private take(brushed: Brushed, edit: Change, rests: boolean): void {
+    this.brushed[brushed.body] = brushed;
+    if (edit.of === "stroke" && !edit.replaces) this.steps.push(brushed.body);
+    if (edit.of === "undo") this.steps.pop();
+    this.undoButton.disabled = this.steps.length === 0;
+    const taken = bodyNames.flatMap((body) => {
+      const bone = this.brushed[body];
+      return bone && bone.deepest_mm > 0 ? [words.brushed(this.options.names[body], fixed(bone.volume_mm3, 1), fixed(bone.deepest_mm, 2))] : [];
+    });
+    const last = brushed.outcome ? [words.lastStroke(brushed.outcome)] : [];
+    this.say(taken.length ? `${[...taken, ...last].join("; ")}.` : words.noStroke(fixed(brushed.edge_mm, 1)));
+    this.options.changed(brushed, rests);
+    this.showTaken();
+  }
+
+  private strokeOf(along: number[]): Stroke {
+    return { action: this.action, along, radius_mm: this.radius.number, depth_mm: this.depth.number };
+  }
+
+  private draw(body: BodyName, along: number[], isFirst: boolean, rests: boolean): Promise<void> {
+    this.bodies.value = body;
+    return this.ask({ of: "stroke", body, stroke: this.strokeOf(along), replaces: !isFirst }, rests);
+  }
+
+  private async strokeAtVertex(): Promise<void> {
+    const last = this.options.arrays[this.body].vertices.length / 3 - 1, vertex = this.vertex.valueAsNumber;
+    if (!Number.isInteger(vertex) || vertex < 0 || vertex > last) return this.say(words.noVertex(this.options.names[this.body], last));
+    await this.draw(this.body, [vertex], true, true);
+  }
+
+  /// At the vertex of the chosen bone that is nearest to where the shown motion ends now.
+  private async strokeAtLimit(): Promise<void> {
+    const { motion, question } = this.asked[this.shown]!, live = this.latest[this.shown];
+    const reason = live?.reason ?? motion.reason, point = live ? live.point : motion.contact_point_mm;
+    if (reason !== "contact" || !point) return this.say(words.noContactThere);
+    const angles = [...question.start] as [number, number, number];
+    angles[question.vary]! += (question.positive ? 1 : -1) * (live?.turned_deg ?? motion.limit_deg);
+    const { pose } = (await this.core.query({ of: "pose", at: { angles, translation: question.held ?? [0, 0, 0] } })) as Details;
+    const vertex = nearestVertex(this.verticesOf(this.body), this.body === "fixed" ? point : intoM(pose, point));
+    this.vertex.value = String(vertex);
+    await this.draw(this.body, [vertex], true, true);
+  }
+
+  private async undo(): Promise<void> {
+    const body = this.steps.at(-1);
+    if (body) await this.ask({ of: "undo", body }, true);
+  }
+
+  // -- what is seen and kept --------------------------------------------------------------------------------------------------------
+
+  private verticesOf(body: BodyName): Float64Array {
+    return this.brushed[body]?.vertices ?? this.options.arrays[body].vertices;
+  }
+
+  private showTaken(): void {
+    for (const body of bodyNames) {
+      const depths = this.brushed[body]?.depths_mm;
+      const lowered = depths && this.shows.checked ? Uint32Array.from(depths.keys()).filter((v) => depths[v]! > 0) : null;
+      const before = this.options.before[body] ?? this.options.arrays[body].vertices;
+      this.scene?.showRemoved(body, lowered?.length ? { vertices: lowered, before: threesOf(before, lowered) } : null);
+    }
+  }
+
+  private saveMeshes(): void {
+    const { arrays, text } = this.options;
+    for (const body of bodyNames)
+      for (const { name, part } of meshFilesOf(body, text.parts[body]))
+        saveBlob(name, stlOf({ vertices: this.verticesOf(body), triangles: arrays[body].triangles }, part, `condyle ${text.version} brushed ${body}`));
+  }
+
+  private async saveJointFile(): Promise<void> {
+    const { text } = this.options;
+    const at = { angles: text.reference_deg, translation: text.reference_mm };
+    const { pose } = (await this.core.query({ of: "pose", at })) as Details;
+    save("brushed.toml", "application/toml", jointFileOf(text, Array.from(pose), text.version || (text.rom?.provenance?.version ?? "")));
+  }
+}
+
+function threesOf(xyz: Float64Array, vertices: Uint32Array): Float64Array {
+  const chosen = new Float64Array(3 * vertices.length);
+  vertices.forEach((vertex, i) => chosen.set(xyz.subarray(3 * vertex, 3 * vertex + 3), 3 * i));
+  return chosen;
+}
+
+function nearestVertex(xyz: Float64Array, [x, y, z]: readonly [number, number, number]): number {
+  let nearest = 0, least = Infinity;
+  for (let v = 0; 3 * v < xyz.length; ++v) {
+    const squared = (xyz[3 * v]! - x) ** 2 + (xyz[3 * v + 1]! - y) ** 2 + (xyz[3 * v + 2]! - z) ** 2;
+    if (squared < least) [nearest, least] = [v, squared];
+  }
+  return nearest;
+}
+
+/// A point of F in M at a pose X_FM, 16 numbers row by row.
+function intoM(X_FM: ArrayLike<number>, point: readonly [number, number, number]): [number, number, number] {
+  const from = point.map((value, i) => value - X_FM[4 * i + 3]!);
+  return [0, 1, 2].map((k) => [0, 1, 2].reduce((sum, i) => sum + X_FM[4 * i + k]! * from[i]!, 0)) as [number, number, number];
+}

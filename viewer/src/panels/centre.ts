@@ -1,0 +1,97 @@
+import type { CoreClient } from "../core/client";
+import type { LiveLimit } from "../core/protocol";
+import { button, html, section } from "../dom";
+import type { ReportText } from "../report";
+import { words } from "../words";
+import { NumberField } from "./angle_field";
+import { LiveLimits, questionsOf } from "./live_limits";
+
+const farthest_mm = 5, step_mm = 0.5;
+const axes = ["x", "y", "z"] as const;
+
+/// The joint centre in the hand: how far limits change where it is moved by some millimetres. The page's joint stays about the centre that it has.
+export class CentrePanel {
+  readonly element: HTMLElement;
+  private readonly limits: LiveLimits;
+  private readonly asked;
+  private readonly fields: NumberField[];
+  private readonly refusal = html("p", { role: "status", class: "small" });
+  private readonly offset: [number, number, number] = [0, 0, 0];
+  private isBusy = false;
+  private waits = false;
+
+  constructor(private readonly core: CoreClient, private readonly text: ReportText) {
+    this.asked = questionsOf(text);
+    const motions = this.asked.map(({ motion }) => motion);
+    this.limits = new LiveLimits(words.liveLimits, [...motions], motions, motions);
+    this.fields = axes.map((axis, i) => new NumberField(
+      words.centreAlong[axis], -farthest_mm, farthest_mm, step_mm, " mm", false, (mm) => this.move(i, mm), (why) => (this.refusal.textContent = why ?? "")));
+    this.element = section(words.centre, html("p", { class: "small" }, words.centreHelp),
+      ...axes.map((axis, i) => this.row(i, words.centreAlong[axis])),
+      html("div", { class: "row no-print" }, button(words.centreReset, () => this.reset()), this.refusal), this.limits.element);
+  }
+
+  /// The joint itself is another one now, with these limits.
+  setBefore(limits: readonly LiveLimit[]): void {
+    const isMoved = this.offset.some((mm) => mm !== 0);
+    limits.forEach((limit, i) => {
+      this.limits.setBefore(i, limit);
+      if (!isMoved) this.limits.showLimit(i, limit);
+    });
+    if (isMoved) this.ask();
+  }
+
+  private row(i: number, label: string): HTMLElement {
+    const field = this.fields[i]!, axis = label.replace(/, mm$/, "");
+    const step = (sign: number) => button(
+      `${sign > 0 ? "+" : "\u2212"}${step_mm}`, () => this.step(i, sign * step_mm), { "aria-label": words.centreStep(axis.toLowerCase(), `${sign > 0 ? "+" : "\u2212"}${step_mm}`) });
+    return html("div", { class: "row no-print centre-row" }, html("span", { "aria-hidden": "true" }, label), step(-1), field.input, step(1));
+  }
+
+  private step(i: number, by: number): void {
+    const mm = Math.min(farthest_mm, Math.max(-farthest_mm, this.offset[i]! + by));
+    this.fields[i]!.show(mm);
+    this.move(i, mm);
+  }
+
+  private reset(): void {
+    this.offset.fill(0);
+    for (const field of this.fields) field.show(0);
+    this.ask();
+  }
+
+  private move(i: number, mm: number): void {
+    this.offset[i] = mm;
+    this.ask();
+  }
+
+  /// One place is under way at a time; of those meanwhile only the latest is looked at.
+  private ask(): void {
+    this.waits = true;
+    if (!this.isBusy) this.send();
+  }
+
+  private send(): void {
+    const { asked, text } = this, begun = performance.now();
+    this.waits = false;
+    this.isBusy = true;
+    this.limits.wait();
+    const done = () => {
+      this.isBusy = false;
+      if (this.waits) this.send();
+    };
+    this.core.edit({ of: "centre", offset_mm: [...this.offset], reference_deg: text.reference_deg }, asked.map(({ question }) => question), {
+      edited: () => undefined,
+      limit: (i, limit) => {
+        this.limits.showLimit(i, limit);
+        if (i < asked.length - 1) return;
+        this.element.dataset["allAfter"] = (performance.now() - begun).toFixed(1);
+        done();
+      },
+      failed: (message) => {
+        this.refusal.textContent = message;
+        done();
+      },
+    });
+  }
+}
