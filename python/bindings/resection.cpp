@@ -5,6 +5,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "condyle/answer.hpp"
+#include "condyle/brush.hpp"
 #include "interrupts.hpp"
 #include "io/joint/measure_request.hpp"
 #include "motion.hpp"
@@ -117,6 +118,45 @@ py::dict resection(const JointHandle& handle, const py::list& motions, const py:
   return dict;
 }
 
+BrushRequest strokes_in(const py::list& strokes, const py::dict& given) {
+  BrushRequest request{.body = given["of_fixed"].cast<bool>() ? BodyRole::fixed : BodyRole::mobile,
+                       .stays = given["keep"].cast<std::vector<std::uint8_t>>()};
+  for (const py::handle each : strokes) {
+    const auto stroke = each.cast<py::tuple>();
+    request.strokes.push_back({.action = stroke[0].cast<bool>() ? BrushAction::restore : BrushAction::lower,
+                               .along = stroke[1].cast<std::vector<Index>>(),
+                               .radius_mm = stroke[2].cast<double>(),
+                               .depth_mm = stroke[3].cast<double>()});
+  }
+  if (given["count_bearing"].cast<bool>()) request.range.bearing.rule = BearingRule::count;
+  request.range.bearing.margin_mm = given["bearing_margin_mm"].cast<std::optional<double>>();
+  return request;
+}
+
+py::dict brushed(const JointHandle& handle, const py::list& motions, const py::list& strokes,
+                 const py::dict& given) {
+  const BrushRequest request = strokes_in(strokes, given);
+  const std::vector<Motion> known = motions_in(motions);
+  BrushedJoint done = [&] {
+    const py::gil_scoped_release released;
+    return brush_joint(handle.joint(), request, known);
+  }();
+  py::list outcomes, before, after;
+  for (const StrokeOutcome& each : done.strokes)
+    outcomes.append(py::make_tuple(each.moved, each.kept, each.limited));
+  for (const MotionLimit& limit : done.before) before.append(dict_of(limit));
+  for (const MotionLimit& limit : done.after) after.append(dict_of(limit));
+  py::dict dict;
+  dict["joint"] = handle_of(handle, std::move(done.joint));
+  dict["strokes"] = outcomes;
+  dict["volume_mm3"] = done.removed.volume_mm3;
+  dict["deepest_mm"] = done.removed.deepest_mm;
+  dict["depth_mm"] = array_of(std::move(done.depth_mm));
+  dict["before"] = before;
+  dict["after"] = after;
+  return dict;
+}
+
 /// With this mesh in the mobile body's place, in its frame. Where a head is known it stays the one that it is.
 std::unique_ptr<JointHandle> with_mobile(const JointHandle& handle, const Mesh& mesh) {
   const py::gil_scoped_release released;
@@ -141,6 +181,7 @@ ResectionRequest cut_in(const py::dict& given) {
 void bind_resection(py::module_& module) {
   py::class_<PlanHandle>(module, "Plan");
   module.def("resection", &resection);
+  module.def("brushed", &brushed);
   module.def("with_mobile", &with_mobile);
 }
 

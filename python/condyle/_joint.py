@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._answer import html_of
+from ._brush import Brushed, BrushStroke, brushed
 from ._contact_checks import reported
 from ._described_joint import DescribedJoint
 from ._errors import UsageError
@@ -535,6 +536,41 @@ class Joint(DescribedJoint):
         """
         return resection(self, Joint._of_native, reach, cut, share, margin_mm, deepest_mm, within_mm, burr_mm, keep, keep_fixed, edge_mm,
                          curve_points, band_samples, seed, bearing, bearing_margin_mm, progress)
+
+    def brushed(self, strokes: Sequence[BrushStroke], *, body: Body = "mobile", keep: Optional[ArrayLike] = None,
+                bearing: BearingRule = "leave_out", bearing_margin_mm: Optional[float] = None) -> Brushed[Joint]:
+        """The joint without what strokes of a brush take from a bone, as by hand on the page of a report: the same bits.
+
+        The surface goes inwards along its normals, smoothed over 3 mm, at most as deep below the surface before as the strokes are; the bearing
+        surface stays. The mesh keeps its triangles: a cut is no finer than they are. Osseous: soft tissue is not modelled.
+
+        Parameters
+        ----------
+        strokes : sequence of BrushStroke
+        body : "mobile" or "fixed"
+            The bone that is brushed.
+        keep : (V,) bool, optional
+            Its vertices that stay beside the bearing surface.
+        bearing, bearing_margin_mm :
+            As :meth:`range_of_motion` takes them.
+
+        Raises
+        ------
+        UsageError
+            For vertices that the mesh does not have, and sizes outside their ranges. MeshError for a mesh that is open or inside out.
+
+        C++: `condyle::brush_joint` in condyle/brush.hpp; on the page of a report under *Plan*.
+
+        >>> import condyle
+        >>> bones = condyle.sample_hip(alpha_angle_deg=70)
+        >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
+        >>> end = joint.range_of_motion()["internal_rotation_at_90_flexion"]
+        >>> there = np.linalg.norm(joint.mobile.vertices - end.contact.mobile_point, axis=1).argmin()
+        >>> done = joint.brushed([BrushStroke(there, radius_mm=8, depth_mm=2)])
+        >>> done.after[8].turned_deg > done.before[8].turned_deg
+        True
+        """
+        return brushed(self, Joint._of_native, strokes, body, keep, bearing, bearing_margin_mm)
 
     def sweep(self, vary: Mapping[str, Sequence[float]], targets: Union[Path, Sequence[TargetLike]], *, band_samples: int = 0,
               seed: Optional[int] = None, measures: Sequence[str] = (), load: Optional[str] = None,

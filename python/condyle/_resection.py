@@ -156,7 +156,8 @@ def _cut_of(found: Optional[dict[str, Any]]) -> Optional[CutBone]:
     return CutBone(after, before, **found)
 
 
-def _kept(marks: Optional[ArrayLike], mesh: TriMesh, what: str) -> NDArray[np.uint8]:
+def kept_vertices(marks: Optional[ArrayLike], mesh: TriMesh, what: str) -> NDArray[np.uint8]:
+    """Marks of the vertices that stay, as the compiled part numbers them; none for none."""
     if marks is None:
         return np.empty(0, np.uint8)
     kept = np.asarray(marks)
@@ -195,7 +196,7 @@ def resection(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], reach
     centre_mm, axes_deg, surface_mm, usual_seed, voxels = _native.uncertainty(joint._native)
     options = {
         **cut_options(cut, share, margin_mm, deepest_mm, within_mm, burr_mm, edge_mm),
-        "keep_mobile": _kept(keep, joint.mobile, "keep"), "keep_fixed": _kept(keep_fixed, joint.fixed, "keep_fixed"),
+        "keep_mobile": kept_vertices(keep, joint.mobile, "keep"), "keep_fixed": kept_vertices(keep_fixed, joint.fixed, "keep_fixed"),
         "curve_points": count(curve_points, "curve_points", 0, 1000),
         "samples": band_samples and count(band_samples, "band_samples", FEWEST_SAMPLES, MOST_SAMPLES),
         "seed": usual_seed if seed is None else count(seed, "seed", high=2**64 - 1),
