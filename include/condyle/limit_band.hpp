@@ -46,6 +46,9 @@ struct LimitBand {
   BandShares width_from;
   double share_without_contact = 0;  ///< of the samples that reach the end of the motion's range, 0 to 1
   double share_in_contact_at_start = 0;
+  /// The limit of each displaced joint, in the order of the samples. Seed and number of samples decide by how much each one is
+  /// displaced, so that limits of two joints of one seed pair up.
+  std::vector<Angle> turned = {};
 };
 
 /// Bands of these motions, in their order: each of `samples` joints has its centre displaced, its axes rotated, both

@@ -82,10 +82,12 @@ std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<
 
   std::vector<LimitBand> bands;
   for (std::size_t m = 0; m < width; ++m) {
+    const auto turned = [&](std::size_t source, std::size_t sample) {
+      return outcomes[(source * count + sample) * width + m].turned;
+    };
     const auto sorted = [&](std::size_t source) {
       std::vector<double> values;
-      for (std::size_t i = 0; i < count; ++i)
-        values.push_back(outcomes[(source * count + i) * width + m].turned.radians());
+      for (std::size_t i = 0; i < count; ++i) values.push_back(turned(source, i).radians());
       std::sort(values.begin(), values.end());
       return values;
     };
@@ -109,6 +111,7 @@ std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<
                       width_of(Source::parameters)},
                      share(LimitReason::end_of_range),
                      share(LimitReason::contact_at_start)});
+    for (std::size_t i = 0; i < count; ++i) bands.back().turned.push_back(turned(0, i));
   }
   return bands;
 }
