@@ -22,21 +22,22 @@ void add_strict(CLI::App& command, Strictness& strictness) {
 namespace {
 
 template <class Note>
-void say(const std::vector<Note>& notes, const LoadedJoint& joint, Strictness strictness) {
+void say(const std::vector<Note>& notes, const LoadedJoint& joint, Strictness strictness,
+         std::string_view whose = {}) {
   if (strictness == Strictness::errors && !notes.empty()) {
     std::string all;
     for (const Note& each : notes)
       all += fmt::format("{}{}: {}", all.empty() ? "" : "; ", name_of(each.code), each.text);
     throw MeshError(fmt::format("{}: {} (--strict)", joint.report.file.path.string(), all));
   }
-  for (const Note& each : notes) note(fmt::format("{}: {}", name_of(each.code), each.text));
+  for (const Note& each : notes) note(fmt::format("{}{}: {}", whose, name_of(each.code), each.text));
 }
 
 }  // namespace
 
-std::vector<JointNote> noted(const LoadedJoint& joint, Strictness strictness) {
+std::vector<JointNote> noted(const LoadedJoint& joint, Strictness strictness, std::string_view whose) {
   std::vector<JointNote> notes = check_joint(joint.joint, joint.report.placement);
-  say(notes, joint, strictness);
+  say(notes, joint, strictness, whose);
   return notes;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "condyle/io/joint_file.hpp"
@@ -19,8 +20,9 @@ enum class Strictness { notes, errors };
 void add_strict(CLI::App& command, Strictness& strictness);
 
 /// Looks at a joint as it was read and notes what looks wrong, before anything is computed: what fails later
-/// may fail for that. Where notes are errors, throws MeshError with all of them.
-std::vector<JointNote> noted(const LoadedJoint& joint, Strictness strictness);
+/// may fail for that. Where notes are errors, throws MeshError with all of them. `whose` stands before each if
+/// a command has two joints.
+std::vector<JointNote> noted(const LoadedJoint& joint, Strictness strictness, std::string_view whose = {});
 
 /// The same of notes on layers, loads and motions, once there is an answer.
 void note_contact(const std::vector<ContactNote>& notes, const LoadedJoint& joint, Strictness strictness);

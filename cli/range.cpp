@@ -7,11 +7,12 @@
 
 namespace condyle::cli {
 
-RangeAnswer answered_range(const LoadedJoint& loaded, const RangeRequest& request) {
+RangeAnswer answered_range(const LoadedJoint& loaded, const RangeRequest& request, std::string_view whose) {
   RangeAnswer answer = followed_by_stage([&](const AnswerControl& control) {
     return answer_range(loaded.joint, loaded.report.placement, request, control);
   });
-  for (const RangeNote& each : answer.notes) note(fmt::format("{}: {}", name_of(each.code), each.text));
+  for (const RangeNote& each : answer.notes)
+    note(fmt::format("{}{}: {}", whose, name_of(each.code), each.text));
   return answer;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "condyle/answer.hpp"
 #include "condyle/io/joint_file.hpp"
 
@@ -7,7 +9,9 @@
 
 namespace condyle::cli {
 
-/// answer_range() with its progress and its notes on standard error. Throws Interrupted on SIGINT or SIGTERM.
-RangeAnswer answered_range(const LoadedJoint& loaded, const RangeRequest& request);
+/// answer_range() with its progress and its notes on standard error, each after `whose` joint it is of if a command has two. Throws
+/// Interrupted on SIGINT or SIGTERM.
+RangeAnswer answered_range(const LoadedJoint& loaded, const RangeRequest& request,
+                           std::string_view whose = {});
 
 }  // namespace condyle::cli

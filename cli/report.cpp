@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -39,7 +40,7 @@ enum class Content { joint, nothing };
 struct ReportArguments {
   ParametersGiven parameters;
   Content content = Content::joint;
-  std::string joint, out, motion;
+  std::string first, second, out, motion;
   std::optional<std::string> title;
   ReportLabels labels;
   bool with_pressure = false, measures = false;
@@ -50,6 +51,9 @@ struct ReportArguments {
   Strictness strictness = Strictness::notes;
 
   bool has_plan() const noexcept { return !cut->targets.empty(); }
+  /// Whether the joint of the page, the second of two, is compared with the first.
+  bool compares() const noexcept { return !second.empty(); }
+  const std::string& joint() const noexcept { return compares() ? second : first; }
 };
 
 /// The limits, or in one line why there are none: the page shows the joint all the same.
@@ -58,14 +62,51 @@ struct RangeOrError {
   std::string error;
 };
 
-RangeOrError range_of(const LoadedJoint& loaded, const RangeRequest& request) {
+RangeOrError range_of(const LoadedJoint& loaded, const RangeRequest& request, std::string_view whose) {
   try {
-    return {answered_range(loaded, request), {}};
+    return {answered_range(loaded, request, whose), {}};
   } catch (const MeshError& error) {
-    note(fmt::format("no limits: {}", error.what()));
+    note(fmt::format("{}no limits: {}", whose, error.what()));
     return {{}, error.what()};
   }
 }
+
+/// The joint before, and its answer to what the joint of the page is asked. What a report takes of it refers to its members.
+class JointBefore {
+ public:
+  /// Reads it; throws UsageError if it cannot be compared with the joint of the page.
+  JointBefore(const ReportArguments& options, const Joint& of_page, std::vector<std::string> words)
+      : whose_(options.first + ": "),
+        loaded_(read_joint(options.first)),
+        from_(provenance_of(loaded_, std::move(words))) {
+    check_comparable(loaded_.joint, options.first, of_page, options.second);
+    notes_ = noted(loaded_, options.strictness, whose_);
+  }
+  JointBefore(const JointBefore&) = delete;
+  JointBefore& operator=(const JointBefore&) = delete;
+
+  const std::vector<std::filesystem::path>& files() const noexcept { return from_.read; }
+
+  /// Its limits for the same motions, with bands of the same seed and standard deviations.
+  ReportedBefore answered(RangeRequest request) {
+    request.map.reset();
+    request.zones_past.reset();
+    found_ = range_of(loaded_, request, whose_);
+    if (found_.answer) rom_.emplace(rom_result_of(*found_.answer, notes_, &from_));
+    return {.joint = loaded_.joint,
+            .file = loaded_.report.file.path,
+            .rom = rom_ ? &*rom_ : nullptr,
+            .rom_error = found_.error};
+  }
+
+ private:
+  std::string whose_;
+  LoadedJoint loaded_;
+  Provenance from_;
+  std::vector<JointNote> notes_;
+  RangeOrError found_;
+  std::optional<RomResult> rom_;
+};
 
 /// The frames of a recorded motion. What it consists of refers to the parts before it.
 struct Recorded {
@@ -105,6 +146,16 @@ void check_plan(const ReportArguments& options, const Joint& joint) {
         "which condyle resect --out writes");
 }
 
+/// Throws UsageError for what a comparison does not show.
+void check_comparison(const ReportArguments& options) {
+  if (!options.compares()) return;
+  if (options.has_plan())
+    throw UsageError("--resect: a plan has its own before and after: for one joint file, not for two");
+  if (!options.follow->record.empty() || options.follow->load)
+    throw UsageError(fmt::format("{}: for one joint file, not for two, whose centres are held",
+                                 options.follow->load ? "--follow-load" : "--follow"));
+}
+
 /// As `condyle resect` answers.
 ResectionAnswer planned(const ReportArguments& options, const LoadedJoint& loaded,
                         const RangeRequest& range) {
@@ -113,7 +164,7 @@ ResectionAnswer planned(const ReportArguments& options, const LoadedJoint& loade
   query.resection.range = range.range;
   query.curve_points = options.curve_points;
   query.measures = measure_request_of(loaded);
-  return io::name_joint_file(options.joint, [&] {
+  return io::name_joint_file(options.joint(), [&] {
     return followed_by_stage([&](const AnswerControl& control) {
       return answer_resection(loaded.joint, loaded.report.placement, query, control);
     });
@@ -122,7 +173,7 @@ ResectionAnswer planned(const ReportArguments& options, const LoadedJoint& loade
 
 MeasureAnswer measured(const ReportArguments& options, const LoadedJoint& loaded, const RangeRequest& range) {
   const MeasureQuery query{measure_request_of(loaded), range.bands};
-  return io::name_joint_file(options.joint, [&] {
+  return io::name_joint_file(options.joint(), [&] {
     return followed_by_stage(
         [&](const AnswerControl& control) { return answer_measures(loaded.joint, query, control); });
   });
@@ -130,19 +181,24 @@ MeasureAnswer measured(const ReportArguments& options, const LoadedJoint& loaded
 
 void report_command(const ReportArguments& options, const CLI::App& command) {
   if (options.content == Content::nothing) return write_empty(options, command);
-  if (options.joint.empty()) throw UsageError("report: JOINT is required, or --empty");
-  const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
+  if (options.joint().empty()) throw UsageError("report: JOINT is required, or --empty");
+  const LoadedJoint loaded = joint_at(read_joint(options.joint()), options.parameters);
   check_plan(options, loaded.joint);
+  check_comparison(options);
+  std::optional<JointBefore> before;
+  if (options.compares()) before.emplace(options, loaded.joint, words_of(command));
   std::optional<MotionTable> table;
   if (!options.motion.empty()) table = read_motion_table(options.motion);
   RangeRequest request = range_request_of(*options.range, loaded, known_motions(loaded));
   std::optional<Followed> follows;
-  io::name_joint_file(options.joint,
+  io::name_joint_file(options.joint(),
                       [&] { follows.emplace(*options.follow, loaded, io::MotionsAre::all, request); });
-  const std::vector<JointNote> notes = noted(loaded, options.strictness);
+  const std::string whose = before ? options.joint() + ": " : "";
+  const std::vector<JointNote> notes = noted(loaded, options.strictness, whose);
   Provenance from = provenance_of(loaded, words_of(command));
   for (const std::string& file : {options.motion, options.follow->record})
     if (!file.empty()) from.read.emplace_back(file);
+  if (before) from.read.insert(from.read.end(), before->files().begin(), before->files().end());
   // Where the file cannot be written is reported before the work, not after it.
   check_report_file(options.out, &from);
 
@@ -173,7 +229,7 @@ void report_command(const ReportArguments& options, const CLI::App& command) {
                                         {surfaces.fixed.name, surfaces.mobile.name}));
   }
   note_contact(contact_notes, loaded, options.strictness);
-  const auto [answer, error] = range_of(shown, request);
+  const auto [answer, error] = range_of(shown, request, whose);
   std::optional<RomResult> rom;
   if (answer) {
     rom.emplace(rom_result_of(*answer, notes, &from));
@@ -185,6 +241,7 @@ void report_command(const ReportArguments& options, const CLI::App& command) {
                 .rom = rom ? &*rom : nullptr,
                 .rom_error = error,
                 .labels = options.labels};
+  if (before) report.before.emplace(before->answered(request));
   if (layers) report.layers.emplace(std::move(*layers));
   if (recorded)
     report.recorded.emplace(ReportedMotion{std::filesystem::path(options.motion).filename().string(),
@@ -211,12 +268,16 @@ void add_report(CLI::App& app) {
       "         condyle report sample/hip.toml --band --map flexion=0:120:10 adduction=-30:20:10 --out "
       "report.html\n"
       "         condyle report sample/hip.toml --measures --resect \"fadir=50\" --out plan.html\n"
+      "         condyle sample hip --alpha-angle 70 --out cam\n"
+      "         condyle report cam/hip.toml sample/hip.toml --band --out compared.html\n"
       "         condyle report --empty --out drop_a_hip.html\n"
       "The file needs no server and no network, and sends nothing. Where limits cannot be answered it says "
       "why and shows the joint.");
   auto options = std::make_shared<ReportArguments>();
   options->parameters = add_set(*command);
-  command->add_option("JOINT", options->joint, "The joint file, .toml");
+  command->add_option("JOINT", options->first, "The joint file, .toml; with AFTER, that of the joint before");
+  command->add_option("AFTER", options->second,
+                      "Show this joint file, and compare it with JOINT. --set is for this one only");
   command->add_flag_callback(
       "--empty", [options] { options->content = Content::nothing; },
       "Write a page without a joint, which takes the meshes of a hip that are dropped on it");

@@ -31,11 +31,55 @@ RangeRequest request_of(const RangeHandle& range, std::vector<Motion> motions) {
   return request;
 }
 
+/// The same question for the joint before: without a map and zones, and a free joint is held where its own reference pose has it if
+/// that of the page is.
+RangeRequest request_before(RangeRequest request, const JointPlacement& of_page) {
+  request.zones_past.reset();
+  if (request.translation_mm == of_page.reference_pose.translation_mm) request.translation_mm.reset();
+  return request;
+}
+
+/// The joint before, with its limits or why it has none. What a report takes of it refers to its members.
+struct JointBefore {
+  explicit JointBefore(const LoadedJoint& joint)
+      : loaded(joint), notes(check_joint(joint.joint, joint.report.placement)), from(files_of(joint)) {}
+  JointBefore(const JointBefore&) = delete;
+  JointBefore& operator=(const JointBefore&) = delete;
+
+  /// False if stopped.
+  bool answer_range_request(const RangeRequest& request, const AnswerControl& control) {
+    try {
+      answer = answer_range(loaded.joint, loaded.report.placement, request, control);
+      if (answer) rom.emplace(rom_result_of(*answer, notes, from ? &*from : nullptr));
+      return answer.has_value();
+    } catch (const MeshError& failed) {
+      error = failed.what();
+      return true;
+    }
+  }
+
+  ReportedBefore reported() const {
+    return {.joint = loaded.joint,
+            .file = loaded.report.file.path,
+            .rom = rom ? &*rom : nullptr,
+            .rom_error = error};
+  }
+
+  const LoadedJoint& loaded;
+  std::vector<JointNote> notes;
+  std::optional<Provenance> from;
+  std::optional<RangeAnswer> answer;
+  std::optional<RomResult> rom;
+  std::string error;
+};
+
 void report(const RangeHandle& range, const JointHandle& handle, const std::filesystem::path& path,
             const std::optional<std::string>& title, const py::list& given, std::size_t band_samples,
             std::optional<std::uint64_t> seed, const std::optional<double>& past_deg, bool with_measures,
-            const PlanHandle* plan, const LabelsGiven& labels, const py::object& progress) {
+            const PlanHandle* plan, const JointHandle* with, const LabelsGiven& labels,
+            const py::object& progress) {
   const LoadedJoint& loaded = handle.loaded;
+  if (with) check_comparable(with->loaded.joint, with->loaded.joint.name, loaded.joint, loaded.joint.name);
   const JointFile& file = loaded.report.file;
   RangeRequest request = request_of(range, motions_in(given));
   if (band_samples > 0)
@@ -44,6 +88,10 @@ void report(const RangeHandle& range, const JointHandle& handle, const std::file
   if (past_deg) request.zones_past = Angle::degrees(*past_deg);
   std::optional<Provenance> from = files_of(loaded);
   check_report_file(path, from ? &*from : nullptr);
+  if (with) {
+    const std::optional<Provenance> before = files_of(with->loaded);
+    check_report_file(path, before ? &*before : nullptr);
+  }
   followed(progress, [&](const auto& follow, const std::stop_token& stop) {
     const auto by_stage = [&](std::string_view, std::size_t done, std::size_t total) { follow(done, total); };
     const auto answer = answer_range(loaded.joint, loaded.report.placement, request, {by_stage, stop});
@@ -67,6 +115,13 @@ void report(const RangeHandle& range, const JointHandle& handle, const std::file
     if (plan)
       page.plan = &cut.emplace(
           ResectionResult{plan->loaded.joint, plan->answer, notes, provenance, &plan->loaded.report.file});
+    std::optional<JointBefore> before;
+    if (with) {
+      before.emplace(with->loaded);
+      const RangeRequest asked = request_before(request, loaded.report.placement);
+      if (!before->answer_range_request(asked, {by_stage, stop})) return true;
+      page.before.emplace(before->reported());
+    }
     write_report(path, page);
     return true;
   });

@@ -37,6 +37,17 @@ class Bearing(TypedDict):
     triangles: NDArray[np.uint8]
 
 
+def _native_before(before: object, plan: Optional[Resection[OfJoint]]) -> Optional[_native.Joint]:
+    """The joint with which a report compares its own."""
+    if before is None:
+        return None
+    if plan is not None:
+        raise UsageError("before: a plan has its own before and after: one of the two")
+    if not isinstance(before, DescribedJoint):
+        raise UsageError(f"before: a joint is needed, not {type(before).__name__}")
+    return before._native
+
+
 class RangeOfMotion:
     """A joint made ready for motions, and the limits of those asked for. Made by :meth:`Joint.range_of_motion`.
 
@@ -194,15 +205,18 @@ class RangeOfMotion:
 
     def write_report(self, path: Path, *, title: Optional[str] = None, band_samples: int = 0,
                      seed: Optional[int] = None, past_deg: Optional[float] = None, measures: bool = False,
-                     plan: Optional[Resection[OfJoint]] = None, case: Optional[str] = None, note: Optional[str] = None,
-                     date: Optional[str] = None, whole_paths: bool = False, progress: Progress = None) -> None:
+                     plan: Optional[Resection[OfJoint]] = None, before: Optional[DescribedJoint] = None,
+                     case: Optional[str] = None, note: Optional[str] = None, date: Optional[str] = None,
+                     whole_paths: bool = False, progress: Progress = None) -> None:
         """Writes one HTML file that shows the joint with these limits in any browser and computes with it there.
 
         `band_samples` above 0: with the bands of the limits, as :meth:`bands`; `past_deg`: with the impingement zones, as
         :meth:`zones`; `measures`: with the shape of a hip, as :meth:`Joint.measures`, with bands if the limits have them. `plan`
-        shows the bone that must go: write it by the range of motion of `plan.joint`, whose limits the page has. `case` and `date`
-        stand in the heading and `note` under the result, as given: nothing is taken from the clock. Files are named without their
-        folders unless `whole_paths`. Whole or not at all; FileError where it cannot be written.
+        shows the bone that must go: write it by the range of motion of `plan.joint`, whose limits the page has. `before`: another
+        joint of the same kind, anatomy and side, with which the page compares this one: its bodies are seen through in the same
+        scene, and its limits of the same motions, with bands of the same seed and standard deviations, stand beside these. `case`
+        and `date` stand in the heading and `note` under the result, as given: nothing is taken from the clock. Files are named
+        without their folders unless `whole_paths`. Whole or not at all; FileError where it cannot be written.
 
         C++: `condyle::answer_range` in condyle/answer.hpp; `condyle report`.
 
@@ -220,8 +234,8 @@ class RangeOfMotion:
             [self._motions.tuple_of(limit.motion) for limit in self.limits], samples,
             None if seed is None else count(seed, "seed", high=2**64 - 1),
             None if past_deg is None else number(past_deg, "past_deg"), bool(measures),
-            None if plan is None else plan._shown_by(self._joint), report_labels(case, note, date, whole_paths),
-            progress_of(progress))
+            None if plan is None else plan._shown_by(self._joint), _native_before(before, plan),
+            report_labels(case, note, date, whole_paths), progress_of(progress))
 
     def _zone_of(self, found: Optional[dict[str, Any]]) -> Optional[ImpingementZone]:
         if found is None:

@@ -34,6 +34,12 @@ class ReportCommand : public ::testing::Test {
                 "[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n" +
                     more);
   }
+  /// The joint file with one of its texts replaced.
+  void write_other(const std::string& name, const std::string& text, const std::string& by) const {
+    std::string joint = io::read_whole_file(folder / "joint.toml");
+    joint.replace(joint.find(text), text.size(), by);
+    folder.file(name, joint);
+  }
   Ran run(const std::string& arguments) const { return run_condyle(folder.path(), arguments); }
   Json answer(const std::string& arguments) const {
     const Ran ran = run("report joint.toml --out report.html" + arguments);
@@ -142,6 +148,82 @@ TEST_F(ReportCommand, RefusesOptionsOfACutWithoutOneAndPlansThatAPageDoesNotShow
   expect_refused(2, "report joint.toml --out report.html --load --resect flexion=30", "not with --load");
   EXPECT_EQ(answer("")["plan"], nullptr);
   EXPECT_EQ(answer("")["measures"], nullptr);
+}
+
+TEST_F(ReportCommand, ComparesAJointWithTheOneBefore) {
+  write_mesh(folder / "post_after.ply", box({50, -120, -50}, {70, -80, 50}));
+  write_other("after.toml", "mesh = \"post.ply\"", "mesh = \"post_after.ply\"");
+  const std::string options = " --band=20 --seed 7";
+  const Ran ran = run("report ./joint.toml after.toml --past 5 --out report.html" + options);
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const ReportBlock block = report_block(io::read_whole_file(folder / "report.html"));
+  const Json& before = block.json["before"];
+  EXPECT_EQ(before["file"], "joint.toml");
+  EXPECT_EQ(without_command(before["rom"]),
+            without_command(Json::parse(run("rom joint.toml --json" + options).out)));
+  const Json after = Json::parse(run("rom after.toml --json --past 5" + options).out);
+  EXPECT_EQ(without_command(block.json["rom"])["motions"][0]["limit_deg"], after["motions"][0]["limit_deg"]);
+  const Json& flexion = before["differences"][0];
+  EXPECT_EQ(flexion["difference_deg"].get<double>(),
+            after["motions"][0]["limit_deg"].get<double>() -
+                before["rom"]["motions"][0]["limit_deg"].get<double>());
+  EXPECT_EQ(flexion["beyond_band"], true) << "ten millimetres farther away in every displaced joint";
+  const Json &paired = flexion["band"], &alone = after["motions"][0]["band"];
+  EXPECT_LT(paired["p95_deg"].get<double>() - paired["p5_deg"].get<double>(),
+            alone["p95_deg"].get<double>() - alone["p5_deg"].get<double>());
+  EXPECT_EQ(before["surfaces"]["mobile"], nullptr);
+  EXPECT_EQ(block.array<double>("before_fixed_vertices", "f64").size(), 24u);
+  EXPECT_EQ(block.json["title"], "arm & <post>");
+}
+
+TEST_F(ReportCommand, SetsParametersOfTheJointAfterOnly) {
+  write_joint(
+      "[[part]]\nname = \"tilted\"\nbody = \"fixed\"\n[[part.parameter]]\nname = \"tilt\"\nrange = [-20, "
+      "20]\n");
+  ASSERT_EQ(run("report joint.toml joint.toml --set tilted.tilt=5 --out report.html").exit_code, 0);
+  const Json block = report_block(io::read_whole_file(folder / "report.html")).json;
+  const Json& before = block["before"]["rom"]["provenance"]["parameters"][0];
+  EXPECT_EQ(before["value"], before["in_joint_file"]);
+  EXPECT_EQ(block["rom"]["provenance"]["parameters"][0]["value"], 5);
+  EXPECT_NE(block["before"]["surfaces"]["fixed"], nullptr);
+}
+
+TEST_F(ReportCommand, ShowsAComparisonOfWhichOneJointHasNoLimits) {
+  write_mesh(folder / "long.ply", box({-1, -100, -2}, {41, -10, 2}));
+  write_other("after.toml", "mesh = \"arm.ply\"", "mesh = \"long.ply\"");
+  const auto report = [&](const std::string& joints) {
+    const Ran ran = run("report " + joints + " --out report.html");
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_NE(ran.err.find("after.toml: no limits: "), ran.err.npos) << ran.err;
+    return report_block(io::read_whole_file(folder / "report.html")).json;
+  };
+  const std::string_view why = "in contact in the reference pose";
+  const Json now = report("joint.toml after.toml");
+  EXPECT_EQ(now["rom"], nullptr);
+  EXPECT_NE(now["before"]["rom"], nullptr);
+  EXPECT_EQ(now["before"]["differences"], Json::array());
+  const Json then = report("after.toml joint.toml");
+  EXPECT_NE(then["rom"], nullptr);
+  EXPECT_NE(then["before"]["rom_error"].get<std::string>().find(why), std::string::npos);
+}
+
+TEST_F(ReportCommand, RefusesJointsThatDoNotCompareAndNamesBoth) {
+  write_other("left.toml", "side = \"right\"", "side = \"left\"");
+  write_other("hinge.toml", "kind = \"ball\"", "kind = \"hinge\"");
+  write_other("other.toml", "", "");
+  for (const std::string other : {"left.toml", "hinge.toml"}) {
+    expect_refused(2, "report joint.toml " + other + " --out report.html",
+                   "joint.toml (ball, hip, right) and " + other);
+    expect_refused(2, "report " + other + " joint.toml --out report.html",
+                   " and joint.toml (ball, hip, right): ");
+  }
+  expect_refused(2, "report joint.toml other.toml --resect flexion=30 --out report.html", "--resect: ");
+  expect_refused(2, "report joint.toml other.toml --follow none.csv --out report.html", "--follow: ");
+  expect_refused(3, "report none.toml joint.toml --out report.html", "none.toml");
+  expect_refused(3, "report joint.toml other.toml --out joint.toml", "joint.toml: is read for this answer");
+  expect_refused(2, "report joint.toml other.toml third.toml --out report.html", "third.toml");
+  expect_refused(2, "report joint.toml other.toml --empty --out report.html",
+                 "JOINT: is for a report of a joint");
 }
 
 TEST_F(ReportCommand, PlaysARecordedMotion) {

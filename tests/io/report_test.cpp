@@ -191,6 +191,57 @@ TEST(Report, HasRadialGapsInTheReferencePoseAndAtEveryLimit) {
   EXPECT_EQ(poses[1]["contact_point_mm"], block.json["rom"]["motions"][0]["contact_point_mm"]);
 }
 
+TEST(Report, HasOfAJointBeforeItsLimitsAndTheBodiesThatChanged) {
+  const Answered before(arm_and_post());
+  Joint moved = arm_and_post();
+  moved.fixed.mesh = box({50, -120, -50}, {70, -80, 50});
+  const Answered after(moved);
+  const RomResult rom = after.rom(), rom_before = before.rom();
+  const Report report{
+      .title = "",
+      .joint = after.joint,
+      .rom = &rom,
+      .before = ReportedBefore{.joint = before.joint, .file = "folder/before.toml", .rom = &rom_before}};
+  const ReportBlock block = report_block(report_html(report));
+  const Json& found = block.json["before"];
+  EXPECT_EQ(found["file"], "before.toml");
+  EXPECT_EQ(found["joint"], Json({{"name", "arm and post"}, {"fixed", "post"}, {"mobile", "arm"}}));
+  EXPECT_FALSE(found.contains("rom_error"));
+  EXPECT_EQ(found["surfaces"]["mobile"], nullptr) << "the arm is the same";
+  EXPECT_EQ(found["surfaces"]["fixed"],
+            Json({{"vertices", "before_fixed_vertices"}, {"triangles", "fixed_triangles"}}))
+      << "its triangles are the same";
+  expect_same_bits(
+      block.array<double>("before_fixed_vertices", "f64"),
+      report_block(report_html({.title = "", .joint = before.joint})).array<double>("fixed_vertices", "f64"));
+  ASSERT_EQ(found["differences"].size(), after.limits.size());
+  for (std::size_t i = 0; i < after.limits.size(); ++i) {
+    const Json& difference = found["differences"][i];
+    const Json &then = found["rom"]["motions"][i], &now = block.json["rom"]["motions"][i];
+    EXPECT_EQ(difference["motion"], now["name"]);
+    if (then["reason"] != "contact" || now["reason"] != "contact") continue;
+    EXPECT_EQ(difference["difference_deg"].get<double>(),
+              now["limit_deg"].get<double>() - then["limit_deg"].get<double>());
+  }
+  EXPECT_GT(found["differences"][0]["difference_deg"], 0) << "the post is farther away";
+}
+
+TEST(Report, SaysWhyAJointBeforeHasNoLimits) {
+  const Joint joint = arm_and_post();
+  const ReportBlock block = report_block(report_html(
+      {.title = "",
+       .joint = joint,
+       .rom_error = "here",
+       .before = ReportedBefore{.joint = joint, .file = {}, .rom = nullptr, .rom_error = "there"}}));
+  const Json& before = block.json["before"];
+  EXPECT_EQ(before["file"], nullptr);
+  EXPECT_EQ(before["rom"], nullptr);
+  EXPECT_EQ(before["rom_error"], "there");
+  EXPECT_EQ(before["differences"], Json::array());
+  EXPECT_EQ(before["surfaces"], Json({{"fixed", nullptr}, {"mobile", nullptr}}));
+  EXPECT_FALSE(report_block(report_html({.title = "", .joint = joint})).json.contains("before"));
+}
+
 TEST(Report, SaysWhyThereAreNoLimitsAndStoresNoPosesOfOpenMeshes) {
   Joint joint = arm_and_post();
   TriMesh post = joint.fixed.mesh.arrays();

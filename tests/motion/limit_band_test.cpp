@@ -90,6 +90,7 @@ TEST(LimitBand, IsTheSameBytesOnAnyNumberOfThreadsAndAnotherWithAnotherSeed) {
     EXPECT_EQ(many[i].p5, alone[i].p5);
     EXPECT_EQ(many[i].median, alone[i].median);
     EXPECT_EQ(many[i].p95, alone[i].p95);
+    EXPECT_EQ(many[i].turned, alone[i].turned);
     EXPECT_EQ(many[i].width_from.axes, alone[i].width_from.axes);
     different += many[i].median != other[i].median;
   }

@@ -41,6 +41,29 @@ def test_a_report_shows_shape_and_plan_as_the_command_does(tmp_path, command):
         again.joint.range_of_motion(["flexion"]).write_report(tmp_path / "other.html", plan=again)
 
 
+def test_a_report_compares_joints_as_the_command_does(command, hip, hip_file, tmp_path):
+    for folder, cam in (("before", []), ("left", ["--side", "left"])):
+        subprocess.run([command, "sample", "hip", "--scenario", "1", *cam, "--out", tmp_path / folder], check=True, capture_output=True)
+    before_file = tmp_path / "before" / "hip.toml"
+    subprocess.run([command, "report", before_file, hip_file, "--band=20", "--out", tmp_path / "theirs.html"], check=True,
+                   capture_output=True)
+    before, rom = condyle.read_joint(before_file), hip.range_of_motion()
+    rom.write_report(tmp_path / "ours.html", band_samples=20, before=before)
+    theirs, ours = text_of(tmp_path / "theirs.html"), text_of(tmp_path / "ours.html")
+    for text in (theirs, ours):
+        del text["rom"]["provenance"]["command"], text["before"]["rom"]["provenance"]["command"]
+    assert ours == theirs
+    limits = before.range_of_motion().limits
+    assert [motion["limit_deg"] for motion in ours["before"]["rom"]["motions"]] == [limit.turned_deg for limit in limits]
+    with pytest.raises(condyle.UsageError, match="the same kind, anatomy and side"):
+        rom.write_report(tmp_path / "other.html", before=condyle.read_joint(tmp_path / "left" / "hip.toml"))
+    with pytest.raises(condyle.UsageError, match="before: a joint is needed, not str"):
+        rom.write_report(tmp_path / "other.html", before=str(before_file))
+    with pytest.raises(condyle.FileError):
+        rom.write_report(before_file, before=before)
+    assert not (tmp_path / "other.html").exists()
+
+
 def test_a_report_has_the_motions_asked_for_and_the_title_given(hip, tmp_path):
     rom = hip.range_of_motion(["flexion", "fadir"])
     rom.write_report(tmp_path / "hip.html", title="Hip & <more>")

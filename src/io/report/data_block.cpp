@@ -17,15 +17,15 @@
 #include "condyle/io/pose_text.hpp"
 #include "condyle/version.hpp"
 #include "io/joint/given_degrees.hpp"
+#include "io/report/before_json.hpp"
 #include "io/report/block_arrays.hpp"
-#include "io/report/file_names.hpp"
+#include "io/report/body_arrays.hpp"
 #include "io/report/plan_json.hpp"
 #include "io/report/surfaces_json.hpp"
 #include "io/result/caveats.hpp"
 #include "io/result/json.hpp"
 #include "io/result/map_result.hpp"
 #include "io/result/measure_object.hpp"
-#include "io/result/rom_parts.hpp"
 
 static_assert(std::endian::native == std::endian::little,
               "arrays are written as the machine has the numbers");
@@ -38,23 +38,6 @@ constexpr std::uint32_t block_version = 1;
 /// that matters.
 constexpr double gap_units_per_mm = 100;
 constexpr std::int16_t no_gap = std::numeric_limits<std::int16_t>::max();
-
-std::vector<double> interleaved(PointsView points) {
-  std::vector<double> xyz;
-  xyz.reserve(3 * points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    xyz.insert(xyz.end(), {points.x[i], points.y[i], points.z[i]});
-  return xyz;
-}
-
-void add_body(BlockArrays& arrays, const std::string& role, const Mesh& mesh) {
-  arrays.add(role + "_vertices", interleaved(mesh.vertices().view()));
-  std::vector<std::uint32_t> corners;
-  corners.reserve(3 * mesh.triangles().size());
-  for (const Triangle& triangle : mesh.triangles())
-    corners.insert(corners.end(), triangle.begin(), triangle.end());
-  arrays.add(role + "_triangles", corners);
-}
 
 /// Numbers as in ContactRole.
 std::vector<std::uint8_t> roles_of(const std::vector<ContactRole>& roles) {
@@ -251,15 +234,6 @@ void append(std::string& bytes, std::uint32_t number) {
   bytes.append(raw, sizeof number);
 }
 
-/// As rom.json has it, but for the intervals of a map, which the page has of their own.
-Json rom_of(const Report& report) {
-  if (!report.rom) return nullptr;
-  Json rom = rom_object(*report.rom);
-  if (report.rom->map) rom["map"].erase("intervals");
-  if (!report.labels.whole_paths) name_files_only(rom["provenance"]);
-  return rom;
-}
-
 Json text_or_null(const std::optional<std::string>& text) {
   return text ? Json(*text) : Json(nullptr);
 }
@@ -296,7 +270,7 @@ std::string data_block(const Report& report) {
             {"reference_deg", degrees_json(report.reference_pose.angles)},
             {"reference_mm", numbers(report.reference_pose.translation_mm)},
             {"scope", scope_text(joint)},
-            {"rom", rom_of(report)}};
+            {"rom", reported_rom(report.rom, report.labels)}};
   if (!report.rom) json["rom_error"] = report.rom_error;
   json["map"] = report.rom && report.rom->map ? map_json(*report.rom->map) : Json(nullptr);
   json["zones"] = report.rom ? zones_json(*report.rom, arrays) : Json::array();
@@ -306,6 +280,7 @@ std::string data_block(const Report& report) {
   json["recorded"] = report.recorded ? recorded_json(*report.recorded, joint, arrays) : Json(nullptr);
   json["measures"] = measures_of(report.measures);
   json["plan"] = report.plan ? plan_json(*report.plan, arrays) : Json(nullptr);
+  if (report.before) json["before"] = before_json(report, arrays);
   json["arrays"] = arrays.directory();
   drop_negative_zeros(json);
   std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);

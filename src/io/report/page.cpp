@@ -77,6 +77,7 @@ void check_report_file(const std::filesystem::path& path, const Provenance* from
 
 void write_report(const std::filesystem::path& path, const Report& report) {
   if (report.rom) check_report_file(path, report.rom->provenance);
+  if (report.before && report.before->rom) check_report_file(path, report.before->rom->provenance);
   io::write_output_file(path, report_html(report));
 }
 

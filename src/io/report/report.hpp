@@ -35,6 +35,19 @@ struct ReportLabels {
   bool whole_paths = false;
 };
 
+/// The joint with which that of a report is compared: the same one before a change.
+struct ReportedBefore {
+  const Joint& joint;
+  std::filesystem::path file = {};  ///< the joint file; empty of a joint that has none
+  /// The limits of the motions of the report's joint; null if they cannot be answered, and `rom_error` says why.
+  const RomResult* rom = nullptr;
+  std::string rom_error = {};
+};
+
+/// Throws UsageError, which names both, unless joints are of the same kind, anatomy and side.
+void check_comparable(const Joint& before, const std::string& before_name, const Joint& after,
+                      const std::string& after_name);
+
 /// Contents of a report.
 struct Report {
   std::string title;  ///< any text; it stays text on the page
@@ -49,6 +62,7 @@ struct Report {
   const MeasureResult* measures = nullptr;  ///< of a hip
   /// The bone that must go: `joint` is the joint without it, and `rom` has its limits.
   const ResectionResult* plan = nullptr;
+  std::optional<ReportedBefore> before = {};
   ReportLabels labels = {};
 };
 
