@@ -16,6 +16,9 @@ sed 's/^centre = .*/centre = [-2, -2, 0]/' "$out/sample/hip.toml" >"$out/sample/
 "$condyle" report "$out/sample/shifted.toml" --bearing count --out "$out/counted.html"
 "$condyle" report "$out/sample/hip.toml" --past 5 --out "$out/zones.html"
 "$condyle" report "$out/sample/hip.toml" --measures --band=20 --resect "fadir=50 flexion=138" --curve 4 --out "$out/plan.html"
+"$condyle" sample hip --alpha-angle 70 --out "$out/cam" >/dev/null
+"$condyle" report "$out/cam/hip.toml" "$out/sample/hip.toml" --band=20 --map flexion=0:120:10 adduction=-30:20:10 \
+  --out "$out/compared.html"
 printf '[[part]]\nname = "pelvis"\nbody = "fixed"\n[[part.parameter]]\nname = "tilt"\nrange = [-20, 20]\nsigma = 3\n' | cat "$out/sample/hip.toml" - >"$out/sample/tilts.toml"
 "$condyle" report "$out/sample/tilts.toml" --set pelvis.tilt=10 --band=20 --out "$out/tilted.html"
 "$condyle" sample cartilages --scenario 5 --out "$out/cartilages" >/dev/null

@@ -7,6 +7,7 @@ import { clockTime, fixed } from "./numbers";
 import { BrushPanel } from "./panels/brush";
 import { CentrePanel } from "./panels/centre";
 import { Clearance } from "./panels/clearance";
+import { ComparePanel } from "./panels/compare";
 import { DisplayPanel } from "./panels/display";
 import { DropPanel } from "./panels/drop";
 import { figuresPanel } from "./panels/figures";
@@ -133,7 +134,10 @@ class Page {
     }
     this.placeViewTools(names);
     const shape = text.measures ? shapePanel(text.measures, this.scene) : null;
-    this.tabs = this.placeTabs(shape?.details ?? null);
+    const compared = report && text.before ? new ComparePanel(this.scene, report, text.before, () => this.rememberView()) : null;
+    if (compared) this.display.remember("before", compared.box, (on) => compared.show(on));
+    this.tabs = this.placeTabs([compared?.details, shape?.details].filter((each) => each !== undefined));
+    if (compared) addPlanPanel(compared.element);
     if (this.plan) addPlanPanel(this.plan.element);
     if (shape) addPlanPanel(shape.element);
     this.paper = new Paper(text, this.counts(), extremes);
@@ -170,7 +174,7 @@ class Page {
     found("view-tools").replaceChildren(...tools, drawer);
   }
 
-  private placeTabs(measures: HTMLDetailsElement | null): Tabs {
+  private placeTabs(folds: readonly HTMLDetailsElement[]): Tabs {
     const { text } = this, details = html("section", { "aria-label": words.tab.details });
     const planPanels = html("div", { id: "plan-panels" }), planTab = html("section", { "aria-label": words.tab.plan }, planPanels);
     const licences = html("pre", { id: "licences", tabindex: 0 });
@@ -178,7 +182,7 @@ class Page {
     licencesFold.addEventListener("toggle", () => void showLicences(licences), { once: true });
     details.append(
       ...numberFolds(text, this.counts(), [this.motion.answer, this.motion.depth, this.motion.took]), ...(this.plan ? [this.plan.details] : []),
-      ...(measures ? [measures] : []), html("p", {}, words.scope(scopeOf(text))), licencesFold);
+      ...folds, html("p", {}, words.scope(scopeOf(text))), licencesFold);
     const figures = this.figures();
     const tabs = new Tabs(words.tabs, [
       { id: "motion", title: words.tab.motion, panel: this.motion.element }, { id: "figures", title: words.tab.figures, panel: figures },

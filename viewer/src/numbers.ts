@@ -6,6 +6,12 @@ export function fixed(value: number, digits: number): string {
   return Number(text) === 0 ? text.replace("-", "") : text.replace("-", minusSign);
 }
 
+/// With its sign, but for zero: +12.3, −3.0, 0.0.
+export function signed(value: number, digits: number): string {
+  const text = fixed(value, digits);
+  return value > 0 && Number(text) !== 0 ? `+${text}` : text;
+}
+
 /// As short as it can be said: 120, 0.5, −30.
 export function plain(value: number, digits = 1): string {
   return String(Number(value.toFixed(digits))).replace("-", minusSign);

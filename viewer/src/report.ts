@@ -241,6 +241,29 @@ export interface StoredPlan {
   surfaces: Record<"fixed" | "mobile", { lowered: string; before: string; depth_mm: string } | null>;
 }
 
+/// How far a motion's limit is from that of the joint before; docs/compare.md.
+export interface LimitDifference {
+  motion: string;
+  /// After minus before; null where neither end is by contact, or one is in contact at the start.
+  difference_deg: number | null;
+  difference_is: "exact" | "at_least" | "at_most" | null;
+  /// Of joints displaced by the same amounts.
+  band: Band | null;
+  beyond_band: boolean | null;
+}
+
+/// The joint before, with which that of the page is compared.
+export interface StoredBefore {
+  file: string | null;
+  joint: { name: string; fixed: string; mobile: string };
+  rom: RomAnswer | null;
+  rom_error?: string;
+  /// One for each motion; none where either joint has no limits.
+  differences: LimitDifference[];
+  /// Names of arrays; null of a body that is the page's own.
+  surfaces: Record<"fixed" | "mobile", { vertices: string; triangles: string } | null>;
+}
+
 export interface ReportText {
   version: string;
   title: string;
@@ -272,6 +295,8 @@ export interface ReportText {
   recorded: Recorded | null;
   measures: StoredMeasures | null;
   plan: StoredPlan | null;
+  /// Of a report of two joints.
+  before?: StoredBefore | null;
 }
 
 const headBytes = 16;

@@ -110,6 +110,16 @@ const plan = object({
   surfaces: object({ fixed: cutSurface, mobile: cutSurface }),
 });
 
+const bodyBefore = orNull(object({ vertices: text, triangles: text }));
+const before = object({
+  file: orNull(text), joint: object({ name: text, fixed: text, mobile: text }), rom: orNull(rom), rom_error: ifThere(text),
+  differences: list(object({
+    motion: text, difference_deg: orNull(number), difference_is: orNull(oneOf("exact", "at_least", "at_most")),
+    band: orNull(object({ p5_deg: number, median_deg: number, p95_deg: number })), beyond_band: orNull(flag),
+  })),
+  surfaces: object({ fixed: bodyBefore, mobile: bodyBefore }),
+});
+
 const report = object({
   version: text, title: text, case: ifThere(orNull(text)), note: ifThere(orNull(text)), date: ifThere(orNull(text)),
   joint: object({
@@ -136,7 +146,7 @@ const report = object({
     name: text, axis: oneOf("time_s", "frame"), times_s: text, coordinates_deg: text, coordinates_mm: text, poses: text,
     curves: list(object({ name: text, unit: text, values: text })),
   })),
-  measures: orNull(measures), plan: orNull(plan),
+  measures: orNull(measures), plan: orNull(plan), before: ifThere(orNull(before)),
 });
 
 /// The text of a block, every key that the page reads with it; throws ReportError that names the first one that is wrong.
@@ -176,6 +186,11 @@ function checkArrays(read: ReportText): void {
       const lowered = needed(`plan.surfaces.${body}.lowered`, cut.lowered, "u32", any);
       needed(`plan.surfaces.${body}.before`, cut.before, "f64", many(3 * lowered));
       needed(`plan.surfaces.${body}.depth_mm`, cut.depth_mm, "f64", many(lowered));
+    }
+    const ghost = read.before?.surfaces[body];
+    if (ghost) {
+      needed(`before.surfaces.${body}.vertices`, ghost.vertices, "f64", threes);
+      needed(`before.surfaces.${body}.triangles`, ghost.triangles, "u32", threes);
     }
     const loaded = read.layers?.[body];
     if (!loaded) continue;

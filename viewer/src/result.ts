@@ -1,5 +1,5 @@
-import { fixed, plain } from "./numbers";
-import type { Band, MotionAnswer, RomAnswer } from "./report";
+import { fixed, plain, signed } from "./numbers";
+import type { Band, LimitDifference, MotionAnswer, ReportText, RomAnswer } from "./report";
 import { words } from "./words";
 
 /// What is said first of a joint's limits, and by which rule: docs/report.md, "The answer first".
@@ -70,4 +70,16 @@ export function bandText(motion: MotionAnswer): string {
 
 export function limitText(motion: MotionAnswer): string {
   return [limitAlone(motion), bandText(motion)].filter(Boolean).join(" ");
+}
+
+/// How far a motion's limit is from that of the joint before; null where the report has no such joint, or it is not known.
+export function differenceOf({ before }: ReportText, motion: string): LimitDifference | null {
+  return before?.differences.find((each) => each.motion === motion && each.difference_deg !== null) ?? null;
+}
+
+/// "+12.3°", ">+12.3°" where the range ends without contact after, "<−12.3°" before.
+export function differenceText({ difference_deg, difference_is }: LimitDifference): string {
+  if (difference_deg === null) return "–";
+  const bound = { exact: "", at_least: ">", at_most: "<" }[difference_is ?? "exact"];
+  return `${bound}${signed(difference_deg, 1)}°`;
 }

@@ -215,6 +215,25 @@ export const words = {
   translationEnds: "no contact, translation ends",
   notCarried: "unknown: load not carried",
 
+  compared: "Compared with before",
+  comparedWith: (file: string) =>
+    `Before: ${file}. Each joint lies in its own joint frame; pose and view are those of both.`,
+  showBefore: "Show the joint before, seen through",
+  sameBodies: "Both bodies are those of the joint before.",
+  limitsCompared: "Limits before and after",
+  difference: "difference",
+  toBefore: "difference to before",
+  beyondBand: "beyond the band",
+  withinBand: "within the band",
+  bandRuleShort: "Beyond the band: 5 to 95 % of the differences lie on one side of zero.",
+  bandRule:
+    "Beyond the band: 5 to 95 % of the differences between joints that are displaced alike, before and after, lie on one side of zero. This takes " +
+    "their errors as common, as those of one image are: of two images, hold both bands against each other.",
+  noLimitsBefore: (why: string) => `The joint before has no limits: ${why}`,
+  notedBefore: "Notes of the checks on the joint before",
+  beforeDetails: "The joint before",
+  filesBefore: "Files of the joint before",
+
   plan: "Bone that must go",
   withoutBone: "The joint is shown without the bone that must go for its motions to reach their targets; limits are those without it.",
   targets: "Targets",

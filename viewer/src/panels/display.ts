@@ -109,6 +109,11 @@ export class DisplayPanel {
     };
   }
 
+  /// A box that stands elsewhere, and is remembered by that name in a shared link.
+  remember(key: string, box: HTMLInputElement, set: (on: boolean) => void): void {
+    this.shown.set(key, { box, set });
+  }
+
   /// As a shared link says; what it does not know is as usual.
   apply(state: DisplayState): void {
     const quantity = this.showable.quantities.find((key) => key === state.colour) ?? this.usualQuantity;

@@ -1,6 +1,6 @@
 import { button, html, named, shortened } from "../dom";
 import { limitBar, limitRows, mostOf } from "../plots/limits";
-import type { MotionAnswer } from "../report";
+import type { MotionAnswer, StoredBefore } from "../report";
 import { bandText, deficitOf, limitAlone } from "../result";
 import { csv, save } from "../save";
 import { motionName, words } from "../words";
@@ -20,7 +20,8 @@ export class ManoeuvreGrid {
   readonly element: HTMLElement;
   private readonly tiles = new Map<string, HTMLButtonElement>();
 
-  constructor(motions: readonly MotionAnswer[], go: (motion: MotionAnswer) => void, canGo: (motion: MotionAnswer) => boolean) {
+  constructor(motions: readonly MotionAnswer[], go: (motion: MotionAnswer) => void, canGo: (motion: MotionAnswer) => boolean,
+    before: StoredBefore | null = null) {
     const most = mostOf(motions);
     for (const motion of motions) {
       const tile = button("", () => go(motion), { class: "tile", disabled: !canGo(motion), title: words.goThere(named(motionName(motion.name))) });
@@ -35,7 +36,7 @@ export class ManoeuvreGrid {
     roving([...this.tiles.values()], columns);
     this.element = html("div", { class: "manoeuvres" }, grid,
       html("div", { class: "tile-key small" }, html("span", {}, words.tileKey),
-        button(words.saveLimits, () => save("limits.csv", "text/csv", csv(limitRows(motions))), { class: "quiet-button" })));
+        button(words.saveLimits, () => save("limits.csv", "text/csv", csv(limitRows(motions, before))), { class: "quiet-button" })));
   }
 
   /// The motion at whose end the joint is; null for none.

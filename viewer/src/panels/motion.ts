@@ -73,7 +73,8 @@ export class MotionPanel {
     if (report.joint.kind === "free") rows.push(html("div", { class: "row translations" }, ...axes.map((axis) => this.moveAlong(axis))));
     this.sliders.forEach((slider, i) => this.write(slider, this.angles[i]!));
     const motions = (report.rom?.motions ?? []).filter(({ reason }) => reason !== "contact_at_start");
-    this.grid = motions.length ? new ManoeuvreGrid(report.rom!.motions, (motion) => this.goToEnd(motion), ({ name }) => this.hasPose(name)) : null;
+    this.grid = motions.length ? new ManoeuvreGrid(
+      report.rom!.motions, (motion) => this.goToEnd(motion), ({ name }) => this.hasPose(name), report.before ?? null) : null;
     this.undoButton = button(words.undo, () => this.undo(), { disabled: true, title: words.undoKey });
     this.element = html("section", { "aria-label": words.motion }, this.status.element, html("div", { class: "sliders" }, ...rows),
       html("div", { class: "row motion-row no-print" },

@@ -5,6 +5,7 @@ import { MapPlot } from "../plots/map";
 import { scopeOf, type ReportText } from "../report";
 import { bandText, firstFigures, limitAlone, toldFirst } from "../result";
 import { motionName, words } from "../words";
+import { comparisonTable } from "./compare";
 import { headingOf } from "./header";
 import { normalText } from "./manoeuvres";
 import { methodOf, sourcesOf } from "./numbers";
@@ -23,7 +24,7 @@ export class Paper {
       ? firstFigures(rom, isHip).map((motion) => [motionName(motion.name), limitAlone(motion), bandText(motion), normalText(motion)] as const)
       : extremes.map(({ name, value, at }) => [name, value, "", at] as const);
     const clock = rom && clockDrawing(rom.motions, rom.clock_plane, null);
-    const notes = rom?.notes ?? [];
+    const notes = rom?.notes ?? [], compared = comparisonTable(text);
     const scope = html("p", { class: "small" }, words.scope(scopeOf(text)));
     const first = html("div", { class: "sheet" }, html("h1", {}, headingOf(text)),
       ...(text.note ? [html("p", {}, text.note)] : []),
@@ -33,11 +34,13 @@ export class Paper {
       ...(notes.length ? [html("p", { class: "warning" }, html("b", {}, words.noted(notes.length)), " ", notes.map((note) => note.text).join("; "))] : []),
       html("div", { class: "paper-picture" }, this.image, this.caption),
       ...(rom && hasLimits ? [html("div", { class: "paper-figures" }, drawn(limitsDrawing(rom.motions, null)), ...(clock ? [drawn(clock)] : []))] : []),
-      scope);
+      ...(compared ? [compared] : []), scope);
+    const filesBefore = text.before?.rom?.provenance;
     const second = html("div", { class: "sheet" },
       ...(map ? [html("div", { class: "paper-map" }, new MapPlot(map, null, "paper-").element)] : []),
       html("h2", {}, words.method), ...methodOf(text, counts),
-      ...(rom?.provenance ? [html("h2", {}, words.sourceFiles), ...sourcesOf(rom.provenance)] : []));
+      ...(rom?.provenance ? [html("h2", {}, words.sourceFiles), ...sourcesOf(rom.provenance)] : []),
+      ...(filesBefore ? sourcesOf(filesBefore, words.filesBefore).slice(-1) : []));
     this.element = html("div", {}, first, second);
     // What is read on the screen is not read twice.
     for (const region of this.element.querySelectorAll("[tabindex]")) region.removeAttribute("tabindex");

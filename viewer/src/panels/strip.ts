@@ -1,7 +1,7 @@
 import { button, html, named, shortened, spaced } from "../dom";
 import { clockTime, fixed } from "../numbers";
 import type { MotionAnswer, ReportText } from "../report";
-import { bandText, deficitOf, firstFigures, limitAlone, limitText, toldFirst } from "../result";
+import { bandText, deficitOf, differenceOf, differenceText, firstFigures, limitAlone, limitText, toldFirst } from "../result";
 import { motionName, words } from "../words";
 import { normalText } from "./manoeuvres";
 
@@ -55,6 +55,8 @@ export class ResultStrip {
         const lacks = deficitOf(motion) !== null;
         const made = card(motionName(motion.name), limitAlone(motion), bandText(motion), normalText(motion), () => go(motion), !canGo(motion));
         made.classList.toggle("short", lacks);
+        const difference = differenceOf(report, motion.name);
+        if (difference) made.querySelector(".result-value")?.append(" ", html("span", { class: "result-difference", title: words.toBefore }, differenceText(difference)));
         this.cards.set(motion.name, made);
         return made;
       })

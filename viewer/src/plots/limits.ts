@@ -1,7 +1,7 @@
 import { scaleLinear } from "d3-scale";
 import { named, spaced, svg } from "../dom";
 import { fixed } from "../numbers";
-import type { MotionAnswer } from "../report";
+import type { MotionAnswer, StoredBefore } from "../report";
 import { limitText, toldBand } from "../result";
 import { words } from "../words";
 import { pressable, type Drawing } from "./figure";
@@ -27,14 +27,27 @@ export function limitBar(motion: MotionAnswer, most: number): SVGSVGElement {
   return picture;
 }
 
-/// Every limit with all of its digits.
-export function limitRows(motions: readonly MotionAnswer[]): (string | number | null)[][] {
+const bandColumns = (of: string) => [`${of}p5_deg`, `${of}median_deg`, `${of}p95_deg`];
+const bandCells = (band: MotionAnswer["band"] | undefined) => [band?.p5_deg ?? null, band?.median_deg ?? null, band?.p95_deg ?? null];
+
+/// Every limit with all of its digits, beside that of the joint before where there is one.
+export function limitRows(motions: readonly MotionAnswer[], before: StoredBefore | null = null): (string | number | null)[][] {
   return [
-    ["motion", "limit_deg", "reason", "contact_kind", "bearing_contact_deg", "normal_range_deg", "p5_deg", "median_deg", "p95_deg", "clock_hour"],
+    ["motion", "limit_deg", "reason", "contact_kind", "bearing_contact_deg", "normal_range_deg", ...bandColumns(""), "clock_hour",
+      ...(before ? ["before_limit_deg", "before_reason", ...bandColumns("before_"), "difference_deg", "difference_is", ...bandColumns("difference_"),
+        "beyond_band"] : [])],
     ...motions.map((m) => [
-      m.name, m.limit_deg, m.reason, m.contact_kind, m.bearing_contact_deg, m.normal_range_deg, m.band?.p5_deg ?? null,
-      m.band?.median_deg ?? null, m.band?.p95_deg ?? null, m.clock_hour,
+      m.name, m.limit_deg, m.reason, m.contact_kind, m.bearing_contact_deg, m.normal_range_deg, ...bandCells(m.band), m.clock_hour,
+      ...(before ? cellsBefore(before, m.name) : []),
     ]),
+  ];
+}
+
+function cellsBefore({ rom, differences }: StoredBefore, name: string): (string | number | null)[] {
+  const then = rom?.motions.find((motion) => motion.name === name), difference = differences.find(({ motion }) => motion === name);
+  return [
+    then?.limit_deg ?? null, then?.reason ?? null, ...bandCells(then?.band), difference?.difference_deg ?? null, difference?.difference_is ?? null,
+    ...bandCells(difference?.band), difference?.beyond_band == null ? null : String(difference.beyond_band),
   ];
 }
 

@@ -18,6 +18,7 @@ export interface Part {
 export interface Ghost {
   vertices: ArrayLike<number>;
   triangles: ArrayLike<number>;
+  colour?: string;
 }
 
 const ghostColour = "#7fa8c9", ghostOpacity = 0.35;
@@ -84,7 +85,9 @@ export class SceneBody {
     geometry.setIndex(new BufferAttribute(new Uint32Array(ghost.triangles), 1));
     geometry.computeVertexNormals();
     this.ghost = new Mesh(geometry, new MeshLambertMaterial({
-      color: ghostColour, transparent: true, opacity: ghostOpacity, side: DoubleSide, depthWrite: false, clippingPlanes: this.mesh.material.clippingPlanes,
+      color: ghost.colour ?? ghostColour, transparent: true, opacity: ghostOpacity, side: DoubleSide, depthWrite: false, clippingPlanes: this.mesh.material.clippingPlanes,
+      // Where both surfaces are one, this body is seen: within some tenth of a millimetre.
+      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 20,
     }));
     this.ghost.renderOrder = 5;
     this.mesh.add(this.ghost);
