@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <span>
-#include <vector>
 
 #include "io/image/byte_source.hpp"
+#include "io/image/inflate.hpp"
 
 namespace condyle::io {
 
@@ -16,9 +16,6 @@ enum class Packing { none, deflated };
 class ByteStream {
  public:
   ByteStream(const ByteSource& source, std::uint64_t at, Packing packing);
-  ~ByteStream();
-  ByteStream(const ByteStream&) = delete;
-  ByteStream& operator=(const ByteStream&) = delete;
 
   /// The next bytes, as many as fit; fewer only at the end. Raises FileError for compressed data that are damaged or cut off.
   std::size_t read(std::span<char> out);
@@ -32,19 +29,12 @@ class ByteStream {
   [[noreturn]] void fail(std::string_view what) const { source_.fail(what); }
 
  private:
-  struct Inflate;
-
-  std::size_t inflate(std::span<char> out);
-  bool refill();
-  bool starts_another_member();
-
   const ByteSource& source_;
   std::uint64_t at_;
-  std::vector<char> block_;  ///< of compressed bytes
-  std::unique_ptr<Inflate> inflate_;
+  std::optional<Inflate> inflate_;
 };
 
-/// Whether gzip begins at the first byte of the source.
-bool is_gzip(const ByteSource& source);
+/// Whether gzip begins at a byte of the source.
+bool is_gzip(const ByteSource& source, std::uint64_t at = 0);
 
 }  // namespace condyle::io
