@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "condyle/io/label_file.hpp"
+#include "io/joint/proposal.hpp"
+
+/// What two bones of label maps say of the joint that is made of them, whether it is written to a file or shown in a page.
+
+namespace condyle::io {
+
+/// A bone and the image that it is of.
+struct ImagedBone {
+  const LabelMap& map;
+  std::string_view file;  ///< as errors call the image
+  const LabelBone& bone;
+};
+
+/// Where the surface of a bone comes from, one line each: its label and voxels, what the grid leaves open.
+std::vector<std::string> origin_of(const LabelBone& bone, std::string_view image_name);
+
+/// UsageError if both bodies are one label of one map.
+void check_are_two(const ImagedBone& fixed, const ImagedBone& mobile);
+
+/// The side that is given, else that of the labels' names, and by what. UsageError if the two names are of different sides, or not
+/// of the given one.
+std::optional<Stated<Side>> stated_side(const std::optional<Side>& given, const LabelBone& fixed,
+                                        const LabelBone& mobile);
+
+/// Notes where bones of one grid are neighbours, voxel to voxel, or overlap: labels of one image, or two masks that were cut out
+/// of it.
+std::vector<LabelNote> notes_on_touching(const ImagedBone& fixed, const ImagedBone& mobile);
+
+/// Notes of the images, of both bones and of where they touch.
+std::vector<LabelNote> notes_of(const ImagedBone& fixed, const ImagedBone& mobile);
+
+}  // namespace condyle::io
