@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "condyle/error.hpp"
+#include "core/ordered_sums.hpp"
 #include "core/predicates.hpp"
 
 namespace condyle {
@@ -60,7 +61,7 @@ Vec3 algebraic_centre(PointsView points, std::span<const Index> vertices, const 
   Vec3 b = Vec3::Zero();
   for (const Index v : vertices) {
     const Vec3 p = points[v] - mean;
-    b += p.squaredNorm() * p;
+    b += core::ordered_dot(p, p) * p;
   }
   return mean + C.ldlt().solve(b) / (2 * static_cast<double>(vertices.size()));
 }
@@ -163,18 +164,18 @@ SphereFit fit_sphere(PointsView points, std::span<const Index> vertices) {
 
   Vec3 centre = algebraic_centre(points, vertices, mean, C);
   const double patch = std::sqrt(variances[2]);
-  const double noise = sphere_settled * patch + 4 * core::rounding_unit * mean.norm();
+  const double noise = sphere_settled * patch + 4 * core::rounding_unit * core::ordered_norm(mean);
   Rays rays(points, vertices);
   rays.start_at(centre);
   for (int step = 0; step < most_sphere_steps; ++step) {
     auto [move, squares] = rays.centre_step();
     rays.start_at(centre + move);
-    while (move.norm() > local_step * patch && !(rays.sum_of_squares() < squares)) {
+    while (core::ordered_norm(move) > local_step * patch && !(rays.sum_of_squares() < squares)) {
       move /= 2;
       rays.start_at(centre + move);
     }
     centre += move;
-    if (!(move.norm() > noise)) break;
+    if (!(core::ordered_norm(move) > noise)) break;
   }
   if (!centre.allFinite()) throw MeshError("the vertices are not on a sphere: the fit does not settle");
   return with_residuals(rays, vertices, centre);

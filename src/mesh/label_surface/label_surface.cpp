@@ -55,9 +55,15 @@ void find_pieces(const VoxelMask& mask, const LabelSurfaceOptions& options, mesh
   surface.cavities = {cavities.count, cavities.voxels, static_cast<double>(cavities.voxels) * voxel};
 }
 
+/// X p in one order, whatever the instruction set: core/ordered_sums.hpp.
+Vec3 placed(const Eigen::Affine3d& X, const Vec3& p) {
+  const auto row = [&](int i) { return ((X(i, 0) * p.x() + X(i, 1) * p.y()) + X(i, 2) * p.z()) + X(i, 3); };
+  return {row(0), row(1), row(2)};
+}
+
 /// Into the world; a mirrored grid turns triangles inside out.
 void place_in_world(const Eigen::Affine3d& X_WI, TriMesh& mesh) {
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, X_WI * mesh.vertices[v]);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, placed(X_WI, mesh.vertices[v]));
   if (X_WI.linear().determinant() < 0) {
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
   }
