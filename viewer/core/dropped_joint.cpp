@@ -1,6 +1,5 @@
 #include "dropped_joint.hpp"
 
-#include <emscripten.h>
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -16,6 +15,7 @@
 #include "condyle/make_joint.hpp"
 #include "condyle/version.hpp"
 #include "core/rounded.hpp"
+#include "io/image/byte_stream.hpp"
 #include "io/mesh/uncompress.hpp"
 #include "io/result/caveats.hpp"
 #include "io/result/json.hpp"
@@ -24,7 +24,7 @@
 #include "kinematics/hip_axes.hpp"
 #include "mesh/scale.hpp"
 #include "motion/rom/socket_hour.hpp"
-#include "page_joint.hpp"
+#include "page_proposal.hpp"
 
 using namespace condyle;
 
@@ -60,31 +60,21 @@ CondyleJoint* proposed_joint(const CondyleMesh& fixed, const CondyleMesh& mobile
                              const std::optional<Side>& side) {
   const LengthUnit unit = inferred_unit(fixed.mesh, mobile.mesh);
   const TriMesh hip_bone = in_mm(fixed.mesh, unit);
-  const auto hip = kinematics::hip_anatomy(hip_bone, in_mm(mobile.mesh, unit));
-  if (!hip)
-    throw UsageError("no head was found on the mobile body near the fixed one: the page proposes hips");
-  const auto hip_axes = kinematics::hip_axes(hip_bone, *hip, side);
+  const auto hip = hip_of(hip_bone, in_mm(mobile.mesh, unit));
+  const auto hip_axes = kinematics::hip_axes(hip_bone, hip, side);
   const auto [axes, inferred_side] = inferred_axes(hip_axes);
   JointDescription description{.name = "dropped joint", .side = inferred_side, .units = unit};
-  description.frame.centre = CentreFit{};
   description.frame.axes = axes->directions;
-  PlacedJoint placed = make_joint(description, {"fixed body", fixed.mesh}, {"mobile body", mobile.mesh});
-  PageProposal proposal;
-  const auto& [head, rms] = std::pair(hip->head.fit.sphere, hip->head.fit.rms_residual);
-  proposal.inferred = {
-      fmt::format("a head of radius {:.2f} mm, {:.0f} % of a sphere", head.radius, 100 * hip->head.coverage),
-      fmt::format("centre: the head's, {} mm in the frame of the meshes, rms {:.2f} mm",
-                  core::rounded(head.centre, 2), rms),
-      fmt::format("side: {}{}", inferred_side == Side::right ? "right" : "left", side ? ", given" : ""),
-      fmt::format("axes: {}", axes->name),
-      fmt::format("units: {}", unit == LengthUnit::metres ? "m" : "mm"),
-  };
+  PageProposal proposal{.inferred = head_evidence(hip)};
+  proposal.inferred.push_back(
+      fmt::format("side: {}{}", inferred_side == Side::right ? "right" : "left", side ? ", given" : ""));
+  proposal.inferred.push_back(fmt::format("axes: {}", axes->name));
+  proposal.inferred.push_back(fmt::format("units: {}", unit == LengthUnit::metres ? "m" : "mm"));
   proposal.inferred.insert(proposal.inferred.end(), hip_axes.evidence.begin(), hip_axes.evidence.end());
-  proposal.notes = check_joint(placed.joint, placed.placement);
   proposal.fixed = fixed.file, proposal.mobile = mobile.file;
-  JointContact bodies(placed.joint);
-  return new CondyleJoint{
-      .joint = std::move(placed.joint), .bodies = std::move(bodies), .proposal = std::move(proposal)};
+  proposal.fixed_name = fixed.file.name, proposal.mobile_name = mobile.file.name;
+  return joint_of(std::move(description), {"fixed body", fixed.mesh}, {"mobile body", mobile.mesh},
+                  std::move(proposal));
 }
 
 Json angles_json(const JointAngles& angles) {
@@ -134,12 +124,21 @@ Json bearing_json(const BearingFinding& found) {
           {"margin_mm", surface.margin_mm}};
 }
 
-/// Its bodies called as their files are, which say what tissue a mesh is of.
-Joint named_by_files(const CondyleJoint& joint) {
+/// Its bodies by the names that say what tissue a mesh is of.
+Joint named_by_tissue(const CondyleJoint& joint) {
   Joint named = joint.joint;
-  named.fixed.name = joint.proposal.fixed.name;
-  named.mobile.name = joint.proposal.mobile.name;
+  named.fixed.name = joint.proposal.fixed_name;
+  named.mobile.name = joint.proposal.mobile_name;
   return named;
+}
+
+/// Notes of the images first.
+Json notes_json(const PageProposal& proposal, const std::vector<RangeNote>& of_range) {
+  Json list = Json::array();
+  for (const LabelNote& note : proposal.of_images)
+    list.push_back({{"code", name_of(note.code)}, {"text", note.text}});
+  for (Json& note : io::notes_json(proposal.notes, {}, of_range)) list.push_back(std::move(note));
+  return list;
 }
 
 Json file_json(const PageFile& file) {
@@ -148,12 +147,29 @@ Json file_json(const PageFile& file) {
 
 }  // namespace
 
-// zlib is the worker's, viewer/src/core/unzip.ts.
-// clang-format off
-EM_JS(int, page_unzip, (const char* from, int size, char* to, int capacity), {
-  return Module["unzip"](HEAPU8.subarray(from, from + size), HEAPU8.subarray(to, to + capacity)) ? 1 : 0;
-});
-// clang-format on
+kinematics::HipAnatomy hip_of(const TriMesh& fixed, const TriMesh& mobile) {
+  auto hip = kinematics::hip_anatomy(fixed, mobile);
+  if (!hip)
+    throw UsageError("no head was found on the mobile body near the fixed one: the page proposes hips");
+  return std::move(*hip);
+}
+
+std::vector<std::string> head_evidence(const kinematics::HipAnatomy& hip) {
+  const auto& [head, rms] = std::pair(hip.head.fit.sphere, hip.head.fit.rms_residual);
+  return {
+      fmt::format("a head of radius {:.2f} mm, {:.0f} % of a sphere", head.radius, 100 * hip.head.coverage),
+      fmt::format("centre: the head's, {} mm in the frame of the meshes, rms {:.2f} mm",
+                  core::rounded(head.centre, 2), rms)};
+}
+
+CondyleJoint* joint_of(JointDescription description, Body fixed, Body mobile, PageProposal proposal) {
+  description.frame.centre = CentreFit{};
+  PlacedJoint placed = make_joint(description, std::move(fixed), std::move(mobile));
+  proposal.notes = check_joint(placed.joint, placed.placement);
+  JointContact bodies(placed.joint);
+  return new CondyleJoint{
+      .joint = std::move(placed.joint), .bodies = std::move(bodies), .proposal = std::move(proposal)};
+}
 
 namespace condyle::io {
 
@@ -162,8 +178,15 @@ struct UnknownCompression {};
 
 bool uncompress(Compressor compressor, const std::string& block, std::span<char> out) {
   if (compressor != Compressor::zlib) throw UnknownCompression();
-  return page_unzip(block.data(), static_cast<int>(block.size()), out.data(), static_cast<int>(out.size())) !=
-         0;
+  const ByteSource source(block, "block");
+  if (is_gzip(source)) return false;
+  try {
+    Inflate inflate(source, 0);
+    char more = 0;
+    return inflate.read(out) == out.size() && inflate.read({&more, 1}) == 0;
+  } catch (const FileError&) {
+    return false;
+  }
 }
 
 }  // namespace condyle::io
@@ -217,23 +240,22 @@ const char* condyle_description(CondyleJoint* joint) {
   return guarded(static_cast<const char*>(nullptr), [&] {
     const RangeOfMotion& range = range_of(*joint);
     const PageProposal& proposal = joint->proposal;
-    const Joint named = named_by_files(*joint);
+    const Joint named = named_by_tissue(*joint);
     Json motions = Json::array();
     const std::vector<MotionLimit> limits = range.limits(hip_motions());
     for (const MotionLimit& limit : limits)
       motions.push_back(motion_json(named, limit, range.bearing().surface));
-    const Json rom{
-        {"clock_plane", "sagittal"},
-        {"motions", std::move(motions)},
-        {"notes", io::notes_json(proposal.notes, {}, range_notes(joint->joint, limits, {}, range.bearing()))},
-        {"caveats", proposal.inferred},
-        {"normal_range_source", normal_hip_range_source},
-        {"scope", scope_text(named)},
-        {"bearing", bearing_json(range.bearing())},
-        {"provenance",
-         {{"version", version},
-          {"fixed_mesh", file_json(proposal.fixed)},
-          {"mobile_mesh", file_json(proposal.mobile)}}}};
+    const Json rom{{"clock_plane", "sagittal"},
+                   {"motions", std::move(motions)},
+                   {"notes", notes_json(proposal, range_notes(joint->joint, limits, {}, range.bearing()))},
+                   {"caveats", proposal.inferred},
+                   {"normal_range_source", normal_hip_range_source},
+                   {"scope", scope_text(named)},
+                   {"bearing", bearing_json(range.bearing())},
+                   {"provenance",
+                    {{"version", version},
+                     {"fixed_mesh", file_json(proposal.fixed)},
+                     {"mobile_mesh", file_json(proposal.mobile)}}}};
     joint->description = rom.dump(-1, ' ', false, Json::error_handler_t::replace);
     return joint->description.c_str();
   });

@@ -10,6 +10,7 @@
 #include "condyle/brush.hpp"
 #include "condyle/contact.hpp"
 #include "condyle/io/file_digest.hpp"
+#include "condyle/io/label_file.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/pressure.hpp"
 #include "condyle/range_of_motion.hpp"
@@ -39,8 +40,12 @@ struct PageFile {
 /// Evidence and input of a proposed joint.
 struct PageProposal {
   std::vector<std::string> inferred;
-  std::vector<condyle::JointNote> notes;
-  PageFile fixed, mobile;
+  std::vector<condyle::JointNote> notes = {};
+  std::vector<condyle::LabelNote> of_images = {};  ///< of bones of label maps
+  PageFile fixed = {}, mobile = {};
+  std::string fixed_name = {},
+              mobile_name =
+                  {};  ///< of the bodies: their files' or their labels', which say what tissue a mesh is of
 };
 
 /// Bones that are brushed, and the joint about another centre.

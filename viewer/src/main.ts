@@ -1,6 +1,6 @@
 import { CoreClient } from "./core/client";
 import { lineOf } from "./core/error_line";
-import type { BothValues, Brushed, Coordinates, JointArrays, MapQuestion, Query, ShownQuantity, Values } from "./core/protocol";
+import type { BothValues, Brushed, Coordinates, JointArrays, MapQuestion, Proposal, Query, ShownQuantity, Values } from "./core/protocol";
 import { button, checkbox, choice, fold, html, named, section, shortened, spaced } from "./dom";
 import { jointArraysOf } from "./joint_arrays";
 import { clockTime, fixed } from "./numbers";
@@ -12,6 +12,7 @@ import { DisplayPanel } from "./panels/display";
 import { DropPanel } from "./panels/drop";
 import { figuresPanel } from "./panels/figures";
 import { FreeAngles } from "./panels/free_angles";
+import { LabelDrop } from "./panels/label_drop";
 import { questionsOf } from "./panels/live_limits";
 import { actions, copyLink, headingOf, listenToKeys } from "./panels/header";
 import { MotionPanel } from "./panels/motion";
@@ -606,20 +607,23 @@ function openEmpty(): void {
     found("messages").replaceChildren();
     warn(message);
   };
+  const refuse = (error: unknown) => warnOnly(isCoreDamage(error) ? words.coreDamagedToRead : lineOf(error));
+  const show = (core: CoreClient, proposal: Proposal) => {
+    found("messages").replaceChildren();
+    panel.element.remove();
+    found("scene").replaceChildren();
+    new Page(textOfProposal(proposal), proposal.joint, null, true).compute(core);
+  };
   const panel = new DropPanel(async (fixedFile, mobileFile, side) => {
     try {
       const { core, proposal } = await CoreClient.propose(await wasmBytes(), fixedFile, mobileFile, side);
-      found("messages").replaceChildren();
-      panel.element.remove();
-      found("scene").replaceChildren();
-      const text = textOfProposal(proposal, fixedFile.name, mobileFile.name);
-      new Page(text, proposal.joint, null, true).compute(core);
+      show(core, proposal);
       return true;
     } catch (error) {
-      warnOnly(isCoreDamage(error) ? words.coreDamagedToRead : lineOf(error));
+      refuse(error);
       return false;
     }
-  }, warnOnly);
+  }, new LabelDrop(wasmBytes, show, refuse), warnOnly);
   found("side").append(panel.element);
 }
 

@@ -361,8 +361,8 @@ export class Report {
 }
 
 /// The text of a joint that was dropped on the page, as a report would have it.
-export function textOfProposal(proposal: Proposal, fixed: string, mobile: string): ReportText {
-  const side = proposal.joint.side === 0 ? "right" : "left";
+export function textOfProposal(proposal: Proposal): ReportText {
+  const side = proposal.joint.side === 0 ? "right" : "left", { fixed, mobile } = proposal.bodies;
   return {
     version: "", title: words.dropped(named(fixed), named(mobile)),
     joint: { name: words.dropped(named(fixed), named(mobile)), kind: "ball", anatomy: "hip", side, fixed, mobile, translation_frame: "fixed" },

@@ -80,7 +80,7 @@ export const words = {
   dropOnReport: "This page shows a joint and takes no other files. To look at other bones open a page without a joint: condyle report --empty.",
   coreDamaged:
     "The part of this file that computes is damaged: the page shows the poses that were stored in it, and none in between. Make the report anew.",
-  coreDamagedToRead: "The part of this file that computes is damaged: it reads no meshes. Make the page anew.",
+  coreDamagedToRead: "The part of this file that computes is damaged: it reads no files. Make the page anew.",
   paperPicture: (name: string, sentence: string) => `${name}: ${sentence}`,
   poseHere: "The joint as it was shown when this was printed.",
   speed: "Speed",
@@ -103,7 +103,7 @@ export const words = {
   loading: "Making the joint ready…",
   noWebAssembly:
     "This browser does not run WebAssembly: the page shows poses that were computed when it was made, and none in between.",
-  noWebAssemblyToRead: "This browser does not run WebAssembly, by which the page reads meshes and computes.",
+  noWebAssemblyToRead: "This browser does not run WebAssembly, by which the page reads files and computes.",
   noWebGl: "This browser shows no 3D graphics: the numbers and figures below are complete without.",
   damaged: "The data of this report cannot be read: ",
   wrongMagic: "it does not begin as a block of Condyle does.",
@@ -347,15 +347,28 @@ export const words = {
 
   drop: "Drop your own",
   dropHere:
-    "Drop the meshes of a hip here, or choose them: the hip bone first, or a file named femur (STL, OBJ, PLY, VTP, VTK). They stay " +
-    "on this computer.",
+    "Drop the meshes of a hip here, or choose them: the hip bone first, or a file named femur (STL, OBJ, PLY, VTP, VTK). Or a label map with " +
+    "both bones, or a mask of each (.nii, .nii.gz, .nrrd, .mha). They stay on this computer.",
   dropSide: "Side",
   dropSides: { told: "automatic", right: "right", left: "left" },
   dropSecond: (name: string) => `${name} is the bone that stays; now the one that moves.`,
-  dropHint: "Drop the meshes of a hip on this page",
+  dropHint: "Drop the meshes of a hip on this page, or a label map",
   dropTwo: "A joint has two meshes: drop these two, or one after the other.",
-  dropBusy: "The page is still reading the meshes that were dropped before.",
-  dropDone: "This page shows the joint of the meshes that were dropped first: reload it, then drop others.",
+  dropBusy: "The page is still reading the files that were dropped before.",
+  dropDone: "This page shows the joint of the files that were dropped first: reload it, then drop others.",
+  dropMixed: "A joint is made of two meshes or of label maps, not of one of each: drop both bones in one form.",
+  reading: (name: string) => `Reading ${name}…`,
+  surfaceOf: (label: string) => `Surface of ${label}…`,
+  theMask: "the mask",
+  limitsNext: "Joint and limits…",
+  otherMask: (name: string) => `${name} holds one bone: now the other one.`,
+  chooseLabels: (files: string) => `Which labels of ${files} are the bones? Their names do not settle it.`,
+  boneThatStays: "Bone that stays",
+  boneThatMoves: "Bone that moves",
+  makeJoint: "Make the joint",
+  labelOfFile: (name: string, label: string, voxels: number) => `${name || "label"} (${label}), ${voxels.toLocaleString("en")} voxels`,
+  labelOfTable: (name: string, label: string, task: string, voxels: number) =>
+    `${name} (${label} in TotalSegmentator's ${task}), ${voxels.toLocaleString("en")} voxels`,
   dropped: (fixed: string, mobile: string) => `${mobile} in ${fixed}`,
   saveSvg: "Save as SVG",
   saveData: "Save data",

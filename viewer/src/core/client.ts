@@ -1,6 +1,6 @@
 import type {
-  BothValues, Brushed, Coordinates, Depth, DroppedFile, Edit, FromWorker, GivenSide, JointArrays, LimitQuestion, LiveLimit, MapQuestion, Proposal, Quantity, Query,
-  QueryAnswer, Shown, ToWorker,
+  BoneChoice, BothValues, Brushed, Coordinates, Depth, DroppedFile, Edit, FromWorker, GivenSide, JointArrays, LabelMap, LimitQuestion, LiveLimit,
+  MapQuestion, Proposal, Quantity, Query, QueryAnswer, Shown, ToWorker,
 } from "./protocol";
 
 declare const workerSource: string;
@@ -59,14 +59,43 @@ export class CoreClient {
     return { core, proposal: answer.proposal };
   }
 
-  /// The answer to the first message; all later ones are heard by those who listen.
+  /// A label map, read in a worker of its own; further ones are read there by readLabels().
+  static async openLabels(wasm: ArrayBuffer, file: DroppedFile): Promise<{ core: CoreClient; map: LabelMap }> {
+    const core = new CoreClient();
+    return { core, map: await core.labels(wasm, file) };
+  }
+
+  readLabels(file: DroppedFile): Promise<LabelMap> {
+    return this.labels(null, file);
+  }
+
+  private async labels(wasm: ArrayBuffer | null, file: DroppedFile): Promise<LabelMap> {
+    const answer = await this.first({ type: "labels", wasm, file }, [...(wasm ? [wasm] : []), file.bytes]);
+    if (answer.type !== "labels") throw new Error(answer.type);
+    return answer.map;
+  }
+
+  /// The joint of two bones of the label maps. Rejects with the core's own line, after which others can be chosen.
+  async join(fixed: BoneChoice, mobile: BoneChoice, side: GivenSide, step: (label: string | null) => void): Promise<Proposal> {
+    const answer = await this.exchange({ type: "join", fixed, mobile, side }, [], step);
+    if (answer.type !== "proposed") throw new Error(answer.type);
+    return answer.proposal;
+  }
+
+  /// The answer to the first message, without which the worker is of no use.
   private first(message: ToWorker, transfer: Transferable[]): Promise<FromWorker> {
+    return this.exchange(message, transfer).catch((error: unknown) => {
+      this.close();
+      throw error;
+    });
+  }
+
+  /// The answer to a message before there is a joint; all later ones are heard by those who listen.
+  private exchange(message: ToWorker, transfer: Transferable[], step: (label: string | null) => void = () => undefined): Promise<FromWorker> {
     return new Promise((resolve, reject) => {
       this.worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
-        if (data.type === "failed") {
-          this.close();
-          return reject(new Error(data.message));
-        }
+        if (data.type === "step") return step(data.label);
+        if (data.type === "failed") return reject(new Error(data.message));
         this.worker.onmessage = (event: MessageEvent<FromWorker>) => this.hear(event.data);
         resolve(data);
       };
@@ -175,6 +204,8 @@ export class CoreClient {
         return;
       case "ready":
       case "proposed":
+      case "labels":
+      case "step":
         return;
     }
   }

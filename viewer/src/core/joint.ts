@@ -5,7 +5,6 @@ import {
   type Inside, type JointArrays, type Layers, type LimitQuestion, type LiveLimit, type MapQuestion, type Penetrations,
   type Proposal, type Quantity, type Shown, type Stroke, type Surface, type Values,
 } from "./protocol";
-import { unzip } from "./unzip";
 
 const poseBytes = 16 * 8;
 const atRest = [0, 0, 0] as const;
@@ -25,7 +24,7 @@ export class CoreJoint {
   private readonly protectedVertices = { fixed: 0, mobile: 0 };
 
   static async open(wasm: ArrayBuffer, arrays: JointArrays): Promise<CoreJoint> {
-    const memory = new Memory(await pageCore({ wasmBinary: wasm, unzip }));
+    const memory = new Memory(await pageCore({ wasmBinary: wasm }));
     const placed = [arrays.fixed, arrays.mobile].map(({ vertices, triangles }: Surface) => ({
       vertices: memory.copied(vertices), triangles: memory.copied(triangles), vertexCount: vertices.length / 3,
       count: triangles.length / 3,
@@ -44,27 +43,26 @@ export class CoreJoint {
   /// The joint that is proposed for two mesh files; throws the command line's own line where none is.
   static async propose(
     wasm: ArrayBuffer, fixed: DroppedFile, mobile: DroppedFile, side: GivenSide): Promise<{ joint: CoreJoint; proposal: Proposal }> {
-    const memory = new Memory(await pageCore({ wasmBinary: wasm, unzip }));
+    const memory = new Memory(await pageCore({ wasmBinary: wasm }));
     const { core } = memory;
-    const meshes = [fixed, mobile].map(({ name, bytes }) => {
-      const namePlace = memory.copied(new TextEncoder().encode(`${name}\0`)), bytesPlace = memory.copied(new Uint8Array(bytes));
-      const mesh = core._condyle_read_mesh(namePlace, bytesPlace, bytes.byteLength);
-      memory.free(namePlace, bytesPlace);
-      if (!mesh) throw memory.error();
-      return mesh;
-    });
-    const joint = new CoreJoint(memory, core._condyle_propose(meshes[0]!, meshes[1]!, { told: -1, right: 0, left: 1 }[side]));
+    const meshes = [fixed, mobile].map((file) => memory.read(file, core._condyle_read_mesh));
+    const joint = core._condyle_propose(meshes[0]!, meshes[1]!, sideNumber[side]);
     meshes.forEach((mesh) => core._condyle_free_mesh(mesh));
-    const description = core._condyle_description(joint.joint);
+    return CoreJoint.proposed(memory, joint, { fixed: fixed.name, mobile: mobile.name });
+  }
+
+  /// A joint that the core has proposed, or its line where that is null.
+  static proposed(memory: Memory, made: number, bodies: Proposal["bodies"]): { joint: CoreJoint; proposal: Proposal } {
+    const { core } = memory, joint = new CoreJoint(memory, made), description = core._condyle_description(made);
     if (!description) throw memory.error();
     return {
       joint,
       proposal: {
         joint: {
-          kind: 0, anatomy: 0, side: core._condyle_side(joint.joint), translationFrame: 0, fixed: joint.surface(1),
+          kind: 0, anatomy: 0, side: core._condyle_side(made), translationFrame: 0, fixed: joint.surface(1),
           mobile: joint.surface(0), bearing: "found", layers: null,
         },
-        rom: JSON.parse(core.UTF8ToString(description)) as Proposal["rom"],
+        rom: JSON.parse(core.UTF8ToString(description)) as Proposal["rom"], bodies,
       },
     };
   }
@@ -315,14 +313,28 @@ export class CoreJoint {
   }
 }
 
+/// As condyle_propose() and condyle_join() take a side.
+export const sideNumber = { told: -1, right: 0, left: 1 } as const;
+
 /// The module's memory.
-class Memory {
+export class Memory {
   constructor(readonly core: PageCore) {}
 
   copied(array: Float64Array | Uint32Array | Uint8Array): number {
     const pointer = this.core._malloc(array.byteLength);
     this.core.HEAPU8.set(new Uint8Array(array.buffer, array.byteOffset, array.byteLength), pointer);
     return pointer;
+  }
+  copiedText(text: string): number {
+    return this.copied(new TextEncoder().encode(`${text}\0`));
+  }
+  /// What a reader of the core makes of a file; throws its line where it makes nothing.
+  read({ name, bytes }: DroppedFile, reader: (name: number, bytes: number, count: number) => number): number {
+    const namePlace = this.copiedText(name), bytesPlace = this.copied(new Uint8Array(bytes));
+    const made = reader(namePlace, bytesPlace, bytes.byteLength);
+    this.free(namePlace, bytesPlace);
+    if (!made) throw this.error();
+    return made;
   }
   free(...pointers: number[]): void {
     for (const pointer of pointers) this.core._free(pointer);

@@ -204,9 +204,33 @@ export interface Proposal {
   joint: JointArrays;
   /// Limits in a report's form; `caveats` are the evidence that the joint was inferred from.
   rom: RomAnswer;
+  /// As the page calls them.
+  bodies: { fixed: string; mobile: string };
+}
+
+/// What condyle_labels() lists of a label map, and the name of its file.
+export interface LabelMap {
+  name: string;
+  labels: { choice: string; name: string; voxels: number }[];
+  pairs: { side: "right" | "left"; task: string | null; fixed: NamedLabel; mobile: NamedLabel }[];
+}
+
+export interface NamedLabel {
+  label: string;
+  choice: string;
+}
+
+/// A label as condyle_bone() takes it, of one of the label maps by its number.
+export interface BoneChoice {
+  map: number;
+  label: string;
+  task: string | null;
 }
 
 export type ToWorker =
+  /// With the module for the first label map.
+  | { type: "labels"; wasm: ArrayBuffer | null; file: DroppedFile }
+  | { type: "join"; fixed: BoneChoice; mobile: BoneChoice; side: GivenSide }
   | { type: "propose"; wasm: ArrayBuffer; fixed: DroppedFile; mobile: DroppedFile; side: GivenSide }
   | { type: "open"; wasm: ArrayBuffer; joint: JointArrays }
   | { type: "pose"; id: number; at: Coordinates; quantity: Quantity; ranges: [number, number][] | null }
@@ -219,6 +243,9 @@ export type ToWorker =
 export type FromWorker =
   | { type: "ready" }
   | { type: "proposed"; proposal: Proposal }
+  | { type: "labels"; map: LabelMap }
+  /// The surface of this label is next, or, if it is null, the joint.
+  | { type: "step"; label: string | null }
   | { type: "failed"; message: string }
   | { type: "shown"; id: number; shown: Shown }
   | { type: "values"; id: number; values: BothValues }

@@ -50,7 +50,14 @@ declare module "page-core" {
     _condyle_triangle_count(joint: number, ofFixed: number): number;
     _condyle_mesh(joint: number, ofFixed: number, vertices: number, triangles: number): void;
     _condyle_description(joint: number): number;
+    _condyle_read_labels(name: number, bytes: number, count: number): number;
+    _condyle_free_labels(labels: number): void;
+    _condyle_labels(labels: number): number;
+    _condyle_bone(labels: number, label: number, task: number): number;
+    _condyle_free_bone(bone: number): void;
+    _condyle_bone_name(bone: number): number;
+    _condyle_join(fixed: number, mobile: number, side: number): number;
   }
-  const pageCore: (options: { wasmBinary: ArrayBuffer; unzip: (from: Uint8Array, to: Uint8Array) => boolean }) => Promise<PageCore>;
+  const pageCore: (options: { wasmBinary: ArrayBuffer }) => Promise<PageCore>;
   export default pageCore;
 }

@@ -1,5 +1,6 @@
 import { lineOf } from "./error_line";
 import { CoreJoint } from "./joint";
+import { CoreLabels } from "./labels";
 import type { Edit, FromWorker, LimitQuestion, MapQuestion, Quantity, Query, QueryAnswer, ToWorker } from "./protocol";
 
 /// Answers in the order of what matters to the eye: changes by hand, the latest pose, limits after the last change, then the pose's colours, its
@@ -9,6 +10,7 @@ import type { Edit, FromWorker, LimitQuestion, MapQuestion, Quantity, Query, Que
 type PoseQuestion = Extract<ToWorker, { type: "pose" }>;
 
 let joint: CoreJoint | null = null;
+let labels: CoreLabels | null = null;
 let latest: PoseQuestion | null = null;
 let aboutPose: (() => void)[] = [];
 const edits: (() => void)[] = [];
@@ -129,6 +131,20 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
         const opened = await CoreJoint.propose(data.wasm, data.fixed, data.mobile, data.side);
         joint = opened.joint;
         say({ type: "proposed", proposal: opened.proposal });
+      });
+      return;
+    case "labels":
+      void attempt(async () => {
+        labels ??= await CoreLabels.open(data.wasm!);
+        say({ type: "labels", map: labels.read(data.file) });
+      });
+      return;
+    case "join":
+      void attempt(() => {
+        const made = labels!.join(data.fixed, data.mobile, data.side, (label) => say({ type: "step", label }));
+        joint = made.joint;
+        labels = null;
+        say({ type: "proposed", proposal: made.proposal });
       });
       return;
     case "pose":

@@ -1,24 +1,30 @@
 import { choice, html, named, section } from "../dom";
 import type { DroppedFile, GivenSide } from "../core/protocol";
 import { words } from "../words";
+import { isLabelMap, type LabelDrop } from "./label_drop";
 
-/// Where mesh files are dropped or chosen: two of them, the fixed bone first where they come one by one.
+/// Where files are dropped or chosen: two meshes, the fixed bone first where they come one by one, or label maps.
 export class DropPanel {
   readonly element: HTMLElement;
-  private readonly told = html("p", { "aria-live": "polite" });
+  private readonly told = html("p", { "aria-live": "polite", id: "drop-progress" });
   private waiting: DroppedFile[] = [];
   private side: GivenSide = "told";
   /// One pair is read at a time, and after one that makes a joint the page shows that.
   private state: "open" | "busy" | "done" = "open";
 
-  /// `take` returns whether the files made a joint; `refuse` is called with the reason why files are not taken.
+  /// `take` returns whether two meshes made a joint; `refuse` is called with the reason why files are not taken.
   constructor(
     private readonly take: (fixed: DroppedFile, mobile: DroppedFile, side: GivenSide) => Promise<boolean>,
-    private readonly refuse: (why: string) => void) {
-    const input = html("input", { type: "file", multiple: true, accept: ".stl,.obj,.ply,.vtp,.vtk", id: "files" });
+    private readonly labels: LabelDrop, private readonly refuse: (why: string) => void) {
+    const input = html("input", {
+      type: "file", multiple: true, accept: ".stl,.obj,.ply,.vtp,.vtk,.nii,.gz,.nrrd,.mha", id: "files",
+    });
     this.element = section(
       words.drop, html("p", {}, html("label", { for: "files" }, words.dropHere)), input,
-      html("p", {}, choice(words.dropSide, words.dropSides, this.side, (side) => (this.side = side))), this.told);
+      html("p", {}, choice(words.dropSide, words.dropSides, this.side, (side) => (this.side = side))), this.told, labels.place);
+    labels.listen({
+      side: () => this.side, progress: (said) => (this.told.textContent = said), busy: (state) => (this.state = state),
+    });
     input.addEventListener("change", () => {
       const files = [...(input.files ?? [])];
       // The same file can be chosen again once it was mended.
@@ -35,6 +41,18 @@ export class DropPanel {
   private async add(files: readonly File[]): Promise<void> {
     if (files.length === 0) return;
     if (this.state !== "open") return this.refuse(this.state === "busy" ? words.dropBusy : words.dropDone);
+    const maps = files.filter(({ name }) => isLabelMap(name));
+    if (maps.length > 0) {
+      const hasMeshes = maps.length < files.length || this.waiting.length > 0;
+      this.waiting = [];
+      return hasMeshes ? this.refuse(words.dropMixed) : this.labels.add(maps);
+    }
+    const { isWaiting } = this.labels;
+    this.labels.forget();
+    return isWaiting ? this.refuse(words.dropMixed) : this.addMeshes(files);
+  }
+
+  private async addMeshes(files: readonly File[]): Promise<void> {
     if (this.waiting.length + files.length > 2) {
       this.waiting = [];
       this.told.textContent = words.dropTwo;

@@ -1,0 +1,49 @@
+import pageCore from "page-core";
+import { CoreJoint, Memory, sideNumber } from "./joint";
+import type { BoneChoice, DroppedFile, GivenSide, LabelMap, Proposal } from "./protocol";
+
+/// Label maps in the module's memory, until a joint is made of two of their labels.
+export class CoreLabels {
+  private readonly maps: number[] = [];
+
+  static async open(wasm: ArrayBuffer): Promise<CoreLabels> {
+    return new CoreLabels(new Memory(await pageCore({ wasmBinary: wasm })));
+  }
+
+  private constructor(private readonly memory: Memory) {}
+
+  /// Throws the command line's own line for a bad file.
+  read(file: DroppedFile): LabelMap {
+    const { core } = this.memory, map = this.memory.read(file, core._condyle_read_labels), described = core._condyle_labels(map);
+    if (!described) throw this.memory.error();
+    this.maps.push(map);
+    return { name: file.name, ...(JSON.parse(core.UTF8ToString(described)) as Omit<LabelMap, "name">) };
+  }
+
+  /// `step` is called before each surface with its label, then with null. The label maps stay where this throws.
+  join(
+    fixed: BoneChoice, mobile: BoneChoice, side: GivenSide, step: (label: string | null) => void): { joint: CoreJoint; proposal: Proposal } {
+    const { core } = this.memory, bones: number[] = [];
+    try {
+      for (const choice of [fixed, mobile]) {
+        step(choice.label);
+        bones.push(this.bone(choice));
+      }
+      step(null);
+      const joint = core._condyle_join(bones[0]!, bones[1]!, sideNumber[side]);
+      const names = bones.map((bone) => core.UTF8ToString(core._condyle_bone_name(bone)));
+      if (joint) this.maps.splice(0).forEach((map) => core._condyle_free_labels(map));
+      return CoreJoint.proposed(this.memory, joint, { fixed: names[0]!, mobile: names[1]! });
+    } finally {
+      bones.forEach((bone) => core._condyle_free_bone(bone));
+    }
+  }
+
+  private bone({ map, label, task }: BoneChoice): number {
+    const { core } = this.memory, labelPlace = this.memory.copiedText(label), taskPlace = this.memory.copiedText(task ?? "");
+    const bone = core._condyle_bone(this.maps[map]!, labelPlace, taskPlace);
+    this.memory.free(labelPlace, taskPlace);
+    if (!bone) throw this.memory.error();
+    return bone;
+  }
+}

@@ -1,0 +1,122 @@
+import { CoreClient } from "../core/client";
+import type { GivenSide, LabelMap, Proposal } from "../core/protocol";
+import { html, named } from "../dom";
+import { words } from "../words";
+import { LabelChoice, onlyPair, type BonePair } from "./label_choice";
+
+/// Whether a file of this name is one; a header whose data lie in another file too, which the core refuses with its line.
+export function isLabelMap(name: string): boolean {
+  return /\.(nii|nii\.gz|hdr|img|nrrd|nhdr|mha|mhd)$/i.test(name);
+}
+
+/// What the panel around it knows and shows: progress is one line, empty if nothing is under way.
+export interface LabelDropListener {
+  side: () => GivenSide;
+  progress: (said: string) => void;
+  busy: (state: "open" | "busy" | "done") => void;
+}
+
+/// Label maps that were dropped, one with both bones or two, and the joint that is made of them. The worker keeps them until then,
+/// so that other labels can be chosen.
+export class LabelDrop {
+  /// Of the choice of labels.
+  readonly place = html("div");
+  private core: CoreClient | null = null;
+  private maps: LabelMap[] = [];
+  private asked: LabelChoice | null = null;
+  private listener: LabelDropListener | null = null;
+
+  /// `take` shows the joint; `refuse` is given the line of what went wrong.
+  constructor(
+    private readonly wasm: () => Promise<ArrayBuffer>, private readonly take: (core: CoreClient, proposal: Proposal) => void,
+    private readonly refuse: (error: unknown) => void) {}
+
+  listen(listener: LabelDropListener): void {
+    this.listener = listener;
+  }
+
+  /// Whether a mask of one bone waits for that of the other.
+  get isWaiting(): boolean {
+    return this.maps.length > 0 && !this.asked;
+  }
+
+  forget(): void {
+    this.core?.close();
+    this.core = null;
+    this.maps = [];
+    this.place.replaceChildren();
+    this.asked = null;
+    this.listener!.progress("");
+  }
+
+  async add(files: readonly File[]): Promise<void> {
+    // Whoever was asked for labels and drops another file wants another joint.
+    if (this.asked) this.forget();
+    if (this.maps.length + files.length > 2) {
+      this.forget();
+      return this.listener!.progress(words.dropTwo);
+    }
+    this.listener!.busy("busy");
+    try {
+      for (const file of files) await this.read(file);
+    } catch (error) {
+      this.forget();
+      this.listener!.busy("open");
+      return this.refuse(error);
+    }
+    await this.next();
+  }
+
+  private async read(file: File): Promise<void> {
+    this.listener!.progress(words.reading(named(file.name)));
+    const dropped = { name: file.name, bytes: await file.arrayBuffer() };
+    if (this.core) {
+      this.maps.push(await this.core.readLabels(dropped));
+      return;
+    }
+    const { core, map } = await CoreClient.openLabels(await this.wasm(), dropped);
+    this.core = core;
+    this.maps.push(map);
+  }
+
+  /// A mask of one bone waits for the other; what names do not settle is asked.
+  private async next(): Promise<void> {
+    const [first] = this.maps;
+    this.listener!.busy("open");
+    if (this.maps.length === 1 && first!.labels.length === 1) return this.listener!.progress(words.otherMask(named(first!.name)));
+    this.listener!.progress("");
+    const pair = onlyPair(this.maps, this.listener!.side());
+    if (pair) return this.make(pair);
+    this.ask();
+  }
+
+  private ask(): void {
+    if (!this.asked) {
+      this.asked = new LabelChoice(this.maps, this.listener!.side(), (pair) => void this.make(pair));
+      this.place.replaceChildren(this.asked.element);
+    }
+    this.asked.setDisabled(false);
+    this.asked.focus();
+  }
+
+  private async make({ fixed, mobile }: BonePair): Promise<void> {
+    const core = this.core!;
+    this.listener!.busy("busy");
+    this.asked?.setDisabled(true);
+    try {
+      const proposal = await core.join(fixed, mobile, this.listener!.side(), (label) => this.listener!.progress(this.stepOf(label)));
+      this.listener!.busy("done");
+      this.take(core, proposal);
+    } catch (error) {
+      this.listener!.busy("open");
+      this.listener!.progress("");
+      this.refuse(error);
+      this.ask();
+    }
+  }
+
+  private stepOf(label: string | null): string {
+    if (label === null) return words.limitsNext;
+    return words.surfaceOf(label === "" ? words.theMask : named(label));
+  }
+}
