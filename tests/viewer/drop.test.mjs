@@ -1,11 +1,12 @@
-// Meshes dropped on the page that holds no joint: the same answers and the same errors as on the command line.
+// Meshes and label maps dropped on the page that holds no joint: the same answers and the same errors as on the command line.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { deflateSync } from "node:zlib";
-import { keep, openPage, reports, root, settled, sharedBrowser } from "./browser.mjs";
+import { axeSource, keep, openPage, reports, root, settled, sharedBrowser } from "./browser.mjs";
+import { makeLabelMaps } from "./label_maps.mjs";
 
 const condyle = join(root, "build/release/condyle");
 const browser = await sharedBrowser();
@@ -207,12 +208,130 @@ test("files dropped while others are read, or three at once, are refused in one 
     for (let i = 0; i < 2; ++i) document.body.dispatchEvent(new DragEvent("drop", { bubbles: true, cancelable: true, dataTransfer: transfer }));
     return document.querySelector("[role=alert]").textContent;
   });
-  assert.match(refused, /still reading the meshes/);
+  assert.match(refused, /still reading the files/);
   // What was wrong with the first pair; then the page takes another.
   await page.waitForFunction(() => /^[ab].stl: /.test(document.querySelector("[role=alert]").textContent));
   assert.equal(await page.getByRole("alert").count(), 1);
   await drop(page, sampleFiles);
   await answered(page);
   assert.equal(await page.locator("#scene > canvas").count(), 1);
+  await page.context().close();
+});
+
+const maps = makeLabelMaps(condyle, join(reports, "dropped_labels"), 2);
+
+/// Limits of the command for the same bones.
+function limitsOfLabels(name, ...words) {
+  const joint = join(reports, "dropped_labels", name, "hip.toml");
+  rmSync(join(reports, "dropped_labels", name), { recursive: true, force: true });
+  execFileSync(condyle, ["init", ...words, "--out", joint], { stdio: "ignore" });
+  return JSON.parse(execFileSync(condyle, ["rom", joint, "--json"], { stdio: ["ignore", "pipe", "ignore"] })).motions;
+}
+
+async function assertLimits(page, motions) {
+  await answered(page);
+  await settled(page);
+  for (const motion of motions) {
+    const limit = await page.evaluate((question) => condyle.query({ of: "limit", limit: question }), {
+      start: Object.values(motion.start_deg), vary: Object.keys(motion.start_deg).indexOf(motion.vary),
+      positive: motion.sense === "positive", range_deg: motion.range_deg,
+    });
+    assert.equal(limit.turned_deg, motion.limit_deg, motion.name);
+  }
+  assert.equal(await page.locator(".result").count(), 4);
+}
+
+test("a label map whose names say which bones it has becomes their joint, with the command's limits", async () => {
+  const { page, complaints, requests } = await openPage(browser, empty, { answers: false });
+  await page.evaluate(() => {
+    globalThis.said = [];
+    const place = document.getElementById("drop-progress");
+    new MutationObserver(() => said.push(place.textContent)).observe(place, { childList: true, characterData: true, subtree: true });
+  });
+  await drop(page, [maps.named]);
+  await assertLimits(page, limitsOfLabels("named", maps.named, "--fixed", "hip_right", "--mobile", "femur_right"));
+  assert.deepEqual((await page.evaluate(() => said)).filter(Boolean),
+    ["Reading named.seg.nrrd…", "Surface of hip_right…", "Surface of femur_right…", "Joint and limits…"]);
+  assert.match(await page.locator("#title").textContent(), /^Right hip · femur_right \/ hip_right/);
+  const side = await page.locator("#side").textContent();
+  for (const said of ["side: right, by the names of the labels", "axes: LPS, by the image's header", "hip_right: label 78 of named.seg.nrrd", "voxels of 2 x 2 x 2 mm"])
+    assert.ok(side.includes(said), said);
+  await keep(page, "dropped_labels");
+  assert.deepEqual(complaints, []);
+  assert.deepEqual(requests, []);
+  await page.context().close();
+});
+
+test("labels that no name settles are asked for, by keyboard too, and wrong ones are refused in one line", async () => {
+  const { page } = await openPage(browser, empty, { answers: false });
+  await page.locator("#files").setInputFiles([maps.nifti]);
+  const stays = page.getByLabel("Bone that stays", { exact: true }), moves = page.getByLabel("Bone that moves", { exact: true });
+  await stays.waitFor();
+  await keep(page, "asked_labels");
+  assert.match(await stays.locator("option:checked").textContent(), /^hip_right \(78 in TotalSegmentator's total\), 4\d,\d{3} voxels$/);
+  assert.match(await moves.locator("option:checked").textContent(), /^femur_right \(76 in TotalSegmentator's total\)/);
+  assert.equal(await stays.locator("option").count(), 4);
+  await page.evaluate(axeSource);
+  assert.deepEqual((await page.evaluate(() => globalThis.axe.run("#side"))).violations.map(({ id }) => id), []);
+  const right = await moves.inputValue();
+  await moves.selectOption(await stays.inputValue());
+  await page.getByRole("button", { name: "Make the joint" }).click();
+  await page.getByRole("alert").waitFor();
+  assert.equal(await page.getByRole("alert").textContent(), "labels.nii.gz: label 78 is given for both bodies");
+  await moves.selectOption(right);
+  await page.getByLabel("Side", { exact: true }).selectOption("left");
+  await page.getByRole("button", { name: "Make the joint" }).click();
+  await page.waitForFunction(() => /^side: left is given/.test(document.querySelector("[role=alert]")?.textContent));
+  assert.equal(await page.getByRole("alert").count(), 1);
+  await page.getByLabel("Side", { exact: true }).selectOption("right");
+  await stays.focus();
+  for (const key of ["Tab", "Tab", "Enter"]) await page.keyboard.press(key);
+  await assertLimits(page, limitsOfLabels("asked", maps.nifti, "--task", "total", "--fixed", "hip_right", "--mobile", "femur_right"));
+  await page.context().close();
+});
+
+test("a mask of each bone makes a joint, one after the other or both at once", async () => {
+  const motions = limitsOfLabels("masks", maps.hipMask, maps.femurMask);
+  for (const first of [[maps.hipMask], [maps.femurMask, maps.hipMask]]) {
+    const { page } = await openPage(browser, empty, { answers: false });
+    await drop(page, first);
+    if (first.length === 1) {
+      await page.getByText("hip_right.nii.gz holds one bone: now the other one.").waitFor();
+      await drop(page, [maps.femurMask]);
+    }
+    await assertLimits(page, motions);
+    await page.context().close();
+  }
+});
+
+test("damaged label maps, images that are none, and a mesh beside one are refused in one line; the page takes another", async () => {
+  const folder = join(reports, "dropped_labels"), whole = readFileSync(maps.nifti), wrong = {
+    "cut.nii.gz": whole.subarray(0, whole.length >> 1),
+    "ct.nrrd": Buffer.concat([Buffer.from("NRRD0004\ntype: short\ndimension: 3\nspace: LPS\nsizes: 2 2 2\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n" +
+      "endian: little\nencoding: raw\nspace origin: (0,0,0)\n\n"), Buffer.from(Int16Array.of(-1000, 3, 2, 1, 0, 1, 2, 3).buffer)]),
+    "empty.nii": Buffer.alloc(0),
+  };
+  const { page } = await openPage(browser, empty, { answers: false });
+  for (const [name, bytes] of Object.entries(wrong)) {
+    const path = join(folder, name);
+    writeFileSync(path, bytes);
+    let said = "";
+    try {
+      execFileSync(condyle, ["inspect", path], { stdio: "pipe" });
+    } catch (error) {
+      said = String(error.stderr).trim().replace(`condyle: ${path}`, name);
+    }
+    assert.match(said, new RegExp(`^${name}: `));
+    await drop(page, [path]);
+    await page.waitForFunction((line) => document.querySelector("[role=alert]")?.textContent === line, said);
+    assert.equal(await page.getByRole("alert").count(), 1);
+  }
+  await drop(page, [maps.named, sampleFiles[0]]);
+  await page.waitForFunction(() => /not of one of each/.test(document.querySelector("[role=alert]")?.textContent));
+  await drop(page, [maps.hipMask, maps.femurMask, maps.named]);
+  await page.getByText("A joint has two meshes").waitFor();
+  await drop(page, [maps.named]);
+  await answered(page);
+  assert.equal(await page.getByRole("alert").count(), 0);
   await page.context().close();
 });
