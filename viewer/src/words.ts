@@ -282,20 +282,22 @@ export const words = {
   /// What strokes took from one bone.
   brushed: (body: string, volume: string, deepest: string) => `${body}: ${volume} mm³ gone, ${deepest} mm at the deepest`,
   lastStroke: ({ moved, kept, limited }: { moved: number; kept: number; limited: number }) =>
-    [`the last stroke moved ${moved} ${moved === 1 ? "vertex" : "vertices"}`, ...(kept ? [`${kept} of the bearing surface or soft stay`] : []),
-      ...(limited ? [`${limited} are less deep: deeper, the surface would run through itself`] : [])].join(", "),
-  brushNote: "Bearing surface stays. Bone only: osseous limits, without soft tissue. Strip and tiles stay those of the report.",
+    [`last stroke: ${moved} ${moved === 1 ? "vertex" : "vertices"} moved`, ...(kept ? [`${kept} of the bearing surface stay`] : []),
+      ...(limited ? [`${limited} less deep, for the surface would cross itself`] : [])].join(", "),
+  brushNote: "Bone only: osseous limits. The bearing surface stays. Strip and tiles are the report's.",
   protectedBone: (body: string, count: number) => (count ? `${count} vertices of ${body} bear and stay.` : `Nothing of ${body} is known to bear.`),
   liveLimits: "Limits before and after",
   gained: "gained",
   boneOnly: "bone only",
   noContactThere: "No bone meets where this motion ends.",
   tookLimits: (first: string, all: string) => `the motion after ${first} ms, all after ${all} ms`,
-  planIsStart: "The plan's cut is the first step: strokes go on from it, undo takes it back.",
+  planIsStart: "The plan's cut is the first step.",
 
   centre: "Move the joint centre",
   centreHelp: "How far limits depend on where the centre is: both bones stay, and turn about the moved point. Bone only.",
   centreAlong: { x: "Anterior, mm", y: "Superior, mm", z: "To the right, mm" },
+  centreLimits: "Limits about both centres",
+  centreChange: "change",
   centreReset: "Back to the centre",
   centreStep: (axis: string, mm: string) => `${mm} mm ${axis}`,
 

@@ -98,9 +98,9 @@ struct RangeOfMotion::Parts {
 
     /// About the axis that the angles of a start have.
     std::shared_ptr<const std::optional<motion::RotationTable>> adduction_table(
-        CoordinateSystem system, const JointAngles& start) const {
+        CoordinateSystem axes, const JointAngles& start) const {
       return adduction_tables.get(start.flexion, [&](std::optional<motion::RotationTable>& table) {
-        table.emplace(body.tree, AxisFrame(Vec3::Zero(), axis_of(JointAngle::adduction, system, start)));
+        table.emplace(body.tree, AxisFrame(Vec3::Zero(), axis_of(JointAngle::adduction, axes, start)));
       });
     }
   };

@@ -67,7 +67,7 @@ export class BrushPanel {
     this.asked = questionsOf(text);
     this.latest = this.asked.map(() => null);
     const motions = this.asked.map(({ motion }) => motion);
-    this.limits = new LiveLimits(words.liveLimits, motions.map((motion) => limitsBefore.get(motion.name) ?? motion), motions, motions);
+    this.limits = new LiveLimits(words.liveLimits, words.gained, motions.map((motion) => limitsBefore.get(motion.name) ?? motion), motions, motions);
     const first = toldFirst(text.rom!, text.joint.anatomy === "hip" && text.joint.kind !== "hinge");
     this.shown = Math.max(0, motions.findIndex((motion) => motion === first));
     this.radius = this.sizeField(words.brushRadius, most.radius_mm, usual.radius_mm);
@@ -90,15 +90,17 @@ export class BrushPanel {
     this.undoButton.disabled = this.steps.length === 0;
     this.element = section(words.brush,
       html("div", { class: "row no-print" }, ...(scene ? [paint] : []),
-        choice<Stroke["action"]>(words.brushAction, words.brushActions, this.action, (action) => (this.action = action)),
         html("label", {}, `${words.brushRadius} `, this.radius.input), html("label", {}, `${words.brushDepth} `, this.depth.input)),
+      html("div", { class: "row no-print" },
+        choice<Stroke["action"]>(words.brushAction, words.brushActions, this.action, (action) => (this.action = action)), this.undoButton),
       html("div", { class: "row no-print" }, bodies, this.vertex, button(words.strokeAtVertex, () => void this.strokeAtVertex())),
       html("div", { class: "row no-print" }, this.motionChoice(motions.map(({ name }) => name)),
-        button(words.strokeAtLimit, () => void this.strokeAtLimit()), this.undoButton),
+        button(words.strokeAtLimit, () => void this.strokeAtLimit())),
       this.said, this.limits.element,
       html("p", { class: "small" }, options.before.mobile || options.before.fixed ? `${words.planIsStart} ` : "", words.brushNote, " ", this.took),
       html("div", { class: "row no-print" }, ...(scene ? [shows] : []), button(words.saveStl, () => this.saveMeshes()),
         button(words.saveJointFile, () => void this.saveJointFile())));
+    this.element.classList.add("edit-panel");
     this.limits.mark(this.shown);
     // What is made once is made before the first stroke.
     this.element.addEventListener("focusin", () => void this.prepare(this.body));

@@ -23,12 +23,13 @@ export class CentrePanel {
   constructor(private readonly core: CoreClient, private readonly text: ReportText) {
     this.asked = questionsOf(text);
     const motions = this.asked.map(({ motion }) => motion);
-    this.limits = new LiveLimits(words.liveLimits, [...motions], motions, motions);
+    this.limits = new LiveLimits(words.centreLimits, words.centreChange, [...motions], motions, motions);
     this.fields = axes.map((axis, i) => new NumberField(
       words.centreAlong[axis], -farthest_mm, farthest_mm, step_mm, " mm", false, (mm) => this.move(i, mm), (why) => (this.refusal.textContent = why ?? "")));
     this.element = section(words.centre, html("p", { class: "small" }, words.centreHelp),
       ...axes.map((axis, i) => this.row(i, words.centreAlong[axis])),
       html("div", { class: "row no-print" }, button(words.centreReset, () => this.reset()), this.refusal), this.limits.element);
+    this.element.classList.add("edit-panel");
   }
 
   /// The joint itself is another one now, with these limits.

@@ -41,7 +41,8 @@ export class LiveLimits {
   readonly element: HTMLElement;
   private readonly rows: Row[];
 
-  constructor(title: string, private readonly before: EndOfMotion[], after: readonly EndOfMotion[], motions: readonly MotionAnswer[]) {
+  /// `change` heads what the limits differ by.
+  constructor(title: string, change: string, private readonly before: EndOfMotion[], after: readonly EndOfMotion[], motions: readonly MotionAnswer[]) {
     const cell = () => html("td", {});
     this.rows = motions.map(({ name }) => {
       const row = { before: cell(), after: cell(), gained: cell() };
@@ -50,7 +51,7 @@ export class LiveLimits {
     });
     this.element = html("div", { class: "scroll live-limits", tabindex: 0, role: "region", "aria-label": title },
       html("table", {}, html("caption", {}, title),
-        html("thead", {}, html("tr", {}, html("td"), ...[words.before, words.after, words.gained].map((text) => html("th", { scope: "col" }, text)), html("td"))),
+        html("thead", {}, html("tr", {}, html("td"), ...[words.before, words.after, change].map((text) => html("th", { scope: "col" }, text)), html("td"))),
         html("tbody", {}, ...this.rows.map(({ head }) => head))));
     this.showAll(after);
   }
