@@ -202,7 +202,8 @@ class RangeOfMotion {
   explicit RangeOfMotion(const Joint& joint, const RangeOptions& options = {});
   /// The same joint with the vertices of one body elsewhere, one for each of its mesh's, mm, in its frame: as of a bone that was
   /// cut. What contact of each triangle means stays as it was found, whatever is in contact in the reference pose. Limits
-  /// are those of a joint made anew with these roles; tables of the other body are shared, not made again. Linear in the mesh of the
+  /// are those of a joint made anew with these roles, but for which pair is named where a motion starts in contact; tables of the
+  /// other body are shared, not made again. Linear in the mesh of the
   /// moved body. Throws MeshError as Mesh::moved_to().
   RangeOfMotion(const RangeOfMotion& before, BodyRole moved, const Points& vertices);
   ~RangeOfMotion();

@@ -11,6 +11,7 @@
 
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
+#include "condyle/limit_band.hpp"
 #include "motion/joint_scenes.hpp"
 #include "motion/motion_cases.hpp"
 
@@ -342,6 +343,60 @@ TEST(Motions, OfAShoulderBeginWithTheArmAsItHangs) {
     EXPECT_EQ(shoulder_pose("horizontal_flexion", side, 90) * hand, x) << "forwards";
     EXPECT_EQ(shoulder_pose("external_rotation_at_90_abduction", side, 90) * thumb, y) << "up";
     EXPECT_EQ(shoulder_pose("internal_rotation", side, 90) * thumb, -right * z) << "to the midline";
+  }
+}
+
+/// Each vertex nearer to the centre or farther, by up to a hundredth.
+Points dented(const Points& vertices) {
+  Points moved = vertices;
+  for (std::size_t v = 0; v < moved.size(); ++v)
+    moved.set(v, vertices[v] * (1 + 0.01 * std::sin(static_cast<double>(v))));
+  return moved;
+}
+
+Points shifted(const Points& vertices, const Vec3& by) {
+  Points moved = vertices;
+  for (std::size_t v = 0; v < moved.size(); ++v) moved.set(v, vertices[v] - by);
+  return moved;
+}
+
+TEST(MovedVertices, LimitsAreThoseOfAJointMadeAnewInEveryBit) {
+  const auto motions = hip_motions();
+  for (const Side side : {Side::right, Side::left})
+    for (const BodyRole role : {BodyRole::fixed, BodyRole::mobile}) {
+      Joint joint = bumpy_joint(side);
+      const RangeOfMotion before(joint);
+      before.limits(motions);  // its tables are made
+      Body& body = role == BodyRole::fixed ? joint.fixed : joint.mobile;
+      body.mesh = body.mesh.moved_to(dented(body.mesh.vertices()));
+      RangeOptions options{.bearing = {.roles = before.bearing().roles}};
+      options.overlap.reference_contact = ReferenceContact::accept;
+      const auto anew = RangeOfMotion(joint, options).limits(motions);
+      const auto shared = RangeOfMotion(before, role, body.mesh.vertices()).limits(motions);
+      for (std::size_t i = 0; i < motions.size(); ++i) {
+        EXPECT_EQ(anew[i].end.turned, shared[i].end.turned) << motions[i].name;
+        EXPECT_EQ(anew[i].end.reason, shared[i].end.reason) << motions[i].name;
+        // In contact at the start any pair that meets is named: the one that the tree has first.
+        if (anew[i].end.reason != LimitReason::contact_at_start) expect_same_end(anew[i], shared[i]);
+      }
+    }
+}
+
+// The centre of both bodies is moved: limits_about() moves the axes, which rounds otherwise.
+TEST(MovedVertices, BothBodiesShiftedTurnAboutAnotherCentre) {
+  const Joint joint = bumpy_joint(Side::right);
+  const auto motions = hip_motions();
+  const Vec3 centre(1.5, -2, 0.5);
+  RangeOptions options{.bearing = {.rule = BearingRule::count}};
+  const RangeOfMotion before(joint, options);
+  const RangeOfMotion fixed_moved(before, BodyRole::fixed, shifted(joint.fixed.mesh.vertices(), centre));
+  const auto moved =
+      RangeOfMotion(fixed_moved, BodyRole::mobile, shifted(joint.mobile.mesh.vertices(), centre))
+          .limits(motions);
+  const auto about = limits_about(joint, motions, options, {&centre, 1});
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    EXPECT_NEAR(moved[i].end.turned.radians(), about[i].turned.radians(), 1e-8) << motions[i].name;
+    EXPECT_EQ(moved[i].end.reason, about[i].reason) << motions[i].name;
   }
 }
 
