@@ -7,7 +7,7 @@ import { fileURLToPath, pathToFileURL } from "node:url";
 
 export const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
 export const reports = join(root, "build/page");
-const require = createRequire(join(root, "viewer/package.json"));
+export const require = createRequire(join(root, "viewer/package.json"));  // packages of the page
 const { chromium } = require("playwright-core");
 export const axeSource = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 

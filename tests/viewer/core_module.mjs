@@ -3,9 +3,10 @@ import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { resolve } from "node:path";
 
-export async function openCore(modulePath) {
+/// `zlib`: the package by which the page inflates, where something is to be inflated.
+export async function openCore(modulePath, zlib) {
   const wasmBinary = readFileSync(modulePath.replace(/js$/, "wasm"));
-  const core = await createRequire(import.meta.url)(resolve(modulePath))({ wasmBinary });
+  const core = await createRequire(import.meta.url)(resolve(modulePath))({ wasmBinary, zlib });
   const failure = () => new Error(core.UTF8ToString(core._condyle_error()));
   const copied = (array) => {
     const pointer = core._malloc(array.byteLength);

@@ -5,14 +5,14 @@ import { readFileSync, rmSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import { test } from "node:test";
 import { constants, gunzipSync, gzipSync } from "node:zlib";
-import { reports, root } from "./browser.mjs";
+import { reports, require, root } from "./browser.mjs";
 import { openCore } from "./core_module.mjs";
 import { makeLabelMaps } from "./label_maps.mjs";
 import { readReport } from "./report_block.mjs";
 
 const condyle = join(root, "build/release/condyle");
 const files = makeLabelMaps(condyle, join(reports, "labels"), 2);
-const { core, copied, f64, u32 } = await openCore(join(root, "build/page_core/page_core.js"));
+const { core, copied, f64, u32 } = await openCore(join(root, "build/page_core/page_core.js"), require("pako"));
 
 const text = (words) => copied(new TextEncoder().encode(`${words}\0`));
 const made = (answer) => {

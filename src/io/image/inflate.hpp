@@ -8,8 +8,8 @@
 
 namespace condyle::io {
 
-/// The bytes that a source holds deflated from a place on: as gzip, in one member or several, or as zlib. By zlib; the page of a
-/// report has none and inflates by viewer/core/page_inflate.cpp. Memory is that of a block, however many bytes come.
+/// The bytes that a source holds deflated from a place on: as gzip, in one member or several, or as zlib. By zlib, in the page of
+/// a report by its port pako (viewer/core/zlib.js). Memory is that of a block, however many bytes come.
 class Inflate {
  public:
   Inflate(const ByteSource& source, std::uint64_t at);

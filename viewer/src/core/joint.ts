@@ -1,4 +1,5 @@
-import pageCore, { type PageCore } from "page-core";
+import type { PageCore } from "page-core";
+import { openModule } from "./module";
 import {
   quantityNumber, type BothPenetrations, type BothValues, type Brushed, type Coordinates, type Depth, type Details, type DroppedFile, type Edit,
   type GivenSide,
@@ -24,7 +25,7 @@ export class CoreJoint {
   private readonly protectedVertices = { fixed: 0, mobile: 0 };
 
   static async open(wasm: ArrayBuffer, arrays: JointArrays): Promise<CoreJoint> {
-    const memory = new Memory(await pageCore({ wasmBinary: wasm }));
+    const memory = new Memory(await openModule(wasm));
     const placed = [arrays.fixed, arrays.mobile].map(({ vertices, triangles }: Surface) => ({
       vertices: memory.copied(vertices), triangles: memory.copied(triangles), vertexCount: vertices.length / 3,
       count: triangles.length / 3,
@@ -43,7 +44,7 @@ export class CoreJoint {
   /// The joint that is proposed for two mesh files; throws the command line's own line where none is.
   static async propose(
     wasm: ArrayBuffer, fixed: DroppedFile, mobile: DroppedFile, side: GivenSide): Promise<{ joint: CoreJoint; proposal: Proposal }> {
-    const memory = new Memory(await pageCore({ wasmBinary: wasm }));
+    const memory = new Memory(await openModule(wasm));
     const { core } = memory;
     const meshes = [fixed, mobile].map((file) => memory.read(file, core._condyle_read_mesh));
     const joint = core._condyle_propose(meshes[0]!, meshes[1]!, sideNumber[side]);

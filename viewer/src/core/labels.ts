@@ -1,5 +1,5 @@
-import pageCore from "page-core";
 import { CoreJoint, Memory, sideNumber } from "./joint";
+import { openModule } from "./module";
 import type { BoneChoice, DroppedFile, GivenSide, LabelMap, Proposal } from "./protocol";
 
 /// Label maps in the module's memory, until a joint is made of two of their labels.
@@ -7,7 +7,7 @@ export class CoreLabels {
   private readonly maps: number[] = [];
 
   static async open(wasm: ArrayBuffer): Promise<CoreLabels> {
-    return new CoreLabels(new Memory(await pageCore({ wasmBinary: wasm })));
+    return new CoreLabels(new Memory(await openModule(wasm)));
   }
 
   private constructor(private readonly memory: Memory) {}

@@ -58,6 +58,6 @@ declare module "page-core" {
     _condyle_bone_name(bone: number): number;
     _condyle_join(fixed: number, mobile: number, side: number): number;
   }
-  const pageCore: (options: { wasmBinary: ArrayBuffer }) => Promise<PageCore>;
+  const pageCore: (options: { wasmBinary: ArrayBuffer; zlib: object }) => Promise<PageCore>;
   export default pageCore;
 }
