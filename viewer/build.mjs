@@ -53,7 +53,7 @@ const packages = [...taken].sort().map((name) => {
 });
 const licenceList = [source("../NOTICE").trim(), packages.map(({ title }) => title).join("\n")].join("\n\n");
 const texts = [
-  source("licences/core.txt"), ...packages.map(({ title, text }) => `${title}\n\n${text}`), source("../LICENSE"), source("licences/MPL-2.0.txt"),
+  source("licences/core.txt"), ...packages.map(({ title, text }) => `${title}\n\n${text}`), source("licences/zlib.txt"), source("../LICENSE"), source("licences/MPL-2.0.txt"),
 ].map((text) => text.trim()).join("\n\n--------\n\n");
 
 // What is shown where the script does not run.

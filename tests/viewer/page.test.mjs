@@ -42,6 +42,7 @@ test("the licence of everything in the page is in the page, in full", async () =
   for (const name of ["three", "d3-scale", "d3-shape", "d3-scale-chromatic", "pako"])
     assert.ok(told.includes(`${name} ${packages[`node_modules/${name}`].version}: ${packages[`node_modules/${name}`].license}`), name);
   for (const wanted of ["fmt 9.1", "nlohmann/json", "Eigen 3.4", "Highway 1.0.3", "Emscripten 3.1.6", "Copyright © 2010-2026 three.js authors",
+    "(C) 1995-2013 Jean-loup Gailly and Mark Adler", "This notice may not be removed or altered from any source distribution",
     "TERMS AND CONDITIONS FOR USE, REPRODUCTION, AND DISTRIBUTION", "9. Accepting Warranty or Additional Liability", "LLVM Exceptions",
     "Mozilla Public License Version 2.0", "Exhibit B - \"Incompatible With Secondary Licenses\" Notice", "Boost Software License"])
     assert.ok(told.includes(wanted), wanted);
