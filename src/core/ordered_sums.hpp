@@ -17,4 +17,11 @@ inline double ordered_norm(const Vec3& v) noexcept {
   return std::sqrt(ordered_dot(v, v));
 }
 
+/// Of length 1, whatever its length; zero stays zero. As Eigen's stableNormalized().
+inline Vec3 ordered_direction(const Vec3& v) noexcept {
+  const double largest = v.cwiseAbs().maxCoeff();
+  if (!(largest > 0)) return v;
+  return v / (ordered_norm(v / largest) * largest);
+}
+
 }  // namespace condyle::core

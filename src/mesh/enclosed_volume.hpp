@@ -36,7 +36,7 @@ BoundingBox bounds_of_vertices(const TriMesh& mesh);
 inline double volume_below(const TriMesh& mesh, std::size_t triangle, const Vec3& p) {
   const Vec3 a = mesh.corner(triangle, 0) - p, b = mesh.corner(triangle, 1) - p,
              c = mesh.corner(triangle, 2) - p;
-  return a.dot(b.cross(c)) / 6;
+  return core::ordered_dot(a, b.cross(c)) / 6;
 }
 
 /// Volume that a closed mesh encloses; negative where it is inverted.

@@ -7,6 +7,7 @@
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "core/ordered_sums.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/require_solid.hpp"
 #include "mesh/surface_distance.hpp"
@@ -39,7 +40,7 @@ void check_size_of_brush(double mm, double largest_mm, const char* what) {
 double mean_edge_mm(const TriMesh& mesh) {
   double sum = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) sum += (mesh.corner(t, k) - mesh.corner(t, (k + 1) % 3)).norm();
+    for (int k = 0; k < 3; ++k) sum += core::ordered_norm(mesh.corner(t, k) - mesh.corner(t, (k + 1) % 3));
   return mesh.triangles.empty() ? 0 : sum / static_cast<double>(3 * mesh.triangles.size());
 }
 
@@ -120,7 +121,7 @@ struct Brush::Parts {
       const Vec3 from = before.vertices()[v], way = now[v] - from;
       if (way == Vec3::Zero()) continue;
       note(cut, v, from);
-      along_mm[v] = way.norm();
+      along_mm[v] = core::ordered_norm(way);
       inwards[v] = way / along_mm[v];
       measure(v);
     }
@@ -149,9 +150,10 @@ struct Brush::Parts {
 
   /// Weight of one vertex of the path at another vertex.
   double weight(Index middle, Index v, double radius_mm) const {
-    const double d = (before.vertices()[v] - before.vertices()[middle]).norm() / radius_mm;
+    const double d = core::ordered_norm(before.vertices()[v] - before.vertices()[middle]) / radius_mm;
     const double beside = (d - whole_share_of_radius) / (1 - whole_share_of_radius);
-    return (1 - smooth_step(beside)) * smooth_step(inwards[middle].dot(inwards[v]) / whole_facing);
+    return (1 - smooth_step(beside)) *
+           smooth_step(core::ordered_dot(inwards[middle], inwards[v]) / whole_facing);
   }
 
   /// The larger weights around one vertex of the path, over all that hangs together with it.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/ordered_sums.hpp"
 #include "mesh/triangle_intersection.hpp"
 
 namespace condyle::plan {
@@ -22,7 +23,9 @@ Vec3 double_area(const mesh::TriangleCorners& t) {
 /// 1 for a triangle that faced nowhere, 0 for one that does so now.
 double cosine_between(const Vec3& before, const Vec3& now) {
   if (before == Vec3::Zero()) return 1;
-  return now == Vec3::Zero() ? 0 : before.dot(now) / (before.norm() * now.norm());
+  return now == Vec3::Zero()
+             ? 0
+             : core::ordered_dot(before, now) / (core::ordered_norm(before) * core::ordered_norm(now));
 }
 
 struct CornerBox {
