@@ -22,6 +22,7 @@ void add_sample(CLI::App& app);
 void add_study(CLI::App& app);
 void add_measure(CLI::App& app);
 void add_resect(CLI::App& app);
+void add_implant(CLI::App& app);
 void add_sweep(CLI::App& app);
 void add_merge(CLI::App& app);
 

@@ -183,6 +183,7 @@ int run(int argc, char** argv) {
   cli::add_motion(app);
   cli::add_measure(app);
   cli::add_resect(app);
+  cli::add_implant(app);
   cli::add_sweep(app);
   cli::add_picture(app);
   cli::add_report(app);

@@ -5,7 +5,6 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
@@ -13,9 +12,10 @@
 
 #include "answer.hpp"
 #include "condyle/error.hpp"
-#include "condyle/io/pose_text.hpp"
 #include "condyle/sample/hip.hpp"
 #include "help_formatter.hpp"
+#include "implant_options.hpp"
+#include "io/result/implant_result.hpp"
 #include "io/result/sample_files.hpp"
 
 namespace condyle::cli {
@@ -24,42 +24,22 @@ namespace {
 enum class Bones { sample, none };
 
 struct ImplantOptions {
-  Implant implant;
+  std::shared_ptr<ImplantGiven> given;
   Side side = Side::right;
   Bones bones = Bones::none;
   int scenario = 1;
   std::string out;
 };
 
-/// Its angles by each definition, and what neck and liner do.
-std::string implant_lines(const Implant& implant, Side side) {
-  std::string text;
-  if (const auto* hip = std::get_if<TotalHip>(&implant)) {
-    text += "cup, inclination and anteversion:";
-    for (const auto definition :
-         {CupDefinition::radiographic, CupDefinition::anatomic, CupDefinition::operative}) {
-      const CupAngles angles = by_definition(hip->cup, definition);
-      text += fmt::format("{} {:.2f} {:.2f} {}", definition == CupDefinition::radiographic ? "" : ",",
-                          angles.inclination.degrees(), angles.anteversion.degrees(), name_of(definition));
-    }
-    text += "\n";
-  }
-  const auto pair = revolved_pair(implant, side);
-  text += pair ? fmt::format("neck meets liner where their axes are {:.4f} degrees apart\n",
-                             pair->half_angle.degrees())
-               : fmt::format("limits of meshes only: {}\n", why_not_revolved(implant));
-  return text;
-}
-
 void sample_implant_command(const ImplantOptions& options) {
   ImplantMeshes meshes;
   if (options.bones == Bones::sample)
-    meshes = *sample_replacement(std::get<TotalHip>(options.implant), {},
+    meshes = *sample_replacement(std::get<TotalHip>(options.given->implant), {},
                                  static_cast<Scenario>(options.scenario), options.side);
   else
-    meshes = implant_meshes(options.implant, options.side);
+    meshes = implant_meshes(options.given->implant, options.side);
   OutputFolder out(options.out);
-  write_sample_implant(out, meshes, options.implant, options.side);
+  write_sample_implant(out, meshes, options.given->implant, options.side);
   out.commit();
   std::string text, files;
   for (const auto* body : {&meshes.fixed, &meshes.mobile})
@@ -68,30 +48,9 @@ void sample_implant_command(const ImplantOptions& options) {
           fmt::format("{}: {} vertices, {} triangles\n", part, mesh.vertices.size(), mesh.triangles.size());
       files += part + ".ply, ";
     }
-  const char* joint = std::holds_alternative<TotalHip>(options.implant) ? "hip.toml" : "shoulder.toml";
-  print(text + implant_lines(options.implant, options.side) +
+  const char* joint = std::holds_alternative<TotalHip>(options.given->implant) ? "hip.toml" : "shoulder.toml";
+  print(text + implant_lines(options.given->implant, options.side) +
         fmt::format("written to {}: {}{}\n", options.out, files, joint));
-}
-
-std::string option_name(std::string_view parameter) {
-  std::string name = "--" + std::string(parameter);
-  std::replace(name.begin(), name.end(), '_', '-');
-  return name;
-}
-
-/// Options of all sizes; their names.
-std::vector<std::string> add_sizes(CLI::App& command, const std::shared_ptr<ImplantOptions>& options) {
-  std::vector<std::string> names;
-  for (const ImplantParameter& each : implant_parameters(options->implant)) {
-    names.push_back(option_name(each.name));
-    command
-        .add_option_function<double>(
-            names.back(), [options, set = each.set](double value) { set(options->implant, value); },
-            std::string(each.meaning))
-        ->option_text(
-            fmt::format("{} ({:g})", each.unit == "mm" ? "MM" : "DEG", each.value(options->implant)));
-  }
-  return names;
 }
 
 void add_common(CLI::App& command, const std::shared_ptr<ImplantOptions>& options, const char* files) {
@@ -105,15 +64,7 @@ void add_common(CLI::App& command, const std::shared_ptr<ImplantOptions>& option
           "The side of the body. A left implant is the right one mirrored")
       ->check(CLI::IsMember({"right", "left"}))
       ->option_text("right|left (right)");
-  command
-      .add_option_function<int>(
-          "--facets",
-          [options](int facets) {
-            std::visit([&](auto& design) { design.facets = facets; }, options->implant);
-          },
-          "Facets around liner and neck: with 360 limits are within 0.01 degrees of the closed form; the "
-          "error goes with the square")
-      ->option_text(fmt::format("N ({})", default_facets));
+  add_facets(command, options->given);
 }
 
 void add_replacement(CLI::App& sample) {
@@ -124,18 +75,10 @@ void add_replacement(CLI::App& sample) {
       "         condyle sample replacement --bones none --head-radius 18 --definition anatomic --out alone\n"
       "         condyle rom thr/hip.toml");
   auto options = std::make_shared<ImplantOptions>();
-  options->implant = TotalHip{};
+  options->given = std::make_shared<ImplantGiven>(ImplantGiven{TotalHip{}});
   options->bones = Bones::sample;
   add_common(*command, options, "a mesh for each part and hip.toml");
-  command
-      ->add_option_function<std::string>(
-          "--definition",
-          [options](const std::string& word) {
-            std::get<TotalHip>(options->implant).cup.definition = cup_definition_named(word);
-          },
-          "Which of Murray's definitions inclination and anteversion of the cup are by")
-      ->check(CLI::IsMember({"radiographic", "anatomic", "operative"}))
-      ->option_text("radiographic|anatomic|operative (radiographic)");
+  add_definition(*command, options->given);
   command
       ->add_option_function<std::string>(
           "--bones",
@@ -148,7 +91,7 @@ void add_replacement(CLI::App& sample) {
   command->add_option("--scenario", options->scenario, "How fine the bones are, as in condyle sample hip")
       ->check(CLI::Range(1, 4))
       ->option_text("1..4 (1)");
-  const std::vector<std::string> sizes = add_sizes(*command, options);
+  const std::vector<std::string> sizes = add_sizes(*command, options->given);
   group_help(*command, {{"Most used", {"--out", "--side", "--bones", "--definition"}},
                         {"Sizes", sizes},
                         {"Resolution", {"--facets", "--scenario", "--help"}}});
@@ -162,9 +105,9 @@ void add_reverse_shoulder(CLI::App& sample) {
       "Example: condyle sample reverse-shoulder --neck-shaft 145 --out reverse\n"
       "         condyle rom reverse/shoulder.toml");
   auto options = std::make_shared<ImplantOptions>();
-  options->implant = ReverseShoulder{};
+  options->given = std::make_shared<ImplantGiven>(ImplantGiven{ReverseShoulder{}});
   add_common(*command, options, "a mesh for each part and shoulder.toml");
-  const std::vector<std::string> sizes = add_sizes(*command, options);
+  const std::vector<std::string> sizes = add_sizes(*command, options->given);
   group_help(*command,
              {{"Most used", {"--out", "--side"}}, {"Sizes", sizes}, {"Resolution", {"--facets", "--help"}}});
   command->callback([options] { sample_implant_command(*options); });

@@ -47,6 +47,12 @@ CupAngles by_definition(const CupAngles& angles, CupDefinition definition) noexc
 /// R_y(-version) (0, -cos(180 - neck_shaft), sin(180 - neck_shaft)).
 Vec3 neck_axis(Angle neck_shaft, Angle version, Side side) noexcept;
 
+struct StemAngles {
+  Angle neck_shaft, version;
+};
+/// The angles of an axis of any length but zero: the inverse of neck_axis() to rounding.
+StemAngles stem_angles(const Vec3& axis, Side side) noexcept;
+
 // ---- bodies of revolution ------------------------------------------------------------------------------------------------
 
 /// A liner that is a body of revolution about an axis through the centre: spherical inside, and a face from the inner edge of its

@@ -64,4 +64,9 @@ Vec3 neck_axis(Angle neck_shaft, Angle version, Side side) noexcept {
   return on_side({-sv * sine, cosine, cv * sine}, side);
 }
 
+StemAngles stem_angles(const Vec3& axis, Side side) noexcept {
+  const Vec3 n = on_side(axis, side);
+  return {between(std::hypot(n.x(), n.z()), n.y()), between(-n.x(), n.z())};
+}
+
 }  // namespace condyle

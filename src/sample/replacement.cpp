@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "condyle/error.hpp"
+#include "plan/place_implant.hpp"
 #include "sample/cut_neck.hpp"
 #include "sample/femur_shape.hpp"
 
@@ -19,12 +20,6 @@ void require_fitting(const TotalHip& implant, const HipParameters& bones) {
       implant.cup_radius_mm, socket));
 }
 
-/// By how much the femur moves so that its shaft has its axis where the stem has it, and the leg its length.
-Vec3 shift_of(const sample::FemurAxes& axes, const TotalHip& implant, const NeckCut& cut) {
-  const Vec3 to_stem = cut.stem_axis_point - axes.foot;
-  return to_stem - (to_stem.y() + implant.leg_length_mm) / axes.distal.y() * axes.distal;
-}
-
 }  // namespace
 
 std::optional<ImplantMeshes> sample_replacement(const TotalHip& implant, const HipParameters& bones,
@@ -36,7 +31,7 @@ std::optional<ImplantMeshes> sample_replacement(const TotalHip& implant, const H
   if (!hip) return std::nullopt;
   const NeckCut cut = neck_cut(implant, Side::right);
   const sample::FemurAxes axes = sample::femur_axes(bones);
-  const Vec3 shift = shift_of(axes, implant, cut);
+  const Vec3 shift = plan::femur_shift({axes.foot, axes.distal}, implant, cut);
   ImplantMeshes parts = implant_meshes(implant, side, axes.distal);
   TriMesh& femur = hip->femur;
   for (std::size_t v = 0; v < femur.vertices.size(); ++v) femur.vertices.set(v, femur.vertices[v] + shift);

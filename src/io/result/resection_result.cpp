@@ -10,6 +10,7 @@
 
 #include "condyle/version.hpp"
 #include "io/file/format_version.hpp"
+#include "io/joint/motion_lines.hpp"
 #include "io/joint/proposal_lines.hpp"
 #include "io/result/caveats.hpp"
 #include "io/result/clock_hour.hpp"
@@ -216,19 +217,7 @@ std::string exact_vector(const Vec3& v) {
 
 /// Motions and uncertainty of the old joint file.
 void add_settings(io::ProposalLines& lines, const JointFile& file) {
-  const Anatomy anatomy = file.joint.anatomy;
-  for (const Motion& motion : file.motions) {
-    const double from = angle_of(motion.start, motion.vary).degrees();
-    lines.add("\n[[motion]]");
-    lines.add("name = " + io::toml_text(motion.name));
-    lines.add(fmt::format("vary = \"{}\"", name_of(motion.vary, anatomy)));
-    lines.add(fmt::format("range = [{:.12g}, {:.12g}]", from,
-                          from + sign_of(motion.sense) * motion.range.degrees()));
-    for (const JointAngle angle : all_joint_angles)
-      if (angle != motion.vary && angle_of(motion.start, angle) != Angle())
-        lines.add(
-            fmt::format("{} = {:.12g}", name_of(angle, anatomy), angle_of(motion.start, angle).degrees()));
-  }
+  io::add_motions(lines, file.motions, file.joint.anatomy);
   const Uncertainty& sigma = file.uncertainty;
   lines.add("\n[uncertainty]");
   lines.add(fmt::format("centre = {}\naxes = {:.12g}\nseed = {}", sigma.centre_mm, sigma.axes.degrees(),

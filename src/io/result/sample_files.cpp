@@ -16,10 +16,11 @@
 #include "io/file/format_version.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/image/write_labels.hpp"
-#include "io/joint/append_mesh.hpp"
+#include "io/joint/implant_parts.hpp"
 #include "io/joint/implant_table.hpp"
 #include "io/joint/part_tables.hpp"
 #include "mesh/voxelise.hpp"
+#include "plan/joined_body.hpp"
 
 namespace condyle {
 namespace {
@@ -85,49 +86,8 @@ ImplantNames names_of(const ImplantMeshes& meshes, const Implant& implant, Side 
           is_hip ? "femur" : "humerus"};
 }
 
-/// What cup placement and stem version scatter by in surgery, degrees: as planning assumes it, for bands.
-constexpr double cup_sigma_deg = 4, stem_sigma_deg = 2;
-
-PartParameter angle_of(const Implant& implant, std::string_view size, std::string name, ParameterKind kind,
-                       double sigma_deg) {
-  const auto sizes = implant_parameters(implant);
-  const auto found = std::find_if(sizes.begin(), sizes.end(),
-                                  [&](const ImplantParameter& each) { return each.name == size; });
-  PartParameter parameter{.name = std::move(name), .kind = kind, .low = found->low, .high = found->high};
-  parameter.value = parameter.described = parameter.as_given = found->value(implant);
-  parameter.sigma = sigma_deg;
-  return parameter;
-}
-
-/// A cup and a stem that turn against the bones. A reverse shoulder has none.
-std::vector<PosedPart> implant_parts(const ImplantMeshes& meshes, const Implant& implant) {
-  const auto* hip = std::get_if<TotalHip>(&implant);
-  if (hip == nullptr) return {};
-  const bool has_bones = meshes.fixed.size() > 1;
-  const auto only = [&](std::vector<std::string> names) {
-    return has_bones ? std::move(names) : std::vector<std::string>{};
-  };
-  PosedPart cup{
-      .name = "cup", .body = BodyRole::fixed, .meshes = only({"liner"}), .definition = hip->cup.definition};
-  cup.parameters = {
-      angle_of(implant, "inclination", "inclination", ParameterKind::cup_inclination, cup_sigma_deg),
-      angle_of(implant, "anteversion", "anteversion", ParameterKind::cup_anteversion, cup_sigma_deg)};
-  PosedPart stem{.name = "stem", .body = BodyRole::mobile, .meshes = only({"head", "neck", "stem"})};
-  stem.parameters = {angle_of(implant, "stem_version", "version", ParameterKind::version, stem_sigma_deg)};
-  return {std::move(cup), std::move(stem)};
-}
-
-Body joined_body(const std::string& name, const std::vector<ImplantMesh>& parts) {
-  TriMesh whole;
-  Body body{name, TriMesh{}};
-  for (const auto& [part, mesh] : parts) {
-    if (parts.size() > 1)
-      body.parts.push_back(
-          {part, whole.vertices.size(), mesh.vertices.size(), whole.triangles.size(), mesh.triangles.size()});
-    io::append_mesh(whole, mesh);
-  }
-  body.mesh = Mesh(std::move(whole));
-  return body;
+io::BonesAround bones_around(const ImplantMeshes& meshes) {
+  return meshes.fixed.size() > 1 ? io::BonesAround::some : io::BonesAround::none;
 }
 
 }  // namespace
@@ -147,7 +107,8 @@ void write_sample_implant(OutputFolder& out, const ImplantMeshes& meshes, const 
   const bool is_hip = std::holds_alternative<TotalHip>(implant);
   io::write_whole_file(out.file(is_hip ? "hip.toml" : "shoulder.toml"),
                        joint_file_text(names.joint, fixed, mobile, side, is_hip ? "hip" : "shoulder") + "\n" +
-                           io::implant_text(implant) + io::parts_text(implant_parts(meshes, implant)) +
+                           io::implant_text(implant) +
+                           io::parts_text(io::implant_parts(implant, bones_around(meshes))) +
                            "\n[uncertainty]  # sizes of an implant are given, not measured\n"
                            "centre = 0.0\nsurface = 0.0\n");
 }
@@ -160,10 +121,11 @@ LoadedJoint sample_implant_joint(const ImplantMeshes& meshes, const Implant& imp
   report.file.joint.side = side;
   report.file.joint.anatomy = std::holds_alternative<TotalHip>(implant) ? Anatomy::hip : Anatomy::shoulder;
   report.file.joint.frame.centre = Vec3(Vec3::Zero());
-  for (PosedPart& part : implant_parts(meshes, implant)) report.file.joint.parts.push_back({std::move(part)});
+  for (PosedPart& part : io::implant_parts(implant, bones_around(meshes)))
+    report.file.joint.parts.push_back({std::move(part)});
   report.file.uncertainty = {.centre_mm = 0, .surface_mm = 0, .surface_voxels = 0};
-  auto [joint, placement] = make_joint(report.file.joint, joined_body(names.fixed, meshes.fixed),
-                                       joined_body(names.mobile, meshes.mobile));
+  auto [joint, placement] = make_joint(report.file.joint, plan::joined_body(names.fixed, meshes.fixed),
+                                       plan::joined_body(names.mobile, meshes.mobile));
   report.processing = placement.processing;
   report.placement = std::move(placement);
   joint.implant = implant_in_joint(implant, joint);

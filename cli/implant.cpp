@@ -1,0 +1,111 @@
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Validators.hpp>
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "answer.hpp"
+#include "command_line.hpp"
+#include "commands.hpp"
+#include "condyle/answer.hpp"
+#include "help_formatter.hpp"
+#include "implant_options.hpp"
+#include "io/joint/measure_request.hpp"
+#include "io/joint/name_joint_file.hpp"
+#include "io/result/implant_result.hpp"
+#include "notes.hpp"
+#include "set_option.hpp"
+
+namespace condyle::cli {
+namespace {
+
+struct ImplantArguments {
+  ParametersGiven parameters;
+  std::string joint, out;
+  std::shared_ptr<ImplantGiven> given = std::make_shared<ImplantGiven>(ImplantGiven{TotalHip{}});
+  ImplantCentre centre = ImplantCentre::head;
+  bool as_rim = false;
+  Strictness strictness = Strictness::notes;
+  AnswerForm form = AnswerForm::text;
+};
+
+/// Sizes that are the bone's unless they are given.
+constexpr std::array<std::string_view, 4> sizes_of_bones{"neck_shaft", "stem_version", "offset",
+                                                         "cup_radius"};
+
+ImplantQuery query_of(const ImplantArguments& options, const LoadedJoint& loaded) {
+  const auto is_left = [&](std::string_view size) { return !options.given->sizes.contains(size); };
+  return {.hip = std::get<TotalHip>(options.given->implant),
+          .of_bones = {.neck_shaft = is_left("neck_shaft"),
+                       .stem_version = is_left("stem_version"),
+                       .offset = is_left("offset"),
+                       .cup_radius = is_left("cup_radius"),
+                       .cup = options.as_rim},
+          .centre = options.centre,
+          .measures = measure_request_of(loaded)};
+}
+
+void implant_command(const ImplantArguments& options, const CLI::App& command) {
+  const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
+  const std::vector<JointNote> notes = noted(loaded, options.strictness);
+  const Provenance from = provenance_of(loaded, words_of(command));
+  if (!options.out.empty()) check_implant_folder(options.out, &from);
+  const ImplantAnswer answer = io::name_joint_file(options.joint, [&] {
+    return answer_implant(loaded.joint, loaded.report.placement, query_of(options, loaded));
+  });
+  const ImplantResult result{loaded.joint, answer, notes, &from, &loaded.report.file};
+  if (!options.out.empty()) say_written(write_implant(options.out, result));
+  print(options.form == AnswerForm::json ? implant_json(result) : implant_text(result));
+}
+
+void add_placement(CLI::App& command, const std::shared_ptr<ImplantArguments>& options) {
+  command
+      .add_option_function<std::string>(
+          "--centre", [options](const std::string& word) { options->centre = implant_centre_named(word); },
+          "Where the centre of cup and head comes: that of the head of the femur, or of the socket")
+      ->check(CLI::IsMember({"head", "socket"}))
+      ->option_text("head|socket (head)");
+  command
+      .add_flag("--as-rim", options->as_rim,
+                "Turn the cup as the rim of the bone is, in place of its inclination and anteversion")
+      ->excludes("--inclination")
+      ->excludes("--anteversion");
+}
+
+}  // namespace
+
+void add_implant(CLI::App& app) {
+  auto* command =
+      app.add_subcommand("implant", "Put a total hip in the place of a hip, and write the joint with it");
+  command->footer(
+      "Example: condyle sample hip --out sample\n"
+      "         condyle implant sample/hip.toml --inclination 42 --out thr\n"
+      "         condyle rom thr/hip.toml\n"
+      "Bones and implant only: soft tissue, fixation and the strength of what is left are not modelled.");
+  auto options = std::make_shared<ImplantArguments>();
+  options->parameters = add_set(*command);
+  command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
+  command
+      ->add_option("--out", options->out, "Write implant.json, and hip.toml with its meshes into this folder")
+      ->option_text("FOLDER");
+  add_definition(*command, options->given);
+  const std::vector<std::string> sizes = add_sizes(*command, options->given, sizes_of_bones);
+  add_placement(*command, options);
+  add_facets(*command, options->given);
+  command->add_flag_callback(
+      "--json", [options] { options->form = AnswerForm::json; },
+      "Print the answer as JSON, with every number in full");
+  add_strict(*command, options->strictness);
+  const std::vector<std::string> others(sizes.begin() + 2, sizes.end());
+  group_help(*command, {{"Most used", {"--inclination", "--anteversion", "--as-rim", "--out", "--json"}},
+                        {"Placement", {"--definition", "--centre", "--set"}},
+                        {"Sizes", others},
+                        {"Output", {"--facets", "--strict", "--help"}}});
+  command->callback([options, command] { implant_command(*options, *command); });
+}
+
+}  // namespace condyle::cli

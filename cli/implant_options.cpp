@@ -1,0 +1,69 @@
+#include "implant_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Validators.hpp>
+#include <algorithm>
+
+namespace condyle::cli {
+namespace {
+
+std::string option_name(std::string_view parameter) {
+  std::string name = "--" + std::string(parameter);
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
+std::string value_text(const ImplantParameter& size, const Implant& implant,
+                       std::span<const std::string_view> of_bones) {
+  const char* unit = size.unit == "mm" ? "MM" : "DEG";
+  if (std::find(of_bones.begin(), of_bones.end(), size.name) != of_bones.end())
+    return fmt::format("{} (the bone's)", unit);
+  return fmt::format("{} ({:g})", unit, size.value(implant));
+}
+
+}  // namespace
+
+std::vector<std::string> add_sizes(CLI::App& command, const std::shared_ptr<ImplantGiven>& given,
+                                   std::span<const std::string_view> of_bones) {
+  std::vector<std::string> names;
+  for (const ImplantParameter& each : implant_parameters(given->implant)) {
+    names.push_back(option_name(each.name));
+    command
+        .add_option_function<double>(
+            names.back(),
+            [given, set = each.set, name = each.name](double value) {
+              set(given->implant, value);
+              given->sizes.insert(name);
+            },
+            std::string(each.meaning))
+        ->option_text(value_text(each, given->implant, of_bones));
+  }
+  return names;
+}
+
+void add_facets(CLI::App& command, const std::shared_ptr<ImplantGiven>& given) {
+  command
+      .add_option_function<int>(
+          "--facets",
+          [given](int facets) { std::visit([&](auto& design) { design.facets = facets; }, given->implant); },
+          "Facets around liner and neck: with 360 limits are within 0.01 degrees of the closed form; the "
+          "error goes with the square")
+      ->option_text(fmt::format("N ({})", default_facets));
+}
+
+void add_definition(CLI::App& command, const std::shared_ptr<ImplantGiven>& given) {
+  command
+      .add_option_function<std::string>(
+          "--definition",
+          [given](const std::string& word) {
+            std::get<TotalHip>(given->implant).cup.definition = cup_definition_named(word);
+          },
+          "Which of Murray's definitions inclination and anteversion of the cup are by")
+      ->check(CLI::IsMember({"radiographic", "anatomic", "operative"}))
+      ->option_text("radiographic|anatomic|operative (radiographic)");
+}
+
+}  // namespace condyle::cli
