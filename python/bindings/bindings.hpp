@@ -22,6 +22,7 @@ void bind_study(py::module_& module);
 void bind_followed_range(py::module_& module);
 void bind_measures(py::module_& module);
 void bind_resection(py::module_& module);
+void bind_implant(py::module_& module);
 void bind_sweep(py::module_& module);
 void bind_range_of_motion(py::module_& module);
 void bind_motion_map(py::module_& module);

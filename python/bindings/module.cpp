@@ -21,6 +21,7 @@ PYBIND11_MODULE(_native, module) {
   bind_followed_range(module);
   bind_measures(module);
   bind_resection(module);
+  bind_implant(module);
   bind_sweep(module);
   bind_motion_map(module);
   bind_zones(module);

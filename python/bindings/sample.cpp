@@ -9,6 +9,7 @@
 #include "condyle/mesh.hpp"
 #include "condyle/sample/cartilages.hpp"
 #include "condyle/sample/hip.hpp"
+#include "implant.hpp"
 #include "interrupts.hpp"
 #include "io/result/sample_files.hpp"
 #include "joint.hpp"
@@ -62,14 +63,6 @@ py::tuple cartilages(const std::map<std::string, double>& parameters, double cle
     if (is_left) made = mirrored(*made);
     return std::pair(Mesh(std::move(made->acetabular)), Mesh(std::move(made->femoral)));
   }));
-}
-
-/// Sizes by the names that files have, with their unit in Python: "neck_radius_mm".
-void set_sizes(Implant& implant, const std::map<std::string, double>& given) {
-  for (const ImplantParameter& each : implant_parameters(implant))
-    if (const auto found = given.find(std::string(each.name) + "_" + std::string(each.unit));
-        found != given.end())
-      each.set(implant, found->second);
 }
 
 std::vector<std::string> names_of_sizes(bool is_hip) {

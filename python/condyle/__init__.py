@@ -18,7 +18,7 @@ from ._first_contact import FirstContact, RotationLimits
 from ._fit import CylinderFit, SphereFit, find_cylinder, find_sphere, fit_cylinder, fit_sphere
 from ._gaps import WAYS, ContactMeasures, ContactPatch, Depths, Gaps, VertexDepths, VertexGaps
 from ._impingement_zone import BodyZone, ImpingementZone
-from ._implant import REPLACEMENT_SIZES, REVERSE_SHOULDER_SIZES, SampleImplant, sample_replacement
+from ._implant import REVERSE_SHOULDER_SIZES, SampleImplant, sample_replacement
 from ._implant import sample_reverse_shoulder
 from ._inspect import Finding, MeshComponent, MeshReport, inspect
 from ._joint import Joint, read_joint
@@ -34,6 +34,7 @@ from ._motion_contact import ContactFrames, FrameContact
 from ._motion_map import MapEnds, MotionMap
 from ._native import version as __version__
 from ._penetration import INSIDE, NO_INDEX, ON_SURFACE, OUTSIDE, Penetration, Penetrations, VerticesInside
+from ._placed_implant import REPLACEMENT_SIZES, PlacedImplant
 from ._poses import Pose, Poses
 from ._pressure import BalancedPose, BalanceOptions, ElasticContact, ElasticContactResults, ElasticLayer
 from ._propose_joint import JointProposal, propose_joint
@@ -56,7 +57,7 @@ __all__ = [
     "JointProposal", "JointWarning", "KINDS", "KNOWN_BY", "Label", "LabelMap", "LabelNote", "LabelPiece", "LabelSurface", "Limit",
     "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Model", "ModelCoordinate", "ModelJoint", "ModelMesh", "ModelNote", "Motion", "MotionLimit",
     "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",
-    "OutOfRangeError", "PathLimit", "Penetration", "Penetrations", "Pose", "Poses", "REASONS", "REPLACEMENT_SIZES", "REVERSE_SHOULDER_SIZES", "RadialTable",
+    "OutOfRangeError", "PathLimit", "Penetration", "Penetrations", "PlacedImplant", "Pose", "Poses", "REASONS", "REPLACEMENT_SIZES", "REVERSE_SHOULDER_SIZES", "RadialTable",
     "RangeOfMotion", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits", "SampleCartilages",
     "SafeInterval", "SampleHip", "SampleImplant", "SphereFit", "Study", "StudyLoad", "StudyResection", "StrokeOutcome", "StudyTable", "SurfaceContact", "SurfaceCut", "Sweep", "Target", "TriMesh",
     "UnknownNameError", "UsageError", "VertexDepths", "VertexGaps", "VerticesInside", "WAYS", "__version__",

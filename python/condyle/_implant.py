@@ -6,13 +6,10 @@ from dataclasses import dataclass
 from typing import Mapping, Optional
 
 from . import _native
-from ._errors import unknown
 from ._joint import Joint
 from ._mesh import TriMesh
-from ._words import Bones, CupDefinition, Side, count, number, word
-
-#: The sizes that :func:`sample_replacement` takes, millimetres and degrees; docs/implants.md has their defaults, ranges and meanings.
-REPLACEMENT_SIZES = tuple(_native.implant_sizes(True))
+from ._placed_implant import REPLACEMENT_SIZES, sizes_in
+from ._words import Bones, CupDefinition, Side, count, word
 
 #: The sizes that :func:`sample_reverse_shoulder` takes.
 REVERSE_SHOULDER_SIZES = tuple(_native.implant_sizes(False))
@@ -31,13 +28,6 @@ class SampleImplant:
     joint: Joint
     half_angle_deg: Optional[float]
     why_no_half_angle: str
-
-
-def _sizes(given: Mapping[str, float], known: tuple[str, ...]) -> dict[str, float]:
-    for name in given:
-        if name not in known:
-            raise unknown("size of the implant", name, known)
-    return {name: number(value, name) for name, value in given.items()}
 
 
 def _made(is_hip: bool, sizes: dict[str, float], definition: str, facets: int, scenario: Optional[int],
@@ -64,7 +54,7 @@ def sample_replacement(*, bones: Bones = "sample", definition: CupDefinition = "
     """
     with_bones = word(bones, "bones", Bones) == "sample"
     level = count(scenario, "scenario", 1, 4)
-    return _made(True, _sizes(sizes, REPLACEMENT_SIZES), word(definition, "definition", CupDefinition), facets,
+    return _made(True, sizes_in(sizes, REPLACEMENT_SIZES), word(definition, "definition", CupDefinition), facets,
                  level if with_bones else None, side)
 
 
@@ -78,4 +68,4 @@ def sample_reverse_shoulder(*, facets: int = 360, side: Side = "right", **sizes:
     >>> round(sample_reverse_shoulder().half_angle_deg, 4)
     102.6073
     """
-    return _made(False, _sizes(sizes, REVERSE_SHOULDER_SIZES), "radiographic", facets, None, side)
+    return _made(False, sizes_in(sizes, REVERSE_SHOULDER_SIZES), "radiographic", facets, None, side)

@@ -25,6 +25,7 @@ from ._motion import MotionLike
 from ._motion_contact import ContactFrames, contact_along
 from ._native import Joint as NativeJoint
 from ._penetration import Penetration, Penetrations, vertices_inside
+from ._placed_implant import PlacedImplant, placed_implant
 from ._poses import ManyPosesLike, OnePoseLike, PoseLike
 from ._pressure import ElasticContact
 from ._range_of_motion import RangeOfMotion
@@ -32,8 +33,8 @@ from ._resection import Resection, resection
 from ._recorded_motion import JointMotion, RecordedContact, recorded_contact
 from ._surface_contact import NormalContact, normal_contact
 from ._sweep import Sweep, TargetLike, sweep
-from ._words import Anatomy, Axes, Ball, BearingRule, Bodies, Body, Cavities, Colour, CutFrom, DepthMethod, FaceRule, GapMethod
-from ._words import JointKind, LabelTask, LengthUnit, Look, Path, Pieces, Progress, Side, TranslationFrame, count, number, path_of, progress_of
+from ._words import Anatomy, Axes, Ball, BearingRule, Bodies, Body, Cavities, Colour, CupDefinition, CutFrom, DepthMethod, FaceRule, GapMethod
+from ._words import ImplantCentre, JointKind, LabelTask, LengthUnit, Look, Path, Pieces, Progress, Side, TranslationFrame, count, number, path_of, progress_of
 from ._words import text_of, word
 
 
@@ -571,6 +572,44 @@ class Joint(DescribedJoint):
         True
         """
         return brushed(self, Joint._of_native, strokes, body, keep, bearing, bearing_margin_mm)
+
+    def implant(self, *, definition: CupDefinition = "radiographic", centre: ImplantCentre = "head", as_rim: bool = False,
+                facets: int = 360, **sizes: float) -> PlacedImplant[Joint]:
+        """A total hip in the place of this hip, and the joint with it.
+
+        Bones and implant only: soft tissue, fixation and the strength of the bone that is left are not modelled.
+
+        Parameters
+        ----------
+        definition : "radiographic", "anatomic" or "operative"
+            Of Murray's definitions the one by which inclination and anteversion of the cup are.
+        centre : "head" or "socket"
+            Where the centre of cup and head comes: that of the head of the femur, or of the socket.
+        as_rim : bool
+            The cup is turned as the rim of the bone is, in place of its inclination and anteversion.
+        facets : int
+            Around liner and neck.
+        sizes : float
+            By the names in :data:`REPLACEMENT_SIZES`. `neck_shaft_deg`, `stem_version_deg`, `offset_mm` and `cup_radius_mm` are those
+            of the bones if they are not given.
+
+        Raises
+        ------
+        UsageError
+            For joints other than hips, sizes that are out of their range, and if the bones do not show what a size is to be taken from.
+            MeshError for a femur that is not closed, ReferenceContactError if the bodies are in contact at zero angles.
+
+        C++: `condyle::answer_implant` in condyle/answer.hpp; `condyle implant`.
+
+        >>> import condyle
+        >>> bones = condyle.sample_hip(scenario=1)
+        >>> placed = condyle.Joint(bones.hip_bone, bones.femur).implant(inclination_deg=45)
+        >>> sorted(placed.of_bones), list(placed.mobile)
+        (['cup_radius_mm', 'neck_shaft_deg', 'offset_mm', 'stem_version_deg'], ['mobile', 'head', 'neck', 'stem'])
+        >>> placed.joint.parameters["cup.inclination"].value, placed.sizes["cup_radius_mm"]
+        (45.0, 27.0)
+        """
+        return placed_implant(self, Joint._of_native, sizes, definition, centre, as_rim, facets)
 
     def sweep(self, vary: Mapping[str, Sequence[float]], targets: Union[Path, Sequence[TargetLike]], *, band_samples: int = 0,
               seed: Optional[int] = None, measures: Sequence[str] = (), load: Optional[str] = None,

@@ -35,6 +35,7 @@ CutFrom = Literal["mobile", "fixed", "both"]
 BrushAction = Literal["lower", "restore"]
 KeptBy = Literal["bearing", "depth", "zone", "marked"]
 CupDefinition = Literal["radiographic", "anatomic", "operative"]
+ImplantCentre = Literal["head", "socket"]
 Bones = Literal["sample", "none"]
 PartContact = Literal["ends", "bearing", "soft"]
 ParameterKind = Literal["frontal", "inclination", "sagittal", "tilt", "version", "translation", "size", "cup_inclination",

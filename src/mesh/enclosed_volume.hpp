@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "condyle/inspect.hpp"
+#include "core/ordered_sums.hpp"
 
 namespace condyle::mesh {
 

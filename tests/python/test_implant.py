@@ -1,4 +1,5 @@
 """Implants of sizes: the same meshes and errors as of the command."""
+import json
 import pickle
 import subprocess
 
@@ -58,4 +59,54 @@ def test_what_is_no_body_of_revolution_has_a_reason():
 def test_wrong_sizes_are_one_line(arguments, line):
     with pytest.raises(condyle.UsageError) as error:
         condyle.sample_replacement(**arguments)
+    assert line in str(error.value) and "\n" not in str(error.value)
+
+
+@pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+def test_an_implant_in_a_joint_is_that_of_the_command(command, hip_file, hip, tmp_path):
+    placed = hip.implant(inclination_deg=45, definition="anatomic", offset_mm=42, facets=96)
+    made = tmp_path / "made"
+    subprocess.run([command, "implant", str(hip_file), "--inclination", "45", "--definition", "anatomic", "--offset", "42", "--facets",
+                    "96", "--out", str(made)], check=True, capture_output=True)
+    placed.write(tmp_path / "written")
+    files = sorted(path.name for path in made.iterdir())
+    assert files == sorted(path.name for path in (tmp_path / "written").iterdir())
+    for name in files:
+        if name != "implant.json":  # where it comes from
+            assert (made / name).read_bytes() == (tmp_path / "written" / name).read_bytes()
+    said = json.loads((made / "implant.json").read_text())
+    assert said["implant"]["offset_mm"] == placed.sizes["offset_mm"] == 42
+    assert said["half_angle_deg"] == placed.half_angle_deg
+    assert said["head"] == placed.evidence["head"]
+    assert np.array_equal(said["femur_shift_mm"], placed.femur_shift_mm)
+    assert placed.of_bones == {"neck_shaft_deg", "stem_version_deg", "cup_radius_mm"}
+    read = condyle.read_joint(made / "hip.toml")
+    assert read.name == placed.joint.name
+    assert np.array_equal(read.mobile.vertices, placed.joint.mobile.vertices)
+    assert np.array_equal(read.fixed.triangles, placed.joint.fixed.triangles)
+    assert read.parameters["cup.inclination"].value == placed.joint.parameters["cup.inclination"].value
+
+
+@pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+def test_an_implant_in_a_joint_is_asked_as_any_joint(hip):
+    placed = hip.implant(neck_shaft_deg=135, stem_version_deg=15, offset_mm=40)
+    flexion = placed.joint.range_of_motion(bearing="count").limit("flexion")
+    assert flexion.turned_deg == pytest.approx(128.7064, abs=0.002)
+    assert flexion.mobile_part == "neck"
+    assert placed.cup["radiographic"] == pytest.approx((40, 15))
+    assert hip.implant(as_rim=True).cup["radiographic"] == pytest.approx(placed.rim["radiographic"], abs=0.0051)
+    assert pickle.loads(pickle.dumps(placed)).sizes == placed.sizes
+
+
+@pytest.mark.parametrize("arguments, line", [
+    ({"as_rim": True, "inclination_deg": 40}, "inclination_deg: not with as_rim"),
+    ({"centre": "middle"}, "middle"),
+    ({"neck_shaft_deg": 170}, "neck_shaft is 170, must be 110 to 160 degrees"),
+    ({"head_radius_mm": 28, "cup_radius_mm": 30}, "a head of radius 28 mm does not fit"),
+    ({"haed_radius_mm": 16}, "haed_radius_mm"),
+])
+@pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+def test_what_does_not_fit_a_joint_is_one_line(hip, arguments, line):
+    with pytest.raises(condyle.UsageError) as error:
+        hip.implant(**arguments)
     assert line in str(error.value) and "\n" not in str(error.value)
