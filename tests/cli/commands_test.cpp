@@ -213,6 +213,7 @@ TEST_F(Command, HelpFitsATerminalAndHasAnExample) {
                               "report",
                               "measure",
                               "resect",
+                              "implant",
                               "sample",
                               "sample hip",
                               "sample cartilages",
@@ -234,8 +235,8 @@ TEST_F(Command, HelpFitsATerminalAndHasAnExample) {
 
 /// Every option in one group, and first the five that matter most.
 TEST_F(Command, HelpBeginsWithFiveOptionsAndLeavesNoneWithoutAGroup) {
-  for (const char* command : {"depth", "rom", "load", "motion", "measure", "resect", "picture", "report",
-                              "sample hip", "sample cartilages", "study"}) {
+  for (const char* command : {"depth", "rom", "load", "motion", "measure", "resect", "implant", "picture",
+                              "report", "sample hip", "sample cartilages", "study"}) {
     SCOPED_TRACE(command);
     std::istringstream help(run(std::string(command) + " --help").out);
     std::map<std::string, std::set<std::string>> options;

@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "condyle/answer.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "support/temporary_folder.hpp"
+
+/// `condyle implant` says what answer_implant() answers, and writes a joint on which every command runs.
+
+namespace condyle::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class ImplantCommand : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_EQ(run("sample hip --scenario 1 --out .").exit_code, 0); }
+  Ran run(const std::string& arguments) const { return run_condyle(folder.path(), arguments); }
+  Json answer(const std::string& arguments) const {
+    const Ran ran = run(arguments + " --json");
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return Json::parse(ran.out);
+  }
+
+  const TemporaryFolder folder;
+};
+
+TEST_F(ImplantCommand, SaysWhatTheLibraryAnswers) {
+  const Json json = answer("implant hip.toml --inclination 45 --definition anatomic --offset 42");
+  const LoadedJoint loaded = read_joint(folder / "hip.toml");
+  ImplantQuery query;
+  query.hip.cup = {Angle::degrees(45), Angle::degrees(15), CupDefinition::anatomic};
+  query.hip.offset_mm = 42, query.of_bones.offset = false;
+  const ImplantAnswer expected = answer_implant(loaded.joint, loaded.report.placement, query);
+  EXPECT_EQ(json["implant"]["neck_shaft_deg"].get<double>(),
+            std::round(expected.hip.neck_shaft.degrees() * 100) / 100);
+  EXPECT_EQ(json["implant"]["cup_radius_mm"], expected.hip.cup_radius_mm);
+  EXPECT_EQ(json["of_bones"], Json({"neck_shaft", "stem_version", "cup_radius"}));
+  EXPECT_EQ(json["cut"]["removed_mm3"], expected.removed_mm3);
+  EXPECT_EQ(json["room_mm"], expected.room_mm);
+  EXPECT_NEAR(json["cup"]["anatomic"]["inclination_deg"].get<double>(), 45, 1e-9);
+  EXPECT_EQ(json["half_angle_deg"], expected.pair->half_angle.degrees());
+  ASSERT_EQ(json["implant_notes"].size(), expected.notes.size());
+  for (std::size_t i = 0; i < expected.notes.size(); ++i)
+    EXPECT_EQ(json["implant_notes"][i]["text"], expected.notes[i].text);
+}
+
+TEST_F(ImplantCommand, WritesAJointThatHasTheClosedFormAndTurnsItsParts) {
+  const Ran ran = run("implant hip.toml --out thr");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  for (const char* name : {"implant.json", "hip.toml", "fixed_bone.ply", "mobile_bone.ply", "liner.ply",
+                           "head.ply", "neck.ply", "stem.ply"})
+    EXPECT_TRUE(std::filesystem::exists(folder / "thr" / name)) << name;
+  for (const char* set : {"", " --set \"cup.inclination=42 stem.version=10\""}) {
+    const Json rom = answer(std::string("rom thr/hip.toml") + set);
+    std::size_t on_liner = 0;
+    for (const Json& motion : rom["motions"])
+      if (motion["reason"] == "contact" && motion["features"]["mobile"]["part"] == "neck") {
+        EXPECT_NEAR(motion["limit_deg"].get<double>(), motion["closed_form"]["limit_deg"].get<double>(), 0.01)
+            << motion["motion"];
+        ++on_liner;
+      }
+    EXPECT_GE(on_liner, 3u) << set;
+  }
+}
+
+TEST_F(ImplantCommand, KeepsTheMotionsOfTheJointFile) {
+  ASSERT_EQ(run("implant hip.toml --out thr").exit_code, 0);
+  const JointFile file = read_joint_file(folder / "thr/hip.toml");
+  ASSERT_TRUE(file.implant);
+  EXPECT_EQ(file.uncertainty.centre_mm, 0);
+  EXPECT_EQ(file.uncertainty.surface_mm, 0);
+  EXPECT_EQ(file.joint.parts.size(), 2u);
+}
+
+TEST_F(ImplantCommand, RefusesInOneLineAndWritesNothing) {
+  ASSERT_EQ(run("implant hip.toml --out thr").exit_code, 0);
+  for (const auto& [arguments, code, says] :
+       {std::tuple{"hip.toml --as-rim --inclination 40", 2, "--inclination"},
+        {"hip.toml --centre middle", 2, "--centre"},
+        {"hip.toml --neck-shaft 170", 2, "neck_shaft is 170, must be 110 to 160 degrees"},
+        {"hip.toml --head-radius 28 --cup-radius 30", 2, "a head of radius 28 mm does not fit"},
+        {"thr/hip.toml", 2, "has an implant already"},
+        {"missing.toml", 3, "missing.toml"}})
+    expect_refusal(run(std::string("implant ") + arguments + " --out none"), code, says, arguments);
+  EXPECT_FALSE(std::filesystem::exists(folder / "none"));
+}
+
+}  // namespace
+}  // namespace condyle::test
