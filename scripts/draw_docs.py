@@ -76,6 +76,9 @@ def draw_pictures():
         # A picture names its joint: from the repository's folder, wherever that is.
         condyle("picture", "out/docs/sample3/hip.toml", *options, "--out", IMAGES / f"{name}.png")
         print(f"docs/images/{name}.png")
+    condyle("implant", "out/docs/sample3/hip.toml", "--out", OUT / "placed")
+    condyle("picture", "out/docs/placed/hip.toml", "--colour", "none", "--field", "170", "--size", "700x560", "--out", IMAGES / "placed_implant.png")
+    print("docs/images/placed_implant.png")
 
 
 def draw_cut():
