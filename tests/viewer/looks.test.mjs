@@ -114,7 +114,6 @@ test("depths that are only bounds are hatched grey, and never a colour of the sc
   await viewOptions(page, false);
   const box = await page.locator("#scene > canvas").boundingBox();
   await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
-  for (let i = 0; i < 12; ++i) await page.mouse.wheel(0, -200);
   await settled(page);
   await keep(page, "depths");
   const seen = await pixels(page);

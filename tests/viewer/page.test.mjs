@@ -161,9 +161,13 @@ test("a figure pressed shows where bone meets bone once the joint has turned the
   assert.equal(await page.getByLabel("Mark the impingement zone of").inputValue(), "fadir");
   await settled(page);
   const seen = await pixels(page);
-  const isContactPoint = (r, g, b) => r > 200 && g > 90 && g < 150 && b < 60, isZone = (r, g, b) => b > g + 20 && r > g + 10;
+  const isContactPoint = (r, g, b) => r > 200 && g < 60 && b > 200, isZone = (r, g, b) => b > g + 20 && r > g + 10 && b > r + 10;
   await keep(page, "zone");
   assert.ok(region(seen, isContactPoint).count > 10, "the contact point");
+  // The ring of the pin stands around the contact point.
+  const ring = page.locator(".scene-pin-drawing circle");
+  const [x, y] = await page.evaluate((point) => condyle.scene.project(point), fadir.contact_point_mm);
+  assert.ok(Math.hypot(Number(await ring.getAttribute("cx")) - x, Number(await ring.getAttribute("cy")) - y) < 1, "the pin");
   assert.ok(region(seen, isZone).count > 10, "the zone");
   await page.getByLabel("Mark the impingement zone of").selectOption("none");
   await settled(page);
@@ -193,6 +197,7 @@ test("meshes of a body are shown one by one", async () => {
   await viewOptions(page);
   await page.getByLabel("Colour", { exact: true }).selectOption("none");
   await page.getByLabel("Show hip bone").uncheck();
+  await page.getByRole("button", { name: "Fit all" }).click();
   await settled(page);
   const whole = region(await pixels(page), isFemur);
   await keep(page, "parts");
@@ -212,10 +217,14 @@ test("a map is computed in the page where the report has none, and says how far 
   const { page } = await openPage(browser, pathOf("zones"));
   assert.equal(textOf("zones").map, null);
   await openTab(page, "Figures");
+  await page.evaluate(() => {
+    globalThis.progressSeen = [];
+    new MutationObserver(() => progressSeen.push(document.getElementById("map-progress")?.textContent)).observe(document.body, { childList: true, characterData: true, subtree: true });
+  });
   await page.getByRole("button", { name: "Compute a map" }).click();
   // Cells that are not known yet are no black ones.
   assert.ok(await page.locator("rect.cell.unknown").evaluateAll((cells) => cells.every((cell) => getComputedStyle(cell).fill !== "rgb(0, 0, 0)")));
-  await page.getByText(/^Computing the map: \d+ of 120 points$/).waitFor();
+  await page.waitForFunction(() => progressSeen.some((text) => /^Computing the map: \d+ of 120 points$/.test(text)));
   await page.waitForFunction(() => document.getElementById("map-progress").textContent === "", undefined, { timeout: 120000 });
   assert.equal(await page.locator("#side rect.cell").count(), 120);
   assert.equal(await page.locator("#side rect.cell.unknown").count(), 0);

@@ -23,6 +23,7 @@ async function count(page, is) {
   return region(await pixels(page), is).count;
 }
 
+const minus = (said) => said.replaceAll("-", "\u2212");
 const isGreen = (r, g, b) => g > r + 25 && g > b + 5;
 const isVermilion = (r, g, b) => r > 170 && r > g + 50 && g > b + 20;
 
@@ -91,8 +92,8 @@ test("measures have their values, bands, reasons and definitions, and are drawn"
     measures.forEach(({ value, band, unit }, i) => {
       const digits = unit === "1" ? 3 : unit === "h" ? 2 : 1;
       if (value === null) assert.equal(rows[i][1], "–");
-      else assert.ok(rows[i][1].startsWith(value.toFixed(digits)), rows[i].join());
-      if (band?.p5 != null) assert.equal(rows[i][2], `${band.p5.toFixed(digits)} to ${band.p95.toFixed(digits)}`);
+      else assert.ok(rows[i][1].startsWith(minus(value.toFixed(digits))), rows[i].join());
+      if (band?.p5 != null) assert.equal(rows[i][2], minus(`${band.p5.toFixed(digits)} to ${band.p95.toFixed(digits)}`));
     });
   }
   for (const { value, why_none, note, definition } of text.measures.measures) {

@@ -46,6 +46,8 @@ test("camera, colours, scale, hidden bones, opacity, cut and zone come back with
   await page.waitForFunction(() => ["flexion=70.123456789", "adduction=5", "colour=nearest", "scale=5", "mobile_opacity=0.6", "clip=y%3A20",
     "zone=fadir", "camera="].every((field) => location.hash.includes(field)));
   const fragment = new URL(page.url()).hash;
+  // A field shows what was typed until it is left.
+  await page.evaluate(() => document.activeElement.blur());
   await coloured(page);
   await keep(page, "shared_view");
   const again = await openPage(browser, pathOf("zones"), { fragment });

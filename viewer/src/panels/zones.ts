@@ -1,7 +1,7 @@
-import { choice, html, spaced } from "../dom";
+import { choice, html } from "../dom";
 import type { Report, StoredZone } from "../report";
 import type { JointScene } from "../scene/scene";
-import { words } from "../words";
+import { motionName, words } from "../words";
 
 /// Marks the impingement zone of one motion, that which was gone to last or was chosen.
 export class ZonePanel {
@@ -12,7 +12,7 @@ export class ZonePanel {
   constructor(
     private readonly scene: JointScene | null, private readonly report: Report, private readonly zones: readonly StoredZone[],
     private readonly changed: () => void) {
-    const options = { "": words.noZone, ...Object.fromEntries(zones.map(({ motion }) => [motion, spaced(motion)])) };
+    const options = { "": words.noZone, ...Object.fromEntries(zones.map(({ motion }) => [motion, motionName(motion)])) };
     this.element = html("div", { class: "row" }, choice<string>(words.zones, options, "", (motion) => this.mark(motion)), this.help);
     this.select = this.element.querySelector("select")!;
   }

@@ -241,7 +241,7 @@ export class JointScene {
 
   setVisible(name: BodyName, visible: boolean): void {
     this.bodies[name].mesh.visible = visible;
-    this.draw();
+    this.applyOpacities();
   }
 
   /// Cuts away what lies beyond `at` mm along an axis.
@@ -514,9 +514,9 @@ export class JointScene {
     return { vertices: surface.vertices, normals: mesh.geometry.getAttribute("normal").array, pose: mesh.matrixWorld };
   }
 
-  /// Of two bones that are both seen through, every surface is drawn; of one, that which is nearest.
+  /// Of two bones that are both seen through, every surface is drawn; of one, that which is nearest. A bone that is shown alone hides no other.
   private applyOpacities(): void {
-    const isGlass = (name: BodyName) => this.limit?.glass === name && this.opacities[name] === 1;
+    const isGlass = (name: BodyName) => this.limit?.glass === name && this.opacities[name] === 1 && this.bodies[otherThan(name)].mesh.visible;
     const isSeenThrough = (name: BodyName) => isGlass(name) || this.opacities[name] < 1;
     const both = bodyNames.every(isSeenThrough);
     for (const name of bodyNames) this.bodies[name].setOpacity(this.opacities[name], isGlass(name), isSeenThrough(name) && !both);
