@@ -21,6 +21,9 @@ sed 's/^centre = .*/centre = [-2, -2, 0]/' "$out/sample/hip.toml" >"$out/sample/
   --out "$out/compared.html"
 printf '[[part]]\nname = "pelvis"\nbody = "fixed"\n[[part.parameter]]\nname = "tilt"\nrange = [-20, 20]\nsigma = 3\n' | cat "$out/sample/hip.toml" - >"$out/sample/tilts.toml"
 "$condyle" report "$out/sample/tilts.toml" --set pelvis.tilt=10 --band=20 --out "$out/tilted.html"
+printf '[recorded_motion]\n%s = { column = "flexion", unit = "deg" }\n%s = { column = "adduction", unit = "deg" }\n%s = { column = "rotation", unit = "deg" }\n' flexion adduction internal_rotation | cat "$out/sample/hip.toml" - >"$out/sample/moves.toml"
+printf 'time,flexion,adduction,rotation\n0,0,0,0\n0.1,20,5,0\n0.2,40,5,10\n' >"$out/sample/moves.csv"
+"$condyle" report "$out/sample/moves.toml" --motion "$out/sample/moves.csv" --out "$out/moves.html"
 "$condyle" sample cartilages --scenario 5 --out "$out/cartilages" >/dev/null
 sed -e 's|^mesh = "femur.ply"|meshes = [{ name = "bone", mesh = "femur.ply" }, { name = "cartilage", mesh = "../cartilages/femoral_cartilage.ply", bearing = true }]|' \
   "$out/sample/hip.toml" >"$out/sample/parts.toml"

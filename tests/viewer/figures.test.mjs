@@ -290,3 +290,27 @@ test("parameters of parts that are not as in the joint file are named, and their
   assert.deepEqual(complaints, []);
   await page.context().close();
 });
+
+test("every frame of a motion is saved as a picture, each of its own pose, or none if it is stopped", async () => {
+  const { page, complaints } = await openPage(browser, pathOf("moves"));
+  await settled(page);
+  await openTab(page, "Figures");
+  const downloads = [];
+  page.on("download", (download) => downloads.push(download));
+  const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Save every frame, PNG" }).click()]);
+  const bytes = readFileSync(await download.path()), text = bytes.toString("latin1");
+  const names = [...text.matchAll(/PK\x01\x02.{42}(frame_\d{5}\.png)/gs)].map(([, name]) => name);
+  assert.deepEqual(names, ["frame_00000.png", "frame_00001.png", "frame_00002.png"]);
+  const pictures = text.split("\x89PNG").slice(1);
+  assert.equal(pictures.length, 3);
+  assert.equal(new Set(pictures.map((picture) => picture.split("PK\x03\x04")[0])).size, 3, "no two are the same");
+  await page.evaluate(() => {
+    const save = [...document.querySelectorAll("button")].find(({ textContent }) => textContent === "Save every frame, PNG");
+    save.click();
+    save.click();
+  });
+  await page.getByRole("button", { name: "Save every frame, PNG" }).waitFor();
+  assert.equal(downloads.length, 1, "nothing is saved of what was stopped");
+  assert.deepEqual(complaints, []);
+  await page.context().close();
+});

@@ -1,5 +1,6 @@
 // What hands do in the scene: turn, move and zoom by mouse and fingers, point and measure, see through, mark, colour.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { isFemur, isHipBone, keep, openPage, pathOf, pixels, plain, region, settled, sharedBrowser, turnTo, viewOptions } from "./browser.mjs";
 import { readReport } from "./report_block.mjs";
@@ -205,5 +206,25 @@ test("two picked points have the distance of their vertices", async () => {
   await viewOptions(page, false);
   for (const place of places) await page.mouse.click(...place);
   assert.equal(await page.locator("#hover").textContent(), `Distance ${length(minus(...vertices)).toFixed(2)} mm`);
+  await page.context().close();
+});
+
+test("saved surfaces are the bones where they stand, in metres", async () => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  await turnTo(page, { flexion: 30 });
+  await viewOptions(page);
+  const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Save surfaces, GLB" }).click()]);
+  assert.match(download.suggestedFilename(), /\.glb$/);
+  const bytes = readFileSync(await download.path());
+  assert.equal(bytes.toString("latin1", 0, 4), "glTF");
+  const { nodes, meshes, accessors } = JSON.parse(bytes.toString("utf8", 20, 20 + bytes.readUInt32LE(12)));
+  const { array } = readReport(pathOf("sample")), pose = await page.evaluate(() => condyle.scene.bodies.mobile.mesh.matrix.toArray());
+  for (const body of ["fixed", "mobile"]) {
+    const node = nodes.find(({ name }) => name === body), { POSITION, COLOR_0 } = meshes[node.mesh].primitives[0].attributes;
+    assert.equal(accessors[POSITION].count, array(`${body}_vertices`).length / 3);
+    assert.equal(accessors[COLOR_0].count, accessors[POSITION].count);
+    if (body === "mobile") assert.deepEqual(node.matrix.map((x) => x.toFixed(9)), pose.map((x) => x.toFixed(9)));
+  }
+  assert.deepEqual(nodes.find(({ name }) => name === "joint").matrix.slice(0, 1), [0.001]);
   await page.context().close();
 });

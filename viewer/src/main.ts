@@ -117,7 +117,8 @@ class Page {
     this.motion = new MotionPanel(text, {
       moved: (at) => this.moved(at), arrived: (motion) => this.arrived(motion), showStored: computes ? null : (name) => this.showStored(name),
     });
-    this.recorded = report && text.recorded ? new RecordedPanel(report, text.recorded, (frame) => this.showFrame(frame)) : null;
+    this.recorded = report && text.recorded ? new RecordedPanel(
+      report, text.recorded, (frame) => this.showFrame(frame), this.scene && ((said) => this.pictureOfFrame(said))) : null;
     const extremes = this.recorded?.extremes() ?? [];
     this.strip = new ResultStrip(text, (motion) => this.motion.goToEnd(motion), (motion) => this.motion.canGo(motion), extremes, () => this.showNotes());
     found("strip-place").replaceChildren(this.strip.element);
@@ -167,7 +168,8 @@ class Page {
       const unit = () => (this.display.quantity === "none" ? "" : words.unit[this.display.quantity]);
       const pointer = new PointerPanel(scene, names, unit);
       this.display.element.append(this.display.legend, pointer.element);
-      this.display.element.append(html("div", { class: "row" }, checkbox(words.orthographic, false, (on) => scene.setOrthographic(on))));
+      this.display.element.append(html("div", { class: "row" }, checkbox(words.orthographic, false, (on) => scene.setOrthographic(on)),
+        button(words.saveSurfaces, () => void this.saveSurfaces())));
       found("legend-place").replaceChildren(pointer.told);
       scene.onViewChange(() => this.rememberView());
     }
@@ -238,7 +240,15 @@ class Page {
     if (!scene) return;
     const title = `${headingOf(this.text)} · ${this.poseLine()}`;
     const blob = await scene.picture(title);
-    saveBlob(`${shortened(this.text.title, 40).replaceAll(/[^\p{L}\p{N}]+/gu, "_")}.png`, blob);
+    saveBlob(`${this.fileName()}.png`, blob);
+  }
+
+  private async saveSurfaces(): Promise<void> {
+    if (this.scene) saveBlob(`${this.fileName()}.glb`, await this.scene.exportGlb());
+  }
+
+  private fileName(): string {
+    return shortened(this.text.title, 40).replaceAll(/[^\p{L}\p{N}]+/gu, "_");
   }
 
   /// "flexion 90.0°, adduction 0.0°, internal rotation 20.0°"
@@ -416,6 +426,12 @@ class Page {
     this.storedPose = null;
     this.scene?.setPose(X_FM);
     this.recolour();
+  }
+
+  /// The scene, once all of its colours are of the pose that was asked for last: the core answers in order.
+  private async pictureOfFrame(said: string): Promise<Blob> {
+    await this.core?.query({ of: "pose", at: this.motion.coordinates });
+    return this.scene!.picture(`${headingOf(this.text)} · ${said}`);
   }
 
   private storedGaps(name: string): Values {

@@ -1,8 +1,10 @@
+import { zipSync } from "fflate";
 import { button, checkbox, choice, html, named, section } from "../dom";
 import { plain } from "../numbers";
 import { CurveStack, curveOf, shownAtOnce, told, usualCurves, type Curve, type CurveKind } from "../plots/curves";
 import { figure } from "../plots/figure";
 import type { Report, Recorded } from "../report";
+import { saveBlob } from "../save";
 import { words } from "../words";
 import type { Extreme } from "./strip";
 
@@ -31,9 +33,13 @@ export class RecordedPanel {
   private speed = 1;
   private loops = false;
   private playing = 0;
+  private isSaving = false;
   private stretch = { frame: 0, begun: 0 };
 
-  constructor(report: Report, private readonly recorded: Recorded, private readonly go: (frame: Frame) => void) {
+  /// `drawn` is the picture of the frame that was gone to, once it is answered; null where nothing is drawn.
+  constructor(
+    report: Report, private readonly recorded: Recorded, private readonly go: (frame: Frame) => void,
+    drawn: ((said: string) => Promise<Blob>) | null) {
     this.times = report.array(recorded.times_s, "f64");
     this.angles = report.array(recorded.coordinates_deg, "f64");
     this.translations = report.array(recorded.coordinates_mm, "f64");
@@ -52,7 +58,7 @@ export class RecordedPanel {
       html("div", { class: "row no-print playing" }, this.playButton, this.slider, this.time,
         choice(words.speed, words.speeds, "1", (speed) => this.setSpeed(Number(speed))), checkbox(words.loop, false, (on) => (this.loops = on)),
         ...this.chooser(chosen)),
-      figure(this.stack.drawing(), ...this.silent()));
+      figure(this.stack.drawing(), ...this.silent()), ...(drawn ? [this.picturesButton(drawn)] : []));
     this.stack.show(chosen);
     this.tell(0);
   }
@@ -94,6 +100,30 @@ export class RecordedPanel {
       else this.toggle();
     };
     this.playing = requestAnimationFrame(step);
+  }
+
+  private picturesButton(drawn: (said: string) => Promise<Blob>): HTMLElement {
+    const made = button(words.saveFrames, () => void this.savePictures(made, drawn), { class: "quiet-button no-print" });
+    return made;
+  }
+
+  /// Every frame as a picture, in one ZIP; nothing if the button is pressed again before the last.
+  private async savePictures(made: HTMLButtonElement, drawn: (said: string) => Promise<Blob>): Promise<void> {
+    if (this.isSaving) return void (this.isSaving = false);
+    this.isSaving = true;
+    const files: Record<string, Uint8Array> = {}, count = this.times.length;
+    try {
+      for (let frame = 0; frame < count && this.isSaving; ++frame) {
+        made.textContent = words.stopFrames(frame + 1, count);
+        this.show(frame);
+        files[`frame_${String(frame).padStart(5, "0")}.png`] = new Uint8Array(await (await drawn(this.timeText(frame))).arrayBuffer());
+      }
+      // Pictures are compressed already, and the file says no day on which it was made.
+      if (this.isSaving) saveBlob("frames.zip", new Blob([zipSync(files, { level: 0, mtime: new Date(1980, 0, 1, 12) }) as BlobPart], { type: "application/zip" }));
+    } finally {
+      this.isSaving = false;
+      made.textContent = words.saveFrames;
+    }
   }
 
   private put(frame: number): void {

@@ -380,12 +380,6 @@ export class JointScene {
       canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture"))), "image/png"));
   }
 
-  /// A picture of another pose, X_FM row by row, which stays: one after the other they are a motion.
-  pictureAt(rows: ArrayLike<number>, title: string): Promise<Blob> {
-    this.setPose(rows);
-    return this.picture(title);
-  }
-
   /// Both bones as they stand, with their colours: binary glTF.
   async exportGlb(): Promise<Blob> {
     const { glbOf } = await import("./glb");
