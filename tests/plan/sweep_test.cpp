@@ -16,26 +16,12 @@
 #include "condyle/make_joint.hpp"
 #include "condyle/sample/hip.hpp"
 #include "plan/design_limits.hpp"
+#include "plan/joined_body.hpp"
 
 /// Sweeps against the closed forms of docs/mathematics/13-implants.md, and against joints made anew for each design.
 
 namespace condyle::test {
 namespace {
-
-Body joined_of_parts(const std::string& name, const std::vector<ImplantMesh>& parts) {
-  TriMesh whole;
-  Body body{name, TriMesh{}};
-  for (const auto& [part, mesh] : parts) {
-    if (parts.size() > 1)
-      body.parts.push_back(
-          {part, whole.vertices.size(), mesh.vertices.size(), whole.triangles.size(), mesh.triangles.size()});
-    const auto first = static_cast<Index>(whole.vertices.size());
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) whole.vertices.push_back(mesh.vertices[v]);
-    for (const auto& [a, b, c] : mesh.triangles) whole.triangles.push_back({a + first, b + first, c + first});
-  }
-  body.mesh = Mesh(std::move(whole));
-  return body;
-}
 
 PartParameter parameter(std::string name, ParameterKind kind, double low, double high, double value = 0,
                         double sigma = 0) {
@@ -60,8 +46,8 @@ PlacedJoint replaced_hip(const TotalHip& hip, const ImplantMeshes& meshes, doubl
   JointDescription description{.name = "replaced hip"};
   description.frame.centre = Vec3(Vec3::Zero());
   description.parts = {{cup}, {stem}};
-  PlacedJoint placed = make_joint(description, joined_of_parts("pelvis", meshes.fixed),
-                                  joined_of_parts("femur", meshes.mobile));
+  PlacedJoint placed = make_joint(description, plan::joined_body("pelvis", meshes.fixed),
+                                  plan::joined_body("femur", meshes.mobile));
   placed.joint.implant = implant_in_joint(hip, placed.joint);
   return placed;
 }
@@ -248,9 +234,9 @@ TEST(Sweep, OfBoneAndImplantTogetherEndsAtTheEarlierOfBoth) {
                   [](const ImplantMesh& mesh) { return mesh.part == "hip_bone" || mesh.part == "femur"; });
   JointDescription description{.name = "bones"};
   description.frame.centre = Vec3(Vec3::Zero());
-  const Joint bone =
-      make_joint(description, joined_of_parts("pelvis", bones.fixed), joined_of_parts("femur", bones.mobile))
-          .joint;
+  const Joint bone = make_joint(description, plan::joined_body("pelvis", bones.fixed),
+                                plan::joined_body("femur", bones.mobile))
+                         .joint;
   const PlacedJoint alone = implant_alone(hip);
   const std::vector<std::string> swept{"cup.inclination", "cup.anteversion"};
   std::vector<SweepTarget> targets;
@@ -448,8 +434,8 @@ TEST(CupAngles, OfAPartAreThoseOfTheCupThatIsMadeWithThem) {
       JointDescription description{.name = "hip", .side = side};
       description.frame.centre = Vec3(Vec3::Zero());
       description.parts = {{cup}};
-      PlacedJoint placed = make_joint(description, joined_of_parts("pelvis", meshes.fixed),
-                                      joined_of_parts("femur", meshes.mobile));
+      PlacedJoint placed = make_joint(description, plan::joined_body("pelvis", meshes.fixed),
+                                      plan::joined_body("femur", meshes.mobile));
       placed.joint.implant = implant_in_joint(given, placed.joint);
       const Joint turned = with_parameters(
           placed.joint, std::vector<ParameterValue>{{"cup.inclination", 33}, {"cup.anteversion", -7}});
