@@ -89,6 +89,8 @@ TEST(LimitDifference, HasABandOfJointsThatAreDisplacedAlike) {
   EXPECT_NEAR(spread.band->p95_deg, 0.805, 1e-12);
   EXPECT_FALSE(spread.band->leaves_out_zero());
   EXPECT_FALSE(with_bands(band_of(0), band_of(0)).band->leaves_out_zero()) << "zero is no difference";
+  EXPECT_FALSE(with_bands(band_of(0), band_of(0.04)).band->leaves_out_zero()) << "shown as 0.0 degrees";
+  EXPECT_TRUE(with_bands(band_of(0), band_of(-0.06)).band->leaves_out_zero());
 }
 
 TEST(LimitDifference, HasNoBandOfJointsThatAreDisplacedByOtherAmounts) {

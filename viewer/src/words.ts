@@ -228,9 +228,9 @@ export const words = {
   toBefore: "difference to before",
   beyondBand: "beyond the band",
   withinBand: "within the band",
-  bandRuleShort: "Beyond the band: 5 to 95 % of the differences lie on one side of zero.",
+  bandRuleShort: "Beyond the band: 5 to 95 % of the differences lie on one side of zero, by 0.05° or more.",
   bandRule:
-    "Beyond the band: 5 to 95 % of the differences between joints that are displaced alike, before and after, lie on one side of zero. This takes " +
+    "Beyond the band: 5 to 95 % of the differences between joints that are displaced alike, before and after, lie on one side of zero, by 0.05° or more. This takes " +
     "their errors as common, as those of one image are: of two images, hold both bands against each other.",
   noLimitsBefore: (why: string) => `The joint before has no limits: ${why}`,
   notedBefore: "Notes of the checks on the joint before",

@@ -16,12 +16,15 @@ namespace condyle::io {
 /// What a difference is if the range of one of the two motions ends without contact.
 enum class DifferenceIs : std::uint8_t { exact, at_least, at_most };
 
+/// What is shown as 0.0 degrees is no change, however certain: bones meshed anew differ by so much.
+inline constexpr double least_change_deg = 0.05;
+
 /// 5, 50 and 95 % of the differences between joints that are displaced by the same amounts, degrees.
 struct DifferenceBand {
   double p5_deg, median_deg, p95_deg;
 
-  /// Whether 5 to 95 % lie on one side of zero.
-  bool leaves_out_zero() const noexcept { return p5_deg > 0 || p95_deg < 0; }
+  /// Whether 5 to 95 % lie on one side of zero, by `least_change_deg` or more.
+  bool leaves_out_zero() const noexcept { return p5_deg >= least_change_deg || p95_deg <= -least_change_deg; }
 };
 
 /// The difference of one motion's limits: after minus before.
