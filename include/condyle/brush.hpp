@@ -119,7 +119,7 @@ struct BrushedJoint {
 /// The joint without what these strokes take, and the limits of motions before and after: exact ones. What contact of each triangle means
 /// stays as it was: bone that a stroke brings into the bearing ball ends motions all the same, where a joint made anew calls it bearing surface.
 ///
-/// Throws as Brush and RangeOfMotion do, and UsageError for a bone that a part is cut from.
+/// Throws as Brush and RangeOfMotion do, and UsageError for a bone that a part is cut from and for a joint with an implant.
 BrushedJoint brush_joint(const Joint& joint, const BrushRequest& request, std::span<const Motion> motions);
 
 }  // namespace condyle

@@ -56,6 +56,8 @@ std::vector<std::uint8_t> protected_vertices(const Joint& joint, BodyRole role, 
 
 BrushedJoint brush_joint(const Joint& joint, const BrushRequest& request, std::span<const Motion> motions) {
   const Body& bone = body_of(joint, request.body);
+  if (joint.implant)
+    throw UsageError("brush: the joint has an implant, and a stroke does not know it from bone");
   if (is_cut(bone))
     throw UsageError("brush: a part is cut from " + bone.name +
                      ": bone can be taken from the other body only");

@@ -48,6 +48,8 @@ std::string_view name_of(KeptBy by) noexcept {
 
 void check_resection(const Joint& joint, const ResectionRequest& request) {
   if (request.targets.empty()) throw UsageError("resection: no motion has a target to reach");
+  if (joint.implant)
+    throw UsageError("resection: the joint has an implant, and a cut does not know it from bone");
   for (auto target = request.targets.begin(); target != request.targets.end(); ++target) {
     const Motion& motion = target->motion;
     const Angle reach = target->reach;

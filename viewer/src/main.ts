@@ -339,13 +339,14 @@ class Page {
     const { text, arrays, scene } = this, { rom, layers, plan, joint } = text;
     if (!rom || rom.exact === false || layers || questionsOf(text).length === 0) return;
     const centre = joint.kind === "free" ? null : new CentrePanel(core, text);
-    const brush = new BrushPanel(core, scene, {
+    // A brush does not know an implant from bone.
+    const brush = rom.implant ? null : new BrushPanel(core, scene, {
       text, arrays, names: { fixed: named(joint.fixed), mobile: named(joint.mobile) },
       before: { fixed: this.beforePlan("fixed"), mobile: this.beforePlan("mobile") },
       limitsBefore: new Map((plan?.limits ?? []).map(({ motion, before }) => [motion, before])),
       changed: (brushed, rests) => this.takeBrushed(brushed, rests), limited: (limits) => centre?.setBefore(limits),
     });
-    addPlanPanel(brush.element);
+    if (brush) addPlanPanel(brush.element);
     if (centre) addPlanPanel(centre.element);
   }
 

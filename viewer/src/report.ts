@@ -78,6 +78,7 @@ export interface RomAnswer {
   band?: { samples: number; seed: number; sigma: BandSigma } | null;
   clock_plane?: "sagittal" | "rim" | null;  // null for joints other than hips
   held_translation_mm?: [number, number, number] | null;
+  implant?: { fixed_part: string; mobile_part: string };
   motions: MotionAnswer[];
   notes: { code: string; text: string }[];
   caveats: string[];

@@ -287,7 +287,7 @@ export const words = {
   lastStroke: ({ moved, kept, limited }: { moved: number; kept: number; limited: number }) =>
     [`last stroke: ${moved} ${moved === 1 ? "vertex" : "vertices"} moved`, ...(kept ? [`${kept} of the bearing surface stay`] : []),
       ...(limited ? [`${limited} less deep, for the surface would cross itself`] : [])].join(", "),
-  brushNote: "Bone only: osseous limits. The bearing surface stays. Strip and tiles are the report's.",
+  brushNote: "Bone only: osseous limits. What bears is what bore before: the saved joint may reach further. Strip and tiles are the report's.",
   protectedBone: (body: string, count: number) => (count ? `${count} vertices of ${body} bear and stay.` : `Nothing of ${body} is known to bear.`),
   liveLimits: "Limits before and after",
   gained: "gained",
