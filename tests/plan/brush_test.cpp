@@ -238,6 +238,14 @@ Joint cam_hip() {
       "sample", JointKind::ball, Side::right, {"hip bone", std::move(hip_bone)}, {"femur", std::move(femur)}};
 }
 
+TEST(Brush, RefusesAJointWithAnImplant) {
+  Joint joint = cam_hip();
+  const BrushRequest request{.strokes = {lowering({0}, 5, 1)}};
+  EXPECT_NO_THROW(brush_joint(joint, request, {}));
+  joint.implant.emplace();
+  EXPECT_THROW(brush_joint(joint, request, {}), UsageError);
+}
+
 /// Where a motion ends, on either bone.
 Index contact_vertex(const Joint& joint, BodyRole role, const char* motion) {
   const MotionLimit limit = RangeOfMotion(joint).limit(motion_named(hip_motions(), motion));
