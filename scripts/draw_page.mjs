@@ -23,7 +23,7 @@ async function drawPlan() {
 try {
   const { page } = await openPage(browser, join(folder, "report.html"), { width: 1440, height: 900, fragment: "#flexion=70&internal_rotation=20" });
   await settled(page);
-  await page.waitForFunction(() => [...document.querySelectorAll(".told")].every(({ textContent }) => textContent !== ""));
+  await page.waitForFunction(() => [...document.querySelectorAll(".slider-readout")].every(({ textContent }) => textContent !== ""));
   await page.screenshot({ path: join(root, "docs/images/page.png") });
   await drawPlan();
 } finally {

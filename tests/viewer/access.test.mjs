@@ -139,7 +139,7 @@ test("pressing everything moves nothing", async () => {
     assert.deepEqual(await boxes(), before, await presses.nth(i).textContent());
   }
   await turnTo(page, { flexion: 120, internal_rotation: 60 });
-  await page.locator("#way-out:visible").waitFor();
+  await page.locator("#exit:visible").waitFor();
   assert.deepEqual(await boxes(), before);
   await page.context().close();
 });

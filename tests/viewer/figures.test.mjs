@@ -13,7 +13,7 @@ const freeOf = (page, at, vary) => page.evaluate(([angles, angle]) => {
   const [columnAngle, rowAngle] = [0, 1, 2].filter((other) => other !== angle);
   return condyle.query({ of: "mapPoint", point: 0, question: { columnAngle, rowAngle, vary: angle, columns: [angles[columnAngle]], rows: [angles[rowAngle]] } });
 }, [at, vary]);
-const told = (page) => page.waitForFunction(() => [...document.querySelectorAll(".told")].every(({ textContent }) => textContent !== ""));
+const told = (page) => page.waitForFunction(() => [...document.querySelectorAll(".slider-readout")].every(({ textContent }) => textContent !== ""));
 const degrees = (value) => `${value.toFixed(1).replace("-", "\u2212")}°`;
 
 for (const start of [[0, 0, 0], [40, 10, 0], [100, 10, 0]])
@@ -26,7 +26,7 @@ for (const start of [[0, 0, 0], [40, 10, 0], [100, 10, 0]])
       free: [...strip.querySelectorAll(".free")].map((rect) => [Number(rect.getAttribute("x")), Number(rect.getAttribute("x")) + Number(rect.getAttribute("width"))]),
       kinds: [...new Set([...strip.children].map((rect) => rect.getAttribute("class")))],
       low: Number(strip.nextElementSibling.min), high: Number(strip.nextElementSibling.max),
-      told: strip.closest(".slider").querySelector(".told").textContent,
+      told: strip.closest(".slider").querySelector(".slider-readout").textContent,
     })));
     assert.equal(tracks.length, 3);
     for (const [vary, { free, kinds, low, high, told: text }] of tracks.entries()) {
@@ -46,7 +46,7 @@ test("in contact there is a way on: the least turn that leaves it, pressed, leav
   const { page } = await openPage(browser, pathOf("sample"), { reducedMotion: "reduce" });
   const start = [120, 10, 40];
   await turnTo(page, { flexion: start[0], adduction: start[1], internal_rotation: start[2] });
-  const way = page.locator("#way-out:visible");
+  const way = page.locator("#exit:visible");
   await way.waitFor();
   assert.match(await page.locator("#status-text").textContent(), /^In contact/);
   await page.waitForFunction(() => /In contact · [\d.]+ mm, \d+ mm², \d+ mm³/.test(document.getElementById("status-text").textContent));

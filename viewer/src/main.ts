@@ -35,7 +35,7 @@ import { Plateau } from "./plots/plateau";
 import {
   bytesOf, inflated, Report, scopeOf, textOfProposal, type MapAnswer, type MotionAnswer, type ReportText, type StoredPose,
 } from "./report";
-import { toldFirst } from "./result";
+import { headlineMotion } from "./result";
 import { saveBlob } from "./save";
 import { JointScene, type BodyName } from "./scene/scene";
 import { readViewState, writeViewState } from "./view_state";
@@ -58,7 +58,7 @@ function textOf(id: string): string | null {
 }
 
 /// A line over the scene: nothing else moves for it.
-function tell(role: "alert" | "status", message: string, ...parts: HTMLElement[]): void {
+function post(role: "alert" | "status", message: string, ...parts: HTMLElement[]): void {
   const line = html("p", { class: "warning" }, html("span", { role }, message), ...parts);
   if (role === "status") found("messages").querySelectorAll("[role=status]").forEach((old) => old.parentElement!.remove());
   line.append(button("×", () => line.remove(), { "aria-label": words.dismiss, class: "quiet-button" }));
@@ -68,7 +68,7 @@ function tell(role: "alert" | "status", message: string, ...parts: HTMLElement[]
 function warn(message: string): void {
   // The same line once.
   const known = [...found("messages").querySelectorAll("[role=alert]")];
-  if (!known.some(({ textContent }) => textContent === message)) tell("alert", message);
+  if (!known.some(({ textContent }) => textContent === message)) post("alert", message);
 }
 
 /// A scene, or nothing but a line where the browser shows none.
@@ -170,7 +170,7 @@ class Page {
       this.display.element.append(this.display.legend, pointer.element);
       this.display.element.append(html("div", { class: "row" }, checkbox(words.orthographic, false, (on) => scene.setOrthographic(on)),
         button(words.saveSurfaces, () => void this.saveSurfaces())));
-      found("legend-place").replaceChildren(pointer.told);
+      found("legend-place").replaceChildren(pointer.readout);
       scene.onViewChange(() => this.rememberView());
     }
     const drawer = html("details", { id: "view-options", class: "popup" }, html("summary", {}, words.viewOptions), this.display.element);
@@ -211,7 +211,7 @@ class Page {
       picture: this.scene && (() => void this.savePicture()), print: () => window.print(),
       copyLink: () => {
         this.writeView();
-        void copyLink((message, ...parts) => tell("status", message, ...parts));
+        void copyLink((message, ...parts) => post("status", message, ...parts));
       },
     }));
   }
@@ -267,15 +267,15 @@ class Page {
   /// The limit that the sentence is about, drawn for paper while nobody waits.
   private drawWorst(): void {
     const { text, arrays } = this, { rom, joint } = text;
-    const told = rom && toldFirst(rom, joint.anatomy === "hip" && joint.kind !== "hinge");
-    const pose = told && text.poses.find(({ name }) => name === told.name);
-    if (!told || !pose || told.reason !== "contact" || !this.scene) return;
+    const headline = rom && headlineMotion(rom, joint.anatomy === "hip" && joint.kind !== "hinge");
+    const pose = headline && text.poses.find(({ name }) => name === headline.name);
+    if (!headline || !pose || headline.reason !== "contact" || !this.scene) return;
     window.setTimeout(() => {
       if (this.closed.signal.aborted) return;
-      void pictureOf(text, arrays, pose, this.labelOf(told), rom.bearing?.head?.radius_mm ?? null).then((picture) => {
+      void pictureOf(text, arrays, pose, this.labelOf(headline), rom.bearing?.head?.radius_mm ?? null).then((picture) => {
         if (!picture) return;
         this.hasWorstPicture = true;
-        this.paper.setPicture(picture, sentenceOf(told, text));
+        this.paper.setPicture(picture, sentenceOf(headline, text));
       });
     }, pictureAfter_ms);
   }
@@ -526,7 +526,7 @@ class Page {
   private arrived(motion: MotionAnswer): void {
     this.scene?.arriveAt(motion.contact_point_mm, this.pinOf(motion), "mobile");
     this.zones?.show(motion.name);
-    this.strip.tell(motion);
+    this.strip.describe(motion);
   }
 
   /// "1:08, neck on rim"

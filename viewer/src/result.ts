@@ -40,14 +40,14 @@ export function firstFigures({ motions }: RomAnswer, isHip: boolean): MotionAnsw
 
 /// The motion that the sentence is about: that which lacks most; where none does, of a hip internal rotation at 90° flexion, of others
 /// the first of the strip that ends by contact.
-export function toldFirst(rom: RomAnswer, isHip: boolean): MotionAnswer | null {
+export function headlineMotion(rom: RomAnswer, isHip: boolean): MotionAnswer | null {
   const byContact = ({ reason }: MotionAnswer) => reason === "contact";
   return worstOf(rom.motions) ?? (isHip && rom.motions.find((motion) => motion.name === ofHips[1] && byContact(motion)) ||
     (firstFigures(rom, isHip).find(byContact) ?? rom.motions[0] ?? null));
 }
 
 /// The band that says something: where nothing ends a motion in its range, nothing does so in most displaced joints either.
-export function toldBand({ band, reason }: MotionAnswer): Band | null {
+export function shownBand({ band, reason }: MotionAnswer): Band | null {
   return band && (reason === "contact" || band.p5_deg.toFixed(0) !== band.p95_deg.toFixed(0)) ? band : null;
 }
 
@@ -64,7 +64,7 @@ export function limitAlone(motion: MotionAnswer): string {
 }
 
 export function bandText(motion: MotionAnswer): string {
-  const band = toldBand(motion);
+  const band = shownBand(motion);
   return band ? words.bandOf(fixed(band.p5_deg, 0), fixed(band.p95_deg, 0)) : "";
 }
 

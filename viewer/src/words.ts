@@ -163,7 +163,7 @@ export const words = {
   hover: (body: string, vertex: number, value: string) => `${body}, vertex ${vertex}: ${value}`,
   vertexOf: "Vertex of",
   vertexNumber: "Number of a vertex",
-  tellVertex: "Show vertex",
+  showVertex: "Show vertex",
   noVertex: (body: string, last: number) => `${body} has vertices 0 to ${last}`,
   bound: "at least",
   noValue: "no value",
@@ -355,7 +355,7 @@ export const words = {
     "Drop the meshes of a hip here, or choose them: the hip bone first, or a file named femur (STL, OBJ, PLY, VTP, VTK). Or a label map with " +
     "both bones, or a mask of each (.nii, .nii.gz, .nrrd, .mha). They stay on this computer.",
   dropSide: "Side",
-  dropSides: { told: "automatic", right: "right", left: "left" },
+  dropSides: { automatic: "automatic", right: "right", left: "left" },
   dropSecond: (name: string) => `${name} is the bone that stays; now the one that moves.`,
   dropHint: "Drop the meshes of a hip on this page, or a label map",
   dropTwo: "A joint has two meshes: drop these two, or one after the other.",

@@ -1,5 +1,5 @@
 import type {
-  BoneChoice, BothValues, Brushed, Coordinates, Depth, DroppedFile, Edit, FromWorker, GivenSide, JointArrays, LabelMap, LimitQuestion, LiveLimit,
+  BoneChoice, BothValues, Brushed, Coordinates, Depth, DroppedFile, Edit, FromWorker, SideChoice, JointArrays, LabelMap, LimitQuestion, LiveLimit,
   MapQuestion, Proposal, Quantity, Query, QueryAnswer, Shown, ToWorker,
 } from "./protocol";
 
@@ -52,7 +52,7 @@ export class CoreClient {
 
   /// The same for two files of which a joint is proposed.
   static async propose(
-    wasm: ArrayBuffer, fixed: DroppedFile, mobile: DroppedFile, side: GivenSide): Promise<{ core: CoreClient; proposal: Proposal }> {
+    wasm: ArrayBuffer, fixed: DroppedFile, mobile: DroppedFile, side: SideChoice): Promise<{ core: CoreClient; proposal: Proposal }> {
     const core = new CoreClient();
     const answer = await core.first({ type: "propose", wasm, fixed, mobile, side }, [wasm]);
     if (answer.type !== "proposed") throw new Error(answer.type);
@@ -76,7 +76,7 @@ export class CoreClient {
   }
 
   /// The joint of two bones of the label maps. Rejects with the core's own line, after which others can be chosen.
-  async join(fixed: BoneChoice, mobile: BoneChoice, side: GivenSide, step: (label: string | null) => void): Promise<Proposal> {
+  async join(fixed: BoneChoice, mobile: BoneChoice, side: SideChoice, step: (label: string | null) => void): Promise<Proposal> {
     const answer = await this.exchange({ type: "join", fixed, mobile, side }, [], step);
     if (answer.type !== "proposed") throw new Error(answer.type);
     return answer.proposal;

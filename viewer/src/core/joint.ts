@@ -2,7 +2,7 @@ import type { PageCore } from "page-core";
 import { openModule } from "./module";
 import {
   quantityNumber, type BothPenetrations, type BothValues, type Brushed, type Coordinates, type Depth, type Details, type DroppedFile, type Edit,
-  type GivenSide,
+  type SideChoice,
   type Inside, type JointArrays, type Layers, type LimitQuestion, type LiveLimit, type MapQuestion, type Penetrations,
   type Proposal, type Quantity, type Shown, type Stroke, type Surface, type Values,
 } from "./protocol";
@@ -43,7 +43,7 @@ export class CoreJoint {
 
   /// The joint that is proposed for two mesh files; throws the command line's own line where none is.
   static async propose(
-    wasm: ArrayBuffer, fixed: DroppedFile, mobile: DroppedFile, side: GivenSide): Promise<{ joint: CoreJoint; proposal: Proposal }> {
+    wasm: ArrayBuffer, fixed: DroppedFile, mobile: DroppedFile, side: SideChoice): Promise<{ joint: CoreJoint; proposal: Proposal }> {
     const memory = new Memory(await openModule(wasm));
     const { core } = memory;
     const meshes = [fixed, mobile].map((file) => memory.read(file, core._condyle_read_mesh));
@@ -173,13 +173,13 @@ export class CoreJoint {
     this.place(at);
     this.checked(this.core._condyle_depth(this.joint, this.pose, this.three, this.answer));
     const answer = this.f64(this.answer, 16);
-    const [inContact, way, depth_mm, body, vertex, x, y, z, nearest_mm] = answer as unknown as [
+    const [inContact, kind, depth_mm, body, vertex, x, y, z, nearest_mm] = answer as unknown as [
       number, number, number, number, number, number, number, number, number];
     const orNull = (place: number): number | null => (Number.isNaN(answer[place]!) ? null : answer[place]!);
     return {
       inContact: inContact === 1,
-      deepest: way === 0 ? null : {
-        depth_mm, about: way === 1 ? null : way - 2, depth_deg: orNull(9), body: body === 0 ? "mobile" : "fixed", vertex,
+      deepest: kind === 0 ? null : {
+        depth_mm, about: kind === 1 ? null : kind - 2, depth_deg: orNull(9), body: body === 0 ? "mobile" : "fixed", vertex,
         point: [x, y, z], nearest_mm,
       },
       withoutDepth: answer[10]!, area_mm2: { mobile: orNull(11), fixed: orNull(12) }, volume_mm3: orNull(13),
@@ -315,7 +315,7 @@ export class CoreJoint {
 }
 
 /// As condyle_propose() and condyle_join() take a side.
-export const sideNumber = { told: -1, right: 0, left: 1 } as const;
+export const sideNumber = { automatic: -1, right: 0, left: 1 } as const;
 
 /// The module's memory.
 export class Memory {

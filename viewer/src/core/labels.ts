@@ -1,6 +1,6 @@
 import { CoreJoint, Memory, sideNumber } from "./joint";
 import { openModule } from "./module";
-import type { BoneChoice, DroppedFile, GivenSide, LabelMap, Proposal } from "./protocol";
+import type { BoneChoice, DroppedFile, SideChoice, LabelMap, Proposal } from "./protocol";
 
 /// Label maps in the module's memory, until a joint is made of two of their labels.
 export class CoreLabels {
@@ -22,7 +22,7 @@ export class CoreLabels {
 
   /// `step` is called before each surface with its label, then with null. The label maps stay where this throws.
   join(
-    fixed: BoneChoice, mobile: BoneChoice, side: GivenSide, step: (label: string | null) => void): { joint: CoreJoint; proposal: Proposal } {
+    fixed: BoneChoice, mobile: BoneChoice, side: SideChoice, step: (label: string | null) => void): { joint: CoreJoint; proposal: Proposal } {
     const { core } = this.memory, bones: number[] = [];
     try {
       for (const choice of [fixed, mobile]) {

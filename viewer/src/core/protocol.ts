@@ -197,7 +197,7 @@ export interface DroppedFile {
 }
 
 /// The side of the joint of two files: inferred from their bones, or given.
-export type GivenSide = "told" | "right" | "left";
+export type SideChoice = "automatic" | "right" | "left";
 
 /// The joint that was proposed for two files.
 export interface Proposal {
@@ -230,8 +230,8 @@ export interface BoneChoice {
 export type ToWorker =
   /// With the module for the first label map.
   | { type: "labels"; wasm: ArrayBuffer | null; file: DroppedFile }
-  | { type: "join"; fixed: BoneChoice; mobile: BoneChoice; side: GivenSide }
-  | { type: "propose"; wasm: ArrayBuffer; fixed: DroppedFile; mobile: DroppedFile; side: GivenSide }
+  | { type: "join"; fixed: BoneChoice; mobile: BoneChoice; side: SideChoice }
+  | { type: "propose"; wasm: ArrayBuffer; fixed: DroppedFile; mobile: DroppedFile; side: SideChoice }
   | { type: "open"; wasm: ArrayBuffer; joint: JointArrays }
   | { type: "pose"; id: number; at: Coordinates; quantity: Quantity; ranges: [number, number][] | null }
   | { type: "query"; id: number; query: Query }

@@ -4,7 +4,7 @@ import { button, checkbox, choice, html, named, section } from "../dom";
 import { jointFileOf, meshFilesOf, stlOf } from "../joint_file";
 import { fixed } from "../numbers";
 import type { EndOfMotion, ReportText } from "../report";
-import { toldFirst } from "../result";
+import { headlineMotion } from "../result";
 import { save, saveBlob } from "../save";
 import { bodyNames, type BodyName, type JointScene } from "../scene/scene";
 import { motionName, words } from "../words";
@@ -68,7 +68,7 @@ export class BrushPanel {
     this.latest = this.asked.map(() => null);
     const motions = this.asked.map(({ motion }) => motion);
     this.limits = new LiveLimits(words.liveLimits, words.gained, motions.map((motion) => limitsBefore.get(motion.name) ?? motion), motions, motions);
-    const first = toldFirst(text.rom!, text.joint.anatomy === "hip" && text.joint.kind !== "hinge");
+    const first = headlineMotion(text.rom!, text.joint.anatomy === "hip" && text.joint.kind !== "hinge");
     this.shown = Math.max(0, motions.findIndex((motion) => motion === first));
     this.radius = this.sizeField(words.brushRadius, most.radius_mm, usual.radius_mm);
     this.depth = this.sizeField(words.brushDepth, most.depth_mm, usual.depth_mm);

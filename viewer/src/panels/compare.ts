@@ -21,10 +21,10 @@ function limitCell(motion: MotionAnswer | undefined): string | HTMLElement {
 function differenceCells(difference: LimitDifference | undefined, hasBands: boolean): (string | HTMLElement)[] {
   if (!difference) return hasBands ? [unknown, unknown] : [unknown];
   const { band, beyond_band } = difference;
-  const verdict = beyond_band === null ? unknown : beyond_band ? words.beyondBand : words.withinBand;
+  const meaning = beyond_band === null ? unknown : beyond_band ? words.beyondBand : words.withinBand;
   return [
     cell(differenceText(difference), band ? `(${words.rangeOf(signed(band.p5_deg, 1), signed(band.p95_deg, 1))})` : ""),
-    ...(hasBands ? [verdict] : []),
+    ...(hasBands ? [meaning] : []),
   ];
 }
 

@@ -1,29 +1,29 @@
 import { choice, html, named, section } from "../dom";
-import type { DroppedFile, GivenSide } from "../core/protocol";
+import type { DroppedFile, SideChoice } from "../core/protocol";
 import { words } from "../words";
 import { isLabelMap, type LabelDrop } from "./label_drop";
 
 /// Where files are dropped or chosen: two meshes, the fixed bone first where they come one by one, or label maps.
 export class DropPanel {
   readonly element: HTMLElement;
-  private readonly told = html("p", { "aria-live": "polite", id: "drop-progress" });
+  private readonly progress = html("p", { "aria-live": "polite", id: "drop-progress" });
   private waiting: DroppedFile[] = [];
-  private side: GivenSide = "told";
+  private side: SideChoice = "automatic";
   /// One pair is read at a time, and after one that makes a joint the page shows that.
   private state: "open" | "busy" | "done" = "open";
 
   /// `take` returns whether two meshes made a joint; `refuse` is called with the reason why files are not taken.
   constructor(
-    private readonly take: (fixed: DroppedFile, mobile: DroppedFile, side: GivenSide) => Promise<boolean>,
+    private readonly take: (fixed: DroppedFile, mobile: DroppedFile, side: SideChoice) => Promise<boolean>,
     private readonly labels: LabelDrop, private readonly refuse: (why: string) => void) {
     const input = html("input", {
       type: "file", multiple: true, accept: ".stl,.obj,.ply,.vtp,.vtk,.nii,.gz,.nrrd,.mha", id: "files",
     });
     this.element = section(
       words.drop, html("p", {}, html("label", { for: "files" }, words.dropHere)), input,
-      html("p", {}, choice(words.dropSide, words.dropSides, this.side, (side) => (this.side = side))), this.told, labels.place);
+      html("p", {}, choice(words.dropSide, words.dropSides, this.side, (side) => (this.side = side))), this.progress, labels.place);
     labels.listen({
-      side: () => this.side, progress: (said) => (this.told.textContent = said), busy: (state) => (this.state = state),
+      side: () => this.side, progress: (said) => (this.progress.textContent = said), busy: (state) => (this.state = state),
     });
     input.addEventListener("change", () => {
       const files = [...(input.files ?? [])];
@@ -55,13 +55,13 @@ export class DropPanel {
   private async addMeshes(files: readonly File[]): Promise<void> {
     if (this.waiting.length + files.length > 2) {
       this.waiting = [];
-      this.told.textContent = words.dropTwo;
+      this.progress.textContent = words.dropTwo;
       return;
     }
     this.state = "busy";
     for (const file of files) this.waiting.push({ name: file.name, bytes: await file.arrayBuffer() });
     const [first, second] = this.waiting;
-    this.told.textContent = second ? words.loading : words.dropSecond(named(first!.name));
+    this.progress.textContent = second ? words.loading : words.dropSecond(named(first!.name));
     if (!second) {
       this.state = "open";
       return;
@@ -69,7 +69,7 @@ export class DropPanel {
     this.waiting = [];
     const [fixed, mobile] = inOrder(first!, second);
     this.state = (await this.take(fixed, mobile, this.side)) ? "done" : "open";
-    this.told.textContent = "";
+    this.progress.textContent = "";
   }
 }
 

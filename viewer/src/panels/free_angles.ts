@@ -2,7 +2,7 @@ import type { CoreClient } from "../core/client";
 import type { Coordinates, MapQuestion } from "../core/protocol";
 import type { Interval } from "../report";
 
-interface Asked {
+interface Request {
   at: Coordinates;
   held: [number, number, number];
 }
@@ -10,12 +10,12 @@ interface Asked {
 /// All free intervals of each angle, the others held as they are: asked of the core one pose at a time, and of those that come
 /// meanwhile only the latest.
 export class FreeAngles {
-  private waiting: Asked | null = null;
+  private waiting: Request | null = null;
   private isBusy = false;
 
   constructor(
     private readonly core: CoreClient, private readonly count: number,
-    private readonly told: (vary: number, at: Coordinates, intervals: Interval[]) => void) {}
+    private readonly report: (vary: number, at: Coordinates, intervals: Interval[]) => void) {}
 
   ask(at: Coordinates, X_FM: ArrayLike<number>): void {
     this.waiting = { at, held: [X_FM[3]!, X_FM[7]!, X_FM[11]!] };
@@ -29,9 +29,9 @@ export class FreeAngles {
       this.waiting = null;
       try {
         for (let vary = 0; vary < this.count; ++vary)
-          this.told(vary, at, (await this.core.query({ of: "mapPoint", question: questionOf(at, held, vary), point: 0 })) as Interval[]);
+          this.report(vary, at, (await this.core.query({ of: "mapPoint", question: questionOf(at, held, vary), point: 0 })) as Interval[]);
       } catch {
-        // A pose of which no free angles can be told has none to show.
+        // A pose of which no free angles can be computed has none to show.
       }
     }
     this.isBusy = false;
@@ -51,8 +51,8 @@ export function intervalAt(intervals: readonly Interval[], deg: number): Interva
   return intervals.find(([low, high]) => low - hair_deg <= deg && deg <= high + hair_deg) ?? null;
 }
 
-/// The least turn of this angle that leaves contact; null where none does.
-export function wayOut(intervals: readonly Interval[], deg: number): { to_deg: number; turn_deg: number } | null {
+/// The smallest rotation of this angle that leaves contact; null where none does.
+export function nearestExit(intervals: readonly Interval[], deg: number): { to_deg: number; turn_deg: number } | null {
   let least: { to_deg: number; turn_deg: number } | null = null;
   for (const [low, high] of intervals) {
     const to_deg = deg < low ? low : deg > high ? high : deg, turn_deg = to_deg - deg;

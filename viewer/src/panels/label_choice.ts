@@ -1,4 +1,4 @@
-import type { BoneChoice, GivenSide, LabelMap } from "../core/protocol";
+import type { BoneChoice, SideChoice, LabelMap } from "../core/protocol";
 import { button, choice, html, named } from "../dom";
 import { words } from "../words";
 
@@ -18,7 +18,7 @@ const isHipBone = /hip|pelvi|innominat|ilium|coxa/i, isFemur = /femur|femor|thig
 const isNumber = /^[0-9:]+$/;
 
 /// Bones whose names leave nothing to choose: one pair in the files' own names, on the side that is given, or two masks of one bone.
-export function onlyPair(maps: readonly LabelMap[], side: GivenSide): BonePair | null {
+export function onlyPair(maps: readonly LabelMap[], side: SideChoice): BonePair | null {
   if (maps.length === 2 && maps.every(({ labels }) => labels.length === 1)) return pairOfMasks(maps);
   const pairs = pairsOf(maps, side).filter(({ fixed }) => fixed.task === null);
   return pairs.length === 1 ? pairs[0]! : null;
@@ -31,8 +31,8 @@ function pairOfMasks(maps: readonly LabelMap[]): BonePair {
   return isTurned ? { fixed: mask(1), mobile: mask(0) } : { fixed: mask(0), mobile: mask(1) };
 }
 
-function pairsOf(maps: readonly LabelMap[], side: GivenSide): BonePair[] {
-  return maps.flatMap(({ pairs }, map) => pairs.filter((pair) => side === "told" || pair.side === side).map(({ task, fixed, mobile }) => ({
+function pairsOf(maps: readonly LabelMap[], side: SideChoice): BonePair[] {
+  return maps.flatMap(({ pairs }, map) => pairs.filter((pair) => side === "automatic" || pair.side === side).map(({ task, fixed, mobile }) => ({
     fixed: { map, label: fixed.label, task }, mobile: { map, label: mobile.label, task },
   })));
 }
@@ -61,7 +61,7 @@ export class LabelChoice {
   private readonly options: BoneOption[];
   private chosen: { fixed: string; mobile: string };
 
-  constructor(maps: readonly LabelMap[], side: GivenSide, make: (pair: BonePair) => void) {
+  constructor(maps: readonly LabelMap[], side: SideChoice, make: (pair: BonePair) => void) {
     this.options = optionsOf(maps);
     this.chosen = this.proposed(maps, side);
     const texts = Object.fromEntries(this.options.map(({ text }, i) => [`bone ${i}`, text]));
@@ -89,7 +89,7 @@ export class LabelChoice {
   }
 
   /// The first pair that has names, else labels by words in theirs, else the first two.
-  private proposed(maps: readonly LabelMap[], side: GivenSide): { fixed: string; mobile: string } {
+  private proposed(maps: readonly LabelMap[], side: SideChoice): { fixed: string; mobile: string } {
     const at = ({ map, label, task }: BoneChoice) =>
       this.options.findIndex(({ bone }) => bone.map === map && bone.label === label && bone.task === task);
     const [pair] = pairsOf(maps, side);

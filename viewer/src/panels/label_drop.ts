@@ -1,5 +1,5 @@
 import { CoreClient } from "../core/client";
-import type { GivenSide, LabelMap, Proposal } from "../core/protocol";
+import type { SideChoice, LabelMap, Proposal } from "../core/protocol";
 import { html, named } from "../dom";
 import { words } from "../words";
 import { LabelChoice, onlyPair, type BonePair } from "./label_choice";
@@ -11,7 +11,7 @@ export function isLabelMap(name: string): boolean {
 
 /// What the panel around it knows and shows: progress is one line, empty if nothing is under way.
 export interface LabelDropListener {
-  side: () => GivenSide;
+  side: () => SideChoice;
   progress: (said: string) => void;
   busy: (state: "open" | "busy" | "done") => void;
 }

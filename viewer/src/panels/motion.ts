@@ -2,12 +2,12 @@ import { button, html, named, spaced, svg } from "../dom";
 import type { Coordinates, Depth, Shown } from "../core/protocol";
 import { fixed, plain } from "../numbers";
 import type { Interval, MotionAnswer, ReportText } from "../report";
-import { toldBand } from "../result";
+import { shownBand } from "../result";
 import { words } from "../words";
 import { NumberField } from "./angle_field";
-import { intervalAt, wayOut } from "./free_angles";
+import { intervalAt, nearestExit } from "./free_angles";
 import { ManoeuvreGrid } from "./manoeuvres";
-import { StatusChip, type WayOut } from "./status";
+import { StatusChip, type Exit } from "./status";
 import { placeOf } from "./strip";
 
 const usualRange_deg = 120, translationRange_mm = 20, farthest_deg = 180, mostUndone = 100;
@@ -20,7 +20,7 @@ interface Slider {
   input: HTMLInputElement;
   field: NumberField;
   track: SVGSVGElement;
-  told: HTMLElement;
+  readout: HTMLElement;
   low: number;
   high: number;
   /// As it was told of the pose shown; null until it is.
@@ -64,11 +64,11 @@ export class MotionPanel {
     const { showStored } = hooks;
     this.angles = [...report.reference_deg];
     this.translation = [...report.reference_mm];
-    this.status = new StatusChip((way) => this.leave(way));
+    this.status = new StatusChip((exit) => this.leave(exit));
     const count = report.joint.kind === "hinge" ? 1 : 3;
     this.sliders = report.coordinates.slice(0, count).map((_, angle) => this.slider(angle));
-    const rows = this.sliders.map(({ name, input, field, track, told }) =>
-      html("div", { class: "slider" }, html("label", { for: `angle-${name}` }, spaced(name)), told, field.input,
+    const rows = this.sliders.map(({ name, input, field, track, readout }) =>
+      html("div", { class: "slider" }, html("label", { for: `angle-${name}` }, spaced(name)), readout, field.input,
         html("div", { class: "track-place" }, track, input)));
     if (report.joint.kind === "free") rows.push(html("div", { class: "row translations" }, ...axes.map((axis) => this.moveAlong(axis))));
     this.sliders.forEach((slider, i) => this.write(slider, this.angles[i]!));
@@ -166,7 +166,7 @@ export class MotionPanel {
     const slider = this.sliders[vary]!;
     slider.free = intervals;
     this.drawTrack(slider, at.angles[vary]!);
-    this.drawWay();
+    this.drawExit();
   }
 
   setClearance(at: Coordinates, clear_mm: number | null): void {
@@ -229,7 +229,7 @@ export class MotionPanel {
   private drawStatus(): void {
     if (this.inContact) {
       this.status.inContact(this.lastDepth);
-      this.drawWay();
+      this.drawExit();
     } else if (this.end && this.end.reason === "contact") {
       this.status.atLimit(placeOf(this.end, this.report));
     } else {
@@ -238,19 +238,19 @@ export class MotionPanel {
   }
 
   /// The least turn of one angle that leaves contact, once all angles are told.
-  private drawWay(): void {
+  private drawExit(): void {
     if (!this.inContact || this.sliders.some(({ free }) => free === null)) return;
-    const ways = this.sliders.flatMap(({ free }, vary): WayOut[] => {
-      const way = wayOut(free!, this.angles[vary]!);
-      return way ? [{ vary, ...way }] : [];
+    const exits = this.sliders.flatMap(({ free }, vary): Exit[] => {
+      const exit = nearestExit(free!, this.angles[vary]!);
+      return exit ? [{ vary, ...exit }] : [];
     });
-    const way = ways.reduce<WayOut | null>((least, each) => (least && Math.abs(least.turn_deg) <= Math.abs(each.turn_deg) ? least : each), null);
-    if (!way) return this.status.setWay(null, "");
-    const { name, opposite } = this.report.coordinates[way.vary]!, turn = Math.abs(way.turn_deg);
-    this.status.setWay(way, words.freeAfter(plain(turn, turn < 10 ? 1 : 0), spaced(way.turn_deg < 0 ? opposite : name)));
+    const exit = exits.reduce<Exit | null>((least, each) => (least && Math.abs(least.turn_deg) <= Math.abs(each.turn_deg) ? least : each), null);
+    if (!exit) return this.status.setExit(null, "");
+    const { name, opposite } = this.report.coordinates[exit.vary]!, turn = Math.abs(exit.turn_deg);
+    this.status.setExit(exit, words.freeAfter(plain(turn, turn < 10 ? 1 : 0), spaced(exit.turn_deg < 0 ? opposite : name)));
   }
 
-  private leave({ vary, to_deg }: WayOut): void {
+  private leave({ vary, to_deg }: Exit): void {
     const angles = [...this.angles];
     angles[vary] = to_deg;
     this.goTo(angles);
@@ -293,7 +293,7 @@ export class MotionPanel {
     return {
       name, input, field, low, high, free: null,
       track: svg("svg", { viewBox: "0 0 100 10", class: "track-strip", preserveAspectRatio: "none", "aria-hidden": "true" }),
-      told: html("span", { class: "small told" }),
+      readout: html("span", { class: "small slider-readout" }),
     };
   }
 
@@ -344,16 +344,16 @@ export class MotionPanel {
     const marks = [bar(low, high, "blocked", 3, 4)];
     for (const [from, to] of free) if (to >= low && from <= high) marks.push(bar(from, to, "free", 2, 6));
     for (const motion of this.report.rom?.motions ?? []) {
-      const band = toldBand(motion);
+      const band = shownBand(motion);
       if (!band || motion.vary !== slider.name || !this.startsHere(motion)) continue;
       const start = motion.start_deg[slider.name] ?? 0, sign = motion.sense === "positive" ? 1 : -1;
       const ends = [start + sign * band.p5_deg, start + sign * band.p95_deg].sort((a, b) => a - b) as [number, number];
       marks.push(bar(...ends, "band", 0, 10));
     }
     slider.track.replaceChildren(...marks);
-    const here = intervalAt(free, at), way = here ? null : wayOut(free, at);
-    slider.told.textContent = here ? words.free(`${fixed(here[0], 1)}°`, `${fixed(here[1], 1)}°`)
-      : way ? words.contactFreeFrom(`${fixed(way.to_deg, 1)}°`) : words.startsInContact;
+    const here = intervalAt(free, at), exit = here ? null : nearestExit(free, at);
+    slider.readout.textContent = here ? words.free(`${fixed(here[0], 1)}°`, `${fixed(here[1], 1)}°`)
+      : exit ? words.contactFreeFrom(`${fixed(exit.to_deg, 1)}°`) : words.startsInContact;
   }
 
   /// Whether a motion's other angles are those of the pose.

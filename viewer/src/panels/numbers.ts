@@ -1,7 +1,7 @@
 import { fold, html, named, shortened, spaced } from "../dom";
 import { fixed } from "../numbers";
 import type { MeshSource, MotionAnswer, PartParameter, ReportText, RomAnswer } from "../report";
-import { limitAlone, toldBand } from "../result";
+import { limitAlone, shownBand } from "../result";
 import { words } from "../words";
 import { lines, longestLine, table } from "./table";
 
@@ -15,8 +15,8 @@ export function numberFolds(
   const { joint, rom } = report;
   const folds = [fold(words.thisPose, true, ...ofPose)];
   if (rom) {
-    const told = rom.motions.some(({ reason }) => reason !== "contact_at_start");
-    if (told) folds.push(fold(words.limits, false, limitsTable(rom, joint)));
+    const hasLimits = rom.motions.some(({ reason }) => reason !== "contact_at_start");
+    if (hasLimits) folds.push(fold(words.limits, false, limitsTable(rom, joint)));
     const notes = fold(words.notes, rom.notes.length > 0,
       rom.notes.length ? lines(rom.notes.map(({ code, text }) => `${text} (${code})`)) : html("p", {}, words.noNotes));
     notes.id = "checks";
@@ -83,7 +83,7 @@ function limitsTable({ motions }: RomAnswer, joint: ReportText["joint"]): HTMLEl
   return table(
     ["", words.limit, words.band, words.reason, words.bearingContact, words.normal, words.errorBound],
     motions.map((motion) => {
-      const band = toldBand(motion);
+      const band = shownBand(motion);
       return [
         named(spaced(motion.name)), limitAlone(motion), band ? words.bandEnds(fixed(band.p5_deg, 0), fixed(band.p95_deg, 0)) : "–",
         endOf(motion, joint),

@@ -3,7 +3,7 @@ import { clockDrawing } from "../plots/clock";
 import { limitsDrawing } from "../plots/limits";
 import { MapPlot } from "../plots/map";
 import { scopeOf, type ReportText } from "../report";
-import { bandText, firstFigures, limitAlone, toldFirst } from "../result";
+import { bandText, firstFigures, limitAlone, headlineMotion } from "../result";
 import { motionName, words } from "../words";
 import { comparisonTable } from "./compare";
 import { headingOf } from "./header";
@@ -19,7 +19,7 @@ export class Paper {
 
   constructor(text: ReportText, counts: { fixed: [number, number]; mobile: [number, number] }, extremes: readonly Extreme[]) {
     const { rom, map } = text, isHip = text.joint.anatomy === "hip" && text.joint.kind !== "hinge";
-    const told = rom ? toldFirst(rom, isHip) : null, hasLimits = rom?.motions.some(({ reason }) => reason !== "contact_at_start") ?? false;
+    const headline = rom ? headlineMotion(rom, isHip) : null, hasLimits = rom?.motions.some(({ reason }) => reason !== "contact_at_start") ?? false;
     const figures = rom && hasLimits
       ? firstFigures(rom, isHip).map((motion) => [motionName(motion.name), limitAlone(motion), bandText(motion), normalText(motion)] as const)
       : extremes.map(({ name, value, at }) => [name, value, "", at] as const);
@@ -30,7 +30,7 @@ export class Paper {
       ...(text.note ? [html("p", {}, text.note)] : []),
       html("div", { class: "paper-results" }, ...figures.map(([name, value, band, normal]) =>
         html("div", {}, html("span", {}, named(name)), html("b", {}, value), html("span", {}, [band, normal].filter(Boolean).join(" "))))),
-      html("p", {}, hasLimits && told ? sentenceOf(told, text) : rom ? words.noLimitsInContact : words.noLimits + (text.rom_error ?? "")),
+      html("p", {}, hasLimits && headline ? sentenceOf(headline, text) : rom ? words.noLimitsInContact : words.noLimits + (text.rom_error ?? "")),
       ...(notes.length ? [html("p", { class: "warning" }, html("b", {}, words.noted(notes.length)), " ", notes.map((note) => note.text).join("; "))] : []),
       html("div", { class: "paper-picture" }, this.image, this.caption),
       ...(rom && hasLimits ? [html("div", { class: "paper-figures" }, drawn(limitsDrawing(rom.motions, null)), ...(clock ? [drawn(clock)] : []))] : []),

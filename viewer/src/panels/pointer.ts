@@ -9,7 +9,7 @@ const clickTolerance_px = 4;
 export class PointerPanel {
   readonly element: HTMLElement;
   /// Over the scene, where the pointer is.
-  readonly told = html("p", { id: "hover", "aria-live": "polite" });
+  readonly readout = html("p", { id: "hover", "aria-live": "polite" });
   private measures = false;
   private first: Picked | null = null;
   private pressedAt: [number, number] = [0, 0];
@@ -22,7 +22,7 @@ export class PointerPanel {
         this.measures = on;
         this.first = null;
         scene.showDistance(null);
-        this.told.textContent = on ? words.measureFirst : "";
+        this.readout.textContent = on ? words.measureFirst : "";
       }), ...this.byNumber()));
     let asked = false;
     scene.canvas.addEventListener("pointermove", (event) => {
@@ -30,7 +30,7 @@ export class PointerPanel {
       asked = true;
       requestAnimationFrame(() => {
         asked = false;
-        if (!this.measures) this.tell(scene.pick(event));
+        if (!this.measures) this.report(scene.pick(event));
       });
     });
     scene.canvas.addEventListener("pointerdown", (event) => (this.pressedAt = [event.clientX, event.clientY]));
@@ -50,30 +50,30 @@ export class PointerPanel {
       body = chosen;
       number.max = String(most(body));
     });
-    const tell = () => {
+    const submit = () => {
       const vertex = number.valueAsNumber;
       if (Number.isInteger(vertex) && vertex >= 0 && vertex <= most(body)) this.take({ body, vertex });
-      else this.told.textContent = words.noVertex(this.names[body], most(body));
+      else this.readout.textContent = words.noVertex(this.names[body], most(body));
     };
     number.addEventListener("keydown", ({ key }) => {
-      if (key === "Enter") tell();
+      if (key === "Enter") submit();
     });
-    return [bodies, number, button(words.tellVertex, tell)];
+    return [bodies, number, button(words.showVertex, submit)];
   }
 
   private take(picked: Picked | null): void {
     if (this.measures) this.choose(picked);
-    else this.tell(picked);
+    else this.report(picked);
   }
 
-  private tell(picked: Picked | null): void {
+  private report(picked: Picked | null): void {
     if (!picked) {
-      this.told.textContent = "";
+      this.readout.textContent = "";
       return;
     }
     const value = this.scene.bodies[picked.body].valueOf(picked.vertex);
     const text = value ? `${value.isBound ? `${words.bound} ` : ""}${fixed(value.amount, 2)} ${this.unit()}` : words.noValue;
-    this.told.textContent = words.hover(this.names[picked.body], picked.vertex, text);
+    this.readout.textContent = words.hover(this.names[picked.body], picked.vertex, text);
   }
 
   private choose(picked: Picked | null): void {
@@ -81,12 +81,12 @@ export class PointerPanel {
     if (!this.first) {
       this.first = picked;
       this.scene.showDistance(null);
-      this.told.textContent = words.measureSecond;
+      this.readout.textContent = words.measureSecond;
       return;
     }
     const ends = [this.scene.vertexPoint(this.first), this.scene.vertexPoint(picked)] as const;
     this.scene.showDistance([...ends]);
-    this.told.textContent = words.measured(ends[0].distanceTo(ends[1]));
+    this.readout.textContent = words.measured(ends[0].distanceTo(ends[1]));
     this.first = null;
   }
 }

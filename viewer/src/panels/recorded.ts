@@ -1,7 +1,7 @@
 import { zipSync } from "fflate";
 import { button, checkbox, choice, html, named, section } from "../dom";
 import { plain } from "../numbers";
-import { CurveStack, curveOf, shownAtOnce, told, usualCurves, type Curve, type CurveKind } from "../plots/curves";
+import { CurveStack, curveOf, shownAtOnce, valueText, usualCurves, type Curve, type CurveKind } from "../plots/curves";
 import { figure } from "../plots/figure";
 import type { Report, Recorded } from "../report";
 import { saveBlob } from "../save";
@@ -34,7 +34,7 @@ export class RecordedPanel {
   private loops = false;
   private playing = 0;
   private isSaving = false;
-  private stretch = { frame: 0, begun: 0 };
+  private playback = { frame: 0, begun: 0 };
 
   /// `drawn` is the picture of the frame that was gone to, once it is answered; null where nothing is drawn.
   constructor(
@@ -60,7 +60,7 @@ export class RecordedPanel {
         ...this.chooser(chosen)),
       figure(this.stack.drawing(), ...this.silent()), ...(drawn ? [this.picturesButton(drawn)] : []));
     this.stack.show(chosen);
-    this.tell(0);
+    this.showTime(0);
   }
 
   /// The largest values of the curves that are looked at first, and when.
@@ -72,13 +72,13 @@ export class RecordedPanel {
         if (Number.isFinite(value) && (frame < 0 || (isGap ? value < values[frame]! : Math.abs(value) > Math.abs(values[frame]!)))) frame = i;
       });
       if (frame < 0) return [];
-      return [{ name: isGap ? title : words.largest(title), value: told(values[frame]!, unit), at: this.timeText(frame), go: () => this.show(frame) }];
+      return [{ name: isGap ? title : words.largest(title), value: valueText(values[frame]!, unit), at: this.timeText(frame), go: () => this.show(frame) }];
     });
   }
 
   show(frame: number): void {
     // A frame that is gone to by hand is where playing goes on from.
-    this.stretch = { frame, begun: performance.now() };
+    this.playback = { frame, begun: performance.now() };
     this.put(frame);
   }
 
@@ -88,14 +88,14 @@ export class RecordedPanel {
     this.playing = 0;
     this.playButton.textContent = starts ? words.pause : words.play;
     if (!starts) return;
-    this.stretch = { frame: this.slider.valueAsNumber < this.times.length - 1 ? this.slider.valueAsNumber : 0, begun: performance.now() };
+    this.playback = { frame: this.slider.valueAsNumber < this.times.length - 1 ? this.slider.valueAsNumber : 0, begun: performance.now() };
     const step = () => {
       const perSecond = this.speed * (this.recorded.axis === "frame" ? untimedFrames_per_s : 1);
-      const time = this.times[this.stretch.frame]! + (perSecond * (performance.now() - this.stretch.begun)) / 1000;
-      let { frame } = this.stretch;
+      const time = this.times[this.playback.frame]! + (perSecond * (performance.now() - this.playback.begun)) / 1000;
+      let { frame } = this.playback;
       while (frame + 1 < this.times.length && this.times[frame + 1]! <= time) ++frame;
       this.put(frame);
-      if (frame + 1 === this.times.length && this.loops) this.stretch = { frame: 0, begun: performance.now() };
+      if (frame + 1 === this.times.length && this.loops) this.playback = { frame: 0, begun: performance.now() };
       if (frame + 1 < this.times.length || this.loops) this.playing = requestAnimationFrame(step);
       else this.toggle();
     };
@@ -129,12 +129,12 @@ export class RecordedPanel {
   private put(frame: number): void {
     this.slider.value = String(frame);
     this.stack.setFrame(frame);
-    this.tell(frame);
+    this.showTime(frame);
     const of = (numbers: Float64Array, each: number) => Array.from(numbers.subarray(each * frame, each * frame + each));
     this.go({ angles: of(this.angles, 3), translation: of(this.translations, 3), X_FM: of(this.poses, 16) });
   }
 
-  private tell(frame: number): void {
+  private showTime(frame: number): void {
     this.time.textContent = this.timeText(frame);
     this.slider.setAttribute("aria-valuetext", this.timeText(frame));
   }
@@ -145,7 +145,7 @@ export class RecordedPanel {
 
   private setSpeed(speed: number): void {
     this.speed = speed;
-    this.stretch = { frame: this.slider.valueAsNumber, begun: performance.now() };
+    this.playback = { frame: this.slider.valueAsNumber, begun: performance.now() };
   }
 
   /// Which quantities are drawn, a few at once.

@@ -3,35 +3,35 @@ import type { Depth } from "../core/protocol";
 import { fixed } from "../numbers";
 import { words } from "../words";
 
-export interface WayOut {
+export interface Exit {
   vary: number;
   to_deg: number;
   turn_deg: number;
 }
 
-/// The state of the pose in one line, and from contact the shortest way out to press. It is as high as it ever gets.
+/// The state of the pose in one line, and from contact the nearest exit to press. It is as high as it ever gets.
 export class StatusChip {
   readonly element: HTMLElement;
   private readonly text = html("span", { id: "status-text", "aria-live": "polite" });
-  private readonly out = html("button", { type: "button", id: "way-out" });
-  private way: WayOut | null = null;
-  private toldAt = 0;
+  private readonly out = html("button", { type: "button", id: "exit" });
+  private exit: Exit | null = null;
+  private announcedAt = 0;
 
-  constructor(leave: (way: WayOut) => void) {
-    this.out.addEventListener("click", () => this.way && leave(this.way));
+  constructor(leave: (exit: Exit) => void) {
+    this.out.addEventListener("click", () => this.exit && leave(this.exit));
     this.element = html("div", { id: "status" }, this.text, this.out);
-    this.setWay(null, "");
+    this.setExit(null, "");
   }
 
   /// Not in contact; `clear_mm` comes later, and for some joints never.
   free(clear_mm: number | null): void {
     this.say("free", clear_mm === null ? words.isFree : words.freeClear(fixed(clear_mm, 1)));
-    this.setWay(null, "");
+    this.setExit(null, "");
   }
 
   atLimit(place: string): void {
     this.say("limit", words.atLimit(place));
-    this.setWay(null, "");
+    this.setExit(null, "");
   }
 
   /// `depth` comes once the joint rests.
@@ -43,18 +43,18 @@ export class StatusChip {
     ].join(", ")].filter(Boolean).join(" · "));
   }
 
-  setWay(way: WayOut | null, said: string): void {
-    this.way = way;
+  setExit(exit: Exit | null, said: string): void {
+    this.exit = exit;
     this.out.textContent = said;
-    this.out.style.visibility = way ? "" : "hidden";
+    this.out.style.visibility = exit ? "" : "hidden";
   }
 
   private say(state: "free" | "limit" | "contact", text: string): void {
     this.element.dataset["state"] = state;
     // A reader that speaks is not interrupted at every step of a slider.
     const now = performance.now();
-    this.text.setAttribute("aria-live", now - this.toldAt > 1000 ? "polite" : "off");
-    if (this.text.textContent !== text) this.toldAt = now;
+    this.text.setAttribute("aria-live", now - this.announcedAt > 1000 ? "polite" : "off");
+    if (this.text.textContent !== text) this.announcedAt = now;
     this.text.textContent = text;
   }
 }

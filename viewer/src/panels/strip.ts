@@ -1,7 +1,7 @@
 import { button, html, named, shortened, spaced } from "../dom";
 import { clockTime, fixed } from "../numbers";
 import type { MotionAnswer, ReportText } from "../report";
-import { bandText, deficitOf, differenceOf, differenceText, firstFigures, limitAlone, limitText, toldFirst } from "../result";
+import { bandText, deficitOf, differenceOf, differenceText, firstFigures, limitAlone, limitText, headlineMotion } from "../result";
 import { motionName, words } from "../words";
 import { normalText } from "./manoeuvres";
 
@@ -61,8 +61,8 @@ export class ResultStrip {
         return made;
       })
       : extremes.map(({ name, value, at, go: show }) => card(name, value, "", at, show, false));
-    const told = rom && hasLimits ? toldFirst(rom, isHip) : null;
-    this.sentence.textContent = told ? sentenceOf(told, report)
+    const headline = rom && hasLimits ? headlineMotion(rom, isHip) : null;
+    this.sentence.textContent = headline ? sentenceOf(headline, report)
       : rom ? words.noLimitsInContact : words.noLimits + shortened(report.rom_error ?? "", 300);
     const notes = rom?.notes ?? [];
     this.element = html("section", { id: "strip", "aria-label": words.result },
@@ -72,7 +72,7 @@ export class ResultStrip {
   }
 
   /// The sentence of a motion that the joint has gone to.
-  tell(motion: MotionAnswer): void {
+  describe(motion: MotionAnswer): void {
     this.sentence.textContent = sentenceOf(motion, this.report);
     for (const [name, made] of this.cards) {
       if (name === motion.name) made.setAttribute("aria-current", "true");

@@ -41,7 +41,7 @@ export function usualCurves(curves: readonly Curve[]): Curve[] {
 }
 
 /// A value with as many digits as say something.
-export function told(value: number, unit: string): string {
+export function valueText(value: number, unit: string): string {
   if (!Number.isFinite(value)) return words.noValue;
   const size = Math.abs(value), digits = size >= 100 ? 0 : size >= 10 ? 1 : 2;
   return unit === "°" ? `${plain(value, 1)}°` : [plain(value, digits), unit].filter(Boolean).join(" ");
@@ -103,9 +103,9 @@ export class CurveStack {
     const x = String(this.x(this.times[frame]!));
     this.cursor.setAttribute("x1", x);
     this.cursor.setAttribute("x2", x);
-    this.shown.forEach(({ values, unit }, i) => (this.readouts[i]!.textContent = told(values[frame]!, unit)));
+    this.shown.forEach(({ values, unit }, i) => (this.readouts[i]!.textContent = valueText(values[frame]!, unit)));
     this.picture.setAttribute("aria-valuenow", String(frame));
-    this.picture.setAttribute("aria-valuetext", this.shown.map(({ title, values, unit }) => `${title} ${told(values[frame]!, unit)}`).join(", "));
+    this.picture.setAttribute("aria-valuetext", this.shown.map(({ title, values, unit }) => `${title} ${valueText(values[frame]!, unit)}`).join(", "));
   }
 
   private lane(curve: Curve, from: number, to: number): SVGElement[] {

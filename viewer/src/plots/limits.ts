@@ -2,7 +2,7 @@ import { scaleLinear } from "d3-scale";
 import { named, spaced, svg } from "../dom";
 import { fixed } from "../numbers";
 import type { MotionAnswer, StoredBefore } from "../report";
-import { limitText, toldBand } from "../result";
+import { limitText, shownBand } from "../result";
 import { words } from "../words";
 import { pressable, type Drawing } from "./figure";
 
@@ -21,7 +21,7 @@ export function limitBar(motion: MotionAnswer, most: number): SVGSVGElement {
   const picture = svg("svg", { viewBox: "0 0 100 10", preserveAspectRatio: "none", class: "limit-bar", "aria-hidden": "true" },
     svg("rect", { x: 0, y: 3, width: 100, height: 4, class: "track" }));
   if (motion.reason !== "contact_at_start") picture.append(svg("rect", { x: 0, y: 3, width: x(motion.limit_deg), height: 4, class: "bar" }));
-  const band = toldBand(motion);
+  const band = shownBand(motion);
   if (band) picture.append(svg("rect", { x: x(band.p5_deg), y: 1, width: Math.max(1, x(band.p95_deg) - x(band.p5_deg)), height: 8, class: "band" }));
   if (motion.normal_range_deg !== null) picture.append(svg("rect", { x: x(motion.normal_range_deg) - 0.75, y: 0, width: 1.5, height: 10, class: "normal-mark" }));
   return picture;
@@ -69,7 +69,7 @@ export function limitsDrawing(motions: readonly MotionAnswer[], go: ((motion: Mo
       svg("text", { x: left - 8, y: middle + 4, "text-anchor": "end" }, name),
       svg("rect", { x: x(0), y: y + 6, width: Math.max(0, x(motion.limit_deg) - x(0)), height: rowHeight - 12, class: "bar" }),
       svg("text", { x: width - 4, y: middle + 4, "text-anchor": "end" }, motion.reason === "contact_at_start" ? "–" : limitText(motion)));
-    const band = toldBand(motion);
+    const band = shownBand(motion);
     if (band)
       row.append(
         svg("line", { x1: x(band.p5_deg), x2: x(band.p95_deg), y1: middle, y2: middle, class: "whisker" }),

@@ -47,7 +47,7 @@ export class MapPlot {
   private readonly plane;
   private readonly isRoomy: boolean;
   private readonly strip = svg("svg", { viewBox: `0 0 ${width} ${stripHeight}`, class: "plot", "aria-hidden": "true" });
-  private readonly told = html("p", { "aria-live": "polite" }, words.severalFree);
+  private readonly readout = html("p", { "aria-live": "polite" }, words.severalFree);
   private readonly colour;
 
   constructor(private readonly map: MapAnswer, private readonly hooks: MapHooks | null, private readonly prefix = "") {
@@ -72,7 +72,7 @@ export class MapPlot {
         x: x(column)!, y: y(row)!, width: x.bandwidth() + 0.4, height: y.bandwidth() + 0.4, class: "cell", fill: "none",
       });
       picture.append(pressable(cell, this.placeOf(point), () => {
-        this.tell(point);
+        this.describe(point);
         this.hooks?.go(columnDeg, rowDeg);
       }));
       this.cells.push(cell);
@@ -101,7 +101,7 @@ export class MapPlot {
     if (this.hooks) this.dragBy(picture, this.hooks);
     const caption = words.mapCaption(spaced(map.vary), spaced(columns.angle), spaced(rows.angle));
     const drawn = figure({ name: "map", caption, picture, data: () => this.data() }, this.legend());
-    this.element = html("div", { class: "map-place" }, drawn, html("div", { class: "map-told" }, this.strip, this.told));
+    this.element = html("div", { class: "map-place" }, drawn, html("div", { class: "map-readout" }, this.strip, this.readout));
     map.intervals.forEach((_, point) => this.paint(point));
   }
 
@@ -187,7 +187,7 @@ export class MapPlot {
   }
 
   /// All free intervals of a point, as a strip.
-  private tell(point: number): void {
+  private describe(point: number): void {
     const intervals = this.map.intervals[point] ?? [];
     const x = (deg: number) => left + ((deg + 180) / 360) * (width - left - right);
     this.strip.replaceChildren(
@@ -195,7 +195,7 @@ export class MapPlot {
       ...intervals.map(([low, high]) =>
         svg("rect", { x: x(low), y: 9, width: Math.max(1, x(high) - x(low)), height: 14, class: "bar" })),
       ...[-180, -90, 0, 90, 180].map((tick) => svg("text", { x: x(tick), y: 40, "text-anchor": "middle" }, `${plain(tick)}°`)));
-    this.told.textContent = this.map.intervals[point] ? this.textOf(point) : this.placeOf(point);
+    this.readout.textContent = this.map.intervals[point] ? this.textOf(point) : this.placeOf(point);
   }
 
   private data(): (string | number | null)[][] {

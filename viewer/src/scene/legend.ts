@@ -6,7 +6,7 @@ const barSteps = 256;
 
 /// What stands beside the bar: colours of values beyond its ends, and of bounds.
 export interface Swatch {
-  look: "striped" | "plain" | "hatched";
+  fill: "striped" | "plain" | "hatched";
   colour: string;
 }
 
@@ -26,9 +26,9 @@ export function legendParts(scale: ColourScale): LegendParts {
   return {
     title: words.legendTitle(words.quantity[quantity], words.unit[quantity]),
     ticks: [low, (low + high) / 2, high],
-    below: low < 0 ? { look: "striped", colour: scale.colour(low) } : null,
-    above: scale.plainAbove ? { look: "plain", colour: plainBone } : { look: "striped", colour: scale.colour(high) },
-    bound: quantity === "depth" ? { look: "hatched", colour: hatchLight } : null,
+    below: low < 0 ? { fill: "striped", colour: scale.colour(low) } : null,
+    above: scale.plainAbove ? { fill: "plain", colour: plainBone } : { fill: "striped", colour: scale.colour(high) },
+    bound: quantity === "depth" ? { fill: "hatched", colour: hatchLight } : null,
   };
 }
 
@@ -46,17 +46,17 @@ export function drawBar(context: CanvasRenderingContext2D, scale: ColourScale, x
 }
 
 /// As the surface shows it.
-export function drawSwatch(context: CanvasRenderingContext2D, { look, colour }: Swatch, x: number, y: number, width: number, height: number): void {
+export function drawSwatch(context: CanvasRenderingContext2D, { fill, colour }: Swatch, x: number, y: number, width: number, height: number): void {
   context.save();
   context.beginPath();
   context.rect(x, y, width, height);
   context.clip();
   context.fillStyle = colour;
   context.fillRect(x, y, width, height);
-  if (look !== "plain") {
-    context.strokeStyle = look === "striped" ? stripeColour : hatchDark;
-    context.lineWidth = look === "striped" ? 1.5 : 2.5;
-    const sense = look === "striped" ? 1 : -1, step = 5.5;
+  if (fill !== "plain") {
+    context.strokeStyle = fill === "striped" ? stripeColour : hatchDark;
+    context.lineWidth = fill === "striped" ? 1.5 : 2.5;
+    const sense = fill === "striped" ? 1 : -1, step = 5.5;
     for (let at = -height; at < width + height; at += step) {
       context.beginPath();
       context.moveTo(x + at, y);
