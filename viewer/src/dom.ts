@@ -27,7 +27,7 @@ export function section(title: string, ...children: Child[]): HTMLElement {
   return html("section", { "aria-labelledby": id }, html("h2", { id }, title), ...children);
 }
 
-/// A title that opens what is under it, as one landmark of the page.
+/// A title that opens its contents, as one landmark of the page.
 export function fold(title: string, open: boolean, ...children: Child[]): HTMLDetailsElement {
   const id = `section-${title.toLowerCase().replaceAll(/[^a-z]+/g, "-")}`;
   return html("details", { class: "fold", open },
@@ -63,7 +63,7 @@ export function spaced(name: string): string {
 
 const longest = 60;
 
-/// A text of which no more is shown than can be read.
+/// A text shortened to a readable length.
 export function shortened(text: string, most = longest): string {
   return text.length > most ? `${text.slice(0, most - 1)}…` : text;
 }
@@ -71,7 +71,7 @@ export function shortened(text: string, most = longest): string {
 /// Latin, Greek and Cyrillic letters, digits and punctuation: all of them run as the page's own sentences do.
 const runsAlong = /^[\x20-\x7e\u00a0-\u052f\u2010-\u2027\u2030-\u205e]*$/;
 
-/// A name that fits into a sentence and leaves the direction of what is around it as it is.
+/// A name that fits into a sentence without changing the direction of the text around it.
 export function named(name: string): string {
   const short = shortened(name).replaceAll(/\p{Bidi_Control}/gu, "");
   return runsAlong.test(short) ? short : `\u2068${short}\u2069`;

@@ -17,7 +17,7 @@ export function jointArraysOf(report: Report): JointArrays {
   };
 }
 
-/// As the report's own limits were found.
+/// The rules by which the report's own limits were computed.
 function bearingOf(report: Report): JointArrays["bearing"] {
   const { rom, arrays } = report.text;
   if (!rom) return "found";

@@ -5,7 +5,7 @@ import { bodyNames, type BodyName } from "./scene/scene";
 
 /// Files of a joint whose bones were changed on the page: meshes in the joint frame, and a joint file that names them.
 
-/// A mesh of a body and its file; of a body of several meshes each.
+/// A mesh of a body and its file; one for each mesh of a body.
 interface MeshFile {
   name: string;
   part: Part | null;
@@ -54,7 +54,7 @@ function meshLines(body: BodyName, parts: readonly Part[]): string[] {
     : ["", `[[${body}.meshes]]`, `name = ${quoted(part.name)}`, `mesh = ${quoted(name)}`, `contact = ${quoted(part.contact)}`]));
 }
 
-/// Head and socket stay those that were found before: a fit to a bone that was cut would move them.
+/// Head and socket keep their fits from before: a fit to a bone that was cut would move them.
 function sphereLines({ rom, parts }: ReportText): string[] {
   const { head, socket, margin_mm } = rom?.bearing ?? {};
   const table = (name: string, sphere: typeof head) => (sphere?.centre_mm

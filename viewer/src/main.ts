@@ -46,7 +46,7 @@ const quantities = Object.keys(words.quantity) as ShownQuantity[];
 const storedQuantities: readonly ShownQuantity[] = ["gap", "removed", "none"];
 /// From here on figures stand beside the other panels.
 const wide = matchMedia("(min-width: 150rem)");
-/// The picture for paper waits until the page has answered and rests.
+/// The picture for paper waits until the page has answered and is idle.
 const pictureAfter_ms = 1500;
 
 function found<T extends HTMLElement>(id: string): T {
@@ -71,7 +71,7 @@ function warn(message: string): void {
   if (!known.some(({ textContent }) => textContent === message)) post("alert", message);
 }
 
-/// A scene, or nothing but a line where the browser shows none.
+/// A scene, or only a line if the browser shows none.
 function sceneOf(arrays: JointArrays, parts: ReportText["parts"], label: string): JointScene | null {
   try {
     return new JointScene(found("scene"), arrays.fixed, arrays.mobile, parts, label, arrays.side === 0 ? "right" : "left");
@@ -104,7 +104,7 @@ class Page {
   private poseChoice: HTMLSelectElement | null = null;
   private readonly closed = new AbortController();
 
-  /// `report` holds the arrays of figures and poses that a joint dropped on the page has not; `computes` where the core answers.
+  /// `report` holds the arrays of figures and poses that a joint dropped on the page has not; `computes` if the core answers.
   constructor(
     private readonly text: ReportText, private readonly arrays: JointArrays, private readonly report: Report | null, private readonly computes: boolean) {
     const names = { fixed: named(text.joint.fixed), mobile: named(text.joint.mobile) };
@@ -156,7 +156,7 @@ class Page {
     found("help").remove();
   }
 
-  /// Whether the page is about load: it opens on what was recorded.
+  /// Whether the page is about load: it opens on the recorded motion.
   private get opensOnLoad(): boolean {
     return this.text.layers !== null && this.recorded !== null;
   }
@@ -219,7 +219,7 @@ class Page {
   private listen(): void {
     const { signal } = this.closed;
     window.addEventListener("hashchange", () => this.applyFragment(), { signal });
-    // Where no picture was made for paper it shows the joint as it is.
+    // Without a picture made for paper, paper shows the joint's present pose.
     window.addEventListener("beforeprint", () => this.takePictureForPaper(), { signal });
     listenToKeys({
       "1": () => this.tabs.showNumber(1), "2": () => this.tabs.showNumber(2), "3": () => this.tabs.showNumber(3), "4": () => this.tabs.showNumber(4),
@@ -284,7 +284,7 @@ class Page {
     return [motionName(motion.name), placeOf(motion, this.text)].filter(Boolean).join(": ");
   }
 
-  /// The view that the address says.
+  /// The view in the address.
   private applyFragment(): void {
     const { coordinates, display, zone, camera } = readViewState(location.hash, Object.keys(this.referencePose()));
     const values = Object.entries(this.referencePose()).map(([name, reference]) => coordinates[name] ?? reference);
@@ -334,7 +334,7 @@ class Page {
     this.drawWorst();
   }
 
-  /// What changes the joint by hand, where limits are exact and nothing lies on the bones.
+  /// Panels that change the joint by hand, if limits are exact and no layers lie on the bones.
   private addEditPanels(core: CoreClient): void {
     const { text, arrays, scene } = this, { rom, layers, plan, joint } = text;
     if (!rom || rom.exact === false || layers || questionsOf(text).length === 0) return;
@@ -350,7 +350,7 @@ class Page {
     if (centre) addPlanPanel(centre.element);
   }
 
-  /// Where the surface of a bone was before a plan cut it; null of one that is as it was.
+  /// The surface of a bone before a plan cut it; null for an uncut bone.
   private beforePlan(body: BodyName): Float64Array | null {
     const cut = this.text.plan?.surfaces[body];
     if (!cut) return null;
@@ -359,7 +359,7 @@ class Page {
     return xyz;
   }
 
-  /// What the pose shows is then asked anew: the bone is another one.
+  /// The bone has changed, so the display of the pose is requested again.
   private takeBrushed({ body, vertices, depths_mm }: Brushed, rests: boolean): void {
     this.scene?.replaceBody(body, vertices);
     if (this.removed) this.removed[body] = { shown: Float32Array.from(depths_mm), marks: Uint8Array.from(depths_mm, (mm) => (mm > 0 ? 1 : 0)) };
@@ -407,7 +407,7 @@ class Page {
     this.zones?.show(name);
   }
 
-  /// Another quantity is asked for.
+  /// Another quantity was requested.
   private recolour(): void {
     if (this.computes) return this.ask(this.motion.coordinates);
     const pose = this.display.quantity === "gap" ? this.storedPose : null;
@@ -429,7 +429,7 @@ class Page {
     this.recolour();
   }
 
-  /// The scene, once all of its colours are of the pose that was asked for last: the core answers in order.
+  /// The scene, once all of its colours belong to the pose requested last: the core answers in order.
   private async pictureOfFrame(said: string): Promise<Blob> {
     await this.core?.query({ of: "pose", at: this.motion.coordinates });
     return this.scene!.picture(`${headingOf(this.text)} · ${said}`);
@@ -549,7 +549,7 @@ class Page {
     this.rememberView();
   }
 
-  /// Coordinates by the names they have in the address.
+  /// Coordinates by their names in the address.
   private referencePose(): Record<string, number> {
     const { coordinates, reference_deg, reference_mm } = this.text;
     return Object.fromEntries([
@@ -594,7 +594,7 @@ function coarseMap(): MapQuestion {
   return { columnAngle: 0, rowAngle: 1, vary: 2, columns: every10(-20, 120), rows: every10(-40, 30) };
 }
 
-/// In full, once they are asked for.
+/// In full, once they are requested.
 async function showLicences(place: HTMLElement): Promise<void> {
   const texts = new TextDecoder().decode(await inflated(bytesOf(textOf("licence-texts") ?? ""), "gzip"));
   place.textContent = `${textOf("licence-list") ?? ""}\n\n${texts}`;

@@ -1,4 +1,4 @@
-/// Numbers as they are read: a true minus sign, and no minus before a zero.
+/// Numbers for readers: a true minus sign, and no minus before a zero.
 export const minusSign = "\u2212";
 
 export function fixed(value: number, digits: number): string {
@@ -12,12 +12,12 @@ export function signed(value: number, digits: number): string {
   return value > 0 && Number(text) !== 0 ? `+${text}` : text;
 }
 
-/// As short as it can be said: 120, 0.5, −30.
+/// The shortest form: 120, 0.5, −30.
 export function plain(value: number, digits = 1): string {
   return String(Number(value.toFixed(digits))).replace("-", minusSign);
 }
 
-/// The number of a text that a hand typed, with either minus sign and a decimal point or comma; null for anything else.
+/// The number in typed text, with either minus sign and a decimal point or comma; null for anything else.
 export function typed(text: string): number | null {
   const said = text.trim().replaceAll(minusSign, "-").replace(",", ".").replace(/°$/, "");
   return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(said) ? Number(said) : null;

@@ -23,18 +23,18 @@ export interface MotionAnswer {
   limit_deg: number;
   reason: "contact" | "end_of_range" | "contact_at_start";
   contact_kind: string | null;
-  /// The side of a shoulder's centre on which it is met.
+  /// The side of a shoulder's centre on which contact is.
   contact_side?: string | null;
   bearing_contact_deg: number | null;
   soft_contact_deg?: number | null;
-  /// Names of the meshes that touch there, null of a body of one mesh.
+  /// Names of the meshes in contact there, null for a body of one mesh.
   soft_contact_parts?: Record<"fixed" | "mobile", string | null> | null;
-  /// What meets; `part` of a body of several meshes.
+  /// The features in contact; `part` for a body of several meshes.
   features?: Record<"fixed" | "mobile", { part?: string }> | null;
   contact_point_mm: [number, number, number] | null;
-  /// Of a joint whose centre is not held: where the mobile body is at the limit.
+  /// Where the mobile body is at the limit, for a joint whose centre is not held.
   translation_mm?: [number, number, number] | null;
-  /// What the translation follows ends at the limit: nothing is known past it. Without a translation it does not even begin.
+  /// The record or load that the translation follows ends at the limit: nothing is known past it. Without a translation it does not begin.
   translation_ends?: boolean | null;
   clock_hour: number | null;
   vary: string;
@@ -95,7 +95,7 @@ export interface RomAnswer {
   };
 }
 
-/// A number by which a part of a body is moved.
+/// A parameter that moves a part of a body.
 export interface PartParameter {
   name: string;
   value: number;
@@ -117,7 +117,7 @@ export interface MapAxis {
   values_deg: number[];
 }
 
-/// low, high, whether contact ends it there, and there
+/// low, high, whether contact ends it at the low end, and at the high end
 export type Interval = [number, number, number, number];
 
 export interface MapAnswer {
@@ -194,10 +194,10 @@ type Three = [number, number, number];
 
 export interface StoredMeasures {
   pelvis_frame: string;
-  /// Pieces of the meshes that are not measured, a sentence for each bone.
+  /// Components of the meshes that are not measured, a sentence for each bone.
   left_out: string[];
   measures: StoredMeasure[];
-  /// Points of the femur in M, those of the hip bone in F.
+  /// Points of the femur are in M, those of the hip bone in F.
   around_neck: { hour: number; alpha_deg: number | null; alpha_at_1mm_deg: number | null; alpha_point_mm: Three | null }[];
   rim: { hour: number; point_mm: Three | null; centre_edge_deg: number | null; is_in_plane: boolean }[];
   geometry: {
@@ -245,30 +245,30 @@ export interface StoredPlan {
 /// How far a motion's limit is from that of the joint before; docs/compare.md.
 export interface LimitDifference {
   motion: string;
-  /// After minus before; null where neither end is by contact, or one is in contact at the start.
+  /// After minus before; null if neither end is by contact, or one is in contact at the start.
   difference_deg: number | null;
   difference_is: "exact" | "at_least" | "at_most" | null;
-  /// Of joints displaced by the same amounts.
+  /// The band of the difference, from joints displaced by the same amounts.
   band: Band | null;
   beyond_band: boolean | null;
 }
 
-/// The joint before, with which that of the page is compared.
+/// The joint before, to which the page's joint is compared.
 export interface StoredBefore {
   file: string | null;
   joint: { name: string; fixed: string; mobile: string };
   rom: RomAnswer | null;
   rom_error?: string;
-  /// One for each motion; none where either joint has no limits.
+  /// One for each motion; empty if either joint has no limits.
   differences: LimitDifference[];
-  /// Names of arrays; null of a body that is the page's own.
+  /// Names of arrays; null for a body that is the page's own.
   surfaces: Record<"fixed" | "mobile", { vertices: string; triangles: string } | null>;
 }
 
 export interface ReportText {
   version: string;
   title: string;
-  /// As given on the command line, each null where it was not; never taken from the clock.
+  /// Options of the command line, each null if not given; never taken from the clock.
   case?: string | null;
   note?: string | null;
   date?: string | null;
@@ -296,7 +296,7 @@ export interface ReportText {
   recorded: Recorded | null;
   measures: StoredMeasures | null;
   plan: StoredPlan | null;
-  /// Of a report of two joints.
+  /// Set in a report of two joints.
   before?: StoredBefore | null;
 }
 
@@ -319,7 +319,7 @@ export async function inflated(bytes: Uint8Array<ArrayBuffer>, format: Compressi
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream(format))).arrayBuffer();
 }
 
-/// Scope: what the joint's answers cover, and what not.
+/// Scope: what the joint's answers cover and what they exclude.
 export function scopeOf({ scope, rom }: ReportText): string | null {
   return scope ?? rom?.scope ?? null;
 }
@@ -361,7 +361,7 @@ export class Report {
   }
 }
 
-/// The text of a joint that was dropped on the page, as a report would have it.
+/// The report text of a joint that was dropped on the page.
 export function textOfProposal(proposal: Proposal): ReportText {
   const side = proposal.joint.side === 0 ? "right" : "left", { fixed, mobile } = proposal.bodies;
   return {

@@ -4,7 +4,7 @@ import { words } from "./words";
 /// Damage that the page reports in one line.
 export class ReportError extends Error {}
 
-/// Throws ReportError where a value is not what its key has to hold.
+/// Throws ReportError if a value is not of the kind that its key requires.
 type Check = (value: unknown, key: string) => void;
 
 function wrong(key: string): never {
@@ -149,7 +149,7 @@ const report = object({
   measures: orNull(measures), plan: orNull(plan), before: ifThere(orNull(before)),
 });
 
-/// The text of a block, every key that the page reads with it; throws ReportError that names the first one that is wrong.
+/// The text of a block with every key that the page reads; throws ReportError that names the first wrong one.
 export function checkedText(json: string): ReportText {
   let said: unknown;
   try {
@@ -164,7 +164,7 @@ export function checkedText(json: string): ReportText {
   return read;
 }
 
-/// Arrays are as many as what they are of.
+/// Arrays have as many entries as the vertices or triangles that they describe.
 function checkArrays(read: ReportText): void {
   const needed = (key: string, name: string, type: ArrayPlace["type"], right: (length: number) => boolean) => {
     const place = Object.hasOwn(read.arrays, name) ? read.arrays[name]! : wrong(key);

@@ -2,25 +2,25 @@ import { fixed, plain, signed } from "./numbers";
 import type { Band, LimitDifference, MotionAnswer, ReportText, RomAnswer } from "./report";
 import { words } from "./words";
 
-/// What is said first of a joint's limits, and by which rule: docs/report.md, "The answer first".
+/// The headline of a joint's limits, and the rule that chooses it: docs/report.md, "The answer first".
 
 const ofHips = ["flexion", "internal_rotation_at_90_flexion", "fadir"];
 const shownFirst = 4;
 
-/// How much a motion lacks of its normal range, in degrees; null where it lacks nothing or has none.
+/// How much a motion lacks of its normal range, in degrees; null if it lacks nothing or has no normal range.
 export function deficitOf({ reason, limit_deg, normal_range_deg, translation_ends }: MotionAnswer): number | null {
   if (normal_range_deg === null || reason === "end_of_range" || translation_ends) return null;
   const lacks = normal_range_deg - (reason === "contact_at_start" ? 0 : limit_deg);
   return lacks > 0 ? lacks : null;
 }
 
-/// The motion that lacks most; null where none lacks anything.
+/// The motion that lacks most; null if none lacks anything.
 export function worstOf(motions: readonly MotionAnswer[]): MotionAnswer | null {
   return motions.reduce<MotionAnswer | null>(
     (worst, motion) => ((deficitOf(motion) ?? 0) > (worst ? deficitOf(worst)! : 0) ? motion : worst), null);
 }
 
-/// The motion that lacks most, or where none lacks anything that which is nearest to its normal range; null where none has one.
+/// The motion that lacks most, or, if none lacks anything, the one nearest to its normal range; null if none has one.
 function nearestToNormal(motions: readonly MotionAnswer[]): MotionAnswer | null {
   const beyond = ({ limit_deg, normal_range_deg }: MotionAnswer) => limit_deg - normal_range_deg!;
   const compared = motions.filter(({ normal_range_deg, reason }) => normal_range_deg !== null && reason === "contact");
@@ -28,7 +28,7 @@ function nearestToNormal(motions: readonly MotionAnswer[]): MotionAnswer | null 
     (nearest, motion) => (nearest && beyond(nearest) <= beyond(motion) ? nearest : motion), null);
 }
 
-/// The four of the strip: those that a hip is examined by, or else the first ones; and among the others that which lacks most of its
+/// The four of the strip: those of a hip examination, or else the first ones; and among the others the one that lacks most of its
 /// normal range, or is nearest to it, or else the next one.
 export function firstFigures({ motions }: RomAnswer, isHip: boolean): MotionAnswer[] {
   const named = isHip ? ofHips.flatMap((name) => motions.find((motion) => motion.name === name) ?? []) : [];
@@ -38,7 +38,7 @@ export function firstFigures({ motions }: RomAnswer, isHip: boolean): MotionAnsw
   return last ? [...shown, last] : shown;
 }
 
-/// The motion that the sentence is about: that which lacks most; where none does, of a hip internal rotation at 90° flexion, of others
+/// The motion of the sentence: the one that lacks most; if none does, internal rotation at 90° flexion for a hip, and for other joints
 /// the first of the strip that ends by contact.
 export function headlineMotion(rom: RomAnswer, isHip: boolean): MotionAnswer | null {
   const byContact = ({ reason }: MotionAnswer) => reason === "contact";
@@ -46,18 +46,18 @@ export function headlineMotion(rom: RomAnswer, isHip: boolean): MotionAnswer | n
     (firstFigures(rom, isHip).find(byContact) ?? rom.motions[0] ?? null));
 }
 
-/// The band that says something: where nothing ends a motion in its range, nothing does so in most displaced joints either.
+/// The band if it is informative: a motion that nothing ends in its range ends in few displaced joints either.
 export function shownBand({ band, reason }: MotionAnswer): Band | null {
   return band && (reason === "contact" || band.p5_deg.toFixed(0) !== band.p95_deg.toFixed(0)) ? band : null;
 }
 
-/// "134.8°", ">120°" where the range ends without contact.
+/// "134.8°", ">120°" if the range ends without contact.
 export function endText({ limit_deg, reason }: { limit_deg: number; reason: MotionAnswer["reason"] }): string {
   if (reason === "contact_at_start") return words.reasons.contact_at_start;
   return reason === "end_of_range" ? words.over(`${plain(limit_deg)}°`) : `${fixed(limit_deg, 1)}°`;
 }
 
-/// Without its band. Where what a translation follows ends, the motion is known to there, not free beyond.
+/// Without its band. If the record or load that a translation follows ends, the motion is known to there, not free beyond.
 export function limitAlone(motion: MotionAnswer): string {
   if (motion.translation_ends) return motion.translation_mm ? `${fixed(motion.limit_deg, 1)}°` : "–";
   return endText(motion);
@@ -72,12 +72,12 @@ export function limitText(motion: MotionAnswer): string {
   return [limitAlone(motion), bandText(motion)].filter(Boolean).join(" ");
 }
 
-/// How far a motion's limit is from that of the joint before; null where the report has no such joint, or it is not known.
+/// How far a motion's limit is from that of the joint before; null if the report has no such joint, or the difference is unknown.
 export function differenceOf({ before }: ReportText, motion: string): LimitDifference | null {
   return before?.differences.find((each) => each.motion === motion && each.difference_deg !== null) ?? null;
 }
 
-/// "+12.3°", ">+12.3°" where the range ends without contact after, "<−12.3°" before.
+/// "+12.3°", ">+12.3°" if the range ends without contact after, "<−12.3°" before.
 export function differenceText({ difference_deg, difference_is }: LimitDifference): string {
   if (difference_deg === null) return "–";
   const bound = { exact: "", at_least: ">", at_most: "<" }[difference_is ?? "exact"];

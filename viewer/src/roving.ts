@@ -1,4 +1,4 @@
-/// Of many things to press only one is a stop of the tabulator; arrow keys lead from it to the others.
+/// Only one of many buttons is a tab stop; arrow keys lead from it to the others.
 export function roving(elements: readonly (HTMLElement | SVGElement)[], columns = 1): void {
   elements.forEach((element, i) => element.setAttribute("tabindex", i === 0 ? "0" : "-1"));
   elements.forEach((element, i) => {

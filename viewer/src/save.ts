@@ -12,7 +12,7 @@ export function save(name: string, type: string, text: string): void {
   saveBlob(name, new Blob([text], { type }));
 }
 
-/// Lines of cells as CSV; what holds a comma, a quote or a line break is quoted.
+/// Lines of cells as CSV; cells with a comma, a quote or a line break are quoted.
 export function csv(rows: readonly (readonly (string | number | null)[])[]): string {
   const cell = (value: string | number | null) => {
     const text = value === null ? "" : String(value);

@@ -3,7 +3,7 @@ import { bodyNames, type BodyName, type ClipAxis } from "./scene/scene";
 /// State of the scene's display.
 export interface DisplayState {
   colour: string | null;
-  /// End of the colour scale; null for the usual one of that quantity.
+  /// End of the colour scale; null for the quantity's default.
   scale: number | null;
   /// "fixed", "mobile", or the number of a part behind one of them: "mobile.1".
   hidden: string[];
@@ -15,7 +15,7 @@ export interface DisplayState {
 /// State that a shared link restores: coordinates of the joint, its display and the camera, as the fragment of the
 /// address.
 export interface ViewState {
-  /// Those that are not the reference pose's.
+  /// Coordinates that differ from the reference pose.
   coordinates: Record<string, number>;
   display: DisplayState;
   /// Motion whose impingement zone is marked; none if empty.

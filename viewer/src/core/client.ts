@@ -15,7 +15,7 @@ export interface Answers {
   failed(message: string): void;
 }
 
-/// What an edit gives: the bone, then limits one by one.
+/// Results of an edit: the bone, then limits one by one.
 export interface EditAnswers {
   edited(brushed: Brushed | null): void;
   limit(number: number, limit: LiveLimit): void;
@@ -28,7 +28,7 @@ interface Question {
   ranges: [number, number][] | null;
 }
 
-/// The core in its worker. One pose is under way at a time; of those asked meanwhile only the latest is answered.
+/// The core in its worker. It answers one pose at a time; of the poses requested meanwhile it answers only the latest.
 export class CoreClient {
   private readonly worker: Worker;
   private underWay: { id: number; question: Question; asked: number } | null = null;
@@ -43,14 +43,14 @@ export class CoreClient {
     this.worker = new Worker(URL.createObjectURL(new Blob([workerSource], { type: "text/javascript" })));
   }
 
-  /// Rejects with the core's own line where the joint cannot be made.
+  /// Rejects with the core's own line if the joint cannot be made.
   static async open(wasm: ArrayBuffer, joint: JointArrays): Promise<CoreClient> {
     const client = new CoreClient();
     await client.first({ type: "open", wasm, joint }, [wasm]);
     return client;
   }
 
-  /// The same for two files of which a joint is proposed.
+  /// The same for two files from which a joint is proposed.
   static async propose(
     wasm: ArrayBuffer, fixed: DroppedFile, mobile: DroppedFile, side: SideChoice): Promise<{ core: CoreClient; proposal: Proposal }> {
     const core = new CoreClient();
@@ -90,7 +90,7 @@ export class CoreClient {
     });
   }
 
-  /// The answer to a message before there is a joint; all later ones are heard by those who listen.
+  /// The answer to a message before there is a joint; later answers go to the listeners.
   private exchange(message: ToWorker, transfer: Transferable[], step: (label: string | null) => void = () => undefined): Promise<FromWorker> {
     return new Promise((resolve, reject) => {
       this.worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
@@ -129,7 +129,7 @@ export class CoreClient {
     this.say({ type: "edit", id, edit, limits });
   }
 
-  /// One question by itself, after what the page asks: all are answered, in their order.
+  /// A single query, after the page's own: all are answered, in order.
   query(query: Query): Promise<QueryAnswer> {
     const id = ++this.count;
     return new Promise((resolve, reject) => {
@@ -168,7 +168,7 @@ export class CoreClient {
         if (message.id === this.answered?.id) this.answers?.values(message.values);
         return;
       case "limit":
-        // A limit of a pose that is past is nobody's.
+        // A limit of an earlier pose is dropped.
         if (message.id === this.answered?.id) this.answers?.limit(this.answered.at, message.limit);
         return;
       case "depth":

@@ -41,7 +41,7 @@ export class CoreJoint {
     return opened;
   }
 
-  /// The joint that is proposed for two mesh files; throws the command line's own line where none is.
+  /// The joint that is proposed for two mesh files; throws the command line's own line if there is none.
   static async propose(
     wasm: ArrayBuffer, fixed: DroppedFile, mobile: DroppedFile, side: SideChoice): Promise<{ joint: CoreJoint; proposal: Proposal }> {
     const memory = new Memory(await openModule(wasm));
@@ -52,7 +52,7 @@ export class CoreJoint {
     return CoreJoint.proposed(memory, joint, { fixed: fixed.name, mobile: mobile.name });
   }
 
-  /// A joint that the core has proposed, or its line where that is null.
+  /// A joint that the core has proposed, or its error line if that is null.
   static proposed(memory: Memory, made: number, bodies: Proposal["bodies"]): { joint: CoreJoint; proposal: Proposal } {
     const { core } = memory, joint = new CoreJoint(memory, made), description = core._condyle_description(made);
     if (!description) throw memory.error();
@@ -96,7 +96,7 @@ export class CoreJoint {
     return { mobile: this.valuesOf(quantity, 0, this.vertices.mobile), fixed: this.valuesOf(quantity, 1, this.vertices.fixed) };
   }
 
-  /// From a pose of the joint.
+  /// Searched from a pose of the joint.
   limitFrom(at: Coordinates, vary: number, positive: boolean, range_deg: number): LiveLimit {
     this.place(at);
     const X_FM = this.f64(this.pose, 16);
@@ -111,7 +111,7 @@ export class CoreJoint {
     return this.limitThere(vary, positive);
   }
 
-  /// About the centre as it was moved last.
+  /// Rotations are about the centre's latest place.
   limitAbout({ start, vary, positive, range_deg }: LimitQuestion): LiveLimit {
     this.put(this.three, start);
     this.checked(this.core._condyle_limit_about(this.joint, vary, positive ? 1 : 0, this.three, range_deg, this.answer));
@@ -126,7 +126,7 @@ export class CoreJoint {
     };
   }
 
-  /// Null where no bone changes.
+  /// Null if no bone changes.
   edit(edit: Edit): Brushed | null {
     if (edit.of === "centre") {
       this.put(this.three, edit.offset_mm);
@@ -168,7 +168,7 @@ export class CoreJoint {
     return { body, ...bone, volume_mm3, deepest_mm, edge_mm, steps, protectedVertices: this.protectedVertices[body], outcome };
   }
 
-  /// As `condyle depth` answers.
+  /// The answer of `condyle depth`.
   depth(at: Coordinates): Depth {
     this.place(at);
     this.checked(this.core._condyle_depth(this.joint, this.pose, this.three, this.answer));
@@ -226,7 +226,7 @@ export class CoreJoint {
     return Array.from({ length: count }, (_, i) => Array.from(flat.subarray(4 * i, 4 * i + 4)) as [number, number, number, number]);
   }
 
-  /// Per triangle of the mobile body 1 where it is bearing; all 0 where no bearing surface was found.
+  /// Per triangle of the mobile body 1 where it is bearing; all 0 if no bearing surface was found.
   bearing(): Uint8Array {
     const found = this.checked(this.core._condyle_bearing(this.joint, this.marksPlace));
     return found ? this.core.HEAPU8.slice(this.marksPlace, this.marksPlace + this.mobileTriangles) : new Uint8Array(this.mobileTriangles);
@@ -314,7 +314,7 @@ export class CoreJoint {
   }
 }
 
-/// As condyle_propose() and condyle_join() take a side.
+/// The side as condyle_propose() and condyle_join() take it.
 export const sideNumber = { automatic: -1, right: 0, left: 1 } as const;
 
 /// The module's memory.
@@ -329,7 +329,7 @@ export class Memory {
   copiedText(text: string): number {
     return this.copied(new TextEncoder().encode(`${text}\0`));
   }
-  /// What a reader of the core makes of a file; throws its line where it makes nothing.
+  /// Reads a file with a reader of the core; throws the core's line if it is refused.
   read({ name, bytes }: DroppedFile, reader: (name: number, bytes: number, count: number) => number): number {
     const namePlace = this.copiedText(name), bytesPlace = this.copied(new Uint8Array(bytes));
     const made = reader(namePlace, bytesPlace, bytes.byteLength);

@@ -20,7 +20,7 @@ export class CoreLabels {
     return { name: file.name, ...(JSON.parse(core.UTF8ToString(described)) as Omit<LabelMap, "name">) };
   }
 
-  /// `step` is called before each surface with its label, then with null. The label maps stay where this throws.
+  /// `step` is called before each surface with its label, then with null. The label maps stay if this throws.
   join(
     fixed: BoneChoice, mobile: BoneChoice, side: SideChoice, step: (label: string | null) => void): { joint: CoreJoint; proposal: Proposal } {
     const { core } = this.memory, bones: number[] = [];

@@ -3,7 +3,7 @@ import type { RomAnswer } from "../report";
 /// Messages between page and worker.
 
 export type Quantity = "gap" | "depth" | "nearest" | "pressure" | "none";
-/// With that of a plan, which the report holds.
+/// With the quantity of a plan, which the report holds.
 export type ShownQuantity = Quantity | "removed";
 /// Numbers of the quantities that condyle_shown() gives.
 export const quantityNumber = { gap: 0, depth: 1, nearest: 2 } as const;
@@ -126,7 +126,7 @@ export interface BothPenetrations {
   fixedInMobile: Penetrations;
 }
 
-/// All that a script may want to know of a pose.
+/// The results of a pose that scripts read.
 export interface Details extends BothPenetrations {
   pose: Float64Array;
   inContact: boolean;
@@ -158,21 +158,21 @@ export type Edit =
   | { of: "undo"; body: "fixed" | "mobile" }
   | { of: "centre"; offset_mm: [number, number, number]; reference_deg: [number, number, number] };
 
-/// A bone as its brush has it.
+/// A bone as its brush has left it.
 export interface Brushed {
   body: "fixed" | "mobile";
   vertices: Float64Array;
-  /// Of each vertex, its distance from the surface before.
+  /// Distance of each vertex from the surface before.
   depths_mm: Float64Array;
   volume_mm3: number;
   deepest_mm: number;
   /// Mean length of the edges: a cut is no finer.
   edge_mm: number;
-  /// How often undo has something to take back.
+  /// How many strokes can be undone.
   steps: number;
-  /// Vertices that stay whatever passes over them.
+  /// Vertices that no stroke moves.
   protectedVertices: number;
-  /// Of the last stroke: vertices that moved, that must stay, that are less deep than asked for.
+  /// Vertices of the last stroke that moved, that must stay, and that are less deep than requested.
   outcome: { moved: number; kept: number; limited: number } | null;
 }
 
@@ -204,11 +204,11 @@ export interface Proposal {
   joint: JointArrays;
   /// Limits in a report's form; `caveats` are the evidence that the joint was inferred from.
   rom: RomAnswer;
-  /// As the page calls them.
+  /// Their names on the page.
   bodies: { fixed: string; mobile: string };
 }
 
-/// What condyle_labels() lists of a label map, and the name of its file.
+/// The list of condyle_labels() for a label map, and the name of its file.
 export interface LabelMap {
   name: string;
   labels: { choice: string; name: string; voxels: number }[];
@@ -252,7 +252,7 @@ export type FromWorker =
   | { type: "limit"; id: number; limit: LiveLimit }
   | { type: "depth"; id: number; depth: Depth }
   | { type: "queried"; id: number; answer: QueryAnswer | null; error: string }
-  /// Null of an edit that is of no bone, and of one that failed.
+  /// Null for an edit of no bone, and for one that failed.
   | { type: "edited"; id: number; brushed: Brushed | null; error: string }
   | { type: "editLimit"; id: number; number: number; limit: LiveLimit }
   | { type: "bearing"; triangles: Uint8Array }

@@ -1,4 +1,4 @@
-/// The module that emscripten makes of viewer/core.
+/// The module that emscripten makes from viewer/core.
 declare module "page-core" {
   export interface PageCore {
     HEAPU8: Uint8Array;

@@ -3,8 +3,8 @@ import { CoreJoint } from "./joint";
 import { CoreLabels } from "./labels";
 import type { Edit, FromWorker, LimitQuestion, MapQuestion, Quantity, Query, QueryAnswer, ToWorker } from "./protocol";
 
-/// Answers in the order of what matters to the eye: changes by hand, the latest pose, limits after the last change, then the pose's colours, its
-/// limits one by one, its depth, then all else. A message that arrives meanwhile comes in between; what is left to say of a pose that is past is
+/// Answers in the order of visible effect: changes by hand, the latest pose, limits after the last change, then the pose's colours, its
+/// limits one by one, its depth, then all else. A message that arrives meanwhile comes in between; pending answers about an earlier pose are
 /// dropped. All limits after a change come before the next change.
 
 type PoseQuestion = Extract<ToWorker, { type: "pose" }>;

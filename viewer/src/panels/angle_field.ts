@@ -2,8 +2,8 @@ import { html } from "../dom";
 import { fixed, plain, typed } from "../numbers";
 import { words } from "../words";
 
-/// A number that is typed, or stepped by arrow keys. What is no number in its range is not taken, and the field says so: nothing
-/// typed is quietly another number.
+/// A number that is typed, or stepped by arrow keys. Anything but a number in its range is refused, and the field says so: typed
+/// text never silently becomes another number.
 export class NumberField {
   readonly input: HTMLInputElement;
   private value = 0;
@@ -29,12 +29,12 @@ export class NumberField {
     this.show(0);
   }
 
-  /// As it was taken last.
+  /// The value accepted last.
   get number(): number {
     return this.value;
   }
 
-  /// To a tenth: the number itself keeps all of its digits.
+  /// Rounded to a tenth; the number itself keeps all of its digits.
   show(value: number): void {
     this.value = value;
     if (document.activeElement !== this.input || typed(this.input.value) !== value) this.input.value = fixed(value, 1);

@@ -9,7 +9,7 @@ import { LiveLimits, questionsOf } from "./live_limits";
 const farthest_mm = 5, step_mm = 0.5;
 const axes = ["x", "y", "z"] as const;
 
-/// The joint centre in the hand: how far limits change where it is moved by some millimetres. The page's joint stays about the centre that it has.
+/// Moves the joint centre by hand: how far limits change if it is moved by some millimetres. The page's joint stays about the centre that it has.
 export class CentrePanel {
   readonly element: HTMLElement;
   private readonly limits: LiveLimits;
@@ -66,7 +66,7 @@ export class CentrePanel {
     this.ask();
   }
 
-  /// One place is under way at a time; of those meanwhile only the latest is looked at.
+  /// One place is computed at a time; of those requested meanwhile only the latest.
   private ask(): void {
     this.waits = true;
     if (!this.isBusy) this.send();

@@ -1,11 +1,11 @@
 import type { CoreClient } from "../core/client";
 import type { BothValues, Coordinates, Surface, Values } from "../core/protocol";
 
-/// The joint rests when it has not been moved for so long.
+/// The joint is idle when it has not been moved for so long.
 const rest_ms = 250;
 
-/// How far apart the bodies are where contact would count, once the joint rests: from the vertices of either to the nearest point of
-/// the other. Where the bearing surface is left out only vertices of the mobile body beside it are looked at.
+/// How far apart the bodies are where contact would count, once the joint is idle: from the vertices of either to the nearest point of
+/// the other. If the bearing surface is left out, only vertices of the mobile body beside it are measured.
 export class Clearance {
   private counted: Uint8Array | null = null;
   private timer = 0;

@@ -28,7 +28,7 @@ function differenceCells(difference: LimitDifference | undefined, hasBands: bool
   ];
 }
 
-/// Every motion before and after; null where either joint has no limits.
+/// Every motion before and after; null if either joint has no limits.
 export function comparisonTable({ rom, before }: ReportText): HTMLElement | null {
   if (!rom || !before?.rom) return null;
   const hasBands = before.differences.some(({ band }) => band !== null), then = before.rom.motions;
@@ -41,7 +41,7 @@ export function comparisonTable({ rom, before }: ReportText): HTMLElement | null
   return made;
 }
 
-/// Why a joint has no limits, of either or both.
+/// Why either joint, or both, has no limits.
 function reasonsOf({ rom, rom_error, before }: ReportText): HTMLElement[] {
   return [
     ...(before && !before.rom ? [html("p", { class: "warning" }, words.noLimitsBefore(before.rom_error ?? ""))] : []),
@@ -59,7 +59,7 @@ function detailsOf({ rom }: StoredBefore): HTMLElement[] {
   ];
 }
 
-/// The joint before a change: its bodies seen through in the scene, and its limits beside those of the page.
+/// The joint before a change: its bodies transparent in the scene, and its limits beside those of the page.
 export class ComparePanel {
   readonly element: HTMLElement;
   readonly details: HTMLDetailsElement;
@@ -83,7 +83,7 @@ export class ComparePanel {
     this.details = fold(words.beforeDetails, false, ...detailsOf(before));
   }
 
-  /// Seen through, where they differ from the page's own.
+  /// Transparent, if they differ from the page's own.
   show(on: boolean): void {
     for (const body of bodyNames) {
       const stored = this.before.surfaces[body];

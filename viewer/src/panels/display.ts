@@ -12,7 +12,7 @@ const clipRange_mm = 150;
 /// Parts of a joint that can be shown.
 export interface Showable {
   names: Record<BodyName, string>;
-  /// None for a body that is one mesh.
+  /// Empty for a body that is one mesh.
   parts: Record<BodyName, readonly Part[]>;
   quantities: readonly ShownQuantity[];
   /// Deepest cut of a plan, at which the scale of the bone that went ends.
@@ -29,7 +29,7 @@ interface Shown {
 /// Controls of the scene's display; the colour scale with it.
 export class DisplayPanel {
   readonly element: HTMLElement;
-  /// What the colours mean; their scale stands within the scene.
+  /// The meaning of the colours; their scale stands within the scene.
   readonly legend = html("p", { class: "small" });
   private chosen: ShownQuantity;
   private readonly usualEnds;
@@ -44,7 +44,7 @@ export class DisplayPanel {
     type: "range", min: -clipRange_mm, max: clipRange_mm, step: 1, value: 0, "aria-label": words.clipAt,
   });
 
-  /// `recoloured` where another quantity is asked for, `changed` where anything is.
+  /// `recoloured` when another quantity is chosen, `changed` on any change.
   constructor(
     private readonly scene: JointScene | null, private readonly showable: Showable, private readonly recoloured: () => void,
     private readonly changed: () => void) {
@@ -95,7 +95,7 @@ export class DisplayPanel {
     return this.chosen;
   }
 
-  /// A page of a plan shows first what goes, one of layers their pressure.
+  /// A page of a plan first shows the bone that goes, one with layers their pressure.
   private get usualQuantity(): ShownQuantity {
     return (["removed", "pressure"] as const).find((key) => this.showable.quantities.includes(key)) ?? "gap";
   }
@@ -109,12 +109,12 @@ export class DisplayPanel {
     };
   }
 
-  /// A box that stands elsewhere, and is remembered by that name in a shared link.
+  /// A box that stands elsewhere and has that name in a shared link.
   remember(key: string, box: HTMLInputElement, set: (on: boolean) => void): void {
     this.shown.set(key, { box, set });
   }
 
-  /// As a shared link says; what it does not know is as usual.
+  /// Applies a shared link; anything it does not mention keeps its default.
   apply(state: DisplayState): void {
     const quantity = this.showable.quantities.find((key) => key === state.colour) ?? this.usualQuantity;
     if (quantity !== "none") this.ends[quantity] = state.scale ?? this.usualEnds[quantity];

@@ -3,13 +3,13 @@ import type { DroppedFile, SideChoice } from "../core/protocol";
 import { words } from "../words";
 import { isLabelMap, type LabelDrop } from "./label_drop";
 
-/// Where files are dropped or chosen: two meshes, the fixed bone first where they come one by one, or label maps.
+/// Where files are dropped or chosen: two meshes, the fixed bone first if they come one by one, or label maps.
 export class DropPanel {
   readonly element: HTMLElement;
   private readonly progress = html("p", { "aria-live": "polite", id: "drop-progress" });
   private waiting: DroppedFile[] = [];
   private side: SideChoice = "automatic";
-  /// One pair is read at a time, and after one that makes a joint the page shows that.
+  /// One pair is read at a time; once a pair makes a joint, the page shows it.
   private state: "open" | "busy" | "done" = "open";
 
   /// `take` returns whether two meshes made a joint; `refuse` is called with the reason why files are not taken.
@@ -27,7 +27,7 @@ export class DropPanel {
     });
     input.addEventListener("change", () => {
       const files = [...(input.files ?? [])];
-      // The same file can be chosen again once it was mended.
+      // The same file can be chosen again after a repair.
       input.value = "";
       void this.add(files);
     });
@@ -73,7 +73,7 @@ export class DropPanel {
   }
 }
 
-/// A femur is what moves, whichever of the two came first.
+/// A femur is the mobile body, whichever of the two came first.
 function inOrder(first: DroppedFile, second: DroppedFile): [DroppedFile, DroppedFile] {
   const isMobile = /femur|thigh|mobile/i;
   return isMobile.test(first.name) && !isMobile.test(second.name) ? [second, first] : [first, second];

@@ -6,7 +6,7 @@ export interface FigureGroup {
   figures: readonly HTMLElement[];
 }
 
-/// Figures, as many at once as fit: a group of them is chosen where there are more, and a wide screen shows them all.
+/// Figures, as many at once as fit: if there are more, a group of them is chosen; a wide screen shows them all.
 export function figuresPanel(groups: readonly FigureGroup[]): HTMLElement {
   const filled = groups.filter(({ figures }) => figures.length > 0);
   const places = filled.map(({ figures }) => html("div", { class: "figure-group" }, ...figures));

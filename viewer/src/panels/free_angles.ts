@@ -7,8 +7,8 @@ interface Request {
   held: [number, number, number];
 }
 
-/// All free intervals of each angle, the others held as they are: asked of the core one pose at a time, and of those that come
-/// meanwhile only the latest.
+/// All free intervals of each angle, the others held as they are. The core is queried one pose at a time; of poses that come
+/// meanwhile, only the latest.
 export class FreeAngles {
   private waiting: Request | null = null;
   private isBusy = false;
@@ -31,7 +31,7 @@ export class FreeAngles {
         for (let vary = 0; vary < this.count; ++vary)
           this.report(vary, at, (await this.core.query({ of: "mapPoint", question: questionOf(at, held, vary), point: 0 })) as Interval[]);
       } catch {
-        // A pose of which no free angles can be computed has none to show.
+        // Without computable free angles a pose shows none.
       }
     }
     this.isBusy = false;
@@ -44,14 +44,14 @@ function questionOf({ angles }: Coordinates, held: [number, number, number], var
   return { columnAngle, rowAngle, vary, columns: [angles[columnAngle]!], rows: [angles[rowAngle]!], held };
 }
 
-/// An end of what is free is free itself, short of contact by less than this.
+/// An end of a free interval is free itself, short of contact by less than this.
 const hair_deg = 1e-6;
 
 export function intervalAt(intervals: readonly Interval[], deg: number): Interval | null {
   return intervals.find(([low, high]) => low - hair_deg <= deg && deg <= high + hair_deg) ?? null;
 }
 
-/// The smallest rotation of this angle that leaves contact; null where none does.
+/// The smallest rotation of this angle that leaves contact; null if none does.
 export function nearestExit(intervals: readonly Interval[], deg: number): { to_deg: number; turn_deg: number } | null {
   let least: { to_deg: number; turn_deg: number } | null = null;
   for (const [low, high] of intervals) {

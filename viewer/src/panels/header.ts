@@ -2,7 +2,7 @@ import { button, html, named, shortened } from "../dom";
 import type { ReportText } from "../report";
 import { words } from "../words";
 
-/// "Right hip · femur / hip bone · date · version", begun with the case where one was given.
+/// "Right hip · femur / hip bone · date · version", beginning with the case if one was given.
 export function headingOf({ joint, title, version, case: given, date }: ReportText): string {
   const names = { fixed: named(joint.fixed), mobile: named(joint.mobile) };
   return [
@@ -12,7 +12,7 @@ export function headingOf({ joint, title, version, case: given, date }: ReportTe
   ].join(" · ");
 }
 
-/// What can be done with the whole page.
+/// Actions on the whole page.
 export function actions(does: { picture: (() => void) | null; print: () => void; copyLink: () => void }): HTMLElement[] {
   const card = helpCard();
   document.body.append(card);
@@ -33,7 +33,7 @@ function helpCard(): HTMLDialogElement {
   return card;
 }
 
-/// Copies what the address says, or shows it where a browser does not let pages copy.
+/// Copies the address, or shows it if the browser does not let pages copy.
 export async function copyLink(say: (message: string, ...parts: HTMLElement[]) => void): Promise<void> {
   try {
     await navigator.clipboard.writeText(location.href);
@@ -45,13 +45,13 @@ export async function copyLink(say: (message: string, ...parts: HTMLElement[]) =
   }
 }
 
-/// One key does what a button does, where no field is typed in.
+/// One key does what a button does, unless a field is typed in.
 export function listenToKeys(does: Record<string, () => void>, signal: AbortSignal): void {
   document.addEventListener("keydown", (event) => {
     const { target, key } = event;
     if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
     if (target instanceof HTMLElement && target.closest("input:not([type=range], [type=checkbox]), select, textarea")) return;
-    // What has the focus is pressed by the space bar itself.
+    // The space bar presses the focused element itself.
     if (key === " " && target instanceof Element && target.closest("button, summary, input, [role=button]")) return;
     const act = does[key.toLowerCase()];
     if (!act) return;

@@ -14,17 +14,17 @@ interface BoneOption {
 }
 
 const isHipBone = /hip|pelvi|innominat|ilium|coxa/i, isFemur = /femur|femor|thigh/i;
-/// What the core would take for a number.
+/// Text that the core would read as a number.
 const isNumber = /^[0-9:]+$/;
 
-/// Bones whose names leave nothing to choose: one pair in the files' own names, on the side that is given, or two masks of one bone.
+/// Bones whose names leave nothing to choose: one pair in the files' own names, on the given side, or two masks of one bone.
 export function onlyPair(maps: readonly LabelMap[], side: SideChoice): BonePair | null {
   if (maps.length === 2 && maps.every(({ labels }) => labels.length === 1)) return pairOfMasks(maps);
   const pairs = pairsOf(maps, side).filter(({ fixed }) => fixed.task === null);
   return pairs.length === 1 ? pairs[0]! : null;
 }
 
-/// A femur is what moves, else the second of both.
+/// A femur is the mobile body, else the second of the two.
 function pairOfMasks(maps: readonly LabelMap[]): BonePair {
   const mask = (map: number): BoneChoice => ({ map, label: "", task: null });
   const isTurned = isFemur.test(maps[0]!.name) && !isFemur.test(maps[1]!.name);
@@ -37,7 +37,7 @@ function pairsOf(maps: readonly LabelMap[], side: SideChoice): BonePair[] {
   })));
 }
 
-/// Every label, first those that a table has names for.
+/// Every label, first those that a table names.
 function optionsOf(maps: readonly LabelMap[]): BoneOption[] {
   return maps.flatMap(({ name: file, labels, pairs }, map) => {
     const of = maps.length > 1 ? `${named(file)}: ` : "";

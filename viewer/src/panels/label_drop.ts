@@ -4,29 +4,29 @@ import { html, named } from "../dom";
 import { words } from "../words";
 import { LabelChoice, onlyPair, type BonePair } from "./label_choice";
 
-/// Whether a file of this name is one; a header whose data lie in another file too, which the core refuses with its line.
+/// Whether a file of this name is one; a header whose data lie in another file as well, which the core refuses with its line.
 export function isLabelMap(name: string): boolean {
   return /\.(nii|nii\.gz|hdr|img|nrrd|nhdr|mha|mhd)$/i.test(name);
 }
 
-/// What the panel around it knows and shows: progress is one line, empty if nothing is under way.
+/// Values from and for the enclosing panel: progress is one line, empty if nothing is being computed.
 export interface LabelDropListener {
   side: () => SideChoice;
   progress: (said: string) => void;
   busy: (state: "open" | "busy" | "done") => void;
 }
 
-/// Label maps that were dropped, one with both bones or two, and the joint that is made of them. The worker keeps them until then,
+/// Label maps that were dropped, one with both bones or two, and the joint that is made from them. The worker keeps them until then,
 /// so that other labels can be chosen.
 export class LabelDrop {
-  /// Of the choice of labels.
+  /// The place of the choice of labels.
   readonly place = html("div");
   private core: CoreClient | null = null;
   private maps: LabelMap[] = [];
   private asked: LabelChoice | null = null;
   private listener: LabelDropListener | null = null;
 
-  /// `take` shows the joint; `refuse` is given the line of what went wrong.
+  /// `take` shows the joint; `refuse` gets the error line.
   constructor(
     private readonly wasm: () => Promise<ArrayBuffer>, private readonly take: (core: CoreClient, proposal: Proposal) => void,
     private readonly refuse: (error: unknown) => void) {}
@@ -50,7 +50,7 @@ export class LabelDrop {
   }
 
   async add(files: readonly File[]): Promise<void> {
-    // Whoever was asked for labels and drops another file wants another joint.
+    // A file dropped instead of a choice of labels asks for another joint.
     if (this.asked) this.forget();
     if (this.maps.length + files.length > 2) {
       this.forget();
@@ -79,7 +79,7 @@ export class LabelDrop {
     this.maps.push(map);
   }
 
-  /// A mask of one bone waits for the other; what names do not settle is asked.
+  /// A mask of one bone waits for the other; if names do not settle it, the user chooses.
   private async next(): Promise<void> {
     const [first] = this.maps;
     this.listener!.busy("open");

@@ -8,7 +8,7 @@ import { roving } from "../roving";
 
 const columns = 4;
 
-/// What a motion lacks, or what is normal.
+/// How much a motion lacks, or the normal range.
 export function normalText(motion: MotionAnswer): string {
   const lacks = deficitOf(motion);
   if (motion.normal_range_deg === null) return "";

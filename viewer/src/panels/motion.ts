@@ -11,7 +11,7 @@ import { StatusChip, type Exit } from "./status";
 import { placeOf } from "./strip";
 
 const usualRange_deg = 120, translationRange_mm = 20, farthest_deg = 180, mostUndone = 100;
-/// Steps of one drag are one step back.
+/// The steps of one drag are undone together.
 const gesture_ms = 800;
 const axes = ["x", "y", "z"] as const;
 
@@ -23,22 +23,22 @@ interface Slider {
   readout: HTMLElement;
   low: number;
   high: number;
-  /// As it was told of the pose shown; null until it is.
+  /// Free intervals at the pose shown; null until they are known.
   free: Interval[] | null;
 }
 
 export interface MotionHooks {
   moved: (at: Coordinates) => void;
-  /// A motion that was asked for has come to its end.
+  /// A requested motion has come to its end.
   arrived: (motion: MotionAnswer) => void;
-  /// Where the page cannot compute: the joint then takes the poses that the report holds, by their names, and none in between.
+  /// For a page that cannot compute: the joint takes the poses that the report holds, by their names, and none in between.
   showStored: ((name: string) => void) | null;
 }
 
-/// What the pose is, sliders of the joint's coordinates with what is free from there, and the end of each motion.
+/// The pose, sliders of the joint's coordinates with their free intervals, and the end of each motion.
 export class MotionPanel {
   readonly element: HTMLElement;
-  /// Of the pose, in full: among the details.
+  /// The pose in full, among the details.
   readonly answer = html("p", { id: "answer" });
   readonly depth = html("p", { id: "depth" });
   readonly took = html("p", { class: "small no-print", "aria-hidden": "true" });
@@ -57,7 +57,7 @@ export class MotionPanel {
   private inContact = false;
   private clear_mm: number | null = null;
   private lastDepth: Depth | null = null;
-  /// At whose end the joint is.
+  /// The motion at whose end the joint is.
   private end: MotionAnswer | null = null;
 
   constructor(private readonly report: ReportText, private readonly hooks: MotionHooks) {
@@ -87,7 +87,7 @@ export class MotionPanel {
     return { angles: [...this.angles], translation: [...this.translation] };
   }
 
-  /// As said, at once.
+  /// Takes these coordinates at once.
   set(angles: readonly number[], translation?: readonly number[]): void {
     this.sliders.forEach((slider, i) => {
       this.angles[i] = angles[i]!;
@@ -98,7 +98,7 @@ export class MotionPanel {
     this.hasMoved();
   }
 
-  /// Other angles, in the hand: a map's cross that is dragged.
+  /// Angles while a map's cross is dragged.
   drag(angles: readonly number[]): void {
     cancelAnimationFrame(this.animation);
     this.remember();
@@ -109,7 +109,7 @@ export class MotionPanel {
     return this.hasPose(motion.name);
   }
 
-  /// To where a motion ends: the angle that varies to its last bit, the others as they were given.
+  /// Goes to the end of a motion: its varied angle to the last bit, the others as given.
   goToEnd(motion: MotionAnswer): void {
     if (this.hooks.showStored) return this.hooks.showStored(motion.name);
     const angles = this.report.coordinates.map(({ name }) =>
@@ -120,7 +120,7 @@ export class MotionPanel {
     }, motion.translation_mm ?? this.report.rom?.held_translation_mm);
   }
 
-  /// The joint turns there, at once where its user asked for less motion.
+  /// The joint turns there, at once if its user asked for less motion.
   goTo(angles: readonly number[], there: () => void = () => undefined, given?: readonly number[] | null): void {
     cancelAnimationFrame(this.animation);
     this.remember(true);
@@ -153,7 +153,7 @@ export class MotionPanel {
     this.set(last.angles, last.translation);
   }
 
-  /// One of the report's poses, where the page cannot compute.
+  /// One of the report's poses, if the page cannot compute.
   markEnd(motion: MotionAnswer | null): void {
     this.end = motion;
     this.grid?.mark(motion);
@@ -161,7 +161,7 @@ export class MotionPanel {
   }
 
   setFree(vary: number, at: Coordinates, intervals: Interval[]): void {
-    // What is told of another pose is nobody's.
+    // Intervals of another pose are dropped.
     if (at.angles.some((deg, i) => deg !== this.angles[i]) || at.translation.some((mm, i) => mm !== this.translation[i])) return;
     const slider = this.sliders[vary]!;
     slider.free = intervals;
@@ -175,7 +175,7 @@ export class MotionPanel {
     this.drawStatus();
   }
 
-  /// Comes once the joint rests, as `condyle depth` answers.
+  /// Comes once the joint is idle: the answer of `condyle depth`.
   showDepth(depth: Depth): void {
     const { deepest, withoutDepth, area_mm2, volume_mm3, volumeError_mm3, coveredAgain_mm3 } = depth;
     const bodies = { fixed: named(this.report.joint.fixed), mobile: named(this.report.joint.mobile) };
@@ -199,7 +199,7 @@ export class MotionPanel {
   }
 
   show(shown: Shown, roundTrip_ms: number): void {
-    // That of another pose is nobody's.
+    // The depth of another pose is dropped.
     this.depth.textContent = "";
     this.lastDepth = null;
     this.inContact = shown.inContact;
@@ -237,7 +237,7 @@ export class MotionPanel {
     }
   }
 
-  /// The least turn of one angle that leaves contact, once all angles are told.
+  /// The smallest rotation of one angle that leaves contact, once the intervals of all angles are known.
   private drawExit(): void {
     if (!this.inContact || this.sliders.some(({ free }) => free === null)) return;
     const exits = this.sliders.flatMap(({ free }, vary): Exit[] => {
@@ -256,7 +256,7 @@ export class MotionPanel {
     this.goTo(angles);
   }
 
-  /// The pose that is left, once for a gesture.
+  /// Stores the previous pose for undo, once for a gesture.
   private remember(always = false): void {
     const now = performance.now(), isNew = always || now - this.rememberedAt > gesture_ms;
     this.rememberedAt = now;
@@ -321,7 +321,7 @@ export class MotionPanel {
     input.setAttribute("aria-valuetext", `${fixed(angle, 1)}°`);
   }
 
-  /// From where motions start to where they may end.
+  /// The interval from where motions start to where they may end.
   private rangeOf(angle: number): [number, number] {
     const { name } = this.report.coordinates[angle]!;
     let [low, high] = [0, 0];
@@ -334,7 +334,7 @@ export class MotionPanel {
     return [Math.max(-farthest_deg, low || -usualRange_deg), Math.min(farthest_deg, high || usualRange_deg)];
   }
 
-  /// What is free of this angle, the others as they are; and of a motion that starts from here the band of its end.
+  /// The free intervals of this angle, the others as they are; and the band of a motion that starts from here.
   private drawTrack(slider: Slider, at: number): void {
     const { low, high, free } = slider;
     if (!free) return;

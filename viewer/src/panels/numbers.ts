@@ -9,7 +9,7 @@ function filesOf(mesh: MeshSource | { files: MeshSource[] }): MeshSource[] {
   return "files" in mesh ? mesh.files : [mesh];
 }
 
-/// All numbers of the report with their units, where they come from, and what they are not, each group under a title that opens it.
+/// All numbers of the report with their units, sources and limits of use, each group under a title that opens it.
 export function numberFolds(
   report: ReportText, counts: { fixed: [number, number]; mobile: [number, number] }, ofPose: readonly HTMLElement[]): HTMLDetailsElement[] {
   const { joint, rom } = report;
@@ -27,7 +27,7 @@ export function numberFolds(
   return folds;
 }
 
-/// How the report's numbers were found, and what they must be read with.
+/// How the report's numbers were computed, and their caveats.
 export function methodOf(report: ReportText, counts: { fixed: [number, number]; mobile: [number, number] }): HTMLElement[] {
   const { joint, rom } = report, caveats = rom ? caveatsOf(rom) : [];
   return [
@@ -49,7 +49,7 @@ export function sourcesOf(provenance: NonNullable<RomAnswer["provenance"]>, titl
   ];
 }
 
-/// A line for each caveat, with the motions that it is about.
+/// A line for each caveat, with its motions.
 function caveatsOf({ motions }: RomAnswer): string[] {
   interface About {
     names: string[];
@@ -67,7 +67,7 @@ function caveatsOf({ motions }: RomAnswer): string[] {
 
 const degrees = (value: number | null) => (value === null ? "–" : `${fixed(value, 1)}°`);
 
-/// What ended a motion: of bodies of several meshes which of them, and what soft meshes it met before.
+/// The contact that ended a motion: which meshes, if bodies have several, and which soft meshes it met before.
 function endOf(motion: MotionAnswer, joint: ReportText["joint"]): string {
   const { reason, contact_kind, contact_side, features, soft_contact_deg, soft_contact_parts: soft } = motion;
   const fixedPart = features?.fixed.part, mobile = features?.mobile.part;
@@ -97,7 +97,7 @@ function changedParameter({ name, value, unit, in_joint_file }: PartParameter): 
   return words.changedTo(name, unit === "1" ? String(value) : `${value} ${unit}`, String(in_joint_file));
 }
 
-/// By what rules and with what uncertainty limits were found, a line each.
+/// The rules and the uncertainty of the limits, a line each.
 function howFound({ exact, band, bearing, normal_range_source, provenance }: RomAnswer): string[] {
   const mm = (value: number) => value.toFixed(2);
   const changed = (provenance?.parameters ?? []).filter(({ value, in_joint_file }) => value !== in_joint_file);

@@ -1,4 +1,4 @@
-/// A file that is dropped anywhere on the page does not replace it: `taken` gets it.
+/// A file dropped anywhere on the page does not replace it: `taken` gets it.
 export function catchDrops(taken: (files: File[]) => void): void {
   document.addEventListener("dragover", (event) => event.preventDefault());
   document.addEventListener("drop", (event) => {

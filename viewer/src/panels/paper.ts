@@ -42,12 +42,12 @@ export class Paper {
       ...(rom?.provenance ? [html("h2", {}, words.sourceFiles), ...sourcesOf(rom.provenance)] : []),
       ...(filesBefore ? sourcesOf(filesBefore, words.filesBefore).slice(-1) : []));
     this.element = html("div", {}, first, second);
-    // What is read on the screen is not read twice.
+    // Readers of the screen do not get the same text twice.
     for (const region of this.element.querySelectorAll("[tabindex]")) region.removeAttribute("tabindex");
     for (const region of this.element.querySelectorAll("[role=button]")) region.removeAttribute("role");
   }
 
-  /// A picture of the scene and what it shows.
+  /// A picture of the scene and its description.
   setPicture(source: string, caption: string): void {
     this.image.src = source;
     this.image.alt = caption;

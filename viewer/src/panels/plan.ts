@@ -10,10 +10,10 @@ import { words } from "../words";
 import { measureName } from "./shape";
 import { lines, table } from "./table";
 
-/// The bone that must go: how much, what each motion gains, and what each degree costs. The joint of the page is without it.
+/// The bone that must go: how much, the gain of each motion, and the cost of each degree. The joint of the page is without it.
 export class PlanPanel {
   readonly element: HTMLElement;
-  /// What is read with it: all limits, measures that change, notes.
+  /// Its details: all limits, measures that change, notes.
   readonly details: HTMLDetailsElement;
   readonly deepest_mm: number;
 
@@ -51,7 +51,7 @@ export class PlanPanel {
     this.element = section(words.plan, ...parts);
   }
 
-  /// How far each vertex lies below the surface before, where it was lowered.
+  /// How far each lowered vertex lies below the surface before.
   values(vertexCounts: Record<BodyName, number>): Record<BodyName, Values> {
     const of = (body: BodyName): Values => {
       const values = { shown: new Float32Array(vertexCounts[body]), marks: new Uint8Array(vertexCounts[body]) };

@@ -14,7 +14,7 @@ export class PointerPanel {
   private first: Picked | null = null;
   private pressedAt: [number, number] = [0, 0];
 
-  /// `unit` of what vertices show now.
+  /// `unit`: that of the values shown now.
   constructor(
     private readonly scene: JointScene, private readonly names: Record<BodyName, string>, private readonly unit: () => string) {
     this.element = html("div", {}, html("div", { class: "row" },
@@ -41,7 +41,7 @@ export class PointerPanel {
     });
   }
 
-  /// A vertex by its number, for who has no pointer.
+  /// A vertex by its number, for users without a pointer.
   private byNumber(): HTMLElement[] {
     let body: BodyName = "mobile";
     const most = (name: BodyName) => this.scene.bodies[name].surface.vertices.length / 3 - 1;

@@ -8,7 +8,7 @@ import { saveBlob } from "../save";
 import { words } from "../words";
 import type { Extreme } from "./strip";
 
-/// Where a file has no times its frames are played one by one, slow enough to be seen.
+/// A file without times plays its frames one by one at this rate, slow enough to follow.
 const untimedFrames_per_s = 20;
 
 /// One frame of a recorded motion; X_FM row by row.
@@ -36,7 +36,7 @@ export class RecordedPanel {
   private isSaving = false;
   private playback = { frame: 0, begun: 0 };
 
-  /// `drawn` is the picture of the frame that was gone to, once it is answered; null where nothing is drawn.
+  /// `drawn` is the picture of the frame shown, once it is answered; null if nothing is drawn.
   constructor(
     report: Report, private readonly recorded: Recorded, private readonly go: (frame: Frame) => void,
     drawn: ((said: string) => Promise<Blob>) | null) {
@@ -63,7 +63,7 @@ export class RecordedPanel {
     this.showTime(0);
   }
 
-  /// The largest values of the curves that are looked at first, and when.
+  /// The largest values of the curves shown first, and their times.
   extremes(): Extreme[] {
     return usualCurves(this.curves).flatMap(({ name, title, unit, values }) => {
       const isGap = name === "smallest_gap_mm";
@@ -77,7 +77,7 @@ export class RecordedPanel {
   }
 
   show(frame: number): void {
-    // A frame that is gone to by hand is where playing goes on from.
+    // Playback resumes from a frame that was chosen by hand.
     this.playback = { frame, begun: performance.now() };
     this.put(frame);
   }
@@ -118,7 +118,7 @@ export class RecordedPanel {
         this.show(frame);
         files[`frame_${String(frame).padStart(5, "0")}.png`] = new Uint8Array(await (await drawn(this.timeText(frame))).arrayBuffer());
       }
-      // Pictures are compressed already, and the file says no day on which it was made.
+      // Pictures are compressed already, and the file has no date.
       if (this.isSaving) saveBlob("frames.zip", new Blob([zipSync(files, { level: 0, mtime: new Date(1980, 0, 1, 12) }) as BlobPart], { type: "application/zip" }));
     } finally {
       this.isSaving = false;
@@ -155,7 +155,7 @@ export class RecordedPanel {
       const label = checkbox(curve.unit ? `${curve.title}, ${curve.unit}` : curve.title, chosen.has(curve), (on) => {
         if (on) chosen.add(curve);
         else chosen.delete(curve);
-        // As many as can be read: the one that was chosen first goes.
+        // As many as can be read: the one chosen first is removed.
         if (chosen.size > shownAtOnce + 1) chosen = new Set([...chosen].slice(1));
         boxes.forEach(({ of, box }) => (box.checked = chosen.has(of)));
         this.stack.show(this.curves.filter((each) => chosen.has(each)));
@@ -165,7 +165,7 @@ export class RecordedPanel {
     return [html("details", { class: "popup" }, html("summary", {}, words.quantities), html("div", {}, ...boxes.map(({ label }) => label)))];
   }
 
-  /// Curves that say nothing, in a line.
+  /// Curves without information, in a line.
   private silent(): HTMLElement[] {
     const line = (kind: CurveKind, said: (names: string) => string) => {
       const names = this.curves.filter((curve) => curve.kind === kind).map(({ title }) => title);

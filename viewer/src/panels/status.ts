@@ -9,7 +9,7 @@ export interface Exit {
   turn_deg: number;
 }
 
-/// The state of the pose in one line, and from contact the nearest exit to press. It is as high as it ever gets.
+/// The state of the pose in one line, and in contact a button for the nearest exit. Its height never changes.
 export class StatusChip {
   readonly element: HTMLElement;
   private readonly text = html("span", { id: "status-text", "aria-live": "polite" });
@@ -34,7 +34,7 @@ export class StatusChip {
     this.setExit(null, "");
   }
 
-  /// `depth` comes once the joint rests.
+  /// `depth` comes once the joint is idle.
   inContact(depth: Depth | null): void {
     const area = depth && Math.max(depth.area_mm2.fixed ?? 0, depth.area_mm2.mobile ?? 0);
     this.say("contact", [words.inContact, [
@@ -51,7 +51,7 @@ export class StatusChip {
 
   private say(state: "free" | "limit" | "contact", text: string): void {
     this.element.dataset["state"] = state;
-    // A reader that speaks is not interrupted at every step of a slider.
+    // A screen reader is not interrupted at every step of a slider.
     const now = performance.now();
     this.text.setAttribute("aria-live", now - this.announcedAt > 1000 ? "polite" : "off");
     if (this.text.textContent !== text) this.announcedAt = now;

@@ -13,7 +13,7 @@ export interface Extreme {
   go: () => void;
 }
 
-/// What meets at the end of a motion and at which hour, as far as it is known.
+/// The contact at the end of a motion and its hour, if known.
 export function placeOf(motion: MotionAnswer, { joint, rom }: ReportText): string {
   if (motion.reason !== "contact") return "";
   const { features, clock_hour, contact_side } = motion;
@@ -24,7 +24,7 @@ export function placeOf(motion: MotionAnswer, { joint, rom }: ReportText): strin
   return [meets, contact_side, isHip && rom?.bearing?.head ? words.awayFromRim : null].filter(Boolean).join(", ");
 }
 
-/// One sentence of a motion: where it ends, how sure that is, what it lacks, what meets where.
+/// One sentence about a motion: where it ends, its band, how much it lacks, and where contact is.
 export function sentenceOf(motion: MotionAnswer, report: ReportText): string {
   const name = capital(named(motionName(motion.name)));
   if (motion.reason === "contact_at_start") return words.startsInContactSentence(name);
@@ -39,7 +39,7 @@ function capital(text: string): string {
   return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
-/// The answer first: four figures, a sentence, and what the checks noted. It stays where it is, whatever is pressed.
+/// The answer first: four figures, a sentence, and the notes of the checks. It stays in place, whatever is pressed.
 export class ResultStrip {
   readonly element: HTMLElement;
   private readonly sentence = html("p", { id: "sentence", "aria-live": "polite" });
@@ -71,7 +71,7 @@ export class ResultStrip {
       ...(notes.length ? [this.noted(notes, showNotes)] : []));
   }
 
-  /// The sentence of a motion that the joint has gone to.
+  /// Shows the sentence of the motion at whose end the joint is.
   describe(motion: MotionAnswer): void {
     this.sentence.textContent = sentenceOf(motion, this.report);
     for (const [name, made] of this.cards) {
@@ -80,7 +80,7 @@ export class ResultStrip {
     }
   }
 
-  /// The sentence stays: where the joint is no longer at the end of a motion no figure is marked.
+  /// The sentence stays; no figure is marked once the joint leaves the end of a motion.
   unmark(): void {
     for (const made of this.cards.values()) made.removeAttribute("aria-current");
   }

@@ -6,10 +6,10 @@ import { JointScene } from "../scene/scene";
 const size_px = { width: 1200, height: 720 };
 /// The camera has turned by then.
 const arrived_ms = 700;
-/// Beyond so many triangles a second scene costs more than a picture is worth: paper shows the one on the screen.
+/// Beyond so many triangles a second scene costs more than a picture is worth: paper shows the scene on the screen.
 const most = 600_000;
 
-/// A picture of the joint at one of the report's poses, drawn beside the page; null where it is too large or nothing draws.
+/// A picture of the joint at one of the report's poses, drawn beside the page; null if it is too large or the browser draws no scene.
 export async function pictureOf(
   text: ReportText, { fixed, mobile }: JointArrays, pose: StoredPose, label: string, radius_mm: number | null): Promise<string | null> {
   if ((fixed.triangles.length + mobile.triangles.length) / 3 > most) return null;

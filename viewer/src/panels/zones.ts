@@ -3,7 +3,7 @@ import type { Report, StoredZone } from "../report";
 import type { JointScene } from "../scene/scene";
 import { motionName, words } from "../words";
 
-/// Marks the impingement zone of one motion, that which was gone to last or was chosen.
+/// Marks the impingement zone of one motion: the one shown last or chosen.
 export class ZonePanel {
   readonly element: HTMLElement;
   private readonly select: HTMLSelectElement;

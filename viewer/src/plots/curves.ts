@@ -29,7 +29,7 @@ export function curveOf({ name, unit }: Recorded["curves"][number], values: Floa
   };
 }
 
-/// What is looked at first, where it changes: a motion that touches nothing has a gap to draw.
+/// The curves shown first, if they vary: a motion without contact still has a gap to draw.
 const first = ["max_pressure_mpa", "area_mm2", "max_depth_mm", "smallest_gap_mm", "mean_pressure_mpa", "force_y_n"];
 export const shownAtOnce = 4;
 
@@ -40,7 +40,7 @@ export function usualCurves(curves: readonly Curve[]): Curve[] {
   return [...wanted, ...changing.filter(says)].slice(0, shownAtOnce);
 }
 
-/// A value with as many digits as say something.
+/// A value with its significant digits.
 export function valueText(value: number, unit: string): string {
   if (!Number.isFinite(value)) return words.noValue;
   const size = Math.abs(value), digits = size >= 100 ? 0 : size >= 10 ? 1 : 2;

@@ -12,12 +12,12 @@ interface Series {
   values: readonly (number | null)[];
 }
 
-/// Angles by the hour of a clock, 6 in the middle of both ends; null where no hour has one.
+/// Angles by the hour of a clock, with 6 at both ends; null if no hour has one.
 export function hoursDrawing(
   name: string, caption: string, axis: string, hours: readonly number[], series: readonly Series[]): Drawing | null {
   const known = series.flatMap(({ values }) => values).filter((value): value is number => value !== null);
   if (known.length === 0) return null;
-  // From 6 through 12 to 6: what matters is above.
+  // From 6 through 12 to 6: the superior half is the one that matters.
   const order = hours.map((_, i) => i).sort((a, b) => (hours[a]! + 6) % 12 - (hours[b]! + 6) % 12);
   const x = scaleLinear([0, 12], [left, width - right]);
   const y = scaleLinear([Math.min(0, ...known), Math.max(...known)], [height - bottom, top]).nice();

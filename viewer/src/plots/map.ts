@@ -8,9 +8,9 @@ import { words } from "../words";
 import { figure, pressable } from "./figure";
 
 const width = 560, left = 52, right = 10, top = 8, bottom = 42, stripHeight = 46;
-/// Cells at least so wide and high have their degrees in them.
+/// Cells of at least this size show their degrees.
 const roomForNumber = { width: 25, height: 13 };
-/// A press that moves less is no drag.
+/// A press that moves less is not a drag.
 const still_px = 4;
 /// Cividis is light from here on.
 const isLightFrom = 0.55;
@@ -31,9 +31,9 @@ function fromStart(intervals: readonly Interval[], start: number): Interval | nu
 }
 
 export interface MapHooks {
-  /// To a point of the grid.
+  /// Goes to a point of the grid.
   go: (column_deg: number, row_deg: number) => void;
-  /// To anywhere, in the hand.
+  /// Goes anywhere, while dragged.
   drag: (column_deg: number, row_deg: number) => void;
 }
 
@@ -105,13 +105,13 @@ export class MapPlot {
     map.intervals.forEach((_, point) => this.paint(point));
   }
 
-  /// The intervals of a point are known now.
+  /// Takes the intervals of a point.
   set(point: number, intervals: Interval[]): void {
     this.map.intervals[point] = intervals;
     this.paint(point);
   }
 
-  /// In one line while points are missing, then nothing.
+  /// One line while points are missing, then empty.
   progress(): string {
     const total = this.cells.length, done = this.map.intervals.filter((known) => known !== undefined).length;
     return done < total ? words.mapProgress(done, total) : "";
@@ -139,7 +139,7 @@ export class MapPlot {
       const { x, y, columns, rows } = this.plane;
       hooks.drag(columns.at(x.invert(at.x)), rows.at(y.invert(at.y)));
     });
-    // After a drag the cell below is not pressed.
+    // A drag does not press the cell below.
     picture.addEventListener("click", (event) => {
       if (from?.moved) event.stopPropagation();
       from = null;

@@ -9,7 +9,7 @@ import type { Drawing } from "./figure";
 const width = 460, height = 220, left = 56, right = 18, top = 26, bottom = 40, keyLine = 13;
 const strokes = ["curve", "curve second", "curve third"];
 
-/// What each degree costs: removed volume over the angle reached, a line for each target by itself; null without points.
+/// The cost of each degree: removed volume over the angle reached, a line for each target by itself; null without points.
 export function planCurveDrawing(curve: StoredPlan["curve"]): Drawing | null {
   if (curve.length === 0) return null;
   const motions = [...new Set(curve.map(({ motion }) => motion))];

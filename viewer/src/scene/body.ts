@@ -23,12 +23,12 @@ export interface Ghost {
 
 const ghostColour = "#7fa8c9", ghostOpacity = 0.35;
 
-/// One bone of the scene. Its vertices have the numbers they have everywhere.
+/// One bone of the scene. Its vertices keep the numbers of the file.
 export class SceneBody {
   readonly mesh: Mesh<BufferGeometry, BodyMaterial>;
   values: Values | null = null;
   surface: Surface;
-  /// Draws nothing but depths, before a transparent body: of that body only the surface nearest to the viewer is seen, as of glass.
+  /// Draws nothing but depths, before a transparent body: only the surface nearest to the viewer stays visible, like glass.
   private readonly veil: Mesh<BufferGeometry, BodyMaterial>;
   private ghost: Mesh | null = null;
   private readonly shown: BufferAttribute;
@@ -38,7 +38,7 @@ export class SceneBody {
   private readonly markedVertices: Record<Marked, number[]> = { bearing: [], contact: [], zone: [] };
   private readonly showsMarked: Record<Marked, boolean> = { bearing: false, contact: true, zone: true };
 
-  /// In a body of several meshes, those that are not bone have a colour of their own.
+  /// In a body of several meshes, soft ones and implants have a colour of their own.
   constructor(surface: Surface, private readonly bone: string, private readonly cartilage: string, private readonly parts: readonly Part[]) {
     this.surface = surface;
     const count = surface.vertices.length / 3;
@@ -58,13 +58,13 @@ export class SceneBody {
     this.mesh = new Mesh(geometry, new BodyMaterial(bone, cartilage));
     this.veil = new Mesh(geometry, new BodyMaterial(bone, cartilage));
     this.veil.material.colorWrite = false;
-    // Of the transparent, which are drawn in an order of their own.
+    // Transparent bodies are drawn in this order.
     this.veil.material.transparent = true;
     this.veil.visible = false;
     this.mesh.add(this.veil);
   }
 
-  /// Other positions of the same vertices. What was given before stays as it was.
+  /// Other positions of the same vertices. Earlier arrays stay unchanged.
   replaceVertices(vertices: ArrayLike<number>): void {
     this.surface = { vertices: Float64Array.from(vertices), triangles: this.surface.triangles };
     const { geometry } = this.mesh, position = geometry.getAttribute("position") as BufferAttribute;
@@ -75,7 +75,7 @@ export class SceneBody {
     geometry.boundingBox = null;
   }
 
-  /// Another state of this body, seen through, where it stands; null: none.
+  /// Another state of this body, transparent, in the same place; null: none.
   setGhost(ghost: Ghost | null): void {
     this.ghost?.removeFromParent();
     this.ghost?.geometry.dispose();
@@ -86,14 +86,14 @@ export class SceneBody {
     geometry.computeVertexNormals();
     this.ghost = new Mesh(geometry, new MeshLambertMaterial({
       color: ghost.colour ?? ghostColour, transparent: true, opacity: ghostOpacity, side: DoubleSide, depthWrite: false, clippingPlanes: this.mesh.material.clippingPlanes,
-      // Where both surfaces are one, this body is seen: within some tenth of a millimetre.
+      // Where both surfaces coincide to some tenth of a millimetre, this body is drawn.
       polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 20,
     }));
     this.ghost.renderOrder = 5;
     this.mesh.add(this.ghost);
   }
 
-  /// Transparent bodies are drawn after what is behind them; `isVeiled` shows of this one the nearest surface alone.
+  /// Transparent bodies are drawn after what is behind them; `isVeiled` shows only the nearest surface of this one.
   setOpacity(opacity: number, isGlass: boolean, isVeiled: boolean): void {
     this.mesh.material.setOpacity(opacity, isGlass);
     this.veil.visible = isVeiled;
@@ -113,7 +113,7 @@ export class SceneBody {
     this.shown.needsUpdate = this.mark.needsUpdate = true;
   }
 
-  /// Marks the corners of these triangles, and no others so.
+  /// Marks the corners of these triangles only.
   setMarked(as: Marked, triangles: Iterable<number>): void {
     const before = this.markedVertices[as];
     const now: number[] = [];

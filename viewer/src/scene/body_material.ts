@@ -3,8 +3,8 @@ import { colourTable, contactColour, stripeColour, zoneColour, type ColourScale 
 
 const steps = 512;
 
-/// A surface coloured by a value per vertex: values are interpolated, not colours, so that a pixel shows what the scale says. Bounds
-/// are hatched in grey, values beyond the scale striped; what is marked is tinted.
+/// A surface coloured by a value per vertex: values are interpolated, not colours, so that a pixel has the colour of its value on the scale. Bounds
+/// are hatched in grey, values beyond the scale striped, and marked triangles tinted.
 export class BodyMaterial extends MeshLambertMaterial {
   private readonly shared = {
     scaleColours: { value: null as DataTexture | null },
@@ -53,7 +53,7 @@ export class BodyMaterial extends MeshLambertMaterial {
           if (vTints.y > 0.5) diffuseColor.rgb = mix(diffuseColor.rgb, contactColour, 0.85);`)
         .replace("#include <opaque_fragment>", `if (isFlat) outgoingLight = diffuseColor.rgb;
           if (isGlass) {
-            // As condyle picture has it: least cover where it faces the viewer.
+            // As in condyle picture: least opaque where it faces the viewer.
             vec3 towardsViewer = isOrthographic ? vec3(0.0, 0.0, 1.0) : normalize(vViewPosition);
             float aside = 1.0 - abs(dot(normal, towardsViewer));
             diffuseColor.a = 0.2 + 0.6 * aside * aside;
@@ -78,7 +78,7 @@ export class BodyMaterial extends MeshLambertMaterial {
     this.shared.isFlat.value = !on;
   }
 
-  /// Below 1 seen through; as glass more so where it faces the viewer.
+  /// Transparent below 1; like glass, more so where it faces the viewer.
   setOpacity(opacity: number, isGlass: boolean): void {
     const transparent = opacity < 1 || isGlass;
     if (transparent !== this.transparent) this.needsUpdate = true;

@@ -1,6 +1,6 @@
 import { Spherical, Vector3 } from "three";
 
-/// A camera's turn about what it looks at, upright all the way.
+/// A camera's rotation about its target, upright throughout.
 export interface Viewpoint {
   towards: Vector3;
   target: Vector3;
@@ -30,7 +30,7 @@ export class CameraTurn {
     this.frame = 0;
   }
 
-  /// At once where motion is not wanted. A move that is under way goes on to the new end in the time that it has left.
+  /// At once if motion is not wanted. A move in progress continues to the new end in its remaining time.
   go(from: Viewpoint, to: Viewpoint): void {
     const first = this.isUnderWay ? this.begun : performance.now();
     this.stop();
@@ -41,7 +41,7 @@ export class CameraTurn {
       return;
     }
     const begin = new Spherical().setFromVector3(from.towards), end = new Spherical().setFromVector3(to.towards);
-    // The shorter way around.
+    // The shorter arc.
     end.theta = begin.theta + Math.atan2(Math.sin(end.theta - begin.theta), Math.cos(end.theta - begin.theta));
     const begun = performance.now(), left_ms = Math.max(1, duration_ms - (begun - first));
     const step = () => {

@@ -6,25 +6,25 @@ import type { ShownQuantity } from "../core/protocol";
 ///     gap, distance   end striped | -end  dark red ... orange | 0 | dark blue ... pale  end | beyond it plain bone
 ///     depth, pressure, bone that went    0  light ... dark  end | end striped
 ///
-/// A value beyond an end never looks like one within: it is striped with the end's colour, or not coloured at all.
+/// A value beyond an end is always distinct from one within: it is striped with the end's colour, or not coloured at all.
 export interface ColourScale {
   quantity: Exclude<ShownQuantity, "none">;
   low: number;
   high: number;
-  /// Values above `high` are nothing to look at: the bone stays plain.
+  /// Values above `high` need no colour: the bone stays plain.
   plainAbove: boolean;
   /// CSS colour of a value; values beyond an end have its colour.
   colour(amount: number): string;
 }
 
-/// Colours of what is not a value, each unlike every colour of a scale for all eyes: docs/decisions/0018-the-page.md.
+/// Colours of marks that are not values, distinct from every colour of a scale for all eyes: docs/decisions/0018-the-page.md.
 export const contactColour = "#ff00ff", zoneColour = "#6900ff";
-/// Stripes over the colour of an end.
+/// Colour of the stripes over an end's colour.
 export const stripeColour = "#ffffff";
 
 export function colourScale(quantity: Exclude<ShownQuantity, "none">, end: number): ColourScale {
   const share = (amount: number) => Math.min(1, Math.max(0, amount / end));
-  // The lightest of the sequential map is left out: on a light bone it would not be seen.
+  // The lightest of the sequential map is left out: on a light bone it would be invisible.
   if (quantity !== "gap" && quantity !== "nearest")
     return { quantity, low: 0, high: end, plainAbove: false, colour: (amount) => interpolateInferno(0.85 * (1 - share(amount))) };
   return {
@@ -33,13 +33,13 @@ export function colourScale(quantity: Exclude<ShownQuantity, "none">, end: numbe
   };
 }
 
-/// How a value beyond the scale looks; null for one within.
+/// The swatch of a value beyond the scale; null for one within.
 export function beyond(scale: ColourScale, amount: number): "striped" | "plain" | null {
   if (amount > scale.high) return scale.plainAbove ? "plain" : "striped";
   return scale.low < 0 && amount < scale.low ? "striped" : null;
 }
 
-/// The numbers of a scale as its legend has them.
+/// The numbers in a scale's legend.
 export function tickText(amount: number): string {
   return String(Number(amount.toFixed(2))).replace("-", "−");
 }

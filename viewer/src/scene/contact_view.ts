@@ -1,6 +1,6 @@
 import { Matrix4, Vector3 } from "three";
 
-/// A body as it stands: vertices in its own frame, its pose.
+/// A body: vertices in its own frame, its pose.
 export interface Standing {
   vertices: ArrayLike<number>;
   normals: ArrayLike<number>;
@@ -9,11 +9,11 @@ export interface Standing {
 
 const patch_mm = 6, tube_mm = 3, beginning_mm = 4;
 const turns = 24, tilts_deg = [15, 30, 50];
-/// What a view that the solid bone is in the way of loses, one that the glass is in the way of, and one that is nearly from above or
-/// below, where there is hardly an up.
+/// Penalties of a view: blocked by the solid bone; blocked by the glass; nearly from above or below, where the up direction is
+/// ill-defined.
 const blocked = 3, throughGlass = 0.4, upright = 0.6;
 
-/// The direction from which a contact is looked at: along the surface that is met there and a little from above it, from the side
+/// The direction from which a contact is viewed: along the surface in contact and a little from above it, from the side
 /// where the joint is open, past the solid bone and rather not through the glass.
 export function directionOnto(point: Vector3, solid: Standing, glass: Standing): Vector3 {
   const outwards = point.lengthSq() > 1e-6 ? point.clone().normalize() : new Vector3(1, 0, 0);
@@ -35,7 +35,7 @@ export function directionOnto(point: Vector3, solid: Standing, glass: Standing):
   return best;
 }
 
-/// Mean of the normals around a point; null where no vertex is near.
+/// Mean of the normals around a point; null if no vertex is near.
 function normalAt(point: Vector3, { vertices, normals, pose }: Standing): Vector3 | null {
   const local = point.clone().applyMatrix4(pose.clone().invert()), sum = new Vector3();
   for (let v = 0; v < vertices.length; v += 3) {

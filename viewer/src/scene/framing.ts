@@ -5,15 +5,15 @@ export const radiiOfScene = 5;
 /// A narrow scene shows at least this much of its width: the joint's sphere and a quarter more.
 const radiiOfWidth = 2.5;
 
-/// Height of what is shown about a joint of this radius.
+/// Height of the scene about a joint of this radius.
 export function heightOfJoint(radius_mm: number, aspect: number): number {
   return radius_mm * Math.max(radiiOfScene, radiiOfWidth / aspect);
 }
 
 const cell_mm = 8, nearEnough_mm = 6, sampled = 4000;
 
-/// Radius about the centre within which the bones lie next to each other: that of a joint of which no sphere is known. Of vertices of the
-/// mobile body near one of the fixed body, nine tenths are nearer to the centre. Null where the bodies are apart.
+/// Radius about the centre within which the bones lie next to each other: for a joint without a known sphere. Nine tenths of the
+/// vertices of the mobile body that are near the fixed body are nearer to the centre. Null if the bodies are apart.
 export function radiusOfNeighbours(fixed: ArrayLike<number>, mobile: ArrayLike<number>, pose: Matrix4): number | null {
   const cells = new Map<string, number[]>();
   const key = (x: number, y: number, z: number) => `${Math.floor(x / cell_mm)},${Math.floor(y / cell_mm)},${Math.floor(z / cell_mm)}`;

@@ -5,7 +5,7 @@ import { beyond, contactColour, rgb, zoneColour, type ColourScale } from "./colo
 
 const metresPerMm = 1e-3;
 
-/// Both bones as they stand, with the colours of their vertices: binary glTF, in metres as it has lengths.
+/// Both bones as they stand, with the colours of their vertices: binary glTF, whose lengths are metres.
 export async function glbOf(bodies: readonly { name: string; body: SceneBody }[], scale: ColourScale | null): Promise<Blob> {
   const all = new Group();
   all.name = "joint";
@@ -35,7 +35,7 @@ function colouredGeometry(body: SceneBody, scale: ColourScale | null): BufferGeo
 
 const bound = [140, 140, 140] as const;
 
-/// sRGB, 0 to 255. Without the stripes that only a surface has: a value beyond the scale has its end's colour.
+/// sRGB, 0 to 255. Only a surface has stripes: here a value beyond the scale has its end's colour.
 function colourOf(body: SceneBody, vertex: number, scale: ColourScale | null): readonly [number, number, number] {
   if (body.isMarked("contact", vertex)) return rgb(contactColour);
   if (body.isMarked("zone", vertex)) return rgb(zoneColour);

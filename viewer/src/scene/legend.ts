@@ -4,13 +4,13 @@ import { stripeColour, tickText, type ColourScale } from "./colour_scale";
 
 const barSteps = 256;
 
-/// What stands beside the bar: colours of values beyond its ends, and of bounds.
+/// Swatches beside the bar: colours of values beyond its ends, and of bounds.
 export interface Swatch {
   fill: "striped" | "plain" | "hatched";
   colour: string;
 }
 
-/// A legend in numbers and colours: the page's element and its picture are drawn of the same.
+/// A legend in numbers and colours: the page's element and its picture are drawn from it.
 export interface LegendParts {
   title: string;
   ticks: number[];
@@ -45,7 +45,7 @@ export function drawBar(context: CanvasRenderingContext2D, scale: ColourScale, x
   }
 }
 
-/// As the surface shows it.
+/// Drawn as on the surface.
 export function drawSwatch(context: CanvasRenderingContext2D, { fill, colour }: Swatch, x: number, y: number, width: number, height: number): void {
   context.save();
   context.beginPath();

@@ -5,7 +5,7 @@ import type { BodyName } from "./scene";
 export interface Marks {
   body: BodyName;
   colour: string;
-  /// Two points a line.
+  /// Two points for each line.
   lines: number[];
   points: number[];
 }
@@ -28,7 +28,7 @@ function unit(v: readonly number[]): number[] {
   return v.map((value) => value / length);
 }
 
-/// What measures were made by, as `condyle picture --measures` draws it: the neck's axis and where alpha angles are read; the shaft's
+/// The axes and points of the measures, as `condyle picture --measures` draws them: the neck's axis and where alpha angles are read; the shaft's
 /// axis and the condyles; the rim and its plane.
 export function measureMarks({ around_neck, rim, geometry }: StoredMeasures): Marks[] {
   const { neck, shaft, condyles, rim_plane } = geometry;

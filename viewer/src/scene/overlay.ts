@@ -3,11 +3,11 @@ import { words } from "../words";
 import type { ColourScale } from "./colour_scale";
 import { legendElement } from "./legend";
 
-/// What is written over the scene, in pixels of the page from its top left corner.
+/// Text over the scene, in pixels of the page from its top left corner.
 export interface Written {
   width: number;
   height: number;
-  /// Letters of where the edges are.
+  /// Letters of the directions at the edges.
   edges: { top: string; bottom: string; left: string; right: string };
   scaleBar: { length: number; mm: number; isTrueEverywhere: boolean };
   pin: { x: number; y: number; label: string } | null;

@@ -6,7 +6,7 @@ import { placeOfLabel, scaleBarText, type Written } from "./overlay";
 const ink = "#1b1f24", paper = "#ffffff", pinPaper = "#fff8e1";
 const font = (size: number, weight = "") => `${weight} ${size}px system-ui, sans-serif`;
 
-/// The scene on white paper with its title, letters, scale bar, legend and pin: what is drawn at `ratio` pixels to one of the page.
+/// The scene on white paper with its title, letters, scale bar, legend and pin, at `ratio` pixels to one of the page.
 export function composedPicture(
   scene: HTMLCanvasElement, ratio: number, title: string, written: Written, scale: ColourScale | null): HTMLCanvasElement {
   const head = title ? 34 : 0, { width, height } = written;
@@ -31,7 +31,7 @@ export function composedPicture(
   return canvas;
 }
 
-/// Text that is read over bone, too.
+/// Text that stays readable over bone.
 function lettered(context: CanvasRenderingContext2D, text: string, x: number, y: number): void {
   context.strokeStyle = paper;
   context.lineWidth = 4;

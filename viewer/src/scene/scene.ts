@@ -21,13 +21,13 @@ export const bodyNames = ["fixed", "mobile"] as const;
 export type BodyName = (typeof bodyNames)[number];
 export type ClipAxis = "none" | "x" | "y" | "z";
 
-/// A vertex that was pointed at.
+/// The vertex under the pointer.
 export interface Picked {
   body: BodyName;
   vertex: number;
 }
 
-/// A point of a surface that was pointed at, in the frame of its body; the vertex is the triangle's nearest corner.
+/// The point of a surface under the pointer, in the frame of its body; the vertex is the triangle's nearest corner.
 export interface PickedPoint extends Picked {
   triangle: number;
   point: [number, number, number];
@@ -51,12 +51,12 @@ function otherThan(body: BodyName): BodyName {
   return body === "fixed" ? "mobile" : "fixed";
 }
 
-/// Both bones before a camera. Drawn only when something changed. Points are in F, mm, where nothing else is said.
+/// Both bones before a camera. Drawn only when something changed. Points are in F, mm, unless stated otherwise.
 export class JointScene {
   readonly bodies: Record<BodyName, SceneBody>;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
-  /// That which is turned and moved; seen by `parallel` instead where projection is parallel.
+  /// The camera that is rotated and moved; `parallel` draws instead if projection is parallel.
   private readonly camera = new PerspectiveCamera(30, 1, 1, 5000);
   private readonly parallel = new OrthographicCamera(-1, 1, 1, -1, -3000, 8000);
   private isParallel = false;
@@ -70,7 +70,7 @@ export class JointScene {
   private marks: Object3D[] = [];
   private readonly removed: Record<BodyName, Mesh | null> = { fixed: null, mobile: null };
   private readonly opacities: Record<BodyName, number> = { fixed: 1, mobile: 1 };
-  /// The limit that was gone to.
+  /// The limit shown.
   private limit: { point: Vector3; label: string; glass: BodyName } | null = null;
   private scale: ColourScale | null = null;
   private pickedBody: BodyName = "mobile";
@@ -78,11 +78,11 @@ export class JointScene {
   private givenRadius_mm: number | null = null;
   private foundRadius_mm: number | null = null;
   private fitted: "joint" | "all" = "joint";
-  /// The camera stands where fitting put it.
+  /// Whether the camera stands where fitting put it.
   private isFitted = true;
   private hasPose = false;
 
-  /// Throws where the browser has no WebGL.
+  /// Throws if the browser has no WebGL.
   constructor(
     private readonly place: HTMLElement, fixed: Surface, mobile: Surface, parts: Record<BodyName, readonly Part[]>, label: string,
     private readonly side: Side = "right") {
@@ -123,11 +123,11 @@ export class JointScene {
 
   // -- where the camera stands ------------------------------------------------------------------------------------------------------
 
-  /// From a side by its name, as `condyle picture --view` takes it, at what was fitted last.
+  /// Views the last fitted part from a side, by the name that `condyle picture --view` takes.
   look(view: string): void {
     const { towardsViewer, up } = viewNamed(view, this.side);
     const towards = new Vector3(...towardsViewer);
-    // Superior is up unless one looks along it: then what is up says to which side the camera stands aside.
+    // Superior is up unless the view is along it: then the up vector decides to which side the camera is offset.
     if (Math.abs(towardsViewer[1]) === 1) towards.addScaledVector(new Vector3(...up), -Math.sign(towardsViewer[1]) * aside).normalize();
     this.turn.stop();
     this.stand({ towards, ...this.fitting() });
@@ -160,7 +160,7 @@ export class JointScene {
     this.draw();
   }
 
-  /// Camera and what it looks at, six numbers.
+  /// Camera and its target, six numbers.
   get viewpoint(): number[] {
     return [...this.camera.position.toArray(), ...this.controls.target.toArray()];
   }
@@ -188,7 +188,7 @@ export class JointScene {
   // -- a limit ----------------------------------------------------------------------------------------------------------------------
 
   /// Turns the camera to look along a contact from the side on which the joint is open, at the surface of `from`; the other bone becomes
-  /// glass, and a pin with a text stands at the point. Null: what ends this motion is at no point, and nothing turns.
+  /// glass, and a pin with a text stands at the point. Null: the motion's end has no contact point, and the camera stays.
   arriveAt(point: readonly [number, number, number] | null, label: string, from: BodyName): void {
     this.leaveLimit();
     if (!point) return;
@@ -216,12 +216,12 @@ export class JointScene {
     mesh.matrix = new Matrix4().fromArray(Array.from(rows)).transpose();
     mesh.matrixWorldNeedsUpdate = true;
     if (!this.hasPose) this.standAtFirst();
-    // The pose of a limit may come after the news of it.
+    // The pose of a limit may come after its pin.
     if (this.limit && !mesh.matrix.equals(before)) this.turnToLimit();
     this.draw();
   }
 
-  /// With its legend; null: nothing is coloured.
+  /// Values with their legend; null: nothing is coloured.
   setScale(scale: ColourScale | null): void {
     this.scale = scale;
     if (scale) for (const body of Object.values(this.bodies)) body.mesh.material.setScale(scale);
@@ -244,7 +244,7 @@ export class JointScene {
     this.applyOpacities();
   }
 
-  /// Cuts away what lies beyond `at` mm along an axis.
+  /// Cuts away everything beyond `at` mm along an axis.
   clip(axis: ClipAxis, at: number): void {
     const normal = { x: [-1, 0, 0], y: [0, -1, 0], z: [0, 0, -1] } as const;
     const planes = axis === "none" ? [] : [new Plane(new Vector3(...normal[axis]), at)];
@@ -276,7 +276,7 @@ export class JointScene {
     this.draw();
   }
 
-  /// Another state of a body, as that before a change, seen through; in the body's frame. Null: none.
+  /// Another state of a body, such as before a change, transparent; in the body's frame. Null: none.
   setGhost(body: BodyName, ghost: Ghost | null): void {
     this.bodies[body].setGhost(ghost);
     this.draw();
@@ -301,7 +301,7 @@ export class JointScene {
     for (const mark of this.marks) mark.removeFromParent();
     const geometry = (xyz: readonly number[]) => new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(xyz), 3));
     this.marks = (marks ?? []).flatMap(({ body, colour, lines, points }) => {
-      // Axes lie inside the bones that they are of.
+      // Axes lie inside their bones.
       const drawn = [
         new LineSegments(geometry(lines), new LineBasicMaterial({ color: colour, depthTest: false })),
         new Points(geometry(points), new PointsMaterial({ color: colour, size: 3 })),
@@ -325,13 +325,13 @@ export class JointScene {
 
   // -- under the pointer ------------------------------------------------------------------------------------------------------------
 
-  /// The vertex next to what is under a point of the page; null where no bone is.
+  /// The vertex nearest to the surface point under a point of the page; null if no bone is there.
   pick(event: { clientX: number; clientY: number }): Picked | null {
     const found = this.hitUnder(event);
     return found && { body: found.body, vertex: nearestCorner(found.hit) };
   }
 
-  /// The point of a bone under a point of the page, in that body's frame; null where no bone is.
+  /// The point of a bone under a point of the page, in that body's frame; null if no bone is there.
   pickPoint(event: { clientX: number; clientY: number }): PickedPoint | null {
     const found = this.hitUnder(event);
     if (!found) return null;
@@ -341,7 +341,7 @@ export class JointScene {
     return { body, vertex: nearestCorner(hit), triangle: hit.faceIndex!, point: point.toArray(), normal: hit.face!.normal.toArray() };
   }
 
-  /// A ring about a point of a surface, in the frame of `body`: that which pickPoint() found last, if none is named. Null: no ring.
+  /// A ring about a point of a surface, in the frame of `body`: the last one of pickPoint(), if none is named. Null: no ring.
   brush(
     point: readonly [number, number, number], normal: readonly [number, number, number], radius_mm: number | null,
     body: BodyName = this.pickedBody): void {
@@ -403,12 +403,12 @@ export class JointScene {
     this.overlay.update(this.written());
   }
 
-  /// Distance from the camera to what it looks at.
+  /// Distance from the camera to its target.
   private get distance(): number {
     return this.camera.position.distanceTo(this.controls.target);
   }
 
-  /// Half of what is seen of the plane through what the camera looks at, from top to bottom, for each mm of distance.
+  /// Half the visible height of the plane through the camera's target, for each mm of distance.
   private get halfHeight(): number {
     return Math.tan((this.camera.fov / 2) * (Math.PI / 180));
   }
@@ -455,7 +455,7 @@ export class JointScene {
     this.isFitted = true;
   }
 
-  /// What the camera looks at from which distance, for what is fitted. Bones that end near the joint are framed with it.
+  /// Target and distance of the camera that fit the joint or both bones. Bones that end near the joint are framed with it.
   private fitting(): { target: Vector3; distance: number } {
     const box = this.boxOfAll();
     const all = { target: box.getCenter(new Vector3()), distance: (0.55 * box.getSize(new Vector3()).length()) / this.halfHeight };
@@ -508,7 +508,7 @@ export class JointScene {
     return { vertices: surface.vertices, normals: mesh.geometry.getAttribute("normal").array, pose: mesh.matrixWorld };
   }
 
-  /// Of two bones that are both seen through, every surface is drawn; of one, that which is nearest. A bone that is shown alone hides no other.
+  /// If both bones are transparent, every surface is drawn; if one is, only its nearest surface. A bone shown by itself hides no other.
   private applyOpacities(): void {
     const isGlass = (name: BodyName) => this.limit?.glass === name && this.opacities[name] === 1 && this.bodies[otherThan(name)].mesh.visible;
     const isSeenThrough = (name: BodyName) => isGlass(name) || this.opacities[name] < 1;
@@ -548,7 +548,7 @@ export class JointScene {
     this.controls.dispatchEvent({ type: "end" });
   }
 
-  /// Paper has the picture with all that is written over the scene.
+  /// Paper has the picture with all text over the scene.
   private drawWhenPrinted(): void {
     let printed: HTMLCanvasElement | null = null;
     window.addEventListener("beforeprint", () => {

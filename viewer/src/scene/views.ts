@@ -1,16 +1,16 @@
-/// From where the joint is looked at, in the joint frame: X anterior, Y superior, Z right. The names and what they mean are those of
+/// Directions from which the joint is viewed, in the joint frame: X anterior, Y superior, Z right. The names and their meaning are those of
 /// `condyle picture`: view_named() in src/io/picture/picture.cpp.
 
 export type Three = readonly [number, number, number];
 export type Side = "right" | "left";
 
-/// Those that the page has buttons for.
+/// The views with buttons on the page.
 export const viewDirections = {
   anterior: [1, 0, 0], posterior: [-1, 0, 0], superior: [0, 1, 0], inferior: [0, -1, 0], right: [0, 0, 1], left: [0, 0, -1],
 } as const;
 export type View = keyof typeof viewDirections;
 
-/// Unit vectors at a right angle.
+/// Orthogonal unit vectors.
 export interface ViewDirection {
   towardsViewer: Three;
   up: Three;
@@ -34,10 +34,10 @@ export function viewNamed(name: string, side: Side): ViewDirection {
 }
 
 const letters = [["A", "P"], ["S", "I"], ["R", "L"]] as const;
-/// An axis that goes less than this along an edge, of 1, is not named there.
+/// An axis whose component along an edge is less than this is not named there.
 const leastNamed = 0.4;
 
-/// Letters of a direction in the picture, the axis that goes most along it first: "S", "AR".
+/// Letters of a direction in the picture, the axis most along it first: "S", "AR".
 export function lettersOf(direction: Three): string {
   const shares = direction.map((share, axis) => ({ share: Math.abs(share), letter: letters[axis]![share < 0 ? 1 : 0] }));
   shares.sort((a, b) => b.share - a.share);
