@@ -30,7 +30,7 @@ const signed = (degrees) => {
   return tenths > 0 ? `+${degrees.toFixed(1)}` : tenths === 0 ? "0.0" : minus(degrees.toFixed(1));
 };
 const comparison = (page) => page.getByRole("region", { name: "Compared with before", exact: true }).locator("table", { has: page.locator("caption", { hasText: /^Limits before and after$/ }) });
-const ghostBox = (page) => page.getByLabel("Show the joint before, seen through");
+const ghostBox = (page) => page.getByLabel("Show the joint before, transparent");
 
 function rowsOf(page) {
   return comparison(page).evaluate((table) => [...table.tBodies[0].rows].map((row) => [...row.cells].map(({ textContent }) => textContent)));

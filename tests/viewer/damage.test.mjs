@@ -12,7 +12,7 @@ const browser = await sharedBrowser();
 for (const [what, change, says] of [
   ["cut short", (zipped) => zipped.subarray(0, zipped.length / 2), /incomplete or was changed/],
   ["one byte changed", (zipped) => (zipped[Math.floor(zipped.length / 2)] ^= 1, zipped), /cannot be read/],
-  ["not a block", () => deflateSync(Buffer.from("something else that is longer than a head")), /does not begin as a block/],
+  ["not a block", () => deflateSync(Buffer.from("something else that is longer than a head")), /does not begin like a Condyle data block/],
   ["of a later version", (zipped) => {
     const block = inflateSync(zipped);
     block.writeUInt32LE(2, 8);
@@ -119,7 +119,7 @@ for (const [what, change, names] of [
 ])
   test(`a data block ${what} is told by the key`, async () => {
     const line = await onlyMessage(withText("damaged", change));
-    assert.equal(line, `The data of this report cannot be read: ${names} is missing or is not what a report has there.`);
+    assert.equal(line, `The data of this report cannot be read: ${names} is missing or has the wrong type.`);
   });
 
 test("a data block whose text is no JSON is told in one line", async () => {
@@ -128,7 +128,7 @@ test("a data block whose text is no JSON is told in one line", async () => {
     block[16] = "[".charCodeAt(0);
     return deflateSync(block);
   });
-  assert.match(await onlyMessage(path), /its text is no JSON/);
+  assert.match(await onlyMessage(path), /its text is not JSON/);
 });
 
 test("a report whose core is damaged says so, once, and shows the poses that it holds", async () => {
@@ -136,7 +136,7 @@ test("a report whose core is damaged says so, once, and shows the poses that it 
   writeFileSync(path, readFileSync(pathOf("sample"), "utf8").replace(/(id="core">)([^<]{5000})[^<]{40}/, (_, head, before) => `${head}${before}${"A".repeat(40)}`));
   const { page, complaints } = await openPage(browser, path, { answers: false });
   await page.getByRole("alert").waitFor();
-  assert.match(await page.getByRole("alert").textContent(), /^The part of this file that computes is damaged/);
+  assert.match(await page.getByRole("alert").textContent(), /^The computing part of this file is damaged/);
   assert.equal(await page.getByRole("alert").count(), 1);
   assert.equal(await page.locator("#scene > canvas").count(), 1);
   await tile(page, "flexion").click();

@@ -137,7 +137,7 @@ test("a wrong dropped file is told as on the command line, and the page takes an
   await page.getByRole("alert").waitFor();
   assert.equal(await page.getByRole("alert").textContent(), told);
   await page.locator("#files").setInputFiles([files[0]]);
-  await page.getByText("now the one that moves").waitFor();
+  await page.getByText("now add the mobile one").waitFor();
   await page.locator("#files").setInputFiles([files[1]]);
   await page.waitForFunction(() => Number(document.documentElement.dataset.answered) > 0);
   assert.equal(await page.getByRole("alert").count(), 0);
@@ -187,7 +187,7 @@ test("files dropped into the scene make a joint, and others after them are refus
   for (let again = 0; again < 2; ++again) {
     await drop(page, sampleFiles);
     await page.getByRole("alert").waitFor();
-    assert.match(await page.getByRole("alert").textContent(), /reload it, then drop others/);
+    assert.match(await page.getByRole("alert").textContent(), /reload it before dropping others/);
     assert.equal(await page.getByRole("alert").count(), 1);
   }
   assert.equal(await page.locator("#scene > canvas").count(), 1);
@@ -296,7 +296,7 @@ test("a mask of each bone makes a joint, one after the other or both at once", a
     const { page } = await openPage(browser, empty, { answers: false });
     await drop(page, first);
     if (first.length === 1) {
-      await page.getByText("hip_right.nii.gz holds one bone: now the other one.").waitFor();
+      await page.getByText("hip_right.nii.gz holds one bone: now add the other one.").waitFor();
       await drop(page, [maps.femurMask]);
     }
     await assertLimits(page, motions);
@@ -327,7 +327,7 @@ test("damaged label maps, images that are none, and a mesh beside one are refuse
     assert.equal(await page.getByRole("alert").count(), 1);
   }
   await drop(page, [maps.named, sampleFiles[0]]);
-  await page.waitForFunction(() => /not of one of each/.test(document.querySelector("[role=alert]")?.textContent));
+  await page.waitForFunction(() => /not one of each/.test(document.querySelector("[role=alert]")?.textContent));
   await drop(page, [maps.hipMask, maps.femurMask, maps.named]);
   await page.getByText("A joint has two meshes").waitFor();
   await drop(page, [maps.named]);

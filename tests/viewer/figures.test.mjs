@@ -69,7 +69,7 @@ test("what is typed and is no angle in the range is refused in words, and the jo
   const { page } = await openPage(browser, pathOf("sample"));
   await turnTo(page, { flexion: 30 });
   const field = page.getByRole("spinbutton", { name: "flexion, degrees", exact: true });
-  for (const [typed, says] of [["500", /^500° is not between \u2212180° and 180°: not taken\.$/], ["", /no number/], ["far", /no number/]]) {
+  for (const [typed, says] of [["500", /^500° is not between \u2212180° and 180°: ignored\.$/], ["", /Not a number/], ["far", /Not a number/]]) {
     await field.fill(typed);
     assert.match(await page.locator("#refusal").textContent(), says);
     assert.equal(await field.getAttribute("aria-invalid"), "true");
@@ -285,7 +285,7 @@ test("the numbers say how they were found: bounds, bands, bearing contact, norma
 test("parameters of parts that are not as in the joint file are named, and their uncertainty in the bands", async () => {
   const { page, complaints } = await openPage(browser, pathOf("tilted"));
   const said = await page.locator("body").textContent();
-  assert.ok(said.includes("Not as in the joint file: pelvis.tilt 10 deg instead of 0."), said);
+  assert.ok(said.includes("Changed from the joint file: pelvis.tilt 10 deg instead of 0."), said);
   assert.match(said, /surfaces 0\.25 mm, pelvis\.tilt 3\./);
   assert.deepEqual(complaints, []);
   await page.context().close();

@@ -72,10 +72,10 @@ test("the bone that went is a colour, in every pose, and a surface over the cut"
   await openTab(page, "Plan");
   assert.match(await tells(), new RegExp(`vertex ${vertex}: ${deepest.toFixed(2)}`));
   assert.equal(await count(page, isGreen), 0);
-  await page.getByLabel("Show the bone that went").check();
+  await page.getByLabel("Show the removed bone").check();
   assert.ok(await count(page, isGreen) > 20);
   await keep(page, "plan_removed");
-  await page.getByLabel("Show the bone that went").uncheck();
+  await page.getByLabel("Show the removed bone").uncheck();
   assert.equal(await count(page, isGreen), 0);
   await page.context().close();
 });

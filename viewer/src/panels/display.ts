@@ -15,7 +15,7 @@ export interface Showable {
   /// Empty for a body that is one mesh.
   parts: Record<BodyName, readonly Part[]>;
   quantities: readonly ShownQuantity[];
-  /// Deepest cut of a plan, at which the scale of the bone that went ends.
+  /// Deepest cut of a plan, at which the scale of the removed bone ends.
   removed_mm: number;
   marks: readonly Exclude<Marked, "zone">[];
 }

@@ -39,7 +39,7 @@ function capital(text: string): string {
   return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
-/// The answer first: four figures, a sentence, and the notes of the checks. It stays in place, whatever is pressed.
+/// The answer first: four figures, a sentence, and the notes from the checks. It stays in place, whatever is pressed.
 export class ResultStrip {
   readonly element: HTMLElement;
   private readonly sentence = html("p", { id: "sentence", "aria-live": "polite" });

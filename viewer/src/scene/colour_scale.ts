@@ -4,7 +4,7 @@ import type { ShownQuantity } from "../core/protocol";
 /// Colours of a quantity over mm or MPa, made of sequential scales that the colour blind can distinguish.
 ///
 ///     gap, distance   end striped | -end  dark red ... orange | 0 | dark blue ... pale  end | beyond it plain bone
-///     depth, pressure, bone that went    0  light ... dark  end | end striped
+///     depth, pressure, removed bone      0  light ... dark  end | end striped
 ///
 /// A value beyond an end is always distinct from one within: it is striped with the end's colour, or not coloured at all.
 export interface ColourScale {
