@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs fuzz targets one after the other, built by the preset fuzz: fuzz.sh SECONDS [TARGET]...; all of them where none is named.
-# A line for each tells how many inputs were tried. Ends at the first finding, with the input kept in build/fuzz/found.
+# A line for each reports how many inputs were tried. Ends at the first finding, with the input kept in build/fuzz/found.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=$1

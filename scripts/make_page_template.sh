@@ -4,7 +4,7 @@
 set -euo pipefail
 template=$(realpath -m "$1")
 cd "$(dirname "$0")/../viewer"
-# What package-lock.json names, to the byte, and nothing else.
+# Exactly the packages that package-lock.json names, to the byte.
 if [ ! -d node_modules ] || [ package-lock.json -nt node_modules/.package-lock.json ]; then npm ci --no-audit --no-fund --silent; fi
 npx --no-install tsc --noEmit
 mkdir -p "$(dirname "$template")"

@@ -114,7 +114,7 @@ def debian_entry(package: str) -> dict:
 
 
 def web_packages() -> list[dict]:
-    """What the page's sources import, and what that needs."""
+    """Packages that the page's sources import, with their dependencies."""
     lock = json.loads((SOURCE / "viewer/package-lock.json").read_text())["packages"]
     named = json.loads((SOURCE / "viewer/package.json").read_text())["devDependencies"]
     asked = set()

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What a cam does to internal rotation: 20 sample hips of different shape, each without and with one.
+"""Effect of a cam on internal rotation: 20 sample hips of different shape, each without and with one.
 
 Usage: cam_and_internal_rotation.py [PICTURE [HIPS]]
 

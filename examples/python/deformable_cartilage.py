@@ -61,7 +61,7 @@ class Tissue:
             self.at += move
 
     def energy(self) -> float:
-        """Of all springs, with stiffnesses of 1 N/mm per share: N mm up to a factor of the tissue."""
+        """Energy of all springs, with stiffnesses of 1 N/mm per share: N mm up to a factor of the tissue."""
         stretch = np.linalg.norm(self.at[self.second] - self.at[self.first], axis=1) - self.lengths
         shift = self.at - self.rest
         return float(EDGE_STIFFNESS * (stretch**2).sum() + FOUNDATION_STIFFNESS * (shift**2).sum()) / 2
@@ -69,7 +69,7 @@ class Tissue:
 
 @dataclass
 class History:
-    """What happened, round by round, and how long each part of the work took."""
+    """Progress by round, and the time of each part of the work."""
 
     depth_before_mm: list[float] = field(default_factory=list)  # when contact is looked for first
     depth_left_mm: list[float] = field(default_factory=list)

@@ -1,4 +1,4 @@
-"""What answers have in common: tables, arrays with names, and how they show themselves in notebooks."""
+"""Base of all answers: tables, arrays with names, and their display in notebooks."""
 
 from __future__ import annotations
 

@@ -48,7 +48,7 @@ class BrushStroke:
 
 
 class StrokeOutcome(NamedTuple):
-    """Of one stroke: how many vertices it moved, how many in its reach must stay, how many are less deep than asked for because the
+    """Counts of one stroke: vertices that it moved, vertices in its reach that must stay, and those less deep than requested because the
     surface would turn over or run through itself."""
 
     moved: int
@@ -71,7 +71,7 @@ class Brushed(Generic[OfJoint]):
     volume_mm3, deepest_mm : float
     strokes : tuple of StrokeOutcome
     before, after : tuple of MotionLimit
-        Of all motions of the joint, bone only: exact ones. What contact of each triangle means stays as it was before.
+        Exact limits of all motions of the joint, bone only. The role of each triangle in contact stays as before.
     """
 
     joint: OfJoint

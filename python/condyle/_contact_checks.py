@@ -1,4 +1,4 @@
-"""What looks wrong with materials, loads and motions."""
+"""Warnings on materials, loads and motions."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ._errors import warn
 
 @dataclass(frozen=True)
 class ContactNote:
-    """What looks wrong with layers, a load or a motion, or what limits must be read with: `code` as in files ("unlikely_modulus"), `text` one sentence.
+    """A warning on layers, a load or a motion, or a caveat of limits: `code` as in files ("unlikely_modulus"), `text` one sentence.
 
     docs/checks.md has the codes and the sources of the bounds.
     """

@@ -1,4 +1,4 @@
-"""What a joint is: its bodies, frame and names, and its poses."""
+"""Description of a joint: its bodies, frame and names, and its poses."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class PartParameter:
 
 @dataclass(frozen=True)
 class JointNote:
-    """What looks wrong with a joint: `code` as in files ("wrong_side"), `text` one sentence."""
+    """A warning on a joint: `code` as in files ("wrong_side"), `text` one sentence."""
 
     code: str
     text: str
@@ -133,7 +133,7 @@ class DescribedJoint:
         return tuple(BodyPart(*part) for part in self._native.mobile_parts)
 
     def part(self, name: str, body: Body = "mobile") -> TriMesh:
-        """The mesh of one part of a body, in that body's frame. UnknownNameError with the names there are.
+        """The mesh of one part of a body, in that body's frame. UnknownNameError lists the valid names.
 
         C++: `condyle::mesh_of_part` in condyle/joint.hpp.
         """
@@ -155,7 +155,7 @@ class DescribedJoint:
 
     @property
     def angle_names(self) -> tuple[tuple[str, str], ...]:
-        """Of each of the three angles the name where it is above zero, and where below."""
+        """The names of each of the three angles, above zero and below."""
         return tuple(self._native.angle_names)
 
     @property
@@ -172,12 +172,12 @@ class DescribedJoint:
 
     @property
     def processing(self) -> tuple[str, ...]:
-        """What was converted, repaired or fitted on the way to this joint, one line each."""
+        """Conversions, repairs and fits that made this joint, one line each."""
         return tuple(self._native.processing)
 
     @property
     def notes(self) -> tuple[JointNote, ...]:
-        """What looks wrong with the joint, as `notes` of the command's JSON: docs/checks.md. Nothing is changed.
+        """Warnings on the joint, as `notes` of the command's JSON: docs/checks.md. They change nothing.
 
         Computed once, here or at the first answer, which warns of each (:class:`JointWarning`): some tenths of a second
         for 50,000 triangles.
@@ -195,7 +195,7 @@ class DescribedJoint:
                     self._notes = tuple(JointNote(code, text) for code, text in self._native.checks())
         return self._notes
 
-    # Where it is.
+    # Its place.
 
     @overload
     def pose(self, **coordinates: float) -> Pose: ...  # type: ignore[misc]

@@ -1,4 +1,4 @@
-"""What goes wrong, in the words of the command line: one line each."""
+"""Errors, in the words of the command line: one line each."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Iterable
 
 
 class CondyleError(Exception):
-    """What the module raises on purpose: one line. Each is one of Python's own errors too, as its bases say."""
+    """Base of the module's own errors: one line. Each is also one of Python's own errors, by its bases."""
 
 
 class FileError(CondyleError, OSError):
@@ -45,7 +45,7 @@ class OutOfRangeError(UsageError, IndexError):
 
 
 class JointWarning(UserWarning):
-    """What looks wrong with a joint of which something is asked: docs/checks.md. The answer stays what it is.
+    """A warning on a joint that answers a query: docs/checks.md. The answer is unchanged.
 
     Each note of :attr:`Joint.notes` is one warning, at the joint's first answer: "right hip: wrong_side: ...".
     `warnings.simplefilter("error", condyle.JointWarning)` makes them errors, as `--strict` of the command does.

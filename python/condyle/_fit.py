@@ -22,11 +22,11 @@ class SphereFit:
     centre : (3,) float64
     radius : float
     rms_residual, largest_residual : float
-        Of the distance to the centre less the radius; the second is a magnitude.
+        Residuals: the distance to the centre less the radius; the second is a magnitude.
     vertices : (K,) uint32
-        Those used, ascending.
+        The vertices used, ascending.
     coverage : float or None
-        Of a part of a surface: its area over that of the whole sphere.
+        Coverage by a part of a surface: its area over that of the whole sphere.
     centre_bound : float or None
         95 % of fits to resampled parts have their centre within. Where resamples were asked for.
     """
@@ -90,9 +90,9 @@ class CylinderFit:
         Unit; of its two senses the one whose largest component is positive.
     radius : float
     rms_residual, largest_residual : float
-        Of the distance to the axis less the radius; the second is a magnitude.
+        Residuals: the distance to the axis less the radius; the second is a magnitude.
     vertices : (K,) uint32
-        Those used, ascending.
+        The vertices used, ascending.
     coverage : float
         The share of a turn about the axis in which there are points.
     direction_bound_deg, axis_bound : float or None

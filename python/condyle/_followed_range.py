@@ -20,7 +20,7 @@ from ._words import BearingRule, Body, Path, Progress, number, path_of, progress
 
 @dataclass(frozen=True, eq=False)
 class _Question:
-    """What limits were asked for, so that a report can ask again."""
+    """The request of the limits, so that a report can repeat it."""
 
     joint: DescribedJoint
     motions: list[Any]

@@ -29,13 +29,13 @@ class VertexGaps(Columns):
         > 0 apart, < 0 inside, 0 on the surface; along the ray from the joint centre, or along the arc about the axis.
         +inf where nothing is met, -inf where the whole circle is solid.
     triangle : (V,) uint32
-        Of the other mesh, that the gap is measured to; NO_INDEX where there is none.
+        Triangle of the other mesh to which the gap is measured; NO_INDEX if there is none.
     ray_to_normal_deg : (V,) float64 or None
-        Of rays: between the ray and that triangle's normal, 0 to 90. Above 60 a depth along the ray is none.
+        For rays: angle between the ray and that triangle's normal, 0 to 90. Above 60 the value along the ray is not a depth.
     gap_deg : (V,) float64 or None
-        Of arcs: the gap as an angle.
+        For arcs: the gap as an angle.
     rotation_sense : (V,) int8 or None
-        Of arcs: which way to rotate to reach that triangle, 1 or -1.
+        For arcs: the sense of rotation that reaches that triangle, 1 or -1.
     """
 
     state: NDArray[np.int8]
@@ -65,19 +65,19 @@ class VertexGaps(Columns):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class VertexDepths(Columns):
-    """The depth to read of every vertex of one body: of several ways out the one that means a depth there.
+    """The depth to read of every vertex of one body: of several exits the one that is a depth there.
 
     Attributes
     ----------
     depth_mm : (V,) float64
         Finite, at least 0; 0 for vertices that are not inside.
     way : (V,) int8
-        Along which way, a position in :data:`WAYS`: the ray where it faces the surface, else the shortest arc about one
+        The kind of depth, a position in :data:`WAYS`: the ray where it faces the surface, else the shortest arc about one
         of the joint's axes, else to the nearest point.
     without : int
         Vertices inside of which neither ray nor arc is a depth.
     deepest : int or None
-        The deepest vertex with a way other than nearest.
+        The deepest vertex whose kind is other than nearest.
     """
 
     depth_mm: NDArray[np.float64]
@@ -142,7 +142,7 @@ class Depths(BothBodies[VertexDepths]):
 
 @dataclass(frozen=True)
 class ContactPatch:
-    """Of a body's surface the part inside the other body.
+    """The part of a body's surface inside the other body.
 
     `area_mm2`; `mean_depth_mm`, the mean distance to the other surface, None where there is no patch; `centroid` (3,)
     in F.
@@ -155,7 +155,7 @@ class ContactPatch:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ContactMeasures:
-    """What two bodies have in common at one pose, and how far they are apart.
+    """Overlap of two bodies at one pose, and their distance.
 
     Attributes
     ----------
@@ -172,14 +172,14 @@ class ContactMeasures:
     mobile, fixed : ContactPatch or None
         None where the other mesh is open.
     volume_mm3 : float or None
-        Of the space inside both, each point as often as the bodies cover it; None where either mesh is open.
+        Volume of the space inside both, each point as often as the bodies cover it; None if either mesh is open.
     volume_error_mm3 : float
         A bound on what the volume is off by rounding.
     mobile_covered_again_mm3, fixed_covered_again_mm3 : float
         By how much the body covers the surroundings of the overlap more than once: above 0 where it crosses itself or
         has a component in another, and the volume may count space there twice.
     centroid : (3,) float64 or None
-        Of the patches of both, in F.
+        Centroid of the patches of both, in F.
     """
 
     in_contact: bool

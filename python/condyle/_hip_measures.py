@@ -70,7 +70,7 @@ class HipMeasures(Mapping[str, HipMeasure]):
         Around the socket. `rim_points` (72, 3) in the fixed body's frame, mm; `is_in_plane` (72,) bool: what the rim's plane was
         fitted to. Empty without a socket.
     pelvis_frame : str
-        Of every measure that turns with the pelvis: "as scanned", "anterior pelvic plane", with the tilt that was given.
+        Orientation of the pelvis for every measure that depends on it: "as scanned", "anterior pelvic plane", with the tilt that was given.
     geometry : dict
         Planes, axes and points that measures were made with, as `geometry` of measures.json has them; None where not found.
     left_out : tuple of str
@@ -124,5 +124,5 @@ class HipMeasures(Mapping[str, HipMeasure]):
         return len(self._by_key)
 
     def __repr__(self) -> str:
-        told = sum(each.value is not None for each in self.values())
-        return f"HipMeasures({told} of {len(self)} measures)"
+        measured = sum(each.value is not None for each in self.values())
+        return f"HipMeasures({measured} of {len(self)} measures)"

@@ -1,4 +1,4 @@
-"""What overlaps past a limit."""
+"""Overlap past a limit."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ class BodyZone:
 
 @dataclass(frozen=True)
 class ImpingementZone:
-    """What overlaps `past_deg` past a limit. Hours are on the socket's sagittal clock, angles around the neck.
+    """The triangles that overlap `past_deg` past a limit. Hours are on the socket's sagittal clock, angles around the neck.
 
-    An hour is None for joints other than hips, and farther than 1.6 head radii from the joint centre, where no rim is.
+    An hour is None for joints other than hips, and farther than 1.6 head radii from the joint centre, beyond the rim.
     """
 
     limit: MotionLimit

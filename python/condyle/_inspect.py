@@ -1,4 +1,4 @@
-"""What is so and what is wrong with a mesh."""
+"""Properties and defects of a mesh."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class MeshComponent:
 
 @dataclass(frozen=True)
 class MeshReport:
-    """What :func:`inspect` found. Lengths, areas and volumes are in the mesh's unit; elements are counted from 0.
+    """Results of :func:`inspect`. Lengths, areas and volumes are in the mesh's unit; elements are counted from 0.
 
     `findings` has a :class:`Finding` under each of boundary_edges, boundary_loops, non_manifold_edges,
     non_manifold_vertices, inconsistent_edges, unbalanced_edges, duplicate_triangles, degenerate_triangles,

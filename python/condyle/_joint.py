@@ -53,7 +53,7 @@ class Joint(DescribedJoint):
     joint : "hip", "knee", "ankle", "elbow" or "shoulder"
     side : "right" or "left"
     units : "mm" or "m"
-        Of the meshes and of every length given here.
+        Unit of the meshes and of every length given here.
     centre : (3,) numbers, "fit", or None
         "fit": of the head of the mobile body, or with `fit_body="fixed"` of the socket. None: the origin, or what the
         landmarks say.
@@ -71,7 +71,7 @@ class Joint(DescribedJoint):
     UsageError
         Where the description cannot be followed. MeshError where a fit finds nothing.
 
-    What looks wrong (`notes`) is warned of at the first answer: :class:`JointWarning`. Any number of threads may ask;
+    Warnings (`notes`) are issued at the first answer: :class:`JointWarning`. Any number of threads may ask;
     tables are built when the first question needs them, and kept. Joints can be pickled; copies are the joint itself,
     which nothing changes.
 
@@ -142,7 +142,7 @@ class Joint(DescribedJoint):
                    side: Optional[Side] = None, contact: Optional[str] = None) -> Joint:
         """The joint of a model of OpenSim: what :func:`read_joint` reads from the file that `condyle init` proposes for it.
 
-        What of the model is not used, and what was read otherwise than it stands, is in :attr:`processing`. Raises as
+        :attr:`processing` lists the parts of the model that are not used or were read differently. Raises as
         :meth:`Model.propose_joint` does, and FileError where no mesh of a body is there.
 
         C++: `condyle::read_joint` in condyle/io/model_file.hpp; `condyle motion MODEL --joint`.
@@ -180,7 +180,7 @@ class Joint(DescribedJoint):
         joint._hold(native, TriMesh._numbered(native.fixed, *fixed), TriMesh._numbered(native.mobile, *mobile))
         return joint
 
-    # What is asked of it.
+    # Its answers.
 
     @overload
     def penetration(self, pose: OnePoseLike, method: GapMethod = "radial", *, about: Optional[str] = None,
@@ -358,7 +358,7 @@ class Joint(DescribedJoint):
 
     def normal_contact(self, pose: PoseLike, *, casting: Bodies = "both", rule: FaceRule = "cut_faces",
                        reach_mm: float = 20, progress: Progress = None) -> Union[NormalContact, list[NormalContact]]:
-        """What rays along the normals of one body's triangles find of the other: open meshes too.
+        """Intersections of rays along the normals of one body's triangles with the other body; meshes may be open.
 
         `casting` says which body casts; `rule` "face_centre" counts whole faces by the ray from their centre,
         "cut_faces" the part of them where the depth is above 0; `reach_mm` is how far rays go. A
@@ -446,7 +446,7 @@ class Joint(DescribedJoint):
         exclude_reference_contacts : bool or int
             Leave out what is in contact in the reference pose, with so many rings of neighbours (True: 2).
         translation_mm : (3,), optional
-            Of a free joint, what all motions keep; that of the reference pose if not given.
+            For a free joint: the translation that all motions keep; default: that of the reference pose.
 
         ReferenceContactError, a MeshError, where the bodies are in contact in the reference pose and nothing was said.
 
@@ -504,7 +504,7 @@ class Joint(DescribedJoint):
         cut : "mobile", "fixed" or "both"
             The body that is cut; with "both" the fixed one for `share` of the depth, half if not given.
         margin_mm : float
-            What is left stays clear of the other bone's surface moved outwards by this.
+            The remaining bone stays clear of the other bone's surface moved outwards by this.
         deepest_mm, within_mm : float, optional
             Bone deeper than that stays, and bone farther than that outside the ball of the bearing surface. What the bearing surface
             has stays always.
@@ -582,7 +582,7 @@ class Joint(DescribedJoint):
         Parameters
         ----------
         definition : "radiographic", "anatomic" or "operative"
-            Of Murray's definitions the one by which inclination and anteversion of the cup are.
+            Murray's definition of the cup's inclination and anteversion.
         centre : "head" or "socket"
             Where the centre of cup and head comes: that of the head of the femur, or of the socket.
         as_rim : bool
@@ -661,7 +661,7 @@ class Joint(DescribedJoint):
 
     def with_mobile(self, mesh: MeshLike) -> Joint:
         """The joint with this mesh in the mobile body's place: the same bone after something was done to it, in the frame M of
-        :attr:`mobile`. Its head stays the one that it was.
+        :attr:`mobile`. Its head is unchanged.
 
         C++: `condyle::with_mobile_mesh` in condyle/resection.hpp.
         """
@@ -678,7 +678,7 @@ class Joint(DescribedJoint):
         motions : names or Motion objects, optional
             With `poses`, if not given, all that the recorded motion leads along: an angle that only grows, or only falls.
         poses : (N, 4, 4), optional
-            Of a recorded motion, as :meth:`motion` reads it: along a motion that varies one angle, the translation is that of the
+            A recorded motion, as :meth:`motion` reads it: along a motion that varies one angle, the translation is that of the
             frame with this angle, linear between two frames. The other angles are held.
         contact, force_n : ElasticContact and (3,), optional
             Every `step_deg` the body is where this contact carries the force on the mobile body, in N, in `frame`; linear in between.
@@ -703,7 +703,7 @@ class Joint(DescribedJoint):
         view : text
             "anterior", "posterior", "left", "right", "superior", "inferior", "medial", "lateral", or several with hyphens.
         colour : "depth", "gap", "nearest" or "none"
-            What the surfaces are coloured by; the scale stands below.
+            Quantity that colours the surfaces; the scale stands below.
         fixed, mobile : "solid", "transparent" or "hidden"
         range_mm, field_mm : float, optional
             End of the colours, and height of what is shown about the joint centre.

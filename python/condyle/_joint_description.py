@@ -1,4 +1,4 @@
-"""What a joint file says, from the arguments of Joint()."""
+"""Contents of a joint file, from the arguments of Joint()."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ LabelLike = Union[int, str]
 
 @dataclass(frozen=True)
 class LabelNote:
-    """What to know of a label map or of a bone in it: `code` as in files ("cut_by_view"), `text` one sentence."""
+    """A warning on a label map or on a bone in it: `code` as in files ("cut_by_view"), `text` one sentence."""
 
     code: str
     text: str
@@ -81,9 +81,9 @@ class LabelSurface:
     digitisation_mm : float
         About the largest distance of the surface from the boundary that was digitised; the error of the segmentation is not in it.
     simplification_error_mm : float or None
-        Of a simplified surface: how far it is from the one before.
+        For a simplified surface: its distance from the one before.
     name, label, voxels
-        Of the bone in its label map; of arrays "", the label and the number of its voxels.
+        Name, label and number of voxels of the bone in its label map; the name is "" for arrays.
     notes : tuple of LabelNote
     """
 
@@ -184,7 +184,7 @@ def read_labels(path: Path, *, affine: Optional[Affine] = None, volume: Optional
     affine : "sform" or "qform", optional
         Which of the two places that a NIfTI file gives its voxels; not given: sform, else qform.
     volume : int, optional
-        Of a NIfTI file with several, from 0.
+        Number of the label map in a NIfTI file with several, from 0.
     axes : "LPS", "RAS" or "LAS", optional
         The directions of an image that gives none, and is refused otherwise.
     elsewhere : bool
@@ -214,7 +214,7 @@ def surface(labels: ArrayLike, affine: ArrayLike, label: Optional[int] = None, *
         World coordinates in mm of the centre of voxel (i, j, k): those of nibabel are RAS, those of SimpleITK LPS, whose arrays are
         (K, J, I). The surface is in this world; Joint() takes its name as `axes`.
     sigma_voxels : float
-        Of the Gaussian that smooths the voxels, 0 to 4.
+        Standard deviation of the Gaussian that smooths the voxels, 0 to 4.
 
     C++: `condyle::surface_of` in condyle/label_surface.hpp.
 

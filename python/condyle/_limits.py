@@ -36,7 +36,7 @@ class ContactWitness:
     """A pair of features in contact. Each is ("vertex", number), ("edge", vertex, vertex) or ("face", triangle).
 
     `fixed_point` and `mobile_point` are (3,), each in its own body's frame, mm. `kind` is "bearing", "impingement", "cut"
-    (on a face that closes a bone where its image ends), "soft" (of a mesh called soft, on the way to a limit) or "unknown".
+    (on a face that closes a bone where its image ends), "soft" (of a mesh called soft, before a limit) or "unknown".
     """
 
     fixed_feature: Feature
@@ -65,7 +65,7 @@ class Limit:
     soft_contact_deg : float or None
         The first contact of a mesh called soft, which never counts, if it comes before the limit.
     soft_contact : ContactWitness or None
-        What touches there.
+        The features in contact there.
     """
 
     turned_deg: float
@@ -82,7 +82,7 @@ class Limit:
 
 @dataclass(frozen=True)
 class Caveat:
-    """What to know before a limit is compared with a living joint.
+    """A caveat to read before a limit is compared with a living joint.
 
     `code` as in rom.json ("soft_tissue_ends"), `text` one sentence, `source` where it is from, None for "end_unknown".
     """
@@ -135,7 +135,7 @@ class FreeAngles:
     negative, positive : Limit
         Both limits from the start.
     at_low, at_high : tuple of Limit
-        What ends each interval.
+        The limits at each interval's ends.
     """
 
     intervals_deg: NDArray[np.float64]
@@ -147,7 +147,7 @@ class FreeAngles:
 
     @property
     def free_width_deg(self) -> float:
-        """Of all intervals together."""
+        """Sum over all intervals."""
         return float((self.intervals_deg[:, 1] - self.intervals_deg[:, 0]).sum())
 
     @property
@@ -160,7 +160,7 @@ class FreeAngles:
 
 @dataclass(frozen=True)
 class PathLimit:
-    """Where a path ends: on the way from waypoint `segment` to the next one, after `fraction` of it.
+    """Where a path ends: on segment `segment`, from its waypoint to the next one, after `fraction` of it.
 
     `angles_deg` are the joint's angles there, by name; `reason` "contact", "end_of_range" or "contact_at_start";
     `contact` the two faces that are nearest to meeting, `distance_mm` apart.

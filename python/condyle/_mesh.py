@@ -145,7 +145,7 @@ class TriMesh:
 
     @property
     def processing(self) -> tuple[str, ...]:
-        """What was done to the mesh of a file in reading it, or in repairs, one line each."""
+        """Changes to the mesh of a file by reading it or by repairs, one line each."""
         return self._processing
 
     def repaired(self, *repairs: Repair) -> TriMesh:
@@ -175,7 +175,7 @@ class TriMesh:
         return (f"TriMesh({count} {'vertex' if count == 1 else 'vertices'}{merged}, "
                 f"{triangles} triangle{'' if triangles == 1 else 's'}, {'closed' if self.is_closed else 'open'})")
 
-    # What the numbers of the merged mesh are in the mesh as given.
+    # Numbers of the merged mesh's vertices in the mesh as given.
 
     def _all(self, values: NDArray[Any]) -> NDArray[Any]:
         """One value for each vertex as given."""

@@ -35,7 +35,7 @@ class ModelCoordinate:
 
 @dataclass(frozen=True)
 class ModelNote:
-    """What to know of a model: `code` as in notes of the command ("missing_mesh"), `text` one sentence."""
+    """A note on a model: `code` as in notes of the command ("missing_mesh"), `text` one sentence."""
 
     code: str
     text: str
@@ -128,10 +128,10 @@ class Model:
     ----------
     name : str
     version : int
-        Of the format: 40000 is OpenSim 4.0.
+        Version of the format: 40000 is OpenSim 4.0.
     bodies, contacts : tuple of str
     joints : tuple of str
-        Those that can be read.
+        The joints that can be read.
     refused : dict of str to str
         Joints that cannot be read, and why.
     meshes : tuple of ModelMesh
@@ -167,9 +167,9 @@ class Model:
                       side: Optional[Side] = None, contact: Optional[str] = None) -> JointProposal:
         """Proposes a joint file for one of its joints. Nothing is written.
 
-        `joint_file` is where it is to lie, for meshes are named from its folder; `anatomy` ("knee") and `side` are told by names
+        `joint_file` is where it is to lie, for meshes are named from its folder; `anatomy` ("knee") and `side` are inferred from names
         if not given; `contact` is one of `contacts`, else the first between the two bodies. The proposal's `evidence` says what the
-        model has and the file has not. UsageError for names that are not there, or do not tell joint or side.
+        model has and the file has not. UsageError for names that are not there, or do not determine joint or side.
 
         C++: `condyle::propose_joint` in condyle/io/model_file.hpp; `condyle init MODEL --joint`.
         """

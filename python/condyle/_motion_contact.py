@@ -32,7 +32,7 @@ class FrameContact:
     smallest_gap_mm : float
         Between the surfaces; 0 where they meet.
     surface : SurfaceContact
-        Of the surface that casts, in its body's frame: the mobile one's where both are cast.
+        The surface that casts, in its body's frame: the mobile one's where both are cast.
     force_n, moment_nmm : (3,) float64
         By the fixed body on the mobile one, in F, about the origin of M; 0 where no pressure was asked for.
     cut_off_by_reach : int

@@ -46,7 +46,7 @@ class MotionMap:
         Ends of the free interval of the varied angle that holds the start, else of the nearest one; NaN where nothing
         is free.
     free_width_deg : (R, C) float64
-        Of all intervals together.
+        Sum over all intervals.
     free_at_start : (R, C) bool
     offset : (R C + 1,) int64; intervals_deg : (K, 2) float64
         Point n, row by row, has the free intervals from offset[n] to offset[n + 1], of the varied angle less its start.

@@ -36,16 +36,16 @@ class VerticesInside(Columns):
     winding : (K,) int32
         Winding number of the other surface around the vertex.
     triangle : (K,) uint32
-        Of the other mesh: where the vertex leaves through; NO_INDEX where nothing is met.
+        Triangle of the other mesh through which the vertex leaves; NO_INDEX if there is none.
     depth_mm : (K,) float64
         At least 0: along the ray from the joint centre ("radial"), or along the arc about the axis ("tangential"),
         where it is infinite if the whole circle is solid. The two are not comparable.
     direction : (K,) int8
         1 away from the joint centre, -1 towards it; of arcs, 1 for a positive rotation of the vertex's body.
     depth_deg : (K,) float64 or None
-        Of arcs, the angle.
+        For arcs, the angle.
     offset : (N + 1,) int64 or None
-        Of several poses: pose n owns the entries from offset[n] to offset[n + 1].
+        For several poses: pose n owns the entries from offset[n] to offset[n + 1].
     """
 
     vertex: NDArray[np.uint32]
@@ -113,7 +113,7 @@ def _expand(found: dict[str, Any], vertex_map: NDArray[np.uint32]) -> None:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Penetration:
-    """What one pose shows, vertices of each body against the other one.
+    """Results of one pose, vertices of each body against the other one.
 
     `mobile` are vertices of the mobile body inside the fixed one; None where the fixed mesh is open and has no inside.
     `fixed` likewise, or not asked for. `method` says along what depths are: a ray may run along a bone and be no depth.
@@ -150,7 +150,7 @@ class Penetration:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Penetrations(Penetration):
-    """What many poses show. `penetrations[n]` is that of one of them, `penetrations[k:n]` of some: without a copy."""
+    """Results of many poses. `penetrations[n]` is that of one of them, `penetrations[k:n]` of some: without a copy."""
 
     count: int = 0
 

@@ -61,7 +61,7 @@ class PlacedImplant(Generic[OfJoint]):
     half_angle_deg : float or None
         Between the axes of liner and neck where both first touch, in closed form; with `why_no_half_angle`.
     evidence : dict
-        What it was placed by, as implant.json has it: head and socket with the residuals of their fits, axes and angles of the femur.
+        Landmarks of its placement, as in implant.json: head and socket with the residuals of their fits, axes and angles of the femur.
     notes : what it must be read with, each with a :class:`JointWarning`
     caveats : list of str
     """

@@ -49,7 +49,7 @@ class ElasticLayer:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ElasticContactResults:
-    """What one pose shows.
+    """Results of one pose.
 
     `fixed` and `mobile` are the :class:`SurfaceContact` of those that cast; `force_n` and `moment_nmm` (3,) what the
     fixed body exerts on the mobile one, in F, about the origin of M; `energy_nmm` stored in the layers; `notes` what looks
@@ -75,12 +75,12 @@ class BalanceOptions:
     Attributes
     ----------
     force_tolerance_n, moment_tolerance_nmm : float
-        What is left of the force and of the moment in a balanced pose.
+        Largest residual force and moment in a balanced pose.
     farthest_mm : float
         How far the mobile body may go from where it starts.
     most_steps : int
     most_left_at_jump : float
-        Of the load, the share that may be left just before the force jumps, or where no step leaves less: outcome
+        Share of the load that may remain just before the force jumps, or if no step leaves less: outcome
         "at_jump".
     """
 
@@ -134,7 +134,7 @@ class ElasticContact:
     fixed_layer, mobile_layer : ElasticLayer, optional
         At least one; a body without one is rigid.
     casting : "both", "fixed" or "mobile"
-        Whose surface is cast along its normals; with "both" the load is the mean of the two.
+        The body whose surface is cast along its normals; with "both" the load is the mean of the two.
     rule : "cut_faces" or "face_centre"
     reach_mm : float
         How far rays go.
@@ -199,7 +199,7 @@ class ElasticContact:
 
     @property
     def notes(self) -> tuple[ContactNote, ...]:
-        """What looks wrong with the layers: moduli, Poisson's ratios, thicknesses, a layer on a bone.
+        """Warnings on the layers: moduli, Poisson's ratios, thicknesses, a layer on a bone.
 
         C++: `condyle::check_layers` in condyle/motion_contact.hpp.
 

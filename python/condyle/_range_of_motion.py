@@ -87,7 +87,7 @@ class RangeOfMotion:
         """The motion of that name, or the one given."""
         return self._motions[named]
 
-    # What is asked of it.
+    # Its answers.
 
     def limit(self, motion: MotionLike) -> MotionLimit:
         """Where one motion ends: one of the known ones by its name, or a :class:`Motion` of one's own."""
@@ -194,7 +194,7 @@ class RangeOfMotion:
 
     def zones(self, motions: Optional[Sequence[MotionLike]] = None, *, past_deg: float = 5,
               progress: Progress = None) -> tuple[Optional[ImpingementZone], ...]:
-        """What overlaps `past_deg` past each limit; None for motions that did not end by contact on their way.
+        """The overlap `past_deg` past each limit; None for motions that did not end by contact.
 
         C++: `condyle::ZoneFinder` in condyle/impingement_zone.hpp.
         """

@@ -38,9 +38,9 @@ class CutBone:
     needed_from_deg : (V,) float64
         The angle of that motion from which on it is in the way; 0 where nothing goes.
     volume_mm3, least_volume_mm3 : float
-        What goes, and what of it the other bone really sweeps over.
+        Volume that goes, and the part of it that the other bone sweeps over.
     burr_volume_mm3, burr_in_kept_mm : float
-        What of it goes only because a burr is no smaller, and by how much the burr would have to enter bone that stays.
+        The part of it that goes only because a burr is no smaller, and by how much the burr would have to enter bone that stays.
     area_mm2, deepest_mm : float
     deepest_at : (3,) float64
         On the surface before, in the bone's frame.
@@ -85,7 +85,7 @@ class ReachedTarget:
 
 
 class CurvePoint(NamedTuple):
-    """What a target would cost by itself, and nearer."""
+    """Cost of a target by itself, at nearer angles."""
 
     motion: str
     reached_deg: float
@@ -104,9 +104,9 @@ class Resection(Generic[OfJoint]):
     mobile, fixed : CutBone or None
     targets : tuple of ReachedTarget
     before, after : tuple of MotionLimit
-        Of all motions of the joint: exact ones, of the joint as it was and without the bone.
+        Exact limits of all motions of the joint, before and without the bone.
     measures : dict of (before, after)
-        Of a hip, by the keys of :class:`HipMeasures`; None for a measure that the meshes do not show. Empty for other joints.
+        Measures of a hip by the keys of :class:`HipMeasures`; None for a measure that the meshes do not show. Empty for other joints.
     curve : tuple of CurvePoint
         Degrees against mm3.
     margin_mm : float
@@ -132,7 +132,7 @@ class Resection(Generic[OfJoint]):
         return {**self.__dict__, "_plan": None}
 
     def _shown_by(self, joint: DescribedJoint) -> _native.Plan:
-        """What a report shows of it beside the limits of this joint."""
+        """Its data in a report, beside the limits of this joint."""
         if joint is not self.joint:
             raise UsageError("plan: the limits are not those of plan.joint")
         if self._plan is None:
@@ -141,7 +141,7 @@ class Resection(Generic[OfJoint]):
 
     @property
     def volume_mm3(self) -> float:
-        """Of both bones."""
+        """Sum over both bones."""
         return sum(bone.volume_mm3 for bone in (self.mobile, self.fixed) if bone)
 
     def __repr__(self) -> str:

@@ -171,7 +171,7 @@ class Study:
     failures : StudyTable
         A row per joint that could not be answered, with `exit_code` and `message`.
     options : mapping
-        What was asked, as in study.json.
+        The request, as in study.json.
     """
 
     limits: StudyTable
@@ -320,7 +320,7 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
     motions : names, optional
         All that a joint has if not given.
     anatomy : "hip", "knee", "ankle", "elbow" or "shoulder"
-        Of all joints of the table.
+        The anatomy of all joints of the table.
     bearing, bearing_margin_mm, accept_reference_contact, exclude_reference_contacts
         As of :meth:`Joint.range_of_motion`.
     map : two mappings, optional
@@ -346,7 +346,7 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
     strict : bool
         A joint that cannot be answered raises its error, and MeshError one with which something looks wrong.
 
-    What lies there of the same inputs, options and version is not computed again. Without `strict` a joint that cannot
+    Results there of the same inputs, options and version are not computed again. Without `strict` a joint that cannot
     be answered is a row of `failures`, and one with which something looks wrong (`notes` in `hips`) is warned of,
     :class:`JointWarning`. Where no joint could be answered, the error of the first one is raised once the files are
     written; not of a shard.

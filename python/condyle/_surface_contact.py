@@ -19,7 +19,7 @@ from ._words import Bodies, FaceRule, Progress, number, progress_of, word
 
 @dataclass(frozen=True, eq=False)
 class ContactTotals:
-    """What faces in contact add up to, in the frame of the body that casts.
+    """Sums over faces in contact, in the frame of the body that casts.
 
     `triangles`, `area_mm2`, `mean_depth_mm`, `max_depth_mm`; `centre_of_depth` (3,) or None without contact;
     `mean_pressure_mpa`, `max_pressure_mpa`, `centre_of_pressure`; `force_n` and `moment_nmm` (3,) on that body, about
@@ -139,7 +139,7 @@ def _half_space(given: tuple[ArrayLike, float]) -> tuple[ArrayLike, float]:
 
 @dataclass(frozen=True, eq=False)
 class NormalContact:
-    """Of each body that casts its :class:`SurfaceContact`, else None."""
+    """:class:`SurfaceContact` of each body that casts, else None."""
 
     fixed: Optional[SurfaceContact]
     mobile: Optional[SurfaceContact]

@@ -121,7 +121,7 @@ class Sweep:
     safe_measure, window_measure : float
         Area (length, volume) of what is safe and of all that was swept, in the product of the parameters' units.
     best : Design or None
-        Of the largest margin; None if all are in contact in their reference poses.
+        The design of the largest margin; None if all are in contact in their reference poses.
     here : Design
         The joint as it is.
     notes : what the zone must be read with, each with a :class:`JointWarning`

@@ -114,7 +114,7 @@ class RadialTable:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class OccupiedArcs(Columns):
-    """Of many points, the rotation angles at which each lies in the solid: point i owns [offset[i], offset[i + 1]).
+    """Rotation angles at which each of many points lies in the solid: point i owns [offset[i], offset[i + 1]).
 
     `begin_deg` in [0, 360) and `end_deg`, up to 360 more; `enters` and `leaves` are the triangles at both ends.
     """

@@ -119,7 +119,7 @@ def text_of(given: Any, name: str) -> str:
 def report_labels(
         case: Optional[str], note: Optional[str], date: Optional[str], whole_paths: bool,
 ) -> tuple[Optional[str], Optional[str], Optional[str], bool]:
-    """What a report says as it was given."""
+    """Texts of a report, as given."""
     case, note, date = (None if given is None else text_of(given, name) for given, name in ((case, "case"), (note, "note"), (date, "date")))
     return case, note, date, bool(whole_paths)
 

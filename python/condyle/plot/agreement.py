@@ -84,7 +84,7 @@ def many_methods(series: Sequence[Series], *, x_label: str, y_label: str, ax: Op
     Parameters
     ----------
     series
-        A line each; colours and marks tell families apart.
+        A line each; colours and marks distinguish families.
     x_label, y_label
         With units.
     ax

@@ -16,11 +16,11 @@ from .words import in_two_lines, motion_name
 StudyLike = Union[Study, Mapping[str, ArrayLike]]
 MOST_GROUPS = len(style.CYCLE)
 MARKERS = "osD^vPX"
-"""Of groups, in the order of the colours: the figure reads without colour."""
+"""Markers of groups, in the order of the colours: the figure reads without colour."""
 
 
 class Spread(NamedTuple):
-    """Of the limits of one motion in one group, degrees."""
+    """Summary of the limits of one motion in one group, degrees."""
 
     p5: float
     quartile: float
@@ -129,7 +129,7 @@ def _handles(by: str, groups: Sequence[Tuple[str, Any]]) -> List[Any]:
 
 
 def running_band(x: NDArray[np.float64], y: NDArray[np.float64], parts: int) -> NDArray[np.float64]:
-    """Of `parts` equally many points each, by x: its mean x, and percentiles 5, 50 and 95 of y; (parts, 4)."""
+    """Mean x, and percentiles 5, 50 and 95 of y, of `parts` parts with equally many points, by x; (parts, 4)."""
     order = np.argsort(x, kind="stable")
     return np.array([[x[part].mean(), *np.percentile(y[part], [5, 50, 95])] for part in np.array_split(order, parts)])
 
@@ -150,7 +150,7 @@ def limit_against(study: StudyLike, measure: str, motion: str, *, by: Optional[s
     by
         A column that parts the joints into groups, seven at most.
     label
-        Of the axis of the measure; its name if not given.
+        Label of the axis of the measure; default: its name.
 
     Returns
     -------

@@ -198,7 +198,7 @@ def _check_number(where: str, of: Any, key: str) -> None:
 
 def read_measures(folder: PathLike) -> Dict[str, Any]:
     """`measures.json` of a folder, as :class:`condyle.HipMeasures` names it: `"measures"` by their keys, and the arrays `neck_hour`,
-    `alpha_deg`, `alpha_at_1mm_deg`, `offset_mm`, `rim_hour`, `cover_deg` and `centre_edge_deg`, NaN for what could not be told."""
+    `alpha_deg`, `alpha_at_1mm_deg`, `offset_mm`, `rim_hour`, `cover_deg` and `centre_edge_deg`, NaN for measures that could not be computed."""
     path = Path(folder) / "measures.json"
     answer = read_json(path)
     measures = answer.get("measures")

@@ -23,7 +23,7 @@ Drawing = Tuple[str, Callable[[], Figure]]
 
 
 def drawings(folder: Path, frames: Optional[Sequence[int]] = None, projection: Projection = "plane") -> List[Drawing]:
-    """What can be drawn of a folder; files are read here, so that a bad one is told before anything is written.
+    """The contents of a folder that can be drawn; files are read here, so that a bad one is reported before anything is written.
 
     Raises ReadError where there is nothing, or a file is bad.
     """

@@ -94,11 +94,11 @@ def alpha_by_clock(shape: ShapeLike, *, ax: Optional[Axes] = None, legend: bool 
     Parameters
     ----------
     shape
-        What `condyle.Joint.measures` gives, or `files.read_measures` reads of the folder of `condyle measure`.
+        The answer of `condyle.Joint.measures`, or of `files.read_measures` for the folder of `condyle measure`.
     ax
         Where to draw; without it new axes as wide as a column, under `print_style`.
     legend
-        What lines and marks mean.
+        Whether to explain lines and marks.
 
     Returns
     -------
@@ -172,7 +172,7 @@ def centre_edge_by_clock(shape: ShapeLike, *, ax: Optional[Axes] = None, legend:
 def hip_shape(shape: ShapeLike) -> Figure:
     """Alpha angles and centre-edge angles by the clock, side by side: a figure as wide as a page, which it returns.
 
-    Of a hip in which only one of neck and rim was found, that one.
+    For a hip in which only one of neck and rim was found, only that one.
     """
     import matplotlib.pyplot as plt
 

@@ -76,7 +76,7 @@ def _name(end: MotionEnd) -> str:
 
 
 def _handles(ends: Sequence[MotionEnd], source: Optional[str]) -> List[Any]:
-    """What is shown, for the legend."""
+    """The elements shown, for the legend."""
     shown = {end.end for end in ends}
     if any(end.bearing_deg is not None for end in ends):
         shown.add("bearing")
@@ -120,12 +120,12 @@ def limits(result: RomLike, *, ax: Optional[Axes] = None, bands: Bands = True,
     values
         The limit in figures at the right, with its band in brackets.
     legend
-        What marks and bars mean, below the axes.
+        Whether to explain marks and bars, below the axes.
 
     Returns
     -------
-    The axes: one bar (gid `limit`) per motion, from the top; its mark (gid `end`) tells what ended it, a diamond on the
-    bar (gid `bearing_contact`) where bearing surfaces met on the way. A dagger marks the names of motions that soft
+    The axes: one bar (gid `limit`) per motion, from the top; its mark (gid `end`) shows the reason of its end, a diamond on the
+    bar (gid `bearing_contact`) where bearing surfaces met before. A dagger marks the names of motions that soft
     tissue usually ends before bone does.
     """
     ends = motion_ends(result, bands)

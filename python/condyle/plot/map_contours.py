@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 MapLike = Union[MotionMap, MotionGrid, Mapping[str, object]]
 View = Literal["positive", "negative", "free_range"]
 VIEWS: Tuple[View, ...] = get_args(View)
-"""What of a map can be drawn: how far it turns in the positive sense, in the negative sense, and both together."""
+"""Drawable quantities of a map: how far it turns in the positive sense, in the negative sense, and both together."""
 
 #           gid              hatch   colour            words
 HATCHES = {
@@ -50,7 +50,7 @@ def grid_of(result: MapLike) -> MotionGrid:
 
 
 def _of_motion_map(result: Any) -> MotionGrid:
-    """Where the start is not free, ends of the range are not told from contact."""
+    """Where the start is not free, ends of the range and contact are not distinguished."""
     column, row, varied = ((name, OPPOSITE.get(name, f"negative {name}"))
                            for name in (result.column, result.row, result.vary))
     end_of_range = 1  # condyle.REASONS
@@ -117,7 +117,7 @@ def _hatch(ax: Axes, grid: MotionGrid, marked: NDArray[np.bool_], name: str) -> 
 
 
 def _marks(grid: MotionGrid, view: str) -> List[Tuple[str, NDArray[np.bool_]]]:
-    """What is hatched, and where; only what there is."""
+    """Hatched regions and their cells; only those that exist."""
     is_open = {"positive": grid.upper_open, "negative": grid.lower_open,
                "free_range": grid.upper_open | grid.lower_open}[view]
     somewhere = grid.intervals > 0
@@ -131,7 +131,7 @@ def _marks(grid: MotionGrid, view: str) -> List[Tuple[str, NDArray[np.bool_]]]:
 
 
 def _handles(names: Sequence[str]) -> List[Patch]:
-    """What the hatchings mean, for the legend."""
+    """Meaning of the hatchings, for the legend."""
     handles = []
     for name in names:
         pattern, colour, words = HATCHES[name]

@@ -18,7 +18,7 @@ Table = Mapping[str, ArrayLike]
 
 
 class Quantity(NamedTuple):
-    """What can be drawn: its axis, and the columns with the words that tell them apart."""
+    """The columns that can be drawn: their axis, and the words that distinguish them."""
 
     axis: str
     columns: Tuple[Tuple[str, str], ...]
@@ -115,7 +115,7 @@ def curve(table: Table, quantity: QuantityName, *, ax: Optional[Axes] = None, al
         The column to the right: the first one (`time_s`, `frame`, `cycle_percent`), or an angle such as
         `"flexion_deg"`.
     label, colour
-        Of this motion.
+        The name and colour of this motion.
     reference, reference_label
         Columns of the same names by another method, drawn as black dots: at most 40, evenly spaced.
 

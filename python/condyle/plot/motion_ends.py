@@ -1,4 +1,4 @@
-"""What figures need of a range of motion, whether it comes from rom.json or from `Joint.range_of_motion`."""
+"""A range of motion for figures, whether it comes from rom.json or from `Joint.range_of_motion`."""
 from __future__ import annotations
 
 from typing import Any, List, Mapping, NamedTuple, Optional, Protocol, Sequence, Tuple, Union
@@ -21,7 +21,7 @@ Bands = Union[bool, Sequence[Union[LimitBand, Mapping[str, float]]]]
 
 
 class Band(NamedTuple):
-    """Of a limit, degrees: 5, 50 and 95 % of the joints of its band."""
+    """Band of a limit, degrees: 5, 50 and 95 % of its joints."""
 
     p5_deg: float
     median_deg: float
@@ -71,7 +71,7 @@ def _of_limit(limit: Any) -> MotionEnd:
 
 
 def motion_ends(result: RomLike, bands: Bands = True) -> List[MotionEnd]:
-    """Of each motion of a result. `bands` are those of the result (True), none (False), or one per motion.
+    """The end of each motion of a result. `bands` are those of the result (True), none (False), or one per motion.
 
     Raises UsageError where there are no motions, or not as many bands.
     """

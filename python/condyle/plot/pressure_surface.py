@@ -63,15 +63,15 @@ def pressure_map(vertices: ArrayLike, triangles: ArrayLike, values: ArrayLike, *
         azimuthal equidistant about `centre`, for heads and sockets: lengths through the middle are true on the sphere
         of the mean radius.
     centre
-        Of the sphere, mm; the joint centre is the origin of the joint frame.
+        Centre of the sphere, mm; the joint centre is the origin of the joint frame.
     up
         The direction that points up on paper: superior, or anterior for surfaces that face up or down.
     highest
         The end of the scale, for maps that are to be compared; otherwise the largest value.
     label
-        Of the scale, with its unit.
+        Title of the scale, with its unit.
     side
-        `"right"` or `"left"`, of a joint whose mesh is in the joint frame: axes then say which way they point.
+        `"right"` or `"left"`, of a joint whose mesh is in the joint frame: axes then show their directions.
     flattened
         A surface laid flat before, for the same triangles in another pose.
 

@@ -85,7 +85,7 @@ class Place(NamedTuple):
 
 
 def _labels(ax: Axes, half: List[Place], side: int) -> None:
-    """Of one half of the face; side 1 is the right one."""
+    """Labels of one half of the face; side 1 is the right one."""
     half = sorted(half, key=lambda place: _on_face(1, place.hour)[1])
     names = [f"{clock_text(place.hour)} {motion_name(place.motion)}" for place in half]
     texts = ["\n".join(textwrap.wrap(name, LETTERS, max_lines=3, placeholder="…")) for name in names]
@@ -115,7 +115,7 @@ def clock_face(result: RomLike, *, ax: Optional[Axes] = None, legend: bool = Tru
     ax
         Where to draw; without it new axes as wide as a column, under `print_style`.
     legend
-        What the marks mean, where there is more than one kind.
+        Whether to explain the marks, if there is more than one kind.
 
     Returns
     -------

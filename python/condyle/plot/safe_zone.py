@@ -30,7 +30,7 @@ LOWEST_CONTOUR_DEG = -30.0
 
 
 class Zone(NamedTuple):
-    """What is drawn of a sweep: parameters with several values, and what their designs have."""
+    """The drawn part of a sweep: parameters with several values, and the results of their designs."""
 
     names: Tuple[str, ...]
     units: Tuple[str, ...]
@@ -49,7 +49,7 @@ SweepLike = Union[Sweep, Mapping[str, object], Zone]
 
 
 def zone_of(result: SweepLike) -> Zone:
-    """Of a `condyle.Sweep`, or of what `files.read_sweep` reads of a folder."""
+    """From a `condyle.Sweep`, or from the answer of `files.read_sweep` for a folder."""
     if isinstance(result, Zone):
         return result
     if isinstance(result, Sweep):
@@ -167,7 +167,7 @@ def _over_two(ax: Axes, zone: Zone, quantity: str, looks: Dict[str, Dict[str, An
 
 
 def _handles(zone: Zone, looks: Dict[str, Dict[str, Any]]) -> List[Any]:
-    """What lines and marks mean, for the legend."""
+    """Meaning of lines and marks, for the legend."""
     handles: List[Any] = [Patch(facecolor=ZONE, edgecolor=style.GREY, linewidth=0.5, label="all targets free")]
     handles += [Line2D([], [], linewidth=1.8, label=f"ended by {cut(name, 26)}", **look) for name, look in looks.items()]
     if np.isnan(zone.margin_deg).any():
@@ -180,7 +180,7 @@ def _handles(zone: Zone, looks: Dict[str, Dict[str, Any]]) -> List[Any]:
 
 
 def _slices(zone: Zone) -> List[Tuple[str, Zone]]:
-    """Of more than two parameters the last two, at values of the others: all of them, or some at equal distances; what there is of the
+    """The last two of more than two parameters, at values of the others: all of them, or some at equal distances; existing designs of the
     best design, and of the joint as it is, where it lies in the slice."""
     others = len(zone.names) - 2
     counts = [len(axis) for axis in zone.axes[:others]]
@@ -244,11 +244,11 @@ def safe_zone(result: SweepLike, *, quantity: str = "margin", ax: Optional[Axes]
     result
         A `condyle.Sweep` over two parameters, or what `files.read_sweep` reads.
     quantity
-        Of the contours: "margin", degrees that the nearest target has to spare (below 0: misses), or "probability".
+        Quantity of the contours: "margin", degrees beyond the nearest target (below 0: misses it), or "probability".
     ax
         Where to draw; without it new axes as wide as a column, under `print_style`.
     legend
-        What lines and marks mean, below.
+        Whether to explain lines and marks, below.
 
     Returns
     -------

@@ -62,7 +62,7 @@ PRINT: Dict[str, Any] = {
     "svg.fonttype": "path",  # no font is needed to see it as it was drawn
     "svg.hashsalt": "condyle",  # the same bytes for the same figure
 }
-"""What `print_style` sets."""
+"""Settings of `print_style`."""
 
 FORMATS = ("pdf", "svg", "png")
 

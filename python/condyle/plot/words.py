@@ -15,16 +15,16 @@ _SHORT = {"fadir": "FADIR", "faber": "FABER"}
 
 
 AS_DEFINED_HERE = "FADIR, FABER: as defined here"
-"""What a figure says of the two tests, whose angles nobody has agreed on."""
+"""A figure's footnote on the two tests, whose angles are not standardised."""
 
 
 SOFT_TISSUE_MARK = "†"
 SOFT_TISSUE_ENDS = f"{SOFT_TISSUE_MARK} soft tissue usually ends it first"
-"""What a figure says of motions with the caveat `soft_tissue_ends`."""
+"""A figure's footnote on motions with the caveat `soft_tissue_ends`."""
 
 
 def scope_clause(result: Any) -> str:
-    """What is in contact, the first clause of a result's `scope`; empty where it has none."""
+    """The bodies in contact, the first clause of a result's `scope`; empty if it has none."""
     return str(of(result, "scope") or "").partition(";")[0]
 
 
@@ -51,7 +51,7 @@ def motion_name(name: str) -> str:
 
 
 def cut(text: str, longest: int) -> str:
-    """A text of at most so many letters; what is cut off is told by an ellipsis."""
+    """A text of at most so many letters; an ellipsis stands for the rest."""
     return text if len(text) <= longest else text[: longest - 1] + "…"
 
 
@@ -88,7 +88,7 @@ def angle_axis(positive: str, negative: str, low: float, high: float) -> str:
 
 
 def of(source: Any, name: str, default: Optional[Any] = None) -> Any:
-    """What a result calls by this name: a key of a mapping, or an attribute of an object; else the default."""
+    """The entry of a result by this name: a key of a mapping, or an attribute of an object; else the default."""
     if isinstance(source, dict):
         return source.get(name, default)
     return getattr(source, name, default)
