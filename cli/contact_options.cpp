@@ -82,7 +82,7 @@ ContactEntry contact_of(const ContactChanges& changes, const JointFile& file, bo
   return entry;
 }
 
-void add_force(CLI::App& command, const std::shared_ptr<BalanceGiven>& given, const char* force_help) {
+void add_force(CLI::App& command, const std::shared_ptr<BalanceArguments>& given, const char* force_help) {
   command.add_option("--force", given->force, force_help)->expected(3)->option_text("X Y Z");
   command
       .add_option_function<std::string>(
@@ -100,7 +100,7 @@ void add_force(CLI::App& command, const std::shared_ptr<BalanceGiven>& given, co
       ->option_text("X Y Z [X Y Z]");
 }
 
-void add_balance(CLI::App& command, const std::shared_ptr<BalanceGiven>& given) {
+void add_balance(CLI::App& command, const std::shared_ptr<BalanceArguments>& given) {
   add_force(command, given, "Move the mobile body to where the contact carries this force on it, in N");
   command
       .add_option("--moment", given->moment,
@@ -128,11 +128,11 @@ StudyLoad study_load_of(const std::string& pose, const std::vector<double>& forc
   return load;
 }
 
-Load load_of(const BalanceGiven& given) {
+Load load_of(const BalanceArguments& given) {
   return {.on_mobile = {vector_of(given.force), vector_of(given.moment)}, .frame = given.frame};
 }
 
-BalanceOptions balance_options_of(const BalanceGiven& given) {
+BalanceOptions balance_options_of(const BalanceArguments& given) {
   BalanceOptions options;
   options.free_directions = directions_of(given.along);
   options.free_rotations = given.rotations;

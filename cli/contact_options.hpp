@@ -26,21 +26,21 @@ void add_layers(CLI::App& command, const std::shared_ptr<ContactChanges>& option
 /// value.
 ContactEntry contact_of(const ContactChanges& changes, const JointFile& file, bool with_pressure);
 
-struct BalanceGiven {
+struct BalanceArguments {
   std::vector<double> force, moment, along;
   BodyRole frame = BodyRole::fixed;
   bool rotations = false;
   bool any() const noexcept { return !force.empty() || !moment.empty(); }
 };
 /// --force, --force-frame and --along.
-void add_force(CLI::App& command, const std::shared_ptr<BalanceGiven>& given, const char* force_help);
-void add_balance(CLI::App& command, const std::shared_ptr<BalanceGiven>& given);
+void add_force(CLI::App& command, const std::shared_ptr<BalanceArguments>& given, const char* force_help);
+void add_balance(CLI::App& command, const std::shared_ptr<BalanceArguments>& given);
 /// Directions of --along; UsageError for a count that is not whole directions.
 std::vector<Vec3> directions_of(const std::vector<double>& along);
 /// A load at a pose, its force and directions in components anterior, superior and lateral.
 StudyLoad study_load_of(const std::string& pose, const std::vector<double>& force,
                         const std::vector<double>& along, const ContactChanges& contact, Anatomy anatomy);
-Load load_of(const BalanceGiven& given);
-BalanceOptions balance_options_of(const BalanceGiven& given);
+Load load_of(const BalanceArguments& given);
+BalanceOptions balance_options_of(const BalanceArguments& given);
 
 }  // namespace condyle::cli

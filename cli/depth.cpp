@@ -32,7 +32,7 @@ namespace {
 enum class Scope { vertices_and_pairs, pairs_only };
 
 struct DepthArguments {
-  ParametersGiven parameters;
+  ParameterArguments parameters;
   std::string joint, pose, matrix, out;
   DepthMethod method = DepthMethod::reliable;
   std::optional<std::string> about;
@@ -44,7 +44,7 @@ struct DepthArguments {
   AnswerForm form = AnswerForm::text;
 };
 
-DepthRequest request_of(const DepthArguments& options, const GivenPose& given, const ContactEntry& entry,
+DepthRequest request_of(const DepthArguments& options, const PoseArgument& given, const ContactEntry& entry,
                         Anatomy joint) {
   DepthRequest request{.X_FM = given.X_FM, .pose = given.pose.angles(), .method = options.method};
   if (options.about) request.about = joint_angle_named(*options.about, joint);
@@ -55,7 +55,7 @@ DepthRequest request_of(const DepthArguments& options, const GivenPose& given, c
 }
 
 /// By its coordinates, as a matrix, or as a matrix in a file.
-GivenPose pose_of(const DepthArguments& options, const Joint& joint) {
+PoseArgument pose_of(const DepthArguments& options, const Joint& joint) {
   if (options.matrix.empty()) return given_pose(options.pose, joint);
   const std::string text = io::read_whole_file(options.matrix);
   try {
@@ -105,7 +105,7 @@ void depth_command(const DepthArguments& options, const CLI::App& command) {
   const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
   const ContactEntry entry = contact_of(*options.rays, loaded.report.file, false);
   const Joint joint = by_normals ? joint_of_surfaces(entry, loaded.joint) : loaded.joint;
-  const GivenPose given = pose_of(options, joint);
+  const PoseArgument given = pose_of(options, joint);
   const DepthRequest request = request_of(options, given, entry, joint.anatomy);
   check_depth_request(joint, request);
   for (const std::string& remark : given.notes) note("pose: " + remark);

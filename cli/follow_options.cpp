@@ -10,7 +10,7 @@
 
 namespace condyle::cli {
 
-void add_follow(CLI::App& command, const std::shared_ptr<FollowGiven>& given,
+void add_follow(CLI::App& command, const std::shared_ptr<FollowArguments>& given,
                 const std::vector<CLI::Option*>& excluded) {
   auto* record = command.add_option(
       "--follow", given->record,
@@ -31,7 +31,7 @@ std::vector<std::string> follow_names() {
   return {"--follow", "--follow-load", "--force", "--force-frame", "--along"};
 }
 
-Followed::Followed(const FollowGiven& given, const LoadedJoint& loaded, io::MotionsAre motions,
+Followed::Followed(const FollowArguments& given, const LoadedJoint& loaded, io::MotionsAre motions,
                    RangeRequest& request) {
   if (given.balance->any() && !given.load)
     throw UsageError("--force: only a translation that follows a load takes one: --follow-load");

@@ -19,14 +19,14 @@ class Option;
 
 namespace condyle::cli {
 
-struct FollowGiven {
+struct FollowArguments {
   std::string record;
   bool load = false;
-  std::shared_ptr<BalanceGiven> balance = std::make_shared<BalanceGiven>();
+  std::shared_ptr<BalanceArguments> balance = std::make_shared<BalanceArguments>();
 };
 
 /// `excluded`: options of which neither the one nor the other may be given beside.
-void add_follow(CLI::App& command, const std::shared_ptr<FollowGiven>& given,
+void add_follow(CLI::App& command, const std::shared_ptr<FollowArguments>& given,
                 const std::vector<CLI::Option*>& excluded);
 
 /// Their names, for a group of the help.
@@ -36,7 +36,7 @@ std::vector<std::string> follow_names();
 class Followed {
  public:
   /// Makes the request follow what is given, or leaves it. UsageError for a load without a force and the reverse.
-  Followed(const FollowGiven& given, const LoadedJoint& loaded, io::MotionsAre motions,
+  Followed(const FollowArguments& given, const LoadedJoint& loaded, io::MotionsAre motions,
            RangeRequest& request);
 
  private:

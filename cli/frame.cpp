@@ -16,7 +16,7 @@ namespace condyle::cli {
 namespace {
 
 struct FrameArguments {
-  ParametersGiven parameters;
+  ParameterArguments parameters;
   std::string joint;
   Strictness strictness = Strictness::notes;
   AnswerForm form = AnswerForm::text;

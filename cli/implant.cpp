@@ -24,9 +24,10 @@ namespace condyle::cli {
 namespace {
 
 struct ImplantArguments {
-  ParametersGiven parameters;
+  ParameterArguments parameters;
   std::string joint, out;
-  std::shared_ptr<ImplantGiven> given = std::make_shared<ImplantGiven>(ImplantGiven{TotalHip{}});
+  std::shared_ptr<ImplantSizeArguments> given =
+      std::make_shared<ImplantSizeArguments>(ImplantSizeArguments{TotalHip{}});
   ImplantCentre centre = ImplantCentre::head;
   bool as_rim = false;
   Strictness strictness = Strictness::notes;

@@ -26,7 +26,7 @@ std::string value_text(const ImplantParameter& size, const Implant& implant,
 
 }  // namespace
 
-std::vector<std::string> add_sizes(CLI::App& command, const std::shared_ptr<ImplantGiven>& given,
+std::vector<std::string> add_sizes(CLI::App& command, const std::shared_ptr<ImplantSizeArguments>& given,
                                    std::span<const std::string_view> of_bones) {
   std::vector<std::string> names;
   for (const ImplantParameter& each : implant_parameters(given->implant)) {
@@ -44,7 +44,7 @@ std::vector<std::string> add_sizes(CLI::App& command, const std::shared_ptr<Impl
   return names;
 }
 
-void add_facets(CLI::App& command, const std::shared_ptr<ImplantGiven>& given) {
+void add_facets(CLI::App& command, const std::shared_ptr<ImplantSizeArguments>& given) {
   command
       .add_option_function<int>(
           "--facets",
@@ -54,7 +54,7 @@ void add_facets(CLI::App& command, const std::shared_ptr<ImplantGiven>& given) {
       ->option_text(fmt::format("N ({})", default_facets));
 }
 
-void add_definition(CLI::App& command, const std::shared_ptr<ImplantGiven>& given) {
+void add_definition(CLI::App& command, const std::shared_ptr<ImplantSizeArguments>& given) {
   command
       .add_option_function<std::string>(
           "--definition",

@@ -14,20 +14,20 @@
 
 namespace condyle::cli {
 
-struct ImplantGiven {
+struct ImplantSizeArguments {
   Implant implant;
   std::set<std::string_view> sizes = {};  ///< the names of those that were given
 };
 
 /// Adds the options of all sizes, and returns their names. `given` is written while arguments are read. The help names `of_bones` in place of a
 /// default where the size is in this list.
-std::vector<std::string> add_sizes(CLI::App& command, const std::shared_ptr<ImplantGiven>& given,
+std::vector<std::string> add_sizes(CLI::App& command, const std::shared_ptr<ImplantSizeArguments>& given,
                                    std::span<const std::string_view> of_bones = {});
 
 /// --facets.
-void add_facets(CLI::App& command, const std::shared_ptr<ImplantGiven>& given);
+void add_facets(CLI::App& command, const std::shared_ptr<ImplantSizeArguments>& given);
 
 /// --definition, of a total hip.
-void add_definition(CLI::App& command, const std::shared_ptr<ImplantGiven>& given);
+void add_definition(CLI::App& command, const std::shared_ptr<ImplantSizeArguments>& given);
 
 }  // namespace condyle::cli

@@ -23,10 +23,10 @@ namespace condyle::cli {
 namespace {
 
 struct LoadArguments {
-  ParametersGiven parameters;
+  ParameterArguments parameters;
   std::string joint, pose, out;
   std::shared_ptr<ContactChanges> contact = std::make_shared<ContactChanges>();
-  std::shared_ptr<BalanceGiven> balance = std::make_shared<BalanceGiven>();
+  std::shared_ptr<BalanceArguments> balance = std::make_shared<BalanceArguments>();
   Strictness strictness = Strictness::notes;
   std::shared_ptr<WhereOptions> where = std::make_shared<WhereOptions>();
   AnswerForm form = AnswerForm::text;
@@ -35,7 +35,7 @@ struct LoadArguments {
 void load_command(const LoadArguments& options, const CLI::App& command) {
   const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
   const Joint& joint = loaded.joint;
-  const GivenPose given = given_pose(options.pose, joint);
+  const PoseArgument given = given_pose(options.pose, joint);
   for (const std::string& remark : given.notes) note(remark);
   const Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
   if (!options.out.empty()) check_load_folder(options.out, &from);

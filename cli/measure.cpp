@@ -22,10 +22,10 @@ namespace condyle::cli {
 namespace {
 
 struct MeasureArguments {
-  ParametersGiven parameters;
+  ParameterArguments parameters;
   std::string joint, out;
   double tilt_deg = 0;
-  std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
+  std::shared_ptr<RangeArguments> range = std::make_shared<RangeArguments>();
   bool definitions = false;
   Strictness strictness = Strictness::notes;
   AnswerForm form = AnswerForm::text;

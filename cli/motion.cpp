@@ -29,14 +29,14 @@ namespace condyle::cli {
 namespace {
 
 struct MotionArguments {
-  ParametersGiven parameters;
+  ParameterArguments parameters;
   std::string joint, motion, loads, out;
   std::string model_joint;  ///< of a model in place of a joint file
   std::optional<Side> side;
   std::shared_ptr<ModelOptions> model = std::make_shared<ModelOptions>();
   bool with_pressure = false, between = false;
   std::shared_ptr<ContactChanges> contact = std::make_shared<ContactChanges>();
-  std::shared_ptr<BalanceGiven> balance = std::make_shared<BalanceGiven>();
+  std::shared_ptr<BalanceArguments> balance = std::make_shared<BalanceArguments>();
   std::vector<double> cycle;
   MotionFiles files;
   Strictness strictness = Strictness::notes;

@@ -25,7 +25,7 @@ namespace condyle::cli {
 namespace {
 
 struct PictureArguments {
-  ParametersGiven parameters;
+  ParameterArguments parameters;
   std::string joint, pose, out;
   std::string view = "anterior", size = "1200x900";
   std::optional<BodyRole> hidden, transparent;
@@ -45,10 +45,10 @@ void read_size(const std::string& text, PictureOptions& picture) {
   picture.width = width, picture.height = height;
 }
 
-BodyLook look_of(BodyRole body, const PictureArguments& options) {
-  return options.hidden == body        ? BodyLook::hidden
-         : options.transparent == body ? BodyLook::transparent
-                                       : BodyLook::solid;
+BodyStyle style_of(BodyRole body, const PictureArguments& options) {
+  return options.hidden == body        ? BodyStyle::hidden
+         : options.transparent == body ? BodyStyle::transparent
+                                       : BodyStyle::solid;
 }
 
 /// What was not found is said: it is not in the picture.
@@ -63,13 +63,13 @@ std::vector<PictureMark> marks_of(const Joint& joint, const Pose& X_FM) {
 void picture_command(const PictureArguments& options, const CLI::App& command) {
   const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
   const Joint& joint = loaded.joint;
-  const GivenPose given = given_pose(options.pose, joint);
+  const PoseArgument given = given_pose(options.pose, joint);
   for (const std::string& remark : given.notes) note("pose: " + remark);
   PictureOptions picture = options.picture;
   read_size(options.size, picture);
   picture.view = view_named(options.view, joint.side);
-  picture.fixed = look_of(BodyRole::fixed, options);
-  picture.mobile = look_of(BodyRole::mobile, options);
+  picture.fixed = style_of(BodyRole::fixed, options);
+  picture.mobile = style_of(BodyRole::mobile, options);
   if (!options.out.ends_with(".png")) throw UsageError("--out: " + options.out + " does not end in .png");
   noted(loaded, options.strictness);
   const Provenance from = provenance_of(loaded, words_of(command));

@@ -19,7 +19,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto between_looks = 20ms;
+constexpr auto between_polls = 20ms;
 /// Long enough for most steps to end by themselves, short enough for somebody who waits.
 constexpr auto patience = 500ms;
 
@@ -37,14 +37,14 @@ StudyDone stopped_promptly(
   std::stop_source stop;
   Progress progress(what);
   std::atomic<std::size_t> done = 0, total = 0;
-  const std::jthread look([&](std::stop_token ended) {
-    while (!ended.stop_requested() && !watch.interrupted()) std::this_thread::sleep_for(between_looks);
+  const std::jthread watcher([&](std::stop_token ended) {
+    while (!ended.stop_requested() && !watch.interrupted()) std::this_thread::sleep_for(between_polls);
     if (ended.stop_requested()) return;
     stop.request_stop();
     // A file that is being written is complete within moments.
-    for (auto waited = 0ms; waited < patience || io::temporary_folders_live(); waited += between_looks) {
+    for (auto waited = 0ms; waited < patience || io::temporary_folders_live(); waited += between_polls) {
       if (ended.stop_requested()) return;
-      std::this_thread::sleep_for(between_looks);
+      std::this_thread::sleep_for(between_polls);
     }
     io::end_temporary_folders();
     std::fprintf(stderr, "condyle: %s\n", words_for(done, total, what).c_str());

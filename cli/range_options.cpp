@@ -42,7 +42,7 @@ std::optional<Vec3> translation_of(const std::string& text, const Joint& joint) 
 
 }  // namespace
 
-CLI::Option* add_map(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {
+CLI::Option* add_map(CLI::App& command, const std::shared_ptr<RangeArguments>& given) {
   auto* map =
       command
           .add_option("--map", given->map,
@@ -62,14 +62,14 @@ CLI::Option* add_map(CLI::App& command, const std::shared_ptr<RangeGiven>& given
   return map;
 }
 
-CLI::Option* add_translation(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {
+CLI::Option* add_translation(CLI::App& command, const std::shared_ptr<RangeArguments>& given) {
   return command
       .add_option("--translation", given->translation,
                   "Hold a free joint here in all motions, in mm. Without it where the reference pose has it")
       ->option_text("\"x=X y=Y z=Z\"");
 }
 
-CLI::Option* add_bearing(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {
+CLI::Option* add_bearing(CLI::App& command, const std::shared_ptr<RangeArguments>& given) {
   return command
       .add_option_function<std::string>(
           "--bearing", [given](const std::string& text) { given->bearing = parse_bearing(text); },
@@ -78,14 +78,14 @@ CLI::Option* add_bearing(CLI::App& command, const std::shared_ptr<RangeGiven>& g
       ->option_text("MM|count (2)");
 }
 
-CLI::Option* add_accept(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {
+CLI::Option* add_accept(CLI::App& command, const std::shared_ptr<RangeArguments>& given) {
   return command.add_flag_callback(
       "--accept-reference-contact", [given] { given->reference_contact = ReferenceContact::accept; },
       "Answer although the bodies are in contact in the reference pose. Motions that start in contact say "
       "so");
 }
 
-CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {
+CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeArguments>& given) {
   auto* band = command
                    .add_flag("--band{200}", given->band_samples,
                              "Compute how far each limit moves with what is uncertain: from 5 to 95 % of N "
@@ -113,12 +113,12 @@ CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeGiven>& give
   return band;
 }
 
-CLI::Option* add_past(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {
+CLI::Option* add_past(CLI::App& command, const std::shared_ptr<RangeArguments>& given) {
   return command.add_option("--past", given->past_deg, "Find the impingement zones so far past each limit")
       ->option_text("DEG");
 }
 
-std::optional<MapGrid> grid_of(const RangeGiven& given, JointKind kind, Anatomy anatomy) {
+std::optional<MapGrid> grid_of(const RangeArguments& given, JointKind kind, Anatomy anatomy) {
   if (given.map.empty()) {
     if (!given.vary.empty()) throw UsageError("--vary: is for --map");
     return std::nullopt;
@@ -133,7 +133,7 @@ std::optional<MapGrid> grid_of(const RangeGiven& given, JointKind kind, Anatomy 
   return grid;
 }
 
-RangeRequest range_request_of(const RangeGiven& given, const LoadedJoint& loaded,
+RangeRequest range_request_of(const RangeArguments& given, const LoadedJoint& loaded,
                               std::vector<Motion> motions) {
   const Joint& joint = loaded.joint;
   const JointFile& file = loaded.report.file;

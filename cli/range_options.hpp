@@ -19,7 +19,7 @@ class Option;
 
 namespace condyle::cli {
 
-struct RangeGiven {
+struct RangeArguments {
   std::vector<std::string> map;
   std::string vary, translation;
   BearingOptions bearing;
@@ -31,18 +31,18 @@ struct RangeGiven {
 };
 
 /// Each adds the options of one question and returns the first of them. `given` is written while arguments are read.
-CLI::Option* add_map(CLI::App& command, const std::shared_ptr<RangeGiven>& given);
-CLI::Option* add_translation(CLI::App& command, const std::shared_ptr<RangeGiven>& given);
-CLI::Option* add_bearing(CLI::App& command, const std::shared_ptr<RangeGiven>& given);
-CLI::Option* add_accept(CLI::App& command, const std::shared_ptr<RangeGiven>& given);
-CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeGiven>& given);
-CLI::Option* add_past(CLI::App& command, const std::shared_ptr<RangeGiven>& given);
+CLI::Option* add_map(CLI::App& command, const std::shared_ptr<RangeArguments>& given);
+CLI::Option* add_translation(CLI::App& command, const std::shared_ptr<RangeArguments>& given);
+CLI::Option* add_bearing(CLI::App& command, const std::shared_ptr<RangeArguments>& given);
+CLI::Option* add_accept(CLI::App& command, const std::shared_ptr<RangeArguments>& given);
+CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeArguments>& given);
+CLI::Option* add_past(CLI::App& command, const std::shared_ptr<RangeArguments>& given);
 
 /// Nothing if no map is requested. Throws UsageError.
-std::optional<MapGrid> grid_of(const RangeGiven& given, JointKind kind, Anatomy anatomy);
+std::optional<MapGrid> grid_of(const RangeArguments& given, JointKind kind, Anatomy anatomy);
 /// The request, checked against the joint; bands by what was given, else what the joint file says, else what is usual. Throws
 /// UsageError.
-RangeRequest range_request_of(const RangeGiven& given, const LoadedJoint& loaded,
+RangeRequest range_request_of(const RangeArguments& given, const LoadedJoint& loaded,
                               std::vector<Motion> motions);
 
 }  // namespace condyle::cli

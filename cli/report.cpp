@@ -38,16 +38,16 @@ namespace {
 enum class Content { joint, nothing };
 
 struct ReportArguments {
-  ParametersGiven parameters;
+  ParameterArguments parameters;
   Content content = Content::joint;
   std::string first, second, out, motion;
   std::optional<std::string> title;
   ReportLabels labels;
   bool with_pressure = false, measures = false;
   std::size_t curve_points = ResectionQuery{}.curve_points;
-  std::shared_ptr<ResectionGiven> cut = std::make_shared<ResectionGiven>();
-  std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
-  std::shared_ptr<FollowGiven> follow = std::make_shared<FollowGiven>();
+  std::shared_ptr<ResectionArguments> cut = std::make_shared<ResectionArguments>();
+  std::shared_ptr<RangeArguments> range = std::make_shared<RangeArguments>();
+  std::shared_ptr<FollowArguments> follow = std::make_shared<FollowArguments>();
   Strictness strictness = Strictness::notes;
 
   bool has_plan() const noexcept { return !cut->targets.empty(); }

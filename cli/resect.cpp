@@ -29,11 +29,11 @@ namespace condyle::cli {
 namespace {
 
 struct ResectArguments {
-  ParametersGiven parameters;
+  ParameterArguments parameters;
   std::string joint, out, protect_mobile, protect_fixed;
   std::size_t curve_points = ResectionQuery{}.curve_points;
-  std::shared_ptr<ResectionGiven> cut = std::make_shared<ResectionGiven>();
-  std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
+  std::shared_ptr<ResectionArguments> cut = std::make_shared<ResectionArguments>();
+  std::shared_ptr<RangeArguments> range = std::make_shared<RangeArguments>();
   Strictness strictness = Strictness::notes;
   AnswerForm form = AnswerForm::text;
 };

@@ -10,7 +10,7 @@
 namespace condyle::cli {
 namespace {
 
-double fixed_share(const ResectionGiven& given) {
+double fixed_share(const ResectionArguments& given) {
   if (given.share && given.from != "both") throw UsageError("--share: only with --from both");
   if (given.from == "both") return given.share.value_or(0.5);
   return given.from == "fixed" ? 1 : 0;
@@ -18,7 +18,7 @@ double fixed_share(const ResectionGiven& given) {
 
 }  // namespace
 
-void add_cut(CLI::App& command, const std::shared_ptr<ResectionGiven>& given, CLI::Option* targets) {
+void add_cut(CLI::App& command, const std::shared_ptr<ResectionArguments>& given, CLI::Option* targets) {
   const auto add = [&](CLI::Option* option, const char* value) {
     option->option_text(value)->needs(targets);
   };
@@ -52,7 +52,7 @@ HelpGroup resection_group() {
           {"--from", "--share", "--margin", "--burr", "--deepest", "--within", "--edge"}};
 }
 
-ResectionRequest resection_request_of(const ResectionGiven& given) {
+ResectionRequest resection_request_of(const ResectionArguments& given) {
   const KeptBone kept{given.deepest_mm, given.within_mm, {}};
   ResectionRequest request;
   request.fixed_share = fixed_share(given);

@@ -17,7 +17,7 @@ class Option;
 
 namespace condyle::cli {
 
-struct ResectionGiven {
+struct ResectionArguments {
   std::string targets;  ///< "flexion=115 fadir=30"; empty: nothing is planned
   std::string from = "mobile";
   std::optional<double> share, deepest_mm, within_mm, burr_mm;
@@ -26,11 +26,11 @@ struct ResectionGiven {
 
 /// Adds the options of a cut. `targets` is the option that asks for one, which these need. `given` is written while arguments are
 /// read.
-void add_cut(CLI::App& command, const std::shared_ptr<ResectionGiven>& given, CLI::Option* targets);
+void add_cut(CLI::App& command, const std::shared_ptr<ResectionArguments>& given, CLI::Option* targets);
 /// Their group in the help, where limits are the command's question.
 HelpGroup resection_group();
 
 /// What was given, but for the targets, marked vertices and what limits are computed by. Throws UsageError.
-ResectionRequest resection_request_of(const ResectionGiven& given);
+ResectionRequest resection_request_of(const ResectionArguments& given);
 
 }  // namespace condyle::cli

@@ -34,13 +34,13 @@ enum class Task { limits, list_motions };
 enum class ReferenceContacts { count, leave_out };
 
 struct RomArguments {
-  ParametersGiven parameters;
+  ParameterArguments parameters;
   std::string joint, out;
   std::vector<std::string> motions;
   std::optional<double> allow_depth_mm;
-  std::shared_ptr<FollowGiven> follow = std::make_shared<FollowGiven>();
+  std::shared_ptr<FollowArguments> follow = std::make_shared<FollowArguments>();
   ReferenceContacts reference_contacts = ReferenceContacts::count;
-  std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
+  std::shared_ptr<RangeArguments> range = std::make_shared<RangeArguments>();
   Task task = Task::limits;
   ClockPlane clock = ClockPlane::sagittal;
   Strictness strictness = Strictness::notes;

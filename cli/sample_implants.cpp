@@ -24,7 +24,7 @@ namespace {
 enum class Bones { sample, none };
 
 struct ImplantOptions {
-  std::shared_ptr<ImplantGiven> given;
+  std::shared_ptr<ImplantSizeArguments> given;
   Side side = Side::right;
   Bones bones = Bones::none;
   int scenario = 1;
@@ -75,7 +75,7 @@ void add_replacement(CLI::App& sample) {
       "         condyle sample replacement --bones none --head-radius 18 --definition anatomic --out alone\n"
       "         condyle rom thr/hip.toml");
   auto options = std::make_shared<ImplantOptions>();
-  options->given = std::make_shared<ImplantGiven>(ImplantGiven{TotalHip{}});
+  options->given = std::make_shared<ImplantSizeArguments>(ImplantSizeArguments{TotalHip{}});
   options->bones = Bones::sample;
   add_common(*command, options, "a mesh for each part and hip.toml");
   add_definition(*command, options->given);
@@ -105,7 +105,7 @@ void add_reverse_shoulder(CLI::App& sample) {
       "Example: condyle sample reverse-shoulder --neck-shaft 145 --out reverse\n"
       "         condyle rom reverse/shoulder.toml");
   auto options = std::make_shared<ImplantOptions>();
-  options->given = std::make_shared<ImplantGiven>(ImplantGiven{ReverseShoulder{}});
+  options->given = std::make_shared<ImplantSizeArguments>(ImplantSizeArguments{ReverseShoulder{}});
   add_common(*command, options, "a mesh for each part and shoulder.toml");
   const std::vector<std::string> sizes = add_sizes(*command, options->given);
   group_help(*command,

@@ -9,7 +9,7 @@
 
 namespace condyle::cli {
 
-ParametersGiven add_set(CLI::App& command) {
+ParameterArguments add_set(CLI::App& command) {
   auto given = std::make_shared<std::vector<std::string>>();
   command
       .add_option(
@@ -22,7 +22,7 @@ ParametersGiven add_set(CLI::App& command) {
   return given;
 }
 
-LoadedJoint joint_at(LoadedJoint loaded, const ParametersGiven& given) {
+LoadedJoint joint_at(LoadedJoint loaded, const ParameterArguments& given) {
   if (given->empty()) return loaded;
   std::string text;
   for (const std::string& words : *given) text += words + " ";

@@ -11,12 +11,12 @@
 
 namespace condyle::cli {
 
-using ParametersGiven = std::shared_ptr<std::vector<std::string>>;
+using ParameterArguments = std::shared_ptr<std::vector<std::string>>;
 
 /// Adds the option; what it is given is written while arguments are read.
-ParametersGiven add_set(CLI::App& command);
+ParameterArguments add_set(CLI::App& command);
 
 /// The joint at the values given. Throws UsageError that begins with the option.
-LoadedJoint joint_at(LoadedJoint loaded, const ParametersGiven& given);
+LoadedJoint joint_at(LoadedJoint loaded, const ParameterArguments& given);
 
 }  // namespace condyle::cli

@@ -26,9 +26,9 @@ struct StudyArguments {
   std::vector<double> force, along;
   std::vector<std::string> motions;
   bool leaves_out_reference_contacts = false, measures = false;
-  std::shared_ptr<ResectionGiven> cut = std::make_shared<ResectionGiven>();
+  std::shared_ptr<ResectionArguments> cut = std::make_shared<ResectionArguments>();
   BadJoint bad_joint = BadJoint::is_a_row;
-  std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
+  std::shared_ptr<RangeArguments> range = std::make_shared<RangeArguments>();
   std::shared_ptr<ContactChanges> contact = std::make_shared<ContactChanges>();
 };
 
@@ -46,7 +46,7 @@ StudyFollowLoad follow_load_of(const StudyArguments& given) {
 }
 
 StudyOptions study_options(const StudyArguments& given) {
-  const RangeGiven& range = *given.range;
+  const RangeArguments& range = *given.range;
   StudyOptions options;
   options.anatomy = anatomy_named(given.anatomy);
   for (const std::string& list : given.motions)

@@ -34,13 +34,13 @@ namespace condyle::cli {
 namespace {
 
 struct SweepArguments {
-  ParametersGiven parameters;
+  ParameterArguments parameters;
   std::string joint, vary, targets, out, shard;
   std::vector<std::string> measures;
   std::optional<std::string> load;
   std::vector<double> force, along;
   std::shared_ptr<ContactChanges> contact = std::make_shared<ContactChanges>();
-  std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
+  std::shared_ptr<RangeArguments> range = std::make_shared<RangeArguments>();
   Strictness strictness = Strictness::notes;
   AnswerForm form = AnswerForm::text;
 };

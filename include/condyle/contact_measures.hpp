@@ -96,7 +96,7 @@ enum class DepthWay : std::uint8_t {
 };
 
 /// A rotation by which a vertex leaves.
-struct WayOut {
+struct ExitRotation {
   Angle angle;
   double arc_mm;  ///< at the vertex's own radius
 };
@@ -110,7 +110,7 @@ struct DeepestReliable {
   double radial_depth_mm;  ///< whether or not it is a depth
   Angle ray_to_normal;
   /// About the axes of flexion, adduction and internal rotation; empty if none sets it free, or none was requested.
-  std::array<std::optional<WayOut>, 3> rotations;
+  std::array<std::optional<ExitRotation>, 3> rotations;
 };
 
 /// Reliable depths of one body's vertices.

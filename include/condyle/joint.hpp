@@ -186,7 +186,7 @@ struct PosedPart {
 };
 
 /// A body before its parts are moved.
-struct BodyAsGiven {
+struct UnposedBody {
   Mesh mesh = Mesh(TriMesh{});
   std::optional<BodyImage> image = {};
   std::optional<Sphere> head = {};
@@ -195,7 +195,7 @@ struct BodyAsGiven {
 /// The parts of a joint, and the bodies that they move.
 struct PosedParts {
   std::vector<PosedPart> parts;
-  BodyAsGiven fixed, mobile;
+  UnposedBody fixed, mobile;
 };
 
 /// Two bodies of revolution whose axes go through the joint centre: contact depends on the angle between the axes only.

@@ -83,7 +83,7 @@ py::tuple followed_limits(const JointHandle& handle, const py::list& motions, co
 void write_followed_report(const JointHandle& handle, const std::filesystem::path& path,
                            const std::optional<std::string>& title, const py::list& motions,
                            const py::object& poses, const ElasticContact* layers, const py::dict& given,
-                           const LabelsGiven& labels, const py::object& progress) {
+                           const LabelArguments& labels, const py::object& progress) {
   const LoadedJoint& loaded = handle.loaded;
   std::optional<Provenance> from;
   if (!loaded.report.file.path.empty()) from = provenance_of(loaded, {"condyle.FollowedRange.write_report"});

@@ -91,7 +91,7 @@ py::tuple answers(const JointHandle& handle, const py::object& given, const py::
       DepthRequest here = request;
       here.X_FM = in.poses[n];
       DepthAnswer found = answer_depth(handle.contact, handle.joint(), here);
-      follower.look(n + 1);
+      follower.poll(n + 1);
       return found;
     }();
     list.append(wrap(std::move(answer)));

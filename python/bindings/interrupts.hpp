@@ -19,7 +19,7 @@ namespace condyle::python {
 namespace py = pybind11;
 
 /// Between two looks for Ctrl-C: well below what people notice, well above what taking the lock costs.
-inline constexpr std::chrono::milliseconds look_interval{50};
+inline constexpr std::chrono::milliseconds poll_interval{50};
 
 /// For loops over short pieces of work on the calling thread, which does not hold the lock. Raises KeyboardInterrupt, or what
 /// the callback raised.
@@ -29,9 +29,9 @@ class Follower {
   Follower(py::object progress, std::size_t total) : progress_(std::move(progress)), total_(total) {}
 
   /// After `done` pieces.
-  void look(std::size_t done) {
+  void poll(std::size_t done) {
     const auto now = std::chrono::steady_clock::now();
-    if (now - last_ < look_interval && (done < total_ || progress_.is_none())) return;
+    if (now - last_ < poll_interval && (done < total_ || progress_.is_none())) return;
     last_ = now;
     const py::gil_scoped_acquire held;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -77,20 +77,20 @@ auto followed(const py::object& progress, const Compute& compute) {
   });
 
   std::exception_ptr stopped_by;
-  std::size_t told = 0;
+  std::size_t reported = 0;
   for (bool ended = false; !ended;) {
     std::size_t done = 0, total = 0;
     {
       const py::gil_scoped_release released;
       std::unique_lock lock(state.mutex);
-      state.changed.wait_for(lock, look_interval, [&] { return state.ended; });
+      state.changed.wait_for(lock, poll_interval, [&] { return state.ended; });
       ended = state.ended, done = state.done, total = state.total;
     }
     if (stopped_by) continue;
     try {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (!progress.is_none() && done > told) progress(done, total);
-      told = done;
+      if (!progress.is_none() && done > reported) progress(done, total);
+      reported = done;
     } catch (...) {
       stopped_by = std::current_exception();
       worker.request_stop();

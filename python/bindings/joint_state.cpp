@@ -62,7 +62,7 @@ void members(T& value, const Each& each) {
   } else if constexpr (std::is_same_v<Struct, PosedParts>) {
     auto& [parts, fixed, mobile] = value;
     each(parts, fixed, mobile);
-  } else if constexpr (std::is_same_v<Struct, BodyAsGiven>) {
+  } else if constexpr (std::is_same_v<Struct, UnposedBody>) {
     auto& [mesh, image, head] = value;
     each(mesh, image, head);
   } else if constexpr (std::is_same_v<Struct, PosedPart>) {

@@ -36,7 +36,7 @@ py::tuple normal(const JointHandle& handle, const py::object& given, const std::
       auto& [of_fixed, of_mobile] = found.emplace_back();
       if (from_fixed) of_fixed = from_fixed->at(X_FM);
       if (from_mobile) of_mobile = from_mobile->at(inverted(X_FM));
-      follower.look(found.size());
+      follower.poll(found.size());
     }
   }
   py::list answers;

@@ -105,7 +105,7 @@ py::tuple radial(const JointHandle& handle, const py::object& given, bool of_mob
         if (of_mobile) mobile.append(mobile_now[i]);
         if (of_fixed) fixed.append(fixed_now[i]);
       }
-      if (in.poses.size() > 1) follower.look(first + count);
+      if (in.poses.size() > 1) follower.poll(first + count);
     }
   }
   return py::make_tuple(in.is_one, vertices_dict(of_mobile, std::move(mobile), false),
@@ -128,7 +128,7 @@ py::tuple tangential(const JointHandle& handle, const py::object& given, std::si
           handle.contact.tangential(X_FM, axis_of(angle_numbered(about), system, angles_at(system, X_FM)));
       if (of_mobile) mobile.append(*contact.mobile_in_fixed);
       if (of_fixed) fixed.append(*contact.fixed_in_mobile);
-      follower.look(n + 1);
+      follower.poll(n + 1);
     }
   }
   return py::make_tuple(in.is_one, vertices_dict(of_mobile, std::move(mobile), true),
@@ -147,7 +147,7 @@ py::tuple pairs(const JointHandle& handle, const py::object& given, const py::ob
       const std::vector<TrianglePair> found = handle.contact.pairs(in.poses[n]);
       all.insert(all.end(), found.begin(), found.end());
       offset.push_back(static_cast<std::int64_t>(all.size()));
-      follower.look(n + 1);
+      follower.poll(n + 1);
     }
   }
   static_assert(sizeof(TrianglePair) == 2 * sizeof(Index));
@@ -169,7 +169,7 @@ py::tuple in_contact(const JointHandle& handle, const py::object& given, const p
     const py::gil_scoped_release released;
     for (std::size_t n = 0; n < in.poses.size(); ++n) {
       answer[n] = handle.contact.in_contact(in.poses[n]);
-      follower.look(n + 1);
+      follower.poll(n + 1);
     }
   }
   return py::make_tuple(in.is_one, answers);

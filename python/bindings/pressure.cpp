@@ -53,7 +53,7 @@ py::tuple results_at(const ElasticContact& contact, const py::object& given, con
     const py::gil_scoped_release released;
     for (const Pose& X_FM : in.poses) {
       found.push_back(contact.at(X_FM));
-      follower.look(found.size());
+      follower.poll(found.size());
     }
   }
   py::list answers;

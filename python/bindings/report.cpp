@@ -76,7 +76,7 @@ struct JointBefore {
 void report(const RangeHandle& range, const JointHandle& handle, const std::filesystem::path& path,
             const std::optional<std::string>& title, const py::list& given, std::size_t band_samples,
             std::optional<std::uint64_t> seed, const std::optional<double>& past_deg, bool with_measures,
-            const PlanHandle* plan, const JointHandle* with, const LabelsGiven& labels,
+            const PlanHandle* plan, const JointHandle* with, const LabelArguments& labels,
             const py::object& progress) {
   const LoadedJoint& loaded = handle.loaded;
   if (with) check_comparable(with->loaded.joint, with->loaded.joint.name, loaded.joint, loaded.joint.name);
@@ -127,8 +127,10 @@ void report(const RangeHandle& range, const JointHandle& handle, const std::file
   });
 }
 
-BodyLook look_named(const std::string& name) {
-  return name == "solid" ? BodyLook::solid : name == "transparent" ? BodyLook::transparent : BodyLook::hidden;
+BodyStyle style_named(const std::string& name) {
+  return name == "solid"         ? BodyStyle::solid
+         : name == "transparent" ? BodyStyle::transparent
+                                 : BodyStyle::hidden;
 }
 
 PictureColour colour_named(const std::string& name) {
@@ -148,8 +150,8 @@ py::array_t<std::uint8_t> picture(const JointHandle& handle, const py::object& p
   const Joint& joint = handle.joint();
   PictureOptions options{.view = view_named(view, joint.side),
                          .colour = colour_named(colour),
-                         .fixed = look_named(fixed),
-                         .mobile = look_named(mobile),
+                         .fixed = style_named(fixed),
+                         .mobile = style_named(mobile),
                          .width = width,
                          .height = height,
                          .range_mm = range_mm,

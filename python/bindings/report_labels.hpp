@@ -9,10 +9,10 @@
 namespace condyle::python {
 
 /// Case, note, date, and whether files are named by their whole paths.
-using LabelsGiven =
+using LabelArguments =
     std::tuple<std::optional<std::string>, std::optional<std::string>, std::optional<std::string>, bool>;
 
-inline ReportLabels report_labels_of(const LabelsGiven& given) {
+inline ReportLabels report_labels_of(const LabelArguments& given) {
   const auto& [case_name, note, date, whole_paths] = given;
   return {case_name, note, date, whole_paths};
 }

@@ -18,7 +18,7 @@ using core::formatted;
 using Knots = std::vector<TranslationKnot>;
 
 /// Where a recorded motion leads along a motion, from before its start; or why it does not.
-struct RecordedWay {
+struct RecordedTranslation {
   Knots knots = {};  ///< angles ascend in the motion's sense, from 0 or below
   std::string why_none = {};
 };
@@ -46,14 +46,14 @@ Knots without_still_ends(const Knots& knots) {
   return holds ? Knots(first, last + 1) : knots;
 }
 
-RecordedWay way_of(const Motion& motion, const FollowRecord& record) {
-  RecordedWay way;
+RecordedTranslation recorded_translation(const Motion& motion, const FollowRecord& record) {
+  RecordedTranslation out;
   for (const JointCoordinates& frame : record.frames) {
     const Angle turned =
         (angle_of(frame.angles, motion.vary) - angle_of(motion.start, motion.vary)) * sign_of(motion.sense);
-    way.knots.push_back({turned, frame.translation_mm});
+    out.knots.push_back({turned, frame.translation_mm});
   }
-  Knots& knots = way.knots;
+  Knots& knots = out.knots;
   if (knots.size() < 2) return {{}, "the recorded motion has fewer than two frames"};
   if (knots.back().turned < knots.front().turned) std::reverse(knots.begin(), knots.end());
   knots = without_still_ends(knots);
@@ -71,7 +71,7 @@ RecordedWay way_of(const Motion& motion, const FollowRecord& record) {
             formatted("the recorded angle begins %.4g degrees past the motion's start",
                       knots.front().turned.degrees())};
   if (!(knots.back().turned > still)) return {{}, "the recorded angle does not go past the motion's start"};
-  return way;
+  return out;
 }
 
 /// The knots from the motion's start on.
@@ -86,9 +86,10 @@ Knots from_start(const Knots& all) {
 }
 
 /// Balances one step after another; keeps why it ended.
-class BalancedWay {
+class BalancedTranslation {
  public:
-  BalancedWay(const Joint& joint, const Motion& motion, const FollowLoad& follow, const Vec3& start_mm)
+  BalancedTranslation(const Joint& joint, const Motion& motion, const FollowLoad& follow,
+                      const Vec3& start_mm)
       : joint_(joint), motion_(motion), follow_(follow), last_mm_(start_mm) {}
 
   std::optional<TranslationKnot> next(std::span<const TranslationKnot> before) {
@@ -163,7 +164,7 @@ class Followed {
 
  private:
   std::optional<MotionLimit> along(const Motion& motion, const FollowRecord& record) {
-    const Knots knots = from_start(way_of(motion, record).knots);
+    const Knots knots = from_start(recorded_translation(motion, record).knots);
     const auto next = [&](std::span<const TranslationKnot> before) {
       if (!before.empty()) report(before.back().turned, motion);
       return before.size() < knots.size() ? std::optional(knots[before.size()]) : std::nullopt;
@@ -177,15 +178,15 @@ class Followed {
   }
 
   std::optional<MotionLimit> along(const Motion& motion, const FollowLoad& load) {
-    BalancedWay way(joint_, motion, load, reference_mm_);
+    BalancedTranslation balanced(joint_, motion, load, reference_mm_);
     const auto next = [&](std::span<const TranslationKnot> before) {
       if (!before.empty()) report(before.back().turned, motion);
-      return way.next(before);
+      return balanced.next(before);
     };
     auto found = range_.limit(motion, next, control_.stop);
     if (!found) return std::nullopt;
-    bend_mm_ = std::max(bend_mm_, way.bend_mm());
-    if (ended_early(found->limit, motion)) note_end(found->limit, way.ended_by());
+    bend_mm_ = std::max(bend_mm_, balanced.bend_mm());
+    if (ended_early(found->limit, motion)) note_end(found->limit, balanced.ended_by());
     return std::move(found->limit);
   }
 
@@ -239,7 +240,7 @@ std::vector<std::string> caveats_of(const RangeRequest& request, double bend_mm)
 std::vector<Motion> motions_recorded(std::span<const Motion> motions, const FollowRecord& record) {
   std::vector<Motion> recorded;
   for (const Motion& motion : motions)
-    if (way_of(motion, record).why_none.empty()) recorded.push_back(motion);
+    if (recorded_translation(motion, record).why_none.empty()) recorded.push_back(motion);
   return recorded;
 }
 
@@ -255,7 +256,7 @@ std::vector<ContactNote> range_request_notes(const RangeRequest& request) {
 void answer::check_follow(const RangeRequest& request) {
   if (const auto* record = std::get_if<FollowRecord>(&*request.follow)) {
     for (const Motion& motion : request.motions)
-      if (const std::string why = way_of(motion, *record).why_none; !why.empty())
+      if (const std::string why = recorded_translation(motion, *record).why_none; !why.empty())
         throw UsageError(motion.name + ": " + why);
     return;
   }

@@ -98,7 +98,7 @@ class OverlapSampler::Part {
 };
 
 void OverlapSampler::sample_faces(const Pose& X_CT, Quadrature quadrature,
-                                  const LayerThicknesses& thicknesses, Scratch& scratch, Found& out) const {
+                                  const LayerThicknesses& thicknesses, Scratch& scratch, Results& out) const {
   const Pose X_TC = inverted(X_CT);
   cast_outwards(X_CT, scratch, out);
   scratch.rim.clear();
@@ -124,7 +124,7 @@ void OverlapSampler::sample_faces(const Pose& X_CT, Quadrature quadrature,
 }
 
 void OverlapSampler::sample_by_parts(const Pose& X_CT, const LayerThicknesses& thicknesses,
-                                     Found& out) const {
+                                     Results& out) const {
   clear(out);
   auto scratch = scratch_.take();
   cast_inwards(X_CT, *scratch, out);
@@ -142,7 +142,7 @@ void OverlapSampler::sample_by_parts(const Pose& X_CT, const LayerThicknesses& t
   scratch_.put_back(std::move(scratch));
 }
 
-void OverlapSampler::cast_outwards(const Pose& X_CT, Scratch& scratch, Found& out) const {
+void OverlapSampler::cast_outwards(const Pose& X_CT, Scratch& scratch, Results& out) const {
   auto& ends = scratch.ends;
   scratch.active.clear();
   scratch.rays.clear();
@@ -215,7 +215,7 @@ bool OverlapSampler::is_decided_by_parts(Index face, const Scratch& scratch) con
   return false;
 }
 
-void OverlapSampler::cast_along_edges(const Pose& X_CT, Scratch& scratch, Found& out) const {
+void OverlapSampler::cast_along_edges(const Pose& X_CT, Scratch& scratch, Results& out) const {
   const RayEnds& ends = scratch.ends;
   scratch.rays.clear();
   scratch.owner.clear();
@@ -248,7 +248,7 @@ void OverlapSampler::cast_along_edges(const Pose& X_CT, Scratch& scratch, Found&
   }
 }
 
-void OverlapSampler::cast_parts(const Pose& X_CT, Scratch& scratch, Found& out) const {
+void OverlapSampler::cast_parts(const Pose& X_CT, Scratch& scratch, Results& out) const {
   static const auto centres = part_centres();
   scratch.rays.clear();
   for (RimFace& rim : scratch.rim) {
@@ -332,7 +332,7 @@ OverlapSampler::Part OverlapSampler::part_of(Index face, const RimFace* rim,
 }
 
 void OverlapSampler::sample_part(Index face, const Part& part, Quadrature quadrature, bool with_thickness,
-                                 Found& out) const {
+                                 Results& out) const {
   static const auto of_degree_5 = nodes_of_degree_5();
   const std::span<const QuadratureNode> nodes = quadrature == Quadrature::of_degree_2
                                                     ? std::span<const QuadratureNode>(nodes_of_degree_2)
@@ -363,7 +363,7 @@ void OverlapSampler::sample_part(Index face, const Part& part, Quadrature quadra
 // The line runs from the edge that leaves the target to the one that comes back. An end that moves by v takes the line's piece l
 // along: the area grows by (v x l).n times what of the line follows that end.
 void OverlapSampler::sample_border(const RimFace& rim, const Part& part, const Pose& X_CT,
-                                   const RayEnds& ends, Found& out) const {
+                                   const RayEnds& ends, Results& out) const {
   const auto& rays = corner_ray_[rim.face];
   struct End {
     const PartCorner* corner;
@@ -405,7 +405,7 @@ void OverlapSampler::sample_border(const RimFace& rim, const Part& part, const P
 
 void OverlapSampler::sample_parts_of(const RimFace& rim, const LayerThicknesses& thicknesses,
                                      const Pose& X_CT, const Pose& X_TC, const Scratch& scratch,
-                                     Found& out) const {
+                                     Results& out) const {
   static const auto centres = part_centres();
   const Index face = rim.face;
   const auto& [a, b, c] = casting_.triangles()[face];

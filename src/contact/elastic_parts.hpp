@@ -18,7 +18,7 @@ class ElasticCast {
               const std::optional<ElasticLayer>& of_casting, const std::optional<ElasticLayer>& of_target);
 
   struct Answer {
-    OverlapSampler::Found found;
+    OverlapSampler::Results found;
     std::vector<LayerAnswer> of_sample;
     std::vector<double> of_border;  ///< pressures, MPa
   };

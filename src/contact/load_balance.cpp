@@ -41,12 +41,12 @@ constexpr double least_part = 1.0 / 4;
 constexpr double steepest_change = 8;
 /// How far the mobile body is moved each way to measure stiffness across jumps of the force, mm: some faces of a cartilage mesh
 /// then pass its rim.
-constexpr double measured_way = 0.05;
+constexpr double measured_travel = 0.05;
 /// Over shorter distances the stored energy shows nothing: a face that begins or ceases to meet the other surface
 /// changes it by more than the distance does.
-constexpr double least_climb = measured_way;
+constexpr double least_climb = measured_travel;
 /// Rotations that move the surfaces about as far, rad: half a joint across is some 20 mm.
-constexpr double measured_angle = measured_way / 20;
+constexpr double measured_angle = measured_travel / 20;
 
 /// Layers that are compressed by so much of their thickness have no more to give; by all of it, the law says nothing any more.
 constexpr double exhausted_strain = 0.9, whole_strain = 1;
@@ -158,9 +158,9 @@ class Search {
     const Vec3 force = along_free(load_at(start_)).head<3>();
     if (force.isZero()) return false;
     const Vec3 along = force.normalized();
-    for (double way = search_step; way <= options_.farthest_mm;) {
+    for (double travel = search_step; travel <= options_.farthest_mm;) {
       Vector6 by = Vector6::Zero();
-      by.head<3>() = way * along;
+      by.head<3>() = travel * along;
       const Pose X = moved(start_, by);
       const MobileLoad load = tried(X);
       const double missing = force.norm() + load.wrench.head<3>().dot(along);
@@ -171,7 +171,8 @@ class Search {
       const contact::LoadChange change =
           contact_.parts().change_of(*tried_, X, contact::Motions::translations);
       const double stiffness = -along.dot(change.topLeftCorner<3, 3>() * along);
-      way += stiffness > 0 ? std::clamp(missing / stiffness, search_step, longest_search_step) : search_step;
+      travel +=
+          stiffness > 0 ? std::clamp(missing / stiffness, search_step, longest_search_step) : search_step;
     }
     return false;
   }
@@ -208,9 +209,9 @@ class Search {
     const Pose from = out_.X_FM;
     const Vec3 force = along_free(load_at(from)).head<3>();
     if (force.isZero()) return false;
-    for (double way = search_step; way <= options_.farthest_mm; way += search_step) {
+    for (double travel = search_step; travel <= options_.farthest_mm; travel += search_step) {
       Pose X = from;
-      X.translation() += way * force.normalized();
+      X.translation() += travel * force.normalized();
       const MobileLoad load = tried(X);
       // Another part of the contact holds it back.
       if (load.wrench.head<3>().dot(force) < -least_carried_share * force.squaredNorm()) return false;
@@ -265,12 +266,12 @@ class Search {
   FreeMatrix measured_stiffness() {
     FreeMatrix stiffness(free_.cols(), free_.cols());
     for (Eigen::Index i = 0; i < free_.cols(); ++i) {
-      const double way = free_.col(i).head<3>().isZero() ? measured_angle : measured_way;
+      const double travel = free_.col(i).head<3>().isZero() ? measured_angle : measured_travel;
       const auto carried = [&](double by) {
         return FreeVector(free_.transpose() * tried(moved(out_.X_FM, by * free_.col(i))).wrench);
       };
-      const FreeVector ahead = carried(way);
-      stiffness.col(i) = (carried(-way) - ahead) / (2 * way);
+      const FreeVector ahead = carried(travel);
+      stiffness.col(i) = (carried(-travel) - ahead) / (2 * travel);
     }
     return stiffness;
   }
@@ -296,7 +297,7 @@ class Search {
     const double energy = now_.energy, size = size_of(residual_);
     const Vector6 given = load_at(from);
     // The force is the gradient of the energy up to the angle between the surfaces, within a tenth.
-    const double way = step.head<3>().norm() + step.tail<3>().norm() * measured_way / measured_angle;
+    const double travel = step.head<3>().norm() + step.tail<3>().norm() * measured_travel / measured_angle;
     const double doubtful = 0.1 * (given.head<3>().norm() * step.head<3>().norm() +
                                    given.tail<3>().norm() * step.tail<3>().norm());
     Vector6 beyond = residual_;
@@ -306,7 +307,7 @@ class Search {
       const Pose X = moved(from, part * step);
       const MobileLoad next = tried(X);
       const Vector6 residual = left(X, next);
-      const bool climbs = part * way > least_climb &&
+      const bool climbs = part * travel > least_climb &&
                           next.energy - energy - part * given.dot(step) > part * doubtful + 1e-9 * energy;
       if (next.samples > 0 && !climbs && size_of(residual) < size_of(residual_)) {
         take(X, next);

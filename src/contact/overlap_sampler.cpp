@@ -155,7 +155,7 @@ double OverlapSampler::target_thickness(const RayEnd& end, const Vec3& origin_C,
          in_c * of_vertices[corners[2]];
 }
 
-void OverlapSampler::clear(Found& out) {
+void OverlapSampler::clear(Results& out) {
   out.samples.clear();
   out.corners.clear();
   out.borders.clear();
@@ -165,7 +165,7 @@ void OverlapSampler::clear(Found& out) {
 }
 
 void OverlapSampler::sample(const Pose& X_CT, Quadrature quadrature, const LayerThicknesses& thicknesses,
-                            Found& out) const {
+                            Results& out) const {
   clear(out);
   auto scratch = scratch_.take();
   cast_inwards(X_CT, *scratch, out);
@@ -176,7 +176,7 @@ void OverlapSampler::sample(const Pose& X_CT, Quadrature quadrature, const Layer
   scratch_.put_back(std::move(scratch));
 }
 
-void OverlapSampler::cast_inwards(const Pose& X_CT, Scratch& scratch, Found& out) const {
+void OverlapSampler::cast_inwards(const Pose& X_CT, Scratch& scratch, Results& out) const {
   const Pose X_TC = inverted(X_CT);
   const std::size_t count = inward_.size();
   scratch.ends.clear(count);
@@ -205,7 +205,7 @@ void OverlapSampler::cast_inwards(const Pose& X_CT, Scratch& scratch, Found& out
 }
 
 void OverlapSampler::sample_centres(const Pose& X_CT, const LayerThicknesses& thicknesses, Scratch& scratch,
-                                    Found& out) const {
+                                    Results& out) const {
   const Pose X_TC = inverted(X_CT);
   // In the order of faces, whatever the order of rays: sums are then those of a reader of the file.
   for (Index face = 0; face < centre_ray_.size(); ++face) {
@@ -244,7 +244,7 @@ std::size_t OverlapSampler::cut_off_by_reach(const Pose& X_CT) const {
   return count;
 }
 
-void add_up(const OverlapSampler& sampler, const OverlapSampler::Found& found,
+void add_up(const OverlapSampler& sampler, const OverlapSampler::Results& found,
             const std::optional<OverlapPressures>& pressures, SurfaceContact& out) {
   out.faces.clear();
   out.met_from_front = found.met_from_front;

@@ -57,7 +57,7 @@ class OverlapSampler {
  public:
   OverlapSampler(Mesh casting, Mesh target, NormalDepthOptions options);
 
-  struct Found {
+  struct Results {
     std::vector<OverlapSample> samples;
     std::vector<OverlapCorner> corners;
     std::vector<OverlapBorder> borders;
@@ -67,14 +67,15 @@ class OverlapSampler {
         oblique_faces;     ///< with face centres, which count all the same: those faces, ascending
     std::size_t rays = 0;  ///< cast
   };
-  void sample(const Pose& X_CT, Quadrature quadrature, const LayerThicknesses& thicknesses, Found& out) const;
+  void sample(const Pose& X_CT, Quadrature quadrature, const LayerThicknesses& thicknesses,
+              Results& out) const;
   /// With cut faces: samples of each face that has a corner in contact at the centres of 16 parts, in place of depths that are linear
   /// from corner to corner. No corners and no borders.
-  void sample_by_parts(const Pose& X_CT, const LayerThicknesses& thicknesses, Found& out) const;
+  void sample_by_parts(const Pose& X_CT, const LayerThicknesses& thicknesses, Results& out) const;
   std::size_t cut_off_by_reach(const Pose& X_CT) const;
 
   /// Memory for samples, kept between queries.
-  core::Pool<Found>& found_pool() const noexcept { return found_; }
+  core::Pool<Results>& found_pool() const noexcept { return found_; }
 
   const Mesh& casting() const noexcept { return casting_; }
   const Mesh& target() const noexcept { return target_; }
@@ -132,9 +133,9 @@ class OverlapSampler {
     std::vector<RimFace> rim;   ///< those of them at the rim, in their order
   };
 
-  static void clear(Found& out);
+  static void clear(Results& out);
   /// Every ray inwards that can be in contact: its end.
-  void cast_inwards(const Pose& X_CT, Scratch& scratch, Found& out) const;
+  void cast_inwards(const Pose& X_CT, Scratch& scratch, Results& out) const;
   /// Where a ray inwards ends; whether it met the target from its front, which counts of an open target; and whether it met it too
   /// far off its normal for a depth.
   struct Overlap {
@@ -147,11 +148,11 @@ class OverlapSampler {
                           std::span<const double> of_vertices) const;
 
   void sample_centres(const Pose& X_CT, const LayerThicknesses& thicknesses, Scratch& scratch,
-                      Found& out) const;
+                      Results& out) const;
   void sample_faces(const Pose& X_CT, Quadrature quadrature, const LayerThicknesses& thicknesses,
-                    Scratch& scratch, Found& out) const;
+                    Scratch& scratch, Results& out) const;
   /// Rays outwards from corners outside the target next to one inside it: how far outside.
-  void cast_outwards(const Pose& X_CT, Scratch& scratch, Found& out) const;
+  void cast_outwards(const Pose& X_CT, Scratch& scratch, Results& out) const;
   static bool is_inside(const RayEnds& ends, Index ray) { return ends.has(ray) && ends[ray].depth > 0; }
   /// Whether the depth is taken to be linear from one end to the other.
   bool runs_on(Index face, const RayEnds& ends, Index a, Index b) const;
@@ -169,20 +170,20 @@ class OverlapSampler {
   /// How many of a face's corners have rays that meet the target too far off its normal.
   int oblique_corners(Index face, const Scratch& scratch) const;
   /// Rays from corners inside the target along edges of rim faces that leave it other than where the depth is 0.
-  void cast_along_edges(const Pose& X_CT, Scratch& scratch, Found& out) const;
+  void cast_along_edges(const Pose& X_CT, Scratch& scratch, Results& out) const;
   /// Rays from the parts of the rim faces that no line cuts.
-  void cast_parts(const Pose& X_CT, Scratch& scratch, Found& out) const;
+  void cast_parts(const Pose& X_CT, Scratch& scratch, Results& out) const;
   /// Corner of a face's part in contact, a triangle or the part that a line leaves of one.
   struct PartCorner;
   class Part;
   Part part_of(Index face, const RimFace* rim, const LayerThicknesses& thicknesses, const Pose& X_TC,
                const RayEnds& ends) const;
   void sample_part(Index face, const Part& part, Quadrature quadrature, bool with_thickness,
-                   Found& out) const;
+                   Results& out) const;
   void sample_border(const RimFace& rim, const Part& part, const Pose& X_CT, const RayEnds& ends,
-                     Found& out) const;
+                     Results& out) const;
   void sample_parts_of(const RimFace& rim, const LayerThicknesses& thicknesses, const Pose& X_CT,
-                       const Pose& X_TC, const Scratch& scratch, Found& out) const;
+                       const Pose& X_TC, const Scratch& scratch, Results& out) const;
 
   Mesh casting_, target_;
   NormalDepthOptions options_;
@@ -202,7 +203,7 @@ class OverlapSampler {
   std::vector<Vec3> ray_normal_;
   std::vector<std::array<Index, 3>> corner_ray_;
   mutable core::Pool<Scratch> scratch_;
-  mutable core::Pool<Found> found_;
+  mutable core::Pool<Results> found_;
 };
 
 /// MPa, of the samples and of the corners.
@@ -210,7 +211,7 @@ struct OverlapPressures {
   std::span<const double> of_samples, of_corners;
 };
 /// Sums of the samples, face by face and in all; without pressures of depths only.
-void add_up(const OverlapSampler& sampler, const OverlapSampler::Found& found,
+void add_up(const OverlapSampler& sampler, const OverlapSampler::Results& found,
             const std::optional<OverlapPressures>& pressures, SurfaceContact& out);
 
 /// From each vertex along its negative normal to the other surface; NaN if there is none within the reach.

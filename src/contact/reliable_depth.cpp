@@ -10,9 +10,9 @@
 namespace condyle {
 namespace {
 
-DepthWay way_about(std::size_t axis) noexcept {
-  constexpr std::array ways{DepthWay::flexion, DepthWay::adduction, DepthWay::internal_rotation};
-  return ways[axis];
+DepthWay kind_about(std::size_t axis) noexcept {
+  constexpr std::array kinds{DepthWay::flexion, DepthWay::adduction, DepthWay::internal_rotation};
+  return kinds[axis];
 }
 
 bool radial_is_depth(const RadialResults& radial, std::span<const double> nearest, Index v) noexcept {
@@ -50,18 +50,18 @@ struct Rotations {
   std::array<TangentialResults, 3> about;
 };
 
-std::array<std::optional<WayOut>, 3> ways_out(const Rotations& rotations, Index v) {
-  std::array<std::optional<WayOut>, 3> ways;
+std::array<std::optional<ExitRotation>, 3> exit_rotations(const Rotations& rotations, Index v) {
+  std::array<std::optional<ExitRotation>, 3> exits;
   const auto at = std::lower_bound(rotations.vertices.begin(), rotations.vertices.end(), v);
-  if (at == rotations.vertices.end() || *at != v) return ways;
+  if (at == rotations.vertices.end() || *at != v) return exits;
   const auto i = static_cast<std::size_t>(at - rotations.vertices.begin());
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const TangentialResults& about = rotations.about[axis];
     if (about.size() == 0 || about.state[i] != PointState::inside) continue;
     const Angle angle = -about.angular_gap[i];
-    if (std::isfinite(angle.radians())) ways[axis] = WayOut{angle, -about.arc_gap_mm[i]};
+    if (std::isfinite(angle.radians())) exits[axis] = ExitRotation{angle, -about.arc_gap_mm[i]};
   }
-  return ways;
+  return exits;
 }
 
 ReliableDepths depths_of(const RadialResults& radial, std::span<const double> nearest,
@@ -77,14 +77,14 @@ ReliableDepths depths_of(const RadialResults& radial, std::span<const double> ne
                            nearest[v],
                            -radial.radial_gap_mm[v],
                            radial.ray_to_normal[v],
-                           ways_out(rotations, v)};
+                           exit_rotations(rotations, v)};
     if (radial_is_depth(radial, nearest, v)) {
       vertex.way = DepthWay::radial, vertex.depth_mm = vertex.radial_depth_mm;
     } else {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto& rotation = vertex.rotations[axis];
         if (!rotation || (vertex.way != DepthWay::nearest && rotation->arc_mm >= vertex.depth_mm)) continue;
-        vertex.way = way_about(axis), vertex.depth_mm = rotation->arc_mm;
+        vertex.way = kind_about(axis), vertex.depth_mm = rotation->arc_mm;
       }
     }
     out.way[v] = vertex.way;

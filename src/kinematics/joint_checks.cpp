@@ -50,7 +50,7 @@ constexpr double farthest_bone = 3;
 constexpr double least_lever = 1;
 
 /// Cosines. Right hips show 0.25 to 0.65 forwards and outwards, wrong ones as much the other way; and 0.75 to 1 upwards.
-constexpr double wrong_way = -0.1, upright = 0.3;
+constexpr double opposed_cosine = -0.1, upright = 0.3;
 
 class Notes {
  public:
@@ -245,14 +245,14 @@ void check_hip(const Joint& joint, const SphericalPatch& head, const SphericalPa
   }
   const double neck_outwards = rightwards * open_side(joint.mobile.mesh, head).z();
   const std::string side = joint.side == Side::right ? "right" : "left";
-  const bool lateral = bone.medial < wrong_way, backwards = bone.anterior < wrong_way;
+  const bool lateral = bone.medial < opposed_cosine, backwards = bone.anterior < opposed_cosine;
   if (lateral && backwards)
     notes.add(
         JointNoteCode::axes_turned,
         fixed +
             " lies lateral of its socket, which opens backwards: the axes are turned by 180 degrees about "
             "superior, as where LPS coordinates are read as RAS");
-  else if (lateral ? neck_outwards > -wrong_way : neck_outwards < wrong_way)
+  else if (lateral ? neck_outwards > -opposed_cosine : neck_outwards < opposed_cosine)
     notes.add(JointNoteCode::bodies_disagree, fixed + (lateral ? " lies lateral" : " lies medial") +
                                                   " of its socket and the neck of " + mobile +
                                                   (lateral ? " points outwards" : " points inwards") +

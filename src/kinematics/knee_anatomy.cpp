@@ -225,7 +225,7 @@ void check_tibia(const TriMesh& tibia, KneeAnatomy& knee) {
 using FindCondyles = Condyles (*)(const TriMesh& femur, const Vec3& facing, const Vec3& towards_shaft);
 
 /// Condyles, shaft, head and axes.
-void look_at_femur(const TriMesh& femur, const std::optional<FacingPart>& facing, FindCondyles find,
+void examine_femur(const TriMesh& femur, const std::optional<FacingPart>& facing, FindCondyles find,
                    KneeAnatomy& knee) {
   if (!facing) {
     knee.why_no_condyles = "a bone has no surface";
@@ -277,7 +277,7 @@ KneeAnatomy with_side(const TriMesh& femur, KneeAnatomy knee) {
 
 KneeAnatomy knee_anatomy(const TriMesh& femur, const TriMesh& tibia) {
   KneeAnatomy knee;
-  look_at_femur(femur, facing_part(femur, tibia), find_condyles, knee);
+  examine_femur(femur, facing_part(femur, tibia), find_condyles, knee);
   knee = without_head_for_condyles(femur, std::move(knee));
   if (knee.axes) check_tibia(tibia, knee);
   return with_side(femur, std::move(knee));
@@ -285,7 +285,7 @@ KneeAnatomy knee_anatomy(const TriMesh& femur, const TriMesh& tibia) {
 
 KneeAnatomy knee_anatomy_roughly(const TriMesh& femur, const TriMesh& mobile, const Pose& X_FM) {
   KneeAnatomy knee;
-  look_at_femur(femur, facing_part_roughly(femur, mobile, X_FM), find_condyles_roughly, knee);
+  examine_femur(femur, facing_part_roughly(femur, mobile, X_FM), find_condyles_roughly, knee);
   // With a notch behind and a shaft in front of it they are condyles.
   if (!knee.axes) knee = without_head_for_condyles(femur, std::move(knee));
   return with_side(femur, std::move(knee));

@@ -214,7 +214,7 @@ void move_image(std::optional<BodyImage>& image, const Eigen::Affine3d& motion) 
 }
 
 /// The body where its parts have it. What was known of a head or socket goes with the vertices that it lies on.
-void pose_body(Body& body, BodyRole role, const BodyAsGiven& given, std::span<const PosedPart> parts,
+void pose_body(Body& body, BodyRole role, const UnposedBody& given, std::span<const PosedPart> parts,
                Side side) {
   const PartMotions groups(body, role, parts);
   const std::vector<Eigen::Affine3d> motions = groups.motions(parts, side);
@@ -373,7 +373,7 @@ void take_as_moved(Joint& joint) {
   if (!joint.posed) return;
   for (const BodyRole role : {BodyRole::fixed, BodyRole::mobile}) {
     const Body& body = role == BodyRole::fixed ? joint.fixed : joint.mobile;
-    BodyAsGiven& given = role == BodyRole::fixed ? joint.posed->fixed : joint.posed->mobile;
+    UnposedBody& given = role == BodyRole::fixed ? joint.posed->fixed : joint.posed->mobile;
     const PartMotions groups(body, role, joint.posed->parts);
     std::vector<Eigen::Affine3d> back = groups.motions(joint.posed->parts, joint.side);
     Points points = given.mesh.vertices();

@@ -23,7 +23,7 @@ constexpr double farthest_beside_axis = 0.25;
 constexpr double least_lever = 1;
 
 /// Cosine. A glenoid opens sideways and a scapula lies medial of it, both within 45 degrees.
-constexpr double wrong_way = -0.3;
+constexpr double opposed_cosine = -0.3;
 
 /// The sphere about the joint centre, from which bearing surfaces are inferred; if there is none, one anywhere.
 std::optional<SphericalPatch> head_of(const Mesh& humerus) {
@@ -60,7 +60,7 @@ void check_glenoid(const Joint& joint, const Sphere& head, const ShallowSocket& 
   if (mass.norm() < least_lever * head.radius) return;
   const bool is_right = joint.side == Side::right;
   const double lateral = (is_right ? 1 : -1) * (axis - mass.normalized()).z() / 2;
-  if (lateral < wrong_way)
+  if (lateral < opposed_cosine)
     notes.push_back(
         {JointNoteCode::wrong_side,
          std::string("the side is ") + (is_right ? "right" : "left") + ", but " + joint.fixed.name +

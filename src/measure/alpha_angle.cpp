@@ -34,26 +34,26 @@ Interval seen(const ContourPiece& piece, const Vec2& from) {
 }
 
 /// Contour outside the widened circle, and within it, as the angles at which it is seen.
-struct Seen {
+struct VisibleContour {
   std::vector<Interval> beyond, within;
 };
 
-Seen seen_of(const Contour& half, const Circle& circle, double radius, double reach) {
-  Seen seen_parts;
+VisibleContour visible_contour(const Contour& half, const Circle& circle, double radius, double reach) {
+  VisibleContour visible;
   for (ContourPiece piece : half) {
     if (!clip_to_circle(piece, Vec2::Zero(), reach)) continue;
     ContourPiece inner = piece;
     if (!clip_to_circle(inner, circle.centre, radius)) {
-      seen_parts.beyond.push_back(seen(piece, circle.centre));
+      visible.beyond.push_back(seen(piece, circle.centre));
       continue;
     }
-    seen_parts.within.push_back(seen(inner, circle.centre));
+    visible.within.push_back(seen(inner, circle.centre));
     for (const ContourPiece& outer : {ContourPiece{piece.from, inner.from}, ContourPiece{inner.to, piece.to}})
-      if (outer.from != outer.to) seen_parts.beyond.push_back(seen(outer, circle.centre));
+      if (outer.from != outer.to) visible.beyond.push_back(seen(outer, circle.centre));
   }
   const auto earlier = [](const Interval& a, const Interval& b) { return a.begin < b.begin; };
-  std::sort(seen_parts.beyond.begin(), seen_parts.beyond.end(), earlier);
-  return seen_parts;
+  std::sort(visible.beyond.begin(), visible.beyond.end(), earlier);
+  return visible;
 }
 
 bool goes_on_at(const std::vector<Interval>& within, double angle) {
@@ -88,7 +88,7 @@ std::optional<CircleFit> head_circle(const Contour& section, double head_radius)
 }
 
 AlphaFinding alpha_angle(const Contour& half, const Circle& circle, double head_radius, double tolerance_mm) {
-  const auto parts = seen_of(half, circle, circle.radius + tolerance_mm, neck_reach * head_radius);
+  const auto parts = visible_contour(half, circle, circle.radius + tolerance_mm, neck_reach * head_radius);
   if (parts.beyond.empty()) return {{}, "no contour leaves the head's circle: the neck is not in this mesh"};
   Interval reached = parts.beyond.front();
   const auto found = [&]() -> std::optional<AlphaPoint> {

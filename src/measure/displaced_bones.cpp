@@ -30,9 +30,9 @@ HipMeasures DisplacedBones::measured(const motion::Displacement& by) const {
 }
 
 /// The head keeps its vertices, and its centre is as far from the joint's as it was.
-FoundParts DisplacedBones::placed_parts(const Bones& bones, const Eigen::Matrix3d& R_GF,
-                                        std::span<const double> parameters) const {
-  FoundParts parts = parts_;
+BoneParts DisplacedBones::placed_parts(const Bones& bones, const Eigen::Matrix3d& R_GF,
+                                       std::span<const double> parameters) const {
+  BoneParts parts = parts_;
   const auto of_socket = hip_bone_parts_.motions(parameters), of_head = femur_parts_.motions(parameters);
   if (parts.opening && !of_socket.empty())
     parts.opening = (of_socket[of_socket_].linear() * *parts.opening).normalized();

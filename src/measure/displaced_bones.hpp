@@ -15,13 +15,13 @@ class DisplacedBones {
   HipMeasures measured(const motion::Displacement& by) const;
 
  private:
-  FoundParts placed_parts(const Bones& bones, const Eigen::Matrix3d& R_GF,
-                          std::span<const double> parameters) const;
+  BoneParts placed_parts(const Bones& bones, const Eigen::Matrix3d& R_GF,
+                         std::span<const double> parameters) const;
 
   CoordinateSystem system_;
   const MeasureRequest& request_;
   BoneMeshes meshes_;
-  FoundParts parts_;
+  BoneParts parts_;
   motion::MovableSurface hip_bone_, femur_;
   kinematics::DisplacedParts hip_bone_parts_, femur_parts_;
   std::size_t of_socket_ = 0, of_head_ = 0;  ///< the groups of vertices that these lie on

@@ -48,24 +48,24 @@ BoneEnd end_of(const TriMesh& bone, const Vec3& from) {
   return end;
 }
 
-struct SeenFromBelow {
+struct ViewFromBelow {
   double x, y;  ///< medial to lateral in some sense; anterior
   Index vertex;
 };
 
-double turn(const SeenFromBelow& o, const SeenFromBelow& a, const SeenFromBelow& b) {
+double turn(const ViewFromBelow& o, const ViewFromBelow& a, const ViewFromBelow& b) {
   return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }
 
 /// Counter-clockwise (Andrew 1979).
-std::vector<SeenFromBelow> convex_outline(std::vector<SeenFromBelow> points) {
-  std::sort(points.begin(), points.end(), [](const SeenFromBelow& a, const SeenFromBelow& b) {
+std::vector<ViewFromBelow> convex_outline(std::vector<ViewFromBelow> points) {
+  std::sort(points.begin(), points.end(), [](const ViewFromBelow& a, const ViewFromBelow& b) {
     return a.x != b.x ? a.x < b.x : a.y < b.y;
   });
-  std::vector<SeenFromBelow> outline;
+  std::vector<ViewFromBelow> outline;
   for (const int pass : {0, 1}) {
     const std::size_t first = outline.size();
-    for (const SeenFromBelow& p : points) {
+    for (const ViewFromBelow& p : points) {
       while (outline.size() >= first + 2 && !(turn(outline[outline.size() - 2], outline.back(), p) > 0))
         outline.pop_back();
       outline.push_back(p);
@@ -104,7 +104,7 @@ std::optional<CondyleGeometry> condyle_geometry(const TriMesh& femur, const Sphe
   const auto [middle, reach] = end_of(femur, head.centre);
   const Vec3 down = (middle - head.centre).normalized();
   const Vec3 front = square_to(axes.anterior, down).normalized(), side = front.cross(down);
-  std::vector<SeenFromBelow> points;
+  std::vector<ViewFromBelow> points;
   for (const Triangle& t : femur.triangles)
     for (const Index v : t) {
       const Vec3 p = femur.vertices[v] - head.centre;
@@ -114,7 +114,7 @@ std::optional<CondyleGeometry> condyle_geometry(const TriMesh& femur, const Sphe
   std::optional<std::array<Index, 2>> found;
   double longest = least_width;
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    const SeenFromBelow &a = outline[i], &b = outline[(i + 1) % outline.size()];
+    const ViewFromBelow &a = outline[i], &b = outline[(i + 1) % outline.size()];
     // Counter-clockwise, so that outwards is (dy, -dx).
     const double dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
     if (dx < least_facing * length || length <= longest) continue;

@@ -14,7 +14,7 @@ struct Bones {
 };
 
 /// What searches of whole surfaces found, once for a joint and all joints displaced from it.
-struct FoundParts {
+struct BoneParts {
   std::optional<SphericalPatch> head;
   std::string why_no_head;      ///< empty if there is one
   std::vector<Index> socket;    ///< vertices on the socket's sphere; empty if there is none

@@ -75,7 +75,7 @@ void set_edges(const SocketWall& wall, const Sphere& head, const BodyAxes& axes,
 
 }  // namespace
 
-AcetabulumMeasures measure_acetabulum(const TriMesh& hip_bone, const Sphere& head, const FoundParts& parts,
+AcetabulumMeasures measure_acetabulum(const TriMesh& hip_bone, const Sphere& head, const BoneParts& parts,
                                       const BodyAxes& axes) {
   if (!parts.opening) return acetabulum_not_measured(parts.why_no_opening, axes);
   const SocketWall wall = socket_wall(hip_bone, head, parts.hip_bone_ends);

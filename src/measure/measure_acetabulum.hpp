@@ -5,7 +5,7 @@
 namespace condyle::measure {
 
 /// Measures of the socket around a head. Linear in the mesh.
-AcetabulumMeasures measure_acetabulum(const TriMesh& hip_bone, const Sphere& head, const FoundParts& parts,
+AcetabulumMeasures measure_acetabulum(const TriMesh& hip_bone, const Sphere& head, const BoneParts& parts,
                                       const BodyAxes& axes);
 
 /// All of them empty for one reason.

@@ -109,7 +109,7 @@ std::optional<SphericalPatch> socket_of(const Body& fixed, const Mesh& hip_bone,
   return **found;
 }
 
-void set_socket(const Body& fixed, const Mesh& hip_bone, const Sphere& head, FoundParts& parts) {
+void set_socket(const Body& fixed, const Mesh& hip_bone, const Sphere& head, BoneParts& parts) {
   const auto socket = socket_of(fixed, hip_bone, head);
   if (!socket) {
     parts.socket_note = "no socket's sphere was found around the head: what faces it may be no socket";
@@ -122,7 +122,7 @@ void set_socket(const Body& fixed, const Mesh& hip_bone, const Sphere& head, Fou
 }
 
 /// A hip bone that is inside out faces the head with the wall behind its socket.
-void set_opening(const std::string& name, const Mesh& hip_bone, const Sphere& head, FoundParts& parts) {
+void set_opening(const std::string& name, const Mesh& hip_bone, const Sphere& head, BoneParts& parts) {
   if (is_inside_out(hip_bone))
     parts.why_no_opening = name + "'s triangles are wound the other way: its socket faces away from the head";
   else if (const auto rim = kinematics::rim_around(hip_bone, head); *rim)
@@ -136,7 +136,7 @@ struct KeptSearch {
   core::Lazy<std::string> why_no_condyles;
 };
 
-void set_both(const Bones& bones, const Sphere& head, const FoundParts& parts, CoordinateSystem system,
+void set_both(const Bones& bones, const Sphere& head, const BoneParts& parts, CoordinateSystem system,
               const MeasureRequest& request, BothMeasures& out) {
   const JointSpaceFinding space = joint_space(bones, head, parts.socket);
   out.joint_space_least = space.space ? measured(space.space->least_mm) : not_measured(space.why_none);
@@ -176,8 +176,8 @@ BoneMeshes bones_of(const Joint& joint) {
   return bones;
 }
 
-FoundParts find_parts(const Joint& joint, const BoneMeshes& bones) {
-  FoundParts parts;
+BoneParts find_parts(const Joint& joint, const BoneMeshes& bones) {
+  BoneParts parts;
   parts.left_out = bones.left_out;
   parts.hip_bone_ends = ends_of(joint.fixed, bones.hip_bone);
   parts.femur_ends = ends_of(joint.mobile, bones.femur);
@@ -196,7 +196,7 @@ FoundParts find_parts(const Joint& joint, const BoneMeshes& bones) {
   return parts;
 }
 
-HipMeasures measure_bones(const Bones& bones, const FoundParts& parts, CoordinateSystem system,
+HipMeasures measure_bones(const Bones& bones, const BoneParts& parts, CoordinateSystem system,
                           const MeasureRequest& request) {
   const BodyAxes femur_axes = body_axes(system.side),
                  pelvis_axes = body_axes(system.side, request.pelvic_tilt);

@@ -16,10 +16,10 @@ struct BoneMeshes {
 BoneMeshes bones_of(const Joint& joint);
 
 /// Searches of whole surfaces: of these bones, which are those of the joint.
-FoundParts find_parts(const Joint& joint, const BoneMeshes& bones);
+BoneParts find_parts(const Joint& joint, const BoneMeshes& bones);
 
 /// All measures of bones on which these parts were found.
-HipMeasures measure_bones(const Bones& bones, const FoundParts& parts, CoordinateSystem system,
+HipMeasures measure_bones(const Bones& bones, const BoneParts& parts, CoordinateSystem system,
                           const MeasureRequest& request);
 
 }  // namespace condyle::measure

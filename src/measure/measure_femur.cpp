@@ -71,7 +71,7 @@ void set_around_neck(const TriMesh& femur, const std::optional<ShaftAxis>& shaft
 }
 
 void set_shaft(const TriMesh& femur, const ShaftFinding& found, const std::optional<NeckLine>& neck,
-               const std::string& no_neck, const Sphere& head, const FoundParts& parts, FemurMeasures& out) {
+               const std::string& no_neck, const Sphere& head, const BoneParts& parts, FemurMeasures& out) {
   const auto& shaft = found.shaft;
   if (!shaft) {
     out.neck_shaft = out.trochanter_height = not_measured(found.why_none);
@@ -89,7 +89,7 @@ void set_shaft(const TriMesh& femur, const ShaftFinding& found, const std::optio
 
 void set_version(const TriMesh& femur, const std::optional<ShaftAxis>& shaft,
                  const std::optional<NeckLine>& neck, const std::string& no_neck, const Sphere& head,
-                 const FoundParts& parts, const BodyAxes& axes, FemurMeasures& out) {
+                 const BoneParts& parts, const BodyAxes& axes, FemurMeasures& out) {
   if (parts.why_no_condyles.empty()) out.condyles = condyle_geometry(femur, head, axes);
   if (!neck) {
     out.version = out.torsion_in_frame = not_measured(no_neck);
@@ -105,7 +105,7 @@ void set_version(const TriMesh& femur, const std::optional<ShaftAxis>& shaft,
 
 }  // namespace
 
-FemurMeasures measure_femur(const TriMesh& femur, const SphericalPatch& head, const FoundParts& parts,
+FemurMeasures measure_femur(const TriMesh& femur, const SphericalPatch& head, const BoneParts& parts,
                             const BodyAxes& axes) {
   const Sphere& sphere = head.fit.sphere;
   const NeckFinding found = find_neck(femur, sphere);

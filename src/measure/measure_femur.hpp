@@ -5,7 +5,7 @@
 namespace condyle::measure {
 
 /// Measures of the femur about its head, which was found. Linear in the mesh.
-FemurMeasures measure_femur(const TriMesh& femur, const SphericalPatch& head, const FoundParts& parts,
+FemurMeasures measure_femur(const TriMesh& femur, const SphericalPatch& head, const BoneParts& parts,
                             const BodyAxes& axes);
 
 /// All of them empty for one reason.

@@ -103,7 +103,7 @@ struct Largest {
   std::optional<double> alpha_deg;
   int places = 0, without = 0;
 
-  void look_at(const NeckHour& at, const std::optional<double>& alpha) {
+  void add(const NeckHour& at, const std::optional<double>& alpha) {
     ++places;
     if (!alpha) return void(++without);
     if (!alpha_deg || *alpha > *alpha_deg) hour = &at, alpha_deg = alpha;
@@ -118,7 +118,7 @@ void set_largest(const std::vector<NeckHour>& hours, FemurMeasures& out) {
   Largest at_half, at_1mm;
   for (const NeckHour& hour : hours) {
     if (!is_in_front(hour)) continue;
-    at_half.look_at(hour, hour.alpha_deg), at_1mm.look_at(hour, hour.alpha_at_1mm_deg);
+    at_half.add(hour, hour.alpha_deg), at_1mm.add(hour, hour.alpha_at_1mm_deg);
   }
   const std::string none = "there is no alpha angle between 11 and 4 o'clock";
   out.alpha_largest = at_half.hour ? alpha_at(*at_half.hour) : not_measured(none);

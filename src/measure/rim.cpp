@@ -35,14 +35,14 @@ std::optional<Vec2> farthest_towards_opening(const Contour& half, double reach) 
   std::optional<Vec2> farthest;
   double largest = -1;
   bool is_end = false;
-  const auto look_at = [&](const Vec2& p, bool ends) {
+  const auto consider = [&](const Vec2& p, bool ends) {
     const double angle = std::atan2(p.y(), -p.x());
     if (angle > largest) largest = angle, farthest = p, is_end = ends;
   };
   for (ContourPiece piece : half) {
     if (!clip_to_circle(piece, Vec2::Zero(), reach)) continue;
-    look_at(piece.from, piece.from_end);
-    look_at(piece.to, piece.to_end);
+    consider(piece.from, piece.from_end);
+    consider(piece.to, piece.to_end);
   }
   return is_end ? std::nullopt : farthest;
 }

@@ -16,7 +16,7 @@ inline constexpr double farthest_wall_mm = 10;
 /// The socket's wall: triangles that face the head's centre and reach within the head's radius and farthest_wall_mm of it.
 struct SocketWall {
   TriMesh mesh;
-  std::vector<char> ends;       ///< of its vertices, FoundParts::hip_bone_ends
+  std::vector<char> ends;       ///< of its vertices, BoneParts::hip_bone_ends
   std::vector<double> edge_mm;  ///< of its vertices: the mean edge of the wall's triangles there
 };
 SocketWall socket_wall(const TriMesh& hip_bone, const Sphere& head, const std::vector<char>& ends);

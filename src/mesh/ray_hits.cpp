@@ -47,13 +47,13 @@ HWY_INLINE Lanes dot(const Lanes3& a, const Lanes3& b) {
 }
 
 /// A point as a ray sees it.
-struct Seen {
+struct RayPoint {
   Lanes x, y;
 };
 
 /// Twice the area of the triangle that two points make with the ray, which is the origin. A product of rounded factors is
 /// rounded monotonously: where the exact area is above 0 this is not below 0, and the other way.
-HWY_INLINE Lanes doubled_area(const Seen& a, const Seen& b) {
+HWY_INLINE Lanes doubled_area(const RayPoint& a, const RayPoint& b) {
   return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
 }
 
@@ -129,8 +129,8 @@ class PlacedRay {
     const auto o = set(origin_), u = set(direction_);
     bool nearer = false;
     for (std::size_t i = 0; i < width; i += hn::Lanes(d)) {
-      const auto at_a = seen(leaf.corner[0], i), at_b = seen(leaf.corner[1], i),
-                 at_c = seen(leaf.corner[2], i);
+      const auto at_a = in_ray_frame(leaf.corner[0], i), at_b = in_ray_frame(leaf.corner[1], i),
+                 at_c = in_ray_frame(leaf.corner[2], i);
       const auto ab = doubled_area(at_a, at_b), bc = doubled_area(at_b, at_c), ca = doubled_area(at_c, at_a);
       const auto least = hn::Min(hn::Min(ab, bc), ca), most = hn::Max(hn::Max(ab, bc), ca);
       const auto oa = minus(load(leaf.corner[0], i), o), normal = load(leaf.normal, i);
@@ -155,7 +155,7 @@ class PlacedRay {
 
  private:
   /// Corners slid along the ray into a plane across its steepest axis.
-  HWY_INLINE Seen seen(const double (&corner)[3][width], std::size_t i) const {
+  HWY_INLINE RayPoint in_ray_frame(const double (&corner)[3][width], std::size_t i) const {
     const auto from = [&](std::size_t k) {
       return hn::Sub(hn::Load(d, corner[k] + i), hn::Set(d, origin_[static_cast<int>(k)]));
     };

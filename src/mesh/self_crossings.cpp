@@ -81,7 +81,7 @@ class CrossingSearch {
       open.pop_back();
       const Node &a = tree_.nodes()[i], &b = tree_.nodes()[j];
       if (a.is_leaf() && b.is_leaf()) {
-        look_at(a, b, node_boxes_[j]);
+        test_leaves(a, b, node_boxes_[j]);
       } else if (i == j) {
         add(a.child, a.child), add(a.child, a.child + 1), add(a.child + 1, a.child + 1);
       } else if (b.is_leaf() || (!a.is_leaf() && a.size() > b.size())) {
@@ -94,7 +94,7 @@ class CrossingSearch {
   }
 
  private:
-  void look_at(const Node& a, const Node& b, const Box& box_of_b) {
+  void test_leaves(const Node& a, const Node& b, const Box& box_of_b) {
     std::array<Index, TriangleTree::leaf_triangles> near;
     for (Index s = a.first; s < a.last; ++s) {
       const Box& box = triangle_boxes_[s];

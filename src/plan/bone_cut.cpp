@@ -39,7 +39,7 @@ constexpr int most_stops = 20;
 constexpr double search_spacing_mm = 1, search_outside_mm = 1;
 
 /// A body without what is soft, and without what lies in the ball; which triangles of the mesh these are.
-motion::PartOfMesh counted(const Body& body, const Mesh& mesh, const Counting& counts,
+motion::PartOfMesh counted(const Body& body, const Mesh& mesh, const Included& counts,
                            const std::optional<BearingBall>& ball) {
   TriMesh part{mesh.vertices(), {}};
   std::vector<Index> in_whole;
@@ -68,7 +68,7 @@ std::vector<std::uint8_t> with_neighbours(const TriMesh& mesh, std::vector<std::
 
 }  // namespace
 
-bool Counting::operator()(const Body& body, std::size_t triangle) const {
+bool Included::operator()(const Body& body, std::size_t triangle) const {
   const BodyPart* part = part_of_triangle(body, triangle);
   return !part || part->contact == PartContact::ends ||
          (part->contact == PartContact::bearing && !leaves_out_bearing);
@@ -90,7 +90,7 @@ BoneCut::BoneCut(const Joint& joint, BodyRole cut_role, const ResectionRequest& 
   if (bearing_ && request.range.bearing.rule == BearingRule::leave_out) ball_.emplace(*bearing_);
   const bool cuts_mobile = role_ == BodyRole::mobile;
   const Body& other = cuts_mobile ? joint.fixed : joint.mobile;
-  const Counting of_other = counting(cuts_mobile ? BodyRole::fixed : BodyRole::mobile);
+  const Included of_other = included(cuts_mobile ? BodyRole::fixed : BodyRole::mobile);
   const Mesh solid = counted(other, other.mesh, of_other, std::nullopt).mesh;
   if (!solid.is_closed())
     throw MeshError(other.name + ": its mesh is open, and bone that an open mesh sweeps over cannot be told");
@@ -111,7 +111,7 @@ BoneCut::BoneCut(const Joint& joint, BodyRole cut_role, const ResectionRequest& 
   cut();
 }
 
-Counting BoneCut::counting(BodyRole role) const {
+Included BoneCut::included(BodyRole role) const {
   return {role == BodyRole::mobile && request_.range.bearing.rule == BearingRule::leave_out};
 }
 
@@ -125,7 +125,7 @@ std::vector<SweepTo> BoneCut::sweeps_to_reach() const {
 /// place that was met.
 std::vector<std::uint8_t> BoneCut::to_cut(const TriMesh& pieces, const std::vector<Index>& before,
                                           const std::vector<std::uint8_t>& asked) const {
-  const Counting counts = counting(role_);
+  const Included counts = included(role_);
   const auto bears = [&](const std::array<Vec3, 3>& corners) {
     return role_ == BodyRole::mobile && ball_ && ball_->holds(corners[0]) && ball_->holds(corners[1]) &&
            ball_->holds(corners[2]);
@@ -233,9 +233,9 @@ void BoneCut::refine() {
 }
 
 /// What no vertex reaches from where it is may go from elsewhere: no bone stops that motion, but no depth can follow it.
-void BoneCut::refuse_too_deep(const std::vector<InTheWay>& left) const {
+void BoneCut::refuse_too_deep(const std::vector<Obstruction>& left) const {
   if (kept().deepest_mm) return;
-  for (const InTheWay& each : left)
+  for (const Obstruction& each : left)
     if (each.by == KeptBy::depth)
       throw MeshError(bone_.name + ": a cut for " + asked(each.target) +
                       " goes deeper than a depth below the surface can follow: ask for less");
@@ -258,11 +258,12 @@ std::string BoneCut::asked(std::size_t target) const {
 
 bool BoneCut::lower_for_reach() {
   surface_->restore();
-  const std::vector<InTheWay> left = surface_->lower(sweeps_to_reach());
+  const std::vector<Obstruction> left = surface_->lower(sweeps_to_reach());
   bool stopped = false;
-  for (const InTheWay& in_the_way : left)
-    stopped = stop(in_the_way.target, Angle::radians(in_the_way.from_rad), in_the_way.by, in_the_way.point) ||
-              stopped;
+  for (const Obstruction& obstruction : left)
+    stopped =
+        stop(obstruction.target, Angle::radians(obstruction.from_rad), obstruction.by, obstruction.point) ||
+        stopped;
   return !stopped;
 }
 
@@ -274,12 +275,12 @@ void BoneCut::want_too(const std::vector<Place>& places) {
 
 /// All that still meets the other bone. Empty if every target is reached.
 std::vector<Met> BoneCut::what_meets() const {
-  const motion::PartOfMesh part = counted(surface_->body(), surface_->mesh(), counting(role_),
+  const motion::PartOfMesh part = counted(surface_->body(), surface_->mesh(), included(role_),
                                           role_ == BodyRole::mobile ? ball_ : std::nullopt);
   const motion::FeatureTree tree(part.mesh);
   std::vector<Met> met;
   for (std::size_t t = 0; t < targets_.size(); ++t) {
-    const auto contacts = exact_[t]->in_the_way(tree, reach_[t]);
+    const auto contacts = exact_[t]->obstructions(tree, reach_[t]);
     if (!contacts)
       throw MeshError(bone_.name + ": what is left would lie inside the other bone at the start of " +
                       targets_[t].motion.name);
@@ -443,7 +444,7 @@ bool BoneCut::sweeps_bearing() const {
     for (const Index v : t)
       if (ball_->holds(bone_.mesh.vertices()[v])) points.push_back(bone_.mesh.vertices()[v]);
   for (std::size_t i = 0; i < sweeps_.size(); ++i) {
-    const std::vector<double> first = sweeps_[i]->counting_all().first_inside(points, reach_[i]);
+    const std::vector<double> first = sweeps_[i]->including_all().first_inside(points, reach_[i]);
     if (std::any_of(first.begin(), first.end(), [](double angle) { return std::isfinite(angle); }))
       return true;
   }

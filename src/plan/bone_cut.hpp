@@ -28,7 +28,7 @@ struct StoppedAt {
 
 /// Whether contact of a triangle may end a motion: not of what is soft, nor, where bearing contact does not count, of what of the mobile
 /// body is called bearing.
-struct Counting {
+struct Included {
   bool leaves_out_bearing;
 
   bool operator()(const Body& body, std::size_t triangle) const;
@@ -55,7 +55,7 @@ class BoneCut {
   const std::vector<std::optional<StoppedAt>>& stopped() const noexcept { return stopped_; }
 
  private:
-  Counting counting(BodyRole role) const;
+  Included included(BodyRole role) const;
   std::vector<SweepTo> sweeps_to_reach() const;
   std::vector<std::uint8_t> to_cut(const TriMesh& pieces, const std::vector<Index>& before,
                                    const std::vector<std::uint8_t>& asked) const;
@@ -71,7 +71,7 @@ class BoneCut {
   bool may_all_go(const std::vector<Met>& met);
   bool correct();
   bool finish();
-  void refuse_too_deep(const std::vector<InTheWay>& left) const;
+  void refuse_too_deep(const std::vector<Obstruction>& left) const;
   bool stop(std::size_t target, Angle at, KeptBy by, const Vec3& point);
 
   const Joint& joint_;

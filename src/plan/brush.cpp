@@ -53,8 +53,8 @@ std::vector<Index> numbers_to(std::size_t count) {
 std::vector<Vec3> ways_of(const Mesh& before, double edge_mm) {
   const double reach = edge_mm > 0 ? brush_smoothing_mm / edge_mm : 1;
   const int means = std::clamp(static_cast<int>(std::min(reach * reach, 1e6)), 1, most_brush_means);
-  return plan::inward_ways(before, numbers_to(before.vertices().size()),
-                           numbers_to(before.triangles().size()), means);
+  return plan::inward_directions(before, numbers_to(before.vertices().size()),
+                                 numbers_to(before.triangles().size()), means);
 }
 
 /// A vertex on its way from one depth to another, of which it goes a share.

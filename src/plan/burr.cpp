@@ -78,13 +78,14 @@ Burr::Ball Burr::freest(const Vec3& p, const Vec3& outwards) const {
   for (int i = 0; i < most_leanings; ++i) {
     Vec3 nearest = p;
     double least = radius_;
-    const auto look = [&](const Vec3& q) {
+    const auto consider = [&](const Vec3& q) {
       if (const double distance = (q - ball.centre).norm(); distance < least) least = distance, nearest = q;
     };
     const Around around = in_ball(ball.centre);
-    for (const Index v : around.vertices) look(surface_.at(v));
+    for (const Index v : around.vertices) consider(surface_.at(v));
     for (const Index t : around.triangles)
-      look(mesh::nearest_on_triangle(ball.centre, {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}));
+      consider(
+          mesh::nearest_on_triangle(ball.centre, {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}));
     ball.enters_mm = radius_ - least;
     if (ball.enters_mm < best.enters_mm) best = ball;
     if (best.enters_mm <= tolerance_mm) break;

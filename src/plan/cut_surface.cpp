@@ -107,7 +107,7 @@ void CutSurface::smooth_directions(double over_mm) {
   // Means over neighbours, as far as the near triangles go.
   const double turns = over_mm / edge_mm_;
   const std::vector<Vec3> inwards =
-      inward_ways(body_.mesh, near_vertices_, near_, static_cast<int>(turns * turns));
+      inward_directions(body_.mesh, near_vertices_, near_, static_cast<int>(turns * turns));
   for (const Index v : near_vertices_) vertices_[v].inwards = inwards[v];
 }
 
@@ -306,9 +306,9 @@ std::vector<Index> CutSurface::lower_between_vertices(const std::vector<Index>& 
   return changed;
 }
 
-std::vector<InTheWay> CutSurface::left_in_the_way(const std::vector<Index>& triangles,
-                                                  const std::vector<SweepTo>& sweeps) const {
-  std::vector<InTheWay> left;
+std::vector<Obstruction> CutSurface::left_obstructions(const std::vector<Index>& triangles,
+                                                       const std::vector<SweepTo>& sweeps) const {
+  std::vector<Obstruction> left;
   std::optional<mesh::WindingNumber> before;
   const auto is_bone = [&](const Vec3& p) {
     if (!before) before.emplace(body_.mesh);
@@ -327,16 +327,16 @@ std::vector<InTheWay> CutSurface::left_in_the_way(const std::vector<Index>& tria
   return left;
 }
 
-std::vector<InTheWay> CutSurface::lower(const std::vector<SweepTo>& sweeps) {
+std::vector<Obstruction> CutSurface::lower(const std::vector<SweepTo>& sweeps) {
   lower_vertices(near_vertices_, sweeps);
   lower_overhangs(sweeps);
   std::vector<Index> changed = near_;
   for (int round = 0; round < rounds && !changed.empty(); ++round)
     changed = lower_between_vertices(changed, sweeps);
-  return left_in_the_way(near_, sweeps);
+  return left_obstructions(near_, sweeps);
 }
 
-std::vector<InTheWay> CutSurface::left_at_room(const std::vector<SweepTo>& sweeps) const {
+std::vector<Obstruction> CutSurface::left_at_room(const std::vector<SweepTo>& sweeps) const {
   std::vector<Index> ended;
   for (const Index t : near_) {
     const Triangle& corners = body_.mesh.triangles()[t];
@@ -344,7 +344,7 @@ std::vector<InTheWay> CutSurface::left_at_room(const std::vector<SweepTo>& sweep
                     [&](Index v) { return !vertices_[v].kept && vertices_[v].depth_mm > 0 && !may_go(v); }))
       ended.push_back(t);
   }
-  return left_in_the_way(ended, sweeps);
+  return left_obstructions(ended, sweeps);
 }
 
 bool CutSurface::unfold() {

@@ -15,7 +15,7 @@
 namespace condyle::plan {
 
 /// A place that stays in the way of a target.
-struct InTheWay {
+struct Obstruction {
   std::size_t target;
   double from_rad;  ///< where its motion is stopped
   KeptBy by;
@@ -71,9 +71,9 @@ class CutSurface {
   /// Back to where it was.
   void restore();
   /// Lowers the vertices until the surface is clear of everything that the sweeps cover, and says what stays in the way.
-  std::vector<InTheWay> lower(const std::vector<SweepTo>& sweeps);
+  std::vector<Obstruction> lower(const std::vector<SweepTo>& sweeps);
   /// What stays in the way however much of the surface is lowered: below triangles whose corners are all as deep as they may go.
-  std::vector<InTheWay> left_at_room(const std::vector<SweepTo>& sweeps) const;
+  std::vector<Obstruction> left_at_room(const std::vector<SweepTo>& sweeps) const;
   /// Depths, and how deep vertices may go.
   void scale_depths(double by);
   /// A vertex so deep, or as deep as it may go; never higher than it is.
@@ -112,8 +112,8 @@ class CutSurface {
                                    const std::vector<SweepTo>& sweeps) const;
   std::vector<Index> lower_between_vertices(const std::vector<Index>& triangles,
                                             const std::vector<SweepTo>& sweeps);
-  std::vector<InTheWay> left_in_the_way(const std::vector<Index>& triangles,
-                                        const std::vector<SweepTo>& sweeps) const;
+  std::vector<Obstruction> left_obstructions(const std::vector<Index>& triangles,
+                                             const std::vector<SweepTo>& sweeps) const;
   Probe probe_below(const SurfacePoint& point) const;
   std::vector<Index> beside(const SurfacePoint& point) const;
   void take(Index vertex, double depth, const Need& need);

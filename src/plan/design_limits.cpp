@@ -205,7 +205,7 @@ struct DesignLimits::Parts {
     };
     add(counted.fixed, joint.fixed, BodyRole::fixed, of_fixed);
     add(counted.mobile, joint.mobile, BodyRole::mobile, of_mobile);
-    for (const motion::PairOfParts& pair : counted.ending)
+    for (const motion::PairOfParts& pair : counted.impinging)
       for (const std::size_t f : of_fixed[pair.fixed])
         for (const std::size_t m : of_mobile[pair.mobile]) add_pair(f, m);
     tables = std::vector<core::Lazy<Table>>(meshes.size() * turns.size());

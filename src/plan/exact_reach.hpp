@@ -17,12 +17,12 @@ class ExactReach {
 
   /// Every feature of the cut bone that is in the way, with a point of it, in the bone's own frame; none if the motion goes as far as
   /// `reach`. Of bodies that are in contact at the start one feature, or empty if no surfaces meet there: one is inside the other.
-  std::optional<std::vector<motion::FeatureContact>> in_the_way(const motion::FeatureTree& cut,
-                                                                Angle reach) const;
+  std::optional<std::vector<motion::FeatureContact>> obstructions(const motion::FeatureTree& cut,
+                                                                  Angle reach) const;
 
  private:
   motion::FeatureTree tree_;
-  TurningBone turning_;
+  RotatingBone rotating_;
   motion::RotationTable table_;
 };
 

@@ -5,8 +5,8 @@
 
 namespace condyle::plan {
 
-std::vector<Vec3> inward_ways(const TriMesh& mesh, std::span<const Index> vertices,
-                              std::span<const Index> triangles, int means) {
+std::vector<Vec3> inward_directions(const TriMesh& mesh, std::span<const Index> vertices,
+                                    std::span<const Index> triangles, int means) {
   const Points normals = mesh::area_normals(mesh);
   std::vector<Vec3> inwards(mesh.vertices.size(), Vec3::Zero()), sum(inwards.size(), Vec3::Zero());
   for (const Index v : vertices) inwards[v] = -core::ordered_direction(normals[v]);

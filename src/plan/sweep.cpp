@@ -29,7 +29,7 @@ std::optional<Interval> while_outside(const AxisFrame& axis, const Vec3& point, 
 
 }  // namespace
 
-TurningBone::TurningBone(const Joint& joint, BodyRole cut, const Motion& motion)
+RotatingBone::RotatingBone(const Joint& joint, BodyRole cut, const Motion& motion)
     : axis(Vec3::Zero(), Vec3::UnitZ()), at_start(pose_at(joint.coordinates(), motion.start)) {
   const Vec3 in_fixed = axis_of(motion.vary, joint.coordinates(), motion.start);
   sense = sign_of(motion.sense);
@@ -45,16 +45,16 @@ TurningBone::TurningBone(const Joint& joint, BodyRole cut, const Motion& motion)
 
 Sweep::Sweep(const Joint& joint, BodyRole cut, const Mesh& other, const Motion& motion,
              const std::optional<BearingBall>& ball)
-    : cut_(cut), turning_(joint, cut, motion), rings_(other, turning_.axis), ball_(ball) {}
+    : cut_(cut), rotating_(joint, cut, motion), rings_(other, rotating_.axis), ball_(ball) {}
 
-Sweep Sweep::counting_all() const {
+Sweep Sweep::including_all() const {
   Sweep all = *this;
   all.ball_.reset();
   return all;
 }
 
 std::vector<double> Sweep::first_inside(PointsView points, Angle reach) const {
-  const Points started = posed(turning_.at_start, points);
+  const Points started = posed(rotating_.at_start, points);
   const OccupiedArcs arcs = rings_.occupied_arcs(started);
   std::vector<double> first(points.size(), never);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -68,20 +68,20 @@ double Sweep::first_of(const Vec3& started, std::span<const OccupiedArc> arcs, d
   // Points of the fixed body count if the mobile bone that they are in is outside the ball.
   std::optional<Interval> counts = Interval{0, 2 * two_pi};
   if (ball_ && cut_ == BodyRole::fixed)
-    counts = while_outside(turning_.axis, started, ball_->centre, ball_->radius_mm);
+    counts = while_outside(rotating_.axis, started, ball_->centre, ball_->radius_mm);
   if (!counts) return never;
   double first = never;
   for (const OccupiedArc& arc : arcs) {
     Interval inside{arc.begin.radians(), arc.end.radians()};
-    Interval counting = *counts;
-    if (turning_.sense < 0) {
+    Interval included = *counts;
+    if (rotating_.sense < 0) {
       inside = {two_pi - inside.end, two_pi - inside.begin};
-      counting = {two_pi - counting.end, two_pi - counting.begin};
+      included = {two_pi - included.end, two_pi - included.begin};
     }
     for (const double turn : {-two_pi, 0.0, two_pi})
-      for (const double counting_turn : {-two_pi, 0.0, two_pi}) {
-        const double begin = std::max({0.0, inside.begin + turn, counting.begin + counting_turn}),
-                     end = std::min({reach, inside.end + turn, counting.end + counting_turn});
+      for (const double included_turn : {-two_pi, 0.0, two_pi}) {
+        const double begin = std::max({0.0, inside.begin + turn, included.begin + included_turn}),
+                     end = std::min({reach, inside.end + turn, included.end + included_turn});
         if (begin <= end) first = std::min(first, begin);
       }
   }

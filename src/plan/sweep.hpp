@@ -25,12 +25,12 @@ struct BearingBall {
 };
 
 /// One motion as the bone that is cut sees it: the other bone rests, and the cut one turns about an axis in it.
-struct TurningBone {
+struct RotatingBone {
   AxisFrame axis;  ///< in the other bone
   Pose at_start;   ///< of the cut bone in the other one
   double sense;    ///< of its turn about the axis: -1 or 1
 
-  TurningBone(const Joint& joint, BodyRole cut, const Motion& motion);
+  RotatingBone(const Joint& joint, BodyRole cut, const Motion& motion);
 };
 
 /// Angles at which points of a bone are inside the other one while a motion goes on.
@@ -48,7 +48,7 @@ class Sweep {
   Sweep(const Joint& joint, BodyRole cut, const Mesh& other, const Motion& motion,
         const std::optional<BearingBall>& ball);
   /// The same without the ball.
-  Sweep counting_all() const;
+  Sweep including_all() const;
 
   /// For each point of the cut bone, in its frame: the angle from the motion's start, rad, at which it is first inside the other
   /// bone; infinity if that is beyond `reach`.
@@ -58,7 +58,7 @@ class Sweep {
   double first_of(const Vec3& started, std::span<const OccupiedArc> arcs, double reach) const;
 
   BodyRole cut_;
-  TurningBone turning_;
+  RotatingBone rotating_;
   RingTable rings_;
   std::optional<BearingBall> ball_;
 };

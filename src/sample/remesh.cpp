@@ -52,7 +52,7 @@ class Remesher {
   }
 
   /// Instead of laying them, for vertices on the surface.
-  void look_where_surface_faces() {
+  void orient_faces() {
     for (Index v = 0; v < mesh_.vertex_end(); ++v)
       outward_[v] = solid_(mesh_.position(v)).gradient.normalized();
   }
@@ -261,7 +261,7 @@ TriMesh remeshed(const TriMesh& start, const Field& solid, const Sizing& sizing,
 
 TriMesh refined(const TriMesh& mesh, const Field& solid, const Sizing& sizing, std::size_t vertex_count) {
   Remesher remesher(mesh, solid, sizing);
-  remesher.look_where_surface_faces();
+  remesher.orient_faces();
   remesher.reach(vertex_count);
   remesher.flip_all();
   remesher.relax_once();

@@ -52,7 +52,7 @@ TEST_P(HipBalance, CarriesTheLoadAtEveryAngle) {
   EXPECT_LE(deepest, 1.5);
 }
 
-std::string name_of_way(const testing::TestParamInfo<Way>& info) {
+std::string name_of_kind(const testing::TestParamInfo<Way>& info) {
   constexpr std::array names = {"Fixed", "Mobile", "Both"};
   return names[static_cast<std::size_t>(info.param.casting)] +
          std::string(info.param.rule == FaceRule::face_centre ? "FaceCentre" : "CutFaces");
@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, HipBalance,
                                          Way{Casting::mobile, FaceRule::face_centre, 29},
                                          Way{Casting::mobile, FaceRule::cut_faces, 30},
                                          Way{Casting::both, FaceRule::cut_faces, 30}),
-                         name_of_way);
+                         name_of_kind);
 
 TEST(RefusedLoad, LeavesNoMoreOnBonesThanWasApplied) {
   const auto data = test::shared_data();

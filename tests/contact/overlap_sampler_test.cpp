@@ -14,8 +14,8 @@ TriMesh moved(TriMesh mesh, const Vec3& by) {
   return mesh;
 }
 
-OverlapSampler::Found found_at(const OverlapSampler& sampler, const Pose& X_CT) {
-  OverlapSampler::Found found;
+OverlapSampler::Results found_at(const OverlapSampler& sampler, const Pose& X_CT) {
+  OverlapSampler::Results found;
   sampler.sample(X_CT, Quadrature::of_degree_2, {}, found);
   return found;
 }

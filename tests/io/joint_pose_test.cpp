@@ -169,7 +169,7 @@ const JointCoordinates bent{{Angle::degrees(40), Angle::degrees(-3), Angle::degr
 TEST(PoseMatrix, IsThePoseBitForBitAndItsCoordinatesAreTold) {
   const Joint knee = joint_of(JointKind::free, Anatomy::knee);
   const Pose X = pose_at(knee.coordinates(), bent, TranslationFrame::fixed);
-  const GivenPose given = given_pose(matrix_text(X), knee);
+  const PoseArgument given = given_pose(matrix_text(X), knee);
   EXPECT_TRUE(given.X_FM.matrix() == X.matrix());
   EXPECT_TRUE(given.notes.empty());
   EXPECT_NEAR(given.pose.flexion, 40, 1e-12);
@@ -183,7 +183,7 @@ TEST(PoseMatrix, WithSevenDigitsIsMadeARotationAndSaysSo) {
   const Pose X = pose_at(knee.coordinates(), bent, TranslationFrame::fixed);
   Pose rounded = X;
   rounded.matrix() = (X.matrix() * 1e7).array().round() / 1e7;
-  const GivenPose given = given_pose(matrix_text(rounded), knee);
+  const PoseArgument given = given_pose(matrix_text(rounded), knee);
   ASSERT_EQ(given.notes.size(), 1u);
   EXPECT_NE(given.notes[0].find("the nearest one is used"), std::string::npos);
   const Eigen::Matrix3d R = given.X_FM.linear();

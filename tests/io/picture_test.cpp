@@ -129,8 +129,8 @@ Picture coloured(const Joint& joint, PictureColour colour, std::optional<double>
                  Hidden hidden = Hidden::none) {
   PictureOptions options = bare_square("anterior");
   options.colour = colour, options.range_mm = range_mm;
-  if (hidden == Hidden::fixed) options.fixed = BodyLook::hidden;
-  if (hidden == Hidden::mobile) options.mobile = BodyLook::hidden;
+  if (hidden == Hidden::fixed) options.fixed = BodyStyle::hidden;
+  if (hidden == Hidden::mobile) options.mobile = BodyStyle::hidden;
   return draw_joint(joint, {}, Pose::Identity(), options);
 }
 
@@ -179,7 +179,7 @@ TEST(PictureColours, HatchDepthsThatAreOnlyBounds) {
   Pose X_FM = Pose::Identity();
   X_FM.translation() = Vec3(1e-9, 0, 0);  // so that no arcs are asked for
   const PictureOptions options{.view = view_named("superior", Side::right),
-                               .fixed = BodyLook::hidden,
+                               .fixed = BodyStyle::hidden,
                                .width = 400,
                                .height = 400,
                                .field_mm = 400};
@@ -215,10 +215,10 @@ TEST(Picture, LeavesOutWhatIsHiddenAndShowsThroughGlass) {
   };
   EXPECT_GT(count(io::fixed_bone), 1000u);
   EXPECT_GT(count(io::mobile_bone), 1000u);
-  options.mobile = BodyLook::hidden;
+  options.mobile = BodyStyle::hidden;
   EXPECT_EQ(count(io::mobile_bone), 0u);
   EXPECT_GT(count(io::fixed_bone), 1000u);
-  options.mobile = BodyLook::transparent;
+  options.mobile = BodyStyle::transparent;
   const Rgb middle = middle_of(draw_joint(joint, {}, Pose::Identity(), options));
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_LT(std::min(io::fixed_bone[k], io::mobile_bone[k]), middle[k]);
@@ -280,7 +280,7 @@ TEST(Picture, FitsBothBodiesWhateverIsHidden) {
   // 390 mm within 92 % of 200 pixels: the boxes are 4.7 pixels high, at either end of the picture's middle column.
   expect_colour(pixel(both, 100, 10), io::fixed_bone, 1, "fixed");
   expect_colour(pixel(both, 100, 189), io::mobile_bone, 1, "mobile");
-  options.fixed = BodyLook::hidden;
+  options.fixed = BodyStyle::hidden;
   const Picture one = draw_joint(joint, {}, Pose::Identity(), options);
   expect_colour(pixel(one, 100, 10), io::white, 0, "fixed");
   expect_colour(pixel(one, 100, 189), io::mobile_bone, 1, "mobile");
@@ -315,7 +315,7 @@ TEST(Picture, IsTheSameBytesOnOneThreadAndOnTwo) {
   const auto draw = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     return draw_joint(joint, {}, Pose::Identity(),
-                      {.fixed = BodyLook::transparent, .width = 300, .height = 200})
+                      {.fixed = BodyStyle::transparent, .width = 300, .height = 200})
         .rgb;
   };
   EXPECT_EQ(draw(1), draw(2));

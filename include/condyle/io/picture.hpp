@@ -26,7 +26,7 @@ enum class PictureColour {
   nearest,  ///< to the nearest point of the other surface, negative inside
 };
 
-enum class BodyLook { solid, transparent, hidden };
+enum class BodyStyle { solid, transparent, hidden };
 
 /// Where the viewer is, as seen from the joint, and what points up in the picture: unit vectors in F at a right angle.
 struct ViewDirection {
@@ -55,7 +55,7 @@ struct PictureOptions {
   ViewDirection view = {};
   PictureColour colour = PictureColour::depth;
   /// Where depths are shown and both are solid, the outer one is drawn as glass: they would be hidden.
-  BodyLook fixed = BodyLook::solid, mobile = BodyLook::solid;
+  BodyStyle fixed = BodyStyle::solid, mobile = BodyStyle::solid;
   std::size_t width = 1200, height = 900;  ///< pixels, 64 to 8192
   /// End of the colours; where not given 8 mm, for depths the first of 1, 2, 5, 10 ... that holds them.
   std::optional<double> range_mm = {};

@@ -36,7 +36,7 @@ struct PoseDegrees {
 PoseDegrees parse_pose(std::string_view text, JointKind kind, Anatomy joint);
 
 /// A pose as it is used and by its coordinates.
-struct GivenPose {
+struct PoseArgument {
   PoseDegrees pose;
   Pose X_FM;
   std::vector<std::string> notes = {};  ///< one line each: what was made of it
@@ -50,7 +50,7 @@ bool is_matrix(std::string_view text) noexcept;
 /// within 1e-6; where it is not to rounding the nearest rotation is used, and a note says so. Throws UsageError for
 /// anything else, for a matrix with a translation if the joint does not translate, and for one that turns a hinge out of
 /// its axis.
-GivenPose given_pose(std::string_view text, const Joint& joint);
+PoseArgument given_pose(std::string_view text, const Joint& joint);
 
 /// The pose as parse_pose() reads it, every digit of it: "flexion=90 adduction=-10 internal_rotation=20".
 std::string to_text(const PoseDegrees& pose, Anatomy joint);

@@ -71,7 +71,7 @@ void for_each_word(std::string_view text, const Word& word) {
   }
 }
 
-GivenPose pose_of_matrix(std::string_view text) {
+PoseArgument pose_of_matrix(std::string_view text) {
   std::vector<double> m;
   for_each_word(text, [&](std::string_view word) {
     const auto value = number_from(word);
@@ -85,7 +85,7 @@ GivenPose pose_of_matrix(std::string_view text) {
   std::copy(m.begin(), m.end(), rows.begin());
   try {
     const auto [X_FM, skew] = io::pose_of_rows(rows);
-    GivenPose given{{}, X_FM};
+    PoseArgument given{{}, X_FM};
     if (skew > 0)
       given.notes.push_back(
           fmt::format("the rotation of the matrix was off by {:.2g}; the nearest one is used", skew));
@@ -138,13 +138,13 @@ bool is_matrix(std::string_view text) noexcept {
   return first != text.npos && std::string_view("0123456789+-.").find(text[first]) != text.npos;
 }
 
-GivenPose given_pose(std::string_view text, const Joint& joint) {
+PoseArgument given_pose(std::string_view text, const Joint& joint) {
   const CoordinateSystem system = joint.coordinates();
   if (!is_matrix(text)) {
     const PoseDegrees pose = parse_pose(text, joint.kind, joint.anatomy);
     return {pose, pose_at(system, pose.coordinates(), joint.translation_frame)};
   }
-  GivenPose given = pose_of_matrix(text);
+  PoseArgument given = pose_of_matrix(text);
   const auto [angles, translation] = coordinates_at(system, given.X_FM, joint.translation_frame);
   given.pose = {angles.flexion.degrees(), angles.adduction.degrees(), angles.internal_rotation.degrees(),
                 translation};

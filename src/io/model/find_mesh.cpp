@@ -29,10 +29,10 @@ std::optional<fs::path> in_any_case(const fs::path& path) {
 
 }  // namespace
 
-FoundMesh find_mesh(std::string name, const fs::path& folder, std::span<const fs::path> others) {
+MeshLocation find_mesh(std::string name, const fs::path& folder, std::span<const fs::path> others) {
   std::replace(name.begin(), name.end(), '\\', '/');
   const fs::path file(name);
-  FoundMesh found;
+  MeshLocation found;
   if (file.is_absolute()) {
     found.looked_in = {file};
   } else {

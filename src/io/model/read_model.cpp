@@ -194,8 +194,8 @@ class ModelReader {
     return X;
   }
 
-  FoundMesh found_mesh(const std::string& file) {
-    FoundMesh found = find_mesh(file, folder_, folders_);
+  MeshLocation found_mesh(const std::string& file) {
+    MeshLocation found = find_mesh(file, folder_, folders_);
     if (found.in_another_case)
       model_.notes.push_back(
           {ModelNoteCode::other_case, fmt::format("mesh {} was found as {}", in_quotes(file),
@@ -207,7 +207,7 @@ class ModelReader {
     if (file.empty()) return;
     of.require_plain(file, "the name of its file");
     mesh.file = std::move(file);
-    FoundMesh found = found_mesh(mesh.file);
+    MeshLocation found = found_mesh(mesh.file);
     mesh.path = std::move(found.path);
     mesh.looked_in = std::move(found.looked_in);
     model_.meshes.push_back(std::move(mesh));
@@ -225,7 +225,7 @@ class ModelReader {
     contact.mesh.scale = values.triple({"scale_factors"}, Vec3::Ones());
     contact.mesh.file = values.text("mesh_file");
     if (contact.mesh.file.empty()) values.fail("mesh_file is missing");
-    FoundMesh found = found_mesh(contact.mesh.file);
+    MeshLocation found = found_mesh(contact.mesh.file);
     contact.mesh.path = std::move(found.path);
     contact.mesh.looked_in = std::move(found.looked_in);
     contact.youngs_modulus_pa = values.number("elastic_modulus", 1e6);

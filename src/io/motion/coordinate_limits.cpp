@@ -34,7 +34,7 @@ void add_item(std::string& list, const std::string& item) {
 
 }  // namespace
 
-void BeyondLimits::look_at(const CoordinateLimits& limits, std::span<const double> values) {
+void BeyondLimits::check(const CoordinateLimits& limits, std::span<const double> values) {
   const char* unit = limits.kind == CoordinateKind::angle ? "degrees" : "mm";
   Departures from_range, from_lock;
   for (const double value : values) {

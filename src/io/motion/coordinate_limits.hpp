@@ -22,7 +22,7 @@ struct CoordinateLimits {
 class BeyondLimits {
  public:
   /// `values`: one per frame, degrees or mm, NaN for gaps.
-  void look_at(const CoordinateLimits& limits, std::span<const double> values);
+  void check(const CoordinateLimits& limits, std::span<const double> values);
 
   std::vector<ContactNote> notes() const;
 

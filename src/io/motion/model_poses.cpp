@@ -43,7 +43,7 @@ class ModelMotion {
     BeyondLimits beyond;
     for (const ModelCoordinate& coordinate : joint_->coordinates) {
       values.push_back(values_of(*joint_, coordinate, 0));
-      look_at(coordinate, values.back(), beyond);
+      check(coordinate, values.back(), beyond);
       check_unit(coordinate, values.back(), out.notes);
     }
     add_new(out.notes, beyond.notes());
@@ -176,7 +176,7 @@ class ModelMotion {
     return values;
   }
 
-  void look_at(const ModelCoordinate& coordinate, std::vector<double> values, BeyondLimits& beyond) const {
+  void check(const ModelCoordinate& coordinate, std::vector<double> values, BeyondLimits& beyond) const {
     const bool is_length = coordinate.motion == CoordinateMotion::translational;
     const double unit = is_length ? mm_per(LengthUnit::metres) : 180 / std::numbers::pi;
     CoordinateLimits limits{joint_->name + "/" + coordinate.name,
@@ -185,7 +185,7 @@ class ModelMotion {
     if (coordinate.is_locked && column_of(table_, joint_->name, coordinate.name))
       limits.locked_at = unit * coordinate.default_value;
     for (double& value : values) value *= unit;
-    beyond.look_at(limits, values);
+    beyond.check(limits, values);
   }
 
   /// Notes angles that look like another unit. Lengths are checked by the poses that they lead to.

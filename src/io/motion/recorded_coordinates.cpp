@@ -79,13 +79,13 @@ NamedCoordinates recorded_coordinates(const MotionTable& table,
                                            is_angle ? "degrees" : "mm"));
       for (auto& frame : out.frames)
         if (frame) frame->push_back(entry.sign * *entry.otherwise + entry.offset);
-      beyond.look_at(coordinate_limits_of(entry), std::vector<double>(table.rows, *entry.otherwise));
+      beyond.check(coordinate_limits_of(entry), std::vector<double>(table.rows, *entry.otherwise));
       continue;
     }
     std::vector<double> column = table.values[io::column_named(table, entry.column)];
     const ColumnUnit unit = unit_of(table, entry);
     for (double& value : column) value = converted(value, unit);
-    beyond.look_at(coordinate_limits_of(entry), column);
+    beyond.check(coordinate_limits_of(entry), column);
     for (std::size_t row = 0; row < table.rows; ++row) {
       auto& frame = out.frames[row];
       if (!frame) continue;

@@ -90,12 +90,12 @@ Camera camera_of(const PictureOptions& options, const TriMesh& fixed, const TriM
 class Surface {
  public:
   Surface(const TriMesh& posed_mesh, const SurfaceValues& values, const ColourScale& scale, Rgb bone,
-          BodyLook look, const Camera& camera, std::size_t columns, std::size_t rows)
+          BodyStyle style, const Camera& camera, std::size_t columns, std::size_t rows)
       : normals_(mesh::area_normals(posed_mesh)),
         values_(values),
         scale_(scale),
         bone_(bone),
-        look_(look),
+        style_(style),
         camera_(camera),
         mesh_(camera.laid(posed_mesh)),
         rasteriser_(mesh_, columns, rows, strip_pixels * samples) {}
@@ -103,7 +103,7 @@ class Surface {
   Surface& operator=(const Surface&) = delete;
 
   void draw(std::size_t strip, std::span<Hit> hits) const {
-    if (look_ != BodyLook::hidden) rasteriser_.draw(strip, hits);
+    if (style_ != BodyStyle::hidden) rasteriser_.draw(strip, hits);
   }
 
   /// Colour at a sample, laid over the colour behind it.
@@ -118,7 +118,7 @@ class Surface {
     if (normal.dot(camera_.towards_viewer) < 0) normal = -normal;
     const double facing = std::min(1.0, normal.dot(camera_.towards_viewer));
     const double light = brightness(facing, normal.dot(camera_.up));
-    const double cover = look_ == BodyLook::transparent ? cover_of_glass(facing) : 1;
+    const double cover = style_ == BodyStyle::transparent ? cover_of_glass(facing) : 1;
     Rgb colour = own_colour(corners, shares, x, y);
     for (std::size_t k = 0; k < 3; ++k) colour[k] = cover * light * colour[k] + (1 - cover) * behind[k];
     return colour;
@@ -144,7 +144,7 @@ class Surface {
   const SurfaceValues& values_;
   const ColourScale& scale_;
   Rgb bone_;
-  BodyLook look_;
+  BodyStyle style_;
   const Camera& camera_;
   FlatMesh mesh_;
   Rasteriser rasteriser_;
@@ -237,8 +237,8 @@ std::size_t seen_inside(const TriMesh& mesh, const SurfaceValues& values, const 
 /// behind which more is seen; the fixed one where it is even.
 void make_outer_glass(PictureOptions& options, const TriMesh& fixed, const TriMesh& mobile,
                       const BothValues& values, Camera camera, double columns, double rows) {
-  if (options.colour != PictureColour::depth || options.fixed != BodyLook::solid ||
-      options.mobile != BodyLook::solid)
+  if (options.colour != PictureColour::depth || options.fixed != BodyStyle::solid ||
+      options.mobile != BodyStyle::solid)
     return;
   const double coarser = std::min(1.0, coarse_samples / std::max(columns, rows));
   camera.samples_per_mm *= coarser, camera.origin_x *= coarser, camera.origin_y *= coarser;
@@ -247,7 +247,7 @@ void make_outer_glass(PictureOptions& options, const TriMesh& fixed, const TriMe
   const std::size_t of_mobile = seen_inside(mobile, values.mobile, camera, across, down),
                     of_fixed = seen_inside(fixed, values.fixed, camera, across, down);
   if (of_mobile + of_fixed == 0) return;
-  (of_mobile >= of_fixed ? options.fixed : options.mobile) = BodyLook::transparent;
+  (of_mobile >= of_fixed ? options.fixed : options.mobile) = BodyStyle::transparent;
 }
 
 /// Colour at a sample: the nearer body over the other one over white.

@@ -43,7 +43,7 @@ std::string_view name_of(PressureLaw law) noexcept {
   return law == PressureLaw::linear ? "linear" : "logarithmic";
 }
 
-Json contact_terms(const ContactEntry& entry, bool with_pressure) {
+Json contact_caveats(const ContactEntry& entry, bool with_pressure) {
   Json json{{"casting", name_of(entry.casting)},
             {"rule", name_of(entry.rays.rule)},
             {"reach_mm", entry.rays.reach_mm}};
@@ -55,8 +55,8 @@ Json contact_terms(const ContactEntry& entry, bool with_pressure) {
   return json;
 }
 
-std::string contact_terms_text(const ContactEntry& entry, const ContactSurfaces& surfaces,
-                               bool with_pressure) {
+std::string contact_caveats_text(const ContactEntry& entry, const ContactSurfaces& surfaces,
+                                 bool with_pressure) {
   const std::string caster = entry.casting == Casting::both    ? "both surfaces"
                              : entry.casting == Casting::fixed ? surfaces.fixed.name
                                                                : surfaces.mobile.name;

@@ -14,10 +14,10 @@ std::string_view name_of(FaceRule rule) noexcept;
 std::string_view name_of(PressureLaw law) noexcept;
 
 /// casting, rule, reach, and with pressure law, layers and the body whose moment is reported.
-Json contact_terms(const ContactEntry& entry, bool with_pressure);
+Json contact_caveats(const ContactEntry& entry, bool with_pressure);
 /// The same as one line.
-std::string contact_terms_text(const ContactEntry& entry, const ContactSurfaces& surfaces,
-                               bool with_pressure);
+std::string contact_caveats_text(const ContactEntry& entry, const ContactSurfaces& surfaces,
+                                 bool with_pressure);
 
 Json totals_json(const ContactTotals& totals, bool with_pressure);
 

@@ -105,7 +105,7 @@ std::string load_text(const LoadQuestion& question, const LoadAnswer& answer) {
   std::string text = fmt::format("{}: {} in {}, {}\n", joint.name, joint.mobile.name, joint.fixed.name,
                                  to_text(question.pose, joint.anatomy));
   text += io::parameters_text(joint);
-  text += io::contact_terms_text(question.contact, question.surfaces, true);
+  text += io::contact_caveats_text(question.contact, question.surfaces, true);
   for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
   if (answer.balanced) {
     const Vec3 moved = answer.X_FM.translation() - question.X_FM.translation();
@@ -137,7 +137,7 @@ std::string load_json(const LoadQuestion& question, const LoadAnswer& answer) {
             {"anatomy", io::anatomy_json(joint)},
             {"side", name_of(joint.side)},
             {"pose_deg", io::pose_json(question.pose, joint.anatomy)},
-            {"contact", io::contact_terms(question.contact, true)}};
+            {"contact", io::contact_caveats(question.contact, true)}};
   if (joint.kind == JointKind::free) {
     json["translation_mm"] = io::numbers(question.pose.translation_mm);
     json["translation_frame"] = name_of(joint.translation_frame);

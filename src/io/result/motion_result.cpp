@@ -162,7 +162,7 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
                   times.in_seconds ? "" : "numbers ", times.values.front(), times.values.back(), unit);
   text += io::parameters_text(joint);
   if (summary.gaps > 0) text += fmt::format("  {} frames are gaps: no answer there\n", summary.gaps);
-  text += io::contact_terms_text(question.contact, question.surfaces, question.with_pressure);
+  text += io::contact_caveats_text(question.contact, question.surfaces, question.with_pressure);
   for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
   text +=
       fmt::format("  {} {} in contact\n", summary.in_contact, summary.in_contact == 1 ? "frame" : "frames");
@@ -231,7 +231,7 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
              {{"path", question.motion.path.string()},
               {"bytes", question.motion.digest.bytes},
               {"sha256", question.motion.digest.sha256}}},
-            {"contact", io::contact_terms(question.contact, question.with_pressure)},
+            {"contact", io::contact_caveats(question.contact, question.with_pressure)},
             {"frames", summary.frames},
             {"gaps", summary.gaps},
             {"first", times.values.front()},

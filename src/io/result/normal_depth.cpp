@@ -63,7 +63,7 @@ std::string normal_json(const DepthQuestion& question, const DepthAnswer& answer
   io::Json json = io::depth_header(question, answer, "normal");
   json["in_contact"] = contact.in_contact;
   json["triangle_pairs"] = contact.pairs.size();
-  json["rays"] = io::contact_terms(rays_of(answer), false);
+  json["rays"] = io::contact_caveats(rays_of(answer), false);
   io::add_nearest(json, question, answer.measures);
   for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(bodies, *view);
   json["scope"] = scope_text(question.joint);
@@ -103,7 +103,7 @@ std::string normal_text(const DepthQuestion& question, const DepthAnswer& answer
   const NormalViews bodies = views(question, contact);
   const ContactEntry rays = rays_of(answer);
   std::string text = io::depth_headline(question, answer, contact.pairs.size());
-  text += io::contact_terms_text(rays, {question.joint.fixed, question.joint.mobile}, false);
+  text += io::contact_caveats_text(rays, {question.joint.fixed, question.joint.mobile}, false);
   bool any_depth = false;
   for (const auto* view : bodies.both()) {
     if (!view->summary) continue;

@@ -55,7 +55,7 @@ std::optional<DeepestOf> deepest_of(const RadialViews& bodies, const ReliableCon
   return DeepestOf{deepest->is_mobile ? &bodies.mobile : &bodies.fixed, deepest->vertex};
 }
 
-const WayOut* rotation_of(const DeepestReliable& vertex) noexcept {
+const ExitRotation* rotation_of(const DeepestReliable& vertex) noexcept {
   const auto angle = io::angle_of(vertex.way);
   return angle ? &*vertex.rotations[static_cast<std::size_t>(*angle)] : nullptr;
 }
@@ -64,7 +64,7 @@ io::Json reliable_json(const std::optional<DeepestOf>& deepest, Anatomy joint) {
   if (!deepest) return nullptr;
   const auto& [view, vertex] = *deepest;
   const auto angle = io::angle_of(vertex.way);
-  const WayOut* rotation = rotation_of(vertex);
+  const ExitRotation* rotation = rotation_of(vertex);
   io::Json json{{"depth_mm", vertex.depth_mm},
                 {"kind", angle ? "tangential" : "radial"},
                 {"about", angle ? io::Json(name_of(*angle, joint)) : io::Json(nullptr)},
@@ -112,7 +112,7 @@ std::string rays_json(const DepthQuestion& question, const DepthAnswer& answer, 
 
 std::string reliable_text(const DeepestOf& deepest, Anatomy joint) {
   const auto& [view, vertex] = deepest;
-  const WayOut* rotation = rotation_of(vertex);
+  const ExitRotation* rotation = rotation_of(vertex);
   const std::string way =
       rotation ? fmt::format("along the arc of {}, {:.3f} deg", name_of(*io::angle_of(vertex.way), joint),
                              rotation->angle.degrees())

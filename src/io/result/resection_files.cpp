@@ -43,7 +43,7 @@ void draw_depths(OutputFolder& out, std::string_view role, const CutBone& cut,
   PictureOptions options;
   options.view = io::view_of(cut);
   options.colour = PictureColour::none;
-  (role == "mobile" ? options.fixed : options.mobile) = BodyLook::hidden;
+  (role == "mobile" ? options.fixed : options.mobile) = BodyStyle::hidden;
   options.field_mm = io::field_of(cut, options.view);
   options.marks = io::depth_bands(cut);
   write_png(out.file(fmt::format("depth_{}.png", role)),

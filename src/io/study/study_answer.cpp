@@ -116,7 +116,7 @@ void add_map(Cells& fields, const MotionMap& map) {
 }
 
 /// Empty if nothing is a depth.
-std::string name_of_way(DepthWay way, Anatomy joint) {
+std::string name_of_kind(DepthWay way, Anatomy joint) {
   if (const auto angle = angle_of(way)) return std::string(name_of(*angle, joint));
   return way == DepthWay::radial ? "radial" : "";
 }
@@ -139,7 +139,7 @@ void add_depth(Cells& fields, const Joint& joint, const PoseDegrees& at) {
   const auto deepest = deepest_of(std::get<RayDepths>(answer.depths).reliable);
   fields.push_back(answer.in_contact() ? "1" : "0");
   fields.push_back(deepest ? fmt::format("{}", deepest->vertex.depth_mm) : "");
-  fields.push_back(deepest ? name_of_way(deepest->vertex.way, joint.anatomy) : "");
+  fields.push_back(deepest ? name_of_kind(deepest->vertex.way, joint.anatomy) : "");
   fields.push_back(text_of(measures.volume_mm3));
   fields.push_back(measures.volume_mm3 ? fmt::format("{}", measures.volume_error_mm3) : "");
   fields.push_back(measures.volume_mm3 ? fmt::format("{}", measures.mobile_covered_again_mm3 +

@@ -56,7 +56,7 @@ double reach_of(const Mesh& mesh) {
 }
 
 /// Contact found between one sample and the next.
-struct Way {
+struct Segment {
   BetweenSamples searched = BetweenSamples::exact;
   Angle rotation = {};
   ContactParts contacts = {};
@@ -64,9 +64,9 @@ struct Way {
 };
 
 /// The bodies, and what each thread keeps of them.
-class WaySearch {
+class SegmentSearch {
  public:
-  explicit WaySearch(const JointContact& bodies)
+  explicit SegmentSearch(const JointContact& bodies)
       : bodies_(bodies),
         reach_mm_(reach_of(bodies.mobile())),
         fixed_(bodies.fixed()),
@@ -78,19 +78,19 @@ class WaySearch {
   ScrewMotion motion(const Pose& from, const Pose& to) const { return {from, to, reach_mm_}; }
 
   /// The resolution as a fraction of the way.
-  Way search(const ScrewMotion& motion, double resolution) {
-    Way way{BetweenSamples::exact, motion.rotation(), {}, 0};
+  Segment search(const ScrewMotion& motion, double resolution) {
+    Segment segment{BetweenSamples::exact, motion.rotation(), {}, 0};
     if (motion.is_still()) {
-      if (bodies_.in_contact(motion.at(0))) way.contacts = {{0, 1, ContactPart::Proven{0, 1}}};
+      if (bodies_.in_contact(motion.at(0))) segment.contacts = {{0, 1, ContactPart::Proven{0, 1}}};
     } else if (motion.holds_origin()) {
       Worker& worker = workers_.local();
-      way.contacts = motion::rotation_contacts(worker.fixed, worker.mobile, motion);
+      segment.contacts = motion::rotation_contacts(worker.fixed, worker.mobile, motion);
     } else {
-      way.searched = BetweenSamples::bounded;
+      segment.searched = BetweenSamples::bounded;
       motion::ScrewContacts found = motion::screw_contacts({bodies_, fixed_, mobile_}, motion, resolution);
-      way.contacts = std::move(found.contacts), way.poses = found.poses;
+      segment.contacts = std::move(found.contacts), segment.poses = found.poses;
     }
-    return way;
+    return segment;
   }
 
  private:
@@ -107,7 +107,7 @@ class WaySearch {
 /// A place in the recording.
 struct Place {
   std::size_t sample;
-  double fraction;  ///< of the way to the next one
+  double fraction;  ///< of the segment to the next one
 };
 
 /// A contact over one way or several, put together in their order.
@@ -129,10 +129,10 @@ struct Run {
   }
 };
 
-std::vector<Run> runs_of(std::span<const double> time_s, std::span<const Way> ways) {
+std::vector<Run> runs_of(std::span<const double> time_s, std::span<const Segment> segments) {
   std::vector<Run> runs;
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    for (const ContactPart& s : ways[i].contacts) {
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    for (const ContactPart& s : segments[i].contacts) {
       Run run{{i, s.entry}, {i, s.exit}, {}, s.undecided * (time_s[i + 1] - time_s[i]),
               s.at_entry,   s.at_exit};
       if (s.proven) run.proven = Run::Proven{{i, s.proven->first}, {i, s.proven->last}};
@@ -148,23 +148,25 @@ std::vector<Run> runs_of(std::span<const double> time_s, std::span<const Way> wa
   return runs;
 }
 
-RecordedContact put_together(std::span<const double> time_s, std::span<const Way> ways) {
+RecordedContact put_together(std::span<const double> time_s, std::span<const Segment> segments) {
   RecordedContact out;
-  for (const Way& way : ways) out.searched.push_back(way.searched), out.poses += way.poses;
+  for (const Segment& segment : segments)
+    out.searched.push_back(segment.searched), out.poses += segment.poses;
   const auto time = [&](const Place& p) {
     const double from = time_s[p.sample], to = time_s[p.sample + 1];
     return p.fraction == 1 ? to : from + p.fraction * (to - from);
   };
   const auto end_at = [&](const Place& place, bool of_recording, std::optional<ContactWitness> contact) {
-    const Way& way = ways[place.sample];
-    const ContactEndKind kind = of_recording                              ? ContactEndKind::recording
-                                : way.searched == BetweenSamples::bounded ? ContactEndKind::bounded
-                                                                          : ContactEndKind::exact;
-    return ContactEnd{kind, time(place), 0, place.sample, way.rotation * place.fraction, std::move(contact)};
+    const Segment& segment = segments[place.sample];
+    const ContactEndKind kind = of_recording                                  ? ContactEndKind::recording
+                                : segment.searched == BetweenSamples::bounded ? ContactEndKind::bounded
+                                                                              : ContactEndKind::exact;
+    return ContactEnd{
+        kind, time(place), 0, place.sample, segment.rotation * place.fraction, std::move(contact)};
   };
-  for (Run& run : runs_of(time_s, ways)) {
+  for (Run& run : runs_of(time_s, segments)) {
     const bool from_begin = run.entry.sample == 0 && run.entry.fraction == 0;
-    const bool to_end = run.exit.sample + 1 == ways.size() && run.exit.fraction == 1;
+    const bool to_end = run.exit.sample + 1 == segments.size() && run.exit.fraction == 1;
     ContactInterval contact{end_at(run.entry, from_begin, std::move(run.at_entry)),
                             end_at(run.exit, to_end, std::move(run.at_exit)), run.proven.has_value(),
                             run.undecided_s};
@@ -187,7 +189,7 @@ std::optional<RecordedContact> contact_between(const JointContact& bodies, std::
                                                const RecordedContactOptions& options,
                                                const Control& control) {
   check_samples(time_s, X_FM, options);
-  WaySearch search(bodies);
+  SegmentSearch search(bodies);
   std::vector<ScrewMotion> motions;
   for (std::size_t i = 0; i + 1 < X_FM.size(); ++i) {
     motions.push_back(search.motion(X_FM[i], X_FM[i + 1]));
@@ -196,19 +198,19 @@ std::optional<RecordedContact> contact_between(const JointContact& bodies, std::
                        " are more than 179 degrees apart: which way round is not known");
   }
 
-  std::vector<Way> ways(motions.size());
+  std::vector<Segment> segments(motions.size());
   std::size_t done = 0;
   std::mutex reporting;
-  core::parallel_chunks(ways.size(), 1, [&](std::size_t first, std::size_t last) {
+  core::parallel_chunks(segments.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last && !control.stop.stop_requested(); ++i) {
-      ways[i] = search.search(motions[i], options.resolution_s / (time_s[i + 1] - time_s[i]));
+      segments[i] = search.search(motions[i], options.resolution_s / (time_s[i + 1] - time_s[i]));
       const std::scoped_lock lock(reporting);
       ++done;
-      if (control.progress) control.progress(done, ways.size());
+      if (control.progress) control.progress(done, segments.size());
     }
   });
-  if (done < ways.size()) return std::nullopt;
-  return put_together(time_s, ways);
+  if (done < segments.size()) return std::nullopt;
+  return put_together(time_s, segments);
 }
 
 }  // namespace condyle

@@ -79,8 +79,8 @@ class ScrewSearch {
 
   /// As long as the surfaces do not meet, a body inside the other stays there, and one outside too.
   double apart_for(const Pose& X_FM) const {
-    const auto nearest = clearance(bodies_.fixed, bodies_.mobile, X_FM, whole_way, motion_.speed());
-    return nearest ? nearest->free_for : whole_way;
+    const auto nearest = clearance(bodies_.fixed, bodies_.mobile, X_FM, whole_segment, motion_.speed());
+    return nearest ? nearest->free_for : whole_segment;
   }
 
   /// The last interval if it reaches to here or nearly so, else a new one. A part that is free for less than the
@@ -96,7 +96,7 @@ class ScrewSearch {
     return contacts.back();
   }
 
-  static constexpr double whole_way = 1;
+  static constexpr double whole_segment = 1;
 
   const PosedBodies& bodies_;
   const ScrewMotion& motion_;

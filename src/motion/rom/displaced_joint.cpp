@@ -76,7 +76,7 @@ struct DisplacedJoint::Parts {
         X_ref_(pose_at(joint.coordinates(), reference)),
         motions_(motions),
         groups_(grouped(motions)),
-        ending_(parts.ending),
+        impinging_(parts.impinging),
         fixed_parts_(joint, BodyRole::fixed),
         mobile_parts_(joint, BodyRole::mobile) {
     for (const PartOfMesh& part : parts.fixed)
@@ -91,7 +91,7 @@ struct DisplacedJoint::Parts {
   ///     X_FM = X_FG R(q) A^-1,   A = R(q0)^-1 X_FG R(q0), where G's mobile frame lies in M
   void limits(const Displacement& d, std::span<DisplacedLimit> out) const {
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = {motions_[i].range, LimitReason::end_of_range};
-    for (const PairOfParts& pair : ending_) take_limits(d, fixed_[pair.fixed], mobile_[pair.mobile], out);
+    for (const PairOfParts& pair : impinging_) take_limits(d, fixed_[pair.fixed], mobile_[pair.mobile], out);
   }
 
  private:
@@ -133,7 +133,7 @@ struct DisplacedJoint::Parts {
   Pose X_ref_;
   std::span<const Motion> motions_;
   std::vector<Group> groups_;
-  std::vector<PairOfParts> ending_;
+  std::vector<PairOfParts> impinging_;
   kinematics::DisplacedParts fixed_parts_, mobile_parts_;
   std::vector<Surface> fixed_, mobile_;
 };

@@ -19,10 +19,10 @@ constexpr int most_tolerances_past = 64;
 
 using Knots = std::span<const TranslationKnot>;
 
-/// The way of the mobile body along one motion.
-class FollowedWay {
+/// The path of the mobile body along one motion.
+class FollowedTranslation {
  public:
-  FollowedWay(const Joint& joint, const Motion& motion)
+  FollowedTranslation(const Joint& joint, const Motion& motion)
       : system_(joint.coordinates()), frame_(joint.translation_frame), motion_(motion) {}
 
   Pose pose(const TranslationKnot& at) const {
@@ -98,12 +98,12 @@ struct FollowedRange::Parts {
   }
 
   /// First contact of these between two knots; empty if there is none, or it was stopped.
-  std::optional<Met> first_met(PartPairs pairs, const FollowedWay& way, const TranslationKnot& from,
+  std::optional<Met> first_met(PartPairs pairs, const FollowedTranslation& path, const TranslationKnot& from,
                                const TranslationKnot& to, Angle tolerance, const std::stop_token& stop,
                                std::size_t& poses) const {
-    const motion::Speed speed = way.speed(from, to);
+    const motion::Speed speed = path.speed(from, to);
     for (Angle turned = from.turned; turned < to.turned && !stop.stop_requested();) {
-      const Pose X_FM = way.pose(between(from, to, turned));
+      const Pose X_FM = path.pose(between(from, to, turned));
       const auto near = nearest(pairs, X_FM, speed);
       ++poses;
       if (near && near->first.free_for < tolerance.radians())
@@ -130,9 +130,9 @@ struct FollowedRange::Parts {
   }
 
   /// How far past it these parts meet, or the tolerance.
-  Angle error_bound(const Met& met, const FollowedWay& way, Knots knots, Angle tolerance) const {
+  Angle error_bound(const Met& met, const FollowedTranslation& path, Knots knots, Angle tolerance) const {
     for (int past = 1; past <= most_tolerances_past; past *= 2) {
-      const Pose X_FM = way.pose(knot_at(knots, met.turned + tolerance * past));
+      const Pose X_FM = path.pose(knot_at(knots, met.turned + tolerance * past));
       const auto points = mesh::closest_points(fixed[met.parts.fixed].triangle_tree(),
                                                mobile[met.parts.mobile].triangle_tree(), X_FM);
       if (points && points->distance_mm == 0) return tolerance * past;
@@ -141,10 +141,10 @@ struct FollowedRange::Parts {
   }
 
   /// Whether bodies are in contact where a motion starts: exactly, as seen from the mobile body's origin.
-  Limit start_of(const Motion& motion, const FollowedWay& way, const TranslationKnot& start) const {
+  Limit start_of(const Motion& motion, const FollowedTranslation& path, const TranslationKnot& start) const {
     RangeOptions options{.bearing = {.rule = rule, .surface = bearing.surface, .roles = bearing.roles}};
     options.overlap.reference_contact = ReferenceContact::accept;
-    const Vec3 origin = way.pose(start).translation();
+    const Vec3 origin = path.pose(start).translation();
     Limit limit = RangeOfMotion(held_at(joint, origin), options)
                       .both_limits(motion.vary, motion.start, {Angle(), Angle()})
                       .positive;
@@ -153,17 +153,17 @@ struct FollowedRange::Parts {
   }
 
   /// The first contact of one kind that ends nothing, up to the limit.
-  std::optional<EarlierContact> earlier(ContactKind kind, const FollowedWay& way, Knots knots, Angle limit,
-                                        Angle tolerance, const std::stop_token& stop,
+  std::optional<EarlierContact> earlier(ContactKind kind, const FollowedTranslation& path, Knots knots,
+                                        Angle limit, Angle tolerance, const std::stop_token& stop,
                                         std::size_t& poses) const {
     std::vector<motion::PairOfParts> pairs;
     for (const motion::PairOfParts& pair : included.earlier)
       if (pair.kind == kind) pairs.push_back(pair);
     for (std::size_t i = 1; !pairs.empty() && i < knots.size() && knots[i - 1].turned < limit; ++i) {
-      const auto met = first_met(pairs, way, knots[i - 1], knots[i], tolerance, stop, poses);
+      const auto met = first_met(pairs, path, knots[i - 1], knots[i], tolerance, stop, poses);
       if (!met) continue;
       if (!(met->turned < limit)) return std::nullopt;
-      return EarlierContact{met->turned, witness(*met), error_bound(*met, way, knots, tolerance)};
+      return EarlierContact{met->turned, witness(*met), error_bound(*met, path, knots, tolerance)};
     }
     return std::nullopt;
   }
@@ -198,7 +198,7 @@ std::optional<FollowedLimit> FollowedRange::limit(const Motion& motion, const Ne
     knots.push_back(*knot);
     return true;
   };
-  const FollowedWay way(parts_->joint, motion);
+  const FollowedTranslation path(parts_->joint, motion);
   FollowedLimit out{.limit = {.motion = motion}};
   Limit& end = out.limit.end;
   if (!take_next()) {
@@ -206,21 +206,21 @@ std::optional<FollowedLimit> FollowedRange::limit(const Motion& motion, const Ne
     return out;
   }
   out.limit.translation_mm = knots.front().translation_mm;
-  if (Limit start = parts_->start_of(motion, way, knots.front());
+  if (Limit start = parts_->start_of(motion, path, knots.front());
       start.reason == LimitReason::contact_at_start) {
     end = std::move(start);
     return out;
   }
   while (end.reason == LimitReason::end_of_range && end.turned < motion.range && take_next()) {
-    const auto met = parts_->first_met(parts_->included.ending, way, knots[knots.size() - 2], knots.back(),
-                                       tolerance, stop, out.poses);
+    const auto met = parts_->first_met(parts_->included.impinging, path, knots[knots.size() - 2],
+                                       knots.back(), tolerance, stop, out.poses);
     if (stop.stop_requested()) return std::nullopt;
     const Angle reached = met ? met->turned : knots.back().turned;
     if (!(reached < motion.range)) {
       end.turned = motion.range;
     } else if (met) {
       end.reason = LimitReason::contact, end.turned = reached, end.contact = parts_->witness(*met);
-      end.error_bound = parts_->error_bound(*met, way, knots, tolerance);
+      end.error_bound = parts_->error_bound(*met, path, knots, tolerance);
       out.distance_mm = met->clearance.distance_mm;
     } else {
       end.turned = reached;
@@ -229,8 +229,8 @@ std::optional<FollowedLimit> FollowedRange::limit(const Motion& motion, const Ne
   if (end.reason == LimitReason::end_of_range) out.limit.motion.range = end.turned;
   out.limit.translation_mm = knot_at(knots, end.turned).translation_mm;
   end.bearing_contact =
-      parts_->earlier(ContactKind::bearing, way, knots, end.turned, tolerance, stop, out.poses);
-  end.soft_contact = parts_->earlier(ContactKind::soft, way, knots, end.turned, tolerance, stop, out.poses);
+      parts_->earlier(ContactKind::bearing, path, knots, end.turned, tolerance, stop, out.poses);
+  end.soft_contact = parts_->earlier(ContactKind::soft, path, knots, end.turned, tolerance, stop, out.poses);
   return stop.stop_requested() ? std::nullopt : std::optional(std::move(out));
 }
 

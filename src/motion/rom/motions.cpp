@@ -34,7 +34,7 @@ struct Ranges {
 };
 
 /// Every angle of a joint both ways from zero, by its names.
-std::vector<Motion> each_way(Anatomy joint, Ranges first, Ranges second, Ranges third) {
+std::vector<Motion> both_senses(Anatomy joint, Ranges first, Ranges second, Ranges third) {
   const std::array ranges{first, second, third};
   std::vector<Motion> motions;
   for (const JointAngle angle : all_joint_angles) {
@@ -106,11 +106,11 @@ std::vector<Motion> built_in_motions(JointKind kind, Anatomy joint) {
   }
   switch (joint) {
     case Anatomy::knee:
-      return with_rotations_at_90_flexion(each_way(joint, {180, 90}, {90, 90}, {120, 120}), joint);
+      return with_rotations_at_90_flexion(both_senses(joint, {180, 90}, {90, 90}, {120, 120}), joint);
     case Anatomy::ankle:
-      return each_way(joint, {90, 90}, {90, 90}, {120, 120});
+      return both_senses(joint, {90, 90}, {90, 90}, {120, 120});
     case Anatomy::elbow:
-      return with_rotations_at_90_flexion(each_way(joint, {180, 90}, {90, 90}, {180, 180}), joint);
+      return with_rotations_at_90_flexion(both_senses(joint, {180, 90}, {90, 90}, {180, 180}), joint);
     case Anatomy::shoulder:
       return shoulder_motions();
     case Anatomy::hip:

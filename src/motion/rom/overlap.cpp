@@ -142,16 +142,16 @@ PartsOfJoint parts_that_count(const Joint& joint, const OverlapOptions& options,
   const auto hard = [](ContactRole role) { return role != ContactRole::soft; };
   const auto is = [](ContactRole wanted) { return [wanted](ContactRole role) { return role == wanted; }; };
   if (rule == BearingRule::count) {
-    pair(hard, hard, ContactKind::unknown, parts.ending);
+    pair(hard, hard, ContactKind::unknown, parts.impinging);
   } else {
     constexpr ContactKind ends = ContactKind::impingement, slides = ContactKind::bearing;
     const auto on_bearing = is(ContactRole::bearing_on_bearing);
-    pair(hard, is(ContactRole::ends), ends, parts.ending);
-    pair(is(ContactRole::ends), on_bearing, ends, parts.ending);
+    pair(hard, is(ContactRole::ends), ends, parts.impinging);
+    pair(is(ContactRole::ends), on_bearing, ends, parts.impinging);
     pair(hard, is(ContactRole::bearing), slides, parts.earlier);
     pair(is(ContactRole::bearing), on_bearing, slides, parts.earlier);
   }
-  if (parts.ending.empty()) fail_without(fixed.place_of(hard) ? of_mobile : of_fixed);
+  if (parts.impinging.empty()) fail_without(fixed.place_of(hard) ? of_mobile : of_fixed);
   pair(is(ContactRole::soft), any, ContactKind::soft, parts.earlier);
   pair(hard, is(ContactRole::soft), ContactKind::soft, parts.earlier);
   return parts;

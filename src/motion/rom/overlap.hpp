@@ -35,9 +35,9 @@ struct PairOfParts {
 /// Parts without triangles have no place, nor have their pairs. If bearing contact counts, what is not soft is one part.
 struct PartsOfJoint {
   std::vector<PartOfMesh> fixed, mobile;
-  std::vector<PairOfParts> ending;   ///< contact of these ends a motion; one at least
-  std::vector<PairOfParts> earlier;  ///< contact of these does not
-  LeftOut left_out;                  ///< by the overlap options
+  std::vector<PairOfParts> impinging;  ///< contact of these ends a motion; one at least
+  std::vector<PairOfParts> earlier;    ///< contact of these does not
+  LeftOut left_out;                    ///< by the overlap options
 };
 
 /// Both bodies without what the options leave out. Throws UsageError for fewer than 0 rings, and MeshError if nothing of a body is

@@ -68,7 +68,7 @@ struct PathFinder::Parts {
   };
   std::optional<Nearest> nearest_at(const Pose& X_FM) const {
     std::optional<Nearest> nearest;
-    for (const motion::PairOfParts& pair : included.ending) {
+    for (const motion::PairOfParts& pair : included.impinging) {
       const auto found = motion::clearance(fixed[pair.fixed], mobile[pair.mobile], X_FM, motion::far_enough);
       if (found && (!nearest || found->free_for < nearest->clearance.free_for)) nearest = {*found, pair};
     }

@@ -133,7 +133,7 @@ struct RangeOfMotion::Parts {
   BearingRule bearing_rule;
   BearingFinding bearing;
   LeftOut left_out;
-  std::vector<motion::PairOfParts> ending, earlier;
+  std::vector<motion::PairOfParts> impinging, earlier;
   // Neither moves: tables and threads refer to their trees. Joints that differ in the other body share them.
   std::vector<std::shared_ptr<const FixedPart>> fixed = {};
   std::vector<std::shared_ptr<const MobilePart>> mobile = {};
@@ -165,7 +165,7 @@ struct RangeOfMotion::Parts {
         bearing_rule(rule),
         bearing(std::move(found)),
         left_out(included.left_out),
-        ending(std::move(included.ending)),
+        impinging(std::move(included.impinging)),
         earlier(std::move(included.earlier)),
         workers([this] { return Worker(*this); }) {
     for (motion::PartOfMesh& part : included.fixed)
@@ -183,7 +183,7 @@ struct RangeOfMotion::Parts {
         bearing_rule(before.bearing_rule),
         bearing(before.bearing),
         left_out(before.left_out),
-        ending(before.ending),
+        impinging(before.impinging),
         earlier(before.earlier),
         fixed(before.fixed),
         mobile(before.mobile),
@@ -242,9 +242,9 @@ struct RangeOfMotion::Parts {
   /// First contact that ends a motion.
   RotationLimits first_end(Worker& worker, JointAngle vary, const JointAngles& start,
                            const RotationRange& range) const {
-    RotationLimits limits = first_contact(worker, ending.front(), vary, start, range);
-    for (std::size_t i = 1; i < ending.size() && limits.free_at_start(); ++i) {
-      const RotationLimits more = first_contact(worker, ending[i], vary, start, range);
+    RotationLimits limits = first_contact(worker, impinging.front(), vary, start, range);
+    for (std::size_t i = 1; i < impinging.size() && limits.free_at_start(); ++i) {
+      const RotationLimits more = first_contact(worker, impinging[i], vary, start, range);
       const auto take_sooner = [&](Limit& limit, const Limit& other) {
         if (other.reason == LimitReason::contact_at_start || other.turned < limit.turned ||
             limit.reason == LimitReason::end_of_range)
@@ -296,9 +296,9 @@ struct RangeOfMotion::Parts {
   /// Angles of contact between all parts whose contact ends a motion.
   core::ArcSet contact_angles(Worker& worker, JointAngle vary, const JointAngles& start,
                               std::vector<core::Arc> known) const {
-    for (std::size_t i = 0; i + 1 < ending.size(); ++i)
-      known = contact_angles(worker, ending[i], vary, start, std::move(known)).arcs();
-    return contact_angles(worker, ending.back(), vary, start, std::move(known));
+    for (std::size_t i = 0; i + 1 < impinging.size(); ++i)
+      known = contact_angles(worker, impinging[i], vary, start, std::move(known)).arcs();
+    return contact_angles(worker, impinging.back(), vary, start, std::move(known));
   }
 
   HeadAtLimit head_at(const JointAngles& angles) const {

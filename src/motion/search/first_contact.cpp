@@ -30,7 +30,7 @@ Vec3 vec3(const Point& p) noexcept {
 constexpr double keep_ties = 1e-10;
 
 /// A pair of features in contact, by their slots in tree order.
-struct Found {
+struct Results {
   double angle;  ///< size of the rotation, less its error: never past the true one
   double error;
   FeaturePair features;
@@ -59,16 +59,16 @@ class FirstOfAll {
   explicit FirstOfAll(double range) : within_(range) {}
 
   double within() const noexcept { return within_; }
-  void add(const Found& found) {
+  void add(const Results& found) {
     if (found_ && std::tie(found_->angle, found_->features) <= std::tie(found.angle, found.features)) return;
     found_ = found;
     within_ = found.angle;
   }
-  const std::optional<Found>& found() const noexcept { return found_; }
+  const std::optional<Results>& found() const noexcept { return found_; }
 
  private:
   double within_;
-  std::optional<Found> found_;
+  std::optional<Results> found_;
 };
 
 /// The first contact of each feature of the rotating body.
@@ -77,17 +77,17 @@ class FirstOfEach {
   explicit FirstOfEach(double range) : within_(range) {}
 
   double within() const noexcept { return within_; }
-  void add(const Found& found) {
+  void add(const Results& found) {
     const auto [place, is_new] = found_.try_emplace(found.features.rotating, found);
-    Found& known = place->second;
+    Results& known = place->second;
     if (!is_new && std::tie(found.angle, found.features) < std::tie(known.angle, known.features))
       known = found;
   }
-  const std::map<Feature, Found>& found() const noexcept { return found_; }
+  const std::map<Feature, Results>& found() const noexcept { return found_; }
 
  private:
   double within_;
-  std::map<Feature, Found> found_;
+  std::map<Feature, Results> found_;
 };
 
 /// Depth first, nearest first: the first contact found is usually the true one, and bounds the rest. Stationary is
@@ -231,7 +231,8 @@ Vec3 nearest_to_line(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
 
 /// Where the two features meet after the rotation: as a point of either body in its own frame.
 template <class Stationary>
-ContactWitness witness(Stationary& stationary, RotatingBody& rotating, const Found& found, double rotation) {
+ContactWitness witness(Stationary& stationary, RotatingBody& rotating, const Results& found,
+                       double rotation) {
   const auto on_rotating = [&](Index v) { return about_axis(vec3(rotating.placed_vertex(v)), rotation); };
   const auto on_stationary = [&](Index v) { return vec3(stationary.placed_vertex(v)); };
   Vec3 m, f;
@@ -258,7 +259,7 @@ template <class Stationary>
 Limit limit_in(RotationSense sense, Angle range, Stationary& stationary, RotatingBody& rotating,
                SearchWork& work) {
   const Angle size = size_of(range);
-  std::optional<Found> found;
+  std::optional<Results> found;
   if (size > Angle())
     found = Search<Stationary, FirstOfAll>(stationary, rotating, sense, size.radians(), work).run();
   if (!found) return {size};

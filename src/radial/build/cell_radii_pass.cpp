@@ -139,11 +139,11 @@ HWY_INLINE Ints intervals_of_radii(const IntervalScale& scale, const Bounds& squ
 }
 
 /// Results for entries: their radii, all together, and packed.
-struct Found {
+struct Results {
   Floats least = hn::Set(d, std::numeric_limits<float>::infinity()), greatest = hn::Zero(d);
   Ints words;
 
-  explicit Found(PackedInterval start) : words(hn::Set(di, static_cast<std::int32_t>(start))) {}
+  explicit Results(PackedInterval start) : words(hn::Set(di, static_cast<std::int32_t>(start))) {}
 
   void add(const Bounds& squared) {
     least = hn::Min(least, squared.least), greatest = hn::Max(greatest, squared.greatest);
@@ -206,12 +206,12 @@ HWY_INLINE Planes on_face(const Planes& planes, const CellCorners& cell) {
 
 SurfaceRadii measure_rows_any(const RadiiView& view, std::span<const CellRow> rows, PackedInterval* out) {
   constexpr hn::Rebind<std::uint8_t, DI> d8;
-  Found all(no_radii);
+  Results all(no_radii);
   for (std::size_t cell = 0; cell < rows.size(); ++cell) {
     const CellCorners at(view, static_cast<int>(cell));
     const CornersInLanes corners = at.in_lanes();
     const CellRow row = rows[cell];
-    Found here(view.of_every_cell);
+    Results here(view.of_every_cell);
     for (std::uint32_t i = row.first; i < row.last; i += lanes) {
       const std::uint32_t* triangle = view.triangle + i;
       for (std::size_t k = 0; k < lanes; ++k) hwy::Prefetch(view.plane + triangle[k + prefetch_ahead]);
@@ -291,7 +291,7 @@ class ChangedEntries {
   ChangedEntry* out_;
   std::size_t lane_ = 0;
   EntryBatch batch_{};
-  Found all_{no_radii};
+  Results all_{no_radii};
 };
 
 /// Writes entries into their row. Each is held against all entries, a vector of them at a time: where it is
@@ -299,7 +299,7 @@ class ChangedEntries {
 HWY_INLINE PackedInterval write_entries(const RadiiView& view, CellRow row,
                                         std::span<const ChangedEntry> entries) {
   constexpr hn::Rebind<std::uint8_t, DI> d8;
-  Found found(view.of_every_cell);
+  Results found(view.of_every_cell);
   for (std::uint32_t i = row.first; i < row.last; i += lanes) {
     const auto triangle = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(view.triangle + i));
     auto* const at = reinterpret_cast<std::int32_t*>(view.entry_radii + i);

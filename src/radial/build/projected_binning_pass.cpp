@@ -37,11 +37,11 @@ HWY_INLINE LaneVector greatest_of(const LaneVector* at) {
 }
 
 /// Corners of as many triangles as there are lanes, and how far they may be from there.
-struct SeenCorners {
+struct ProjectedCorners {
   LaneVector u[3], w[3], slack_u, slack_w;
 };
 
-HWY_INLINE void find_parts(const SeenCorners& at, int cells_per_side, ProjectedBatch& batch) {
+HWY_INLINE void find_parts(const ProjectedCorners& at, int cells_per_side, ProjectedBatch& batch) {
   constexpr LaneFloats d;
   constexpr Lanes di;
   const int last = cells_per_side * parts_per_cell - 1;
@@ -66,7 +66,7 @@ HWY_INLINE void find_parts(const SeenCorners& at, int cells_per_side, ProjectedB
 }
 
 /// After the parts are found. Beside the face are triangles of which all corners are beyond the same edge.
-HWY_INLINE void find_last_cells(const SeenCorners& at, ProjectedBatch& batch) {
+HWY_INLINE void find_last_cells(const ProjectedCorners& at, ProjectedBatch& batch) {
   constexpr LaneFloats d;
   constexpr Lanes di;
   const auto is_beyond = [&](const LaneVector* corner, LaneVector slack) {
@@ -81,7 +81,7 @@ HWY_INLINE void find_last_cells(const SeenCorners& at, ProjectedBatch& batch) {
   hn::Store(last(1), di, batch.last_row);
 }
 
-HWY_INLINE void find_edges(const SeenCorners& at, float cell, ProjectedBatch& batch) {
+HWY_INLINE void find_edges(const ProjectedCorners& at, float cell, ProjectedBatch& batch) {
   constexpr LaneFloats d;
   const auto set = [](float value) { return hn::Set(LaneFloats(), value); };
   const auto turn = hn::Sub(hn::Mul(hn::Sub(at.u[1], at.u[0]), hn::Sub(at.w[2], at.w[0])),
@@ -111,7 +111,7 @@ HWY_INLINE void find_edges(const SeenCorners& at, float cell, ProjectedBatch& ba
 HWY_INLINE void read_projected(const ProjectedTriangles& projected, std::size_t first, int cells_per_side,
                                ProjectedBatch& batch) {
   constexpr LaneFloats d;
-  SeenCorners at;
+  ProjectedCorners at;
   hn::LoadInterleaved4(d, projected.u[first].at, at.u[0], at.u[1], at.u[2], at.slack_u);
   hn::LoadInterleaved4(d, projected.w[first].at, at.w[0], at.w[1], at.w[2], at.slack_w);
   find_parts(at, cells_per_side, batch);

@@ -81,7 +81,7 @@ HWY_INLINE bool nearest_exit(const Ray& ray, int winding_at_centre, NearestExit&
 
 /// Decides near points [first, last), whose crossings these are, wherever the centre is.
 HWY_INLINE void decide(const CubeView& cube, const NearPoints& points, std::size_t first, std::size_t last,
-                       const Crossings& crossings, Decisions& scratch, FoundPoints& found) {
+                       const Crossings& crossings, Decisions& scratch, PointResults& found) {
   const bool from_inside = cube.winding_at_centre > 0;
   for (std::size_t i = first; i < last; ++i) {
     // Nearer to the centre than any surface, floats may have lost the direction.
@@ -193,7 +193,7 @@ HWY_INLINE PointCrossings classify_vector(const Crossings& all, std::size_t last
 /// Decides the near points that have crossings, the centre outside: the others are outside too. Most points
 /// have one, and are inside exactly where that lies before them and enters the solid.
 HWY_INLINE void decide_from_outside(const NearPoints& points, const Crossings& crossings, Decisions& scratch,
-                                    FoundPoints& found) {
+                                    PointResults& found) {
   namespace hn = hwy::HWY_NAMESPACE;
   constexpr hn::CappedTag<float, 16> d;
   constexpr hn::RebindToUnsigned<decltype(d)> du;
@@ -214,7 +214,7 @@ HWY_INLINE void decide_from_outside(const NearPoints& points, const Crossings& c
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t last = scratch.kept[k];
     const std::uint32_t point = crossings.point[last];
-    FoundPoint& at = found.point[found.count];
+    PointResult& at = found.point[found.count];
     if (crossings.point[last - 1] != point) {
       const bool certain = std::abs(std::abs(crossings.s[last]) - 1) > crossings.error[last];
       at = {.point = points.point[point],

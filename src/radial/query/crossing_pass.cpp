@@ -167,7 +167,7 @@ HWY_INLINE void evaluate_edges(const CubeView& cube, const NearPoints& points,
 }
 
 std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, float form_bound,
-                              CrossingScratch& scratch, FoundPoints& found) {
+                              CrossingScratch& scratch, PointResults& found) {
   Pairs& pairs = scratch.pairs;
   Crossings& crossings = scratch.crossings;
   QueryConstants& constants = scratch.constants;
@@ -196,7 +196,7 @@ std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, fl
     tried += pairs.count;
     if (last == first) {
       // More triangles at one point than there is capacity for.
-      found.point[found.count++] = FoundPoint::left_open(points.point[last++]);
+      found.point[found.count++] = PointResult::left_open(points.point[last++]);
     }
     first = last;
   }
@@ -219,7 +219,7 @@ void find_candidates(const EntryView& entries, std::span<const CellPlace> places
 }
 
 std::size_t inside_points(const CubeView& cube, const NearPoints& points, float form_bound,
-                          CrossingScratch& scratch, FoundPoints& found) {
+                          CrossingScratch& scratch, PointResults& found) {
   return HWY_DYNAMIC_DISPATCH(inside_points_any)(cube, points, form_bound, scratch, found);
 }
 

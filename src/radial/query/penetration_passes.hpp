@@ -33,19 +33,19 @@ struct NearPoints {
 };
 
 /// Points that are inside (by certain signs), with the triangle they leave through, and uncertain points.
-struct FoundPoint {
+struct PointResult {
   std::uint32_t point, triangle;
   std::int16_t winding;
   bool away_from_centre, uncertain;
 
   /// One that is left to exact arithmetic.
-  static constexpr FoundPoint left_open(std::uint32_t point) noexcept {
+  static constexpr PointResult left_open(std::uint32_t point) noexcept {
     return {.point = point, .triangle = no_index, .winding = 0, .away_from_centre = false, .uncertain = true};
   }
 };
-struct FoundPoints {
+struct PointResults {
   std::size_t count;
-  std::array<FoundPoint, points_per_batch> point;
+  std::array<PointResult, points_per_batch> point;
 };
 
 /// Blocks that may hold a point within the radii of the surface around them, among the sixteen blocks of each
@@ -124,7 +124,7 @@ struct CrossingScratch {
 
 /// Those of them that have crossed the surface, or may have. Returns how many triangles were tried.
 std::size_t inside_points(const CubeView& cube, const NearPoints& points, float form_bound,
-                          CrossingScratch& scratch, FoundPoints& found);
+                          CrossingScratch& scratch, PointResults& found);
 
 /// Some points found, with their triangles' scaled normals, and what comes of them.
 struct GapColumns {

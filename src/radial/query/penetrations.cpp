@@ -11,7 +11,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Winding numbers that FoundPoint holds, with those of the most crossings that a Ray holds beside.
+/// Winding numbers that PointResult holds, with those of the most crossings that a Ray holds beside.
 constexpr int largest_winding = 1000;
 
 /// How far a rotation's columns may be from orthonormal, for blocks to keep their radii and caps.
@@ -78,12 +78,12 @@ std::optional<Search> search_in(const ExactView& table, const std::optional<Cube
 
 /// For `count` points found from `first` on: gaps to the planes of their triangles.
 void find_gaps(const PointBlocks& points, const EdgeFunctions* all_functions, const Pose& X_FM,
-               const FoundPoints& found, std::size_t first, std::size_t count, GapColumns& out) {
+               const PointResults& found, std::size_t first, std::size_t count, GapColumns& out) {
   constexpr std::size_t ahead = 16;
   constexpr EdgeFunctions none{};  // what becomes of one that is uncertain is not read
   const Vec3* const all_points = &points[0];
   for (std::size_t i = 0; i < count; ++i) {
-    const FoundPoint& at = found.point[first + i];
+    const PointResult& at = found.point[first + i];
     __builtin_prefetch(all_points + found.point[std::min(first + i + ahead, found.count - 1)].point);
     const Vec3& p = all_points[at.point];
     const EdgeFunctions& functions = at.uncertain ? none : all_functions[at.triangle];
@@ -107,7 +107,7 @@ class Answers {
         candidates_(table.map, table.entries) {}
 
   /// Depths in double. `functions` are not read if all are uncertain.
-  void add(const FoundPoints& found, const EdgeFunctions* functions) {
+  void add(const PointResults& found, const EdgeFunctions* functions) {
     std::size_t count = out_.size();
     out_.resize(count + found.count);
     gathered_ = 0, next_ = 0;
@@ -117,7 +117,7 @@ class Answers {
       if (in_turn == 0) {
         find_gaps(points_, functions, X_FM_, found, i, std::min(GapColumns::size, found.count - i), gaps);
       }
-      const FoundPoint& at = found.point[i];
+      const PointResult& at = found.point[i];
       out_.point[count] = points_.index()[at.point];
       if (at.uncertain) {
         count += decide(found, i, count);
@@ -129,7 +129,7 @@ class Answers {
   }
 
  private:
-  void set(const FoundPoint& at, double gap, std::size_t to) {
+  void set(const PointResult& at, double gap, std::size_t to) {
     if (std::isnan(gap))
       gap = distance_along_ray(posed(X_FM_, points_[at.point]), cone_of(table_.mesh, at.triangle));
     out_.state[to] = PointState::inside;
@@ -140,7 +140,7 @@ class Answers {
   }
 
   /// The uncertain point i; 0 if it is outside, else 1.
-  std::size_t decide(const FoundPoints& found, std::size_t i, std::size_t to) {
+  std::size_t decide(const PointResults& found, std::size_t i, std::size_t to) {
     if (next_ == gathered_) gather(found, i);
     const Vec3& v = position_[next_];
     const RayAnswer answer = scan_.answer(v, candidates_.of(next_++));
@@ -154,7 +154,7 @@ class Answers {
   }
 
   /// The next uncertain points, from i on.
-  void gather(const FoundPoints& found, std::size_t i) {
+  void gather(const PointResults& found, std::size_t i) {
     gathered_ = 0, next_ = 0;
     for (; i < found.count && gathered_ < position_.size(); ++i) {
       if (found.point[i].uncertain) position_[gathered_++] = posed(X_FM_, points_[found.point[i].point]);
@@ -173,11 +173,11 @@ class Answers {
 };
 
 void decide_one_by_one(const PointBlocks& points, PenetrationScratch& scratch, Answers& answers) {
-  FoundPoints& all = scratch.found;
+  PointResults& all = scratch.found;
   for (std::size_t first = 0; first < points.size(); first += points_per_batch) {
     all.count = std::min(points_per_batch, points.size() - first);
     for (std::size_t i = 0; i < all.count; ++i)
-      all.point[i] = FoundPoint::left_open(static_cast<std::uint32_t>(first + i));
+      all.point[i] = PointResult::left_open(static_cast<std::uint32_t>(first + i));
     answers.add(all, nullptr);
   }
 }
@@ -186,7 +186,7 @@ void decide_one_by_one(const PointBlocks& points, PenetrationScratch& scratch, A
 void decide(const Search& search, PenetrationScratch& scratch, Answers& answers, PenetrationWork* work) {
   const NearPoints& near = scratch.near;
   if (near.count == 0) return;
-  FoundPoints& found = scratch.found;
+  PointResults& found = scratch.found;
   const std::size_t tried = inside_points(search.cube, near, search.form_bound, scratch.crossing, found);
   answers.add(found, search.cube.edge_functions);
   if (!work) return;

@@ -11,7 +11,7 @@ namespace condyle::radial {
 /// the stack, stays below 16 kB.
 struct PenetrationScratch {
   NearPoints near;
-  FoundPoints found;
+  PointResults found;
   CrossingScratch crossing;
 };
 
