@@ -168,7 +168,7 @@ struct MotionRequest {
   std::vector<std::optional<Load>> loads = {};
   BalanceOptions balance = {};
   BetweenFrames between = BetweenFrames::if_exact;
-  /// Without layers: whose triangles cast, and how. An ElasticContact knows.
+  /// Without layers: which body's triangles cast, and how. An ElasticContact has its own.
   BodyRole casting = BodyRole::mobile;
   NormalDepthOptions rays = {};
   BodyNames names = {};  ///< as notes call the bodies
@@ -231,7 +231,7 @@ struct FollowLoad {
 
 using Follow = std::variant<FollowRecord, FollowLoad>;
 
-/// Those of the motions along which the recorded angle begins at the motion's start or before it, goes on past it, and never turns
+/// The motions along which the recorded angle begins at the motion's start or before it, goes on past it, and never turns
 /// back.
 std::vector<Motion> motions_recorded(std::span<const Motion> motions, const FollowRecord& record);
 
@@ -262,7 +262,7 @@ enum class RangeNoteCode : std::uint8_t {
   limit_on_cut,           ///< A motion ends on a face that closes a bone where its image ends: no limit.
   limit_on_part_cut,  ///< A motion ends on a face in which a part was cut from its body.
   sliding_surfaces,   ///< Surfaces slide on each other by nature, and where they first touch a motion ends.
-  translation_ends,   ///< What the translation follows ends before the motion's range does.
+  translation_ends,   ///< The record or load of the translation ends before the motion's range.
   differs_from_closed_form,  ///< Meshes of an implant end a motion elsewhere than bodies of its sizes do.
 };
 
@@ -309,7 +309,7 @@ std::optional<Vec3> held_translation(const Joint& joint, const JointPlacement& p
 /// Throws UsageError for what answer_range() would refuse before it computes anything.
 void check_range_request(const Joint& joint, const JointPlacement& placement, const RangeRequest& request);
 
-/// What looks wrong with the recorded motion, or the layers and the load, that a translation follows: known before the work.
+/// Warnings on the recorded motion, or the layers and the load, that a translation follows: known before the work.
 std::vector<ContactNote> range_request_notes(const RangeRequest& request);
 
 /// Computes exact limits, or limits with a depth allowed, and what else is requested. Empty if it was stopped.
@@ -358,7 +358,7 @@ MeasureAnswer answer_measures(const Joint& joint, const MeasureQuery& query = {}
 /// Options of a query for a resection, with their defaults.
 struct ResectionQuery {
   ResectionRequest resection = {};
-  /// Whose limits are given before and after; all of the joint's where empty.
+  /// Motions whose limits are given before and after; if empty, all motions of the joint.
   std::vector<Motion> motions = {};
   /// The margin is as much larger as it takes that each target is reached in 95 % of displaced joints.
   std::optional<BandOptions> bands = {};
@@ -368,7 +368,7 @@ struct ResectionQuery {
   MeasureRequest measures = {};
 };
 
-/// What a target would cost if it were the only one, and nearer.
+/// The cost of a target if it were the only one, at nearer angles.
 struct ResectionCurvePoint {
   std::size_t target;
   Angle reached;
@@ -376,16 +376,16 @@ struct ResectionCurvePoint {
 };
 
 enum class ResectionNoteCode : std::uint8_t {
-  nothing_to_do,   ///< All targets are reached as the joint is.
+  nothing_to_do,   ///< The joint reaches all targets uncut.
   target_blocked,  ///< Kept bone stops a motion short of its target.
   band_not_reached,  ///< Not reached in 95 % of displaced joints: the range of the motion or kept bone ends before.
   bearing_is_swept,  ///< The other bone sweeps over bearing surface, whose contact counts for nothing.
   neck_is_narrowed,  ///< More than 30 % of the neck's width goes.
-  no_gain,           ///< A limit stays as it was.
+  no_gain,           ///< A limit is unchanged.
   alpha_stays,  ///< The alpha angle is no smaller after a cut at the neck: what it is read from stands in no way.
   burr_meets_kept,  ///< The burr's ball would have to enter bone that stays.
-  sliding_surfaces,  ///< The bodies slide on each other by nature, and nothing is known to bear: what goes may be of that surface.
-  more_than_must,  ///< Much goes that no target needs: what a depth, or counting whole triangles, cannot leave.
+  sliding_surfaces,  ///< The bodies slide on each other by nature, and no bearing surface is known: removed bone may belong to it.
+  more_than_must,  ///< Much bone goes that no target needs: a depth, or counting whole triangles, cannot spare it.
   finer_triangles,  ///< A limit grows by the smaller triangles around a cut alone: fewer of them lie partly in the bearing ball.
 };
 
@@ -416,7 +416,7 @@ struct ResectionAnswer {
 /// Which sizes of a total hip are those of the bones it replaces, and not those of the request. They are rounded to hundredths of a degree or
 /// a millimetre.
 struct SizesOfBones {
-  /// Those of the line from the head's centre to where the axis of the neck passes that of the shaft nearest, so that the femur stays where
+  /// The angles of the line from the head's centre to where the axis of the neck passes that of the shaft nearest, so that the femur stays where
   /// it is; without a shaft those of the neck's axis, and the offset of the request.
   bool neck_shaft = true, stem_version = true, offset = true;
   bool cup_radius = true;  ///< the largest multiple of 0.5 mm that touches no bone
@@ -425,7 +425,7 @@ struct SizesOfBones {
   friend bool operator==(const SizesOfBones&, const SizesOfBones&) = default;
 };
 
-/// Where the centre of cup and head comes.
+/// Placement of the centre of cup and head.
 enum class ImplantCentre : std::uint8_t {
   head,    ///< the centre of the sphere that fits the head of the femur
   socket,  ///< that of the socket
@@ -433,7 +433,7 @@ enum class ImplantCentre : std::uint8_t {
 
 /// As in files: "head".
 std::string_view name_of(ImplantCentre centre) noexcept;
-/// Throws UsageError with the words there are.
+/// Throws UsageError that lists the valid words.
 ImplantCentre implant_centre_named(std::string_view word);
 
 /// Options of a query for an implant, with their defaults.
@@ -538,7 +538,7 @@ struct SweepQuery {
 enum class SweepNoteCode : std::uint8_t {
   differs_from_closed_form,  ///< Meshes of the implant do not have the limits of its sizes: every limit is searched for.
   nothing_is_safe,     ///< No design leaves every target free.
-  everything_is_safe,  ///< All do.
+  everything_is_safe,  ///< All designs are safe.
   zone_leaves_window,  ///< Designs at the border of what was swept are safe: the zone goes on beyond.
   separate_intervals,  ///< Along some line the safe designs are not side by side.
 };
@@ -612,9 +612,9 @@ struct NamedReach {
 /// Targets from "flexion=115 internal_rotation_at_90_flexion=30", separated by blanks or commas. Throws UsageError for other text.
 std::vector<NamedReach> parse_reach(std::string_view text);
 
-/// Targets of these motions, each by its name as motion_named() finds it. Throws UsageError for a name that none has.
+/// Targets of these motions, each by its name as motion_named() finds it. Throws UsageError for an unknown name.
 std::vector<ReachTarget> reach_targets(std::span<const Motion> motions, std::span<const NamedReach> named);
-/// Those of a text, as parse_reach() reads it.
+/// The targets in a text, as parse_reach() reads it.
 std::vector<ReachTarget> reach_targets(std::span<const Motion> motions, std::string_view text);
 
 /// The bone that must go, the limits and the shape before and after, and what each degree costs. Empty if it was stopped. Stages:

@@ -51,12 +51,12 @@ struct BearingSurface {
   std::size_t count() const noexcept;
 };
 
-/// What contact of one triangle means: PartContact, and where on the mobile body it slides.
+/// Role of one triangle in contact: PartContact, and where on the mobile body it slides.
 enum class ContactRole : std::uint8_t {
   ends,
-  bearing,  ///< Of the mobile body: it slides on whatever is not soft. Of the fixed one: what it is called.
+  bearing,  ///< On the mobile body: slides on anything that is not soft. On the fixed body: as the file names it.
   soft,
-  bearing_on_bearing,  ///< Of the mobile body: it slides on what is called bearing only.
+  bearing_on_bearing,  ///< On the mobile body: slides only on meshes named bearing.
 };
 
 /// The roles of both bodies' triangles, in their order; empty where all are ContactRole::ends.
@@ -88,7 +88,7 @@ struct BearingOptions {
   std::optional<ContactRoles> roles = {};
 };
 
-/// What limits a margin.
+/// The limit of a margin.
 enum class MarginLimit : std::uint8_t { rim, beside_socket };
 
 /// A margin that the gap at the rim limits, or that beside the socket; below 0 if the gap is smaller than rim_reserve_mm.

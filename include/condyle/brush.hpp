@@ -11,14 +11,14 @@
 #include "condyle/joint.hpp"
 #include "condyle/range_of_motion.hpp"
 
-/// Resection by hand: strokes of a brush that lower the surface of a bone, and the limits of the joint without what they take.
+/// Resection by hand: strokes of a brush that lower the surface of a bone, and the limits of the joint without the removed bone.
 /// docs/planning.md, "By hand".
 
 namespace condyle {
 
 enum class BrushAction : std::uint8_t {
   lower,    ///< The surface goes down.
-  restore,  ///< What went comes back.
+  restore,  ///< Removed bone comes back.
 };
 
 /// A path of the brush over a bone's surface. At the distance d of a vertex from the nearest vertex of the path, both on the surface before, the
@@ -47,7 +47,7 @@ struct StrokeOutcome {
       0;  ///< vertices that are less deep than asked for, so that no triangle turns over and nothing is crossed
 };
 
-/// What strokes took from a bone.
+/// Bone that strokes removed.
 struct BrushedBone {
   /// Between the surface before and the surface now: signed tetrahedra, never depth times area.
   double volume_mm3 = 0;
@@ -84,7 +84,7 @@ class Brush {
   /// Where the vertices are now, and where they were.
   const Points& vertices() const noexcept;
   const Points& before() const noexcept;
-  /// Of each vertex: its distance from the surface before, mm.
+  /// Distance of each vertex from the surface before, mm.
   const std::vector<double>& depth_mm() const noexcept;
   BrushedBone removed() const;
   /// Mean length of the edges, mm: a cut is no finer.

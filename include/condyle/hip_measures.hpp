@@ -64,7 +64,7 @@ inline constexpr double largest_pelvic_tilt_deg = 60;
 struct MeasureRequest {
   /// By which the pelvis is tilted forwards from how its frame shows it: acetabular angles are those of the tilted pelvis.
   Angle pelvic_tilt = {};
-  /// What the axes of the hip bone are from: pelvis_frame_of(); empty: not stated, which is as scanned.
+  /// Source of the hip bone's axes: pelvis_frame_of(); empty: not stated, taken as scanned.
   std::string pelvis_frame = {};
   /// Pose of the femur at which the ischiofemoral distance is measured.
   JointAngles ischiofemoral_pose = {};
@@ -186,7 +186,7 @@ struct HipMeasures {
   std::vector<std::string> left_out;
 };
 
-/// What a joint's axes are from: "anterior pelvic plane", "plane of ASIS and PSIS", "the femur's epicondyles, not the pelvis"; empty
+/// Source of a joint's axes: "anterior pelvic plane", "plane of ASIS and PSIS", "the femur's epicondyles, not the pelvis"; empty
 /// for directions, which do not say how the pelvis lay. The pose of the femur in the scan says nothing of it either.
 std::string pelvis_frame_of(const FrameDescription& frame);
 /// The frame of every measure that turns with the pelvis: "as scanned", "anterior pelvic plane, tilt 10 deg given".

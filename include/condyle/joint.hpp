@@ -16,7 +16,7 @@ namespace condyle {
 
 enum class BodyRole { fixed, mobile };
 
-/// What contact of one of several meshes of a body means for a motion. With bone as `ends`, cartilage as `bearing` and a labrum
+/// Meaning for a motion of contact with one of several meshes of a body. With bone as `ends`, cartilage as `bearing` and a labrum
 /// as `soft`:
 ///
 ///     mobile \ fixed   ends          bearing       soft
@@ -27,7 +27,7 @@ enum class BodyRole { fixed, mobile };
 /// * slides if no mesh of the fixed body is called bearing, and on the head of a hip or shoulder: BearingSurface.
 enum class PartContact : std::uint8_t {
   ends,     ///< It ends a motion.
-  bearing,  ///< It slides on what is called bearing of the other body, as cartilage does.
+  bearing,  ///< It slides on bearing meshes of the other body, as cartilage does.
   soft,     ///< It gives way, as a labrum or a meniscus does.
 };
 
@@ -109,7 +109,7 @@ inline constexpr CupDefinition all_cup_definitions[] = {CupDefinition::radiograp
 
 /// As in files: "radiographic".
 std::string_view name_of(CupDefinition definition) noexcept;
-/// Throws UsageError with the words there are.
+/// Throws UsageError that lists the valid words.
 CupDefinition cup_definition_named(std::string_view word);
 
 /// How a parameter moves its part, from its value v and the value v0 at which the meshes stand as they are given. With s = 1 of a
@@ -176,7 +176,7 @@ struct PosedPart {
   BodyRole body = BodyRole::fixed;
   std::vector<std::string> meshes = {};  ///< names of its BodyParts; empty: the whole body
   Vec3 centre = Vec3::Zero();            ///< c, in the body's frame, mm
-  /// What the angles of a part with ParameterKind::cup_inclination and cup_anteversion are.
+  /// Definition of the angles of a part with ParameterKind::cup_inclination and cup_anteversion.
   CupDefinition definition = CupDefinition::radiographic;
   std::vector<PartParameter> parameters = {};
   /// Planes behind all of which it was cut from the mesh of this name, in the body's frame as it is given, mm. The first of its meshes is what was
@@ -207,7 +207,7 @@ struct RevolvedPair {
   Angle of_facets_low, of_facets_high;
 };
 
-/// What is known of an implant in a joint, from its sizes: which meshes are its liner and its neck, and their axes.
+/// An implant in a joint, described by its sizes: which meshes are its liner and its neck, and their axes.
 struct JointImplant {
   std::string fixed_mesh, mobile_mesh;  ///< names of BodyParts; empty of a body that is one mesh
   std::optional<Vec3> cup_axis = {};    ///< of a total hip: out of the opening, unit, of the meshes as given

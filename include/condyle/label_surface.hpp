@@ -69,7 +69,7 @@ struct CapPlane {
   std::vector<Index> triangles;  ///< ascending
 };
 
-/// What a simplification did.
+/// Result of a simplification.
 struct LabelSimplification {
   std::size_t triangles_before = 0;
   /// Largest distance, in mm, of a vertex of the surface before from the surface after.

@@ -33,7 +33,7 @@ struct ElasticLayer {
   double poisson_ratio;       ///< > -1 and < 0.5
   /// One value for the whole layer, or one for each vertex of its mesh; > 0.
   std::variant<double, std::vector<double>> thickness_mm;
-  /// What is to be expected of thicknesses, mm: check_layers() reports those beyond. It changes no pressure.
+  /// Expected range of thicknesses, mm: check_layers() reports thicknesses beyond it. It changes no pressure.
   std::optional<std::array<double, 2>> thickness_bounds_mm = {};
 
   /// Modulus of a layer that cannot spread sideways, MPa.

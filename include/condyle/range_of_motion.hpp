@@ -105,7 +105,7 @@ std::vector<Motion> built_in_motions(JointKind kind, Anatomy joint);
 std::vector<Motion> with_own_motions(std::vector<Motion> built_in, std::span<const Motion> own);
 
 /// The motion of that name; where none has it as written, the first that has it in any case, with blanks or hyphens for
-/// underscores. Throws UsageError with the names there are.
+/// underscores. Throws UsageError that lists the valid names.
 const Motion& motion_named(std::span<const Motion> motions, std::string_view name);
 
 /// Throws UsageError if this kind of joint has no such motion: a range that is not above 0 and at
@@ -147,7 +147,7 @@ struct MotionLimit {
   std::optional<HeadAtLimit> head = {};  ///< where a bearing surface is known
   /// Translation at the limit, x, y and z of its frame; only of a joint whose centre is not held.
   std::optional<Vec3> translation_mm = {};
-  /// What its translation follows ends at the limit, before the motion's range does: the joint may turn farther.
+  /// The record or load of its translation ends at the limit, before the motion's range: the joint may turn farther.
   bool translation_ends = false;
 
   JointAngles angles_at_limit() const noexcept;
@@ -326,7 +326,7 @@ class FollowedRange {
                                      const std::stop_token& stop = {},
                                      Angle tolerance = Angle::degrees(1e-3)) const;
 
-  /// What contacts are classified by.
+  /// Basis of the classification of contacts.
   const BearingFinding& bearing() const noexcept;
   BearingRule bearing_rule() const noexcept;
 

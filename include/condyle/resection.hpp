@@ -39,10 +39,10 @@ enum class KeptBy : std::uint8_t {
 /// As in files: "bearing".
 std::string_view name_of(KeptBy by) noexcept;
 
-/// What of a bone must stay, beside its bearing surface.
+/// Parts of a bone that must stay, beside its bearing surface.
 struct KeptBone {
   std::optional<double> deepest_mm = {};  ///< no vertex is lowered by more
-  /// What is farther than this outside the ball of the bearing surface, the head's radius and margin about its centre, stays.
+  /// Bone stays if it is farther than this outside the ball of the bearing surface (the head's radius and margin about its centre).
   std::optional<double> within_mm = {};
   std::vector<std::uint8_t> vertices = {};  ///< 1 for those that stay, one per vertex of the mesh; or none
 };

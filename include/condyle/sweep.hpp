@@ -42,7 +42,7 @@ struct SweepTarget {
   Motion without_tilt() const noexcept;
 };
 
-/// By what a limit is known.
+/// How a limit was decided.
 enum class LimitKnownBy : std::uint8_t {
   meshes,       ///< The exact first contact of the meshes.
   closed_form,  ///< Liner and neck as bodies of revolution: meshes end the motion on the same side of the target.

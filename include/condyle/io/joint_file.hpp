@@ -67,7 +67,7 @@ struct ContactEntry {
 struct ContactSurfaces {
   Body fixed, mobile;
 };
-/// UsageError for a part that a body does not have, with those it has.
+/// UsageError for a part that a body does not have; the error lists its parts.
 ContactSurfaces surfaces_of(const ContactEntry& entry, const Joint& joint);
 
 /// The options of an elastic contact of these surfaces, thicknesses measured or read. FileError for a mesh or a file of

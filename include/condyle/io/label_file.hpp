@@ -28,7 +28,7 @@ struct LabelSegment {
   std::uint32_t label = 0;
 };
 
-/// What a person should know of a label map or of a choice among its labels. Nothing was changed because of it.
+/// A warning on a label map or on a choice among its labels. It changes nothing.
 enum class LabelNoteCode {
   two_affines,         ///< NIfTI: sform and qform place the voxels differently.
   unknown_units,       ///< NIfTI: no unit of length; mm was assumed.
@@ -155,7 +155,7 @@ struct LabelBone {
   std::vector<LabelNote> notes = {};
 };
 
-/// What a body must know of the image of its surface.
+/// Facts about the image of a body's surface.
 BodyImage image_of(const VoxelGrid& grid, const LabelSurface& surface);
 
 /// Fewer voxels, or a smaller box, are no bone.

@@ -27,7 +27,7 @@ struct ModelTransform;
 struct CouplerFunction;
 }  // namespace io
 
-/// What a coordinate does. A motion file in degrees has degrees for rotational ones only.
+/// Kind of a coordinate. A motion file in degrees has degrees for rotational ones only.
 enum class CoordinateMotion {
   rotational,     ///< it turns the joint by its own value
   translational,  ///< it moves the joint only
@@ -102,7 +102,7 @@ struct ModelCoupler {
   std::string why_not = {};
 };
 
-/// What to know of a model, or of a joint file made from it.
+/// A note on a model, or on a joint file made from it.
 enum class ModelNoteCode : std::uint8_t {
   missing_mesh,         ///< It is left out.
   other_case,           ///< A mesh was found by a name in another case of letters.
@@ -163,7 +163,7 @@ const ModelJoint& joint_named(const Model& model, std::string_view name);
 /// for a weld that cannot be read.
 std::vector<ModelMesh> meshes_of(const Model& model, const ModelJoint& joint, BodyRole role);
 
-/// What may be chosen of a joint that is proposed for a model's.
+/// Options of a joint file that is proposed for a model's joint.
 struct ModelJointRequest {
   std::string joint;
   std::filesystem::path joint_file;     ///< where it is to lie: meshes are named from its folder
@@ -181,7 +181,7 @@ struct ModelJointProposal {
 };
 
 /// Centre, axes, signs, kind, meshes, contact and the columns of a recorded motion as the model has them. Throws UsageError
-/// if the joint or the contact is not there, or names do not tell joint or side; FileError if the joint cannot be read.
+/// if the joint or the contact is not there, or names do not determine joint or side; FileError if the joint cannot be read.
 ModelJointProposal propose_joint(const Model& model, const ModelJointRequest& request);
 
 /// The joint itself, as read_joint() would read the proposed file, with the notes among its processing. Throws as both do;

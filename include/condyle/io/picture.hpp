@@ -45,7 +45,7 @@ struct PictureMark {
   std::array<std::uint8_t, 3> rgb;  ///< red, green, blue
 };
 
-/// What a hip was measured by. Blue: axes of neck and shaft, 12 o'clock, condylar line, the line that version is seen along, top of the
+/// Marks of a hip's measures. Blue: axes of neck and shaft, 12 o'clock, condylar line, the line that version is seen along, top of the
 /// trochanter. Vermilion: the circle of the rim's plane, its normal and the rim's points that it was fitted to; grey: the other ones.
 /// Green: where the head's contour ends at every hour around the neck. Orange: superior and the edges of the roof from the head's centre,
 /// and the rim's chords. Purple: where the bones are nearest, in the poses that this is measured in. What was not found is left out.

@@ -62,7 +62,7 @@ std::string_view name_of(TranslationFrame frame) noexcept;
 /// "flexion", or what the joint calls this angle: the positive one of its coordinate_names().
 std::string_view name_of(JointAngle angle, Anatomy joint) noexcept;
 
-/// The joint's angle of that name; throws UsageError with the names there are.
+/// The joint's angle of that name; throws UsageError that lists the valid names.
 JointAngle joint_angle_named(std::string_view name, Anatomy joint);
 
 }  // namespace condyle

@@ -24,7 +24,7 @@ enum class AnswerFrameName {
 
 /// "joint", "source".
 std::string_view name_of(AnswerFrameName name) noexcept;
-/// The frame of that name; throws UsageError with the names there are.
+/// The frame of that name; throws UsageError that lists the valid names.
 AnswerFrameName answer_frame_named(std::string_view name);
 
 /// Brings points and meshes of an answer, which are in the bodies' own joint frames, into the requested frame. Points

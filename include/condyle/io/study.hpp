@@ -25,7 +25,7 @@ namespace condyle {
 struct StudyUncertainty {
   std::optional<double> centre_mm = {}, axes_deg = {}, surface_mm = {};
 
-  /// Those that are set, the others as in `of_file`.
+  /// Values that are set; the others are those of `of_file`.
   Uncertainty over(const Uncertainty& of_file) const noexcept;
 };
 
