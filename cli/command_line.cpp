@@ -8,7 +8,7 @@
 namespace condyle::cli {
 namespace {
 
-/// Options that say where and how an answer is written, not what it is.
+/// Options for the place and format of an answer, not its content.
 bool decides_nothing(const std::string& name) {
   constexpr std::array<std::string_view, 2> names = {"--out", "--json"};
   return std::find(names.begin(), names.end(), name) != names.end();

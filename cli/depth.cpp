@@ -139,8 +139,8 @@ void add_depth(CLI::App& app) {
   command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
   auto* pose = command->add_option(
       "--pose", options->pose,
-      "Ask in this pose: angles in degrees, and x, y, z of a free joint in mm, such as "
-      "\"flexion=90 adduction=-10 internal_rotation=20\"; what is left out is 0. Or 16 numbers, the matrix "
+      "Compute in this pose: angles in degrees, and x, y, z of a free joint in mm, such as "
+      "\"flexion=90 adduction=-10 internal_rotation=20\"; omitted values are 0. Or 16 numbers, the matrix "
       "X_FM row by row");
   pose->option_text("POSE (all 0)");
   command->add_option("--matrix", options->matrix, "Read that matrix from this file")
@@ -155,7 +155,7 @@ void add_depth(CLI::App& app) {
                               : name == "tangential" ? DepthMethod::tangential
                                                      : DepthMethod::normal;
           },
-          "reliable measures along rays from the joint centre where that is a depth, else along the arc "
+          "reliable measures along rays from the joint centre if that is a depth, else along the arc "
           "about "
           "a joint axis that frees the vertex soonest; radial along rays; tangential along arcs about one "
           "axis; normal from triangles along their normals, open meshes too")
@@ -163,7 +163,7 @@ void add_depth(CLI::App& app) {
       ->option_text("reliable|radial|tangential|normal (reliable)");
   command
       ->add_option("--about", options->about,
-                   "With --method tangential: the angle about whose axis the mobile body turns")
+                   "With --method tangential: the angle whose axis the mobile body rotates about")
       ->option_text("flexion|adduction|internal_rotation (flexion)");
   add_rays(*command, options->rays, "With --method normal: ");
   auto* out = command->add_option("--out", options->out,
@@ -177,7 +177,7 @@ void add_depth(CLI::App& app) {
       ->needs(out);
   command->add_flag_callback(
       "--pairs-only", [options] { options->scope = Scope::pairs_only; },
-      "Accept open meshes: list the pairs of triangles that meet, and vertices inside a body that is closed");
+      "Accept open meshes: list the pairs of triangles in contact, and vertices inside a closed body");
   command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; },
       "Print the answer as JSON, with every number in full");

@@ -32,7 +32,7 @@ void add_follow(CLI::App& command, const std::shared_ptr<FollowArguments>& given
 /// Their names, for a group of the help.
 std::vector<std::string> follow_names();
 
-/// What a request follows, which it points to. Says what was made of the recorded motion.
+/// The record or load that a request follows; the request points to it. Notes how the recorded motion was read.
 class Followed {
  public:
   /// Makes the request follow what is given, or leaves it. UsageError for a load without a force and the reverse.

@@ -37,7 +37,7 @@ std::string wrapped(const std::string& text, std::size_t first_column, std::size
   return out;
 }
 
-/// A name and, from one column on, what it is.
+/// A name and, from one column on, its description.
 std::string entry(std::string name, const std::string& description) {
   name = "  " + name;
   if (description.empty()) return name + "\n";

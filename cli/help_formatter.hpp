@@ -12,7 +12,7 @@ struct HelpGroup {
   std::vector<std::string> options;
 };
 
-/// The options of bands, which several commands have.
+/// The options of bands, shared by several commands.
 HelpGroup uncertainty_group();
 
 /// Help of lines no longer than a terminal is wide: descriptions are broken between words. Options stand in groups; those in

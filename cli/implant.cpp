@@ -34,7 +34,7 @@ struct ImplantArguments {
   AnswerForm form = AnswerForm::text;
 };
 
-/// Sizes that are the bone's unless they are given.
+/// Sizes, default: the bone's own.
 constexpr std::array<std::string_view, 4> sizes_of_bones{"neck_shaft", "stem_version", "offset",
                                                          "cup_radius"};
 
@@ -67,12 +67,12 @@ void add_placement(CLI::App& command, const std::shared_ptr<ImplantArguments>& o
   command
       .add_option_function<std::string>(
           "--centre", [options](const std::string& word) { options->centre = implant_centre_named(word); },
-          "Where the centre of cup and head comes: that of the head of the femur, or of the socket")
+          "The centre of cup and head: that of the head of the femur, or of the socket")
       ->check(CLI::IsMember({"head", "socket"}))
       ->option_text("head|socket (head)");
   command
       .add_flag("--as-rim", options->as_rim,
-                "Turn the cup as the rim of the bone is, in place of its inclination and anteversion")
+                "Orient the cup like the rim of the bone, in place of its inclination and anteversion")
       ->excludes("--inclination")
       ->excludes("--anteversion");
 }
@@ -86,7 +86,8 @@ void add_implant(CLI::App& app) {
       "Example: condyle sample hip --out sample\n"
       "         condyle implant sample/hip.toml --inclination 42 --out thr\n"
       "         condyle rom thr/hip.toml\n"
-      "Bones and implant only: soft tissue, fixation and the strength of what is left are not modelled.");
+      "Bones and implant only: soft tissue, fixation and the strength of the remaining bone are not "
+      "modelled.");
   auto options = std::make_shared<ImplantArguments>();
   options->parameters = add_set(*command);
   command->add_option("JOINT", options->joint, "The joint file, .toml")->required();

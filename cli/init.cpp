@@ -164,7 +164,7 @@ void add_init(CLI::App& app) {
       "hip.toml\n"
       "A knee is FEMUR TIBIA --joint knee, and so are ankle, elbow and shoulder; a joint of an OpenSim model "
       "is MODEL.osim --joint NAME.\n"
-      "What could not be inferred stands in the file as a comment to fill in. Read the file before you use "
+      "Values that could not be inferred are comments to fill in. Read the file before you use "
       "it.");
   auto options = std::make_shared<InitArguments>();
   command
@@ -177,31 +177,30 @@ void add_init(CLI::App& app) {
       "MOBILE", options->mobile,
       "The mesh of the body that moves, such as the femur; a label map if it is in a file of its own");
   command
-      ->add_option(
-          "--fixed", options->fixed_label,
-          "The label of the body that stays: its number, or its name if the file or --task has names")
+      ->add_option("--fixed", options->fixed_label,
+                   "The label of the fixed body: its number, or its name if the file or --task has names")
       ->option_text("LABEL");
-  command->add_option("--mobile", options->mobile_label, "The label of the body that moves")
+  command->add_option("--mobile", options->mobile_label, "The label of the mobile body")
       ->option_text("LABEL");
   command
       ->add_option("--joint", options->joint,
                    "The joint of a model, by its name there; of two meshes hip, knee, ankle, elbow or "
                    "shoulder, FIXED the "
-                   "bone nearer to the trunk. Without it two meshes are a hip")
+                   "bone nearer to the trunk. Default for two meshes: hip")
       ->option_text("NAME");
   add_model(*command, options->model);
   add_label_surface(*command, options->labels);
   add_label_file(*command, options->labels);
   add_side(
       *command, options->side,
-      "The side of the body. Without it by the labels' names or the model's, else inferred from the bones");
+      "The side of the body. Default: by the labels' names or the model's, else inferred from the bones");
   command
       ->add_option_function<std::string>(
           "--units",
           [options](const std::string& units) {
             options->units = units == "m" ? LengthUnit::metres : LengthUnit::millimetres;
           },
-          "The unit of both meshes. Without it inferred from their size")
+          "The unit of both meshes. Default: inferred from their size")
       ->check(CLI::IsMember({"mm", "m"}))
       ->option_text("mm|m");
   command

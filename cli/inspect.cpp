@@ -121,8 +121,8 @@ void inspect_command(const InspectArguments& options, const CLI::App& command) {
 }  // namespace
 
 void add_inspect(CLI::App& app) {
-  auto* command = app.add_subcommand(
-      "inspect", "Report what meshes, label maps and models hold, and what is wrong with them");
+  auto* command =
+      app.add_subcommand("inspect", "Report the contents and the defects of meshes, label maps and models");
   command->footer(
       "Example: condyle inspect femur.ply hip_bone.ply\n"
       "         condyle inspect femur.ply --repair drop_unreferenced,flip_inverted --out repaired\n"

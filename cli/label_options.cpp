@@ -62,7 +62,7 @@ void add_label_surface(CLI::App& command, const std::shared_ptr<LabelOptions>& o
   command
       .add_option_function<std::size_t>(
           "--triangles", [options](std::size_t count) { options->surface.triangles = count; },
-          "Simplify each surface to about so many triangles")
+          "Simplify each surface to about this many triangles")
       ->option_text("N (as extracted)");
 }
 

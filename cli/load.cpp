@@ -71,7 +71,7 @@ void add_load(CLI::App& app) {
   command
       ->add_option(
           "--pose", options->pose,
-          "Ask in this pose, or start from it: angles in degrees and, of a free joint, x, y, z in mm, "
+          "Compute in this pose, or start from it: angles in degrees and, of a free joint, x, y, z in mm, "
           "such as \"flexion=30 x=2\"; or 16 numbers, the matrix X_FM row by row")
       ->option_text("POSE (all 0)");
   add_rays(*command, options->contact);

@@ -93,7 +93,7 @@ std::optional<std::string> number_after_band(const std::vector<std::string>& wor
   return std::nullopt;
 }
 
-/// An argument that the command does not take.
+/// An argument unknown to the command.
 std::string describe_unexpected(const std::string& word, const CLI::App& command) {
   const std::string& name = command.get_name();
   if (const auto below = commands_of(command); !below.empty() && !word.starts_with('-'))
@@ -169,7 +169,7 @@ int run(int argc, char** argv) {
            limit = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
                                            static_cast<std::size_t>(count));
          },
-         "Use at most so many threads. Results are the same for any number")
+         "Use at most this many threads. Results are the same for any number")
       ->check(CLI::Range(1, 4096))
       ->option_text("N (all cores)");
 

@@ -55,7 +55,7 @@ void add_measure(CLI::App& app) {
   command->footer(
       "Example: condyle sample hip --out sample\n"
       "         condyle measure sample/hip.toml\n"
-      "A measure that the meshes do not show is empty and says why.");
+      "A measure that the meshes do not show is empty, with the reason.");
   auto options = std::make_shared<MeasureArguments>();
   options->parameters = add_set(*command);
   command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
@@ -68,8 +68,9 @@ void add_measure(CLI::App& app) {
       ->add_option("--out", options->out,
                    "Write measures.json, measures.csv, neck.csv and rim.csv into this folder")
       ->option_text("FOLDER");
-  command->add_flag("--definitions", options->definitions,
-                    "Print what each measure is, by which planes and axes, and whose its normal range is");
+  command->add_flag(
+      "--definitions", options->definitions,
+      "Print the definition of each measure, its planes and axes, and the source of its normal range");
   command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; },
       "Print the answer as JSON, with every number in full");

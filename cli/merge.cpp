@@ -30,7 +30,7 @@ void add_merge(CLI::App& app) {
       "Example: condyle merge study\n"
       "The tables are those of a run of the whole table, byte for byte.\n"
       "Exit code 3: a shard is missing or not whole, or is of another table, other options or another "
-      "version. Where no joint was answered: that of the first failure.");
+      "version. If no joint was answered: that of the first failure.");
   auto folder = std::make_shared<std::string>();
   command->add_option("DIR", *folder, "The folder that condyle study --shard or sweep --shard had as --out")
       ->required();

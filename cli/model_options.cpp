@@ -28,12 +28,12 @@ void add_model(CLI::App& command, const std::shared_ptr<ModelOptions>& options) 
             for (const Anatomy anatomy : all_anatomies)
               if (name == name_of(anatomy)) options->anatomy = anatomy;
           },
-          "Which joint a model's is. Without it by the names of joint and bodies")
+          "The kind of a model's joint. Default: by the names of joint and bodies")
       ->check(CLI::IsMember({"hip", "knee", "ankle", "elbow", "shoulder"}))
       ->option_text("hip|knee|ankle|elbow|shoulder");
   command
       .add_option("--contact", options->contact,
-                  "The contact of a model between the two bodies. Without it the first")
+                  "The contact of a model between the two bodies. Default: the first")
       ->option_text("NAME");
   add_geometry(command, options->geometry);
 }

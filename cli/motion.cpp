@@ -133,7 +133,7 @@ void add_motion(CLI::App& app) {
       ->option_text("FILE");
   command->add_option("--joint", options->model_joint, "The joint of a model, as condyle init takes it")
       ->option_text("NAME");
-  add_side(*command, options->side, "The side of a model's joint. Without it by the ending of its name");
+  add_side(*command, options->side, "The side of a model's joint. Default: by the ending of its name");
   add_model(*command, options->model);
   command->add_flag_callback(
       "--load", [options] { options->with_pressure = true; },
@@ -151,7 +151,7 @@ void add_motion(CLI::App& app) {
       ->option_text("FILE");
   auto* between = command->add_flag_callback(
       "--between", [options] { options->between = true; },
-      "Find contact between the samples too where the centre moves, within bounds. About a held centre it "
+      "Also find contact between the samples, within bounds, if the centre moves. About a held centre it "
       "is exact and always found");
   for (const char* load : {"--force", "--moment", "--loads"}) between->excludes(command->get_option(load));
   auto* out = command->add_option("--out", options->out,

@@ -15,8 +15,8 @@ namespace condyle::cli {
 void add_strict(CLI::App& command, Strictness& strictness) {
   command.add_flag_callback(
       "--strict", [&strictness] { strictness = Strictness::errors; },
-      "Refuse to answer, with exit code 4, where something looks wrong with the joint (side, axes, units, "
-      "centre, meshes) or with its layers, load or motion. Without it a note says so");
+      "Refuse to answer, with exit code 4, if something looks wrong with the joint (side, axes, units, "
+      "centre, meshes) or with its layers, load or motion. By default a note reports it");
 }
 
 namespace {

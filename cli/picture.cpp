@@ -51,7 +51,7 @@ BodyStyle style_of(BodyRole body, const PictureArguments& options) {
                                        : BodyStyle::solid;
 }
 
-/// What was not found is said: it is not in the picture.
+/// Notes the parts that were not found and are missing from the picture.
 std::vector<PictureMark> marks_of(const Joint& joint, const Pose& X_FM) {
   const HipMeasures measures = measure_hip(joint);
   if (!measures.femur.neck) note("no axis of a neck is drawn: " + measures.femur.neck_shaft.why_none);
@@ -110,7 +110,7 @@ void add_picture(CLI::App& app) {
       ->option_text("POSE (all 0)");
   command
       ->add_option("--view", options->view,
-                   "Look from this side; several with hyphens look from between them")
+                   "View from this side; several with hyphens give a view from between them")
       ->option_text("anterior|posterior|left|right|superior|inferior|medial|lateral (anterior)");
   command
       ->add_option_function<std::string>(
@@ -126,25 +126,22 @@ void add_picture(CLI::App& app) {
       ->check(CLI::IsMember({"depth", "gap", "nearest", "none"}))
       ->option_text("depth|gap|nearest|none (depth)");
   command
-      ->add_option(
-          "--range", options->picture.range_mm,
-          "Colours end at this distance or depth. Without it 8 mm, and for depths what holds them all")
+      ->add_option("--range", options->picture.range_mm,
+                   "Colours end at this distance or depth. Default: 8 mm, and for depths enough for all")
       ->option_text("MM");
   command
       ->add_option("--field", options->picture.field_mm,
-                   "Show this height about the joint centre. Without it all of both bodies")
+                   "Show this height about the joint centre. Default: all of both bodies")
       ->option_text("MM");
-  command->add_flag(
-      "--measures", options->measures,
-      "Draw what condyle measure measures a hip by: axis of the neck, points and plane of the rim, where "
-      "the head's contour ends");
+  command->add_flag("--measures", options->measures,
+                    "Draw the marks of condyle measure: axis of the neck, points and plane of the rim, where "
+                    "the head's contour ends");
   command->add_flag_callback(
       "--plain", [options] { options->picture.is_annotated = false; },
       "Leave out the scale bar, the letters of the sides and the line of the pose");
   add_body(*command, "--hide", options->hidden, "Do not draw this body");
-  add_body(
-      *command, "--transparent", options->transparent,
-      "Draw this body as glass. Where depths are shown and this and --hide are not given, the outer one is");
+  add_body(*command, "--transparent", options->transparent,
+           "Draw this body as glass. If depths are shown without this and --hide, the outer one is");
   command->add_option("--size", options->size, "Width and height in pixels, 64 to 8192 each")
       ->option_text("WIDTHxHEIGHT (1200x900)");
   command->add_option("--out", options->out, "Write the picture to this file, .png")

@@ -15,13 +15,13 @@ namespace condyle::cli {
 /// then.
 enum class ProgressPlace { terminal, log };
 
-/// The place that standard error is.
+/// The kind of standard error.
 ProgressPlace standard_error_place();
 
 /// Seconds still to go at the pace since the start; nothing if there is no pace yet.
 std::optional<double> remaining_seconds(double elapsed_s, std::size_t done, std::size_t total);
 
-/// "40 s", "12 min", "3 h 05 min": to the precision that an estimate has.
+/// "40 s", "12 min", "3 h 05 min": at the precision of an estimate.
 std::string duration_text(double seconds);
 
 /// Decides what to show and when: nothing for the first two seconds, then at most five times a second on a

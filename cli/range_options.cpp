@@ -65,7 +65,7 @@ CLI::Option* add_map(CLI::App& command, const std::shared_ptr<RangeArguments>& g
 CLI::Option* add_translation(CLI::App& command, const std::shared_ptr<RangeArguments>& given) {
   return command
       .add_option("--translation", given->translation,
-                  "Hold a free joint here in all motions, in mm. Without it where the reference pose has it")
+                  "Hold a free joint here in all motions, in mm. Default: the reference pose's place")
       ->option_text("\"x=X y=Y z=Z\"");
 }
 
@@ -73,22 +73,23 @@ CLI::Option* add_bearing(CLI::App& command, const std::shared_ptr<RangeArguments
   return command
       .add_option_function<std::string>(
           "--bearing", [given](const std::string& text) { given->bearing = parse_bearing(text); },
-          "Contact so near to the head's sphere is sliding and ends no motion; with count every contact ends "
-          "a motion. Without it 2 mm, or less where the rim is near")
+          "Contact this near to the head's sphere is bearing contact and ends no motion; with count every "
+          "contact ends "
+          "a motion. Default: 2 mm, or less if the rim is near")
       ->option_text("MM|count (2)");
 }
 
 CLI::Option* add_accept(CLI::App& command, const std::shared_ptr<RangeArguments>& given) {
   return command.add_flag_callback(
       "--accept-reference-contact", [given] { given->reference_contact = ReferenceContact::accept; },
-      "Answer although the bodies are in contact in the reference pose. Motions that start in contact say "
+      "Answer although the bodies are in contact in the reference pose. Motions that start in contact report "
       "so");
 }
 
 CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeArguments>& given) {
   auto* band = command
                    .add_flag("--band{200}", given->band_samples,
-                             "Compute how far each limit moves with what is uncertain: from 5 to 95 % of N "
+                             "Compute how far each limit moves within its uncertainty: from 5 to 95 % of N "
                              "displaced joints")
                    ->option_text("[=N] (200)");
   const auto for_band = [&](CLI::Option* option) { option->needs(band); };
@@ -114,7 +115,7 @@ CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeArguments>& 
 }
 
 CLI::Option* add_past(CLI::App& command, const std::shared_ptr<RangeArguments>& given) {
-  return command.add_option("--past", given->past_deg, "Find the impingement zones so far past each limit")
+  return command.add_option("--past", given->past_deg, "Find the impingement zones this far past each limit")
       ->option_text("DEG");
 }
 

@@ -271,7 +271,7 @@ void add_report(CLI::App& app) {
       "         condyle sample hip --alpha-angle 70 --out cam\n"
       "         condyle report cam/hip.toml sample/hip.toml --band --out compared.html\n"
       "         condyle report --empty --out drop_a_hip.html\n"
-      "The file needs no server and no network, and sends nothing. Where limits cannot be answered it says "
+      "The file needs no server and no network, and sends nothing. If limits cannot be computed it says "
       "why and shows the joint.");
   auto options = std::make_shared<ReportArguments>();
   options->parameters = add_set(*command);
@@ -296,7 +296,7 @@ void add_report(CLI::App& app) {
                    "Put this date into the heading; none is taken from the clock")
       ->option_text("TEXT");
   command->add_flag("--paths", options->labels.whole_paths,
-                    "Name files by their paths as they were given, not by their names alone");
+                    "Name files by their paths as given, not only by their names");
   command
       ->add_option("--motion", options->motion,
                    "Show the frames of this recorded motion, .mot, .sto or .csv, and their curves")
@@ -310,7 +310,7 @@ void add_report(CLI::App& app) {
   CLI::Option* resect =
       command
           ->add_option("--resect", options->cut->targets,
-                       "Show the joint without the bone that must go so that these motions reach so far, as "
+                       "Show the joint without the bone that must go for these motions to reach this far, as "
                        "condyle resect --reach does: \"flexion=115 fadir=30\"")
           ->option_text("MOTION=DEG ...");
   add_cut(*command, options->cut, resect);

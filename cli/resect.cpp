@@ -76,12 +76,12 @@ void resect_command(const ResectArguments& options, const CLI::App& command) {
 
 void add_resect(CLI::App& app) {
   auto* command = app.add_subcommand(
-      "resect", "Find the bone that must go so that motions reach their targets, and the joint without it");
+      "resect", "Find the bone that must go for motions to reach their targets, and the joint without it");
   command->footer(
       "Example: condyle sample hip --alpha-angle 70 --out sample\n"
       "         condyle resect sample/hip.toml --reach \"internal_rotation_at_90_flexion=30\" --out plan\n"
       "         condyle rom plan/resected.toml\n"
-      "Osseous: labrum, cartilage, capsule and the strength of the bone that is left are not modelled.");
+      "Osseous: labrum, cartilage, capsule and the strength of the remaining bone are not modelled.");
   auto options = std::make_shared<ResectArguments>();
   options->parameters = add_set(*command);
   command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
@@ -99,7 +99,7 @@ void add_resect(CLI::App& app) {
           "Keep these vertices of the moving body: a file with a line for each vertex of its mesh, 1 to keep "
           "it and 0 if it may go")
       ->option_text("FILE");
-  command->add_option("--protect-fixed", options->protect_fixed, "The same of the body that stays")
+  command->add_option("--protect-fixed", options->protect_fixed, "The same for the fixed body")
       ->option_text("FILE");
   command
       ->add_option("--curve", options->curve_points,

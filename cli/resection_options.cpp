@@ -30,17 +30,19 @@ void add_cut(CLI::App& command, const std::shared_ptr<ResectionArguments>& given
   add(command.add_option("--share", given->share,
                          "With --from both: cut the fixed body for this share of the depth, 0 to 1"),
       "SHARE (0.5)");
-  add(command.add_option("--margin", given->margin_mm,
-                         "Keep what is left clear of the other bone's surface moved outwards by this, 0 to "
-                         "10"),
+  add(command.add_option(
+          "--margin", given->margin_mm,
+          "Keep the remaining bone clear of the other bone's surface moved outwards by this, 0 to "
+          "10"),
       "MM (0)");
-  add(command.add_option("--burr", given->burr_mm,
-                         "Leave what a ball of this diameter can make, 0.5 to 30: no groove is narrower, and "
-                         "the answer reports what goes only for that"),
+  add(command.add_option(
+          "--burr", given->burr_mm,
+          "Leave a surface that a ball of this diameter can make, 0.5 to 30: no groove is narrower, and "
+          "the answer reports the bone that goes only for that"),
       "MM");
   add(command.add_option("--deepest", given->deepest_mm, "Remove no more than this anywhere"), "MM");
   add(command.add_option("--within", given->within_mm,
-                         "Keep what is farther than this outside the ball of the bearing surface, the head's "
+                         "Keep bone farther than this outside the ball of the bearing surface, the head's "
                          "radius and margin: the head-neck junction is its border"),
       "MM");
   add(command.add_option("--edge", given->edge_mm, "Make triangles around the cut this small, 0.05 to 10"),

@@ -30,7 +30,7 @@ void add_cut(CLI::App& command, const std::shared_ptr<ResectionArguments>& given
 /// Their group in the help, where limits are the command's question.
 HelpGroup resection_group();
 
-/// What was given, but for the targets, marked vertices and what limits are computed by. Throws UsageError.
+/// The given options, without the targets, marked vertices and the rules of the limits. Throws UsageError.
 ResectionRequest resection_request_of(const ResectionArguments& given);
 
 }  // namespace condyle::cli

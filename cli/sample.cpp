@@ -99,7 +99,7 @@ void add_resolution(CLI::App& command, int& scenario, int first, const char* hel
                           ->check(CLI::Range(first, last))
                           ->option_text(fmt::format("{}..{} ({})", first, last, first));
   const auto add_count = [&](const Count& count) {
-    return command.add_option(count.option, count.triangles, "Make exactly so many triangles instead")
+    return command.add_option(count.option, count.triangles, "Make exactly this many triangles instead")
         ->excludes(by_scenario)
         ->option_text("N");
   };
@@ -198,7 +198,7 @@ void add_cartilages(CLI::App& sample) {
   add_length(*command, "--clearance", options->cartilage.clearance_mm,
              "Gap between the articular spheres; below 0 they overlap");
   add_length(*command, "--femoral-thickness", options->cartilage.femoral_thickness_mm,
-             "Thickness of the femoral cartilage. The acetabular one fills what is left of the joint space");
+             "Thickness of the femoral cartilage. The acetabular one fills the rest of the joint space");
   add_measures(*command, options->hip);
   group_help(*command,
              {{"Most used", {"--out", "--side", "--scenario", "--clearance", "--femoral-thickness"}},
@@ -229,12 +229,12 @@ void add_cohort(CLI::App& sample) {
   command->footer(
       "Example: condyle sample cohort --n 4 --seed 1 --out cohort\n"
       "         condyle study cohort/cohort.csv --out study\n"
-      "Distributions stand in cohort.json. Hip k of a seed is the same whatever n.");
+      "Distributions are in cohort.json. Hip k of a seed is the same for any n.");
   auto options = std::make_shared<CohortOptions>();
   command->add_option("--out", options->out, "Write cohort.csv and cohort.json into this folder")
       ->required()
       ->option_text("FOLDER");
-  command->add_option("--n", options->cohort.n, "Draw so many hips")->required()->option_text("N");
+  command->add_option("--n", options->cohort.n, "Draw this many hips")->required()->option_text("N");
   command->add_option("--seed", options->cohort.seed, "The seed of the draws")->option_text("N (1)");
   command->add_option("--scenario", options->scenario, "How fine the meshes are, as in condyle sample hip")
       ->check(CLI::Range(1, 4))

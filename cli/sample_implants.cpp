@@ -69,7 +69,7 @@ void add_common(CLI::App& command, const std::shared_ptr<ImplantOptions>& option
 
 void add_replacement(CLI::App& sample) {
   auto* command = sample.add_subcommand(
-      "replacement", "Make a total hip of its sizes, in the sample hip or alone, and a joint file");
+      "replacement", "Make a total hip of its sizes, in the sample hip or by itself, and a joint file");
   command->footer(
       "Example: condyle sample replacement --inclination 45 --anteversion 20 --out thr\n"
       "         condyle sample replacement --bones none --head-radius 18 --definition anatomic --out alone\n"

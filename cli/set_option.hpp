@@ -13,7 +13,7 @@ namespace condyle::cli {
 
 using ParameterArguments = std::shared_ptr<std::vector<std::string>>;
 
-/// Adds the option; what it is given is written while arguments are read.
+/// Adds the option; its values are written while arguments are read.
 ParameterArguments add_set(CLI::App& command);
 
 /// The joint at the values given. Throws UsageError that begins with the option.

@@ -95,11 +95,11 @@ void add_study(CLI::App& app) {
       "         condyle study cohort/cohort.csv --out study --shard 1/2\n"
       "         condyle study cohort/cohort.csv --out study --shard 2/2\n"
       "         condyle merge study\n"
-      "A joint that cannot be answered is a row of failures.csv with its exit code and why; the study "
+      "A joint that cannot be answered is a row of failures.csv with its exit code and reason; the study "
       "answers the "
-      "others and ends with exit code 0. Where none could be answered it ends with the exit code of the "
+      "others and ends with exit code 0. If none could be answered it ends with the exit code of the "
       "first "
-      "one; a shard with 0. What was done before with the same inputs, options and version is "
+      "one; a shard with 0. Rows done before with the same inputs, options and version are "
       "not done again.");
   auto options = std::make_shared<StudyArguments>();
   command
@@ -126,7 +126,7 @@ void add_study(CLI::App& app) {
       ->expected(1)
       ->take_all()
       ->option_text("NAME[,NAME...] (all)");
-  command->add_option("--anatomy", options->anatomy, "Which joint all rows of the table are")
+  command->add_option("--anatomy", options->anatomy, "The joint of all rows of the table")
       ->check(CLI::IsMember({"hip", "knee", "ankle", "elbow", "shoulder"}))
       ->option_text("hip|knee|ankle|elbow|shoulder (hip)");
   add_map(*command, options->range);
@@ -147,7 +147,7 @@ void add_study(CLI::App& app) {
   CLI::Option* resect =
       command
           ->add_option("--resect", options->cut->targets,
-                       "Find the bone that must go so that these motions reach so far, as condyle resect "
+                       "Find the bone that must go for these motions to reach this far, as condyle resect "
                        "--reach does: \"flexion=115 fadir=30\"")
           ->option_text("MOTION=DEG ...");
   add_cut(*command, options->cut, resect);

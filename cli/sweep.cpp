@@ -55,7 +55,7 @@ void note_sweep(const SweepAnswer& answer) {
   for (const SweepNote& each : answer.notes) note(fmt::format("{}: {}", name_of(each.code), each.text));
 }
 
-/// What else is computed of each design, and all that this depends on beside the joint.
+/// Further quantities of each design, and everything that they depend on beside the joint.
 std::string add_quantities(const SweepArguments& options, const LoadedJoint& loaded, SweepQuery& query) {
   std::string text;
   std::vector<std::string> keys;
