@@ -111,7 +111,7 @@ class BalancedTranslation {
   }
 
   const std::string& ended_by() const noexcept { return ended_by_; }
-  /// How far the balanced way and straight pieces of it are apart, about: an eighth of its second difference.
+  /// Approximate distance between the balanced path and straight pieces of it: an eighth of its second difference.
   double bend_mm() const noexcept { return bend_mm_; }
 
  private:

@@ -50,7 +50,7 @@ void note_centres(const Joint& joint, std::span<const Motion> motions, const Ran
   notes.push_back({RangeNoteCode::centre_moves_limits, std::move(text)});
 }
 
-/// Whose cut a motion ends on; null if it ends elsewhere. The missing bone goes on beyond the cut, and would have met the other bone
+/// The body on whose cut a motion ends; null if it ends elsewhere. The missing bone goes on beyond the cut, and would have met the other bone
 /// no later.
 const Body* cut_body_of(const Joint& joint, const MotionLimit& limit) {
   const std::optional<ContactWitness>& contact = limit.end.contact;

@@ -19,10 +19,10 @@ constexpr int most_band_plans = 11;
 /// How much bone may go beside what must, without a note: a share of that, and mm3.
 constexpr double unasked_share = 0.1, unasked_mm3 = 0.5;
 
-/// An alpha angle that falls by less stays as it was, as far as the contour tells.
+/// An alpha angle that falls by less stays as it was, as far as the contour shows.
 constexpr double alpha_unchanged_deg = 1;
 
-/// A limit that changes by less stays as it was.
+/// A limit that changes by less counts as unchanged.
 constexpr double no_change_deg = 0.05;
 
 /// Counts the cuts that are done, of as many as there may be.
@@ -135,7 +135,7 @@ void note_bones(ResectionAnswer& answer, const Joint& joint, const RangeOptions&
          range_notes(joint, answer.before, range, find_bearing_surface(joint, range.bearing)))
       if (note.code == RangeNoteCode::sliding_surfaces)
         answer.notes.push_back(
-            {ResectionNoteCode::sliding_surfaces, note.text + "; what goes may be of those surfaces"});
+            {ResectionNoteCode::sliding_surfaces, note.text + "; removed bone may belong to those surfaces"});
   for (const auto* cut : {&answer.resection.mobile, &answer.resection.fixed}) {
     if (!*cut) continue;
     const double unasked = (*cut)->volume_mm3 - (*cut)->burr_volume_mm3 - (*cut)->least_volume_mm3;
@@ -164,7 +164,7 @@ Joint with_finer_triangles(const Resection& resection) {
   return joint;
 }
 
-/// What a limit gains by smaller triangles is no gain of the cut.
+/// A limit's gain through smaller triangles does not count as a gain of the cut.
 void note_finer_triangles(ResectionAnswer& answer, const Joint& finer, const RangeOptions& range,
                           std::span<const Motion> motions) {
   const std::vector<MotionLimit> limits = RangeOfMotion(finer, range).limits(motions);
@@ -383,7 +383,7 @@ std::optional<ResectionAnswer> answer_resection(const Joint& joint, const JointP
   note_gains(answer);
   answer.caveats = range_caveats(asked.resection.range, range);
   answer.caveats.emplace_back(
-      "osseous only: labrum, cartilage, capsule and the strength of what is left are not modelled");
+      "osseous only: labrum, cartilage, capsule and the strength of the remaining bone are not modelled");
   return answer;
 }
 

@@ -243,7 +243,7 @@ class Sweeping {
   Lines lines_;
 };
 
-/// What liner and neck by themselves do at the joint's own values and in the corners of the sweep: bone that ends a motion before would hide
+/// Limits of liner and neck by themselves at the joint's own values and in the corners of the sweep: bone that ends a motion before would hide
 /// meshes that are not those of the implant's sizes.
 std::string difference_from_closed_form(const plan::DesignLimits& limits, const SweepAnswer& sweep) {
   std::string difference = limits.difference_from_form(sweep.here);
@@ -373,7 +373,7 @@ std::optional<SweepAnswer> answer_sweep(const Joint& joint, const JointPlacement
     answer.caveats.emplace_back(
         "probabilities are over the standard deviations of the parts' parameters only: not of the joint's "
         "centre, axes and surfaces");
-  answer.caveats.emplace_back("which part of a head bears is that of the joint as it is, for all designs");
+  answer.caveats.emplace_back("all designs have the bearing part of the head of the given joint");
   return answer;
 }
 

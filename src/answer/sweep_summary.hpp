@@ -7,7 +7,7 @@
 
 namespace condyle::answer {
 
-/// What the limits of a design have over the targets' reach, the least of it; NaN if there are no limits.
+/// Smallest margin of a design's limits over the targets' reach; NaN if there are no limits.
 double least_margin(std::span<const SweepTarget> targets, std::span<const DesignLimit> limits);
 
 /// The target that has that.
