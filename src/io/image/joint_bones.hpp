@@ -8,7 +8,7 @@
 #include "condyle/io/label_file.hpp"
 #include "io/joint/proposal.hpp"
 
-/// What two bones of label maps say of the joint that is made of them, whether it is written to a file or shown in a page.
+/// Evidence of two bones of label maps on the joint made from them, whether it is written to a file or shown in a page.
 
 namespace condyle::io {
 

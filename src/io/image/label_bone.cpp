@@ -10,7 +10,7 @@
 namespace condyle {
 namespace {
 
-/// Pieces below this share of the bone's voxels are specks, of which nothing is said.
+/// Pieces below this share of the bone's voxels are specks, which are not reported.
 constexpr double least_noted_piece = 1e-3;
 
 /// The only label above 0; UsageError if there are several.
@@ -26,7 +26,7 @@ std::string only_label(const LabelMap& map, std::string_view file) {
                                : fmt::format("{}", only->label);
 }
 
-/// What a file of one bone is called, "femur_left" of femur_left.nii.gz, as TotalSegmentator writes them.
+/// Name of the bone of a mask file, "femur_left" for femur_left.nii.gz, as TotalSegmentator writes them.
 std::string name_of_mask(std::string_view file) {
   const std::string name = io::plain_text(std::filesystem::path(file).filename().string());
   return name.substr(0, name.find('.'));

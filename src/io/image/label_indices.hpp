@@ -14,7 +14,7 @@ class LabelIndices {
   /// As many as there are numbers beside none.
   static constexpr std::size_t most = none;
 
-  /// The number of a label, none where all numbers are taken.
+  /// The number of a label, none if all numbers are taken.
   std::uint16_t index_of(std::uint32_t label) {
     if (label < small_.size()) {
       auto& index = small_[label];

@@ -8,7 +8,7 @@
 namespace condyle::io {
 namespace {
 
-/// What cup placement and stem version scatter by in surgery, degrees: as planning assumes it, for bands.
+/// Scatter of cup placement and stem version in surgery, degrees, as planning assumes it: for bands.
 constexpr double cup_sigma_deg = 4, stem_sigma_deg = 2;
 
 PartParameter angle_of(const Implant& implant, std::string_view size, std::string name, ParameterKind kind,

@@ -141,7 +141,7 @@ Pose mesh_pose(io::TomlTable& mesh, std::vector<std::string>& notes) {
   }
 }
 
-/// What contact of one mesh of several means. Files of before version 1 call a bearing mesh bearing = true.
+/// Meaning of contact with one of several meshes. Files older than version 1 mark a bearing mesh by bearing = true.
 PartContact part_contact(io::TomlTable& mesh) {
   const bool is_bearing = mesh.flag("bearing").value_or(false);
   if (!mesh.has("contact")) return is_bearing ? PartContact::bearing : PartContact::ends;
@@ -196,7 +196,7 @@ std::optional<BodyImage> body_image(io::TomlTable& body, const Lengths& lengths)
   return image;
 }
 
-/// [mobile.head] and [fixed.socket], where they are known.
+/// [mobile.head] and [fixed.socket], if they are known.
 void read_known_sphere(io::TomlTable& body, std::string_view key, const Lengths& lengths, BodyEntry& entry) {
   const bool is_mobile = key == "mobile";
   if (body.table(is_mobile ? "socket" : "head"))
@@ -221,7 +221,7 @@ BodyEntry body_entry(io::TomlTable& table, std::string_view key, const Lengths& 
   return entry;
 }
 
-/// What lies behind a layer is in the frame of its body: it has no scale or pose of its own to follow the layer's mesh by.
+/// The mesh behind a layer is in the frame of its body: it has no scale or pose of its own with which to follow the layer's mesh.
 void refuse_moved_layer(const io::TomlTable& contact, std::string_view key,
                         const std::optional<LayerEntry>& layer, const std::string& part,
                         const BodyEntry& body) {

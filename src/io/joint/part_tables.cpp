@@ -21,7 +21,7 @@ ParameterKind kind_of(TomlTable& table, const std::string& name) {
   if (!table.has("kind")) {
     if (const auto kind = kind_named(name)) return *kind;
     table.fail_missing("kind",
-                       fmt::format("parameter {}, whose name says nothing of how it moves its part", name));
+                       fmt::format("parameter {}, whose name does not define how it moves its part", name));
   }
   return all_parameter_kinds[table.required_word(
       "kind", {"frontal", "inclination", "sagittal", "tilt", "version", "translation", "size",
@@ -80,7 +80,7 @@ std::vector<CutPlane> planes_of(TomlTable& table, double mm) {
   return planes;
 }
 
-/// What the angles of a cup are, which mean nothing without it.
+/// Definition of a cup's angles, without which they have no meaning.
 CupDefinition definition_of(TomlTable& table, const PosedPart& part) {
   const bool is_cup =
       std::any_of(part.parameters.begin(), part.parameters.end(), [](const PartParameter& parameter) {

@@ -7,7 +7,7 @@
 
 #include "condyle/io/joint_file.hpp"
 
-/// What a proposed joint file is written from, whether its bodies are mesh files or bones of an image.
+/// Contents of a proposed joint file, whether its bodies are mesh files or bones of an image.
 
 namespace condyle::io {
 

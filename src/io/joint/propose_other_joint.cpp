@@ -25,7 +25,7 @@ struct Shown {
   std::string says = {};
 };
 
-/// What is written of a joint; places in mm, in the frame of the meshes.
+/// The proposed joint; places in mm, in the frame of the meshes.
 struct ShownJoint {
   std::string kind, kind_says;
   std::vector<std::string> other_choices;  ///< comments below the kind

@@ -143,7 +143,7 @@ Out as(T value) noexcept {
 /// Appends a face. False, and nothing done, for fewer than three corners, and for more where the rule refuses them.
 bool append_face(RawMesh& raw, std::span<const std::int64_t> corners, PolygonRule rule);
 
-/// What is said then: "face 12 has 4 corners: ...".
+/// Its message: "face 12 has 4 corners: ...".
 std::string refused_face(std::string_view kind, std::uint64_t number, std::size_t corners);
 
 /// Holds that cells which end at these places in the row of all corners are faces that are read.

@@ -56,7 +56,7 @@ struct VtkEncoding {
   Compressor compressor = Compressor::none;
 };
 
-/// Where and how an array is.
+/// Place and encoding of an array.
 struct VtkArray {
   enum class Format { text, base64, raw };
 

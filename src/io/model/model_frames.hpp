@@ -18,10 +18,10 @@ struct BodyPlace {
   Pose X = Pose::Identity();
 };
 
-/// What the frames of a joint stand in, which may have a body's name.
+/// Scope of a joint's frames, which may have a body's name.
 std::string place_of_joint(std::string_view joint);
 
-/// Bodies of a model and the frames that hang on them, one on another. Where a component stands is told by a path: a body's
+/// Bodies of a model and the frames that are attached to them, one to another. A path gives the place of a component: a body's
 /// name, place_of_joint(), and the names of frames after it.
 class ModelFrames {
  public:
@@ -37,7 +37,7 @@ class ModelFrames {
   const std::vector<std::string>& bodies() const noexcept { return bodies_; }
   bool is_body(const std::string& name) const { return known_.contains(name); }
 
-  /// What a socket leads to, of a component that stands in `owner`. A path's last name decides: with the name before it a frame
+  /// Target of a socket of a component that stands in `owner`. A path's last name decides: with the name before it a frame
   /// of that body or joint, else one of the owner's own, else a body, else the only frame of that name; ".." is the owner.
   /// Fails in the name of `of` for one that leads nowhere, could be two, or goes round in a circle.
   BodyPlace place_of(std::string_view socket, const std::string& owner, const ModelElement& of) const;

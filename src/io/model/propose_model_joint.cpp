@@ -149,7 +149,7 @@ class ModelJointFile {
                                   in_quotes(both->name)));
   }
 
-  /// Meshes that are not there, unless all of a body's are.
+  /// Missing meshes, unless all of a body's are missing.
   void leave_out_missing() {
     for (std::vector<NamedMesh>* meshes : {&fixed_, &mobile_}) {
       const auto is_missing = [](const NamedMesh& named) { return !named.mesh.path; };

@@ -38,7 +38,7 @@ const std::vector<JointType>& joint_types() {
 constexpr std::string_view axis_names[] = {"rotation1",    "rotation2",    "rotation3",
                                            "translation1", "translation2", "translation3"};
 
-/// What leads to a body: an element of one of these names, or a connector of 30501 to 30507.
+/// Reference to a body: an element of one of these names, or a connector of versions 30501 to 30507.
 std::string socket_of(const ModelElement& joint, std::initializer_list<std::string_view> elements,
                       std::initializer_list<std::string_view> connectors) {
   if (const XmlElement* element = joint.first_of(elements)) return element->text();
@@ -176,7 +176,7 @@ SpatialTransform transform_of(const ModelElement& joint, const std::string& name
   return axes;
 }
 
-/// What OpenSim takes a coordinate for: it reads degrees for those only that turn the joint by their own value.
+/// Kind of a coordinate in OpenSim: it reads degrees only for those that turn the joint by their own value.
 CoordinateMotion motion_of(const SpatialTransform& axes, std::size_t coordinate, const ModelElement& joint,
                            const std::string& name) {
   const auto drives = [&](const TransformAxis& axis) {

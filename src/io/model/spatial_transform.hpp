@@ -24,7 +24,7 @@ struct TransformAxis {
 /// in the parent, not turned: X_FM of every joint of OpenSim that is read here. Radians and metres.
 using SpatialTransform = std::array<TransformAxis, 6>;
 
-/// What a ModelJoint is posed by.
+/// The functions that pose a ModelJoint.
 struct ModelTransform {
   SpatialTransform axes;
 };

@@ -22,7 +22,7 @@ struct XmlElement {
 
   /// The first child of this name; null if there is none.
   const XmlElement* child(std::string_view of_name) const noexcept;
-  /// What a path of names leads to; null if it leads nowhere.
+  /// The element at a path of names; null if there is none.
   const XmlElement* at(std::initializer_list<std::string_view> path) const noexcept;
 
   /// Its text: without comments and blanks at both ends, entities decoded. A lone & stands for itself.

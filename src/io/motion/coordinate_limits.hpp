@@ -10,7 +10,7 @@
 
 namespace condyle::io {
 
-/// What a model allows one of its coordinates, in degrees or mm. It changes no pose, in OpenSim neither.
+/// Range that a model allows one of its coordinates, in degrees or mm. It changes no pose, as in OpenSim.
 struct CoordinateLimits {
   std::string name;
   CoordinateKind kind = CoordinateKind::angle;

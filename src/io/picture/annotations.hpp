@@ -4,7 +4,7 @@
 
 #include "condyle/io/picture.hpp"
 
-/// What is written over the bones: where the sides are, a scale bar, the pose.
+/// Text over the bones: letters of the sides, a scale bar, the pose.
 
 namespace condyle::io {
 

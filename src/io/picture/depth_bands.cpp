@@ -21,7 +21,7 @@ struct DeepPoint {
   double depth;
 };
 
-/// What of a convex piece lies on one side of a depth: deeper for sense 1, less deep for -1.
+/// The part of a convex piece on one side of a depth: deeper for sense 1, less deep for -1.
 std::vector<DeepPoint> clipped(const std::vector<DeepPoint>& piece, double depth, double sense) {
   std::vector<DeepPoint> kept;
   for (std::size_t i = 0; i < piece.size(); ++i) {

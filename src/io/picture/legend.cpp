@@ -86,7 +86,7 @@ void draw_legend(Picture& picture, const PictureOptions& options, const ColourSc
   Text text;
   const double ticks = below + 1.4 * size, beside = (top + bottom + size) / 2;
   double right_end = right, left_end = left;
-  // What is beyond the scale is not of its colours: a swatch of its own on that side.
+  // Values beyond the scale have none of its colours: a swatch of its own on that side.
   const auto add_beyond = [&](bool is_above) {
     const double wide = std::round(2 * size), gap = std::round(0.5 * size);
     const double from = is_above ? right + gap : left - gap - wide;

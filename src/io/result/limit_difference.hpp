@@ -13,10 +13,10 @@
 
 namespace condyle::io {
 
-/// What a difference is if the range of one of the two motions ends without contact.
+/// Kind of a difference: a bound if the range of one of the two motions ends without contact.
 enum class DifferenceIs : std::uint8_t { exact, at_least, at_most };
 
-/// What is shown as 0.0 degrees is no change, however certain: bones meshed anew differ by so much.
+/// A difference shown as 0.0 degrees is no change, however certain: remeshed bones differ by as much.
 inline constexpr double least_change_deg = 0.05;
 
 /// 5, 50 and 95 % of the differences between joints that are displaced by the same amounts, degrees.

@@ -378,10 +378,10 @@ constexpr LimitField every_field[] = {
     {"", "", &band_without_contact, one, "band_share_without_contact", "", number_column,
      "share that reaches the end of the range, 0 to 1", with_bands},
     {"normal_range_deg",
-     "how far a healthy hip is said to turn in this motion, below; null if the source has no "
+     "how far a healthy hip turns in this motion by the source, below; null if the source has no "
      "value, and for other joints",
      &normal_range_deg, one, "normal_range_deg", "deg", number_column,
-     "how far a healthy hip is said to turn", rom},
+     "how far a healthy hip turns by the source", rom},
     {"caveats",
      "list of `code`, `text` and `source` each: [what usually ends such a motion](caveats.md#caveats); "
      "empty for joints other than hips",

@@ -32,7 +32,7 @@ enum class LimitColumns : std::uint8_t {
   angles,  ///< NAME_ANGLE_deg for each angle of the joint
 };
 
-/// Whose tables have the columns.
+/// The command whose tables have the columns.
 enum class LimitTables : std::uint8_t {
   rom,
   studies,

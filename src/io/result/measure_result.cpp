@@ -49,7 +49,7 @@ std::string by_sentence(const HipMeasures& measures, std::string Measure::*sente
   return text;
 }
 
-/// What each measure is, by which planes and axes, and whose its normal range is.
+/// Definition of each measure, its planes and axes, and the source of its normal range.
 std::string definitions_text(const HipMeasures& measures) {
   std::string text = "  definitions:\n";
   for (const MeasureDefinition& each : measure_definitions()) {
@@ -204,7 +204,7 @@ std::string measure_text(const MeasureResult& result) {
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
   if (const std::string reasons = by_sentence(result.answer.measures, &Measure::why_none); !reasons.empty())
-    text += "  cannot be told:\n" + reasons;
+    text += "  cannot be computed:\n" + reasons;
   std::string notes;
   for (const std::string& sentence : result.answer.measures.left_out)
     notes += fmt::format("    {}\n", sentence);

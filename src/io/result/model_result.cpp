@@ -16,7 +16,7 @@
 namespace condyle::io {
 namespace {
 
-/// What a joint file would say of a joint's kind; nothing for a joint that cannot be read.
+/// A joint's kind as a joint file would state it; empty for a joint that cannot be read.
 std::optional<JointMapping> mapping_of_names(const ModelJoint& joint) {
   if (!joint.transform || joint.coordinates.empty()) return std::nullopt;
   return mapping_of(joint, anatomy_of(joint), side_of(joint).value_or(Side::right));

@@ -9,7 +9,7 @@
 
 namespace condyle {
 
-/// The repair of that name; throws UsageError with the names there are.
+/// The repair of that name; throws UsageError that lists the valid names.
 Repair repair_named(std::string_view name);
 std::string_view name_of(Repair repair) noexcept;
 

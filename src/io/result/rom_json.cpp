@@ -98,7 +98,7 @@ Json sphere_json(const Vec3& centre, double radius) {
   return {{"centre_mm", io::numbers(centre)}, {"radius_mm", radius}};
 }
 
-/// What contact of each of several meshes means, by their names.
+/// Meaning of contact for each of several meshes, by name.
 Json contact_of_meshes(const Body& body) {
   Json json = Json::object();
   for (const BodyPart& part : body.parts) json[part.name] = name_of(part.contact);
@@ -128,7 +128,7 @@ Json bearing_json(const RomResult& result) {
   return json;
 }
 
-/// What is known in closed form of the joint's implant.
+/// Closed forms of the joint's implant.
 Json implant_json(const Joint& joint) {
   const ClosedForm form = closed_form(joint);
   Json json{{"fixed_part", joint.implant->fixed_mesh}, {"mobile_part", joint.implant->mobile_mesh}};

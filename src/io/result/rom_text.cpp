@@ -175,7 +175,7 @@ std::string met_text(const RomResult& result, std::string_view heading, ContactO
   return text.empty() ? "" : fmt::format("  {}:\n", heading) + wrapped(text);
 }
 
-/// What the column of closed forms is of; why there is none for an implant.
+/// Source of the column of closed forms, or the reason why an implant has none.
 std::string closed_text(const RomResult& result) {
   const Joint& joint = result.joint;
   if (!joint.implant || !result.depths.empty()) return "";
@@ -370,7 +370,7 @@ std::string rom_text(const RomResult& result) {
   text += wrapped(bearing_text(result) + meshes_text(result));
   for (const std::string& caveat : result.caveats) text += wrapped(fmt::format("  {}\n", caveat));
   text += clock_words(result);
-  // What people quote, as wide as a terminal; the rest is in JSON and CSV.
+  // The figures that people quote, within a terminal's width; the rest is in JSON and CSV.
   std::vector<Column> shown{std::move(name), std::move(turned), std::move(reason)};
   shown.push_back(std::move(joint.is_hip() ? clock : point));
   if (std::any_of(result.limits.begin(), result.limits.end(),

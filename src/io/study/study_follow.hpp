@@ -13,10 +13,10 @@ namespace condyle::io {
 /// Whether limits of a study may be those of a joint whose centre is not held: by a column `follow`, or a load.
 bool may_follow(const StudyTable& table, const StudyOptions& options);
 
-/// Whether those of this row are.
+/// Whether the limits of this row follow.
 bool follows(const StudyTable& table, const StudyRow& row, const StudyOptions& options);
 
-/// What the translation of a row's joint follows: its recorded motion, or the study's load. Outlives the request.
+/// Source of the translation of a row's joint: its recorded motion, or the study's load. Outlives the request.
 class StudyFollow {
  public:
   /// Makes the request follow it, or leaves it. Throws FileError for a motion that the joint cannot follow, and for a joint without

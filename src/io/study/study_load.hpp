@@ -26,7 +26,7 @@ struct StudyLoadAnswer {
 };
 StudyLoadAnswer study_load_answer(const LoadedJoint& loaded, const StudyLoad& load);
 
-/// Those columns of this joint. FileError if it has no layers.
+/// The columns of this joint. FileError if it has no layers.
 struct LoadFields {
   std::vector<std::string> fields;
   std::vector<ContactNote> notes;  ///< on layers, load and contact

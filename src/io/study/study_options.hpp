@@ -10,7 +10,7 @@ namespace condyle::io {
 /// The query options as JSON: the same text for the same options, whatever the order they were given in.
 std::string options_json(const StudyOptions& options);
 
-/// What is asked of one load.
+/// Requested quantities of one load.
 Json load_json(const StudyLoad& load, Anatomy joint);
 
 }  // namespace condyle::io

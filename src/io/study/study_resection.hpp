@@ -27,7 +27,7 @@ struct ResectionFields {
   std::vector<std::vector<std::string>> of_limits;  ///< in the order of the motions
 };
 
-/// Those of a joint whose limits are computed for `range`. Empty if it was stopped. Throws UsageError for a motion that the joint does
+/// The columns of a joint whose limits are computed for `range`. Empty if it was stopped. Throws UsageError for a motion that the joint does
 /// not have and a target beyond its range.
 std::optional<ResectionFields> resection_fields(const LoadedJoint& loaded, const StudyResection& resection,
                                                 const RangeRequest& range, std::stop_token stop);

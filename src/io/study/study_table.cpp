@@ -31,7 +31,7 @@ bool is_source(std::string_view name) {
   return std::find(std::begin(source_columns), std::end(source_columns), name) != std::end(source_columns);
 }
 
-/// The columns that say something of a joint in this table, and that it does not have.
+/// The columns that describe a joint in this table, and those that it lacks.
 std::vector<std::string> missing_columns(const StudyTable& table) {
   const auto has = [&](std::string_view name) {
     return std::find(table.columns.begin(), table.columns.end(), name) != table.columns.end();

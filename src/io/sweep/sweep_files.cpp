@@ -125,7 +125,7 @@ void leave_out_shard(Json& provenance) {
   provenance["command"] = std::move(words);
 }
 
-/// What is the same in all shares of one sweep.
+/// Data common to all shares of one sweep.
 Json common_to_shares(const Json& json) {
   Json common;
   for (const char* key : {"condyle", "joint", "parameters", "targets", "ending_pairs", "band", "family"})

@@ -17,7 +17,7 @@ std::filesystem::path sweep_folder(const std::filesystem::path& folder, const Sw
 /// FileError if the folder is not to be written to.
 void check_sweep_folder(const std::filesystem::path& folder, const Provenance* from);
 
-/// Stands for all that a share's answer depends on: version, joint, targets and options; `quantities` says what the query's are.
+/// Key of everything that a share's answer depends on: version, joint, targets and options; `quantities` says what the query's are.
 std::string sweep_key(const Provenance& from, const SweepQuery& query, std::string_view targets,
                       std::string_view quantities);
 

@@ -43,7 +43,7 @@ namespace io {
 /// sweep_json() before it is text.
 Json sweep_object(const SweepResult& result);
 
-/// What sweep.json, designs.csv and safe.csv of a share say; `name` is what errors call the folder. Raises FileError.
+/// Contents of sweep.json, designs.csv and safe.csv of a share; errors call the folder `name`. Raises FileError.
 SweepResult read_sweep_result(const Json& json, std::string_view designs, std::string_view safe,
                               std::string_view name);
 

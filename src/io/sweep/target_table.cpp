@@ -21,7 +21,7 @@ namespace {
 constexpr std::string_view target_columns[] = {"name",      "motion",    "start",           "movement",
                                                "reach_deg", "range_deg", "pelvic_tilt_deg", "source"};
 
-/// How far a motion of its own start is looked at, if nothing else is given.
+/// Default range of a motion with its own start.
 constexpr double usual_range_deg = 120;
 
 /// One row, field by field.
