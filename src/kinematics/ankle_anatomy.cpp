@@ -34,7 +34,7 @@ double reach_towards(const TriMesh& bone, const Vec3& from, const Vec3& directio
   return reach;
 }
 
-/// What speaks against a tibia on a talus; empty if nothing does.
+/// Evidence against a tibia on a talus; empty if there is none.
 std::string why_no_ankle(const TriMesh& tibia, const TriMesh& talus, const AnkleAnatomy& ankle) {
   if (!lies_across(*ankle.dome.fit, ankle.centre, tibia))
     return "the cylinder of the mobile body points to the fixed one, and a dome lies across";

@@ -10,12 +10,12 @@
 
 namespace condyle::kinematics {
 
-/// What a talus and a tibia show of their joint, before any frame is known.
+/// Anatomy of the joint from a talus and a tibia, before any frame is known.
 ///
 ///      | shaft |  superior      The dome's cylinder gives the axis, the tibia's shaft superior; the talus reaches farther
 ///      |_     _|                forwards of its dome (neck and head) than backwards.
 ///      / `---' \ .-.
-///     (    o    |   ) anterior  Medial and lateral are not told: a mesh of the tibia may have the fibula's malleolus too.
+///     (    o    |   ) anterior  Medial and lateral are not inferred: a mesh of the tibia may have the fibula's malleolus too.
 ///      `-------' `-'
 struct AnkleAnatomy {
   JointCylinder dome;

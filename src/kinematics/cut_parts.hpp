@@ -7,7 +7,7 @@
 
 namespace condyle::kinematics {
 
-/// What was cut from the meshes of a joint.
+/// Parts that were cut from the meshes of a joint.
 struct CutParts {
   /// The number before of each vertex of the mobile body, no_index of a new one. Empty if the body is whole.
   std::vector<Index> mobile_vertex_before = {};

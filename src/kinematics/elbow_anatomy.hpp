@@ -10,8 +10,8 @@
 
 namespace condyle::kinematics {
 
-/// What a humerus shows of its elbow, before any frame is known: the axis of trochlea and capitellum, and superior along the
-/// shaft. Front is not told; the axis lies in front of the shaft's line in a straight humerus, which is given as evidence.
+/// Anatomy of the elbow from a humerus, before any frame is known: the axis of trochlea and capitellum, and superior along the
+/// shaft. Front is not inferred; the axis lies in front of the shaft's line in a straight humerus, which is given as evidence.
 struct ElbowAnatomy {
   JointCylinder trochlea;
   Vec3 centre = Vec3::Zero();      ///< the middle of the trochlea's axis

@@ -46,7 +46,7 @@ constexpr std::size_t fine_arcs = 36, coarse_arcs = 18;
 constexpr double least_strip = 3;
 constexpr std::size_t fewest_points = 12;
 
-/// What of the points lies on a cylinder, and how both ends of it share the turn.
+/// The points on a cylinder, and how its two ends share the rotation.
 struct Support {
   std::vector<Index> points;  ///< positions, ascending
   double common_arc_deg = 0, between = 0, length = 0, area_of_smaller = 0;

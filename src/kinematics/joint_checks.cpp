@@ -294,7 +294,7 @@ void check_ball(const Joint& joint, const JointPlacement& placement, Notes& note
     else if (head && !placement.sphere && head->fit.sphere.centre.norm() <= farthest_stray_sphere)
       notes.add(JointNoteCode::low_coverage,
                 formatted("the sphere about the joint centre is %.0f %% of one on ", 100 * head->coverage) +
-                    joint.mobile.name + ": too little for a head, and bearing contact is told by it");
+                    joint.mobile.name + ": too little for a head, and bearing contact is inferred from it");
     check_side_without_socket(joint, notes);
     return;
   }
@@ -334,8 +334,8 @@ void check_stated_joint(const Joint& joint, Notes& notes) {
   const auto socket = kinematics::socket_around(kinematics::uncut_surface(joint.fixed), head->fit.sphere);
   if (!*socket || !kinematics::fits_into(head->fit.sphere, **socket)) return;
   notes.add(JointNoteCode::unlikely_joint,
-            std::string(joint.kind == JointKind::hinge ? "the joint is said to be a hinge"
-                                                       : "the joint is said to be no hip") +
+            std::string(joint.kind == JointKind::hinge ? "the joint is declared a hinge"
+                                                       : "the joint is declared not a hip") +
                 ", but " + joint.mobile.name +
                 formatted(" has a head of radius %.1f mm in a socket of ", head->fit.sphere.radius) +
                 joint.fixed.name + ": a hip is a ball joint");

@@ -26,7 +26,7 @@ constexpr double near_axis = 2.6;
 /// Front: in the two femora measured the shaft runs 1.2 radii in front of the axis (needs half a radius), and the condyles
 /// stand clear of what is between them by 0.6 radii more behind than in front (needs 0.3).
 constexpr double least_shaft_ahead = 0.5, least_notch = 0.3;
-/// What is between the condyles: so much of their length, in the middle of it.
+/// Region between the condyles: this share of their length, in its middle.
 constexpr double middle_share = 0.1;
 
 /// A femur this long, in radii, may have its head; which is so large, and so complete.

@@ -17,7 +17,7 @@ struct Epicondyles {
   double to_axis_deg;  ///< from the line through both to the condyles' axis
 };
 
-/// What a femur shows of its knee, before any frame is known, and why it does not show the rest.
+/// Anatomy of the knee from a femur, before any frame is known, and the reason for each missing part.
 ///
 ///        superior
 ///          |  .-.      seen from the right: the shaft runs in front of the condyles' axis o, and behind the
@@ -44,7 +44,7 @@ struct KneeAnatomy {
 /// Takes meshes in mm. Less than two seconds for 60,000 triangles.
 KneeAnatomy knee_anatomy(const TriMesh& femur, const TriMesh& tibia);
 
-/// What the femur shows by itself, with the condyles found roughly; the mobile body, posed in its frame, only shows where they are,
+/// The same from the femur by itself, with the condyles found roughly; the mobile body, posed in its frame, only locates them
 /// and may be a patella. Some tens of milliseconds: for checks, where directions are known and may be wrong.
 KneeAnatomy knee_anatomy_roughly(const TriMesh& femur, const TriMesh& mobile, const Pose& X_FM);
 

@@ -6,7 +6,7 @@
 
 namespace condyle::kinematics {
 
-/// What a femur's condyles and shaft say against the axes and the side of a knee, whose mobile body, a tibia or a patella, is posed
+/// Evidence of a femur's condyles and shaft against the axes and the side of a knee, whose mobile body, a tibia or a patella, is posed
 /// by X_FM. The axes that the femur shows are held against those of the joint:
 ///
 ///                superior, up the shaft           within 72 degrees of Y, else   axes_not_upright

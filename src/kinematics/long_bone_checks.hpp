@@ -7,7 +7,7 @@
 
 namespace condyle::kinematics {
 
-/// What the shafts of long bones, and where two bones are nearest, say against a knee, ankle, elbow or shoulder.
+/// Evidence of the shafts of long bones, and of the place where two bones are nearest, against a knee, ankle, elbow or shoulder.
 ///
 ///        |  |   shaft of the fixed body: up from the joint (not of a shoulder)
 ///        (  )

@@ -14,7 +14,7 @@ struct ShaftLine {
   double bound_deg;  ///< of the direction: two standard errors, from how the centroids stray from the line
 };
 
-/// The smallest length, and the largest bound, of a shaft whose direction is said.
+/// The smallest length, and the largest bound, of a shaft whose direction is reported.
 inline constexpr double shortest_shaft_mm = 25, largest_shaft_bound_deg = 8;
 
 /// From the joint centre roughly towards `direction`, of slices that begin at a distance from it (beyond the flare of condyles)

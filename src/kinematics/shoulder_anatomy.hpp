@@ -14,8 +14,8 @@ struct Glenoid {
   Vec3 faces;  ///< unit: the mean of its normals by area, roughly to the side
 };
 
-/// What a humerus and a scapula show of their joint, before any frame is known. Axes of the ISB need landmarks that
-/// two meshes do not show (acromial angle, inferior angle, root of the spine; epicondyles of the humerus), and are not told.
+/// Anatomy of the joint from a humerus and a scapula, before any frame is known. Axes of the ISB need landmarks that
+/// two meshes do not show (acromial angle, inferior angle, root of the spine; epicondyles of the humerus), and are not inferred.
 struct ShoulderAnatomy {
   std::optional<SphericalPatch> head;
   std::string why_no_head;

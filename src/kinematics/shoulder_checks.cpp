@@ -85,7 +85,7 @@ std::vector<JointNote> shoulder_notes(const Joint& joint, const JointPlacement& 
       notes.push_back(
           {JointNoteCode::low_coverage,
            formatted("the sphere about the joint centre is %.0f %% of one on ", 100 * head->coverage) +
-               mobile + ": too little for a head, and bearing contact is told by it"});
+               mobile + ": too little for a head, and bearing contact is inferred from it"});
     return notes;
   }
   const Sphere& sphere = head->fit.sphere;

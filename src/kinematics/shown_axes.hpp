@@ -11,7 +11,7 @@ struct ShownAxes {
   Vec3 right() const { return anterior.cross(superior); }
 };
 
-/// What of a direction is square to a unit axis, unit.
+/// The component of a direction perpendicular to a unit axis, normalised.
 inline Vec3 square_to(const Vec3& axis, const Vec3& direction) {
   return (direction - direction.dot(axis) * axis).normalized();
 }
