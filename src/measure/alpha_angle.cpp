@@ -12,7 +12,7 @@
 namespace condyle::measure {
 namespace {
 
-/// Share of the radius: farther off than a head's contour ever is.
+/// Share of the radius: beyond any head's contour.
 constexpr double farthest_off_circle = 0.25;
 /// Contour that a circle needs, as an angle at its centre: a third of a turn of the 210 degrees that there are.
 constexpr double least_arc = 120 * degree;
@@ -26,14 +26,14 @@ struct Interval {
   Vec2 at_end;
 };
 
-/// Angles between which the ends of a piece are seen.
+/// Angles of the ends of a contour piece from the centre.
 Interval seen(const ContourPiece& piece, const Vec2& from) {
   const auto angle = [&](const Vec2& p) { return std::atan2(p.y() - from.y(), p.x() - from.x()); };
   const double a = angle(piece.from), b = angle(piece.to);
   return a < b ? Interval{a, b, piece.to} : Interval{b, a, piece.from};
 }
 
-/// Contour outside the widened circle, and within it, as the angles at which it is seen.
+/// Contour outside the widened circle, and within it, as angles from the centre.
 struct VisibleContour {
   std::vector<Interval> beyond, within;
 };

@@ -17,7 +17,7 @@ constexpr double widest_fold = 2 * degree;
 /// A roof that ends farther to the other side is none.
 constexpr double farthest_behind = 60 * degree;
 
-/// Angles from superior under which wall is seen, and where the larger one is.
+/// Angles from superior that the wall covers, and the place of the larger one.
 struct CoveredArc {
   double begin, end;
   Vec2 at_end;

@@ -29,7 +29,7 @@ HipMeasures DisplacedBones::measured(const motion::Displacement& by) const {
   return measure_bones(bones, placed_parts(bones, X_GF.linear(), by.parameters), system_, request_);
 }
 
-/// The head keeps its vertices, and its centre is as far from the joint's as it was.
+/// The head keeps its vertices, and its centre keeps its distance from the joint's.
 BoneParts DisplacedBones::placed_parts(const Bones& bones, const Eigen::Matrix3d& R_GF,
                                        std::span<const double> parameters) const {
   BoneParts parts = parts_;

@@ -97,8 +97,8 @@ double residual(const Circle& circle, const Vec2& p) {
   return (p - circle.centre).norm() - circle.radius;
 }
 
-/// What of a contour is nearest to a circle and has the kept share of its length. Parts are cut where they leave the share, so that it does
-/// not hang on where they begin.
+/// The parts of a contour nearest to a circle, with the kept share of its length. Parts are cut where they leave the share, so that it does
+/// not depend on where they begin.
 class Trimmed {
  public:
   explicit Trimmed(const std::vector<Part>& all) : all_(all), off_(all.size()) {

@@ -13,7 +13,7 @@ struct Bones {
   TriMesh hip_bone, femur;
 };
 
-/// What searches of whole surfaces found, once for a joint and all joints displaced from it.
+/// Results of searches of whole surfaces, computed once for a joint and all joints displaced from it.
 struct BoneParts {
   std::optional<SphericalPatch> head;
   std::string why_no_head;      ///< empty if there is one
@@ -29,7 +29,7 @@ struct BoneParts {
       left_out;  ///< pieces of the meshes that are not measured, a sentence for each bone
 };
 
-/// What angles are measured against: unit directions.
+/// Reference directions of angles: unit vectors.
 struct BodyAxes {
   Vec3 anterior, superior, lateral;
 };

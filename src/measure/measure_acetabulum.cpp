@@ -52,7 +52,7 @@ void set_chords(const SocketWall& wall, const std::vector<RimHour>& rim, const S
   }
 }
 
-/// Those of the rim's plane and of its points.
+/// The measures of the rim's plane and of its points.
 std::vector<Measure*> plane_measures(AcetabulumMeasures& out) {
   return {&out.inclination,          &out.version,      &out.inclination_radiographic,
           &out.version_radiographic, &out.version_0mm,  &out.version_5mm,

@@ -15,7 +15,7 @@ struct MeshPart {
 /// The triangles that reach into a ball. Linear in the mesh.
 MeshPart near_part(const TriMesh& mesh, const Sphere& ball);
 
-/// Those of them that face the ball's centre, and those that face away from it.
+/// The triangles that face the ball's centre, and those that face away from it.
 MeshPart facing_part(const TriMesh& mesh, const Sphere& ball);
 MeshPart averted_part(const TriMesh& mesh, const Sphere& ball);
 

@@ -57,7 +57,7 @@ struct Loop {
   }
 };
 
-/// What a triangle adds: arcs between its crossings that lie inside it, counter-clockwise about its normal, so that the
+/// Contribution of a triangle: arcs between its crossings that lie inside it, counter-clockwise about its normal, so that the
 /// surface within the sphere is on their left.
 Loop arcs_in(const std::array<Vec3, 3>& corners, const std::vector<Crossing>& crossings, double radius) {
   Loop out;

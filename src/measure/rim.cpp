@@ -19,7 +19,7 @@ namespace {
 /// notch is. At 2.2 to 2.8 the inclination of the Visible Human's socket is between 52.3 and 51.9 degrees; at 4.7, which takes part of the
 /// notch in, 48.6. Distances below the other, mm, are none.
 constexpr double deviations_kept = 2.5, narrowest_mm = 0.05;
-/// Change of a normal that is none, and rounds after which what is left is.
+/// Change of a normal that counts as none, and rounds after which any remaining change does.
 constexpr double plane_settled = 1e-12;
 constexpr int most_plane_rounds = 200;
 /// In radii of the head: so far beside the axis through its centre the circle of the rim is found as from the middle. A head that has left
@@ -27,7 +27,7 @@ constexpr int most_plane_rounds = 200;
 constexpr double farthest_beside = 0.35;
 /// ... and narrower than the head only where the socket reaches around it, as in a protrusion: less is a hollow beside the socket.
 constexpr double narrowest_rim = 0.8;
-/// The rim about the opening, and about the normal of its plane: the third changes nothing that is seen.
+/// The rim about the opening, and about the normal of its plane: a third pass changes nothing visible.
 constexpr int rim_rounds = 3;
 
 /// Towards the opening is -x: the largest angle from the inward axis.
@@ -135,7 +135,7 @@ std::optional<RimGeometry> circle_in(const Plane& plane, const std::vector<RimHo
                      circle->radius, clock};
 }
 
-/// Why a rim is not that of the socket which the head is in; empty if it is.
+/// Why a rim is not that of the head's socket; empty if it is.
 std::string why_not_of_head(const RimGeometry& rim, const Sphere& head) {
   const Vec3 ray = rim.centre - head.centre;
   const double beside = (ray - ray.dot(rim.normal) * rim.normal).norm();

@@ -21,7 +21,7 @@ struct SocketWall {
 };
 SocketWall socket_wall(const TriMesh& hip_bone, const Sphere& head, const std::vector<char>& ends);
 
-/// What an angle to this point of the wall must be read with: between coarse triangles its edge is cut off. Empty if nothing.
+/// Caveat of an angle to this point of the wall: between coarse triangles its edge is cut off. Empty if there is none.
 std::string edge_grain_note(const SocketWall& wall, const Sphere& head, const Vec3& point);
 
 /// The rim of a socket and its plane.

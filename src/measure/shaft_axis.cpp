@@ -25,7 +25,7 @@ constexpr double closed_mm = 1e-6;
 constexpr double least_shaft_area = 0.5;
 /// A section farther than so many robust deviations from the line of the others has no weight; distances below the other, mm, are none.
 constexpr double shaft_deviations_kept = 4.7, narrowest_shaft_mm = 0.05;
-/// Change of a direction that is none, and rounds after which what is left is.
+/// Change of a direction that counts as none, and rounds after which any remaining change does.
 constexpr double shaft_settled = 1e-12;
 constexpr int most_shaft_rounds = 50, most_weightings = 200;
 

@@ -7,7 +7,7 @@
 
 namespace condyle::measure {
 
-/// How fine a spherical part of a surface is.
+/// Fineness of a spherical part of a surface.
 struct SurfaceGrain {
   double edge_mm = 0;  ///< mean, over its area, of its triangles' longest edges
   /// Standard deviation by which each vertex is off what its neighbours are from the centre: 0 on a sphere of any triangles.
@@ -23,7 +23,7 @@ inline constexpr double coarse_edge_mm = 4;
 /// Vertices that stray by more leave a circle by the tolerance of an alpha angle here and there, mm.
 inline constexpr double rough_mm = 0.15;
 
-/// What alpha angles of such a head must be read with; empty if nothing.
+/// Caveat of alpha angles of such a head; empty if there is none.
 std::string alpha_grain_note(const SurfaceGrain& head, double radius);
 
 }  // namespace condyle::measure
