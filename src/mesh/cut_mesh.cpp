@@ -27,7 +27,7 @@ std::string plane_text(std::size_t plane) {
                    "mend the mesh");
 }
 
-/// What is smaller, mm^3, is no piece: a fold that a plane touches.
+/// Smaller volumes, mm^3, are not components: a fold that a plane touches.
 constexpr double least_solid = 1e-6;
 
 /// How often each directed edge in a plane is used more than its opposite.
@@ -45,7 +45,7 @@ class EdgeSum {
   void add(const Triangle& t) {
     for (std::size_t k = 0; k < 3; ++k) add(t[k], t[(k + 1) % 3]);
   }
-  /// Those that close the sum, each as often as it is needed.
+  /// The edges that close the sum, each as often as it is needed.
   std::vector<DirectedEdge> closing() const {
     std::vector<DirectedEdge> edges;
     for (const auto& [ends, uses] : uses_)
@@ -188,7 +188,7 @@ class PlaneCutter {
       to.push_back({p[0], p[1], p[3]}), to.push_back({p[1], p[2], p[3]});
   }
 
-  /// What an earlier plane cut off keeps its edges in common with what it left: they are halved together.
+  /// Parts that an earlier plane cut off share edges with the remaining part: both are halved together.
   void split_what_was_cut_off() {
     std::vector<Triangle> split;
     for (const Triangle& t : outside_) {
@@ -225,7 +225,7 @@ class PlaneCutter {
     outside_ = std::move(split);
   }
 
-  /// What a plane leaves of the outline of an earlier face.
+  /// The part of an earlier face's outline that a plane leaves.
   std::vector<DirectedEdge> clipped(std::size_t face, const CuttingPlane& plane, std::size_t number) {
     std::vector<DirectedEdge> left;
     std::set<Index> on_line;

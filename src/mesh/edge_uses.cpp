@@ -95,7 +95,7 @@ HWY_INLINE void fill(const Triangle* triangles, unsigned slots_log2, UseBatch& o
 }
 
 /// Writes those that are uses to `to`, one behind the other, and up to a vector more that does not count;
-/// returns how many they are. None goes to where one after it is.
+/// returns their count. No element moves to the place of a later one.
 std::size_t write_uses(std::span<const EdgeUse> uses, EdgeUse* to) {
   std::size_t count = 0, i = 0;
   if constexpr (hn::MaxLanes(d) == 16) {

@@ -32,7 +32,7 @@ class Findings {
   std::vector<std::pair<std::type_index, std::shared_ptr<void>>> all_;
 };
 
-/// Those of a mesh: copies share them, and a mesh that was moved has none yet.
+/// The findings of a mesh: copies share them, and a mesh that was moved has none yet.
 Findings& findings_of(const Mesh& mesh);
 
 }  // namespace condyle::mesh

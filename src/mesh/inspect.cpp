@@ -171,7 +171,7 @@ void find_non_manifold_vertices(const TriMesh& mesh, DisjointSets& fans, MeshRep
 void measure_components(Edges& edges, DisjointSets& fans, MeshReport& report) {
   const TriMesh& mesh = edges.mesh;
   const auto in_table = edges.table.components();
-  // Those that consist of triangles without sides have no number in the report.
+  // Components of triangles without sides have no number in the report.
   std::vector<Index> number(in_table.first_triangle.size(), no_index);
   const auto component_of = [&](Index triangle) { return number[in_table.of_triangle[triangle]]; };
   const Vec3 centre = (report.bounds.low + report.bounds.high) / 2;

@@ -46,7 +46,7 @@ HWY_INLINE Lanes dot(const Lanes3& a, const Lanes3& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
 
-/// A point as a ray sees it.
+/// A point in the frame of a ray.
 struct RayPoint {
   Lanes x, y;
 };

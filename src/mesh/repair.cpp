@@ -86,7 +86,7 @@ std::size_t flip_inverted(TriMesh& mesh) {
         : report.unbalanced_edges.count > 0
             ? "it has " + in_words(report.unbalanced_edges.count, "unbalanced non-manifold edge")
             : "it has no surface";
-    throw MeshError("cannot tell whether the mesh is inverted: " + why);
+    throw MeshError("cannot decide whether the mesh is inverted: " + why);
   }
   const std::size_t inverted = report.inverted_components.count;
   if (inverted == 0) return 0;

@@ -110,7 +110,7 @@ class CrossingSearch {
     }
   }
 
-  /// Without branches, too: most triangles that are near do.
+  /// Without branches as well: most near triangles pass.
   bool share_a_vertex(Index s, Index t) const noexcept {
     bool shared = false;
     for (const Index v : tree_.triangles()[s])

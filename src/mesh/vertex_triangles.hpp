@@ -21,7 +21,7 @@ class VertexTriangles {
   std::span<const Index> of(Index vertex) const noexcept {
     return {triangle_.data() + first_[vertex], triangle_.data() + first_[vertex + 1]};
   }
-  /// Those of several vertices, each once, in ascending order. Linear in what it returns, and a look at a bit
+  /// The triangles of several vertices, each once, in ascending order. Linear in its result, and a test of a bit
   /// for each triangle of the mesh.
   std::vector<Index> of(std::span<const Index> vertices) const;
 

@@ -202,7 +202,7 @@ class Contouring {
     }
   }
 
-  /// Those ambiguous faces in whose middle the bilinear interpolation of the corners joins the two inside. Products of
+  /// The ambiguous faces in whose middle the bilinear interpolation of the corners joins the two inside. Products of
   /// two floats are exact in double.
   static unsigned joined_faces(const std::array<float, 8>& value, unsigned ambiguous) {
     unsigned joined = 0;
