@@ -77,7 +77,7 @@ class SegmentSearch {
 
   ScrewMotion motion(const Pose& from, const Pose& to) const { return {from, to, reach_mm_}; }
 
-  /// The resolution as a fraction of the way.
+  /// The resolution as a fraction of the segment.
   Segment search(const ScrewMotion& motion, double resolution) {
     Segment segment{BetweenSamples::exact, motion.rotation(), {}, 0};
     if (motion.is_still()) {
@@ -110,7 +110,7 @@ struct Place {
   double fraction;  ///< of the segment to the next one
 };
 
-/// A contact over one way or several, put together in their order.
+/// A contact over one segment or several, joined in order.
 struct Run {
   Place entry, exit;
   struct Proven {

@@ -102,7 +102,7 @@ BearingFinding surface_of(const Joint& joint, const BearingOptions& options) {
   const std::optional<SphericalPatch> head = kinematics::head_near_centre(
       has_parts ? Mesh(marked_part(mobile, surface.triangles)) : joint.mobile.mesh);
   if (!head)
-    return none(joint.mobile.name + (has_parts ? ": nothing of the meshes called bearing is spherical"
+    return none(joint.mobile.name + (has_parts ? ": no part of the meshes named bearing is spherical"
                                                : ": no head was found around the joint centre"));
   surface.head = head->fit.sphere;
   surface.head_coverage = head->coverage;

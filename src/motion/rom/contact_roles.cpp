@@ -88,7 +88,7 @@ ContactRoles motion::contact_roles(const Joint& joint, const std::optional<Beari
       if (surface->triangles[t] && roles.mobile[t] != ContactRole::soft)
         roles.mobile[t] = ContactRole::bearing;
   if (!has_part(fixed, PartContact::bearing)) return roles;
-  // What touches the head touches it in the socket; cartilage beyond the head slides on cartilage only.
+  // Contact with the head is in the socket; cartilage beyond the head slides on cartilage only.
   const std::vector<std::uint8_t> within =
       surface ? triangles_within(mobile.mesh, *surface) : std::vector<std::uint8_t>(roles.mobile.size());
   for (std::size_t t = 0; t < roles.mobile.size(); ++t)

@@ -7,7 +7,7 @@
 #include "condyle/bearing.hpp"
 #include "condyle/joint.hpp"
 
-/// What contact of each triangle means.
+/// Role of each triangle in contact.
 
 namespace condyle::motion {
 

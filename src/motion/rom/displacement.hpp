@@ -8,7 +8,7 @@
 #include "condyle/pose.hpp"
 #include "kinematics/posed_parts.hpp"
 
-/// What one sample of a band displaces, and by how much: of limits and of measures.
+/// Displacements of one sample of a band of limits or of measures.
 
 namespace condyle::motion {
 

@@ -14,7 +14,7 @@ namespace {
 /// Finer ones would run into the rounding that clearance() allows for.
 constexpr Angle finest = Angle::degrees(1e-6);
 
-/// Contact is looked for so many tolerances past where the search ends.
+/// Contact is searched this many tolerances past the end of the search.
 constexpr int most_tolerances_past = 64;
 
 using Knots = std::span<const TranslationKnot>;

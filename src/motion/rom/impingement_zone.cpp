@@ -71,7 +71,7 @@ struct CountedBody {
   }
 };
 
-/// What of both bodies can meet in a zone, and which contact of it counts.
+/// The parts of both bodies that can meet in a zone, and which of their contact counts.
 struct CountedContact {
   CountedBody fixed, mobile;
   bool leaves_out_bearing;

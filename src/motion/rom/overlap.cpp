@@ -115,7 +115,7 @@ void leave_out_contacts(const Joint& joint, const OverlapOptions& options, const
   const Mesh &fixed = joint.fixed.mesh, &mobile = joint.mobile.mesh;
   const auto pairs = JointContact(fixed, mobile).pairs(pose_at(joint.coordinates(), options.reference_pose));
   for (const TrianglePair& pair : pairs)
-    // What is soft ends no motion: the bone under it stays.
+    // Soft meshes end no motion: the bone under them stays.
     if (bearing.kind_of(pair.fixed, pair.mobile) != ContactKind::soft)
       of_fixed[pair.fixed] = of_mobile[pair.mobile] = 0;
   unmark_neighbours(fixed, rings, of_fixed);

@@ -53,7 +53,7 @@ Feature feature(const FeatureTree& tree, FeatureKind kind, Index slot) {
   return {FeatureKind::face, tree.mesh_triangle(slot)};
 }
 
-/// What a search is for: the first contact of all, which bounds what is left to be looked at.
+/// Goal of a search: the first contact of all, which bounds the remaining search.
 class FirstOfAll {
  public:
   explicit FirstOfAll(double range) : within_(range) {}

@@ -16,7 +16,7 @@ struct FeaturePair {
 
 /// How far the rotating body rotates about the axis either way from its start, until the surfaces meet or the
 /// range ends; guarantee as of FirstContact. In witnesses the stationary body is called fixed, the rotating one
-/// mobile. The range must be as RotationRange says.
+/// mobile. The range must satisfy RotationRange.
 ///
 /// Deterministic: the same input gives the same bits on any thread.
 RotationLimits first_contact(const RotationTable& stationary, RotatingBody& rotating,

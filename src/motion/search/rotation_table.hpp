@@ -87,7 +87,7 @@ class RotatingBody {
   const CylinderBox& node_box(Index node);
   /// All features, the triangles of this leaf and their corners being ready.
   const CylinderFeatures& leaf_features(Index node);
-  /// Those that are ready so far.
+  /// The features that are ready so far.
   const CylinderFeatures& features() const noexcept { return features_; }
   const Triple<double>& placed_vertex(Index vertex) {
     place_vertex(vertex);
