@@ -117,7 +117,7 @@ std::vector<double> shares_at_bends(const std::vector<LoweredEdge>& edges, const
         probes.push_back(probe_at(edges[e], static_cast<double>(i) / (between + 1)));
     return depths(probes, sweeps);
   };
-  // Whether the middle is missed tells most edges apart; both ends of the others are asked too, with the same error.
+  // Whether the middle is missed decides most edges; for the others both ends are tested too, with the same error.
   std::vector<std::size_t> all(edges.size()), bent;
   for (std::size_t e = 0; e < all.size(); ++e) all[e] = e;
   const std::vector<double> coarse = ask(all, 1);

@@ -20,7 +20,7 @@
 namespace condyle::plan {
 namespace {
 
-/// Asked beyond a target, so that what is left meets the other bone only past it.
+/// Margin beyond a target, so that the remaining bone meets the other bone only past it.
 constexpr Angle beyond = Angle::degrees(0.0005);
 /// A motion that kept bone stops is planned short of that.
 constexpr Angle short_of_kept = Angle::degrees(0.001);
@@ -38,7 +38,7 @@ constexpr int most_stops = 20;
 /// Points in which a surface is asked for what goes: so far apart, and so far outside of it too, mm.
 constexpr double search_spacing_mm = 1, search_outside_mm = 1;
 
-/// A body without what is soft, and without what lies in the ball; which triangles of the mesh these are.
+/// A body without soft meshes and without triangles in the ball; and which triangles of the mesh remain.
 motion::PartOfMesh counted(const Body& body, const Mesh& mesh, const Included& counts,
                            const std::optional<BearingBall>& ball) {
   TriMesh part{mesh.vertices(), {}};
@@ -93,7 +93,7 @@ BoneCut::BoneCut(const Joint& joint, BodyRole cut_role, const ResectionRequest& 
   const Included of_other = included(cuts_mobile ? BodyRole::fixed : BodyRole::mobile);
   const Mesh solid = counted(other, other.mesh, of_other, std::nullopt).mesh;
   if (!solid.is_closed())
-    throw MeshError(other.name + ": its mesh is open, and bone that an open mesh sweeps over cannot be told");
+    throw MeshError(other.name + ": its mesh is open, so the bone that it sweeps over cannot be computed");
   if (!bone_.mesh.is_closed())
     throw MeshError(bone_.name + ": its mesh is open, and no bone can be removed from it");
   // Nothing is inside a body whose triangles are wound the other way.
@@ -162,7 +162,7 @@ const KeptBone& BoneCut::kept() const {
   return role_ == BodyRole::mobile ? request_.mobile : request_.fixed;
 }
 
-/// Why vertices of the refined body are kept.
+/// Reasons why vertices of the refined body are kept.
 std::vector<std::optional<KeptBy>> BoneCut::kept_vertices(const Body& body) const {
   const KeptBone& keep = kept();
   const Mesh& mesh = body.mesh;
@@ -232,7 +232,7 @@ void BoneCut::refine() {
   }
 }
 
-/// What no vertex reaches from where it is may go from elsewhere: no bone stops that motion, but no depth can follow it.
+/// Bone that no vertex reaches from its place may be reached from elsewhere: no bone stops that motion, but no depth can follow it.
 void BoneCut::refuse_too_deep(const std::vector<Obstruction>& left) const {
   if (kept().deepest_mm) return;
   for (const Obstruction& each : left)
@@ -282,7 +282,7 @@ std::vector<Met> BoneCut::what_meets() const {
   for (std::size_t t = 0; t < targets_.size(); ++t) {
     const auto contacts = exact_[t]->obstructions(tree, reach_[t]);
     if (!contacts)
-      throw MeshError(bone_.name + ": what is left would lie inside the other bone at the start of " +
+      throw MeshError(bone_.name + ": the remaining bone would lie inside the other bone at the start of " +
                       targets_[t].motion.name);
     for (motion::FeatureContact contact : *contacts) {
       if (contact.feature.kind == FeatureKind::face)
@@ -332,7 +332,7 @@ bool BoneCut::finish() {
   surface_->unfold();
   if (!request_.burr_mm) return true;
   before_burr_mm3_ = removed_mm3(*surface_);
-  // What is unfolded may be in the way of another ball.
+  // An unfolded surface may block another ball.
   for (int i = 0; i < most_burrs; ++i) {
     Burr burr(*surface_, *request_.burr_mm / 2);
     if (!burr.make()) {
@@ -347,7 +347,7 @@ bool BoneCut::finish() {
   return true;
 }
 
-/// What is wrong with the surface as it is now; empty if nothing is.
+/// Defect of the surface in its present state; empty if there is none.
 std::string BoneCut::fault() const {
   const Mesh mesh = surface_->mesh();
   const TriMesh& before = surface_->body().mesh;
@@ -386,7 +386,7 @@ Joint BoneCut::joint() const {
   Body& bone = role_ == BodyRole::mobile ? joint.mobile : joint.fixed;
   bone = surface_->body();
   bone.mesh = surface_->mesh();
-  // Smaller triangles around a cut weigh more in a fit, and a rim that is cut is farther from the head: what bears is what it was.
+  // Smaller triangles around a cut weigh more in a fit, and a rim that is cut is farther from the head: the bearing surface stays that of the uncut joint.
   if (!bearing_) return joint;
   joint.mobile.bearing_margin_mm = bearing_->margin_mm;
   if (bearing_->parts.empty()) {

@@ -26,8 +26,8 @@ struct StoppedAt {
   Blocked by;
 };
 
-/// Whether contact of a triangle may end a motion: not of what is soft, nor, where bearing contact does not count, of what of the mobile
-/// body is called bearing.
+/// Whether contact of a triangle may end a motion: not that of soft meshes, nor, if bearing contact does not count, of meshes of the mobile
+/// body that are named bearing.
 struct Included {
   bool leaves_out_bearing;
 

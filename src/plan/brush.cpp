@@ -23,7 +23,7 @@ constexpr double brush_smoothing_mm = 3;
 constexpr int most_brush_means = 100;
 /// Weight of a stroke: whole up to this share of its radius, and where ways inwards make an angle of at least this cosine.
 constexpr double whole_share_of_radius = 0.5, whole_facing = 0.5;
-/// What would turn a triangle over or run through another goes by this share less deep, as often as it takes; not at all below the least.
+/// A vertex that would turn a triangle over or run through another goes less deep by this share, repeatedly; not at all below the least.
 constexpr double share_held_back = 0.8, least_share = 0.05;
 
 /// s(t) = 3 t^2 - 2 t^3 from 0 to 1.
@@ -114,7 +114,7 @@ struct Brush::Parts {
     take_cut();
   }
 
-  /// What is elsewhere already was cut along a way of its own.
+  /// Vertices that were moved before were cut along directions of their own.
   void take_cut() {
     BrushStep cut;
     for (Index v = 0; v < now.size(); ++v) {

@@ -21,8 +21,8 @@ struct Burr::Ball {
   double enters_mm;  ///< bone that may go or not, at the most
 };
 
-/// What may be in a ball: vertices of near triangles, and other triangles. Told by where the tree has them, which is no deeper than they
-/// are.
+/// Candidates inside a ball: vertices of near triangles, and other triangles. Decided by their places in the tree, which are no deeper
+/// than their own.
 struct Burr::Around {
   std::vector<Index> vertices, triangles;
 };

@@ -17,7 +17,7 @@ namespace {
 constexpr double farthest_mm = 40;
 /// A triangle is looked at in the points of a lattice with so many to a side: 45 points.
 constexpr int lattice = 8;
-/// What still stands out between vertices is lowered so often; less than this is none, mm.
+/// Remaining protrusions between vertices are lowered this often; less than this is none, mm.
 constexpr int rounds = 20;
 constexpr double none_mm = 1e-3;
 /// A triangle that faces less than this the way it did is taken for turned over: the cosine. Lowered so often at most.
@@ -32,9 +32,9 @@ constexpr double shortest_piece = 0.04;
 constexpr double beside_wall = 0.12, least_beside_wall_mm = 0.005, largest_beside_wall = 0.2;
 /// Nearer to a kept corner or edge than this share of a triangle, its free corners would run away: it is kept bone that meets.
 constexpr double least_free = 0.1;
-/// What is kept may stand out by so much before that is said here: the exact search is to find whether it ends a motion.
+/// Kept bone may stand out by this much before it is reported here: the exact search finds whether it ends a motion.
 constexpr double left_mm = 0.02;
-/// It is looked for so deep where no corner may go.
+/// Depth of the search for it if no corner may go.
 constexpr double least_room_mm = 2 * left_mm;
 
 }  // namespace
@@ -202,8 +202,8 @@ void CutSurface::lower_vertices(const std::vector<Index>& which, const std::vect
     if (found[i].need) take(of[i], found[i].length, *found[i].need);
 }
 
-/// What is swept below bone that is not: beside a deeper vertex the last swept point down to its depth, and a little more, tells how deep the
-/// vertex goes. Each piece of what is swept reaches the surface, so this goes on from there, vertex by vertex.
+/// Swept bone below bone that is not swept: beside a deeper vertex, the last swept point down to its depth, and a little more, decides how deep the
+/// vertex goes. Each swept component reaches the surface, so this proceeds from there, vertex by vertex.
 void CutSurface::lower_overhangs(const std::vector<SweepTo>& sweeps) {
   const std::vector<Triangle>& triangles = body_.mesh.triangles();
   for (bool any = true; any;) {
@@ -271,7 +271,7 @@ std::vector<CutSurface::Swept> CutSurface::swept_between(const std::vector<Index
   return swept;
 }
 
-/// As far inwards as all its corners that are free may go.
+/// As far inwards as all its free corners may go.
 Probe CutSurface::probe_below(const SurfacePoint& point) const {
   Probe probe{Vec3::Zero(), Vec3::Zero(), std::numeric_limits<double>::infinity()};
   for (int k = 0; k < 3; ++k) {
@@ -416,7 +416,7 @@ KeptBy CutSurface::kept_by(const SurfacePoint& point) const {
   return KeptBy::depth;
 }
 
-/// The vertices that may go of the triangles in which a point of the bearing surface lies.
+/// The removable vertices of the triangles that contain a point of the bearing surface.
 std::vector<Index> CutSurface::beside(const SurfacePoint& point) const {
   std::vector<Index> found;
   if (vertices_[point.corners[0]].kept != KeptBy::bearing) return found;

@@ -14,7 +14,7 @@
 
 namespace condyle::plan {
 
-/// A place that stays in the way of a target.
+/// A place that still obstructs a target.
 struct Obstruction {
   std::size_t target;
   double from_rad;  ///< where its motion is stopped
@@ -68,15 +68,15 @@ class CutSurface {
   /// between its ends misses the depth by more than this, or by more than half a per cent of the deepest place. Shares as of split_at(). Lowers the
   /// vertices.
   std::vector<double> bends(const std::vector<SweepTo>& sweeps, double missed_mm);
-  /// Back to where it was.
+  /// Restores the surface.
   void restore();
-  /// Lowers the vertices until the surface is clear of everything that the sweeps cover, and says what stays in the way.
+  /// Lowers the vertices until the surface is clear of everything that the sweeps cover, and returns the remaining obstructions.
   std::vector<Obstruction> lower(const std::vector<SweepTo>& sweeps);
-  /// What stays in the way however much of the surface is lowered: below triangles whose corners are all as deep as they may go.
+  /// Bone that still blocks, however far the surface is lowered: below triangles whose corners all have their largest depth.
   std::vector<Obstruction> left_at_room(const std::vector<SweepTo>& sweeps) const;
-  /// Depths, and how deep vertices may go.
+  /// Scales depths, and how deep vertices may go.
   void scale_depths(double by);
-  /// A vertex so deep, or as deep as it may go; never higher than it is.
+  /// Lowers a vertex to this depth, or as deep as it may go; never raises it.
   void lower_to(Index vertex, double depth_mm, const Need& need);
   /// Lowers what is higher around steep walls until no triangle is turned over; false if kept bone does not let it.
   bool unfold();

@@ -118,7 +118,7 @@ struct Ended {
 }  // namespace
 
 struct DesignLimits::Parts {
-  /// What a search of two meshes needs beside a motion.
+  /// Inputs of a search of two meshes beside a motion.
   struct PairOfMeshes {
     std::size_t fixed, mobile;
     std::uint16_t name;
@@ -350,7 +350,7 @@ struct DesignLimits::Parts {
     const auto search_pair = [&](std::size_t p) {
       best.take(ended(p, turn, parts, values, Angle::radians(best.ended.turned)), pairs[p].name);
     };
-    // What is kept, and what has its answer, narrows the range of what is searched for.
+    // Kept results, and motions that are answered, narrow the range of the search.
     for (std::size_t p = 0; p < pairs.size(); ++p) {
       if (pairs[p].known == PairOfMeshes::Known::always)
         best.take({0, LimitReason::contact_at_start}, pairs[p].name);

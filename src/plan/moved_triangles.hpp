@@ -15,12 +15,12 @@ struct Places {
   const Points& now;
 };
 
-/// What is wrong with triangles of a surface that moves a little from where it was before. What was wrong already is nobody's fault.
+/// Defects of triangles of a surface that moves a little. Defects from before the move do not count.
 class MovedTriangles {
  public:
   explicit MovedTriangles(const Mesh& before);
 
-  /// Of these triangles those that face too far away from how they lay before, and farther than they did.
+  /// The triangles among these that have turned too far from their orientation before, and farther than they had.
   std::vector<Index> turned(std::span<const Index> moved, const Places& places) const;
   /// Triangles that run through another one, of which one at least moved, where the two did not before: both of each pair. Pairs with
   /// a common vertex are left to turned().

@@ -13,7 +13,7 @@ struct ShaftLine {
   Vec3 point, down;
 };
 
-/// What a total hip is placed by, in the frame of a joint at zero angles; mm.
+/// Landmarks that place a total hip, in the frame of a joint at zero angles; mm.
 struct PlacedBy {
   Vec3 centre;  ///< where the centre of cup and head comes
   Sphere head;  ///< of the femur: it is cut off

@@ -14,8 +14,8 @@ struct RefinedBody {
   std::vector<Index> triangle_before;  ///< of each triangle: the one of the body before that it is a piece of
 };
 
-/// Which triangles shall be small: marks of a mesh on its way, given which triangle of the body each is a piece of, and which are asked for.
-/// What is not asked for stays as it is.
+/// Which triangles shall be small: marks of an intermediate mesh, given which triangle of the body each is a part of, and which are requested.
+/// Triangles that are not requested stay unchanged.
 using ToRefine =
     std::function<std::vector<std::uint8_t>(const TriMesh& pieces, const std::vector<Index>& triangle_before,
                                             const std::vector<std::uint8_t>& asked)>;

@@ -6,7 +6,7 @@
 
 #include "plan/sweep.hpp"
 
-/// How far below a point what is swept goes.
+/// How far the swept region reaches below a point.
 
 namespace condyle::plan {
 
@@ -43,7 +43,7 @@ std::vector<std::optional<Need>> needs_of(const Points& points, const std::vecto
 /// Steps along a direction, mm: what is not swept for less than this is not seen.
 inline constexpr double step_mm = 0.1;
 
-/// Found by steps, and the last one halved; to within 0.001 mm past its end.
+/// Searched in steps, the last one halved; to within 0.001 mm past its end.
 std::vector<SweptInterval> swept_intervals(const std::vector<Probe>& probes,
                                            const std::vector<SweepTo>& sweeps);
 
