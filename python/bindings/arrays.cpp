@@ -24,7 +24,7 @@ std::string name_of_type(const py::array& array) {
   return py::str(array.dtype()).cast<std::string>();
 }
 
-/// As doubles, rounded where they were longer; strides are kept.
+/// As doubles, rounded if they were longer; strides stay.
 py::array as_doubles(const py::array& array, std::string_view name) {
   if (!is_number(array))
     throw UsageError(fmt::format("{}: real numbers are needed, not {}", name, name_of_type(array)));
@@ -51,7 +51,7 @@ double at(const py::array& array, py::ssize_t i, py::ssize_t j) {
 /// Rotations written with six decimals pass, as they do in joint files.
 constexpr double rotation_tolerance = 1e-6;
 
-/// What is wrong with a rigid motion, empty where nothing is.
+/// Defect of a rigid motion; empty if there is none.
 std::string fault_of(const Pose& pose) {
   if (!pose.matrix().allFinite()) return "finite numbers are needed";
   if (pose.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1)) return "the last row of a pose is 0 0 0 1";
@@ -225,7 +225,7 @@ py::array_t<std::int64_t> integers_in(const py::object& given, std::string_view 
   const py::array array = array_in(given, name, std::move(shape), wanted);
   if (array.dtype().kind() != 'i' && array.dtype().kind() != 'u')
     throw UsageError(fmt::format("{}: integers are needed, not {}", name, name_of_type(array)));
-  // Those beyond the signed ones must not become others by wrapping.
+  // Numbers beyond the signed range must not wrap to others.
   if (array.dtype().kind() == 'u' && array.itemsize() == 8 && array.size() > 0 &&
       py::bool_(array.attr("max")().attr("__gt__")(py::int_(INT64_MAX))))
     throw UsageError(fmt::format("{}: a number beyond {}", name, INT64_MAX));

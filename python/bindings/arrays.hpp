@@ -25,7 +25,7 @@ template <class T>
 py::array view_of(const T* data, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides,
                   const py::object& owner) {
   py::array array(py::dtype::of<T>(), std::move(shape), std::move(strides), data, owner);
-  // What `flags.writeable = False` does, in nanoseconds: small answers have many arrays.
+  // The effect of `flags.writeable = False`, in nanoseconds: small answers have many arrays.
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }
@@ -68,7 +68,7 @@ py::array array_in(const py::object& given, std::string_view name, std::string_v
 py::array array_in(const py::object& given, std::string_view name, std::vector<py::ssize_t> shape,
                    std::string_view wanted);
 
-/// What becomes of coordinates that are not finite.
+/// Treatment of coordinates that are not finite.
 enum class NotFinite { refuse, leave };
 
 /// Points of an (N, 3) array of real numbers. Doubles that lie column by column are read where they are, as long as this

@@ -32,8 +32,8 @@ FollowLoad load_in(const ElasticContact& layers, const py::dict& given) {
   return load;
 }
 
-/// What is asked: `layers` is null with poses, and poses are none with layers. Motions that a record does not lead along are left
-/// out where `only_recorded`.
+/// The request: `layers` is null with poses, and poses are empty with layers. With `only_recorded`, motions that the record does not
+/// follow are left out.
 RangeRequest followed_request_in(const JointHandle& handle, const py::list& motions, const py::object& poses,
                                  const ElasticContact* layers, const py::dict& given) {
   RangeRequest request;

@@ -18,7 +18,7 @@ namespace condyle::python {
 
 namespace py = pybind11;
 
-/// Between two looks for Ctrl-C: well below what people notice, well above what taking the lock costs.
+/// Interval between two checks for Ctrl-C: well below what people notice, well above what taking the lock costs.
 inline constexpr std::chrono::milliseconds poll_interval{50};
 
 /// For loops over short pieces of work on the calling thread, which does not hold the lock. Raises KeyboardInterrupt, or what
@@ -44,7 +44,7 @@ class Follower {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// What `compute(report, stop_token)` gives, computed on a thread of its own while this one looks for Ctrl-C and hands
+/// Result of `compute(report, stop_token)`, computed on a thread of its own while this one watches for Ctrl-C and passes
 /// on progress; `report(done, total)` may be called from any thread. Called with the lock held. An answer that was stopped is
 /// never seen: the exception that stopped it is raised, once the computation has ended.
 template <class Compute>

@@ -23,7 +23,7 @@ std::optional<Provenance> files_of(const LoadedJoint& loaded) {
   return provenance_of(loaded, {"condyle.RangeOfMotion.write_report"});
 }
 
-/// What the limits of `range` were computed for, with what a report adds.
+/// Request of the limits of `range`, with the additions of a report.
 RangeRequest request_of(const RangeHandle& range, std::vector<Motion> motions) {
   RangeRequest request{.motions = std::move(motions), .range = range.options};
   request.range.bearing.surface.reset();  // found again with its notes

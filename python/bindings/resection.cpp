@@ -13,7 +13,7 @@
 namespace condyle::python {
 namespace {
 
-/// The joint with other meshes, placed as this one is.
+/// The joint with other meshes, placed like this one.
 std::unique_ptr<JointHandle> handle_of(const JointHandle& handle, Joint joint) {
   LoadedJoint loaded = handle.loaded;
   loaded.joint = std::move(joint);

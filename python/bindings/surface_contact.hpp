@@ -13,7 +13,7 @@ namespace condyle::python {
 
 namespace py = pybind11;
 
-/// Faces in contact of a surface, for those within a region to be told.
+/// Faces in contact of a surface, to select those within a region.
 struct ContactFaces {
   std::vector<FaceContact> faces;
   Mesh casting;

@@ -9,7 +9,7 @@ namespace condyle::python {
 
 namespace py = pybind11;
 
-/// What condyle.VertexGaps is made of.
+/// Contents of condyle.VertexGaps.
 py::dict dict_of(RadialResults&& results);
 py::dict dict_of(TangentialResults&& results);
 

@@ -124,12 +124,12 @@ class DescribedJoint:
 
     @property
     def fixed_parts(self) -> tuple[BodyPart, ...]:
-        """The meshes that the fixed body is made of; empty where it is one."""
+        """The meshes that the fixed body is made of; empty if it is one."""
         return tuple(BodyPart(*part) for part in self._native.fixed_parts)
 
     @property
     def mobile_parts(self) -> tuple[BodyPart, ...]:
-        """Those of the mobile body."""
+        """The meshes that the mobile body is made of; empty if it is one."""
         return tuple(BodyPart(*part) for part in self._native.mobile_parts)
 
     def part(self, name: str, body: Body = "mobile") -> TriMesh:

@@ -495,7 +495,7 @@ class Joint(DescribedJoint):
                   progress: Progress = None) -> Resection[Joint]:
         """The bone that must go so that each motion reaches its target, and the joint without it.
 
-        Osseous: labrum, cartilage, capsule and the strength of what is left are not modelled.
+        Osseous: labrum, cartilage, capsule and the strength of the remaining bone are not modelled.
 
         Parameters
         ----------

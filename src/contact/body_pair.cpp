@@ -70,7 +70,7 @@ struct LeafTriangles {
   Boxes boxes;
   Box box;  ///< of all
 
-  /// Does nothing if it is this leaf already: in a row of pairs one of the two often is.
+  /// Does nothing if it is this leaf already: in a row of pairs one of the two is often unchanged.
   template <class CornersOf>
   void take(Index number, const Node& node, const CornersOf& corners_of) {
     if (leaf == number) return;

@@ -39,7 +39,7 @@ constexpr double least_part = 1.0 / 4;
 /// If the load changes by this many times the change that the stiffness predicts, it jumps. At 4, fewer frames
 /// converge; at 16, no more do and steps increase.
 constexpr double steepest_change = 8;
-/// How far the mobile body is moved each way to measure stiffness across jumps of the force, mm: some faces of a cartilage mesh
+/// How far the mobile body is moved in each sense to measure stiffness across jumps of the force, mm: some faces of a cartilage mesh
 /// then pass its rim.
 constexpr double measured_travel = 0.05;
 /// Over shorter distances the stored energy shows nothing: a face that begins or ceases to meet the other surface
@@ -51,7 +51,7 @@ constexpr double measured_angle = measured_travel / 20;
 /// Layers that are compressed by so much of their thickness have no more to give; by all of it, the law says nothing any more.
 constexpr double exhausted_strain = 0.9, whole_strain = 1;
 
-/// Contact that carries less than this share of a force does not hold it: a corner that is grazed on the way out.
+/// Contact that carries less than this share of a force does not hold it: a corner that is grazed while leaving.
 constexpr double least_carried_share = 0.05;
 
 /// Which small motions of M are free.

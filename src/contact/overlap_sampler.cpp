@@ -198,7 +198,7 @@ void OverlapSampler::cast_inwards(const Pose& X_CT, Scratch& scratch, Results& o
   const auto& inside = scratch.inside;
   scratch.rays.clear();
   for (const Index ray : inside.point) scratch.rays.push_back(inward_[ray]);
-  // The way out through the centre ends near where the ray does.
+  // The exit through the centre ends near the ray's end.
   mesh::nearest_hits(ray_target_, X_TC, scratch.rays, options_.reach_mm, scratch.hits, inside.triangle);
   out.rays = inside.size();
   for (std::size_t i = 0; i < inside.size(); ++i) take_end(inside.point[i], i);

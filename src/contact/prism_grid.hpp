@@ -15,7 +15,7 @@ namespace condyle::contact::prisms {
 struct Crop {
   double low_x, high_x, low_y, high_y, top;
 
-  /// A triangle, its z as it is.
+  /// A triangle with unchanged z.
   Polygon of(const Prism& prism) const noexcept {
     Polygon part;
     for (const Corner& corner : prism.corners) part.push(corner);

@@ -17,7 +17,7 @@ inline double ordered_norm(const Vec3& v) noexcept {
   return std::sqrt(ordered_dot(v, v));
 }
 
-/// Of length 1, whatever its length; zero stays zero. As Eigen's stableNormalized().
+/// Scaled to length 1, whatever its length; zero stays zero. Like Eigen's stableNormalized().
 inline Vec3 ordered_direction(const Vec3& v) noexcept {
   const double largest = v.cwiseAbs().maxCoeff();
   if (!(largest > 0)) return v;

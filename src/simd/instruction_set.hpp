@@ -12,7 +12,7 @@ struct InstructionSet {
   std::int64_t target;
 };
 
-/// Those that this processor has, the best first: the first is what runs unless another one is chosen. The
+/// The sets of this processor, the best first: the first one runs unless another one is chosen. The
 /// last one is what every processor of the family has.
 std::vector<InstructionSet> instruction_sets();
 

@@ -23,7 +23,7 @@ HWY_INLINE hwy::HWY_NAMESPACE::Vec<Tag> numbers_from(Tag tag, std::size_t first)
   return hn::Add(hn::Iota(tag, 0), hn::Set(tag, static_cast<hn::TFromD<Tag>>(first)));
 }
 
-/// Those lanes of which the mask is set, one behind the other, and whatever behind them.
+/// The lanes whose mask is set, packed, followed by arbitrary values.
 ///
 /// Eight lanes are permuted by a table of our own: of Highway 1.0.3's GCC 12 makes a copy on the stack each
 /// time.

@@ -115,13 +115,13 @@ TEST(FlipInverted, RefusesWhatHasNoInside) {
   TriMesh open = test::flipped(test::box({0, 0, 0}, {1, 1, 1}));
   open.triangles.pop_back();
   EXPECT_EQ(complaint(open).rfind(
-                "cannot tell whether the mesh is inverted: it has an open boundary of 3 edges near ", 0),
+                "cannot decide whether the mesh is inverted: it has an open boundary of 3 edges near ", 0),
             0u);
 
   TriMesh mixed = test::box({0, 0, 0}, {1, 1, 1});
   std::swap(mixed.triangles[0][1], mixed.triangles[0][2]);
   EXPECT_EQ(complaint(mixed),
-            "cannot tell whether the mesh is inverted: neighbours are wound differently at 3 edges");
+            "cannot decide whether the mesh is inverted: neighbours are wound differently at 3 edges");
 
   TriMesh doubled = test::box({0, 0, 0}, {1, 1, 1});
   doubled.triangles.insert(doubled.triangles.end(), doubled.triangles.begin(),
@@ -129,7 +129,7 @@ TEST(FlipInverted, RefusesWhatHasNoInside) {
   doubled.triangles.push_back(doubled.triangles[3]);
   doubled.triangles.push_back(doubled.triangles[3]);
   EXPECT_EQ(complaint(doubled),
-            "cannot tell whether the mesh is inverted: it has 3 unbalanced non-manifold edges");
+            "cannot decide whether the mesh is inverted: it has 3 unbalanced non-manifold edges");
 }
 
 TEST(FlipInverted, TurnsASurfaceThatIsThereTwice) {

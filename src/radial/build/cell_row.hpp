@@ -16,7 +16,7 @@ struct CellRow {
   std::uint32_t first, last;
   std::uint16_t left_end = whole, right_begin = 0;
 
-  /// Those that a point with this axis part can meet. In which half it is cannot be predicted: bits choose, not
+  /// The entries that a point with this axis part can meet. In which half it is cannot be predicted: bits choose, not
   /// branches.
   constexpr CellRow half_at(std::uint32_t axis) const noexcept {
     const std::uint32_t is_right = 0u - (axis >> 7 & 1u), end = left_end == whole ? last : first + left_end;

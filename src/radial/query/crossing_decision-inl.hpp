@@ -145,7 +145,7 @@ HWY_INLINE PointCrossings classify_scalar(const Crossings& all, std::size_t last
 /// As classify_scalar(), for no more crossings than a vector of four has lanes: nearly all. Where the crossing
 /// nearest before the point certainly is that and enters the solid, and the one nearest behind it certainly
 /// is that and leaves it, these are the exits, if the winding number is 1. No branch asks which is the
-/// shorter, nor whether the point is inside: there is no telling beforehand.
+/// shorter, nor whether the point is inside: it cannot be predicted.
 HWY_INLINE PointCrossings classify_vector(const Crossings& all, std::size_t last) {
   namespace hn = hwy::HWY_NAMESPACE;
   constexpr hn::CappedTag<float, 4> d;

@@ -122,7 +122,7 @@ struct CrossingScratch {
   Decisions decisions;
 };
 
-/// Those of them that have crossed the surface, or may have. Returns how many triangles were tried.
+/// The points that have crossed the surface, or may have. Returns how many triangles were tried.
 std::size_t inside_points(const CubeView& cube, const NearPoints& points, float form_bound,
                           CrossingScratch& scratch, PointResults& found);
 

@@ -93,7 +93,7 @@ void grow_slack(const TriMesh& mesh, const CubeMap& map, std::span<const Index> 
     grow_slack(mesh.vertices[v], map.cells_per_side(), table.slack.face[v], table.slack.rectangle[v]);
 }
 
-/// Those of the triangles that have one of the vertices.
+/// The triangles that have one of the vertices.
 std::vector<Index> triangles_at(const TriMesh& mesh, std::span<const Index> vertices,
                                 std::span<const Index> among) {
   std::vector<unsigned char> is_asked(mesh.vertices.size());

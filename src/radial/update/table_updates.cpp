@@ -5,7 +5,7 @@
 #include "radial/direction_table.hpp"
 #include "radial/update/slack_updates.hpp"
 
-/// How a table follows its mesh: what an update refuses leaves it as it was.
+/// How a table follows its mesh: a refused update leaves it unchanged.
 
 namespace condyle::radial {
 namespace {

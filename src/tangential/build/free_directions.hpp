@@ -67,7 +67,7 @@ class FreeDirections {
   std::vector<Anchor> anchor_;
 };
 
-/// Those of a mesh. `scale` is at least every |x|, |y| of its triangles, in mm.
+/// The free directions of a mesh. `scale` is at least every |x|, |y| of its triangles, in mm.
 FreeDirections find_free_directions(const AxisVertices& vertices, std::span<const Triangle> triangles,
                                     const ProfileBoxes& boxes, const ProfileGrid& grid, double scale);
 

@@ -132,7 +132,7 @@ AngularGap OccupiedArcs::gap_at(std::size_t point, Angle phi) const noexcept {
   if (arcs.front().enters == no_index)
     return {-Angle::radians(std::numeric_limits<double>::infinity()), no_index, RotationSense::none};
   const Angle angle = Angle::radians(core::wrapped(phi.radians())), turn = Angle::radians(two_pi);
-  // The last arc that begins at the angle or before it; from the turn before where none does.
+  // The last arc that begins at the angle or before it; from the turn before if there is none.
   const auto after = std::upper_bound(arcs.begin(), arcs.end(), angle,
                                       [](Angle value, const OccupiedArc& arc) { return value < arc.begin; });
   const bool wraps = after == arcs.begin();

@@ -224,7 +224,7 @@ void classify_any(const CircleTriangles& source, std::span<const CirclePoint> po
   // Vectors are stored whole.
   std::array<std::uint32_t, ClassifiedPairs::most + 16> open;
   out.count = classify_ends(staged, scale, count, chords, open.data());
-  // Compacted in place: none moves to where a later one is.
+  // Compacted in place: no element moves to the place of a later one.
   for (std::size_t k = 0; k < out.count; ++k) {
     const std::size_t from = open[k], pair = first + from;
     for (Column* column :

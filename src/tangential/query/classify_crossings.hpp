@@ -17,7 +17,7 @@ enum class CrossingClass : signed char {
   uncertain = 0  ///< The filter could not decide, or there are two crossings: left to `add_crossings`.
 };
 
-/// Those of some pairs of a circle and a triangle that may cross, in their order.
+/// The crossings among pairs of a circle and a triangle that may cross, in their order.
 struct ClassifiedPairs {
   static constexpr std::size_t most = 64;
 
