@@ -16,7 +16,7 @@ namespace bench {
 /// is better.
 using Ratios = std::map<std::string, double>;
 
-/// What the names of ratios of whole commands begin with: how many times longer reading their meshes took than they did.
+/// Prefix of the names of ratios of whole commands: how many times longer reading their meshes took than they did.
 inline constexpr std::string_view command_ratios = "command/";
 
 Ratios ratios_of(const ExperimentResult& result);

@@ -57,7 +57,7 @@ class TemporaryFolder {
   fs::path path_;
 };
 
-/// What a process that ran `condyle` with these arguments has used; nothing where it did not answer.
+/// Resources used by a process that ran `condyle` with these arguments; empty if it did not answer.
 std::optional<double> processor_seconds_of(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), CONDYLE_COMMAND);
   std::vector<char*> words;

@@ -169,14 +169,14 @@ PoseTimes summary(const std::vector<std::vector<double>>& rounds) {
           (quantile(per_round, 0.75) - quantile(per_round, 0.25)) / (2 * median(per_round))};
 }
 
-/// What the calling thread does without others, whatever parallel loops it meets.
+/// Work of the calling thread without others, whatever parallel loops it meets.
 template <class Do>
 void alone(const Do& what) {
   tbb::task_arena(1).execute(what);
 }
 
 /// Seconds of each of the first poses, warm: where they are so quick together that what the method before
-/// left behind would be felt, in the caches and in what the processor foretells of branches, all poses are
+/// left behind would be felt, in the caches and in what the processor predicts of branches, all poses are
 /// gone through untimed for as long as it takes to be rid of that. All: a few, again and again, it would come
 /// to know by heart. Then only the clock on the wall is read: the system's call for the processor's would be
 /// felt as well.

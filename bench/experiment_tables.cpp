@@ -193,7 +193,7 @@ void add_accuracy(const ExperimentResult& result, std::string_view group, Report
   }
 }
 
-/// Condyle's own fastest way to tell which vertices are inside.
+/// Condyle's own fastest query for the vertices inside.
 constexpr std::string_view our_method = "radial";
 
 const TableHead spread_head{"inside_spread",
@@ -205,7 +205,7 @@ const TableHead spread_head{"inside_spread",
                              {"cold_us", "caches empty, µs"},
                              {"thread_speed_up", "all threads over one"}}};
 
-/// What the fastest way looked at, and how its cost is spread over poses.
+/// Work of the fastest query, and the spread of its cost over poses.
 void add_our_details(const ExperimentResult& result, Report& report) {
   for (const Outcome& o : result.outcomes) {
     if (o.method != our_method || o.question != Question::inside || o.is_deformed) continue;

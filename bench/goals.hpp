@@ -5,7 +5,7 @@
 #include "experiment.hpp"
 #include "table.hpp"
 
-/// What the library is meant to reach, beside what it reached in this run.
+/// Goals of the library, beside the results of this run.
 
 namespace bench {
 

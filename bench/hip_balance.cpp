@@ -58,7 +58,7 @@ constexpr Way all_ways[] = {{Casting::fixed, FaceRule::face_centre},  {Casting::
 
 /// Both cartilages together, as thick as the source made them in the mean.
 const condyle::ElasticLayer cartilage{12, 0.42, 1.5};
-/// What a pelvis puts on a left femur in F: up and medially, which is to the right.
+/// Load of a pelvis on a left femur in F: up and medially, which is to the right.
 const condyle::Load stance{.on_mobile = {.force_n = {0, 1700, 500}}};
 
 std::size_t rays_of_a_look(const ElasticContact& surfaces, const Pose& X_FM) {

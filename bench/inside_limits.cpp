@@ -28,9 +28,9 @@ const TableHead limits_head{"inside_limits",
                              {"mobile_vertices", "mobile vertices"},
                              {"inside", "inside"},
                              {"turned_us", "all vertices turned"},
-                             {"told_us", "answers given, written"},
+                             {"given_us", "answers given, written"},
                              {"condyle_us", "Condyle"},
-                             {"over_told", "over given"},
+                             {"over_given", "over given"},
                              {"robust_us", "Embree robust"},
                              {"robust_limit", "over given"},
                              {"culled_us", "Embree culled"},
@@ -96,7 +96,7 @@ void ask_inside_limits(const Scene& scene, Effort effort, Report& report) {
     for (const Reported& pose : reported)
       if (method) method->find_inside(pose.X_FM, out);
   };
-  // What is quick is done several times over: its first time finds what the others left in the caches.
+  // Quick work is repeated several times: its first run finds the caches as others left them.
   constexpr int times = 20;
   std::vector<std::vector<double>> samples;
   tbb::task_arena(1).execute([&] {

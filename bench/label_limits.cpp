@@ -215,7 +215,7 @@ class Hip {
   std::vector<condyle::MotionLimit> limits_;
 };
 
-// What the tables say of several runs.
+// Summary of several runs for the tables.
 
 struct Errors {
   std::vector<double> values;  ///< degrees

@@ -6,7 +6,7 @@
 
 namespace bench {
 
-/// What a run must be read with, as names and texts: processor, compiler, commit, date. Without the load.
+/// Context of a run, as names and texts: processor, compiler, commit, date. Without the load.
 std::vector<std::pair<std::string, std::string>> describe_machine();
 
 /// Runnable threads of the whole machine, averaged over the last minute; this program's count too.

@@ -29,7 +29,7 @@
 namespace bench {
 namespace {
 
-/// What is asked beside the experiment, at these scenes.
+/// Questions beside the experiment, at these scenes.
 struct JointQuestion {
   std::string_view name;
   void (*ask)(const Scene&, Effort, Report&);
@@ -52,7 +52,7 @@ const std::array<JointQuestion, 6> joint_questions = {{
     {"ring_table", ask_ring_table, {"libhip_1", "libhip_2", "libhip_3", "libhip_4"}, {"sample_1"}},
 }};
 
-/// What is asked of a joint in its recorded motion.
+/// Questions to a joint in its recorded motion.
 struct MotionQuestion {
   std::string_view name;  ///< question/joint
   bool (*ask)(Effort, Report&);
@@ -116,7 +116,7 @@ class LazyScene {
   bool is_made_ = false;
 };
 
-/// What a run has: the experiment, and ratios that are of whole commands.
+/// Results of a run: the experiment, and ratios of whole commands.
 struct Measured {
   ExperimentResult experiment;
   Ratios of_commands;
@@ -149,7 +149,7 @@ void finish(const ExperimentResult& experiment, Report& report) {
                               experiment.disagreements.end());
 }
 
-/// What a run has so far is kept if it is broken off: under the names of its files, and saying so.
+/// Results so far are kept if a run is broken off: under the names of its files, marked as partial.
 void write_unfinished(Report report, const Measured& measured, const Options& options) {
   report.machine.emplace_back("unfinished", "broken off before its end");
   finish(measured.experiment, report);

@@ -31,7 +31,7 @@ std::unique_ptr<Method> Method::for_another_thread() {
   return nullptr;
 }
 
-// What CMake did not find is not compiled, and is listed as skipped.
+// Methods that CMake did not find are not compiled, and are listed as skipped.
 std::vector<MethodGroup> method_groups() {
   return {
       {"", true, condyle_kinds()},

@@ -19,7 +19,7 @@
 
 namespace bench {
 
-/// What is measured: the fixed mesh in F, the mobile one in M, the joint centre at both origins. Both closed.
+/// The measured scene: the fixed mesh in F, the mobile one in M, the joint centre at both origins. Both closed.
 struct Bodies {
   const condyle::TriMesh& fixed;
   const condyle::TriMesh& mobile;
@@ -28,8 +28,9 @@ struct Bodies {
 /// A mobile vertex in the fixed solid.
 struct InsideVertex {
   condyle::Index vertex = condyle::no_index;
-  condyle::Index triangle = condyle::no_index;  ///< Where it leaves the solid; no_index where not told.
-  double depth_mm = std::numeric_limits<double>::quiet_NaN();  ///< Of the method's kind; NaN where not told.
+  condyle::Index triangle = condyle::no_index;  ///< Where it leaves the solid; no_index if not reported.
+  double depth_mm =
+      std::numeric_limits<double>::quiet_NaN();  ///< The method's kind of depth; NaN if not reported.
 };
 
 /// Which way a method measures how deep a vertex is: along the ray through the joint centre, along the circle
@@ -39,7 +40,7 @@ enum class DepthKind { none, along_ray, along_arc, nearest_surface };
 /// The axis of `along_arc`: that of flexion, through the joint centre.
 condyle::AxisFrame arc_axis();
 
-/// What a method has looked at, counted since it was made; names are the method's own.
+/// Work of a method, counted since it was made; names are the method's own.
 using Work = std::vector<std::pair<std::string, std::int64_t>>;
 
 /// A method made ready for two bodies. Called from one thread.
@@ -73,7 +74,7 @@ class Method {
   virtual Work work() const { return {}; }
 };
 
-/// What a method can be asked.
+/// Questions to a method.
 struct Answers {
   bool touch = false, pairs = false, inside = false;
   bool deforms = false;  ///< Follows a deforming fixed body otherwise than by being made anew.

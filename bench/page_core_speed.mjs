@@ -1,5 +1,5 @@
 // Times the core of the page alone, without a browser: node bench/page_core_speed.mjs build/page_core/page_core.js REPORT.html
-// Told is the mean over poses of the shortest time of each, in milliseconds: what the answer takes where nothing disturbs it.
+// It reports the mean over poses of the shortest time of each, in milliseconds: the time of an undisturbed answer.
 import { openCore } from "../tests/viewer/core_module.mjs";
 import { readReport } from "../tests/viewer/report_block.mjs";
 

@@ -1,6 +1,6 @@
 // Times what the page of a report asks of its worker, in a real browser: node bench/page_speed.mjs REPORT.html
-// Told are the median and the 99th percentile of milliseconds from question to answer, worker round trip included: what an empty
-// question takes is told first. Browsers tell time to a tenth of a millisecond: short questions are asked several at once.
+// It reports the median and the 99th percentile of milliseconds from question to answer, worker round trip included, and first
+// the time of an empty question. Browsers' clocks have a tenth of a millisecond: short questions are sent several at once.
 import { resolve } from "node:path";
 import { launchedBrowser, openPage, settled } from "../tests/viewer/browser.mjs";
 import { readReport } from "../tests/viewer/report_block.mjs";

@@ -3,7 +3,7 @@
 #include "scenes.hpp"
 #include "table.hpp"
 
-/// What is asked of a scene beside the experiment: each adds its rows to the report.
+/// Questions to a scene beside the experiment: each adds its rows to the report.
 
 namespace bench {
 
@@ -20,15 +20,15 @@ void ask_motion_map(const Scene& scene, Effort effort, Report& report);
 /// Bands of all motions of the hip, 200 samples, on all threads.
 void ask_limit_bands(const Scene& scene, Effort effort, Report& report);
 
-/// What the radial table costs beside its queries at single poses: building it and following a deformation,
+/// Costs of the radial table beside its queries at single poses: building it and following a deformation,
 /// other instruction sets.
 void ask_radial_table(const Scene& scene, Effort effort, Report& report);
 
-/// What no method that tells every vertex inside, with triangle and depth, can do without: beside what
+/// Work that no method can avoid if it reports every vertex inside, with triangle and depth: beside what
 /// Condyle and Embree take.
 void ask_inside_limits(const Scene& scene, Effort effort, Report& report);
 
-/// What the ring table costs: building it, a pose, and all angles at once.
+/// Costs of the ring table: building it, a pose, and all angles at once.
 void ask_ring_table(const Scene& scene, Effort effort, Report& report);
 
 // With a joint and a motion of their own; false where these are not there.

@@ -113,7 +113,7 @@ void ask_building(const Scene& scene, int rounds, Report& report) {
   std::vector<int> times;
   double cold_build = 0, cold_part = 0;
   tbb::task_arena(1).execute([&] {
-    // What a table learns of how far vertices go, it has learnt after one round.
+    // After one round a table has learnt how far vertices move.
     for (const condyle::Points& vertices : moved) update(table, vertices);
     const Repeated build([&] { prepared(fixed); });
     const Repeated part_update([&] {

@@ -19,7 +19,7 @@ std::filesystem::path data_folder();
 std::vector<std::optional<condyle::Pose>> walking_hip(condyle::Side side,
                                                       std::optional<std::size_t> points = {});
 
-/// What of a walk is asked in a quick run: a few frames of the beginning.
+/// Frames of a walk in a quick run: a few of the beginning.
 inline constexpr std::size_t quick_frames = 3;
 
 }  // namespace bench

@@ -12,7 +12,7 @@
 #include "mesh/winding_number.hpp"
 #include "method.hpp"
 
-/// What every method's answer is held against.
+/// Reference for every method's answer.
 
 namespace bench {
 

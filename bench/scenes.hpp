@@ -13,7 +13,7 @@
 namespace bench {
 
 /// free: surfaces apart; grazing: just in contact, a few triangles; deep: some millimetres into each other.
-/// So they are made; what they are at the scene's own resolution, the exact answers tell.
+/// So they are made; the exact answers show what they are at the scene's own resolution.
 enum class PoseKind { free, grazing, deep };
 
 struct ScenePose {
@@ -27,7 +27,7 @@ struct Scene {
   std::vector<ScenePose> poses;
 };
 
-/// One shape at several resolutions is a family: how cost grows is told over it. Families that are shown side
+/// One shape at several resolutions is a family: growth of cost is reported over it. Families that are shown side
 /// by side are a group.
 struct SceneName {
   std::string_view name;

@@ -34,7 +34,7 @@ struct Table {
   void add(std::vector<Cell> row);
 };
 
-/// What a run found.
+/// Results of a run.
 struct Report {
   std::vector<std::pair<std::string, std::string>> machine;
   std::deque<Table> tables;  ///< references to them last

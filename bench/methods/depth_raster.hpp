@@ -24,7 +24,7 @@ struct ImagePlane {
 /// graphics hardware would draw it, but in double. Keeps its room from one drawing to the next.
 class DepthRaster {
  public:
-  /// What lies beyond `far` along the axis is left out.
+  /// Surface beyond `far` along the axis is left out.
   void draw(condyle::PointsView vertices, std::span<const condyle::Triangle> triangles,
             const ImagePlane& plane, double far, LayeredImage& out);
 

@@ -35,7 +35,7 @@ class EmbreeScene {
 
   RTCScene get() const noexcept { return scene_; }
   bool centre_is_inside() const noexcept { return centre_is_inside_; }
-  /// What Embree has allocated, its copy of the mesh included.
+  /// Memory that Embree has allocated, its copy of the mesh included.
   std::size_t bytes() const noexcept { return static_cast<std::size_t>(bytes_); }
 
  private:

@@ -12,7 +12,7 @@ using condyle::Index;
 using condyle::Pose;
 using condyle::TriMesh;
 
-/// It tells the terminal of each overflow of its table of contacts; the accuracy of the answer tells us.
+/// It prints each overflow of its table of contacts to the terminal; the accuracy of the answer shows it to us.
 void say_nothing(int, const char*, va_list) {}
 
 /// The library as a whole, for as long as any mesh of it is alive.
@@ -80,7 +80,7 @@ class Geometry {
 /// The Open Dynamics Engine 0.16, in double: two triangle meshes, by dCollide. Within it, OPCODE finds the
 /// pairs by trees of boxes in single precision, and contact points are made of them one after the other.
 ///
-/// It tells contact points, 65535 at most, with the two triangles of each, and leaves out points that are
+/// It reports contact points, 65535 at most, with the two triangles of each, and leaves out points that are
 /// near to others or that it finds no normal for: bodies that touch are found, of their pairs only a part.
 class Ode final : public Method {
  public:

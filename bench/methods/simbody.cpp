@@ -24,8 +24,8 @@ PlainMesh plain(const TriMesh& mesh) {
 /// Simbody 3.7, the engine under OpenSim: its tracker of two triangle meshes and its nearest point of a mesh,
 /// which are the two steps of its elastic foundation contact. In double, with trees of oriented boxes.
 ///
-/// The tracker tells the triangles of each mesh that are partly or wholly inside the other: bodies touch
-/// where there are such triangles. Which one meets which it does not tell. The nearest point is asked for the
+/// The tracker reports the triangles of each mesh that are partly or wholly inside the other: bodies touch
+/// if there are such triangles. It does not report which one meets which. The nearest point is queried for the
 /// corners of the mobile ones, where the elastic foundation asks it for their middles; it also says whether
 /// the point is inside, from the normals there.
 class Simbody final : public Method {

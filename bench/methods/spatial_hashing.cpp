@@ -79,7 +79,7 @@ struct Tetrahedron {
   Vec3 a, b, c, d, low, high;
 };
 
-/// What both forms share: the tetrahedra, and how they follow the surface.
+/// Common part of both variants: the tetrahedra, and how they follow the surface.
 class FilledBody : public Method {
  public:
   explicit FilledBody(const Bodies& bodies)

@@ -40,7 +40,7 @@ struct SeenTriangle {
     volume = p[0].dot(edge_normal[1]);
   }
 
-  /// The ray crosses where it lies on one side of all three edges, the side that the volume's sign tells;
+  /// The ray crosses where it lies on one side of all three edges, the side that the volume's sign gives;
   /// docs/mathematics/02-direction-table.md.
   void cross(const Vec3& direction, Index cell, LayeredImage& out) const {
     const bool leaves = volume > 0;

@@ -39,7 +39,7 @@ vtkSmartPointer<vtkPolyData> surface_of(const TriMesh& mesh) {
 /// vtkImplicitPolyDataDistance of VTK 9.1: distance to the nearest point of the surface, its sign from the
 /// angle-weighted normal there (Baerentzen and Aanaes 2005), found through a grid of cells.
 ///
-/// Asked for each vertex that lies in the surface's bounding box: all others are outside. It does not tell
+/// Queried for each vertex that lies in the surface's bounding box: all others are outside. It does not report
 /// which triangle, and cannot be asked by two threads at once.
 class VtkDistance final : public Method {
  public:
@@ -73,7 +73,7 @@ class VtkDistance final : public Method {
 /// vtkCollisionDetectionFilter of VTK 9.1: two trees of oriented boxes, two triangles in a leaf, its default.
 /// Triangles meet by where the edges of one pierce the other, in floating point; coplanar ones do not.
 ///
-/// One point for each pair is asked for (half contacts), the least that tells all pairs.
+/// One point for each pair is asked for (half contacts), the fewest that report all pairs.
 class VtkFilter final : public Method {
  public:
   explicit VtkFilter(const Bodies& bodies) {

@@ -60,7 +60,7 @@ class BallInSlab : public ::testing::TestWithParam<MethodKind> {
     std::map<Index, InsideVertex> inside;
     for (const InsideVertex& vertex : reported) {
       const bool is_new = inside.emplace(vertex.vertex, vertex).second;
-      EXPECT_TRUE(is_new) << "vertex " << vertex.vertex << " told twice";
+      EXPECT_TRUE(is_new) << "vertex " << vertex.vertex << " reported twice";
     }
     return inside;
   }

@@ -13,7 +13,7 @@
 #include "support/report_block.hpp"
 #include "support/temporary_folder.hpp"
 
-/// What a femur's condyles say against a knee stands in every answer.
+/// Every answer has the evidence of a femur's condyles against a knee.
 
 namespace condyle::test {
 namespace {

@@ -75,7 +75,7 @@ TEST_F(Motion, AMeasuredKneeIsWhereItsReadmeSays) {
   }
 }
 
-TEST_F(Motion, LoadTellsTheMomentOnTheBodyThatTheJointFileNames) {
+TEST_F(Motion, LoadReportsTheMomentOnTheBodyThatTheJointFileNames) {
   const auto surface_of = [&](const std::string& moment_on) {
     write("on.toml",
           joint("free", "cup.ply", "ball.ply",
@@ -95,7 +95,7 @@ TEST_F(Motion, LoadTellsTheMomentOnTheBodyThatTheJointFileNames) {
     const char* axes[] = {"moment_x_nmm", "moment_y_nmm", "moment_z_nmm"};
     for (std::size_t i = 0; i < 3; ++i) {
       const double moment = json["fixed_surface"]["moment_nmm"][i].get<double>();
-      EXPECT_EQ(curves.rows[0][curves.column(axes[i])], moment) << "as the motion tells it";
+      EXPECT_EQ(curves.rows[0][curves.column(axes[i])], moment) << "as in the motion's answer";
       EXPECT_NEAR(json["fixed_regions"][0]["moment_nmm"][i].get<double>(), moment,
                   1e-9 * (1 + std::abs(moment)));
     }
@@ -110,7 +110,7 @@ TEST_F(Motion, LoadTellsTheMomentOnTheBodyThatTheJointFileNames) {
     EXPECT_EQ(moment(target), -moment(casting));
     largest = std::max(largest, std::abs(moment(casting)));
   }
-  EXPECT_GT(largest, 1e-3) << "a sign to tell";
+  EXPECT_GT(largest, 1e-3) << "a sign to compare";
 }
 
 TEST_F(Motion, ACentreHeldOffTheOriginIsExactToo) {
@@ -232,7 +232,7 @@ TEST_F(Motion, AnswersNameThePartThatTouches) {
   EXPECT_EQ(whole["area_mm2"], surface["area_mm2"]);
 }
 
-TEST_F(Motion, ContactBetweenSamplesTellsWhereAndOfWhichParts) {
+TEST_F(Motion, ContactBetweenSamplesReportsPlaceAndParts) {
   write_mesh(folder / "upper.ply", box({-1, -60, -2}, {1, -10, 2}));
   write_mesh(folder / "lower.ply", box({-1, -100, -2}, {1, -60, 2}));
   write("parts.toml",

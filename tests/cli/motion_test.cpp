@@ -266,7 +266,7 @@ TEST_F(Motion, BadInputGetsOneLine) {
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
-TEST_F(Motion, LoadTellsPressureAndBalances) {
+TEST_F(Motion, LoadReportsPressureAndBalances) {
   const Ran ran = run("load cup.toml --force 0 -2000 0 --json --out out");
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   const Json json = Json::parse(ran.out);
@@ -301,7 +301,7 @@ TEST_F(Motion, LoadIsBalancedInThePlaneOfTwoDirections) {
   EXPECT_EQ(json["X_FM"][2][3].get<double>(), 0) << "not moved along Z";
 }
 
-TEST_F(Motion, LoadTellsWhatEachRegionCarries) {
+TEST_F(Motion, LoadReportsWhatEachRegionCarries) {
   std::ofstream(folder / "cup.toml", std::ios::app)
       << "[[contact.region]]\nname = \"front\"\nhalf_space = [{ normal = [1, 0, 0] }]\n"
          "[[contact.region]]\nname = \"back\"\nhalf_space = [{ normal = [-1, 0, 0] }]\n";

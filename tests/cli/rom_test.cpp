@@ -283,7 +283,7 @@ TEST_F(RomCommand, BandsStandBesideLimitsAndInEveryFile) {
   EXPECT_NE(run("rom joint.toml").out.find("band unknown"), std::string::npos);
 }
 
-/// What is printed is as wide as a terminal: what people quote; all else is in rom.json and limits.csv.
+/// The printed table fits a terminal: it has the figures that people quote; all else is in rom.json and limits.csv.
 TEST_F(RomCommand, PrintedLinesFitATerminal) {
   for (const char* options : {"", " --frame source", " --map flexion=0:10:10 adduction=0:10:10",
                               " --band=20 --past 5", " --allow-depth 1"}) {

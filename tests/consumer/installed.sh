@@ -18,7 +18,7 @@ done
 # Nothing of a build folder or of the sources is needed, or known.
 if grep -rlF "$(cd "$here/../.." && pwd)" prefix/lib*/cmake prefix/lib*/pkgconfig; then fail "these name the source folder"; fi
 prefix/bin/condyle --version
-# What lies inside is there with its licence.
+# Bundled parts come with their licences.
 if ! ldd prefix/bin/condyle | grep -q libhdf5; then
   grep -q "The HDF Group" prefix/share/doc/condyle/libhdf5-dev.copyright || fail "the licence of HDF5 is not installed"
 fi

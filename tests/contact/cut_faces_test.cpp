@@ -43,7 +43,7 @@ TEST(CutFaces, EndWhereASolidEnds) {
   }
 }
 
-TEST(CutFaces, TellHowTheLoadChangesAsASolidEndSlides) {
+TEST(CutFaces, ShowHowTheLoadChangesAsASolidEndSlides) {
   const ElasticContact contact = sheet_under_slab();
   for (const double turn : {0.0, 0.1, -0.4}) {
     const Pose X_FM = slab_at(0.311, turn);

@@ -189,7 +189,7 @@ TEST(LoadBalance, StopsWhereTheForceJumps) {
   EXPECT_FALSE(a_tenth_more.carries_load());
 }
 
-TEST(LoadBalance, TellsABalanceThatTheContactDoesNotKeep) {
+TEST(LoadBalance, ReportsABalanceThatTheContactDoesNotKeep) {
   // A ball on top of a ball.
   const ElasticContact contact(test::sphere(Vec3::Zero(), 20, 5),
                                posed(generic_turn(), test::sphere(Vec3::Zero(), 20, 5)),

@@ -145,7 +145,7 @@ class Page:
                 self.errors.append(str(self.wrong(line, f"{kind}: {text}: {error}")))
         self.check_synopses()
 
-    # What stands on the page.
+    # Values on the page.
 
     def on_commands(self, block: str, line: int) -> None:
         is_run, code = self.next_is_run, self.next_exit
@@ -237,7 +237,7 @@ class Page:
             raise self.wrong(line, f"{name}: {keys} is {value}, not {expected}")
         self.held += 1
 
-    # What is done with it.
+    # The commands that use it.
 
     def synopsis(self, command: str, line: int) -> None:
         words = command.split()

@@ -22,7 +22,7 @@ std::string fault_of_pose(const ModelJoint& joint) {
   return skew < 1e-9 ? "" : "a pose that is no rotation";
 }
 
-/// What is proposed is a joint file.
+/// Every proposal is a joint file.
 std::string fault_of_proposal(const Model& model, const ModelJoint& joint) {
   ModelJointProposal proposed;
   try {

@@ -79,7 +79,7 @@ TEST_F(JointParts, CanBeBearing) {
             "line 11: mobile.meshes[0].bearing: must be true or false, not a whole number");
 }
 
-TEST_F(JointParts, TellOfWhichAVertexAndATriangleIs) {
+TEST_F(JointParts, NameThePartOfAVertexAndATriangle) {
   const Body shank = read_joint(write(two)).joint.mobile;
   const std::size_t vertices = bone().vertices.size(), triangles = bone().triangles.size();
   EXPECT_EQ(part_of_vertex(shank, vertices - 1)->name, "tibia");

@@ -301,7 +301,7 @@ TEST_P(PosedParts, WidenBandsByTheirStandardDeviations) {
   EXPECT_NEAR((band.p95 - band.p5).degrees(), 3 * 3.2897, 0.2);
   EXPECT_EQ(band.width_from.parameters, band.p95 - band.p5);
   EXPECT_EQ(band.width_from.surface, Angle());
-  // What is drawn for the others does not depend on the parameters.
+  // Draws of the others do not depend on the parameters.
   const LimitBand all = limit_bands(joint, motions, {}, {}).front(),
                   before = limit_bands(sure, motions, {}, {}).front();
   EXPECT_EQ(all.width_from.centre, before.width_from.centre);

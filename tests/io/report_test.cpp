@@ -107,7 +107,7 @@ TEST(Report, SaysOfLimitsWhatRomSays) {
   said["map"].erase("intervals");  // the page has them under "map"
   EXPECT_EQ(block.json["rom"], said);
   EXPECT_FALSE(block.json.contains("rom_error"));
-  // What contact of each triangle means has arrays where not all is the same, and only there.
+  // Roles of triangles in contact have arrays only if they differ.
   EXPECT_EQ(block.json["arrays"].contains("mobile_roles"), !answer.range.bearing().roles.mobile.empty());
 }
 

@@ -49,7 +49,7 @@ TEST_F(StudyOfShapes, HasWhatTheLibraryMeasuresWithTheTiltOfTheTable) {
   EXPECT_EQ(hips[0].at("measured_femoral_version_deg"), "");
   EXPECT_NE(hips[0].at("measured_none").find("femoral_version_deg: the mesh ends above the knee"),
             std::string::npos);
-  // What was asked for stands beside what was measured.
+  // Requested values stand beside measured ones.
   EXPECT_EQ(hips[0].at("neck_shaft_angle_deg"), "127");
   EXPECT_EQ(hips[1].at("pelvic_tilt_deg"), "10");
   EXPECT_FALSE(hips[0].contains("measured_alpha_3_deg_p5"));

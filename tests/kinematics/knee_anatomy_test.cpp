@@ -11,7 +11,7 @@
 #include "support/shared_data.hpp"
 #include "support/test_meshes.hpp"
 
-/// What drawn knees with known axes, and real ones, show of their frame.
+/// The frames of drawn knees with known axes, and of real ones.
 
 namespace condyle::kinematics {
 namespace {

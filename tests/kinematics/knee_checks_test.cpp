@@ -144,7 +144,7 @@ TEST_F(SharedKneeChecks, NoteWrongAxesAndSidesOfRealFemoraAndNoRightOnes) {
   expect_notes({lenhart, patella});
 }
 
-/// What is cut, rough and turned by some degrees is right too. CONDYLE_LONG_TESTS=1 makes 1280 scans.
+/// Knees that are cut, rough and turned by some degrees are right too. CONDYLE_LONG_TESTS=1 makes 1280 scans.
 TEST_F(SharedKneeChecks, SayNothingOfCutAndRoughFemora) {
   const bool is_long = std::getenv("CONDYLE_LONG_TESTS") != nullptr;
   const Bones knees[] = {

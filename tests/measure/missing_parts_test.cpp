@@ -13,7 +13,7 @@
 #include "support/real_hip.hpp"
 #include "support/test_meshes.hpp"
 
-/// What is not in the meshes is not measured, and says why; what does not depend on it stays as it is.
+/// Parts missing from the meshes are not measured, with a reason; measures that do not depend on them are unchanged.
 
 namespace condyle {
 namespace {

@@ -3,7 +3,7 @@
 #include "condyle/sample/hip.hpp"
 #include "sample/field.hpp"
 
-/// What the solids of sample hips measure themselves, without a mesh: where their shape, as it is asked for, is not the parameter.
+/// Measures of the solids of sample hips themselves, without a mesh: where their shape, as it is asked for, is not the parameter.
 
 namespace condyle::test {
 

@@ -60,7 +60,7 @@ TEST(BearingSurface, IsTheMeshToldToBe) {
   EXPECT_NE(arm.why_none.find("spherical"), std::string::npos) << arm.why_none;
 }
 
-TEST(BearingSurface, ToldByMeshesLeavesMotionsToTheOthers) {
+TEST(BearingSurface, GivenByMeshesLeavesMotionsToTheOthers) {
   // The head stands half a millimetre in its socket.
   const Vec3 off(3.5, 0, 0);
   const Joint joint = of_two_meshes(off, PartContact::bearing, PartContact::ends);

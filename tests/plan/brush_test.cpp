@@ -73,7 +73,7 @@ double brush_weight(double share_of_radius) {
   return 1 - t * t * (3 - 2 * t);
 }
 
-/// What a stroke takes from a ball. The area of a sphere within a chord c is pi c^2 whatever its radius, and of a cone from its centre with the
+/// Volume that a stroke takes from a ball. The area of a sphere within a chord c is pi c^2 whatever its radius, and of a cone from its centre with the
 /// base dA the part above R - h has dA (R^3 - (R - h)^3) / (3 R^2): with c = t r
 ///
 ///     V = 2 pi r^2 int_0^1 (h - h^2 / R + h^3 / (3 R^2)) t dt,   h = d w(t)

@@ -387,7 +387,7 @@ TEST(Resection, ADepthThatIsSharedIsHeldByEachBone) {
   EXPECT_NEAR(held.volume_mm3() / free.volume_mm3(), 1, 1e-3);
 }
 
-/// What the triangles of a bone enclose less after its cut.
+/// Loss of the volume that a bone's triangles enclose, by its cut.
 double lost_mm3(const CutBone& cut) {
   const auto below = [](const TriMesh& mesh) {
     double volume = 0;
@@ -523,7 +523,7 @@ TEST(Resection, RequestsThatSayNothingAreRefused) {
   EXPECT_EQ(reach_targets(motions, "flexion=115, fadir=30").size(), 2u);
 }
 
-// What bears is the cartilage; what is measured before and after is the bone.
+// The cartilage is the bearing surface; the bone is measured before and after.
 TEST(Resection, MeasuresAreThoseOfTheBoneUnderACartilage) {
   HipParameters parameters;
   parameters.alpha_angle = Angle::degrees(70);

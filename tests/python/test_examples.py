@@ -40,7 +40,7 @@ def test_the_deformable_cartilage_leaves_no_depth_and_keeps_its_bone(source, tmp
     indentation = np.linalg.norm(tissue.rest, axis=1) - np.linalg.norm(tissue.at, axis=1)
     assert 0.2 < indentation.max() < 0.5
     np.testing.assert_array_equal(tissue.at[tissue.is_held], tissue.rest[tissue.is_held])
-    # What the table that followed says is what a new one says.
+    # The table that followed gives the results of a new one.
     fresh = condyle.RadialTable((tissue.at, coupling.mesh.triangles))
     coupling.tissue_table.update(tissue.at)
     points = coupling.socket_vertices - coupling.place

@@ -47,7 +47,7 @@ def layered(tmp_path_factory):
     return condyle.read_joint(folder / "hip.toml"), meshes
 
 
-def test_parts_of_a_body_are_told_by_name(layered):
+def test_parts_of_a_body_are_listed_by_name(layered):
     joint, meshes = layered
     assert joint.fixed_parts == ()
     bone, cartilage = joint.mobile_parts
@@ -61,7 +61,7 @@ def test_parts_of_a_body_are_told_by_name(layered):
     assert joint.translation_frame == "fixed"
 
 
-def test_a_bearing_surface_is_told_by_its_margin_or_by_parts_that_are_called_so(layered, hip):
+def test_a_bearing_surface_is_given_by_its_margin_or_by_named_parts(layered, hip):
     joint, _ = layered
     bearing = joint.range_of_motion([]).bearing
     assert bearing["parts"] == ["cartilage"] and bearing["margin_mm"] >= 0

@@ -1,4 +1,4 @@
-"""While the library works other threads go on, Ctrl-C ends it, progress is told, and memory does not grow."""
+"""While the library works other threads go on, Ctrl-C ends it, progress is reported, and memory does not grow."""
 
 import gc
 import os
@@ -173,5 +173,5 @@ def test_memory_does_not_grow_over_ten_thousand_calls():
         return resident_bytes() - before
 
     calls(2500)
-    # What leaks grows each time; what other reasons have for more memory comes once.
+    # A leak grows each time; other memory growth comes once.
     assert any(growth() < 1_000_000 for _ in range(4))

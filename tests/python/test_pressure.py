@@ -97,12 +97,12 @@ def test_rays_cut_off_by_the_reach_are_counted() -> None:
     assert on_the_plane(reach_mm=0.2).cut_off_by_reach(lowered(0.3)) > 0
 
 
-def test_a_load_that_no_pose_carries_is_told() -> None:
+def test_a_load_that_no_pose_carries_is_reported() -> None:
     pulled = on_the_plane().balance([0, 10, 0], start=lowered(0.1), free_directions=[[0, 1, 0]])
     assert pulled.outcome == "pulled_apart" and not pulled.carries_load and "pulls the bodies apart" in pulled.reason
 
 
-def test_a_force_that_jumps_is_told_with_what_is_left() -> None:
+def test_a_force_that_jumps_is_reported_with_its_residual() -> None:
     # At the reach of 0.5 mm the block carries 300 N, and nothing beyond.
     contact = on_the_plane(reach_mm=0.5)
     found = contact.balance([0, -303, 0], start=lowered(0.3), free_directions=[[0, 1, 0]])

@@ -162,7 +162,7 @@ REVEALED = ["Penetration", "Penetrations", "list[NormalContact]", "Depths", "lis
             "Union[Literal['contact'], Literal['end_of_range'], Literal['contact_at_start']]", "float"]
 
 
-def test_a_checker_tells_one_pose_from_many_and_finds_a_wrong_word(
+def test_a_checker_distinguishes_one_pose_from_many_and_finds_a_wrong_word(
         checked: Callable[[Path], subprocess.CompletedProcess], tmp_path: Path):
     (tmp_path / "user.py").write_text(USER)
     said = checked(tmp_path / "user.py").stdout

@@ -65,7 +65,7 @@ class Setup:
     untrue: str = ""  # what neither may say
 
 
-# What is asked.
+# The queries.
 
 
 def changed(*changes: tuple[str, str], more: str = "") -> Callable[[Scene], None]:
@@ -297,7 +297,7 @@ SETUPS: dict[str, Setup] = {
                                   ask=lambda scene: condyle.sample_hip(haed_radius_mm=24)),
     "measure out of its range": Setup(2, "head_radius_mm", command="sample hip --head-radius 100 --out hip",
                                       ask=lambda scene: condyle.sample_hip(head_radius_mm=100)),
-    # What was answered without a word.
+    # Answers without an error.
     "centre 1.5 mm off": Setup(0, "centre_off_head", centre("1.5"), "rom hip.toml", limits("flexion")),
     "hinge on a hip": Setup(0, "unlikely_joint", line("kind", 'kind = "hinge"')),
     "knee on a hip": Setup(0, "unlikely_joint", line("kind", 'kind = "ball"\njoint = "knee"')),

@@ -19,7 +19,7 @@ cd "$work"
 printf 'time,flexion_deg\n0,0\n0.5,40\n1,80\n' >squat.csv
 printf 'id,joint\na,sample/hip.toml\nb,nothere.toml\n' >hips.csv
 
-# What was there before and what is to be written, into the folder $out.
+# Existing files and files to be written, into the folder $out.
 before() { case $1 in
   rom) "$condyle" rom sample/hip.toml --motion flexion --out "$out" ;;
   report) "$condyle" report sample/hip.toml --title earlier --out "$out/page.html" ;;

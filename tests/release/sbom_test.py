@@ -48,7 +48,7 @@ for package in packages:
 related = {relation["relatedSpdxElement"] for relation in document["relationships"]}
 assert related == set(identifiers)
 
-# What the page brings along has its licence in the page, and what was compiled in is here without being listed anywhere.
+# Libraries of the page have their licences in the page, and compiled-in ones are here without being listed anywhere.
 licences = (source / "viewer/report_template.html").read_text()
 contained = {r["relatedSpdxElement"] for r in document["relationships"] if r["relationshipType"] == "CONTAINS"}
 names = {package["name"] for package in packages if package["SPDXID"] in contained}

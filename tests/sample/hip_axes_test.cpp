@@ -134,14 +134,14 @@ Counts tilted(const Bones& right_hip, std::uint64_t seed) {
   return counts;
 }
 
-void expect_told_with_short_femurs(const Bones& hip) {
+void expect_inferred_with_short_femurs(const Bones& hip) {
   for (const Cut& to : {cuts[1], cuts[2]})
     for (const Side side : {Side::right, Side::left})
       EXPECT_EQ(judged(cut(hip, to), {side, lps_axes}), Verdict::right) << to.name;
 }
 
 TEST(HipAxesOfSamples, AreInferredWithShortFemurs) {
-  expect_told_with_short_femurs(sample_bones());
+  expect_inferred_with_short_femurs(sample_bones());
 }
 
 TEST(HipAxesOfSamples, AreInferredInAllAxesInUse) {
@@ -195,7 +195,7 @@ INSTANTIATE_TEST_SUITE_P(SharedData, HipAxesOfReal,
                                               "hip_gait2392_lowres_dirty/femur_r.ply", Side::right}));
 
 TEST_P(HipAxesOfReal, AreInferredWithShortFemurs) {
-  expect_told_with_short_femurs(hip_);
+  expect_inferred_with_short_femurs(hip_);
 }
 
 TEST_P(HipAxesOfReal, AreNeverWrongInTiltedScans) {

@@ -1,4 +1,4 @@
-// What the page answers in a browser, against the same functions compiled natively on the very joint of the report.
+// Answers of the page in a browser, against the same functions compiled natively on the very joint of the report.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdirSync } from "node:fs";

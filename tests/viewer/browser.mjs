@@ -1,4 +1,4 @@
-// What tests of the page share: a real browser without a network, and a report opened in it from disk.
+// Common to tests of the page: a real browser without a network, and a report opened in it from disk.
 import { existsSync, mkdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
@@ -86,7 +86,7 @@ export async function pixels(page) {
   return { width, height, at: (x, y) => [...data.subarray(4 * (y * width + x), 4 * (y * width + x) + 4)] };
 }
 
-/// Where pixels are that a colour is told by: how many, and their middle in shares of the picture.
+/// Pixels that identify a colour: how many, and their middle in shares of the picture.
 export function region({ width, height, at }, is) {
   let count = 0, x = 0, y = 0;
   // The gizmo is in the corner.

@@ -16,7 +16,7 @@ export async function openCore(modulePath, zlib) {
   return {
     core,
     copied,
-    /// What is no error; else the core's own line is thrown.
+    /// The answer, if it is not an error; else the core's own line is thrown.
     checked(answer) {
       if (answer < 0) throw failure();
       return answer;

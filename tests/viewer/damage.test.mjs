@@ -20,7 +20,7 @@ for (const [what, change, says] of [
   }, /version is 2/],
   ["without its arrays", (zipped) => deflateSync(inflateSync(zipped).subarray(0, 16 + inflateSync(zipped).readUInt32LE(12))), /ends before/],
 ])
-  test(`a data block ${what} is told in one line`, async () => {
+  test(`a data block ${what} is reported in one line`, async () => {
     const { page, complaints } = await openPage(browser, changed("damaged", change), { answers: false });
     const warning = page.getByRole("alert");
     await warning.waitFor();
@@ -117,12 +117,12 @@ for (const [what, change, names] of [
   ["with fewer gaps than vertices", (text) => (text.arrays[text.poses[1].mobile_gaps].length -= 1), "arrays.pose_1_mobile_gaps"],
   ["with a map of other points", (text) => text.map.intervals.pop(), "map.intervals"],
 ])
-  test(`a data block ${what} is told by the key`, async () => {
+  test(`a data block ${what} is reported by its key`, async () => {
     const line = await onlyMessage(withText("damaged", change));
     assert.equal(line, `The data of this report cannot be read: ${names} is missing or has the wrong type.`);
   });
 
-test("a data block whose text is no JSON is told in one line", async () => {
+test("a data block whose text is not JSON is reported in one line", async () => {
   const path = changed("damaged", (zipped) => {
     const block = inflateSync(zipped);
     block[16] = "[".charCodeAt(0);

@@ -45,14 +45,14 @@ test("two meshes dropped on the empty page answer as the same files do on the co
     assert.ok(row.includes(motion.reason === "end_of_range" ? `>${motion.limit_deg.toFixed(0)}°` : motion.limit_deg.toFixed(1)), row);
   }
   assert.equal(motions.length, 12);
-  // The clock face, and what the numbers are told with.
+  // The clock face, and the caveats of the numbers.
   assert.equal(await page.locator("#side .plot .mark").count(), motions.filter(({ clock_hour }) => clock_hour !== null).length);
   assert.equal(await page.locator("#side .normal-mark").count(), motions.filter(({ normal_range_deg }) => normal_range_deg !== null).length);
-  const told = await page.locator("#side").textContent();
+  const text = await page.locator("#side").textContent();
   for (const words of [provenance.version, provenance.fixed_mesh.sha256, provenance.mobile_mesh.sha256, String(provenance.mobile_mesh.bytes),
     normal_range_source, `radius ${bearing.head.radius_mm.toFixed(2)} mm`, `reaches ${bearing.margin_mm.toFixed(2)} mm`, "centre: the head's",
     scope.slice(1), ...motions.flatMap(({ caveats }) => caveats.map(({ text }) => text))])
-    assert.ok(told.includes(words), words);
+    assert.ok(text.includes(words), words);
   await keep(page, "dropped");
   assert.deepEqual(complaints, []);
   assert.deepEqual(requests, []);
@@ -80,7 +80,7 @@ function writeCompressedVtp(name, path) {
 `);
 }
 
-test("meshes compressed as VTK compresses them are read, and damaged ones told as on the command line", async () => {
+test("meshes compressed as VTK compresses them are read, and damaged ones reported as on the command line", async () => {
   const folder = join(reports, "compressed");
   mkdirSync(folder, { recursive: true });
   const files = ["hip_bone", "femur"].map((name) => {
@@ -108,34 +108,34 @@ test("meshes compressed as VTK compresses them are read, and damaged ones told a
     bytes[last] = bytes[last] === 65 ? 66 : 65;
     const path = join(folder, "damaged.vtp");
     writeFileSync(path, bytes);
-    let told = "";
+    let text = "";
     try {
       execFileSync(condyle, ["inspect", path], { stdio: "pipe" });
     } catch (error) {
-      told = String(error.stderr).trim().replace(`condyle: ${path}`, "damaged.vtp");
+      text = String(error.stderr).trim().replace(`condyle: ${path}`, "damaged.vtp");
     }
-    assert.match(told, /^damaged.vtp: .*block/);
+    assert.match(text, /^damaged.vtp: .*block/);
     await page.locator("#files").setInputFiles([files[0], path]);
-    await page.waitForFunction((line) => document.querySelector("[role=alert]")?.textContent === line, told);
+    await page.waitForFunction((line) => document.querySelector("[role=alert]")?.textContent === line, text);
   }
   await page.context().close();
 });
 
-test("a wrong dropped file is told as on the command line, and the page takes another", async () => {
+test("a wrong dropped file is reported as on the command line, and the page takes another", async () => {
   const path = join(reports, "broken.ply");
   writeFileSync(path, "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nend_header\n0 0\n1 0\n0 1\n");
-  let told = "";
+  let text = "";
   try {
     execFileSync(condyle, ["inspect", path], { stdio: "pipe" });
   } catch (error) {
-    told = String(error.stderr).trim().replace(`condyle: ${path}`, "broken.ply");
+    text = String(error.stderr).trim().replace(`condyle: ${path}`, "broken.ply");
   }
-  assert.match(told, /^broken.ply: /);
+  assert.match(text, /^broken.ply: /);
   const { page } = await openPage(browser, empty, { answers: false });
   const files = ["hip_bone.ply", "femur.ply"].map((name) => join(reports, "sample", name));
   await page.locator("#files").setInputFiles([path, files[1]]);
   await page.getByRole("alert").waitFor();
-  assert.equal(await page.getByRole("alert").textContent(), told);
+  assert.equal(await page.getByRole("alert").textContent(), text);
   await page.locator("#files").setInputFiles([files[0]]);
   await page.getByText("now add the mobile one").waitFor();
   await page.locator("#files").setInputFiles([files[1]]);
@@ -160,14 +160,14 @@ test("a side that is given counts, and one that the bones speak against is refus
   await side.selectOption("left");
   await page.locator("#files").setInputFiles(sampleFiles);
   await page.getByRole("alert").waitFor();
-  const told = await page.getByRole("alert").textContent();
+  const text = await page.getByRole("alert").textContent();
   await keep(page, "given_side");
   const joint = join(reports, "given_side.toml");
   rmSync(joint, { force: true });
   execFileSync(condyle, ["init", ...sampleFiles, "--side", "left", "--out", joint], { stdio: "ignore" });
-  assert.match(told, /^axes: /);
+  assert.match(text, /^axes: /);
   const proposed = readFileSync(joint, "utf8");
-  for (const said of told.replace("axes: ", "").split("; ")) assert.ok(proposed.includes(said), said);
+  for (const said of text.replace("axes: ", "").split("; ")) assert.ok(proposed.includes(said), said);
   await side.selectOption("right");
   await page.locator("#files").setInputFiles(sampleFiles);
   await answered(page);

@@ -13,23 +13,23 @@ const freeOf = (page, at, vary) => page.evaluate(([angles, angle]) => {
   const [columnAngle, rowAngle] = [0, 1, 2].filter((other) => other !== angle);
   return condyle.query({ of: "mapPoint", point: 0, question: { columnAngle, rowAngle, vary: angle, columns: [angles[columnAngle]], rows: [angles[rowAngle]] } });
 }, [at, vary]);
-const told = (page) => page.waitForFunction(() => [...document.querySelectorAll(".slider-readout")].every(({ textContent }) => textContent !== ""));
+const filled = (page) => page.waitForFunction(() => [...document.querySelectorAll(".slider-readout")].every(({ textContent }) => textContent !== ""));
 const degrees = (value) => `${value.toFixed(1).replace("-", "\u2212")}°`;
 
 for (const start of [[0, 0, 0], [40, 10, 0], [100, 10, 0]])
   test(`tracks show what is free of the pose ${start}, and no mark of another`, async () => {
     const { page } = await openPage(browser, pathOf("sample"), { fragment: `#flexion=${start[0]}&adduction=${start[1]}&internal_rotation=${start[2]}` });
     await settled(page);
-    await told(page);
+    await filled(page);
     await page.waitForTimeout(500);
     const tracks = await page.evaluate(() => [...document.querySelectorAll(".track-strip")].map((strip) => ({
       free: [...strip.querySelectorAll(".free")].map((rect) => [Number(rect.getAttribute("x")), Number(rect.getAttribute("x")) + Number(rect.getAttribute("width"))]),
       kinds: [...new Set([...strip.children].map((rect) => rect.getAttribute("class")))],
       low: Number(strip.nextElementSibling.min), high: Number(strip.nextElementSibling.max),
-      told: strip.closest(".slider").querySelector(".slider-readout").textContent,
+      text: strip.closest(".slider").querySelector(".slider-readout").textContent,
     })));
     assert.equal(tracks.length, 3);
-    for (const [vary, { free, kinds, low, high, told: text }] of tracks.entries()) {
+    for (const [vary, { free, kinds, low, high, text }] of tracks.entries()) {
       const all = await freeOf(page, start, vary);
       const wanted = all.filter(([from, to]) => to >= low && from <= high);
       const x = (deg) => (100 * (Math.min(high, Math.max(low, deg)) - low)) / (high - low);
@@ -157,7 +157,7 @@ test("the clock says in which plane it is, and a contact pressed moves the joint
   await rim.page.context().close();
 });
 
-test("cells of the map tell their angles to who does not see them, and the outlines are explained", async () => {
+test("cells of the map have their angles as text for screen readers, and the outlines are explained", async () => {
   const { page } = await openPage(browser, pathOf("sample"));
   const { map } = textOf("sample");
   const labels = await page.locator("#side rect.cell").evaluateAll((cells) => cells.map((cell) => cell.getAttribute("aria-label")));
@@ -260,13 +260,13 @@ test("the numbers say how they were found: bounds, bands, bearing contact, norma
   const { page } = await openPage(browser, pathOf("sample"));
   const { rom } = textOf("sample");
   const panel = page.locator("#panel-details");
-  const told = await panel.textContent();
+  const text = await panel.textContent();
   for (const wanted of ["free before it, in contact at it or past it by at most its error bound", `of ${rom.band.samples} displaced joints, seed ${rom.band.seed}`,
     `centre ${rom.band.sigma.centre_mm} mm, axes ${rom.band.sigma.axes_deg}°, surfaces ${rom.band.sigma.surface_mm} mm`,
     "Contact of the bearing surface does not end a motion", `radius ${rom.bearing.head.radius_mm.toFixed(2)} mm`,
     `radius ${rom.bearing.socket.radius_mm.toFixed(2)} mm`, `reaches ${rom.bearing.margin_mm.toFixed(2)} mm`, "Normal ranges: AAOS 1965", "right, ball joint",
     `${rom.scope.slice(1)}.`, ...rom.motions.flatMap(({ caveats }) => caveats.map(({ text, source }) => source === null ? text : `${text} (${source})`))])
-    assert.ok(told.includes(wanted), wanted);
+    assert.ok(text.includes(wanted), wanted);
   const rows = await panel.locator("[aria-labelledby=section-limits] table").locator("tbody tr").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
   rows.forEach((cells, i) => {
     const motion = rom.motions[i];

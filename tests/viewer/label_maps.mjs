@@ -13,7 +13,7 @@ function readNifti(path) {
   };
 }
 
-/// Of voxels of `mm`, in `folder`: the paths of the files, each of the same labels in the same place.
+/// Label maps with voxels of `mm`, in `folder`: the paths of the files, each of the same labels in the same place.
 export function makeLabelMaps(condyle, folder, mm) {
   mkdirSync(folder, { recursive: true });
   execFileSync(condyle, ["sample", "hip", "--voxel", String(mm), "--out", folder], { stdio: "ignore" });

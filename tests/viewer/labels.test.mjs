@@ -30,7 +30,7 @@ const meshOf = (joint, ofFixed) => {
   return { vertices: f64(vertices, 3 * vertexCount).slice(), triangles: u32(triangles, 3 * count).slice() };
 };
 
-/// What the command makes of the same labels: the arrays of its report, and the limits in it.
+/// The command's results for the same labels: the arrays of its report, and the limits in it.
 function commanded(name, ...words) {
   const folder = join(reports, "labels", name), joint = join(folder, "hip.toml"), report = join(folder, "report.html");
   rmSync(folder, { recursive: true, force: true });

@@ -1,4 +1,4 @@
-// What the scene shows, pixel by pixel: bones where they should be, colours as the scale says, after slider, clip and hide.
+// The scene, pixel by pixel: bones where they should be, colours as the scale says, after slider, clip and hide.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { isFemur, isHipBone, keep, openPage, pathOf, pixels, plain, region, settled, sharedBrowser, turnTo, viewOptions } from "./browser.mjs";
@@ -85,7 +85,7 @@ for (const [what, angles] of [["at zero", {}], ["on a tilted pose", { flexion: 4
     for (let row = 0; row < seen.height - 150; row += 3)
       for (let column = 0; column < seen.width; column += 3)
         if (seen.at(column, row)[3] === 255 && nearest(seen.at(column, row).slice(0, 3)).off < 3) coloured.push([column, row]);
-    let told = 0;
+    let compared = 0;
     for (let i = 0; i < 60; ++i) {
       const [column, row] = coloured[Math.floor(coloured.length * ((i * 0.618) % 1))];
       await page.mouse.move(box.x + ((column + 0.5) / seen.width) * box.width, box.y + ((row + 0.5) / seen.height) * box.height);
@@ -93,12 +93,12 @@ for (const [what, angles] of [["at zero", {}], ["on a tilted pose", { flexion: 4
       const value = / (-?[\d.]+) mm$/.exec((await page.locator("#hover").textContent()).replace("\u2212", "-"));
       if (!value || Math.abs(Number(value[1])) > 0.8 * end) continue;
       const { mm } = nearest(seen.at(column, row).slice(0, 3));
-      // Of the nearest corner of a triangle whose edges are a millimetre or two long, on a socket that opens by as much.
+      // The nearest corner of a triangle whose edges are a millimetre or two long, on a socket that opens by as much.
       assert.ok(Math.abs(mm - Number(value[1])) < 1.5, `${value[1]} mm is shown as ${mm} mm`);
-      ++told;
+      ++compared;
     }
-    t.diagnostic(`${told} pixels`);
-    assert.ok(told > 20, `${told} pixels`);
+    t.diagnostic(`${compared} pixels`);
+    assert.ok(compared > 20, `${compared} pixels`);
     await page.context().close();
   });
 
@@ -135,9 +135,9 @@ test("depths that are only bounds are hatched grey, and never a colour of the sc
     const [column, row] = coloured[Math.floor(coloured.length * ((i * 0.618) % 1))];
     await page.mouse.move(box.x + ((column + 0.5) / seen.width) * box.width, box.y + ((row + 0.5) / seen.height) * box.height);
     await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
-    const told = await page.locator("#hover").textContent();
-    assert.ok(!told.includes("at least"), `${told} is shown as a colour`);
-    values += / mm$/.test(told);
+    const hover = await page.locator("#hover").textContent();
+    assert.ok(!hover.includes("at least"), `${hover} is shown as a colour`);
+    values += / mm$/.test(hover);
   }
   assert.ok(values > 100, `${values} values`);
   await page.context().close();

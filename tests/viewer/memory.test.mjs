@@ -26,7 +26,7 @@ test("ten thousand steps with colours and limits leave memory as it was", async 
     }
     return condyle.query({ of: "memory" });
   }, [first, count]);
-  /// As a hand does it: what is drawn, told and remembered is in it.
+  /// As by hand, with everything that is drawn, reported and stored.
   const drags = (count) => page.evaluate(async (many) => {
     const slider = document.getElementById("angle-flexion");
     for (let i = 0; i < many; ++i) {

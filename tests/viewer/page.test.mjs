@@ -1,4 +1,4 @@
-// What the page answers and says, in a browser: against the command line.
+// Answers and texts of the page in a browser, against the command line.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, statSync } from "node:fs";
@@ -37,15 +37,15 @@ test("the licence of everything in the page is in the page, in full", async () =
   await openTab(page, "Details");
   await page.getByText("Licences of the software in this page").click();
   await page.waitForFunction(() => document.getElementById("licences").textContent.length > 1000);
-  const told = await page.locator("#licences").textContent();
+  const answer = await page.locator("#licences").textContent();
   const { packages } = JSON.parse(readFileSync(join(root, "viewer/package-lock.json"), "utf8"));
   for (const name of ["three", "d3-scale", "d3-shape", "d3-scale-chromatic", "pako"])
-    assert.ok(told.includes(`${name} ${packages[`node_modules/${name}`].version}: ${packages[`node_modules/${name}`].license}`), name);
+    assert.ok(answer.includes(`${name} ${packages[`node_modules/${name}`].version}: ${packages[`node_modules/${name}`].license}`), name);
   for (const wanted of ["fmt 9.1", "nlohmann/json", "Eigen 3.4", "Highway 1.0.3", "Emscripten 3.1.6", "Copyright © 2010-2026 three.js authors",
     "(C) 1995-2013 Jean-loup Gailly and Mark Adler", "This notice may not be removed or altered from any source distribution",
     "TERMS AND CONDITIONS FOR USE, REPRODUCTION, AND DISTRIBUTION", "9. Accepting Warranty or Additional Liability", "LLVM Exceptions",
     "Mozilla Public License Version 2.0", "Exhibit B - \"Incompatible With Secondary Licenses\" Notice", "Boost Software License"])
-    assert.ok(told.includes(wanted), wanted);
+    assert.ok(answer.includes(wanted), wanted);
   await page.context().close();
 });
 
@@ -97,13 +97,13 @@ test("depths, pairs and contact are those of condyle depth", async () => {
   for (let i = 0; i < 24; ++i) {
     const angles = [(37 * i) % 140, ((23 * i) % 90) - 45, ((41 * i) % 130) - 65];
     const pose = `flexion=${angles[0]} adduction=${angles[1]} internal_rotation=${angles[2]}`;
-    const told = JSON.parse(execFileSync(condyle, ["depth", join(reports, "sample/hip.toml"), "--pose", pose, "--json"],
+    const answer = JSON.parse(execFileSync(condyle, ["depth", join(reports, "sample/hip.toml"), "--pose", pose, "--json"],
       { stdio: ["ignore", "pipe", "ignore"] }));
     const shown = await page.evaluate((at) => condyle.query({ of: "pose", at }), { angles, translation: [0, 0, 0] });
-    assert.equal(shown.inContact, told.in_contact);
+    assert.equal(shown.inContact, answer.in_contact);
     // The depth that the command leads with, where and along what, areas and volume: to the bit.
     const depth = await page.evaluate((at) => condyle.query({ of: "depth", at }), { angles, translation: [0, 0, 0] });
-    const reliable = told.reliable_depth, axes = ["flexion", "adduction", "internal_rotation"];
+    const reliable = answer.reliable_depth, axes = ["flexion", "adduction", "internal_rotation"];
     assert.equal(depth.deepest === null, reliable === null);
     if (reliable) {
       const { depth_mm, about, depth_deg, body, vertex, nearest_mm, point } = depth.deepest;
@@ -113,17 +113,17 @@ test("depths, pairs and contact are those of condyle depth", async () => {
           .map((key) => [key, reliable[key]])));
       ++deep;
     }
-    assert.equal(depth.withoutDepth, told.vertices_without_depth);
+    assert.equal(depth.withoutDepth, answer.vertices_without_depth);
     assert.deepEqual(
       [depth.volume_mm3, depth.volumeError_mm3, depth.area_mm2.mobile, depth.area_mm2.fixed],
-      [told.contact.volume_mm3, told.contact.volume_error_mm3, told.contact.mobile.area_mm2, told.contact.fixed.area_mm2]);
+      [answer.contact.volume_mm3, answer.contact.volume_error_mm3, answer.contact.mobile.area_mm2, answer.contact.fixed.area_mm2]);
     const flat = (typed) => Object.values(typed);
     const gaps = await page.evaluate((at) => condyle.query({ of: "values", at, quantity: "gap" }), { angles, translation: [0, 0, 0] });
-    assert.equal(flat(shown.pairs).length / 2, told.triangle_pairs);
+    assert.equal(flat(shown.pairs).length / 2, answer.triangle_pairs);
     for (const [body, found] of [["mobile", shown.mobileInFixed], ["fixed", shown.fixedInMobile]]) {
       const depths = flat(found.depths_mm).filter((depth) => depth > 0);
-      assert.equal(depths.length, told.bodies[body].vertices_inside);
-      assert.equal(depths.length ? Math.max(...depths) : 0, told.bodies[body].max_radial_depth_mm ?? 0);
+      assert.equal(depths.length, answer.bodies[body].vertices_inside);
+      assert.equal(depths.length ? Math.max(...depths) : 0, answer.bodies[body].max_radial_depth_mm ?? 0);
       const negative = flat(gaps[body].shown).filter((gap) => gap < 0);
       assert.deepEqual(negative.map((gap) => -gap).sort(), depths.map(Math.fround).sort(), "coloured as deep as they are");
       inside += depths.length;

@@ -8,7 +8,7 @@ import { readReport } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
 
-/// What is there while the page is printed.
+/// Contents of the page while it is printed.
 const whilePrinted = `matchMedia("print").addEventListener("change", ({ matches }) => {
   if (!matches) return;
   const image = document.querySelector("#paper img");

@@ -60,17 +60,17 @@ test("the bone that went is a colour, in every pose, and a surface over the cut"
   const deepest = text.plan.cuts[0].deepest_mm, depths = array(text.plan.surfaces.mobile.depth_mm), vertices = array(text.plan.surfaces.mobile.lowered);
   const vertex = vertices[depths.indexOf(Math.max(...depths))];
   await viewOptions(page);
-  const tells = async () => {
+  const readout = async () => {
     await page.getByLabel("Vertex of").selectOption("mobile");
     await page.getByLabel("Number of a vertex").fill(String(vertex));
     await page.getByRole("button", { name: "Show vertex" }).click();
     return page.locator("#hover").textContent();
   };
-  assert.match(await tells(), new RegExp(`vertex ${vertex}: ${deepest.toFixed(2)}`));
+  assert.match(await readout(), new RegExp(`vertex ${vertex}: ${deepest.toFixed(2)}`));
   await openTab(page, "Motion");
   await turnTo(page, { flexion: 60 });
   await openTab(page, "Plan");
-  assert.match(await tells(), new RegExp(`vertex ${vertex}: ${deepest.toFixed(2)}`));
+  assert.match(await readout(), new RegExp(`vertex ${vertex}: ${deepest.toFixed(2)}`));
   assert.equal(await count(page, isGreen), 0);
   await page.getByLabel("Show the removed bone").check();
   assert.ok(await count(page, isGreen) > 20);

@@ -33,7 +33,7 @@ const count = {
 };
 let shownAt = 0;
 
-/// What all vertices show at the pose, against the next bytes of the native answers.
+/// Values of all vertices at the pose, against the next bytes of the native answers.
 function compareShown() {
   for (let quantity = 0; quantity <= 3; ++quantity)
     for (const ofFixed of [0, 1]) {

@@ -1,4 +1,4 @@
-// What hands do in the scene: turn, move and zoom by mouse and fingers, point and measure, see through, mark, colour.
+// Work by hand in the scene: turn, move and zoom by mouse and fingers, point and measure, see through, mark, colour.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
@@ -77,7 +77,7 @@ test("a cut leaves nothing beyond its plane", async () => {
   await settled(page);
   const cut = await pixels(page);
   await keep(page, "clipped");
-  // From the front, heights are rows: that of the plane is told by the camera, which looks at the middle of the picture.
+  // From the front, heights are rows: that of the plane follows from the camera, which looks at the middle of the picture.
   const { position, target } = await camera(page);
   const perPixel = (2 * length(minus(position, target)) * Math.tan((15 * Math.PI) / 180)) / whole.height;
   const row = whole.height / 2 - (-40 - target[1]) / perPixel;
@@ -137,7 +137,7 @@ test("triangles in contact are magenta, the bearing surface green, and neither w
   await page.context().close();
 });
 
-test("meshes of a body are told apart by their colour", async () => {
+test("meshes of a body are distinguished by their colour", async () => {
   const { page } = await openPage(browser, pathOf("parts"));
   await plain(page);
   await page.getByLabel("Show hip bone").uncheck();
@@ -152,7 +152,7 @@ test("meshes of a body are told apart by their colour", async () => {
   await page.context().close();
 });
 
-/// Of a vertex where the joint is at zero, from the report's own arrays.
+/// Value of a vertex with the joint at zero, from the report's own arrays.
 function vertexOf(name, body, vertex) {
   const coordinates = readReport(pathOf(name)).array(`${body}_vertices`);
   return [0, 1, 2].map((k) => coordinates[3 * vertex + k]);
@@ -164,18 +164,18 @@ test("a vertex is asked for by its number, and two of them measured", async () =
   await viewOptions(page);
   await page.evaluate(() => condyle.query({ of: "values", at: { angles: [0, 0, 0], translation: [0, 0, 0] }, quantity: "gap" }));
   const body = page.getByLabel("Vertex of"), number = page.getByRole("spinbutton", { name: "Number of a vertex" });
-  const tell = page.getByRole("button", { name: "Show vertex", exact: true }), told = () => page.locator("#hover").textContent();
+  const choose = page.getByRole("button", { name: "Show vertex", exact: true }), hoverText = () => page.locator("#hover").textContent();
   const { shown, marks } = await page.evaluate(async () => {
     const { mobile } = await condyle.query({ of: "values", at: { angles: [0, 0, 0], translation: [0, 0, 0] }, quantity: "gap" });
     return { shown: Array.from(mobile.shown), marks: Array.from(mobile.marks) };
   });
   const vertex = marks.indexOf(1);
   await number.fill(String(vertex));
-  await tell.click();
-  assert.equal((await told()).replace("\u2212", "-"), `femur, vertex ${vertex}: ${shown[vertex].toFixed(2)} mm`);
+  await choose.click();
+  assert.equal((await hoverText()).replace("\u2212", "-"), `femur, vertex ${vertex}: ${shown[vertex].toFixed(2)} mm`);
   await number.fill("100000");
   await number.press("Enter");
-  assert.equal(await told(), `femur has vertices 0 to ${shown.length - 1}`);
+  assert.equal(await hoverText(), `femur has vertices 0 to ${shown.length - 1}`);
   await page.getByLabel("Measure between two points").check();
   await number.fill("10");
   await number.press("Enter");
@@ -183,7 +183,7 @@ test("a vertex is asked for by its number, and two of them measured", async () =
   await number.fill("20");
   await number.press("Enter");
   const distance = length(minus(vertexOf("sample", "mobile", 10), vertexOf("sample", "fixed", 20)));
-  assert.equal(await told(), `Distance ${distance.toFixed(2)} mm`);
+  assert.equal(await hoverText(), `Distance ${distance.toFixed(2)} mm`);
   await page.context().close();
 });
 

@@ -19,7 +19,7 @@ test("a slider turns the joint, the address remembers it, and another page opene
   await again.page.context().close();
 });
 
-/// What controls show.
+/// State of the controls.
 const controls = (page) => page.evaluate(() => [...document.querySelectorAll("#side input, #side select, #view-options input, #view-options select")].map((control) =>
   `${control.getAttribute("aria-label") ?? control.id ?? control.labels[0]?.textContent}: ${control.type === "checkbox" ? control.checked : control.value}`));
 
@@ -59,7 +59,7 @@ test("camera, colours, scale, hidden bones, opacity, cut and zone come back with
   for (let y = 0; y < before.height; ++y)
     for (let x = 0; x < before.width; ++x)
       if (before.at(x, y).some((value, k) => Math.abs(value - after.at(x, y)[k]) > 40)) ++other;
-  // The camera is told to a tenth of a millimetre: edges may move by a pixel.
+  // The address has the camera to a tenth of a millimetre: edges may move by a pixel.
   assert.ok(other < 0.005 * before.width * before.height, `${other} pixels differ`);
   await page.context().close();
   await again.page.context().close();

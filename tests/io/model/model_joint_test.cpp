@@ -163,7 +163,7 @@ class SmallModel : public ::testing::Test {
   }
   Model model(const Hip& hip) const { return read_model(written(hip.text())); }
 
-  /// What a model is refused with, or its only joint.
+  /// The error of a refused model, or its only joint.
   std::string refusal(const std::string& text) const {
     try {
       const Model model = read_model(written(text));

@@ -72,7 +72,7 @@ def run(*arguments: object) -> SimpleNamespace:
 
 
 def run_alone(*arguments: object) -> "subprocess.CompletedProcess[str]":
-    """In a process of its own, all that it prints told."""
+    """In a process of its own, with its output shown."""
     package = Path(figures.__file__).parents[2]
     return subprocess.run([sys.executable, "-m", "condyle.plot", *map(str, arguments)], capture_output=True, text=True,
                           env={**os.environ, "PYTHONPATH": str(package)})
@@ -229,7 +229,7 @@ def test_figures_can_be_saved_by_the_ending_of_the_name(tmp_path):
 
 
 def test_what_the_command_writes_is_read(tmp_path, command, hip_file):
-    """The writer is C++, the reader Python: a key that one of them renames is told here."""
+    """The writer is C++, the reader Python: a key that one of them renames is detected here."""
     arguments = [hip_file, "--motion", "flexion", "--map", "flexion=90:110:10", "adduction=0:20:10", "--band=20",
                  "--out", tmp_path]
     subprocess.run([command, "rom", *arguments], check=True, capture_output=True)
