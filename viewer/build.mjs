@@ -20,7 +20,7 @@ async function bundled(entry, define = {}) {
     entryPoints: [join(here, "src", entry)],
     bundle: true, metafile: true, minify: true, write: false, format: "iife", target: "es2022", charset: "ascii", legalComments: "none", define,
     alias: { "page-core": join(coreFolder, "page_core.js") },
-    // Of emscripten's glue, for node.
+    // Imports of emscripten's glue, for node.
     external: ["fs", "path", "crypto"],
     absWorkingDir: here,
   });
@@ -56,7 +56,7 @@ const texts = [
   source("licences/core.txt"), ...packages.map(({ title, text }) => `${title}\n\n${text}`), source("licences/zlib.txt"), source("../LICENSE"), source("licences/MPL-2.0.txt"),
 ].map((text) => text.trim()).join("\n\n--------\n\n");
 
-// What is shown where the script does not run.
+// Texts for a page whose script does not run.
 const { outputFiles: [table] } = await build({ entryPoints: [join(here, "src/words.ts")], write: false, format: "esm" });
 const { words } = await import(`data:text/javascript;base64,${Buffer.from(table.contents).toString("base64")}`);
 

@@ -238,7 +238,7 @@ export const words = {
   filesBefore: "Files of the joint before",
 
   plan: "Bone that must go",
-  withoutBone: "The joint is shown without the bone that must go for its motions to reach their targets; its limits are those after the cut.",
+  withoutBone: "The joint is shown without the bone that must go for its motions to reach their targets; limits are those after the cut.",
   targets: "Targets",
   before: "before",
   after: "after",

@@ -24,7 +24,7 @@ class TemporaryFolder;
 /// never a device or a FIFO. Throws FileError.
 class OutputFolder {
  public:
-  /// Tells of a name whether some run of a command could have written it.
+  /// Whether some run of a command could have written a file of this name.
   using OfCommand = std::function<bool(std::string_view name)>;
 
   explicit OutputFolder(const std::filesystem::path& folder);
