@@ -502,7 +502,7 @@ struct ImplantAnswer {
 /// A total hip in the place of the joint that a patient has: docs/placing-implants.md.
 ///
 /// Throws UsageError for what is no hip, has an implant already or a shaft that lies level, for sizes as check_implant() does, for a head
-/// that bone is in the way of, and if the bones do not show what a size is to be taken from, naming the size; MeshError for a femur that is
+/// that bone blocks, and if the bones do not show what a size is to be taken from, naming the size; MeshError for a femur that is
 /// not closed or has no head; ReferenceContactError if the bodies are in contact at zero angles. As long as measure_hip().
 ImplantAnswer answer_implant(const Joint& joint, const JointPlacement& placement, const ImplantQuery& query);
 

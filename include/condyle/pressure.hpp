@@ -152,7 +152,7 @@ std::string_view name_of(BalanceOutcome outcome) noexcept;
 
 struct BalancedPose {
   BalanceOutcome outcome;
-  /// The pose found; else the last one looked at, or one where the bodies are apart if less of the load is left there, or, of loads
+  /// The pose found; else the last one evaluated, or one where the bodies are apart if less of the load is left there, or, of loads
   /// that are too large, one that carries most.
   Pose X_FM;
   Wrench residual;  ///< what contact and load add up to along what is free, in F, about the origin of M

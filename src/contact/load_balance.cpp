@@ -298,7 +298,7 @@ class Search {
     const Vector6 given = load_at(from);
     // The force is the gradient of the energy up to the angle between the surfaces, within a tenth.
     const double travel = step.head<3>().norm() + step.tail<3>().norm() * measured_travel / measured_angle;
-    const double doubtful = 0.1 * (given.head<3>().norm() * step.head<3>().norm() +
+    const double uncertain = 0.1 * (given.head<3>().norm() * step.head<3>().norm() +
                                    given.tail<3>().norm() * step.tail<3>().norm());
     Vector6 beyond = residual_;
     bool meets_beyond = false;
@@ -308,7 +308,7 @@ class Search {
       const MobileLoad next = tried(X);
       const Vector6 residual = left(X, next);
       const bool climbs = part * travel > least_climb &&
-                          next.energy - energy - part * given.dot(step) > part * doubtful + 1e-9 * energy;
+                          next.energy - energy - part * given.dot(step) > part * uncertain + 1e-9 * energy;
       if (next.samples > 0 && !climbs && size_of(residual) < size_of(residual_)) {
         take(X, next);
         if (part == 1) return {true, false};

@@ -22,7 +22,7 @@ std::optional<std::size_t> first_out_of_range(PointsView points) noexcept;
 /// Throws UsageError for a point that is out of range, naming it.
 void require_in_range(PointsView points);
 /// Throws UsageError for entries that are not finite and for a translation out of range. Whether it is a rotation is not
-/// looked at.
+/// checked.
 void require_in_range(const Pose& X_FM);
 
 }  // namespace condyle::core

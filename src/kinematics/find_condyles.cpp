@@ -20,7 +20,7 @@ namespace {
 constexpr double search_reach = 70;
 constexpr double smallest_radius = 8, largest_radius = 40;
 
-/// The search looks at means over cells of this side, mm, a tenth of a turn on a small condyle: fine meshes have noise.
+/// The search evaluates means over cells of this side, mm, a tenth of a turn on a small condyle: fine meshes have noise.
 constexpr double cell = 4;
 
 constexpr std::size_t first_points = 260, partners = 90, candidates_kept = 16;

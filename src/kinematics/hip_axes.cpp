@@ -177,7 +177,7 @@ Horizon horizon_of(const Vec3& up, const Vec3& opening) {
   return {up, front.cross(up), front};
 }
 
-std::string verdict(double vote) {
+std::string vote_text(double vote) {
   return std::abs(vote) < 1 ? "no vote" : vote > 0 ? "votes right" : "votes left";
 }
 
@@ -189,7 +189,7 @@ std::optional<Evidence> neck_vote(const Vec3& neck, const Horizon& seen) {
   return Evidence{vote,
                   formatted("the socket opens %.0f degrees in front of the neck, read as a right hip: %s "
                             "(needs %.0f)",
-                            deg, verdict(vote).c_str(), neck_margin_deg)};
+                            deg, vote_text(vote).c_str(), neck_margin_deg)};
 }
 
 /// Sums by area over the hip bone below the head's centre, of how far in front and how deep (against the opening) it is.
@@ -229,7 +229,7 @@ std::optional<Evidence> hip_bone_vote(const TriMesh& hip_bone, const HipAnatomy&
   if (!std::isfinite(vote)) return std::nullopt;
   return Evidence{vote, formatted("the hip bone below the head is deeper in front, read as a right hip, by a "
                                   "correlation of %.2f: %s (needs %.1f)",
-                                  correlation, verdict(vote).c_str(), hip_bone_margin)};
+                                  correlation, vote_text(vote).c_str(), hip_bone_margin)};
 }
 
 std::vector<Evidence> side_votes(const TriMesh& hip_bone, const HipAnatomy& hip, const Vec3& up) {

@@ -17,7 +17,7 @@ namespace {
 
 /// In radii of the head: a whole femur has 17, one cut above its condyles at most 14.
 constexpr double shortest_femur = 10;
-/// The end of the bone that is looked at, mm.
+/// The end of the bone that is evaluated, mm.
 constexpr double condyle_height = 45;
 /// Cosine of the 60 degrees within which a line faces back.
 constexpr double least_facing = 0.5;

@@ -27,7 +27,7 @@
 namespace condyle::measure {
 namespace {
 
-/// Pieces of a mesh are looked at within so many radii of the head.
+/// Components of a mesh are considered within this many radii of the head.
 constexpr double pieces_reach = 2;
 /// A head farther from the centre of its socket, in its radii, has left it: to there the plane of a rim is found as from the centre.
 constexpr double farthest_apart = 0.25;

@@ -18,7 +18,7 @@ struct SelfCrossings {
 };
 
 /// Pairs of triangles that share a point and no vertex; vertices at one place are one. What neighbours do to each
-/// other beside their common vertex is not looked at: a fold that begins there reaches other triangles too unless
+/// other beside their common vertex is not tested: a fold that begins there reaches other triangles too unless
 /// it is one triangle deep. Exact for the doubles given.
 ///
 /// n log n for a surface with few of them, by a tree of boxes; once, and kept with the mesh.

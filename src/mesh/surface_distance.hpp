@@ -13,7 +13,7 @@ namespace condyle::mesh {
 double distance_to_triangle(const Vec3& p, const TriangleCorners& t) noexcept;
 
 /// Distance from any point to the nearest point of a mesh, over a tree of its triangles, of which there is one: the shortest exit by
-/// translation, in any direction. A query looks at a few leaves.
+/// translation, in any direction. A query tests a few leaves.
 double distance_to_surface(const TriangleTree& surface, const Vec3& p) noexcept;
 
 /// The same with a tree of its own, built once.

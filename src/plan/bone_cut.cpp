@@ -311,7 +311,7 @@ bool BoneCut::may_all_go(const std::vector<Met>& met) {
   return false;
 }
 
-/// Lowers what the exact search still finds in the way. False if the surface must be lowered anew.
+/// Lowers the bone that the exact search still finds obstructing. False if the surface must be lowered anew.
 bool BoneCut::correct() {
   const std::vector<SweepTo> sweeps = sweeps_to_reach();
   std::vector<Met> met;

@@ -15,7 +15,7 @@ namespace {
 
 /// Bone is not thicker: whoever has come so far does not come out.
 constexpr double farthest_mm = 40;
-/// A triangle is looked at in the points of a lattice with so many to a side: 45 points.
+/// A triangle is sampled at the points of a lattice with this many to a side: 45 points.
 constexpr int lattice = 8;
 /// Remaining protrusions between vertices are lowered this often; less than this is none, mm.
 constexpr int rounds = 20;
@@ -319,7 +319,7 @@ std::vector<Obstruction> CutSurface::left_obstructions(const std::vector<Index>&
     // All corners are kept, or at the end of their room; where one is free the exact search decides.
     const std::array<Index, 3>& corners = stands_out.point.corners;
     if (std::any_of(corners.begin(), corners.end(), [&](Index v) { return may_go(v); })) continue;
-    // Whoever was lowered through the whole bone looks at what lies behind it, which is in nobody's way.
+    // A vertex lowered through the whole bone samples the surface behind it, which obstructs nothing.
     if (is_bone(stands_out.below))
       left.push_back(
           {stands_out.need.target, stands_out.need.from_rad, kept_by(stands_out.point), stands_out.at});

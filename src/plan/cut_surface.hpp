@@ -88,8 +88,8 @@ class CutSurface {
   MayGo may_go(const SurfacePoint& point) const;
   /// Why what is there stays.
   KeptBy kept_by(const SurfacePoint& point) const;
-  /// Lowers what is in the way, in each point to where it is clear and by this at least. If no corner may go, those beside them do, in the
-  /// triangles that share one: it is these triangles that are in the way, and where they come into the bearing ball they are not.
+  /// Lowers obstructing bone, in each point to where it is clear and by this at least. If no corner may go, those beside them do, in the
+  /// triangles that share one: these triangles obstruct, except where they come into the bearing ball.
   void lower_met(const std::vector<Met>& met, const std::vector<SweepTo>& sweeps, double by_mm);
 
   const Body& body() const noexcept { return body_; }

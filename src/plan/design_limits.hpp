@@ -12,7 +12,7 @@ namespace condyle::plan {
 
 /// The limits of target motions for any values of a joint's parameters, without making the joint anew for each.
 ///
-/// The meshes of a body are looked at one by one, in pairs of one of either body: a motion ends where the first pair meets.
+/// The meshes of a body are searched one by one, in pairs of one of either body: a motion ends where the first pair meets.
 ///
 ///     neither moves with a swept parameter      searched once, for all designs
 ///     one of them does                          the other carries the table of the motion, and this one starts where its parts have it

@@ -15,7 +15,7 @@ class ExactReach {
   /// `other`: what of the other body ends motions.
   ExactReach(const Joint& joint, BodyRole cut, const Mesh& other, const Motion& motion);
 
-  /// Every feature of the cut bone that is in the way, with a point of it, in the bone's own frame; none if the motion goes as far as
+  /// Every obstructing feature of the cut bone, with a point of it, in the bone's own frame; none if the motion goes as far as
   /// `reach`. Of bodies that are in contact at the start one feature, or empty if no surfaces meet there: one is inside the other.
   std::optional<std::vector<motion::FeatureContact>> obstructions(const motion::FeatureTree& cut,
                                                                   Angle reach) const;

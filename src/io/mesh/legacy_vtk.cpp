@@ -199,7 +199,7 @@ class Reader {
 
 }  // namespace
 
-/// Legacy PolyData, text and binary, both ways of giving cells. Arrays after the geometry are not looked at.
+/// Legacy PolyData, text and binary, both forms of cells. Arrays after the geometry are not read.
 RawMesh read_legacy_vtk(const Source& source) {
   return Reader(source).read();
 }

@@ -29,7 +29,7 @@ struct ColourScale {
   bool is_plain_above() const noexcept { return colour != PictureColour::depth; }
   /// Beyond an end where values mean something: striped.
   bool is_beyond(double mm) const noexcept { return mm < -range_mm || (!is_plain_above() && mm > range_mm); }
-  /// Values beyond the scale have the colour of its end; empty for those above it that mean nothing to look at.
+  /// Values beyond the scale have the colour of its end; empty for values above it that need no colour.
   std::optional<Rgb> at(double mm) const noexcept;
 };
 

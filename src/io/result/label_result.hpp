@@ -15,7 +15,7 @@ std::string surface_text(const LabelBone& bone);
 std::string surface_json(const LabelBone& bone, const std::filesystem::path& image,
                          const std::vector<std::string>& command);
 
-/// A label map that was looked at, without its voxels.
+/// An inspected label map, without its voxels.
 struct LabelInspection {
   std::filesystem::path image;
   VoxelGrid grid;

@@ -80,7 +80,7 @@ std::string values_text(const SweepAnswer& sweep, std::span<const double> values
   return text;
 }
 
-/// The target that a design has the least to spare of, and how much.
+/// The target with a design's smallest margin, and the margin.
 std::string margin_text(const SweepAnswer& sweep, std::span<const DesignLimit> limits) {
   if (std::isnan(limits.front().turned_deg))
     return fmt::format("in contact in the reference pose: {}", ending_text(sweep, limits.front()));

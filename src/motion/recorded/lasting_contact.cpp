@@ -17,7 +17,7 @@ using MeshCorners = std::array<Vec3, 3>;
 /// In mm, as of clearance(): more than all rounding on the way, for coordinates up to 10 m.
 constexpr double crossing_rounding_mm = 1e-9;
 
-/// Pairs looked at, spread evenly over all: at some microseconds each as costly as finding the pairs.
+/// Pairs evaluated, spread evenly over all: at some microseconds each as costly as finding the pairs.
 constexpr std::size_t most_pairs = 256;
 
 MeshCorners corners_of(const Mesh& mesh, Index triangle) {

@@ -23,7 +23,7 @@ struct LastingContact {
 ///     /__T___|___/         border, between p and T, and between q and T. The smallest of the three lasts.
 ///            q
 ///
-/// Among many pairs some are looked at; another choice would only change how long contact is known to last.
+/// Among many pairs some are evaluated; another choice would only change how long contact is known to last.
 LastingContact lasting_contact(const Mesh& fixed, const Mesh& mobile, const Pose& X_FM,
                                std::span<const TrianglePair> pairs, const Speed& speed);
 

@@ -79,7 +79,7 @@ class SmallestGap {
     double at_most = std::numeric_limits<double>::infinity();
     if (nearest_) {
       const double known = (nearest_->on_fixed - X_FM * nearest_->on_mobile).norm();
-      // Distances and these points round by 1e-12 of the coordinates: a millionth is more, and leaves little more to look at.
+      // Distances and these points round by 1e-12 of the coordinates: a millionth is more, and adds little work.
       at_most = known + 1e-6 * (1 + nearest_->on_fixed.norm() + known);
     }
     const auto found = mesh::closest_points(fixed_, mobile_, X_FM, at_most);

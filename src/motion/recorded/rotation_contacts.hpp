@@ -6,7 +6,7 @@
 
 namespace condyle::motion {
 
-/// Contact on the way of a body whose origin is held: in closed form, none missed, however short
+/// Contact along the motion of a body whose origin is held: in closed form, none missed, however short
 /// (docs/mathematics/05-contact-under-rotation.md). The axis goes through M's origin, so the fixed body is placed as seen
 /// from there, shifted by -t.
 ///

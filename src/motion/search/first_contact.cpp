@@ -26,7 +26,7 @@ Vec3 vec3(const Point& p) noexcept {
 }
 
 /// Added to the best angle when regions are left out: more than any event's error and the slack of all boxes,
-/// so that whether a pair is looked at never decides between pairs that meet at the same angle.
+/// so that whether a pair is tested never decides between pairs that meet at the same angle.
 constexpr double keep_ties = 1e-10;
 
 /// A pair of features in contact, by their slots in tree order.

@@ -4,7 +4,7 @@
 
 namespace condyle::motion {
 
-/// A pair of nodes still to be looked at, and the smallest rotation after which they can meet.
+/// A pair of nodes still to be tested, and the smallest rotation after which they can meet.
 struct NodePair {
   Index rotating, stationary;
   double gap;

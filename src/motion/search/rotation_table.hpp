@@ -14,7 +14,7 @@
 ///
 /// The table differs from the ring table of the tangential method (docs/mathematics/04-tangential-method.md), which
 /// lists triangles by cells of the profile: there one vertex needs its whole circle; here whole regions of
-/// both bodies are compared first, and most of the circle is never looked at.
+/// both bodies are compared first, and most of the circle is never evaluated.
 
 namespace condyle::motion {
 
@@ -69,7 +69,7 @@ class RotationTable {
 };
 
 /// The body that turns, at the pose from which it starts. Boxes are made when first needed, so that a new
-/// pose costs only what the search looks at. One per thread.
+/// pose costs only the nodes that the search visits. One per thread.
 class RotatingBody {
  public:
   /// The tree must outlive this.

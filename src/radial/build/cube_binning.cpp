@@ -7,7 +7,7 @@
 namespace condyle::radial {
 namespace {
 
-/// Triangles looked at together: what is found of them stays in the nearest cache.
+/// Triangles processed together: their results stay in the nearest cache.
 constexpr std::size_t triangles_per_chunk = 1024;
 
 /// See Binning.

@@ -58,7 +58,7 @@ struct DopsInCells {
   }
 };
 
-/// As many triangles, or cells of one, as are looked at together.
+/// As many triangles, or cells of one, as are processed together.
 using Lanes = hn::CappedTag<std::int32_t, 16>;
 using Words = hn::RebindToUnsigned<Lanes>;
 using LaneFloats = hn::RebindToFloat<Lanes>;

@@ -119,7 +119,7 @@ HWY_INLINE void read_projected(const ProjectedTriangles& projected, std::size_t 
   find_edges(at, 2.0f / static_cast<float>(cells_per_side), batch);
 }
 
-/// Cells that are looked at together: four columns, and as many rows as fill a vector.
+/// Cells that are processed together: four columns, and as many rows as fill a vector.
 constexpr int tile_cells = static_cast<int>(lanes);
 constexpr int tile_columns = std::min(4, tile_cells), tile_rows = tile_cells / tile_columns;
 

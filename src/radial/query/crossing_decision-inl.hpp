@@ -65,7 +65,7 @@ HWY_INLINE bool nearest_exit(const Ray& ray, int winding_at_centre, NearestExit&
       after = &crossing;
     }
   }
-  // Surface that is too far behind to matter was not looked at, unless the centre is inside.
+  // Surface that is too far behind to matter was not tested, unless the centre is inside.
   if (!after && (!before || winding_at_centre > 0)) return false;
   way.away_from_centre = !before;
   if (before && after) {

@@ -9,7 +9,7 @@ namespace condyle::radial {
 
 /// Points of the mobile body in blocks of neighbours, made once for a mesh and a joint centre: what
 /// RadialTable::penetrations reads. A block lies in a cap of directions about the centre and in an interval
-/// of radii, so that whole blocks can be found free with one look at the table.
+/// of radii, so that whole blocks can be found free with one lookup in the table.
 ///
 ///        . axis        points p of a block:  | p / |p| - axis | <= chord,   nearest <= |p| <= furthest
 ///       /|  cap

@@ -48,7 +48,7 @@ export class DropPanel {
       return hasMeshes ? this.refuse(words.dropMixed) : this.labels.add(maps);
     }
     const { isWaiting } = this.labels;
-    this.labels.forget();
+    this.labels.reset();
     return isWaiting ? this.refuse(words.dropMixed) : this.addMeshes(files);
   }
 

@@ -40,7 +40,7 @@ export class LabelDrop {
     return this.maps.length > 0 && !this.asked;
   }
 
-  forget(): void {
+  reset(): void {
     this.core?.close();
     this.core = null;
     this.maps = [];
@@ -51,16 +51,16 @@ export class LabelDrop {
 
   async add(files: readonly File[]): Promise<void> {
     // A file dropped instead of a choice of labels asks for another joint.
-    if (this.asked) this.forget();
+    if (this.asked) this.reset();
     if (this.maps.length + files.length > 2) {
-      this.forget();
+      this.reset();
       return this.listener!.progress(words.dropTwo);
     }
     this.listener!.busy("busy");
     try {
       for (const file of files) await this.read(file);
     } catch (error) {
-      this.forget();
+      this.reset();
       this.listener!.busy("open");
       return this.refuse(error);
     }

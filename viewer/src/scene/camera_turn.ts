@@ -7,7 +7,7 @@ export interface Viewpoint {
   distance: number;
 }
 
-/// Ends within 0.4 s, with a frame to spare.
+/// Ends within 0.4 s, with a margin of one frame.
 const duration_ms = 340;
 
 function prefersStill(): boolean {
