@@ -26,7 +26,7 @@ namespace condyle {
 /// Treatment of two bodies that are in contact in the reference pose.
 enum class ReferenceContact : std::uint8_t {
   refuse,  ///< ReferenceContactError: what can be done, and the place of greatest depth
-  accept,  ///< motions that start in contact say so
+  accept,  ///< motions that start in contact are reported as such
 };
 
 /// Leaves out the triangles of each body that meet the other body in the reference pose, and with them `rings`

@@ -577,7 +577,7 @@ class Joint(DescribedJoint):
                 facets: int = 360, **sizes: float) -> PlacedImplant[Joint]:
         """A total hip in the place of this hip, and the joint with it.
 
-        Bones and implant only: soft tissue, fixation and the strength of the bone that is left are not modelled.
+        Bones and implant only: soft tissue, fixation and the strength of the remaining bone are not modelled.
 
         Parameters
         ----------

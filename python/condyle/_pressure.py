@@ -105,7 +105,7 @@ class BalancedPose:
     `outcome` is "balanced", "at_jump" (all but a little of the load is carried, and the force jumps just beyond, or no
     step leaves less), "pulled_apart", "over_the_rim", "too_large", "unstable" or "free_direction"; `reason` one line where
     there is no balance; `X_FM` (4, 4) the pose found, or the last one looked at; `residual_force_n` and
-    `residual_moment_nmm` (3,) what contact and load add up to along what is free; `contact` at that pose; `notes` what looks
+    `residual_moment_nmm` (3,) what contact and load add up to along the free directions; `contact` at that pose; `notes` what looks
     wrong with the load or the contact.
     """
 
@@ -233,7 +233,7 @@ class ElasticContact:
         `force_n` and `moment_nmm` about the origin of M are held in F, or with `frame="mobile"` go along with M.
         Directions (K, 3) in F along which the body may be translated, all if none are given; with `free_rotations` its
         rotations are unknowns too; without it a moment has nothing to balance it and is refused. UsageError where the load
-        is zero along what is free. Not ended by Ctrl-C.
+        is zero along the free directions. Not ended by Ctrl-C.
 
         C++: `condyle::balance` in condyle/pressure.hpp.
         """

@@ -160,7 +160,7 @@ void note_frame(ImplantAnswer& answer) {
   const double moved = answer.centre_mm.norm();
   if (moved > centres_apart_mm)
     note(answer, ImplantNoteCode::centre_moved,
-         formatted("the implant's centre is %.1f mm from that of the joint as it was", moved));
+         formatted("the implant's centre is %.1f mm from the joint's former centre", moved));
 }
 
 void note_centres(ImplantAnswer& answer, const Sphere& head) {
@@ -227,7 +227,7 @@ void take_placed(ImplantAnswer& answer, plan::PlacedHip&& placed) {
 }
 
 const char* const implant_caveat =
-    "bones and implant only: soft tissue, fixation and the strength of the bone that is left are not "
+    "bones and implant only: soft tissue, fixation and the strength of the remaining bone are not "
     "modelled; "
     "the hip bone is not reamed";
 

@@ -46,7 +46,7 @@ void add_depth_limits(RangeAnswer& answer, const RangeRequest& request) {
       core::formatted("allowed: a radial depth of %g mm; limits are searched for, not exact",
                       request.allowed_depth->depth_mm));
   if (answer.bearing.roles.has(ContactRole::soft))
-    answer.caveats.emplace_back("allowed: depths are those of all meshes, the ones called soft too");
+    answer.caveats.emplace_back("allowed: depths include all meshes, soft ones too");
 }
 
 /// False if stopped.
@@ -117,7 +117,7 @@ void check_range_request(const Joint& joint, const JointPlacement& placement, co
     throw UsageError(
         "a translation that follows a recorded motion or a load gives limits only: no map, bands, zones or "
         "allowed depth");
-  if (request.translation_mm) throw UsageError("translation: it is held, or it follows: one of the two");
+  if (request.translation_mm) throw UsageError("translation: either held or following: one of the two");
   if (request.range.overlap.leave_out_reference_contacts)
     throw UsageError("a translation that follows: no contacts are left out");
   answer::check_follow(request);
@@ -133,7 +133,8 @@ std::vector<std::string> range_caveats(const RangeOptions& options, const RangeO
                         overlap.leave_out_reference_contacts->rings, range.left_out().fixed_triangles,
                         range.left_out().mobile_triangles));
   if (overlap.reference_contact == ReferenceContact::accept)
-    caveats.emplace_back("contact in the reference pose is accepted: motions that start in contact say so");
+    caveats.emplace_back(
+        "contact in the reference pose is accepted: motions that start in contact are reported as such");
   return caveats;
 }
 

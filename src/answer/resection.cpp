@@ -90,7 +90,7 @@ void note_targets(ResectionAnswer& answer) {
   const bool nothing = !answer.resection.mobile && !answer.resection.fixed;
   if (nothing && std::none_of(targets.begin(), targets.end(), [](const auto& each) { return each.blocked; }))
     answer.notes.push_back(
-        {ResectionNoteCode::nothing_to_do, "every target is reached as the joint is: nothing has to go"});
+        {ResectionNoteCode::nothing_to_do, "the joint reaches every target: no bone has to go"});
   for (const ReachOutcome& outcome : targets) {
     if (!outcome.blocked) continue;
     const Body& body = outcome.blocked->body == BodyRole::mobile ? answer.resection.joint.mobile

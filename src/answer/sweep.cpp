@@ -308,7 +308,7 @@ void check_sweep(const Joint& joint, const SweepQuery& query) {
   if (query.parameters.empty() || query.parameters.size() > most_parameters)
     throw UsageError("a sweep is over one to four parameters");
   if (query.share.of < 1 || query.share.number < 1 || query.share.number > query.share.of)
-    throw UsageError("the share of a sweep is a number from 1 to how many there are");
+    throw UsageError("the share of a sweep is a number from 1 to the number of shares");
   if (query.range.overlap.leave_out_reference_contacts)
     throw UsageError(
         "a sweep leaves no contacts of the reference pose out: they differ from design to design");

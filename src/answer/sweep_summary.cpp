@@ -91,9 +91,9 @@ void note(SweepAnswer& sweep) {
   if (safe == 0) return add(SweepNoteCode::nothing_is_safe, nothing_text(sweep));
   if (safe == sweep.designs())
     return add(SweepNoteCode::everything_is_safe,
-               "every design leaves all targets free: the zone goes on beyond what was swept");
+               "every design leaves all targets free: the zone extends beyond the sweep");
   if (const std::string ends = safe_ends(sweep); !ends.empty())
-    add(SweepNoteCode::zone_leaves_window, "the safe zone goes on beyond what was swept, at " + ends);
+    add(SweepNoteCode::zone_leaves_window, "the safe zone extends beyond the sweep, at " + ends);
   std::size_t gaps = 0;
   for (std::size_t k = 1; k < sweep.safe.size(); ++k) gaps += sweep.safe[k].line == sweep.safe[k - 1].line;
   if (gaps > 0)

@@ -89,8 +89,8 @@ class Search {
     if (!load.on_mobile.force_n.allFinite() || !load.on_mobile.moment_nmm.allFinite())
       throw UsageError("the load is not finite");
     if (!(options.most_left_at_jump >= 0 && options.most_left_at_jump <= 1))
-      throw UsageError("most_left_at_jump: what may be left of the load is a share from 0 to 1");
-    if (along_free(load_at(start)).isZero(0)) throw UsageError("the load is zero along what is free");
+      throw UsageError("most_left_at_jump: the residual share of the load must be from 0 to 1");
+    if (along_free(load_at(start)).isZero(0)) throw UsageError("the load is zero along the free directions");
     out_.X_FM = start;
   }
 
@@ -299,7 +299,7 @@ class Search {
     // The force is the gradient of the energy up to the angle between the surfaces, within a tenth.
     const double travel = step.head<3>().norm() + step.tail<3>().norm() * measured_travel / measured_angle;
     const double uncertain = 0.1 * (given.head<3>().norm() * step.head<3>().norm() +
-                                   given.tail<3>().norm() * step.tail<3>().norm());
+                                    given.tail<3>().norm() * step.tail<3>().norm());
     Vector6 beyond = residual_;
     bool meets_beyond = false;
     double low = 0, high = 1;

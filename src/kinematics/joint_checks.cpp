@@ -127,7 +127,8 @@ void check_surface(const Body& body, Notes& notes) {
     return;
   }
   if (!body.mesh.is_closed())
-    notes.add(JointNoteCode::open_mesh, body.name + " is open: one body inside the other would not be seen");
+    notes.add(JointNoteCode::open_mesh,
+              body.name + " is open: one body inside the other would not be detected");
   else if (mesh::enclosed_volume(body.mesh) < 0)
     notes.add(
         JointNoteCode::inverted_mesh,

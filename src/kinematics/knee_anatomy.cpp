@@ -120,7 +120,8 @@ std::string why_no_condyles_here(const TriMesh& femur, const Condyles& found) {
                                                       .within = Sphere{axis.point, reach}});
     if (sphere.coverage < least_stray_head_coverage) return {};
     return formatted(
-        "what faces the other body is a head, %.0f %% of a sphere of radius %.1f mm, and no condyles: do "
+        "the part facing the other body is a head, %.0f %% of a sphere of radius %.1f mm, and no condyles: "
+        "do "
         "both "
         "meshes lie in one frame?",
         100 * sphere.coverage, sphere.fit.sphere.radius);

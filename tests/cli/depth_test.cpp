@@ -293,7 +293,7 @@ TEST_F(SampleJointCommand, AnOpenMeshIsRefusedByItsBoundaryAndStillHasPairs) {
   expect_refused(4, "depth sample/hip.toml --method tangential --out result", "--pairs-only");
   const Ran ran = run(std::string("depth sample/hip.toml --pairs-only --json ") + deep);
   EXPECT_EQ(ran.err,
-            "condyle: note: open_mesh: hip bone is open: one body inside the other would not be seen\n");
+            "condyle: note: open_mesh: hip bone is open: one body inside the other would not be detected\n");
   const Json json = Json::parse(ran.out);
   ASSERT_EQ(json["notes"].size(), 1u);
   EXPECT_EQ(json["notes"][0]["code"], "open_mesh");

@@ -167,7 +167,7 @@ TEST_F(Motion, FramesWithoutALoadAreLeftUnanswered) {
     EXPECT_NEAR(curves.rows[row][curves.column("force_y_n")], -1000, 1e-5);
   const std::string text = run("motion cup.toml --motion rock.csv --loads loads.csv").out;
   EXPECT_NE(text.find("balanced in 2 of 3 frames"), text.npos) << text;
-  EXPECT_NE(text.find("0.1 s: the load is zero along what is free"), text.npos) << text;
+  EXPECT_NE(text.find("0.1 s: the load is zero along the free directions"), text.npos) << text;
 
   // A load across the only free direction leaves no residual either.
   const Json across =

@@ -72,7 +72,8 @@ struct OutOfBalance {
 std::vector<OutOfBalance> out_of_balance(const MotionAnswer& answer) {
   std::vector<OutOfBalance> frames;
   for (const std::size_t i : answer.without_load)
-    frames.push_back({i, "no_load", false, "the load is zero along what is free: no pose was looked for"});
+    frames.push_back(
+        {i, "no_load", false, "the load is zero along the free directions: no pose was searched"});
   for (std::size_t i = 0; i < answer.balanced.size(); ++i) {
     const auto& pose = answer.balanced[i];
     if (pose && pose->outcome != BalanceOutcome::balanced)
