@@ -206,11 +206,12 @@ test("bones are kept as STL with a joint file that names them", async () => {
   await page.context().close();
 });
 
-test("nothing of the brush and of the centre scrolls on a window 900 pixels high", async () => {
-  for (const name of ["sample", "plan"]) {
-    const { page } = await opened(name);
+for (const [width, height] of [[1440, 900], [1280, 800]])
+test(`nothing of the plan scrolls on a window of ${width} × ${height} pixels`, async () => {
+  for (const name of ["sample", "plan", ...(has("vhf_right") ? ["vhf_right"] : [])]) {
+    const { page } = await opened(name, { width, height });
     await changed(page, strokeAtLimit(page));
-    for (const of of ["Resect by brush", "Move the joint centre"]) {
+    for (const of of [...(name === "plan" ? ["Bone that must go"] : []), "Resect by brush", "Move the joint centre"]) {
       const summary = page.locator("summary", { hasText: of });
       if (!(await summary.evaluate((element) => element.parentElement.open))) await summary.click();
       assert.deepEqual(await page.locator("#panel-plan").evaluate((element) => [element.scrollHeight <= element.clientHeight + 1, element.scrollWidth <= element.clientWidth + 1]),

@@ -53,11 +53,13 @@ export const words = {
   normalIs: (deg: string) => `normal ${deg}°`,
   short: (lacks: string, normal: string) => `${lacks}° short of ${normal}°`,
   lacks: (lacks: string, normal: string) => `${lacks}° short of normal (${normal}°)`,
+  beyond: (more: string, normal: string) => `${more}° beyond normal (${normal}°)`,
+  noNormal: "no normal range known",
   neckOnRim: "neck on rim",
   atHour: (meets: string, hour: string) => `${meets} at ${hour}`,
   awayFromRim: "away from the rim",
-  endsSentence: (name: string, limit: string, lacks: string | null, place: string) =>
-    `${[`${name} ends at ${limit}`, lacks, place].filter(Boolean).join(", ")}.`,
+  endsSentence: (name: string, limit: string, compared: string | null, place: string) =>
+    `${[`${name} ends at ${limit}`, compared, place].filter(Boolean).join(", ")}.`,
   freeSentence: (name: string, deg: string) => `${name} meets no bone up to ${deg}°, where its range ends.`,
   translationSentence: (name: string, limit: string) => `${name} is known to ${limit}: the record or load that its translation follows ends there.`,
   startsInContactSentence: (name: string) => `${name} starts in contact.`,
@@ -65,6 +67,7 @@ export const words = {
   noted: (count: number) => (count === 1 ? "1 note from the checks:" : `${count} notes from the checks:`),
   readNotes: "Read",
   tileKey: "Bar: limit; band: 5 to 95 %; line: normal. Press to go there.",
+  tileKeyNoBand: "Bar: limit; line: normal. No band was asked for: condyle report --band.",
   saveLimits: "Save limits, CSV",
   isFree: "Free",
   freeClear: (mm: string) => `Free · ${mm} mm clear`,

@@ -35,7 +35,7 @@ export class ManoeuvreGrid {
     const grid = html("div", { class: "tiles", role: "group", "aria-label": words.limits }, ...this.tiles.values());
     roving([...this.tiles.values()], columns);
     this.element = html("div", { class: "manoeuvres" }, grid,
-      html("div", { class: "tile-key small" }, html("span", {}, words.tileKey),
+      html("div", { class: "tile-key small" }, html("span", {}, motions.some(({ band }) => band) ? words.tileKey : words.tileKeyNoBand),
         button(words.saveLimits, () => save("limits.csv", "text/csv", csv(limitRows(motions, before))), { class: "quiet-button" })));
   }
 

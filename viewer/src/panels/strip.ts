@@ -30,9 +30,14 @@ export function sentenceOf(motion: MotionAnswer, report: ReportText): string {
   if (motion.reason === "contact_at_start") return words.startsInContactSentence(name);
   if (motion.translation_ends) return words.translationSentence(name, limitAlone(motion));
   if (motion.reason === "end_of_range") return words.freeSentence(name, fixed(motion.limit_deg, 0));
-  const lacks = deficitOf(motion);
-  return words.endsSentence(name, limitText(motion),
-    lacks === null ? null : words.lacks(fixed(lacks, 0), fixed(motion.normal_range_deg!, 0)), placeOf(motion, report));
+  return words.endsSentence(name, limitText(motion), againstNormal(motion, report), placeOf(motion, report));
+}
+
+/// What a limit lacks of the normal range or has beyond it; null for joints without normal ranges.
+function againstNormal(motion: MotionAnswer, { rom }: ReportText): string | null {
+  const { normal_range_deg: normal, limit_deg } = motion, lacks = deficitOf(motion);
+  if (normal === null) return rom?.motions.some(({ normal_range_deg }) => normal_range_deg !== null) ? words.noNormal : null;
+  return lacks === null ? words.beyond(fixed(limit_deg - normal, 0), fixed(normal, 0)) : words.lacks(fixed(lacks, 0), fixed(normal, 0));
 }
 
 function capital(text: string): string {

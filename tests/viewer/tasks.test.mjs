@@ -1,0 +1,123 @@
+// Five questions that somebody brings to a page, answered from what is seen on its first screen and after presses of what has a visible
+// name, without scrolling; each answer against the command.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { join } from "node:path";
+import { test } from "node:test";
+import { has, openPage, pathOf, reports, root, settled, sharedBrowser } from "./browser.mjs";
+
+const browser = await sharedBrowser();
+const condyle = join(root, "build/release/condyle");
+
+/// Lines of text that can be read: in the window, and neither covered nor clipped. Text of one button or cell is one line.
+function seenText(page) {
+  return page.evaluate(() => {
+    const lines = new Map(), walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    const isSeen = (element, { left, top, width, height }) => {
+      const at = document.elementFromPoint(left + width / 2, top + height / 2);
+      return at !== null && (at === element || element.contains(at));
+    };
+    while (walker.nextNode()) {
+      const node = walker.currentNode, element = node.parentElement;
+      if (!node.data.trim() || !element.checkVisibility({ visibilityProperty: true })) continue;
+      const range = document.createRange();
+      range.selectNodeContents(node);
+      const rects = [...range.getClientRects()].filter(({ width, height }) => width > 0 && height > 0);
+      if (rects.length === 0 || !rects.every((rect) => isSeen(element, rect))) continue;
+      const line = element.closest("button, summary, p, td, th, label, h1, h2, li") ?? element;
+      lines.set(line, [...(lines.get(line) ?? []), node.data.trim()]);
+    }
+    return [...lines.values()].map((words) => words.join(" ").replaceAll(/\s+/g, " "));
+  });
+}
+
+/// Rows of a table as they are read: only rows of which every cell is seen.
+async function seenRows(page) {
+  const seen = new Set(await seenText(page));
+  const rows = await page.locator("tr").evaluateAll((all) => all.filter((row) => row.checkVisibility()).map((row) => [...row.cells].map(({ innerText }) => innerText.trim())));
+  return rows.filter((cells) => cells.every((cell) => cell === "" || seen.has(cell)));
+}
+
+/// Presses what a visible text names, where it stands in the window.
+async function press(page, role, name) {
+  const target = page.getByRole(role, { name, exact: true }), box = await target.boundingBox(), { width, height } = page.viewportSize();
+  assert.ok((await seenText(page)).includes(name), `${name} is read`);
+  assert.ok(box.x >= 0 && box.y >= 0 && box.x + box.width <= width && box.y + box.height <= height, `${name} is in the window`);
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+}
+
+const asSaid = (name) => name.replace(/^(fadir|faber)$/, (short) => short.toUpperCase()).replaceAll("_", " ").replace(/ at (\d+) /, " at $1° ");
+const clock = (hour) => `${Math.floor(Math.round(hour * 60) / 60) || 12}:${String(Math.round(hour * 60) % 60).padStart(2, "0")}`;
+
+/// The motion that limits the hip, by the rule of docs/report.md: what lacks most of its normal range, else internal rotation in flexion.
+function limiting(motions) {
+  const lacks = ({ reason, limit_deg, normal_range_deg }) => (reason === "contact" && normal_range_deg !== null ? normal_range_deg - limit_deg : 0);
+  const worst = [...motions].sort((a, b) => lacks(b) - lacks(a))[0];
+  return lacks(worst) > 0 ? worst : motions.find(({ name }) => name === "internal_rotation_at_90_flexion");
+}
+
+const hips = {
+  sample: { joint: "sample/hip.toml", band: true }, shifted: { joint: "sample/shifted.toml", band: false },
+  vhf_right: { joint: "vhf_right.toml", band: false }, libhip_left: { joint: "libhip_left.toml", band: false },
+};
+
+for (const [name, { joint, band }] of Object.entries(hips))
+  test(`five questions are answered from what is read on the page of ${name}`, { skip: !has(name) && "not made" }, async (t) => {
+    const { page, complaints } = await openPage(browser, pathOf(name), { width: 1440, height: 900, reducedMotion: "reduce" });
+    await settled(page);
+    const { motions } = JSON.parse(execFileSync(condyle, ["rom", join(reports, joint), "--json", ...(band ? ["--band=20"] : [])], { stdio: ["ignore", "pipe", "ignore"] }));
+    const first = limiting(motions), seen = await seenText(page);
+    const sentence = seen.find((line) => / ends at /.test(line));
+    assert.ok(sentence, seen.join("\n"));
+    t.diagnostic(sentence);
+
+    // What limits this hip: a motion, and the parts that meet.
+    const [, motion, limit, rest] = /^(.+) ends at ([\d.]+)°(.*)\.$/.exec(sentence);
+    assert.equal(motion.toLowerCase(), asSaid(first.name).toLowerCase());
+    assert.match(rest, /, (neck on rim|femur on hip bone)\b/);
+    // By how much, against normal.
+    assert.equal(limit, first.limit_deg.toFixed(1));
+    const against = first.normal_range_deg === null ? "no normal range known" : `${(first.normal_range_deg - first.limit_deg).toFixed(0)}° short of normal (${first.normal_range_deg}°)`;
+    assert.ok(rest.includes(against), rest);
+    // Of a motion that is pressed it says how far beyond normal it goes.
+    const beyond = motions.find(({ name: each, normal_range_deg, limit_deg, reason }) => each === "flexion" && reason === "contact" && limit_deg > normal_range_deg);
+    // Where: the hour.
+    if (first.clock_hour !== null) assert.ok(rest.endsWith(`neck on rim at ${clock(first.clock_hour)}`), rest);
+    else assert.match(rest, /away from the rim$/);
+    // How sure: the band, or that there is none, and how to get one.
+    if (band) assert.ok(rest.startsWith(` (${first.band.p5_deg.toFixed(0)}–${first.band.p95_deg.toFixed(0)})`), rest);
+    else assert.ok(seen.some((line) => /No band was asked for: condyle report --band/.test(line)), seen.join("\n"));
+    if (beyond) {
+      await page.locator(".result", { hasText: /^flexion / }).click();
+      await settled(page);
+      const { limit_deg, normal_range_deg } = beyond;
+      assert.ok((await seenText(page)).some((line) => line.includes(`${(limit_deg - normal_range_deg).toFixed(0)}° beyond normal (${normal_range_deg}°)`)));
+    }
+
+    // What changes when 2 mm of the neck go where the motion ends.
+    await press(page, "tab", "Plan");
+    assert.ok((await seenText(page)).some((line) => line.startsWith("Depth, mm")));
+    await page.getByRole("spinbutton", { name: "Depth, mm", exact: true }).fill("2.0");
+    const panel = page.getByRole("region", { name: "Resect by brush", exact: true });
+    await panel.evaluate((element) => delete element.dataset.allAfter);
+    await press(page, "button", "Stroke where it ends");
+    await page.waitForFunction((element) => element.dataset.allAfter !== undefined, await panel.elementHandle());
+    const rows = await seenRows(page), head = rows.find((cells) => cells.includes("before"));
+    assert.deepEqual(head.slice(1, 4), ["before", "after", "gained"]);
+    const row = rows.find(([said]) => said === asSaid(first.name));
+    assert.ok(row, rows.join("\n"));
+    const [before, after] = row.slice(1, 3).map((said) => Number(said.replace(/[>°]/g, "")));
+    const names = Object.keys(first.start_deg);
+    const now = await page.evaluate((question) => condyle.query({ of: "limit", limit: question }), {
+      start: Object.values(first.start_deg), vary: names.indexOf(first.vary), positive: first.sense === "positive", range_deg: first.range_deg,
+    });
+    assert.equal(before, Number(first.limit_deg.toFixed(1)));
+    assert.equal(after, Number(now.turned_deg.toFixed(1)));
+    assert.ok(after >= before);
+    assert.match(row[3], now.turned_deg - first.limit_deg >= 0.05 ? /^[>+]/ : /^0\.0°$/);
+    assert.ok((await seenText(page)).some((line) => /mm³ gone, [\d.]+ mm at the deepest/.test(line)));
+    assert.deepEqual(await page.evaluate(() => [scrollX, scrollY, ...[...document.querySelectorAll(".panel")].map(({ scrollTop }) => scrollTop)]), [0, 0, 0, 0, 0, 0]);
+    t.diagnostic(row.join(" | "));
+    assert.deepEqual(complaints, []);
+    await page.context().close();
+  });
