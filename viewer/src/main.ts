@@ -3,7 +3,9 @@ import { lineOf } from "./core/error_line";
 import type { BothValues, Brushed, Coordinates, JointArrays, MapQuestion, Proposal, Query, ShownQuantity, Values } from "./core/protocol";
 import { button, checkbox, choice, fold, html, named, section, shortened, spaced } from "./dom";
 import { jointArraysOf } from "./joint_arrays";
+import { blockOf, copiedOf, countOf, type Copied } from "./notes_block";
 import { clockTime, fixed } from "./numbers";
+import { keepPage, notesBlock, pageWith } from "./page_copy";
 import { BrushPanel } from "./panels/brush";
 import { CentrePanel } from "./panels/centre";
 import { Clearance } from "./panels/clearance";
@@ -16,6 +18,7 @@ import { LabelDrop } from "./panels/label_drop";
 import { questionsOf } from "./panels/live_limits";
 import { actions, copyLink, headingOf, listenToKeys } from "./panels/header";
 import { MotionPanel } from "./panels/motion";
+import { NotesPanel } from "./panels/notes";
 import { numberFolds } from "./panels/numbers";
 import { catchDrops } from "./panels/page_drop";
 import { Paper } from "./panels/paper";
@@ -90,6 +93,7 @@ class Page {
   private readonly tabs: Tabs;
   private readonly paper: Paper;
   private readonly recorded: RecordedPanel | null;
+  private readonly notes: NotesPanel | null;
   private core: CoreClient | null = null;
   private freeAngles: FreeAngles | null = null;
   private clearance: Clearance | null = null;
@@ -104,9 +108,11 @@ class Page {
   private poseChoice: HTMLSelectElement | null = null;
   private readonly closed = new AbortController();
 
-  /// `report` holds the arrays of figures and poses that a joint dropped on the page has not; `computes` if the core answers.
+  /// `report` holds the arrays of figures and poses that a joint dropped on the page has not; `computes` if the core answers; `copied` holds the
+  /// notes of a saved copy.
   constructor(
-    private readonly text: ReportText, private readonly arrays: JointArrays, private readonly report: Report | null, private readonly computes: boolean) {
+    private readonly text: ReportText, private readonly arrays: JointArrays, private readonly report: Report | null, private readonly computes: boolean,
+    copied: Copied | null = null) {
     const names = { fixed: named(text.joint.fixed), mobile: named(text.joint.mobile) };
     const heading = headingOf(text);
     document.title = words.pageTitle(shortened(text.title));
@@ -120,7 +126,7 @@ class Page {
     this.recorded = report && text.recorded ? new RecordedPanel(
       report, text.recorded, (frame) => this.showFrame(frame), this.scene && ((said) => this.pictureOfFrame(said))) : null;
     const extremes = this.recorded?.extremes() ?? [];
-    this.strip = new ResultStrip(text, (motion) => this.motion.goToEnd(motion), (motion) => this.motion.canGo(motion), extremes, () => this.showNotes());
+    this.strip = new ResultStrip(text, (motion) => this.motion.goToEnd(motion), (motion) => this.motion.canGo(motion), extremes, () => this.showFold("checks"));
     found("strip-place").replaceChildren(this.strip.element);
     this.plan = report && text.plan && new PlanPanel(this.scene, report, text.plan, names);
     const { fixed: fixedCount, mobile: mobileCount } = this.counts();
@@ -135,6 +141,7 @@ class Page {
       this.display.element.append(this.zones.element);
     }
     this.placeViewTools(names);
+    this.notes = report && new NotesPanel(this.scene, names, arrays, copied ?? { text: "", pins: [] }, () => this.putNotesOnPaper());
     const shape = text.measures ? shapePanel(text.measures, this.scene) : null;
     const compared = report && text.before ? new ComparePanel(this.scene, report, text.before, () => this.rememberView()) : null;
     if (compared) this.display.remember("before", compared.box, (on) => compared.show(on));
@@ -144,6 +151,8 @@ class Page {
     if (shape) addPlanPanel(shape.element);
     this.paper = new Paper(text, this.counts(), extremes);
     found("paper").replaceChildren(this.paper.element);
+    this.putNotesOnPaper();
+    if (copied) tell("status", words.copyWith(countOf(copied)), button(words.readNotesOfUser, () => this.showFold("notes-of-user")));
     this.placeActions();
     this.listen();
     this.applyFragment();
@@ -184,7 +193,7 @@ class Page {
     const licencesFold = fold(words.licences, false, licences);
     licencesFold.addEventListener("toggle", () => void showLicences(licences), { once: true });
     details.append(
-      ...numberFolds(text, this.counts(), [this.motion.answer, this.motion.depth, this.motion.took]), ...(this.plan ? [this.plan.details] : []),
+      ...(this.notes ? [this.notes.element] : []), ...numberFolds(text, this.counts(), [this.motion.answer, this.motion.depth, this.motion.took]), ...(this.plan ? [this.plan.details] : []),
       ...folds, html("p", {}, words.scope(scopeOf(text))), licencesFold);
     const figures = this.figures();
     const tabs = new Tabs(words.tabs, [
@@ -208,7 +217,7 @@ class Page {
 
   private placeActions(): void {
     found("actions").replaceChildren(...actions({
-      picture: this.scene && (() => void this.savePicture()), print: () => window.print(),
+      picture: this.scene && (() => void this.savePicture()), print: () => window.print(), saveCopy: this.notes && (() => this.saveCopy()),
       copyLink: () => {
         this.writeView();
         void copyLink((message, ...parts) => post("status", message, ...parts));
@@ -221,6 +230,7 @@ class Page {
     window.addEventListener("hashchange", () => this.applyFragment(), { signal });
     // Without a picture made for paper, paper shows the joint's present pose.
     window.addEventListener("beforeprint", () => this.takePictureForPaper(), { signal });
+    window.addEventListener("beforeprint", () => this.putNotesOnPaper(), { signal });
     listenToKeys({
       "1": () => this.tabs.showNumber(1), "2": () => this.tabs.showNumber(2), "3": () => this.tabs.showNumber(3), "4": () => this.tabs.showNumber(4),
       f: () => this.scene?.fitJoint(), u: () => this.motion.undo(), "0": () => this.motion.set(this.text.reference_deg, this.text.reference_mm),
@@ -228,11 +238,22 @@ class Page {
     }, signal);
   }
 
-  private showNotes(): void {
+  private showFold(id: string): void {
     this.tabs.show("details");
-    const notes = found<HTMLDetailsElement>("checks");
-    notes.open = true;
-    notes.scrollIntoView();
+    const opened = found<HTMLDetailsElement>(id);
+    opened.open = true;
+    opened.scrollIntoView();
+  }
+
+  /// The page itself, with what the user added and the view at hand.
+  private saveCopy(): void {
+    this.writeView();
+    saveBlob(`${this.fileName()}_copy.html`, pageWith(blockOf({ ...this.notes!.notes, view: location.hash })));
+  }
+
+  private putNotesOnPaper(): void {
+    const { notes } = this;
+    if (notes) this.paper.setNotes(notes.notes.text, notes.notes.pins.map((pin) => ({ place: notes.placeOf(pin), text: pin.text })));
   }
 
   private async savePicture(): Promise<void> {
@@ -303,7 +324,7 @@ class Page {
     if (this.arrays.bearing !== "found" && !this.arrays.bearing.counts) this.clearance.leaveOut(this.arrays.bearing.mobile ?? []);
     core.listen({
       shown: (at, shown, roundTrip_ms) => {
-        this.scene?.setPose(shown.pose);
+        this.stand(shown.pose);
         if (this.display.quantity === "none" || this.display.quantity === "removed") this.show(this.storedValues());
         const pairs = Array.from(shown.pairs);
         this.scene?.setMarked("contact", pairs.filter((_, i) => i % 2 === 0), pairs.filter((_, i) => i % 2 === 1));
@@ -398,7 +419,7 @@ class Page {
     if (this.poseChoice) this.poseChoice.value = name;
     this.motion.set(pose.coordinates_deg);
     this.storedPose = pose;
-    this.scene?.setPose(pose.pose);
+    this.stand(pose.pose);
     this.recolour();
     const motion = this.text.rom?.motions.find((known) => known.name === name) ?? null;
     this.motion.markEnd(motion);
@@ -425,8 +446,13 @@ class Page {
     this.motion.set(angles, translation);
     if (this.computes || X_FM.some(Number.isNaN)) return;
     this.storedPose = null;
-    this.scene?.setPose(X_FM);
+    this.stand(X_FM);
     this.recolour();
+  }
+
+  private stand(X_FM: ArrayLike<number>): void {
+    this.scene?.setPose(X_FM);
+    this.notes?.setPose(X_FM);
   }
 
   /// The scene, once all of its colours belong to the pose requested last: the core answers in order.
@@ -644,9 +670,24 @@ function openEmpty(): void {
   found("side").append(panel.element);
 }
 
+/// What a copy was saved with; null of a page that is none. It opens with the view of then, unless the address says another.
+function copiedWith({ fixed, mobile }: JointArrays): Copied | null {
+  const block = notesBlock();
+  if (block === null) return null;
+  try {
+    const copied = copiedOf(block, { fixed: fixed.vertices.length / 3, mobile: mobile.vertices.length / 3 });
+    if (!location.hash && copied.view) history.replaceState(null, "", copied.view);
+    return copied;
+  } catch (error) {
+    warn(words.notesDamaged(lineOf(error)));
+    return null;
+  }
+}
+
 const canCompute = typeof WebAssembly !== "undefined";
 
 async function open(): Promise<void> {
+  keepPage();
   found("unfinished").remove();
   found("skip").textContent = words.skip;
   found("scope").textContent = words.footer;
@@ -656,13 +697,14 @@ async function open(): Promise<void> {
   catchDrops(() => warn(words.dropOnReport));
   const report = await Report.read(data);
   const arrays = jointArraysOf(report);
-  const page = new Page(report.text, arrays, report, canCompute);
+  const copied = copiedWith(arrays);
+  const page = new Page(report.text, arrays, report, canCompute, copied);
   if (!canCompute) return page.useStoredPoses(words.noWebAssembly);
   try {
     page.compute(await CoreClient.open(await wasmBytes(), structuredClone(arrays)));
   } catch (error) {
     page.close();
-    new Page(report.text, arrays, report, false).useStoredPoses(isCoreDamage(error) ? words.coreDamaged : lineOf(error));
+    new Page(report.text, arrays, report, false, copied).useStoredPoses(isCoreDamage(error) ? words.coreDamaged : lineOf(error));
   }
 }
 

@@ -13,11 +13,11 @@ export function headingOf({ joint, title, version, case: given, date }: ReportTe
 }
 
 /// Actions on the whole page.
-export function actions(does: { picture: (() => void) | null; print: () => void; copyLink: () => void }): HTMLElement[] {
+export function actions(does: { picture: (() => void) | null; print: () => void; copyLink: () => void; saveCopy: (() => void) | null }): HTMLElement[] {
   const card = helpCard();
   document.body.append(card);
   return [
-    button(words.copyLink, does.copyLink), ...(does.picture ? [button(words.picture, does.picture)] : []), button(words.print, does.print),
+    button(words.copyLink, does.copyLink), ...(does.saveCopy ? [button(words.saveCopy, does.saveCopy)] : []), ...(does.picture ? [button(words.picture, does.picture)] : []), button(words.print, does.print),
     button(words.help, () => card.showModal(), { "aria-label": words.helpLabel, id: "help-button" }),
   ];
 }

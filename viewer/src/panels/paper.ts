@@ -16,6 +16,7 @@ export class Paper {
   readonly element: HTMLElement;
   private readonly image = html("img", { alt: "" });
   private readonly caption = html("p", { class: "small" });
+  private readonly notes = html("div", {});
 
   constructor(text: ReportText, counts: { fixed: [number, number]; mobile: [number, number] }, extremes: readonly Extreme[]) {
     const { rom, map } = text, isHip = text.joint.anatomy === "hip" && text.joint.kind !== "hinge";
@@ -40,11 +41,18 @@ export class Paper {
       ...(map ? [html("div", { class: "paper-map" }, new MapPlot(map, null, "paper-").element)] : []),
       html("h2", {}, words.method), ...methodOf(text, counts),
       ...(rom?.provenance ? [html("h2", {}, words.sourceFiles), ...sourcesOf(rom.provenance)] : []),
-      ...(filesBefore ? sourcesOf(filesBefore, words.filesBefore).slice(-1) : []));
+      ...(filesBefore ? sourcesOf(filesBefore, words.filesBefore).slice(-1) : []), this.notes);
     this.element = html("div", {}, first, second);
     // Readers of the screen do not get the same text twice.
     for (const region of this.element.querySelectorAll("[tabindex]")) region.removeAttribute("tabindex");
     for (const region of this.element.querySelectorAll("[role=button]")) region.removeAttribute("role");
+  }
+
+  /// The user's notes and pins, under a title that says so; nothing if there are none.
+  setNotes(text: string, pins: readonly { place: string; text: string }[]): void {
+    const said = text.trim() ? [html("p", { class: "user-text", dir: "auto" }, text)] : [];
+    const list = html("ol", {}, ...pins.map((pin) => html("li", {}, ...(pin.text ? [html("bdi", {}, pin.text), html("br")] : []), pin.place)));
+    this.notes.replaceChildren(...(said.length || pins.length ? [html("h2", {}, words.notesOfUser), ...said, ...(pins.length ? [list] : [])] : []));
   }
 
   /// A picture of the scene and its description.

@@ -11,6 +11,8 @@ export interface Written {
   edges: { top: string; bottom: string; left: string; right: string };
   scaleBar: { length: number; mm: number; isTrueEverywhere: boolean };
   pin: { x: number; y: number; label: string } | null;
+  /// Points that the user has set.
+  numbered: { x: number; y: number; number: number }[];
 }
 
 const pinAside = 34, pinAbove = 40, border = 6;
@@ -42,11 +44,12 @@ export class SceneOverlay {
   private readonly ring = svg("circle", { r: 5, class: "ring" });
   private readonly pinDrawing = svg("svg", { class: "scene-pin-drawing", "aria-hidden": "true" }, this.leader, this.ring);
   private readonly pinLabel = html("div", { class: "scene-pin", role: "status" });
+  private readonly numbers = html("div", { "aria-hidden": "true" });
 
   constructor() {
     this.pinLabel.hidden = true;
     this.element.append(
-      ...Object.values(this.letters), html("div", { class: "scene-scale" }, this.bar, this.barText), this.legend, this.pinDrawing, this.pinLabel);
+      ...Object.values(this.letters), html("div", { class: "scene-scale" }, this.bar, this.barText), this.legend, this.numbers, this.pinDrawing, this.pinLabel);
   }
 
   setScale(scale: ColourScale | null): void {
@@ -58,6 +61,7 @@ export class SceneOverlay {
     for (const name of edgeNames) setText(this.letters[name]!, written.edges[name]);
     this.bar.style.width = `${written.scaleBar.length}px`;
     setText(this.barText, scaleBarText(written.scaleBar));
+    this.showNumbers(written.numbered);
     const { pin } = written;
     this.pinLabel.hidden = pin === null;
     this.pinDrawing.toggleAttribute("hidden", pin === null);
@@ -69,6 +73,16 @@ export class SceneOverlay {
       Object.entries(values).forEach(([name, value]) => element.setAttribute(name, value.toFixed(1)));
     set(this.ring, { cx: pin.x, cy: pin.y });
     set(this.leader, { x1: pin.x, y1: pin.y, x2: at.x + width / 2, y2: at.y + height / 2 });
+  }
+
+  private showNumbers(numbered: Written["numbered"]): void {
+    while (this.numbers.childElementCount > numbered.length) this.numbers.lastElementChild!.remove();
+    while (this.numbers.childElementCount < numbered.length) this.numbers.append(html("span", { class: "scene-number" }));
+    numbered.forEach(({ x, y, number }, i) => {
+      const mark = this.numbers.children[i] as HTMLElement;
+      setText(mark, String(number));
+      mark.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
+    });
   }
 }
 

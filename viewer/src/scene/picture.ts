@@ -27,6 +27,7 @@ export function composedPicture(
   drawLetters(context, written);
   drawScaleBar(context, written);
   if (scale) drawLegend(context, scale, written);
+  for (const { x, y, number } of written.numbered) drawNumber(context, x, y, String(number));
   if (written.pin) drawPin(context, written);
   return canvas;
 }
@@ -94,6 +95,21 @@ function drawLegend(context: CanvasRenderingContext2D, scale: ColourScale, { wid
   if (!bound) return;
   drawSwatch(context, bound, x, base + 12, swatch, high);
   lettered(context, words.onlyABound, x + swatch + 6, base + 18);
+}
+
+function drawNumber(context: CanvasRenderingContext2D, x: number, y: number, number: string): void {
+  context.font = font(13, "700");
+  context.beginPath();
+  context.arc(x, y, Math.max(10, context.measureText(number).width / 2 + 5), 0, 2 * Math.PI);
+  context.fillStyle = paper;
+  context.fill();
+  context.strokeStyle = ink;
+  context.lineWidth = 2;
+  context.stroke();
+  context.fillStyle = ink;
+  context.textAlign = "center";
+  context.fillText(number, x, y + 1);
+  context.textAlign = "left";
 }
 
 function drawPin(context: CanvasRenderingContext2D, written: Written): void {

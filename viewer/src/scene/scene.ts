@@ -73,6 +73,7 @@ export class JointScene {
   /// The limit shown.
   private limit: { point: Vector3; label: string; glass: BodyName } | null = null;
   private scale: ColourScale | null = null;
+  private pins: readonly Picked[] = [];
   private pickedBody: BodyName = "mobile";
   private frameAsked = false;
   private givenRadius_mm: number | null = null;
@@ -313,6 +314,12 @@ export class JointScene {
     this.draw();
   }
 
+  /// Vertices with numbers from 1, over everything; those of a hidden bone are not drawn.
+  setPins(pins: readonly Picked[]): void {
+    this.pins = pins;
+    this.draw();
+  }
+
   /// The surface that a body had before some of its vertices were lowered, over them, in a colour that no scale has; null: none.
   showRemoved(body: BodyName, removed: { vertices: Uint32Array; before: Float64Array } | null): void {
     this.removed[body]?.removeFromParent();
@@ -438,6 +445,11 @@ export class JointScene {
       width, height, edges: { top: letters(y, 1), bottom: letters(y, -1), left: letters(x, -1), right: letters(x, 1) },
       scaleBar: { length: mm / mmPerPixel, mm, isTrueEverywhere: this.isParallel },
       pin: this.limit && { x: pinX, y: pinY, label: this.limit.label },
+      numbered: this.pins.flatMap((pin, i) => {
+        if (!this.bodies[pin.body].mesh.visible) return [];
+        const [at, below] = this.project(this.vertexPoint(pin).toArray());
+        return [{ x: at, y: below, number: i + 1 }];
+      }),
     };
   }
 
