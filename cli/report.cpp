@@ -241,6 +241,7 @@ void report_command(const ReportArguments& options, const CLI::App& command) {
                 .rom = rom ? &*rom : nullptr,
                 .rom_error = error,
                 .labels = options.labels};
+  if (loaded.report.file.recorded_motion) report.recorded_motion = &*loaded.report.file.recorded_motion;
   if (before) report.before.emplace(before->answered(request));
   if (layers) report.layers.emplace(std::move(*layers));
   if (recorded)

@@ -1,9 +1,9 @@
 import { CoreClient } from "./core/client";
 import { lineOf } from "./core/error_line";
-import type { BothValues, Brushed, Coordinates, JointArrays, MapQuestion, Proposal, Query, ShownQuantity, Values } from "./core/protocol";
+import type { BothValues, Brushed, Coordinates, JointArrays, MapQuestion, MotionFrames, Proposal, Query, ShownQuantity, Values } from "./core/protocol";
 import { button, checkbox, choice, fold, html, named, section, shortened, spaced } from "./dom";
 import { jointArraysOf } from "./joint_arrays";
-import { blockOf, copiedOf, countOf, type Copied } from "./notes_block";
+import { blockOf, copiedOf, countOf, type Copied, type UserNotes } from "./notes_block";
 import { clockTime, fixed } from "./numbers";
 import { keepPage, notesBlock, pageWith } from "./page_copy";
 import { BrushPanel } from "./panels/brush";
@@ -38,6 +38,7 @@ import { Plateau } from "./plots/plateau";
 import {
   bytesOf, inflated, Report, scopeOf, textOfProposal, type MapAnswer, type MotionAnswer, type ReportText, type StoredPose,
 } from "./report";
+import { droppedMotion, recordedOf, type RecordedMotion } from "./recorded_motion";
 import { headlineMotion } from "./result";
 import { saveBlob } from "./save";
 import { JointScene, type BodyName } from "./scene/scene";
@@ -84,6 +85,12 @@ function sceneOf(arrays: JointArrays, parts: ReportText["parts"], label: string)
   }
 }
 
+/// What no report holds: its user's notes, and a motion of a file that was dropped on it.
+interface Added {
+  notes?: UserNotes | undefined;
+  motion?: RecordedMotion;
+}
+
 /// The page of one report.
 class Page {
   private readonly scene: JointScene | null;
@@ -108,11 +115,11 @@ class Page {
   private poseChoice: HTMLSelectElement | null = null;
   private readonly closed = new AbortController();
 
-  /// `report` holds the arrays of figures and poses that a joint dropped on the page has not; `computes` if the core answers; `copied` holds the
-  /// notes of a saved copy.
+  /// `report` holds the arrays of figures and poses that a joint dropped on the page has not; `computes` if the core answers; `added` is
+  /// not part of any report.
   constructor(
     private readonly text: ReportText, private readonly arrays: JointArrays, private readonly report: Report | null, private readonly computes: boolean,
-    copied: Copied | null = null) {
+    added: Added = {}) {
     const names = { fixed: named(text.joint.fixed), mobile: named(text.joint.mobile) };
     const heading = headingOf(text);
     document.title = words.pageTitle(shortened(text.title));
@@ -123,8 +130,9 @@ class Page {
     this.motion = new MotionPanel(text, {
       moved: (at) => this.moved(at), arrived: (motion) => this.arrived(motion), showStored: computes ? null : (name) => this.showStored(name),
     });
-    this.recorded = report && text.recorded ? new RecordedPanel(
-      report, text.recorded, (frame) => this.showFrame(frame), this.scene && ((said) => this.pictureOfFrame(said))) : null;
+    const motion = added.motion ?? (report && text.recorded && recordedOf(report, text.recorded));
+    this.recorded = motion ? new RecordedPanel(
+      motion, (frame) => this.showFrame(frame), this.scene && ((said) => this.pictureOfFrame(said))) : null;
     const extremes = this.recorded?.extremes() ?? [];
     this.strip = new ResultStrip(text, (motion) => this.motion.goToEnd(motion), (motion) => this.motion.canGo(motion), extremes, () => this.showFold("checks"));
     found("strip-place").replaceChildren(this.strip.element);
@@ -141,7 +149,7 @@ class Page {
       this.display.element.append(this.zones.element);
     }
     this.placeViewTools(names);
-    this.notes = report && new NotesPanel(this.scene, names, arrays, copied ?? { text: "", pins: [] }, () => this.putNotesOnPaper());
+    this.notes = report && new NotesPanel(this.scene, names, arrays, added.notes ?? { text: "", pins: [] }, () => this.putNotesOnPaper());
     const shape = text.measures ? shapePanel(text.measures, this.scene) : null;
     const compared = report && text.before ? new ComparePanel(this.scene, report, text.before, () => this.rememberView()) : null;
     if (compared) this.display.remember("before", compared.box, (on) => compared.show(on));
@@ -152,7 +160,6 @@ class Page {
     this.paper = new Paper(text, this.counts(), extremes);
     found("paper").replaceChildren(this.paper.element);
     this.putNotesOnPaper();
-    if (copied) tell("status", words.copyWith(countOf(copied)), button(words.readNotesOfUser, () => this.showFold("notes-of-user")));
     this.placeActions();
     this.listen();
     this.applyFragment();
@@ -161,6 +168,9 @@ class Page {
   /// Takes the page's parts away, so that another page can be made of the same joint.
   close(): void {
     this.closed.abort();
+    this.recorded?.stop();
+    this.core?.close();
+    this.scene?.canvas.getContext("webgl2")?.getExtension("WEBGL_lose_context")?.loseContext();
     for (const place of ["scene", "strip-place", "view-tools", "legend-place", "side", "paper", "actions"]) found(place).replaceChildren();
     found("help").remove();
   }
@@ -236,6 +246,32 @@ class Page {
       f: () => this.scene?.fitJoint(), u: () => this.motion.undo(), "0": () => this.motion.set(this.text.reference_deg, this.text.reference_mm),
       " ": () => this.recorded?.toggle(), "?": () => found<HTMLDialogElement>("help").showModal(),
     }, signal);
+  }
+
+  sayIsCopy(copied: Copied): void {
+    tell("status", words.copyWith(countOf(copied)), button(words.readNotesOfUser, () => this.showFold("notes-of-user")));
+  }
+
+  /// A motion file as this joint's motion, and what is to be said of it. Rejects with the line of a file that is none.
+  async readMotion(file: File): Promise<{ motion: RecordedMotion; remarks: string[] }> {
+    if (!this.core) throw new Error(words.dropNeedsCore(named(file.name)));
+    const columns = this.text.recorded_motion ? JSON.stringify(this.text.recorded_motion) : "";
+    const frames = (await this.core.query({ of: "motion", file: { name: file.name, bytes: await file.arrayBuffer() }, columns })) as MotionFrames;
+    return { motion: droppedMotion(file.name, frames, this.text), remarks: frames.remarks };
+  }
+
+  /// What the user has added, and the address of what is seen, for the page that takes this one's place.
+  handOver(): UserNotes {
+    this.writeView();
+    const { notes } = this.notes!;
+    this.close();
+    return notes;
+  }
+
+  /// The curves, and the joint in the first frame.
+  playFromStart(): void {
+    this.tabs.show("figures");
+    this.recorded?.show(0);
   }
 
   private showFold(id: string): void {
@@ -693,19 +729,42 @@ async function open(): Promise<void> {
   found("scope").textContent = words.footer;
   const data = textOf("condyle-data");
   if (data === null) return openEmpty();
-  // A file that misses its mark does not replace the report.
-  catchDrops(() => warn(words.dropOnReport));
   const report = await Report.read(data);
-  const arrays = jointArraysOf(report);
-  const copied = copiedWith(arrays);
-  const page = new Page(report.text, arrays, report, canCompute, copied);
+  const arrays = jointArraysOf(report), copied = copiedWith(arrays);
+  const newPage = (computes: boolean, added: Added) => new Page(report.text, arrays, report, computes, added);
+  let page = newPage(canCompute, { notes: copied ?? undefined });
+  if (copied) page.sayIsCopy(copied);
+  const compute = async () => page.compute(await CoreClient.open(await wasmBytes(), structuredClone(arrays)));
+  // A file that misses its mark does not replace the report.
+  takeDrops((file) => page.readMotion(file), async (motion) => {
+    page = newPage(true, { notes: page.handOver(), motion });
+    await compute();
+    page.playFromStart();
+  });
   if (!canCompute) return page.useStoredPoses(words.noWebAssembly);
   try {
-    page.compute(await CoreClient.open(await wasmBytes(), structuredClone(arrays)));
+    await compute();
   } catch (error) {
-    page.close();
-    new Page(report.text, arrays, report, false, copied).useStoredPoses(isCoreDamage(error) ? words.coreDamaged : lineOf(error));
+    page = newPage(false, { notes: page.handOver() });
+    page.useStoredPoses(isCoreDamage(error) ? words.coreDamaged : lineOf(error));
   }
+}
+
+/// Motion files that are dropped on a report are played on its joint, one at a time; others are refused in a line.
+function takeDrops(
+  read: (file: File) => Promise<{ motion: RecordedMotion; remarks: string[] }>, play: (motion: RecordedMotion) => Promise<void>): void {
+  let isBusy = false;
+  catchDrops((files) => {
+    const [file] = files;
+    if (files.length !== 1 || !/\.(mot|sto|csv|tsv)$/i.test(file!.name)) return warn(words.dropOnReport);
+    if (isBusy) return warn(words.dropBusy);
+    isBusy = true;
+    read(file!).then(async ({ motion, remarks }) => {
+      await play(motion);
+      found("messages").replaceChildren();
+      tell("status", [words.motionPlays(named(file!.name), motion.times.length), ...remarks].join(" "));
+    }).catch((error: unknown) => warn(lineOf(error))).finally(() => (isBusy = false));
+  });
 }
 
 open().catch((error: unknown) => {

@@ -294,6 +294,8 @@ export interface ReportText {
   arrays: Record<string, ArrayPlace>;
   poses: StoredPose[];
   recorded: Recorded | null;
+  /// How the joint file reads tables of motions; the core takes it as it is.
+  recorded_motion?: { by: "columns" | "poses" | "model" };
   measures: StoredMeasures | null;
   plan: StoredPlan | null;
   /// Set in a report of two joints.

@@ -146,7 +146,7 @@ const report = object({
     name: text, axis: oneOf("time_s", "frame"), times_s: text, coordinates_deg: text, coordinates_mm: text, poses: text,
     curves: list(object({ name: text, unit: text, values: text })),
   })),
-  measures: orNull(measures), plan: orNull(plan), before: ifThere(orNull(before)),
+  recorded_motion: ifThere(object({ by: oneOf("columns", "poses", "model") })), measures: orNull(measures), plan: orNull(plan), before: ifThere(orNull(before)),
 });
 
 /// The text of a block with every key that the page reads; throws ReportError that names the first wrong one.

@@ -101,7 +101,13 @@ export const words = {
   sourceFiles: "Source files",
   planDetails: "Limits and notes of the plan",
   measures: "Measures of the hip",
-  dropOnReport: "This page shows a joint and takes no other files. For other bones, open a page without a joint: condyle report --empty.",
+  dropOnReport:
+    "This page shows a joint and takes one motion file of it (.mot, .sto, .csv), and no others. To look at other bones open a page without a joint: " +
+    "condyle report --empty.",
+  dropNeedsCore: (name: string) => `${name}: this page cannot compute, and so reads no motion files.`,
+  motionPlays: (name: string, count: number) =>
+    `${name}, a file that was dropped, plays on this joint: ${count} ${count === 1 ? "frame" : "frames"}, no part of the report. Reload the page for the report as it was; ` +
+    "contact over time is for condyle report --motion.",
   coreDamaged:
     "The computing part of this file is damaged: the page shows only the poses stored in it. Make the report again.",
   coreDamagedToRead: "The computing part of this file is damaged: the page cannot read files. Make the page again.",

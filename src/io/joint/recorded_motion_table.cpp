@@ -67,17 +67,6 @@ PosesOfModel poses_of_model(TomlTable& table, const std::filesystem::path& folde
 
 }  // namespace
 
-std::vector<CoordinateName> coordinate_names_of(JointKind kind, Anatomy joint) {
-  std::vector<CoordinateName> names;
-  for (const AngleNames& angle : coordinate_names(joint)) {
-    names.push_back({std::string(angle.positive), CoordinateKind::angle});
-    if (kind == JointKind::hinge) return names;
-  }
-  if (kind == JointKind::free)
-    for (const char* name : {"x", "y", "z"}) names.push_back({name, CoordinateKind::length});
-  return names;
-}
-
 RecordedMotionMapping recorded_motion_mapping(TomlTable& table, std::span<const CoordinateName> coordinates,
                                               const std::filesystem::path& folder) {
   if (table.has("model") || table.has("joint")) {

@@ -9,76 +9,11 @@
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/provenance.hpp"
-#include "io/joint/recorded_motion_table.hpp"
+#include "io/motion/coordinate_motion.hpp"
 #include "io/motion/model_poses.hpp"
 
 namespace condyle {
 namespace {
-
-/// The columns that name coordinates of the joint and their units.
-std::vector<ColumnOfCoordinate> columns_by_name(const MotionTable& table, const Joint& joint) {
-  constexpr std::pair<const char*, ColumnUnit> angles[] = {{"_deg", ColumnUnit::degrees},
-                                                           {"_rad", ColumnUnit::radians}};
-  constexpr std::pair<const char*, ColumnUnit> lengths[] = {{"_mm", ColumnUnit::millimetres},
-                                                            {"_m", ColumnUnit::metres}};
-  std::vector<ColumnOfCoordinate> columns;
-  std::string wanted;
-  for (const io::CoordinateName& name : io::coordinate_names_of(joint.kind, joint.anatomy)) {
-    for (const auto& [ending, unit] : name.kind == CoordinateKind::angle ? angles : lengths) {
-      wanted += (wanted.empty() ? "" : ", ") + name.name + ending;
-      if (std::find(table.columns.begin(), table.columns.end(), name.name + ending) != table.columns.end())
-        columns.push_back(
-            {.coordinate = name.name, .kind = name.kind, .column = name.name + ending, .unit = unit});
-    }
-  }
-  if (columns.empty())
-    throw FileError(fmt::format(
-        "{}: no column says a coordinate of the joint ({}), and the joint file has no [recorded_motion]",
-        table.path.string(), wanted));
-  return columns;
-}
-
-JointMotion of_coordinates(const Joint& joint, const MotionTable& table,
-                           const std::vector<ColumnOfCoordinate>& mapping) {
-  NamedCoordinates recorded = recorded_coordinates(table, mapping);
-  JointMotion motion{
-      .times = std::move(recorded.times), .X_FM = {}, .processing = std::move(recorded.processing)};
-  for (std::size_t i = 0; i < recorded.names.size(); ++i) {
-    double largest = 0;
-    for (const auto& frame : recorded.frames)
-      if (frame) largest = std::max(largest, std::abs((*frame)[i]));
-    const std::string& name = recorded.names[i];
-    const bool is_length = name == "x" || name == "y" || name == "z";
-    if (auto check =
-            check_recorded(name, is_length ? RecordedKind::length_mm : RecordedKind::angle_deg, largest))
-      motion.notes.push_back(std::move(*check));
-  }
-  add_new(motion.notes, std::move(recorded.notes));
-  std::string missing;
-  for (const io::CoordinateName& name : io::coordinate_names_of(joint.kind, joint.anatomy))
-    if (std::find(recorded.names.begin(), recorded.names.end(), name.name) == recorded.names.end())
-      missing += (missing.empty() ? "" : ", ") + name.name;
-  if (!missing.empty())
-    motion.processing.push_back(fmt::format("{}: not recorded, held at 0: {}", table.path.string(), missing));
-  for (const auto& frame : recorded.frames) {
-    if (!frame) {
-      motion.X_FM.emplace_back();
-      continue;
-    }
-    JointCoordinates at;
-    for (std::size_t i = 0; i < recorded.names.size(); ++i) {
-      const double value = (*frame)[i];
-      const std::string& name = recorded.names[i];
-      if (name == "x" || name == "y" || name == "z") {
-        at.translation_mm[name[0] - 'x'] = value;
-        continue;
-      }
-      at.angles = turned_by(at.angles, joint_angle_named(name, joint.anatomy), Angle::degrees(value));
-    }
-    motion.X_FM.emplace_back(pose_at(joint.coordinates(), at, joint.translation_frame));
-  }
-  return motion;
-}
 
 /// Where a mesh file's frame lies in the body's joint frame, its lengths in mm.
 Pose joint_from_file(const MeshOrigin& origin, LengthUnit unit) {
@@ -123,12 +58,13 @@ JointMotion of_poses(const LoadedJoint& loaded, const MotionTable& table, Record
 JointMotion motion_of(const LoadedJoint& joint, const MotionTable& table) {
   const auto& mapping = joint.report.file.recorded_motion;
   const auto read = [&] {
-    if (!mapping) return of_coordinates(joint.joint, table, columns_by_name(table, joint.joint));
+    if (!mapping)
+      return io::motion_of_coordinates(joint.joint, table, io::columns_by_name(table, joint.joint));
     if (const auto* poses = std::get_if<ColumnsOfPoses>(&*mapping))
       return of_poses(joint, table, recorded_poses(table, *poses));
     if (const auto* poses = std::get_if<PosesOfModel>(&*mapping))
       return of_poses(joint, table, io::model_poses(table, *poses));
-    return of_coordinates(joint.joint, table, std::get<std::vector<ColumnOfCoordinate>>(*mapping));
+    return io::motion_of_coordinates(joint.joint, table, std::get<std::vector<ColumnOfCoordinate>>(*mapping));
   };
   JointMotion motion = read();
   motion.path = table.path;

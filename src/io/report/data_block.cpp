@@ -21,6 +21,8 @@
 #include "io/report/block_arrays.hpp"
 #include "io/report/body_arrays.hpp"
 #include "io/report/plan_json.hpp"
+#include "io/report/recorded_columns.hpp"
+#include "io/report/recorded_frames.hpp"
 #include "io/report/surfaces_json.hpp"
 #include "io/result/caveats.hpp"
 #include "io/result/json.hpp"
@@ -113,13 +115,6 @@ Json map_json(const MotionMap& map) {
           {"intervals", std::move(points)}};
 }
 
-std::vector<double> rows_of(const Pose& X_FM) {
-  std::vector<double> rows;
-  for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column) rows.push_back(X_FM.matrix()(row, column));
-  return rows;
-}
-
 std::vector<std::int16_t> rounded_gaps(const std::vector<double>& gaps_mm) {
   constexpr double least = std::numeric_limits<std::int16_t>::min(), most = no_gap - 1;
   std::vector<std::int16_t> rounded;
@@ -198,28 +193,14 @@ std::string_view unit_of(std::string_view name) {
 }
 
 Json recorded_json(const ReportedMotion& recorded, const Joint& joint, BlockArrays& arrays) {
-  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> degrees, millimetres, poses;
-  for (const std::optional<Pose>& X_FM : recorded.question.motion.X_FM) {
-    if (!X_FM) {
-      degrees.insert(degrees.end(), 3, nothing);
-      millimetres.insert(millimetres.end(), 3, nothing);
-      poses.insert(poses.end(), 16, nothing);
-      continue;
-    }
-    const JointCoordinates at = coordinates_at(joint.coordinates(), *X_FM, joint.translation_frame);
-    for (const JointAngle angle : all_joint_angles) degrees.push_back(angle_of(at.angles, angle).degrees());
-    for (int axis = 0; axis < 3; ++axis) millimetres.push_back(at.translation_mm[axis]);
-    const std::vector<double> rows = rows_of(*X_FM);
-    poses.insert(poses.end(), rows.begin(), rows.end());
-  }
+  const RecordedFrames frames = recorded_frames(joint, recorded.question.motion.X_FM);
   const Curves curves = curves_of(recorded.question, recorded.answer);
   Json json{{"name", recorded.name},
             {"axis", curves.axis},
             {"times_s", arrays.add("recorded_times", curves.at)},
-            {"coordinates_deg", arrays.add("recorded_degrees", degrees)},
-            {"coordinates_mm", arrays.add("recorded_millimetres", millimetres)},
-            {"poses", arrays.add("recorded_poses", poses)}};
+            {"coordinates_deg", arrays.add("recorded_degrees", frames.coordinates_deg)},
+            {"coordinates_mm", arrays.add("recorded_millimetres", frames.coordinates_mm)},
+            {"poses", arrays.add("recorded_poses", frames.poses)}};
   json["curves"] = Json::array();
   for (std::size_t i = 0; i < curves.names.size(); ++i)
     json["curves"].push_back({{"name", curves.names[i]},
@@ -278,6 +259,7 @@ std::string data_block(const Report& report) {
   json["parts"] = {{"fixed", parts_json(joint.fixed)}, {"mobile", parts_json(joint.mobile)}};
   json["poses"] = poses_json(report, arrays);
   json["recorded"] = report.recorded ? recorded_json(*report.recorded, joint, arrays) : Json(nullptr);
+  if (report.recorded_motion) json["recorded_motion"] = recorded_motion_json(*report.recorded_motion);
   json["measures"] = measures_of(report.measures);
   json["plan"] = report.plan ? plan_json(*report.plan, arrays) : Json(nullptr);
   if (report.before) json["before"] = before_json(report, arrays);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "condyle/io/recorded_motion.hpp"
 #include "condyle/joint.hpp"
 #include "io/result/measure_result.hpp"
 #include "io/result/motion_result.hpp"
@@ -58,6 +59,8 @@ struct Report {
   const RomResult* rom = nullptr;
   std::string rom_error = {};
   std::optional<ReportedMotion> recorded = {};
+  /// How the joint file reads a table of a motion, so that the page can; null if it does not say.
+  const RecordedMotionMapping* recorded_motion = nullptr;
   std::optional<ReportedLayers> layers = {};
   const MeasureResult* measures = nullptr;  ///< of a hip
   /// The bone that must go: `joint` is the joint without it, and `rom` has its limits.

@@ -3,7 +3,7 @@ import { openModule } from "./module";
 import {
   quantityNumber, type BothPenetrations, type BothValues, type Brushed, type Coordinates, type Depth, type Details, type DroppedFile, type Edit,
   type SideChoice,
-  type Inside, type JointArrays, type Layers, type LimitQuestion, type LiveLimit, type MapQuestion, type Penetrations,
+  type Inside, type JointArrays, type Layers, type LimitQuestion, type LiveLimit, type MapQuestion, type MotionFrames, type Penetrations,
   type Proposal, type Quantity, type Shown, type Stroke, type Surface, type Values,
 } from "./protocol";
 
@@ -89,6 +89,17 @@ export class CoreJoint {
     const pairCount = inContact ? this.checked(this.core._condyle_pairs(this.joint, this.pose)) : 0;
     const pairs = this.u32(this.core._condyle_pair_triangles(this.joint), 2 * pairCount);
     return { pose: this.f64(this.pose, 16), inContact, inside, pairs };
+  }
+
+  /// Throws the command line's own line for a bad file.
+  motion(file: DroppedFile, columns: string): MotionFrames {
+    const { memory, core } = this, columnsPlace = memory.copiedText(columns);
+    try {
+      const said = memory.read(file, (name, bytes, count) => core._condyle_motion(this.joint, name, bytes, count, columnsPlace));
+      return JSON.parse(core.UTF8ToString(said)) as MotionFrames;
+    } finally {
+      memory.free(columnsPlace);
+    }
   }
 
   values(at: Coordinates, quantity: Exclude<Quantity, "none">): BothValues {

@@ -186,9 +186,21 @@ export type Query =
   | { of: "values"; at: Coordinates; quantity: Exclude<Quantity, "none"> }
   | { of: "limit"; limit: LimitQuestion }
   | { of: "mapPoint"; question: MapQuestion; point: number }
+  /// The frames of a motion file, whose columns are as the data block says, or empty.
+  | { of: "motion"; file: DroppedFile; columns: string }
   /// Bytes that the core has taken.
   | { of: "memory" };
-export type QueryAnswer = number | Details | Depth | BothPenetrations | BothValues | LiveLimit | [number, number, number, number][];
+export type QueryAnswer = number | MotionFrames | Details | Depth | BothPenetrations | BothValues | LiveLimit | [number, number, number, number][];
+
+/// What condyle_motion() says of a motion file; null in a gap.
+export interface MotionFrames {
+  axis: "time_s" | "frame";
+  times: number[];
+  coordinates_deg: (number | null)[];
+  coordinates_mm: (number | null)[];
+  poses: (number | null)[];
+  remarks: string[];
+}
 
 /// A mesh file and its name, whose extension gives the format.
 export interface DroppedFile {

@@ -56,6 +56,7 @@ declare module "page-core" {
     _condyle_bone(labels: number, label: number, task: number): number;
     _condyle_free_bone(bone: number): void;
     _condyle_bone_name(bone: number): number;
+    _condyle_motion(joint: number, name: number, bytes: number, count: number, columns: number): number;
     _condyle_join(fixed: number, mobile: number, side: number): number;
   }
   const pageCore: (options: { wasmBinary: ArrayBuffer; zlib: object }) => Promise<PageCore>;

@@ -103,6 +103,8 @@ function answerTo(query: Query): QueryAnswer {
       return joint!.limit(query.limit);
     case "mapPoint":
       return joint!.mapPoint(query.question, query.point);
+    case "motion":
+      return joint!.motion(query.file, query.columns);
     case "memory":
       return joint!.memory_bytes;
   }

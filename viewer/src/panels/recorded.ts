@@ -3,7 +3,7 @@ import { button, checkbox, choice, html, named, section } from "../dom";
 import { plain } from "../numbers";
 import { CurveStack, curveOf, shownAtOnce, valueText, usualCurves, type Curve, type CurveKind } from "../plots/curves";
 import { figure } from "../plots/figure";
-import type { Report, Recorded } from "../report";
+import type { RecordedMotion } from "../recorded_motion";
 import { saveBlob } from "../save";
 import { words } from "../words";
 import type { Extreme } from "./strip";
@@ -22,9 +22,6 @@ export interface Frame {
 export class RecordedPanel {
   readonly element: HTMLElement;
   private readonly times: Float64Array;
-  private readonly angles: Float64Array;
-  private readonly translations: Float64Array;
-  private readonly poses: Float64Array;
   private readonly curves: Curve[];
   private readonly stack: CurveStack;
   private readonly slider: HTMLInputElement;
@@ -38,13 +35,10 @@ export class RecordedPanel {
 
   /// `drawn` is the picture of the frame shown, once it is answered; null if nothing is drawn.
   constructor(
-    report: Report, private readonly recorded: Recorded, private readonly go: (frame: Frame) => void,
+    private readonly recorded: RecordedMotion, private readonly go: (frame: Frame) => void,
     drawn: ((said: string) => Promise<Blob>) | null) {
-    this.times = report.array(recorded.times_s, "f64");
-    this.angles = report.array(recorded.coordinates_deg, "f64");
-    this.translations = report.array(recorded.coordinates_mm, "f64");
-    this.poses = report.array(recorded.poses, "f64");
-    this.curves = recorded.curves.map((curve) => curveOf(curve, report.array(curve.values, "f64")));
+    this.times = recorded.times;
+    this.curves = recorded.curves.map((curve) => curveOf(curve, curve.values));
     this.stack = new CurveStack(recorded.axis, this.times, (frame) => this.show(frame));
     const last = this.times.length - 1;
     this.slider = html("input", { type: "range", min: 0, max: last, step: 1, value: 0, "aria-label": words.frame });
@@ -80,6 +74,10 @@ export class RecordedPanel {
     // Playback resumes from a frame that was chosen by hand.
     this.playback = { frame, begun: performance.now() };
     this.put(frame);
+  }
+
+  stop(): void {
+    cancelAnimationFrame(this.playing);
   }
 
   toggle(): void {
@@ -131,7 +129,7 @@ export class RecordedPanel {
     this.stack.setFrame(frame);
     this.showTime(frame);
     const of = (numbers: Float64Array, each: number) => Array.from(numbers.subarray(each * frame, each * frame + each));
-    this.go({ angles: of(this.angles, 3), translation: of(this.translations, 3), X_FM: of(this.poses, 16) });
+    this.go({ angles: of(this.recorded.angles, 3), translation: of(this.recorded.translations, 3), X_FM: of(this.recorded.poses, 16) });
   }
 
   private showTime(frame: number): void {

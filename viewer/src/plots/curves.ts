@@ -20,7 +20,7 @@ export interface Curve {
   values: Float64Array;
 }
 
-export function curveOf({ name, unit }: Recorded["curves"][number], values: Float64Array): Curve {
+export function curveOf({ name, unit }: { name: string; unit: string }, values: Float64Array): Curve {
   const finite = Array.from(values).filter(Number.isFinite);
   return {
     // Names of columns end in their units, letters and digits only.

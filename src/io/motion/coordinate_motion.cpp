@@ -1,0 +1,79 @@
+#include "io/motion/coordinate_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "condyle/error.hpp"
+#include "condyle/io/pose_text.hpp"
+#include "io/joint/coordinate_name.hpp"
+
+namespace condyle::io {
+
+std::vector<ColumnOfCoordinate> columns_by_name(const MotionTable& table, const Joint& joint) {
+  constexpr std::pair<const char*, ColumnUnit> angles[] = {{"_deg", ColumnUnit::degrees},
+                                                           {"_rad", ColumnUnit::radians}};
+  constexpr std::pair<const char*, ColumnUnit> lengths[] = {{"_mm", ColumnUnit::millimetres},
+                                                            {"_m", ColumnUnit::metres}};
+  std::vector<ColumnOfCoordinate> columns;
+  std::string wanted;
+  for (const CoordinateName& name : coordinate_names_of(joint.kind, joint.anatomy)) {
+    for (const auto& [ending, unit] : name.kind == CoordinateKind::angle ? angles : lengths) {
+      wanted += (wanted.empty() ? "" : ", ") + name.name + ending;
+      if (std::find(table.columns.begin(), table.columns.end(), name.name + ending) != table.columns.end())
+        columns.push_back(
+            {.coordinate = name.name, .kind = name.kind, .column = name.name + ending, .unit = unit});
+    }
+  }
+  if (columns.empty())
+    throw FileError(fmt::format(
+        "{}: no column says a coordinate of the joint ({}), and the joint file has no [recorded_motion]",
+        table.path.string(), wanted));
+  return columns;
+}
+
+JointMotion motion_of_coordinates(const Joint& joint, const MotionTable& table,
+                                  const std::vector<ColumnOfCoordinate>& mapping) {
+  NamedCoordinates recorded = recorded_coordinates(table, mapping);
+  JointMotion motion{
+      .times = std::move(recorded.times), .X_FM = {}, .processing = std::move(recorded.processing)};
+  for (std::size_t i = 0; i < recorded.names.size(); ++i) {
+    double largest = 0;
+    for (const auto& frame : recorded.frames)
+      if (frame) largest = std::max(largest, std::abs((*frame)[i]));
+    const std::string& name = recorded.names[i];
+    const bool is_length = name == "x" || name == "y" || name == "z";
+    if (auto check =
+            check_recorded(name, is_length ? RecordedKind::length_mm : RecordedKind::angle_deg, largest))
+      motion.notes.push_back(std::move(*check));
+  }
+  add_new(motion.notes, std::move(recorded.notes));
+  std::string missing;
+  for (const CoordinateName& name : coordinate_names_of(joint.kind, joint.anatomy))
+    if (std::find(recorded.names.begin(), recorded.names.end(), name.name) == recorded.names.end())
+      missing += (missing.empty() ? "" : ", ") + name.name;
+  if (!missing.empty())
+    motion.processing.push_back(fmt::format("{}: not recorded, held at 0: {}", table.path.string(), missing));
+  for (const auto& frame : recorded.frames) {
+    if (!frame) {
+      motion.X_FM.emplace_back();
+      continue;
+    }
+    JointCoordinates at;
+    for (std::size_t i = 0; i < recorded.names.size(); ++i) {
+      const double value = (*frame)[i];
+      const std::string& name = recorded.names[i];
+      if (name == "x" || name == "y" || name == "z") {
+        at.translation_mm[name[0] - 'x'] = value;
+        continue;
+      }
+      at.angles = turned_by(at.angles, joint_angle_named(name, joint.anatomy), Angle::degrees(value));
+    }
+    motion.X_FM.emplace_back(pose_at(joint.coordinates(), at, joint.translation_frame));
+  }
+  return motion;
+}
+
+}  // namespace condyle::io

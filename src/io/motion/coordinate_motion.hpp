@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "condyle/io/joint_file.hpp"
+
+namespace condyle::io {
+
+/// The columns that name coordinates of the joint and their units: flexion_deg, x_mm. FileError if there is none.
+std::vector<ColumnOfCoordinate> columns_by_name(const MotionTable& table, const Joint& joint);
+
+/// The motion of a joint whose coordinates these columns record; those without a column are held at 0, which is noted.
+JointMotion motion_of_coordinates(const Joint& joint, const MotionTable& table,
+                                  const std::vector<ColumnOfCoordinate>& mapping);
+
+}  // namespace condyle::io
