@@ -249,7 +249,7 @@ class Page {
   }
 
   sayIsCopy(copied: Copied): void {
-    tell("status", words.copyWith(countOf(copied)), button(words.readNotesOfUser, () => this.showFold("notes-of-user")));
+    post("status", words.copyWith(countOf(copied)), button(words.readNotesOfUser, () => this.showFold("notes-of-user")));
   }
 
   /// A motion file as this joint's motion, and what is to be said of it. Rejects with the line of a file that is none.
@@ -762,7 +762,7 @@ function takeDrops(
     read(file!).then(async ({ motion, remarks }) => {
       await play(motion);
       found("messages").replaceChildren();
-      tell("status", [words.motionPlays(named(file!.name), motion.times.length), ...remarks].join(" "));
+      post("status", [words.motionPlays(named(file!.name), motion.times.length), ...remarks].join(" "));
     }).catch((error: unknown) => warn(lineOf(error))).finally(() => (isBusy = false));
   });
 }
