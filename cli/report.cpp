@@ -240,6 +240,7 @@ void report_command(const ReportArguments& options, const CLI::App& command) {
                 .reference_pose = loaded.report.placement.reference_pose,
                 .rom = rom ? &*rom : nullptr,
                 .rom_error = error,
+                .bearing_margin_mm = request.range.bearing.margin_mm,
                 .labels = options.labels};
   if (loaded.report.file.recorded_motion) report.recorded_motion = &*loaded.report.file.recorded_motion;
   if (before) report.before.emplace(before->answered(request));

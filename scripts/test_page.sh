@@ -21,6 +21,19 @@ sed 's/^centre = .*/centre = [-2, -2, 0]/' "$out/sample/hip.toml" >"$out/sample/
   --out "$out/compared.html"
 printf '[[part]]\nname = "pelvis"\nbody = "fixed"\n[[part.parameter]]\nname = "tilt"\nrange = [-20, 20]\nsigma = 3\n' | cat "$out/sample/hip.toml" - >"$out/sample/tilts.toml"
 "$condyle" report "$out/sample/tilts.toml" --set pelvis.tilt=10 --band=20 --out "$out/tilted.html"
+parameter() { printf '[[part.parameter]]\nname = "%s"\nkind = "%s"\nrange = [%s]\n%s\n' "$@"; }
+{
+  cat "$out/sample/hip.toml"
+  printf '[[part]]\nname = "pelvis"\nbody = "fixed"\ncentre = [3, 40, -5]\n'
+  for kind in frontal tilt version; do parameter $kind $kind '-20, 20' ''; done
+  parameter size size '0.9, 1.1' ''
+  parameter lateral translation '-5, 5' 'along = "lateral"'
+  printf '[[part]]\nname = "femur"\nbody = "mobile"\n'
+  for kind in version frontal; do parameter $kind $kind '-30, 30' 'sigma = 2'; done
+} >"$out/sample/turned.toml"
+"$condyle" report "$out/sample/turned.toml" --out "$out/turned.html"
+"$condyle" implant "$out/sample/hip.toml" --facets 72 --out "$out/placed" >/dev/null
+"$condyle" report "$out/placed/hip.toml" --out "$out/placed.html"
 printf '[recorded_motion]\n%s = { column = "flexion", unit = "deg" }\n%s = { column = "adduction", unit = "deg" }\n%s = { column = "rotation", unit = "deg" }\n' flexion adduction internal_rotation | cat "$out/sample/hip.toml" - >"$out/sample/moves.toml"
 printf 'time,flexion,adduction,rotation\n0,0,0,0\n0.1,20,5,0\n0.2,40,5,10\n' >"$out/sample/moves.csv"
 "$condyle" report "$out/sample/moves.toml" --motion "$out/sample/moves.csv" --out "$out/moves.html"

@@ -103,6 +103,7 @@ void report(const RangeHandle& range, const JointHandle& handle, const std::file
                 .joint = loaded.joint,
                 .reference_pose = loaded.report.placement.reference_pose,
                 .rom = &rom,
+                .bearing_margin_mm = request.range.bearing.margin_mm,
                 .labels = report_labels_of(labels)};
     std::optional<MeasureAnswer> measures;
     std::optional<MeasureResult> shape;

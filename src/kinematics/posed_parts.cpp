@@ -10,6 +10,8 @@
 #include "core/coordinate_range.hpp"
 #include "core/formatted.hpp"
 #include "core/one_line.hpp"
+#include "core/ordered_sums.hpp"
+#include "core/pair.hpp"
 #include "core/trigonometry.hpp"
 #include "kinematics/hip_parts.hpp"
 
@@ -80,13 +82,13 @@ Eigen::Matrix3d cup_rotation(double inclination, double anteversion, CupDefiniti
   const Eigen::Matrix3d opened = rotation_about(0, -sense * inclination);
   switch (definition) {
     case CupDefinition::radiographic:
-      return opened * rotation_about(2, anteversion);
+      return core::ordered_product(opened, rotation_about(2, anteversion));
     case CupDefinition::anatomic:
-      return rotation_about(1, sense * anteversion) * opened;
+      return core::ordered_product(rotation_about(1, sense * anteversion), opened);
     case CupDefinition::operative:
       break;
   }
-  return rotation_about(2, anteversion) * opened;
+  return core::ordered_product(rotation_about(2, anteversion), opened);
 }
 
 /// From the angles at which the meshes of a cup stand as they are given to those that it has; the identity, to the bit, if these are
@@ -97,8 +99,9 @@ Eigen::Matrix3d cup_turn(const PosedPart& part, Side side) {
   if (!inclination || !anteversion ||
       (inclination->value == inclination->as_given && anteversion->value == anteversion->as_given))
     return Eigen::Matrix3d::Identity();
-  return cup_rotation(inclination->value, anteversion->value, part.definition, side) *
-         cup_rotation(inclination->as_given, anteversion->as_given, part.definition, side).transpose();
+  const auto rotation = [&](double i, double a) { return cup_rotation(i, a, part.definition, side); };
+  return core::ordered_product(rotation(inclination->value, anteversion->value),
+                               rotation(inclination->as_given, anteversion->as_given).transpose());
 }
 
 bool is_name(std::string_view text) noexcept {
@@ -194,13 +197,31 @@ void check_meshes(const PosedPart& part, const Body& body, const std::string& wh
   }
 }
 
+/// `next` of what `first` has moved.
+Eigen::Affine3d after(const Eigen::Affine3d& next, const Eigen::Affine3d& first) noexcept {
+  Eigen::Affine3d both = Eigen::Affine3d::Identity();
+  both.linear() = core::ordered_product(next.linear(), first.linear());
+  both.translation() = core::ordered_image(next.linear(), first.translation()) + next.translation();
+  return both;
+}
+
 bool moves_nothing(const Eigen::Affine3d& motion) noexcept {
   return motion.matrix().isIdentity(0);
 }
 
 /// A uniform scale.
 double scale_of(const Eigen::Affine3d& motion) noexcept {
-  return std::cbrt(motion.linear().determinant());
+  return core::ordered_norm(motion.linear().col(0));
+}
+
+/// Rounded once from some 106 bits, the same on every machine: what a page moves lies where the command moves it, to the bit.
+Vec3 moved_by(const Eigen::Affine3d& motion, const Vec3& point) noexcept {
+  const auto row = [&](int i) {
+    core::Pair sum{motion(i, 3), 0};
+    for (int k = 0; k < 3; ++k) sum = sum + core::exact_product(motion(i, k), point[k]);
+    return sum.high;
+  };
+  return {row(0), row(1), row(2)};
 }
 
 void move_image(std::optional<BodyImage>& image, const Eigen::Affine3d& motion) {
@@ -257,9 +278,10 @@ Eigen::Affine3d motion_of(const PosedPart& part, Side side) {
   Eigen::Affine3d motion = Eigen::Affine3d::Identity();
   const Eigen::Matrix3d R = parameter_of(part, ParameterKind::cup_inclination)
                                 ? cup_turn(part, side)
-                                : turns[0] * turns[2] * turns[1];
+                                : core::ordered_product(core::ordered_product(turns[0], turns[2]), turns[1]);
   motion.linear() = scale * R;
-  if (!motion.linear().isIdentity(0)) motion.translation() = part.centre - motion.linear() * part.centre;
+  if (!motion.linear().isIdentity(0))
+    motion.translation() = part.centre - core::ordered_image(motion.linear(), part.centre);
   motion.translation() += translation;
   return motion;
 }
@@ -273,7 +295,7 @@ Eigen::Affine3d motion_of_mesh(std::span<const PosedPart> parts, Side side, Body
                                std::string_view mesh) {
   Eigen::Affine3d motion = Eigen::Affine3d::Identity();
   for (const PosedPart& part : parts)
-    if (moves_mesh(part, role, mesh)) motion = motion_of(part, side) * motion;
+    if (moves_mesh(part, role, mesh)) motion = after(motion_of(part, side), motion);
   return motion;
 }
 
@@ -294,7 +316,7 @@ std::vector<Eigen::Affine3d> PartMotions::motions(std::span<const PosedPart> par
   std::vector<Eigen::Affine3d> motions;
   for (const Group& group : groups_) {
     Eigen::Affine3d motion = Eigen::Affine3d::Identity();
-    for (const std::size_t p : group.parts) motion = motion_of(parts[p], side) * motion;
+    for (const std::size_t p : group.parts) motion = after(motion_of(parts[p], side), motion);
     motions.push_back(motion);
   }
   return motions;
@@ -303,15 +325,8 @@ std::vector<Eigen::Affine3d> PartMotions::motions(std::span<const PosedPart> par
 void PartMotions::move(std::span<const Eigen::Affine3d> motions, Points& points) const {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     if (moves_nothing(motions[g])) continue;
-    const Eigen::Matrix<long double, 4, 4> m = motions[g].matrix().cast<long double>();
     for (const auto& [first, count] : groups_[g].vertices)
-      for (std::size_t v = first; v < first + count; ++v) {
-        const long double x = points.x[v], y = points.y[v], z = points.z[v];
-        const auto row = [&](int i) {
-          return static_cast<double>(m(i, 0) * x + m(i, 1) * y + m(i, 2) * z + m(i, 3));
-        };
-        points.set(v, {row(0), row(1), row(2)});
-      }
+      for (std::size_t v = first; v < first + count; ++v) points.set(v, moved_by(motions[g], points[v]));
   }
 }
 

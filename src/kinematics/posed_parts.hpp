@@ -31,7 +31,7 @@ class PartMotions {
 
   /// One for each group of vertices.
   std::vector<Eigen::Affine3d> motions(std::span<const PosedPart> parts, Side side) const;
-  /// Moves each vertex by its group's. Computed in extended precision and rounded once; groups that do not move keep their bits.
+  /// Moves each vertex by its group's. Computed in pairs of doubles and rounded once; groups that do not move keep their bits.
   void move(std::span<const Eigen::Affine3d> motions, Points& points) const;
 
   /// The group of the whole body, if it is one.

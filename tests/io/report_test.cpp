@@ -375,5 +375,53 @@ TEST(ReportPage, TheTemplateInTheProgramIsThatOfTheRepository) {
   EXPECT_NE(io::page_with(io::report_template(), ""), "");
 }
 
+/// The arm turns as a whole and shifts; the post does not.
+Joint turning_joint() {
+  Joint joint = odd_joint();
+  PosedPart arm{.name = "arm", .body = BodyRole::mobile, .centre = Vec3(0.1, 0, 0)};
+  arm.parameters = {
+      {.name = "turn", .kind = ParameterKind::version, .low = -10, .high = 20, .sigma = 0.3},
+      {.name = "out", .kind = ParameterKind::translation, .low = -1, .high = 1, .direction = Vec3::UnitX()}};
+  joint.posed = PosedParts{
+      {arm}, {joint.fixed.mesh, {}, {}}, {joint.mobile.mesh, {}, Sphere{Vec3(0.1, 0.2, 1.0 / 3), 0.7}}};
+  return joint;
+}
+
+TEST(Report, HasThePartsThatTurnAndTheBodiesAsGivenWhereTheyTurned) {
+  const Joint given = turning_joint();
+  const ParameterValue values[] = {{"arm.turn", 1.0 / 3}};
+  const Joint joint = with_parameters(given, values);
+  const ReportBlock block =
+      report_block(report_html({.title = "a title", .joint = joint, .bearing_margin_mm = 1.5}));
+  const Json& posed = block.json["posed"];
+  EXPECT_EQ(posed["bearing_margin_mm"], 1.5);
+  const Json& part = posed["parts"][0];
+  EXPECT_EQ(part["name"], "arm");
+  EXPECT_EQ(part["body"], "mobile");
+  EXPECT_EQ(part["centre_mm"], (Json{0.1, 0.0, 0.0}));
+  EXPECT_EQ(part["parameters"][0], Json({{"name", "turn"},
+                                         {"kind", "version"},
+                                         {"unit", "deg"},
+                                         {"range", {-10.0, 20.0}},
+                                         {"value", 1.0 / 3},
+                                         {"in_joint_file", 0.0},
+                                         {"as_given", 0.0},
+                                         {"sigma", 0.3},
+                                         {"along", {0.0, 0.0, 0.0}}}));
+  EXPECT_EQ(posed["fixed"]["as_given"], nullptr);
+  EXPECT_EQ(posed["mobile"]["head"]["radius_mm"], 0.7);
+  EXPECT_EQ(posed["mobile"]["cut_triangles"], (Json{0, 0}));
+  std::vector<double> xyz;
+  for (std::size_t v = 0; v < given.mobile.mesh.vertices().size(); ++v)
+    for (int i = 0; i < 3; ++i) xyz.push_back(given.mobile.mesh.vertices()[v][i]);
+  expect_same_bits(block.array<double>(posed["mobile"]["as_given"].get<std::string>(), "f64"), xyz);
+  expect_is(block, "mobile", joint.mobile.mesh);
+}
+
+TEST(Report, HasNoPartsOfAJointWithout) {
+  const Joint joint = odd_joint();
+  EXPECT_FALSE(report_block(report_html({.title = "a title", .joint = joint})).json.contains("posed"));
+}
+
 }  // namespace
 }  // namespace condyle::test

@@ -55,6 +55,13 @@ struct PageEdit {
   condyle::Vec3 centre_mm = condyle::Vec3::Zero();
 };
 
+/// Parts that turn, and the joint as it was described with them.
+struct PageParts {
+  condyle::PosedParts described = {};
+  std::optional<condyle::Joint> as_described = {};
+  condyle::BearingOptions bearing = {};
+};
+
 /// A joint of the page, and what its last answers left.
 struct CondyleJoint {
   condyle::Joint joint;
@@ -68,6 +75,7 @@ struct CondyleJoint {
   std::optional<condyle::mesh::SurfaceDistance> to_fixed = {}, to_mobile = {};
   PagePressure pressure = {};
   PageEdit edit = {};
+  PageParts parts = {};
   PageProposal proposal = {};  ///< empty if the joint was given
   std::string description = {};
 };

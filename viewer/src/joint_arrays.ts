@@ -1,19 +1,19 @@
-import type { JointArrays, Layers, LoadedSurface } from "./core/protocol";
-import type { Report, StoredLayers, StoredSurface } from "./report";
+import type { GivenBody, JointArrays, Layers, LoadedSurface, PosedArrays } from "./core/protocol";
+import type { Report, StoredLayers, StoredPosed, StoredSurface } from "./report";
 
 const kinds = ["ball", "hinge", "free"], anatomies = ["hip", "knee", "ankle", "elbow", "shoulder"];
 const castings = ["fixed", "mobile", "both"], laws = ["linear", "logarithmic"], rules = ["face_centre", "cut_faces"];
 
 /// The joint of a report as the core takes it.
 export function jointArraysOf(report: Report): JointArrays {
-  const { joint, layers } = report.text;
+  const { joint, layers, posed } = report.text;
   const surface = (body: string) => ({
     vertices: report.array(`${body}_vertices`, "f64"), triangles: report.array(`${body}_triangles`, "u32"),
   });
   return {
     kind: kinds.indexOf(joint.kind), anatomy: anatomies.indexOf(joint.anatomy), side: joint.side === "right" ? 0 : 1,
     translationFrame: joint.translation_frame === "fixed" ? 0 : 1, fixed: surface("fixed"), mobile: surface("mobile"),
-    bearing: bearingOf(report), layers: layers && layersOf(report, layers),
+    bearing: bearingOf(report), layers: layers && layersOf(report, layers), posed: posed ? posedOf(report, posed) : null,
   };
 }
 
@@ -37,4 +37,19 @@ function layersOf(report: Report, layers: StoredLayers): Layers {
     casting: castings.indexOf(layers.casting), law: laws.indexOf(layers.law), rule: rules.indexOf(layers.rule),
     reach_mm: layers.reach_mm, fixed: surface(layers.fixed), mobile: surface(layers.mobile),
   };
+}
+
+function posedOf(report: Report, { parts, bearing_margin_mm, ...bodies }: StoredPosed): PosedArrays {
+  const given = (body: "fixed" | "mobile"): GivenBody => {
+    const { as_given, head, fitted_head, bearing_margin_mm: margin_mm, cut_triangles } = bodies[body];
+    return {
+      meshes: report.text.parts[body].map(({ name, contact, first_vertex, vertices, first_triangle, triangles }, i) => ({
+        name, contact, place: Uint32Array.of(first_vertex, vertices, first_triangle, triangles, cut_triangles[i]!),
+      })),
+      vertices: as_given === null ? null : report.array(as_given, "f64"),
+      head: head && Float64Array.of(...head.centre_mm, head.radius_mm),
+      fittedHead: fitted_head === null ? null : report.array(fitted_head, "u32"), margin_mm,
+    };
+  };
+  return { parts, bearingMargin_mm: bearing_margin_mm, fixed: given("fixed"), mobile: given("mobile") };
 }

@@ -1,9 +1,9 @@
-import type { ReportText } from "./report";
+import type { ReportText, StoredPart, StoredPosed } from "./report";
 import type { Surface } from "./core/protocol";
 import type { Part } from "./scene/body";
 import { bodyNames, type BodyName } from "./scene/scene";
 
-/// Files of a joint whose bones were changed on the page: meshes in the joint frame, and a joint file that names them.
+/// Files of a joint that was changed on the page: meshes in the joint frame, and a joint file that names them.
 
 /// A mesh of a body and its file; one for each mesh of a body.
 interface MeshFile {
@@ -11,9 +11,12 @@ interface MeshFile {
   part: Part | null;
 }
 
-export function meshFilesOf(body: BodyName, parts: readonly Part[]): MeshFile[] {
-  if (parts.length === 0) return [{ name: `brushed_${body}.stl`, part: null }];
-  return parts.map((part, i) => ({ name: `brushed_${body}_${i + 1}.stl`, part }));
+/// Begins with what became of the meshes.
+type Became = "brushed" | "given";
+
+export function meshFilesOf(body: BodyName, parts: readonly Part[], became: Became): MeshFile[] {
+  if (parts.length === 0) return [{ name: `${became}_${body}.stl`, part: null }];
+  return parts.map((part, i) => ({ name: `${became}_${body}_${i + 1}.stl`, part }));
 }
 
 const headBytes = 80, triangleBytes = 50;
@@ -49,8 +52,8 @@ function quoted(text: string): string {
   return JSON.stringify(text.replaceAll(/[\u0000-\u001f\u007f]/g, " "));
 }
 
-function meshLines(body: BodyName, parts: readonly Part[]): string[] {
-  return meshFilesOf(body, parts).flatMap(({ name, part }) => (part === null ? [`mesh = ${quoted(name)}`]
+function meshLines(body: BodyName, parts: readonly Part[], became: Became): string[] {
+  return meshFilesOf(body, parts, became).flatMap(({ name, part }) => (part === null ? [`mesh = ${quoted(name)}`]
     : ["", `[[${body}.meshes]]`, `name = ${quoted(part.name)}`, `mesh = ${quoted(name)}`, `contact = ${quoted(part.contact)}`]));
 }
 
@@ -66,17 +69,52 @@ function sphereLines({ rom, parts }: ReportText): string[] {
   ];
 }
 
-/// `X_FM` of the reference pose, row by row.
-export function jointFileOf(text: ReportText, X_FM: readonly number[], version: string): string {
-  const { joint, reference_deg, coordinates, parts } = text;
-  const turned = reference_deg.some((deg) => deg !== 0);
+/// What is known of a head or socket goes with the meshes as they are given.
+function givenSphereLines(posed: StoredPosed): string[] {
+  const lines = (name: string, body: BodyName) => {
+    const { head, bearing_margin_mm } = posed[body];
+    return head === null ? [] : ["", `[${name}]`, `centre = [${head.centre_mm.join(", ")}]`, `radius = ${head.radius_mm}`,
+      ...(body === "mobile" && bearing_margin_mm !== null ? [`margin = ${bearing_margin_mm}`] : [])];
+  };
+  return [...lines("fixed.socket", "fixed"), ...lines("mobile.head", "mobile")];
+}
+
+/// A point of a body in the frame of the file, which is that of the fixed one.
+function inFile(body: BodyName, [x, y, z]: Three, X_FM: readonly number[]): Three {
+  if (body === "fixed") return [x, y, z];
+  return [0, 1, 2].map((i) => X_FM[4 * i]! * x + X_FM[4 * i + 1]! * y + X_FM[4 * i + 2]! * z + X_FM[4 * i + 3]!) as unknown as Three;
+}
+
+function partLines({ name, body, meshes, centre_mm, definition, parameters }: StoredPart, values: ReadonlyMap<string, number>, X_FM: readonly number[]): string[] {
+  const isCup = parameters.some(({ kind }) => kind.startsWith("cup_"));
+  return ["", "[[part]]", `name = ${quoted(name)}`, `body = "${body}"`, ...(meshes.length ? [`meshes = [${meshes.map(quoted).join(", ")}]`] : []),
+    `centre = [${inFile(body, centre_mm, X_FM).join(", ")}]`, ...(isCup ? [`definition = "${definition}"`] : []),
+    ...parameters.flatMap(({ name: parameter, kind, as_given, range, sigma, along, value }) => [
+      "", "[[part.parameter]]", `name = ${quoted(parameter)}`, `kind = "${kind}"`, `as_given = ${as_given}`, `range = [${range.join(", ")}]`,
+      `value = ${values.get(`${name}.${parameter}`) ?? value}`, ...(sigma > 0 ? [`sigma = ${sigma}`] : []),
+      ...(kind === "translation" ? [`along = [${along.join(", ")}]`] : []),
+    ])];
+}
+
+/// Parts that were turned, and their values.
+export interface TurnedParts {
+  posed: StoredPosed;
+  values: ReadonlyMap<string, number>;
+}
+
+/// `X_FM` of the reference pose, row by row. Of a joint whose bones a brush changed, or with parts that were turned.
+export function jointFileOf(text: ReportText, X_FM: readonly number[], version: string, turned: TurnedParts | null = null): string {
+  const { joint, reference_deg, coordinates, parts } = text, became = turned ? "given" : "brushed";
+  const isPosed = reference_deg.some((deg) => deg !== 0);
   const body = (name: BodyName) => ["", `[${name}]`, `name = ${quoted(joint[name])}`,
-    ...(name === "mobile" && turned ? [`pose = [${X_FM.join(", ")}]`] : []), ...meshLines(name, parts[name])];
+    ...(name === "mobile" && isPosed ? [`pose = [${X_FM.join(", ")}]`] : []), ...meshLines(name, parts[name], became)];
   return [
-    `# Written by a page of condyle ${version}: ${quoted(joint.name)} with bones changed by a brush.`, "condyle = 1", `name = ${quoted(joint.name)}`,
+    `# Written by a page of condyle ${version}: ${quoted(joint.name)} with ${turned ? "parts turned" : "bones changed by a brush"}.`, "condyle = 1",
+    `name = ${quoted(joint.name)}`,
     `kind = "${joint.kind}"`, ...(joint.kind === "hinge" && joint.anatomy === "hip" ? [] : [`joint = "${joint.anatomy}"`]),
-    `side = "${joint.side}"`, `units = "mm"`, ...bodyNames.flatMap(body), ...sphereLines(text), "",
+    `side = "${joint.side}"`, `units = "mm"`, ...bodyNames.flatMap(body), ...(turned ? givenSphereLines(turned.posed) : sphereLines(text)), "",
     "[frame]  # the meshes are in the joint frame", "centre = [0, 0, 0]", "anterior = [1, 0, 0]", "superior = [0, 1, 0]",
-    ...(turned ? ["", "[reference_pose]", ...coordinates.flatMap(({ name }, i) => (reference_deg[i] ? [`${name} = ${reference_deg[i]}`] : []))] : []), "",
+    ...(isPosed ? ["", "[reference_pose]", ...coordinates.flatMap(({ name }, i) => (reference_deg[i] ? [`${name} = ${reference_deg[i]}`] : []))] : []),
+    ...(turned?.posed.parts ?? []).flatMap((part) => partLines(part, turned!.values, X_FM)), "",
   ].join("\n");
 }

@@ -1,21 +1,19 @@
 import { CoreClient } from "./core/client";
 import { lineOf } from "./core/error_line";
-import type { BothValues, Brushed, Coordinates, JointArrays, MapQuestion, MotionFrames, Proposal, Query, ShownQuantity, Values } from "./core/protocol";
+import type { BothValues, Brushed, Coordinates, JointArrays, MapQuestion, MotionFrames, Proposal, Query, ShownQuantity, Turned, Values } from "./core/protocol";
 import { button, checkbox, choice, fold, html, named, section, shortened, spaced } from "./dom";
 import { jointArraysOf } from "./joint_arrays";
 import { blockOf, copiedOf, countOf, type Copied, type UserNotes } from "./notes_block";
 import { clockTime, fixed } from "./numbers";
 import { keepPage, notesBlock, pageWith } from "./page_copy";
-import { BrushPanel } from "./panels/brush";
-import { CentrePanel } from "./panels/centre";
 import { Clearance } from "./panels/clearance";
 import { ComparePanel } from "./panels/compare";
 import { DisplayPanel } from "./panels/display";
 import { DropPanel } from "./panels/drop";
+import { addEditPanels } from "./panels/edits";
 import { figuresPanel } from "./panels/figures";
 import { FreeAngles } from "./panels/free_angles";
 import { LabelDrop } from "./panels/label_drop";
-import { questionsOf } from "./panels/live_limits";
 import { actions, copyLink, headingOf, listenToKeys } from "./panels/header";
 import { MotionPanel } from "./panels/motion";
 import { NotesPanel } from "./panels/notes";
@@ -110,6 +108,8 @@ class Page {
   private readonly plan: PlanPanel | null;
   private readonly removed: BothValues | null;
   private fragmentTimer = 0;
+  /// By the core; else the report says what bears.
+  private bearingIsFound: boolean;
   /// One of the report's poses, if the page cannot compute.
   private storedPose: StoredPose | null = null;
   private poseChoice: HTMLSelectElement | null = null;
@@ -120,6 +120,7 @@ class Page {
   constructor(
     private readonly text: ReportText, private readonly arrays: JointArrays, private readonly report: Report | null, private readonly computes: boolean,
     added: Added = {}) {
+    this.bearingIsFound = arrays.bearing === "found";
     const names = { fixed: named(text.joint.fixed), mobile: named(text.joint.mobile) };
     const heading = headingOf(text);
     document.title = words.pageTitle(shortened(text.title));
@@ -373,7 +374,7 @@ class Page {
       limit: () => undefined,
       depth: (depth) => this.motion.showDepth(depth),
       bearing: (triangles) => {
-        if (this.arrays.bearing === "found") this.clearance?.leaveOut(triangles);
+        if (this.bearingIsFound) this.clearance?.leaveOut(triangles);
         this.markBearing(triangles);
       },
       mapPoint: (point, intervals) => {
@@ -387,33 +388,11 @@ class Page {
     Object.assign(globalThis, { condyle: { query: (query: Query) => core.query(query), scene: this.scene } });
     this.moved(this.motion.coordinates);
     core.askBearing();
-    this.addEditPanels(core);
-    this.drawWorst();
-  }
-
-  /// Panels that change the joint by hand, if limits are exact and no layers lie on the bones.
-  private addEditPanels(core: CoreClient): void {
-    const { text, arrays, scene } = this, { rom, layers, plan, joint } = text;
-    if (!rom || rom.exact === false || layers || questionsOf(text).length === 0) return;
-    const centre = joint.kind === "free" ? null : new CentrePanel(core, text);
-    // A brush does not know an implant from bone.
-    const brush = rom.implant ? null : new BrushPanel(core, scene, {
-      text, arrays, names: { fixed: named(joint.fixed), mobile: named(joint.mobile) },
-      before: { fixed: this.beforePlan("fixed"), mobile: this.beforePlan("mobile") },
-      limitsBefore: new Map((plan?.limits ?? []).map(({ motion, before }) => [motion, before])),
-      changed: (brushed, rests) => this.takeBrushed(brushed, rests), limited: (limits) => centre?.setBefore(limits),
+    addEditPanels({
+      core, scene: this.scene, text: this.text, arrays: this.arrays, report: this.report,
+      brushed: (brushed, rests) => this.takeBrushed(brushed, rests), turned: (turned, rests) => this.takeTurned(turned, rests),
     });
-    if (brush) addPlanPanel(brush.element);
-    if (centre) addPlanPanel(centre.element);
-  }
-
-  /// The surface of a bone before a plan cut it; null for an uncut bone.
-  private beforePlan(body: BodyName): Float64Array | null {
-    const cut = this.text.plan?.surfaces[body];
-    if (!cut) return null;
-    const xyz = this.arrays[body].vertices.slice(), before = this.report!.array(cut.before, "f64");
-    this.report!.array(cut.lowered, "u32").forEach((vertex, i) => xyz.set(before.subarray(3 * i, 3 * i + 3), 3 * vertex));
-    return xyz;
+    this.drawWorst();
   }
 
   /// The bone has changed, so the display of the pose is requested again.
@@ -421,6 +400,18 @@ class Page {
     this.scene?.replaceBody(body, vertices);
     if (this.removed) this.removed[body] = { shown: Float32Array.from(depths_mm), marks: Uint8Array.from(depths_mm, (mm) => (mm > 0 ? 1 : 0)) };
     if (rests) this.ask(this.motion.coordinates);
+  }
+
+  /// The same of a joint whose parts turn: what bears is found anew.
+  private takeTurned({ fixed: fixedBody, mobile }: Turned, rests: boolean): void {
+    this.scene?.replaceBody("fixed", fixedBody);
+    this.scene?.replaceBody("mobile", mobile);
+    this.scene?.leaveLimit();
+    this.strip.unmark();
+    if (!rests) return;
+    this.bearingIsFound = true;
+    this.ask(this.motion.coordinates);
+    this.core?.askBearing();
   }
 
   private show(values: BothValues | null): void {

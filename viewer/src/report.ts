@@ -265,6 +265,49 @@ export interface StoredBefore {
   surfaces: Record<"fixed" | "mobile", { vertices: string; triangles: string } | null>;
 }
 
+/// A number by which a part turns or shifts; docs/parts.md.
+export interface StoredParameter {
+  name: string;
+  kind: string;
+  unit: string;  // "1" of a size
+  range: [number, number];
+  value: number;
+  in_joint_file: number;
+  as_given: number;
+  sigma: number;
+  /// Of a translation.
+  along: Three;
+}
+
+export interface StoredPart {
+  name: string;
+  body: "fixed" | "mobile";
+  /// Names of the meshes that it moves; none of a part that is the whole body.
+  meshes: string[];
+  centre_mm: Three;
+  definition: string;
+  is_cut: boolean;
+  parameters: StoredParameter[];
+}
+
+export interface StoredGivenBody {
+  /// Name of an array; null where the drawn vertices are as given.
+  as_given: string | null;
+  head: { centre_mm: Three; radius_mm: number } | null;
+  /// Name of an array: vertices of the head that the joint's centre was fitted to.
+  fitted_head: string | null;
+  bearing_margin_mm: number | null;
+  cut_triangles: number[];
+}
+
+/// Parts that turn, and the bodies as they are given.
+export interface StoredPosed {
+  parts: StoredPart[];
+  bearing_margin_mm: number | null;
+  fixed: StoredGivenBody;
+  mobile: StoredGivenBody;
+}
+
 export interface ReportText {
   version: string;
   title: string;
@@ -300,6 +343,8 @@ export interface ReportText {
   plan: StoredPlan | null;
   /// Set in a report of two joints.
   before?: StoredBefore | null;
+  /// Of a joint with parts that turn.
+  posed?: StoredPosed | null;
 }
 
 const headBytes = 16;

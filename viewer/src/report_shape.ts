@@ -72,7 +72,7 @@ const surface = object({
   first_vertex: count, vertices: count, first_triangle: count, triangles: count, youngs_modulus_mpa: ifThere(number),
   poisson_ratio: ifThere(number), thickness_mm: ifThere(text),
 });
-const part = object({ name: text, first_vertex: count, vertices: count, contact: oneOf("ends", "bearing", "soft") });
+const part = object({ name: text, first_vertex: count, vertices: count, first_triangle: count, triangles: count, contact: oneOf("ends", "bearing", "soft") });
 
 const measures = object({
   pelvis_frame: text, left_out: list(text),
@@ -120,6 +120,21 @@ const before = object({
   surfaces: object({ fixed: bodyBefore, mobile: bodyBefore }),
 });
 
+const nameOrNull = orNull(text);
+const givenBody = object({
+  as_given: nameOrNull, head: orNull(object({ centre_mm: three, radius_mm: number })), fitted_head: nameOrNull, bearing_margin_mm: orNull(number),
+  cut_triangles: list(count),
+});
+const posed = object({
+  parts: list(object({
+    name: text, body: bodyName, meshes: list(text), centre_mm: three, definition: text, is_cut: flag,
+    parameters: list(object({
+      name: text, kind: text, unit: text, range: list(number, 2), value: number, in_joint_file: number, as_given: number, sigma: number, along: three,
+    })),
+  })),
+  bearing_margin_mm: orNull(number), fixed: givenBody, mobile: givenBody,
+});
+
 const report = object({
   version: text, title: text, case: ifThere(orNull(text)), note: ifThere(orNull(text)), date: ifThere(orNull(text)),
   joint: object({
@@ -146,7 +161,8 @@ const report = object({
     name: text, axis: oneOf("time_s", "frame"), times_s: text, coordinates_deg: text, coordinates_mm: text, poses: text,
     curves: list(object({ name: text, unit: text, values: text })),
   })),
-  recorded_motion: ifThere(object({ by: oneOf("columns", "poses", "model") })), measures: orNull(measures), plan: orNull(plan), before: ifThere(orNull(before)),
+  recorded_motion: ifThere(object({ by: oneOf("columns", "poses", "model") })), measures: orNull(measures), plan: orNull(plan),
+  before: ifThere(orNull(before)), posed: ifThere(orNull(posed)),
 });
 
 /// The text of a block with every key that the page reads; throws ReportError that names the first wrong one.
@@ -191,6 +207,12 @@ function checkArrays(read: ReportText): void {
     if (ghost) {
       needed(`before.surfaces.${body}.vertices`, ghost.vertices, "f64", threes);
       needed(`before.surfaces.${body}.triangles`, ghost.triangles, "u32", threes);
+    }
+    const given = read.posed?.[body];
+    if (given) {
+      if (given.as_given !== null) needed(`posed.${body}.as_given`, given.as_given, "f64", many(3 * vertices));
+      if (given.fitted_head !== null) needed(`posed.${body}.fitted_head`, given.fitted_head, "u32", any);
+      if (given.cut_triangles.length !== read.parts[body].length) wrong(`posed.${body}.cut_triangles`);
     }
     const loaded = read.layers?.[body];
     if (!loaded) continue;

@@ -23,6 +23,7 @@
 #include "io/report/plan_json.hpp"
 #include "io/report/recorded_columns.hpp"
 #include "io/report/recorded_frames.hpp"
+#include "io/report/posed_json.hpp"
 #include "io/report/surfaces_json.hpp"
 #include "io/result/caveats.hpp"
 #include "io/result/json.hpp"
@@ -263,6 +264,7 @@ std::string data_block(const Report& report) {
   json["measures"] = measures_of(report.measures);
   json["plan"] = report.plan ? plan_json(*report.plan, arrays) : Json(nullptr);
   if (report.before) json["before"] = before_json(report, arrays);
+  if (has_parts_to_turn(report)) json["posed"] = posed_json(report, arrays);
   json["arrays"] = arrays.directory();
   drop_negative_zeros(json);
   std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -66,6 +66,8 @@ struct Report {
   /// The bone that must go: `joint` is the joint without it, and `rom` has its limits.
   const ResectionResult* plan = nullptr;
   std::optional<ReportedBefore> before = {};
+  /// BearingOptions::margin_mm of the limits: the page finds the bearing surface anew where it turns a part.
+  std::optional<double> bearing_margin_mm = {};
   ReportLabels labels = {};
 };
 

@@ -1,6 +1,6 @@
 import type {
   BoneChoice, BothValues, Brushed, Coordinates, Depth, DroppedFile, Edit, FromWorker, SideChoice, JointArrays, LabelMap, LimitQuestion, LiveLimit,
-  MapQuestion, Proposal, Quantity, Query, QueryAnswer, Shown, ToWorker,
+  MapQuestion, Proposal, Quantity, Query, QueryAnswer, Shown, ToWorker, Turned,
 } from "./protocol";
 
 declare const workerSource: string;
@@ -15,9 +15,9 @@ export interface Answers {
   failed(message: string): void;
 }
 
-/// Results of an edit: the bone, then limits one by one.
+/// Results of an edit: the changed bodies, then limits one by one.
 export interface EditAnswers {
-  edited(brushed: Brushed | null): void;
+  edited(changed: Brushed | Turned | null): void;
   limit(number: number, limit: LiveLimit): void;
   failed(message: string): void;
 }
@@ -182,7 +182,7 @@ export class CoreClient {
         const { answers, last } = this.edits.get(message.id)!;
         if (message.error || last < 0) this.edits.delete(message.id);
         if (message.error) answers.failed(message.error);
-        else answers.edited(message.brushed);
+        else answers.edited(message.changed);
         return;
       }
       case "editLimit": {

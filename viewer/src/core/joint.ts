@@ -4,8 +4,9 @@ import {
   quantityNumber, type BothPenetrations, type BothValues, type Brushed, type Coordinates, type Depth, type Details, type DroppedFile, type Edit,
   type SideChoice,
   type Inside, type JointArrays, type Layers, type LimitQuestion, type LiveLimit, type MapQuestion, type MotionFrames, type Penetrations,
-  type Proposal, type Quantity, type Shown, type Stroke, type Surface, type Values,
+  type Proposal, type Quantity, type Shown, type Stroke, type Surface, type Turned, type Values,
 } from "./protocol";
+import { describeParts, within } from "./parts";
 
 const poseBytes = 16 * 8;
 const atRest = [0, 0, 0] as const;
@@ -38,6 +39,7 @@ export class CoreJoint {
     const opened = new CoreJoint(memory, joint);
     opened.setBearing(arrays.bearing);
     if (arrays.layers) opened.setLayers(arrays.layers);
+    if (arrays.posed) describeParts(memory, joint, arrays.posed);
     return opened;
   }
 
@@ -61,7 +63,7 @@ export class CoreJoint {
       proposal: {
         joint: {
           kind: 0, anatomy: 0, side: core._condyle_side(made), translationFrame: 0, fixed: joint.surface(1),
-          mobile: joint.surface(0), bearing: "found", layers: null,
+          mobile: joint.surface(0), bearing: "found", layers: null, posed: null,
         },
         rom: JSON.parse(core.UTF8ToString(description)) as Proposal["rom"], bodies,
       },
@@ -138,7 +140,11 @@ export class CoreJoint {
   }
 
   /// Null if no bone changes.
-  edit(edit: Edit): Brushed | null {
+  edit(edit: Edit): Brushed | Turned | null {
+    if (edit.of === "parts") {
+      within(this.memory, [edit.values], ([text]) => this.core._condyle_set_parameters(this.joint, text!));
+      return { fixed: this.surface(1).vertices, mobile: this.surface(0).vertices };
+    }
     if (edit.of === "centre") {
       this.put(this.three, edit.offset_mm);
       this.put(this.otherThree, edit.reference_deg);

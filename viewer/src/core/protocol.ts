@@ -1,4 +1,4 @@
-import type { RomAnswer } from "../report";
+import type { RomAnswer, StoredPart } from "../report";
 
 /// Messages between page and worker.
 
@@ -24,6 +24,25 @@ export interface JointArrays {
   /// 1.
   bearing: "found" | { counts: boolean; fixed: Uint8Array | null; mobile: Uint8Array | null };
   layers: Layers | null;
+  /// Parts that turn; null of a joint without any.
+  posed: PosedArrays | null;
+}
+
+/// Parts of a joint and its bodies as they are given, as page_parts.hpp takes them.
+export interface PosedArrays {
+  parts: StoredPart[];
+  bearingMargin_mm: number | null;
+  fixed: GivenBody;
+  mobile: GivenBody;
+}
+
+/// What is null is as in the drawn body, or not known.
+export interface GivenBody {
+  meshes: { name: string; contact: string; place: Uint32Array }[];
+  vertices: Float64Array | null;
+  head: Float64Array | null;
+  fittedHead: Uint32Array | null;
+  margin_mm: number | null;
 }
 
 /// The part of a body that carries load; rigid without a layer.
@@ -151,12 +170,20 @@ export interface Stroke {
 }
 
 /// A change of the joint by hand. A bone is made ready once, with where its surface was before a cut, if there is one; a stroke replaces
-/// the last one while the hand draws it. A centre is moved along the axes of F, the bones standing as the reference pose has them.
+/// the last one while the hand draws it. A centre is moved along the axes of F, the bones standing as the reference pose has them. Parts are
+/// turned to these values, as `--set` takes them; those that are not named stand as in the report.
 export type Edit =
   | { of: "brush"; body: "fixed" | "mobile"; before: Float64Array | null }
   | { of: "stroke"; body: "fixed" | "mobile"; stroke: Stroke; replaces: boolean }
   | { of: "undo"; body: "fixed" | "mobile" }
-  | { of: "centre"; offset_mm: [number, number, number]; reference_deg: [number, number, number] };
+  | { of: "centre"; offset_mm: [number, number, number]; reference_deg: [number, number, number] }
+  | { of: "parts"; values: string };
+
+/// The vertices of both bodies where their parts have them.
+export interface Turned {
+  fixed: Float64Array;
+  mobile: Float64Array;
+}
 
 /// A bone as its brush has left it.
 export interface Brushed {
@@ -265,7 +292,7 @@ export type FromWorker =
   | { type: "depth"; id: number; depth: Depth }
   | { type: "queried"; id: number; answer: QueryAnswer | null; error: string }
   /// Null for an edit of no bone, and for one that failed.
-  | { type: "edited"; id: number; brushed: Brushed | null; error: string }
+  | { type: "edited"; id: number; changed: Brushed | Turned | null; error: string }
   | { type: "editLimit"; id: number; number: number; limit: LiveLimit }
   | { type: "bearing"; triangles: Uint8Array }
   | { type: "mapPoint"; point: number; intervals: [number, number, number, number][] };

@@ -35,6 +35,14 @@ declare module "page-core" {
     _condyle_move_centre(joint: number, centre: number, reference: number): number;
     _condyle_limit_about(
       joint: number, vary: number, positive: number, start: number, range: number, limit: number): number;
+    _condyle_body_mesh(joint: number, ofFixed: number, name: number, contact: number, place: number): number;
+    _condyle_body_given(
+      joint: number, ofFixed: number, vertices: number, head: number, fitted: number, fittedCount: number, margin: number): number;
+    _condyle_part(joint: number, name: number, ofFixed: number, definition: number, centre: number): number;
+    _condyle_part_mesh(joint: number, name: number): number;
+    _condyle_parameter(joint: number, name: number, kind: number, numbers: number): number;
+    _condyle_parts(joint: number, margin: number): number;
+    _condyle_set_parameters(joint: number, text: number): number;
     _condyle_set_roles(joint: number, countBearing: number, fixed: number, mobile: number): number;
     _condyle_surface(
       joint: number, ofFixed: number, firstVertex: number, vertices: number, firstTriangle: number, triangles: number,

@@ -69,10 +69,11 @@ function sayValues({ id, at }: PoseQuestion, quantity: Exclude<Quantity, "none">
 function askEdit(id: number, edit: Edit, limits: readonly LimitQuestion[]): void {
   edits.push(() => {
     try {
-      const brushed = joint!.edit(edit);
-      say({ type: "edited", id, brushed, error: "" }, brushed ? [brushed.vertices.buffer as ArrayBuffer, brushed.depths_mm.buffer as ArrayBuffer] : []);
+      const changed = joint!.edit(edit);
+      const arrays = Object.values(changed ?? {}).filter((value): value is Float64Array => value instanceof Float64Array);
+      say({ type: "edited", id, changed, error: "" }, arrays.map((array) => array.buffer as ArrayBuffer));
     } catch (error) {
-      return say({ type: "edited", id, brushed: null, error: lineOf(error) });
+      return say({ type: "edited", id, changed: null, error: lineOf(error) });
     }
     const about = edit.of === "centre" && edit.offset_mm.some((mm) => mm !== 0);
     limits.forEach((question, number) => afterEdit.push(() => {

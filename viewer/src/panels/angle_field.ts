@@ -11,7 +11,8 @@ export class NumberField {
   /// `refused` with the reason, or null once there is none.
   constructor(
     label: string, private readonly low: number, private readonly high: number, private readonly step: number, private readonly unit: string,
-    disabled: boolean, private readonly taken: (value: number) => void, private readonly refused: (why: string | null) => void) {
+    disabled: boolean, private readonly taken: (value: number) => void, private readonly refused: (why: string | null) => void,
+    private readonly digits = 1) {
     this.input = html("input", {
       type: "text", inputmode: "decimal", role: "spinbutton", autocomplete: "off", spellcheck: "false", class: "number", "aria-label": label,
       "aria-valuemin": low, "aria-valuemax": high, disabled,
@@ -34,10 +35,10 @@ export class NumberField {
     return this.value;
   }
 
-  /// Rounded to a tenth; the number itself keeps all of its digits.
+  /// Rounded to `digits`; the number itself keeps all of its digits.
   show(value: number): void {
     this.value = value;
-    if (document.activeElement !== this.input || typed(this.input.value) !== value) this.input.value = fixed(value, 1);
+    if (document.activeElement !== this.input || typed(this.input.value) !== value) this.input.value = fixed(value, this.digits);
     this.input.setAttribute("aria-valuenow", String(value));
     this.clear();
   }
@@ -46,7 +47,11 @@ export class NumberField {
     const said = typed(this.input.value);
     if (said !== null && said >= this.low && said <= this.high) return this.take(said);
     this.input.setAttribute("aria-invalid", "true");
-    this.refused(said === null ? words.noNumber : words.notTaken(`${plain(said)}${this.unit}`, `${plain(this.low)}${this.unit}`, `${plain(this.high)}${this.unit}`));
+    this.refused(said === null ? words.noNumber : words.notTaken(...this.texts(said, this.low, this.high)));
+  }
+
+  private texts(...numbers: [number, number, number]): [string, string, string] {
+    return numbers.map((number) => `${plain(number, this.digits)}${this.unit}`) as [string, string, string];
   }
 
   private take(value: number): void {

@@ -14,7 +14,7 @@ import { Painter } from "./painter";
 
 const usual = { radius_mm: 6, depth_mm: 2 }, most = { radius_mm: 30, depth_mm: 20 }, least_mm = 0.1;
 
-type Change = Exclude<Edit, { of: "brush" | "centre" }>;
+type Change = Exclude<Edit, { of: "brush" | "centre" | "parts" }>;
 
 /// A change that waits; strokes of one drag have one number.
 interface Asked {
@@ -140,9 +140,10 @@ export class BrushPanel {
     const known = this.prepared.get(body);
     if (known) return known;
     const ready = new Promise<void>((done, failed) => this.core.edit({ of: "brush", body, before: this.options.before[body] }, [], {
-      edited: (brushed) => {
-        this.brushed[body] = brushed!;
-        if (!this.said.textContent) this.say(words.noStroke(fixed(brushed!.edge_mm, 1)) + ` ${words.protectedBone(this.options.names[body], brushed!.protectedVertices)}`);
+      edited: (changed) => {
+        const brushed = changed as Brushed;
+        this.brushed[body] = brushed;
+        if (!this.said.textContent) this.say(words.noStroke(fixed(brushed.edge_mm, 1)) + ` ${words.protectedBone(this.options.names[body], brushed.protectedVertices)}`);
         this.saySize();
         done();
       },
@@ -182,7 +183,7 @@ export class BrushPanel {
     let first_ms = 0;
     this.limits.wait();
     this.core.edit(edit, wanted.map((i) => this.asked[i]!.question), {
-      edited: (brushed) => this.take(brushed!, edit, rests),
+      edited: (changed) => this.take(changed as Brushed, edit, rests),
       limit: (number, limit) => {
         const i = wanted[number]!;
         this.latest[i] = limit;
@@ -277,7 +278,7 @@ export class BrushPanel {
   private saveMeshes(): void {
     const { arrays, text } = this.options;
     for (const body of bodyNames)
-      for (const { name, part } of meshFilesOf(body, text.parts[body]))
+      for (const { name, part } of meshFilesOf(body, text.parts[body], "brushed"))
         saveBlob(name, stlOf({ vertices: this.verticesOf(body), triangles: arrays[body].triangles }, part, `condyle ${text.version} brushed ${body}`));
   }
 

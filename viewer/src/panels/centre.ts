@@ -20,10 +20,11 @@ export class CentrePanel {
   private isBusy = false;
   private waits = false;
 
-  constructor(private readonly core: CoreClient, private readonly text: ReportText) {
+  /// `moved` whether the centre is elsewhere than in the report.
+  constructor(private readonly core: CoreClient, private readonly text: ReportText, private readonly moved: (isMoved: boolean) => void) {
     this.asked = questionsOf(text);
     const motions = this.asked.map(({ motion }) => motion);
-    this.limits = new LiveLimits(words.centreLimits, words.centreChange, [...motions], motions, motions);
+    this.limits = new LiveLimits(words.centreLimits, words.centreChange, motions, motions, motions);
     this.fields = axes.map((axis, i) => new NumberField(
       words.centreAlong[axis], -farthest_mm, farthest_mm, step_mm, " mm", false, (mm) => this.move(i, mm), (why) => (this.refusal.textContent = why ?? "")));
     this.element = section(words.centre, html("p", { class: "small" }, words.centreHelp),
@@ -68,6 +69,7 @@ export class CentrePanel {
 
   /// One place is computed at a time; of those requested meanwhile only the latest.
   private ask(): void {
+    this.moved(this.offset.some((mm) => mm !== 0));
     this.waits = true;
     if (!this.isBusy) this.send();
   }

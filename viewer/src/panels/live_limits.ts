@@ -36,17 +36,21 @@ interface Row {
   head: HTMLTableRowElement;
 }
 
-/// Each motion before and after a change, of bone only.
+/// Each motion before and after a change.
 export class LiveLimits {
   readonly element: HTMLElement;
   private readonly rows: Row[];
+  private readonly before: EndOfMotion[];
 
-  /// `change` heads what the limits differ by.
-  constructor(title: string, change: string, private readonly before: EndOfMotion[], after: readonly EndOfMotion[], motions: readonly MotionAnswer[]) {
+  /// `change` heads what the limits differ by, `of` says of what they are.
+  constructor(
+    title: string, change: string, before: readonly EndOfMotion[], after: readonly EndOfMotion[], motions: readonly MotionAnswer[],
+    of: string = words.boneOnly) {
+    this.before = [...before];
     const cell = () => html("td", {});
     this.rows = motions.map(({ name }) => {
       const row = { before: cell(), after: cell(), gained: cell() };
-      const head = html("tr", {}, html("th", { scope: "row" }, named(motionName(name))), row.before, row.after, row.gained, html("td", { class: "quiet" }, words.boneOnly));
+      const head = html("tr", {}, html("th", { scope: "row" }, named(motionName(name))), row.before, row.after, row.gained, html("td", { class: "quiet" }, of));
       return { ...row, head };
     });
     this.element = html("div", { class: "scroll live-limits", tabindex: 0, role: "region", "aria-label": title },

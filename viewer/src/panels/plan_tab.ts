@@ -6,6 +6,13 @@ export function addPlanPanel(element: HTMLElement): void {
   if (!place) return;
   const title = element.querySelector("h2");
   place.append(html("details", { name: "plan-panels", class: "fold", open: place.childElementCount === 0 },
-    html("summary", {}, title ?? ""), element));
+    html("summary", {}, title ?? ""), html("p", { class: "small blocked", role: "status" }), element));
   place.dispatchEvent(new Event("filled", { bubbles: true }));
+}
+
+/// Of panels that change the joint one works at a time: the others say why they wait, in their place. Null: it works.
+export function setBlocked(element: HTMLElement, why: string | null): void {
+  element.hidden = why !== null;
+  const said = element.previousElementSibling;
+  if (said) said.textContent = why;
 }

@@ -11,6 +11,8 @@ export interface Part {
   name: string;
   first_vertex: number;
   vertices: number;
+  first_triangle: number;
+  triangles: number;
   contact: "ends" | "bearing" | "soft";
 }
 
@@ -30,7 +32,7 @@ export class SceneBody {
   surface: Surface;
   /// Draws nothing but depths, before a transparent body: only the surface nearest to the viewer stays visible, like glass.
   private readonly veil: Mesh<BufferGeometry, BodyMaterial>;
-  private ghost: Mesh | null = null;
+  private readonly ghosts = new Map<string, Mesh>();
   private readonly shown: BufferAttribute;
   private readonly mark: BufferAttribute;
   private readonly tints: BufferAttribute;
@@ -75,22 +77,24 @@ export class SceneBody {
     geometry.boundingBox = null;
   }
 
-  /// Another state of this body, transparent, in the same place; null: none.
-  setGhost(ghost: Ghost | null): void {
-    this.ghost?.removeFromParent();
-    this.ghost?.geometry.dispose();
-    this.ghost = null;
+  /// Another state of this body by its name, transparent, in the same place; null: none.
+  setGhost(name: string, ghost: Ghost | null): void {
+    const shown = this.ghosts.get(name);
+    shown?.removeFromParent();
+    shown?.geometry.dispose();
+    this.ghosts.delete(name);
     if (!ghost) return;
     const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(ghost.vertices), 3));
     geometry.setIndex(new BufferAttribute(new Uint32Array(ghost.triangles), 1));
     geometry.computeVertexNormals();
-    this.ghost = new Mesh(geometry, new MeshLambertMaterial({
+    const mesh = new Mesh(geometry, new MeshLambertMaterial({
       color: ghost.colour ?? ghostColour, transparent: true, opacity: ghostOpacity, side: DoubleSide, depthWrite: false, clippingPlanes: this.mesh.material.clippingPlanes,
       // Where both surfaces coincide to some tenth of a millimetre, this body is drawn.
       polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 20,
     }));
-    this.ghost.renderOrder = 5;
-    this.mesh.add(this.ghost);
+    mesh.renderOrder = 5;
+    this.mesh.add(mesh);
+    this.ghosts.set(name, mesh);
   }
 
   /// Transparent bodies are drawn after what is behind them; `isVeiled` shows only the nearest surface of this one.
@@ -150,6 +154,10 @@ export class SceneBody {
     return new BufferGeometry().setAttribute("position", new BufferAttribute(positions, 3)).setIndex(corners);
   }
 
+  hasGhost(name: string): boolean {
+    return this.ghosts.has(name);
+  }
+
   isHidden(vertex: number): boolean {
     return this.hidden.getX(vertex) === 1;
   }
@@ -166,7 +174,7 @@ export class SceneBody {
 
   setClipping(planes: Plane[]): void {
     this.mesh.material.clippingPlanes = this.veil.material.clippingPlanes = planes;
-    if (this.ghost) (this.ghost.material as MeshLambertMaterial).clippingPlanes = planes;
+    for (const ghost of this.ghosts.values()) (ghost.material as MeshLambertMaterial).clippingPlanes = planes;
   }
 
   /// Value shown at a vertex.

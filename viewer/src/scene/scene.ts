@@ -277,9 +277,9 @@ export class JointScene {
     this.draw();
   }
 
-  /// Another state of a body, such as before a change, transparent; in the body's frame. Null: none.
-  setGhost(body: BodyName, ghost: Ghost | null): void {
-    this.bodies[body].setGhost(ghost);
+  /// Another state of a body, such as before a change, transparent; in the body's frame. Null: none. Ghosts of other names stay.
+  setGhost(body: BodyName, ghost: Ghost | null, name = "before"): void {
+    this.bodies[body].setGhost(name, ghost);
     this.draw();
   }
 

@@ -1,0 +1,243 @@
+// Parts of a joint that are turned on the page, against the command with the same values.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, test } from "node:test";
+import { keep, openPage, openTab, pathOf, reports, root, settled, sharedBrowser } from "./browser.mjs";
+import { readReport } from "./report_block.mjs";
+
+const browser = await sharedBrowser();
+const folder = mkdtempSync(join(tmpdir(), "condyle-parts-"));
+after(() => rmSync(folder, { recursive: true }));
+
+const table = "Limits as in the report and with parts turned", title = "Turn the parts";
+const files = { tilted: "sample/tilts.toml", placed: "placed/hip.toml", turned: "sample/turned.toml" };
+const command = (...words) => execFileSync(join(root, "build/release/condyle"), words, { encoding: "utf8", stdio: ["ignore", "pipe", "ignore"] });
+const jointFile = (name) => join(reports, files[name]);
+
+async function opened(name, options = {}) {
+  const { page, complaints } = await openPage(browser, pathOf(name), { width: 1440, height: 900, reducedMotion: "reduce", ...options });
+  await settled(page);
+  await openTab(page, "Plan");
+  await openFold(page, title);
+  return { page, complaints };
+}
+
+async function openFold(page, name) {
+  const summary = page.locator("summary", { hasText: name });
+  if (!(await summary.evaluate((element) => element.parentElement.open))) await summary.click();
+}
+
+const panel = (page, name = title) => page.getByRole("region", { name, exact: true });
+const field = (page, name) => panel(page).getByRole("spinbutton", { name, exact: true });
+
+/// Does something, and waits until every limit after the last change is there.
+async function changed(page, act) {
+  const region = panel(page);
+  await region.evaluate((element) => delete element.dataset.allAfter);
+  await act();
+  await page.waitForFunction((element) => element.dataset.allAfter !== undefined, await region.elementHandle());
+}
+
+/// Types values into fields, one after the other.
+async function set(page, values) {
+  for (const [name, value] of Object.entries(values)) await changed(page, () => field(page, name).fill(String(value)));
+  await settled(page);
+}
+
+function questionOf(text, motion) {
+  return {
+    start: text.coordinates.map(({ name }) => motion.start_deg[name] ?? 0), vary: text.coordinates.findIndex(({ name }) => name === motion.vary),
+    positive: motion.sense === "positive", range_deg: motion.range_deg,
+  };
+}
+
+/// The limits that the core has now, by the names of motions.
+async function limitsNow(page, text) {
+  const limits = {};
+  for (const motion of text.rom.motions)
+    limits[motion.name] = (await page.evaluate((limit) => condyle.query({ of: "limit", limit }), questionOf(text, motion))).turned_deg;
+  return limits;
+}
+
+/// Those of the command.
+function limitsOf(name, set) {
+  const { motions } = JSON.parse(command("rom", jointFile(name), "--set", set, "--json"));
+  return Object.fromEntries(motions.map((motion) => [motion.name, motion.limit_deg]));
+}
+
+const reported = ({ rom }) => Object.fromEntries(rom.motions.map(({ name, limit_deg }) => [name, limit_deg]));
+
+function rowsOf(page) {
+  return page.getByRole("region", { name: table, exact: true }).locator("tbody tr").evaluateAll((rows) =>
+    rows.map((row) => [...row.cells].map(({ textContent }) => textContent)));
+}
+
+const vertices = (page, body) => page.evaluate((name) => Array.from(condyle.scene.bodies[name].surface.vertices), body);
+const hasGhost = (page, body) => page.evaluate((name) => condyle.scene.bodies[name].hasGhost("parts"), body);
+
+const cases = [
+  { name: "tilted", values: { "pelvis tilt, degrees": -7.3 }, set: "pelvis.tilt=-7.3" },
+  { name: "placed", values: { "cup inclination, degrees": 47.5, "cup anteversion, degrees": 21, "stem version, degrees": 9.25 },
+    set: "cup.inclination=47.5 cup.anteversion=21 stem.version=9.25" },
+  { name: "turned", values: { "pelvis frontal, degrees": 3.7, "pelvis tilt, degrees": 4.1, "pelvis version, degrees": -5.3, "pelvis size": 1.004,
+    "pelvis lateral, mm": 0.4, "femur version, degrees": 12.6, "femur frontal, degrees": 2.2 },
+    set: "pelvis.frontal=3.7 pelvis.tilt=4.1 pelvis.version=-5.3 pelvis.size=1.004 pelvis.lateral=0.4 femur.version=12.6 femur.frontal=2.2" },
+];
+
+for (const { name, values, set: words } of cases)
+  test(`${name}: with parts turned every limit and every vertex is that of the command, to the bit, and back those of the report`, async () => {
+    const { page, complaints } = await opened(name);
+    const { text, array } = readReport(pathOf(name));
+    await set(page, values);
+    const expected = limitsOf(name, words), now = await limitsNow(page, text), before = reported(text);
+    assert.deepEqual(now, expected);
+    assert.notDeepEqual(now, before);
+    const rows = await rowsOf(page);
+    text.rom.motions.forEach(({ name: motion, reason }, i) => {
+      if (reason === "contact") assert.equal(rows[i][1], `${before[motion].toFixed(1)}°`);
+      assert.equal(rows[i][2].replace(/^>/, ""), rows[i][2].startsWith(">") ? `${Math.round(expected[motion])}°` : `${expected[motion].toFixed(1)}°`);
+    });
+    const other = join(folder, `${name}.html`);
+    command("report", jointFile(name), "--set", words, "--out", other);
+    for (const body of ["fixed", "mobile"])
+      assert.deepEqual(await vertices(page, body), [...readReport(other).array(`${body}_vertices`)], body);
+    assert.equal(await panel(page).getByLabel("On the command line").inputValue(), `--set "${words}"`);
+    await keep(page, `parts_${name}`);
+    await changed(page, () => page.getByRole("button", { name: "Back to the report's" }).click());
+    await settled(page);
+    assert.deepEqual(await limitsNow(page, text), before);
+    for (const body of ["fixed", "mobile"]) assert.deepEqual(await vertices(page, body), [...array(`${body}_vertices`)], body);
+    for (const [, was, is] of await rowsOf(page)) assert.equal(is, was);
+    assert.deepEqual(complaints, []);
+    await page.context().close();
+  });
+
+test("contact, free angles and colours are of the joint as it is turned", async () => {
+  const { page } = await opened("tilted"), { page: other } = await openPage(browser, pathOf("tilted"));
+  await settled(other);
+  await set(page, { "pelvis tilt, degrees": -10 });
+  // The pose of flexion f is that of flexion f + 20 without the tilt: bits differ, contact does not.
+  const at = (flexion) => ({ angles: [flexion, 0, 0], translation: [0, 0, 0] });
+  const contact = (where, flexion) => where.evaluate((at) => condyle.query({ of: "pose", at }).then(({ inContact }) => inContact), at(flexion));
+  const { text } = readReport(pathOf("tilted"));
+  const { limit_deg } = text.rom.motions.find(({ name }) => name === "flexion");
+  assert.equal(await contact(other, limit_deg + 10), true);
+  assert.equal(await contact(page, limit_deg + 10), false);
+  assert.equal(await contact(page, limit_deg + 20.1), true);
+  await page.context().close();
+  await other.context().close();
+});
+
+test("what turned is seen where it was, as a ghost, which can be hidden", async () => {
+  const { page } = await opened("placed");
+  assert.equal(await hasGhost(page, "fixed"), false);
+  await set(page, { "cup inclination, degrees": 55 });
+  assert.deepEqual([await hasGhost(page, "fixed"), await hasGhost(page, "mobile")], [true, false]);
+  await page.getByLabel("Show parts as in the report, seen through").uncheck();
+  assert.equal(await hasGhost(page, "fixed"), false);
+  await page.getByLabel("Show parts as in the report, seen through").check();
+  assert.equal(await hasGhost(page, "fixed"), true);
+  await changed(page, () => page.getByRole("button", { name: "Back to the report's" }).click());
+  assert.equal(await hasGhost(page, "fixed"), false);
+  await page.context().close();
+});
+
+test("a value outside of its range is refused in one line, and nothing turns", async () => {
+  const { page } = await opened("tilted");
+  const { text } = readReport(pathOf("tilted"));
+  await field(page, "pelvis tilt, degrees").fill("20.5");
+  assert.equal(await panel(page).locator("[role=status]").textContent(), "20.5° is not between −20° and 20°: not taken.");
+  assert.equal(await field(page, "pelvis tilt, degrees").getAttribute("aria-invalid"), "true");
+  assert.equal(await field(page, "pelvis tilt, degrees").getAttribute("aria-valuenow"), "10");
+  await settled(page);
+  assert.deepEqual(await limitsNow(page, text), reported(text));
+  await page.context().close();
+});
+
+test("the keyboard alone turns a part by its slider and its field", async () => {
+  const { page } = await opened("tilted");
+  const slider = page.getByRole("slider", { name: "Slider of pelvis tilt, degrees" });
+  await slider.focus();
+  await changed(page, () => page.keyboard.press("ArrowRight"));
+  assert.equal(await field(page, "pelvis tilt, degrees").getAttribute("aria-valuenow"), "10.5");
+  await field(page, "pelvis tilt, degrees").focus();
+  await changed(page, () => page.keyboard.press("ArrowDown"));
+  await changed(page, () => page.keyboard.press("ArrowDown"));
+  assert.equal(await slider.getAttribute("aria-valuetext"), "9.5°");
+  await page.context().close();
+});
+
+test("of parts, brush and centre one changes the joint at a time, and the others say why they wait", async () => {
+  const { page } = await opened("tilted");
+  await set(page, { "pelvis tilt, degrees": 5 });
+  for (const [name, heading] of [["Resect by brush", "Resect by brush"], ["Move the joint centre", "Move the joint centre"]]) {
+    await openFold(page, heading);
+    assert.equal(await panel(page, name).count(), 0, name);
+    assert.equal(await page.locator(".blocked:visible").textContent(), "Parts are turned: set them back to the report's values first.");
+  }
+  await openFold(page, title);
+  await changed(page, () => page.getByRole("button", { name: "Back to the report's" }).click());
+  await openFold(page, "Resect by brush");
+  await page.getByRole("button", { name: "Stroke where it ends" }).click();
+  await page.waitForFunction(() => /mm³ gone/.test(document.querySelector(".brush-said").textContent));
+  await openFold(page, title);
+  assert.equal(await panel(page).count(), 0);
+  assert.equal(await page.locator(".blocked:visible").textContent(), "The brush has taken bone: undo its strokes first.");
+  await openFold(page, "Resect by brush");
+  await page.getByRole("button", { name: "Undo stroke" }).click();
+  await page.waitForFunction(() => /^No bone is taken/.test(document.querySelector(".brush-said").textContent));
+  await openFold(page, "Move the joint centre");
+  await page.getByRole("button", { name: "+0.5 mm superior" }).click();
+  await openFold(page, title);
+  assert.equal(await page.locator(".blocked:visible").textContent(), "The joint centre is moved: set it back first.");
+  await openFold(page, "Move the joint centre");
+  await page.getByRole("button", { name: "Back to the centre" }).click();
+  await openFold(page, title);
+  await set(page, { "pelvis tilt, degrees": 3 });
+  assert.deepEqual(await limitsNow(page, readReport(pathOf("tilted")).text), limitsOf("tilted", "pelvis.tilt=3"));
+  await page.context().close();
+});
+
+for (const { name, values } of cases)
+  test(`${name}: the saved joint file has the meshes as given and the values as set`, async () => {
+    const { page } = await opened(name);
+    const { text } = readReport(pathOf(name));
+    await set(page, values);
+    const downloads = [];
+    page.on("download", (download) => downloads.push(download));
+    await page.getByRole("button", { name: "Save meshes as given, STL" }).click();
+    await page.getByRole("button", { name: "Save joint file" }).click();
+    const meshes = ["fixed", "mobile"].reduce((sum, body) => sum + Math.max(1, text.parts[body].length), 0);
+    while (downloads.length < meshes + 1) await page.waitForTimeout(50);
+    const into = mkdtempSync(join(folder, "saved-"));
+    for (const download of downloads) await download.saveAs(join(into, download.suggestedFilename()));
+    const now = await limitsNow(page, text);
+    // Meshes are kept in single precision: 24 bits of some 100 mm are 1e-5 mm, and limits on a flat contact move by some hundred times that.
+    for (const { name: motion, limit_deg } of JSON.parse(command("rom", join(into, "turned.toml"), "--json")).motions)
+      assert.ok(Math.abs(limit_deg - now[motion]) < 0.01, `${motion}: ${limit_deg} and ${now[motion]}`);
+    await page.context().close();
+  });
+
+test("nothing of the parts scrolls on a window 900 pixels high", async () => {
+  for (const { name, values } of cases) {
+    const { page } = await opened(name);
+    await set(page, values);
+    assert.deepEqual(await page.locator("#panel-plan").evaluate((element) => [element.scrollHeight <= element.clientHeight + 1, element.scrollWidth <= element.clientWidth + 1]),
+      [true, true], name);
+    await page.context().close();
+  }
+});
+
+test("without parts, and where nothing can be computed, no parts are offered", async () => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  await settled(page);
+  await openTab(page, "Plan");
+  assert.equal(await page.locator("summary", { hasText: title }).count(), 0);
+  await page.context().close();
+  const { page: still } = await openPage(browser, pathOf("tilted"), { script: "delete globalThis.WebAssembly", answers: false });
+  assert.equal(await still.locator("summary", { hasText: title }).count(), 0);
+  await still.context().close();
+});

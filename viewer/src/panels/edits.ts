@@ -1,0 +1,64 @@
+import type { CoreClient } from "../core/client";
+import type { Brushed, JointArrays, Turned } from "../core/protocol";
+import { named } from "../dom";
+import type { Report, ReportText } from "../report";
+import type { BodyName, JointScene } from "../scene/scene";
+import { words } from "../words";
+import { BrushPanel } from "./brush";
+import { CentrePanel } from "./centre";
+import { questionsOf } from "./live_limits";
+import { PartsPanel } from "./parts";
+import { addPlanPanel, setBlocked } from "./plan_tab";
+
+export interface Edited {
+  core: CoreClient;
+  scene: JointScene | null;
+  text: ReportText;
+  arrays: JointArrays;
+  /// Holds arrays of a plan; none of a joint dropped on the page.
+  report: Report | null;
+  /// A bone is another one now, or both bodies are; `rests` once the hand does.
+  brushed: (brushed: Brushed, rests: boolean) => void;
+  turned: (turned: Turned, rests: boolean) => void;
+}
+
+type Change = "parts" | "brush" | "centre";
+
+/// What changes the joint by hand, where limits are exact and nothing lies on the bones.
+export function addEditPanels({ core, scene, text, arrays, report, brushed, turned }: Edited): void {
+  const { rom, layers, plan, joint, posed } = text;
+  if (!rom || rom.exact === false || layers || questionsOf(text).length === 0) return;
+  const changes: Record<Change, boolean> = { parts: false, brush: false, centre: false };
+  const strokes = { fixed: 0, mobile: 0 };
+  /// What turns parts does not work beside what takes bone or moves the centre.
+  const mark = (what: Change, isChanged: boolean) => {
+    if (changes[what] === isChanged || !parts) return;
+    changes[what] = isChanged;
+    setBlocked(parts.element, changes.brush ? words.brushFirst : changes.centre ? words.centreFirst : null);
+    for (const other of [brush, centre]) if (other) setBlocked(other.element, changes.parts ? words.partsFirst : null);
+  };
+  const parts = posed ? new PartsPanel(core, scene, { text, arrays, posed, turned: (is) => mark("parts", is), changed: turned }) : null;
+  const centre = joint.kind === "free" ? null : new CentrePanel(core, text, (is) => mark("centre", is));
+  // A brush does not know an implant from bone.
+  const brush = rom.implant ? null : new BrushPanel(core, scene, {
+    text, arrays, names: { fixed: named(joint.fixed), mobile: named(joint.mobile) },
+    before: { fixed: beforePlan(report, arrays, "fixed"), mobile: beforePlan(report, arrays, "mobile") },
+    limitsBefore: new Map((plan?.limits ?? []).map(({ motion, before }) => [motion, before])),
+    changed: (bone, rests) => {
+      strokes[bone.body] = bone.steps;
+      mark("brush", strokes.fixed + strokes.mobile > 0);
+      brushed(bone, rests);
+    },
+    limited: (limits) => centre?.setBefore(limits),
+  });
+  for (const panel of [brush, parts, centre]) if (panel) addPlanPanel(panel.element);
+}
+
+/// Where the surface of a bone was before a plan cut it; null of one that is as it was.
+function beforePlan(report: Report | null, arrays: JointArrays, body: BodyName): Float64Array | null {
+  const cut = report?.text.plan?.surfaces[body];
+  if (!cut) return null;
+  const xyz = arrays[body].vertices.slice(), before = report.array(cut.before, "f64");
+  report.array(cut.lowered, "u32").forEach((vertex, i) => xyz.set(before.subarray(3 * i, 3 * i + 3), 3 * vertex));
+  return xyz;
+}

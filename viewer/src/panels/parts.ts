@@ -1,0 +1,154 @@
+import type { CoreClient } from "../core/client";
+import type { Details, JointArrays, Turned } from "../core/protocol";
+import { button, checkbox, html, section } from "../dom";
+import { jointFileOf, meshFilesOf, stlOf } from "../joint_file";
+import type { ReportText, StoredPosed } from "../report";
+import { save, saveBlob } from "../save";
+import { bodyNames, type JointScene } from "../scene/scene";
+import { words } from "../words";
+import { LiveLimits, questionsOf } from "./live_limits";
+import { ParameterRow } from "./parameter_row";
+
+const ghostName = "parts";
+
+export interface PartsOptions {
+  text: ReportText;
+  arrays: JointArrays;
+  posed: StoredPosed;
+  /// Parts are to stand otherwise than in the report, or as there again.
+  turned: (isTurned: boolean) => void;
+  /// Both bodies are these now; `rests` once no other value waits.
+  changed: (turned: Turned, rests: boolean) => void;
+}
+
+/// Sliders of the joint's parts: every value is set as `--set` sets it, and each motion is shown before and after, live. What turned is seen where it was, as
+/// a ghost.
+export class PartsPanel {
+  readonly element: HTMLElement;
+  private readonly limits: LiveLimits;
+  private readonly asked;
+  private readonly rows: ParameterRow[];
+  private readonly said = html("p", { role: "status", class: "small" });
+  private readonly option = html("input", { type: "text", readonly: true, class: "command", "aria-label": words.partsCommand });
+  private readonly took = html("span", { class: "small", "aria-hidden": "true" });
+  private readonly ghost: HTMLInputElement;
+  /// Where the bodies are now.
+  private now: Turned | null = null;
+  private isBusy = false;
+  private waits = false;
+
+  constructor(private readonly core: CoreClient, private readonly scene: JointScene | null, private readonly options: PartsOptions) {
+    const { text, posed } = options;
+    this.asked = questionsOf(text);
+    const motions = this.asked.map(({ motion }) => motion);
+    this.limits = new LiveLimits(words.partsLimits, words.gained, motions, motions, motions, "");
+    this.rows = posed.parts.flatMap((part) => part.parameters.map((parameter) =>
+      new ParameterRow(part.name, parameter, () => this.ask(), (why) => (this.said.textContent = why ?? ""))));
+    const shows = checkbox(words.showAsReported, true, () => this.showGhosts());
+    this.ghost = shows.querySelector("input")!;
+    const canSave = posed.parts.every(({ is_cut }) => !is_cut);
+    this.element = section(words.parts,
+      html("div", { class: "parameter-rows" }, ...this.rows.map(({ element }) => element)),
+      html("div", { class: "row no-print" }, button(words.partsReset, () => this.reset()), ...(scene ? [shows] : [])),
+      this.said, this.limits.element,
+      html("p", { class: "small" }, text.rom?.implant ? "" : `${words.osseousOnly} `, words.partsNote, " ", this.took),
+      html("p", { class: "small command-row" }, html("span", { "aria-hidden": "true" }, `${words.partsCommand}:`), this.option),
+      ...(canSave ? [html("div", { class: "row no-print" }, button(words.saveGivenStl, () => this.saveMeshes()),
+        button(words.saveJointFile, () => void this.saveJointFile()))] : []));
+    this.element.classList.add("edit-panel");
+    this.showOption();
+  }
+
+  /// Of each parameter its value now, by "cup.inclination".
+  get values(): Map<string, number> {
+    return new Map(this.rows.map(({ name, value }) => [name, value]));
+  }
+
+  /// Other values of some parameters, as by hand.
+  set(values: ReadonlyMap<string, number>): void {
+    for (const row of this.rows) {
+      const value = values.get(row.name);
+      if (value !== undefined) row.show(value);
+    }
+    this.ask();
+  }
+
+  private reset(): void {
+    this.set(new Map(this.rows.map(({ name, reported }) => [name, reported])));
+  }
+
+  private textOf(rows: readonly ParameterRow[]): string {
+    return rows.map(({ name, value }) => `${name}=${value}`).join(" ");
+  }
+
+  /// The words of the command line that have these values, beside the file's own.
+  private showOption(): void {
+    const differing = this.rows.filter(({ value, inFile }) => value !== inFile);
+    this.option.value = differing.length ? `--set "${this.textOf(differing)}"` : words.partsAsInFile;
+  }
+
+  /// One set of values is under way at a time; of those meanwhile only the latest is looked at.
+  private ask(): void {
+    this.showOption();
+    this.options.turned(this.rows.some(({ isTurned }) => isTurned));
+    this.waits = true;
+    if (!this.isBusy) this.send();
+  }
+
+  private send(): void {
+    const { asked } = this, begun = performance.now();
+    this.waits = false;
+    this.isBusy = true;
+    this.limits.wait();
+    const done = () => {
+      this.isBusy = false;
+      if (this.waits) this.send();
+    };
+    this.core.edit({ of: "parts", values: this.textOf(this.rows.filter(({ isTurned }) => isTurned)) }, asked.map(({ question }) => question), {
+      edited: (turned) => this.take(turned as Turned),
+      limit: (i, limit) => {
+        this.limits.showLimit(i, limit);
+        if (i < asked.length - 1) return;
+        this.took.textContent = words.tookAll((performance.now() - begun).toFixed(0));
+        if (!this.waits) this.element.dataset["allAfter"] = (performance.now() - begun).toFixed(1);
+        done();
+      },
+      failed: (message) => {
+        this.said.textContent = message;
+        done();
+      },
+    });
+  }
+
+  private take(turned: Turned): void {
+    this.now = turned;
+    this.options.changed(turned, !this.waits);
+    this.showGhosts();
+  }
+
+  /// Of the bodies that stand otherwise than in the report.
+  private showGhosts(): void {
+    for (const body of bodyNames) {
+      const { vertices, triangles } = this.options.arrays[body];
+      const isOther = this.now !== null && this.now[body].some((value, i) => value !== vertices[i]);
+      const shown = isOther && this.ghost.checked;
+      if (shown !== this.scene?.bodies[body].hasGhost(ghostName)) this.scene?.setGhost(body, shown ? { vertices, triangles } : null, ghostName);
+    }
+  }
+
+  /// As given: the joint file says where its parts stand.
+  private saveMeshes(): void {
+    const { arrays, text } = this.options;
+    for (const body of bodyNames)
+      for (const { name, part } of meshFilesOf(body, text.parts[body], "given")) {
+        const vertices = arrays.posed![body].vertices ?? arrays[body].vertices;
+        saveBlob(name, stlOf({ vertices, triangles: arrays[body].triangles }, part, `condyle ${text.version} ${body} as given`));
+      }
+  }
+
+  private async saveJointFile(): Promise<void> {
+    const { text, posed } = this.options;
+    const { pose } = (await this.core.query({ of: "pose", at: { angles: text.reference_deg, translation: text.reference_mm } })) as Details;
+    save("turned.toml", "application/toml", jointFileOf(text, Array.from(pose), text.version, { posed, values: this.values }));
+  }
+}
