@@ -105,6 +105,7 @@ void report(const RangeHandle& range, const JointHandle& handle, const std::file
                 .rom = &rom,
                 .bearing_margin_mm = request.range.bearing.margin_mm,
                 .labels = report_labels_of(labels)};
+    if (file.recorded_motion) page.recorded_motion = &*file.recorded_motion;
     std::optional<MeasureAnswer> measures;
     std::optional<MeasureResult> shape;
     if (with_measures) {

@@ -5,7 +5,7 @@ import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { deflateSync } from "node:zlib";
-import { axeSource, keep, openPage, reports, root, settled, sharedBrowser } from "./browser.mjs";
+import { angleOf, axeSource, keep, openPage, reports, root, settled, sharedBrowser } from "./browser.mjs";
 import { makeLabelMaps } from "./label_maps.mjs";
 
 const condyle = join(root, "build/release/condyle");
@@ -228,6 +228,14 @@ function limitsOfLabels(name, ...words) {
   return JSON.parse(execFileSync(condyle, ["rom", joint, "--json"], { stdio: ["ignore", "pipe", "ignore"] })).motions;
 }
 
+/// And for the meshes of the sample.
+function limitsOfMeshes() {
+  const joint = join(reports, "replaced.toml");
+  rmSync(joint, { force: true });
+  execFileSync(condyle, ["init", ...sampleFiles, "--out", joint], { stdio: "ignore" });
+  return JSON.parse(execFileSync(condyle, ["rom", joint, "--json"], { stdio: ["ignore", "pipe", "ignore"] })).motions;
+}
+
 async function assertLimits(page, motions) {
   await answered(page);
   await settled(page);
@@ -333,5 +341,33 @@ test("damaged label maps, images that are none, and a mesh beside one are refuse
   await drop(page, [maps.named]);
   await answered(page);
   assert.equal(await page.getByRole("alert").count(), 0);
+  await page.context().close();
+});
+
+test("meshes dropped on a report take its place once that is confirmed, with the command's limits, and the page says so until it is reloaded", async () => {
+  const { page, complaints, requests } = await openPage(browser, join(reports, "shifted.html"), { width: 1440, height: 900, fragment: "#flexion=40" });
+  await settled(page);
+  const heading = await page.locator("#title").textContent(), motions = limitsOfMeshes();
+  await drop(page, sampleFiles);
+  const open = page.getByRole("button", { name: "Open in its place" });
+  await open.waitFor();
+  assert.equal(await page.locator("#title").textContent(), heading);
+  await open.click();
+  await page.waitForFunction(() => /femur.ply/.test(document.getElementById("title").textContent));
+  await page.waitForFunction(() => globalThis.condyle && document.querySelectorAll(".tile").length === 12);
+  await settled(page);
+  await assertLimits(page, motions);
+  for (const place of ["#messages", "#scope"]) assert.match(await page.locator(place).textContent(), /What is shown is no longer the report of this file/);
+  assert.equal(await page.getByRole("button", { name: "Save copy" }).count(), 0);
+  assert.equal(await page.locator("#scene > canvas").count(), 1);
+  assert.equal(await angleOf(page, "flexion"), 0);
+  await keep(page, "replaced");
+  await drop(page, sampleFiles);
+  await page.getByRole("alert").waitFor();
+  assert.match(await page.getByRole("alert").textContent(), /reload it, then drop others/);
+  assert.deepEqual(complaints, []);
+  assert.deepEqual(requests, []);
+  await page.reload();
+  await page.waitForFunction((wanted) => document.getElementById("title").textContent === wanted, heading);
   await page.context().close();
 });

@@ -3,6 +3,7 @@ import { lineOf } from "./core/error_line";
 import type { BothValues, Brushed, Coordinates, JointArrays, MapQuestion, MotionFrames, Proposal, Query, ShownQuantity, Turned, Values } from "./core/protocol";
 import { button, checkbox, choice, fold, html, named, section, shortened, spaced } from "./dom";
 import { jointArraysOf } from "./joint_arrays";
+import { clearMessages, post, warn } from "./messages";
 import { blockOf, copiedOf, countOf, type Copied, type UserNotes } from "./notes_block";
 import { clockTime, fixed } from "./numbers";
 import { keepPage, notesBlock, pageWith } from "./page_copy";
@@ -18,7 +19,7 @@ import { actions, copyLink, headingOf, listenToKeys } from "./panels/header";
 import { MotionPanel } from "./panels/motion";
 import { NotesPanel } from "./panels/notes";
 import { numberFolds } from "./panels/numbers";
-import { catchDrops } from "./panels/page_drop";
+import { takeDrops } from "./panels/report_drop";
 import { Paper } from "./panels/paper";
 import { PlanPanel } from "./panels/plan";
 import { addPlanPanel } from "./panels/plan_tab";
@@ -57,20 +58,6 @@ function found<T extends HTMLElement>(id: string): T {
 
 function textOf(id: string): string | null {
   return document.getElementById(id)?.textContent ?? null;
-}
-
-/// A line over the scene: nothing else moves for it.
-function post(role: "alert" | "status", message: string, ...parts: HTMLElement[]): void {
-  const line = html("p", { class: "warning" }, html("span", { role }, message), ...parts);
-  if (role === "status") found("messages").querySelectorAll("[role=status]").forEach((old) => old.parentElement!.remove());
-  line.append(button("×", () => line.remove(), { "aria-label": words.dismiss, class: "quiet-button" }));
-  found("messages").append(line);
-}
-
-function warn(message: string): void {
-  // The same line once.
-  const known = [...found("messages").querySelectorAll("[role=alert]")];
-  if (!known.some(({ textContent }) => textContent === message)) post("alert", message);
 }
 
 /// A scene, or only a line if the browser shows none.
@@ -174,6 +161,7 @@ class Page {
     this.scene?.canvas.getContext("webgl2")?.getExtension("WEBGL_lose_context")?.loseContext();
     for (const place of ["scene", "strip-place", "view-tools", "legend-place", "side", "paper", "actions"]) found(place).replaceChildren();
     found("help").remove();
+    document.body.classList.remove("wide");
   }
 
   /// Whether the page is about load: it opens on the recorded motion.
@@ -668,21 +656,22 @@ function isCoreDamage(error: unknown): boolean {
   return error instanceof CoreDamage || /Aborted|WebAssembly|CompileError/.test(lineOf(error));
 }
 
-/// The page without a joint takes one from files.
-function openEmpty(): void {
-  if (!canCompute) return warn(words.noWebAssemblyToRead);
+/// The page without a joint takes one from files; `shown` is called once it shows one. Returns what takes files.
+function openEmpty(shown: () => void = () => undefined): DropPanel | undefined {
+  if (!canCompute) return void warn(words.noWebAssemblyToRead);
   found("title").textContent = words.noData;
   found("scene").append(html("p", { class: "drop-hint" }, words.dropHint));
   const warnOnly = (message: string) => {
-    found("messages").replaceChildren();
+    clearMessages();
     warn(message);
   };
   const refuse = (error: unknown) => warnOnly(isCoreDamage(error) ? words.coreDamagedToRead : lineOf(error));
   const show = (core: CoreClient, proposal: Proposal) => {
-    found("messages").replaceChildren();
+    clearMessages();
     panel.element.remove();
     found("scene").replaceChildren();
     new Page(textOfProposal(proposal), proposal.joint, null, true).compute(core);
+    shown();
   };
   const panel = new DropPanel(async (fixedFile, mobileFile, side) => {
     try {
@@ -695,6 +684,7 @@ function openEmpty(): void {
     }
   }, new LabelDrop(wasmBytes, show, refuse), warnOnly);
   found("side").append(panel.element);
+  return panel;
 }
 
 /// What a copy was saved with; null of a page that is none. It opens with the view of then, unless the address says another.
@@ -719,18 +709,26 @@ async function open(): Promise<void> {
   found("skip").textContent = words.skip;
   found("scope").textContent = words.footer;
   const data = textOf("condyle-data");
-  if (data === null) return openEmpty();
+  if (data === null) return void openEmpty();
   const report = await Report.read(data);
   const arrays = jointArraysOf(report), copied = copiedWith(arrays);
   const newPage = (computes: boolean, added: Added) => new Page(report.text, arrays, report, computes, added);
   let page = newPage(canCompute, { notes: copied ?? undefined });
   if (copied) page.sayIsCopy(copied);
   const compute = async () => page.compute(await CoreClient.open(await wasmBytes(), structuredClone(arrays)));
-  // A file that misses its mark does not replace the report.
-  takeDrops((file) => page.readMotion(file), async (motion) => {
-    page = newPage(true, { notes: page.handOver(), motion });
-    await compute();
-    page.playFromStart();
+  const drops = new AbortController();
+  takeDrops({
+    signal: drops.signal, computes: canCompute, read: (file) => page.readMotion(file),
+    play: async (motion) => {
+      page = newPage(true, { notes: page.handOver(), motion });
+      await compute();
+      page.playFromStart();
+    },
+    replace: (files) => {
+      drops.abort();
+      page.close();
+      replaceReport(files);
+    },
   });
   if (!canCompute) return page.useStoredPoses(words.noWebAssembly);
   try {
@@ -741,21 +739,13 @@ async function open(): Promise<void> {
   }
 }
 
-/// Motion files that are dropped on a report are played on its joint, one at a time; others are refused in a line.
-function takeDrops(
-  read: (file: File) => Promise<{ motion: RecordedMotion; remarks: string[] }>, play: (motion: RecordedMotion) => Promise<void>): void {
-  let isBusy = false;
-  catchDrops((files) => {
-    const [file] = files;
-    if (files.length !== 1 || !/\.(mot|sto|csv|tsv)$/i.test(file!.name)) return warn(words.dropOnReport);
-    if (isBusy) return warn(words.dropBusy);
-    isBusy = true;
-    read(file!).then(async ({ motion, remarks }) => {
-      await play(motion);
-      found("messages").replaceChildren();
-      post("status", [words.motionPlays(named(file!.name), motion.times.length), ...remarks].join(" "));
-    }).catch((error: unknown) => warn(lineOf(error))).finally(() => (isBusy = false));
-  });
+/// As on the page without a joint. The line in the foot stays.
+function replaceReport(files: File[]): void {
+  // Another joint has another view.
+  history.replaceState(null, "", "#");
+  clearMessages();
+  found("scope").textContent = `${words.footer} ${words.notTheReport}`;
+  void openEmpty(() => post("status", words.notTheReport))?.add(files);
 }
 
 open().catch((error: unknown) => {

@@ -102,8 +102,11 @@ export const words = {
   planDetails: "Limits and notes of the plan",
   measures: "Measures of the hip",
   dropOnReport:
-    "This page shows a joint and takes one motion file of it (.mot, .sto, .csv), and no others. To look at other bones open a page without a joint: " +
-    "condyle report --empty.",
+    "This page shows a joint and takes a motion file of it (.mot, .sto, .csv), or the meshes or label maps of another hip, and no others: of a joint file " +
+    "make a page by condyle report.",
+  replaceReport: (names: string) => `${names}: opened, they take the place of the joint of this report, and notes that were not saved go. The page reloaded has the report again.`,
+  replaceReportButton: "Open in its place",
+  notTheReport: "What is shown is no longer the report of this file, but the joint of files that were dropped: reload the page to have the report back.",
   dropNeedsCore: (name: string) => `${name}: this page cannot compute, and so reads no motion files.`,
   motionPlays: (name: string, count: number) =>
     `${name}, a file that was dropped, plays on this joint: ${count} ${count === 1 ? "frame" : "frames"}, no part of the report. Reload the page for the report as it was; ` +

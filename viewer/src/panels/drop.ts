@@ -3,6 +3,11 @@ import type { DroppedFile, SideChoice } from "../core/protocol";
 import { words } from "../words";
 import { isLabelMap, type LabelDrop } from "./label_drop";
 
+/// Whether a file of this name is a mesh.
+export function isMesh(name: string): boolean {
+  return /\.(stl|obj|ply|vtp|vtk)$/i.test(name);
+}
+
 /// Where files are dropped or chosen: two meshes, the fixed bone first if they come one by one, or label maps.
 export class DropPanel {
   readonly element: HTMLElement;
@@ -38,7 +43,8 @@ export class DropPanel {
     });
   }
 
-  private async add(files: readonly File[]): Promise<void> {
+  /// As if they were dropped.
+  async add(files: readonly File[]): Promise<void> {
     if (files.length === 0) return;
     if (this.state !== "open") return this.refuse(this.state === "busy" ? words.dropBusy : words.dropDone);
     const maps = files.filter(({ name }) => isLabelMap(name));
