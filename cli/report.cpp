@@ -26,6 +26,8 @@
 #include "io/joint/measure_request.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/report/report.hpp"
+#include "io/sweep/sweep_result.hpp"
+#include "io/sweep/target_table.hpp"
 #include "notes.hpp"
 #include "range.hpp"
 #include "range_options.hpp"
@@ -40,7 +42,7 @@ enum class Content { joint, nothing };
 struct ReportArguments {
   ParameterArguments parameters;
   Content content = Content::joint;
-  std::string first, second, out, motion;
+  std::string first, second, out, motion, sweep, targets;
   std::optional<std::string> title;
   ReportLabels labels;
   bool with_pressure = false, measures = false;
@@ -179,6 +181,31 @@ MeasureAnswer measured(const ReportArguments& options, const LoadedJoint& loaded
   });
 }
 
+/// As `condyle sweep` asks; nothing without --sweep.
+std::optional<SweepQuery> swept(const ReportArguments& options, const LoadedJoint& loaded,
+                                const RangeRequest& range) {
+  if (options.sweep.empty()) return std::nullopt;
+  if (options.has_plan())
+    throw UsageError("--sweep: not with --resect, whose bone is cut where its parts are");
+  if (options.with_pressure)
+    throw UsageError("--sweep: not with --load, whose layers lie on the joint as it is");
+  SweepQuery query{.parameters = parse_sweep(options.sweep),
+                   .targets = io::read_targets(options.targets, known_motions(loaded), loaded.joint.kind,
+                                               loaded.joint.anatomy),
+                   .range = range.range};
+  check_shown_sweep(query.parameters, query.targets.size());
+  io::name_joint_file(options.joint(), [&] { check_sweep(loaded.joint, query); });
+  return query;
+}
+
+SweepResult answered_sweep(const LoadedJoint& loaded, const SweepQuery& query) {
+  SweepAnswer answer = followed_by_stage([&](const AnswerControl& control) {
+    return answer_sweep(loaded.joint, loaded.report.placement, query, control);
+  });
+  for (const SweepNote& each : answer.notes) note(fmt::format("{}: {}", name_of(each.code), each.text));
+  return sweep_result_of(loaded, std::move(answer), query, {}, nullptr);
+}
+
 void report_command(const ReportArguments& options, const CLI::App& command) {
   if (options.content == Content::nothing) return write_empty(options, command);
   if (options.joint().empty()) throw UsageError("report: JOINT is required, or --empty");
@@ -193,10 +220,11 @@ void report_command(const ReportArguments& options, const CLI::App& command) {
   std::optional<Followed> follows;
   io::name_joint_file(options.joint(),
                       [&] { follows.emplace(*options.follow, loaded, io::MotionsAre::all, request); });
+  const std::optional<SweepQuery> sweep_query = swept(options, loaded, request);
   const std::string whose = before ? options.joint() + ": " : "";
   const std::vector<JointNote> notes = noted(loaded, options.strictness, whose);
   Provenance from = provenance_of(loaded, words_of(command));
-  for (const std::string& file : {options.motion, options.follow->record})
+  for (const std::string& file : {options.motion, options.follow->record, options.targets})
     if (!file.empty()) from.read.emplace_back(file);
   if (before) from.read.insert(from.read.end(), before->files().begin(), before->files().end());
   // Where the file cannot be written is reported before the work, not after it.
@@ -244,6 +272,8 @@ void report_command(const ReportArguments& options, const CLI::App& command) {
                 .labels = options.labels};
   if (loaded.report.file.recorded_motion) report.recorded_motion = &*loaded.report.file.recorded_motion;
   if (before) report.before.emplace(before->answered(request));
+  std::optional<SweepResult> sweep;
+  if (sweep_query) report.sweep = &sweep.emplace(answered_sweep(loaded, *sweep_query));
   if (layers) report.layers.emplace(std::move(*layers));
   if (recorded)
     report.recorded.emplace(ReportedMotion{std::filesystem::path(options.motion).filename().string(),
@@ -307,6 +337,19 @@ void add_report(CLI::App& app) {
       "--load", [options] { options->with_pressure = true; },
       "Show pressure too, with the layers of the joint file: as a colour in any pose, and with --motion in "
       "its curves");
+  CLI::Option* sweep =
+      command
+          ->add_option("--sweep", options->sweep,
+                       "Show which values of one or two parameters of parts leave all targets free, as "
+                       "condyle sweep --vary does: \"cup.inclination=30:60:5 cup.anteversion=0:40:5\"")
+          ->option_text("PART.PARAMETER=FIRST:LAST:STEP ...");
+  CLI::Option* targets = command
+                             ->add_option("--targets", options->targets,
+                                          "With --sweep: a CSV file with a row for each motion that must be "
+                                          "free, as condyle sweep takes it")
+                             ->option_text("FILE")
+                             ->needs(sweep);
+  sweep->needs(targets);
   command->add_flag("--measures", options->measures,
                     "Show the shape of a hip too, as condyle measure does, with bands if --band says so");
   CLI::Option* resect =
@@ -335,7 +378,8 @@ void add_report(CLI::App& app) {
   group_help(
       *command,
       {{"Most used", {"--out", "--band", "--map", "--motion", "--load"}},
-       {"Question", {"--set", "--vary", "--past", "--translation", "--measures", "--resect"}},
+       {"Question",
+        {"--set", "--vary", "--past", "--translation", "--measures", "--resect", "--sweep", "--targets"}},
        of_cut,
        uncertainty_group(),
        {"Centre not held", follow_names()},

@@ -34,6 +34,9 @@ parameter() { printf '[[part.parameter]]\nname = "%s"\nkind = "%s"\nrange = [%s]
 "$condyle" report "$out/sample/turned.toml" --out "$out/turned.html"
 "$condyle" implant "$out/sample/hip.toml" --facets 72 --out "$out/placed" >/dev/null
 "$condyle" report "$out/placed/hip.toml" --out "$out/placed.html"
+printf 'name,motion,reach_deg\nsitting,flexion,125\npivoting,external_rotation,50\nturning,internal_rotation_at_90_flexion,35\n' >"$out/targets.csv"
+"$condyle" report "$out/placed/hip.toml" --sweep "cup.inclination=30:60:5 cup.anteversion=-5:35:5" --targets "$out/targets.csv" --out "$out/swept.html"
+"$condyle" report "$out/sample/tilts.toml" --set pelvis.tilt=10 --sweep "pelvis.tilt=-20:20:4" --targets "$out/targets.csv" --out "$out/swept_tilt.html"
 printf '[recorded_motion]\n%s = { column = "flexion", unit = "deg" }\n%s = { column = "adduction", unit = "deg" }\n%s = { column = "rotation", unit = "deg" }\n' flexion adduction internal_rotation | cat "$out/sample/hip.toml" - >"$out/sample/moves.toml"
 printf 'time,flexion,adduction,rotation\n0,0,0,0\n0.1,20,5,0\n0.2,40,5,10\n' >"$out/sample/moves.csv"
 "$condyle" report "$out/sample/moves.toml" --motion "$out/sample/moves.csv" --out "$out/moves.html"

@@ -13,6 +13,7 @@
 #include "motion.hpp"
 #include "report_labels.hpp"
 #include "resection.hpp"
+#include "sweep.hpp"
 
 namespace condyle::python {
 namespace {
@@ -73,12 +74,24 @@ struct JointBefore {
   std::string error;
 };
 
+/// The sweep of a page; throws UsageError for one of another joint.
+SweepResult shown_sweep(const SweepHandle& sweep, const LoadedJoint& of_page) {
+  check_shown_sweep(sweep.query.parameters, sweep.query.targets.size());
+  const auto same = [](const Body& a, const Body& b) { return a.mesh.vertices() == b.mesh.vertices(); };
+  if (!same(sweep.loaded.joint.fixed, of_page.joint.fixed) ||
+      !same(sweep.loaded.joint.mobile, of_page.joint.mobile))
+    throw UsageError("sweep: it is that of another joint than the limits");
+  return sweep_result_of(sweep.loaded, sweep.answer, sweep.query, {}, nullptr);
+}
+
 void report(const RangeHandle& range, const JointHandle& handle, const std::filesystem::path& path,
             const std::optional<std::string>& title, const py::list& given, std::size_t band_samples,
             std::optional<std::uint64_t> seed, const std::optional<double>& past_deg, bool with_measures,
-            const PlanHandle* plan, const JointHandle* with, const LabelArguments& labels,
-            const py::object& progress) {
+            const PlanHandle* plan, const JointHandle* with, const SweepHandle* sweep,
+            const LabelArguments& labels, const py::object& progress) {
   const LoadedJoint& loaded = handle.loaded;
+  std::optional<SweepResult> swept;
+  if (sweep) swept = shown_sweep(*sweep, loaded);
   if (with) check_comparable(with->loaded.joint, with->loaded.joint.name, loaded.joint, loaded.joint.name);
   const JointFile& file = loaded.report.file;
   RangeRequest request = request_of(range, motions_in(given));
@@ -106,6 +119,7 @@ void report(const RangeHandle& range, const JointHandle& handle, const std::file
                 .bearing_margin_mm = request.range.bearing.margin_mm,
                 .labels = report_labels_of(labels)};
     if (file.recorded_motion) page.recorded_motion = &*file.recorded_motion;
+    if (swept) page.sweep = &*swept;
     std::optional<MeasureAnswer> measures;
     std::optional<MeasureResult> shape;
     if (with_measures) {

@@ -1,3 +1,5 @@
+#include "sweep.hpp"
+
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -21,13 +23,6 @@
 
 namespace condyle::python {
 namespace {
-
-/// A sweep as Python holds it, for its files.
-struct SweepHandle {
-  LoadedJoint loaded;
-  SweepQuery query;
-  SweepAnswer answer;
-};
 
 /// (name, first, last, step) of each, read as the command reads them: its words for what is wrong are these.
 std::vector<SweptParameter> parameters_in(const py::list& given) {

@@ -19,6 +19,7 @@ from ._limits import FreeAngles, Limit, MotionLimit, end_text, limit_of, motion_
 from ._motion import Motion, MotionLike, Motions
 from ._motion_map import MotionMap, map_of
 from ._resection import OfJoint, Resection
+from ._sweep import Sweep
 from ._words import Path, Progress, count, number, path_of, progress_of, report_labels, text_of
 
 if TYPE_CHECKING:
@@ -46,6 +47,17 @@ def _native_before(before: object, plan: Optional[Resection[OfJoint]]) -> Option
     if not isinstance(before, DescribedJoint):
         raise UsageError(f"before: a joint is needed, not {type(before).__name__}")
     return before._native
+
+
+def _native_sweep(sweep: object, plan: Optional[Resection[OfJoint]]) -> Optional[_native.Sweep]:
+    """The sweep whose safe zone a report shows."""
+    if sweep is None:
+        return None
+    if plan is not None:
+        raise UsageError("sweep: not with a plan, whose bone is cut where its parts are")
+    if not isinstance(sweep, Sweep):
+        raise UsageError(f"sweep: a condyle.Sweep is needed, not {type(sweep).__name__}")
+    return sweep._shown()
 
 
 class RangeOfMotion:
@@ -206,6 +218,7 @@ class RangeOfMotion:
     def write_report(self, path: Path, *, title: Optional[str] = None, band_samples: int = 0,
                      seed: Optional[int] = None, past_deg: Optional[float] = None, measures: bool = False,
                      plan: Optional[Resection[OfJoint]] = None, before: Optional[DescribedJoint] = None,
+                     sweep: Optional[Sweep] = None,
                      case: Optional[str] = None, note: Optional[str] = None, date: Optional[str] = None,
                      whole_paths: bool = False, progress: Progress = None) -> None:
         """Writes one HTML file that shows the joint with these limits in any browser and computes with it there.
@@ -214,7 +227,8 @@ class RangeOfMotion:
         :meth:`zones`; `measures`: with the shape of a hip, as :meth:`Joint.measures`, with bands if the limits have them. `plan`
         shows the bone that must go: write it by the range of motion of `plan.joint`, whose limits the page has. `before`: another
         joint of the same kind, anatomy and side, with which the page compares this one: its bodies are seen through in the same
-        scene, and its limits of the same motions, with bands of the same seed and standard deviations, stand beside these. `case`
+        scene, and its limits of the same motions, with bands of the same seed and standard deviations, stand beside these. `sweep`, of
+        the same joint over one parameter or two, shows its safe zone with a point that turns the parts. `case`
         and `date` stand in the heading and `note` under the result, as given: nothing is taken from the clock. Files are named
         without their folders unless `whole_paths`. Whole or not at all; FileError where it cannot be written.
 
@@ -235,6 +249,7 @@ class RangeOfMotion:
             None if seed is None else count(seed, "seed", high=2**64 - 1),
             None if past_deg is None else number(past_deg, "past_deg"), bool(measures),
             None if plan is None else plan._shown_by(self._joint), _native_before(before, plan),
+            _native_sweep(sweep, plan),
             report_labels(case, note, date, whole_paths), progress_of(progress))
 
     def _zone_of(self, found: Optional[dict[str, Any]]) -> Optional[ImpingementZone]:

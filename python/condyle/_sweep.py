@@ -22,6 +22,8 @@ from ._words import BearingRule, LimitKnownBy, Path, Progress, count, number, pa
 if TYPE_CHECKING:
     import xarray
 
+    from ._native import Sweep as NativeSweep
+
 #: By what a limit of a sweep is known: its `known_by` are positions in this.
 KNOWN_BY: tuple[LimitKnownBy, ...] = get_args(LimitKnownBy)
 
@@ -178,6 +180,12 @@ class Sweep:
         return xarray.Dataset(variables, coords={
             **self.axes, "target": [each.name for each in self.targets],
             "reach_deg": ("target", [each.reach_deg for each in self.targets])})
+
+    def _shown(self) -> NativeSweep:
+        """What a report shows of it."""
+        if self._native is None:
+            raise UsageError("sweep: was pickled, which leaves out what a report shows: ask for it again")
+        return self._native
 
     def write(self, folder: Path) -> list[str]:
         """sweep.json, designs.csv, safe.csv and of two parameters zone.vtp, as `condyle sweep --out` writes them but without

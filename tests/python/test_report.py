@@ -41,6 +41,26 @@ def test_a_report_shows_shape_and_plan_as_the_command_does(tmp_path, command):
         again.joint.range_of_motion(["flexion"]).write_report(tmp_path / "other.html", plan=again)
 
 
+def test_a_report_shows_the_safe_zone_of_a_sweep_as_the_command_does(tmp_path, command):
+    subprocess.run([command, "sample", "replacement", "--out", tmp_path], check=True, capture_output=True)
+    targets = tmp_path / "targets.csv"
+    targets.write_text("name,motion,reach_deg\nsitting,flexion,110\npivoting,external_rotation,40\n")
+    joint = condyle.read_joint(tmp_path / "hip.toml")
+    zone = joint.sweep({"cup.inclination": (30, 60, 10), "cup.anteversion": (0, 30, 10)}, targets)
+    joint.range_of_motion().write_report(tmp_path / "python.html", sweep=zone)
+    subprocess.run([command, "report", tmp_path / "hip.toml", "--sweep", "cup.inclination=30:60:10 cup.anteversion=0:30:10", "--targets",
+                    targets, "--out", tmp_path / "command.html"], check=True, capture_output=True)
+    ours, said = (text_of(tmp_path / name) for name in ("python.html", "command.html"))
+    for block in (ours, said):
+        del block["rom"]["provenance"]
+    assert ours == said and said["sweep"]["safe_designs"] == zone.safe.sum()
+    other = joint.with_parameters({"cup.inclination": 45}).range_of_motion(["flexion"])
+    with pytest.raises(condyle.UsageError, match="sweep: it is that of another joint"):
+        other.write_report(tmp_path / "other.html", sweep=zone)
+    with pytest.raises(condyle.UsageError, match="sweep: a condyle.Sweep is needed, not int"):
+        other.write_report(tmp_path / "other.html", sweep=1)
+
+
 def test_a_report_compares_joints_as_the_command_does(command, hip, hip_file, tmp_path):
     for folder, cam in (("before", []), ("left", ["--side", "left"])):
         subprocess.run([command, "sample", "hip", "--scenario", "1", *cam, "--out", tmp_path / folder], check=True, capture_output=True)

@@ -6,7 +6,7 @@ import { angleOf, axeSource, has, keep, openPage, openTab, pathOf, settled, shar
 const browser = await sharedBrowser();
 
 for (const colorScheme of ["light", "dark"])
-  for (const name of ["sample", "plan", "compared", "knee", "placed"])
+  for (const name of ["sample", "plan", "compared", "knee", "placed", "swept"])
     test(`axe finds nothing in any tab of ${name} (${colorScheme})`, { skip: !has(name) && "not made" }, async () => {
       const { page } = await openPage(browser, pathOf(name), { colorScheme });
       await settled(page);

@@ -1,7 +1,7 @@
 // Parts of a joint that are turned on the page, against the command with the same values.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
@@ -240,4 +240,116 @@ test("without parts, and where nothing can be computed, no parts are offered", a
   const { page: still } = await openPage(browser, pathOf("tilted"), { script: "delete globalThis.WebAssembly", answers: false });
   assert.equal(await still.locator("summary", { hasText: title }).count(), 0);
   await still.context().close();
+});
+
+/// The designs of the command, the first parameter's values slowest.
+function designsOf(name, vary, set) {
+  const into = mkdtempSync(join(folder, "swept-"));
+  command("sweep", jointFile(name), ...set, "--vary", vary, "--targets", join(reports, "targets.csv"), "--out", into);
+  const [head, ...rows] = readFileSync(join(into, "designs.csv"), "utf8").trimEnd().split("\n").map((line) => line.split(","));
+  return { margins: rows.map((row) => row[head.indexOf("margin_deg")]), safe: rows.filter((row) => row[head.indexOf("safe")] === "1").length,
+    text: JSON.parse(readFileSync(join(into, "sweep.json"), "utf8")), intervals: readFileSync(join(into, "safe.csv"), "utf8").trimEnd().split("\n").slice(1) };
+}
+
+async function openedZone(name) {
+  const { page, complaints } = await openPage(browser, pathOf(name), { width: 1440, height: 900, reducedMotion: "reduce" });
+  await settled(page);
+  await openTab(page, "Plan");
+  await openFold(page, "Safe zone");
+  return { page, complaints };
+}
+
+/// As changed(), with the zone's panel open.
+async function changedInZone(page, act) {
+  const region = page.locator("section.edit-panel", { has: page.locator(".parameter-rows") });
+  await region.evaluate((element) => delete element.dataset.allAfter);
+  await act();
+  await page.waitForFunction((element) => element.dataset.allAfter !== undefined, await region.elementHandle());
+  await settled(page);
+}
+
+const zones = [
+  { name: "swept", of: "placed", vary: "cup.inclination=30:60:5 cup.anteversion=-5:35:5", values: [] },
+  { name: "swept_tilt", of: "tilted", vary: "pelvis.tilt=-20:20:4", values: ["--set", "pelvis.tilt=10"] },
+];
+
+for (const { name, of, vary, values } of zones)
+  test(`${name}: the safe zone has the designs of condyle sweep, to the bit`, () => {
+    const { text, array } = readReport(pathOf(name)), designs = designsOf(of, vary, values);
+    const margins = [...array(text.sweep.margin_deg)];
+    assert.deepEqual(margins.map((margin) => (Number.isNaN(margin) ? "" : String(margin))).map(Number), designs.margins.map((margin) => Number(margin)));
+    assert.equal(text.sweep.safe_designs, designs.safe);
+    assert.equal(text.sweep.safe_measure, designs.text.safe_measure);
+    assert.deepEqual(text.sweep.best.values, designs.text.best.values);
+    assert.equal(text.sweep.safe.length, designs.intervals.length);
+    text.sweep.safe.forEach(({ low, high }, i) => assert.deepEqual(designs.intervals[i].split(",").map(Number).slice(-4, -2), [low, high]));
+  });
+
+test("the point of the zone drags and moves by arrow keys, the parts turn along, and limits are those of the command there", async () => {
+  const { page, complaints } = await openedZone("swept");
+  const { text, array } = readReport(pathOf("swept"));
+  const map = page.locator(".sweep-map");
+  assert.equal(await map.locator(".sweep-safe").count(), text.sweep.safe_designs);
+  assert.equal(await map.locator(".sweep-line").count(), text.sweep.safe.length);
+  assert.match(await map.getAttribute("aria-valuetext"), /^cup inclination 40°, cup anteversion 15°\. Nearest design: safe, [\d.]+° to spare of pivoting\.$/);
+  await map.focus();
+  await changedInZone(page, () => page.keyboard.press("ArrowRight"));
+  await changedInZone(page, () => page.keyboard.press("ArrowDown"));
+  const margin = array(text.sweep.margin_deg)[3 * 9 + 3], target = text.sweep.targets[array(text.sweep.least_target)[3 * 9 + 3]].name;
+  assert.equal(await map.getAttribute("aria-valuetext"),
+    `cup inclination 45°, cup anteversion 10°. Nearest design: safe, ${margin.toFixed(1)}° to spare of ${target}.`);
+  const expected = limitsOf("placed", "cup.inclination=45 cup.anteversion=10");
+  assert.deepEqual(await limitsNow(page, text), expected);
+  const rows = await page.getByRole("region", { name: "Limits as in the report and at the point", exact: true }).locator("tbody tr").evaluateAll((all) =>
+    all.map((row) => row.cells[2].textContent));
+  assert.equal(rows[0], `${expected.flexion.toFixed(1)}°`);
+  await keep(page, "safe_zone");
+  const box = await map.boundingBox();
+  await changedInZone(page, async () => {
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width / 4, box.y + box.height / 4, { steps: 4 });
+    await page.mouse.up();
+  });
+  await openFold(page, title);
+  const [inclination, anteversion] = [await field(page, "cup inclination, degrees").getAttribute("aria-valuenow"), await field(page, "cup anteversion, degrees").getAttribute("aria-valuenow")];
+  assert.ok(Number(inclination) < 45 && Number(anteversion) > 15, `${inclination}, ${anteversion}`);
+  assert.deepEqual(await limitsNow(page, text), limitsOf("placed", `cup.inclination=${inclination} cup.anteversion=${anteversion}`));
+  assert.deepEqual(complaints, []);
+  await page.context().close();
+});
+
+test("over one parameter the zone is a strip, and outside of it the joint has no point", async () => {
+  const { page } = await openedZone("swept_tilt");
+  const map = page.locator(".sweep-map");
+  assert.equal(await map.locator("rect[class^=sweep]").count(), 11);
+  await map.focus();
+  await changedInZone(page, () => page.keyboard.press("ArrowLeft"));
+  assert.match(await map.getAttribute("aria-valuetext"), /^pelvis tilt 6°\. Nearest design:/);
+  await page.context().close();
+});
+
+test("nothing of the zone scrolls on a window 900 pixels high", async () => {
+  for (const { name } of zones) {
+    const { page } = await openedZone(name);
+    assert.deepEqual(await page.locator("#panel-plan").evaluate((element) => [element.scrollHeight <= element.clientHeight + 1, element.scrollWidth <= element.clientWidth + 1]),
+      [true, true], name);
+    await page.context().close();
+  }
+});
+
+test("a sweep that a page does not show is refused in one line", () => {
+  const refused = (...words) => {
+    try {
+      execFileSync(join(root, "build/release/condyle"), ["report", jointFile("placed"), "--out", join(folder, "no.html"), ...words], { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] });
+    } catch ({ status, stderr }) {
+      assert.equal(status, 2);
+      return stderr.trimEnd().split("\n").at(-1);
+    }
+    return null;
+  };
+  const targets = ["--targets", join(reports, "targets.csv")];
+  assert.match(refused("--sweep", "cup.inclination=30:40:5 cup.anteversion=0:10:5 stem.version=0:10:5", ...targets), /a page shows a sweep over one or two parameters/);
+  assert.match(refused("--sweep", "cup.inclination=30:100:5", ...targets), /cup\.inclination: 100 deg is outside of its range/);
+  assert.match(refused("--sweep", "cup.inclination=30:40:5"), /--sweep requires --targets/);
 });

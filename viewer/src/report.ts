@@ -308,6 +308,33 @@ export interface StoredPosed {
   mobile: StoredGivenBody;
 }
 
+/// Values of one parameter: first, first + step, ...
+export interface SweptParameter {
+  name: string;
+  unit: string;
+  first: number;
+  last: number;
+  step: number;
+  count: number;
+}
+
+/// Designs of `condyle sweep`, the last parameter fastest; docs/sweeps.md.
+export interface StoredSweep {
+  parameters: SweptParameter[];
+  targets: { name: string; motion: string; reach_deg: number }[];
+  designs: number;
+  safe_designs: number;
+  safe_measure: number;
+  window_measure: number;
+  best: { values: Record<string, number>; margin_deg: number } | null;
+  /// Names of arrays: of each design the margin, NaN of one in contact in its reference pose, and the target that has the least to spare.
+  margin_deg: string;
+  least_target: string;
+  safe: { line: number; low: number; high: number; low_target: number | null; high_target: number | null }[];
+  sweep_notes: { code: string; text: string }[];
+  caveats: string[];
+}
+
 export interface ReportText {
   version: string;
   title: string;
@@ -345,6 +372,7 @@ export interface ReportText {
   before?: StoredBefore | null;
   /// Of a joint with parts that turn.
   posed?: StoredPosed | null;
+  sweep?: StoredSweep | null;
 }
 
 const headBytes = 16;

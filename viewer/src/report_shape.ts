@@ -135,6 +135,15 @@ const posed = object({
   bearing_margin_mm: orNull(number), fixed: givenBody, mobile: givenBody,
 });
 
+const targetOrNull = orNull(count);
+const sweep = object({
+  parameters: list(object({ name: text, unit: text, first: number, last: number, step: number, count })),
+  targets: list(object({ name: text, motion: text, reach_deg: number })), designs: count, safe_designs: count, safe_measure: number,
+  window_measure: number, best: orNull(object({ values: each(number), margin_deg: number })), margin_deg: text, least_target: text,
+  safe: list(object({ line: count, low: number, high: number, low_target: targetOrNull, high_target: targetOrNull })),
+  sweep_notes: list(object({ code: text, text })), caveats: list(text),
+});
+
 const report = object({
   version: text, title: text, case: ifThere(orNull(text)), note: ifThere(orNull(text)), date: ifThere(orNull(text)),
   joint: object({
@@ -162,7 +171,7 @@ const report = object({
     curves: list(object({ name: text, unit: text, values: text })),
   })),
   recorded_motion: ifThere(object({ by: oneOf("columns", "poses", "model") })), measures: orNull(measures), plan: orNull(plan),
-  before: ifThere(orNull(before)), posed: ifThere(orNull(posed)),
+  before: ifThere(orNull(before)), posed: ifThere(orNull(posed)), sweep: ifThere(orNull(sweep)),
 });
 
 /// The text of a block with every key that the page reads; throws ReportError that names the first wrong one.
@@ -219,6 +228,13 @@ function checkArrays(read: ReportText): void {
     if (loaded.first_vertex + loaded.vertices > vertices || loaded.first_triangle + loaded.triangles > triangles) wrong(`layers.${body}`);
     if (loaded.thickness_mm !== undefined)
       needed(`layers.${body}.thickness_mm`, loaded.thickness_mm, "f64", many(loaded.vertices));
+  }
+  if (read.sweep) {
+    const { parameters, targets, margin_deg, least_target } = read.sweep;
+    const designs = parameters.reduce((all, { count: values }) => all * values, 1);
+    if (parameters.length < 1 || parameters.length > 2 || targets.length === 0) wrong("sweep.parameters");
+    needed("sweep.margin_deg", margin_deg, "f64", many(designs));
+    needed("sweep.least_target", least_target, "u8", many(designs));
   }
   if (!read.recorded) return;
   const { times_s, coordinates_deg, coordinates_mm, poses, curves } = read.recorded;

@@ -25,6 +25,7 @@
 #include "io/report/recorded_frames.hpp"
 #include "io/report/posed_json.hpp"
 #include "io/report/surfaces_json.hpp"
+#include "io/report/sweep_block.hpp"
 #include "io/result/caveats.hpp"
 #include "io/result/json.hpp"
 #include "io/result/map_result.hpp"
@@ -265,6 +266,7 @@ std::string data_block(const Report& report) {
   json["plan"] = report.plan ? plan_json(*report.plan, arrays) : Json(nullptr);
   if (report.before) json["before"] = before_json(report, arrays);
   if (has_parts_to_turn(report)) json["posed"] = posed_json(report, arrays);
+  if (report.sweep) json["sweep"] = sweep_block(*report.sweep, arrays);
   json["arrays"] = arrays.directory();
   drop_negative_zeros(json);
   std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "condyle/io/recorded_motion.hpp"
@@ -10,6 +12,7 @@
 #include "io/result/motion_result.hpp"
 #include "io/result/resection_result.hpp"
 #include "io/result/rom_result.hpp"
+#include "io/sweep/sweep_result.hpp"
 
 /// The output of `condyle report`: one HTML file that shows a joint in any browser and computes with it there. It
 /// loads nothing and sends nothing. Its contents, key by key, are in docs/report.md.
@@ -49,6 +52,9 @@ struct ReportedBefore {
 void check_comparable(const Joint& before, const std::string& before_name, const Joint& after,
                       const std::string& after_name);
 
+/// Throws UsageError for a sweep that a page does not show: over more than two parameters, of more designs or targets than it draws.
+void check_shown_sweep(std::span<const SweptParameter> parameters, std::size_t targets);
+
 /// Contents of a report.
 struct Report {
   std::string title;  ///< any text; it stays text on the page
@@ -66,6 +72,7 @@ struct Report {
   /// The bone that must go: `joint` is the joint without it, and `rom` has its limits.
   const ResectionResult* plan = nullptr;
   std::optional<ReportedBefore> before = {};
+  const SweepResult* sweep = nullptr;  ///< of the joint of the page, by check_shown_sweep()
   /// BearingOptions::margin_mm of the limits: the page finds the bearing surface anew where it turns a part.
   std::optional<double> bearing_margin_mm = {};
   ReportLabels labels = {};

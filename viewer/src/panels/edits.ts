@@ -7,7 +7,7 @@ import { words } from "../words";
 import { BrushPanel } from "./brush";
 import { CentrePanel } from "./centre";
 import { questionsOf } from "./live_limits";
-import { PartsPanel } from "./parts";
+import { PartsPanel, type PartsOptions } from "./parts";
 import { addPlanPanel, setBlocked } from "./plan_tab";
 
 export interface Edited {
@@ -34,10 +34,11 @@ export function addEditPanels({ core, scene, text, arrays, report, brushed, turn
   const mark = (what: Change, isChanged: boolean) => {
     if (changes[what] === isChanged || !parts) return;
     changes[what] = isChanged;
-    setBlocked(parts.element, changes.brush ? words.brushFirst : changes.centre ? words.centreFirst : null);
+    const first = changes.brush ? words.brushFirst : changes.centre ? words.centreFirst : null;
+    for (const panel of [parts, parts.sweep]) if (panel) setBlocked(panel.element, first);
     for (const other of [brush, centre]) if (other) setBlocked(other.element, changes.parts ? words.partsFirst : null);
   };
-  const parts = posed ? new PartsPanel(core, scene, { text, arrays, posed, turned: (is) => mark("parts", is), changed: turned }) : null;
+  const parts = posed ? new PartsPanel(core, scene, { text, arrays, posed, sweep: sweepOf(report), turned: (is) => mark("parts", is), changed: turned }) : null;
   const centre = joint.kind === "free" ? null : new CentrePanel(core, text, (is) => mark("centre", is));
   // A brush does not know an implant from bone.
   const brush = rom.implant ? null : new BrushPanel(core, scene, {
@@ -51,7 +52,7 @@ export function addEditPanels({ core, scene, text, arrays, report, brushed, turn
     },
     limited: (limits) => centre?.setBefore(limits),
   });
-  for (const panel of [brush, parts, centre]) if (panel) addPlanPanel(panel.element);
+  for (const panel of [parts?.sweep, brush, parts, centre]) if (panel) addPlanPanel(panel.element);
 }
 
 /// Where the surface of a bone was before a plan cut it; null of one that is as it was.
@@ -61,4 +62,9 @@ function beforePlan(report: Report | null, arrays: JointArrays, body: BodyName):
   const xyz = arrays[body].vertices.slice(), before = report.array(cut.before, "f64");
   report.array(cut.lowered, "u32").forEach((vertex, i) => xyz.set(before.subarray(3 * i, 3 * i + 3), 3 * vertex));
   return xyz;
+}
+
+function sweepOf(report: Report | null): PartsOptions["sweep"] {
+  const stored = report?.text.sweep;
+  return stored ? { stored, margins: report.array(stored.margin_deg, "f64"), least: report.array(stored.least_target, "u8") } : null;
 }

@@ -8,6 +8,7 @@ import { bodyNames, type JointScene } from "../scene/scene";
 import { words } from "../words";
 import { LiveLimits, questionsOf } from "./live_limits";
 import { ParameterRow } from "./parameter_row";
+import { SweepPanel, type ShownSweep } from "./sweep";
 
 const ghostName = "parts";
 
@@ -15,6 +16,8 @@ export interface PartsOptions {
   text: ReportText;
   arrays: JointArrays;
   posed: StoredPosed;
+  /// The designs that leave targets free, if the report has any.
+  sweep: ShownSweep | null;
   /// Parts are to stand otherwise than in the report, or as there again.
   turned: (isTurned: boolean) => void;
   /// Both bodies are these now; `rests` once no other value waits.
@@ -32,16 +35,19 @@ export class PartsPanel {
   private readonly option = html("input", { type: "text", readonly: true, class: "command", "aria-label": words.partsCommand });
   private readonly took = html("span", { class: "small", "aria-hidden": "true" });
   private readonly ghost: HTMLInputElement;
+  /// A panel of its own, whose point sets the values too.
+  readonly sweep: SweepPanel | null;
   /// Where the bodies are now.
   private now: Turned | null = null;
   private isBusy = false;
   private waits = false;
 
   constructor(private readonly core: CoreClient, private readonly scene: JointScene | null, private readonly options: PartsOptions) {
-    const { text, posed } = options;
+    const { text, posed, sweep } = options;
     this.asked = questionsOf(text);
     const motions = this.asked.map(({ motion }) => motion);
     this.limits = new LiveLimits(words.partsLimits, words.gained, motions, motions, motions, "");
+    this.sweep = sweep && new SweepPanel(sweep, motions, (values) => this.set(values));
     this.rows = posed.parts.flatMap((part) => part.parameters.map((parameter) =>
       new ParameterRow(part.name, parameter, () => this.ask(), (why) => (this.said.textContent = why ?? ""))));
     const shows = checkbox(words.showAsReported, true, () => this.showGhosts());
@@ -56,7 +62,7 @@ export class PartsPanel {
       ...(canSave ? [html("div", { class: "row no-print" }, button(words.saveGivenStl, () => this.saveMeshes()),
         button(words.saveJointFile, () => void this.saveJointFile()))] : []));
     this.element.classList.add("edit-panel");
-    this.showOption();
+    this.showValues();
   }
 
   /// Of each parameter its value now, by "cup.inclination".
@@ -64,13 +70,17 @@ export class PartsPanel {
     return new Map(this.rows.map(({ name, value }) => [name, value]));
   }
 
-  /// Other values of some parameters, as by hand.
+  /// Other values of some parameters, as by hand; those that there are not are passed over.
   set(values: ReadonlyMap<string, number>): void {
     for (const row of this.rows) {
       const value = values.get(row.name);
       if (value !== undefined) row.show(value);
     }
     this.ask();
+  }
+
+  private get tables(): LiveLimits[] {
+    return [this.limits, ...(this.sweep ? [this.sweep.limits] : [])];
   }
 
   private reset(): void {
@@ -81,15 +91,17 @@ export class PartsPanel {
     return rows.map(({ name, value }) => `${name}=${value}`).join(" ");
   }
 
-  /// The words of the command line that have these values, beside the file's own.
-  private showOption(): void {
+  /// On the map, and as the words of the command line that have these values, beside the file's own.
+  private showValues(): void {
+    const { values } = this;
+    this.sweep?.show(values);
     const differing = this.rows.filter(({ value, inFile }) => value !== inFile);
     this.option.value = differing.length ? `--set "${this.textOf(differing)}"` : words.partsAsInFile;
   }
 
   /// One set of values is under way at a time; of those meanwhile only the latest is looked at.
   private ask(): void {
-    this.showOption();
+    this.showValues();
     this.options.turned(this.rows.some(({ isTurned }) => isTurned));
     this.waits = true;
     if (!this.isBusy) this.send();
@@ -99,7 +111,7 @@ export class PartsPanel {
     const { asked } = this, begun = performance.now();
     this.waits = false;
     this.isBusy = true;
-    this.limits.wait();
+    for (const table of this.tables) table.wait();
     const done = () => {
       this.isBusy = false;
       if (this.waits) this.send();
@@ -107,7 +119,7 @@ export class PartsPanel {
     this.core.edit({ of: "parts", values: this.textOf(this.rows.filter(({ isTurned }) => isTurned)) }, asked.map(({ question }) => question), {
       edited: (turned) => this.take(turned as Turned),
       limit: (i, limit) => {
-        this.limits.showLimit(i, limit);
+        for (const table of this.tables) table.showLimit(i, limit);
         if (i < asked.length - 1) return;
         this.took.textContent = words.tookAll((performance.now() - begun).toFixed(0));
         if (!this.waits) this.element.dataset["allAfter"] = (performance.now() - begun).toFixed(1);
