@@ -53,12 +53,12 @@ void compare(std::vector<InsideVertex>& answer, Reference& reference, std::size_
   accuracy.false_inside += answer.end() - reported;
 }
 
-void compare(std::vector<condyle::TrianglePair>& answer, Reference& reference, std::size_t pose,
+void compare(std::vector<condyle::contact::TrianglePair>& answer, Reference& reference, std::size_t pose,
              PairAccuracy& accuracy) {
   std::sort(answer.begin(), answer.end());
   answer.erase(std::unique(answer.begin(), answer.end()), answer.end());
   const auto& truth = reference.pairs(pose);
-  std::vector<condyle::TrianglePair> both;
+  std::vector<condyle::contact::TrianglePair> both;
   std::set_intersection(answer.begin(), answer.end(), truth.begin(), truth.end(), std::back_inserter(both));
   accuracy.pairs += static_cast<std::int64_t>(truth.size());
   accuracy.missed += static_cast<std::int64_t>(truth.size() - both.size());

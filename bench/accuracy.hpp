@@ -41,7 +41,7 @@ struct PairAccuracy {
 /// Adds one pose. The answers are sorted by the way.
 void compare(std::vector<InsideVertex>& answer, Reference& reference, std::size_t pose, DepthKind kind,
              InsideAccuracy& accuracy);
-void compare(std::vector<condyle::TrianglePair>& answer, Reference& reference, std::size_t pose,
+void compare(std::vector<condyle::contact::TrianglePair>& answer, Reference& reference, std::size_t pose,
              PairAccuracy& accuracy);
 void compare(bool touches, Reference& reference, std::size_t pose, TouchAccuracy& accuracy);
 

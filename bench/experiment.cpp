@@ -52,7 +52,7 @@ struct Asked {
 
   std::unique_ptr<Method> method;
   bool touches = false;
-  std::vector<condyle::TrianglePair> pairs;
+  std::vector<condyle::contact::TrianglePair> pairs;
   std::vector<InsideVertex> inside;
 
   void ask(Question question, const Pose& X_FM) {

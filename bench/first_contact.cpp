@@ -15,9 +15,9 @@ namespace {
 
 using condyle::Angle;
 using condyle::Joint;
-using condyle::Motion;
-using condyle::MotionLimit;
-using condyle::RangeOfMotion;
+using condyle::motion::Motion;
+using condyle::motion::MotionLimit;
+using condyle::motion::RangeOfMotion;
 
 constexpr Angle step = Angle::degrees(0.1);
 /// Wide enough to be a cheap way to a bracket, as people do before they bisect.
@@ -62,10 +62,10 @@ const TableHead agreement_head = {"first_contact_agreement",
 
 /// The joint made ready as a caller does who knows its bearing surface, any contact to count as it does for the others;
 /// a limit is asked once, for the first one on a thread makes room for the body that turns.
-std::unique_ptr<RangeOfMotion> ready(const Joint& joint, const condyle::BearingOptions& bearing,
+std::unique_ptr<RangeOfMotion> ready(const Joint& joint, const condyle::motion::BearingOptions& bearing,
                                      const Motion& motion) {
-  auto range =
-      std::make_unique<RangeOfMotion>(joint, condyle::RangeOptions{.bearing = bearing, .overlap = {}});
+  auto range = std::make_unique<RangeOfMotion>(
+      joint, condyle::motion::RangeOptions{.bearing = bearing, .overlap = {}});
   range->limit(motion);
   return range;
 }
@@ -78,9 +78,9 @@ struct Building {
   double condyle_seconds, fcl_seconds;
 };
 
-Building ask_building(const Joint& joint, const condyle::BearingOptions& bearing, const MethodKind& fcl,
-                      int rounds, Report& report) {
-  const Motion motion = condyle::hip_motions().front();
+Building ask_building(const Joint& joint, const condyle::motion::BearingOptions& bearing,
+                      const MethodKind& fcl, int rounds, Report& report) {
+  const Motion motion = condyle::motion::hip_motions().front();
   const auto samples = interleaved(rounds, {[&] { ready(joint, bearing, motion); },
                                             [&] {
                                               fcl.make({joint.fixed.mesh, joint.mobile.mesh});
@@ -97,8 +97,8 @@ void ask_limit(const Motion& motion, const Joint& joint, const RangeOfMotion& ra
                const Building& building, int rounds, Report& report) {
   const double sign = motion.sense == condyle::RotationSense::positive ? 1 : -1;
   const TouchAt touch = [&](Angle turn) {
-    return fcl.touch(
-        condyle::pose_at(joint.coordinates(), turned_by(motion.start, motion.vary, turn * sign)));
+    return fcl.touch(condyle::pose_at(joint.coordinates(),
+                                      condyle::motion::turned_by(motion.start, motion.vary, turn * sign)));
   };
 
   MotionLimit limit;
@@ -116,7 +116,7 @@ void ask_limit(const Motion& motion, const Joint& joint, const RangeOfMotion& ra
                                                    bisection = bisected(touch, *bisection, certificate);
                                                },
                                            });
-  if (limit.end.reason != condyle::LimitReason::contact || !stepped || !bisection) {
+  if (limit.end.reason != condyle::motion::LimitReason::contact || !stepped || !bisection) {
     report.disagreements.push_back(fmt::format("{}, {}: not both find a contact", joint.name, motion.name));
     return;
   }
@@ -157,14 +157,15 @@ void ask_first_contact(const Scene& scene, Effort effort, Report& report) {
     return;
   }
   const int rounds = effort == Effort::full ? 3 : 1;
-  const condyle::BearingOptions bearing{.rule = condyle::BearingRule::count,
-                                        .surface = condyle::find_bearing_surface(joint).surface};
+  const condyle::motion::BearingOptions bearing{
+      .rule = condyle::motion::BearingRule::count,
+      .surface = condyle::motion::find_bearing_surface(joint).surface};
   const Building building = ask_building(joint, bearing, *kind, rounds, report);
-  const std::vector<Motion> motions = condyle::hip_motions();
+  const std::vector<Motion> motions = condyle::motion::hip_motions();
   const auto range = ready(joint, bearing, motions.front());
   const auto fcl = kind->make({joint.fixed.mesh, joint.mobile.mesh});
   for (const auto* name : {"flexion", "internal_rotation_at_90_flexion"})
-    ask_limit(condyle::motion_named(motions, name), joint, *range, *fcl, building, rounds, report);
+    ask_limit(condyle::motion::motion_named(motions, name), joint, *range, *fcl, building, rounds, report);
 }
 
 }  // namespace bench

@@ -15,13 +15,13 @@ namespace bench {
 namespace {
 
 namespace fs = std::filesystem;
-using condyle::BalancedPose;
-using condyle::BalanceOutcome;
-using condyle::Casting;
-using condyle::ElasticContact;
-using condyle::FaceRule;
 using condyle::inverted;
 using condyle::Pose;
+using condyle::contact::BalancedPose;
+using condyle::contact::BalanceOutcome;
+using condyle::contact::Casting;
+using condyle::contact::ElasticContact;
+using condyle::contact::FaceRule;
 
 const TableHead balance_head{
     "hip_balance",
@@ -57,9 +57,9 @@ constexpr Way all_ways[] = {{Casting::fixed, FaceRule::face_centre},  {Casting::
                             {Casting::both, FaceRule::face_centre},   {Casting::both, FaceRule::cut_faces}};
 
 /// Both cartilages together, as thick as the source made them in the mean.
-const condyle::ElasticLayer cartilage{12, 0.42, 1.5};
+const condyle::contact::ElasticLayer cartilage{12, 0.42, 1.5};
 /// Load of a pelvis on a left femur in F: up and medially, which is to the right.
-const condyle::Load stance{.on_mobile = {.force_n = {0, 1700, 500}}};
+const condyle::contact::Load stance{.on_mobile = {.force_n = {0, 1700, 500}}};
 
 std::size_t rays_of_a_look(const ElasticContact& surfaces, const Pose& X_FM) {
   std::size_t rays = 0;
@@ -79,8 +79,8 @@ std::size_t rays_of_a_look(const ElasticContact& surfaces, const Pose& X_FM) {
 bool ask_hip_balance(Effort effort, Report& report) {
   const fs::path folder = data_folder() / "hip_libhip_m1_left";
   if (!fs::is_directory(folder) || !fs::is_directory(data_folder() / "motion_gait2354_walk")) return false;
-  const condyle::Mesh socket(condyle::read_mesh(folder / "acetabular_cartilage_gap.ply").mesh);
-  const condyle::Mesh head(condyle::read_mesh(folder / "femur_cartilage_gap.ply").mesh);
+  const condyle::Mesh socket(condyle::io::read_mesh(folder / "acetabular_cartilage_gap.ply").mesh);
+  const condyle::Mesh head(condyle::io::read_mesh(folder / "femur_cartilage_gap.ply").mesh);
   std::vector<ElasticContact> contacts;
   for (const Way& way : all_ways)
     contacts.push_back(
@@ -97,7 +97,9 @@ bool ask_hip_balance(Effort effort, Report& report) {
   for (std::size_t i = 0; i < count; ++i)
     ways.push_back([&, i] { poses[i] = balance(contacts[i], Pose::Identity(), stance); });
   for (std::size_t i = 0; i < count; ++i)
-    ways.push_back([&, i] { walks[i] = balance_along(contacts[i], walk, std::span(&stance, 1)).value(); });
+    ways.push_back([&, i] {
+      walks[i] = condyle::motion::balance_along(contacts[i], walk, std::span(&stance, 1)).value();
+    });
   for (std::size_t i = 0; i < count; ++i) ways.push_back([&, i] { contacts[i].at(poses[i].X_FM); });
   std::vector<std::vector<double>> samples;
   samples = interleaved(effort == Effort::full ? 9 : 1, ways);

@@ -89,7 +89,7 @@ void ask_inside_limits(const Scene& scene, Effort effort, Report& report) {
   const auto culled = culled_kind ? culled_kind->make(bodies) : nullptr;
   const std::vector<Reported> reported = all_reported(scene, *ours);
   const std::vector<Vec3> vertices = as_vectors(bodies.mobile.vertices), planes = all_planes(bodies.fixed);
-  const condyle::SortedPoints sorted(bodies.mobile.vertices);
+  const condyle::radial::SortedPoints sorted(bodies.mobile.vertices);
   std::vector<InsideVertex> out;
   volatile float kept = 0;
   const auto at_all_poses = [&](Method* method) {

@@ -15,8 +15,8 @@ namespace bench {
 namespace {
 
 namespace fs = std::filesystem;
-using condyle::FaceRule;
 using condyle::Pose;
+using condyle::contact::FaceRule;
 
 const TableHead pressure_head{"knee_pressure",
                               "Rays and pressure of a knee's contacts over a recorded flexion; one thread",
@@ -33,13 +33,13 @@ const TableHead pressure_head{"knee_pressure",
 /// One contact as its joint file has it, with another rule.
 struct KneeContact {
   std::string name;
-  condyle::ElasticContact surfaces;
+  condyle::contact::ElasticContact surfaces;
   std::vector<Pose> X_FM;
 
   KneeContact(const std::string& contact, FaceRule rule, Effort effort)
       : KneeContact(contact, rule, effort,
-                    condyle::read_joint(fs::path(CONDYLE_SOURCE_DIR) / "tests/support/knee_by_hand" /
-                                        (contact + ".toml"))) {}
+                    condyle::io::read_joint(fs::path(CONDYLE_SOURCE_DIR) / "tests/support/knee_by_hand" /
+                                            (contact + ".toml"))) {}
 
   void ask() const {
     for (const Pose& X : X_FM) surfaces.at(X);
@@ -57,17 +57,17 @@ struct KneeContact {
   }
 
  private:
-  KneeContact(const std::string& contact, FaceRule rule, Effort effort, const condyle::LoadedJoint& joint)
+  KneeContact(const std::string& contact, FaceRule rule, Effort effort, const condyle::io::LoadedJoint& joint)
       : name(contact), surfaces(made(joint, rule)) {
     const fs::path states = data_folder() / "knee_lenhart2015_right" / "passive_flexion_states.sto";
-    for (const auto& X : condyle::motion_of(joint, condyle::read_motion_table(states)).X_FM)
+    for (const auto& X : condyle::io::motion_of(joint, condyle::io::read_motion_table(states)).X_FM)
       X_FM.push_back(X.value());
     if (effort == Effort::quick) X_FM.resize(quick_frames);
   }
-  static condyle::ElasticContact made(const condyle::LoadedJoint& joint, FaceRule rule) {
-    condyle::ContactEntry entry = joint.report.file.contact.value();
+  static condyle::contact::ElasticContact made(const condyle::io::LoadedJoint& joint, FaceRule rule) {
+    condyle::io::ContactEntry entry = joint.report.file.contact.value();
     entry.rays.rule = rule;
-    const condyle::ContactSurfaces surfaces = surfaces_of(entry, joint.joint);
+    const condyle::io::ContactSurfaces surfaces = surfaces_of(entry, joint.joint);
     return {surfaces.fixed.mesh, surfaces.mobile.mesh, elastic_options(entry, surfaces, joint)};
   }
 };

@@ -35,8 +35,8 @@ namespace bench {
 namespace {
 
 using condyle::Angle;
-using condyle::LimitReason;
 using condyle::Vec3;
+using condyle::motion::LimitReason;
 
 struct Options {
   std::string filter, json, csv;
@@ -94,19 +94,19 @@ condyle::VoxelGrid grid_of(const condyle::Joint& joint, const VoxelShape& shape,
 
 /// One motion on the meshes and on the surfaces of their voxels. Its error is 0 if it reaches the end of its range on both.
 struct Outcome {
-  condyle::MotionLimit mesh;
-  condyle::MotionLimit image;  ///< about the centre of the meshes' joint
-  condyle::MotionLimit own;    ///< about the centre fitted to the image's own head
-  condyle::LimitBand surface;  ///< of `image`, only the surface uncertain
-  condyle::LimitBand usual;    ///< of `own`, all sources, as `condyle rom --band` has it
-  bool has_usual = false;      ///< it takes four times as long: only at the first offset
+  condyle::motion::MotionLimit mesh;
+  condyle::motion::MotionLimit image;  ///< about the centre of the meshes' joint
+  condyle::motion::MotionLimit own;    ///< about the centre fitted to the image's own head
+  condyle::motion::LimitBand surface;  ///< of `image`, only the surface uncertain
+  condyle::motion::LimitBand usual;    ///< of `own`, all sources, as `condyle rom --band` has it
+  bool has_usual = false;              ///< it takes four times as long: only at the first offset
 
   bool ends_in_contact() const {
     return mesh.end.reason == LimitReason::contact || image.end.reason == LimitReason::contact;
   }
   /// One of the two reaches the end of the motion's range, where its error is then counted from: in truth it is larger.
   bool is_one_sided() const { return mesh.end.reason != image.end.reason; }
-  double error(const condyle::MotionLimit& limit) const {
+  double error(const condyle::motion::MotionLimit& limit) const {
     return (limit.end.turned - mesh.end.turned).degrees();
   }
 };
@@ -143,7 +143,7 @@ class Hip {
     description_.side = joint.side;
     description_.frame.centre = condyle::CentreFit{};
     placed_ = make_joint(description_, joint.fixed, joint.mobile);
-    limits_ = condyle::RangeOfMotion(placed_->joint).limits(motions_);
+    limits_ = condyle::motion::RangeOfMotion(placed_->joint).limits(motions_);
   }
 
   const condyle::PlacedJoint& placed() const { return *placed_; }
@@ -158,7 +158,7 @@ class Hip {
       condyle::JointDescription description = description_;
       description.frame.centre = Vec3(placed_->placement.X_WF.translation());
       const condyle::PlacedJoint divided = make_joint(description, joint_.fixed, mobile);
-      const auto limits = condyle::RangeOfMotion(divided.joint).limits(motions_);
+      const auto limits = condyle::motion::RangeOfMotion(divided.joint).limits(motions_);
       double largest = 0;
       for (std::size_t m = 0; m < limits.size(); ++m) {
         const double change = (limits[m].end.turned - limits_[m].end.turned).degrees();
@@ -191,14 +191,15 @@ class Hip {
     const condyle::PlacedJoint image = make_joint(description, fixed, mobile);
     count_notes(own, codes);
 
-    std::vector<condyle::MotionLimit> limits;
-    run.limits_s = wall_seconds_of([&] { limits = condyle::RangeOfMotion(image.joint).limits(motions_); });
-    const auto own_limits = condyle::RangeOfMotion(own.joint).limits(motions_);
-    condyle::Uncertainty only_surface;
+    std::vector<condyle::motion::MotionLimit> limits;
+    run.limits_s =
+        wall_seconds_of([&] { limits = condyle::motion::RangeOfMotion(image.joint).limits(motions_); });
+    const auto own_limits = condyle::motion::RangeOfMotion(own.joint).limits(motions_);
+    condyle::motion::Uncertainty only_surface;
     only_surface.centre_mm = 0, only_surface.axes = Angle();
     const auto surface =
         limit_bands(image.joint, motions_, {}, {.sigma = only_surface, .samples = options.samples});
-    std::vector<condyle::LimitBand> usual;
+    std::vector<condyle::motion::LimitBand> usual;
     if (offset == 0) usual = limit_bands(own.joint, motions_, {}, {.samples = options.samples});
     for (std::size_t m = 0; m < motions_.size(); ++m) {
       run.outcomes.push_back({limits_[m], limits[m], own_limits[m], surface[m], {}, offset == 0});
@@ -210,9 +211,9 @@ class Hip {
  private:
   condyle::Joint joint_;
   condyle::JointDescription description_;
-  std::vector<condyle::Motion> motions_ = condyle::hip_motions();
+  std::vector<condyle::motion::Motion> motions_ = condyle::motion::hip_motions();
   std::optional<condyle::PlacedJoint> placed_;
-  std::vector<condyle::MotionLimit> limits_;
+  std::vector<condyle::motion::MotionLimit> limits_;
 };
 
 // Summary of several runs for the tables.
@@ -253,7 +254,7 @@ struct Bands {
   std::size_t holding = 0;
   double farthest_outside = 0;  ///< degrees
 
-  void add(const condyle::LimitBand& band, Angle truth) {
+  void add(const condyle::motion::LimitBand& band, Angle truth) {
     widths.push_back((band.p95 - band.p5).degrees());
     const double outside = std::max((band.p5 - truth).degrees(), (truth - band.p95).degrees());
     // Limits of one place computed twice differ by rounding.

@@ -25,14 +25,15 @@ const TableHead band_head = {
 
 void ask_limit_bands(const Scene& scene, Effort effort, Report& report) {
   const condyle::Joint& joint = scene.joint;
-  const auto motions = condyle::hip_motions();
-  const condyle::BandOptions options{.samples = effort == Effort::full ? 200u : 20u};
+  const auto motions = condyle::motion::hip_motions();
+  const condyle::motion::BandOptions options{.samples = effort == Effort::full ? 200u : 20u};
   const Stopwatch watch;
   const auto bands = limit_bands(joint, motions, {}, options);
   const double wall = watch.wall_seconds(), processor = watch.processor_seconds();
 
   double widest = 0;
-  for (const condyle::LimitBand& band : bands) widest = std::max(widest, (band.p95 - band.p5).degrees());
+  for (const condyle::motion::LimitBand& band : bands)
+    widest = std::max(widest, (band.p95 - band.p5).degrees());
   report.table(band_head).add(
       {joint.name, static_cast<std::int64_t>(options.samples), static_cast<std::int64_t>(motions.size()),
        std::int64_t{tbb::this_task_arena::max_concurrency()}, wall, processor, widest});

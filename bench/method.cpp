@@ -15,7 +15,7 @@ bool Method::touch(const condyle::Pose&) {
   throw std::logic_error("this method does not answer whether the bodies touch");
 }
 
-void Method::find_pairs(const condyle::Pose&, std::vector<condyle::TrianglePair>&) {
+void Method::find_pairs(const condyle::Pose&, std::vector<condyle::contact::TrianglePair>&) {
   throw std::logic_error("this method does not find pairs");
 }
 

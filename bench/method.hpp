@@ -56,7 +56,7 @@ class Method {
   virtual bool touch(const condyle::Pose& X_FM);
 
   /// Triangles of both bodies that share a point, in any order.
-  virtual void find_pairs(const condyle::Pose& X_FM, std::vector<condyle::TrianglePair>& out);
+  virtual void find_pairs(const condyle::Pose& X_FM, std::vector<condyle::contact::TrianglePair>& out);
 
   /// Every mobile vertex that is in the fixed solid, in any order.
   virtual void find_inside(const condyle::Pose& X_FM, std::vector<InsideVertex>& out);

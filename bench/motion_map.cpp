@@ -38,14 +38,14 @@ const TableHead work_head = {"motion_map_work",
 void ask_motion_map(const Scene& scene, Effort effort, Report& report) {
   const condyle::Joint& joint = scene.joint;
   const double step = effort == Effort::full ? 1 : 10;
-  const condyle::RangeOfMotion range(joint,
-                                     {.bearing = {.rule = condyle::BearingRule::count},
-                                      .overlap = {.reference_contact = condyle::ReferenceContact::accept}});
-  const condyle::MapGrid grid{.row = {JointAngle::adduction, -40, 30, step},
-                              .column = {JointAngle::flexion, -20, 120, step},
-                              .vary = JointAngle::internal_rotation};
+  const condyle::motion::RangeOfMotion range(
+      joint, {.bearing = {.rule = condyle::motion::BearingRule::count},
+              .overlap = {.reference_contact = condyle::motion::ReferenceContact::accept}});
+  const condyle::motion::MapGrid grid{.row = {JointAngle::adduction, -40, 30, step},
+                                      .column = {JointAngle::flexion, -20, 120, step},
+                                      .vary = JointAngle::internal_rotation};
   const Stopwatch watch;
-  const condyle::MotionMap map = motion_map(grid, range);
+  const condyle::motion::MotionMap map = motion_map(grid, range);
   const double wall = watch.wall_seconds(), processor = watch.processor_seconds();
 
   std::int64_t free = 0;
@@ -61,7 +61,7 @@ void ask_motion_map(const Scene& scene, Effort effort, Report& report) {
     add_goal({"the same, processors kept busy", joint.name, Bound::at_least, 1.8, "of 2 threads"},
              processor / wall, report);
   }
-  const condyle::SearchWork work = map.work();
+  const condyle::motion::SearchWork work = map.work();
   report.table(work_head).add({joint.name, mean(work.node_pairs), mean(work.leaf_pairs), mean(work.events),
                                mean(work.exact_decisions), mean(work.triangle_tests)});
 }

@@ -16,8 +16,8 @@ namespace {
 
 using condyle::Index;
 using condyle::Pose;
-using condyle::RadialTable;
 using condyle::TriMesh;
+using condyle::radial::RadialTable;
 
 const TableHead table_building_head{
     "radial_table",
@@ -167,10 +167,10 @@ void ask_building(const Scene& scene, int rounds, Report& report) {
 
 void ask_instruction_sets(const Scene& scene, int rounds, Report& report) {
   const RadialTable table(scene.joint.fixed.mesh);
-  const condyle::SortedPoints points(scene.joint.mobile.mesh.vertices());
+  const condyle::radial::SortedPoints points(scene.joint.mobile.mesh.vertices());
   const std::vector<Pose> poses = poses_of(scene, 64);
   const std::vector<condyle::simd::InstructionSet> sets = condyle::simd::instruction_sets();
-  condyle::Penetrations found;
+  condyle::radial::Penetrations found;
   std::vector<std::function<void()>> ways;
   for (const condyle::simd::InstructionSet& set : sets)
     ways.emplace_back([&] {

@@ -16,19 +16,19 @@ fs::path data_folder() {
 }
 
 std::vector<std::optional<condyle::Pose>> walking_hip(condyle::Side side, std::optional<std::size_t> points) {
-  const condyle::MotionTable table =
-      condyle::read_motion_table(data_folder() / "motion_gait2354_walk" / "subject01_walk1_ik.mot");
+  const condyle::io::MotionTable table =
+      condyle::io::read_motion_table(data_folder() / "motion_gait2354_walk" / "subject01_walk1_ik.mot");
   const std::string ending = side == condyle::Side::right ? "_r" : "_l";
-  std::vector<condyle::ColumnOfCoordinate> columns;
+  std::vector<condyle::io::ColumnOfCoordinate> columns;
   for (const char* angle : {"flexion", "adduction", "rotation"})
     columns.push_back({.coordinate = angle, .column = "hip_" + std::string(angle) + ending});
-  const condyle::NamedCoordinates recorded = condyle::recorded_coordinates(table, columns);
-  condyle::Curves curves{.at = recorded.times.values,
-                         .names = recorded.names,
-                         .values = {columns.size(), std::vector<double>{}}};
+  const condyle::io::NamedCoordinates recorded = condyle::io::recorded_coordinates(table, columns);
+  condyle::io::Curves curves{.at = recorded.times.values,
+                             .names = recorded.names,
+                             .values = {columns.size(), std::vector<double>{}}};
   for (const auto& frame : recorded.frames)
     for (std::size_t c = 0; c < columns.size(); ++c) curves.values[c].push_back(frame.value()[c]);
-  if (points) curves = condyle::cycle_of(curves, curves.at.front(), curves.at.back(), *points);
+  if (points) curves = condyle::io::cycle_of(curves, curves.at.front(), curves.at.back(), *points);
 
   std::vector<std::optional<condyle::Pose>> poses;
   for (std::size_t i = 0; i < curves.at.size(); ++i) {

@@ -43,7 +43,7 @@ const std::vector<double>& Reference::depths(std::size_t pose, DepthKind kind) {
       for (const double gap : radial_.query(points).radial_gap_mm) depths.push_back(-gap);
       break;
     case DepthKind::along_arc:
-      if (!rings_) rings_ = std::make_unique<condyle::RingTable>(*fixed_, arc_axis());
+      if (!rings_) rings_ = std::make_unique<condyle::tangential::RingTable>(*fixed_, arc_axis());
       for (const double gap : rings_->query(points).arc_gap_mm) depths.push_back(-gap);
       break;
     case DepthKind::nearest_surface:
@@ -56,7 +56,7 @@ const std::vector<double>& Reference::depths(std::size_t pose, DepthKind kind) {
   return depths;
 }
 
-const std::vector<condyle::TrianglePair>& Reference::pairs(std::size_t pose) {
+const std::vector<condyle::contact::TrianglePair>& Reference::pairs(std::size_t pose) {
   const auto [at, is_new] = pairs_.try_emplace(pose);
   if (is_new) at->second = pair_.pairs(poses_[pose]);
   return at->second;

@@ -37,7 +37,7 @@ class Reference {
   const std::vector<double>& depths(std::size_t pose, DepthKind kind);
 
   /// Ascending.
-  const std::vector<condyle::TrianglePair>& pairs(std::size_t pose);
+  const std::vector<condyle::contact::TrianglePair>& pairs(std::size_t pose);
 
  private:
   condyle::Points inside_points(std::size_t pose);
@@ -46,13 +46,13 @@ class Reference {
   const condyle::TriMesh* mobile_;
   std::vector<condyle::Pose> poses_;
   condyle::mesh::WindingNumber winding_;
-  condyle::RadialTable radial_;
+  condyle::radial::RadialTable radial_;
   condyle::contact::BodyPair pair_;
-  std::unique_ptr<condyle::RingTable> rings_;
+  std::unique_ptr<condyle::tangential::RingTable> rings_;
   std::unique_ptr<condyle::mesh::SurfaceDistance> distance_;
   std::map<std::size_t, std::vector<Inside>> inside_;
   std::map<std::pair<std::size_t, DepthKind>, std::vector<double>> depths_;
-  std::map<std::size_t, std::vector<condyle::TrianglePair>> pairs_;
+  std::map<std::size_t, std::vector<condyle::contact::TrianglePair>> pairs_;
 };
 
 }  // namespace bench

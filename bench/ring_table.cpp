@@ -50,8 +50,8 @@ void ask_ring_table(const Scene& scene, Effort effort, Report& report) {
   const auto embree_kind = method_named("embree_16_robust");
   const auto embree = embree_kind ? embree_kind->make(bodies) : nullptr;
   const condyle::Mesh closed(fixed);
-  const condyle::RingTable ring(closed, arc_axis());
-  condyle::TangentialResults hits;
+  const condyle::tangential::RingTable ring(closed, arc_axis());
+  condyle::tangential::TangentialResults hits;
   std::vector<InsideVertex> inside;
   // Every tenth degree stands for ten.
   constexpr int stride = 10;
@@ -61,8 +61,8 @@ void ask_ring_table(const Scene& scene, Effort effort, Report& report) {
   std::vector<int> times;
   double cold_first = 0;
   tbb::task_arena(1).execute([&] {
-    const Repeated new_axis([&] { condyle::RingTable(closed, arc_axis()); });
-    const Repeated first([&] { condyle::RingTable(fixed, arc_axis()); });
+    const Repeated new_axis([&] { condyle::tangential::RingTable(closed, arc_axis()); });
+    const Repeated first([&] { condyle::tangential::RingTable(fixed, arc_axis()); });
     const Repeated query([&] { ring.query(mobile.vertices.view(), hits); });
     const Repeated arcs([&] { ring.occupied_arcs(mobile.vertices.view()); });
     times = {new_axis.times, first.times, query.times, arcs.times};
@@ -75,7 +75,8 @@ void ask_ring_table(const Scene& scene, Effort effort, Report& report) {
     };
     samples = interleaved(effort == Effort::full ? 5 : 1,
                           {new_axis, first, query, arcs, step_embree, build_embree});
-    cold_first = cold_seconds(effort == Effort::full ? 5 : 1, [&] { condyle::RingTable(fixed, arc_axis()); });
+    cold_first = cold_seconds(effort == Effort::full ? 5 : 1,
+                              [&] { condyle::tangential::RingTable(fixed, arc_axis()); });
   });
   const auto triangles = static_cast<double>(fixed.triangles.size());
   const auto vertices = static_cast<double>(mobile.vertices.size());

@@ -43,7 +43,7 @@ std::vector<ScenePose> poses_to_contact(const condyle::TriMesh& fixed, const con
   const condyle::motion::FeatureTree fixed_tree(fixed), mobile_tree(mobile);
   condyle::motion::RotatingBody rotating(mobile_tree);
   const int axes = (poses_per_scene + 2) / 3;
-  const condyle::RotationRange range{.negative = Angle::radians(0), .positive = Angle::degrees(180)};
+  const condyle::motion::RotationRange range{.negative = Angle::radians(0), .positive = Angle::degrees(180)};
 
   std::vector<ScenePose> poses;
   Vec3 axis;

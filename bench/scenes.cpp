@@ -59,7 +59,7 @@ condyle::Joint joint(std::string_view name, Side side, condyle::Body fixed, cond
 }
 
 condyle::Body body_from(const char* name, const fs::path& file) {
-  return {name, condyle::read_mesh(file).mesh};
+  return {name, condyle::io::read_mesh(file).mesh};
 }
 
 TriMesh refined(TriMesh mesh, int times) {
@@ -73,19 +73,19 @@ int size_of(std::string_view name) {
 
 /// All resolutions in the poses of the coarsest, which are made from its first contacts.
 Scene sample_bones(std::string_view name) {
-  condyle::SampleHip hip = condyle::sample_hip({}, condyle::Scenario::one);
+  condyle::sample::SampleHip hip = condyle::sample::sample_hip({}, condyle::sample::Scenario::one);
   std::vector<ScenePose> poses = poses_to_contact(hip.hip_bone, hip.femur);
-  const auto scenario = static_cast<condyle::Scenario>(size_of(name));
-  if (scenario != condyle::Scenario::one) hip = condyle::sample_hip({}, scenario);
+  const auto scenario = static_cast<condyle::sample::Scenario>(size_of(name));
+  if (scenario != condyle::sample::Scenario::one) hip = condyle::sample::sample_hip({}, scenario);
   return {joint(name, Side::right, {"hip bone", std::move(hip.hip_bone)}, {"femur", std::move(hip.femur)}),
           std::move(poses)};
 }
 
 /// Apart by the sample's own clearance.
 Scene sample_cartilages(std::string_view name) {
-  const condyle::CartilageParameters cartilage;
-  condyle::SampleCartilages made =
-      condyle::sample_cartilages({}, cartilage, static_cast<condyle::CartilageScenario>(size_of(name)));
+  const condyle::sample::CartilageParameters cartilage;
+  condyle::sample::SampleCartilages made = condyle::sample::sample_cartilages(
+      {}, cartilage, static_cast<condyle::sample::CartilageScenario>(size_of(name)));
   return {joint(name, Side::right, {"acetabular cartilage", std::move(made.acetabular)},
                 {"femoral cartilage", std::move(made.femoral)}),
           poses_in_socket(cartilage.clearance_mm, into_hip_socket(Side::right), Angle::degrees(40))};

@@ -13,7 +13,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-float greatest_turned_any(const condyle::SortedPoints& sorted, const condyle::Pose& X) {
+float greatest_turned_any(const condyle::radial::SortedPoints& sorted, const condyle::Pose& X) {
   const condyle::radial::PointBlocks& points = sorted.blocks();
   constexpr hn::CappedTag<float, 16> d;
   const float *x = points.coordinate(0), *y = points.coordinate(1), *z = points.coordinate(2);
@@ -41,7 +41,7 @@ namespace bench {
 
 HWY_EXPORT(greatest_turned_any);
 
-float greatest_turned(const condyle::SortedPoints& points, const condyle::Pose& X) {
+float greatest_turned(const condyle::radial::SortedPoints& points, const condyle::Pose& X) {
   return HWY_DYNAMIC_DISPATCH(greatest_turned_any)(points, X);
 }
 

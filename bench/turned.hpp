@@ -7,6 +7,6 @@ namespace bench {
 
 /// Moves every point by a pose, in vectors of floats, and returns the greatest coordinate there is then: what
 /// reading and turning the points costs, which no method that looks at each of them can do without.
-float greatest_turned(const condyle::SortedPoints& points, const condyle::Pose& X);
+float greatest_turned(const condyle::radial::SortedPoints& points, const condyle::Pose& X);
 
 }  // namespace bench

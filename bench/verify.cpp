@@ -17,9 +17,9 @@
 namespace bench {
 namespace {
 
-using condyle::Penetrations;
 using condyle::PointState;
 using condyle::Pose;
+using condyle::radial::Penetrations;
 
 struct Options {
   double decisions = 1e8;
@@ -42,10 +42,10 @@ Pose near(const Pose& X_FM, std::mt19937& random) {
 
 /// Points inside or on the surface by the plain query, as `penetrations` orders them.
 struct Truth {
-  condyle::RadialResults hits;
+  condyle::radial::RadialResults hits;
   std::size_t inside = 0;
 
-  Truth(const condyle::RadialTable& table, condyle::PointsView points, const Pose& X_FM)
+  Truth(const condyle::radial::RadialTable& table, condyle::PointsView points, const Pose& X_FM)
       : hits(table.query(condyle::posed(X_FM, points))) {
     for (const PointState state : hits.state) inside += state != PointState::outside;
   }
@@ -72,9 +72,9 @@ struct Count {
 };
 
 Count verify(const Scene& scene, double decisions, unsigned seed) {
-  const condyle::RadialTable table(scene.joint.fixed.mesh);
+  const condyle::radial::RadialTable table(scene.joint.fixed.mesh);
   const condyle::PointsView vertices = scene.joint.mobile.mesh.vertices().view();
-  const condyle::SortedPoints points(vertices);
+  const condyle::radial::SortedPoints points(vertices);
   const std::vector<condyle::simd::InstructionSet> sets = condyle::simd::instruction_sets();
   std::mt19937 random(seed);
   Penetrations found;
@@ -83,7 +83,7 @@ Count verify(const Scene& scene, double decisions, unsigned seed) {
     const Pose X_FM = near(scene.poses[i % scene.poses.size()].X_FM, random);
     const Truth truth(table, vertices, X_FM);
     const condyle::simd::InstructionSetInUse in_use(sets[i % sets.size()]);
-    condyle::PenetrationWork work;
+    condyle::radial::PenetrationWork work;
     table.penetrations(points, X_FM, found, &work);
     count.wrong += truth.wrong(found);
     count.decisions += static_cast<std::int64_t>(vertices.size());

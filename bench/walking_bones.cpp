@@ -33,13 +33,13 @@ const TableHead walk_head{"walking_bones",
 bool ask_walking_bones(Effort effort, Report& report) {
   const fs::path folder = data_folder() / "hip_vhf_right";
   if (!fs::is_directory(folder) || !fs::is_directory(data_folder() / "motion_gait2354_walk")) return false;
-  const condyle::Mesh pelvis(condyle::read_mesh(folder / "hip_bone.ply").mesh);
-  const condyle::Mesh femur(condyle::read_mesh(folder / "femur.ply").mesh);
+  const condyle::Mesh pelvis(condyle::io::read_mesh(folder / "hip_bone.ply").mesh);
+  const condyle::Mesh femur(condyle::io::read_mesh(folder / "femur.ply").mesh);
   auto walk = walking_hip(condyle::Side::right);
   if (effort == Effort::quick) walk.resize(quick_frames);
 
-  const condyle::JointContact bones(pelvis, femur);
-  const condyle::NormalDepth depth(femur, pelvis);
+  const condyle::contact::JointContact bones(pelvis, femur);
+  const condyle::contact::NormalDepth depth(femur, pelvis);
   const condyle::mesh::TriangleTree fixed(pelvis), mobile(femur);
   std::int64_t in_contact = 0;
   std::vector<double> wall;
@@ -47,7 +47,7 @@ bool ask_walking_bones(Effort effort, Report& report) {
   // One round more than counts, to warm up.
   for (int round = 0; round <= rounds; ++round) {
     const Stopwatch watch;
-    const auto frames = contact_along(bones, &depth, walk).value();
+    const auto frames = condyle::motion::contact_along(bones, &depth, walk).value();
     if (round > 0) wall.push_back(watch.wall_seconds());
     in_contact =
         std::count_if(frames.begin(), frames.end(), [](const auto& frame) { return frame->in_contact; });

@@ -10,11 +10,13 @@
 namespace condyle::cli {
 
 /// Contact as frames of a recorded motion are asked for it.
-ContactEntry motion_contact_of(const ContactChanges& options, const JointFile& file, bool with_pressure);
+io::ContactEntry motion_contact_of(const io::ContactChanges& options, const io::JointFile& file,
+                                   bool with_pressure);
 
 /// answer_motion() of the question's surfaces, by depth or with pressure, with its progress on standard error; its notes begin with
 /// those on the motion's numbers. The request takes names, casting and rays from the question. Throws as ElasticContact and
 /// NormalDepth do, Interrupted on SIGINT or SIGTERM, and MeshError for notes that are errors and known before the frames.
-MotionAnswer answered_motion(const MotionQuestion& question, MotionRequest request, Strictness strictness);
+MotionAnswer answered_motion(const io::MotionQuestion& question, MotionRequest request,
+                             Strictness strictness);
 
 }  // namespace condyle::cli

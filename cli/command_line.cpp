@@ -46,11 +46,11 @@ std::vector<std::string> words_of(const CLI::App& command) {
 void add_where(CLI::App& command, const std::shared_ptr<WhereOptions>& options) {
   command
       .add_option_function<std::string>(
-          "--frame", [options](const std::string& name) { options->frame = answer_frame_named(name); },
+          "--frame", [options](const std::string& name) { options->frame = io::answer_frame_named(name); },
           "The frame in which points and meshes are written: that of the joint, or that of the mesh files")
       ->option_text("joint|source (joint)");
   command.add_flag_callback(
-      "--ascii", [options] { options->vtp_encoding = VtpEncoding::text; },
+      "--ascii", [options] { options->vtp_encoding = io::VtpEncoding::text; },
       "Write VTP files as text, which OpenSim reads");
 }
 

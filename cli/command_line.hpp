@@ -18,8 +18,8 @@ std::vector<std::string> words_of(const CLI::App& command);
 
 /// --frame and --ascii, for commands that write points and meshes.
 struct WhereOptions {
-  AnswerFrameName frame = AnswerFrameName::joint;
-  VtpEncoding vtp_encoding = VtpEncoding::binary;
+  io::AnswerFrameName frame = io::AnswerFrameName::joint;
+  io::VtpEncoding vtp_encoding = io::VtpEncoding::binary;
 };
 void add_where(CLI::App& command, const std::shared_ptr<WhereOptions>& options);
 

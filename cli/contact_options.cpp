@@ -24,14 +24,15 @@ std::string sentence(const std::string& when, std::string text) {
 
 }  // namespace
 
-void add_rays(CLI::App& command, const std::shared_ptr<ContactChanges>& options, const std::string& when) {
+void add_rays(CLI::App& command, const std::shared_ptr<io::ContactChanges>& options,
+              const std::string& when) {
   command
       .add_option_function<std::string>(
           "--casting",
           [options](const std::string& name) {
-            options->casting = name == "fixed"    ? Casting::fixed
-                               : name == "mobile" ? Casting::mobile
-                                                  : Casting::both;
+            options->casting = name == "fixed"    ? contact::Casting::fixed
+                               : name == "mobile" ? contact::Casting::mobile
+                                                  : contact::Casting::both;
           },
           sentence(when, "the body from whose surface rays are cast"))
       ->check(CLI::IsMember({"fixed", "mobile", "both"}))
@@ -40,7 +41,8 @@ void add_rays(CLI::App& command, const std::shared_ptr<ContactChanges>& options,
       .add_option_function<std::string>(
           "--rule",
           [options](const std::string& name) {
-            options->rule = name == "face_centre" ? FaceRule::face_centre : FaceRule::cut_faces;
+            options->rule =
+                name == "face_centre" ? contact::FaceRule::face_centre : contact::FaceRule::cut_faces;
           },
           when +
               "face_centre counts whole triangles by their centre, as OpenSim-JAM does; cut_faces cuts them "
@@ -51,7 +53,7 @@ void add_rays(CLI::App& command, const std::shared_ptr<ContactChanges>& options,
   command.add_option("--reach", options->reach_mm, sentence(when, "how far rays go"))->option_text("MM (20)");
 }
 
-void add_layers(CLI::App& command, const std::shared_ptr<ContactChanges>& options) {
+void add_layers(CLI::App& command, const std::shared_ptr<io::ContactChanges>& options) {
   const auto add = [&](const char* name, std::vector<double>& values, const char* what, const char* text) {
     command.add_option(name, values, what)->expected(1, 2)->option_text(text);
   };
@@ -63,15 +65,17 @@ void add_layers(CLI::App& command, const std::shared_ptr<ContactChanges>& option
       .add_option_function<std::string>(
           "--law",
           [options](const std::string& name) {
-            options->law = name == "linear" ? PressureLaw::linear : PressureLaw::logarithmic;
+            options->law =
+                name == "linear" ? contact::PressureLaw::linear : contact::PressureLaw::logarithmic;
           },
           "How pressure grows with depth")
       ->check(CLI::IsMember({"linear", "logarithmic"}))
       ->option_text("linear|logarithmic (linear)");
 }
 
-ContactEntry contact_of(const ContactChanges& changes, const JointFile& file, bool with_pressure) {
-  ContactEntry entry = changed(file.contact.value_or(ContactEntry{}), changes);
+io::ContactEntry contact_of(const io::ContactChanges& changes, const io::JointFile& file,
+                            bool with_pressure) {
+  io::ContactEntry entry = io::changed(file.contact.value_or(io::ContactEntry{}), changes);
   if (changes.any_of_layers() && !entry.fixed && !entry.mobile)
     throw UsageError("--e, --nu and --thickness: a layer needs all three, and the joint file has none");
   if (with_pressure && !entry.fixed && !entry.mobile)
@@ -119,21 +123,22 @@ std::vector<Vec3> directions_of(const std::vector<double>& along) {
   return directions;
 }
 
-StudyLoad study_load_of(const std::string& pose, const std::vector<double>& force,
-                        const std::vector<double>& along, const ContactChanges& contact, Anatomy anatomy) {
+io::StudyLoad study_load_of(const std::string& pose, const std::vector<double>& force,
+                            const std::vector<double>& along, const io::ContactChanges& contact,
+                            Anatomy anatomy) {
   if (force.empty() && !along.empty()) throw UsageError("--along: needs --force");
-  StudyLoad load{study_pose(pose, anatomy), contact, {}};
+  io::StudyLoad load{io::study_pose(pose, anatomy), contact, {}};
   if (!force.empty()) load.force_n = Vec3(force[0], force[1], force[2]);
   load.free_directions = directions_of(along);
   return load;
 }
 
-Load load_of(const BalanceArguments& given) {
+contact::Load load_of(const BalanceArguments& given) {
   return {.on_mobile = {vector_of(given.force), vector_of(given.moment)}, .frame = given.frame};
 }
 
-BalanceOptions balance_options_of(const BalanceArguments& given) {
-  BalanceOptions options;
+contact::BalanceOptions balance_options_of(const BalanceArguments& given) {
+  contact::BalanceOptions options;
   options.free_directions = directions_of(given.along);
   options.free_rotations = given.rotations;
   return options;

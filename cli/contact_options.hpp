@@ -18,13 +18,13 @@ class App;
 namespace condyle::cli {
 
 /// `when` begins each line of help, where rays are not all that the command knows.
-void add_rays(CLI::App& command, const std::shared_ptr<ContactChanges>& options,
+void add_rays(CLI::App& command, const std::shared_ptr<io::ContactChanges>& options,
               const std::string& when = "");
-void add_layers(CLI::App& command, const std::shared_ptr<ContactChanges>& options);
+void add_layers(CLI::App& command, const std::shared_ptr<io::ContactChanges>& options);
 
 /// The joint file's entries with the given changes. With pressure UsageError if no body has a layer or one misses a
 /// value.
-ContactEntry contact_of(const ContactChanges& changes, const JointFile& file, bool with_pressure);
+io::ContactEntry contact_of(const io::ContactChanges& changes, const io::JointFile& file, bool with_pressure);
 
 struct BalanceArguments {
   std::vector<double> force, moment, along;
@@ -38,9 +38,10 @@ void add_balance(CLI::App& command, const std::shared_ptr<BalanceArguments>& giv
 /// Directions of --along; UsageError for a count that is not whole directions.
 std::vector<Vec3> directions_of(const std::vector<double>& along);
 /// A load at a pose, its force and directions in components anterior, superior and lateral.
-StudyLoad study_load_of(const std::string& pose, const std::vector<double>& force,
-                        const std::vector<double>& along, const ContactChanges& contact, Anatomy anatomy);
-Load load_of(const BalanceArguments& given);
-BalanceOptions balance_options_of(const BalanceArguments& given);
+io::StudyLoad study_load_of(const std::string& pose, const std::vector<double>& force,
+                            const std::vector<double>& along, const io::ContactChanges& contact,
+                            Anatomy anatomy);
+contact::Load load_of(const BalanceArguments& given);
+contact::BalanceOptions balance_options_of(const BalanceArguments& given);
 
 }  // namespace condyle::cli

@@ -36,45 +36,45 @@ struct DepthArguments {
   std::string joint, pose, matrix, out;
   DepthMethod method = DepthMethod::reliable;
   std::optional<std::string> about;
-  std::shared_ptr<ContactChanges> rays = std::make_shared<ContactChanges>();
-  VertexTables vertices = VertexTables::leave_out;
+  std::shared_ptr<io::ContactChanges> rays = std::make_shared<io::ContactChanges>();
+  io::VertexTables vertices = io::VertexTables::leave_out;
   Scope scope = Scope::vertices_and_pairs;
   Strictness strictness = Strictness::notes;
   std::shared_ptr<WhereOptions> where = std::make_shared<WhereOptions>();
   AnswerForm form = AnswerForm::text;
 };
 
-DepthRequest request_of(const DepthArguments& options, const PoseArgument& given, const ContactEntry& entry,
-                        Anatomy joint) {
+DepthRequest request_of(const DepthArguments& options, const io::PoseArgument& given,
+                        const io::ContactEntry& entry, Anatomy joint) {
   DepthRequest request{.X_FM = given.X_FM, .pose = given.pose.angles(), .method = options.method};
-  if (options.about) request.about = joint_angle_named(*options.about, joint);
+  if (options.about) request.about = io::joint_angle_named(*options.about, joint);
   if (options.method == DepthMethod::normal) request.casting = entry.casting, request.rays = entry.rays;
   // Files have the nearest distance of every vertex.
-  if (!options.out.empty()) request.distances = DistancesOf::all_vertices;
+  if (!options.out.empty()) request.distances = contact::DistancesOf::all_vertices;
   return request;
 }
 
 /// By its coordinates, as a matrix, or as a matrix in a file.
-PoseArgument pose_of(const DepthArguments& options, const Joint& joint) {
-  if (options.matrix.empty()) return given_pose(options.pose, joint);
+io::PoseArgument pose_of(const DepthArguments& options, const Joint& joint) {
+  if (options.matrix.empty()) return io::given_pose(options.pose, joint);
   const std::string text = io::read_whole_file(options.matrix);
   try {
-    if (!is_matrix(text)) throw UsageError("pose: a matrix begins with a number");
-    return given_pose(text, joint);
+    if (!io::is_matrix(text)) throw UsageError("pose: a matrix begins with a number");
+    return io::given_pose(text, joint);
   } catch (const UsageError& error) {
     throw FileError(fmt::format("{}: {}", options.matrix, error.what()));
   }
 }
 
-std::string files_of(const std::vector<BodyMeshReport>& meshes) {
+std::string files_of(const std::vector<io::BodyMeshReport>& meshes) {
   std::string files;
-  for (const BodyMeshReport& mesh : meshes) files += (files.empty() ? "" : " + ") + mesh.mesh.string();
+  for (const io::BodyMeshReport& mesh : meshes) files += (files.empty() ? "" : " + ") + mesh.mesh.string();
   return files;
 }
 
 /// Whether the meshes allow the question: solids for vertices inside, outer sides for normals, nothing for pairs.
-void require_meshes(const LoadedJoint& loaded, const DepthArguments& options) {
-  const auto require = [&](const Mesh& mesh, const std::vector<BodyMeshReport>& reports) {
+void require_meshes(const io::LoadedJoint& loaded, const DepthArguments& options) {
+  const auto require = [&](const Mesh& mesh, const std::vector<io::BodyMeshReport>& reports) {
     if (options.method == DepthMethod::normal) return mesh::require_oriented(mesh, files_of(reports));
     if (options.scope == Scope::pairs_only) return;
     try {
@@ -91,8 +91,8 @@ void require_meshes(const LoadedJoint& loaded, const DepthArguments& options) {
 }
 
 /// The joint with the parts that cast and are cast at in the place of bodies of several.
-Joint joint_of_surfaces(const ContactEntry& entry, Joint joint) {
-  ContactSurfaces surfaces = surfaces_of(entry, joint);
+Joint joint_of_surfaces(const io::ContactEntry& entry, Joint joint) {
+  io::ContactSurfaces surfaces = io::surfaces_of(entry, joint);
   if (!entry.fixed_part.empty()) joint.fixed = std::move(surfaces.fixed);
   if (!entry.mobile_part.empty()) joint.mobile = std::move(surfaces.mobile);
   return joint;
@@ -102,26 +102,27 @@ void depth_command(const DepthArguments& options, const CLI::App& command) {
   const bool by_normals = options.method == DepthMethod::normal;
   if (options.rays->any_of_rays() && !by_normals)
     throw UsageError("--casting, --rule, --reach: are for --method normal");
-  const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
-  const ContactEntry entry = contact_of(*options.rays, loaded.report.file, false);
+  const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
+  const io::ContactEntry entry = contact_of(*options.rays, loaded.report.file, false);
   const Joint joint = by_normals ? joint_of_surfaces(entry, loaded.joint) : loaded.joint;
-  const PoseArgument given = pose_of(options, joint);
+  const io::PoseArgument given = pose_of(options, joint);
   const DepthRequest request = request_of(options, given, entry, joint.anatomy);
   check_depth_request(joint, request);
   for (const std::string& remark : given.notes) note("pose: " + remark);
   require_meshes(loaded, options);
-  Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
+  io::Provenance from = io::provenance_of(loaded, words_of(command), options.where->frame);
   if (!options.matrix.empty()) from.read.emplace_back(options.matrix);
-  if (!options.out.empty()) check_depth_folder(options.out, &from);
-  const DepthQuestion question{.joint = joint,
-                               .pose = given.pose,
-                               .X_FM = given.X_FM,
-                               .notes = noted(loaded, options.strictness),
-                               .provenance = &from};
+  if (!options.out.empty()) io::check_depth_folder(options.out, &from);
+  const io::DepthQuestion question{.joint = joint,
+                                   .pose = given.pose,
+                                   .X_FM = given.X_FM,
+                                   .notes = noted(loaded, options.strictness),
+                                   .provenance = &from};
   const DepthAnswer answer = io::name_joint_file(options.joint, [&] { return answer_depth(joint, request); });
-  const DepthResult result = depth_result(question, answer);
+  const io::DepthResult result = io::depth_result(question, answer);
   if (!options.out.empty())
-    say_written(write_depth(options.out, question, result, {options.where->vtp_encoding, options.vertices}));
+    say_written(
+        io::write_depth(options.out, question, result, {options.where->vtp_encoding, options.vertices}));
   print(options.form == AnswerForm::json ? result.json : result.text);
 }
 
@@ -172,7 +173,7 @@ void add_depth(CLI::App& app) {
   add_where(*command, options->where);
   command
       ->add_flag_callback(
-          "--csv", [options] { options->vertices = VertexTables::write; },
+          "--csv", [options] { options->vertices = io::VertexTables::write; },
           "With --out: write fixed.csv and mobile.csv too, a line per vertex")
       ->needs(out);
   command->add_flag_callback(

@@ -31,7 +31,7 @@ std::vector<std::string> follow_names() {
   return {"--follow", "--follow-load", "--force", "--force-frame", "--along"};
 }
 
-Followed::Followed(const FollowArguments& given, const LoadedJoint& loaded, io::MotionsAre motions,
+Followed::Followed(const FollowArguments& given, const io::LoadedJoint& loaded, io::MotionsAre motions,
                    RangeRequest& request) {
   if (given.balance->any() && !given.load)
     throw UsageError("--force: only a translation that follows a load takes one: --follow-load");
@@ -42,7 +42,7 @@ Followed::Followed(const FollowArguments& given, const LoadedJoint& loaded, io::
     check_range_request(loaded.joint, loaded.report.placement, request);
   }
   if (given.record.empty()) return;
-  const JointMotion recorded = motion_of(loaded, read_motion_table(given.record));
+  const io::JointMotion recorded = io::motion_of(loaded, io::read_motion_table(given.record));
   for (const std::string& remark : recorded.processing) note(remark);
   io::follow(request, loaded, recorded, motions);
 }

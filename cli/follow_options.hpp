@@ -36,7 +36,7 @@ std::vector<std::string> follow_names();
 class Followed {
  public:
   /// Makes the request follow what is given, or leaves it. UsageError for a load without a force and the reverse.
-  Followed(const FollowArguments& given, const LoadedJoint& loaded, io::MotionsAre motions,
+  Followed(const FollowArguments& given, const io::LoadedJoint& loaded, io::MotionsAre motions,
            RangeRequest& request);
 
  private:

@@ -23,10 +23,10 @@ struct FrameArguments {
 };
 
 void frame_command(const FrameArguments& options, const CLI::App& command) {
-  const LoadedJoint joint = joint_at(read_joint(options.joint), options.parameters);
+  const io::LoadedJoint joint = joint_at(io::read_joint(options.joint), options.parameters);
   const std::vector<JointNote> notes = noted(joint, options.strictness);
-  const Provenance from = provenance_of(joint, words_of(command));
-  print(options.form == AnswerForm::json ? to_json(joint, notes, &from) : to_text(joint));
+  const io::Provenance from = io::provenance_of(joint, words_of(command));
+  print(options.form == AnswerForm::json ? io::frame_json(joint, notes, &from) : io::to_text(joint));
 }
 
 }  // namespace

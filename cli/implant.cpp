@@ -27,7 +27,7 @@ struct ImplantArguments {
   ParameterArguments parameters;
   std::string joint, out;
   std::shared_ptr<ImplantSizeArguments> given =
-      std::make_shared<ImplantSizeArguments>(ImplantSizeArguments{TotalHip{}});
+      std::make_shared<ImplantSizeArguments>(ImplantSizeArguments{plan::TotalHip{}});
   ImplantCentre centre = ImplantCentre::head;
   bool as_rim = false;
   Strictness strictness = Strictness::notes;
@@ -38,29 +38,29 @@ struct ImplantArguments {
 constexpr std::array<std::string_view, 4> sizes_of_bones{"neck_shaft", "stem_version", "offset",
                                                          "cup_radius"};
 
-ImplantQuery query_of(const ImplantArguments& options, const LoadedJoint& loaded) {
+ImplantQuery query_of(const ImplantArguments& options, const io::LoadedJoint& loaded) {
   const auto is_left = [&](std::string_view size) { return !options.given->sizes.contains(size); };
-  return {.hip = std::get<TotalHip>(options.given->implant),
+  return {.hip = std::get<plan::TotalHip>(options.given->implant),
           .of_bones = {.neck_shaft = is_left("neck_shaft"),
                        .stem_version = is_left("stem_version"),
                        .offset = is_left("offset"),
                        .cup_radius = is_left("cup_radius"),
                        .cup = options.as_rim},
           .centre = options.centre,
-          .measures = measure_request_of(loaded)};
+          .measures = io::measure_request_of(loaded)};
 }
 
 void implant_command(const ImplantArguments& options, const CLI::App& command) {
-  const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
+  const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
-  const Provenance from = provenance_of(loaded, words_of(command));
-  if (!options.out.empty()) check_implant_folder(options.out, &from);
+  const io::Provenance from = io::provenance_of(loaded, words_of(command));
+  if (!options.out.empty()) io::check_implant_folder(options.out, &from);
   const ImplantAnswer answer = io::name_joint_file(options.joint, [&] {
     return answer_implant(loaded.joint, loaded.report.placement, query_of(options, loaded));
   });
-  const ImplantResult result{loaded.joint, answer, notes, &from, &loaded.report.file};
-  if (!options.out.empty()) say_written(write_implant(options.out, result));
-  print(options.form == AnswerForm::json ? implant_json(result) : implant_text(result));
+  const io::ImplantResult result{loaded.joint, answer, notes, &from, &loaded.report.file};
+  if (!options.out.empty()) say_written(io::write_implant(options.out, result));
+  print(options.form == AnswerForm::json ? io::implant_json(result) : io::implant_text(result));
 }
 
 void add_placement(CLI::App& command, const std::shared_ptr<ImplantArguments>& options) {

@@ -16,7 +16,7 @@ std::string option_name(std::string_view parameter) {
   return name;
 }
 
-std::string value_text(const ImplantParameter& size, const Implant& implant,
+std::string value_text(const plan::ImplantParameter& size, const plan::Implant& implant,
                        std::span<const std::string_view> of_bones) {
   const char* unit = size.unit == "mm" ? "MM" : "DEG";
   if (std::find(of_bones.begin(), of_bones.end(), size.name) != of_bones.end())
@@ -29,7 +29,7 @@ std::string value_text(const ImplantParameter& size, const Implant& implant,
 std::vector<std::string> add_sizes(CLI::App& command, const std::shared_ptr<ImplantSizeArguments>& given,
                                    std::span<const std::string_view> of_bones) {
   std::vector<std::string> names;
-  for (const ImplantParameter& each : implant_parameters(given->implant)) {
+  for (const plan::ImplantParameter& each : plan::implant_parameters(given->implant)) {
     names.push_back(option_name(each.name));
     command
         .add_option_function<double>(
@@ -51,7 +51,7 @@ void add_facets(CLI::App& command, const std::shared_ptr<ImplantSizeArguments>& 
           [given](int facets) { std::visit([&](auto& design) { design.facets = facets; }, given->implant); },
           "Facets around liner and neck: with 360 limits are within 0.01 degrees of the closed form; the "
           "error goes with the square")
-      ->option_text(fmt::format("N ({})", default_facets));
+      ->option_text(fmt::format("N ({})", plan::default_facets));
 }
 
 void add_definition(CLI::App& command, const std::shared_ptr<ImplantSizeArguments>& given) {
@@ -59,7 +59,7 @@ void add_definition(CLI::App& command, const std::shared_ptr<ImplantSizeArgument
       .add_option_function<std::string>(
           "--definition",
           [given](const std::string& word) {
-            std::get<TotalHip>(given->implant).cup.definition = cup_definition_named(word);
+            std::get<plan::TotalHip>(given->implant).cup.definition = cup_definition_named(word);
           },
           "Which of Murray's definitions inclination and anteversion of the cup are by")
       ->check(CLI::IsMember({"radiographic", "anatomic", "operative"}))

@@ -15,7 +15,7 @@
 namespace condyle::cli {
 
 struct ImplantSizeArguments {
-  Implant implant;
+  plan::Implant implant;
   std::set<std::string_view> sizes = {};  ///< the names of those that were given
 };
 

@@ -52,7 +52,7 @@ void check_out(const InitArguments& options) {
   io::check_output_file(options.out);
 }
 
-void note_to_fill_in(const JointProposal& proposal) {
+void note_to_fill_in(const io::JointProposal& proposal) {
   for (const std::string& missing : proposal.to_fill_in) note("to fill in: " + missing);
 }
 
@@ -66,12 +66,13 @@ std::optional<Anatomy> anatomy_of(const std::string& joint) {
 
 void propose_from_meshes(const InitArguments& options) {
   if (options.mobile.empty()) throw UsageError("MOBILE: the mesh of the body that moves is needed");
-  const JointProposal proposal = propose_joint(ProposalRequest{.fixed = options.fixed,
-                                                               .mobile = options.mobile,
-                                                               .joint_file = options.joint_file(),
-                                                               .side = options.side,
-                                                               .units = options.units,
-                                                               .anatomy = anatomy_of(options.joint)});
+  const io::JointProposal proposal =
+      io::propose_joint(io::ProposalRequest{.fixed = options.fixed,
+                                            .mobile = options.mobile,
+                                            .joint_file = options.joint_file(),
+                                            .side = options.side,
+                                            .units = options.units,
+                                            .anatomy = anatomy_of(options.joint)});
   note_to_fill_in(proposal);
   if (options.out.empty()) return print(proposal.toml);
   io::write_output_file(options.out, proposal.toml);
@@ -93,27 +94,27 @@ void check_labels(const InitArguments& options) {
 void propose_from_labels(const InitArguments& options) {
   check_labels(options);
   const auto bone = [&](const std::string& label) {
-    return LabelBoneRequest{label, options.labels->task, options.labels->surface};
+    return io::LabelBoneRequest{label, options.labels->task, options.labels->surface};
   };
-  LabelJointRequest request{.labels = options.fixed,
-                            .file = options.labels->file,
-                            .fixed = bone(options.fixed_label),
-                            .mobile = bone(options.mobile_label),
-                            .joint_file = options.joint_file(),
-                            .side = options.side};
+  io::LabelJointRequest request{.labels = options.fixed,
+                                .file = options.labels->file,
+                                .fixed = bone(options.fixed_label),
+                                .mobile = bone(options.mobile_label),
+                                .joint_file = options.joint_file(),
+                                .side = options.side};
   if (!options.mobile.empty()) request.mobile_labels = options.mobile;
-  const LabelJoint joint =
+  const io::LabelJoint joint =
       followed("steps of surfaces", [&](const auto& progress, const std::stop_token& stop) {
-        return propose_joint(request, {.progress = progress, .stop = stop});
+        return io::propose_joint(request, {.progress = progress, .stop = stop});
       });
   for (const fs::path& mesh : {joint.fixed_mesh, joint.mobile_mesh})
     refuse_existing(mesh, "a mesh of a joint is not replaced");
   note_labels(joint.notes);
   note_to_fill_in(joint.proposal);
   const fs::path folder = request.joint_file.parent_path();
-  OutputFolder out(folder.empty() ? fs::path(".") : folder);
-  write_mesh(out.file(joint.fixed_mesh.filename().string()), joint.fixed.surface.mesh);
-  write_mesh(out.file(joint.mobile_mesh.filename().string()), joint.mobile.surface.mesh);
+  io::OutputFolder out(folder.empty() ? fs::path(".") : folder);
+  io::write_mesh(out.file(joint.fixed_mesh.filename().string()), joint.fixed.surface.mesh);
+  io::write_mesh(out.file(joint.mobile_mesh.filename().string()), joint.mobile.surface.mesh);
   io::write_output_file(out.file(request.joint_file.filename().string()), joint.proposal.toml);
   say_written(out.commit());
 }
@@ -123,11 +124,11 @@ void propose_from_model(const InitArguments& options) {
   if (options.units) throw UsageError("--units: lengths of a model are metres");
   if (!options.fixed_label.empty() || !options.mobile_label.empty())
     throw UsageError("--fixed, --mobile: are for label maps, and " + options.fixed + " is none");
-  const Model model = model_of(options.fixed, options.model->geometry);
-  ModelJointRequest request = request_of(model, *options.model, options.joint, options.side);
+  const io::Model model = model_of(options.fixed, options.model->geometry);
+  io::ModelJointRequest request = request_of(model, *options.model, options.joint, options.side);
   request.joint_file = options.joint_file();
-  const ModelJointProposal proposed = propose_joint(model, request);
-  for (const ModelNote& of_model : proposed.notes) note(to_text(of_model));
+  const io::ModelJointProposal proposed = io::propose_joint(model, request);
+  for (const io::ModelNote& of_model : proposed.notes) note(io::to_text(of_model));
   note_to_fill_in(proposed.proposal);
   if (options.out.empty()) {
     print(proposed.proposal.toml);
@@ -140,11 +141,11 @@ void propose_from_model(const InitArguments& options) {
 
 void init_command(const InitArguments& options, const CLI::App& command) {
   check_out(options);
-  if (!label_format_of(options.fixed)) refuse_label_options(command, options.fixed);
+  if (!io::label_format_of(options.fixed)) refuse_label_options(command, options.fixed);
   if (is_model(options.fixed)) return propose_from_model(options);
   if (options.model->any())
     throw UsageError("--anatomy, --contact, --geometry: are for models of OpenSim, .osim");
-  if (label_format_of(options.fixed)) return propose_from_labels(options);
+  if (io::label_format_of(options.fixed)) return propose_from_labels(options);
   if (!options.fixed_label.empty() || !options.mobile_label.empty())
     throw UsageError("--fixed, --mobile: are for label maps, and " + options.fixed + " is none");
   propose_from_meshes(options);

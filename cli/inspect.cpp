@@ -29,7 +29,7 @@ struct InspectArguments {
   std::vector<std::string> meshes;  ///< or label maps, or models
   std::shared_ptr<LabelOptions> labels = std::make_shared<LabelOptions>();
   std::vector<std::string> geometry;  ///< folders with meshes of models
-  PolygonRule polygons = PolygonRule::refuse;
+  io::PolygonRule polygons = io::PolygonRule::refuse;
   std::vector<std::string> repairs;
   std::string out;
   AnswerForm form = AnswerForm::text;
@@ -51,7 +51,7 @@ enum class FileKind { mesh, label_map, model };
 
 FileKind kind_of(const std::string& path) {
   if (is_model(path)) return FileKind::model;
-  return label_format_of(path) ? FileKind::label_map : FileKind::mesh;
+  return io::label_format_of(path) ? FileKind::label_map : FileKind::mesh;
 }
 
 /// The one kind that all files are of.
@@ -61,7 +61,7 @@ FileKind kind_of(const InspectArguments& options) {
     if (kind_of(path) != kind)
       throw UsageError("MESH: meshes, label maps and models are inspected one after the other, not together");
   const bool is_of_meshes =
-      !options.repairs.empty() || !options.out.empty() || options.polygons == PolygonRule::split;
+      !options.repairs.empty() || !options.out.empty() || options.polygons == io::PolygonRule::split;
   if (kind != FileKind::mesh && is_of_meshes)
     throw UsageError(
         "--repair, --polygons, --out: are for meshes; condyle surface extracts one from a label map");
@@ -71,7 +71,7 @@ FileKind kind_of(const InspectArguments& options) {
 }
 
 void inspect_models(const InspectArguments& options, const CLI::App& command) {
-  std::vector<Model> models;
+  std::vector<io::Model> models;
   for (const std::string& path : options.meshes) models.push_back(model_of(path, options.geometry));
   print(options.form == AnswerForm::json ? io::models_json(models, words_of(command))
                                          : io::models_text(models));
@@ -91,7 +91,7 @@ void inspect_command(const InspectArguments& options, const CLI::App& command) {
   if (kind == FileKind::model) return inspect_models(options, command);
   if (kind == FileKind::label_map) return inspect_label_maps(options, command);
   std::vector<Repair> repairs;
-  for (const std::string& name : options.repairs) repairs.push_back(repair_named(name));
+  for (const std::string& name : options.repairs) repairs.push_back(io::repair_named(name));
   const std::vector<std::filesystem::path> meshes(options.meshes.begin(), options.meshes.end());
   const auto is_repaired = [&](std::string_view name) {
     return std::any_of(meshes.begin(), meshes.end(),
@@ -99,23 +99,24 @@ void inspect_command(const InspectArguments& options, const CLI::App& command) {
   };
   if (!options.out.empty()) {
     check_names_differ(options);
-    OutputFolder{options.out, is_repaired, meshes};
+    io::OutputFolder{options.out, is_repaired, meshes};
   }
 
-  std::vector<MeshInspection> inspections;
+  std::vector<io::MeshInspection> inspections;
   std::vector<TriMesh> repaired;
   for (const std::string& path : options.meshes) {
-    InspectedMesh inspected = inspect_file(path, repairs, options.polygons);
+    io::InspectedMesh inspected = io::inspect_file(path, repairs, options.polygons);
     inspections.push_back(std::move(inspected.inspection));
     if (!options.out.empty()) repaired.push_back(std::move(inspected.mesh));
   }
   if (!options.out.empty()) {
-    OutputFolder out(options.out, is_repaired, meshes);
+    io::OutputFolder out(options.out, is_repaired, meshes);
     for (std::size_t i = 0; i < repaired.size(); ++i)
-      write_mesh(out.file(repaired_name(options.meshes[i])), repaired[i]);
+      io::write_mesh(out.file(repaired_name(options.meshes[i])), repaired[i]);
     out.commit();
   }
-  print(options.form == AnswerForm::json ? to_json(inspections, words_of(command)) : to_text(inspections));
+  print(options.form == AnswerForm::json ? io::inspection_json(inspections, words_of(command))
+                                         : io::to_text(inspections));
 }
 
 }  // namespace
@@ -142,7 +143,7 @@ void add_inspect(CLI::App& app) {
       ->add_option_function<std::string>(
           "--polygons",
           [options](const std::string& rule) {
-            options->polygons = rule == "split" ? PolygonRule::split : PolygonRule::refuse;
+            options->polygons = rule == "split" ? io::PolygonRule::split : io::PolygonRule::refuse;
           },
           "What to do with polygons of more than three corners: a file does not say what surface is inside")
       ->check(CLI::IsMember({"refuse", "split"}))

@@ -9,8 +9,8 @@
 namespace condyle::cli {
 namespace {
 
-constexpr AffineChoice affines[] = {AffineChoice::sform, AffineChoice::qform};
-constexpr StatedAxes stated_axes[] = {StatedAxes::lps, StatedAxes::ras, StatedAxes::las};
+constexpr io::AffineChoice affines[] = {io::AffineChoice::sform, io::AffineChoice::qform};
+constexpr io::StatedAxes stated_axes[] = {io::StatedAxes::lps, io::StatedAxes::ras, io::StatedAxes::las};
 
 }  // namespace
 
@@ -42,7 +42,7 @@ void add_label_file(CLI::App& command, const std::shared_ptr<LabelOptions>& opti
 void add_label_surface(CLI::App& command, const std::shared_ptr<LabelOptions>& options) {
   command
       .add_option_function<std::string>(
-          "--task", [options](const std::string& word) { options->task = label_task_of(word); },
+          "--task", [options](const std::string& word) { options->task = io::label_task_of(word); },
           "The table of TotalSegmentator that names the labels")
       ->check(CLI::IsMember({"total", "total_v1", "total_mr"}))
       ->option_text("total|total_v1|total_mr");
@@ -81,8 +81,8 @@ void refuse_label_options(const CLI::App& command, const std::string& file) {
         throw UsageError(name + ": is for label maps, and " + file + " is none");
 }
 
-void note_labels(const std::vector<LabelNote>& notes) {
-  for (const LabelNote& each : notes) note(std::string(name_of(each.code)) + ": " + each.text);
+void note_labels(const std::vector<io::LabelNote>& notes) {
+  for (const io::LabelNote& each : notes) note(std::string(name_of(each.code)) + ": " + each.text);
 }
 
 }  // namespace condyle::cli

@@ -14,8 +14,8 @@
 namespace condyle::cli {
 
 struct LabelOptions {
-  LabelFileOptions file;
-  std::optional<LabelTask> task;
+  io::LabelFileOptions file;
+  std::optional<io::LabelTask> task;
   LabelSurfaceOptions surface;
 };
 
@@ -33,6 +33,6 @@ std::vector<std::string> label_surface_names();
 void refuse_label_options(const CLI::App& command, const std::string& file);
 
 /// Notes on standard error.
-void note_labels(const std::vector<LabelNote>& notes);
+void note_labels(const std::vector<io::LabelNote>& notes);
 
 }  // namespace condyle::cli

@@ -25,7 +25,7 @@ namespace {
 struct LoadArguments {
   ParameterArguments parameters;
   std::string joint, pose, out;
-  std::shared_ptr<ContactChanges> contact = std::make_shared<ContactChanges>();
+  std::shared_ptr<io::ContactChanges> contact = std::make_shared<io::ContactChanges>();
   std::shared_ptr<BalanceArguments> balance = std::make_shared<BalanceArguments>();
   Strictness strictness = Strictness::notes;
   std::shared_ptr<WhereOptions> where = std::make_shared<WhereOptions>();
@@ -33,28 +33,28 @@ struct LoadArguments {
 };
 
 void load_command(const LoadArguments& options, const CLI::App& command) {
-  const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
+  const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
   const Joint& joint = loaded.joint;
-  const PoseArgument given = given_pose(options.pose, joint);
+  const io::PoseArgument given = io::given_pose(options.pose, joint);
   for (const std::string& remark : given.notes) note(remark);
-  const Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
-  if (!options.out.empty()) check_load_folder(options.out, &from);
-  const ContactEntry contact = contact_of(*options.contact, loaded.report.file, true);
-  const ContactSurfaces surfaces = surfaces_of(contact, joint);
+  const io::Provenance from = io::provenance_of(loaded, words_of(command), options.where->frame);
+  if (!options.out.empty()) io::check_load_folder(options.out, &from);
+  const io::ContactEntry contact = contact_of(*options.contact, loaded.report.file, true);
+  const io::ContactSurfaces surfaces = io::surfaces_of(contact, joint);
   LoadRequest request{.X_FM = given.X_FM, .names = {surfaces.fixed.name, surfaces.mobile.name}};
   if (options.balance->any()) request.load = load_of(*options.balance);
   if (request.load) request.balance = balance_options_of(*options.balance);
-  const LoadQuestion question{
+  const io::LoadQuestion question{
       joint, given.pose, given.X_FM, surfaces, contact, request.load, noted(loaded, options.strictness),
       &from};
-  const ElasticContact layers(surfaces.fixed.mesh, surfaces.mobile.mesh,
-                              elastic_options(contact, surfaces, loaded));
+  const contact::ElasticContact layers(surfaces.fixed.mesh, surfaces.mobile.mesh,
+                                       io::elastic_options(contact, surfaces, loaded));
   const LoadAnswer answer = io::name_joint_file(options.joint, [&] { return answer_load(layers, request); });
   note_contact(answer.notes, loaded, options.strictness);
-  if (!answer.carries_load()) throw UsageError("--force: " + reason_of(*answer.balanced));
+  if (!answer.carries_load()) throw UsageError("--force: " + contact::reason_of(*answer.balanced));
   if (!options.out.empty())
-    say_written(write_load(options.out, question, answer, options.where->vtp_encoding));
-  print(options.form == AnswerForm::json ? load_json(question, answer) : load_text(question, answer));
+    say_written(io::write_load(options.out, question, answer, options.where->vtp_encoding));
+  print(options.form == AnswerForm::json ? io::load_json(question, answer) : io::load_text(question, answer));
 }
 
 }  // namespace

@@ -32,19 +32,19 @@ struct MeasureArguments {
 };
 
 void measure_command(const MeasureArguments& options, const CLI::App& command) {
-  const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
+  const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
-  const Provenance from = provenance_of(loaded, words_of(command));
-  if (!options.out.empty()) check_measure_folder(options.out, &from);
-  const MeasureQuery query{measure_request_of(loaded, Angle::degrees(options.tilt_deg)),
+  const io::Provenance from = io::provenance_of(loaded, words_of(command));
+  if (!options.out.empty()) io::check_measure_folder(options.out, &from);
+  const MeasureQuery query{io::measure_request_of(loaded, Angle::degrees(options.tilt_deg)),
                            range_request_of(*options.range, loaded, {}).bands};
   const MeasureAnswer answer = io::name_joint_file(options.joint, [&] {
     return followed_by_stage(
         [&](const AnswerControl& control) { return answer_measures(loaded.joint, query, control); });
   });
-  const MeasureResult result{loaded.joint, answer, notes, &from, options.definitions};
-  if (!options.out.empty()) say_written(write_measures(options.out, result));
-  print(options.form == AnswerForm::json ? measure_json(result) : measure_text(result));
+  const io::MeasureResult result{loaded.joint, answer, notes, &from, options.definitions};
+  if (!options.out.empty()) say_written(io::write_measures(options.out, result));
+  print(options.form == AnswerForm::json ? io::measure_json(result) : io::measure_text(result));
 }
 
 }  // namespace

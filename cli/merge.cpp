@@ -19,7 +19,7 @@ void merge_shares(const std::string& folder) {
   for (const SweepNote& each : merged.result.answer.notes)
     note(fmt::format("{}: {}", name_of(each.code), each.text));
   say_written(merged.written);
-  print(sweep_text(merged.result));
+  print(io::sweep_text(merged.result));
 }
 
 }  // namespace
@@ -36,11 +36,11 @@ void add_merge(CLI::App& app) {
       ->required();
   command->callback([folder] {
     if (io::has_sweep_shards(*folder)) return merge_shares(*folder);
-    const StudyDone done = merge_study(*folder);
-    for (const NotedJoint& joint : done.noted) note(joint.id + ": " + joint.codes);
+    const io::StudyDone done = io::merge_study(*folder);
+    for (const io::NotedJoint& joint : done.noted) note(joint.id + ": " + joint.codes);
     say_written(done.written);
     print(fmt::format("{} answered, {} failed\n", done.joints, done.failures));
-    require_answered(done, *folder);
+    io::require_answered(done, *folder);
   });
 }
 

@@ -55,16 +55,16 @@ bool is_model(const std::string& path) {
   return io::lower_case(path).ends_with(".osim");
 }
 
-Model model_of(const std::string& path, const std::vector<std::string>& geometry) {
+io::Model model_of(const std::string& path, const std::vector<std::string>& geometry) {
   const std::vector<std::filesystem::path> folders(geometry.begin(), geometry.end());
-  return read_model(path, folders);
+  return io::read_model(path, folders);
 }
 
-ModelJointRequest request_of(const Model& model, const ModelOptions& options, const std::string& joint,
-                             const std::optional<Side>& side) {
+io::ModelJointRequest request_of(const io::Model& model, const ModelOptions& options,
+                                 const std::string& joint, const std::optional<Side>& side) {
   if (joint.empty()) {
     std::string names;
-    for (const ModelJoint& of : model.joints) names += (names.empty() ? "" : ", ") + of.name;
+    for (const io::ModelJoint& of : model.joints) names += (names.empty() ? "" : ", ") + of.name;
     throw UsageError(fmt::format("--joint: is needed, one of {}", names.empty() ? "none" : names));
   }
   return {

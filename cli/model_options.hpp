@@ -32,11 +32,11 @@ void add_geometry(CLI::App& command, std::vector<std::string>& folders);
 bool is_model(const std::string& path);
 
 /// The model, its meshes looked for in the folders too.
-Model model_of(const std::string& path, const std::vector<std::string>& geometry);
+io::Model model_of(const std::string& path, const std::vector<std::string>& geometry);
 
 /// Throws UsageError with the joints that there are if none is named.
-ModelJointRequest request_of(const Model& model, const ModelOptions& options, const std::string& joint,
-                             const std::optional<Side>& side);
+io::ModelJointRequest request_of(const io::Model& model, const ModelOptions& options,
+                                 const std::string& joint, const std::optional<Side>& side);
 
 /// The side that --side names.
 void add_side(CLI::App& command, std::optional<Side>& side, const std::string& help);

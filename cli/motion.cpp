@@ -35,19 +35,19 @@ struct MotionArguments {
   std::optional<Side> side;
   std::shared_ptr<ModelOptions> model = std::make_shared<ModelOptions>();
   bool with_pressure = false, between = false;
-  std::shared_ptr<ContactChanges> contact = std::make_shared<ContactChanges>();
+  std::shared_ptr<io::ContactChanges> contact = std::make_shared<io::ContactChanges>();
   std::shared_ptr<BalanceArguments> balance = std::make_shared<BalanceArguments>();
   std::vector<double> cycle;
-  MotionFiles files;
+  io::MotionFiles files;
   Strictness strictness = Strictness::notes;
   std::shared_ptr<WhereOptions> where = std::make_shared<WhereOptions>();
   AnswerForm form = AnswerForm::text;
 };
 
 /// The load of each frame, from a file. Frames without one are gaps of the motion.
-std::vector<std::optional<Load>> loads_of(const MotionArguments& options, JointMotion& motion) {
+std::vector<std::optional<contact::Load>> loads_of(const MotionArguments& options, io::JointMotion& motion) {
   if (options.loads.empty()) return {};
-  const MotionTable table = read_motion_table(options.loads);
+  const io::MotionTable table = io::read_motion_table(options.loads);
   auto loads = io::loads_of(table, motion.times, options.balance->frame, options.balance->rotations);
   std::vector<std::string> processing = table.processing;
   io::note_gaps(table, loads, processing);
@@ -58,7 +58,7 @@ std::vector<std::optional<Load>> loads_of(const MotionArguments& options, JointM
   return loads;
 }
 
-MotionRequest request_of(const MotionArguments& options, JointMotion& motion) {
+MotionRequest request_of(const MotionArguments& options, io::JointMotion& motion) {
   MotionRequest request{.loads = loads_of(options, motion)};
   request.X_FM = motion.X_FM;
   if (motion.times.in_seconds) request.time_s = motion.times.values;
@@ -68,48 +68,49 @@ MotionRequest request_of(const MotionArguments& options, JointMotion& motion) {
   return request;
 }
 
-LoadedJoint joint_of(const MotionArguments& options) {
+io::LoadedJoint joint_of(const MotionArguments& options) {
   if (is_model(options.joint)) {
-    const Model model = model_of(options.joint, options.model->geometry);
-    LoadedJoint loaded =
-        read_joint(model, request_of(model, *options.model, options.model_joint, options.side));
+    const io::Model model = model_of(options.joint, options.model->geometry);
+    io::LoadedJoint loaded =
+        io::read_joint(model, request_of(model, *options.model, options.model_joint, options.side));
     for (const std::string& remark : loaded.report.file.processing) note(remark);
     return loaded;
   }
   if (!options.model_joint.empty() || options.side || options.model->any())
     throw UsageError("--joint, --side, --anatomy, --contact, --geometry: are for models of OpenSim, .osim");
-  return read_joint(options.joint);
+  return io::read_joint(options.joint);
 }
 
 void motion_command(const MotionArguments& options, const CLI::App& command) {
-  const LoadedJoint loaded = joint_at(joint_of(options), options.parameters);
-  JointMotion motion = motion_of(loaded, read_motion_table(options.motion));
+  const io::LoadedJoint loaded = joint_at(joint_of(options), options.parameters);
+  io::JointMotion motion = io::motion_of(loaded, io::read_motion_table(options.motion));
   MotionRequest request = request_of(options, motion);
   check_motion_request(request);
   for (const std::string& remark : motion.processing) note(remark);
   const bool with_pressure = options.with_pressure || request.has_load();
-  Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
+  io::Provenance from = io::provenance_of(loaded, words_of(command), options.where->frame);
   for (const std::string* file : {&options.motion, &options.loads})
     if (!file->empty()) from.read.emplace_back(*file);
-  if (!options.out.empty()) check_motion_folder(options.out, &from);
-  const ContactEntry contact = motion_contact_of(*options.contact, loaded.report.file, with_pressure);
-  const ContactSurfaces surfaces = surfaces_of(contact, loaded.joint);
-  const MotionQuestion question{
+  if (!options.out.empty()) io::check_motion_folder(options.out, &from);
+  const io::ContactEntry contact = motion_contact_of(*options.contact, loaded.report.file, with_pressure);
+  const io::ContactSurfaces surfaces = io::surfaces_of(contact, loaded.joint);
+  const io::MotionQuestion question{
       loaded, motion, surfaces, contact, with_pressure, noted(loaded, options.strictness), &from};
   const MotionAnswer answer = io::name_joint_file(
       options.joint, [&] { return answered_motion(question, std::move(request), options.strictness); });
   note_contact(answer.notes, loaded, options.strictness);
   if (!options.out.empty()) {
-    MotionFiles files = options.files;
+    io::MotionFiles files = options.files;
     files.encoding = options.where->vtp_encoding;
-    if (!options.cycle.empty()) files.cycle = Cycle{options.cycle[0], options.cycle[1]};
-    const auto written = write_motion(options.out, question, answer, files);
+    if (!options.cycle.empty()) files.cycle = io::Cycle{options.cycle[0], options.cycle[1]};
+    const auto written = io::write_motion(options.out, question, answer, files);
     if (written.size() <= 8)
       say_written(written);
     else
       note(fmt::format("wrote {} files into {}", written.size(), options.out));
   }
-  print(options.form == AnswerForm::json ? motion_json(question, answer) : motion_text(question, answer));
+  print(options.form == AnswerForm::json ? io::motion_json(question, answer)
+                                         : io::motion_text(question, answer));
 }
 
 }  // namespace

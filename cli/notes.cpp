@@ -22,7 +22,7 @@ void add_strict(CLI::App& command, Strictness& strictness) {
 namespace {
 
 template <class Note>
-void say(const std::vector<Note>& notes, const LoadedJoint& joint, Strictness strictness,
+void say(const std::vector<Note>& notes, const io::LoadedJoint& joint, Strictness strictness,
          std::string_view whose = {}) {
   if (strictness == Strictness::errors && !notes.empty()) {
     std::string all;
@@ -35,13 +35,14 @@ void say(const std::vector<Note>& notes, const LoadedJoint& joint, Strictness st
 
 }  // namespace
 
-std::vector<JointNote> noted(const LoadedJoint& joint, Strictness strictness, std::string_view whose) {
+std::vector<JointNote> noted(const io::LoadedJoint& joint, Strictness strictness, std::string_view whose) {
   std::vector<JointNote> notes = check_joint(joint.joint, joint.report.placement);
   say(notes, joint, strictness, whose);
   return notes;
 }
 
-void note_contact(const std::vector<ContactNote>& notes, const LoadedJoint& joint, Strictness strictness) {
+void note_contact(const std::vector<motion::ContactNote>& notes, const io::LoadedJoint& joint,
+                  Strictness strictness) {
   say(notes, joint, strictness);
 }
 

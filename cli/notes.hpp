@@ -22,9 +22,11 @@ void add_strict(CLI::App& command, Strictness& strictness);
 /// Looks at a joint as it was read and notes what looks wrong, before anything is computed: what fails later
 /// may fail for that. Where notes are errors, throws MeshError with all of them. `whose` stands before each if
 /// a command has two joints.
-std::vector<JointNote> noted(const LoadedJoint& joint, Strictness strictness, std::string_view whose = {});
+std::vector<JointNote> noted(const io::LoadedJoint& joint, Strictness strictness,
+                             std::string_view whose = {});
 
 /// The same of notes on layers, loads and motions, once there is an answer.
-void note_contact(const std::vector<ContactNote>& notes, const LoadedJoint& joint, Strictness strictness);
+void note_contact(const std::vector<motion::ContactNote>& notes, const io::LoadedJoint& joint,
+                  Strictness strictness);
 
 }  // namespace condyle::cli

@@ -29,13 +29,13 @@ struct PictureArguments {
   std::string joint, pose, out;
   std::string view = "anterior", size = "1200x900";
   std::optional<BodyRole> hidden, transparent;
-  PictureOptions picture;
+  io::PictureOptions picture;
   bool measures = false;
   Strictness strictness = Strictness::notes;
 };
 
 /// Two whole numbers with an x between them.
-void read_size(const std::string& text, PictureOptions& picture) {
+void read_size(const std::string& text, io::PictureOptions& picture) {
   const std::size_t x = text.find('x');
   unsigned width = 0, height = 0;
   if (text.find_first_not_of("0123456789x") != text.npos || x == text.npos ||
@@ -45,40 +45,40 @@ void read_size(const std::string& text, PictureOptions& picture) {
   picture.width = width, picture.height = height;
 }
 
-BodyStyle style_of(BodyRole body, const PictureArguments& options) {
-  return options.hidden == body        ? BodyStyle::hidden
-         : options.transparent == body ? BodyStyle::transparent
-                                       : BodyStyle::solid;
+io::BodyStyle style_of(BodyRole body, const PictureArguments& options) {
+  return options.hidden == body        ? io::BodyStyle::hidden
+         : options.transparent == body ? io::BodyStyle::transparent
+                                       : io::BodyStyle::solid;
 }
 
 /// Notes the parts that were not found and are missing from the picture.
-std::vector<PictureMark> marks_of(const Joint& joint, const Pose& X_FM) {
-  const HipMeasures measures = measure_hip(joint);
+std::vector<io::PictureMark> marks_of(const Joint& joint, const Pose& X_FM) {
+  const measure::HipMeasures measures = measure::measure_hip(joint);
   if (!measures.femur.neck) note("no axis of a neck is drawn: " + measures.femur.neck_shaft.why_none);
   if (!measures.acetabulum.plane)
     note("no plane of a rim is drawn: " + measures.acetabulum.inclination.why_none);
-  return measure_marks(measures, X_FM);
+  return io::measure_marks(measures, X_FM);
 }
 
 void picture_command(const PictureArguments& options, const CLI::App& command) {
-  const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
+  const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
   const Joint& joint = loaded.joint;
-  const PoseArgument given = given_pose(options.pose, joint);
+  const io::PoseArgument given = io::given_pose(options.pose, joint);
   for (const std::string& remark : given.notes) note("pose: " + remark);
-  PictureOptions picture = options.picture;
+  io::PictureOptions picture = options.picture;
   read_size(options.size, picture);
-  picture.view = view_named(options.view, joint.side);
+  picture.view = io::view_named(options.view, joint.side);
   picture.fixed = style_of(BodyRole::fixed, options);
   picture.mobile = style_of(BodyRole::mobile, options);
   if (!options.out.ends_with(".png")) throw UsageError("--out: " + options.out + " does not end in .png");
   noted(loaded, options.strictness);
-  const Provenance from = provenance_of(loaded, words_of(command));
+  const io::Provenance from = io::provenance_of(loaded, words_of(command));
   io::check_output_file(options.out, from.read);
   if (options.measures)
     picture.marks = io::name_joint_file(options.joint, [&] { return marks_of(joint, given.X_FM); });
-  const Picture drawn = io::name_joint_file(
-      options.joint, [&] { return draw_joint(joint, given.pose.angles(), given.X_FM, picture); });
-  write_png(options.out, drawn, &from);
+  const io::Picture drawn = io::name_joint_file(
+      options.joint, [&] { return io::draw_joint(joint, given.pose.angles(), given.X_FM, picture); });
+  io::write_png(options.out, drawn, &from);
   say_written({options.out});
 }
 
@@ -116,10 +116,10 @@ void add_picture(CLI::App& app) {
       ->add_option_function<std::string>(
           "--colour",
           [options](const std::string& name) {
-            options->picture.colour = name == "depth"     ? PictureColour::depth
-                                      : name == "gap"     ? PictureColour::gap
-                                      : name == "nearest" ? PictureColour::nearest
-                                                          : PictureColour::none;
+            options->picture.colour = name == "depth"     ? io::PictureColour::depth
+                                      : name == "gap"     ? io::PictureColour::gap
+                                      : name == "nearest" ? io::PictureColour::nearest
+                                                          : io::PictureColour::none;
           },
           "Colour by depth in the other bone, as condyle depth computes it; by the gap along rays from the "
           "centre; by the distance to the nearest point; or not")

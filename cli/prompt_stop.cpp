@@ -29,10 +29,10 @@ std::string words_for(std::size_t done, std::size_t total, const char* what) {
 
 }  // namespace
 
-StudyDone stopped_promptly(
+io::StudyDone stopped_promptly(
     const char* what,
-    const std::function<std::optional<StudyDone>(const std::function<void(std::size_t, std::size_t)>&,
-                                                 std::stop_token)>& compute) {
+    const std::function<std::optional<io::StudyDone>(const std::function<void(std::size_t, std::size_t)>&,
+                                                     std::stop_token)>& compute) {
   const InterruptWatch watch;
   std::stop_source stop;
   Progress progress(what);

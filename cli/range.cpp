@@ -7,7 +7,8 @@
 
 namespace condyle::cli {
 
-RangeAnswer answered_range(const LoadedJoint& loaded, const RangeRequest& request, std::string_view whose) {
+RangeAnswer answered_range(const io::LoadedJoint& loaded, const RangeRequest& request,
+                           std::string_view whose) {
   RangeAnswer answer = followed_by_stage([&](const AnswerControl& control) {
     return answer_range(loaded.joint, loaded.report.placement, request, control);
   });

@@ -19,10 +19,10 @@ JointAngle third_angle(JointAngle a, JointAngle b) {
 }
 
 /// "count", or a margin in mm.
-BearingOptions parse_bearing(const std::string& text) {
-  BearingOptions bearing;
+motion::BearingOptions parse_bearing(const std::string& text) {
+  motion::BearingOptions bearing;
   if (text == "count") {
-    bearing.rule = BearingRule::count;
+    bearing.rule = motion::BearingRule::count;
   } else if (!CLI::detail::lexical_cast(text, bearing.margin_mm.emplace())) {
     throw UsageError("--bearing: '" + text + "' is neither a margin in mm nor count");
   }
@@ -35,7 +35,7 @@ constexpr const char* map_needs = "a map needs two angles, such as --map flexion
 std::optional<Vec3> translation_of(const std::string& text, const Joint& joint) {
   if (text.empty()) return std::nullopt;
   if (joint.kind != JointKind::free) return Vec3::Zero();
-  const PoseDegrees pose = parse_pose(text, joint.kind, joint.anatomy);
+  const io::PoseDegrees pose = io::parse_pose(text, joint.kind, joint.anatomy);
   if (pose.angles() != JointAngles{}) throw UsageError("--translation: takes x, y and z only");
   return pose.translation_mm;
 }
@@ -81,7 +81,7 @@ CLI::Option* add_bearing(CLI::App& command, const std::shared_ptr<RangeArguments
 
 CLI::Option* add_accept(CLI::App& command, const std::shared_ptr<RangeArguments>& given) {
   return command.add_flag_callback(
-      "--accept-reference-contact", [given] { given->reference_contact = ReferenceContact::accept; },
+      "--accept-reference-contact", [given] { given->reference_contact = motion::ReferenceContact::accept; },
       "Answer although the bodies are in contact in the reference pose. Motions that start in contact report "
       "so");
 }
@@ -119,25 +119,25 @@ CLI::Option* add_past(CLI::App& command, const std::shared_ptr<RangeArguments>& 
       ->option_text("DEG");
 }
 
-std::optional<MapGrid> grid_of(const RangeArguments& given, JointKind kind, Anatomy anatomy) {
+std::optional<motion::MapGrid> grid_of(const RangeArguments& given, JointKind kind, Anatomy anatomy) {
   if (given.map.empty()) {
     if (!given.vary.empty()) throw UsageError("--vary: is for --map");
     return std::nullopt;
   }
   if (given.map.size() < 2) throw UsageError("--map: only " + given.map[0] + " is given: " + map_needs);
-  MapGrid grid;
-  grid.column = parse_grid_axis(given.map[0], anatomy);
-  grid.row = parse_grid_axis(given.map[1], anatomy);
+  motion::MapGrid grid;
+  grid.column = io::parse_grid_axis(given.map[0], anatomy);
+  grid.row = io::parse_grid_axis(given.map[1], anatomy);
   grid.vary = given.vary.empty() ? third_angle(grid.column.angle, grid.row.angle)
-                                 : joint_angle_named(given.vary, anatomy);
-  check_grid(grid, kind);
+                                 : io::joint_angle_named(given.vary, anatomy);
+  motion::check_grid(grid, kind);
   return grid;
 }
 
-RangeRequest range_request_of(const RangeArguments& given, const LoadedJoint& loaded,
-                              std::vector<Motion> motions) {
+RangeRequest range_request_of(const RangeArguments& given, const io::LoadedJoint& loaded,
+                              std::vector<motion::Motion> motions) {
   const Joint& joint = loaded.joint;
-  const JointFile& file = loaded.report.file;
+  const io::JointFile& file = loaded.report.file;
   RangeRequest request{.motions = std::move(motions)};
   request.range.bearing = given.bearing;
   request.range.overlap.reference_contact = given.reference_contact;

@@ -22,12 +22,12 @@ namespace condyle::cli {
 struct RangeArguments {
   std::vector<std::string> map;
   std::string vary, translation;
-  BearingOptions bearing;
-  ReferenceContact reference_contact = ReferenceContact::refuse;
+  motion::BearingOptions bearing;
+  motion::ReferenceContact reference_contact = motion::ReferenceContact::refuse;
   std::size_t band_samples = 0;  ///< 0: no bands
   std::optional<std::uint64_t> seed;
   std::optional<double> past_deg;  ///< nothing: no impingement zones
-  StudyUncertainty sigma;
+  io::StudyUncertainty sigma;
 };
 
 /// Each adds the options of one question and returns the first of them. `given` is written while arguments are read.
@@ -39,10 +39,10 @@ CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeArguments>& 
 CLI::Option* add_past(CLI::App& command, const std::shared_ptr<RangeArguments>& given);
 
 /// Nothing if no map is requested. Throws UsageError.
-std::optional<MapGrid> grid_of(const RangeArguments& given, JointKind kind, Anatomy anatomy);
+std::optional<motion::MapGrid> grid_of(const RangeArguments& given, JointKind kind, Anatomy anatomy);
 /// The request, checked against the joint; bands by what was given, else what the joint file says, else what is usual. Throws
 /// UsageError.
-RangeRequest range_request_of(const RangeArguments& given, const LoadedJoint& loaded,
-                              std::vector<Motion> motions);
+RangeRequest range_request_of(const RangeArguments& given, const io::LoadedJoint& loaded,
+                              std::vector<motion::Motion> motions);
 
 }  // namespace condyle::cli

@@ -44,7 +44,7 @@ struct ReportArguments {
   Content content = Content::joint;
   std::string first, second, out, motion, sweep, targets;
   std::optional<std::string> title;
-  ReportLabels labels;
+  io::ReportLabels labels;
   bool with_pressure = false, measures = false;
   std::size_t curve_points = ResectionQuery{}.curve_points;
   std::shared_ptr<ResectionArguments> cut = std::make_shared<ResectionArguments>();
@@ -64,7 +64,7 @@ struct RangeOrError {
   std::string error;
 };
 
-RangeOrError range_of(const LoadedJoint& loaded, const RangeRequest& request, std::string_view whose) {
+RangeOrError range_of(const io::LoadedJoint& loaded, const RangeRequest& request, std::string_view whose) {
   try {
     return {answered_range(loaded, request, whose), {}};
   } catch (const MeshError& error) {
@@ -79,9 +79,9 @@ class JointBefore {
   /// Reads it; throws UsageError if it cannot be compared with the joint of the page.
   JointBefore(const ReportArguments& options, const Joint& of_page, std::vector<std::string> words)
       : whose_(options.first + ": "),
-        loaded_(read_joint(options.first)),
-        from_(provenance_of(loaded_, std::move(words))) {
-    check_comparable(loaded_.joint, options.first, of_page, options.second);
+        loaded_(io::read_joint(options.first)),
+        from_(io::provenance_of(loaded_, std::move(words))) {
+    io::check_comparable(loaded_.joint, options.first, of_page, options.second);
     notes_ = noted(loaded_, options.strictness, whose_);
   }
   JointBefore(const JointBefore&) = delete;
@@ -90,11 +90,11 @@ class JointBefore {
   const std::vector<std::filesystem::path>& files() const noexcept { return from_.read; }
 
   /// Its limits for the same motions, with bands of the same seed and standard deviations.
-  ReportedBefore answered(RangeRequest request) {
+  io::ReportedBefore answered(RangeRequest request) {
     request.map.reset();
     request.zones_past.reset();
     found_ = range_of(loaded_, request, whose_);
-    if (found_.answer) rom_.emplace(rom_result_of(*found_.answer, notes_, &from_));
+    if (found_.answer) rom_.emplace(io::rom_result_of(*found_.answer, notes_, &from_));
     return {.joint = loaded_.joint,
             .file = loaded_.report.file.path,
             .rom = rom_ ? &*rom_ : nullptr,
@@ -103,29 +103,29 @@ class JointBefore {
 
  private:
   std::string whose_;
-  LoadedJoint loaded_;
-  Provenance from_;
+  io::LoadedJoint loaded_;
+  io::Provenance from_;
   std::vector<JointNote> notes_;
   RangeOrError found_;
-  std::optional<RomResult> rom_;
+  std::optional<io::RomResult> rom_;
 };
 
 /// The frames of a recorded motion. What it consists of refers to the parts before it.
 struct Recorded {
-  Recorded(const ReportArguments& options, const LoadedJoint& loaded, const MotionTable& table)
-      : motion(motion_of(loaded, table)),
+  Recorded(const ReportArguments& options, const io::LoadedJoint& loaded, const io::MotionTable& table)
+      : motion(io::motion_of(loaded, table)),
         contact(motion_contact_of({}, loaded.report.file, options.with_pressure)),
-        surfaces(surfaces_of(contact, loaded.joint)),
+        surfaces(io::surfaces_of(contact, loaded.joint)),
         question{loaded, motion, surfaces, contact, options.with_pressure} {
     for (const std::string& remark : motion.processing) note(remark);
   }
   Recorded(const Recorded&) = delete;
   Recorded& operator=(const Recorded&) = delete;
 
-  JointMotion motion;
-  ContactEntry contact;
-  ContactSurfaces surfaces;
-  MotionQuestion question;
+  io::JointMotion motion;
+  io::ContactEntry contact;
+  io::ContactSurfaces surfaces;
+  io::MotionQuestion question;
   MotionAnswer answer;
 };
 
@@ -134,7 +134,7 @@ void write_empty(const ReportArguments& options, const CLI::App& command) {
   for (const CLI::Option* option : command.get_options())
     if (option->count() > 0 && option->get_name() != "--out" && option->get_name() != "--empty")
       throw UsageError(option->get_name() + ": is for a report of a joint, not for --empty");
-  write_empty_report(options.out);
+  io::write_empty_report(options.out);
   say_written({options.out});
 }
 
@@ -159,13 +159,13 @@ void check_comparison(const ReportArguments& options) {
 }
 
 /// As `condyle resect` answers.
-ResectionAnswer planned(const ReportArguments& options, const LoadedJoint& loaded,
+ResectionAnswer planned(const ReportArguments& options, const io::LoadedJoint& loaded,
                         const RangeRequest& range) {
   ResectionQuery query{.resection = resection_request_of(*options.cut), .motions = range.motions};
   query.resection.targets = reach_targets(range.motions, options.cut->targets);
   query.resection.range = range.range;
   query.curve_points = options.curve_points;
-  query.measures = measure_request_of(loaded);
+  query.measures = io::measure_request_of(loaded);
   return io::name_joint_file(options.joint(), [&] {
     return followed_by_stage([&](const AnswerControl& control) {
       return answer_resection(loaded.joint, loaded.report.placement, query, control);
@@ -173,8 +173,9 @@ ResectionAnswer planned(const ReportArguments& options, const LoadedJoint& loade
   });
 }
 
-MeasureAnswer measured(const ReportArguments& options, const LoadedJoint& loaded, const RangeRequest& range) {
-  const MeasureQuery query{measure_request_of(loaded), range.bands};
+MeasureAnswer measured(const ReportArguments& options, const io::LoadedJoint& loaded,
+                       const RangeRequest& range) {
+  const MeasureQuery query{io::measure_request_of(loaded), range.bands};
   return io::name_joint_file(options.joint(), [&] {
     return followed_by_stage(
         [&](const AnswerControl& control) { return answer_measures(loaded.joint, query, control); });
@@ -182,110 +183,111 @@ MeasureAnswer measured(const ReportArguments& options, const LoadedJoint& loaded
 }
 
 /// As `condyle sweep` asks; nothing without --sweep.
-std::optional<SweepQuery> swept(const ReportArguments& options, const LoadedJoint& loaded,
+std::optional<SweepQuery> swept(const ReportArguments& options, const io::LoadedJoint& loaded,
                                 const RangeRequest& range) {
   if (options.sweep.empty()) return std::nullopt;
   if (options.has_plan())
     throw UsageError("--sweep: not with --resect, whose bone is cut where its parts are");
   if (options.with_pressure)
     throw UsageError("--sweep: not with --load, whose layers lie on the joint as it is");
-  SweepQuery query{.parameters = parse_sweep(options.sweep),
-                   .targets = io::read_targets(options.targets, known_motions(loaded), loaded.joint.kind,
+  SweepQuery query{.parameters = plan::parse_sweep(options.sweep),
+                   .targets = io::read_targets(options.targets, io::known_motions(loaded), loaded.joint.kind,
                                                loaded.joint.anatomy),
                    .range = range.range};
-  check_shown_sweep(query.parameters, query.targets.size());
+  io::check_shown_sweep(query.parameters, query.targets.size());
   io::name_joint_file(options.joint(), [&] { check_sweep(loaded.joint, query); });
   return query;
 }
 
-SweepResult answered_sweep(const LoadedJoint& loaded, const SweepQuery& query) {
+io::SweepResult answered_sweep(const io::LoadedJoint& loaded, const SweepQuery& query) {
   SweepAnswer answer = followed_by_stage([&](const AnswerControl& control) {
     return answer_sweep(loaded.joint, loaded.report.placement, query, control);
   });
   for (const SweepNote& each : answer.notes) note(fmt::format("{}: {}", name_of(each.code), each.text));
-  return sweep_result_of(loaded, std::move(answer), query, {}, nullptr);
+  return io::sweep_result_of(loaded, std::move(answer), query, {}, nullptr);
 }
 
 void report_command(const ReportArguments& options, const CLI::App& command) {
   if (options.content == Content::nothing) return write_empty(options, command);
   if (options.joint().empty()) throw UsageError("report: JOINT is required, or --empty");
-  const LoadedJoint loaded = joint_at(read_joint(options.joint()), options.parameters);
+  const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint()), options.parameters);
   check_plan(options, loaded.joint);
   check_comparison(options);
   std::optional<JointBefore> before;
   if (options.compares()) before.emplace(options, loaded.joint, words_of(command));
-  std::optional<MotionTable> table;
-  if (!options.motion.empty()) table = read_motion_table(options.motion);
-  RangeRequest request = range_request_of(*options.range, loaded, known_motions(loaded));
+  std::optional<io::MotionTable> table;
+  if (!options.motion.empty()) table = io::read_motion_table(options.motion);
+  RangeRequest request = range_request_of(*options.range, loaded, io::known_motions(loaded));
   std::optional<Followed> follows;
   io::name_joint_file(options.joint(),
                       [&] { follows.emplace(*options.follow, loaded, io::MotionsAre::all, request); });
   const std::optional<SweepQuery> sweep_query = swept(options, loaded, request);
   const std::string whose = before ? options.joint() + ": " : "";
   const std::vector<JointNote> notes = noted(loaded, options.strictness, whose);
-  Provenance from = provenance_of(loaded, words_of(command));
+  io::Provenance from = io::provenance_of(loaded, words_of(command));
   for (const std::string& file : {options.motion, options.follow->record, options.targets})
     if (!file.empty()) from.read.emplace_back(file);
   if (before) from.read.insert(from.read.end(), before->files().begin(), before->files().end());
   // Where the file cannot be written is reported before the work, not after it.
-  check_report_file(options.out, &from);
+  io::check_report_file(options.out, &from);
 
   std::optional<ResectionAnswer> plan;
-  std::optional<LoadedJoint> without_bone;
+  std::optional<io::LoadedJoint> without_bone;
   if (options.has_plan()) {
     plan = planned(options, loaded, request);
-    without_bone.emplace(LoadedJoint{plan->resection.joint, loaded.report});
+    without_bone.emplace(io::LoadedJoint{plan->resection.joint, loaded.report});
     for (const ResectionNote& each : plan->notes) note(fmt::format("{}: {}", name_of(each.code), each.text));
   }
-  const LoadedJoint& shown = without_bone ? *without_bone : loaded;
+  const io::LoadedJoint& shown = without_bone ? *without_bone : loaded;
   std::optional<Recorded> recorded;
-  std::vector<ContactNote> contact_notes = range_request_notes(request);
+  std::vector<motion::ContactNote> contact_notes = range_request_notes(request);
   if (table) {
     recorded.emplace(options, shown, *table);
     recorded->answer =
         answered_motion(recorded->question, {.X_FM = recorded->motion.X_FM, .between = BetweenFrames::never},
                         options.strictness);
-    add_new(contact_notes, recorded->answer.notes);
+    motion::add_new(contact_notes, recorded->answer.notes);
   }
-  ContactEntry contact;
-  std::optional<ReportedLayers> layers;
+  io::ContactEntry contact;
+  std::optional<io::ReportedLayers> layers;
   if (options.with_pressure) {
     contact = contact_of({}, loaded.report.file, true);
-    const ContactSurfaces surfaces = surfaces_of(contact, loaded.joint);
-    layers.emplace(ReportedLayers{contact, elastic_options(contact, surfaces, loaded)});
-    add_new(contact_notes, check_layers(surfaces.fixed.mesh, surfaces.mobile.mesh, layers->options,
-                                        {surfaces.fixed.name, surfaces.mobile.name}));
+    const io::ContactSurfaces surfaces = io::surfaces_of(contact, loaded.joint);
+    layers.emplace(io::ReportedLayers{contact, io::elastic_options(contact, surfaces, loaded)});
+    motion::add_new(contact_notes,
+                    motion::check_layers(surfaces.fixed.mesh, surfaces.mobile.mesh, layers->options,
+                                         {surfaces.fixed.name, surfaces.mobile.name}));
   }
   note_contact(contact_notes, loaded, options.strictness);
   const auto [answer, error] = range_of(shown, request, whose);
-  std::optional<RomResult> rom;
+  std::optional<io::RomResult> rom;
   if (answer) {
-    rom.emplace(rom_result_of(*answer, notes, &from));
+    rom.emplace(io::rom_result_of(*answer, notes, &from));
     rom->contact_notes = contact_notes;
   }
-  Report report{.title = options.title.value_or(loaded.joint.name),
-                .joint = shown.joint,
-                .reference_pose = loaded.report.placement.reference_pose,
-                .rom = rom ? &*rom : nullptr,
-                .rom_error = error,
-                .bearing_margin_mm = request.range.bearing.margin_mm,
-                .labels = options.labels};
+  io::Report report{.title = options.title.value_or(loaded.joint.name),
+                    .joint = shown.joint,
+                    .reference_pose = loaded.report.placement.reference_pose,
+                    .rom = rom ? &*rom : nullptr,
+                    .rom_error = error,
+                    .bearing_margin_mm = request.range.bearing.margin_mm,
+                    .labels = options.labels};
   if (loaded.report.file.recorded_motion) report.recorded_motion = &*loaded.report.file.recorded_motion;
   if (before) report.before.emplace(before->answered(request));
-  std::optional<SweepResult> sweep;
+  std::optional<io::SweepResult> sweep;
   if (sweep_query) report.sweep = &sweep.emplace(answered_sweep(loaded, *sweep_query));
   if (layers) report.layers.emplace(std::move(*layers));
   if (recorded)
-    report.recorded.emplace(ReportedMotion{std::filesystem::path(options.motion).filename().string(),
-                                           recorded->question, recorded->answer});
+    report.recorded.emplace(io::ReportedMotion{std::filesystem::path(options.motion).filename().string(),
+                                               recorded->question, recorded->answer});
   std::optional<MeasureAnswer> measures;
   if (options.measures) measures = measured(options, shown, request);
-  std::optional<MeasureResult> shape;
-  if (measures) report.measures = &shape.emplace(MeasureResult{shown.joint, *measures, notes, &from});
-  std::optional<ResectionResult> cut;
+  std::optional<io::MeasureResult> shape;
+  if (measures) report.measures = &shape.emplace(io::MeasureResult{shown.joint, *measures, notes, &from});
+  std::optional<io::ResectionResult> cut;
   if (plan)
-    report.plan = &cut.emplace(ResectionResult{loaded.joint, *plan, notes, &from, &loaded.report.file});
-  write_report(options.out, report);
+    report.plan = &cut.emplace(io::ResectionResult{loaded.joint, *plan, notes, &from, &loaded.report.file});
+  io::write_report(options.out, report);
   say_written({options.out});
 }
 

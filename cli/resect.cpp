@@ -44,13 +44,13 @@ std::vector<std::uint8_t> marks_in(const std::string& file, const Body& body) {
 }
 
 void resect_command(const ResectArguments& options, const CLI::App& command) {
-  const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
+  const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
-  Provenance from = provenance_of(loaded, words_of(command));
+  io::Provenance from = io::provenance_of(loaded, words_of(command));
   for (const std::string& marks : {options.protect_mobile, options.protect_fixed})
     if (!marks.empty()) from.read.emplace_back(marks);
-  if (!options.out.empty()) check_resection_folder(options.out, &from);
-  const std::vector<Motion> motions = known_motions(loaded);
+  if (!options.out.empty()) io::check_resection_folder(options.out, &from);
+  const std::vector<motion::Motion> motions = io::known_motions(loaded);
   const RangeRequest range = range_request_of(*options.range, loaded, motions);
   ResectionQuery query;
   query.resection = resection_request_of(*options.cut);
@@ -61,15 +61,15 @@ void resect_command(const ResectArguments& options, const CLI::App& command) {
   query.motions = motions;
   query.bands = range.bands;
   query.curve_points = options.curve_points;
-  query.measures = measure_request_of(loaded);
+  query.measures = io::measure_request_of(loaded);
   const ResectionAnswer answer = io::name_joint_file(options.joint, [&] {
     return followed_by_stage([&](const AnswerControl& control) {
       return answer_resection(loaded.joint, loaded.report.placement, query, control);
     });
   });
-  const ResectionResult result{loaded.joint, answer, notes, &from, &loaded.report.file};
-  if (!options.out.empty()) say_written(write_resection(options.out, result));
-  print(options.form == AnswerForm::json ? resection_json(result) : resection_text(result));
+  const io::ResectionResult result{loaded.joint, answer, notes, &from, &loaded.report.file};
+  if (!options.out.empty()) say_written(io::write_resection(options.out, result));
+  print(options.form == AnswerForm::json ? io::resection_json(result) : io::resection_text(result));
 }
 
 }  // namespace

@@ -54,9 +54,9 @@ HelpGroup resection_group() {
           {"--from", "--share", "--margin", "--burr", "--deepest", "--within", "--edge"}};
 }
 
-ResectionRequest resection_request_of(const ResectionArguments& given) {
-  const KeptBone kept{given.deepest_mm, given.within_mm, {}};
-  ResectionRequest request;
+plan::ResectionRequest resection_request_of(const ResectionArguments& given) {
+  const plan::KeptBone kept{given.deepest_mm, given.within_mm, {}};
+  plan::ResectionRequest request;
   request.fixed_share = fixed_share(given);
   request.mobile = kept;
   request.fixed = kept;

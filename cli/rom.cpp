@@ -42,27 +42,29 @@ struct RomArguments {
   ReferenceContacts reference_contacts = ReferenceContacts::count;
   std::shared_ptr<RangeArguments> range = std::make_shared<RangeArguments>();
   Task task = Task::limits;
-  ClockPlane clock = ClockPlane::sagittal;
+  motion::ClockPlane clock = motion::ClockPlane::sagittal;
   Strictness strictness = Strictness::notes;
   std::shared_ptr<WhereOptions> where = std::make_shared<WhereOptions>();
   AnswerForm form = AnswerForm::text;
 };
 
 /// The motions named, all where none is. A name may be a list parted by commas.
-std::vector<Motion> chosen_motions(const std::vector<Motion>& known, const std::vector<std::string>& names) {
+std::vector<motion::Motion> chosen_motions(const std::vector<motion::Motion>& known,
+                                           const std::vector<std::string>& names) {
   if (names.empty()) return known;
-  std::vector<Motion> chosen;
+  std::vector<motion::Motion> chosen;
   for (const std::string& list : names)
-    for (const std::string& name : CLI::detail::split(list, ',')) chosen.push_back(motion_named(known, name));
+    for (const std::string& name : CLI::detail::split(list, ','))
+      chosen.push_back(motion::motion_named(known, name));
   return chosen;
 }
 
 /// One line per motion: its name, what varies and how far, and what is held.
-std::string list_of(const std::vector<Motion>& motions, Anatomy joint) {
+std::string list_of(const std::vector<motion::Motion>& motions, Anatomy joint) {
   std::size_t widest = 0;
-  for (const Motion& motion : motions) widest = std::max(widest, motion.name.size());
+  for (const motion::Motion& motion : motions) widest = std::max(widest, motion.name.size());
   std::string text;
-  for (const Motion& motion : motions) {
+  for (const motion::Motion& motion : motions) {
     const auto degrees = [&](JointAngle angle) { return angle_of(motion.start, angle).degrees() + 0.0; };
     const double from = degrees(motion.vary), to = from + sign_of(motion.sense) * motion.range.degrees();
     text += fmt::format("{:<{}}  {} from {:g} to {:g}", motion.name, widest, name_of(motion.vary, joint),
@@ -75,31 +77,33 @@ std::string list_of(const std::vector<Motion>& motions, Anatomy joint) {
   return text;
 }
 
-RangeRequest request_of(const RomArguments& options, const LoadedJoint& loaded, std::vector<Motion> motions) {
+RangeRequest request_of(const RomArguments& options, const io::LoadedJoint& loaded,
+                        std::vector<motion::Motion> motions) {
   RangeRequest request = range_request_of(*options.range, loaded, std::move(motions));
   if (options.reference_contacts == ReferenceContacts::leave_out)
     request.range.overlap.leave_out_reference_contacts.emplace();
-  if (options.allow_depth_mm) request.allowed_depth = AllowedDepth{.depth_mm = *options.allow_depth_mm};
+  if (options.allow_depth_mm)
+    request.allowed_depth = motion::AllowedDepth{.depth_mm = *options.allow_depth_mm};
   request.clock = options.clock;
   return request;
 }
 
 /// Where the bodies are in contact in the reference pose, the error names the options there are.
-RangeAnswer answer_of(const LoadedJoint& loaded, const RangeRequest& request) {
+RangeAnswer answer_of(const io::LoadedJoint& loaded, const RangeRequest& request) {
   return io::name_joint_file(loaded.report.file.path.string(), [&] {
     try {
       return answered_range(loaded, request);
-    } catch (const ReferenceContactError& error) {
-      throw ReferenceContactError(std::string(error.what()) +
-                                  " (--allow-depth, --exclude-reference-contacts, "
-                                  "[reference_pose] in the joint file, --accept-reference-contact)");
+    } catch (const motion::ReferenceContactError& error) {
+      throw motion::ReferenceContactError(std::string(error.what()) +
+                                          " (--allow-depth, --exclude-reference-contacts, "
+                                          "[reference_pose] in the joint file, --accept-reference-contact)");
     }
   });
 }
 
 void rom_command(const RomArguments& options, const CLI::App& command) {
-  const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
-  std::vector<Motion> motions = chosen_motions(known_motions(loaded), options.motions);
+  const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
+  std::vector<motion::Motion> motions = chosen_motions(io::known_motions(loaded), options.motions);
   if (options.task == Task::list_motions) return print(list_of(motions, loaded.joint.anatomy));
   RangeRequest request = request_of(options, loaded, std::move(motions));
   std::optional<Followed> followed;
@@ -110,16 +114,16 @@ void rom_command(const RomArguments& options, const CLI::App& command) {
   });
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   note_contact(range_request_notes(request), loaded, options.strictness);
-  Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
+  io::Provenance from = io::provenance_of(loaded, words_of(command), options.where->frame);
   if (!options.follow->record.empty()) from.read.emplace_back(options.follow->record);
   // A folder that cannot be written to is reported before the work, not after it.
-  if (!options.out.empty()) check_rom_folder(options.out, &from);
+  if (!options.out.empty()) io::check_rom_folder(options.out, &from);
 
   const RangeAnswer answer = answer_of(loaded, request);
-  RomResult result = rom_result_of(answer, notes, &from);
+  io::RomResult result = io::rom_result_of(answer, notes, &from);
   result.vtp_encoding = options.where->vtp_encoding;
-  if (!options.out.empty()) say_written(write_rom(options.out, result));
-  print(options.form == AnswerForm::json ? rom_json(result) : rom_text(result));
+  if (!options.out.empty()) say_written(io::write_rom(options.out, result));
+  print(options.form == AnswerForm::json ? io::rom_json(result) : io::rom_text(result));
 }
 
 }  // namespace
@@ -165,7 +169,7 @@ void add_rom(CLI::App& app) {
       ->add_option_function<std::string>(
           "--clock",
           [options](const std::string& name) {
-            options->clock = name == "rim" ? ClockPlane::rim : ClockPlane::sagittal;
+            options->clock = name == "rim" ? motion::ClockPlane::rim : motion::ClockPlane::sagittal;
           },
           "The plane of the clock on which contacts are read: the sagittal one, or that of the rim with 6 at "
           "the notch")

@@ -20,7 +20,7 @@ namespace {
 
 /// Options of both commands.
 struct Options {
-  HipParameters hip;
+  sample::HipParameters hip;
   int scenario = 0;
   Side side = Side::right;
   std::string out;
@@ -32,7 +32,7 @@ struct HipOptions : Options {
 };
 
 struct CartilageOptions : Options {
-  CartilageParameters cartilage;
+  sample::CartilageParameters cartilage;
   std::size_t femoral_triangles = 0, acetabular_triangles = 0;
 };
 
@@ -40,33 +40,34 @@ std::string counts_line(const char* name, const TriMesh& mesh) {
   return fmt::format("{}: {} vertices, {} triangles\n", name, mesh.vertices.size(), mesh.triangles.size());
 }
 
-Resolution resolution_of(const HipOptions& options) {
-  if (options.femur_triangles == 0) return static_cast<Scenario>(options.scenario);
-  return TriangleCounts{options.hip_bone_triangles, options.femur_triangles};
+sample::Resolution resolution_of(const HipOptions& options) {
+  if (options.femur_triangles == 0) return static_cast<sample::Scenario>(options.scenario);
+  return sample::TriangleCounts{options.hip_bone_triangles, options.femur_triangles};
 }
 
 void sample_command(const HipOptions& options) {
-  SampleHip hip = sample_hip(options.hip, resolution_of(options));
-  if (options.side == Side::left) hip = mirrored(hip);
-  OutputFolder out(options.out);
-  write_sample_hip(out, hip, options.side);
-  if (options.voxel_mm) write_sample_labels(out, hip, options.side, *options.voxel_mm);
+  sample::SampleHip hip = sample::sample_hip(options.hip, resolution_of(options));
+  if (options.side == Side::left) hip = sample::mirrored(hip);
+  io::OutputFolder out(options.out);
+  io::write_sample_hip(out, hip, options.side);
+  if (options.voxel_mm) io::write_sample_labels(out, hip, options.side, *options.voxel_mm);
   out.commit();
   print(counts_line("hip bone", hip.hip_bone) + counts_line("femur", hip.femur) +
         fmt::format("written to {}: hip_bone.ply, femur.ply, hip.toml{}\n", options.out,
                     options.voxel_mm ? ", labels.nii.gz" : ""));
 }
 
-CartilageResolution resolution_of(const CartilageOptions& options) {
-  if (options.femoral_triangles == 0) return static_cast<CartilageScenario>(options.scenario);
-  return CartilageCounts{options.acetabular_triangles, options.femoral_triangles};
+sample::CartilageResolution resolution_of(const CartilageOptions& options) {
+  if (options.femoral_triangles == 0) return static_cast<sample::CartilageScenario>(options.scenario);
+  return sample::CartilageCounts{options.acetabular_triangles, options.femoral_triangles};
 }
 
 void sample_command(const CartilageOptions& options) {
-  SampleCartilages cartilages = sample_cartilages(options.hip, options.cartilage, resolution_of(options));
-  if (options.side == Side::left) cartilages = mirrored(cartilages);
-  OutputFolder out(options.out);
-  write_sample_cartilages(out, cartilages, options.side);
+  sample::SampleCartilages cartilages =
+      sample::sample_cartilages(options.hip, options.cartilage, resolution_of(options));
+  if (options.side == Side::left) cartilages = sample::mirrored(cartilages);
+  io::OutputFolder out(options.out);
+  io::write_sample_cartilages(out, cartilages, options.side);
   out.commit();
   print(counts_line("acetabular cartilage", cartilages.acetabular) +
         counts_line("femoral cartilage", cartilages.femoral) +
@@ -117,7 +118,7 @@ void add_side(CLI::App& command, Side& side) {
       ->option_text("right|left (right)");
 }
 
-void add_measures(CLI::App& command, HipParameters& hip) {
+void add_measures(CLI::App& command, sample::HipParameters& hip) {
   add_length(command, "--head-radius", hip.head_radius_mm, "Radius of the femoral head");
   add_length(command, "--joint-space", hip.joint_space_mm, "Joint space between the bones");
   add_angle(command, "--neck-shaft-angle", hip.neck_shaft_angle, "Angle between the axes of neck and shaft");
@@ -208,16 +209,16 @@ void add_cartilages(CLI::App& sample) {
 }
 
 struct CohortOptions {
-  SampleCohort cohort;
+  io::SampleCohort cohort;
   int scenario = 1;
   std::string out;
 };
 
 void sample_command(const CohortOptions& options) {
-  SampleCohort cohort = options.cohort;
-  cohort.scenario = static_cast<Scenario>(options.scenario);
+  io::SampleCohort cohort = options.cohort;
+  cohort.scenario = static_cast<sample::Scenario>(options.scenario);
   const auto written = followed("hips", [&](const auto& follow, std::stop_token stop) {
-    return write_sample_cohort(options.out, cohort, {follow, stop});
+    return io::write_sample_cohort(options.out, cohort, {follow, stop});
   });
   say_written(written);
   print(fmt::format("{} hips, for condyle study {}\n", cohort.n, written.front().string()));
@@ -240,7 +241,7 @@ void add_cohort(CLI::App& sample) {
       ->check(CLI::Range(1, 4))
       ->option_text("1..4 (1)");
   command->add_flag_callback(
-      "--meshes", [options] { options->cohort.meshes = CohortMeshes::in_files; },
+      "--meshes", [options] { options->cohort.meshes = io::CohortMeshes::in_files; },
       "Write meshes and joint file of each hip too. Without them a study makes each hip from its measures");
   command->callback([options] { sample_command(*options); });
 }

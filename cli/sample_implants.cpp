@@ -32,14 +32,14 @@ struct ImplantOptions {
 };
 
 void sample_implant_command(const ImplantOptions& options) {
-  ImplantMeshes meshes;
+  plan::ImplantMeshes meshes;
   if (options.bones == Bones::sample)
-    meshes = *sample_replacement(std::get<TotalHip>(options.given->implant), {},
-                                 static_cast<Scenario>(options.scenario), options.side);
+    meshes = *sample::sample_replacement(std::get<plan::TotalHip>(options.given->implant), {},
+                                         static_cast<sample::Scenario>(options.scenario), options.side);
   else
-    meshes = implant_meshes(options.given->implant, options.side);
-  OutputFolder out(options.out);
-  write_sample_implant(out, meshes, options.given->implant, options.side);
+    meshes = plan::implant_meshes(options.given->implant, options.side);
+  io::OutputFolder out(options.out);
+  io::write_sample_implant(out, meshes, options.given->implant, options.side);
   out.commit();
   std::string text, files;
   for (const auto* body : {&meshes.fixed, &meshes.mobile})
@@ -48,8 +48,9 @@ void sample_implant_command(const ImplantOptions& options) {
           fmt::format("{}: {} vertices, {} triangles\n", part, mesh.vertices.size(), mesh.triangles.size());
       files += part + ".ply, ";
     }
-  const char* joint = std::holds_alternative<TotalHip>(options.given->implant) ? "hip.toml" : "shoulder.toml";
-  print(text + implant_lines(options.given->implant, options.side) +
+  const char* joint =
+      std::holds_alternative<plan::TotalHip>(options.given->implant) ? "hip.toml" : "shoulder.toml";
+  print(text + io::implant_lines(options.given->implant, options.side) +
         fmt::format("written to {}: {}{}\n", options.out, files, joint));
 }
 
@@ -75,7 +76,7 @@ void add_replacement(CLI::App& sample) {
       "         condyle sample replacement --bones none --head-radius 18 --definition anatomic --out alone\n"
       "         condyle rom thr/hip.toml");
   auto options = std::make_shared<ImplantOptions>();
-  options->given = std::make_shared<ImplantSizeArguments>(ImplantSizeArguments{TotalHip{}});
+  options->given = std::make_shared<ImplantSizeArguments>(ImplantSizeArguments{plan::TotalHip{}});
   options->bones = Bones::sample;
   add_common(*command, options, "a mesh for each part and hip.toml");
   add_definition(*command, options->given);
@@ -105,7 +106,7 @@ void add_reverse_shoulder(CLI::App& sample) {
       "Example: condyle sample reverse-shoulder --neck-shaft 145 --out reverse\n"
       "         condyle rom reverse/shoulder.toml");
   auto options = std::make_shared<ImplantOptions>();
-  options->given = std::make_shared<ImplantSizeArguments>(ImplantSizeArguments{ReverseShoulder{}});
+  options->given = std::make_shared<ImplantSizeArguments>(ImplantSizeArguments{plan::ReverseShoulder{}});
   add_common(*command, options, "a mesh for each part and shoulder.toml");
   const std::vector<std::string> sizes = add_sizes(*command, options->given);
   group_help(*command,

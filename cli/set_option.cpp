@@ -22,7 +22,7 @@ ParameterArguments add_set(CLI::App& command) {
   return given;
 }
 
-LoadedJoint joint_at(LoadedJoint loaded, const ParameterArguments& given) {
+io::LoadedJoint joint_at(io::LoadedJoint loaded, const ParameterArguments& given) {
   if (given->empty()) return loaded;
   std::string text;
   for (const std::string& words : *given) text += words + " ";

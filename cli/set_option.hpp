@@ -17,6 +17,6 @@ using ParameterArguments = std::shared_ptr<std::vector<std::string>>;
 ParameterArguments add_set(CLI::App& command);
 
 /// The joint at the values given. Throws UsageError that begins with the option.
-LoadedJoint joint_at(LoadedJoint loaded, const ParameterArguments& given);
+io::LoadedJoint joint_at(io::LoadedJoint loaded, const ParameterArguments& given);
 
 }  // namespace condyle::cli

@@ -27,9 +27,9 @@ struct StudyArguments {
   std::vector<std::string> motions;
   bool leaves_out_reference_contacts = false, measures = false;
   std::shared_ptr<ResectionArguments> cut = std::make_shared<ResectionArguments>();
-  BadJoint bad_joint = BadJoint::is_a_row;
+  io::BadJoint bad_joint = io::BadJoint::is_a_row;
   std::shared_ptr<RangeArguments> range = std::make_shared<RangeArguments>();
-  std::shared_ptr<ContactChanges> contact = std::make_shared<ContactChanges>();
+  std::shared_ptr<io::ContactChanges> contact = std::make_shared<io::ContactChanges>();
 };
 
 Anatomy anatomy_named(std::string_view name) {
@@ -38,16 +38,16 @@ Anatomy anatomy_named(std::string_view name) {
   throw UsageError("--anatomy: there are hip, knee, ankle, elbow and shoulder");
 }
 
-StudyFollowLoad follow_load_of(const StudyArguments& given) {
+io::StudyFollowLoad follow_load_of(const StudyArguments& given) {
   if (given.load)
     throw UsageError("--follow-load: stands beside --load, and one of the two is meant by --force");
   if (given.force.empty()) throw UsageError("--follow-load: needs --force");
   return {Vec3(given.force[0], given.force[1], given.force[2]), directions_of(given.along), *given.contact};
 }
 
-StudyOptions study_options(const StudyArguments& given) {
+io::StudyOptions study_options(const StudyArguments& given) {
   const RangeArguments& range = *given.range;
-  StudyOptions options;
+  io::StudyOptions options;
   options.anatomy = anatomy_named(given.anatomy);
   for (const std::string& list : given.motions)
     for (const std::string& name : CLI::detail::split(list, ',')) options.motions.push_back(name);
@@ -56,10 +56,10 @@ StudyOptions study_options(const StudyArguments& given) {
   if (given.leaves_out_reference_contacts) options.leave_out_reference_contacts.emplace();
   options.map = grid_of(range, JointKind::ball, options.anatomy);
   if (range.band_samples > 0) options.bands = {range.band_samples, range.seed, range.sigma};
-  if (!given.depth.empty()) options.depth_at = study_pose(given.depth, options.anatomy);
+  if (!given.depth.empty()) options.depth_at = io::study_pose(given.depth, options.anatomy);
   options.measures = given.measures;
   if (!given.cut->targets.empty())
-    options.resection = StudyResection{parse_reach(given.cut->targets), resection_request_of(*given.cut)};
+    options.resection = io::StudyResection{parse_reach(given.cut->targets), resection_request_of(*given.cut)};
   if (given.follows_load)
     options.follow_load = follow_load_of(given);
   else if (given.load)
@@ -71,19 +71,19 @@ StudyOptions study_options(const StudyArguments& given) {
 }
 
 void study_command(const StudyArguments& given) {
-  Study study{given.table, given.out, study_options(given), {}, given.bad_joint};
-  if (!given.shard.empty()) study.shard = Shard::parse(given.shard);
-  const StudyDone done = stopped_promptly("joints", [&](const auto& follow, std::stop_token stop) {
-    return run_study(study, {follow, stop});
+  io::Study study{given.table, given.out, study_options(given), {}, given.bad_joint};
+  if (!given.shard.empty()) study.shard = io::Shard::parse(given.shard);
+  const io::StudyDone done = stopped_promptly("joints", [&](const auto& follow, std::stop_token stop) {
+    return io::run_study(study, {follow, stop});
   });
-  for (const NotedJoint& joint : done.noted) note(joint.id + ": " + joint.codes);
+  for (const io::NotedJoint& joint : done.noted) note(joint.id + ": " + joint.codes);
   if (done.was_there)
     note("is there already, of the same inputs, options and version");
   else
     say_written(done.written);
   print(fmt::format("{} answered, {} failed\n", done.joints, done.failures));
   // A shard may hold failures only: condyle merge knows of all joints.
-  if (!study.shard) require_answered(done, study.table);
+  if (!study.shard) io::require_answered(done, study.table);
 }
 
 }  // namespace
@@ -176,7 +176,7 @@ void add_study(CLI::App& app) {
   add_rays(*command, options->contact, "With --load: ");
   add_layers(*command, options->contact);
   command->add_flag_callback(
-      "--strict", [options] { options->bad_joint = BadJoint::ends_run; },
+      "--strict", [options] { options->bad_joint = io::BadJoint::ends_run; },
       "End the run, and write nothing, at a joint that cannot be answered or with which something looks "
       "wrong (exit code 4)");
   group_help(*command, {{"Most used", {"--out", "--motion", "--band", "--map", "--shard"}},

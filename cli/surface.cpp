@@ -26,20 +26,20 @@ struct SurfaceArguments {
 };
 
 void surface_command(const SurfaceArguments& options, const CLI::App& command) {
-  check_written_mesh(options.out);
+  io::check_written_mesh(options.out);
   const std::filesystem::path read[] = {options.image};
   io::check_output_file(options.out, read);
-  const LabelMap map = read_labels(options.image, options.labels->file);
-  const LabelBoneRequest request{options.label, options.labels->task, options.labels->surface};
-  const LabelBone bone =
+  const io::LabelMap map = io::read_labels(options.image, options.labels->file);
+  const io::LabelBoneRequest request{options.label, options.labels->task, options.labels->surface};
+  const io::LabelBone bone =
       followed("steps of the surface", [&](const auto& progress, const std::stop_token& stop) {
-        return bone_of(map, options.image, request, {.progress = progress, .stop = stop});
+        return io::bone_of(map, options.image, request, {.progress = progress, .stop = stop});
       });
   note_labels(map.notes);
   note_labels(bone.notes);
   const std::filesystem::path out(options.out);
-  OutputFolder folder(out.has_parent_path() ? out.parent_path() : ".");
-  write_mesh(folder.file(out.filename().string()), bone.surface.mesh);
+  io::OutputFolder folder(out.has_parent_path() ? out.parent_path() : ".");
+  io::write_mesh(folder.file(out.filename().string()), bone.surface.mesh);
   folder.commit();
   note("wrote " + options.out);
   print(options.form == AnswerForm::json ? io::surface_json(bone, options.image, words_of(command))

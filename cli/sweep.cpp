@@ -39,7 +39,7 @@ struct SweepArguments {
   std::vector<std::string> measures;
   std::optional<std::string> load;
   std::vector<double> force, along;
-  std::shared_ptr<ContactChanges> contact = std::make_shared<ContactChanges>();
+  std::shared_ptr<io::ContactChanges> contact = std::make_shared<io::ContactChanges>();
   std::shared_ptr<RangeArguments> range = std::make_shared<RangeArguments>();
   Strictness strictness = Strictness::notes;
   AnswerForm form = AnswerForm::text;
@@ -47,7 +47,7 @@ struct SweepArguments {
 
 SweepShare share_of(const std::string& text) {
   if (text.empty()) return {};
-  const Shard shard = Shard::parse(text);
+  const io::Shard shard = io::Shard::parse(text);
   return {shard.number, shard.of};
 }
 
@@ -56,14 +56,14 @@ void note_sweep(const SweepAnswer& answer) {
 }
 
 /// Further quantities of each design, and everything that they depend on beside the joint.
-std::string add_quantities(const SweepArguments& options, const LoadedJoint& loaded, SweepQuery& query) {
+std::string add_quantities(const SweepArguments& options, const io::LoadedJoint& loaded, SweepQuery& query) {
   std::string text;
   std::vector<std::string> keys;
   for (const std::string& list : options.measures)
     for (const std::string& key : CLI::detail::split(list, ',')) keys.push_back(key), text += key + " ";
-  if (!keys.empty()) query.quantities.push_back(measured_quantities(keys, measure_request_of(loaded)));
+  if (!keys.empty()) query.quantities.push_back(measured_quantities(keys, io::measure_request_of(loaded)));
   if (options.load) {
-    const StudyLoad load =
+    const io::StudyLoad load =
         study_load_of(*options.load, options.force, options.along, *options.contact, loaded.joint.anatomy);
     query.quantities.push_back(io::load_quantities(loaded, load));
     text += io::load_text(load, loaded.joint.anatomy);
@@ -75,11 +75,11 @@ std::string add_quantities(const SweepArguments& options, const LoadedJoint& loa
 }
 
 void sweep_command(const SweepArguments& options, const CLI::App& command) {
-  const LoadedJoint loaded = joint_at(read_joint(options.joint), options.parameters);
+  const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
   const std::string targets = io::read_whole_file(options.targets);
   RangeRequest range = range_request_of(*options.range, loaded, {});
-  SweepQuery query{.parameters = parse_sweep(options.vary),
-                   .targets = io::parse_targets(targets, options.targets, known_motions(loaded),
+  SweepQuery query{.parameters = plan::parse_sweep(options.vary),
+                   .targets = io::parse_targets(targets, options.targets, io::known_motions(loaded),
                                                 loaded.joint.kind, loaded.joint.anatomy),
                    .range = range.range,
                    .bands = range.bands,
@@ -89,11 +89,11 @@ void sweep_command(const SweepArguments& options, const CLI::App& command) {
     throw UsageError("--shard: needs --out, where its results lie");
   io::name_joint_file(options.joint, [&] { check_sweep(loaded.joint, query); });
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
-  Provenance from = provenance_of(loaded, words_of(command));
+  io::Provenance from = io::provenance_of(loaded, words_of(command));
   from.read.emplace_back(options.targets);
   const std::string key = io::sweep_key(from, query, targets, quantities);
   const std::filesystem::path folder = io::sweep_folder(options.out, query.share);
-  std::optional<SweepResult> result;
+  std::optional<io::SweepResult> result;
   if (!options.out.empty()) {
     io::check_sweep_folder(folder, &from);
     result = io::sweep_there(folder, key);
@@ -106,11 +106,11 @@ void sweep_command(const SweepArguments& options, const CLI::App& command) {
         return answer_sweep(loaded.joint, loaded.report.placement, query, control);
       });
     });
-    result = sweep_result_of(loaded, std::move(answer), query, notes, &from);
+    result = io::sweep_result_of(loaded, std::move(answer), query, notes, &from);
     if (!options.out.empty()) say_written(io::write_sweep(folder, *result, key, &from));
   }
   note_sweep(result->answer);
-  print(options.form == AnswerForm::json ? sweep_json(*result) : sweep_text(*result));
+  print(options.form == AnswerForm::json ? io::sweep_json(*result) : io::sweep_text(*result));
 }
 
 }  // namespace

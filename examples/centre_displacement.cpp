@@ -12,7 +12,7 @@
 
 namespace {
 
-using condyle::Joint, condyle::MotionLimit, condyle::Vec3;
+using condyle::Joint, condyle::motion::MotionLimit, condyle::Vec3;
 
 constexpr double millimetre = 1;
 
@@ -21,14 +21,14 @@ condyle::TriMesh moved(condyle::TriMesh mesh, const Vec3& by) {
   return mesh;
 }
 
-std::vector<double> limits_deg(Joint joint, const Vec3& centre, condyle::BearingRule rule) {
+std::vector<double> limits_deg(Joint joint, const Vec3& centre, condyle::motion::BearingRule rule) {
   joint.fixed.mesh = moved(joint.fixed.mesh, -centre);
   joint.mobile.mesh = moved(joint.mobile.mesh, -centre);
-  const condyle::RangeOfMotion range(
-      joint,
-      {.bearing = {.rule = rule}, .overlap = {.reference_contact = condyle::ReferenceContact::accept}});
+  const condyle::motion::RangeOfMotion range(
+      joint, {.bearing = {.rule = rule},
+              .overlap = {.reference_contact = condyle::motion::ReferenceContact::accept}});
   std::vector<double> limits;
-  for (const MotionLimit& limit : range.limits(condyle::hip_motions()))
+  for (const MotionLimit& limit : range.limits(condyle::motion::hip_motions()))
     limits.push_back(limit.end.turned.degrees());
   return limits;
 }
@@ -50,13 +50,14 @@ void print_table(const Joint& joint, Changes& impingement, Changes& counted) {
                                     Vec3(0, -millimetre, 0), Vec3(0, millimetre, 0),  Vec3(0, 0, -millimetre),
                                     Vec3(0, 0, millimetre)};
   std::printf("**%s**\n\n| centre moved by |", joint.name.c_str());
-  for (const condyle::Motion& motion : condyle::hip_motions()) std::printf(" %s |", motion.name.c_str());
+  for (const condyle::motion::Motion& motion : condyle::motion::hip_motions())
+    std::printf(" %s |", motion.name.c_str());
   std::printf("\n|---|");
-  for (std::size_t i = 0; i < condyle::hip_motions().size(); ++i) std::printf("--:|");
+  for (std::size_t i = 0; i < condyle::motion::hip_motions().size(); ++i) std::printf("--:|");
   std::vector<double> first, first_counted;
   for (const Vec3& centre : centres) {
-    const auto limits = limits_deg(joint, centre, condyle::BearingRule::leave_out);
-    const auto all = limits_deg(joint, centre, condyle::BearingRule::count);
+    const auto limits = limits_deg(joint, centre, condyle::motion::BearingRule::leave_out);
+    const auto all = limits_deg(joint, centre, condyle::motion::BearingRule::count);
     std::printf("\n| %g, %g, %g |", centre.x(), centre.y(), centre.z());
     for (std::size_t i = 0; i < limits.size(); ++i) {
       std::printf(" %.2f", limits[i]);
@@ -84,7 +85,7 @@ int main(int argc, char** argv) {
   }
   try {
     Changes impingement, counted;
-    for (int i = 1; i < argc; ++i) print_table(condyle::read_joint(argv[i]).joint, impingement, counted);
+    for (int i = 1; i < argc; ++i) print_table(condyle::io::read_joint(argv[i]).joint, impingement, counted);
     std::printf("| change of a limit, degrees | largest | nine in ten below |\n|---|--:|--:|\n");
     print("impingement ends a motion", impingement);
     print("any contact ends a motion", counted);

@@ -15,7 +15,7 @@
 
 namespace {
 
-using condyle::Angle, condyle::HipParameters;
+using condyle::Angle, condyle::sample::HipParameters;
 
 struct CurvePoint {
   double parameter_deg, rotation_deg;
@@ -27,14 +27,16 @@ struct Curve {
 };
 
 double internal_rotation_at_90_flexion_deg(const HipParameters& parameters) {
-  const condyle::SampleHip hip = condyle::sample_hip(parameters, condyle::Scenario::three);
-  const condyle::RangeOfMotion range({"sample hip",
-                                      condyle::JointKind::ball,
-                                      condyle::Side::right,
-                                      {"hip bone", hip.hip_bone},
-                                      {"femur", hip.femur}});
-  const auto motions = condyle::hip_motions();
-  return range.limit(condyle::motion_named(motions, "internal_rotation_at_90_flexion")).end.turned.degrees();
+  const condyle::sample::SampleHip hip =
+      condyle::sample::sample_hip(parameters, condyle::sample::Scenario::three);
+  const condyle::motion::RangeOfMotion range({"sample hip",
+                                              condyle::JointKind::ball,
+                                              condyle::Side::right,
+                                              {"hip bone", hip.hip_bone},
+                                              {"femur", hip.femur}});
+  const auto motions = condyle::motion::hip_motions();
+  return range.limit(condyle::motion::motion_named(motions, "internal_rotation_at_90_flexion"))
+      .end.turned.degrees();
 }
 
 /// Evenly spaced values, both ends included; at least two.

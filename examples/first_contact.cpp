@@ -14,8 +14,8 @@ int main() {
 
   // The axis through the origin along z; positive angles go from x towards y.
   const condyle::AxisFrame axis(condyle::Vec3::Zero(), condyle::Vec3::UnitZ());
-  const condyle::FirstContact first_contact(post, door, axis);
-  const condyle::RotationLimits limits = first_contact.limits();
+  const condyle::motion::FirstContact first_contact(post, door, axis);
+  const condyle::motion::RotationLimits limits = first_contact.limits();
   std::printf("turns %.9f deg one way and %.9f deg the other before they touch\n",
               limits.positive.turned.degrees(), limits.negative.turned.degrees());
 }

@@ -18,10 +18,10 @@ set(measure_uses core mesh kinematics motion)
 set(plan_uses core mesh kinematics tangential motion)
 set(answer_uses core kinematics contact motion measure plan)
 set(sample_uses core mesh plan)
-set(io_uses core mesh kinematics contact motion measure plan answer sample)
+set(io_uses core mesh kinematics radial tangential contact motion measure plan answer sample)
 
 # The layer of each public header. An AxisFrame is made in kinematics; as a plain value it is everybody's.
-set(core_headers angle control error points pose version)
+set(core_headers angle control error pose version)
 set(simd_headers)
 set(mesh_headers inspect label_surface mesh)
 set(kinematics_headers fit joint joint_checks joint_coordinates make_joint)
@@ -35,6 +35,9 @@ set(plan_headers brush implant resection sweep)
 set(answer_headers answer)
 set(sample_headers)
 set(io_headers)
+
+# Layers whose public names are directly in `condyle`; those of the others are in condyle::LAYER.
+set(layers_without_namespace core mesh kinematics answer)
 
 # Variables that the layer of a public header is looked up in.
 foreach(layer ${layers})
@@ -78,6 +81,14 @@ foreach(file ${files})
   else()
     string(REGEX REPLACE "^include/condyle/(.*)\\.hpp$" "\\1" header ${file})
     layer_of_public_header(${header} layer)
+    set(namespace condyle::${layer})
+    if(layer IN_LIST layers_without_namespace)
+      set(namespace condyle)
+    endif()
+    file(STRINGS ${SOURCE}/${file} own_namespace REGEX "^namespace ${namespace} {")
+    if(NOT own_namespace)
+      message(SEND_ERROR "${file}: the public names of ${layer} are in ${namespace}")
+    endif()
   endif()
 
   file(STRINGS ${SOURCE}/${file} lines REGEX "#include|[^a-z_](${any_layer})::")

@@ -65,11 +65,11 @@ class Collector final : public btManifoldResult {
   using btManifoldResult::btManifoldResult;
 
   void addContactPoint(const btVector3&, const btVector3&, btScalar) override {
-    const condyle::TrianglePair pair{static_cast<Index>(m_index0), static_cast<Index>(m_index1)};
+    const condyle::contact::TrianglePair pair{static_cast<Index>(m_index0), static_cast<Index>(m_index1)};
     if (pairs.empty() || pairs.back() != pair) pairs.push_back(pair);
   }
 
-  std::vector<condyle::TrianglePair> pairs;
+  std::vector<condyle::contact::TrianglePair> pairs;
 };
 
 /// Bullet 3.24 in double: GImpact meshes, the ones that both may move. Trees of boxes whose corners are
@@ -91,14 +91,16 @@ class Bullet final : public Method {
     return !found_.empty();
   }
 
-  void find_pairs(const Pose& X_FM, std::vector<condyle::TrianglePair>& out) override { collide(X_FM, out); }
+  void find_pairs(const Pose& X_FM, std::vector<condyle::contact::TrianglePair>& out) override {
+    collide(X_FM, out);
+  }
 
   void deform(condyle::PointsView fixed_vertices) override { fixed_.move_vertices(fixed_vertices); }
 
   std::size_t bytes() const override { return fixed_.tree_bytes() + mobile_.tree_bytes(); }
 
  private:
-  void collide(const Pose& X_FM, std::vector<condyle::TrianglePair>& out) {
+  void collide(const Pose& X_FM, std::vector<condyle::contact::TrianglePair>& out) {
     mobile_.object().setWorldTransform(transform(X_FM));
     const auto wrapped = [](btCollisionObject& object) {
       return btCollisionObjectWrapper(nullptr, object.getCollisionShape(), &object,
@@ -119,7 +121,7 @@ class Bullet final : public Method {
   Shape fixed_, mobile_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
-  std::vector<condyle::TrianglePair> found_;
+  std::vector<condyle::contact::TrianglePair> found_;
 };
 
 }  // namespace

@@ -71,7 +71,7 @@ class CgalTree final : public Method {
     return false;
   }
 
-  void find_pairs(const Pose& X_FM, std::vector<condyle::TrianglePair>& out) override {
+  void find_pairs(const Pose& X_FM, std::vector<condyle::contact::TrianglePair>& out) override {
     pose(X_FM);
     out.clear();
     for (std::size_t t = 0; t < mobile_->triangles.size(); ++t) {

@@ -25,7 +25,8 @@ TriMesh with_vertices(condyle::PointsView vertices, const TriMesh& mesh) {
 class RadialVectors final : public Method {
  public:
   explicit RadialVectors(const Bodies& bodies)
-      : table_(std::make_shared<condyle::RadialTable>(bodies.fixed)), points_(bodies.mobile.vertices) {
+      : table_(std::make_shared<condyle::radial::RadialTable>(bodies.fixed)),
+        points_(bodies.mobile.vertices) {
     table_->prepare_penetrations();
   }
 
@@ -53,10 +54,10 @@ class RadialVectors final : public Method {
   }
 
  private:
-  std::shared_ptr<condyle::RadialTable> table_;
-  condyle::SortedPoints points_;
-  condyle::Penetrations found_;
-  condyle::PenetrationWork work_;
+  std::shared_ptr<condyle::radial::RadialTable> table_;
+  condyle::radial::SortedPoints points_;
+  condyle::radial::Penetrations found_;
+  condyle::radial::PenetrationWork work_;
 };
 
 /// Trees of boxes and shells on both bodies.
@@ -67,7 +68,7 @@ class Trees final : public Method {
 
   bool touch(const Pose& X_FM) override { return pair_->touch(X_FM, last_hit_); }
 
-  void find_pairs(const Pose& X_FM, std::vector<condyle::TrianglePair>& out) override {
+  void find_pairs(const Pose& X_FM, std::vector<condyle::contact::TrianglePair>& out) override {
     out = pair_->pairs(X_FM);
   }
 
@@ -75,13 +76,13 @@ class Trees final : public Method {
 
  private:
   std::shared_ptr<const condyle::contact::BodyPair> pair_;
-  std::optional<condyle::TrianglePair> last_hit_;
+  std::optional<condyle::contact::TrianglePair> last_hit_;
 };
 
 /// The plain radial table: a vertex at a time.
 class Radial final : public Method {
  public:
-  Radial(const Bodies& bodies, condyle::RadialOptions options)
+  Radial(const Bodies& bodies, condyle::radial::RadialOptions options)
       : options_(options), mobile_(&bodies.mobile), table_(std::make_shared<Table>(bodies.fixed, options)) {}
 
   void find_inside(const Pose& X_FM, std::vector<InsideVertex>& out) override {
@@ -101,22 +102,22 @@ class Radial final : public Method {
   std::size_t bytes() const override { return table_->table_size().bytes; }
 
  private:
-  using Table = condyle::RadialTable;
-  condyle::RadialOptions options_;
+  using Table = condyle::radial::RadialTable;
+  condyle::radial::RadialOptions options_;
   const TriMesh* mobile_;
   std::shared_ptr<const Table> table_;
   condyle::Points posed_;
-  condyle::RadialResults hits_;
+  condyle::radial::RadialResults hits_;
 };
 
 /// Rings about the flexion axis.
 class Tangential final : public Method {
  public:
-  Tangential(const Bodies& bodies, condyle::TangentialRule rule)
+  Tangential(const Bodies& bodies, condyle::tangential::TangentialRule rule)
       : rule_(rule),
         fixed_(&bodies.fixed),
         mobile_(&bodies.mobile),
-        table_(std::make_shared<condyle::RingTable>(bodies.fixed, arc_axis())) {}
+        table_(std::make_shared<condyle::tangential::RingTable>(bodies.fixed, arc_axis())) {}
 
   void find_inside(const Pose& X_FM, std::vector<InsideVertex>& out) override {
     posed(X_FM, mobile_->vertices.view(), posed_);
@@ -128,18 +129,19 @@ class Tangential final : public Method {
   }
 
   void deform(condyle::PointsView fixed_vertices) override {
-    table_ = std::make_shared<condyle::RingTable>(with_vertices(fixed_vertices, *fixed_), arc_axis());
+    table_ =
+        std::make_shared<condyle::tangential::RingTable>(with_vertices(fixed_vertices, *fixed_), arc_axis());
   }
 
   std::unique_ptr<Method> for_another_thread() override { return std::make_unique<Tangential>(*this); }
   std::size_t bytes() const override { return table_->table_size().bytes; }
 
  private:
-  condyle::TangentialRule rule_;
+  condyle::tangential::TangentialRule rule_;
   const TriMesh *fixed_, *mobile_;
-  std::shared_ptr<const condyle::RingTable> table_;
+  std::shared_ptr<const condyle::tangential::RingTable> table_;
   condyle::Points posed_;
-  condyle::TangentialResults hits_;
+  condyle::tangential::TangentialResults hits_;
 };
 
 MethodKind radial_vectors() {
@@ -162,7 +164,7 @@ MethodKind trees() {
           [](const Bodies& bodies) { return std::make_unique<Trees>(bodies); }};
 }
 
-MethodKind radial(std::string name, std::string title, condyle::DirectionMapKind map) {
+MethodKind radial(std::string name, std::string title, condyle::radial::DirectionMapKind map) {
   return {std::move(name),
           "Condyle",
           std::move(title),
@@ -170,11 +172,13 @@ MethodKind radial(std::string name, std::string title, condyle::DirectionMapKind
           DepthKind::along_ray,
           true,
           [map](const Bodies& bodies) {
-            return std::make_unique<Radial>(bodies, condyle::RadialOptions{.map = map, .cells_per_side = {}});
+            return std::make_unique<Radial>(bodies,
+                                            condyle::radial::RadialOptions{.map = map, .cells_per_side = {}});
           }};
 }
 
-MethodKind tangential(std::string name, std::string title, condyle::TangentialRule rule, bool is_exact) {
+MethodKind tangential(std::string name, std::string title, condyle::tangential::TangentialRule rule,
+                      bool is_exact) {
   return {std::move(name),
           "Condyle",
           std::move(title),
@@ -187,7 +191,7 @@ MethodKind tangential(std::string name, std::string title, condyle::TangentialRu
 }  // namespace
 
 std::vector<MethodKind> condyle_kinds() {
-  using condyle::DirectionMapKind, condyle::TangentialRule;
+  using condyle::radial::DirectionMapKind, condyle::tangential::TangentialRule;
   return {
       radial_vectors(),
       trees(),

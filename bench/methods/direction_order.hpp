@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 
 namespace bench {
 

@@ -74,7 +74,7 @@ class Fcl final : public Method {
     return result_.isCollision();
   }
 
-  void find_pairs(const Pose& X_FM, std::vector<condyle::TrianglePair>& out) override {
+  void find_pairs(const Pose& X_FM, std::vector<condyle::contact::TrianglePair>& out) override {
     walk(X_FM, std::numeric_limits<std::size_t>::max());
     out.clear();
     for (std::size_t i = 0; i < result_.numContacts(); ++i) {

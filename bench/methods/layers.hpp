@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 
 namespace bench {
 

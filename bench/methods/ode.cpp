@@ -90,7 +90,7 @@ class Ode final : public Method {
 
   bool touch(const Pose& X_FM) override { return contacts(X_FM, 1 | CONTACTS_UNIMPORTANT) > 0; }
 
-  void find_pairs(const Pose& X_FM, std::vector<condyle::TrianglePair>& out) override {
+  void find_pairs(const Pose& X_FM, std::vector<condyle::contact::TrianglePair>& out) override {
     const int count = contacts(X_FM, static_cast<int>(contacts_.size()));
     out.clear();
     for (int i = 0; i < count; ++i)

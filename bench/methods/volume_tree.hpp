@@ -113,7 +113,7 @@ class TwoTrees final : public Method {
     return found;
   }
 
-  void find_pairs(const condyle::Pose& X_FM, std::vector<condyle::TrianglePair>& out) override {
+  void find_pairs(const condyle::Pose& X_FM, std::vector<condyle::contact::TrianglePair>& out) override {
     out.clear();
     walk(X_FM, [&](condyle::Index f, condyle::Index m) {
       out.push_back({f, m});

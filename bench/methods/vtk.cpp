@@ -95,7 +95,7 @@ class VtkFilter final : public Method {
     return filter_->GetNumberOfContacts() > 0;
   }
 
-  void find_pairs(const Pose& X_FM, std::vector<condyle::TrianglePair>& out) override {
+  void find_pairs(const Pose& X_FM, std::vector<condyle::contact::TrianglePair>& out) override {
     filter_->SetCollisionModeToHalfContacts();
     detect(X_FM);
     out.clear();

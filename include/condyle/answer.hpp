@@ -70,17 +70,17 @@ struct DepthRequest {
   /// With DepthMethod::tangential the angle about whose axis arcs go; default: flexion.
   std::optional<JointAngle> about = {};
   /// With DepthMethod::normal the body whose triangles cast, and how; defaults: both, NormalDepthOptions{}.
-  std::optional<Casting> casting = {};
-  std::optional<NormalDepthOptions> rays = {};
-  DistancesOf distances = DistancesOf::vertices_inside;
+  std::optional<contact::Casting> casting = {};
+  std::optional<contact::NormalDepthOptions> rays = {};
+  contact::DistancesOf distances = contact::DistancesOf::vertices_inside;
   MeasuresOf measures = MeasuresOf::contact;
 };
 
 /// DepthMethod::reliable and radial: every vertex along its ray, and the depth to read of each. With `radial` that is its radial
 /// depth, or its nearest distance if that is none.
 struct RayDepths {
-  RadialContact contact;
-  ReliableContact reliable;
+  contact::RadialContact contact;
+  contact::ReliableContact reliable;
 };
 
 /// A rotation axis, by its joint angle and as a direction in F.
@@ -92,13 +92,13 @@ struct RotationAxis {
 /// DepthMethod::tangential: every vertex along its circle.
 struct ArcDepths {
   RotationAxis axis;
-  TangentialContact contact;
+  contact::TangentialContact contact;
 };
 
 struct DepthAnswer {
   DepthRequest request;
-  ContactMeasures measures;  ///< with DepthMethod::normal nearest distances and points only
-  std::variant<RayDepths, ArcDepths, NormalContact> depths;
+  contact::ContactMeasures measures;  ///< with DepthMethod::normal nearest distances and points only
+  std::variant<RayDepths, ArcDepths, contact::NormalContact> depths;
   std::vector<std::string> caveats = {};  ///< what the depths must be read with, a sentence each
 
   bool in_contact() const noexcept;
@@ -112,7 +112,8 @@ void check_depth_request(const Joint& joint, const DepthRequest& request);
 ///
 /// Throws UsageError as check_depth_request(), MeshError as JointContact::radial() does. Open meshes have no inside: what lacks
 /// an answer for that is empty.
-DepthAnswer answer_depth(const JointContact& bodies, const Joint& joint, const DepthRequest& request);
+DepthAnswer answer_depth(const contact::JointContact& bodies, const Joint& joint,
+                         const DepthRequest& request);
 DepthAnswer answer_depth(const Joint& joint, const DepthRequest& request);
 
 // ---- a load in one pose --------------------------------------------------------------------------------------------------
@@ -121,20 +122,20 @@ DepthAnswer answer_depth(const Joint& joint, const DepthRequest& request);
 struct LoadRequest {
   Pose X_FM = Pose::Identity();
   /// The mobile body is moved from X_FM to the pose in which the contact carries this; default: it stays.
-  std::optional<Load> load = {};
-  BalanceOptions balance = {};
-  BodyNames names = {};  ///< as notes call the bodies
+  std::optional<contact::Load> load = {};
+  contact::BalanceOptions balance = {};
+  motion::BodyNames names = {};  ///< as notes call the bodies
 };
 
 /// The pose requested, or the balanced one.
 struct LoadAnswer {
   Pose X_FM = Pose::Identity();
-  ElasticContactResults contact = {};
-  std::optional<BalancedPose> balanced = {};  ///< if a load was requested
-  std::size_t cut_off_by_reach = 0;           ///< rays
-  std::optional<Vec3> refined_force_n = {};   ///< ElasticContact::refined_force_n() at X_FM
-  std::vector<ContactNote> notes = {};        ///< what looks wrong with layers, load and contact
-  std::vector<std::string> caveats = {};      ///< what an elastic foundation leaves out
+  contact::ElasticContactResults contact = {};
+  std::optional<contact::BalancedPose> balanced = {};  ///< if a load was requested
+  std::size_t cut_off_by_reach = 0;                    ///< rays
+  std::optional<Vec3> refined_force_n = {};            ///< ElasticContact::refined_force_n() at X_FM
+  std::vector<motion::ContactNote> notes = {};         ///< what looks wrong with layers, load and contact
+  std::vector<std::string> caveats = {};               ///< what an elastic foundation leaves out
 
   /// False if a load was requested and no contact carries it: `balanced` has the reason, X_FM and the contact are
   /// those at which the search stopped, and the numbers mean nothing.
@@ -146,7 +147,7 @@ void check_load_request(const LoadRequest& request);
 
 /// Pressure at a pose, or at the pose that balances a load. Throws UsageError as check_load_request() and balance(), MeshError
 /// as ElasticContact::at(). Costs two evaluations of the contact and sixteen rays for each triangle, and a balance ten more.
-LoadAnswer answer_load(const ElasticContact& surfaces, const LoadRequest& request);
+LoadAnswer answer_load(const contact::ElasticContact& surfaces, const LoadRequest& request);
 
 // ---- a recorded motion ---------------------------------------------------------------------------------------------------
 
@@ -163,32 +164,32 @@ struct MotionRequest {
   std::vector<double> time_s = {};             ///< one per frame, or none if times are not known
   /// The mobile body is moved to the pose in which the contact carries this, the same in all frames; default: poses
   /// are as recorded.
-  std::optional<Load> load = {};
+  std::optional<contact::Load> load = {};
   /// The same with a load for each frame; an empty one makes its frame a gap, and a frame whose load is zero has no answer.
-  std::vector<std::optional<Load>> loads = {};
-  BalanceOptions balance = {};
+  std::vector<std::optional<contact::Load>> loads = {};
+  contact::BalanceOptions balance = {};
   BetweenFrames between = BetweenFrames::if_exact;
   /// Without layers: which body's triangles cast, and how. An ElasticContact has its own.
   BodyRole casting = BodyRole::mobile;
-  NormalDepthOptions rays = {};
-  BodyNames names = {};  ///< as notes call the bodies
+  contact::NormalDepthOptions rays = {};
+  motion::BodyNames names = {};  ///< as notes call the bodies
 
   bool has_load() const noexcept { return load || !loads.empty(); }
 };
 
 /// Contact in every frame, and how a load was balanced.
 struct MotionAnswer {
-  std::vector<std::optional<FrameContact>> frames = {};
-  std::vector<std::optional<BalancedPose>> balanced = {};  ///< none if no load was requested
+  std::vector<std::optional<motion::FrameContact>> frames = {};
+  std::vector<std::optional<contact::BalancedPose>> balanced = {};  ///< none if no load was requested
   /// Frames whose own load is zero along what is free, ascending: no pose was searched for, and they have no answer.
   std::vector<std::size_t> without_load = {};
   /// Contact between the samples too; samples are numbered as the frames.
-  std::optional<RecordedContact> between = {};
+  std::optional<motion::RecordedContact> between = {};
   /// The force of the frame with the largest one, computed from the depth at 16 places of each face:
   /// ElasticContact::refined_force_n(). Empty without pressure.
   std::optional<double> refined_largest_force_n = {};
-  std::vector<ContactNote> notes = {};    ///< what looks wrong with layers, loads and the motion
-  std::vector<std::string> caveats = {};  ///< with pressure: what an elastic foundation leaves out
+  std::vector<motion::ContactNote> notes = {};  ///< what looks wrong with layers, loads and the motion
+  std::vector<std::string> caveats = {};        ///< with pressure: what an elastic foundation leaves out
 };
 
 /// Throws UsageError for times or loads that are not as many as frames, loads of both kinds, a moment without free rotations, or
@@ -198,13 +199,15 @@ void check_motion_request(const MotionRequest& request);
 /// Contact along a motion, with pressure if there are layers; empty if it was stopped. Stages: "balanced frames", "ways between samples", "frames".
 ///
 /// Throws UsageError as check_motion_request(), balance_along() and contact_between(), MeshError as contact_along().
-std::optional<MotionAnswer> answer_motion(const JointContact& bodies, const ElasticContact* layers,
-                                          const MotionRequest& request, const AnswerControl& control);
-MotionAnswer answer_motion(const JointContact& bodies, const ElasticContact* layers,
+std::optional<MotionAnswer> answer_motion(const contact::JointContact& bodies,
+                                          const contact::ElasticContact* layers, const MotionRequest& request,
+                                          const AnswerControl& control);
+MotionAnswer answer_motion(const contact::JointContact& bodies, const contact::ElasticContact* layers,
                            const MotionRequest& request);
 
 /// The notes of answer_motion() on layers and loads, which are known before its work is done.
-std::vector<ContactNote> motion_request_notes(const ElasticContact* layers, const MotionRequest& request);
+std::vector<motion::ContactNote> motion_request_notes(const contact::ElasticContact* layers,
+                                                      const MotionRequest& request);
 
 /// The frame with the largest force on the mobile body; empty if none is above 0.
 std::optional<std::size_t> frame_of_largest_force(const MotionAnswer& answer);
@@ -215,45 +218,46 @@ std::optional<std::size_t> frame_of_largest_force(const MotionAnswer& answer);
 /// with this angle, linear between two frames.
 struct FollowRecord {
   std::vector<JointCoordinates> frames = {};
-  std::vector<ContactNote> notes =
-      {};  ///< what looks wrong with the recorded numbers: the answer hands them on
+  /// What looks wrong with the recorded numbers: the answer hands them on.
+  std::vector<motion::ContactNote> notes = {};
 };
 
 /// The translation of a free joint follows a load: at each step it is where the contact of the layers carries the load, linear in
 /// between.
 struct FollowLoad {
-  const ElasticContact* layers = nullptr;  ///< outlives the query
-  Load load = {};
-  BalanceOptions balance = {};  ///< rotations are held
+  const contact::ElasticContact* layers = nullptr;  ///< outlives the query
+  contact::Load load = {};
+  contact::BalanceOptions balance = {};  ///< rotations are held
   Angle step = Angle::degrees(1);
-  BodyNames names = {};  ///< as notes call the bodies
+  motion::BodyNames names = {};  ///< as notes call the bodies
 };
 
 using Follow = std::variant<FollowRecord, FollowLoad>;
 
 /// The motions along which the recorded angle begins at the motion's start or before it, goes on past it, and never turns
 /// back.
-std::vector<Motion> motions_recorded(std::span<const Motion> motions, const FollowRecord& record);
+std::vector<motion::Motion> motions_recorded(std::span<const motion::Motion> motions,
+                                             const FollowRecord& record);
 
 /// Options of a query for the range of motion, with their defaults.
 struct RangeRequest {
-  std::vector<Motion> motions = {};
+  std::vector<motion::Motion> motions = {};
   /// The reference pose of the overlap options is taken from the joint's placement.
-  RangeOptions range = {};
+  motion::RangeOptions range = {};
   /// A motion ends if the radial depth exceeds this, for meshes that overlap everywhere. Excludes maps, bands and
   /// zones.
-  std::optional<AllowedDepth> allowed_depth = {};
+  std::optional<motion::AllowedDepth> allowed_depth = {};
   /// The translation that a free joint keeps, mm, in the fixed body's axes; default: that of its reference pose.
   std::optional<Vec3> translation_mm = {};
   /// The centre of a free joint is not held but follows this. Limits are bounded then, not exact. Excludes a held translation, maps,
   /// bands, zones, an allowed depth and contacts that are left out.
   std::optional<Follow> follow = {};
-  std::optional<MapGrid> map = {};
-  std::optional<BandOptions> bands = {};
+  std::optional<motion::MapGrid> map = {};
+  std::optional<motion::BandOptions> bands = {};
   /// Impingement zones this far past each limit.
   std::optional<Angle> zones_past = {};
   /// The clock on which contacts are read.
-  ClockPlane clock = ClockPlane::sagittal;
+  motion::ClockPlane clock = motion::ClockPlane::sagittal;
 };
 
 enum class RangeNoteCode : std::uint8_t {
@@ -284,21 +288,21 @@ struct RangeAnswer {
   Joint joint;                                   ///< held at its translation
   std::optional<Vec3> held_translation_mm = {};  ///< of a free joint
   bool follows = false;                          ///< the centre is not held: limits are bounded, not exact
-  std::vector<MotionLimit> limits = {};          ///< one per motion
-  std::vector<DepthLimit> depths = {};           ///< one per motion if a depth is allowed, else none
+  std::vector<motion::MotionLimit> limits = {};  ///< one per motion
+  std::vector<motion::DepthLimit> depths = {};   ///< one per motion if a depth is allowed, else none
   /// One per motion if liner and neck of an implant are bodies of revolution: where these two end it. Else none.
-  std::vector<ClosedLimit> closed = {};
-  BearingFinding bearing = {};  ///< what contacts are classified by
-  BearingRule bearing_rule = BearingRule::count;
-  ClockFace clock = sagittal_clock();
-  ClockPlane clock_plane = ClockPlane::sagittal;
+  std::vector<plan::ClosedLimit> closed = {};
+  motion::BearingFinding bearing = {};  ///< what contacts are classified by
+  motion::BearingRule bearing_rule = motion::BearingRule::count;
+  motion::ClockFace clock = motion::sagittal_clock();
+  motion::ClockPlane clock_plane = motion::ClockPlane::sagittal;
   std::vector<std::string> caveats = {};  ///< what was left out, accepted, allowed or held, a sentence each
   std::vector<RangeNote> notes = {};
-  std::vector<std::optional<ImpingementZone>> zones = {};  ///< one per motion if requested
-  std::optional<MotionMap> map = {};
-  std::vector<LimitBand> bands = {};            ///< one per motion if requested
-  BandOptions band_options = {};                ///< as requested
-  std::vector<ContactNote> contact_notes = {};  ///< range_request_notes()
+  std::vector<std::optional<motion::ImpingementZone>> zones = {};  ///< one per motion if requested
+  std::optional<motion::MotionMap> map = {};
+  std::vector<motion::LimitBand> bands = {};            ///< one per motion if requested
+  motion::BandOptions band_options = {};                ///< as requested
+  std::vector<motion::ContactNote> contact_notes = {};  ///< range_request_notes()
 };
 
 /// The translation that all motions of a free joint keep: the one requested, else that of its reference pose. Empty for joints
@@ -310,7 +314,7 @@ std::optional<Vec3> held_translation(const Joint& joint, const JointPlacement& p
 void check_range_request(const Joint& joint, const JointPlacement& placement, const RangeRequest& request);
 
 /// Warnings on the recorded motion, or the layers and the load, that a translation follows: known before the work.
-std::vector<ContactNote> range_request_notes(const RangeRequest& request);
+std::vector<motion::ContactNote> range_request_notes(const RangeRequest& request);
 
 /// Computes exact limits, or limits with a depth allowed, and what else is requested. Empty if it was stopped.
 ///
@@ -325,25 +329,27 @@ RangeAnswer answer_range(const Joint& joint, const JointPlacement& placement, co
 
 /// The notes of answer_range(), for callers who have the limits and their bearing surface already. Two searches of all motions if
 /// head and socket are more than centres_apart_mm apart.
-std::vector<RangeNote> range_notes(const Joint& joint, std::span<const MotionLimit> limits,
-                                   const RangeOptions& range, const BearingFinding& bearing);
+std::vector<RangeNote> range_notes(const Joint& joint, std::span<const motion::MotionLimit> limits,
+                                   const motion::RangeOptions& range, const motion::BearingFinding& bearing);
 
 /// Sentences on what these options leave out or accept.
-std::vector<std::string> range_caveats(const RangeOptions& options, const RangeOfMotion& range);
+std::vector<std::string> range_caveats(const motion::RangeOptions& options,
+                                       const motion::RangeOfMotion& range);
 
 // ---- the shape of a hip --------------------------------------------------------------------------------------------------
 
 /// Options of a query for the shape of a hip, with their defaults.
 struct MeasureQuery {
-  MeasureRequest measures = {};
-  std::optional<BandOptions> bands = {};
+  measure::MeasureRequest measures = {};
+  std::optional<motion::BandOptions> bands = {};
 };
 
 /// The measures of a hip, and how far they are certain.
 struct MeasureAnswer {
-  HipMeasures measures = {};
-  std::vector<MeasureBand> bands = {};  ///< in the order of measure_definitions() if requested, else none
-  BandOptions band_options = {};        ///< as requested
+  measure::HipMeasures measures = {};
+  /// In the order of measure_definitions() if requested, else none.
+  std::vector<measure::MeasureBand> bands = {};
+  motion::BandOptions band_options = {};  ///< as requested
 };
 
 /// Measures, and their bands if requested. Empty if it was stopped. Stage: "joints of the band".
@@ -357,15 +363,15 @@ MeasureAnswer answer_measures(const Joint& joint, const MeasureQuery& query = {}
 
 /// Options of a query for a resection, with their defaults.
 struct ResectionQuery {
-  ResectionRequest resection = {};
+  plan::ResectionRequest resection = {};
   /// Motions whose limits are given before and after; if empty, all motions of the joint.
-  std::vector<Motion> motions = {};
+  std::vector<motion::Motion> motions = {};
   /// The margin is as much larger as it takes that each target is reached in 95 % of displaced joints.
-  std::optional<BandOptions> bands = {};
+  std::optional<motion::BandOptions> bands = {};
   /// Points of each target's curve of degrees against removed volume; 0 for none.
   std::size_t curve_points = 10;
   /// How the shape of a hip is measured before and after.
-  MeasureRequest measures = {};
+  measure::MeasureRequest measures = {};
 };
 
 /// The cost of a target if it were the only one, at nearer angles.
@@ -401,12 +407,12 @@ struct ResectionNote {
 inline constexpr double neck_width_share = 0.3;
 
 struct ResectionAnswer {
-  Resection resection;
+  plan::Resection resection;
   double margin_mm = 0;  ///< as planned: larger than requested where a band is to be reached
-  std::vector<MotionLimit> before = {}, after = {};                ///< one per motion
-  std::optional<HipMeasures> shape_before = {}, shape_after = {};  ///< of a hip
-  std::vector<LimitBand> bands = {};                               ///< one per target if requested: after
-  std::vector<ResectionCurvePoint> curve = {};                     ///< by target, ascending
+  std::vector<motion::MotionLimit> before = {}, after = {};                 ///< one per motion
+  std::optional<measure::HipMeasures> shape_before = {}, shape_after = {};  ///< of a hip
+  std::vector<motion::LimitBand> bands = {};    ///< one per target if requested: after
+  std::vector<ResectionCurvePoint> curve = {};  ///< by target, ascending
   std::vector<ResectionNote> notes = {};
   std::vector<std::string> caveats = {};  ///< what the plan leaves out, a sentence each
 };
@@ -438,11 +444,11 @@ ImplantCentre implant_centre_named(std::string_view word);
 
 /// Options of a query for an implant, with their defaults.
 struct ImplantQuery {
-  TotalHip hip = {};
+  plan::TotalHip hip = {};
   SizesOfBones of_bones = {};
   ImplantCentre centre = ImplantCentre::head;
   /// How the bones are measured.
-  MeasureRequest measures = {};
+  measure::MeasureRequest measures = {};
 };
 
 enum class ImplantNoteCode : std::uint8_t {
@@ -478,17 +484,17 @@ struct CupOverhang {
 /// A total hip in the place of a joint, and what it was placed by. Points and directions are in the frame of the joint that was given, at
 /// zero angles; mm.
 struct ImplantAnswer {
-  TotalHip hip;  ///< as it was placed
+  plan::TotalHip hip;  ///< as it was placed
   SizesOfBones of_bones;
   ImplantCentre centre_of = ImplantCentre::head;
-  Vec3 centre_mm;     ///< of cup and head: the origin of the new joint
-  HipMeasures bones;  ///< before
+  Vec3 centre_mm;              ///< of cup and head: the origin of the new joint
+  measure::HipMeasures bones;  ///< before
   std::optional<Sphere> socket = {};
-  std::optional<double> centre_bound_mm =
-      {};              ///< of the head's centre, if the joint was placed by a fit to it
-  double room_mm = 0;  ///< from the centre to the nearest bone of the fixed body
+  /// Of the head's centre, if the joint was placed by a fit to it.
+  std::optional<double> centre_bound_mm = {};
+  double room_mm = 0;                          ///< from the centre to the nearest bone of the fixed body
   std::optional<CupOverhang> stands_out = {};  ///< empty if the edge stands out nowhere, or without a rim
-  NeckCut cut;                                 ///< of the femur, in the frame of the new joint
+  plan::NeckCut cut;                           ///< of the femur, in the frame of the new joint
   double removed_mm3 = 0;                      ///< of the femur
   Vec3 femur_shift_mm;                         ///< of the femur against the hip bone
   /// The new one: a ball about `centre_mm`, bones and implant. It has no parts with a pose of their own; the joint file has them.
@@ -521,15 +527,16 @@ struct SweepQuantities {
 };
 
 /// Measures of a hip's shape, by their keys. Throws UsageError for a key that no measure has.
-SweepQuantities measured_quantities(std::span<const std::string> keys, const MeasureRequest& request);
+SweepQuantities measured_quantities(std::span<const std::string> keys,
+                                    const measure::MeasureRequest& request);
 
 /// Options of a query for a sweep, with their defaults.
 struct SweepQuery {
-  std::vector<SweptParameter> parameters = {};  ///< one to four; the last one changes fastest
-  std::vector<SweepTarget> targets = {};        ///< one or more
-  RangeOptions range = {};
+  std::vector<plan::SweptParameter> parameters = {};  ///< one to four; the last one changes fastest
+  std::vector<plan::SweepTarget> targets = {};        ///< one or more
+  motion::RangeOptions range = {};
   /// The probability that a design leaves all targets free, over the standard deviations of parameters; the others of `sigma` are not used.
-  std::optional<BandOptions> bands = {};
+  std::optional<motion::BandOptions> bands = {};
   /// A joint is made anew for each design that has any: up to a second each.
   std::vector<SweepQuantities> quantities = {};
   SweepShare share = {};
@@ -553,26 +560,26 @@ struct SweepNote {
 
 /// The limits of all designs of a share, and where they are safe.
 struct SweepAnswer {
-  std::vector<SweptParameter> parameters;
-  std::vector<SweepTarget> targets;
-  std::vector<EndingPair> pairs;
+  std::vector<plan::SweptParameter> parameters;
+  std::vector<plan::SweepTarget> targets;
+  std::vector<plan::EndingPair> pairs;
   SweepShare share;
-  std::size_t first_design = 0;          ///< of the share
-  std::vector<DesignLimit> limits = {};  ///< of each design one per target
+  std::size_t first_design = 0;                ///< of the share
+  std::vector<plan::DesignLimit> limits = {};  ///< of each design one per target
   /// One per design: the least of what its limits have over the targets' reach; safe where >= 0, NaN if in contact in its reference pose.
   std::vector<double> margin_deg = {};
   std::vector<double> probability = {};  ///< of each design if requested, 0 to 1
   std::vector<std::string> quantity_names = {};
   std::vector<double> quantities = {};  ///< of each design one per name; NaN where there is none
   std::vector<double> quantities_here = {};
-  std::vector<SafeInterval> safe = {};  ///< ascending by line and value
+  std::vector<plan::SafeInterval> safe = {};  ///< ascending by line and value
   /// Measures of what is safe, by the trapezoidal rule over the lines, and of the whole window; a share has its lines' part. In the product of
   /// the parameters' units.
   double safe_measure = 0, window_measure = 0;
-  std::optional<std::size_t> best =
-      {};  ///< the design of the largest margin, the first of equals; empty if all are in contact
-  std::vector<double> here = {};              ///< the values that the joint has of the swept parameters
-  std::vector<DesignLimit> limits_here = {};  ///< one per target
+  /// The design of the largest margin, the first of equals; empty if all are in contact.
+  std::optional<std::size_t> best = {};
+  std::vector<double> here = {};                    ///< the values that the joint has of the swept parameters
+  std::vector<plan::DesignLimit> limits_here = {};  ///< one per target
   std::vector<SweepNote> notes = {};
   std::vector<std::string> caveats = {};
 
@@ -582,7 +589,7 @@ struct SweepAnswer {
 };
 
 /// Designs of all axes together.
-std::size_t designs_of(std::span<const SweptParameter> parameters);
+std::size_t designs_of(std::span<const plan::SweptParameter> parameters);
 
 /// Throws UsageError for what answer_sweep() would refuse before it computes anything: no target or parameter, more than four of these,
 /// values outside of a parameter's range, a reach beyond its motion's range, a tilt of what is no hip, a size.
@@ -613,9 +620,10 @@ struct NamedReach {
 std::vector<NamedReach> parse_reach(std::string_view text);
 
 /// Targets of these motions, each by its name as motion_named() finds it. Throws UsageError for an unknown name.
-std::vector<ReachTarget> reach_targets(std::span<const Motion> motions, std::span<const NamedReach> named);
+std::vector<plan::ReachTarget> reach_targets(std::span<const motion::Motion> motions,
+                                             std::span<const NamedReach> named);
 /// The targets in a text, as parse_reach() reads it.
-std::vector<ReachTarget> reach_targets(std::span<const Motion> motions, std::string_view text);
+std::vector<plan::ReachTarget> reach_targets(std::span<const motion::Motion> motions, std::string_view text);
 
 /// The bone that must go, the limits and the shape before and after, and what each degree costs. Empty if it was stopped. Stages:
 /// "cuts", "joints of the band".

@@ -12,7 +12,7 @@
 /// Bearing surfaces and impingement: which contacts stop a ball joint, and which only say that its centre is off.
 /// docs/mathematics/06-range-of-motion.md.
 
-namespace condyle {
+namespace condyle::motion {
 
 /// Below the joint space of nearly every hip, 2 to 4 mm between bones, and above the roughness of a segmented head.
 inline constexpr double usual_bearing_margin_mm = 2;
@@ -125,4 +125,4 @@ struct BearingFinding {
 /// Some milliseconds per 10,000 triangles: both bodies are searched for spheres, once, which are kept with their meshes.
 BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& options = {});
 
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -14,7 +14,7 @@
 /// Resection by hand: strokes of a brush that lower the surface of a bone, and the limits of the joint without the removed bone.
 /// docs/planning.md, "By hand".
 
-namespace condyle {
+namespace condyle::plan {
 
 enum class BrushAction : std::uint8_t {
   lower,    ///< The surface goes down.
@@ -43,8 +43,8 @@ inline constexpr double largest_brush_radius_mm = 30, largest_brush_depth_mm = 2
 struct StrokeOutcome {
   std::size_t moved = 0;  ///< vertices that are elsewhere now
   std::size_t kept = 0;   ///< vertices in reach that must stay
-  std::size_t limited =
-      0;  ///< vertices that are less deep than asked for, so that no triangle turns over and nothing is crossed
+  /// Vertices that are less deep than asked for, so that no triangle turns over and nothing is crossed.
+  std::size_t limited = 0;
 };
 
 /// Bone that strokes removed.
@@ -97,13 +97,14 @@ class Brush {
 
 /// Marks of the vertices of a body that belong to its bearing surface or to a soft mesh: corners of triangles whose contact does not end a
 /// motion. Of a fixed body that is one mesh none.
-std::vector<std::uint8_t> protected_vertices(const Joint& joint, BodyRole body, const ContactRoles& roles);
+std::vector<std::uint8_t> protected_vertices(const Joint& joint, BodyRole body,
+                                             const motion::ContactRoles& roles);
 
 struct BrushRequest {
   BodyRole body = BodyRole::mobile;
   std::vector<BrushStroke> strokes = {};
   std::vector<std::uint8_t> stays = {};  ///< vertices that stay beside the bearing surface; or none
-  RangeOptions range = {};
+  motion::RangeOptions range = {};
 };
 
 /// A joint after strokes.
@@ -113,13 +114,14 @@ struct BrushedJoint {
   std::vector<StrokeOutcome> strokes;
   BrushedBone removed;
   std::vector<double> depth_mm;  ///< of each vertex of the bone
-  std::vector<MotionLimit> before, after;
+  std::vector<motion::MotionLimit> before, after;
 };
 
 /// The joint without what these strokes take, and the limits of motions before and after: exact ones. What contact of each triangle means
 /// stays as it was: bone that a stroke brings into the bearing ball ends motions all the same, where a joint made anew calls it bearing surface.
 ///
 /// Throws as Brush and RangeOfMotion do, and UsageError for a bone that a part is cut from and for a joint with an implant.
-BrushedJoint brush_joint(const Joint& joint, const BrushRequest& request, std::span<const Motion> motions);
+BrushedJoint brush_joint(const Joint& joint, const BrushRequest& request,
+                         std::span<const motion::Motion> motions);
 
-}  // namespace condyle
+}  // namespace condyle::plan

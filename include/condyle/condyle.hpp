@@ -1,13 +1,13 @@
 #pragma once
 
 /// The whole core, in reading order. Files (condyle/io) and the parametric hip (condyle/sample) are libraries of their
-/// own and are included one by one.
+/// own and are included one by one. Joints, meshes, requests and answers are directly in `condyle`; what else a layer has is in
+/// its own namespace: condyle::radial, tangential, contact, motion, measure, plan; and condyle::sample, condyle::io.
 
 // In reading order, not in the alphabet's.
 // clang-format off
 
 // Types that everything else is made of.
-#include "condyle/points.hpp"
 #include "condyle/angle.hpp"
 #include "condyle/pose.hpp"
 #include "condyle/error.hpp"

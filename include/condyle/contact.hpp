@@ -16,18 +16,15 @@
 /// Two bodies in one pose: which vertices of each are inside the other, how deep and of which kind, and which
 /// triangles meet.
 
-namespace condyle {
+namespace condyle::contact {
 
 class JointContact;
-namespace contact {
 class BodyPair;
 const BodyPair& body_pair_of(const JointContact& joint);
 struct ChosenVertices;
 struct ChosenArcs;
 ChosenArcs arcs_of(const JointContact& joint, const Pose& X_FM, const Vec3& axis_F,
                    const ChosenVertices& vertices);
-}  // namespace contact
-
 /// A triangle of the fixed and one of the mobile body that share a point.
 struct TrianglePair {
   Index fixed, mobile;
@@ -48,13 +45,13 @@ struct ContactResults {
 };
 
 /// The vertices that are not outside, with their radial depths in mm, >= 0.
-using Contact = ContactResults<Penetrations>;
+using Contact = ContactResults<radial::Penetrations>;
 /// Every vertex, with its radial gap in mm: > 0 apart, < 0 penetrating.
-using RadialContact = ContactResults<RadialResults>;
+using RadialContact = ContactResults<radial::RadialResults>;
 /// Every vertex, with its gap along its circle about an axis: > 0 apart, < 0 penetrating. A positive rotation
 /// of a mobile vertex is one of the mobile body about the axis; of a fixed vertex, one of the fixed body about
 /// it, which is the opposite movement.
-using TangentialContact = ContactResults<TangentialResults>;
+using TangentialContact = ContactResults<tangential::TangentialResults>;
 
 /// A fixed and a mobile body, each in its own frame with the joint centre as origin, queried at any pose.
 ///
@@ -69,8 +66,8 @@ using TangentialContact = ContactResults<TangentialResults>;
 class JointContact {
  public:
   /// The meshes of a joint, which are in the joint frame.
-  explicit JointContact(const Joint& joint, RadialOptions options = {});
-  JointContact(Mesh fixed, Mesh mobile, RadialOptions options = {});
+  explicit JointContact(const Joint& joint, radial::RadialOptions options = {});
+  JointContact(Mesh fixed, Mesh mobile, radial::RadialOptions options = {});
   /// The same joint with another mesh in a body's place: what was made of the other body is shared.
   JointContact(const JointContact& before, BodyRole changed, Mesh mesh);
   ~JointContact();
@@ -83,16 +80,17 @@ class JointContact {
   Contact at(const Pose& X_FM) const;
   /// Only the penetrating vertices, into results that keep their capacity: nothing is allocated once they are large
   /// enough. Raises MeshError if the other body's mesh is open, too.
-  void mobile_in_fixed(const Pose& X_FM, Penetrations& out) const;
-  void fixed_in_mobile(const Pose& X_FM, Penetrations& out) const;
+  void mobile_in_fixed(const Pose& X_FM, radial::Penetrations& out) const;
+  void fixed_in_mobile(const Pose& X_FM, radial::Penetrations& out) const;
 
   /// The same and the gap of every vertex outside: the joint space along rays. Raises as at() does.
   RadialContact radial(const Pose& X_FM) const;
   /// Gaps and depths about an axis through the joint centre, given in F, of any length but zero. Building a ring
   /// table costs much more than querying it; those of both bodies are kept for the next pose with the same axis in
   /// the body's own frame.
-  TangentialContact tangential(const Pose& X_FM, const Vec3& axis_F,
-                               TangentialRule rule = TangentialRule::alternating) const;
+  TangentialContact tangential(
+      const Pose& X_FM, const Vec3& axis_F,
+      tangential::TangentialRule rule = tangential::TangentialRule::alternating) const;
 
   /// The exact set of intersecting triangle pairs, ascending.
   std::vector<TrianglePair> pairs(const Pose& X_FM) const;
@@ -102,14 +100,14 @@ class JointContact {
   const Mesh& fixed() const noexcept;
   const Mesh& mobile() const noexcept;
   /// The direction tables, for questions of one's own.
-  const RadialTable& fixed_table() const;
-  const RadialTable& mobile_table() const;
+  const radial::RadialTable& fixed_table() const;
+  const radial::RadialTable& mobile_table() const;
 
  private:
   struct Parts;
-  friend const contact::BodyPair& contact::body_pair_of(const JointContact& joint);
-  friend contact::ChosenArcs contact::arcs_of(const JointContact& joint, const Pose& X_FM, const Vec3& axis_F,
-                                              const contact::ChosenVertices& vertices);
+  friend const BodyPair& contact::body_pair_of(const JointContact& joint);
+  friend ChosenArcs contact::arcs_of(const JointContact& joint, const Pose& X_FM, const Vec3& axis_F,
+                                     const ChosenVertices& vertices);
 
   std::unique_ptr<Parts> parts_;
 };
@@ -133,7 +131,7 @@ struct DeepestVertex {
 
   /// The kind of depth that means something here.
   DepthKind applies() const noexcept {
-    return ray_to_normal > oblique_ray || depth_mm > longest_meaningful_ratio * shortest_exit_mm
+    return ray_to_normal > radial::oblique_ray || depth_mm > longest_meaningful_ratio * shortest_exit_mm
                ? DepthKind::tangential
                : DepthKind::radial;
   }
@@ -153,7 +151,7 @@ struct RadialBodySummary {
 };
 
 /// `points` are the query points of `other` that gave `results`.
-RadialBodySummary summarise(const RadialResults& results, PointsView points, const Mesh& other);
+RadialBodySummary summarise(const radial::RadialResults& results, PointsView points, const Mesh& other);
 
 /// Both bodies; empty if the other mesh is open.
 struct RadialSummary {
@@ -185,6 +183,6 @@ struct TangentialBodySummary {
   std::optional<double> min_gap_mm;
 };
 
-TangentialBodySummary summarise(const TangentialResults& results);
+TangentialBodySummary summarise(const tangential::TangentialResults& results);
 
-}  // namespace condyle
+}  // namespace condyle::contact

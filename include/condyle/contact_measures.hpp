@@ -10,7 +10,7 @@
 
 /// How much of two bodies is in contact at one pose: areas, volume, distances. docs/mathematics/03-both-directions.md.
 
-namespace condyle {
+namespace condyle::contact {
 
 /// Distances from vertices of one body to the nearest point of the other body's surface, mm, >= 0 inside and outside:
 /// the shortest translation out, or in. One element per vertex; NaN for vertices whose distance was not requested.
@@ -149,4 +149,4 @@ std::optional<DeepestOfBoth> deepest_of(const ReliableContact& contact);
 /// Vertices inside of either body of which neither ray nor arc is a depth.
 std::size_t without_depth(const ReliableContact& contact) noexcept;
 
-}  // namespace condyle
+}  // namespace condyle::contact

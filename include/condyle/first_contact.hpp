@@ -6,13 +6,12 @@
 
 #include "condyle/angle.hpp"
 #include "condyle/mesh.hpp"
-#include "condyle/points.hpp"
 #include "condyle/pose.hpp"
 
 /// How far one mesh rotates about an axis before it meets another: in closed form, complete, without a step
 /// size (docs/mathematics/05-contact-under-rotation.md).
 
-namespace condyle {
+namespace condyle::motion {
 
 enum class FeatureKind : std::uint8_t { vertex, edge, face };
 
@@ -131,4 +130,4 @@ class FirstContact {
   std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -16,8 +16,10 @@
 /// Measures of a hip from its meshes: definitions, sources and known answers in docs/mathematics/11-measures.md.
 
 namespace condyle {
-
 struct FrameDescription;
+}  // namespace condyle
+
+namespace condyle::measure {
 
 /// A measure of one hip. Its definition is a row of measure_definitions().
 struct Measure {
@@ -98,7 +100,7 @@ struct NeckGeometry {
   Sphere head;
   Vec3 direction;             ///< from the head's centre to the foot
   std::vector<Vec3> outline;  ///< where the femur crosses a sphere of 1.4 R, in no order
-  ClockFace clock;
+  motion::ClockFace clock;
   ClockSource clock_from;
 };
 
@@ -141,7 +143,7 @@ struct RimHour {
 struct RimGeometry {
   Vec3 centre, normal;  ///< out of the socket
   double radius_mm;
-  ClockFace clock;
+  motion::ClockFace clock;
 };
 
 /// Front and back of the rim in one transverse plane.
@@ -210,8 +212,9 @@ struct MeasureBand {
 ///
 /// Throws UsageError as measure_hip() and limit_bands() do.
 std::optional<std::vector<MeasureBand>> measure_bands(const Joint& joint, const MeasureRequest& request,
-                                                      const BandOptions& options, const Control& control);
+                                                      const motion::BandOptions& options,
+                                                      const Control& control);
 std::vector<MeasureBand> measure_bands(const Joint& joint, const MeasureRequest& request = {},
-                                       const BandOptions& options = {});
+                                       const motion::BandOptions& options = {});
 
-}  // namespace condyle
+}  // namespace condyle::measure

@@ -14,7 +14,7 @@
 
 /// Impingement zones: which parts of both bones meet at the end of a motion and past it.
 
-namespace condyle {
+namespace condyle::motion {
 
 // Where on the socket's rim, and where around the neck: two clock faces.
 
@@ -124,4 +124,4 @@ class ZoneFinder {
   std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -13,13 +13,13 @@
 #include "condyle/joint.hpp"
 #include "condyle/joint_coordinates.hpp"
 #include "condyle/mesh.hpp"
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 #include "condyle/range_of_motion.hpp"
 
 /// Implants made of their sizes: a total hip and a reverse shoulder, their meshes, and the limits that neck and liner have in closed
 /// form. docs/implants.md, docs/mathematics/13-implants.md.
 
-namespace condyle {
+namespace condyle::plan {
 
 // ---- how a cup is oriented -----------------------------------------------------------------------------------------------
 
@@ -86,12 +86,13 @@ Angle contact_half_angle(const LinerShape& liner, const NeckShape& neck) noexcep
 /// Where a motion of a RevolvedPair ends.
 struct ClosedLimit {
   Angle turned;  ///< from the motion's start; 0 for contact_at_start
-  LimitReason reason;
+  motion::LimitReason reason;
   Angle of_facets_low, of_facets_high;  ///< between these meshes with the implant's facets end it
 };
 
 /// The first root of fixed_axis . R(t) mobile_axis = P + A cos t + B sin t = cos(half_angle) above 0, in the range of the motion.
-ClosedLimit closed_limit(const RevolvedPair& pair, CoordinateSystem system, const Motion& motion) noexcept;
+ClosedLimit closed_limit(const RevolvedPair& pair, CoordinateSystem system,
+                         const motion::Motion& motion) noexcept;
 
 // ---- the implants --------------------------------------------------------------------------------------------------------
 
@@ -111,8 +112,8 @@ struct TotalHip {
   /// With these a trapezoid across the neck in place of a circle: twice the neck's radius high, so wide above and below.
   double neck_upper_width_mm = 0, neck_lower_width_mm = 0;
   Angle liner_half_angle = Angle::degrees(90);
-  Angle chamfer =
-      {};          ///< by which the outer edge of the liner's face is nearer to the pole than the inner one
+  /// By which the outer edge of the liner's face is nearer to the pole than the inner one.
+  Angle chamfer = {};
   Angle lip = {};  ///< by which the rim is raised where it is highest
   /// Where on the rim the lip is highest, from its uppermost place backwards.
   Angle lip_towards = Angle::degrees(45);
@@ -216,4 +217,4 @@ struct NeckCut {
 };
 NeckCut neck_cut(const TotalHip& hip, Side side);
 
-}  // namespace condyle
+}  // namespace condyle::plan

@@ -117,4 +117,14 @@ Pose pose_at(CoordinateSystem system, const JointCoordinates& at, TranslationFra
 /// meaning, where e1 and e3 lie along one line.
 JointCoordinates coordinates_at(CoordinateSystem system, const Pose& X_FM, TranslationFrame frame) noexcept;
 
+/// This angle of the three.
+Angle angle_of(const JointAngles& angles, JointAngle angle) noexcept;
+
+std::string_view name_of(Side side) noexcept;
+std::string_view name_of(JointKind kind) noexcept;
+std::string_view name_of(Anatomy joint) noexcept;
+std::string_view name_of(TranslationFrame frame) noexcept;
+/// "flexion", or what the joint calls this angle: the positive one of its coordinate_names().
+std::string_view name_of(JointAngle angle, Anatomy joint) noexcept;
+
 }  // namespace condyle

@@ -11,7 +11,7 @@
 /// How far limits move when what is not known exactly is moved within what is known: a limit with its band can be
 /// quoted. docs/mathematics/06-range-of-motion.md.
 
-namespace condyle {
+namespace condyle::motion {
 
 /// Standard deviations, each normally distributed and independent of the others.
 struct Uncertainty {
@@ -77,4 +77,4 @@ struct DisplacedLimit {
 std::vector<DisplacedLimit> limits_about(const Joint& joint, std::span<const Motion> motions,
                                          const RangeOptions& range, std::span<const Vec3> centres);
 
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "condyle/points.hpp"
 #include "condyle/pose.hpp"
 
 namespace condyle {

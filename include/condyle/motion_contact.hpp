@@ -20,10 +20,10 @@
 ///     const ElasticContact surfaces(femur, tibia, options);
 ///     const auto frames = contact_along(joint, &surfaces, X_FM);  // one entry per pose, empty if that is a gap
 
-namespace condyle {
+namespace condyle::motion {
 
 /// Results requested of the surfaces: pressure and depths, or depths with one of the bodies casting.
-using SurfaceQuestion = std::variant<const ElasticContact*, const NormalDepth*>;
+using SurfaceQuestion = std::variant<const contact::ElasticContact*, const contact::NormalDepth*>;
 
 /// Contact of one frame.
 struct FrameContact {
@@ -32,8 +32,8 @@ struct FrameContact {
   std::size_t intersecting_pairs = 0;  ///< of triangles
   double smallest_gap_mm = 0;          ///< between the surfaces; 0 if they meet
   /// Results of the casting surface, in its body's frame: the mobile one's if both are cast.
-  SurfaceContact surface = {};
-  Wrench on_mobile = {};  ///< by the fixed body, in F, about the origin of M; with pressure only
+  contact::SurfaceContact surface = {};
+  contact::Wrench on_mobile = {};  ///< by the fixed body, in F, about the origin of M; with pressure only
   /// Rays that a longer reach would find in contact: NormalDepth::cut_off_by_reach(). That costs as much as the
   /// depths, so it is computed only if depths near the reach or their absence give reason to: the largest is beyond
   /// half of it, or no ray ends in contact though bodies meet or one is open. Else 0, as the depth does not go from
@@ -47,16 +47,18 @@ struct FrameContact {
 /// optional is empty if the work was stopped before its end. Raises what ElasticContact::at() raises, with the
 /// frame's number before the message.
 std::optional<std::vector<std::optional<FrameContact>>> contact_along(
-    const JointContact& joint, const SurfaceQuestion& surfaces, std::span<const std::optional<Pose>> X_FM,
-    BodyRole casting = BodyRole::mobile, const Control& control = {});
+    const contact::JointContact& joint, const SurfaceQuestion& surfaces,
+    std::span<const std::optional<Pose>> X_FM, BodyRole casting = BodyRole::mobile,
+    const Control& control = {});
 
 /// The poses that balance a load, frame after frame: rotations are the recorded ones, and each frame starts from its
 /// translation as the last frame that carries its load has moved its own, and on as that changed between two balanced frames
 /// next to each other. One load for all frames, or one for each. Frames that do not carry it say so in their outcome and hand
 /// nothing on; gaps stay gaps. Not parallel.
-std::optional<std::vector<std::optional<BalancedPose>>> balance_along(
-    const ElasticContact& surfaces, std::span<const std::optional<Pose>> X_FM, std::span<const Load> loads,
-    const BalanceOptions& balance = {}, const Control& control = {});
+std::optional<std::vector<std::optional<contact::BalancedPose>>> balance_along(
+    const contact::ElasticContact& surfaces, std::span<const std::optional<Pose>> X_FM,
+    std::span<const contact::Load> loads, const contact::BalanceOptions& balance = {},
+    const Control& control = {});
 
 // Checks of materials, loads and motions: reports numbers that no tissue, implant or joint has, as when a unit or a
 // sign is wrong. docs/checks.md has the table, with the sources of the bounds.
@@ -97,14 +99,16 @@ struct BodyNames {
 
 /// Looks at moduli, Poisson's ratios, thicknesses, and whether a layer's mesh is rather a bone. Changes nothing.
 std::vector<ContactNote> check_layers(const Mesh& fixed, const Mesh& mobile,
-                                      const ElasticContactOptions& options, const BodyNames& names = {});
-std::vector<ContactNote> check_layers(const ElasticContact& contact, const BodyNames& names = {});
+                                      const contact::ElasticContactOptions& options,
+                                      const BodyNames& names = {});
+std::vector<ContactNote> check_layers(const contact::ElasticContact& contact, const BodyNames& names = {});
 
 /// Looks at the force that is to be balanced.
-std::vector<ContactNote> check_load(const Load& load);
+std::vector<ContactNote> check_load(const contact::Load& load);
 
 /// Looks at what one pose shows: force, strain of the layers, and what the largest values come from. Without layers the last only.
-std::vector<ContactNote> check_contact(const ElasticContactResults& results, const BodyNames& names = {});
+std::vector<ContactNote> check_contact(const contact::ElasticContactResults& results,
+                                       const BodyNames& names = {});
 
 /// Checks the frames of a motion, one note for all: strain, force, the source of the peaks, and the distance of the
 /// bodies in most frames that have an answer.
@@ -149,8 +153,8 @@ struct ContactInterval {
   /// Whether they are in contact for certain at some moment: otherwise the surfaces pass so near to each other that
   /// neither contact nor its absence was shown within the resolution.
   bool is_certain = false;
-  double undecided_s =
-      0;  ///< how much of it was shown neither to be in contact nor free; 0 from the closed form
+  /// How much of it was shown neither to be in contact nor free; 0 from the closed form.
+  double undecided_s = 0;
 };
 
 /// Contact in a whole recording: free outside the intervals, between the samples too.
@@ -187,11 +191,11 @@ struct RecordedContactOptions {
 /// times that are not finite or do not ascend, poses that are not rotations to 1e-9 with a finite translation,
 /// neighbours more than 179 degrees apart (the sense of rotation is not known), or a resolution that is not above 0;
 /// the first bad sample is named, counted from 0.
-RecordedContact contact_between(const JointContact& bodies, std::span<const double> time_s,
+RecordedContact contact_between(const contact::JointContact& bodies, std::span<const double> time_s,
                                 std::span<const Pose> X_FM, const RecordedContactOptions& options = {});
 /// The same; empty if it was stopped before all ways were done.
-std::optional<RecordedContact> contact_between(const JointContact& bodies, std::span<const double> time_s,
-                                               std::span<const Pose> X_FM,
+std::optional<RecordedContact> contact_between(const contact::JointContact& bodies,
+                                               std::span<const double> time_s, std::span<const Pose> X_FM,
                                                const RecordedContactOptions& options, const Control& control);
 
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -10,7 +10,7 @@
 /// The combined range of motion: the free angles of one joint angle over a grid of the other two.
 /// docs/mathematics/06-range-of-motion.md.
 
-namespace condyle {
+namespace condyle::motion {
 
 /// Values of one held angle: first, first + step, ... up to last. In degrees, because people write them so
 /// and every value is to be the double nearest to what they wrote.
@@ -87,4 +87,4 @@ struct FreeVolume {
 /// A grid with one row has no volume, with one column no areas: zeros.
 FreeVolume free_volume(const MotionMap& map);
 
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -22,12 +22,9 @@
 ///
 /// Casting and target exchanged give another answer, so results say which surface was cast.
 
-namespace condyle {
+namespace condyle::contact {
 
-namespace contact {
 class OverlapSampler;
-}
-
 /// Contribution of a face of the casting surface.
 enum class FaceRule {
   /// The whole face, with the depth of the ray from its centre along its normal: the rule of OpenSim-JAM.
@@ -128,11 +125,11 @@ class NormalDepth {
   const NormalDepthOptions& options() const noexcept;
 
  private:
-  std::unique_ptr<contact::OverlapSampler> sampler_;
+  std::unique_ptr<OverlapSampler> sampler_;
 };
 
 /// For each vertex of a layer's surface, the distance along its negative normal to a surface behind it: the thickness
 /// of a cartilage on its bone, mm. NaN if nothing lies within the reach.
 std::vector<double> thickness_to(const Mesh& layer, const Mesh& behind, double reach_mm = 20);
 
-}  // namespace condyle
+}  // namespace condyle::contact

@@ -26,7 +26,7 @@
 ///     const ElasticContact knee(femur, tibia, {.casting = Casting::mobile, .fixed = cartilage, .mobile = cartilage});
 ///     const double peak = knee.at(X_FM).mobile->totals.max_pressure_mpa;
 
-namespace condyle {
+namespace condyle::contact {
 
 struct ElasticLayer {
   double youngs_modulus_mpa;  ///< > 0
@@ -200,4 +200,4 @@ struct NormalContact {
 NormalContact normal_contact(const JointContact& joint, const Pose& X_FM, Casting casting = Casting::both,
                              const NormalDepthOptions& rays = {});
 
-}  // namespace condyle
+}  // namespace condyle::contact

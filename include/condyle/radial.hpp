@@ -9,18 +9,14 @@
 
 #include "condyle/angle.hpp"
 #include "condyle/mesh.hpp"
-#include "condyle/points.hpp"
 #include "condyle/pose.hpp"
 
 /// The radial method: rays from one centre. docs/mathematics/02-radial-method.md; Arbabi et al. 2009.
 
-namespace condyle {
+namespace condyle::radial {
 
-namespace radial {
 class DirectionTable;
 class PointBlocks;
-}  // namespace radial
-
 /// Which of the two maps from directions to cells.
 enum class DirectionMapKind {
   cartesian,  ///< the paper's: (x/R, y/R, sign z), N x N x 2 cells, uneven near z = 0
@@ -106,10 +102,10 @@ class SortedPoints {
   std::size_t size() const noexcept;
 
   /// For the library's own use.
-  const radial::PointBlocks& blocks() const noexcept { return *blocks_; }
+  const PointBlocks& blocks() const noexcept { return *blocks_; }
 
  private:
-  std::shared_ptr<const radial::PointBlocks> blocks_;
+  std::shared_ptr<const PointBlocks> blocks_;
 };
 
 /// Contents of a table, for tuning and for the figures of docs/performance.md.
@@ -209,7 +205,7 @@ class RadialTable {
   RadialTableSize table_size() const noexcept;
 
  private:
-  std::unique_ptr<radial::DirectionTable> table_;
+  std::unique_ptr<DirectionTable> table_;
 };
 
-}  // namespace condyle
+}  // namespace condyle::radial

@@ -18,7 +18,7 @@
 /// Range of motion: how far a joint turns in each clinical direction before bone meets bone, where, and why.
 /// docs/mathematics/06-range-of-motion.md.
 
-namespace condyle {
+namespace condyle::motion {
 
 // Meshes that are in contact in the reference pose, as segmented ones often are, and what can be done about
 // it. Never done silently, and never by moving a mesh.
@@ -166,9 +166,6 @@ std::optional<ContactSide> contact_side(const Joint& joint, const MotionLimit& l
 
 /// These angles with one of them changed by `by`.
 JointAngles turned_by(JointAngles from, JointAngle angle, Angle by) noexcept;
-
-/// This angle of the three.
-Angle angle_of(const JointAngles& angles, JointAngle angle) noexcept;
 
 struct RangeOptions {
   BearingOptions bearing = {};
@@ -391,4 +388,4 @@ class DepthRange {
   std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -15,11 +15,11 @@
 
 /// Inverse resection: the bone that must go so that motions reach what is asked of them. docs/mathematics/12-resection.md.
 
-namespace condyle {
+namespace condyle::plan {
 
 /// A motion, and how far it shall turn from its start.
 struct ReachTarget {
-  Motion motion = {};
+  motion::Motion motion = {};
   Angle reach = {};
 };
 
@@ -58,7 +58,7 @@ struct ResectionRequest {
   /// cut has any shape.
   std::optional<double> burr_mm = {};
   double edge_mm = 0.5;  ///< Triangles around the cut become so small.
-  RangeOptions range = {};
+  motion::RangeOptions range = {};
 };
 
 /// A bone after its cut.
@@ -75,8 +75,8 @@ struct CutBone {
   double burr_volume_mm3 = 0;  ///< the part of what was removed that goes only because a burr is no smaller
   /// By how much the burr's ball would have to enter bone that stays, at the most; 0 where it need not.
   double burr_in_kept_mm = 0;
-  double area_mm2 =
-      0;  ///< of the surface before, where the cut is deeper than a per cent of its deepest place
+  /// Of the surface before, where the cut is deeper than a per cent of its deepest place.
+  double area_mm2 = 0;
   double deepest_mm = 0;
   Vec3 deepest_at = Vec3::Zero();  ///< on the surface before
 };
@@ -91,7 +91,7 @@ struct Blocked {
 struct ReachOutcome {
   ReachTarget target;
   Angle planned;  ///< the reach, or as far as kept bone lets the motion go
-  MotionLimit before, after;
+  motion::MotionLimit before, after;
   std::optional<Blocked> blocked = {};
 };
 
@@ -124,4 +124,4 @@ Resection resect(const Joint& joint, const ResectionRequest& request);
 /// The same; empty if it was stopped.
 std::optional<Resection> resect(const Joint& joint, const ResectionRequest& request, const Control& control);
 
-}  // namespace condyle
+}  // namespace condyle::plan

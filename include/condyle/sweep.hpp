@@ -14,7 +14,7 @@
 /// Sweeps: the limits of a joint over a grid of values of its parts' parameters, and the designs that leave every target motion free.
 /// docs/sweeps.md.
 
-namespace condyle {
+namespace condyle::plan {
 
 /// Values of one parameter: first, first + step, ... up to last.
 struct SweptParameter {
@@ -33,13 +33,13 @@ std::vector<SweptParameter> parse_sweep(std::string_view text);
 /// A motion that a design has to leave free.
 struct SweepTarget {
   std::string name;
-  Motion motion = {};
+  motion::Motion motion = {};
   Angle reach = {};         ///< how far it has to turn from its start, up to the motion's range
   Angle pelvic_tilt = {};   ///< of the posture, forwards: of a hip
   std::string source = {};  ///< of the angle, as its table has it
 
   /// The motion as the joint file's pelvis sees it: a pose of flexion f at an anterior tilt t is that of flexion f + t without.
-  Motion without_tilt() const noexcept;
+  motion::Motion without_tilt() const noexcept;
 };
 
 /// How a limit was decided.
@@ -53,9 +53,9 @@ std::string_view name_of(LimitKnownBy by) noexcept;
 
 /// Where one target motion ends with one design.
 struct DesignLimit {
-  double turned_deg =
-      0;  ///< from the motion's start; 0 if in contact there, NaN of a design in contact in its reference pose
-  LimitReason reason = LimitReason::end_of_range;
+  /// From the motion's start; 0 if in contact there, NaN of a design in contact in its reference pose.
+  double turned_deg = 0;
+  motion::LimitReason reason = motion::LimitReason::end_of_range;
   LimitKnownBy by = LimitKnownBy::meshes;
   /// The meshes that end it, as numbers of SweepAnswer::pairs; none at the end of the range.
   static constexpr std::uint16_t no_pair = 0xFFFF;
@@ -81,4 +81,4 @@ inline constexpr std::size_t most_designs = 10'000'000;
 /// Ends of safe intervals are found to so much of a step.
 inline constexpr double border_share = 0.01;
 
-}  // namespace condyle
+}  // namespace condyle::plan

@@ -8,16 +8,12 @@
 
 #include "condyle/angle.hpp"
 #include "condyle/mesh.hpp"
-#include "condyle/points.hpp"
 #include "condyle/pose.hpp"
 
 /// The tangential method: circles about one axis. docs/mathematics/04-tangential-method.md; Arbabi et al. 2009.
 
-namespace condyle {
-namespace tangential {
+namespace condyle::tangential {
 struct Rings;
-}
-
 /// How the state of a point follows from its circle.
 enum class TangentialRule {
   /// All crossings in their order, anchored by the exact winding number at the point. Always right.
@@ -157,7 +153,7 @@ class RingTable {
   RingTableSize table_size() const noexcept;
 
  private:
-  std::shared_ptr<const tangential::Rings> rings_;
+  std::shared_ptr<const Rings> rings_;
 };
 
-}  // namespace condyle
+}  // namespace condyle::tangential

@@ -10,7 +10,6 @@
 
 #include "condyle/angle.hpp"
 #include "condyle/mesh.hpp"
-#include "condyle/points.hpp"
 #include "condyle/pose.hpp"
 
 /// Between numpy and the library's arrays. UsageError where an array has another shape or kind of numbers, naming what it was

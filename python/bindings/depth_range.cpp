@@ -9,14 +9,14 @@
 namespace condyle::python {
 namespace {
 
-std::unique_ptr<DepthRange> depth_range(const JointHandle& handle, double depth_mm, double step_deg,
-                                        double tolerance_deg) {
-  const AllowedDepth allowed{depth_mm, Angle::degrees(step_deg), Angle::degrees(tolerance_deg)};
+std::unique_ptr<motion::DepthRange> depth_range(const JointHandle& handle, double depth_mm, double step_deg,
+                                                double tolerance_deg) {
+  const motion::AllowedDepth allowed{depth_mm, Angle::degrees(step_deg), Angle::degrees(tolerance_deg)};
   const py::gil_scoped_release released;
-  return std::make_unique<DepthRange>(handle.joint(), allowed);
+  return std::make_unique<motion::DepthRange>(handle.joint(), allowed);
 }
 
-py::dict place_dict(const DeepestPlace& place) {
+py::dict place_dict(const motion::DeepestPlace& place) {
   py::dict dict;
   dict["depth_mm"] = place.depth_mm;
   dict["contact"] = dict_of(place.contact);
@@ -24,7 +24,7 @@ py::dict place_dict(const DeepestPlace& place) {
   return dict;
 }
 
-py::dict deepest(const DepthRange& range, const py::object& angles_deg) {
+py::dict deepest(const motion::DepthRange& range, const py::object& angles_deg) {
   const JointAngles at = angles_in(angles_deg, "angles");
   return place_dict([&] {
     const py::gil_scoped_release released;
@@ -32,11 +32,11 @@ py::dict deepest(const DepthRange& range, const py::object& angles_deg) {
   }());
 }
 
-py::list limits_by_depth(const DepthRange& range, const py::list& given, const py::object& progress) {
-  const std::vector<Motion> motions = motions_in(given);
+py::list limits_by_depth(const motion::DepthRange& range, const py::list& given, const py::object& progress) {
+  const std::vector<motion::Motion> motions = motions_in(given);
   const auto found = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    std::vector<DepthLimit> done;
-    for (const Motion& motion : motions) {
+    std::vector<motion::DepthLimit> done;
+    for (const motion::Motion& motion : motions) {
       if (stop.stop_requested()) break;
       done.push_back(range.limit(motion));
       report(done.size(), motions.size());
@@ -44,7 +44,7 @@ py::list limits_by_depth(const DepthRange& range, const py::list& given, const p
     return done;
   });
   py::list list;
-  for (const DepthLimit& limit : found) {
+  for (const motion::DepthLimit& limit : found) {
     py::dict dict;
     dict["limit"] = dict_of(limit.limit);
     dict["at_limit"] = place_dict(limit.at_limit);
@@ -58,7 +58,7 @@ py::list limits_by_depth(const DepthRange& range, const py::list& given, const p
 }  // namespace
 
 void bind_depth_range(py::module_& module) {
-  py::class_<DepthRange>(module, "DepthRange")
+  py::class_<motion::DepthRange>(module, "DepthRange")
       .def(py::init(&depth_range))
       .def("deepest", &deepest)
       .def("limits", &limits_by_depth);

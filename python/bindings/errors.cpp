@@ -25,7 +25,7 @@ void bind_errors(py::module_&) {
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
-    } catch (const ReferenceContactError& error) {
+    } catch (const motion::ReferenceContactError& error) {
       PyErr_SetString(exceptions.reference_contact, error.what());
     } catch (const MeshError& error) {
       PyErr_SetString(exceptions.mesh, error.what());

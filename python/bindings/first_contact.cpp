@@ -7,18 +7,18 @@
 namespace condyle::python {
 namespace {
 
-std::unique_ptr<FirstContact> first_contact(const Mesh& fixed, const Mesh& mobile, const py::object& point,
-                                            const py::object& direction) {
+std::unique_ptr<motion::FirstContact> first_contact(const Mesh& fixed, const Mesh& mobile,
+                                                    const py::object& point, const py::object& direction) {
   const AxisFrame axis(vector_in(point, "point"), vector_in(direction, "direction"));
   const py::gil_scoped_release released;
-  return std::make_unique<FirstContact>(fixed, mobile, axis);
+  return std::make_unique<motion::FirstContact>(fixed, mobile, axis);
 }
 
 /// Negative and positive.
-py::tuple first_limits(const FirstContact& contact, const py::object& pose, double negative_deg,
+py::tuple first_limits(const motion::FirstContact& contact, const py::object& pose, double negative_deg,
                        double positive_deg) {
   const Pose X_FM = one_pose(pose, "pose");
-  const RotationLimits found = [&] {
+  const motion::RotationLimits found = [&] {
     const py::gil_scoped_release released;
     return contact.limits(X_FM, {Angle::degrees(negative_deg), Angle::degrees(positive_deg)});
   }();
@@ -28,7 +28,9 @@ py::tuple first_limits(const FirstContact& contact, const py::object& pose, doub
 }  // namespace
 
 void bind_first_contact(py::module_& module) {
-  py::class_<FirstContact>(module, "FirstContact").def(py::init(&first_contact)).def("limits", &first_limits);
+  py::class_<motion::FirstContact>(module, "FirstContact")
+      .def(py::init(&first_contact))
+      .def("limits", &first_limits);
 }
 
 }  // namespace condyle::python

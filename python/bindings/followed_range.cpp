@@ -22,7 +22,7 @@ FollowRecord record_in(const Joint& joint, const py::object& poses) {
   return record;
 }
 
-FollowLoad load_in(const ElasticContact& layers, const py::dict& given) {
+FollowLoad load_in(const contact::ElasticContact& layers, const py::dict& given) {
   FollowLoad load{.layers = &layers, .step = Angle::degrees(given["step_deg"].cast<double>())};
   load.load.on_mobile.force_n = vector_in(given["force_n"], "force_n");
   load.load.frame = given["frame"].cast<std::string>() == "mobile" ? BodyRole::mobile : BodyRole::fixed;
@@ -35,10 +35,10 @@ FollowLoad load_in(const ElasticContact& layers, const py::dict& given) {
 /// The request: `layers` is null with poses, and poses are empty with layers. With `only_recorded`, motions that the record does not
 /// follow are left out.
 RangeRequest followed_request_in(const JointHandle& handle, const py::list& motions, const py::object& poses,
-                                 const ElasticContact* layers, const py::dict& given) {
+                                 const contact::ElasticContact* layers, const py::dict& given) {
   RangeRequest request;
   request.motions = motions_in(motions);
-  if (given["count_bearing"].cast<bool>()) request.range.bearing.rule = BearingRule::count;
+  if (given["count_bearing"].cast<bool>()) request.range.bearing.rule = motion::BearingRule::count;
   request.range.bearing.margin_mm = given["bearing_margin_mm"].cast<std::optional<double>>();
   if (layers) {
     request.follow = load_in(*layers, given);
@@ -47,7 +47,7 @@ RangeRequest followed_request_in(const JointHandle& handle, const py::list& moti
   FollowRecord record = record_in(handle.joint(), poses);
   if (given["only_recorded"].cast<bool>())
     // With none the answer is refused, and says why.
-    if (std::vector<Motion> led = motions_recorded(request.motions, record); !led.empty())
+    if (std::vector<motion::Motion> led = motions_recorded(request.motions, record); !led.empty())
       request.motions = std::move(led);
   request.follow = std::move(record);
   return request;
@@ -66,37 +66,39 @@ RangeAnswer followed_answer(const JointHandle& handle, const RangeRequest& reque
 
 /// Limits, (code, text) of notes, caveats.
 py::tuple followed_limits(const JointHandle& handle, const py::list& motions, const py::object& poses,
-                          const ElasticContact* layers, const py::dict& given, const py::object& progress) {
+                          const contact::ElasticContact* layers, const py::dict& given,
+                          const py::object& progress) {
   const RangeAnswer answer =
       followed_answer(handle, followed_request_in(handle, motions, poses, layers, given), progress,
                       [](const RangeAnswer&) {});
   py::list limits, notes;
-  for (const MotionLimit& limit : answer.limits) limits.append(dict_of(limit));
+  for (const motion::MotionLimit& limit : answer.limits) limits.append(dict_of(limit));
   const auto add = [&](const auto& note) {
     notes.append(py::make_tuple(std::string(name_of(note.code)), note.text));
   };
-  for (const ContactNote& note : answer.contact_notes) add(note);
+  for (const motion::ContactNote& note : answer.contact_notes) add(note);
   for (const RangeNote& note : answer.notes) add(note);
   return py::make_tuple(limits, notes, answer.caveats);
 }
 
 void write_followed_report(const JointHandle& handle, const std::filesystem::path& path,
                            const std::optional<std::string>& title, const py::list& motions,
-                           const py::object& poses, const ElasticContact* layers, const py::dict& given,
-                           const LabelArguments& labels, const py::object& progress) {
-  const LoadedJoint& loaded = handle.loaded;
-  std::optional<Provenance> from;
-  if (!loaded.report.file.path.empty()) from = provenance_of(loaded, {"condyle.FollowedRange.write_report"});
-  check_report_file(path, from ? &*from : nullptr);
+                           const py::object& poses, const contact::ElasticContact* layers,
+                           const py::dict& given, const LabelArguments& labels, const py::object& progress) {
+  const io::LoadedJoint& loaded = handle.loaded;
+  std::optional<io::Provenance> from;
+  if (!loaded.report.file.path.empty())
+    from = io::provenance_of(loaded, {"condyle.FollowedRange.write_report"});
+  io::check_report_file(path, from ? &*from : nullptr);
   followed_answer(handle, followed_request_in(handle, motions, poses, layers, given), progress,
                   [&](const RangeAnswer& answer) {
                     const std::vector<JointNote> notes = check_joint(loaded.joint, loaded.report.placement);
-                    const RomResult rom = rom_result_of(answer, notes, from ? &*from : nullptr);
-                    write_report(path, {.title = title.value_or(loaded.joint.name),
-                                        .joint = loaded.joint,
-                                        .reference_pose = loaded.report.placement.reference_pose,
-                                        .rom = &rom,
-                                        .labels = report_labels_of(labels)});
+                    const io::RomResult rom = io::rom_result_of(answer, notes, from ? &*from : nullptr);
+                    io::write_report(path, {.title = title.value_or(loaded.joint.name),
+                                            .joint = loaded.joint,
+                                            .reference_pose = loaded.report.placement.reference_pose,
+                                            .rom = &rom,
+                                            .labels = report_labels_of(labels)});
                   });
 }
 

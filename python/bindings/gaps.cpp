@@ -12,7 +12,7 @@
 
 namespace condyle::python {
 
-static py::dict dict_of(ReliableDepths&& depths) {
+static py::dict dict_of(contact::ReliableDepths&& depths) {
   py::dict dict;
   dict["depth_mm"] = array_of(std::move(depths.depth_mm));
   dict["way"] = bytes_of(depths.way);
@@ -32,7 +32,7 @@ py::object optional_dict(std::optional<Results>& results) {
 
 py::tuple radial_gaps(const JointHandle& handle, const py::object& pose) {
   const Pose X_FM = one_pose(pose, "pose");
-  RadialContact contact = [&] {
+  contact::RadialContact contact = [&] {
     const py::gil_scoped_release released;
     return handle.contact.radial(X_FM);
   }();
@@ -42,7 +42,7 @@ py::tuple radial_gaps(const JointHandle& handle, const py::object& pose) {
 py::tuple tangential_gaps(const JointHandle& handle, const py::object& pose, std::size_t about) {
   const Pose X_FM = one_pose(pose, "pose");
   check_depth_request(handle.joint(), {.X_FM = X_FM, .method = DepthMethod::tangential});
-  TangentialContact contact = [&] {
+  contact::TangentialContact contact = [&] {
     const py::gil_scoped_release released;
     const CoordinateSystem system = handle.joint().coordinates();
     return handle.contact.tangential(X_FM, axis_of(angle_numbered(about), system, angles_at(system, X_FM)));
@@ -50,7 +50,7 @@ py::tuple tangential_gaps(const JointHandle& handle, const py::object& pose, std
   return py::make_tuple(optional_dict(contact.mobile_in_fixed), optional_dict(contact.fixed_in_mobile));
 }
 
-py::object patch_dict(const std::optional<ContactPatch>& patch) {
+py::object patch_dict(const std::optional<contact::ContactPatch>& patch) {
   if (!patch) return py::none();
   py::dict dict;
   dict["area_mm2"] = patch->area_mm2;
@@ -59,7 +59,7 @@ py::object patch_dict(const std::optional<ContactPatch>& patch) {
   return dict;
 }
 
-py::dict measures_dict(ContactMeasures&& found, const RadialContact& contact) {
+py::dict measures_dict(contact::ContactMeasures&& found, const contact::RadialContact& contact) {
   py::dict dict;
   dict["in_contact"] = contact.in_contact;
   dict["intersecting_pairs"] = contact.pairs.size();
@@ -100,17 +100,18 @@ py::tuple answers(const JointHandle& handle, const py::object& given, const py::
 }
 
 py::tuple measures(const JointHandle& handle, const py::object& poses, const py::object& progress) {
-  return answers(
-      handle, poses, progress, {.method = DepthMethod::radial, .distances = DistancesOf::all_vertices},
-      [](DepthAnswer&& answer) {
-        return measures_dict(std::move(answer.measures), std::get<RayDepths>(answer.depths).contact);
-      });
+  return answers(handle, poses, progress,
+                 {.method = DepthMethod::radial, .distances = contact::DistancesOf::all_vertices},
+                 [](DepthAnswer&& answer) {
+                   return measures_dict(std::move(answer.measures),
+                                        std::get<RayDepths>(answer.depths).contact);
+                 });
 }
 
 /// As `condyle depth` answers by default: of each pose both bodies, and the caveats.
 py::tuple reliable(const JointHandle& handle, const py::object& poses, const py::object& progress) {
   return answers(handle, poses, progress, {.measures = MeasuresOf::distances_only}, [](DepthAnswer&& answer) {
-    ReliableContact& found = std::get<RayDepths>(answer.depths).reliable;
+    contact::ReliableContact& found = std::get<RayDepths>(answer.depths).reliable;
     return py::make_tuple(optional_dict(found.mobile), optional_dict(found.fixed), py::cast(answer.caveats));
   });
 }

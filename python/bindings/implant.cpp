@@ -19,18 +19,18 @@ namespace {
 
 /// A joint with an implant as Python holds it, for its files.
 struct PlacedImplantHandle {
-  LoadedJoint loaded;
+  io::LoadedJoint loaded;
   ImplantAnswer answer;
 
-  ImplantResult result() const { return {loaded.joint, answer, {}, nullptr, &loaded.report.file}; }
+  io::ImplantResult result() const { return {loaded.joint, answer, {}, nullptr, &loaded.report.file}; }
 };
 
 ImplantQuery implant_query_in(const JointHandle& handle, const std::map<std::string, double>& sizes,
                               const std::string& definition, int facets, const std::string& centre,
                               bool as_rim) {
-  Implant implant = TotalHip{};
+  plan::Implant implant = plan::TotalHip{};
   set_sizes(implant, sizes);
-  TotalHip& hip = std::get<TotalHip>(implant);
+  plan::TotalHip& hip = std::get<plan::TotalHip>(implant);
   hip.cup.definition = cup_definition_named(definition);
   hip.facets = facets;
   const auto is_left = [&](const char* size) { return !sizes.contains(size); };
@@ -41,7 +41,7 @@ ImplantQuery implant_query_in(const JointHandle& handle, const std::map<std::str
                        .cup_radius = is_left("cup_radius_mm"),
                        .cup = as_rim},
           .centre = implant_centre_named(centre),
-          .measures = measure_request_of(handle.loaded)};
+          .measures = io::measure_request_of(handle.loaded)};
 }
 
 /// (name, mesh) of each part.
@@ -62,8 +62,8 @@ py::dict placed_implant(const JointHandle& handle, const std::map<std::string, d
     const py::gil_scoped_release released;
     placed = std::make_unique<PlacedImplantHandle>(PlacedImplantHandle{
         handle.loaded, answer_implant(handle.joint(), handle.loaded.report.placement, query)});
-    joint = std::make_unique<JointHandle>(joint_with_implant(placed->result()));
-    json = implant_json(placed->result());
+    joint = std::make_unique<JointHandle>(io::joint_with_implant(placed->result()));
+    json = io::implant_json(placed->result());
   }
   const ImplantAnswer& answer = placed->answer;
   py::list notes;
@@ -86,14 +86,14 @@ py::dict placed_implant(const JointHandle& handle, const std::map<std::string, d
 std::vector<std::string> write_placed_implant(const PlacedImplantHandle& placed, const std::string& folder) {
   const py::gil_scoped_release released;
   std::vector<std::string> written;
-  for (const auto& path : write_implant(folder, placed.result())) written.push_back(path.string());
+  for (const auto& path : io::write_implant(folder, placed.result())) written.push_back(path.string());
   return written;
 }
 
 }  // namespace
 
-void set_sizes(Implant& implant, const std::map<std::string, double>& given) {
-  for (const ImplantParameter& each : implant_parameters(implant))
+void set_sizes(plan::Implant& implant, const std::map<std::string, double>& given) {
+  for (const plan::ImplantParameter& each : plan::implant_parameters(implant))
     if (const auto found = given.find(std::string(each.name) + "_" + std::string(each.unit));
         found != given.end())
       each.set(implant, found->second);

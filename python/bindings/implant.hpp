@@ -8,6 +8,6 @@
 namespace condyle::python {
 
 /// Sizes by the names that files have, with their unit in Python: "neck_radius_mm".
-void set_sizes(Implant& implant, const std::map<std::string, double>& given);
+void set_sizes(plan::Implant& implant, const std::map<std::string, double>& given);
 
 }  // namespace condyle::python

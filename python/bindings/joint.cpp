@@ -18,14 +18,14 @@ namespace {
 
 std::unique_ptr<JointHandle> read_handle(const std::filesystem::path& path) {
   const py::gil_scoped_release released;
-  return std::make_unique<JointHandle>(read_joint(path));
+  return std::make_unique<JointHandle>(io::read_joint(path));
 }
 
 std::unique_ptr<JointHandle> made(const py::dict& description, const std::string& fixed_name,
                                   const Mesh& fixed, const BodyImage* fixed_image,
                                   const std::string& mobile_name, const Mesh& mobile,
                                   const BodyImage* mobile_image) {
-  JointReport report;
+  io::JointReport report;
   report.file.joint = description_in(description);
   const py::gil_scoped_release released;
   const auto body = [](const std::string& name, const Mesh& mesh, const BodyImage* image) {
@@ -35,7 +35,7 @@ std::unique_ptr<JointHandle> made(const py::dict& description, const std::string
                                        body(mobile_name, mobile, mobile_image));
   report.processing = placement.processing;
   report.placement = std::move(placement);
-  return std::make_unique<JointHandle>(LoadedJoint{std::move(joint), std::move(report)});
+  return std::make_unique<JointHandle>(io::LoadedJoint{std::move(joint), std::move(report)});
 }
 
 /// Rows of degrees and of mm to an array (N, 4, 4).
@@ -48,8 +48,8 @@ py::array poses_at(const JointHandle& handle, const py::object& angles_deg,
   const Joint& joint = handle.joint();
   for (py::ssize_t n = 0; n < count; ++n) {
     const Vec3 degrees = angles.view()[static_cast<std::size_t>(n)];
-    const PoseDegrees pose{degrees[0], degrees[1], degrees[2],
-                           translations.view()[static_cast<std::size_t>(n)]};
+    const io::PoseDegrees pose{degrees[0], degrees[1], degrees[2],
+                               translations.view()[static_cast<std::size_t>(n)]};
     const Pose X_FM = pose_at(joint.coordinates(), pose.coordinates(), joint.translation_frame);
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j) values(n, i, j) = X_FM.matrix()(i, j);
@@ -132,13 +132,13 @@ std::unique_ptr<JointHandle> moved_to(const JointHandle& handle,
 py::tuple proposed(const std::filesystem::path& fixed, const std::filesystem::path& mobile,
                    const std::filesystem::path& joint_file, const std::optional<std::string>& joint,
                    const std::optional<std::string>& side, const std::optional<std::string>& units) {
-  ProposalRequest request{.fixed = fixed, .mobile = mobile, .joint_file = joint_file};
+  io::ProposalRequest request{.fixed = fixed, .mobile = mobile, .joint_file = joint_file};
   if (joint) request.anatomy = anatomy_named(*joint);
   if (side) request.side = *side == name_of(Side::right) ? Side::right : Side::left;
   if (units) request.units = *units == "mm" ? LengthUnit::millimetres : LengthUnit::metres;
-  const JointProposal proposal = [&] {
+  const io::JointProposal proposal = [&] {
     const py::gil_scoped_release released;
-    return propose_joint(request);
+    return io::propose_joint(request);
   }();
   return py::make_tuple(proposal.toml, proposal.to_fill_in, proposal.evidence);
 }
@@ -165,7 +165,7 @@ void bind_joint(py::module_& module) {
       .def_property_readonly("mobile_parts", [](const JointHandle& h) { return parts_of(h.joint().mobile); })
       .def_property_readonly("angle_names",
                              [](const JointHandle& h) { return angle_names(h.joint().anatomy); })
-      .def_property_readonly("scope", [](const JointHandle& h) { return scope_text(h.joint()); })
+      .def_property_readonly("scope", [](const JointHandle& h) { return io::scope_text(h.joint()); })
       .def_property_readonly("processing", [](const JointHandle& h) { return h.loaded.report.processing; })
       .def_property_readonly("X_WF",
                              [](const JointHandle& h) { return array_of(h.loaded.report.placement.X_WF); })

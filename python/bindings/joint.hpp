@@ -9,10 +9,10 @@ namespace condyle::python {
 
 /// A joint as Python holds it: what its file or its description said, and what is asked of it.
 struct JointHandle {
-  LoadedJoint loaded;
-  JointContact contact;
+  io::LoadedJoint loaded;
+  contact::JointContact contact;
 
-  explicit JointHandle(LoadedJoint from) : loaded(std::move(from)), contact(loaded.joint) {}
+  explicit JointHandle(io::LoadedJoint from) : loaded(std::move(from)), contact(loaded.joint) {}
   const Joint& joint() const noexcept { return loaded.joint; }
 };
 

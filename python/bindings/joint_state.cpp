@@ -120,7 +120,7 @@ void members(T& value, const Each& each) {
   } else if constexpr (std::is_same_v<Struct, JointCoordinates>) {
     auto& [angles, translation] = value;
     each(angles, translation);
-  } else if constexpr (std::is_same_v<Struct, PoseDegrees>) {
+  } else if constexpr (std::is_same_v<Struct, io::PoseDegrees>) {
     auto& [flexion, adduction, internal_rotation, translation] = value;
     each(flexion, adduction, internal_rotation, translation);
   } else if constexpr (std::is_same_v<Struct, JointDescription>) {
@@ -140,59 +140,59 @@ void members(T& value, const Each& each) {
     auto& [X_WF, sphere, cylinder, body, rotation, errors, pose, from_landmarks, fixed, mobile, notes] =
         value;
     each(X_WF, sphere, cylinder, body, rotation, errors, pose, from_landmarks, fixed, mobile, notes);
-  } else if constexpr (std::is_same_v<Struct, MeshEntry>) {
+  } else if constexpr (std::is_same_v<Struct, io::MeshEntry>) {
     auto& [part, mesh, repairs, contact, polygons, scale, X_BG] = value;
     each(part, mesh, repairs, contact, polygons, scale, X_BG);
-  } else if constexpr (std::is_same_v<Struct, BodyEntry>) {
+  } else if constexpr (std::is_same_v<Struct, io::BodyEntry>) {
     auto& [name, meshes, image, head, bearing_margin_mm] = value;
     each(name, meshes, image, head, bearing_margin_mm);
-  } else if constexpr (std::is_same_v<Struct, Motion>) {
+  } else if constexpr (std::is_same_v<Struct, motion::Motion>) {
     auto& [name, vary, sense, start, range] = value;
     each(name, vary, sense, start, range);
-  } else if constexpr (std::is_same_v<Struct, Uncertainty>) {
+  } else if constexpr (std::is_same_v<Struct, motion::Uncertainty>) {
     auto& [centre, axes, surface, surface_voxels] = value;
     each(centre, axes, surface, surface_voxels);
-  } else if constexpr (std::is_same_v<Struct, NormalDepthOptions>) {
+  } else if constexpr (std::is_same_v<Struct, contact::NormalDepthOptions>) {
     auto& [rule, reach] = value;
     each(rule, reach);
-  } else if constexpr (std::is_same_v<Struct, LayerEntry>) {
+  } else if constexpr (std::is_same_v<Struct, io::LayerEntry>) {
     auto& [modulus, ratio, thickness, behind, file, unit, bounds] = value;
     each(modulus, ratio, thickness, behind, file, unit, bounds);
-  } else if constexpr (std::is_same_v<Struct, HalfSpace>) {
+  } else if constexpr (std::is_same_v<Struct, contact::HalfSpace>) {
     auto& [normal, offset] = value;
     each(normal, offset);
-  } else if constexpr (std::is_same_v<Struct, RegionEntry>) {
+  } else if constexpr (std::is_same_v<Struct, io::RegionEntry>) {
     auto& [name, half_spaces] = value;
     each(name, half_spaces);
-  } else if constexpr (std::is_same_v<Struct, ContactEntry>) {
+  } else if constexpr (std::is_same_v<Struct, io::ContactEntry>) {
     auto& [fixed_part, mobile_part, casting, rays, law, fixed, mobile, moment_on, regions] = value;
     each(fixed_part, mobile_part, casting, rays, law, fixed, mobile, moment_on, regions);
-  } else if constexpr (std::is_same_v<Struct, ColumnOfCoordinate>) {
+  } else if constexpr (std::is_same_v<Struct, io::ColumnOfCoordinate>) {
     auto& [coordinate, kind, column, unit, sign, offset, otherwise, range, is_locked] = value;
     each(coordinate, kind, column, unit, sign, offset, otherwise, range, is_locked);
-  } else if constexpr (std::is_same_v<Struct, ColumnsOfPoses>) {
+  } else if constexpr (std::is_same_v<Struct, io::ColumnsOfPoses>) {
     auto& [fixed_body, mobile_body, unit] = value;
     each(fixed_body, mobile_body, unit);
-  } else if constexpr (std::is_same_v<Struct, PosesOfModel>) {
+  } else if constexpr (std::is_same_v<Struct, io::PosesOfModel>) {
     auto& [model, joint, in_degrees] = value;
     each(model, joint, in_degrees);
-  } else if constexpr (std::is_same_v<Struct, FileDigest>) {
+  } else if constexpr (std::is_same_v<Struct, io::FileDigest>) {
     auto& [bytes, sha256] = value;
     each(bytes, sha256);
-  } else if constexpr (std::is_same_v<Struct, JointFile>) {
+  } else if constexpr (std::is_same_v<Struct, io::JointFile>) {
     auto& [path, joint, fixed, mobile, motions, uncertainty, seed, pose, contact, recorded, implant, digest,
            notes] = value;
     each(path, joint, fixed, mobile, motions, uncertainty, seed, pose, contact, recorded, implant, digest,
          notes);
-  } else if constexpr (std::is_same_v<Struct, CupAngles>) {
+  } else if constexpr (std::is_same_v<Struct, plan::CupAngles>) {
     auto& [inclination, anteversion, definition] = value;
     each(inclination, anteversion, definition);
-  } else if constexpr (std::is_same_v<Struct, TotalHip>) {
+  } else if constexpr (std::is_same_v<Struct, plan::TotalHip>) {
     auto& [cup, neck_shaft, version, head, clearance, neck, taper, upper, lower, half_angle, chamfer, lip,
            towards, width, cup_radius, offset, stem, length, leg, facets] = value;
     each(cup, neck_shaft, version, head, clearance, neck, taper, upper, lower, half_angle, chamfer, lip,
          towards, width, cup_radius, offset, stem, length, leg, facets);
-  } else if constexpr (std::is_same_v<Struct, ReverseShoulder>) {
+  } else if constexpr (std::is_same_v<Struct, plan::ReverseShoulder>) {
     auto& [inclination, version, neck_shaft, retroversion, head, clearance, neck, taper, half_angle, chamfer,
            cup_radius, pillar, stem, length, facets] = value;
     each(inclination, version, neck_shaft, retroversion, head, clearance, neck, taper, half_angle, chamfer,
@@ -200,14 +200,14 @@ void members(T& value, const Each& each) {
   } else if constexpr (std::is_same_v<Struct, RepairDone>) {
     auto& [repair, count] = value;
     each(repair, count);
-  } else if constexpr (std::is_same_v<Struct, BodyMeshReport>) {
+  } else if constexpr (std::is_same_v<Struct, io::BodyMeshReport>) {
     auto& [part, mesh, vertices, triangles, welded, repairs, digest, body_from_file, split] = value;
     each(part, mesh, vertices, triangles, welded, repairs, digest, body_from_file, split);
-  } else if constexpr (std::is_same_v<Struct, JointReport>) {
+  } else if constexpr (std::is_same_v<Struct, io::JointReport>) {
     auto& [file, fixed, mobile, placement, notes] = value;
     each(file, fixed, mobile, placement, notes);
   } else {
-    static_assert(std::is_same_v<Struct, LoadedJoint>);
+    static_assert(std::is_same_v<Struct, io::LoadedJoint>);
     auto& [joint, report] = value;
     each(joint, report);
   }
@@ -326,14 +326,14 @@ Body no_body() {
 
 }  // namespace
 
-std::string state_of(const LoadedJoint& joint) {
+std::string state_of(const io::LoadedJoint& joint) {
   Writer writer;
   writer.put(std::string(version));
   writer.put(joint);
   return writer.take();
 }
 
-LoadedJoint joint_of_state(std::string_view state) {
+io::LoadedJoint joint_of_state(std::string_view state) {
   Reader reader(state);
   std::string written_by;
   reader.get(written_by);
@@ -341,7 +341,7 @@ LoadedJoint joint_of_state(std::string_view state) {
     throw UsageError(
         fmt::format("joint: was pickled by condyle {:.40}, and this is {}: make it anew from its files",
                     written_by, version));
-  LoadedJoint joint{Joint{"", JointKind::ball, Side::right, no_body(), no_body()}, {}};
+  io::LoadedJoint joint{Joint{"", JointKind::ball, Side::right, no_body(), no_body()}, {}};
   reader.get(joint);
   return joint;
 }

@@ -8,9 +8,9 @@
 namespace condyle::python {
 
 /// All of a joint as bytes, every number to the last bit, for pickle. They are read by the same version only.
-std::string state_of(const LoadedJoint& joint);
+std::string state_of(const io::LoadedJoint& joint);
 
 /// The joint of such bytes. UsageError where they are of another version, or cut off.
-LoadedJoint joint_of_state(std::string_view state);
+io::LoadedJoint joint_of_state(std::string_view state);
 
 }  // namespace condyle::python

@@ -12,19 +12,22 @@
 namespace condyle::python {
 namespace {
 
-LabelMap read_label_map(const std::filesystem::path& path, const std::string& affine,
-                        std::optional<std::int64_t> volume, const std::string& axes, bool elsewhere) {
-  LabelFileOptions options{.volume = volume, .outside_folder = elsewhere};
-  if (!affine.empty()) options.affine = affine == "qform" ? AffineChoice::qform : AffineChoice::sform;
+io::LabelMap read_label_map(const std::filesystem::path& path, const std::string& affine,
+                            std::optional<std::int64_t> volume, const std::string& axes, bool elsewhere) {
+  io::LabelFileOptions options{.volume = volume, .outside_folder = elsewhere};
+  if (!affine.empty()) options.affine = affine == "qform" ? io::AffineChoice::qform : io::AffineChoice::sform;
   if (!axes.empty())
-    options.axes = axes == "LPS" ? StatedAxes::lps : axes == "RAS" ? StatedAxes::ras : StatedAxes::las;
+    options.axes = axes == "LPS"   ? io::StatedAxes::lps
+                   : axes == "RAS" ? io::StatedAxes::ras
+                                   : io::StatedAxes::las;
   const py::gil_scoped_release released;
-  return read_labels(path, options);
+  return io::read_labels(path, options);
 }
 
-py::list label_notes(const std::vector<LabelNote>& notes) {
+py::list label_notes(const std::vector<io::LabelNote>& notes) {
   py::list list;
-  for (const LabelNote& note : notes) list.append(py::make_tuple(std::string(name_of(note.code)), note.text));
+  for (const io::LabelNote& note : notes)
+    list.append(py::make_tuple(std::string(name_of(note.code)), note.text));
   return list;
 }
 
@@ -37,16 +40,16 @@ py::array affine_array(const Eigen::Affine3d& X) {
 }
 
 /// (label, layer, names, voxels, first, size, touches) of each label above 0.
-py::list labels_of(const LabelMap& map) {
-  const std::vector<LabelSummary> summaries = [&] {
+py::list labels_of(const io::LabelMap& map) {
+  const std::vector<io::LabelSummary> summaries = [&] {
     const py::gil_scoped_release released;
-    return summaries_of(map);
+    return io::summaries_of(map);
   }();
   py::list list;
-  for (const LabelSummary& summary : summaries) {
+  for (const io::LabelSummary& summary : summaries) {
     if (summary.label == 0) continue;
     std::vector<std::string> names;
-    for (const LabelSegment& segment : map.segments)
+    for (const io::LabelSegment& segment : map.segments)
       if (segment.layer == summary.layer && segment.label == summary.label) names.push_back(segment.name);
     list.append(py::make_tuple(summary.label, summary.layer, py::tuple(py::cast(names)), summary.voxels,
                                py::tuple(py::cast(summary.first)), py::tuple(py::cast(summary.size)),
@@ -56,7 +59,7 @@ py::list labels_of(const LabelMap& map) {
 }
 
 /// Voxels of one layer as their labels, (I, J, K), i fastest in memory.
-py::array voxels_of(const LabelMap& map, std::size_t layer) {
+py::array voxels_of(const io::LabelMap& map, std::size_t layer) {
   if (layer >= map.layers.size())
     throw UsageError("layer: the label map has " + std::to_string(map.layers.size()));
   const auto& indices = map.layers[layer];
@@ -93,7 +96,7 @@ py::dict surface_dict(LabelSurface&& surface, const BodyImage& image) {
   return dict;
 }
 
-py::dict bone_dict(LabelBone&& bone) {
+py::dict bone_dict(io::LabelBone&& bone) {
   py::dict dict = surface_dict(std::move(bone.surface), bone.image);
   dict["name"] = bone.name;
   dict["label"] = bone.label.label;
@@ -111,15 +114,16 @@ LabelSurfaceOptions surface_options_in(const py::dict& given) {
   return options;
 }
 
-LabelBoneRequest bone_request_in(const std::string& label, const std::string& task, const py::dict& surface) {
-  return {label, task.empty() ? std::nullopt : label_task_of(task), surface_options_in(surface)};
+io::LabelBoneRequest bone_request_in(const std::string& label, const std::string& task,
+                                     const py::dict& surface) {
+  return {label, task.empty() ? std::nullopt : io::label_task_of(task), surface_options_in(surface)};
 }
 
-py::dict label_bone(const LabelMap& map, const std::string& file, const std::string& label,
+py::dict label_bone(const io::LabelMap& map, const std::string& file, const std::string& label,
                     const std::string& task, const py::dict& surface, const py::object& progress) {
-  const LabelBoneRequest request = bone_request_in(label, task, surface);
+  const io::LabelBoneRequest request = bone_request_in(label, task, surface);
   auto bone = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return bone_of(map, file, request, {.progress = report, .stop = stop});
+    return io::bone_of(map, file, request, {.progress = report, .stop = stop});
   });
   return bone_dict(std::move(*bone));
 }
@@ -141,23 +145,23 @@ py::dict mask_surface(const py::array_t<std::uint8_t, py::array::f_style>& insid
   auto surface = followed(progress, [&](const auto& report, const std::stop_token& stop) {
     return surface_of(mask, surface_options, {.progress = report, .stop = stop});
   });
-  const BodyImage image = image_of(mask.image, *surface);
+  const BodyImage image = io::image_of(mask.image, *surface);
   return surface_dict(std::move(*surface), image);
 }
 
 /// (bone, bone, side or None, keys to fill in, notes) of two bones that make a joint.
-py::tuple label_joint(const LabelMap& map, const LabelMap* mobile_map, const std::string& file,
+py::tuple label_joint(const io::LabelMap& map, const io::LabelMap* mobile_map, const std::string& file,
                       const std::optional<std::string>& mobile_file, const std::array<std::string, 2>& labels,
                       const std::string& task, const std::string& side, const py::dict& surface,
                       const py::object& progress) {
-  LabelJointRequest request{.labels = file,
-                            .fixed = bone_request_in(labels[0], task, surface),
-                            .mobile = bone_request_in(labels[1], task, surface),
-                            .joint_file = "joint.toml"};
+  io::LabelJointRequest request{.labels = file,
+                                .fixed = bone_request_in(labels[0], task, surface),
+                                .mobile = bone_request_in(labels[1], task, surface),
+                                .joint_file = "joint.toml"};
   if (mobile_file) request.mobile_labels = *mobile_file;
   if (!side.empty()) request.side = side == "right" ? Side::right : Side::left;
   auto joint = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return propose_joint(map, mobile_map, request, {.progress = report, .stop = stop});
+    return io::propose_joint(map, mobile_map, request, {.progress = report, .stop = stop});
   });
   const auto& found = joint->proposal.side;
   return py::make_tuple(bone_dict(std::move(joint->fixed)), bone_dict(std::move(joint->mobile)),
@@ -169,12 +173,13 @@ py::tuple label_joint(const LabelMap& map, const LabelMap* mobile_map, const std
 
 void bind_labels(py::module_& module) {
   py::class_<BodyImage>(module, "BodyImage");
-  py::class_<LabelMap>(module, "LabelMap")
-      .def_property_readonly("size", [](const LabelMap& map) { return py::tuple(py::cast(map.grid.size)); })
+  py::class_<io::LabelMap>(module, "LabelMap")
+      .def_property_readonly("size",
+                             [](const io::LabelMap& map) { return py::tuple(py::cast(map.grid.size)); })
       .def_property_readonly("lps_from_index",
-                             [](const LabelMap& map) { return affine_array(map.grid.X_WI); })
-      .def_property_readonly("layers", [](const LabelMap& map) { return map.layers.size(); })
-      .def_property_readonly("notes", [](const LabelMap& map) { return label_notes(map.notes); })
+                             [](const io::LabelMap& map) { return affine_array(map.grid.X_WI); })
+      .def_property_readonly("layers", [](const io::LabelMap& map) { return map.layers.size(); })
+      .def_property_readonly("notes", [](const io::LabelMap& map) { return label_notes(map.notes); })
       .def("labels", &labels_of)
       .def("voxels", &voxels_of);
   module.def("read_labels", &read_label_map);

@@ -14,8 +14,8 @@ namespace {
 constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 /// (key, part, unit, value or None, why none, note, definition, measured by, source, in the pelvis frame, (low, high, meaning, source) or None).
-py::tuple measure_tuple(const MeasureDefinition& each, const HipMeasures& measures) {
-  const Measure& measure = each.of(measures);
+py::tuple measure_tuple(const measure::MeasureDefinition& each, const measure::HipMeasures& measures) {
+  const measure::Measure& measure = each.of(measures);
   const auto text = [](std::string_view view) { return py::str(view.data(), view.size()); };
   const py::object normal =
       each.normal ? py::object(py::make_tuple(each.normal->low, each.normal->high, text(each.normal->meaning),
@@ -47,9 +47,9 @@ py::array flags_of(const Hours& hours, const Read& read) {
 }
 
 /// (p5, median, p95, samples without a value), or None.
-py::object band_tuple(const std::vector<MeasureBand>& bands, std::size_t i) {
+py::object band_tuple(const std::vector<measure::MeasureBand>& bands, std::size_t i) {
   if (bands.empty()) return py::none();
-  const MeasureBand& band = bands[i];
+  const measure::MeasureBand& band = bands[i];
   return py::make_tuple(optional_number(band.p5), optional_number(band.median), optional_number(band.p95),
                         band.samples_without_value);
 }
@@ -58,7 +58,7 @@ py::object band_tuple(const std::vector<MeasureBand>& bands, std::size_t i) {
 py::dict measures_of(const JointHandle& handle, double pelvic_tilt_deg, std::size_t samples,
                      std::uint64_t seed, double centre_mm, double axes_deg, double surface_mm,
                      double surface_voxels, const py::object& progress) {
-  MeasureQuery query{measure_request_of(handle.loaded, Angle::degrees(pelvic_tilt_deg))};
+  MeasureQuery query{io::measure_request_of(handle.loaded, Angle::degrees(pelvic_tilt_deg))};
   if (samples > 0)
     query.bands = {.sigma = {centre_mm, Angle::degrees(axes_deg), surface_mm, surface_voxels},
                    .samples = samples,
@@ -68,35 +68,35 @@ py::dict measures_of(const JointHandle& handle, double pelvic_tilt_deg, std::siz
         handle.joint(), query,
         {[&](std::string_view, std::size_t done, std::size_t total) { report(done, total); }, stop});
   });
-  const HipMeasures& measures = answer.measures;
+  const measure::HipMeasures& measures = answer.measures;
   py::list list;
-  for (std::size_t i = 0; i < measure_definitions().size(); ++i)
-    list.append(
-        py::make_tuple(measure_tuple(measure_definitions()[i], measures), band_tuple(answer.bands, i)));
+  for (std::size_t i = 0; i < measure::measure_definitions().size(); ++i)
+    list.append(py::make_tuple(measure_tuple(measure::measure_definitions()[i], measures),
+                               band_tuple(answer.bands, i)));
   const auto& neck = measures.femur.around_neck;
   const auto& rim = measures.acetabulum.rim;
   Points points(rim.size());
   for (std::size_t i = 0; i < rim.size(); ++i)
     points.set(i, rim[i].point.value_or(Vec3(Vec3::Constant(not_measured))));
-  const auto if_there = [](const RimHour& at, double value) {
+  const auto if_there = [](const measure::RimHour& at, double value) {
     return at.point ? std::optional(value) : std::nullopt;
   };
   py::dict dict;
   dict["measures"] = list;
   dict["left_out"] = py::tuple(py::cast(measures.left_out));
-  dict["geometry"] = measure_geometry_json(measures);
-  dict["pelvis_frame"] = stated_frame(measures);
-  dict["neck_hour"] = column_of(neck, [](const NeckHour& at) { return std::optional(at.hour); });
-  dict["alpha_deg"] = column_of(neck, [](const NeckHour& at) { return at.alpha_deg; });
-  dict["alpha_at_1mm_deg"] = column_of(neck, [](const NeckHour& at) { return at.alpha_at_1mm_deg; });
-  dict["is_doubtful"] = flags_of(neck, [](const NeckHour& at) { return at.is_doubtful; });
-  dict["offset_mm"] = column_of(neck, [](const NeckHour& at) { return at.offset_mm; });
-  dict["rim_hour"] = column_of(rim, [](const RimHour& at) { return std::optional(at.hour); });
+  dict["geometry"] = io::measure_geometry_json(measures);
+  dict["pelvis_frame"] = measure::stated_frame(measures);
+  dict["neck_hour"] = column_of(neck, [](const measure::NeckHour& at) { return std::optional(at.hour); });
+  dict["alpha_deg"] = column_of(neck, [](const measure::NeckHour& at) { return at.alpha_deg; });
+  dict["alpha_at_1mm_deg"] = column_of(neck, [](const measure::NeckHour& at) { return at.alpha_at_1mm_deg; });
+  dict["is_doubtful"] = flags_of(neck, [](const measure::NeckHour& at) { return at.is_doubtful; });
+  dict["offset_mm"] = column_of(neck, [](const measure::NeckHour& at) { return at.offset_mm; });
+  dict["rim_hour"] = column_of(rim, [](const measure::RimHour& at) { return std::optional(at.hour); });
   dict["rim_points"] = array_of(points);
-  dict["is_in_plane"] = flags_of(rim, [](const RimHour& at) { return at.is_in_plane; });
-  dict["cover_deg"] = column_of(rim, [&](const RimHour& at) { return if_there(at, at.cover_deg); });
+  dict["is_in_plane"] = flags_of(rim, [](const measure::RimHour& at) { return at.is_in_plane; });
+  dict["cover_deg"] = column_of(rim, [&](const measure::RimHour& at) { return if_there(at, at.cover_deg); });
   dict["centre_edge_deg"] =
-      column_of(rim, [&](const RimHour& at) { return if_there(at, at.centre_edge_deg); });
+      column_of(rim, [&](const measure::RimHour& at) { return if_there(at, at.centre_edge_deg); });
   return dict;
 }
 

@@ -58,7 +58,8 @@ py::tuple merged(const Mesh& mesh) {
 py::tuple read_arrays(const std::filesystem::path& path, bool split_polygons) {
   auto [mesh, welded, split] = [&] {
     const py::gil_scoped_release released;
-    MeshFile file = read_mesh(path, split_polygons ? PolygonRule::split : PolygonRule::refuse);
+    io::MeshFile file =
+        io::read_mesh(path, split_polygons ? io::PolygonRule::split : io::PolygonRule::refuse);
     return std::tuple(Mesh(std::move(file.mesh)), file.welded_vertices, file.split_polygons);
   }();
   return py::make_tuple(std::move(mesh), welded, split);
@@ -66,12 +67,12 @@ py::tuple read_arrays(const std::filesystem::path& path, bool split_polygons) {
 
 py::tuple repaired(const Mesh& mesh, const std::vector<std::string>& names) {
   std::vector<Repair> repairs;
-  for (const std::string& name : names) repairs.push_back(repair_named(name));
+  for (const std::string& name : names) repairs.push_back(io::repair_named(name));
   std::vector<std::string> done;
   Mesh result = [&] {
     const py::gil_scoped_release released;
     TriMesh arrays = mesh.arrays();
-    for (const RepairDone& repair : repair_mesh(arrays, repairs)) done.push_back(describe(repair));
+    for (const RepairDone& repair : repair_mesh(arrays, repairs)) done.push_back(io::describe(repair));
     return Mesh(std::move(arrays));
   }();
   return py::make_tuple(std::move(result), done);
@@ -92,7 +93,7 @@ void bind_mesh(py::module_& module) {
   module.def("read_mesh", &read_arrays);
   module.def("write_mesh", [](const std::filesystem::path& path, const Mesh& mesh) {
     const py::gil_scoped_release released;
-    write_mesh(path, mesh.arrays());
+    io::write_mesh(path, mesh.arrays());
   });
 }
 

@@ -14,10 +14,10 @@ std::array<double, 3> degrees_of_angles(const JointAngles& angles) {
   return {angles.flexion.degrees(), angles.adduction.degrees(), angles.internal_rotation.degrees()};
 }
 
-py::tuple feature_tuple(const Feature& feature) {
+py::tuple feature_tuple(const motion::Feature& feature) {
   constexpr const char* kinds[] = {"vertex", "edge", "face"};
   const char* kind = kinds[static_cast<std::size_t>(feature.kind)];
-  if (feature.kind != FeatureKind::edge) return py::make_tuple(kind, feature.id);
+  if (feature.kind != motion::FeatureKind::edge) return py::make_tuple(kind, feature.id);
   return py::make_tuple(kind, feature.id, feature.other_end);
 }
 
@@ -28,12 +28,12 @@ JointAngles angles_in(const py::object& given, std::string_view name) {
   return {Angle::degrees(degrees[0]), Angle::degrees(degrees[1]), Angle::degrees(degrees[2])};
 }
 
-py::tuple tuple_of(const Motion& motion) {
+py::tuple tuple_of(const motion::Motion& motion) {
   return py::make_tuple(motion.name, static_cast<int>(motion.vary), static_cast<int>(motion.sense),
                         degrees_of_angles(motion.start), motion.range.degrees());
 }
 
-Motion motion_in(const py::tuple& given) {
+motion::Motion motion_in(const py::tuple& given) {
   return {.name = given[0].cast<std::string>(),
           .vary = angle_numbered(given[1].cast<std::size_t>()),
           .sense = given[2].cast<int>() < 0 ? RotationSense::negative : RotationSense::positive,
@@ -41,30 +41,30 @@ Motion motion_in(const py::tuple& given) {
           .range = Angle::degrees(given[4].cast<double>())};
 }
 
-std::vector<Motion> motions_in(const py::list& given) {
-  std::vector<Motion> motions;
+std::vector<motion::Motion> motions_in(const py::list& given) {
+  std::vector<motion::Motion> motions;
   for (const py::handle& motion : given) motions.push_back(motion_in(motion.cast<py::tuple>()));
   return motions;
 }
 
-py::object dict_of(const std::optional<ContactWitness>& contact) {
+py::object dict_of(const std::optional<motion::ContactWitness>& contact) {
   if (!contact) return py::none();
   py::dict dict;
   dict["fixed_feature"] = feature_tuple(contact->fixed_feature);
   dict["mobile_feature"] = feature_tuple(contact->mobile_feature);
   dict["fixed_point"] = array_of(contact->fixed_point);
   dict["mobile_point"] = array_of(contact->mobile_point);
-  dict["kind"] = name_of(contact->kind);
+  dict["kind"] = io::name_of(contact->kind);
   return dict;
 }
 
-py::dict dict_of(const Limit& limit) {
+py::dict dict_of(const motion::Limit& limit) {
   py::dict dict;
   dict["turned_deg"] = limit.turned.degrees();
-  dict["reason"] = name_of(limit.reason);
+  dict["reason"] = io::name_of(limit.reason);
   dict["contact"] = dict_of(limit.contact);
   dict["error_bound_deg"] = limit.error_bound.degrees();
-  const auto degrees = [](const std::optional<EarlierContact>& contact) {
+  const auto degrees = [](const std::optional<motion::EarlierContact>& contact) {
     return contact ? py::object(py::float_(contact->turned.degrees())) : py::none();
   };
   dict["bearing_contact_deg"] = degrees(limit.bearing_contact);
@@ -73,7 +73,7 @@ py::dict dict_of(const Limit& limit) {
   return dict;
 }
 
-py::dict dict_of(const MotionLimit& limit) {
+py::dict dict_of(const motion::MotionLimit& limit) {
   py::dict dict = dict_of(limit.end);
   dict["motion"] = tuple_of(limit.motion);
   dict["angles_deg"] = degrees_of_angles(limit.angles_at_limit());
@@ -84,11 +84,11 @@ py::dict dict_of(const MotionLimit& limit) {
   return dict;
 }
 
-void each_limit(const RangeOfMotion& range, std::span<const Motion> motions, const std::stop_token& stop,
-                const std::function<void(MotionLimit&&)>& use) {
-  for (const Motion& motion : motions) check_motion(motion, range.kind());
+void each_limit(const motion::RangeOfMotion& range, std::span<const motion::Motion> motions,
+                const std::stop_token& stop, const std::function<void(motion::MotionLimit&&)>& use) {
+  for (const motion::Motion& motion : motions) motion::check_motion(motion, range.kind());
   for (std::size_t done = 0; done < motions.size(); done += motions_at_once) {
-    for (MotionLimit& limit :
+    for (motion::MotionLimit& limit :
          range.limits(motions.subspan(done, std::min(motions_at_once, motions.size() - done)))) {
       if (stop.stop_requested()) return;
       use(std::move(limit));

@@ -23,10 +23,10 @@ namespace py = pybind11;
 struct RangeHandle {
   Joint joint;                              ///< held at its translation
   std::optional<Vec3> held_translation_mm;  ///< of a free joint
-  RangeOptions options;
-  RangeOfMotion range;
+  motion::RangeOptions options;
+  motion::RangeOfMotion range;
 
-  RangeHandle(const Joint& moving, const std::optional<Vec3>& translation, RangeOptions given)
+  RangeHandle(const Joint& moving, const std::optional<Vec3>& translation, motion::RangeOptions given)
       : joint(held_at(moving, translation.value_or(Vec3::Zero()))),
         held_translation_mm(translation),
         options(std::move(given)),
@@ -34,9 +34,9 @@ struct RangeHandle {
 };
 
 /// (name, vary, sense, start_deg, range_deg) of a motion, vary a position among the joint's angles, and back.
-py::tuple tuple_of(const Motion& motion);
-Motion motion_in(const py::tuple& given);
-std::vector<Motion> motions_in(const py::list& given);
+py::tuple tuple_of(const motion::Motion& motion);
+motion::Motion motion_in(const py::tuple& given);
+std::vector<motion::Motion> motions_in(const py::list& given);
 
 /// Three angles in degrees.
 JointAngles angles_in(const py::object& given, std::string_view name);
@@ -44,11 +44,11 @@ JointAngles angles_in(const py::object& given, std::string_view name);
 /// Motions computed at once, between two looks whether it was stopped: some ten milliseconds.
 inline constexpr std::size_t motions_at_once = 16;
 /// Hands on range.limits(motions) one after the other, until it is stopped.
-void each_limit(const RangeOfMotion& range, std::span<const Motion> motions, const std::stop_token& stop,
-                const std::function<void(MotionLimit&&)>& use);
+void each_limit(const motion::RangeOfMotion& range, std::span<const motion::Motion> motions,
+                const std::stop_token& stop, const std::function<void(motion::MotionLimit&&)>& use);
 
-py::dict dict_of(const Limit& limit);
-py::dict dict_of(const MotionLimit& limit);
-py::object dict_of(const std::optional<ContactWitness>& contact);
+py::dict dict_of(const motion::Limit& limit);
+py::dict dict_of(const motion::MotionLimit& limit);
+py::object dict_of(const std::optional<motion::ContactWitness>& contact);
 
 }  // namespace condyle::python

@@ -13,27 +13,28 @@
 namespace condyle::python {
 namespace {
 
-py::dict balance_dict(BalancedPose&& found, const ElasticContact& surfaces, const Load& load) {
+py::dict balance_dict(contact::BalancedPose&& found, const contact::ElasticContact& surfaces,
+                      const contact::Load& load) {
   py::dict dict;
   dict["outcome"] = name_of(found.outcome);
-  dict["reason"] = reason_of(found);
+  dict["reason"] = contact::reason_of(found);
   dict["X_FM"] = array_of(found.X_FM);
   dict["residual"] = tuple_of(found.residual);
   dict["steps"] = found.steps;
-  std::vector<ContactNote> notes = check_load(load);
-  add_new(notes, check_contact(found.contact));
+  std::vector<motion::ContactNote> notes = motion::check_load(load);
+  motion::add_new(notes, motion::check_contact(found.contact));
   dict["notes"] = list_of(notes);
   dict["contact"] = dict_of(std::move(found.contact), surfaces);
   return dict;
 }
 
-BalanceOptions options_in(const py::dict& given) {
-  BalanceOptions options{.free_rotations = given["free_rotations"].cast<bool>(),
-                         .force_tolerance_n = given["force_tolerance_n"].cast<double>(),
-                         .moment_tolerance_nmm = given["moment_tolerance_nmm"].cast<double>(),
-                         .farthest_mm = given["farthest_mm"].cast<double>(),
-                         .most_steps = given["most_steps"].cast<int>(),
-                         .most_left_at_jump = given["most_left_at_jump"].cast<double>()};
+contact::BalanceOptions options_in(const py::dict& given) {
+  contact::BalanceOptions options{.free_rotations = given["free_rotations"].cast<bool>(),
+                                  .force_tolerance_n = given["force_tolerance_n"].cast<double>(),
+                                  .moment_tolerance_nmm = given["moment_tolerance_nmm"].cast<double>(),
+                                  .farthest_mm = given["farthest_mm"].cast<double>(),
+                                  .most_steps = given["most_steps"].cast<int>(),
+                                  .most_left_at_jump = given["most_left_at_jump"].cast<double>()};
   const PointsIn directions(given["free_directions"], "free_directions");
   for (std::size_t i = 0; i < directions.size(); ++i) options.free_directions.push_back(directions.view()[i]);
   return options;
@@ -43,34 +44,36 @@ BodyRole frame_in(const py::dict& given) {
   return given["goes_along"].cast<bool>() ? BodyRole::mobile : BodyRole::fixed;
 }
 
-py::dict balanced(const ElasticContact& surfaces, const py::object& start, const py::object& force_n,
+py::dict balanced(const contact::ElasticContact& surfaces, const py::object& start, const py::object& force_n,
                   const py::object& moment_nmm, const py::dict& given) {
   const Pose X_FM = one_pose(start, "start");
-  const Load load{{vector_in(force_n, "force_n"), vector_in(moment_nmm, "moment_nmm")}, frame_in(given)};
-  const BalanceOptions options = options_in(given);
-  BalancedPose found = [&] {
+  const contact::Load load{{vector_in(force_n, "force_n"), vector_in(moment_nmm, "moment_nmm")},
+                           frame_in(given)};
+  const contact::BalanceOptions options = options_in(given);
+  contact::BalancedPose found = [&] {
     const py::gil_scoped_release released;
-    return balance(surfaces, X_FM, load, options);
+    return contact::balance(surfaces, X_FM, load, options);
   }();
   return balance_dict(std::move(found), surfaces, load);
 }
 
 /// Forces and moments have a row for all frames, or one for each; None for gaps.
-py::list balanced_along(const ElasticContact& surfaces, const py::object& poses, const py::object& force_n,
-                        const py::object& moment_nmm, const py::dict& given, const py::object& progress) {
+py::list balanced_along(const contact::ElasticContact& surfaces, const py::object& poses,
+                        const py::object& force_n, const py::object& moment_nmm, const py::dict& given,
+                        const py::object& progress) {
   const std::vector<std::optional<Pose>> X_FM = poses_with_gaps_in(poses, "poses");
   const PointsIn forces(force_n, "force_n"), moments(moment_nmm, "moment_nmm");
-  std::vector<Load> loads;
+  std::vector<contact::Load> loads;
   for (std::size_t i = 0; i < forces.size(); ++i)
     loads.push_back({{forces.view()[i], moments.view()[i]}, frame_in(given)});
-  const BalanceOptions options = options_in(given);
+  const contact::BalanceOptions options = options_in(given);
   auto found = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return balance_along(surfaces, X_FM, loads, options, {.progress = report, .stop = stop});
+    return motion::balance_along(surfaces, X_FM, loads, options, {.progress = report, .stop = stop});
   });
   py::list answers;
   for (std::size_t i = 0; i < found->size(); ++i) {
-    std::optional<BalancedPose>& pose = (*found)[i];
-    const Load& load = loads.size() == 1 ? loads.front() : loads[i];
+    std::optional<contact::BalancedPose>& pose = (*found)[i];
+    const contact::Load& load = loads.size() == 1 ? loads.front() : loads[i];
     answers.append(pose ? py::object(balance_dict(std::move(*pose), surfaces, load)) : py::none());
   }
   return answers;
@@ -78,13 +81,13 @@ py::list balanced_along(const ElasticContact& surfaces, const py::object& poses,
 
 /// Frames of a motion with the surfaces of an ElasticContact, or else of rays that `casting` sends; None for gaps. And the notes on
 /// them.
-py::tuple along(const JointHandle& handle, const py::object& poses, const ElasticContact* elastic,
+py::tuple along(const JointHandle& handle, const py::object& poses, const contact::ElasticContact* elastic,
                 const std::string& casting, const std::string& rule, double reach_mm,
                 const py::object& progress) {
   const std::vector<std::optional<Pose>> X_FM = poses_with_gaps_in(poses, "poses");
   const Mesh &fixed = handle.contact.fixed(), &mobile = handle.contact.mobile();
-  const bool fixed_casts = casting_in(casting) == Casting::fixed;
-  const NormalDepthOptions rays = elastic ? elastic->options().rays : rays_in(rule, reach_mm);
+  const bool fixed_casts = casting_in(casting) == contact::Casting::fixed;
+  const contact::NormalDepthOptions rays = elastic ? elastic->options().rays : rays_in(rule, reach_mm);
   if (!elastic) {
     mesh::require_oriented(fixed, handle.joint().fixed.name);
     mesh::require_oriented(mobile, handle.joint().mobile.name);
@@ -97,11 +100,11 @@ py::tuple along(const JointHandle& handle, const py::object& poses, const Elasti
     const auto follow = [&](std::string_view, std::size_t done, std::size_t total) { report(done, total); };
     return answer_motion(handle.contact, elastic, request, {follow, stop});
   });
-  const bool casts_fixed = elastic ? elastic->options().casting == Casting::fixed : fixed_casts;
+  const bool casts_fixed = elastic ? elastic->options().casting == contact::Casting::fixed : fixed_casts;
   const Mesh& caster =
       elastic ? (casts_fixed ? elastic->fixed() : elastic->mobile()) : (casts_fixed ? fixed : mobile);
   py::list answers;
-  for (const std::optional<FrameContact>& frame : found->frames) {
+  for (const std::optional<motion::FrameContact>& frame : found->frames) {
     if (!frame) {
       answers.append(py::none());
       continue;
@@ -111,7 +114,7 @@ py::tuple along(const JointHandle& handle, const py::object& poses, const Elasti
     dict["in_contact"] = frame->in_contact;
     dict["intersecting_pairs"] = frame->intersecting_pairs;
     dict["smallest_gap_mm"] = frame->smallest_gap_mm;
-    dict["surface"] = dict_of(SurfaceContact(frame->surface), caster, rays.rule);
+    dict["surface"] = dict_of(contact::SurfaceContact(frame->surface), caster, rays.rule);
     dict["force_n"] = array_of(frame->on_mobile.force_n);
     dict["moment_nmm"] = array_of(frame->on_mobile.moment_nmm);
     dict["cut_off_by_reach"] = frame->cut_off_by_reach;

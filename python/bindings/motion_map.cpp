@@ -10,12 +10,12 @@
 namespace condyle::python {
 namespace {
 
-GridAxis axis_in(const py::tuple& given) {
+motion::GridAxis axis_in(const py::tuple& given) {
   return {angle_numbered(given[0].cast<std::size_t>()), given[1].cast<double>(), given[2].cast<double>(),
           given[3].cast<double>()};
 }
 
-py::array values_of(const GridAxis& axis) {
+py::array values_of(const motion::GridAxis& axis) {
   std::vector<double> values(axis.count());
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = axis.value_deg(i);
   return array_of(std::move(values));
@@ -27,7 +27,7 @@ struct Ends {
   std::vector<std::int8_t> reason, kind;
   Points fixed_point;
 
-  void add(const Limit& limit) {
+  void add(const motion::Limit& limit) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     turned_deg.push_back(limit.turned.degrees());
     error_bound_deg.push_back(limit.error_bound.degrees());
@@ -49,20 +49,20 @@ struct Ends {
   }
 };
 
-py::dict dict_of_map(const MotionMap& map) {
+py::dict dict_of_map(const motion::MotionMap& map) {
   Ends negative, positive;
   std::vector<std::int64_t> offset{0};
   std::vector<double> low_deg, high_deg;
-  for (const FreeAngles& point : map.points) {
+  for (const motion::FreeAngles& point : map.points) {
     negative.add(point.from_start.negative);
     positive.add(point.from_start.positive);
-    for (const FreeInterval& interval : point.intervals) {
+    for (const motion::FreeInterval& interval : point.intervals) {
       low_deg.push_back(interval.low.degrees());
       high_deg.push_back(interval.high.degrees());
     }
     offset.push_back(static_cast<std::int64_t>(low_deg.size()));
   }
-  const FreeVolume volume = free_volume(map);
+  const motion::FreeVolume volume = motion::free_volume(map);
   py::dict dict;
   dict["row_deg"] = values_of(map.grid.row);
   dict["column_deg"] = values_of(map.grid.column);
@@ -79,14 +79,14 @@ py::dict dict_of_map(const MotionMap& map) {
 
 py::dict map_of(const RangeHandle& handle, const py::tuple& row, const py::tuple& column, std::size_t vary,
                 double start_deg, double negative_deg, double positive_deg, const py::object& progress) {
-  const MapGrid grid{.row = axis_in(row),
-                     .column = axis_in(column),
-                     .vary = angle_numbered(vary),
-                     .start = Angle::degrees(start_deg),
-                     .range = {Angle::degrees(negative_deg), Angle::degrees(positive_deg)}};
-  check_grid(grid, handle.range.kind());
+  const motion::MapGrid grid{.row = axis_in(row),
+                             .column = axis_in(column),
+                             .vary = angle_numbered(vary),
+                             .start = Angle::degrees(start_deg),
+                             .range = {Angle::degrees(negative_deg), Angle::degrees(positive_deg)}};
+  motion::check_grid(grid, handle.range.kind());
   const auto map = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return motion_map(grid, handle.range, {.progress = report, .stop = stop});
+    return motion::motion_map(grid, handle.range, {.progress = report, .stop = stop});
   });
   return dict_of_map(*map);
 }
@@ -94,15 +94,17 @@ py::dict map_of(const RangeHandle& handle, const py::tuple& row, const py::tuple
 py::list bands_of(const RangeHandle& handle, const py::list& given, std::size_t samples, std::uint64_t seed,
                   double centre_mm, double axes_deg, double surface_mm, double surface_voxels,
                   const py::object& progress) {
-  const std::vector<Motion> motions = motions_in(given);
-  const BandOptions options{.sigma = {centre_mm, Angle::degrees(axes_deg), surface_mm, surface_voxels},
-                            .samples = samples,
-                            .seed = seed};
+  const std::vector<motion::Motion> motions = motions_in(given);
+  const motion::BandOptions options{
+      .sigma = {centre_mm, Angle::degrees(axes_deg), surface_mm, surface_voxels},
+      .samples = samples,
+      .seed = seed};
   const auto bands = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return limit_bands(handle.joint, motions, handle.options, options, {.progress = report, .stop = stop});
+    return motion::limit_bands(handle.joint, motions, handle.options, options,
+                               {.progress = report, .stop = stop});
   });
   py::list list;
-  for (const LimitBand& band : *bands) {
+  for (const motion::LimitBand& band : *bands) {
     py::dict dict;
     dict["p5_deg"] = band.p5.degrees();
     dict["median_deg"] = band.median.degrees();
@@ -124,8 +126,8 @@ void bind_motion_map(py::module_& module) {
   module.def("motion_map", &map_of);
   module.def("limit_bands", &bands_of);
   module.def("uncertainty", [](const JointHandle& handle) {
-    const JointFile& file = handle.loaded.report.file;
-    const Uncertainty& sigma = file.uncertainty;
+    const io::JointFile& file = handle.loaded.report.file;
+    const motion::Uncertainty& sigma = file.uncertainty;
     return py::make_tuple(sigma.centre_mm, sigma.axes.degrees(), sigma.surface_mm, file.band_seed,
                           sigma.surface_voxels);
   });

@@ -20,18 +20,19 @@ namespace {
 py::tuple normal(const JointHandle& handle, const py::object& given, const std::string& casting_word,
                  const std::string& rule, double reach_mm, const py::object& progress) {
   const PosesIn in = poses_in(given, "pose");
-  const Casting casting = casting_in(casting_word);
-  const NormalDepthOptions rays = rays_in(rule, reach_mm);
+  const contact::Casting casting = casting_in(casting_word);
+  const contact::NormalDepthOptions rays = rays_in(rule, reach_mm);
   const Mesh &fixed = handle.joint().fixed.mesh, &mobile = handle.joint().mobile.mesh;
-  std::vector<std::pair<std::optional<SurfaceContact>, std::optional<SurfaceContact>>> found;
+  std::vector<std::pair<std::optional<contact::SurfaceContact>, std::optional<contact::SurfaceContact>>>
+      found;
   Follower follower(progress, in.poses.size());
   {
     const py::gil_scoped_release released;
     mesh::require_oriented(fixed, handle.joint().fixed.name);
     mesh::require_oriented(mobile, handle.joint().mobile.name);
-    std::optional<NormalDepth> from_fixed, from_mobile;
-    if (casting != Casting::mobile) from_fixed.emplace(fixed, mobile, rays);
-    if (casting != Casting::fixed) from_mobile.emplace(mobile, fixed, rays);
+    std::optional<contact::NormalDepth> from_fixed, from_mobile;
+    if (casting != contact::Casting::mobile) from_fixed.emplace(fixed, mobile, rays);
+    if (casting != contact::Casting::fixed) from_mobile.emplace(mobile, fixed, rays);
     for (const Pose& X_FM : in.poses) {
       auto& [of_fixed, of_mobile] = found.emplace_back();
       if (from_fixed) of_fixed = from_fixed->at(X_FM);
@@ -50,7 +51,7 @@ py::tuple normal(const JointHandle& handle, const py::object& given, const std::
 py::array thickness(const Mesh& layer, const Mesh& behind, double reach_mm) {
   std::vector<double> values = [&] {
     const py::gil_scoped_release released;
-    return thickness_to(layer, behind, reach_mm);
+    return contact::thickness_to(layer, behind, reach_mm);
   }();
   return array_of(std::move(values));
 }

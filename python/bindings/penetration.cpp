@@ -23,7 +23,7 @@ struct VertexLists {
 
   void end_pose() { offset.push_back(static_cast<std::int64_t>(vertex.size())); }
 
-  void append(const Penetrations& from) {
+  void append(const radial::Penetrations& from) {
     const auto add = [](auto& to, const auto& values) { to.insert(to.end(), values.begin(), values.end()); };
     add(vertex, from.point);
     add(triangle, from.triangle);
@@ -34,12 +34,12 @@ struct VertexLists {
     direction.resize(first + from.size());
     for (std::size_t i = 0; i < from.size(); ++i) {
       state[first + i] = static_cast<std::int8_t>(from.state[i]);
-      direction[first + i] = from.direction[i] == RayDirection::away_from_centre ? 1 : -1;
+      direction[first + i] = from.direction[i] == radial::RayDirection::away_from_centre ? 1 : -1;
     }
     end_pose();
   }
 
-  void append(const TangentialResults& from) {
+  void append(const tangential::TangentialResults& from) {
     for (std::size_t v = 0; v < from.size(); ++v) {
       if (from.state[v] == PointState::outside) continue;
       vertex.push_back(static_cast<Index>(v));
@@ -80,14 +80,14 @@ py::object vertices_dict(bool is_asked, VertexLists&& lists, bool with_angles) {
 py::tuple radial(const JointHandle& handle, const py::object& given, bool of_mobile, bool of_fixed,
                  const py::object& progress) {
   const PosesIn in = poses_in(given, "pose");
-  const JointContact& contact = handle.contact;
+  const contact::JointContact& contact = handle.contact;
   of_mobile = of_mobile && contact.fixed().is_closed();
   of_fixed = of_fixed && contact.mobile().is_closed();
   VertexLists mobile, fixed;
   Follower follower(progress, in.poses.size());
   {
     const py::gil_scoped_release released;
-    std::vector<Penetrations> mobile_now(std::min(in.poses.size(), poses_at_once)),
+    std::vector<radial::Penetrations> mobile_now(std::min(in.poses.size(), poses_at_once)),
         fixed_now(mobile_now.size());
     for (std::size_t first = 0; first < in.poses.size(); first += poses_at_once) {
       const std::size_t count = std::min(poses_at_once, in.poses.size() - first);
@@ -124,7 +124,7 @@ py::tuple tangential(const JointHandle& handle, const py::object& given, std::si
     for (std::size_t n = 0; n < in.poses.size(); ++n) {
       const Pose& X_FM = in.poses[n];
       check_depth_request(handle.joint(), {.X_FM = X_FM, .method = DepthMethod::tangential});
-      const TangentialContact contact =
+      const contact::TangentialContact contact =
           handle.contact.tangential(X_FM, axis_of(angle_numbered(about), system, angles_at(system, X_FM)));
       if (of_mobile) mobile.append(*contact.mobile_in_fixed);
       if (of_fixed) fixed.append(*contact.fixed_in_mobile);
@@ -138,23 +138,24 @@ py::tuple tangential(const JointHandle& handle, const py::object& given, std::si
 /// (K, 2) pairs of all poses, pose n owning [offset[n], offset[n + 1]).
 py::tuple pairs(const JointHandle& handle, const py::object& given, const py::object& progress) {
   const PosesIn in = poses_in(given, "pose");
-  std::vector<TrianglePair> all;
+  std::vector<contact::TrianglePair> all;
   std::vector<std::int64_t> offset{0};
   Follower follower(progress, in.poses.size());
   {
     const py::gil_scoped_release released;
     for (std::size_t n = 0; n < in.poses.size(); ++n) {
-      const std::vector<TrianglePair> found = handle.contact.pairs(in.poses[n]);
+      const std::vector<contact::TrianglePair> found = handle.contact.pairs(in.poses[n]);
       all.insert(all.end(), found.begin(), found.end());
       offset.push_back(static_cast<std::int64_t>(all.size()));
       follower.poll(n + 1);
     }
   }
-  static_assert(sizeof(TrianglePair) == 2 * sizeof(Index));
-  auto kept = std::make_unique<std::vector<TrianglePair>>(std::move(all));
+  static_assert(sizeof(contact::TrianglePair) == 2 * sizeof(Index));
+  auto kept = std::make_unique<std::vector<contact::TrianglePair>>(std::move(all));
   const auto count = static_cast<py::ssize_t>(kept->size());
   const Index* data = kept->empty() ? nullptr : &kept->front().fixed;
-  const py::capsule owner(kept.release(), [](void* p) { delete static_cast<std::vector<TrianglePair>*>(p); });
+  const py::capsule owner(kept.release(),
+                          [](void* p) { delete static_cast<std::vector<contact::TrianglePair>*>(p); });
   constexpr auto size = static_cast<py::ssize_t>(sizeof(Index));
   return py::make_tuple(in.is_one, view_of(data, {count, 2}, {2 * size, size}, owner),
                         array_of(std::move(offset)));

@@ -15,15 +15,15 @@
 namespace condyle::python {
 namespace {
 
-RangeOptions options_in(const JointHandle& handle, const py::dict& given) {
-  RangeOptions options;
-  if (given["count_bearing"].cast<bool>()) options.bearing.rule = BearingRule::count;
+motion::RangeOptions options_in(const JointHandle& handle, const py::dict& given) {
+  motion::RangeOptions options;
+  if (given["count_bearing"].cast<bool>()) options.bearing.rule = motion::BearingRule::count;
   options.bearing.margin_mm = given["bearing_margin_mm"].cast<std::optional<double>>();
   options.overlap.reference_pose = handle.loaded.report.placement.reference_pose.angles;
   if (given["accept_reference_contact"].cast<bool>())
-    options.overlap.reference_contact = ReferenceContact::accept;
+    options.overlap.reference_contact = motion::ReferenceContact::accept;
   if (const auto rings = given["leave_out_rings"].cast<std::optional<int>>())
-    options.overlap.leave_out_reference_contacts = LeaveOutReferenceContacts{*rings};
+    options.overlap.leave_out_reference_contacts = motion::LeaveOutReferenceContacts{*rings};
   return options;
 }
 
@@ -33,7 +33,7 @@ std::unique_ptr<RangeHandle> ready(const JointHandle& handle, const py::object& 
   if (!translation_mm.is_none()) requested = vector_in(translation_mm, "translation_mm");
   const std::optional<Vec3> translation =
       held_translation(handle.joint(), handle.loaded.report.placement, requested);
-  RangeOptions options = options_in(handle, given);
+  motion::RangeOptions options = options_in(handle, given);
   return followed(py::none(), [&](const auto&, const std::stop_token&) {
     auto range = std::make_unique<RangeHandle>(handle.joint(), translation, options);
     // Found once, for bands too.
@@ -43,20 +43,21 @@ std::unique_ptr<RangeHandle> ready(const JointHandle& handle, const py::object& 
 }
 
 py::list limits(const RangeHandle& handle, const py::list& given) {
-  const std::vector<Motion> motions = motions_in(given);
+  const std::vector<motion::Motion> motions = motions_in(given);
   const auto found = followed(py::none(), [&](const auto&, const std::stop_token& stop) {
-    std::vector<MotionLimit> done;
-    each_limit(handle.range, motions, stop, [&](MotionLimit&& limit) { done.push_back(std::move(limit)); });
+    std::vector<motion::MotionLimit> done;
+    each_limit(handle.range, motions, stop,
+               [&](motion::MotionLimit&& limit) { done.push_back(std::move(limit)); });
     return done;
   });
   py::list list;
-  for (const MotionLimit& limit : found) list.append(dict_of(limit));
+  for (const motion::MotionLimit& limit : found) list.append(dict_of(limit));
   return list;
 }
 
 /// (code, text) of each.
 py::list notes(const RangeHandle& handle, const py::list& given) {
-  const std::vector<Motion> motions = motions_in(given);
+  const std::vector<motion::Motion> motions = motions_in(given);
   const std::vector<RangeNote> found = [&] {
     const py::gil_scoped_release released;
     return range_notes(handle.joint, handle.range.limits(motions), handle.options, handle.range.bearing());
@@ -69,13 +70,13 @@ py::list notes(const RangeHandle& handle, const py::list& given) {
 py::dict free_angles(const RangeHandle& handle, std::size_t vary, const py::object& start,
                      double negative_deg, double positive_deg) {
   const JointAngles from = angles_in(start, "start");
-  const RotationRange range{Angle::degrees(negative_deg), Angle::degrees(positive_deg)};
-  const FreeAngles found = [&] {
+  const motion::RotationRange range{Angle::degrees(negative_deg), Angle::degrees(positive_deg)};
+  const motion::FreeAngles found = [&] {
     const py::gil_scoped_release released;
     return handle.range.free_angles(angle_numbered(vary), from, range);
   }();
   py::list intervals;
-  for (const FreeInterval& interval : found.intervals)
+  for (const motion::FreeInterval& interval : found.intervals)
     intervals.append(py::make_tuple(interval.low.degrees(), interval.high.degrees(), dict_of(interval.at_low),
                                     dict_of(interval.at_high)));
   py::dict dict;
@@ -87,14 +88,14 @@ py::dict free_angles(const RangeHandle& handle, std::size_t vary, const py::obje
 
 py::list built_in(const JointHandle& handle) {
   py::list list;
-  for (const Motion& motion : known_motions(handle.loaded)) list.append(tuple_of(motion));
+  for (const motion::Motion& motion : io::known_motions(handle.loaded)) list.append(tuple_of(motion));
   return list;
 }
 
 /// Code, text and source of each; no source is None.
 py::list caveats(const JointHandle& handle, const py::tuple& motion) {
   py::list list;
-  for (const auto& [code, summary, text, source] : motion_caveats(handle.joint(), motion_in(motion)))
+  for (const auto& [code, summary, text, source] : io::motion_caveats(handle.joint(), motion_in(motion)))
     list.append(
         py::make_tuple(name_of(code), text, source.empty() ? py::object(py::none()) : py::str(source)));
   return list;
@@ -122,16 +123,16 @@ py::dict path_limit(const JointHandle& handle, const py::object& given, double t
     const Vec3 at = degrees.view()[i];
     waypoints.push_back({Angle::degrees(at[0]), Angle::degrees(at[1]), Angle::degrees(at[2])});
   }
-  const RangeOptions range = options_in(handle, options);
-  const PathLimit limit = followed(py::none(), [&](const auto&, const std::stop_token&) {
-    return PathFinder(handle.joint(), range).limit(waypoints, Angle::degrees(tolerance_deg));
+  const motion::RangeOptions range = options_in(handle, options);
+  const motion::PathLimit limit = followed(py::none(), [&](const auto&, const std::stop_token&) {
+    return motion::PathFinder(handle.joint(), range).limit(waypoints, Angle::degrees(tolerance_deg));
   });
   py::dict dict;
   dict["segment"] = limit.segment;
   dict["fraction"] = limit.fraction;
   dict["angles_deg"] = std::array{limit.at.flexion.degrees(), limit.at.adduction.degrees(),
                                   limit.at.internal_rotation.degrees()};
-  dict["reason"] = name_of(limit.reason);
+  dict["reason"] = io::name_of(limit.reason);
   dict["contact"] = dict_of(limit.contact);
   dict["distance_mm"] = limit.distance_mm;
   return dict;
@@ -140,14 +141,14 @@ py::dict path_limit(const JointHandle& handle, const py::object& given, double t
 /// The side of a limit's contact, given as dict_of() returns it.
 py::object side_of_contact(const JointHandle& handle, const py::dict& contact,
                            const py::object& translation_mm) {
-  MotionLimit limit;
+  motion::MotionLimit limit;
   limit.end.contact.emplace();
   limit.end.contact->fixed_point = vector_in(contact["fixed_point"], "contact");
-  limit.end.contact->kind = contact["kind"].cast<std::string>() == name_of(ContactKind::bearing)
-                                ? ContactKind::bearing
-                                : ContactKind::impingement;
+  limit.end.contact->kind = contact["kind"].cast<std::string>() == io::name_of(motion::ContactKind::bearing)
+                                ? motion::ContactKind::bearing
+                                : motion::ContactKind::impingement;
   if (!translation_mm.is_none()) limit.translation_mm = vector_in(translation_mm, "translation_mm");
-  const auto side = contact_side(handle.joint(), limit);
+  const auto side = motion::contact_side(handle.joint(), limit);
   return side ? py::object(py::str(name_of(*side))) : py::none();
 }
 

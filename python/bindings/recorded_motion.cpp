@@ -17,9 +17,9 @@ namespace condyle::python {
 namespace {
 
 py::dict table_of(const std::filesystem::path& path) {
-  MotionTable table = [&] {
+  io::MotionTable table = [&] {
     const py::gil_scoped_release released;
-    return read_motion_table(path);
+    return io::read_motion_table(path);
   }();
   py::dict columns;
   for (std::size_t i = 0; i < table.columns.size(); ++i)
@@ -33,9 +33,9 @@ py::dict table_of(const std::filesystem::path& path) {
 
 /// Times and (N, 4, 4) poses, NaN for gaps.
 py::dict motion_of_file(const JointHandle& handle, const std::filesystem::path& path) {
-  JointMotion motion = [&] {
+  io::JointMotion motion = [&] {
     const py::gil_scoped_release released;
-    return motion_of(handle.loaded, read_motion_table(path));
+    return io::motion_of(handle.loaded, io::read_motion_table(path));
   }();
   const auto count = static_cast<py::ssize_t>(motion.X_FM.size());
   py::array_t<double> poses({count, py::ssize_t{4}, py::ssize_t{4}});
@@ -55,12 +55,13 @@ py::dict motion_of_file(const JointHandle& handle, const std::filesystem::path& 
   return dict;
 }
 
-py::dict dict_of_end(const ContactEnd& end, ContactEndRole role) {
+py::dict dict_of_end(const motion::ContactEnd& end, io::ContactEndRole role) {
   py::dict dict;
   dict["kind"] = name_of(end.kind, role);
   dict["time_s"] = end.time_s;
-  dict["uncertainty_s"] = end.kind == ContactEndKind::recording ? py::object(py::none())
-                                                                : py::object(py::float_(end.uncertainty_s));
+  dict["uncertainty_s"] = end.kind == motion::ContactEndKind::recording
+                              ? py::object(py::none())
+                              : py::object(py::float_(end.uncertainty_s));
   dict["sample"] = end.sample;
   dict["turned_deg"] = end.turned.degrees();
   dict["contact"] = dict_of(end.contact);
@@ -72,14 +73,15 @@ py::dict recorded(const JointHandle& handle, const py::object& time_s, const py:
   const std::vector<double> times = doubles_in(time_s, "time_s");
   const PosesIn in = poses_in(given, "poses");
   const auto found = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return contact_between(handle.contact, times, in.poses, RecordedContactOptions{resolution_s},
-                           {.progress = report, .stop = stop});
+    return motion::contact_between(handle.contact, times, in.poses,
+                                   motion::RecordedContactOptions{resolution_s},
+                                   {.progress = report, .stop = stop});
   });
   py::list contacts;
-  for (const ContactInterval& interval : found->contacts) {
+  for (const motion::ContactInterval& interval : found->contacts) {
     py::dict dict;
-    dict["entry"] = dict_of_end(interval.entry, ContactEndRole::entry);
-    dict["exit"] = dict_of_end(interval.exit, ContactEndRole::exit);
+    dict["entry"] = dict_of_end(interval.entry, io::ContactEndRole::entry);
+    dict["exit"] = dict_of_end(interval.exit, io::ContactEndRole::exit);
     dict["is_certain"] = interval.is_certain;
     dict["undecided_s"] = interval.undecided_s;
     contacts.append(dict);

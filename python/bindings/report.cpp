@@ -19,13 +19,13 @@ namespace condyle::python {
 namespace {
 
 /// Nothing where the joint was made of arrays: there are no files to name.
-std::optional<Provenance> files_of(const LoadedJoint& loaded) {
+std::optional<io::Provenance> files_of(const io::LoadedJoint& loaded) {
   if (loaded.report.file.path.empty()) return std::nullopt;
-  return provenance_of(loaded, {"condyle.RangeOfMotion.write_report"});
+  return io::provenance_of(loaded, {"condyle.RangeOfMotion.write_report"});
 }
 
 /// Request of the limits of `range`, with the additions of a report.
-RangeRequest request_of(const RangeHandle& range, std::vector<Motion> motions) {
+RangeRequest request_of(const RangeHandle& range, std::vector<motion::Motion> motions) {
   RangeRequest request{.motions = std::move(motions), .range = range.options};
   request.range.bearing.surface.reset();  // found again with its notes
   request.translation_mm = range.held_translation_mm;
@@ -42,7 +42,7 @@ RangeRequest request_before(RangeRequest request, const JointPlacement& of_page)
 
 /// The joint before, with its limits or why it has none. What a report takes of it refers to its members.
 struct JointBefore {
-  explicit JointBefore(const LoadedJoint& joint)
+  explicit JointBefore(const io::LoadedJoint& joint)
       : loaded(joint), notes(check_joint(joint.joint, joint.report.placement)), from(files_of(joint)) {}
   JointBefore(const JointBefore&) = delete;
   JointBefore& operator=(const JointBefore&) = delete;
@@ -51,7 +51,7 @@ struct JointBefore {
   bool answer_range_request(const RangeRequest& request, const AnswerControl& control) {
     try {
       answer = answer_range(loaded.joint, loaded.report.placement, request, control);
-      if (answer) rom.emplace(rom_result_of(*answer, notes, from ? &*from : nullptr));
+      if (answer) rom.emplace(io::rom_result_of(*answer, notes, from ? &*from : nullptr));
       return answer.has_value();
     } catch (const MeshError& failed) {
       error = failed.what();
@@ -59,29 +59,29 @@ struct JointBefore {
     }
   }
 
-  ReportedBefore reported() const {
+  io::ReportedBefore reported() const {
     return {.joint = loaded.joint,
             .file = loaded.report.file.path,
             .rom = rom ? &*rom : nullptr,
             .rom_error = error};
   }
 
-  const LoadedJoint& loaded;
+  const io::LoadedJoint& loaded;
   std::vector<JointNote> notes;
-  std::optional<Provenance> from;
+  std::optional<io::Provenance> from;
   std::optional<RangeAnswer> answer;
-  std::optional<RomResult> rom;
+  std::optional<io::RomResult> rom;
   std::string error;
 };
 
 /// The sweep of a page; throws UsageError for one of another joint.
-SweepResult shown_sweep(const SweepHandle& sweep, const LoadedJoint& of_page) {
-  check_shown_sweep(sweep.query.parameters, sweep.query.targets.size());
+io::SweepResult shown_sweep(const SweepHandle& sweep, const io::LoadedJoint& of_page) {
+  io::check_shown_sweep(sweep.query.parameters, sweep.query.targets.size());
   const auto same = [](const Body& a, const Body& b) { return a.mesh.vertices() == b.mesh.vertices(); };
   if (!same(sweep.loaded.joint.fixed, of_page.joint.fixed) ||
       !same(sweep.loaded.joint.mobile, of_page.joint.mobile))
     throw UsageError("sweep: it is that of another joint than the limits");
-  return sweep_result_of(sweep.loaded, sweep.answer, sweep.query, {}, nullptr);
+  return io::sweep_result_of(sweep.loaded, sweep.answer, sweep.query, {}, nullptr);
 }
 
 void report(const RangeHandle& range, const JointHandle& handle, const std::filesystem::path& path,
@@ -89,48 +89,50 @@ void report(const RangeHandle& range, const JointHandle& handle, const std::file
             std::optional<std::uint64_t> seed, const std::optional<double>& past_deg, bool with_measures,
             const PlanHandle* plan, const JointHandle* with, const SweepHandle* sweep,
             const LabelArguments& labels, const py::object& progress) {
-  const LoadedJoint& loaded = handle.loaded;
-  std::optional<SweepResult> swept;
+  const io::LoadedJoint& loaded = handle.loaded;
+  std::optional<io::SweepResult> swept;
   if (sweep) swept = shown_sweep(*sweep, loaded);
-  if (with) check_comparable(with->loaded.joint, with->loaded.joint.name, loaded.joint, loaded.joint.name);
-  const JointFile& file = loaded.report.file;
+  if (with)
+    io::check_comparable(with->loaded.joint, with->loaded.joint.name, loaded.joint, loaded.joint.name);
+  const io::JointFile& file = loaded.report.file;
   RangeRequest request = request_of(range, motions_in(given));
   if (band_samples > 0)
     request.bands = {
         .sigma = file.uncertainty, .samples = band_samples, .seed = seed.value_or(file.band_seed)};
   if (past_deg) request.zones_past = Angle::degrees(*past_deg);
-  std::optional<Provenance> from = files_of(loaded);
-  check_report_file(path, from ? &*from : nullptr);
+  std::optional<io::Provenance> from = files_of(loaded);
+  io::check_report_file(path, from ? &*from : nullptr);
   if (with) {
-    const std::optional<Provenance> before = files_of(with->loaded);
-    check_report_file(path, before ? &*before : nullptr);
+    const std::optional<io::Provenance> before = files_of(with->loaded);
+    io::check_report_file(path, before ? &*before : nullptr);
   }
   followed(progress, [&](const auto& follow, const std::stop_token& stop) {
     const auto by_stage = [&](std::string_view, std::size_t done, std::size_t total) { follow(done, total); };
     const auto answer = answer_range(loaded.joint, loaded.report.placement, request, {by_stage, stop});
     if (!answer) return true;
     const std::vector<JointNote> notes = check_joint(loaded.joint, loaded.report.placement);
-    Provenance* const provenance = from ? &*from : nullptr;
-    const RomResult rom = rom_result_of(*answer, notes, provenance);
-    Report page{.title = title.value_or(loaded.joint.name),
-                .joint = loaded.joint,
-                .reference_pose = loaded.report.placement.reference_pose,
-                .rom = &rom,
-                .bearing_margin_mm = request.range.bearing.margin_mm,
-                .labels = report_labels_of(labels)};
+    io::Provenance* const provenance = from ? &*from : nullptr;
+    const io::RomResult rom = io::rom_result_of(*answer, notes, provenance);
+    io::Report page{.title = title.value_or(loaded.joint.name),
+                    .joint = loaded.joint,
+                    .reference_pose = loaded.report.placement.reference_pose,
+                    .rom = &rom,
+                    .bearing_margin_mm = request.range.bearing.margin_mm,
+                    .labels = report_labels_of(labels)};
     if (file.recorded_motion) page.recorded_motion = &*file.recorded_motion;
     if (swept) page.sweep = &*swept;
     std::optional<MeasureAnswer> measures;
-    std::optional<MeasureResult> shape;
+    std::optional<io::MeasureResult> shape;
     if (with_measures) {
-      measures = answer_measures(loaded.joint, {measure_request_of(loaded), request.bands}, {by_stage, stop});
+      measures =
+          answer_measures(loaded.joint, {io::measure_request_of(loaded), request.bands}, {by_stage, stop});
       if (!measures) return true;
-      page.measures = &shape.emplace(MeasureResult{loaded.joint, *measures, notes, provenance});
+      page.measures = &shape.emplace(io::MeasureResult{loaded.joint, *measures, notes, provenance});
     }
-    std::optional<ResectionResult> cut;
+    std::optional<io::ResectionResult> cut;
     if (plan)
-      page.plan = &cut.emplace(
-          ResectionResult{plan->loaded.joint, plan->answer, notes, provenance, &plan->loaded.report.file});
+      page.plan = &cut.emplace(io::ResectionResult{plan->loaded.joint, plan->answer, notes, provenance,
+                                                   &plan->loaded.report.file});
     std::optional<JointBefore> before;
     if (with) {
       before.emplace(with->loaded);
@@ -138,22 +140,22 @@ void report(const RangeHandle& range, const JointHandle& handle, const std::file
       if (!before->answer_range_request(asked, {by_stage, stop})) return true;
       page.before.emplace(before->reported());
     }
-    write_report(path, page);
+    io::write_report(path, page);
     return true;
   });
 }
 
-BodyStyle style_named(const std::string& name) {
-  return name == "solid"         ? BodyStyle::solid
-         : name == "transparent" ? BodyStyle::transparent
-                                 : BodyStyle::hidden;
+io::BodyStyle style_named(const std::string& name) {
+  return name == "solid"         ? io::BodyStyle::solid
+         : name == "transparent" ? io::BodyStyle::transparent
+                                 : io::BodyStyle::hidden;
 }
 
-PictureColour colour_named(const std::string& name) {
-  return name == "depth"     ? PictureColour::depth
-         : name == "gap"     ? PictureColour::gap
-         : name == "nearest" ? PictureColour::nearest
-                             : PictureColour::none;
+io::PictureColour colour_named(const std::string& name) {
+  return name == "depth"     ? io::PictureColour::depth
+         : name == "gap"     ? io::PictureColour::gap
+         : name == "nearest" ? io::PictureColour::nearest
+                             : io::PictureColour::none;
 }
 
 /// (height, width, 3), uint8.
@@ -164,18 +166,18 @@ py::array_t<std::uint8_t> picture(const JointHandle& handle, const py::object& p
                                   const std::optional<double>& field_mm, bool with_measures, bool is_plain) {
   const Pose X_FM = one_pose(pose, "pose");
   const Joint& joint = handle.joint();
-  PictureOptions options{.view = view_named(view, joint.side),
-                         .colour = colour_named(colour),
-                         .fixed = style_named(fixed),
-                         .mobile = style_named(mobile),
-                         .width = width,
-                         .height = height,
-                         .range_mm = range_mm,
-                         .field_mm = field_mm,
-                         .is_annotated = !is_plain};
-  const Picture drawn = followed(py::none(), [&](const auto&, const std::stop_token&) {
-    if (with_measures) options.marks = measure_marks(measure_hip(joint), X_FM);
-    return draw_joint(joint, angles_at(joint.coordinates(), X_FM), X_FM, options);
+  io::PictureOptions options{.view = io::view_named(view, joint.side),
+                             .colour = colour_named(colour),
+                             .fixed = style_named(fixed),
+                             .mobile = style_named(mobile),
+                             .width = width,
+                             .height = height,
+                             .range_mm = range_mm,
+                             .field_mm = field_mm,
+                             .is_annotated = !is_plain};
+  const io::Picture drawn = followed(py::none(), [&](const auto&, const std::stop_token&) {
+    if (with_measures) options.marks = io::measure_marks(measure::measure_hip(joint), X_FM);
+    return io::draw_joint(joint, angles_at(joint.coordinates(), X_FM), X_FM, options);
   });
   py::array_t<std::uint8_t> pixels({drawn.height, drawn.width, std::size_t{3}});
   std::copy(drawn.rgb.begin(), drawn.rgb.end(), pixels.mutable_data());

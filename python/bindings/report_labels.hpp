@@ -12,7 +12,7 @@ namespace condyle::python {
 using LabelArguments =
     std::tuple<std::optional<std::string>, std::optional<std::string>, std::optional<std::string>, bool>;
 
-inline ReportLabels report_labels_of(const LabelArguments& given) {
+inline io::ReportLabels report_labels_of(const LabelArguments& given) {
   const auto& [case_name, note, date, whole_paths] = given;
   return {case_name, note, date, whole_paths};
 }

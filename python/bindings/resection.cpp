@@ -15,7 +15,7 @@ namespace {
 
 /// The joint with other meshes, placed like this one.
 std::unique_ptr<JointHandle> handle_of(const JointHandle& handle, Joint joint) {
-  LoadedJoint loaded = handle.loaded;
+  io::LoadedJoint loaded = handle.loaded;
   loaded.joint = std::move(joint);
   return std::make_unique<JointHandle>(std::move(loaded));
 }
@@ -30,20 +30,20 @@ ResectionQuery query_in(const JointHandle& handle, const py::list& motions, cons
   }
   query.resection.mobile.vertices = given["keep_mobile"].cast<std::vector<std::uint8_t>>();
   query.resection.fixed.vertices = given["keep_fixed"].cast<std::vector<std::uint8_t>>();
-  if (given["count_bearing"].cast<bool>()) query.resection.range.bearing.rule = BearingRule::count;
+  if (given["count_bearing"].cast<bool>()) query.resection.range.bearing.rule = motion::BearingRule::count;
   query.resection.range.bearing.margin_mm = given["bearing_margin_mm"].cast<std::optional<double>>();
   query.curve_points = given["curve_points"].cast<std::size_t>();
   if (const auto samples = given["samples"].cast<std::size_t>(); samples > 0) {
     const auto sigma = given["sigma"].cast<std::array<double, 4>>();
-    query.bands = BandOptions{.sigma = {sigma[0], Angle::degrees(sigma[1]), sigma[2], sigma[3]},
-                              .samples = samples,
-                              .seed = given["seed"].cast<std::uint64_t>()};
+    query.bands = motion::BandOptions{.sigma = {sigma[0], Angle::degrees(sigma[1]), sigma[2], sigma[3]},
+                                      .samples = samples,
+                                      .seed = given["seed"].cast<std::uint64_t>()};
   }
-  query.measures = measure_request_of(handle.loaded);
+  query.measures = io::measure_request_of(handle.loaded);
   return query;
 }
 
-py::object dict_of_cut(const std::optional<CutBone>& cut) {
+py::object dict_of_cut(const std::optional<plan::CutBone>& cut) {
   if (!cut) return py::none();
   py::dict dict;
   dict["before"] = Mesh(cut->before);
@@ -61,14 +61,14 @@ py::object dict_of_cut(const std::optional<CutBone>& cut) {
   return dict;
 }
 
-py::tuple tuple_of_target(const ReachOutcome& outcome) {
+py::tuple tuple_of_target(const plan::ReachOutcome& outcome) {
   py::object blocked = py::none();
   if (outcome.blocked)
     blocked = py::make_tuple(std::string(name_of(outcome.blocked->by)),
                              outcome.blocked->body == BodyRole::mobile ? "mobile" : "fixed",
                              array_of(outcome.blocked->point_mm));
-  return py::make_tuple(outcome.target.motion.name, asked_degrees(outcome.target.reach),
-                        asked_degrees(outcome.planned), dict_of(outcome.before), dict_of(outcome.after),
+  return py::make_tuple(outcome.target.motion.name, plan::asked_degrees(outcome.target.reach),
+                        plan::asked_degrees(outcome.planned), dict_of(outcome.before), dict_of(outcome.after),
                         blocked);
 }
 
@@ -76,7 +76,7 @@ py::tuple tuple_of_target(const ReachOutcome& outcome) {
 py::object shapes_of(const ResectionAnswer& answer) {
   if (!answer.shape_before) return py::none();
   py::dict dict;
-  for (const MeasureDefinition& each : measure_definitions())
+  for (const measure::MeasureDefinition& each : measure::measure_definitions())
     dict[py::str(each.key.data(), each.key.size())] =
         py::make_tuple(optional_number(each.of(*answer.shape_before).value),
                        optional_number(each.of(*answer.shape_after).value));
@@ -92,10 +92,10 @@ py::dict resection(const JointHandle& handle, const py::list& motions, const py:
         {[&](std::string_view, std::size_t done, std::size_t total) { report(done, total); }, stop});
   });
   py::list targets, before, after, bands, curve, notes;
-  for (const ReachOutcome& outcome : answer.resection.targets) targets.append(tuple_of_target(outcome));
-  for (const MotionLimit& limit : answer.before) before.append(dict_of(limit));
-  for (const MotionLimit& limit : answer.after) after.append(dict_of(limit));
-  for (const LimitBand& band : answer.bands)
+  for (const plan::ReachOutcome& outcome : answer.resection.targets) targets.append(tuple_of_target(outcome));
+  for (const motion::MotionLimit& limit : answer.before) before.append(dict_of(limit));
+  for (const motion::MotionLimit& limit : answer.after) after.append(dict_of(limit));
+  for (const motion::LimitBand& band : answer.bands)
     bands.append(py::make_tuple(band.p5.degrees(), band.median.degrees(), band.p95.degrees()));
   for (const ResectionCurvePoint& point : answer.curve)
     curve.append(py::make_tuple(point.target, point.reached.degrees(), point.volume_mm3, point.deepest_mm));
@@ -118,34 +118,35 @@ py::dict resection(const JointHandle& handle, const py::list& motions, const py:
   return dict;
 }
 
-BrushRequest strokes_in(const py::list& strokes, const py::dict& given) {
-  BrushRequest request{.body = given["of_fixed"].cast<bool>() ? BodyRole::fixed : BodyRole::mobile,
-                       .stays = given["keep"].cast<std::vector<std::uint8_t>>()};
+plan::BrushRequest strokes_in(const py::list& strokes, const py::dict& given) {
+  plan::BrushRequest request{.body = given["of_fixed"].cast<bool>() ? BodyRole::fixed : BodyRole::mobile,
+                             .stays = given["keep"].cast<std::vector<std::uint8_t>>()};
   for (const py::handle each : strokes) {
     const auto stroke = each.cast<py::tuple>();
-    request.strokes.push_back({.action = stroke[0].cast<bool>() ? BrushAction::restore : BrushAction::lower,
-                               .along = stroke[1].cast<std::vector<Index>>(),
-                               .radius_mm = stroke[2].cast<double>(),
-                               .depth_mm = stroke[3].cast<double>()});
+    request.strokes.push_back(
+        {.action = stroke[0].cast<bool>() ? plan::BrushAction::restore : plan::BrushAction::lower,
+         .along = stroke[1].cast<std::vector<Index>>(),
+         .radius_mm = stroke[2].cast<double>(),
+         .depth_mm = stroke[3].cast<double>()});
   }
-  if (given["count_bearing"].cast<bool>()) request.range.bearing.rule = BearingRule::count;
+  if (given["count_bearing"].cast<bool>()) request.range.bearing.rule = motion::BearingRule::count;
   request.range.bearing.margin_mm = given["bearing_margin_mm"].cast<std::optional<double>>();
   return request;
 }
 
 py::dict brushed(const JointHandle& handle, const py::list& motions, const py::list& strokes,
                  const py::dict& given) {
-  const BrushRequest request = strokes_in(strokes, given);
-  const std::vector<Motion> known = motions_in(motions);
-  BrushedJoint done = [&] {
+  const plan::BrushRequest request = strokes_in(strokes, given);
+  const std::vector<motion::Motion> known = motions_in(motions);
+  plan::BrushedJoint done = [&] {
     const py::gil_scoped_release released;
-    return brush_joint(handle.joint(), request, known);
+    return plan::brush_joint(handle.joint(), request, known);
   }();
   py::list outcomes, before, after;
-  for (const StrokeOutcome& each : done.strokes)
+  for (const plan::StrokeOutcome& each : done.strokes)
     outcomes.append(py::make_tuple(each.moved, each.kept, each.limited));
-  for (const MotionLimit& limit : done.before) before.append(dict_of(limit));
-  for (const MotionLimit& limit : done.after) after.append(dict_of(limit));
+  for (const motion::MotionLimit& limit : done.before) before.append(dict_of(limit));
+  for (const motion::MotionLimit& limit : done.after) after.append(dict_of(limit));
   py::dict dict;
   dict["joint"] = handle_of(handle, std::move(done.joint));
   dict["strokes"] = outcomes;
@@ -160,15 +161,15 @@ py::dict brushed(const JointHandle& handle, const py::list& motions, const py::l
 /// With this mesh in the mobile body's place, in its frame. Where a head is known it stays the one that it is.
 std::unique_ptr<JointHandle> with_mobile(const JointHandle& handle, const Mesh& mesh) {
   const py::gil_scoped_release released;
-  return handle_of(handle, with_mobile_mesh(handle.joint(), mesh));
+  return handle_of(handle, plan::with_mobile_mesh(handle.joint(), mesh));
 }
 
 }  // namespace
 
-ResectionRequest cut_in(const py::dict& given) {
+plan::ResectionRequest cut_in(const py::dict& given) {
   const auto optional = [&](const char* name) { return given[name].cast<std::optional<double>>(); };
-  const KeptBone kept{optional("deepest_mm"), optional("within_mm"), {}};
-  ResectionRequest request;
+  const plan::KeptBone kept{optional("deepest_mm"), optional("within_mm"), {}};
+  plan::ResectionRequest request;
   request.fixed_share = given["fixed_share"].cast<double>();
   request.mobile = kept;
   request.fixed = kept;

@@ -11,11 +11,11 @@ namespace py = pybind11;
 
 /// A plan as Python holds it, for a report: the joint with the bone, and the answer.
 struct PlanHandle {
-  LoadedJoint loaded;
+  io::LoadedJoint loaded;
   ResectionAnswer answer;
 };
 
 /// How bone is cut, of what cut_options() of Python has checked; without targets, marked vertices and range.
-ResectionRequest cut_in(const py::dict& given);
+plan::ResectionRequest cut_in(const py::dict& given);
 
 }  // namespace condyle::python

@@ -18,10 +18,10 @@ namespace condyle::python {
 namespace {
 
 /// By the names that sample_hip() of Python has checked; angles in degrees.
-HipParameters hip_parameters(const std::map<std::string, double>& given) {
-  HipParameters hip;
+sample::HipParameters hip_parameters(const std::map<std::string, double>& given) {
+  sample::HipParameters hip;
   for (const auto& [name, value] : given)
-    if (const HipMeasure* measure = hip_measure_named(name)) measure->set(hip, value);
+    if (const sample::HipMeasure* measure = sample::hip_measure_named(name)) measure->set(hip, value);
   return hip;
 }
 
@@ -37,14 +37,14 @@ py::tuple pair_of(Meshes&& made) {
 
 py::tuple hip(const std::map<std::string, double>& parameters, std::optional<int> scenario,
               const Counts& triangles, std::optional<double> edge_mm, bool is_left) {
-  const HipParameters measures = hip_parameters(parameters);
-  Resolution resolution = static_cast<Scenario>(scenario.value_or(2));
-  if (triangles) resolution = TriangleCounts{triangles->first, triangles->second};
-  if (edge_mm) resolution = EdgeLength{*edge_mm};
+  const sample::HipParameters measures = hip_parameters(parameters);
+  sample::Resolution resolution = static_cast<sample::Scenario>(scenario.value_or(2));
+  if (triangles) resolution = sample::TriangleCounts{triangles->first, triangles->second};
+  if (edge_mm) resolution = sample::EdgeLength{*edge_mm};
   return pair_of(followed(py::none(), [&](const auto&, const std::stop_token& stop) -> Meshes {
-    std::optional<SampleHip> made = sample_hip(measures, resolution, stop);
+    std::optional<sample::SampleHip> made = sample::sample_hip(measures, resolution, stop);
     if (!made) return std::nullopt;
-    if (is_left) made = mirrored(*made);
+    if (is_left) made = sample::mirrored(*made);
     return std::pair(Mesh(std::move(made->hip_bone)), Mesh(std::move(made->femur)));
   }));
 }
@@ -52,23 +52,23 @@ py::tuple hip(const std::map<std::string, double>& parameters, std::optional<int
 py::tuple cartilages(const std::map<std::string, double>& parameters, double clearance_mm,
                      double thickness_mm, std::optional<int> scenario, const Counts& triangles,
                      std::optional<double> edge_mm, bool is_left) {
-  const HipParameters measures = hip_parameters(parameters);
-  CartilageResolution resolution = static_cast<CartilageScenario>(scenario.value_or(5));
-  if (triangles) resolution = CartilageCounts{triangles->first, triangles->second};
-  if (edge_mm) resolution = EdgeLength{*edge_mm};
+  const sample::HipParameters measures = hip_parameters(parameters);
+  sample::CartilageResolution resolution = static_cast<sample::CartilageScenario>(scenario.value_or(5));
+  if (triangles) resolution = sample::CartilageCounts{triangles->first, triangles->second};
+  if (edge_mm) resolution = sample::EdgeLength{*edge_mm};
   return pair_of(followed(py::none(), [&](const auto&, const std::stop_token& stop) -> Meshes {
-    std::optional<SampleCartilages> made =
-        sample_cartilages(measures, {clearance_mm, thickness_mm}, resolution, stop);
+    std::optional<sample::SampleCartilages> made =
+        sample::sample_cartilages(measures, {clearance_mm, thickness_mm}, resolution, stop);
     if (!made) return std::nullopt;
-    if (is_left) made = mirrored(*made);
+    if (is_left) made = sample::mirrored(*made);
     return std::pair(Mesh(std::move(made->acetabular)), Mesh(std::move(made->femoral)));
   }));
 }
 
 std::vector<std::string> names_of_sizes(bool is_hip) {
   std::vector<std::string> names;
-  for (const ImplantParameter& each :
-       implant_parameters(is_hip ? Implant(TotalHip{}) : Implant(ReverseShoulder{})))
+  for (const plan::ImplantParameter& each : plan::implant_parameters(
+           is_hip ? plan::Implant(plan::TotalHip{}) : plan::Implant(plan::ReverseShoulder{})))
     names.push_back(std::string(each.name) + "_" + std::string(each.unit));
   return names;
 }
@@ -77,30 +77,30 @@ std::vector<std::string> names_of_sizes(bool is_hip) {
 /// none.
 py::tuple implant(bool is_hip, const std::map<std::string, double>& sizes, const std::string& definition,
                   int facets, std::optional<int> scenario, bool is_left) {
-  Implant design = is_hip ? Implant(TotalHip{}) : Implant(ReverseShoulder{});
+  plan::Implant design = is_hip ? plan::Implant(plan::TotalHip{}) : plan::Implant(plan::ReverseShoulder{});
   set_sizes(design, sizes);
   std::visit([&](auto& each) { each.facets = facets; }, design);
-  if (is_hip) std::get<TotalHip>(design).cup.definition = cup_definition_named(definition);
+  if (is_hip) std::get<plan::TotalHip>(design).cup.definition = cup_definition_named(definition);
   const Side side = is_left ? Side::left : Side::right;
-  using Made = std::optional<std::pair<ImplantMeshes, std::unique_ptr<JointHandle>>>;
+  using Made = std::optional<std::pair<plan::ImplantMeshes, std::unique_ptr<JointHandle>>>;
   Made made = followed(py::none(), [&](const auto&, const std::stop_token& stop) -> Made {
-    std::optional<ImplantMeshes> meshes =
-        scenario
-            ? sample_replacement(std::get<TotalHip>(design), {}, static_cast<Scenario>(*scenario), side, stop)
-            : implant_meshes(design, side);
+    std::optional<plan::ImplantMeshes> meshes =
+        scenario ? sample::sample_replacement(std::get<plan::TotalHip>(design), {},
+                                              static_cast<sample::Scenario>(*scenario), side, stop)
+                 : plan::implant_meshes(design, side);
     if (!meshes) return std::nullopt;
-    auto joint = std::make_unique<JointHandle>(sample_implant_joint(*meshes, design, side));
+    auto joint = std::make_unique<JointHandle>(io::sample_implant_joint(*meshes, design, side));
     return std::pair(std::move(*meshes), std::move(joint));
   });
-  const auto parts_of = [](std::vector<ImplantMesh>& parts) {
+  const auto parts_of = [](std::vector<plan::ImplantMesh>& parts) {
     py::list list;
     for (auto& [part, mesh] : parts) list.append(py::make_tuple(part, Mesh(std::move(mesh))));
     return list;
   };
-  const auto pair = revolved_pair(design, side);
+  const auto pair = plan::revolved_pair(design, side);
   return py::make_tuple(parts_of(made->first.fixed), parts_of(made->first.mobile), std::move(made->second),
                         pair ? py::object(py::float_(pair->half_angle.degrees())) : py::object(py::none()),
-                        why_not_revolved(design));
+                        plan::why_not_revolved(design));
 }
 
 }  // namespace

@@ -16,19 +16,20 @@ namespace {
 
 // These read what StudyLoad of Python has checked.
 
-ContactChanges contact_in(const py::dict& given) {
+io::ContactChanges contact_in(const py::dict& given) {
   const auto numbers = [&](const char* name) { return given[name].cast<std::vector<double>>(); };
-  ContactChanges contact;
+  io::ContactChanges contact;
   contact.youngs_modulus_mpa = numbers("youngs_modulus_mpa");
   contact.poisson_ratio = numbers("poisson_ratio");
   contact.thickness_mm = numbers("thickness_mm");
   if (const py::object casting = given["casting"]; !casting.is_none())
     contact.casting = casting_in(casting.cast<std::string>());
   if (const py::object rule = given["rule"]; !rule.is_none())
-    contact.rule = rays_in(rule.cast<std::string>(), NormalDepthOptions().reach_mm).rule;
+    contact.rule = rays_in(rule.cast<std::string>(), contact::NormalDepthOptions().reach_mm).rule;
   contact.reach_mm = given["reach_mm"].cast<std::optional<double>>();
   if (const py::object law = given["law"]; !law.is_none())
-    contact.law = law.cast<std::string>() == "logarithmic" ? PressureLaw::logarithmic : PressureLaw::linear;
+    contact.law = law.cast<std::string>() == "logarithmic" ? contact::PressureLaw::logarithmic
+                                                           : contact::PressureLaw::linear;
   return contact;
 }
 
@@ -44,38 +45,39 @@ std::optional<Vec3> force_in(const py::dict& given) {
   return force.empty() ? std::nullopt : std::optional(Vec3(force.at(0), force.at(1), force.at(2)));
 }
 
-StudyLoad load_in(const py::dict& given, Anatomy anatomy) {
-  return {study_pose(given["at"].cast<std::string>(), anatomy), contact_in(given), force_in(given),
+io::StudyLoad load_in(const py::dict& given, Anatomy anatomy) {
+  return {io::study_pose(given["at"].cast<std::string>(), anatomy), contact_in(given), force_in(given),
           directions_in(given)};
 }
 
-StudyFollowLoad follow_load_in(const py::dict& given) {
+io::StudyFollowLoad follow_load_in(const py::dict& given) {
   return {force_in(given).value(), directions_in(given), contact_in(given)};
 }
 
-MapGrid grid_in(const py::tuple& given, Anatomy anatomy) {
-  MapGrid grid;
-  grid.column = parse_grid_axis(given[0].cast<std::string>(), anatomy);
-  grid.row = parse_grid_axis(given[1].cast<std::string>(), anatomy);
+motion::MapGrid grid_in(const py::tuple& given, Anatomy anatomy) {
+  motion::MapGrid grid;
+  grid.column = io::parse_grid_axis(given[0].cast<std::string>(), anatomy);
+  grid.row = io::parse_grid_axis(given[1].cast<std::string>(), anatomy);
   if (const py::object vary = given[2]; !vary.is_none()) {
-    grid.vary = joint_angle_named(vary.cast<std::string>(), anatomy);
+    grid.vary = io::joint_angle_named(vary.cast<std::string>(), anatomy);
   } else {
     for (const JointAngle angle : all_joint_angles)
       if (angle != grid.column.angle && angle != grid.row.angle) grid.vary = angle;
   }
-  check_grid(grid, JointKind::ball);
+  motion::check_grid(grid, JointKind::ball);
   return grid;
 }
 
 /// Options that run_study() of Python has checked; no bands without samples.
-StudyOptions study_options_in(const py::dict& given) {
-  StudyOptions options;
+io::StudyOptions study_options_in(const py::dict& given) {
+  io::StudyOptions options;
   for (const Anatomy anatomy : all_anatomies)
     if (given["anatomy"].cast<std::string>() == name_of(anatomy)) options.anatomy = anatomy;
   options.motions = given["motions"].cast<std::vector<std::string>>();
-  if (given["count_bearing"].cast<bool>()) options.bearing.rule = BearingRule::count;
+  if (given["count_bearing"].cast<bool>()) options.bearing.rule = motion::BearingRule::count;
   options.bearing.margin_mm = given["bearing_margin_mm"].cast<std::optional<double>>();
-  if (given["accept_reference_contact"].cast<bool>()) options.reference_contact = ReferenceContact::accept;
+  if (given["accept_reference_contact"].cast<bool>())
+    options.reference_contact = motion::ReferenceContact::accept;
   if (given["exclude_reference_contacts"].cast<bool>()) options.leave_out_reference_contacts.emplace();
   if (const py::object map = given["map"]; !map.is_none())
     options.map = grid_in(map.cast<py::tuple>(), options.anatomy);
@@ -85,7 +87,7 @@ StudyOptions study_options_in(const py::dict& given) {
                      given["seed"].cast<std::optional<std::uint64_t>>(),
                      {sigma("sigma_centre_mm"), sigma("sigma_axes_deg"), sigma("sigma_surface_mm")}};
   if (const auto pose = given["depth_at"].cast<std::string>(); !pose.empty())
-    options.depth_at = study_pose(pose, options.anatomy);
+    options.depth_at = io::study_pose(pose, options.anatomy);
   options.measures = given["measures"].cast<bool>();
   if (const py::object given_cut = given["resection"]; !given_cut.is_none()) {
     const auto cut = given_cut.cast<py::dict>();
@@ -102,40 +104,40 @@ StudyOptions study_options_in(const py::dict& given) {
 }
 
 /// Names and codes.
-std::vector<std::pair<std::string, std::string>> noted(const StudyDone& done) {
+std::vector<std::pair<std::string, std::string>> noted(const io::StudyDone& done) {
   std::vector<std::pair<std::string, std::string>> joints;
-  for (const NotedJoint& joint : done.noted) joints.emplace_back(joint.id, joint.codes);
+  for (const io::NotedJoint& joint : done.noted) joints.emplace_back(joint.id, joint.codes);
   return joints;
 }
 
 std::vector<std::pair<std::string, std::string>> study(
     const std::string& table, const std::string& folder, const py::dict& options,
     std::optional<std::pair<std::size_t, std::size_t>> shard, bool is_strict, const py::object& progress) {
-  Study one{table, folder, study_options_in(options), {}, {}};
+  io::Study one{table, folder, study_options_in(options), {}, {}};
   if (shard) one.shard = {shard->first, shard->second};
-  if (is_strict) one.bad_joint = BadJoint::ends_run;
+  if (is_strict) one.bad_joint = io::BadJoint::ends_run;
   const auto done = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return run_study(one, {report, stop});
+    return io::run_study(one, {report, stop});
   });
-  if (!shard) require_answered(*done, one.table);
+  if (!shard) io::require_answered(*done, one.table);
   return noted(*done);
 }
 
 std::vector<std::pair<std::string, std::string>> merge(const std::string& folder) {
-  const StudyDone done = [&] {
+  const io::StudyDone done = [&] {
     const py::gil_scoped_release released;
-    return merge_study(folder);
+    return io::merge_study(folder);
   }();
-  require_answered(done, folder);
+  io::require_answered(done, folder);
   return noted(done);
 }
 
 void cohort(const std::string& folder, std::size_t n, std::uint64_t seed, int scenario, bool with_meshes,
             const py::object& progress) {
-  const SampleCohort drawn{n, seed, static_cast<Scenario>(scenario),
-                           with_meshes ? CohortMeshes::in_files : CohortMeshes::of_measures};
+  const io::SampleCohort drawn{n, seed, static_cast<sample::Scenario>(scenario),
+                               with_meshes ? io::CohortMeshes::in_files : io::CohortMeshes::of_measures};
   followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return write_sample_cohort(folder, drawn, {report, stop});
+    return io::write_sample_cohort(folder, drawn, {report, stop});
   });
 }
 

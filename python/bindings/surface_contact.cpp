@@ -11,13 +11,13 @@ namespace {
 /// A column of the faces: `data` points into the first of them.
 template <class T>
 py::array column(const T* data, std::size_t count, const py::object& owner) {
-  return view_of(data, {static_cast<py::ssize_t>(count)}, {static_cast<py::ssize_t>(sizeof(FaceContact))},
-                 owner);
+  return view_of(data, {static_cast<py::ssize_t>(count)},
+                 {static_cast<py::ssize_t>(sizeof(contact::FaceContact))}, owner);
 }
 
 /// Moments divided by what they are weighted with: places, (K, 3).
-py::array centres(const std::vector<FaceContact>& faces, Vec3 FaceContact::*moment,
-                  double FaceContact::*weight) {
+py::array centres(const std::vector<contact::FaceContact>& faces, Vec3 contact::FaceContact::*moment,
+                  double contact::FaceContact::*weight) {
   Points points(faces.size());
   for (std::size_t i = 0; i < faces.size(); ++i) points.set(i, faces[i].*moment / faces[i].*weight);
   return array_of(points);
@@ -25,7 +25,7 @@ py::array centres(const std::vector<FaceContact>& faces, Vec3 FaceContact::*mome
 
 }  // namespace
 
-py::dict dict_of(const ContactTotals& totals) {
+py::dict dict_of(const contact::ContactTotals& totals) {
   py::dict dict;
   dict["triangles"] = totals.triangles;
   dict["area_mm2"] = totals.area_mm2;
@@ -40,7 +40,7 @@ py::dict dict_of(const ContactTotals& totals) {
   return dict;
 }
 
-py::dict dict_of(SurfaceContact&& contact, const Mesh& casting, FaceRule rule) {
+py::dict dict_of(contact::SurfaceContact&& contact, const Mesh& casting, contact::FaceRule rule) {
   py::dict dict;
   dict["totals"] = dict_of(contact.totals);
   dict["met_from_front"] = contact.met_from_front;
@@ -49,11 +49,12 @@ py::dict dict_of(SurfaceContact&& contact, const Mesh& casting, FaceRule rule) {
   dict["peak_is_oblique"] = contact.peak_is_oblique;
   dict["max_strain"] = contact.max_strain;
   const py::object owner = py::cast(ContactFaces{std::move(contact.faces), casting, rule});
-  const std::vector<FaceContact>& faces = owner.cast<const ContactFaces&>().faces;
+  const std::vector<contact::FaceContact>& faces = owner.cast<const ContactFaces&>().faces;
   dict["_faces"] = owner;
-  dict["centre_of_depth"] = centres(faces, &FaceContact::overlap_moment, &FaceContact::overlap_mm3);
-  static const FaceContact none{};
-  const FaceContact& first = faces.empty() ? none : faces.front();
+  dict["centre_of_depth"] =
+      centres(faces, &contact::FaceContact::overlap_moment, &contact::FaceContact::overlap_mm3);
+  static const contact::FaceContact none{};
+  const contact::FaceContact& first = faces.empty() ? none : faces.front();
   dict["face"] = column(&first.face, faces.size(), owner);
   dict["area_mm2"] = column(&first.area_mm2, faces.size(), owner);
   dict["max_depth_mm"] = column(&first.max_depth_mm, faces.size(), owner);
@@ -63,16 +64,16 @@ py::dict dict_of(SurfaceContact&& contact, const Mesh& casting, FaceRule rule) {
   return dict;
 }
 
-py::list list_of(const std::vector<ContactNote>& notes) {
+py::list list_of(const std::vector<motion::ContactNote>& notes) {
   py::list list;
-  for (const ContactNote& note : notes)
+  for (const motion::ContactNote& note : notes)
     list.append(py::make_tuple(std::string(name_of(note.code)), note.text));
   return list;
 }
 
-py::dict dict_of(ElasticContactResults&& results, const ElasticContact& surfaces) {
-  const py::list notes = list_of(check_contact(results));
-  const auto of = [&](std::optional<SurfaceContact>& surface, const Mesh& casting) -> py::object {
+py::dict dict_of(contact::ElasticContactResults&& results, const contact::ElasticContact& surfaces) {
+  const py::list notes = list_of(motion::check_contact(results));
+  const auto of = [&](std::optional<contact::SurfaceContact>& surface, const Mesh& casting) -> py::object {
     if (!surface) return py::none();
     return dict_of(std::move(*surface), casting, surfaces.options().rays.rule);
   };
@@ -86,7 +87,7 @@ py::dict dict_of(ElasticContactResults&& results, const ElasticContact& surfaces
   return dict;
 }
 
-py::tuple tuple_of(const Wrench& wrench) {
+py::tuple tuple_of(const contact::Wrench& wrench) {
   return py::make_tuple(array_of(wrench.force_n), array_of(wrench.moment_nmm));
 }
 
@@ -94,14 +95,14 @@ namespace {
 
 /// The faces whose centre is in all half-spaces, each (normal, offset_mm), and what they add up to.
 py::dict within(const ContactFaces& of, const py::list& region) {
-  std::vector<HalfSpace> half_spaces;
+  std::vector<contact::HalfSpace> half_spaces;
   for (const py::handle& half : region) {
     const auto [normal, offset_mm] = half.cast<std::pair<py::object, double>>();
     half_spaces.push_back({vector_in(normal, "region"), offset_mm});
   }
-  SurfaceContact found;
-  found.faces = faces_within(of.faces, of.casting, half_spaces);
-  found.totals = totals_of(found.faces, of.casting, of.rule);
+  contact::SurfaceContact found;
+  found.faces = contact::faces_within(of.faces, of.casting, half_spaces);
+  found.totals = contact::totals_of(found.faces, of.casting, of.rule);
   return dict_of(std::move(found), of.casting, of.rule);
 }
 
@@ -111,12 +112,14 @@ void bind_surface_contact(py::module_& module) {
   py::class_<ContactFaces>(module, "ContactFaces").def("within", &within);
 }
 
-Casting casting_in(const std::string& word) {
-  return word == "fixed" ? Casting::fixed : word == "mobile" ? Casting::mobile : Casting::both;
+contact::Casting casting_in(const std::string& word) {
+  return word == "fixed"    ? contact::Casting::fixed
+         : word == "mobile" ? contact::Casting::mobile
+                            : contact::Casting::both;
 }
 
-NormalDepthOptions rays_in(const std::string& rule, double reach_mm) {
-  return {rule == "face_centre" ? FaceRule::face_centre : FaceRule::cut_faces, reach_mm};
+contact::NormalDepthOptions rays_in(const std::string& rule, double reach_mm) {
+  return {rule == "face_centre" ? contact::FaceRule::face_centre : contact::FaceRule::cut_faces, reach_mm};
 }
 
 }  // namespace condyle::python

@@ -15,22 +15,22 @@ namespace py = pybind11;
 
 /// Faces in contact of a surface, to select those within a region.
 struct ContactFaces {
-  std::vector<FaceContact> faces;
+  std::vector<contact::FaceContact> faces;
   Mesh casting;
-  FaceRule rule;
+  contact::FaceRule rule;
 };
 
 /// Faces in contact as columns that keep the list alive, "faces", and what they add up to.
-py::dict dict_of(SurfaceContact&& contact, const Mesh& casting, FaceRule rule);
-py::dict dict_of(const ContactTotals& totals);
+py::dict dict_of(contact::SurfaceContact&& contact, const Mesh& casting, contact::FaceRule rule);
+py::dict dict_of(const contact::ContactTotals& totals);
 /// Results of what each body casts.
-py::dict dict_of(ElasticContactResults&& results, const ElasticContact& surfaces);
-py::tuple tuple_of(const Wrench& wrench);
+py::dict dict_of(contact::ElasticContactResults&& results, const contact::ElasticContact& surfaces);
+py::tuple tuple_of(const contact::Wrench& wrench);
 /// (code, text) of each.
-py::list list_of(const std::vector<ContactNote>& notes);
+py::list list_of(const std::vector<motion::ContactNote>& notes);
 
 /// By words that were checked in Python.
-Casting casting_in(const std::string& word);
-NormalDepthOptions rays_in(const std::string& rule, double reach_mm);
+contact::Casting casting_in(const std::string& word);
+contact::NormalDepthOptions rays_in(const std::string& rule, double reach_mm);
 
 }  // namespace condyle::python

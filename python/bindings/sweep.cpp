@@ -25,25 +25,25 @@ namespace condyle::python {
 namespace {
 
 /// (name, first, last, step) of each, read as the command reads them: its words for what is wrong are these.
-std::vector<SweptParameter> parameters_in(const py::list& given) {
-  std::vector<SweptParameter> swept;
+std::vector<plan::SweptParameter> parameters_in(const py::list& given) {
+  std::vector<plan::SweptParameter> swept;
   for (const py::handle each : given) {
     const auto axis = each.cast<py::tuple>();
-    for (SweptParameter& parameter :
-         parse_sweep(fmt::format("{}={}:{}:{}", axis[0].cast<std::string>(), axis[1].cast<double>(),
-                                 axis[2].cast<double>(), axis[3].cast<double>())))
+    for (plan::SweptParameter& parameter :
+         plan::parse_sweep(fmt::format("{}={}:{}:{}", axis[0].cast<std::string>(), axis[1].cast<double>(),
+                                       axis[2].cast<double>(), axis[3].cast<double>())))
       swept.push_back(std::move(parameter));
   }
   return swept;
 }
 
 /// The path of a table, or (name, motion, reach_deg, pelvic_tilt_deg, source) of each.
-std::vector<SweepTarget> sweep_targets_in(const JointHandle& handle, const py::object& given) {
+std::vector<plan::SweepTarget> sweep_targets_in(const JointHandle& handle, const py::object& given) {
   const Joint& joint = handle.joint();
   if (py::isinstance<py::str>(given))
-    return io::read_targets(given.cast<std::string>(), known_motions(handle.loaded), joint.kind,
+    return io::read_targets(given.cast<std::string>(), io::known_motions(handle.loaded), joint.kind,
                             joint.anatomy);
-  std::vector<SweepTarget> targets;
+  std::vector<plan::SweepTarget> targets;
   for (const py::handle each : given) {
     const auto target = each.cast<py::tuple>();
     targets.push_back({target[0].cast<std::string>(), motion_in(target[1].cast<py::tuple>()),
@@ -53,15 +53,15 @@ std::vector<SweepTarget> sweep_targets_in(const JointHandle& handle, const py::o
   return targets;
 }
 
-py::dict dict_of_limits(std::span<const DesignLimit> limits) {
+py::dict dict_of_limits(std::span<const plan::DesignLimit> limits) {
   std::vector<double> turned;
   std::vector<std::int8_t> reason, known_by;
   std::vector<std::int32_t> pair;
-  for (const DesignLimit& limit : limits) {
+  for (const plan::DesignLimit& limit : limits) {
     turned.push_back(limit.turned_deg);
     reason.push_back(static_cast<std::int8_t>(limit.reason));
     known_by.push_back(static_cast<std::int8_t>(limit.by));
-    pair.push_back(limit.pair == DesignLimit::no_pair ? -1 : limit.pair);
+    pair.push_back(limit.pair == plan::DesignLimit::no_pair ? -1 : limit.pair);
   }
   py::dict dict;
   dict["limits_deg"] = array_of(std::move(turned));
@@ -71,9 +71,9 @@ py::dict dict_of_limits(std::span<const DesignLimit> limits) {
   return dict;
 }
 
-py::list list_of(const std::vector<SafeInterval>& safe) {
+py::list list_of(const std::vector<plan::SafeInterval>& safe) {
   py::list list;
-  for (const SafeInterval& each : safe)
+  for (const plan::SafeInterval& each : safe)
     list.append(py::make_tuple(each.line, each.low, each.high, each.low_target, each.high_target));
   return list;
 }
@@ -81,19 +81,19 @@ py::list list_of(const std::vector<SafeInterval>& safe) {
 py::dict sweep(const JointHandle& handle, const py::list& vary, const py::object& targets,
                const py::dict& given, const py::object& progress) {
   SweepQuery query{.parameters = parameters_in(vary), .targets = sweep_targets_in(handle, targets)};
-  if (given["count_bearing"].cast<bool>()) query.range.bearing.rule = BearingRule::count;
+  if (given["count_bearing"].cast<bool>()) query.range.bearing.rule = motion::BearingRule::count;
   query.range.bearing.margin_mm = given["bearing_margin_mm"].cast<std::optional<double>>();
   if (given["accept_reference_contact"].cast<bool>())
-    query.range.overlap.reference_contact = ReferenceContact::accept;
+    query.range.overlap.reference_contact = motion::ReferenceContact::accept;
   if (const auto samples = given["samples"].cast<std::size_t>(); samples > 0) {
     query.bands.emplace();
     query.bands->samples = samples;
     query.bands->seed = given["seed"].cast<std::uint64_t>();
   }
   if (const auto keys = given["measures"].cast<std::vector<std::string>>(); !keys.empty())
-    query.quantities.push_back(measured_quantities(keys, measure_request_of(handle.loaded)));
+    query.quantities.push_back(measured_quantities(keys, io::measure_request_of(handle.loaded)));
   if (const auto pose = given["load"].cast<std::optional<std::string>>()) {
-    StudyLoad load{study_pose(*pose, handle.joint().anatomy), {}, {}};
+    io::StudyLoad load{io::study_pose(*pose, handle.joint().anatomy), {}, {}};
     if (const auto force = given["force_n"].cast<std::optional<std::array<double, 3>>>())
       load.force_n = Vec3((*force)[0], (*force)[1], (*force)[2]);
     query.quantities.push_back(io::load_quantities(handle.loaded, load));
@@ -104,15 +104,15 @@ py::dict sweep(const JointHandle& handle, const py::list& vary, const py::object
         {[&](std::string_view, std::size_t done, std::size_t total) { report(done, total); }, stop});
   });
   py::list axes, described, pairs, notes;
-  for (const SweptParameter& each : answer.parameters) {
+  for (const plan::SweptParameter& each : answer.parameters) {
     std::vector<double> values(each.count());
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = each.value(i);
     axes.append(py::make_tuple(each.name, array_of(std::move(values))));
   }
-  for (const SweepTarget& each : answer.targets)
+  for (const plan::SweepTarget& each : answer.targets)
     described.append(py::make_tuple(each.name, tuple_of(each.motion), io::given_degrees(each.reach),
                                     io::given_degrees(each.pelvic_tilt), each.source));
-  for (const EndingPair& each : answer.pairs) pairs.append(py::make_tuple(each.fixed, each.mobile));
+  for (const plan::EndingPair& each : answer.pairs) pairs.append(py::make_tuple(each.fixed, each.mobile));
   for (const SweepNote& note : answer.notes)
     notes.append(py::make_tuple(std::string(name_of(note.code)), note.text));
   py::dict dict = dict_of_limits(answer.limits);
@@ -139,7 +139,7 @@ py::dict sweep(const JointHandle& handle, const py::list& vary, const py::object
 
 std::vector<std::string> write(const SweepHandle& handle, const std::string& folder) {
   const py::gil_scoped_release released;
-  const SweepResult result = sweep_result_of(handle.loaded, handle.answer, handle.query, {}, nullptr);
+  const io::SweepResult result = io::sweep_result_of(handle.loaded, handle.answer, handle.query, {}, nullptr);
   std::vector<std::string> written;
   for (const auto& path : io::write_sweep(folder, result, "", nullptr)) written.push_back(path.string());
   return written;

@@ -7,7 +7,7 @@ namespace condyle::python {
 
 /// A sweep as Python holds it, for its files and for a report.
 struct SweepHandle {
-  LoadedJoint loaded;
+  io::LoadedJoint loaded;
   SweepQuery query;
   SweepAnswer answer;
 };

@@ -19,16 +19,16 @@ namespace {
 /// A table that any thread may ask and any thread update: an update waits for the questions before it.
 class SharedRadialTable {
  public:
-  explicit SharedRadialTable(const Mesh& mesh, RadialOptions options) : table_(mesh, options) {}
+  explicit SharedRadialTable(const Mesh& mesh, radial::RadialOptions options) : table_(mesh, options) {}
 
   py::dict query(const py::object& given) const {
     const PointsIn points(given, "points");
-    return dict_of(read([&](const RadialTable& table) { return table.query(points.view()); }));
+    return dict_of(read([&](const radial::RadialTable& table) { return table.query(points.view()); }));
   }
 
   py::array radial_gaps(const py::object& given) const {
     const PointsIn points(given, "points");
-    return array_of(read([&](const RadialTable& table) { return table.radial_gaps(points.view()); }));
+    return array_of(read([&](const radial::RadialTable& table) { return table.radial_gaps(points.view()); }));
   }
 
   void update(const py::object& given) {
@@ -57,11 +57,12 @@ class SharedRadialTable {
   }
 
   Mesh mesh() const {
-    return read([](const RadialTable& table) { return Mesh(table.mesh()); });
+    return read([](const radial::RadialTable& table) { return Mesh(table.mesh()); });
   }
 
   py::dict size() const {
-    const RadialTableSize size = read([](const RadialTable& table) { return table.table_size(); });
+    const radial::RadialTableSize size =
+        read([](const radial::RadialTable& table) { return table.table_size(); });
     py::dict dict;
     dict["cells"] = size.cells;
     dict["entries"] = size.entries;
@@ -71,57 +72,58 @@ class SharedRadialTable {
   }
 
   std::optional<int> winding_at_centre() const {
-    return read([](const RadialTable& table) { return table.winding_at_centre(); });
+    return read([](const radial::RadialTable& table) { return table.winding_at_centre(); });
   }
 
  private:
   /// The interpreter's lock is given away before the table's is waited for: other threads go on during an update.
   template <class Read>
-  std::invoke_result_t<Read, const RadialTable&> read(const Read& from) const {
+  std::invoke_result_t<Read, const radial::RadialTable&> read(const Read& from) const {
     const py::gil_scoped_release released;
     const std::shared_lock lock(mutex_);
     return from(table_);
   }
 
   mutable std::shared_mutex mutex_;
-  RadialTable table_;
+  radial::RadialTable table_;
 };
 
 std::unique_ptr<SharedRadialTable> radial_table(const Mesh& mesh, bool is_cube, std::optional<int> cells) {
-  const RadialOptions options{is_cube ? DirectionMapKind::cube : DirectionMapKind::cartesian, cells};
+  const radial::RadialOptions options{
+      is_cube ? radial::DirectionMapKind::cube : radial::DirectionMapKind::cartesian, cells};
   const py::gil_scoped_release released;
   return std::make_unique<SharedRadialTable>(mesh, options);
 }
 
-RingTable ring_table(const Mesh& mesh, const py::object& point, const py::object& direction,
-                     double cells_per_triangle) {
+tangential::RingTable ring_table(const Mesh& mesh, const py::object& point, const py::object& direction,
+                                 double cells_per_triangle) {
   const Vec3 on_axis = vector_in(point, "point");
   const AxisFrame frame(on_axis, vector_in(direction, "direction"));
   const py::gil_scoped_release released;
-  return RingTable(mesh, frame, RingTableOptions{cells_per_triangle});
+  return tangential::RingTable(mesh, frame, tangential::RingTableOptions{cells_per_triangle});
 }
 
-py::dict query_rings(const RingTable& table, const py::object& given, bool is_nearest_arc) {
+py::dict query_rings(const tangential::RingTable& table, const py::object& given, bool is_nearest_arc) {
   const PointsIn points(given, "points");
-  TangentialResults results = [&] {
+  tangential::TangentialResults results = [&] {
     const py::gil_scoped_release released;
-    return table.query(points.view(),
-                       is_nearest_arc ? TangentialRule::nearest_arc : TangentialRule::alternating);
+    return table.query(points.view(), is_nearest_arc ? tangential::TangentialRule::nearest_arc
+                                                     : tangential::TangentialRule::alternating);
   }();
   return dict_of(std::move(results));
 }
 
 /// Arcs of all points, point i owning [offset[i], offset[i + 1]).
-py::dict occupied_arcs(const RingTable& table, const py::object& given) {
+py::dict occupied_arcs(const tangential::RingTable& table, const py::object& given) {
   const PointsIn points(given, "points");
   std::vector<std::int64_t> offset{0};
   std::vector<double> begin_deg, end_deg;
   std::vector<Index> enters, leaves;
   {
     const py::gil_scoped_release released;
-    const OccupiedArcs arcs = table.occupied_arcs(points.view());
+    const tangential::OccupiedArcs arcs = table.occupied_arcs(points.view());
     for (std::size_t i = 0; i < arcs.size(); ++i) {
-      for (const OccupiedArc& arc : arcs.of(i)) {
+      for (const tangential::OccupiedArc& arc : arcs.of(i)) {
         begin_deg.push_back(arc.begin.degrees());
         end_deg.push_back(arc.end.degrees());
         enters.push_back(arc.enters);
@@ -151,7 +153,7 @@ void bind_tables(py::module_& module) {
       .def_property_readonly("mesh", &SharedRadialTable::mesh)
       .def_property_readonly("size", &SharedRadialTable::size)
       .def_property_readonly("winding_at_centre", &SharedRadialTable::winding_at_centre);
-  py::class_<RingTable>(module, "RingTable")
+  py::class_<tangential::RingTable>(module, "RingTable")
       .def(py::init(&ring_table))
       .def("query", &query_rings)
       .def("occupied_arcs", &occupied_arcs);

@@ -4,7 +4,7 @@
 
 namespace condyle::python {
 
-py::dict dict_of(RadialResults&& results) {
+py::dict dict_of(radial::RadialResults&& results) {
   py::dict dict;
   dict["state"] = bytes_of(results.state);
   dict["winding"] = array_of(std::move(results.winding));
@@ -14,7 +14,7 @@ py::dict dict_of(RadialResults&& results) {
   return dict;
 }
 
-py::dict dict_of(TangentialResults&& results) {
+py::dict dict_of(tangential::TangentialResults&& results) {
   py::dict dict;
   dict["state"] = bytes_of(results.state);
   dict["winding"] = array_of(std::move(results.winding));

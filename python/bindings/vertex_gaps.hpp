@@ -10,7 +10,7 @@ namespace condyle::python {
 namespace py = pybind11;
 
 /// Contents of condyle.VertexGaps.
-py::dict dict_of(RadialResults&& results);
-py::dict dict_of(TangentialResults&& results);
+py::dict dict_of(radial::RadialResults&& results);
+py::dict dict_of(tangential::TangentialResults&& results);
 
 }  // namespace condyle::python

@@ -9,7 +9,7 @@
 namespace condyle::python {
 namespace {
 
-py::dict zone_dict(BodyZone&& zone) {
+py::dict zone_dict(motion::BodyZone&& zone) {
   py::dict dict;
   dict["radial_depth_mm"] = array_of(std::move(zone.radial_depth_mm));
   dict["ray_to_normal_deg"] = array_of(std::move(zone.ray_to_normal_deg));
@@ -27,19 +27,19 @@ py::object degrees(const std::optional<Angle>& angle) {
 
 py::list zones_of(const RangeHandle& handle, const py::list& given, double past_deg,
                   const py::object& progress) {
-  const std::vector<Motion> motions = motions_in(given);
+  const std::vector<motion::Motion> motions = motions_in(given);
   auto zones = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    const ZoneFinder finder(handle.joint,
-                            ZoneOptions{.bearing = handle.options.bearing, .past = Angle::degrees(past_deg)});
-    std::vector<std::optional<ImpingementZone>> found;
-    each_limit(handle.range, motions, stop, [&](MotionLimit&& limit) {
+    const motion::ZoneFinder finder(handle.joint, motion::ZoneOptions{.bearing = handle.options.bearing,
+                                                                      .past = Angle::degrees(past_deg)});
+    std::vector<std::optional<motion::ImpingementZone>> found;
+    each_limit(handle.range, motions, stop, [&](motion::MotionLimit&& limit) {
       found.push_back(finder.zone(limit));
       report(found.size(), motions.size());
     });
     return found;
   });
   py::list list;
-  for (std::optional<ImpingementZone>& zone : zones) {
+  for (std::optional<motion::ImpingementZone>& zone : zones) {
     if (!zone) {
       list.append(py::none());
       continue;

@@ -12,11 +12,11 @@ namespace {
 constexpr Angle rounding_of_meshes = Angle::degrees(1e-3);
 
 /// Whether a contact is of the two meshes that the closed form is of.
-bool is_of_pair(const Joint& joint, const ContactWitness& contact) {
-  const auto is_on = [](const Body& body, const Feature& feature, const std::string& mesh) {
+bool is_of_pair(const Joint& joint, const motion::ContactWitness& contact) {
+  const auto is_on = [](const Body& body, const motion::Feature& feature, const std::string& mesh) {
     if (mesh.empty()) return true;
-    const BodyPart* part = feature.kind == FeatureKind::face ? part_of_triangle(body, feature.id)
-                                                             : part_of_vertex(body, feature.id);
+    const BodyPart* part = feature.kind == motion::FeatureKind::face ? part_of_triangle(body, feature.id)
+                                                                     : part_of_vertex(body, feature.id);
     return part && part->name == mesh;
   };
   return is_on(joint.fixed, contact.fixed_feature, joint.implant->fixed_mesh) &&
@@ -24,7 +24,7 @@ bool is_of_pair(const Joint& joint, const ContactWitness& contact) {
 }
 
 /// Whether meshes that lie between the two bodies of revolution can end the motion here: other contact may come before, none after.
-bool agrees(const Joint& joint, const MotionLimit& limit, const ClosedLimit& closed) {
+bool agrees(const Joint& joint, const motion::MotionLimit& limit, const plan::ClosedLimit& closed) {
   const Angle turned = limit.end.turned;
   if (turned > closed.of_facets_high + rounding_of_meshes) return false;
   const bool is_by_pair = limit.end.contact && is_of_pair(joint, *limit.end.contact);
@@ -34,11 +34,11 @@ bool agrees(const Joint& joint, const MotionLimit& limit, const ClosedLimit& clo
 }  // namespace
 
 void add_closed_limits(RangeAnswer& answer) {
-  const ClosedForm form = closed_form(answer.joint);
+  const plan::ClosedForm form = plan::closed_form(answer.joint);
   if (!form.pair) return;
   std::string differing;
-  for (const MotionLimit& limit : answer.limits) {
-    const ClosedLimit closed = closed_limit(*form.pair, answer.joint.coordinates(), limit.motion);
+  for (const motion::MotionLimit& limit : answer.limits) {
+    const plan::ClosedLimit closed = plan::closed_limit(*form.pair, answer.joint.coordinates(), limit.motion);
     answer.closed.push_back(closed);
     if (agrees(answer.joint, limit, closed)) continue;
     differing +=

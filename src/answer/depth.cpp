@@ -17,40 +17,42 @@ bool translates(const DepthRequest& request) {
 }
 
 /// As all depths along rays and arcs need them.
-void add_measures(DepthAnswer& answer, const JointContact& bodies, const MeasuredContact& contact) {
+void add_measures(DepthAnswer& answer, const contact::JointContact& bodies,
+                  const contact::MeasuredContact& contact) {
   const DepthRequest& request = answer.request;
   if (request.measures == MeasuresOf::distances_only)
-    answer.measures.distances = nearest_distances(bodies, request.X_FM, contact, request.distances);
+    answer.measures.distances = contact::nearest_distances(bodies, request.X_FM, contact, request.distances);
   else
-    answer.measures = measure_contact(bodies, request.X_FM, contact, request.distances);
+    answer.measures = contact::measure_contact(bodies, request.X_FM, contact, request.distances);
 }
 
-void add_ray_depths(DepthAnswer& answer, const JointContact& bodies, const Joint& joint) {
+void add_ray_depths(DepthAnswer& answer, const contact::JointContact& bodies, const Joint& joint) {
   const DepthRequest& request = answer.request;
   RayDepths depths{bodies.radial(request.X_FM), {}};
-  add_measures(answer, bodies, MeasuredContact(depths.contact));
+  add_measures(answer, bodies, contact::MeasuredContact(depths.contact));
   // About which axis a body that is translated would turn depends on how it got there.
   depths.reliable = request.method == DepthMethod::reliable && !translates(request)
-                        ? reliable_depths(bodies, joint.kind, joint.coordinates(), *request.pose,
-                                          depths.contact, answer.measures.distances)
-                        : reliable_radial_depths(depths.contact, answer.measures.distances);
+                        ? contact::reliable_depths(bodies, joint.kind, joint.coordinates(), *request.pose,
+                                                   depths.contact, answer.measures.distances)
+                        : contact::reliable_radial_depths(depths.contact, answer.measures.distances);
   answer.depths = std::move(depths);
 }
 
-void add_arc_depths(DepthAnswer& answer, const JointContact& bodies, const Joint& joint) {
+void add_arc_depths(DepthAnswer& answer, const contact::JointContact& bodies, const Joint& joint) {
   const DepthRequest& request = answer.request;
   const JointAngle about = request.about.value_or(JointAngle::flexion);
   ArcDepths depths{{about, axis_of(about, joint.coordinates(), *request.pose)}, {}};
   depths.contact = bodies.tangential(request.X_FM, depths.axis.direction_F);
-  add_measures(answer, bodies, MeasuredContact(depths.contact));
+  add_measures(answer, bodies, contact::MeasuredContact(depths.contact));
   answer.depths = std::move(depths);
 }
 
-void add_normal_depths(DepthAnswer& answer, const JointContact& bodies) {
+void add_normal_depths(DepthAnswer& answer, const contact::JointContact& bodies) {
   const DepthRequest& request = answer.request;
-  answer.depths = normal_contact(bodies, request.X_FM, request.casting.value_or(Casting::both),
-                                 request.rays.value_or(NormalDepthOptions{}));
-  add_measures(answer, bodies, MeasuredContact());
+  answer.depths =
+      contact::normal_contact(bodies, request.X_FM, request.casting.value_or(contact::Casting::both),
+                              request.rays.value_or(contact::NormalDepthOptions{}));
+  add_measures(answer, bodies, contact::MeasuredContact());
 }
 
 std::vector<std::string> caveats_of(const DepthRequest& request) {
@@ -66,27 +68,33 @@ std::vector<std::string> caveats_of(const DepthRequest& request) {
       request.method == DepthMethod::reliable ? "; no depths along arcs are computed" : "")};
 }
 
-const std::vector<TrianglePair>& pairs_of(const DepthAnswer& answer) {
+const std::vector<contact::TrianglePair>& pairs_of(const DepthAnswer& answer) {
   struct {
-    const std::vector<TrianglePair>& operator()(const RayDepths& of) const { return of.contact.pairs; }
-    const std::vector<TrianglePair>& operator()(const ArcDepths& of) const { return of.contact.pairs; }
-    const std::vector<TrianglePair>& operator()(const NormalContact& of) const { return of.pairs; }
+    const std::vector<contact::TrianglePair>& operator()(const RayDepths& of) const {
+      return of.contact.pairs;
+    }
+    const std::vector<contact::TrianglePair>& operator()(const ArcDepths& of) const {
+      return of.contact.pairs;
+    }
+    const std::vector<contact::TrianglePair>& operator()(const contact::NormalContact& of) const {
+      return of.pairs;
+    }
   } read;
   return std::visit(read, answer.depths);
 }
 
 /// Where a body meets a face in which a part of the other was cut.
 void add_cut_caveats(DepthAnswer& answer, const Joint& joint) {
-  const auto add = [&](const Body& cut, const Body& other, Index TrianglePair::*triangle) {
+  const auto add = [&](const Body& cut, const Body& other, Index contact::TrianglePair::*triangle) {
     if (!is_cut(cut)) return;
     const auto& pairs = pairs_of(answer);
     if (std::any_of(pairs.begin(), pairs.end(),
-                    [&](const TrianglePair& pair) { return is_cut_face(cut, pair.*triangle); }))
+                    [&](const contact::TrianglePair& pair) { return is_cut_face(cut, pair.*triangle); }))
       answer.caveats.push_back(other.name + " meets a face in which a part of " + cut.name +
                                " is cut: depths end there, and contact areas count it");
   };
-  add(joint.fixed, joint.mobile, &TrianglePair::fixed);
-  add(joint.mobile, joint.fixed, &TrianglePair::mobile);
+  add(joint.fixed, joint.mobile, &contact::TrianglePair::fixed);
+  add(joint.mobile, joint.fixed, &contact::TrianglePair::mobile);
 }
 
 }  // namespace
@@ -95,7 +103,7 @@ bool DepthAnswer::in_contact() const noexcept {
   struct {
     bool operator()(const RayDepths& of) const noexcept { return of.contact.in_contact; }
     bool operator()(const ArcDepths& of) const noexcept { return of.contact.in_contact; }
-    bool operator()(const NormalContact& of) const noexcept { return of.in_contact; }
+    bool operator()(const contact::NormalContact& of) const noexcept { return of.in_contact; }
   } read;
   return std::visit(read, depths);
 }
@@ -117,7 +125,8 @@ void check_depth_request(const Joint& joint, const DepthRequest& request) {
     throw UsageError("pose: its angles are not those of X_FM");
 }
 
-DepthAnswer answer_depth(const JointContact& bodies, const Joint& joint, const DepthRequest& request) {
+DepthAnswer answer_depth(const contact::JointContact& bodies, const Joint& joint,
+                         const DepthRequest& request) {
   check_depth_request(joint, request);
   DepthAnswer answer{.request = request, .measures = {}, .depths = {}, .caveats = caveats_of(request)};
   if (!request.pose) answer.request.pose = angles_at(joint.coordinates(), request.X_FM);
@@ -138,7 +147,7 @@ DepthAnswer answer_depth(const JointContact& bodies, const Joint& joint, const D
 }
 
 DepthAnswer answer_depth(const Joint& joint, const DepthRequest& request) {
-  return answer_depth(JointContact(joint), joint, request);
+  return answer_depth(contact::JointContact(joint), joint, request);
 }
 
 }  // namespace condyle

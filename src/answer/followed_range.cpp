@@ -15,7 +15,7 @@ namespace condyle {
 namespace {
 
 using core::formatted;
-using Knots = std::vector<TranslationKnot>;
+using Knots = std::vector<motion::TranslationKnot>;
 
 /// Where a recorded motion leads along a motion, from before its start; or why it does not.
 struct RecordedTranslation {
@@ -31,13 +31,13 @@ constexpr Angle still = Angle::degrees(1e-3);
 Knots without_still_ends(const Knots& knots) {
   const Angle low = knots.front().turned, high = knots.back().turned;
   const auto first = std::find_if(knots.rbegin(), knots.rend(),
-                                  [&](const TranslationKnot& knot) { return knot.turned <= low; })
+                                  [&](const motion::TranslationKnot& knot) { return knot.turned <= low; })
                          .base() -
                      1;
   const auto last = std::find_if(knots.begin(), knots.end(),
-                                 [&](const TranslationKnot& knot) { return knot.turned >= high; });
+                                 [&](const motion::TranslationKnot& knot) { return knot.turned >= high; });
   const auto stands_at = [](Angle angle) {
-    return [angle](const TranslationKnot& knot) {
+    return [angle](const motion::TranslationKnot& knot) {
       return std::abs((knot.turned - angle).degrees()) <= still.degrees();
     };
   };
@@ -46,7 +46,7 @@ Knots without_still_ends(const Knots& knots) {
   return holds ? Knots(first, last + 1) : knots;
 }
 
-RecordedTranslation recorded_translation(const Motion& motion, const FollowRecord& record) {
+RecordedTranslation recorded_translation(const motion::Motion& motion, const FollowRecord& record) {
   RecordedTranslation out;
   for (const JointCoordinates& frame : record.frames) {
     const Angle turned =
@@ -78,7 +78,7 @@ RecordedTranslation recorded_translation(const Motion& motion, const FollowRecor
 Knots from_start(const Knots& all) {
   const auto after =
       std::find_if(all.begin(), all.end(), [](const auto& knot) { return knot.turned > Angle(); });
-  const TranslationKnot &high = *after, &low = *(after - 1);
+  const motion::TranslationKnot &high = *after, &low = *(after - 1);
   const double share = -low.turned.radians() / (high.turned - low.turned).radians();
   Knots knots{{Angle(), low.translation_mm + share * (high.translation_mm - low.translation_mm)}};
   knots.insert(knots.end(), after, all.end());
@@ -88,26 +88,28 @@ Knots from_start(const Knots& all) {
 /// Balances one step after another; keeps why it ended.
 class BalancedTranslation {
  public:
-  BalancedTranslation(const Joint& joint, const Motion& motion, const FollowLoad& follow,
+  BalancedTranslation(const Joint& joint, const motion::Motion& motion, const FollowLoad& follow,
                       const Vec3& start_mm)
       : joint_(joint), motion_(motion), follow_(follow), last_mm_(start_mm) {}
 
-  std::optional<TranslationKnot> next(std::span<const TranslationKnot> before) {
+  std::optional<motion::TranslationKnot> next(std::span<const motion::TranslationKnot> before) {
     const Angle turned =
         before.empty() ? Angle() : std::min(before.back().turned + follow_.step, motion_.range);
     if (!before.empty() && !(before.back().turned < turned)) return std::nullopt;
-    const JointAngles angles = turned_by(motion_.start, motion_.vary, turned * sign_of(motion_.sense));
+    const JointAngles angles =
+        motion::turned_by(motion_.start, motion_.vary, turned * sign_of(motion_.sense));
     const CoordinateSystem system = joint_.coordinates();
     const Pose start = pose_at(system, JointCoordinates{angles, last_mm_}, joint_.translation_frame);
-    const BalancedPose balanced = balance(*follow_.layers, start, follow_.load, follow_.balance);
+    const contact::BalancedPose balanced =
+        contact::balance(*follow_.layers, start, follow_.load, follow_.balance);
     if (!balanced.carries_load()) {
       ended_by_ = formatted("no contact carries the load %.4g degrees past its start: ", turned.degrees()) +
-                  reason_of(balanced);
+                  contact::reason_of(balanced);
       return std::nullopt;
     }
     last_mm_ = coordinates_at(system, balanced.X_FM, joint_.translation_frame).translation_mm;
     note_bend(before, last_mm_);
-    return TranslationKnot{turned, last_mm_};
+    return motion::TranslationKnot{turned, last_mm_};
   }
 
   const std::string& ended_by() const noexcept { return ended_by_; }
@@ -115,14 +117,14 @@ class BalancedTranslation {
   double bend_mm() const noexcept { return bend_mm_; }
 
  private:
-  void note_bend(std::span<const TranslationKnot> before, const Vec3& now) {
+  void note_bend(std::span<const motion::TranslationKnot> before, const Vec3& now) {
     if (before.size() < 2) return;
     const Vec3 &a = before[before.size() - 2].translation_mm, &b = before.back().translation_mm;
     bend_mm_ = std::max(bend_mm_, (a - 2 * b + now).norm() / 8);
   }
 
   const Joint& joint_;
-  const Motion& motion_;
+  const motion::Motion& motion_;
   const FollowLoad& follow_;
   Vec3 last_mm_;
   double bend_mm_ = 0;
@@ -130,7 +132,7 @@ class BalancedTranslation {
 };
 
 /// The largest difference of another angle from where motions hold it.
-double most_apart_deg(const Motion& motion, const FollowRecord& record) {
+double most_apart_deg(const motion::Motion& motion, const FollowRecord& record) {
   double most = 0;
   for (const JointCoordinates& frame : record.frames)
     for (const JointAngle angle : all_joint_angles)
@@ -151,21 +153,21 @@ class Followed {
         range_(joint, request.range.bearing) {}
 
   /// Empty if stopped.
-  std::optional<MotionLimit> limit(const Motion& motion) {
+  std::optional<motion::MotionLimit> limit(const motion::Motion& motion) {
     auto limit = std::visit([&](const auto& follow) { return along(motion, follow); }, *request_.follow);
     ++done_;
     report(Angle(), motion);
     return limit;
   }
 
-  const FollowedRange& range() const noexcept { return range_; }
+  const motion::FollowedRange& range() const noexcept { return range_; }
   const std::vector<RangeNote>& notes() const noexcept { return notes_; }
   double bend_mm() const noexcept { return bend_mm_; }
 
  private:
-  std::optional<MotionLimit> along(const Motion& motion, const FollowRecord& record) {
+  std::optional<motion::MotionLimit> along(const motion::Motion& motion, const FollowRecord& record) {
     const Knots knots = from_start(recorded_translation(motion, record).knots);
-    const auto next = [&](std::span<const TranslationKnot> before) {
+    const auto next = [&](std::span<const motion::TranslationKnot> before) {
       if (!before.empty()) report(before.back().turned, motion);
       return before.size() < knots.size() ? std::optional(knots[before.size()]) : std::nullopt;
     };
@@ -177,9 +179,9 @@ class Followed {
     return std::move(found->limit);
   }
 
-  std::optional<MotionLimit> along(const Motion& motion, const FollowLoad& load) {
+  std::optional<motion::MotionLimit> along(const motion::Motion& motion, const FollowLoad& load) {
     BalancedTranslation balanced(joint_, motion, load, reference_mm_);
-    const auto next = [&](std::span<const TranslationKnot> before) {
+    const auto next = [&](std::span<const motion::TranslationKnot> before) {
       if (!before.empty()) report(before.back().turned, motion);
       return balanced.next(before);
     };
@@ -191,7 +193,7 @@ class Followed {
   }
 
   /// In thousandths of motions.
-  void report(Angle turned, const Motion& motion) const {
+  void report(Angle turned, const motion::Motion& motion) const {
     constexpr std::size_t whole = 1000;
     if (!control_.progress) return;
     const double share = std::min(turned.radians() / motion.range.radians(), 1.0);
@@ -199,10 +201,10 @@ class Followed {
                       whole * request_.motions.size());
   }
 
-  static bool ended_early(const MotionLimit& limit, const Motion& motion) noexcept {
-    return limit.end.reason == LimitReason::end_of_range && limit.end.turned < motion.range;
+  static bool ended_early(const motion::MotionLimit& limit, const motion::Motion& motion) noexcept {
+    return limit.end.reason == motion::LimitReason::end_of_range && limit.end.turned < motion.range;
   }
-  void note_end(MotionLimit& limit, const std::string& why) {
+  void note_end(motion::MotionLimit& limit, const std::string& why) {
     limit.translation_ends = true;
     notes_.push_back({RangeNoteCode::translation_ends, limit.motion.name + ": " + why});
   }
@@ -212,7 +214,7 @@ class Followed {
   const RangeRequest& request_;
   Control control_;
   std::size_t done_ = 0;
-  FollowedRange range_;
+  motion::FollowedRange range_;
   std::vector<RangeNote> notes_;
   double bend_mm_ = 0;
 };
@@ -226,7 +228,7 @@ std::vector<std::string> caveats_of(const RangeRequest& request, double bend_mm)
                   load->step.degrees(), bend_mm) +
         bounded};
   double apart = 0;
-  for (const Motion& motion : request.motions)
+  for (const motion::Motion& motion : request.motions)
     apart = std::max(apart, most_apart_deg(motion, std::get<FollowRecord>(*request.follow)));
   return {formatted(
               "the translation is that of the recorded motion, straight between two of its frames, the other "
@@ -237,25 +239,26 @@ std::vector<std::string> caveats_of(const RangeRequest& request, double bend_mm)
 
 }  // namespace
 
-std::vector<Motion> motions_recorded(std::span<const Motion> motions, const FollowRecord& record) {
-  std::vector<Motion> recorded;
-  for (const Motion& motion : motions)
+std::vector<motion::Motion> motions_recorded(std::span<const motion::Motion> motions,
+                                             const FollowRecord& record) {
+  std::vector<motion::Motion> recorded;
+  for (const motion::Motion& motion : motions)
     if (recorded_translation(motion, record).why_none.empty()) recorded.push_back(motion);
   return recorded;
 }
 
-std::vector<ContactNote> range_request_notes(const RangeRequest& request) {
+std::vector<motion::ContactNote> range_request_notes(const RangeRequest& request) {
   if (!request.follow) return {};
   if (const auto* record = std::get_if<FollowRecord>(&*request.follow)) return record->notes;
   const auto& load = std::get<FollowLoad>(*request.follow);
-  std::vector<ContactNote> notes = check_layers(*load.layers, load.names);
-  add_new(notes, check_load(load.load));
+  std::vector<motion::ContactNote> notes = motion::check_layers(*load.layers, load.names);
+  motion::add_new(notes, motion::check_load(load.load));
   return notes;
 }
 
 void answer::check_follow(const RangeRequest& request) {
   if (const auto* record = std::get_if<FollowRecord>(&*request.follow)) {
-    for (const Motion& motion : request.motions)
+    for (const motion::Motion& motion : request.motions)
       if (const std::string why = recorded_translation(motion, *record).why_none; !why.empty())
         throw UsageError(motion.name + ": " + why);
     return;
@@ -275,13 +278,13 @@ std::optional<RangeAnswer> answer::followed_range(const Joint& joint, const Join
   Followed followed(joint, placement, request, staged(control, "thousandths of motions"));
   answer.bearing = followed.range().bearing();
   answer.bearing_rule = followed.range().bearing_rule();
-  for (const Motion& motion : request.motions) {
+  for (const motion::Motion& motion : request.motions) {
     auto limit = followed.limit(motion);
     if (!limit) return std::nullopt;
     answer.limits.push_back(std::move(*limit));
   }
   // Limits about other centres say nothing where the centre moves.
-  BearingFinding without_socket = answer.bearing;
+  motion::BearingFinding without_socket = answer.bearing;
   if (without_socket.surface) without_socket.surface->socket.reset();
   answer.notes = range_notes(joint, answer.limits, request.range, without_socket);
   answer.notes.insert(answer.notes.end(), followed.notes().begin(), followed.notes().end());

@@ -33,7 +33,7 @@ void require_native_hip(const Joint& joint) {
   if (joint.implant) refuse("the joint has an implant already");
 }
 
-Sphere head_of(const HipMeasures& bones) {
+Sphere head_of(const measure::HipMeasures& bones) {
   if (!bones.femur.head) throw MeshError("implant: " + bones.femur.head_radius.why_none);
   return *bones.femur.head;
 }
@@ -54,9 +54,9 @@ Vec3 centre_of(ImplantCentre centre, const Sphere& head, const std::optional<Sph
 /// A shaft that is nearly level says that zero angles are not those of standing: nothing would be placed rightly.
 constexpr double least_upright = 0.5;  // cosine to the vertical
 
-std::optional<plan::ShaftLine> shaft_of(const HipMeasures& bones) {
+std::optional<plan::ShaftLine> shaft_of(const measure::HipMeasures& bones) {
   if (!bones.femur.shaft) return std::nullopt;
-  const ShaftGeometry& shaft = *bones.femur.shaft;
+  const measure::ShaftGeometry& shaft = *bones.femur.shaft;
   const Vec3 down = (shaft.last - shaft.first).normalized();
   if (!(-down.y() > least_upright))
     refuse("the shaft of the femur is more than 60 degrees from the vertical at zero angles");
@@ -65,11 +65,12 @@ std::optional<plan::ShaftLine> shaft_of(const HipMeasures& bones) {
 
 /// From the head's centre along the bone's neck. With a shaft to that point of its axis which the neck's axis passes nearest, so that a stem
 /// in the shaft restores the head's centre: the two axes are skew by up to a centimetre.
-Vec3 native_stem(const HipMeasures& bones, const std::optional<plan::ShaftLine>& shaft, const char* size) {
+Vec3 native_stem(const measure::HipMeasures& bones, const std::optional<plan::ShaftLine>& shaft,
+                 const char* size) {
   if (!bones.femur.neck)
     refuse("the femur shows no neck to take " + std::string(size) +
            " from: " + bones.femur.alpha_12.why_none + "; give one");
-  const NeckGeometry& neck = *bones.femur.neck;
+  const measure::NeckGeometry& neck = *bones.femur.neck;
   if (!shaft) return neck.direction;
   const double along = plan::nearest_along(shaft->point, shaft->down, {neck.head.centre, neck.direction});
   return shaft->point + along * shaft->down - neck.head.centre;
@@ -77,12 +78,13 @@ Vec3 native_stem(const HipMeasures& bones, const std::optional<plan::ShaftLine>&
 
 void take_stem(ImplantAnswer& answer, const std::optional<plan::ShaftLine>& shaft, Side side) {
   const auto native = [&](const char* size) { return native_stem(answer.bones, shaft, size); };
-  TotalHip& hip = answer.hip;
+  plan::TotalHip& hip = answer.hip;
   if (answer.of_bones.neck_shaft)
-    hip.neck_shaft = Angle::degrees(hundredths(stem_angles(native("neck_shaft"), side).neck_shaft.degrees()));
+    hip.neck_shaft =
+        Angle::degrees(hundredths(plan::stem_angles(native("neck_shaft"), side).neck_shaft.degrees()));
   if (answer.of_bones.stem_version)
     hip.stem_version =
-        Angle::degrees(hundredths(stem_angles(native("stem_version"), side).version.degrees()));
+        Angle::degrees(hundredths(plan::stem_angles(native("stem_version"), side).version.degrees()));
   answer.of_bones.offset = answer.of_bones.offset && shaft.has_value();
   if (!answer.of_bones.offset) return;
   const Vec3 to_shaft = native("offset");
@@ -90,15 +92,15 @@ void take_stem(ImplantAnswer& answer, const std::optional<plan::ShaftLine>& shaf
 }
 
 void take_cup(ImplantAnswer& answer, Side side) {
-  TotalHip& hip = answer.hip;
+  plan::TotalHip& hip = answer.hip;
   constexpr double step = 0.5;
   if (answer.of_bones.cup_radius) hip.cup_radius_mm = std::ceil(answer.room_mm / step - 1) * step;
   if (!answer.of_bones.cup) return;
-  const AcetabulumMeasures& socket = answer.bones.acetabulum;
+  const measure::AcetabulumMeasures& socket = answer.bones.acetabulum;
   if (!socket.plane)
     refuse("the hip bone shows no rim to take the cup's angles from: " + socket.inclination.why_none +
            "; give inclination and anteversion");
-  const CupAngles rim = cup_angles(socket.plane->normal, hip.cup.definition, side);
+  const plan::CupAngles rim = plan::cup_angles(socket.plane->normal, hip.cup.definition, side);
   hip.cup.inclination = Angle::degrees(hundredths(rim.inclination.degrees()));
   hip.cup.anteversion = Angle::degrees(hundredths(rim.anteversion.degrees()));
 }
@@ -121,10 +123,10 @@ constexpr Hours all_round{0, 12}, in_front{1, 5};
 
 /// The edge of the cup's outside against the rim, at the hours in the rim's plane: the notch is no rim.
 std::optional<CupOverhang> overhang(const ImplantAnswer& answer, Side side, const Hours& at) {
-  const Vec3 pole = -cup_axis(answer.hip.cup, side);
+  const Vec3 pole = -plan::cup_axis(answer.hip.cup, side);
   const double edge = (answer.hip.liner_half_angle - answer.hip.chamfer).radians();
   std::optional<CupOverhang> most;
-  for (const RimHour& rim : answer.bones.acetabulum.rim) {
+  for (const measure::RimHour& rim : answer.bones.acetabulum.rim) {
     if (!rim.point || !rim.is_in_plane || rim.hour < at.from || rim.hour > at.to) continue;
     const double mm = (edge - angle_between(*rim.point - answer.centre_mm, pole)) * answer.hip.cup_radius_mm;
     if (mm > 0 && (!most || mm > most->mm)) most = CupOverhang{mm, rim.hour};
@@ -133,7 +135,7 @@ std::optional<CupOverhang> overhang(const ImplantAnswer& answer, Side side, cons
 }
 
 /// "neck and liner": the meshes of a pair of triangles that meet.
-std::string meeting(const Joint& joint, const TrianglePair& pair) {
+std::string meeting(const Joint& joint, const contact::TrianglePair& pair) {
   const BodyPart *mobile = part_of_triangle(joint.mobile, pair.mobile),
                  *fixed = part_of_triangle(joint.fixed, pair.fixed);
   return core::one_line(mobile ? mobile->name : joint.mobile.name) + " and " +
@@ -141,12 +143,12 @@ std::string meeting(const Joint& joint, const TrianglePair& pair) {
 }
 
 void require_apart(const Joint& joint) {
-  const JointContact bodies(joint);
+  const contact::JointContact bodies(joint);
   const Pose zero = Pose::Identity();
   if (!bodies.in_contact(zero)) return;
   const auto pairs = bodies.pairs(zero);
   const std::string which = pairs.empty() ? "the bodies" : meeting(joint, pairs.front());
-  throw ReferenceContactError("implant: placed so, " + which + " are in contact at zero angles");
+  throw motion::ReferenceContactError("implant: placed so, " + which + " are in contact at zero angles");
 }
 
 void note(ImplantAnswer& answer, ImplantNoteCode code, std::string text) {
@@ -214,7 +216,7 @@ void note_left_out(ImplantAnswer& answer, const std::vector<std::string>& meshes
 void take_sizes(ImplantAnswer& answer, const std::optional<plan::ShaftLine>& shaft, Side side) {
   take_stem(answer, shaft, side);
   take_cup(answer, side);
-  check_implant(answer.hip);
+  plan::check_implant(answer.hip);
 }
 
 void take_placed(ImplantAnswer& answer, plan::PlacedHip&& placed) {
@@ -275,7 +277,7 @@ ImplantAnswer answer_implant(const Joint& joint, const JointPlacement& placement
                        .of_bones = query.of_bones,
                        .centre_of = query.centre,
                        .centre_mm = Vec3::Zero(),
-                       .bones = measure_hip(at, query.measures),
+                       .bones = measure::measure_hip(at, query.measures),
                        .cut = {},
                        .femur_shift_mm = Vec3::Zero(),
                        .joint = at};

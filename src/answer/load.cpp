@@ -9,13 +9,13 @@ void check_load_request(const LoadRequest& request) {
     throw UsageError("moment: needs free rotations: nothing else balances it");
 }
 
-LoadAnswer answer_load(const ElasticContact& surfaces, const LoadRequest& request) {
+LoadAnswer answer_load(const contact::ElasticContact& surfaces, const LoadRequest& request) {
   check_load_request(request);
-  LoadAnswer answer{.X_FM = request.X_FM, .notes = check_layers(surfaces, request.names)};
+  LoadAnswer answer{.X_FM = request.X_FM, .notes = motion::check_layers(surfaces, request.names)};
   answer.caveats.emplace_back(answer::foundation_caveat);
   if (request.load) {
-    add_new(answer.notes, check_load(*request.load));
-    answer.balanced = balance(surfaces, request.X_FM, *request.load, request.balance);
+    motion::add_new(answer.notes, motion::check_load(*request.load));
+    answer.balanced = contact::balance(surfaces, request.X_FM, *request.load, request.balance);
     answer.X_FM = answer.balanced->X_FM;
     answer.contact = answer.balanced->contact;
     if (!answer.carries_load()) return answer;
@@ -24,7 +24,7 @@ LoadAnswer answer_load(const ElasticContact& surfaces, const LoadRequest& reques
   }
   answer.cut_off_by_reach = surfaces.cut_off_by_reach(answer.X_FM);
   answer.refined_force_n = surfaces.refined_force_n(answer.X_FM);
-  add_new(answer.notes, check_contact(answer.contact, request.names));
+  motion::add_new(answer.notes, motion::check_contact(answer.contact, request.names));
   return answer;
 }
 

@@ -5,11 +5,11 @@ namespace condyle {
 
 std::optional<MeasureAnswer> answer_measures(const Joint& joint, const MeasureQuery& query,
                                              const AnswerControl& control) {
-  MeasureAnswer answer{.measures = measure_hip(joint, query.measures)};
+  MeasureAnswer answer{.measures = measure::measure_hip(joint, query.measures)};
   if (!query.bands) return answer;
   answer.band_options = *query.bands;
-  auto bands =
-      measure_bands(joint, query.measures, *query.bands, answer::staged(control, "joints of the band"));
+  auto bands = measure::measure_bands(joint, query.measures, *query.bands,
+                                      answer::staged(control, "joints of the band"));
   if (!bands) return std::nullopt;
   answer.bands = std::move(*bands);
   return answer;

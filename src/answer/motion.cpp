@@ -24,15 +24,15 @@ bool holds_centre(const Frames& X_FM) {
 
 /// The load of each frame that has a pose to search for, and one for all if they share it. As in the swing of a gait, a frame
 /// whose own load is zero has none: it is left out, and only it.
-std::vector<Load> loads_of(const MotionRequest& request, Frames& X_FM,
-                           std::vector<std::size_t>& without_load) {
+std::vector<contact::Load> loads_of(const MotionRequest& request, Frames& X_FM,
+                                    std::vector<std::size_t>& without_load) {
   if (request.load) return {*request.load};
-  std::vector<Load> loads(X_FM.size());
+  std::vector<contact::Load> loads(X_FM.size());
   for (std::size_t i = 0; i < X_FM.size(); ++i) {
     if (!request.loads[i]) X_FM[i].reset();
     if (!X_FM[i]) continue;
     loads[i] = *request.loads[i];
-    if (!is_zero_along(loads[i], *X_FM[i], request.balance)) continue;
+    if (!contact::is_zero_along(loads[i], *X_FM[i], request.balance)) continue;
     without_load.push_back(i);
     X_FM[i].reset();
   }
@@ -40,11 +40,11 @@ std::vector<Load> loads_of(const MotionRequest& request, Frames& X_FM,
 }
 
 /// Moves each frame to where the contact carries its load; frames that carry none become gaps. False if stopped.
-bool balance_frames(const ElasticContact& elastic, const MotionRequest& request, Frames& X_FM,
+bool balance_frames(const contact::ElasticContact& elastic, const MotionRequest& request, Frames& X_FM,
                     MotionAnswer& answer, const AnswerControl& control) {
-  const std::vector<Load> loads = loads_of(request, X_FM, answer.without_load);
-  auto balanced =
-      balance_along(elastic, X_FM, loads, request.balance, answer::staged(control, "balanced frames"));
+  const std::vector<contact::Load> loads = loads_of(request, X_FM, answer.without_load);
+  auto balanced = motion::balance_along(elastic, X_FM, loads, request.balance,
+                                        answer::staged(control, "balanced frames"));
   if (!balanced) return false;
   answer.balanced = std::move(*balanced);
   for (std::size_t i = 0; i < X_FM.size(); ++i) {
@@ -58,18 +58,19 @@ bool balance_frames(const ElasticContact& elastic, const MotionRequest& request,
 }
 
 /// contact_between() of each run of frames without a gap, a recording of its own. Empty if it was stopped.
-std::optional<RecordedContact> contact_between_frames(const JointContact& bodies, const Frames& X_FM,
-                                                      std::span<const double> time_s,
-                                                      const Control& control) {
-  RecordedContact all;
+std::optional<motion::RecordedContact> contact_between_frames(const contact::JointContact& bodies,
+                                                              const Frames& X_FM,
+                                                              std::span<const double> time_s,
+                                                              const Control& control) {
+  motion::RecordedContact all;
   for (std::size_t first = 0; first < X_FM.size();) {
     std::size_t last = first;
     std::vector<Pose> run;
     while (last < X_FM.size() && X_FM[last]) run.push_back(*X_FM[last++]);
     if (run.size() > 1) {
-      auto found = contact_between(bodies, time_s.subspan(first, run.size()), run, {}, control);
+      auto found = motion::contact_between(bodies, time_s.subspan(first, run.size()), run, {}, control);
       if (!found) return std::nullopt;
-      for (ContactInterval& contact : found->contacts) {
+      for (motion::ContactInterval& contact : found->contacts) {
         contact.entry.sample += first, contact.exit.sample += first;
         all.contacts.push_back(std::move(contact));
       }
@@ -94,10 +95,10 @@ bool is_between_searched(const MotionRequest& request, const Frames& X_FM) {
 }
 
 /// The load with the largest force, which is the first to be unlikely.
-std::optional<Load> largest_load(const MotionRequest& request) {
+std::optional<contact::Load> largest_load(const MotionRequest& request) {
   if (request.load) return request.load;
-  std::optional<Load> largest;
-  for (const std::optional<Load>& load : request.loads)
+  std::optional<contact::Load> largest;
+  for (const std::optional<contact::Load>& load : request.loads)
     if (load && (!largest || load->on_mobile.force_n.norm() > largest->on_mobile.force_n.norm()))
       largest = load;
   return largest;
@@ -115,7 +116,7 @@ void check_motion_request(const MotionRequest& request) {
   require_count("loads", request.loads.size(), request.X_FM.size());
   if (request.load && !request.loads.empty())
     throw UsageError("loads: one for all frames, or one for each, not both");
-  for (const std::optional<Load>& load : request.loads)
+  for (const std::optional<contact::Load>& load : request.loads)
     check_load_request({.load = load, .balance = request.balance});
   check_load_request({.load = request.load, .balance = request.balance});
   if (request.between != BetweenFrames::always) return;
@@ -124,15 +125,17 @@ void check_motion_request(const MotionRequest& request) {
   if (request.has_load()) throw UsageError("between: is for poses as recorded, not for balanced ones");
 }
 
-std::vector<ContactNote> motion_request_notes(const ElasticContact* layers, const MotionRequest& request) {
-  std::vector<ContactNote> notes;
-  if (layers) notes = check_layers(*layers, request.names);
-  if (const auto load = largest_load(request)) add_new(notes, check_load(*load));
+std::vector<motion::ContactNote> motion_request_notes(const contact::ElasticContact* layers,
+                                                      const MotionRequest& request) {
+  std::vector<motion::ContactNote> notes;
+  if (layers) notes = motion::check_layers(*layers, request.names);
+  if (const auto load = largest_load(request)) motion::add_new(notes, motion::check_load(*load));
   return notes;
 }
 
-std::optional<MotionAnswer> answer_motion(const JointContact& bodies, const ElasticContact* layers,
-                                          const MotionRequest& request, const AnswerControl& control) {
+std::optional<MotionAnswer> answer_motion(const contact::JointContact& bodies,
+                                          const contact::ElasticContact* layers, const MotionRequest& request,
+                                          const AnswerControl& control) {
   check_motion_request(request);
   MotionAnswer answer{.notes = motion_request_notes(layers, request)};
   if (layers) answer.caveats.emplace_back(answer::foundation_caveat);
@@ -147,17 +150,18 @@ std::optional<MotionAnswer> answer_motion(const JointContact& bodies, const Elas
         contact_between_frames(bodies, X_FM, request.time_s, answer::staged(control, "ways between samples"));
     if (!answer.between) return std::nullopt;
   }
-  std::optional<NormalDepth> depths;
+  std::optional<contact::NormalDepth> depths;
   if (!layers) {
     const bool fixed_casts = request.casting == BodyRole::fixed;
     depths.emplace(fixed_casts ? bodies.fixed() : bodies.mobile(),
                    fixed_casts ? bodies.mobile() : bodies.fixed(), request.rays);
   }
-  auto frames = contact_along(bodies, layers ? SurfaceQuestion(layers) : SurfaceQuestion(&*depths), X_FM,
-                              request.casting, answer::staged(control, "frames"));
+  auto frames = motion::contact_along(
+      bodies, layers ? motion::SurfaceQuestion(layers) : motion::SurfaceQuestion(&*depths), X_FM,
+      request.casting, answer::staged(control, "frames"));
   if (!frames) return std::nullopt;
   answer.frames = std::move(*frames);
-  add_new(answer.notes, check_motion(answer.frames, request.names));
+  motion::add_new(answer.notes, motion::check_motion(answer.frames, request.names));
   if (layers)
     if (const auto largest = frame_of_largest_force(answer))
       if (const auto refined = layers->refined_force_n(answer.frames[*largest]->X_FM))
@@ -165,7 +169,7 @@ std::optional<MotionAnswer> answer_motion(const JointContact& bodies, const Elas
   return answer;
 }
 
-MotionAnswer answer_motion(const JointContact& bodies, const ElasticContact* layers,
+MotionAnswer answer_motion(const contact::JointContact& bodies, const contact::ElasticContact* layers,
                            const MotionRequest& request) {
   return *answer_motion(bodies, layers, request, {});
 }

@@ -15,21 +15,23 @@ namespace {
 constexpr std::size_t motions_at_once = 16;
 
 /// The limits of all motions; fewer if stopped.
-std::vector<MotionLimit> limits_of(const RangeOfMotion& range, std::span<const Motion> motions,
-                                   const std::stop_token& stop) {
-  std::vector<MotionLimit> limits;
+std::vector<motion::MotionLimit> limits_of(const motion::RangeOfMotion& range,
+                                           std::span<const motion::Motion> motions,
+                                           const std::stop_token& stop) {
+  std::vector<motion::MotionLimit> limits;
   while (limits.size() < motions.size() && !stop.stop_requested()) {
     const auto next =
         motions.subspan(limits.size(), std::min(motions_at_once, motions.size() - limits.size()));
-    for (MotionLimit& limit : range.limits(next)) limits.push_back(std::move(limit));
+    for (motion::MotionLimit& limit : range.limits(next)) limits.push_back(std::move(limit));
   }
   return limits;
 }
 
-ClockFace clock_of(const Joint& joint, ClockPlane plane, const BearingFinding& bearing) {
-  if (plane == ClockPlane::sagittal) return sagittal_clock();
+motion::ClockFace clock_of(const Joint& joint, motion::ClockPlane plane,
+                           const motion::BearingFinding& bearing) {
+  if (plane == motion::ClockPlane::sagittal) return motion::sagittal_clock();
   const auto clock = bearing.surface && joint.is_hip()
-                         ? find_rim_clock(joint.fixed.mesh, bearing.surface->head)
+                         ? motion::find_rim_clock(joint.fixed.mesh, bearing.surface->head)
                          : std::nullopt;
   if (!clock)
     throw MeshError(joint.fixed.name + ": no rim with a notch was found: there is only the sagittal clock");
@@ -37,22 +39,22 @@ ClockFace clock_of(const Joint& joint, ClockPlane plane, const BearingFinding& b
 }
 
 void add_depth_limits(RangeAnswer& answer, const RangeRequest& request) {
-  const DepthRange range(answer.joint, *request.allowed_depth);
+  const motion::DepthRange range(answer.joint, *request.allowed_depth);
   answer.depths = range.limits(request.motions);
   answer.bearing = range.bearing();
   answer.clock = clock_of(answer.joint, request.clock, answer.bearing);
-  for (const DepthLimit& depth : answer.depths) answer.limits.push_back(depth.limit);
+  for (const motion::DepthLimit& depth : answer.depths) answer.limits.push_back(depth.limit);
   answer.caveats.push_back(
       core::formatted("allowed: a radial depth of %g mm; limits are searched for, not exact",
                       request.allowed_depth->depth_mm));
-  if (answer.bearing.roles.has(ContactRole::soft))
+  if (answer.bearing.roles.has(motion::ContactRole::soft))
     answer.caveats.emplace_back("allowed: depths include all meshes, soft ones too");
 }
 
 /// False if stopped.
-bool add_exact_limits(RangeAnswer& answer, const RangeRequest& request, const RangeOptions& options,
+bool add_exact_limits(RangeAnswer& answer, const RangeRequest& request, const motion::RangeOptions& options,
                       const AnswerControl& control) {
-  const RangeOfMotion range(answer.joint, options);
+  const motion::RangeOfMotion range(answer.joint, options);
   answer.bearing = range.bearing();
   answer.bearing_rule = range.bearing_rule();
   answer.clock = clock_of(answer.joint, request.clock, answer.bearing);
@@ -60,25 +62,25 @@ bool add_exact_limits(RangeAnswer& answer, const RangeRequest& request, const Ra
   answer.limits = limits_of(range, request.motions, control.stop);
   if (answer.limits.size() < request.motions.size()) return false;
 
-  RangeOptions again = options;
+  motion::RangeOptions again = options;
   again.bearing.surface = answer.bearing.surface;
   answer.notes = range_notes(answer.joint, answer.limits, again, answer.bearing);
   answer::add_closed_limits(answer);
   if (request.zones_past) {
-    const ZoneFinder finder(
+    const motion::ZoneFinder finder(
         answer.joint, {.bearing = again.bearing, .past = *request.zones_past, .socket_clock = answer.clock});
-    for (const MotionLimit& limit : answer.limits) answer.zones.push_back(finder.zone(limit));
+    for (const motion::MotionLimit& limit : answer.limits) answer.zones.push_back(finder.zone(limit));
   }
   if (request.map) {
-    answer.map = motion_map(*request.map, range, answer::staged(control, "map points"));
+    answer.map = motion::motion_map(*request.map, range, answer::staged(control, "map points"));
     if (!answer.map) return false;
   }
   if (request.bands) {
-    auto bands = limit_bands(answer.joint, request.motions, again, *request.bands,
-                             answer::staged(control, "joints of the band"));
+    auto bands = motion::limit_bands(answer.joint, request.motions, again, *request.bands,
+                                     answer::staged(control, "joints of the band"));
     if (!bands) return false;
     answer.bands = std::move(*bands);
-    const Uncertainty& sigma = request.bands->sigma;
+    const motion::Uncertainty& sigma = request.bands->sigma;
     if (sigma.is_by_voxels(answer.joint.fixed) || sigma.is_by_voxels(answer.joint.mobile))
       answer.caveats.push_back(core::formatted(
           "the band takes %g voxels along the normal as the standard deviation of surfaces from label "
@@ -106,8 +108,8 @@ std::optional<Vec3> held_translation(const Joint& joint, const JointPlacement& p
 
 void check_range_request(const Joint& joint, const JointPlacement& placement, const RangeRequest& request) {
   if (!request.follow) held_translation(joint, placement, request.translation_mm);
-  for (const Motion& motion : request.motions) check_motion(motion, joint.kind);
-  if (request.map) check_grid(*request.map, joint.kind);
+  for (const motion::Motion& motion : request.motions) motion::check_motion(motion, joint.kind);
+  if (request.map) motion::check_grid(*request.map, joint.kind);
   if (request.allowed_depth && (request.map || request.bands || request.zones_past))
     throw UsageError("an allowed depth gives limits only: no map, bands or zones");
   if (!request.follow) return;
@@ -123,16 +125,17 @@ void check_range_request(const Joint& joint, const JointPlacement& placement, co
   answer::check_follow(request);
 }
 
-std::vector<std::string> range_caveats(const RangeOptions& options, const RangeOfMotion& range) {
+std::vector<std::string> range_caveats(const motion::RangeOptions& options,
+                                       const motion::RangeOfMotion& range) {
   std::vector<std::string> caveats;
-  const OverlapOptions& overlap = options.overlap;
+  const motion::OverlapOptions& overlap = options.overlap;
   if (overlap.leave_out_reference_contacts)
     caveats.push_back(
         core::formatted("left out: triangles in contact in the reference pose and %d rings of neighbours, "
                         "%zu of the fixed body and %zu of the mobile one",
                         overlap.leave_out_reference_contacts->rings, range.left_out().fixed_triangles,
                         range.left_out().mobile_triangles));
-  if (overlap.reference_contact == ReferenceContact::accept)
+  if (overlap.reference_contact == motion::ReferenceContact::accept)
     caveats.emplace_back(
         "contact in the reference pose is accepted: motions that start in contact are reported as such");
   return caveats;
@@ -146,7 +149,7 @@ std::optional<RangeAnswer> answer_range(const Joint& joint, const JointPlacement
   RangeAnswer answer{.joint = held_at(joint, held.value_or(Vec3::Zero())), .held_translation_mm = held};
   answer.clock_plane = request.clock;
   if (request.bands) answer.band_options = *request.bands;
-  RangeOptions options = request.range;
+  motion::RangeOptions options = request.range;
   options.overlap.reference_pose = placement.reference_pose.angles;
 
   if (request.allowed_depth)

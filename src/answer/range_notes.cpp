@@ -20,10 +20,10 @@ struct Change {
 };
 
 /// The changes between the head's and the socket's centre, the smallest first; empty if neither moves a limit.
-std::vector<Change> changes_between(const Joint& joint, std::span<const Motion> motions,
-                                    const RangeOptions& range, const Vec3& head, const Vec3& socket) {
+std::vector<Change> changes_between(const Joint& joint, std::span<const motion::Motion> motions,
+                                    const motion::RangeOptions& range, const Vec3& head, const Vec3& socket) {
   const std::array centres{head, socket};
-  const std::vector<DisplacedLimit> limits = limits_about(joint, motions, range, centres);
+  const std::vector<motion::DisplacedLimit> limits = motion::limits_about(joint, motions, range, centres);
   std::vector<Change> changes;
   for (std::size_t m = 0; m < motions.size(); ++m)
     changes.push_back({m, limits[m].turned.degrees(), limits[motions.size() + m].turned.degrees()});
@@ -33,8 +33,9 @@ std::vector<Change> changes_between(const Joint& joint, std::span<const Motion> 
 }
 
 /// Limits about the head's centre and about the socket's, if these are apart.
-void note_centres(const Joint& joint, std::span<const Motion> motions, const RangeOptions& range,
-                  const BearingSurface& surface, std::vector<RangeNote>& notes) {
+void note_centres(const Joint& joint, std::span<const motion::Motion> motions,
+                  const motion::RangeOptions& range, const motion::BearingSurface& surface,
+                  std::vector<RangeNote>& notes) {
   if (!surface.socket || motions.empty()) return;
   const Vec3 head = pose_at(joint.coordinates(), range.overlap.reference_pose) * surface.head.centre;
   const Vec3& socket = surface.socket->centre;
@@ -52,17 +53,18 @@ void note_centres(const Joint& joint, std::span<const Motion> motions, const Ran
 
 /// The body on whose cut a motion ends; null if it ends elsewhere. The missing bone goes on beyond the cut, and would have met the other bone
 /// no later.
-const Body* cut_body_of(const Joint& joint, const MotionLimit& limit) {
-  const std::optional<ContactWitness>& contact = limit.end.contact;
+const Body* cut_body_of(const Joint& joint, const motion::MotionLimit& limit) {
+  const std::optional<motion::ContactWitness>& contact = limit.end.contact;
   if (!contact) return nullptr;
   if (is_on_cut(joint.fixed, contact->fixed_point)) return &joint.fixed;
   return is_on_cut(joint.mobile, contact->mobile_point) ? &joint.mobile : nullptr;
 }
 
-void note_cuts(const Joint& joint, std::span<const MotionLimit> limits, std::vector<RangeNote>& notes) {
+void note_cuts(const Joint& joint, std::span<const motion::MotionLimit> limits,
+               std::vector<RangeNote>& notes) {
   for (const Body* body : {&joint.fixed, &joint.mobile}) {
     std::string motions;
-    for (const MotionLimit& limit : limits)
+    for (const motion::MotionLimit& limit : limits)
       if (cut_body_of(joint, limit) == body) motions += (motions.empty() ? "" : ", ") + limit.motion.name;
     if (!motions.empty())
       notes.push_back(
@@ -72,26 +74,29 @@ void note_cuts(const Joint& joint, std::span<const MotionLimit> limits, std::vec
 }
 
 /// Whether a feature is of a face in which a part was cut, or at its edge.
-bool is_of_cut(const Body& body, const Feature& feature) {
-  if (feature.kind == FeatureKind::face) return is_cut_face(body, feature.id);
+bool is_of_cut(const Body& body, const motion::Feature& feature) {
+  if (feature.kind == motion::FeatureKind::face) return is_cut_face(body, feature.id);
   for (std::size_t t = 0; t < body.mesh.triangles().size(); ++t) {
     if (!is_cut_face(body, t)) continue;
     const Triangle& corners = body.mesh.triangles()[t];
     const auto has = [&](Index v) { return std::find(corners.begin(), corners.end(), v) != corners.end(); };
-    if (has(feature.id) && (feature.kind == FeatureKind::vertex || has(feature.other_end))) return true;
+    if (has(feature.id) && (feature.kind == motion::FeatureKind::vertex || has(feature.other_end)))
+      return true;
   }
   return false;
 }
 
 /// Motions that end on the face in which a part was cut from a bone: the planes are the joint file's.
-void note_part_cuts(const Joint& joint, std::span<const MotionLimit> limits, std::vector<RangeNote>& notes) {
+void note_part_cuts(const Joint& joint, std::span<const motion::MotionLimit> limits,
+                    std::vector<RangeNote>& notes) {
   for (const Body* body : {&joint.fixed, &joint.mobile}) {
     if (!is_cut(*body)) continue;
     std::string motions;
-    for (const MotionLimit& limit : limits) {
-      const std::optional<ContactWitness>& contact = limit.end.contact;
+    for (const motion::MotionLimit& limit : limits) {
+      const std::optional<motion::ContactWitness>& contact = limit.end.contact;
       if (!contact) continue;
-      const Feature& feature = body == &joint.fixed ? contact->fixed_feature : contact->mobile_feature;
+      const motion::Feature& feature =
+          body == &joint.fixed ? contact->fixed_feature : contact->mobile_feature;
       if (is_of_cut(*body, feature)) motions += (motions.empty() ? "" : ", ") + limit.motion.name;
     }
     if (!motions.empty())
@@ -122,10 +127,10 @@ std::string_view with_article(const Joint& joint) noexcept {
 
 /// Where nothing distinguishes bearing contact from impingement because there is no head and no mesh is called bearing, and
 /// surfaces ended a motion.
-void note_sliding(const Joint& joint, std::span<const MotionLimit> limits, const BearingFinding& bearing,
-                  std::vector<RangeNote>& notes) {
-  const bool any_contact = std::any_of(limits.begin(), limits.end(), [](const MotionLimit& limit) {
-    return limit.end.reason != LimitReason::end_of_range;
+void note_sliding(const Joint& joint, std::span<const motion::MotionLimit> limits,
+                  const motion::BearingFinding& bearing, std::vector<RangeNote>& notes) {
+  const bool any_contact = std::any_of(limits.begin(), limits.end(), [](const motion::MotionLimit& limit) {
+    return limit.end.reason != motion::LimitReason::end_of_range;
   });
   if (joint.has_head() || bearing.roles.distinguish_bearing() || !any_contact) return;
   notes.push_back(
@@ -136,8 +141,9 @@ void note_sliding(const Joint& joint, std::span<const MotionLimit> limits, const
            "its cartilage keeps those surfaces apart"});
 }
 
-void note_narrow_margin(const Joint& joint, const NarrowMargin& narrow, std::vector<RangeNote>& notes) {
-  const bool is_rim = narrow.by == MarginLimit::rim;
+void note_narrow_margin(const Joint& joint, const motion::NarrowMargin& narrow,
+                        std::vector<RangeNote>& notes) {
+  const bool is_rim = narrow.by == motion::MarginLimit::rim;
   std::string text = is_rim
                          ? formatted("head and rim are only %.2f mm apart: ", narrow.gap_mm)
                          : joint.fixed.name + formatted(" leaves the head only %.2f mm beside its socket: ",
@@ -171,16 +177,16 @@ std::string_view name_of(RangeNoteCode code) noexcept {
   return "";
 }
 
-std::vector<RangeNote> range_notes(const Joint& joint, std::span<const MotionLimit> limits,
-                                   const RangeOptions& range, const BearingFinding& bearing) {
+std::vector<RangeNote> range_notes(const Joint& joint, std::span<const motion::MotionLimit> limits,
+                                   const motion::RangeOptions& range, const motion::BearingFinding& bearing) {
   std::vector<RangeNote> notes;
   note_cuts(joint, limits, notes);
   note_part_cuts(joint, limits, notes);
-  std::vector<Motion> motions;
-  for (const MotionLimit& limit : limits) motions.push_back(limit.motion);
+  std::vector<motion::Motion> motions;
+  for (const motion::MotionLimit& limit : limits) motions.push_back(limit.motion);
   // A shallow socket is wider than its head and has another centre by nature, about which nothing turns.
   if (bearing.surface && joint.is_hip()) note_centres(joint, motions, range, *bearing.surface, notes);
-  if (range.bearing.rule == BearingRule::leave_out && bearing.narrow_margin)
+  if (range.bearing.rule == motion::BearingRule::leave_out && bearing.narrow_margin)
     note_narrow_margin(joint, *bearing.narrow_margin, notes);
   note_sliding(joint, limits, bearing, notes);
   return notes;

@@ -32,8 +32,8 @@ class Cuts {
       : joint_(joint), control_(control), total_(total) {}
 
   /// Empty if it was stopped.
-  std::optional<Resection> operator()(const ResectionRequest& request) {
-    auto cut = resect(joint_, request, {.stop = control_.stop});
+  std::optional<plan::Resection> operator()(const plan::ResectionRequest& request) {
+    auto cut = plan::resect(joint_, request, {.stop = control_.stop});
     done_ = std::min(done_ + 1, total_);
     if (cut && control_.progress) control_.progress("cuts", done_, total_);
     return cut;
@@ -49,24 +49,24 @@ std::string in_degrees(Angle angle) {
   return formatted("%.1f", angle.degrees());
 }
 
-std::string what_is_kept(KeptBy by, const std::string& body) {
+std::string what_is_kept(plan::KeptBy by, const std::string& body) {
   switch (by) {
-    case KeptBy::bearing:
+    case plan::KeptBy::bearing:
       return "the bearing surface of " + body;
-    case KeptBy::depth:
+    case plan::KeptBy::depth:
       return "bone of " + body + " that lies deeper than may be removed";
-    case KeptBy::zone:
+    case plan::KeptBy::zone:
       return "bone of " + body + " that lies farther from the bearing surface than may be removed";
-    case KeptBy::marked:
+    case plan::KeptBy::marked:
       break;
   }
   return "bone of " + body + " that is marked to stay";
 }
 
 /// The largest share of the neck's width, across it where a vertex lies, that goes there; 0 if the cut is not at the neck.
-double share_of_neck(const CutBone& cut, const HipMeasures& shape) {
+double share_of_neck(const plan::CutBone& cut, const measure::HipMeasures& shape) {
   if (!shape.femur.neck || shape.femur.neck->outline.empty()) return 0;
-  const NeckGeometry& neck = *shape.femur.neck;
+  const measure::NeckGeometry& neck = *shape.femur.neck;
   double share = 0;
   for (std::size_t v = 0; v < cut.depth_mm.size(); ++v) {
     if (cut.depth_mm[v] == 0) continue;
@@ -91,7 +91,7 @@ void note_targets(ResectionAnswer& answer) {
   if (nothing && std::none_of(targets.begin(), targets.end(), [](const auto& each) { return each.blocked; }))
     answer.notes.push_back(
         {ResectionNoteCode::nothing_to_do, "the joint reaches every target: no bone has to go"});
-  for (const ReachOutcome& outcome : targets) {
+  for (const plan::ReachOutcome& outcome : targets) {
     if (!outcome.blocked) continue;
     const Body& body = outcome.blocked->body == BodyRole::mobile ? answer.resection.joint.mobile
                                                                  : answer.resection.joint.fixed;
@@ -106,7 +106,7 @@ void note_targets(ResectionAnswer& answer) {
   }
 }
 
-void note_bones(ResectionAnswer& answer, const Joint& joint, const RangeOptions& range) {
+void note_bones(ResectionAnswer& answer, const Joint& joint, const motion::RangeOptions& range) {
   if (answer.resection.sweeps_bearing)
     answer.notes.push_back({ResectionNoteCode::bearing_is_swept,
                             answer.resection.joint.mobile.name +
@@ -132,7 +132,7 @@ void note_bones(ResectionAnswer& answer, const Joint& joint, const RangeOptions&
   }
   if (answer.resection.mobile || answer.resection.fixed)
     for (const RangeNote& note :
-         range_notes(joint, answer.before, range, find_bearing_surface(joint, range.bearing)))
+         range_notes(joint, answer.before, range, motion::find_bearing_surface(joint, range.bearing)))
       if (note.code == RangeNoteCode::sliding_surfaces)
         answer.notes.push_back(
             {ResectionNoteCode::sliding_surfaces, note.text + "; removed bone may belong to those surfaces"});
@@ -156,7 +156,7 @@ void note_bones(ResectionAnswer& answer, const Joint& joint, const RangeOptions&
 }
 
 /// The joint with the triangles of the cut bones where their surface was.
-Joint with_finer_triangles(const Resection& resection) {
+Joint with_finer_triangles(const plan::Resection& resection) {
   Joint joint = resection.joint;
   for (const auto& [cut, body] :
        {std::pair(&resection.mobile, &joint.mobile), std::pair(&resection.fixed, &joint.fixed)})
@@ -165,9 +165,9 @@ Joint with_finer_triangles(const Resection& resection) {
 }
 
 /// A limit's gain through smaller triangles does not count as a gain of the cut.
-void note_finer_triangles(ResectionAnswer& answer, const Joint& finer, const RangeOptions& range,
-                          std::span<const Motion> motions) {
-  const std::vector<MotionLimit> limits = RangeOfMotion(finer, range).limits(motions);
+void note_finer_triangles(ResectionAnswer& answer, const Joint& finer, const motion::RangeOptions& range,
+                          std::span<const motion::Motion> motions) {
+  const std::vector<motion::MotionLimit> limits = motion::RangeOfMotion(finer, range).limits(motions);
   for (std::size_t i = 0; i < limits.size(); ++i)
     if (const Angle was = answer.before[i].end.turned, is = limits[i].end.turned;
         is.degrees() > was.degrees() + no_change_deg)
@@ -183,12 +183,12 @@ void note_gains(ResectionAnswer& answer) {
   std::string same;
   for (std::size_t i = 0; i < answer.before.size(); ++i) {
     const auto& targets = answer.resection.targets;
-    if (std::any_of(targets.begin(), targets.end(), [&](const ReachOutcome& outcome) {
+    if (std::any_of(targets.begin(), targets.end(), [&](const plan::ReachOutcome& outcome) {
           return !outcome.blocked && outcome.target.motion.name == answer.before[i].motion.name;
         }))
       continue;
-    const Limit &a = answer.before[i].end, &b = answer.after[i].end;
-    if (a.reason == LimitReason::contact && b.turned.degrees() < a.turned.degrees() + no_change_deg)
+    const motion::Limit &a = answer.before[i].end, &b = answer.after[i].end;
+    if (a.reason == motion::LimitReason::contact && b.turned.degrees() < a.turned.degrees() + no_change_deg)
       same += (same.empty() ? "" : ", ") + answer.before[i].motion.name;
   }
   if (!same.empty())
@@ -197,16 +197,16 @@ void note_gains(ResectionAnswer& answer) {
 
 /// A plan with its margin, and what displaced joints reach with it.
 struct Banded {
-  Resection resection;
-  std::vector<LimitBand> bands = {};
+  plan::Resection resection;
+  std::vector<motion::LimitBand> bands = {};
   bool reaches = false;  ///< every target that nothing blocks, in 95 % of them
   std::vector<bool> blocked = {};
 };
 
 /// Empty if it was stopped, or if so much cannot be cut.
 std::optional<Banded> banded(const ResectionQuery& query, double margin_mm, const AnswerControl& control,
-                             Cuts& cuts, std::optional<Resection> cut = {}) {
-  ResectionRequest request = query.resection;
+                             Cuts& cuts, std::optional<plan::Resection> cut = {}) {
+  plan::ResectionRequest request = query.resection;
   request.margin_mm = margin_mm;
   try {
     if (!cut) cut = cuts(request);
@@ -214,10 +214,10 @@ std::optional<Banded> banded(const ResectionQuery& query, double margin_mm, cons
     if (margin_mm == query.resection.margin_mm) throw;
   }
   if (!cut) return std::nullopt;
-  std::vector<Motion> motions;
-  for (const ReachTarget& target : request.targets) motions.push_back(target.motion);
-  auto bands = limit_bands(cut->joint, motions, request.range, *query.bands,
-                           answer::staged(control, "joints of the band"));
+  std::vector<motion::Motion> motions;
+  for (const plan::ReachTarget& target : request.targets) motions.push_back(target.motion);
+  auto bands = motion::limit_bands(cut->joint, motions, request.range, *query.bands,
+                                   answer::staged(control, "joints of the band"));
   if (!bands) return std::nullopt;
   Banded plan{std::move(*cut), std::move(*bands), true};
   for (std::size_t i = 0; i < motions.size(); ++i) {
@@ -257,7 +257,7 @@ bool reach_bands(const ResectionQuery& query, const AnswerControl& control, Cuts
   answer.bands = std::move(plan->bands);
   answer.margin_mm = high;
   for (std::size_t i = 0; i < answer.bands.size(); ++i) {
-    const ReachTarget& target = query.resection.targets[i];
+    const plan::ReachTarget& target = query.resection.targets[i];
     if (answer.bands[i].p5 < target.reach)
       answer.notes.push_back({ResectionNoteCode::band_not_reached,
                               target.motion.name + ": in 5 % of displaced joints it ends at " +
@@ -270,12 +270,12 @@ bool reach_bands(const ResectionQuery& query, const AnswerControl& control, Cuts
 /// False if it was stopped.
 bool add_curve(const ResectionQuery& query, Cuts& cuts, ResectionAnswer& answer) {
   for (std::size_t i = 0; i < answer.resection.targets.size(); ++i) {
-    const ReachOutcome& outcome = answer.resection.targets[i];
+    const plan::ReachOutcome& outcome = answer.resection.targets[i];
     const Angle from = outcome.before.end.turned;
     if (!(outcome.planned > from)) continue;
     const auto points = static_cast<double>(query.curve_points);
     for (std::size_t k = 1; k <= query.curve_points; ++k) {
-      ResectionRequest one = query.resection;
+      plan::ResectionRequest one = query.resection;
       one.margin_mm = answer.margin_mm;
       const Angle reach = from + (outcome.planned - from) * (static_cast<double>(k) / points);
       one.targets = {{outcome.target.motion, reach}};
@@ -342,13 +342,14 @@ std::vector<NamedReach> parse_reach(std::string_view text) {
   return named;
 }
 
-std::vector<ReachTarget> reach_targets(std::span<const Motion> motions, std::span<const NamedReach> named) {
-  std::vector<ReachTarget> targets;
-  for (const auto& [motion, reach] : named) targets.push_back({motion_named(motions, motion), reach});
+std::vector<plan::ReachTarget> reach_targets(std::span<const motion::Motion> motions,
+                                             std::span<const NamedReach> named) {
+  std::vector<plan::ReachTarget> targets;
+  for (const auto& [motion, reach] : named) targets.push_back({motion::motion_named(motions, motion), reach});
   return targets;
 }
 
-std::vector<ReachTarget> reach_targets(std::span<const Motion> motions, std::string_view text) {
+std::vector<plan::ReachTarget> reach_targets(std::span<const motion::Motion> motions, std::string_view text) {
   return reach_targets(motions, parse_reach(text));
 }
 
@@ -356,7 +357,7 @@ std::optional<ResectionAnswer> answer_resection(const Joint& joint, const JointP
                                                 const ResectionQuery& query, const AnswerControl& control) {
   ResectionQuery asked = query;
   asked.resection.range.overlap.reference_pose = placement.reference_pose.angles;
-  if (asked.motions.empty()) asked.motions = built_in_motions(joint.kind, joint.anatomy);
+  if (asked.motions.empty()) asked.motions = motion::built_in_motions(joint.kind, joint.anatomy);
   const auto held = held_translation(joint, placement, {});
   const Joint at = held && *held != Vec3::Zero() ? held_at(joint, *held) : joint;
   Cuts cuts(at, control,
@@ -367,14 +368,14 @@ std::optional<ResectionAnswer> answer_resection(const Joint& joint, const JointP
   answer.margin_mm = asked.resection.margin_mm;
   if (asked.bands)
     if (!reach_bands(asked, control, cuts, answer)) return std::nullopt;
-  const RangeOfMotion range(at, asked.resection.range);
+  const motion::RangeOfMotion range(at, asked.resection.range);
   answer.before = range.limits(asked.motions);
-  answer.after = RangeOfMotion(answer.resection.joint, asked.resection.range).limits(asked.motions);
+  answer.after = motion::RangeOfMotion(answer.resection.joint, asked.resection.range).limits(asked.motions);
   // Compared on the same triangles: what a measure takes of a surface depends a little on them.
   const Joint finer = with_finer_triangles(answer.resection);
   if (at.is_hip() && at.kind != JointKind::hinge) {
-    answer.shape_before = measure_hip(finer, asked.measures);
-    answer.shape_after = measure_hip(answer.resection.joint, asked.measures);
+    answer.shape_before = measure::measure_hip(finer, asked.measures);
+    answer.shape_after = measure::measure_hip(answer.resection.joint, asked.measures);
   }
   if (asked.curve_points > 0 && !add_curve(asked, cuts, answer)) return std::nullopt;
   note_targets(answer);

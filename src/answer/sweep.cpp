@@ -24,9 +24,9 @@ using core::formatted;
 
 constexpr std::size_t most_parameters = 4;
 
-std::vector<std::string> names_of(std::span<const SweptParameter> parameters) {
+std::vector<std::string> names_of(std::span<const plan::SweptParameter> parameters) {
   std::vector<std::string> names;
-  for (const SweptParameter& each : parameters) names.push_back(each.name);
+  for (const plan::SweptParameter& each : parameters) names.push_back(each.name);
   return names;
 }
 
@@ -46,10 +46,10 @@ const PartParameter& parameter_named(const Joint& joint, const std::string& name
   throw UsageError("there is no parameter " + name);
 }
 
-void check_target(const SweepTarget& target, const Joint& joint) {
+void check_target(const plan::SweepTarget& target, const Joint& joint) {
   const std::string named = "target " + core::one_line(target.name) + ": ";
   try {
-    check_motion(target.motion, joint.kind);
+    motion::check_motion(target.motion, joint.kind);
   } catch (const UsageError& error) {
     throw UsageError(named + error.what());
   }
@@ -93,14 +93,14 @@ class Sweeping {
   }
 
   bool borders(const Control& control) {
-    std::vector<std::vector<SafeInterval>> of_line(lines_.count);
+    std::vector<std::vector<plan::SafeInterval>> of_line(lines_.count);
     if (!each(lines_.count, control, [&](std::size_t line) { of_line[line] = intervals(line); }))
       return false;
     for (const auto& safe : of_line) answer_.safe.insert(answer_.safe.end(), safe.begin(), safe.end());
     return true;
   }
 
-  bool probabilities(const Joint& joint, const BandOptions& options, const Control& control) {
+  bool probabilities(const Joint& joint, const motion::BandOptions& options, const Control& control) {
     std::vector<std::string> names = names_of(query_.parameters);
     const std::vector<std::string> uncertain = uncertain_names(joint);
     // Where each uncertain parameter stands among the values of a design.
@@ -160,7 +160,7 @@ class Sweeping {
     });
   }
 
-  std::span<DesignLimit> limits_of(std::size_t i) {
+  std::span<plan::DesignLimit> limits_of(std::size_t i) {
     return std::span(answer_.limits).subspan(i * query_.targets.size(), query_.targets.size());
   }
 
@@ -188,10 +188,10 @@ class Sweeping {
   /// Between a safe design and an unsafe one beside it: the border, by halving, then linearly between the last two if both have
   /// limits.
   End border(std::vector<double> values, double safe, double safe_margin, double unsafe,
-             std::span<const DesignLimit> beyond) {
-    std::vector<DesignLimit> limits(beyond.begin(), beyond.end()), tried(beyond.size());
+             std::span<const plan::DesignLimit> beyond) {
+    std::vector<plan::DesignLimit> limits(beyond.begin(), beyond.end()), tried(beyond.size());
     double unsafe_margin = answer::least_margin(query_.targets, limits);
-    const double near = border_share * query_.parameters.back().step;
+    const double near = plan::border_share * query_.parameters.back().step;
     while (std::abs(unsafe - safe) > near) {
       const double middle = safe + (unsafe - safe) / 2;
       values.back() = middle;
@@ -210,7 +210,7 @@ class Sweeping {
     return {safe + share * (unsafe - safe), answer::least_target(query_.targets, limits)};
   }
 
-  std::vector<SafeInterval> intervals(std::size_t line) {
+  std::vector<plan::SafeInterval> intervals(std::size_t line) {
     const std::size_t first = line * lines_.length;
     const auto values_at = [&](std::size_t k) { return answer_.values_of(answer_.first_design + first + k); };
     const auto margin = [&](std::size_t k) { return answer_.margin_deg[first + k]; };
@@ -218,10 +218,10 @@ class Sweeping {
       return border(values_at(safe), values_at(safe).back(), margin(safe), values_at(unsafe).back(),
                     limits_of(first + unsafe));
     };
-    std::vector<SafeInterval> found;
+    std::vector<plan::SafeInterval> found;
     for (std::size_t k = 0; k < lines_.length; ++k) {
       if (!(margin(k) >= 0)) continue;
-      SafeInterval interval{lines_.first + line, values_at(k).back(), 0};
+      plan::SafeInterval interval{lines_.first + line, values_at(k).back(), 0};
       if (k > 0) {
         const End end = end_between(k, k - 1);
         interval.low = end.value, interval.low_target = end.target;
@@ -251,7 +251,7 @@ std::string difference_from_closed_form(const plan::DesignLimits& limits, const 
   for (std::size_t corner = 0; corner < corners && difference.empty(); ++corner) {
     std::vector<double> values;
     for (std::size_t p = 0; p < sweep.parameters.size(); ++p) {
-      const SweptParameter& parameter = sweep.parameters[p];
+      const plan::SweptParameter& parameter = sweep.parameters[p];
       values.push_back(parameter.value(corner >> p & 1 ? parameter.count() - 1 : 0));
     }
     difference = limits.difference_from_form(values);
@@ -261,14 +261,15 @@ std::string difference_from_closed_form(const plan::DesignLimits& limits, const 
 
 }  // namespace
 
-SweepQuantities measured_quantities(std::span<const std::string> keys, const MeasureRequest& request) {
+SweepQuantities measured_quantities(std::span<const std::string> keys,
+                                    const measure::MeasureRequest& request) {
   SweepQuantities quantities;
-  std::vector<const MeasureDefinition*> definitions;
+  std::vector<const measure::MeasureDefinition*> definitions;
   for (const std::string& key : keys) {
-    const MeasureDefinition* definition = measure_definition(key);
+    const measure::MeasureDefinition* definition = measure::measure_definition(key);
     if (definition == nullptr) {
       std::string known;
-      for (const MeasureDefinition& each : measure_definitions())
+      for (const measure::MeasureDefinition& each : measure::measure_definitions())
         known += (known.empty() ? "" : ", ") + std::string(each.key);
       throw UsageError("there is no measure \"" + core::one_line(key) + "\"; there are " + known);
     }
@@ -276,9 +277,9 @@ SweepQuantities measured_quantities(std::span<const std::string> keys, const Mea
     quantities.names.push_back("measured_" + key);
   }
   quantities.of = [definitions, request](const Joint& joint) {
-    const HipMeasures measures = measure_hip(joint, request);
+    const measure::HipMeasures measures = measure::measure_hip(joint, request);
     std::vector<double> values;
-    for (const MeasureDefinition* each : definitions)
+    for (const measure::MeasureDefinition* each : definitions)
       values.push_back(each->of(measures).value.value_or(std::numeric_limits<double>::quiet_NaN()));
     return values;
   };
@@ -294,11 +295,11 @@ std::vector<double> SweepAnswer::values_of(std::size_t design) const {
   return values;
 }
 
-std::size_t designs_of(std::span<const SweptParameter> parameters) {
+std::size_t designs_of(std::span<const plan::SweptParameter> parameters) {
   double all = 1;
-  for (const SweptParameter& each : parameters) all *= static_cast<double>(each.count());
-  if (all > static_cast<double>(most_designs))
-    throw UsageError(formatted("%.0f designs are too many: up to %zu", all, most_designs));
+  for (const plan::SweptParameter& each : parameters) all *= static_cast<double>(each.count());
+  if (all > static_cast<double>(plan::most_designs))
+    throw UsageError(formatted("%.0f designs are too many: up to %zu", all, plan::most_designs));
   return static_cast<std::size_t>(all);
 }
 
@@ -313,13 +314,13 @@ void check_sweep(const Joint& joint, const SweepQuery& query) {
     throw UsageError(
         "a sweep leaves no contacts of the reference pose out: they differ from design to design");
   std::vector<ParameterValue> low, high;
-  for (const SweptParameter& swept : query.parameters) {
+  for (const plan::SweptParameter& swept : query.parameters) {
     low.push_back({swept.name, swept.first});
     high.push_back({swept.name, swept.value(swept.count() - 1)});
   }
   with_parameters(joint, low);  // throws for names and values that there are not
   with_parameters(joint, high);
-  for (const SweptParameter& swept : query.parameters)
+  for (const plan::SweptParameter& swept : query.parameters)
     if (parameter_named(joint, swept.name).kind == ParameterKind::size)
       throw UsageError(swept.name + ": sizes are not swept: rotations and translations of parts are");
   designs_of(query.parameters);
@@ -338,7 +339,7 @@ void check_sweep(const Joint& joint, const SweepQuery& query) {
 std::optional<SweepAnswer> answer_sweep(const Joint& joint, const JointPlacement& placement,
                                         const SweepQuery& query, const AnswerControl& control) {
   check_sweep(joint, query);
-  RangeOptions range = query.range;
+  motion::RangeOptions range = query.range;
   range.overlap.reference_pose = placement.reference_pose.angles;
   SweepQuery asked = query;
   asked.range = range;

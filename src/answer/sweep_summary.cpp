@@ -15,12 +15,12 @@ namespace {
 
 using core::formatted;
 
-double last_value(const SweptParameter& parameter) {
+double last_value(const plan::SweptParameter& parameter) {
   return parameter.value(parameter.count() - 1);
 }
 
 /// A line's share of the window by the trapezoidal rule over all parameters but the last one.
-double line_weight(std::span<const SweptParameter> parameters, std::size_t line) {
+double line_weight(std::span<const plan::SweptParameter> parameters, std::size_t line) {
   double weight = 1;
   for (std::size_t p = parameters.size() - 1; p-- > 0;) {
     const std::size_t count = parameters[p].count(), at = line % count;
@@ -31,12 +31,12 @@ double line_weight(std::span<const SweptParameter> parameters, std::size_t line)
 }
 
 void measure(SweepAnswer& sweep) {
-  const SweptParameter& last = sweep.parameters.back();
+  const plan::SweptParameter& last = sweep.parameters.back();
   const std::size_t length = last.count(), first = sweep.first_design / length;
   sweep.window_measure = sweep.safe_measure = 0;
   for (std::size_t line = 0; line < sweep.designs() / length; ++line)
     sweep.window_measure += line_weight(sweep.parameters, first + line) * (last_value(last) - last.first);
-  for (const SafeInterval& interval : sweep.safe)
+  for (const plan::SafeInterval& interval : sweep.safe)
     sweep.safe_measure += line_weight(sweep.parameters, interval.line) * (interval.high - interval.low);
 }
 
@@ -104,7 +104,7 @@ void note(SweepAnswer& sweep) {
 
 }  // namespace
 
-double least_margin(std::span<const SweepTarget> targets, std::span<const DesignLimit> limits) {
+double least_margin(std::span<const plan::SweepTarget> targets, std::span<const plan::DesignLimit> limits) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t t = 0; t < targets.size(); ++t) {
     const double margin = limits[t].turned_deg - targets[t].reach.degrees();
@@ -114,7 +114,8 @@ double least_margin(std::span<const SweepTarget> targets, std::span<const Design
   return least;
 }
 
-std::size_t least_target(std::span<const SweepTarget> targets, std::span<const DesignLimit> limits) {
+std::size_t least_target(std::span<const plan::SweepTarget> targets,
+                         std::span<const plan::DesignLimit> limits) {
   std::size_t least = 0;
   const auto over = [&](std::size_t t) { return limits[t].turned_deg - targets[t].reach.degrees(); };
   for (std::size_t t = 1; t < targets.size(); ++t)

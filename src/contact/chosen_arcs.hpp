@@ -13,7 +13,7 @@ struct ChosenVertices {
 
 /// In their order; nothing of a body none of whose vertices is chosen.
 struct ChosenArcs {
-  TangentialResults mobile, fixed;
+  tangential::TangentialResults mobile, fixed;
 };
 
 /// The results of JointContact::tangential() for these vertices, bit by bit. A ring table is built for a body only if

@@ -9,7 +9,7 @@
 #include "mesh/surface_distance.hpp"
 #include "mesh/surface_to_surface.hpp"
 
-namespace condyle {
+namespace condyle::contact {
 namespace {
 
 /// `distance` takes points in the frame of these.
@@ -31,7 +31,7 @@ struct Sums {
   Vec3 moment = Vec3::Zero();
 };
 
-Sums sums_of(const std::vector<contact::PatchPart>& patch, const auto& distance) {
+Sums sums_of(const std::vector<PatchPart>& patch, const auto& distance) {
   std::vector<double> depths(patch.size());
   core::parallel_chunks(patch.size(), 64, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) depths[i] = distance(patch[i].centroid);
@@ -54,7 +54,7 @@ ContactPatch patch_from(const Sums& sums) {
   return patch;
 }
 
-NearestDistances distances_at(const contact::BodyPair& bodies, const JointContact& joint, const Pose& X_FM,
+NearestDistances distances_at(const BodyPair& bodies, const JointContact& joint, const Pose& X_FM,
                               const Points& mobile_in_F, const MeasuredContact& meeting, DistancesOf which) {
   const auto to_fixed = [&](const Vec3& p_F) { return mesh::distance_to_surface(bodies.fixed_tree(), p_F); };
   const auto to_mobile = [&](const Vec3& p_M) {
@@ -74,7 +74,7 @@ NearestDistances nearest_distances(const JointContact& joint, const Pose& X_FM,
 
 ContactMeasures measure_contact(const JointContact& joint, const Pose& X_FM, const MeasuredContact& meeting,
                                 DistancesOf which) {
-  const contact::BodyPair& bodies = contact::body_pair_of(joint);
+  const BodyPair& bodies = contact::body_pair_of(joint);
   const Pose X_MF = inverted(X_FM);
   const auto to_fixed = [&](const Vec3& p_F) { return mesh::distance_to_surface(bodies.fixed_tree(), p_F); };
   const auto to_mobile = [&](const Vec3& p_M) {
@@ -90,8 +90,8 @@ ContactMeasures measure_contact(const JointContact& joint, const Pose& X_FM, con
   const auto states_of = [](const std::optional<std::span<const PointState>>& states) {
     return states ? *states : std::span<const PointState>();
   };
-  const contact::Overlap overlap = contact::overlap_of(
-      {joint.fixed(), states_of(meeting.fixed)}, {mobile_in_F, states_of(meeting.mobile)}, meeting.pairs);
+  const Overlap overlap = contact::overlap_of({joint.fixed(), states_of(meeting.fixed)},
+                                              {mobile_in_F, states_of(meeting.mobile)}, meeting.pairs);
   const Sums of_mobile = sums_of(overlap.mobile, to_fixed);
   const Sums of_fixed = sums_of(overlap.fixed, [&](const Vec3& p_F) { return to_mobile(posed(X_MF, p_F)); });
   if (meeting.mobile) out.mobile = patch_from(of_mobile);
@@ -107,4 +107,4 @@ ContactMeasures measure_contact(const JointContact& joint, const Pose& X_FM, con
   return out;
 }
 
-}  // namespace condyle
+}  // namespace condyle::contact

@@ -8,8 +8,7 @@
 #include "core/coordinate_range.hpp"
 #include "core/formatted.hpp"
 
-namespace condyle {
-namespace contact {
+namespace condyle::contact {
 namespace {
 
 void check_layer(const std::optional<ElasticLayer>& layer, const Mesh& mesh, const char* body) {
@@ -200,8 +199,6 @@ struct CastInF {
 };
 
 }  // namespace
-}  // namespace contact
-
 ElasticContact::ElasticContact(Mesh fixed, Mesh mobile, ElasticContactOptions options)
     : parts_(new Parts{std::move(fixed), std::move(mobile), std::move(options), {}, {}, {}}) {
   Parts& p = *parts_;
@@ -244,21 +241,20 @@ void ElasticContact::Parts::answer(const Pose& X_FM, Answers& out) const {
 void ElasticContact::Parts::for_each_cast(const Answers& answers, const Pose& X_FM, const auto& take) const {
   const double share = options.casting == Casting::both ? 0.5 : 1;
   const Vec3 origin_M = X_FM.translation();
-  if (from_fixed) take(contact::CastInF{*from_fixed, answers.of_fixed, Pose::Identity(), origin_M, 1, share});
-  if (from_mobile) take(contact::CastInF{*from_mobile, answers.of_mobile, X_FM, origin_M, -1, share});
+  if (from_fixed) take(CastInF{*from_fixed, answers.of_fixed, Pose::Identity(), origin_M, 1, share});
+  if (from_mobile) take(CastInF{*from_mobile, answers.of_mobile, X_FM, origin_M, -1, share});
 }
 
-contact::MobileLoad ElasticContact::Parts::load_of(const Answers& answers, const Pose& X_FM) const {
-  contact::MobileLoad load;
-  for_each_cast(answers, X_FM, [&](const contact::CastInF& cast) { cast.add_load(load); });
+MobileLoad ElasticContact::Parts::load_of(const Answers& answers, const Pose& X_FM) const {
+  MobileLoad load;
+  for_each_cast(answers, X_FM, [&](const CastInF& cast) { cast.add_load(load); });
   return load;
 }
 
-contact::LoadChange ElasticContact::Parts::change_of(const Answers& answers, const Pose& X_FM,
-                                                     contact::Motions motions) const {
-  contact::LoadChange change = contact::LoadChange::Zero();
-  for_each_cast(answers, X_FM, [&](const contact::CastInF& cast) {
-    if (motions == contact::Motions::all)
+LoadChange ElasticContact::Parts::change_of(const Answers& answers, const Pose& X_FM, Motions motions) const {
+  LoadChange change = LoadChange::Zero();
+  for_each_cast(answers, X_FM, [&](const CastInF& cast) {
+    if (motions == Motions::all)
       change += cast.change_of_wrench();
     else
       change.topLeftCorner<3, 3>() += cast.change_of_force();
@@ -267,7 +263,7 @@ contact::LoadChange ElasticContact::Parts::change_of(const Answers& answers, con
 }
 
 ElasticContactResults ElasticContact::Parts::results_of(const Answers& answers,
-                                                        const contact::MobileLoad& load) const {
+                                                        const MobileLoad& load) const {
   ElasticContactResults out;
   if (from_fixed) from_fixed->add_up(answers.of_fixed, out.fixed.emplace());
   if (from_mobile) from_mobile->add_up(answers.of_mobile, out.mobile.emplace());
@@ -299,4 +295,4 @@ std::size_t ElasticContact::cut_off_by_reach(const Pose& X_FM) const {
   return rays;
 }
 
-}  // namespace condyle
+}  // namespace condyle::contact

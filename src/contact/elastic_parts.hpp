@@ -7,9 +7,7 @@
 #include "contact/overlap_sampler.hpp"
 #include "core/pool.hpp"
 
-namespace condyle {
-
-namespace contact {
+namespace condyle::contact {
 
 /// A casting surface with its layer and that of the target, for sums of pressure.
 class ElasticCast {
@@ -54,24 +52,22 @@ using LoadChange = Eigen::Matrix<double, 6, 6>;
 /// Requested derivatives: how forces change with translations, the others zero, or all.
 enum class Motions { translations, all };
 
-}  // namespace contact
-
 struct ElasticContact::Parts {
   Mesh fixed, mobile;
   ElasticContactOptions options;
-  std::optional<contact::ElasticCast> from_fixed, from_mobile;
+  std::optional<ElasticCast> from_fixed, from_mobile;
 
   /// Results at a pose for the surfaces that are cast.
   struct Answers {
-    contact::ElasticCast::Answer of_fixed, of_mobile;
+    ElasticCast::Answer of_fixed, of_mobile;
   };
   void answer(const Pose& X_FM, Answers& out) const;
-  contact::MobileLoad load_of(const Answers& answers, const Pose& X_FM) const;
-  contact::LoadChange change_of(const Answers& answers, const Pose& X_FM, contact::Motions motions) const;
+  MobileLoad load_of(const Answers& answers, const Pose& X_FM) const;
+  LoadChange change_of(const Answers& answers, const Pose& X_FM, Motions motions) const;
   void for_each_cast(const Answers& answers, const Pose& X_FM, const auto& take) const;
-  ElasticContactResults results_of(const Answers& answers, const contact::MobileLoad& load) const;
+  ElasticContactResults results_of(const Answers& answers, const MobileLoad& load) const;
 
   mutable core::Pool<Answers> pool;
 };
 
-}  // namespace condyle
+}  // namespace condyle::contact

@@ -14,7 +14,7 @@
 #include "core/lazy.hpp"
 #include "core/turned.hpp"
 
-namespace condyle {
+namespace condyle::contact {
 namespace {
 
 bool any_not_outside(const std::vector<PointState>& states) {
@@ -32,7 +32,8 @@ bool any_contact(const ContactResults<VertexResults>& contact) {
 /// Ring tables of one body about the axes that were asked last.
 class RingTables {
  public:
-  std::shared_ptr<const RingTable> about(const Mesh& mesh, const Vec3& point, const Vec3& direction) {
+  std::shared_ptr<const tangential::RingTable> about(const Mesh& mesh, const Vec3& point,
+                                                     const Vec3& direction) {
     const std::scoped_lock lock(mutex_);
     const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
       return kept.table && kept.point == point && kept.direction == direction;
@@ -42,7 +43,7 @@ class RingTables {
     } else {
       std::rotate(kept_.begin(), kept_.end() - 1, kept_.end());
       kept_.front() = {point, direction, nullptr};
-      kept_.front().table = std::make_shared<const RingTable>(mesh, AxisFrame(point, direction));
+      kept_.front().table = std::make_shared<const tangential::RingTable>(mesh, AxisFrame(point, direction));
     }
     return kept_.front().table;
   }
@@ -50,7 +51,7 @@ class RingTables {
  private:
   struct Kept {
     Vec3 point = Vec3::Zero(), direction = Vec3::Zero();
-    std::shared_ptr<const RingTable> table;
+    std::shared_ptr<const tangential::RingTable> table;
   };
   /// The three axes of a joint coordinate system and one more; a table has some 50 bytes for each triangle.
   static constexpr std::size_t most_axes = 4;
@@ -62,12 +63,12 @@ class RingTables {
 /// One of the two bodies, and what is made of it when it is first needed.
 class ContactBody {
  public:
-  ContactBody(std::string role, Mesh mesh, const RadialOptions& options)
+  ContactBody(std::string role, Mesh mesh, const radial::RadialOptions& options)
       : role_(std::move(role)), mesh_(std::move(mesh)), options_(options) {}
 
   const Mesh& mesh() const noexcept { return mesh_; }
-  const RadialTable& table() const {
-    return *table_.get([&](std::optional<RadialTable>& table) {
+  const radial::RadialTable& table() const {
+    return *table_.get([&](std::optional<radial::RadialTable>& table) {
       try {
         table.emplace(mesh_, options_);
       } catch (const MeshError& error) {
@@ -75,20 +76,20 @@ class ContactBody {
       }
     });
   }
-  const SortedPoints& sorted_vertices() const {
+  const radial::SortedPoints& sorted_vertices() const {
     return *sorted_vertices_.get(
-        [&](std::optional<SortedPoints>& points) { points.emplace(mesh_.vertices()); });
+        [&](std::optional<radial::SortedPoints>& points) { points.emplace(mesh_.vertices()); });
   }
-  std::shared_ptr<const RingTable> ring_table(const Vec3& point, const Vec3& direction) const {
+  std::shared_ptr<const tangential::RingTable> ring_table(const Vec3& point, const Vec3& direction) const {
     return ring_tables_.about(mesh_, point, direction);
   }
 
  private:
   std::string role_;
   Mesh mesh_;
-  RadialOptions options_;
-  core::Lazy<std::optional<RadialTable>> table_;
-  core::Lazy<std::optional<SortedPoints>> sorted_vertices_;
+  radial::RadialOptions options_;
+  core::Lazy<std::optional<radial::RadialTable>> table_;
+  core::Lazy<std::optional<radial::SortedPoints>> sorted_vertices_;
   mutable RingTables ring_tables_;
 };
 
@@ -97,35 +98,34 @@ class ContactBody {
 struct JointContact::Parts {
   /// Joints that differ in the other body share it.
   std::shared_ptr<const ContactBody> fixed, mobile;
-  RadialOptions options;
-  core::Lazy<std::optional<contact::BodyPair>> trees = {};
+  radial::RadialOptions options;
+  core::Lazy<std::optional<BodyPair>> trees = {};
 
-  const contact::BodyPair& bodies() const {
-    return *trees.get(
-        [&](std::optional<contact::BodyPair>& pair) { pair.emplace(fixed->mesh(), mobile->mesh()); });
+  const BodyPair& bodies() const {
+    return *trees.get([&](std::optional<BodyPair>& pair) { pair.emplace(fixed->mesh(), mobile->mesh()); });
   }
-  std::shared_ptr<const RingTable> fixed_rings(const Vec3& axis_F) const {
+  std::shared_ptr<const tangential::RingTable> fixed_rings(const Vec3& axis_F) const {
     return fixed->ring_table(Vec3::Zero(), axis_F);
   }
-  std::shared_ptr<const RingTable> mobile_rings(const Pose& X_MF, const Vec3& axis_F) const {
+  std::shared_ptr<const tangential::RingTable> mobile_rings(const Pose& X_MF, const Vec3& axis_F) const {
     return mobile->ring_table(X_MF.translation(), core::turned(X_MF, axis_F));
   }
 };
 
 namespace {
 
-std::shared_ptr<const ContactBody> fixed_body(Mesh mesh, const RadialOptions& options) {
+std::shared_ptr<const ContactBody> fixed_body(Mesh mesh, const radial::RadialOptions& options) {
   return std::make_shared<const ContactBody>("fixed body", std::move(mesh), options);
 }
-std::shared_ptr<const ContactBody> mobile_body(Mesh mesh, const RadialOptions& options) {
+std::shared_ptr<const ContactBody> mobile_body(Mesh mesh, const radial::RadialOptions& options) {
   return std::make_shared<const ContactBody>("mobile body", std::move(mesh), options);
 }
 
 }  // namespace
 
-JointContact::JointContact(const Joint& joint, RadialOptions options)
+JointContact::JointContact(const Joint& joint, radial::RadialOptions options)
     : JointContact(joint.fixed.mesh, joint.mobile.mesh, options) {}
-JointContact::JointContact(Mesh fixed, Mesh mobile, RadialOptions options)
+JointContact::JointContact(Mesh fixed, Mesh mobile, radial::RadialOptions options)
     : parts_(new Parts{fixed_body(std::move(fixed), options), mobile_body(std::move(mobile), options),
                        options}) {}
 JointContact::JointContact(const JointContact& before, BodyRole changed, Mesh mesh) {
@@ -137,7 +137,7 @@ JointContact::~JointContact() = default;
 JointContact::JointContact(JointContact&&) noexcept = default;
 JointContact& JointContact::operator=(JointContact&&) noexcept = default;
 
-const contact::BodyPair& contact::body_pair_of(const JointContact& joint) {
+const BodyPair& body_pair_of(const JointContact& joint) {
   return joint.parts_->bodies();
 }
 
@@ -147,10 +147,10 @@ const Mesh& JointContact::fixed() const noexcept {
 const Mesh& JointContact::mobile() const noexcept {
   return parts_->mobile->mesh();
 }
-const RadialTable& JointContact::fixed_table() const {
+const radial::RadialTable& JointContact::fixed_table() const {
   return parts_->fixed->table();
 }
-const RadialTable& JointContact::mobile_table() const {
+const radial::RadialTable& JointContact::mobile_table() const {
   return parts_->mobile->table();
 }
 
@@ -163,11 +163,11 @@ Contact JointContact::at(const Pose& X_FM) const {
   return contact;
 }
 
-void JointContact::mobile_in_fixed(const Pose& X_FM, Penetrations& out) const {
+void JointContact::mobile_in_fixed(const Pose& X_FM, radial::Penetrations& out) const {
   parts_->fixed->table().penetrations(parts_->mobile->sorted_vertices(), X_FM, out);
 }
 
-void JointContact::fixed_in_mobile(const Pose& X_FM, Penetrations& out) const {
+void JointContact::fixed_in_mobile(const Pose& X_FM, radial::Penetrations& out) const {
   parts_->mobile->table().penetrations(parts_->fixed->sorted_vertices(), inverted(X_FM), out);
 }
 
@@ -182,7 +182,8 @@ RadialContact JointContact::radial(const Pose& X_FM) const {
   return contact;
 }
 
-TangentialContact JointContact::tangential(const Pose& X_FM, const Vec3& axis_F, TangentialRule rule) const {
+TangentialContact JointContact::tangential(const Pose& X_FM, const Vec3& axis_F,
+                                           tangential::TangentialRule rule) const {
   core::require_in_range(X_FM);
   TangentialContact contact;
   if (fixed().is_closed())
@@ -197,8 +198,8 @@ TangentialContact JointContact::tangential(const Pose& X_FM, const Vec3& axis_F,
   return contact;
 }
 
-contact::ChosenArcs contact::arcs_of(const JointContact& joint, const Pose& X_FM, const Vec3& axis_F,
-                                     const ChosenVertices& vertices) {
+ChosenArcs arcs_of(const JointContact& joint, const Pose& X_FM, const Vec3& axis_F,
+                   const ChosenVertices& vertices) {
   core::require_in_range(X_FM);
   const auto chosen = [](const Mesh& mesh, const std::vector<Index>& of) {
     Points points;
@@ -228,4 +229,4 @@ bool JointContact::in_contact(const Pose& X_FM) const {
   return parts_->bodies().touch(X_FM);
 }
 
-}  // namespace condyle
+}  // namespace condyle::contact

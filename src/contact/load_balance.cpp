@@ -12,7 +12,7 @@
 #include "contact/elastic_parts.hpp"
 #include "core/formatted.hpp"
 
-namespace condyle {
+namespace condyle::contact {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -129,9 +129,7 @@ class Search {
     return (X.translation() - start_.translation()).norm() <= options_.farthest_mm;
   }
 
-  contact::Motions motions() const {
-    return options_.free_rotations ? contact::Motions::all : contact::Motions::translations;
-  }
+  Motions motions() const { return options_.free_rotations ? Motions::all : Motions::translations; }
 
   /// The load at a pose that is tried, its answers kept until the next.
   MobileLoad tried(const Pose& X) {
@@ -168,8 +166,7 @@ class Search {
         take(X, load);
         return true;
       }
-      const contact::LoadChange change =
-          contact_.parts().change_of(*tried_, X, contact::Motions::translations);
+      const LoadChange change = contact_.parts().change_of(*tried_, X, Motions::translations);
       const double stiffness = -along.dot(change.topLeftCorner<3, 3>() * along);
       travel +=
           stiffness > 0 ? std::clamp(missing / stiffness, search_step, longest_search_step) : search_step;
@@ -435,4 +432,4 @@ bool is_zero_along(const Load& load, const Pose& X_FM, const BalanceOptions& opt
                      [&](const Vec3& direction) { return direction.dot(force) == 0; });
 }
 
-}  // namespace condyle
+}  // namespace condyle::contact

@@ -1,7 +1,7 @@
 #include "condyle/normal_depth.hpp"
 #include "condyle/pressure.hpp"
 
-namespace condyle {
+namespace condyle::contact {
 namespace {
 
 NormalCast cast(const Mesh& from, const Mesh& to, const Pose& X_CT, const NormalDepthOptions& rays) {
@@ -21,4 +21,4 @@ NormalContact normal_contact(const JointContact& joint, const Pose& X_FM, Castin
   return contact;
 }
 
-}  // namespace condyle
+}  // namespace condyle::contact

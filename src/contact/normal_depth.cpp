@@ -6,10 +6,10 @@
 #include "contact/overlap_sampler.hpp"
 #include "core/coordinate_range.hpp"
 
-namespace condyle {
+namespace condyle::contact {
 
 NormalDepth::NormalDepth(Mesh casting, Mesh target, NormalDepthOptions options)
-    : sampler_(std::make_unique<contact::OverlapSampler>(std::move(casting), std::move(target), options)) {}
+    : sampler_(std::make_unique<OverlapSampler>(std::move(casting), std::move(target), options)) {}
 NormalDepth::~NormalDepth() = default;
 NormalDepth::NormalDepth(NormalDepth&&) noexcept = default;
 NormalDepth& NormalDepth::operator=(NormalDepth&&) noexcept = default;
@@ -33,7 +33,7 @@ SurfaceContact NormalDepth::at(const Pose& X_CT) const {
 void NormalDepth::at(const Pose& X_CT, SurfaceContact& out) const {
   core::require_in_range(X_CT);
   auto found = sampler_->found_pool().take();
-  sampler_->sample(X_CT, contact::Quadrature::of_degree_2, {}, *found);
+  sampler_->sample(X_CT, Quadrature::of_degree_2, {}, *found);
   contact::add_up(*sampler_, *found, std::nullopt, out);
   sampler_->found_pool().put_back(std::move(found));
 }
@@ -90,4 +90,4 @@ std::vector<double> thickness_to(const Mesh& layer, const Mesh& behind, double r
   return contact::distances_along_normals(layer, behind, reach_mm);
 }
 
-}  // namespace condyle
+}  // namespace condyle::contact

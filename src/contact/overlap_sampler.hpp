@@ -124,9 +124,9 @@ class OverlapSampler {
   struct Scratch {
     mesh::RayHits hits;
     RayEnds ends;
-    Penetrations inside;         ///< the origins in the target
-    std::vector<char> outwards;  ///< per ray inwards: whether its other direction is cast too
-    std::vector<char> oblique;   ///< per ray inwards: whether it meets the target, and too far off its normal
+    radial::Penetrations inside;  ///< the origins in the target
+    std::vector<char> outwards;   ///< per ray inwards: whether its other direction is cast too
+    std::vector<char> oblique;  ///< per ray inwards: whether it meets the target, and too far off its normal
     std::vector<mesh::Ray> rays;
     std::vector<Index> owner;
     std::vector<Index> active;  ///< faces, in their order

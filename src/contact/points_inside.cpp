@@ -23,12 +23,13 @@ bool is_plain_solid(const Mesh& mesh) {
 PointsInside::PointsInside(Mesh surface, double nearest_mm, Points points)
     : surface_(std::move(surface)), nearest_(nearest_mm), points_(std::move(points)) {}
 
-bool PointsInside::find(const Pose& X_of_points, Penetrations& out) const {
+bool PointsInside::find(const Pose& X_of_points, radial::Penetrations& out) const {
   if (!surface_.is_closed() || !(nearest_ > 0) ||
       !(X_of_points.translation().norm() <= farthest_translation * nearest_))
     return false;
   const auto& prepared = prepared_.get([&](std::optional<Prepared>& made) {
-    if (is_plain_solid(surface_)) made.emplace(Prepared{RadialTable(surface_), SortedPoints(points_)});
+    if (is_plain_solid(surface_))
+      made.emplace(Prepared{radial::RadialTable(surface_), radial::SortedPoints(points_)});
   });
   if (prepared) prepared->table.penetrations(prepared->points, X_of_points, out);
   return prepared.has_value();

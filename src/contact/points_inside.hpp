@@ -18,12 +18,12 @@ class PointsInside {
   /// this is not decided: for open surfaces, for those that run through themselves or have an inverted component, and
   /// if the pose moves the origin so far that a radial table would be slower than rays are. The first call makes the
   /// table.
-  bool find(const Pose& X_of_points, Penetrations& out) const;
+  bool find(const Pose& X_of_points, radial::Penetrations& out) const;
 
  private:
   struct Prepared {
-    RadialTable table;
-    SortedPoints points;
+    radial::RadialTable table;
+    radial::SortedPoints points;
   };
 
   Mesh surface_;

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 #include "core/ordered_sums.hpp"
 
 /// The space below a triangle and what two such have in common, seen along z. docs/mathematics/03-both-directions.md.

@@ -6,11 +6,11 @@
 #include "contact/body_pair.hpp"
 #include "mesh/surface_distance.hpp"
 
-namespace condyle {
+namespace condyle::contact {
 namespace {
 
 /// `distance_of` gives the nearest distance of a vertex that is inside.
-RadialBodySummary summary_of(const RadialResults& results, const auto& distance_of) {
+RadialBodySummary summary_of(const radial::RadialResults& results, const auto& distance_of) {
   RadialBodySummary summary;
   const auto deepen = [](std::optional<DeepestVertex>& deepest, const DeepestVertex& candidate) {
     if (!deepest || candidate.depth_mm > deepest->depth_mm) deepest = candidate;
@@ -44,7 +44,7 @@ RadialBodySummary summary_of(const RadialResults& results, const auto& distance_
 
 }  // namespace
 
-RadialBodySummary summarise(const RadialResults& results, PointsView points, const Mesh& other) {
+RadialBodySummary summarise(const radial::RadialResults& results, PointsView points, const Mesh& other) {
   std::optional<mesh::SurfaceDistance> distance;  // made if a vertex is inside
   return summary_of(results, [&](Index v) {
     if (!distance) distance.emplace(other);
@@ -53,7 +53,7 @@ RadialBodySummary summarise(const RadialResults& results, PointsView points, con
 }
 
 RadialSummary summarise(const JointContact& joint, const Pose& X_FM, const RadialContact& contact) {
-  const contact::BodyPair& bodies = contact::body_pair_of(joint);
+  const BodyPair& bodies = contact::body_pair_of(joint);
   RadialSummary summary;
   if (contact.mobile_in_fixed)
     summary.mobile = summary_of(*contact.mobile_in_fixed, [&](Index v) {
@@ -77,4 +77,4 @@ RadialSummary summarise(const RadialContact& contact, const NearestDistances& di
   return summary;
 }
 
-}  // namespace condyle
+}  // namespace condyle::contact

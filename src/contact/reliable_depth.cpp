@@ -7,7 +7,7 @@
 
 #include "contact/chosen_arcs.hpp"
 
-namespace condyle {
+namespace condyle::contact {
 namespace {
 
 DepthWay kind_about(std::size_t axis) noexcept {
@@ -15,7 +15,7 @@ DepthWay kind_about(std::size_t axis) noexcept {
   return kinds[axis];
 }
 
-bool radial_is_depth(const RadialResults& radial, std::span<const double> nearest, Index v) noexcept {
+bool radial_is_depth(const radial::RadialResults& radial, std::span<const double> nearest, Index v) noexcept {
   const DeepestVertex vertex{v, -radial.radial_gap_mm[v], nearest[v], radial.ray_to_normal[v]};
   return vertex.applies() == DepthKind::radial;
 }
@@ -26,7 +26,7 @@ struct RotatedVertices {
   bool any_needs_it = false;
 };
 
-RotatedVertices rotated_vertices(const std::optional<RadialResults>& radial,
+RotatedVertices rotated_vertices(const std::optional<radial::RadialResults>& radial,
                                  std::span<const double> nearest) {
   RotatedVertices rotated;
   if (!radial) return rotated;
@@ -47,7 +47,7 @@ RotatedVertices rotated_vertices(const std::optional<RadialResults>& radial,
 /// Arcs of some vertices of one body about each axis that was asked; none about the others.
 struct Rotations {
   std::vector<Index> vertices;
-  std::array<TangentialResults, 3> about;
+  std::array<tangential::TangentialResults, 3> about;
 };
 
 std::array<std::optional<ExitRotation>, 3> exit_rotations(const Rotations& rotations, Index v) {
@@ -56,7 +56,7 @@ std::array<std::optional<ExitRotation>, 3> exit_rotations(const Rotations& rotat
   if (at == rotations.vertices.end() || *at != v) return exits;
   const auto i = static_cast<std::size_t>(at - rotations.vertices.begin());
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const TangentialResults& about = rotations.about[axis];
+    const tangential::TangentialResults& about = rotations.about[axis];
     if (about.size() == 0 || about.state[i] != PointState::inside) continue;
     const Angle angle = -about.angular_gap[i];
     if (std::isfinite(angle.radians())) exits[axis] = ExitRotation{angle, -about.arc_gap_mm[i]};
@@ -64,7 +64,7 @@ std::array<std::optional<ExitRotation>, 3> exit_rotations(const Rotations& rotat
   return exits;
 }
 
-ReliableDepths depths_of(const RadialResults& radial, std::span<const double> nearest,
+ReliableDepths depths_of(const radial::RadialResults& radial, std::span<const double> nearest,
                          const Rotations& rotations) {
   ReliableDepths out;
   out.way.assign(radial.size(), DepthWay::none);
@@ -113,11 +113,11 @@ ReliableContact reliable_depths(const JointContact& joint, JointKind kind, Coord
   RotatedVertices of_mobile = rotated_vertices(contact.mobile_in_fixed, distances.mobile),
                   of_fixed = rotated_vertices(contact.fixed_in_mobile, distances.fixed);
   if (!of_mobile.any_needs_it && !of_fixed.any_needs_it) return reliable_radial_depths(contact, distances);
-  const contact::ChosenVertices chosen{std::move(of_mobile.vertices), std::move(of_fixed.vertices)};
+  const ChosenVertices chosen{std::move(of_mobile.vertices), std::move(of_fixed.vertices)};
   Rotations mobile{chosen.mobile, {}}, fixed{chosen.fixed, {}};
   const std::size_t axes = kind == JointKind::hinge ? 1 : 3;
   for (std::size_t axis = 0; axis < axes; ++axis) {
-    contact::ChosenArcs arcs =
+    ChosenArcs arcs =
         contact::arcs_of(joint, pose_at(system, pose), axis_of(all_joint_angles[axis], system, pose), chosen);
     mobile.about[axis] = std::move(arcs.mobile);
     fixed.about[axis] = std::move(arcs.fixed);
@@ -145,4 +145,4 @@ std::size_t without_depth(const ReliableContact& contact) noexcept {
   return (contact.mobile ? contact.mobile->without : 0) + (contact.fixed ? contact.fixed->without : 0);
 }
 
-}  // namespace condyle
+}  // namespace condyle::contact

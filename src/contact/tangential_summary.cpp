@@ -3,9 +3,9 @@
 
 #include "condyle/contact.hpp"
 
-namespace condyle {
+namespace condyle::contact {
 
-TangentialBodySummary summarise(const TangentialResults& results) {
+TangentialBodySummary summarise(const tangential::TangentialResults& results) {
   TangentialBodySummary summary;
   for (Index i = 0; i < results.size(); ++i) {
     const Angle angle = results.angular_gap[i];
@@ -38,4 +38,4 @@ TangentialBodySummary summarise(const TangentialResults& results) {
   return summary;
 }
 
-}  // namespace condyle
+}  // namespace condyle::contact

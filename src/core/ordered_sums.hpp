@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 
 /// Sums of products in one order, whatever the instruction set: Eigen's own order depends on whether it has vectors of two doubles, and
 /// the core as WebAssembly has none.

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 
 /// Signs that decide, exact for the doubles they are given, always: first in double with an error bound, and
 /// where that is too close to call, in integers of unlimited size. Works for all finite input, subnormal and

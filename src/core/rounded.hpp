@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 #include "core/formatted.hpp"
 
 namespace condyle::core {

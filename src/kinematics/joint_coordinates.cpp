@@ -177,4 +177,56 @@ JointCoordinates coordinates_at(CoordinateSystem system, const Pose& X_FM, Trans
            (along.z() - k * along.y()) / square_of_sine}};
 }
 
+Angle angle_of(const JointAngles& angles, JointAngle angle) noexcept {
+  switch (angle) {
+    case JointAngle::flexion:
+      return angles.flexion;
+    case JointAngle::adduction:
+      return angles.adduction;
+    case JointAngle::internal_rotation:
+      break;
+  }
+  return angles.internal_rotation;
+}
+
+std::string_view name_of(Side side) noexcept {
+  return side == Side::right ? "right" : "left";
+}
+
+std::string_view name_of(JointKind kind) noexcept {
+  switch (kind) {
+    case JointKind::ball:
+      return "ball";
+    case JointKind::hinge:
+      return "hinge";
+    case JointKind::free:
+      break;
+  }
+  return "free";
+}
+
+std::string_view name_of(Anatomy joint) noexcept {
+  switch (joint) {
+    case Anatomy::hip:
+      return "hip";
+    case Anatomy::knee:
+      return "knee";
+    case Anatomy::ankle:
+      return "ankle";
+    case Anatomy::elbow:
+      return "elbow";
+    case Anatomy::shoulder:
+      break;
+  }
+  return "shoulder";
+}
+
+std::string_view name_of(TranslationFrame frame) noexcept {
+  return frame == TranslationFrame::fixed ? "fixed" : "joint_axes";
+}
+
+std::string_view name_of(JointAngle angle, Anatomy joint) noexcept {
+  return coordinate_names(joint)[static_cast<std::size_t>(angle)].positive;
+}
+
 }  // namespace condyle

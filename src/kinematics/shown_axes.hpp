@@ -1,6 +1,6 @@
 #pragma once
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 
 namespace condyle::kinematics {
 

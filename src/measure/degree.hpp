@@ -2,9 +2,9 @@
 
 #include <numbers>
 
-namespace condyle {
+namespace condyle::measure {
 
 /// In radians.
 inline constexpr double degree = std::numbers::pi / 180;
 
-}  // namespace condyle
+}  // namespace condyle::measure

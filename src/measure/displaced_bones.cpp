@@ -2,7 +2,8 @@
 
 namespace condyle::measure {
 
-DisplacedBones::DisplacedBones(const Joint& joint, const MeasureRequest& request, const Uncertainty& sigma)
+DisplacedBones::DisplacedBones(const Joint& joint, const MeasureRequest& request,
+                               const motion::Uncertainty& sigma)
     : system_(joint.coordinates()),
       request_(request),
       meshes_(bones_of(joint)),

@@ -5,8 +5,7 @@
 #include "measure/displaced_bones.hpp"
 #include "motion/rom/displacement.hpp"
 
-namespace condyle {
-namespace measure {
+namespace condyle::measure {
 namespace {
 
 /// Hours before 12 come before those after it: a band around 12 is one.
@@ -31,13 +30,12 @@ MeasureBand band_of(const MeasureDefinition& definition, std::span<const std::op
 }
 
 }  // namespace
-}  // namespace measure
-
 std::optional<std::vector<MeasureBand>> measure_bands(const Joint& joint, const MeasureRequest& request,
-                                                      const BandOptions& options, const Control& control) {
+                                                      const motion::BandOptions& options,
+                                                      const Control& control) {
   measure::check_measures(joint, request);
   motion::check_band(options);
-  const measure::DisplacedBones bones(joint, request, options.sigma);
+  const DisplacedBones bones(joint, request, options.sigma);
   const auto samples = motion::displacements(options, kinematics::uncertain_parameters(joint));
   const auto definitions = measure_definitions();
 
@@ -64,8 +62,8 @@ std::optional<std::vector<MeasureBand>> measure_bands(const Joint& joint, const 
 }
 
 std::vector<MeasureBand> measure_bands(const Joint& joint, const MeasureRequest& request,
-                                       const BandOptions& options) {
+                                       const motion::BandOptions& options) {
   return *measure_bands(joint, request, options, {});
 }
 
-}  // namespace condyle
+}  // namespace condyle::measure

@@ -219,15 +219,11 @@ HipMeasures measure_bones(const Bones& bones, const BoneParts& parts, Coordinate
   return out;
 }
 
-}  // namespace condyle::measure
-
-namespace condyle {
-
 HipMeasures measure_hip(const Joint& joint, const MeasureRequest& request) {
   measure::check_measures(joint, request);
-  const measure::BoneMeshes bones = measure::bones_of(joint);
+  const BoneMeshes bones = measure::bones_of(joint);
   return measure::measure_bones({bones.hip_bone, bones.femur}, measure::find_parts(joint, bones),
                                 joint.coordinates(), request);
 }
 
-}  // namespace condyle
+}  // namespace condyle::measure

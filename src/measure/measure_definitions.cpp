@@ -4,7 +4,7 @@
 #include "measure/measure_acetabulum.hpp"
 #include "measure/measure_femur.hpp"
 
-namespace condyle {
+namespace condyle::measure {
 namespace {
 
 using M = HipMeasures;
@@ -215,9 +215,6 @@ const MeasureDefinition* measure_definition(std::string_view key) noexcept {
   return found == std::end(definitions) ? nullptr : found;
 }
 
-}  // namespace condyle
-
-namespace condyle::measure {
 namespace {
 
 /// The rows know the measures' places; those of `out` are ours to write.

@@ -67,11 +67,11 @@ bool is_in_front(const NeckHour& hour) {
 
 }  // namespace
 
-std::optional<ClockFace> clock_about(const Vec3& axis, const Vec3& up, const Vec3& anterior) {
+std::optional<motion::ClockFace> clock_about(const Vec3& axis, const Vec3& up, const Vec3& anterior) {
   const Vec3 twelve = up - up.dot(axis) * axis;
   if (!(twelve.norm() > smallest_sine)) return std::nullopt;
   const Vec3 three = axis.cross(twelve.normalized());
-  return ClockFace{twelve.normalized(), three.dot(anterior) > 0 ? three : Vec3(-three)};
+  return motion::ClockFace{twelve.normalized(), three.dot(anterior) > 0 ? three : Vec3(-three)};
 }
 
 std::vector<NeckHour> around_neck(const TriMesh& femur, const NeckGeometry& neck) {

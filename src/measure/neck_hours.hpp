@@ -14,7 +14,7 @@ constexpr std::size_t neck_step(double hour) noexcept {
 }
 
 /// 12 is `up` made square to the neck, 3 is anterior, on both sides. Empty if the two are parallel to within a degree.
-std::optional<ClockFace> clock_about(const Vec3& axis, const Vec3& up, const Vec3& anterior);
+std::optional<motion::ClockFace> clock_about(const Vec3& axis, const Vec3& up, const Vec3& anterior);
 
 /// Alpha and offset around the neck.
 std::vector<NeckHour> around_neck(const TriMesh& femur, const NeckGeometry& neck);

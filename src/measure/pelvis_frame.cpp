@@ -5,7 +5,7 @@
 #include "condyle/make_joint.hpp"
 #include "core/formatted.hpp"
 
-namespace condyle {
+namespace condyle::measure {
 namespace {
 
 /// A joint file without landmarks says how the scanner's axes lie, and nothing of how the pelvis lay in them.
@@ -31,4 +31,4 @@ std::string stated_frame(const HipMeasures& measures) {
   return frame + core::formatted(", tilt %g deg given", measures.pelvic_tilt.degrees());
 }
 
-}  // namespace condyle
+}  // namespace condyle::measure

@@ -48,7 +48,7 @@ std::optional<Vec2> farthest_towards_opening(const Contour& half, double reach) 
 }
 
 std::vector<RimHour> rim_about(const SocketWall& wall, const Sphere& head, const Vec3& opening,
-                               const ClockFace& clock, const BodyAxes& axes) {
+                               const motion::ClockFace& clock, const BodyAxes& axes) {
   const AxisSections sections(wall.mesh, head.centre, opening, clock.twelve, clock.three, wall.ends);
   const double reach = head.radius + farthest_wall_mm;
   std::vector<RimHour> rim(rim_steps);
@@ -123,7 +123,7 @@ Plane fit_plane(std::vector<RimHour>& rim, const Vec3& opening) {
 }
 
 std::optional<RimGeometry> circle_in(const Plane& plane, const std::vector<RimHour>& rim,
-                                     const ClockFace& clock) {
+                                     const motion::ClockFace& clock) {
   const Vec3 x = clock.twelve, y = plane.normal.cross(x);
   std::vector<Vec2> points;
   for (const RimHour& hour : rim)

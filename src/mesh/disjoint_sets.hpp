@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 
 namespace condyle::mesh {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "condyle/mesh.hpp"
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 
 namespace condyle::mesh {
 

@@ -83,11 +83,11 @@ BoneCut::BoneCut(const Joint& joint, BodyRole cut_role, const ResectionRequest& 
       targets_(std::move(targets)),
       share_(share),
       stopped_(targets_.size()) {
-  bearing_ = find_bearing_surface(joint, request.range.bearing).surface;
+  bearing_ = motion::find_bearing_surface(joint, request.range.bearing).surface;
   if (!bearing_ && kept().within_mm)
     throw UsageError("resection: bone is to stay by its distance from the bearing surface, and " +
                      joint.name + " has none that is known");
-  if (bearing_ && request.range.bearing.rule == BearingRule::leave_out) ball_.emplace(*bearing_);
+  if (bearing_ && request.range.bearing.rule == motion::BearingRule::leave_out) ball_.emplace(*bearing_);
   const bool cuts_mobile = role_ == BodyRole::mobile;
   const Body& other = cuts_mobile ? joint.fixed : joint.mobile;
   const Included of_other = included(cuts_mobile ? BodyRole::fixed : BodyRole::mobile);
@@ -112,7 +112,7 @@ BoneCut::BoneCut(const Joint& joint, BodyRole cut_role, const ResectionRequest& 
 }
 
 Included BoneCut::included(BodyRole role) const {
-  return {role == BodyRole::mobile && request_.range.bearing.rule == BearingRule::leave_out};
+  return {role == BodyRole::mobile && request_.range.bearing.rule == motion::BearingRule::leave_out};
 }
 
 std::vector<SweepTo> BoneCut::sweeps_to_reach() const {
@@ -285,7 +285,7 @@ std::vector<Met> BoneCut::what_meets() const {
       throw MeshError(bone_.name + ": the remaining bone would lie inside the other bone at the start of " +
                       targets_[t].motion.name);
     for (motion::FeatureContact contact : *contacts) {
-      if (contact.feature.kind == FeatureKind::face)
+      if (contact.feature.kind == motion::FeatureKind::face)
         contact.feature.id = part.triangle_in_whole[contact.feature.id];
       met.push_back({surface_->on_surface(contact.feature, contact.point), {t, contact.turned.radians()}});
     }

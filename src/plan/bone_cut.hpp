@@ -15,7 +15,7 @@ namespace condyle::plan {
 /// A target as one bone's cut sees it.
 struct CutTarget {
   std::size_t number;  ///< in the request
-  Motion motion;
+  motion::Motion motion;
   Angle reach;
   Angle now;  ///< where it ends as the joint is
 };
@@ -80,7 +80,7 @@ class BoneCut {
   const ResectionRequest& request_;
   std::vector<CutTarget> targets_;
   double share_;
-  std::optional<BearingSurface> bearing_;
+  std::optional<motion::BearingSurface> bearing_;
   std::optional<BearingBall> ball_;
   std::vector<std::unique_ptr<Sweep>> sweeps_;
   std::vector<std::unique_ptr<ExactReach>> exact_;

@@ -15,7 +15,7 @@
 #include "plan/inward_ways.hpp"
 #include "plan/moved_triangles.hpp"
 
-namespace condyle {
+namespace condyle::plan {
 namespace {
 
 /// Ways inwards are mean normals over about this length, so many means at most.
@@ -89,7 +89,7 @@ struct Brush::Parts {
   double edge_mm;
   mesh::VertexTriangles triangles_of;
   std::shared_ptr<const mesh::TriangleTree> tree;  ///< of the surface before
-  plan::MovedTriangles moved_triangles;
+  MovedTriangles moved_triangles;
   std::vector<Vec3> inwards;
   std::vector<double> along_mm;  ///< of each vertex: how far it lies inwards along its way
   std::vector<double> depth_mm;  ///< and its distance from the surface before
@@ -211,7 +211,7 @@ struct Brush::Parts {
     const std::vector<Index> around = triangles_of.of(vertices);
     for (bool sound = false; !sound;) {
       for (const DepthChange& change : changes) place(change, was);
-      const plan::Places places{was, now};
+      const Places places{was, now};
       std::vector<Index> wrong = moved_triangles.turned(around, places);
       if (wrong.empty()) wrong = moved_triangles.crossing(around, places);
       sound = wrong.empty();
@@ -313,4 +313,4 @@ BrushedBone Brush::removed() const {
   return removed;
 }
 
-}  // namespace condyle
+}  // namespace condyle::plan

@@ -6,7 +6,7 @@
 #include "condyle/error.hpp"
 #include "kinematics/posed_parts.hpp"
 
-namespace condyle {
+namespace condyle::plan {
 namespace {
 
 const Body& body_of(const Joint& joint, BodyRole role) {
@@ -20,7 +20,7 @@ bool is_bone_alone(const Body& body) {
 
 /// With the bone as it is now. What bears is what bore: a fit to a surface that was cut would move it.
 Joint with_brushed_bone(const Joint& joint, BodyRole role, const Points& vertices,
-                        const BearingFinding& bearing) {
+                        const motion::BearingFinding& bearing) {
   Joint brushed = joint;
   Body& bone = role == BodyRole::mobile ? brushed.mobile : brushed.fixed;
   bone.mesh = bone.mesh.moved_to(vertices);
@@ -44,28 +44,30 @@ std::vector<std::uint8_t> joined(std::vector<std::uint8_t> marks, const std::vec
 
 }  // namespace
 
-std::vector<std::uint8_t> protected_vertices(const Joint& joint, BodyRole role, const ContactRoles& roles) {
+std::vector<std::uint8_t> protected_vertices(const Joint& joint, BodyRole role,
+                                             const motion::ContactRoles& roles) {
   const Mesh& mesh = body_of(joint, role).mesh;
-  const std::vector<ContactRole>& of_body = role == BodyRole::mobile ? roles.mobile : roles.fixed;
+  const std::vector<motion::ContactRole>& of_body = role == BodyRole::mobile ? roles.mobile : roles.fixed;
   std::vector<std::uint8_t> marks(mesh.vertices().size(), 0);
   for (std::size_t t = 0; t < of_body.size(); ++t)
-    if (of_body[t] != ContactRole::ends)
+    if (of_body[t] != motion::ContactRole::ends)
       for (const Index v : mesh.triangles()[t]) marks[v] = 1;
   return marks;
 }
 
-BrushedJoint brush_joint(const Joint& joint, const BrushRequest& request, std::span<const Motion> motions) {
+BrushedJoint brush_joint(const Joint& joint, const BrushRequest& request,
+                         std::span<const motion::Motion> motions) {
   const Body& bone = body_of(joint, request.body);
   if (joint.implant)
     throw UsageError("brush: the joint has an implant, and a stroke does not know it from bone");
   if (is_cut(bone))
     throw UsageError("brush: a part is cut from " + bone.name +
                      ": bone can be taken from the other body only");
-  const RangeOfMotion before(joint, request.range);
+  const motion::RangeOfMotion before(joint, request.range);
   Brush brush(bone, joined(protected_vertices(joint, request.body, before.bearing().roles), request.stays));
   std::vector<StrokeOutcome> outcomes;
   for (const BrushStroke& stroke : request.strokes) outcomes.push_back(brush.stroke(stroke));
-  const RangeOfMotion after(before, request.body, brush.vertices());
+  const motion::RangeOfMotion after(before, request.body, brush.vertices());
   return {.joint = with_brushed_bone(joint, request.body, brush.vertices(), before.bearing()),
           .strokes = std::move(outcomes),
           .removed = brush.removed(),
@@ -74,4 +76,4 @@ BrushedJoint brush_joint(const Joint& joint, const BrushRequest& request, std::s
           .after = after.limits(motions)};
 }
 
-}  // namespace condyle
+}  // namespace condyle::plan

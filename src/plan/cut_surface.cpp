@@ -374,9 +374,9 @@ bool CutSurface::unfold() {
   return false;
 }
 
-SurfacePoint CutSurface::on_surface(const Feature& feature, const Vec3& point) const {
-  if (feature.kind == FeatureKind::vertex) return {{feature.id, no_index, no_index}, {1, 0, 0}};
-  if (feature.kind == FeatureKind::edge) {
+SurfacePoint CutSurface::on_surface(const motion::Feature& feature, const Vec3& point) const {
+  if (feature.kind == motion::FeatureKind::vertex) return {{feature.id, no_index, no_index}, {1, 0, 0}};
+  if (feature.kind == motion::FeatureKind::edge) {
     const Vec3 from = at(feature.id), along = at(feature.other_end) - from;
     const double share =
         along == Vec3::Zero() ? 0 : std::clamp((point - from).dot(along) / along.squaredNorm(), 0.0, 1.0);

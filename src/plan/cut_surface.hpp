@@ -80,7 +80,7 @@ class CutSurface {
   void lower_to(Index vertex, double depth_mm, const Need& need);
   /// Lowers what is higher around steep walls until no triangle is turned over; false if kept bone does not let it.
   bool unfold();
-  SurfacePoint on_surface(const Feature& feature, const Vec3& point) const;
+  SurfacePoint on_surface(const motion::Feature& feature, const Vec3& point) const;
   /// Where the point was before anything was lowered.
   Vec3 before(const SurfacePoint& point) const;
   enum class MayGo { some, kept, elsewhere };

@@ -107,11 +107,11 @@ Pose rigid(const Eigen::Affine3d& motion) {
 /// Where a search ended.
 struct Ended {
   double turned = 0;  ///< rad
-  LimitReason reason = LimitReason::end_of_range;
+  motion::LimitReason reason = motion::LimitReason::end_of_range;
 
   bool is_before(const Ended& other) const noexcept {
-    return reason != LimitReason::end_of_range &&
-           (other.reason == LimitReason::end_of_range || turned < other.turned);
+    return reason != motion::LimitReason::end_of_range &&
+           (other.reason == motion::LimitReason::end_of_range || turned < other.turned);
   }
 };
 
@@ -133,7 +133,7 @@ struct DesignLimits::Parts {
   };
   /// A motion as all pairs see it: the last one is the check of the reference pose, without range.
   struct Turn {
-    Motion motion;
+    motion::Motion motion;
     Pose X_FM;
     Vec3 axis_F;  ///< about which M turns
   };
@@ -154,7 +154,7 @@ struct DesignLimits::Parts {
   Joint joint;
   std::vector<SweepTarget> targets;
   std::vector<ParameterPlace> swept;
-  ReferenceContact reference_contact;
+  motion::ReferenceContact reference_contact;
   std::vector<std::unique_ptr<SweptMesh>> meshes;
   std::vector<PairOfMeshes> pairs;
   std::vector<EndingPair> names;
@@ -163,7 +163,7 @@ struct DesignLimits::Parts {
   mutable std::vector<Kept> kept;         ///< by pair and turn
   mutable core::PerThread<Worker> workers;
 
-  Parts(const Joint& given, const RangeOptions& options, std::span<const SweepTarget> all,
+  Parts(const Joint& given, const motion::RangeOptions& options, std::span<const SweepTarget> all,
         std::span<const std::string> names_swept)
       : joint(given),
         targets(all.begin(), all.end()),
@@ -171,13 +171,14 @@ struct DesignLimits::Parts {
         workers([this] { return Worker(*this); }) {
     for (const std::string& name : names_swept) swept.push_back(place_of(*joint.posed, name));
     add_turns(options.overlap.reference_pose);
-    const BearingFinding bearing = find_bearing_surface(joint, options.bearing);
-    const BearingRule rule = bearing.roles.distinguish_bearing() ? options.bearing.rule : BearingRule::count;
+    const motion::BearingFinding bearing = motion::find_bearing_surface(joint, options.bearing);
+    const motion::BearingRule rule =
+        bearing.roles.distinguish_bearing() ? options.bearing.rule : motion::BearingRule::count;
     add_meshes(motion::parts_that_count(joint, options.overlap, bearing, rule));
   }
 
   void add_turns(const JointAngles& reference_pose) {
-    const auto add = [&](const Motion& motion) {
+    const auto add = [&](const motion::Motion& motion) {
       turns.push_back({motion, pose_at(joint.coordinates(), motion.start),
                        axis_of(motion.vary, joint.coordinates(), motion.start) * sign_of(motion.sense)});
     };
@@ -264,8 +265,8 @@ struct DesignLimits::Parts {
     if (f.nearest_mm <= m.farthest_mm + shell_gap_mm && m.nearest_mm <= f.farthest_mm + shell_gap_mm) return;
     const std::vector<PosedPart>& parts = joint.posed->parts;
     const Ended ended = search(pair, turns.size() - 1, parts, {}, Angle());
-    pair.known = ended.reason == LimitReason::contact_at_start ? PairOfMeshes::Known::always
-                                                               : PairOfMeshes::Known::never;
+    pair.known = ended.reason == motion::LimitReason::contact_at_start ? PairOfMeshes::Known::always
+                                                                       : PairOfMeshes::Known::never;
   }
 
   /// The first contact of two meshes along a turn.
@@ -287,7 +288,7 @@ struct DesignLimits::Parts {
     const motion::RotationTable& table = table_of(worker, stationary, turn, frame, values);
     motion::RotatingBody& body = worker.rotating[rotating];
     body.start_at(table.frame(), X_RT);
-    const Limit limit = motion::first_contact(table, body, {Angle(), range}).positive;
+    const motion::Limit limit = motion::first_contact(table, body, {Angle(), range}).positive;
     return {limit.turned.radians(), limit.reason};
   }
 
@@ -344,16 +345,16 @@ struct DesignLimits::Parts {
   /// Where a turn ends first. `reach`: on which side of it the limit lies must be certain.
   Best first_end(std::size_t turn, Angle range, Angle reach, const ClosedForm& form,
                  std::span<const PosedPart> parts, std::span<const double> values) const {
-    Motion motion = turns[turn].motion;
+    motion::Motion motion = turns[turn].motion;
     motion.range = range;
-    Best best{{range.radians(), LimitReason::end_of_range}};
+    Best best{{range.radians(), motion::LimitReason::end_of_range}};
     const auto search_pair = [&](std::size_t p) {
       best.take(ended(p, turn, parts, values, Angle::radians(best.ended.turned)), pairs[p].name);
     };
     // Kept results, and motions that are answered, narrow the range of the search.
     for (std::size_t p = 0; p < pairs.size(); ++p) {
       if (pairs[p].known == PairOfMeshes::Known::always)
-        best.take({0, LimitReason::contact_at_start}, pairs[p].name);
+        best.take({0, motion::LimitReason::contact_at_start}, pairs[p].name);
       if (pairs[p].known == PairOfMeshes::Known::by_search && pairs[p].is_kept) search_pair(p);
     }
     for (std::size_t p = 0; p < pairs.size(); ++p)
@@ -365,32 +366,33 @@ struct DesignLimits::Parts {
   }
 
   /// The same of a pose: liner and neck are free where their axes are near enough.
-  bool take_start(Best& best, const PairOfMeshes& pair, const Motion& at, const RevolvedPair& form) const {
+  bool take_start(Best& best, const PairOfMeshes& pair, const motion::Motion& at,
+                  const RevolvedPair& form) const {
     const Vec3 neck = posed(pose_at(joint.coordinates(), at.start), form.mobile_axis);
     const Angle apart =
         Angle::radians(std::atan2(form.fixed_axis.cross(neck).norm(), form.fixed_axis.dot(neck)));
     if (apart < form.of_facets_low - closed_form_slack) return true;
     if (!(apart > form.of_facets_high + closed_form_slack)) return false;
-    best.take({0, LimitReason::contact_at_start}, pair.name, LimitKnownBy::closed_form);
+    best.take({0, motion::LimitReason::contact_at_start}, pair.name, LimitKnownBy::closed_form);
     return true;
   }
 
   /// False if the closed form does not decide.
-  bool take_form(Best& best, const PairOfMeshes& pair, const Motion& motion, Angle reach,
+  bool take_form(Best& best, const PairOfMeshes& pair, const motion::Motion& motion, Angle reach,
                  const ClosedForm& form) const {
     if (!form.pair) return false;
     if (motion.range == Angle()) return take_start(best, pair, motion, *form.pair);
     // Past the range too: an end just beyond it is one that is certain.
-    Motion wide = motion;
+    motion::Motion wide = motion;
     wide.range = motion.range + Angle::degrees(1);
     const ClosedLimit closed = closed_limit(*form.pair, joint.coordinates(), wide);
     const Angle low = closed.of_facets_low - closed_form_slack,
                 high = closed.of_facets_high + closed_form_slack;
     if (!(low < motion.range)) return true;
     const Angle other = Angle::radians(best.ended.turned);
-    if (best.ended.reason != LimitReason::end_of_range && other < low) return true;
+    if (best.ended.reason != motion::LimitReason::end_of_range && other < low) return true;
     if (reach > low && !(reach > high)) return false;
-    if (best.ended.reason != LimitReason::end_of_range && other < high) return false;
+    if (best.ended.reason != motion::LimitReason::end_of_range && other < high) return false;
     if (!(closed.turned < motion.range)) return true;
     best.take({closed.turned.radians(), closed.reason}, pair.name, LimitKnownBy::closed_form);
     return true;
@@ -399,9 +401,9 @@ struct DesignLimits::Parts {
   /// Contact in the reference pose, unless it is accepted.
   std::optional<Best> reference_end(const ClosedForm& form, std::span<const PosedPart> parts,
                                     std::span<const double> values) const {
-    if (reference_contact == ReferenceContact::accept) return std::nullopt;
+    if (reference_contact == motion::ReferenceContact::accept) return std::nullopt;
     const Best at = first_end(turns.size() - 1, Angle(), Angle(), form, parts, values);
-    return at.ended.reason == LimitReason::contact_at_start ? std::optional(at) : std::nullopt;
+    return at.ended.reason == motion::LimitReason::contact_at_start ? std::optional(at) : std::nullopt;
   }
 
   std::vector<PosedPart> parts_at(std::span<const double> values) const {
@@ -412,7 +414,7 @@ struct DesignLimits::Parts {
   }
 };
 
-DesignLimits::DesignLimits(const Joint& joint, const RangeOptions& options,
+DesignLimits::DesignLimits(const Joint& joint, const motion::RangeOptions& options,
                            std::span<const SweepTarget> targets, std::span<const std::string> swept,
                            bool closed_forms)
     : parts_(std::make_unique<Parts>(joint, options, targets, swept)) {
@@ -428,7 +430,8 @@ void DesignLimits::limits(std::span<const double> values, std::span<DesignLimit>
   const ClosedForm form = closed_form(parts_->joint, parts);
   if (const auto at = parts_->reference_end(form, parts, values)) {
     for (DesignLimit& limit : out)
-      limit = {std::numeric_limits<double>::quiet_NaN(), LimitReason::contact_at_start, at->by, at->pair};
+      limit = {std::numeric_limits<double>::quiet_NaN(), motion::LimitReason::contact_at_start, at->by,
+               at->pair};
     return;
   }
   for (std::size_t t = 0; t < out.size(); ++t) {
@@ -445,7 +448,8 @@ bool DesignLimits::reaches_all(std::span<const double> values) const {
   for (std::size_t t = 0; t < parts_->targets.size(); ++t) {
     const Angle reach = parts_->targets[t].reach;
     const Parts::Best end = parts_->first_end(t, reach, reach, form, parts, values);
-    if (end.ended.reason != LimitReason::end_of_range && end.ended.turned < reach.radians()) return false;
+    if (end.ended.reason != motion::LimitReason::end_of_range && end.ended.turned < reach.radians())
+      return false;
   }
   return true;
 }
@@ -458,7 +462,7 @@ std::string DesignLimits::difference_from_form(std::span<const double> values) c
   for (const Parts::PairOfMeshes& pair : parts_->pairs) {
     if (pair.known != Parts::PairOfMeshes::Known::by_form) continue;
     for (std::size_t t = 0; t < parts_->targets.size(); ++t) {
-      const Motion& motion = parts_->turns[t].motion;
+      const motion::Motion& motion = parts_->turns[t].motion;
       const Angle turned = Angle::radians(parts_->search(pair, t, parts, values, motion.range).turned);
       const ClosedLimit closed = closed_limit(*form.pair, parts_->joint.coordinates(), motion);
       if (turned > closed.of_facets_low - closed_form_slack &&

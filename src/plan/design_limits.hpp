@@ -24,7 +24,7 @@ class DesignLimits {
  public:
   /// The joint must have parts. `swept`: full names of the parameters that will change; the others keep the joint's values. With `closed_forms`
   /// false every limit is searched for.
-  DesignLimits(const Joint& joint, const RangeOptions& options, std::span<const SweepTarget> targets,
+  DesignLimits(const Joint& joint, const motion::RangeOptions& options, std::span<const SweepTarget> targets,
                std::span<const std::string> swept, bool closed_forms = true);
   ~DesignLimits();
 

@@ -13,7 +13,7 @@ namespace condyle::plan {
 class ExactReach {
  public:
   /// `other`: what of the other body ends motions.
-  ExactReach(const Joint& joint, BodyRole cut, const Mesh& other, const Motion& motion);
+  ExactReach(const Joint& joint, BodyRole cut, const Mesh& other, const motion::Motion& motion);
 
   /// Every obstructing feature of the cut bone, with a point of it, in the bone's own frame; none if the motion goes as far as
   /// `reach`. Of bodies that are in contact at the start one feature, or empty if no surfaces meet there: one is inside the other.

@@ -9,7 +9,7 @@
 #include "plan/implant_limits.hpp"
 #include "plan/implant_shape.hpp"
 
-namespace condyle {
+namespace condyle::plan {
 namespace {
 
 /// As people write it: 40, where the angle in radians has 39.99999999999999.
@@ -261,12 +261,12 @@ std::string why_not_revolved(const Implant& implant) {
 std::optional<RevolvedPair> revolved_pair(const Implant& implant, Side side) {
   check_implant(implant);
   if (!why_not_revolved(implant).empty()) return std::nullopt;
-  const plan::ImplantAxes axes = plan::axes_of(implant, side);
+  const ImplantAxes axes = plan::axes_of(implant, side);
   const Sizes sizes = std::visit([](const auto& design) { return sizes_of(design); }, implant);
-  const plan::HalfAngles half = plan::half_angles(sizes.liner, sizes.neck, sizes.facets);
+  const HalfAngles half = plan::half_angles(sizes.liner, sizes.neck, sizes.facets);
   const bool is_hip = std::holds_alternative<TotalHip>(implant);
   return RevolvedPair{is_hip ? axes.liner : axes.neck, is_hip ? axes.neck : axes.liner, half.exact,
                       half.of_facets_low, half.of_facets_high};
 }
 
-}  // namespace condyle
+}  // namespace condyle::plan

@@ -3,7 +3,7 @@
 #include "condyle/implant.hpp"
 #include "core/trigonometry.hpp"
 
-namespace condyle {
+namespace condyle::plan {
 namespace {
 
 core::SineCosine of_angle(Angle angle) noexcept {
@@ -69,4 +69,4 @@ StemAngles stem_angles(const Vec3& axis, Side side) noexcept {
   return {between(std::hypot(n.x(), n.z()), n.y()), between(-n.x(), n.z())};
 }
 
-}  // namespace condyle
+}  // namespace condyle::plan

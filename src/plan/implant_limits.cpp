@@ -5,7 +5,7 @@
 #include "core/trigonometry.hpp"
 #include "plan/implant_limits.hpp"
 
-namespace condyle {
+namespace condyle::plan {
 namespace {
 
 double tangent(Angle angle) noexcept {
@@ -82,7 +82,7 @@ Angle contact_half_angle(const LinerShape& liner, const NeckShape& neck) noexcep
   return Angle::radians(half_angle_of(liner, 1, neck, 1));
 }
 
-plan::HalfAngles plan::half_angles(const LinerShape& liner, const NeckShape& neck, int facets) noexcept {
+HalfAngles half_angles(const LinerShape& liner, const NeckShape& neck, int facets) noexcept {
   const double share = core::sine_cosine(two_pi / 2 / facets).cosine;
   const double exact = half_angle_of(liner, 1, neck, 1), rim = half_angle_of(liner, share, neck, 1),
                thin = half_angle_of(liner, 1, neck, share), both = half_angle_of(liner, share, neck, share);
@@ -90,7 +90,8 @@ plan::HalfAngles plan::half_angles(const LinerShape& liner, const NeckShape& nec
           Angle::radians(std::max({exact, rim, thin, both}))};
 }
 
-ClosedLimit closed_limit(const RevolvedPair& pair, CoordinateSystem system, const Motion& motion) noexcept {
+ClosedLimit closed_limit(const RevolvedPair& pair, CoordinateSystem system,
+                         const motion::Motion& motion) noexcept {
   const Vec3 k = axis_of(motion.vary, system, motion.start) * sign_of(motion.sense);
   const Vec3 v = posed(pose_at(system, motion.start), pair.mobile_axis);
   const Vec3& c = pair.fixed_axis;
@@ -100,13 +101,13 @@ ClosedLimit closed_limit(const RevolvedPair& pair, CoordinateSystem system, cons
     const auto t = course.first_below(core::sine_cosine(half_angle.radians()).cosine);
     return t && *t < motion.range.radians() ? Angle::radians(*t) : motion.range;
   };
-  ClosedLimit limit{end_at(pair.half_angle), LimitReason::contact, end_at(pair.of_facets_low),
+  ClosedLimit limit{end_at(pair.half_angle), motion::LimitReason::contact, end_at(pair.of_facets_low),
                     end_at(pair.of_facets_high)};
   if (limit.turned.radians() == 0)
-    limit.reason = LimitReason::contact_at_start;
+    limit.reason = motion::LimitReason::contact_at_start;
   else if (limit.turned == motion.range)
-    limit.reason = LimitReason::end_of_range;
+    limit.reason = motion::LimitReason::end_of_range;
   return limit;
 }
 
-}  // namespace condyle
+}  // namespace condyle::plan

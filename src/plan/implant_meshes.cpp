@@ -9,7 +9,7 @@
 #include "mesh/enclosed_volume.hpp"
 #include "plan/implant_shape.hpp"
 
-namespace condyle {
+namespace condyle::plan {
 namespace {
 
 using core::sine_cosine;
@@ -191,7 +191,7 @@ TriMesh stem_mesh(const Vec3& start, const Vec3& along, double bend, double firs
 }
 
 ImplantMeshes meshes_of(const TotalHip& hip, const Vec3& stem_down) {
-  const plan::ImplantAxes axes = plan::axes_of(hip, Side::right);
+  const ImplantAxes axes = plan::axes_of(hip, Side::right);
   const AxisAcross cup(axes.liner), neck(axes.neck);
   const LinerShape liner{hip.head_radius_mm, hip.cup_radius_mm, hip.liner_half_angle, hip.chamfer};
   // The turn that `beside` gives a positive sense is backwards on a right hip.
@@ -219,7 +219,7 @@ ImplantMeshes meshes_of(const TotalHip& hip, const Vec3& stem_down) {
 }
 
 ImplantMeshes meshes_of(const ReverseShoulder& shoulder, const Vec3& stem_down) {
-  const plan::ImplantAxes axes = plan::axes_of(shoulder, Side::right);
+  const ImplantAxes axes = plan::axes_of(shoulder, Side::right);
   const AxisAcross cup(axes.liner), pillar(axes.neck);
   const LinerShape liner{shoulder.head_radius_mm, shoulder.cup_radius_mm, shoulder.liner_half_angle,
                          shoulder.chamfer};
@@ -245,7 +245,7 @@ double neck_length_mm(const TotalHip& hip) {
 
 }  // namespace
 
-plan::ImplantAxes plan::axes_of(const Implant& implant, Side side) {
+ImplantAxes axes_of(const Implant& implant, Side side) {
   if (const auto* hip = std::get_if<TotalHip>(&implant))
     return {cup_axis(hip->cup, side), neck_axis(hip->neck_shaft, hip->stem_version, side)};
   const auto& shoulder = std::get<ReverseShoulder>(implant);
@@ -260,14 +260,14 @@ plan::ImplantAxes plan::axes_of(const Implant& implant, Side side) {
   return {liner, pillar};
 }
 
-double plan::neck_end_mm(const TotalHip& hip) {
+double neck_end_mm(const TotalHip& hip) {
   // Beyond the cup, and not farther than leaves room for the bend.
   constexpr double share = 0.6, beyond_cup = 3;
   const double length = neck_length_mm(hip);
   return std::min(std::max(share * length, hip.cup_radius_mm + beyond_cup), length - least_stem_bend_mm);
 }
 
-double plan::stem_bend_mm(const TotalHip& hip) {
+double stem_bend_mm(const TotalHip& hip) {
   return neck_length_mm(hip) - neck_end_mm(hip);
 }
 
@@ -284,4 +284,4 @@ NeckCut neck_cut(const TotalHip& hip, Side side) {
   return {axis, plan::neck_end_mm(hip), neck_length_mm(hip) * axis};
 }
 
-}  // namespace condyle
+}  // namespace condyle::plan

@@ -6,7 +6,7 @@
 #include "kinematics/posed_parts.hpp"
 #include "plan/implant_shape.hpp"
 
-namespace condyle {
+namespace condyle::plan {
 namespace {
 
 /// Off the centre by no more than rounding.
@@ -74,4 +74,4 @@ ClosedForm closed_form(const Joint& joint, std::span<const PosedPart> parts) {
   return {pair, {}};
 }
 
-}  // namespace condyle
+}  // namespace condyle::plan

@@ -10,7 +10,7 @@
 #include "kinematics/posed_parts.hpp"
 #include "plan/bone_cut.hpp"
 
-namespace condyle {
+namespace condyle::plan {
 namespace {
 
 using plan::BoneCut;
@@ -51,9 +51,9 @@ void check_resection(const Joint& joint, const ResectionRequest& request) {
   if (joint.implant)
     throw UsageError("resection: the joint has an implant, and a cut does not know it from bone");
   for (auto target = request.targets.begin(); target != request.targets.end(); ++target) {
-    const Motion& motion = target->motion;
+    const motion::Motion& motion = target->motion;
     const Angle reach = target->reach;
-    check_motion(motion, joint.kind);
+    motion::check_motion(motion, joint.kind);
     if (std::any_of(request.targets.begin(), target,
                     [&](const ReachTarget& other) { return other.motion.name == motion.name; }))
       throw UsageError("resection: " + motion.name + " has two targets");
@@ -88,7 +88,7 @@ Joint with_mobile_mesh(const Joint& joint, Mesh mesh) {
   Joint other = joint;
   // By itself: a head may have been fitted to this mesh already.
   other.mobile.mesh = Mesh(mesh.arrays());
-  if (const auto bearing = find_bearing_surface(joint).surface) {
+  if (const auto bearing = motion::find_bearing_surface(joint).surface) {
     other.mobile.head = bearing->head;
     other.mobile.bearing_margin_mm = bearing->margin_mm;
     other.fixed.head = bearing->socket;
@@ -107,13 +107,13 @@ Resection resect(const Joint& joint, const ResectionRequest& request) {
 std::optional<Resection> resect(const Joint& joint, const ResectionRequest& request, const Control& control) {
   check_resection(joint, request);
   Resection done{joint, {}, {}, {}, false};
-  const RangeOfMotion before(joint, request.range);
+  const motion::RangeOfMotion before(joint, request.range);
   std::vector<CutTarget> open;
   for (std::size_t i = 0; i < request.targets.size(); ++i) {
     const ReachTarget& target = request.targets[i];
     done.targets.push_back({target, target.reach, before.limit(target.motion), {}, {}});
-    const Limit& end = done.targets.back().before.end;
-    if (end.reason == LimitReason::contact_at_start)
+    const motion::Limit& end = done.targets.back().before.end;
+    if (end.reason == motion::LimitReason::contact_at_start)
       throw MeshError(
           "resection: " + target.motion.name +
           " is in contact at its start: plan what brings the joint there first, and ask for this of "
@@ -157,9 +157,9 @@ std::optional<Resection> resect(const Joint& joint, const ResectionRequest& requ
     if (!report()) return std::nullopt;
   }
   kinematics::take_as_moved(done.joint);
-  const RangeOfMotion after(done.joint, request.range);
+  const motion::RangeOfMotion after(done.joint, request.range);
   for (ReachOutcome& outcome : done.targets) outcome.after = after.limit(outcome.target.motion);
   return done;
 }
 
-}  // namespace condyle
+}  // namespace condyle::plan

@@ -29,7 +29,7 @@ std::optional<Interval> while_outside(const AxisFrame& axis, const Vec3& point, 
 
 }  // namespace
 
-RotatingBone::RotatingBone(const Joint& joint, BodyRole cut, const Motion& motion)
+RotatingBone::RotatingBone(const Joint& joint, BodyRole cut, const motion::Motion& motion)
     : axis(Vec3::Zero(), Vec3::UnitZ()), at_start(pose_at(joint.coordinates(), motion.start)) {
   const Vec3 in_fixed = axis_of(motion.vary, joint.coordinates(), motion.start);
   sense = sign_of(motion.sense);
@@ -43,7 +43,7 @@ RotatingBone::RotatingBone(const Joint& joint, BodyRole cut, const Motion& motio
   sense = -sense;
 }
 
-Sweep::Sweep(const Joint& joint, BodyRole cut, const Mesh& other, const Motion& motion,
+Sweep::Sweep(const Joint& joint, BodyRole cut, const Mesh& other, const motion::Motion& motion,
              const std::optional<BearingBall>& ball)
     : cut_(cut), rotating_(joint, cut, motion), rings_(other, rotating_.axis), ball_(ball) {}
 
@@ -55,7 +55,7 @@ Sweep Sweep::including_all() const {
 
 std::vector<double> Sweep::first_inside(PointsView points, Angle reach) const {
   const Points started = posed(rotating_.at_start, points);
-  const OccupiedArcs arcs = rings_.occupied_arcs(started);
+  const tangential::OccupiedArcs arcs = rings_.occupied_arcs(started);
   std::vector<double> first(points.size(), never);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (arcs.of(i).empty() || (ball_ && cut_ == BodyRole::mobile && ball_->holds(points[i]))) continue;
@@ -64,14 +64,15 @@ std::vector<double> Sweep::first_inside(PointsView points, Angle reach) const {
   return first;
 }
 
-double Sweep::first_of(const Vec3& started, std::span<const OccupiedArc> arcs, double reach) const {
+double Sweep::first_of(const Vec3& started, std::span<const tangential::OccupiedArc> arcs,
+                       double reach) const {
   // Points of the fixed body count if the mobile bone that they are in is outside the ball.
   std::optional<Interval> counts = Interval{0, 2 * two_pi};
   if (ball_ && cut_ == BodyRole::fixed)
     counts = while_outside(rotating_.axis, started, ball_->centre, ball_->radius_mm);
   if (!counts) return never;
   double first = never;
-  for (const OccupiedArc& arc : arcs) {
+  for (const tangential::OccupiedArc& arc : arcs) {
     Interval inside{arc.begin.radians(), arc.end.radians()};
     Interval included = *counts;
     if (rotating_.sense < 0) {

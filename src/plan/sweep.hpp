@@ -18,7 +18,7 @@ struct BearingBall {
   Vec3 centre;
   double radius_mm;
 
-  explicit BearingBall(const BearingSurface& surface)
+  explicit BearingBall(const motion::BearingSurface& surface)
       : centre(surface.head.centre), radius_mm(surface.head.radius + surface.margin_mm) {}
 
   bool holds(const Vec3& p) const noexcept { return (p - centre).norm() <= radius_mm; }
@@ -30,7 +30,7 @@ struct RotatingBone {
   Pose at_start;   ///< of the cut bone in the other one
   double sense;    ///< of its turn about the axis: -1 or 1
 
-  RotatingBone(const Joint& joint, BodyRole cut, const Motion& motion);
+  RotatingBone(const Joint& joint, BodyRole cut, const motion::Motion& motion);
 };
 
 /// Angles at which points of a bone are inside the other one while a motion goes on.
@@ -45,7 +45,7 @@ struct RotatingBone {
 class Sweep {
  public:
   /// The other bone must be closed. With a ball, bone of the mobile body within it counts for nothing, whichever body is cut.
-  Sweep(const Joint& joint, BodyRole cut, const Mesh& other, const Motion& motion,
+  Sweep(const Joint& joint, BodyRole cut, const Mesh& other, const motion::Motion& motion,
         const std::optional<BearingBall>& ball);
   /// The same without the ball.
   Sweep including_all() const;
@@ -55,11 +55,11 @@ class Sweep {
   std::vector<double> first_inside(PointsView points, Angle reach) const;
 
  private:
-  double first_of(const Vec3& started, std::span<const OccupiedArc> arcs, double reach) const;
+  double first_of(const Vec3& started, std::span<const tangential::OccupiedArc> arcs, double reach) const;
 
   BodyRole cut_;
   RotatingBone rotating_;
-  RingTable rings_;
+  tangential::RingTable rings_;
   std::optional<BearingBall> ball_;
 };
 

@@ -7,7 +7,7 @@
 #include "core/formatted.hpp"
 #include "core/one_line.hpp"
 
-namespace condyle {
+namespace condyle::plan {
 namespace {
 
 /// A number at the front of the text, which is taken off it; NaN if there is none.
@@ -73,8 +73,8 @@ std::vector<SweptParameter> parse_sweep(std::string_view text) {
   return swept;
 }
 
-Motion SweepTarget::without_tilt() const noexcept {
-  Motion seen = motion;
+motion::Motion SweepTarget::without_tilt() const noexcept {
+  motion::Motion seen = motion;
   seen.start.flexion = seen.start.flexion + pelvic_tilt;
   return seen;
 }
@@ -83,4 +83,4 @@ std::string_view name_of(LimitKnownBy by) noexcept {
   return by == LimitKnownBy::meshes ? "meshes" : "closed_form";
 }
 
-}  // namespace condyle
+}  // namespace condyle::plan

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 
 namespace condyle::plan {
 

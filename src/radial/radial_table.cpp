@@ -2,7 +2,7 @@
 #include "core/coordinate_range.hpp"
 #include "radial/direction_table.hpp"
 
-namespace condyle {
+namespace condyle::radial {
 
 void RadialResults::resize(std::size_t count) {
   state.resize(count), winding.resize(count), radial_gap_mm.resize(count);
@@ -20,20 +20,20 @@ void Penetrations::resize(std::size_t count) {
 }
 
 SortedPoints::SortedPoints(PointsView points, const Vec3& centre)
-    : blocks_((core::require_in_range(points), std::make_shared<radial::PointBlocks>(points, centre))) {}
+    : blocks_((core::require_in_range(points), std::make_shared<PointBlocks>(points, centre))) {}
 
 std::size_t SortedPoints::size() const noexcept {
   return blocks_->size();
 }
 
 RadialTable::RadialTable(Mesh mesh, RadialOptions options)
-    : table_(std::make_unique<radial::DirectionTable>(std::move(mesh), options)) {}
+    : table_(std::make_unique<DirectionTable>(std::move(mesh), options)) {}
 
 RadialTable::RadialTable(const RadialTable& other)
-    : table_(std::make_unique<radial::DirectionTable>(*other.table_)) {}
+    : table_(std::make_unique<DirectionTable>(*other.table_)) {}
 
 RadialTable& RadialTable::operator=(const RadialTable& other) {
-  if (this != &other) table_ = std::make_unique<radial::DirectionTable>(*other.table_);
+  if (this != &other) table_ = std::make_unique<DirectionTable>(*other.table_);
   return *this;
 }
 
@@ -101,4 +101,4 @@ RadialTableSize RadialTable::table_size() const noexcept {
   return table_->table_size();
 }
 
-}  // namespace condyle
+}  // namespace condyle::radial

@@ -12,7 +12,7 @@
 #include "sample/solid_mesh.hpp"
 #include "sample/stoppable.hpp"
 
-namespace condyle {
+namespace condyle::sample {
 namespace {
 
 using sample::Cartilage;
@@ -74,7 +74,7 @@ CartilageCounts counts(const CartilageResolution& resolution, const Cartilage& a
 SampleCartilages made(const HipParameters& hip, const CartilageParameters& cartilage,
                       const CartilageResolution& resolution, const std::stop_token& stop) {
   require_valid(hip, cartilage);
-  const sample::ArticularSpheres spheres = sample::articular_spheres(hip, cartilage);
+  const ArticularSpheres spheres = sample::articular_spheres(hip, cartilage);
   Cartilage acetabular = sample::acetabular_cartilage_shape(hip, cartilage);
   Cartilage femoral = sample::femoral_cartilage_shape(hip, cartilage);
   for (Cartilage* each : {&acetabular, &femoral})
@@ -104,7 +104,7 @@ std::optional<SampleCartilages> sample_cartilages(const HipParameters& hip,
                                                   const std::stop_token& stop) {
   try {
     return made(hip, cartilage, resolution, stop);
-  } catch (const sample::Stopped&) {
+  } catch (const Stopped&) {
     return std::nullopt;
   }
 }
@@ -113,4 +113,4 @@ SampleCartilages mirrored(const SampleCartilages& cartilages) {
   return {mirrored(cartilages.acetabular), mirrored(cartilages.femoral)};
 }
 
-}  // namespace condyle
+}  // namespace condyle::sample

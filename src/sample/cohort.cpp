@@ -9,7 +9,7 @@
 #include "condyle/sample/hip.hpp"
 #include "sample/femur_shape.hpp"
 
-namespace condyle {
+namespace condyle::sample {
 namespace {
 
 constexpr std::string_view head_radii = "head radii";
@@ -86,4 +86,4 @@ CohortHip cohort_hip(std::uint64_t seed, std::uint64_t k) {
   return hip;
 }
 
-}  // namespace condyle
+}  // namespace condyle::sample

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 
 namespace condyle::sample {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 
 /// Solids as scalar fields: negative inside, positive outside, zero on the surface, growing by about one per
 /// millimetre.

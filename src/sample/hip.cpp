@@ -15,7 +15,7 @@
 #include "sample/solid_mesh.hpp"
 #include "sample/stoppable.hpp"
 
-namespace condyle {
+namespace condyle::sample {
 namespace {
 
 using sample::Meshing;
@@ -105,7 +105,7 @@ std::optional<SampleHip> sample_hip(const HipParameters& parameters, const Resol
                                     const std::stop_token& stop) {
   try {
     return made(parameters, resolution, stop);
-  } catch (const sample::Stopped&) {
+  } catch (const Stopped&) {
     return std::nullopt;
   }
 }
@@ -121,4 +121,4 @@ SampleHip mirrored(const SampleHip& hip) {
   return {mirrored(hip.hip_bone), mirrored(hip.femur)};
 }
 
-}  // namespace condyle
+}  // namespace condyle::sample

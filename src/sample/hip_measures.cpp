@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace condyle {
+namespace condyle::sample {
 namespace {
 
 template <double HipParameters::*member>
@@ -53,4 +53,4 @@ const HipMeasure* hip_measure_named(std::string_view name) noexcept {
   return found == std::end(measures) ? nullptr : found;
 }
 
-}  // namespace condyle
+}  // namespace condyle::sample

@@ -9,10 +9,10 @@
 #include "sample/cut_neck.hpp"
 #include "sample/femur_shape.hpp"
 
-namespace condyle {
+namespace condyle::sample {
 namespace {
 
-void require_fitting(const TotalHip& implant, const HipParameters& bones) {
+void require_fitting(const plan::TotalHip& implant, const HipParameters& bones) {
   const double socket = bones.head_radius_mm + bones.joint_space_mm;
   if (implant.cup_radius_mm < socket) return;
   throw UsageError(fmt::format(
@@ -22,17 +22,18 @@ void require_fitting(const TotalHip& implant, const HipParameters& bones) {
 
 }  // namespace
 
-std::optional<ImplantMeshes> sample_replacement(const TotalHip& implant, const HipParameters& bones,
-                                                const Resolution& resolution, Side side,
-                                                const std::stop_token& stop) {
-  check_implant(implant);
+std::optional<plan::ImplantMeshes> sample_replacement(const plan::TotalHip& implant,
+                                                      const HipParameters& bones,
+                                                      const Resolution& resolution, Side side,
+                                                      const std::stop_token& stop) {
+  plan::check_implant(implant);
   require_fitting(implant, bones);
   std::optional<SampleHip> hip = sample_hip(bones, resolution, stop);
   if (!hip) return std::nullopt;
-  const NeckCut cut = neck_cut(implant, Side::right);
-  const sample::FemurAxes axes = sample::femur_axes(bones);
+  const plan::NeckCut cut = plan::neck_cut(implant, Side::right);
+  const FemurAxes axes = sample::femur_axes(bones);
   const Vec3 shift = plan::femur_shift({axes.foot, axes.distal}, implant, cut);
-  ImplantMeshes parts = implant_meshes(implant, side, axes.distal);
+  plan::ImplantMeshes parts = plan::implant_meshes(implant, side, axes.distal);
   TriMesh& femur = hip->femur;
   for (std::size_t v = 0; v < femur.vertices.size(); ++v) femur.vertices.set(v, femur.vertices[v] + shift);
   femur = sample::cut_neck(femur, cut.normal, cut.offset_mm);
@@ -42,4 +43,4 @@ std::optional<ImplantMeshes> sample_replacement(const TotalHip& implant, const H
   return parts;
 }
 
-}  // namespace condyle
+}  // namespace condyle::sample

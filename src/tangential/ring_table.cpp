@@ -15,7 +15,7 @@
 #include "tangential/query/answers.hpp"
 #include "tangential/query/circle_batch.hpp"
 
-namespace condyle {
+namespace condyle::tangential {
 namespace {
 
 using tangential::CircleBatch;
@@ -59,7 +59,7 @@ void TangentialResults::resize(std::size_t count) {
 RingTable::RingTable(const Mesh& mesh, const AxisFrame& frame, RingTableOptions options) {
   require_closed(mesh);
   const std::size_t cells = cell_count(mesh, options);
-  rings_ = std::make_shared<const tangential::Rings>(tangential::build_rings(mesh, frame, cells));
+  rings_ = std::make_shared<const Rings>(tangential::build_rings(mesh, frame, cells));
 }
 
 void RingTable::query(PointsView points, TangentialResults& results, TangentialRule rule) const {
@@ -112,4 +112,4 @@ RingTableSize RingTable::table_size() const noexcept {
   return size_of(*rings_);
 }
 
-}  // namespace condyle
+}  // namespace condyle::tangential

@@ -24,17 +24,17 @@ class DepthAnswers : public ::testing::Test {
                     .side = Side::right,
                     .fixed = {"wall", box({40, -120, -50}, {60, -20, 50})},
                     .mobile = {"arm", box({-1, -100, -2}, {1, -10, 2})}};
-  const JointContact bodies{joint};
+  const contact::JointContact bodies{joint};
   const JointAngles pose{Angle::degrees(25), {}, {}};
   const Pose X_FM = pose_at(joint.coordinates(), pose);
 };
 
 TEST_F(DepthAnswers, AreThoseOfTheirOwnFunctions) {
-  const RadialContact contact = bodies.radial(X_FM);
-  const ContactMeasures measures =
-      measure_contact(bodies, X_FM, MeasuredContact(contact), DistancesOf::vertices_inside);
-  const ReliableContact expected =
-      reliable_depths(bodies, joint.kind, joint.coordinates(), pose, contact, measures.distances);
+  const contact::RadialContact contact = bodies.radial(X_FM);
+  const contact::ContactMeasures measures = contact::measure_contact(
+      bodies, X_FM, contact::MeasuredContact(contact), contact::DistancesOf::vertices_inside);
+  const contact::ReliableContact expected =
+      contact::reliable_depths(bodies, joint.kind, joint.coordinates(), pose, contact, measures.distances);
 
   const DepthAnswer answer = answer_depth(bodies, joint, {.X_FM = X_FM, .pose = pose});
   const auto& rays = std::get<RayDepths>(answer.depths);
@@ -80,10 +80,11 @@ TEST_F(DepthAnswers, WithoutMeasuresHaveTheSameDepths) {
 }
 
 TEST_F(DepthAnswers, SummariesWithKnownDistancesAreTheSame) {
-  const RadialContact contact = bodies.radial(X_FM);
-  const RadialSummary searched = summarise(bodies, X_FM, contact);
-  const RadialSummary known = summarise(
-      contact, nearest_distances(bodies, X_FM, MeasuredContact(contact), DistancesOf::vertices_inside));
+  const contact::RadialContact contact = bodies.radial(X_FM);
+  const contact::RadialSummary searched = contact::summarise(bodies, X_FM, contact);
+  const contact::RadialSummary known =
+      contact::summarise(contact, nearest_distances(bodies, X_FM, contact::MeasuredContact(contact),
+                                                    contact::DistancesOf::vertices_inside));
   ASSERT_TRUE(searched.mobile->deepest && known.mobile->deepest);
   EXPECT_EQ(known.mobile->deepest->shortest_exit_mm, searched.mobile->deepest->shortest_exit_mm);
   EXPECT_EQ(known.mobile->oblique_inside, searched.mobile->oblique_inside);
@@ -111,12 +112,13 @@ TEST_F(DepthAnswers, AlongNormalsAreOfTheBodyThatCasts) {
   const DepthAnswer answer = answer_depth(bodies, joint,
                                           {.X_FM = X_FM,
                                            .method = DepthMethod::normal,
-                                           .casting = Casting::mobile,
-                                           .rays = {{FaceRule::face_centre, 30}}});
-  const auto& found = std::get<NormalContact>(answer.depths);
+                                           .casting = contact::Casting::mobile,
+                                           .rays = {{contact::FaceRule::face_centre, 30}}});
+  const auto& found = std::get<contact::NormalContact>(answer.depths);
   EXPECT_TRUE(answer.in_contact());
   EXPECT_FALSE(found.fixed);
-  const NormalContact expected = normal_contact(bodies, X_FM, Casting::mobile, {FaceRule::face_centre, 30});
+  const contact::NormalContact expected =
+      contact::normal_contact(bodies, X_FM, contact::Casting::mobile, {contact::FaceRule::face_centre, 30});
   EXPECT_EQ(found.mobile->surface.totals.area_mm2, expected.mobile->surface.totals.area_mm2);
   ASSERT_EQ(answer.caveats.size(), 1u);
   EXPECT_NE(answer.caveats.front().find("same casting surface and rule"), std::string::npos);
@@ -137,9 +139,10 @@ TEST_F(DepthAnswers, SayThatABodyWasTranslated) {
 
 TEST_F(DepthAnswers, RefuseOptionsOfAnotherMethod) {
   EXPECT_THROW(check_depth_request(joint, {.about = JointAngle::flexion}), UsageError);
-  EXPECT_THROW(check_depth_request(joint, {.casting = Casting::both}), UsageError);
-  EXPECT_THROW(check_depth_request(joint, {.method = DepthMethod::tangential, .rays = NormalDepthOptions{}}),
-               UsageError);
+  EXPECT_THROW(check_depth_request(joint, {.casting = contact::Casting::both}), UsageError);
+  EXPECT_THROW(
+      check_depth_request(joint, {.method = DepthMethod::tangential, .rays = contact::NormalDepthOptions{}}),
+      UsageError);
   check_depth_request(joint, {.method = DepthMethod::tangential, .about = JointAngle::adduction});
 }
 

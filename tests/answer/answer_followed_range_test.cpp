@@ -35,15 +35,15 @@ struct BallInCup {
 
   static constexpr double thickness_mm = 1.5;
   const TriMesh ball = sphere({0, 0, 0}, 20, 5), cup = socket({0, 0, 0}, 20.5, 24, 5);
-  const ElasticContact layers{
-      cup,
-      ball,
-      {.fixed = ElasticLayer{12, 0.42, thickness_mm}, .mobile = ElasticLayer{12, 0.42, thickness_mm}}};
-  const Load up{.on_mobile = {Vec3(200, 800, 0), Vec3::Zero()}};
+  const contact::ElasticContact layers{cup,
+                                       ball,
+                                       {.fixed = contact::ElasticLayer{12, 0.42, thickness_mm},
+                                        .mobile = contact::ElasticLayer{12, 0.42, thickness_mm}}};
+  const contact::Load up{.on_mobile = {Vec3(200, 800, 0), Vec3::Zero()}};
   Joint joint = post_joint(JointAngle::flexion, Side::right).joint;
 };
 
-RangeRequest request_of(const Motion& motion, Follow follow) {
+RangeRequest request_of(const motion::Motion& motion, Follow follow) {
   RangeRequest request;
   request.motions = {motion};
   request.follow = std::move(follow);
@@ -56,25 +56,25 @@ RangeAnswer answered_following(const Joint& joint, const RangeRequest& request) 
 
 TEST(AnswerFollowedRange, PutsTheBodyWhereTheLoadIsCarried) {
   const BallInCup scene;
-  const Motion flexion = hip_motions().front();
+  const motion::Motion flexion = motion::hip_motions().front();
   const RangeAnswer answer = answered_following(
       scene.joint,
       request_of(flexion, FollowLoad{.layers = &scene.layers, .load = scene.up, .step = Angle::degrees(2)}));
   EXPECT_TRUE(answer.follows);
-  const MotionLimit& limit = answer.limits.front();
-  ASSERT_EQ(limit.end.reason, LimitReason::contact);
+  const motion::MotionLimit& limit = answer.limits.front();
+  ASSERT_EQ(limit.end.reason, motion::LimitReason::contact);
   ASSERT_TRUE(limit.translation_mm);
   // Balanced anew, from elsewhere, at the limit itself.
   const Pose start = pose_at(scene.joint.coordinates(), limit.angles_at_limit());
-  const BalancedPose balanced = balance(scene.layers, start, scene.up);
+  const contact::BalancedPose balanced = contact::balance(scene.layers, start, scene.up);
   ASSERT_TRUE(balanced.carries_load());
   EXPECT_LT((balanced.X_FM.translation() - *limit.translation_mm).norm(), 0.01);
   // A ball's place hardly depends on its rotation, so the limit is that of the joint held there.
-  const RangeOfMotion held(held_at(scene.joint, balanced.X_FM.translation()));
+  const motion::RangeOfMotion held(held_at(scene.joint, balanced.X_FM.translation()));
   EXPECT_NEAR(limit.end.turned.degrees(), held.limit(flexion).end.turned.degrees(), 0.02);
-  EXPECT_GT(
-      std::abs(limit.end.turned.degrees() - RangeOfMotion(scene.joint).limit(flexion).end.turned.degrees()),
-      0.25)
+  EXPECT_GT(std::abs(limit.end.turned.degrees() -
+                     motion::RangeOfMotion(scene.joint).limit(flexion).end.turned.degrees()),
+            0.25)
       << "the load moves the limit";
   ASSERT_EQ(answer.caveats.size(), 1u);
   EXPECT_NE(answer.caveats.front().find("bounded, not exact"), std::string::npos);
@@ -82,10 +82,11 @@ TEST(AnswerFollowedRange, PutsTheBodyWhereTheLoadIsCarried) {
 
 TEST(AnswerFollowedRange, SaysWhereNothingCarriesTheLoad) {
   const BallInCup scene;
-  const Load out{.on_mobile = {Vec3(0, -800, 0), Vec3::Zero()}};  // out of the cup
+  const contact::Load out{.on_mobile = {Vec3(0, -800, 0), Vec3::Zero()}};  // out of the cup
   const RangeAnswer answer = answered_following(
-      scene.joint, request_of(hip_motions().front(), FollowLoad{.layers = &scene.layers, .load = out}));
-  EXPECT_EQ(answer.limits.front().end.reason, LimitReason::end_of_range);
+      scene.joint,
+      request_of(motion::hip_motions().front(), FollowLoad{.layers = &scene.layers, .load = out}));
+  EXPECT_EQ(answer.limits.front().end.reason, motion::LimitReason::end_of_range);
   EXPECT_EQ(answer.limits.front().motion.range, Angle());
   EXPECT_TRUE(answer.limits.front().translation_ends);
   EXPECT_FALSE(answer.limits.front().translation_mm);
@@ -108,7 +109,7 @@ FollowRecord record(double first, double last, double mm_per_degree) {
 TEST(AnswerFollowedRange, GoesWhereTheRecordedMotionGoes) {
   PostJoint post = post_joint(JointAngle::flexion, Side::right);
   post.joint.kind = JointKind::free;
-  const Motion flexion = hip_motions().front();
+  const motion::Motion flexion = motion::hip_motions().front();
   for (const double mm_per_degree : {-0.2, 0.0, 0.3}) {
     const RangeAnswer answer =
         answered_following(post.joint, request_of(flexion, record(-10, 60, mm_per_degree)));
@@ -119,8 +120,8 @@ TEST(AnswerFollowedRange, GoesWhereTheRecordedMotionGoes) {
       const double x = post_x - mm_per_degree * at, y = post_y;
       (x * std::cos(a) + y * std::sin(a) > arm_half_width ? low : high) = at;
     }
-    const Limit& end = answer.limits.front().end;
-    ASSERT_EQ(end.reason, LimitReason::contact);
+    const motion::Limit& end = answer.limits.front().end;
+    ASSERT_EQ(end.reason, motion::LimitReason::contact);
     EXPECT_LE(end.turned.degrees(), low + 1e-9);
     EXPECT_GE((end.turned + end.error_bound).degrees(), low - 1e-9);
     EXPECT_NEAR(answer.limits.front().translation_mm->x(), mm_per_degree * end.turned.degrees(), 1e-9);
@@ -139,10 +140,10 @@ TEST(AnswerFollowedRange, HoldsAKnownSocketWithItsBody) {
 }
 
 TEST(AnswerFollowedRange, ChoosesTheMotionsThatTheRecordLeadsAlong) {
-  const std::vector<Motion> all = hip_motions();
+  const std::vector<motion::Motion> all = motion::hip_motions();
   const auto names = [&](const FollowRecord& record) {
     std::string text;
-    for (const Motion& motion : motions_recorded(all, record)) text += motion.name + " ";
+    for (const motion::Motion& motion : motions_recorded(all, record)) text += motion.name + " ";
     return text;
   };
   EXPECT_EQ(names(record(-10, 60, 0.1)), "flexion extension ");
@@ -157,7 +158,7 @@ TEST(AnswerFollowedRange, ChoosesTheMotionsThatTheRecordLeadsAlong) {
 TEST(AnswerFollowedRange, IsRefusedWhereItMeansNothing) {
   PostJoint post = post_joint(JointAngle::flexion, Side::right);
   const BallInCup scene;
-  const RangeRequest follows = request_of(hip_motions().front(), record(0, 60, 0));
+  const RangeRequest follows = request_of(motion::hip_motions().front(), record(0, 60, 0));
   const auto refusal = [&](const Joint& joint, const RangeRequest& request) {
     try {
       answered_following(joint, request);
@@ -169,13 +170,13 @@ TEST(AnswerFollowedRange, IsRefusedWhereItMeansNothing) {
   EXPECT_NE(refusal(post.joint, follows).find("only the translation of a free joint"), std::string::npos);
   post.joint.kind = JointKind::free;
   RangeRequest with_bands = follows;
-  with_bands.bands = BandOptions{};
+  with_bands.bands = motion::BandOptions{};
   EXPECT_NE(refusal(post.joint, with_bands).find("limits only"), std::string::npos);
   RangeRequest held = follows;
   held.translation_mm = Vec3::Zero();
   EXPECT_NE(refusal(post.joint, held).find("one of the two"), std::string::npos);
   RangeRequest elsewhere = follows;
-  elsewhere.motions = {hip_motions()[1]};
+  elsewhere.motions = {motion::hip_motions()[1]};
   EXPECT_NE(refusal(post.joint, elsewhere).find("extension: the recorded angle"), std::string::npos);
   RangeRequest turning{
       .motions = follows.motions,

@@ -13,19 +13,20 @@
 namespace condyle::test {
 namespace {
 
-std::vector<std::string> codes(const std::vector<ContactNote>& notes) {
+std::vector<std::string> codes(const std::vector<motion::ContactNote>& notes) {
   std::vector<std::string> found;
-  for (const ContactNote& note : notes) found.emplace_back(name_of(note.code));
+  for (const motion::ContactNote& note : notes) found.emplace_back(name_of(note.code));
   return found;
 }
 
 class Block : public ::testing::Test {
  protected:
   const TriMesh table = box({-40, -10, -40}, {40, 0, 40}), block = box({-5, 0, -5}, {5, 12, 5});
-  const ElasticContact layers{table, block, {.casting = Casting::mobile, .mobile = layer_of_stiffness(6)}};
-  const JointContact bodies{table, block};
-  const Load down{.on_mobile = {.force_n = {0, -300, 0}}};
-  const BalanceOptions along_y{.free_directions = {Vec3::UnitY()}};
+  const contact::ElasticContact layers{
+      table, block, {.casting = contact::Casting::mobile, .mobile = layer_of_stiffness(6)}};
+  const contact::JointContact bodies{table, block};
+  const contact::Load down{.on_mobile = {.force_n = {0, -300, 0}}};
+  const contact::BalanceOptions along_y{.free_directions = {Vec3::UnitY()}};
 
   std::vector<std::optional<Pose>> lowered(std::initializer_list<double> by_mm) const {
     std::vector<std::optional<Pose>> X_FM;
@@ -56,25 +57,25 @@ TEST_F(LoadAnswers, AreOfTheBalancedPoseWithOne) {
 }
 
 TEST_F(LoadAnswers, ThatCarryNothingSayWhy) {
-  const Load up{.on_mobile = {.force_n = {0, 300, 0}}};
+  const contact::Load up{.on_mobile = {.force_n = {0, 300, 0}}};
   const LoadAnswer answer = answer_load(layers, {.load = up, .balance = along_y});
   EXPECT_FALSE(answer.carries_load());
-  EXPECT_EQ(answer.balanced->outcome, BalanceOutcome::pulled_apart);
-  EXPECT_FALSE(reason_of(*answer.balanced).empty());
+  EXPECT_EQ(answer.balanced->outcome, contact::BalanceOutcome::pulled_apart);
+  EXPECT_FALSE(contact::reason_of(*answer.balanced).empty());
   EXPECT_FALSE(answer.refined_force_n);
 }
 
 TEST_F(LoadAnswers, NoteLayersLoadAndContactOnce) {
-  const ElasticContact stiff(table, block,
-                             {.casting = Casting::mobile, .mobile = ElasticLayer{6e9, 0.45, 1.0}});
-  const Load heavy{.on_mobile = {.force_n = {0, -1e6, 0}}};
+  const contact::ElasticContact stiff(
+      table, block, {.casting = contact::Casting::mobile, .mobile = contact::ElasticLayer{6e9, 0.45, 1.0}});
+  const contact::Load heavy{.on_mobile = {.force_n = {0, -1e6, 0}}};
   const LoadAnswer answer =
       answer_load(stiff, {.X_FM = translated({0, -0.01, 0}), .load = heavy, .balance = along_y});
   EXPECT_EQ(codes(answer.notes), (std::vector<std::string>{"unlikely_modulus", "unlikely_load"}));
 }
 
 TEST_F(LoadAnswers, RefuseAMomentThatNothingBalances) {
-  const Load turning{.on_mobile = {.force_n = {0, -300, 0}, .moment_nmm = {1, 0, 0}}};
+  const contact::Load turning{.on_mobile = {.force_n = {0, -300, 0}, .moment_nmm = {1, 0, 0}}};
   EXPECT_THROW(answer_load(layers, {.load = turning}), UsageError);
   check_load_request({.load = turning, .balance = {.free_rotations = true}});
 }
@@ -83,7 +84,7 @@ TEST_F(MotionAnswers, AreThoseOfEachFrame) {
   auto X_FM = lowered({0.25, 0.1, 0.5});
   X_FM.insert(X_FM.begin() + 1, std::nullopt);
   const MotionAnswer answer = answer_motion(bodies, &layers, {.X_FM = X_FM});
-  const auto expected = contact_along(bodies, &layers, X_FM);
+  const auto expected = motion::contact_along(bodies, &layers, X_FM);
   ASSERT_EQ(answer.frames.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
     ASSERT_EQ(answer.frames[i].has_value(), X_FM[i].has_value());
@@ -101,11 +102,11 @@ TEST_F(MotionAnswers, WithoutLayersHaveTheDepthsOfTheBodyThatCasts) {
   const auto X_FM = lowered({0.25, 0.5});
   for (const BodyRole casting : {BodyRole::fixed, BodyRole::mobile}) {
     const bool fixed_casts = casting == BodyRole::fixed;
-    const NormalDepth depths(fixed_casts ? table : block, fixed_casts ? block : table,
-                             {FaceRule::cut_faces, 3});
-    const auto expected = contact_along(bodies, &depths, X_FM, casting);
-    const MotionAnswer answer =
-        answer_motion(bodies, nullptr, {.X_FM = X_FM, .casting = casting, .rays = {FaceRule::cut_faces, 3}});
+    const contact::NormalDepth depths(fixed_casts ? table : block, fixed_casts ? block : table,
+                                      {contact::FaceRule::cut_faces, 3});
+    const auto expected = motion::contact_along(bodies, &depths, X_FM, casting);
+    const MotionAnswer answer = answer_motion(
+        bodies, nullptr, {.X_FM = X_FM, .casting = casting, .rays = {contact::FaceRule::cut_faces, 3}});
     for (std::size_t i = 0; i < X_FM.size(); ++i) {
       EXPECT_EQ(answer.frames[i]->surface.totals.area_mm2, (*expected)[i]->surface.totals.area_mm2);
       // No ray of the table, which has two large triangles, meets the block.
@@ -120,9 +121,9 @@ TEST_F(MotionAnswers, WithoutLayersHaveTheDepthsOfTheBodyThatCasts) {
 }
 
 TEST_F(MotionAnswers, NoteLayersAndLoadsBeforeTheirFrames) {
-  const ElasticContact stiff(table, block,
-                             {.casting = Casting::mobile, .mobile = ElasticLayer{6e9, 0.45, 1.0}});
-  const Load heavy{.on_mobile = {.force_n = {0, -1e6, 0}}};
+  const contact::ElasticContact stiff(
+      table, block, {.casting = contact::Casting::mobile, .mobile = contact::ElasticLayer{6e9, 0.45, 1.0}});
+  const contact::Load heavy{.on_mobile = {.force_n = {0, -1e6, 0}}};
   const MotionRequest request{.X_FM = lowered({0.01}), .loads = {heavy}, .balance = along_y};
   const auto before = codes(motion_request_notes(&stiff, request));
   EXPECT_EQ(before, (std::vector<std::string>{"unlikely_modulus", "unlikely_load"}));
@@ -139,7 +140,7 @@ TEST_F(MotionAnswers, CarryTheSameLoadInEveryFrame) {
 }
 
 TEST_F(MotionAnswers, LeaveOutFramesWithoutALoadOfTheirOwn) {
-  const Load none{}, up{.on_mobile = {.force_n = {0, 300, 0}}};
+  const contact::Load none{}, up{.on_mobile = {.force_n = {0, 300, 0}}};
   const MotionAnswer answer = answer_motion(
       bodies, &layers,
       {.X_FM = lowered({0.1, 0.2, 0.3, 0.4}), .loads = {down, none, std::nullopt, up}, .balance = along_y});
@@ -172,7 +173,7 @@ TEST_F(MotionAnswers, NumberSamplesBehindAGapAsTheFrames) {
   const MotionAnswer answer = answer_motion(
       bodies, &layers, {.X_FM = X_FM, .time_s = {0, 1, 2, 3}, .between = BetweenFrames::always});
   ASSERT_EQ(answer.between->contacts.size(), 1u);
-  const ContactEnd& entry = answer.between->contacts[0].entry;
+  const motion::ContactEnd& entry = answer.between->contacts[0].entry;
   EXPECT_EQ(entry.sample, 2u);
   EXPECT_LE(entry.time_s, 2 + 2.0 / 3);
   EXPECT_GE(entry.time_s + entry.uncertainty_s, 2 + 2.0 / 3);
@@ -203,8 +204,8 @@ TEST_F(MotionAnswers, RefuseWhatContradictsItself) {
   refused({.X_FM = lowered({0.1}), .load = down, .loads = {down}, .balance = along_y});
   refused({.X_FM = lowered({0.1}), .between = BetweenFrames::always});
   refused({.X_FM = lowered({0.1, 0.2}), .time_s = {0, 1}, .load = down, .between = BetweenFrames::always});
-  refused(
-      {.X_FM = lowered({0.1}), .load = Load{.on_mobile = {.force_n = {0, -1, 0}, .moment_nmm = {1, 0, 0}}}});
+  refused({.X_FM = lowered({0.1}),
+           .load = contact::Load{.on_mobile = {.force_n = {0, -1, 0}, .moment_nmm = {1, 0, 0}}}});
   EXPECT_THROW(answer_motion(bodies, nullptr, {.X_FM = lowered({0.1}), .load = down}), UsageError)
       << "no layers";
 }

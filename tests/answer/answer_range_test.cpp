@@ -45,17 +45,17 @@ TEST(LimitsAbout, AreThoseOfTheJointWithItsCentreThere) {
   // Coordinates below 128 mm are rounded by half of 2^-46 mm where they are moved, in both bodies and once more into the frame of
   // the axis; at none of these contacts do the surfaces approach by less than a micrometre per radian.
   constexpr double rounding_mm = 4 * 0x1p-46, slowest_mm = 1e-3;
-  const RangeOptions range{.bearing = {.rule = BearingRule::count}};
-  const std::vector<Motion> motions = hip_motions();
+  const motion::RangeOptions range{.bearing = {.rule = motion::BearingRule::count}};
+  const std::vector<motion::Motion> motions = motion::hip_motions();
   const Joint joint = bumpy_joint(Side::right);
   const std::vector<Vec3> centres = {Vec3::Zero(), {0.8, -0.3, 0.5}, {-1.1, 0.4, 0.2}};
-  const std::vector<DisplacedLimit> limits = limits_about(joint, motions, range, centres);
+  const std::vector<motion::DisplacedLimit> limits = motion::limits_about(joint, motions, range, centres);
   ASSERT_EQ(limits.size(), centres.size() * motions.size());
   for (std::size_t c = 0; c < centres.size(); ++c) {
-    const RangeOfMotion there(about(joint, centres[c]), range);
+    const motion::RangeOfMotion there(about(joint, centres[c]), range);
     for (std::size_t m = 0; m < motions.size(); ++m) {
-      const Limit expected = there.limit(motions[m]).end;
-      const DisplacedLimit& limit = limits[c * motions.size() + m];
+      const motion::Limit expected = there.limit(motions[m]).end;
+      const motion::DisplacedLimit& limit = limits[c * motions.size() + m];
       EXPECT_NEAR(limit.turned.radians(), expected.turned.radians(), rounding_mm / slowest_mm)
           << motions[m].name;
       EXPECT_EQ(limit.reason, expected.reason) << motions[m].name;
@@ -67,11 +67,11 @@ TEST(RangeNotes, SayByHowMuchTheCentreMovesLimits) {
   // About the head's centre, which is above the socket's, the arm meets the post later.
   const Vec3 off(0.5, 1.2, 0);
   const Joint joint = head_and_post_joint(off);
-  const Motion flexion = hip_motions().front();
+  const motion::Motion flexion = motion::hip_motions().front();
   const RangeAnswer answer = answered(joint, {.motions = {flexion}});
   ASSERT_EQ(codes(answer.notes), std::vector<std::string>{"centre_moves_limits"});
-  const double about_socket = RangeOfMotion(joint).limit(flexion).end.turned.degrees();
-  const double about_head = RangeOfMotion(about(joint, off)).limit(flexion).end.turned.degrees();
+  const double about_socket = motion::RangeOfMotion(joint).limit(flexion).end.turned.degrees();
+  const double about_head = motion::RangeOfMotion(about(joint, off)).limit(flexion).end.turned.degrees();
   EXPECT_GT(std::abs(about_head - about_socket), 0.1);
   char expected[200];
   std::snprintf(expected, sizeof expected,
@@ -83,17 +83,17 @@ TEST(RangeNotes, SayByHowMuchTheCentreMovesLimits) {
 }
 
 TEST(RangeNotes, AreNoneIfHeadAndSocketAreNearlyConcentric) {
-  EXPECT_TRUE(answered(head_and_post_joint({0.9, 0, 0}), {.motions = hip_motions()}).notes.empty());
-  EXPECT_TRUE(
-      answered(post_joint(JointAngle::flexion, Side::right).joint, {.motions = hip_motions()}).notes.empty())
+  EXPECT_TRUE(answered(head_and_post_joint({0.9, 0, 0}), {.motions = motion::hip_motions()}).notes.empty());
+  EXPECT_TRUE(answered(post_joint(JointAngle::flexion, Side::right).joint, {.motions = motion::hip_motions()})
+                  .notes.empty())
       << "a joint without a head";
 }
 
 TEST(RangeNotes, SayThatANarrowGapLeavesLittleMargin) {
-  const auto notes_at = [](double radius, const BearingOptions& bearing = {}) {
+  const auto notes_at = [](double radius, const motion::BearingOptions& bearing = {}) {
     Joint joint = head_and_post_joint(Vec3::Zero());
     joint.mobile.mesh = joined(sphere({0, 0, 0}, radius, 4), box({-1, -100, -1}, {1, -50, 1}));
-    RangeRequest request{.motions = {hip_motions().front()}};
+    RangeRequest request{.motions = {motion::hip_motions().front()}};
     request.range.bearing = bearing;
     return codes(answered(joint, request).notes);
   };
@@ -102,14 +102,14 @@ TEST(RangeNotes, SayThatANarrowGapLeavesLittleMargin) {
   EXPECT_EQ(notes_at(21.6), narrow);  // 1.4 mm
   EXPECT_EQ(notes_at(22.7), narrow);  // no margin at all
   EXPECT_EQ(notes_at(21.6, {.margin_mm = 1.0}), none) << "the margin is stated";
-  EXPECT_EQ(notes_at(21.6, {.rule = BearingRule::count}), none) << "any contact counts";
+  EXPECT_EQ(notes_at(21.6, {.rule = motion::BearingRule::count}), none) << "any contact counts";
 }
 
 TEST(RangeNotes, SayThatSurfacesSlideByNatureWhereNoHeadTellsContactApart) {
   const auto notes_of = [](JointKind kind, Anatomy anatomy, double range_deg) {
     Joint joint = post_joint(JointAngle::flexion, Side::right).joint;
     joint.kind = kind, joint.anatomy = anatomy;
-    Motion forwards = hip_motions().front();
+    motion::Motion forwards = motion::hip_motions().front();
     forwards.range = Angle::degrees(range_deg);
     return answered(joint, {.motions = {forwards}}).notes;
   };
@@ -142,7 +142,7 @@ TEST(RangeNotes, SayThatSurfacesSlideUnlessMeshesOfTheMobileBodyDo) {
     };
     two_meshes(joint.fixed, box({300, 0, 0}, {301, 1, 1}), of_post, PartContact::ends);
     two_meshes(joint.mobile, box({1, 1, 1}, {2, 2, 2}), PartContact::ends, of_pad);
-    return codes(answered(joint, {.motions = {hip_motions().front()}}).notes);
+    return codes(answered(joint, {.motions = {motion::hip_motions().front()}}).notes);
   };
   const std::vector<std::string> sliding{"sliding_surfaces"};
   EXPECT_EQ(notes_with(PartContact::bearing, PartContact::ends), sliding);
@@ -153,7 +153,8 @@ TEST(RangeNotes, SayThatSurfacesSlideUnlessMeshesOfTheMobileBodyDo) {
 TEST(RangeNotes, OfAShoulderSayWhatLeavesLittleMargin) {
   ParametricShoulder shape;
   shape.acromion_y = 25.2;
-  const Motion abduction = motion_named(built_in_motions(JointKind::ball, Anatomy::shoulder), "abduction");
+  const motion::Motion abduction =
+      motion::motion_named(motion::built_in_motions(JointKind::ball, Anatomy::shoulder), "abduction");
   const auto notes = answered(shoulder(shape), {.motions = {abduction}}).notes;
   ASSERT_EQ(codes(notes), std::vector<std::string>{"narrow_bearing_margin"});
   EXPECT_EQ(
@@ -169,7 +170,8 @@ TEST(RangeNotes, DoNotTurnAShoulderAboutItsGlenoidsCentre) {
   TriMesh slab = slab_with_dish(30);
   for (double& z : slab.vertices.z) z += 4;
   joint.fixed.mesh = joined(slab, box({-15, 34, -10}, {15, 40, 30}));
-  const Motion abduction = motion_named(built_in_motions(JointKind::ball, Anatomy::shoulder), "abduction");
+  const motion::Motion abduction =
+      motion::motion_named(motion::built_in_motions(JointKind::ball, Anatomy::shoulder), "abduction");
   const RangeAnswer answer = answered(joint, {.motions = {abduction}});
   ASSERT_TRUE(answer.bearing.surface && answer.bearing.surface->socket);
   EXPECT_NEAR(answer.bearing.surface->socket->centre.z(), 4, 1e-8);
@@ -179,24 +181,24 @@ TEST(RangeNotes, DoNotTurnAShoulderAboutItsGlenoidsCentre) {
 
 TEST(AnswerRange, GivesWhatItsPartsGive) {
   const Joint joint = bumpy_joint(Side::left);
-  RangeRequest request{.motions = hip_motions(), .zones_past = Angle::degrees(4)};
+  RangeRequest request{.motions = motion::hip_motions(), .zones_past = Angle::degrees(4)};
   request.map = {.row = {JointAngle::adduction, -10, 10, 10}, .column = {JointAngle::flexion, 0, 20, 20}};
   request.bands = {.samples = 20, .seed = 5};
   const RangeAnswer answer = answered(joint, request);
-  const RangeOfMotion range(joint);
+  const motion::RangeOfMotion range(joint);
   ASSERT_EQ(answer.limits.size(), request.motions.size());
   for (std::size_t m = 0; m < request.motions.size(); ++m)
     EXPECT_EQ(answer.limits[m].end.turned, range.limit(request.motions[m]).end.turned);
   EXPECT_EQ(answer.zones.size(), request.motions.size());
   ASSERT_TRUE(answer.map);
   EXPECT_EQ(answer.map->points.size(), 6u);
-  const auto bands = limit_bands(joint, request.motions, {}, *request.bands);
+  const auto bands = motion::limit_bands(joint, request.motions, {}, *request.bands);
   ASSERT_EQ(answer.bands.size(), bands.size());
   for (std::size_t m = 0; m < bands.size(); ++m) EXPECT_EQ(answer.bands[m].median, bands[m].median);
 }
 
 TEST(AnswerRange, IsEmptyIfStopped) {
-  RangeRequest request{.motions = hip_motions()};
+  RangeRequest request{.motions = motion::hip_motions()};
   request.bands.emplace();
   std::stop_source stop;
   const auto at_first = [&](std::string_view stage, std::size_t, std::size_t) {
@@ -208,7 +210,7 @@ TEST(AnswerRange, IsEmptyIfStopped) {
 
 TEST(AnswerRange, RefusesWhatContradictsItself) {
   const Joint joint = bumpy_joint(Side::right);
-  const RangeRequest limits{.motions = {hip_motions().front()}};
+  const RangeRequest limits{.motions = {motion::hip_motions().front()}};
   RangeRequest request = limits;
   request.allowed_depth.emplace();
   request.bands.emplace();
@@ -217,7 +219,7 @@ TEST(AnswerRange, RefusesWhatContradictsItself) {
   request.translation_mm = Vec3::Zero();
   EXPECT_THROW(answered(joint, request), UsageError) << "a ball does not translate";
   request = limits;
-  request.clock = ClockPlane::rim;
+  request.clock = motion::ClockPlane::rim;
   EXPECT_THROW(answered(post_joint(JointAngle::flexion, Side::right).joint, request), MeshError) << "no rim";
 }
 
@@ -227,7 +229,7 @@ TEST(AnswerRange, HoldsTheTranslationOfAFreeJoint) {
   const Vec3 held(0.4, -0.2, 0.1);
   JointPlacement placement{};
   placement.reference_pose.translation_mm = held;
-  RangeRequest request{.motions = {hip_motions().front()}};
+  RangeRequest request{.motions = {motion::hip_motions().front()}};
   const RangeAnswer by_reference = answer_range(joint, placement, request);
   request.translation_mm = held;
   const RangeAnswer by_request = answer_range(joint, {}, request);

@@ -85,7 +85,7 @@ TEST_F(BoxInCorner, ADepthThatIsNotToldIsNotCompared) {
 }
 
 TEST_F(BoxInCorner, PairsAreComparedAsSets) {
-  std::vector<condyle::TrianglePair> reported = reference_.pairs(touching);
+  std::vector<condyle::contact::TrianglePair> reported = reference_.pairs(touching);
   const auto all = static_cast<std::int64_t>(reported.size());
   std::reverse(reported.begin(), reported.end());
   reported.push_back(reported.front());

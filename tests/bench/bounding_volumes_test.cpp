@@ -13,9 +13,9 @@ namespace {
 
 using condyle::Index;
 using condyle::Pose;
-using condyle::TrianglePair;
 using condyle::TriMesh;
 using condyle::Vec3;
+using condyle::contact::TrianglePair;
 
 constexpr double radius = 25;
 

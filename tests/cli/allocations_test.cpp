@@ -56,8 +56,8 @@ class FailingAllocations : public ::testing::TestWithParam<Failing> {
     preload_ = CONDYLE_FAILING_ALLOCATIONS;
 #endif
     fs::create_directory(here);
-    write_mesh(here / "post.ply", box({40, -120, -50}, {60, -80, 50}));
-    write_mesh(here / "arm.ply", box({-1, -100, -2}, {1, -10, 2}));
+    io::write_mesh(here / "post.ply", box({40, -120, -50}, {60, -80, 50}));
+    io::write_mesh(here / "arm.ply", box({-1, -100, -2}, {1, -10, 2}));
     std::ofstream(here / "joint.toml") << "condyle = 1\nname = \"arm and post\"\nkind = \"ball\"\nside = "
                                           "\"right\"\nunits = \"mm\"\n[fixed]\n"
                                           "mesh = \"post.ply\"\n[mobile]\nmesh = "

@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "command.hpp"
-#include "condyle/io/file_digest.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/version.hpp"
 #include "io/file/whole_file.hpp"
@@ -27,8 +26,8 @@ class Command : public ::testing::Test {
     fs::create_directory(folder / "in");
     femur = joined(sphere({0, 0, 0}, 24, 4), box({-10, -400, -10}, {10, -40, 10}));
     hip_bone = socket({0, 0, 0}, 26, 60, 3);
-    write_mesh(here / "femur.ply", femur);
-    write_mesh(here / "hip_bone.ply", hip_bone);
+    io::write_mesh(here / "femur.ply", femur);
+    io::write_mesh(here / "hip_bone.ply", hip_bone);
     std::ofstream(here / "right_hip.toml") << joint_text;
   }
   Ran run(const std::string& arguments, const std::string& redirections = "") const {
@@ -85,21 +84,21 @@ TEST_F(Command, InspectAnswersInTextAndJson) {
   ASSERT_EQ(from["meshes"].size(), 2u);
   EXPECT_EQ(from["meshes"][1]["path"], "hip_bone.ply");
   EXPECT_EQ(from["meshes"][1]["bytes"], fs::file_size(here / "hip_bone.ply"));
-  EXPECT_EQ(from["meshes"][1]["sha256"], digest_of(io::read_whole_file(here / "hip_bone.ply")).sha256);
+  EXPECT_EQ(from["meshes"][1]["sha256"], io::digest_of(io::read_whole_file(here / "hip_bone.ply")).sha256);
 }
 
 TEST_F(Command, InspectRepairsOnRequestAndWritesTheResult) {
   TriMesh dirty = flipped(femur);
   dirty.vertices.push_back({5, 5, 5});
-  write_mesh(here / "dirty.ply", dirty);
+  io::write_mesh(here / "dirty.ply", dirty);
   const Ran ran = run("inspect dirty.ply --repair drop_unreferenced,flip_inverted --out repaired --json");
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   const Json answer = Json::parse(ran.out);
   EXPECT_EQ(answer["meshes"][0]["repairs"][0], (Json{{"repair", "drop_unreferenced"}, {"count", 1}}));
   EXPECT_EQ(answer["meshes"][0]["inverted_components"]["count"], 0);
-  const TriMesh repaired = read_mesh(here / "repaired/dirty.ply").mesh;
+  const TriMesh repaired = io::read_mesh(here / "repaired/dirty.ply").mesh;
   EXPECT_EQ(repaired.vertices, femur.vertices);
-  EXPECT_EQ(read_mesh(here / "dirty.ply").mesh, dirty);
+  EXPECT_EQ(io::read_mesh(here / "dirty.ply").mesh, dirty);
 }
 
 TEST_F(Command, FrameAnswersInTextAndJson) {
@@ -167,7 +166,7 @@ TEST_F(Command, AnUnfitMeshEndsWithFour) {
   expect_refused(4, "frame right_hip.toml", "no spherical head");
   TriMesh open = femur;
   open.triangles.pop_back();
-  write_mesh(here / "open.ply", open);
+  io::write_mesh(here / "open.ply", open);
   expect_refused(4, "inspect open.ply --repair flip_inverted --out repaired", "open.ply");
   EXPECT_FALSE(fs::exists(here / "repaired"));
 }
@@ -183,7 +182,7 @@ TEST_F(Command, AnAnswerThatCannotBeWrittenEndsWithThree) {
 TEST_F(Command, AClosedStandardOutputIsNotMixedIntoResultFiles) {
   const Ran ran = run("inspect femur.ply --out written", ">&-");
   EXPECT_EQ(ran.exit_code, 3);
-  EXPECT_EQ(read_mesh(here / "written/femur.ply").mesh, femur);
+  EXPECT_EQ(io::read_mesh(here / "written/femur.ply").mesh, femur);
 }
 
 TEST_F(Command, HelpAndVersionAreAnswers) {

@@ -8,7 +8,6 @@
 
 #include "command.hpp"
 #include "condyle/contact.hpp"
-#include "condyle/io/file_digest.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/joint_coordinates.hpp"
 #include "condyle/sample/hip.hpp"
@@ -60,8 +59,8 @@ class SampleJointCommand : public ::testing::Test {
 
 TEST_F(SampleJointCommand, IsWrittenWithTheCountsOfItsScenario) {
   EXPECT_EQ(made.exit_code, 0) << made.err;
-  const TriMesh femur = read_mesh(folder / "sample/femur.ply").mesh;
-  const TriMesh hip_bone = read_mesh(folder / "sample/hip_bone.ply").mesh;
+  const TriMesh femur = io::read_mesh(folder / "sample/femur.ply").mesh;
+  const TriMesh hip_bone = io::read_mesh(folder / "sample/hip_bone.ply").mesh;
   EXPECT_EQ(femur.vertices.size(), 773u);
   EXPECT_EQ(femur.triangles.size(), 1542u);
   EXPECT_EQ(hip_bone.vertices.size(), 1221u);
@@ -70,10 +69,10 @@ TEST_F(SampleJointCommand, IsWrittenWithTheCountsOfItsScenario) {
 
 TEST_F(SampleJointCommand, DepthIsWhatTheLibraryFinds) {
   const Json json = answer(std::string("depth sample/hip.toml ") + deep);
-  const JointContact joint(read_mesh(folder / "sample/hip_bone.ply").mesh,
-                           read_mesh(folder / "sample/femur.ply").mesh);
-  const RadialContact contact = joint.radial(pose_at({.side = Side::right}, deep_angles));
-  const auto inside = [](const RadialResults& hits) {
+  const contact::JointContact joint(io::read_mesh(folder / "sample/hip_bone.ply").mesh,
+                                    io::read_mesh(folder / "sample/femur.ply").mesh);
+  const contact::RadialContact contact = joint.radial(pose_at({.side = Side::right}, deep_angles));
+  const auto inside = [](const radial::RadialResults& hits) {
     return std::count(hits.state.begin(), hits.state.end(), PointState::inside);
   };
   EXPECT_TRUE(json["in_contact"]);
@@ -81,7 +80,7 @@ TEST_F(SampleJointCommand, DepthIsWhatTheLibraryFinds) {
   EXPECT_EQ(json["fixed_vertices_inside"], inside(*contact.fixed_in_mobile));
   EXPECT_GT(json["mobile_vertices_inside"], 0);
   EXPECT_EQ(json["triangle_pairs"], contact.pairs.size());
-  const RadialResults& deepest =
+  const radial::RadialResults& deepest =
       json["deepest_body"] == "mobile" ? *contact.mobile_in_fixed : *contact.fixed_in_mobile;
   EXPECT_EQ(json["max_radial_depth_mm"], -deepest.radial_gap_mm[json["deepest_vertex"].get<std::size_t>()]);
   EXPECT_EQ(json["deepest_point_mm"].size(), 3u);
@@ -141,7 +140,7 @@ TEST_F(SampleJointCommand, VerticesAreWrittenAsATableOnRequest) {
   EXPECT_TRUE(
       line.starts_with("vertex,x_mm,y_mm,z_mm,depth_mm,depth_is_reliable,depth_way,nearest_distance_mm,"))
       << line;
-  const TriMesh posed_femur = read_mesh(folder / "deep/mobile.vtp").mesh;
+  const TriMesh posed_femur = io::read_mesh(folder / "deep/mobile.vtp").mesh;
   std::size_t rows = 0;
   double deepest = 0;
   for (; std::getline(table, line); ++rows) {
@@ -211,9 +210,10 @@ TEST_F(SampleJointCommand, ResultsAreWrittenTogether) {
   while (std::getline(csv, line)) ++rows;
   EXPECT_EQ(rows, json["triangle_pairs"]);
 
-  const TriMesh femur = read_mesh(folder / "sample/femur.ply").mesh;
-  EXPECT_EQ(read_mesh(folder / "deep/fixed.vtp").mesh, read_mesh(folder / "sample/hip_bone.ply").mesh);
-  EXPECT_EQ(read_mesh(folder / "deep/mobile.vtp").mesh,
+  const TriMesh femur = io::read_mesh(folder / "sample/femur.ply").mesh;
+  EXPECT_EQ(io::read_mesh(folder / "deep/fixed.vtp").mesh,
+            io::read_mesh(folder / "sample/hip_bone.ply").mesh);
+  EXPECT_EQ(io::read_mesh(folder / "deep/mobile.vtp").mesh,
             posed(pose_at({.side = Side::right}, deep_angles), femur));
   for (const char* name : {"deep/fixed.vtp", "deep/mobile.vtp"}) {
     std::ifstream file(folder / name, std::ios::binary);
@@ -249,7 +249,7 @@ TEST_F(SampleJointCommand, EveryFileSaysWhereItComesFrom) {
   const std::string femur = read_whole_file(folder / "sample/femur.ply");
   EXPECT_EQ(from["mobile_mesh"]["path"], "sample/femur.ply");
   EXPECT_EQ(from["mobile_mesh"]["bytes"], femur.size());
-  EXPECT_EQ(from["mobile_mesh"]["sha256"], digest_of(femur).sha256);
+  EXPECT_EQ(from["mobile_mesh"]["sha256"], io::digest_of(femur).sha256);
   EXPECT_EQ(from["fixed_mesh"]["joint_from_source"],
             Json({{1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}, {0.0, 0.0, 0.0, 1.0}}));
   const std::string sha = from["fixed_mesh"]["sha256"];
@@ -277,8 +277,8 @@ TEST_F(SampleJointCommand, InTheSourceFrameMeshesLieOnTheirFiles) {
   for (std::size_t k = 0; k < 3; ++k)
     EXPECT_NEAR(source["deepest_point_mm"][k].get<double>() - joint["deepest_point_mm"][k].get<double>(),
                 (std::array{1, 2, -3})[k], 1e-12);
-  const TriMesh fixed = read_mesh(folder / "deep/fixed.vtp").mesh,
-                file = read_mesh(folder / "sample/hip_bone.ply").mesh;
+  const TriMesh fixed = io::read_mesh(folder / "deep/fixed.vtp").mesh,
+                file = io::read_mesh(folder / "sample/hip_bone.ply").mesh;
   ASSERT_EQ(fixed.triangles, file.triangles);
   for (std::size_t v = 0; v < file.vertices.size(); ++v)
     EXPECT_LT((fixed.vertices[v] - file.vertices[v]).norm(), 1e-12) << v;
@@ -286,9 +286,9 @@ TEST_F(SampleJointCommand, InTheSourceFrameMeshesLieOnTheirFiles) {
 }
 
 TEST_F(SampleJointCommand, AnOpenMeshIsRefusedByItsBoundaryAndStillHasPairs) {
-  TriMesh open = read_mesh(folder / "sample/hip_bone.ply").mesh;
+  TriMesh open = io::read_mesh(folder / "sample/hip_bone.ply").mesh;
   open.triangles.erase(open.triangles.begin() + 100);
-  write_mesh(folder / "sample/hip_bone.ply", open);
+  io::write_mesh(folder / "sample/hip_bone.ply", open);
   expect_refused(4, "depth sample/hip.toml", "hip_bone.ply: an open boundary of 3 edges near (");
   expect_refused(4, "depth sample/hip.toml --method tangential --out result", "--pairs-only");
   const Ran ran = run(std::string("depth sample/hip.toml --pairs-only --json ") + deep);
@@ -303,7 +303,7 @@ TEST_F(SampleJointCommand, AnOpenMeshIsRefusedByItsBoundaryAndStillHasPairs) {
 }
 
 TEST_F(SampleJointCommand, AMeshOfInvertedOrientationIsRefusedWithItsRepair) {
-  write_mesh(folder / "sample/femur.ply", flipped(read_mesh(folder / "sample/femur.ply").mesh));
+  io::write_mesh(folder / "sample/femur.ply", flipped(io::read_mesh(folder / "sample/femur.ply").mesh));
   expect_refused(4, "depth sample/hip.toml", "femur.ply: inverted orientation");
   edit_joint("mesh = \"femur.ply\"", "mesh = \"femur.ply\"\nrepair = [\"flip_inverted\"]");
   EXPECT_FALSE(answer("depth sample/hip.toml")["in_contact"]);
@@ -368,7 +368,7 @@ TEST_F(SampleJointCommand, AStudyNotesInALineEachWhatLooksWrongAndEndsThereWhenS
 }
 
 TEST_F(SampleJointCommand, ACentreOnTheSurfaceIsRefused) {
-  const Vec3 vertex = read_mesh(folder / "sample/hip_bone.ply").mesh.vertices[7];
+  const Vec3 vertex = io::read_mesh(folder / "sample/hip_bone.ply").mesh.vertices[7];
   edit_joint("centre = [0.0, 0.0, 0.0]",
              "centre = [" + std::to_string(vertex.x()) + ", " + std::to_string(vertex.y()) + ", 0.0]");
   edit_joint(", 0.0]", ", " + Json(vertex.z()).dump() + "]");
@@ -408,9 +408,9 @@ TEST_F(SampleJointCommand, TenMetresFromTheOriginTheAnswersAreTheSame) {
   const Json near = answer(std::string("depth sample/hip.toml ") + deep);
   const Vec3 away(10000, -10000, 10000);
   for (const char* name : {"sample/hip_bone.ply", "sample/femur.ply"}) {
-    TriMesh mesh = read_mesh(folder / name).mesh;
+    TriMesh mesh = io::read_mesh(folder / name).mesh;
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) mesh.vertices.set(i, mesh.vertices[i] + away);
-    write_mesh(folder / name, mesh);
+    io::write_mesh(folder / name, mesh);
   }
   edit_joint("centre = [0.0, 0.0, 0.0]", "centre = [10000.0, -10000.0, 10000.0]");
   const Json far = answer(std::string("depth sample/hip.toml ") + deep);

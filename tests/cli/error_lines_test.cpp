@@ -22,10 +22,10 @@ class ErrorLines : public ::testing::Test {
  protected:
   void SetUp() override {
     const TriMesh arm = box({-1, -100, -2}, {1, -10, 2});
-    write_mesh(folder / "post.ply", box({40, -120, -50}, {60, -80, 50}));
-    write_mesh(folder / "arm.ply", arm);
-    write_mesh(folder / "open.ply", without_triangle(arm));
-    write_mesh(folder / "met.ply", box({39, -100, -2}, {41, -10, 2}));
+    io::write_mesh(folder / "post.ply", box({40, -120, -50}, {60, -80, 50}));
+    io::write_mesh(folder / "arm.ply", arm);
+    io::write_mesh(folder / "open.ply", without_triangle(arm));
+    io::write_mesh(folder / "met.ply", box({39, -100, -2}, {41, -10, 2}));
     for (const char* mobile : {"arm", "open", "met"}) write_joint(mobile);
   }
   static TriMesh without_triangle(TriMesh mesh) {
@@ -59,7 +59,7 @@ TEST_F(ErrorLines, OfAMeshThatIsUnfitBeginWithTheJointFile) {
 }
 
 TEST_F(ErrorLines, OfACentreOnASurfaceBeginWithTheJointFile) {
-  write_mesh(folder / "through.ply", box({-1, -10, 0}, {1, 10, 5}));
+  io::write_mesh(folder / "through.ply", box({-1, -10, 0}, {1, 10, 5}));
   write_joint("through");
   for (const char* command : {"depth through.toml", "rom through.toml --allow-depth 1"})
     expect_begins(command, 4, "through.toml: mobile body: the joint centre lies on the surface");

@@ -50,9 +50,9 @@ class Files : public ::testing::Test {
   }
   void write_any(const std::string& name, const TriMesh& mesh) const {
     if (name.ends_with(".vtp"))
-      write_vtp(here / name, mesh, {}, {});
+      io::write_vtp(here / name, mesh, {}, {});
     else
-      write_mesh(here / name, mesh);
+      io::write_mesh(here / name, mesh);
   }
   static std::string joint(const std::string& fixed, const std::string& mobile,
                            const std::string& more = "") {

@@ -23,10 +23,10 @@ using Json = nlohmann::json;
 class Follow : public ::testing::Test {
  protected:
   void SetUp() override {
-    write_mesh(folder / "arm.ply", box({-1, -100, -1}, {1, -50, 1}));
-    write_mesh(folder / "post.ply", box({40, -80, -10}, {60, -60, 10}));
-    write_mesh(folder / "ball.ply", sphere({0, 0, 0}, 20, 4));
-    write_mesh(folder / "cup.ply", socket({0, 0, 0}, 20.5, 24, 4));
+    io::write_mesh(folder / "arm.ply", box({-1, -100, -1}, {1, -50, 1}));
+    io::write_mesh(folder / "post.ply", box({40, -80, -10}, {60, -60, 10}));
+    io::write_mesh(folder / "ball.ply", sphere({0, 0, 0}, 20, 4));
+    io::write_mesh(folder / "cup.ply", socket({0, 0, 0}, 20.5, 24, 4));
     std::ofstream(folder / "joint.toml")
         << "condyle = 1\nname = \"swing\"\nkind = \"free\"\njoint = \"hip\"\nside = \"right\"\nunits = "
            "\"mm\"\n"

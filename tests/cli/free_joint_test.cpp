@@ -26,8 +26,8 @@ using Json = nlohmann::json;
 class FreeJoint : public ::testing::Test {
  protected:
   void SetUp() override {
-    write_mesh(folder / "post.ply", post(0));
-    write_mesh(folder / "shank.ply", box({-1, -100, -2}, {1, -10, 2}));
+    io::write_mesh(folder / "post.ply", post(0));
+    io::write_mesh(folder / "shank.ply", box({-1, -100, -2}, {1, -10, 2}));
     write_joint("knee.toml", "free", "joint = \"knee\"\n", "post.ply", "");
   }
   static TriMesh post(double forwards) { return box({-60 + forwards, -120, -50}, {-40 + forwards, -80, 50}); }
@@ -53,7 +53,7 @@ class FreeJoint : public ::testing::Test {
 };
 
 TEST_F(FreeJoint, AHeldTranslationIsAPostThatMuchNearer) {
-  write_mesh(folder / "nearer.ply", post(10));
+  io::write_mesh(folder / "nearer.ply", post(10));
   write_joint("ball.toml", "ball", "joint = \"knee\"\n", "nearer.ply", "");
   const Json held = flexion("knee.toml", " --translation x=-10"), ball = flexion("ball.toml");
   EXPECT_EQ(held["reason"], "contact");
@@ -98,7 +98,7 @@ TEST_F(FreeJoint, DepthAtATranslatedPoseIsThatOfTheMeshMovedThere) {
   // X_FM is R_z(-30) with (3, 4, 0): the posed shank as a mesh of its own meets the same triangles.
   Pose X_FM(Eigen::AngleAxisd(-Angle::degrees(30).radians(), Vec3::UnitZ()));
   X_FM.pretranslate(Vec3(3, 4, 0));
-  write_mesh(folder / "shank.ply", posed(X_FM, box({-1, -100, -2}, {1, -10, 2})));
+  io::write_mesh(folder / "shank.ply", posed(X_FM, box({-1, -100, -2}, {1, -10, 2})));
   const Json moved = answer("depth knee.toml --method radial");
   EXPECT_EQ(moved["triangle_pairs"], translated["triangle_pairs"]);
   EXPECT_EQ(moved["mobile_vertices_inside"], translated["mobile_vertices_inside"]);
@@ -211,8 +211,8 @@ class Parts : public FreeJoint {
  protected:
   void SetUp() override {
     FreeJoint::SetUp();
-    write_mesh(folder / "upper.ply", box({-1, -60, -2}, {1, -10, 2}));
-    write_mesh(folder / "lower.ply", box({-1, -100, -2}, {1, -70, 2}));
+    io::write_mesh(folder / "upper.ply", box({-1, -60, -2}, {1, -10, 2}));
+    io::write_mesh(folder / "lower.ply", box({-1, -100, -2}, {1, -70, 2}));
     std::ofstream(folder / "parts.toml")
         << "condyle = 1\nname = \"knee\"\nkind = \"free\"\njoint = \"knee\"\nside = \"right\"\nunits = "
            "\"mm\"\n"

@@ -33,7 +33,7 @@ class ImplantCommand : public ::testing::Test {
 
 TEST_F(ImplantCommand, SaysWhatTheLibraryAnswers) {
   const Json json = answer("implant hip.toml --inclination 45 --definition anatomic --offset 42");
-  const LoadedJoint loaded = read_joint(folder / "hip.toml");
+  const io::LoadedJoint loaded = io::read_joint(folder / "hip.toml");
   ImplantQuery query;
   query.hip.cup = {Angle::degrees(45), Angle::degrees(15), CupDefinition::anatomic};
   query.hip.offset_mm = 42, query.of_bones.offset = false;
@@ -72,7 +72,7 @@ TEST_F(ImplantCommand, WritesAJointThatHasTheClosedFormAndTurnsItsParts) {
 
 TEST_F(ImplantCommand, KeepsTheMotionsOfTheJointFile) {
   ASSERT_EQ(run("implant hip.toml --out thr").exit_code, 0);
-  const JointFile file = read_joint_file(folder / "thr/hip.toml");
+  const io::JointFile file = io::read_joint_file(folder / "thr/hip.toml");
   ASSERT_TRUE(file.implant);
   EXPECT_EQ(file.uncertainty.centre_mm, 0);
   EXPECT_EQ(file.uncertainty.surface_mm, 0);

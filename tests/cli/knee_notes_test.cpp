@@ -23,8 +23,8 @@ using Json = nlohmann::json;
 class KneeNotes : public ::testing::Test {
  protected:
   void SetUp() override {
-    write_mesh(folder / "femur.ply", femur_of({}));
-    write_mesh(folder / "tibia.ply", tibia_of_knee());
+    io::write_mesh(folder / "femur.ply", femur_of({}));
+    io::write_mesh(folder / "tibia.ply", tibia_of_knee());
     write_joint("right.toml", "right", "[1, 0, 0]");
     write_joint("left.toml", "left", "[1, 0, 0]");
     write_joint("turned.toml", "right", "[-1, 0, 0]");

@@ -31,7 +31,7 @@ class Layers : public ::testing::Test {
     write_joint("bearing", "soft");
   }
   void write(const std::string& name, const TriMesh& mesh) const {
-    write_mesh(folder / (name + ".ply"), mesh);
+    io::write_mesh(folder / (name + ".ply"), mesh);
   }
   void write_joint(const std::string& pad, const std::string& labrum, const std::string& sleeve = "bearing",
                    const std::string& arm = "ends") const {

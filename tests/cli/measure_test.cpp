@@ -39,12 +39,12 @@ class MeasureCommand : public ::testing::Test {
 };
 
 TEST_F(MeasureCommand, SaysWhatTheLibraryAnswers) {
-  const HipMeasures expected = measure_hip(read_joint(folder / "hip.toml").joint);
+  const measure::HipMeasures expected = measure::measure_hip(io::read_joint(folder / "hip.toml").joint);
   const Json json = answer("");
-  ASSERT_EQ(json["measures"].size(), measure_definitions().size());
-  for (std::size_t i = 0; i < measure_definitions().size(); ++i) {
-    const MeasureDefinition& definition = measure_definitions()[i];
-    const Measure& measure = definition.of(expected);
+  ASSERT_EQ(json["measures"].size(), measure::measure_definitions().size());
+  for (std::size_t i = 0; i < measure::measure_definitions().size(); ++i) {
+    const measure::MeasureDefinition& definition = measure::measure_definitions()[i];
+    const measure::Measure& measure = definition.of(expected);
     const Json& said = json["measures"][i];
     EXPECT_EQ(said["key"], definition.key);
     if (measure.value) {
@@ -56,7 +56,7 @@ TEST_F(MeasureCommand, SaysWhatTheLibraryAnswers) {
   EXPECT_EQ(json["around_neck"].size(), expected.femur.around_neck.size());
   EXPECT_EQ(json["rim"].size(), expected.acetabulum.rim.size());
   const std::string text = run("measure hip.toml").out;
-  for (const MeasureDefinition& definition : measure_definitions())
+  for (const measure::MeasureDefinition& definition : measure::measure_definitions())
     EXPECT_NE(text.find(" " + std::string(definition.key) + " "), text.npos) << definition.key;
   EXPECT_NE(text.find("femoral_version_deg: the mesh ends above the knee"), text.npos) << text;
 }
@@ -93,9 +93,9 @@ TEST_F(MeasureCommand, NamesTheFrameOfEveryAngleThatTurnsWithThePelvis) {
   EXPECT_EQ(Json::parse(run("measure isb.toml --json --tilt -5").out)["pelvis_frame"],
             "plane of ASIS and PSIS, tilt -5 deg given");
   std::size_t turning = 0;
-  for (std::size_t i = 0; i < measure_definitions().size(); ++i) {
+  for (std::size_t i = 0; i < measure::measure_definitions().size(); ++i) {
     const Json &at = tilted["measures"][i], &in_plane = plane["measures"][i];
-    if (!measure_definitions()[i].in_pelvis_frame) {
+    if (!measure::measure_definitions()[i].in_pelvis_frame) {
       EXPECT_TRUE(at["frame"].is_null());
       continue;
     }
@@ -119,7 +119,8 @@ TEST_F(MeasureCommand, SaysThatAxesOfTheFemurAreNotThePelvis) {
 
 TEST_F(MeasureCommand, GivesTheLibrarysBands) {
   const Json json = answer("--band=20 --seed 3");
-  const auto bands = measure_bands(read_joint(folder / "hip.toml").joint, {}, {.samples = 20, .seed = 3});
+  const auto bands =
+      measure::measure_bands(io::read_joint(folder / "hip.toml").joint, {}, {.samples = 20, .seed = 3});
   for (std::size_t i = 0; i < bands.size(); ++i) {
     const Json& band = json["measures"][i]["band"];
     EXPECT_EQ(band["p5"], bands[i].p5 ? Json(*bands[i].p5) : Json(nullptr)) << json["measures"][i]["key"];
@@ -138,7 +139,7 @@ TEST_F(MeasureCommand, WritesTables) {
     for (std::string line; std::getline(text, line);) count += !line.starts_with('#');
     return count - 1;
   };
-  EXPECT_EQ(rows("out/measures.csv"), measure_definitions().size());
+  EXPECT_EQ(rows("out/measures.csv"), measure::measure_definitions().size());
   EXPECT_GT(rows("out/neck.csv"), 30u);
   EXPECT_GT(rows("out/rim.csv"), 30u);
   EXPECT_EQ(Json::parse(io::read_whole_file(folder / "out/measures.json"))["measures"],

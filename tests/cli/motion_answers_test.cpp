@@ -198,7 +198,7 @@ TEST_F(Motion, LoadsThatNothingWouldAskAreRefused) {
 /// A body of two meshes: wherever contact is reported, the mesh that touches is named.
 TEST_F(Motion, AnswersNameThePartThatTouches) {
   const TriMesh bone = box({-5, 100, -5}, {5, 110, 5});
-  write_mesh(folder / "bone.ply", bone);
+  io::write_mesh(folder / "bone.ply", bone);
   write("parts.toml",
         of_bodies("free",
                   "meshes = [{ name = \"bone\", mesh = \"bone.ply\" }, { name = \"cartilage\", mesh = "
@@ -233,8 +233,8 @@ TEST_F(Motion, AnswersNameThePartThatTouches) {
 }
 
 TEST_F(Motion, ContactBetweenSamplesReportsPlaceAndParts) {
-  write_mesh(folder / "upper.ply", box({-1, -60, -2}, {1, -10, 2}));
-  write_mesh(folder / "lower.ply", box({-1, -100, -2}, {1, -60, 2}));
+  io::write_mesh(folder / "upper.ply", box({-1, -60, -2}, {1, -10, 2}));
+  io::write_mesh(folder / "lower.ply", box({-1, -100, -2}, {1, -60, 2}));
   write("parts.toml",
         of_bodies("ball", "mesh = \"post.ply\"",
                   "meshes = [{ name = \"upper\", mesh = \"upper.ply\" }, { name = \"lower\", mesh = "

@@ -47,12 +47,12 @@ inline NumberTable csv_of(const fs::path& path) {
 class Motion : public ::testing::Test {
  protected:
   void SetUp() override {
-    write_mesh(folder / "cup.ply", cup(25, 5));
-    write_mesh(folder / "ball.ply", sphere(Vec3::Zero(), 24.8, 5));
+    io::write_mesh(folder / "cup.ply", cup(25, 5));
+    io::write_mesh(folder / "ball.ply", sphere(Vec3::Zero(), 24.8, 5));
     write("cup.toml",
           joint("free", "cup.ply", "ball.ply", "[contact]\ncasting = \"fixed\"\n" + layer("fixed")));
-    write_mesh(folder / "post.ply", box({40, -120, -50}, {60, -80, 50}));
-    write_mesh(folder / "shank.ply", box({-1, -100, -2}, {1, -10, 2}));
+    io::write_mesh(folder / "post.ply", box({40, -120, -50}, {60, -80, 50}));
+    io::write_mesh(folder / "shank.ply", box({-1, -100, -2}, {1, -10, 2}));
     write("shank.toml", joint("ball", "post.ply", "shank.ply", ""));
   }
   static std::string layer(const std::string& body) {

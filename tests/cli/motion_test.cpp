@@ -185,8 +185,8 @@ TEST_F(Motion, AGapStaysAGap) {
 }
 
 TEST_F(Motion, FramesAreTheSameOnAnyNumberOfThreads) {
-  write_mesh(folder / "coarse_cup.ply", cup(25, 4));
-  write_mesh(folder / "coarse_ball.ply", sphere(Vec3::Zero(), 24.8, 4));
+  io::write_mesh(folder / "coarse_cup.ply", cup(25, 4));
+  io::write_mesh(folder / "coarse_ball.ply", sphere(Vec3::Zero(), 24.8, 4));
   write("coarse.toml",
         joint("free", "coarse_cup.ply", "coarse_ball.ply",
               "[contact]\ncasting = \"fixed\"\n[[contact.region]]\nname = \"front\"\nhalf_space = "

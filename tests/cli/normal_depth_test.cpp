@@ -28,8 +28,8 @@ using io::read_whole_file;
 class NormalMethod : public ::testing::Test {
  protected:
   NormalMethod() {
-    write_mesh(folder / "sheet.ply", sheet());
-    write_mesh(folder / "ball.ply", sphere(Vec3::Zero(), 20, 4));
+    io::write_mesh(folder / "sheet.ply", sheet());
+    io::write_mesh(folder / "ball.ply", sphere(Vec3::Zero(), 20, 4));
     write_joint("[contact]\ncasting = \"mobile\"\nreach = 15\n");
   }
   /// Normal +y, with a vertex in the middle and edges of 1.
@@ -94,12 +94,12 @@ TEST_F(NormalMethod, IsNamedWhereAnOpenMeshIsRefused) {
   // Where triangles are wound against each other, normals mean nothing; where all of a closed mesh are, neither.
   TriMesh twisted = sheet();
   std::swap(twisted.triangles[100][0], twisted.triangles[100][1]);
-  write_mesh(folder / "sheet.ply", twisted);
+  io::write_mesh(folder / "sheet.ply", twisted);
   expect_refusal(run("depth joint.toml --pose y=19"), 4, "(--pairs-only accepts such meshes)", "");
   expect_refusal(by_normals(), 4, "sheet.ply: triangles wound against each other at the edge from vertex ",
                  "");
-  write_mesh(folder / "sheet.ply", sheet());
-  write_mesh(folder / "ball.ply", flipped(sphere(Vec3::Zero(), 20, 4)));
+  io::write_mesh(folder / "sheet.ply", sheet());
+  io::write_mesh(folder / "ball.ply", flipped(sphere(Vec3::Zero(), 20, 4)));
   expect_refusal(by_normals(), 4, "ball.ply: inverted orientation", "");
 }
 
@@ -159,7 +159,7 @@ TEST_F(NormalMethod, CentresAreInTheFrameAskedFor) {
 }
 
 TEST_F(NormalMethod, IsAboutThePartsThatTheJointFileNames) {
-  write_mesh(folder / "far.ply", box({-5, -200, -5}, {5, -190, 5}));
+  io::write_mesh(folder / "far.ply", box({-5, -200, -5}, {5, -190, 5}));
   const Json alone = answer("--casting both");
   write_joint("[contact]\nfixed_part = \"near\"\n",
               "meshes = [{ name = \"far\", mesh = \"far.ply\" }, { name = \"near\", mesh = \"sheet.ply\" }]");

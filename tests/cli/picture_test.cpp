@@ -67,7 +67,7 @@ TEST_F(PictureCommand, SaysWhichMeasuresItCannotDraw) {
   std::string text = io::read_whole_file(folder / "hip.toml");
   text.replace(text.find("femur.ply"), 9, "box.ply");
   std::ofstream(folder / "box.toml") << text;
-  write_mesh(folder / "box.ply", box({-8, -30, -8}, {8, -10, 8}));
+  io::write_mesh(folder / "box.ply", box({-8, -30, -8}, {8, -10, 8}));
   const Ran ran = run("picture box.toml --measures --colour none --size 200x150 --out p.png");
   EXPECT_EQ(ran.exit_code, 0);
   EXPECT_NE(ran.err.find("note: no axis of a neck is drawn: no spherical head"), ran.err.npos) << ran.err;

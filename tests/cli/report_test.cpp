@@ -22,11 +22,11 @@ using Json = nlohmann::json;
 class ReportCommand : public ::testing::Test {
  protected:
   void SetUp() override {
-    write_mesh(folder / "post.ply", box({40, -120, -50}, {60, -80, 50}));
+    io::write_mesh(folder / "post.ply", box({40, -120, -50}, {60, -80, 50}));
     write_arm(box({-1, -100, -2}, {1, -10, 2}));
     write_joint("");
   }
-  void write_arm(const TriMesh& arm) const { write_mesh(folder / "arm.ply", arm); }
+  void write_arm(const TriMesh& arm) const { io::write_mesh(folder / "arm.ply", arm); }
   void write_joint(const std::string& more) const {
     folder.file("joint.toml",
                 "condyle = 1\nname = \"arm & <post>\"\nkind = \"ball\"\nside = \"right\"\nunits = \"mm\"\n"
@@ -151,7 +151,7 @@ TEST_F(ReportCommand, RefusesOptionsOfACutWithoutOneAndPlansThatAPageDoesNotShow
 }
 
 TEST_F(ReportCommand, ComparesAJointWithTheOneBefore) {
-  write_mesh(folder / "post_after.ply", box({50, -120, -50}, {70, -80, 50}));
+  io::write_mesh(folder / "post_after.ply", box({50, -120, -50}, {70, -80, 50}));
   write_other("after.toml", "mesh = \"post.ply\"", "mesh = \"post_after.ply\"");
   const std::string options = " --band=20 --seed 7";
   const Ran ran = run("report ./joint.toml after.toml --past 5 --out report.html" + options);
@@ -189,7 +189,7 @@ TEST_F(ReportCommand, SetsParametersOfTheJointAfterOnly) {
 }
 
 TEST_F(ReportCommand, ShowsAComparisonOfWhichOneJointHasNoLimits) {
-  write_mesh(folder / "long.ply", box({-1, -100, -2}, {41, -10, 2}));
+  io::write_mesh(folder / "long.ply", box({-1, -100, -2}, {41, -10, 2}));
   write_other("after.toml", "mesh = \"arm.ply\"", "mesh = \"long.ply\"");
   const auto report = [&](const std::string& joints) {
     const Ran ran = run("report " + joints + " --out report.html");
@@ -324,7 +324,7 @@ TEST_F(ReportCommand, RefusesInOneLineAndWritesNothing) {
   expect_refused(3, "report joint.toml --out report.html --motion none.csv", "none.csv");
   expect_refused(3, "report joint.toml --out .", "is a folder");
   expect_refused(3, "report joint.toml --out joint.toml/report.html", "cannot be written");
-  write_mesh(folder / "arm.ply", box({-0.1, -10, -0.2}, {0.1, -1, 0.2}));
+  io::write_mesh(folder / "arm.ply", box({-0.1, -10, -0.2}, {0.1, -1, 0.2}));
   expect_refused(4, "report joint.toml --strict --out report.html", "--strict");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 3);
 }

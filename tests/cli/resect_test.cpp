@@ -31,9 +31,10 @@ class ResectCommand : public ::testing::Test {
 
 TEST_F(ResectCommand, SaysWhatTheLibraryAnswers) {
   const Json json = answer("--reach 'internal_rotation_at_90_flexion=45 fadir=30' --curve 2");
-  const LoadedJoint loaded = read_joint(folder / "hip.toml");
+  const io::LoadedJoint loaded = io::read_joint(folder / "hip.toml");
   ResectionQuery query;
-  query.resection.targets = reach_targets(hip_motions(), "internal_rotation_at_90_flexion=45 fadir=30");
+  query.resection.targets =
+      reach_targets(motion::hip_motions(), "internal_rotation_at_90_flexion=45 fadir=30");
   query.curve_points = 2;
   query.measures.ischiofemoral_pose = loaded.report.placement.reference_pose.angles;
   const ResectionAnswer expected = answer_resection(loaded.joint, loaded.report.placement, query);
@@ -121,8 +122,10 @@ TEST_F(ResectCommand, ARimThatIsCutLeavesHeadSocketAndMarginWhatTheyWere) {
     const std::string note = shape["measures"][i]["note"].is_null() ? "" : shape["measures"][i]["note"];
     EXPECT_EQ(note.find("no socket"), note.npos) << note;
   }
-  const BearingFinding before = find_bearing_surface(read_joint(folder / "hip.toml").joint),
-                       after = find_bearing_surface(read_joint(folder / "plan/resected.toml").joint);
+  const motion::BearingFinding before =
+                                   motion::find_bearing_surface(io::read_joint(folder / "hip.toml").joint),
+                               after = motion::find_bearing_surface(
+                                   io::read_joint(folder / "plan/resected.toml").joint);
   EXPECT_EQ(after.surface->margin_mm, before.surface->margin_mm);
   EXPECT_EQ(after.surface->head.radius, before.surface->head.radius);
   ASSERT_TRUE(before.surface->socket);
@@ -130,7 +133,7 @@ TEST_F(ResectCommand, ARimThatIsCutLeavesHeadSocketAndMarginWhatTheyWere) {
 }
 
 TEST_F(ResectCommand, MarkedVerticesStay) {
-  const std::size_t vertices = read_joint(folder / "hip.toml").joint.mobile.mesh.vertices().size();
+  const std::size_t vertices = io::read_joint(folder / "hip.toml").joint.mobile.mesh.vertices().size();
   std::ofstream marks(folder / "marks.txt");
   for (std::size_t v = 0; v < vertices; ++v) marks << "1\n";
   marks.close();
@@ -141,7 +144,7 @@ TEST_F(ResectCommand, MarkedVerticesStay) {
 }
 
 TEST_F(ResectCommand, RefusesInOneLine) {
-  const std::size_t vertices = read_joint(folder / "hip.toml").joint.mobile.mesh.vertices().size();
+  const std::size_t vertices = io::read_joint(folder / "hip.toml").joint.mobile.mesh.vertices().size();
   std::ofstream marks(folder / "marks.txt");
   for (std::size_t v = 0; v < vertices; ++v) marks << "1\n";
   marks.close();

@@ -54,7 +54,7 @@ TEST_F(RomOfSampleHip, TakesTheMarginGivenOrCountsEveryContact) {
 
 TEST_F(RomOfSampleHip, WritesTheMobileBodyWithItsBearingSurfaceMarked) {
   const Json bearing = answer("--motion flexion --out out --ascii")["bearing"];
-  EXPECT_EQ(read_mesh(folder / "out/bearing.vtp").mesh, read_mesh(folder / "femur.ply").mesh);
+  EXPECT_EQ(io::read_mesh(folder / "out/bearing.vtp").mesh, io::read_mesh(folder / "femur.ply").mesh);
   const std::string vtp = io::read_whole_file(folder / "out/bearing.vtp");
   const auto at = vtp.find("Name=\"bearing\"");
   ASSERT_NE(at, vtp.npos);
@@ -62,7 +62,7 @@ TEST_F(RomOfSampleHip, WritesTheMobileBodyWithItsBearingSurfaceMarked) {
   std::istringstream marks(vtp.substr(begin, vtp.find('<', begin) - begin));
   std::size_t triangles = 0, marked = 0;
   for (int mark; marks >> mark; ++triangles) marked += mark == 1;
-  EXPECT_EQ(triangles, read_mesh(folder / "femur.ply").mesh.triangles.size());
+  EXPECT_EQ(triangles, io::read_mesh(folder / "femur.ply").mesh.triangles.size());
   EXPECT_EQ(marked, bearing["triangles"]);
   EXPECT_GT(marked, 0u);
   EXPECT_LT(marked, triangles);

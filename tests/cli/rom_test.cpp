@@ -30,8 +30,8 @@ class RomCommand : public ::testing::Test {
  protected:
   void SetUp() override {
     fs::create_directory(here);
-    write_mesh(here / "post.ply", box({40, -120, -50}, {60, -80, 50}));
-    write_mesh(here / "arm.ply", box({-1, -100, -2}, {1, -10, 2}));
+    io::write_mesh(here / "post.ply", box({40, -120, -50}, {60, -80, 50}));
+    io::write_mesh(here / "arm.ply", box({-1, -100, -2}, {1, -10, 2}));
     write_joint("arm.ply", "");
   }
   void write_joint(const std::string& mobile, const std::string& more) const {
@@ -45,9 +45,9 @@ class RomCommand : public ::testing::Test {
   }
   void write_fine_meshes() const {
     for (const char* name : {"post.ply", "arm.ply"}) {
-      TriMesh mesh = read_mesh(here / name).mesh;
+      TriMesh mesh = io::read_mesh(here / name).mesh;
       for (int level = 0; level < 5; ++level) mesh = mesh::subdivided(mesh);
-      write_mesh(here / name, mesh);
+      io::write_mesh(here / name, mesh);
     }
   }
   Ran run(const std::string& arguments) const { return run_condyle(here, arguments); }
@@ -114,10 +114,10 @@ TEST_F(RomCommand, WritesZonesPastTheLimitsThatEndInContact) {
   EXPECT_GT(motions[0]["zone"]["mobile"]["max_tangential_depth_deg"].get<double>(), 0);
   EXPECT_LE(motions[0]["zone"]["mobile"]["max_tangential_depth_deg"].get<double>(), 4 + 1e-9);
   EXPECT_TRUE(motions[1]["zone"].is_null());
-  const TriMesh fixed = read_mesh(here / "out/zone_01_flexion_fixed.vtp").mesh;
-  EXPECT_EQ(fixed, read_mesh(here / "post.ply").mesh);
-  EXPECT_EQ(read_mesh(here / "out/zone_01_flexion_mobile.vtp").mesh.triangles,
-            read_mesh(here / "arm.ply").mesh.triangles);
+  const TriMesh fixed = io::read_mesh(here / "out/zone_01_flexion_fixed.vtp").mesh;
+  EXPECT_EQ(fixed, io::read_mesh(here / "post.ply").mesh);
+  EXPECT_EQ(io::read_mesh(here / "out/zone_01_flexion_mobile.vtp").mesh.triangles,
+            io::read_mesh(here / "arm.ply").mesh.triangles);
   const std::string bytes = io::read_whole_file(here / "out/zone_01_flexion_mobile.vtp");
   for (const char* name :
        {"radial_depth_mm", "ray_to_normal_deg", "tangential_depth_deg", "tangential_depth_mm", "in_zone"})
@@ -179,10 +179,10 @@ TEST_F(RomCommand, SaysWhereItComesFromInEveryFile) {
 
 TEST_F(RomCommand, InTheSourceFramePointsAndZonesLieOnTheFiles) {
   for (const char* name : {"post.ply", "arm.ply"}) {
-    TriMesh mesh = read_mesh(here / name).mesh;
+    TriMesh mesh = io::read_mesh(here / name).mesh;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
       mesh.vertices.set(v, mesh.vertices[v] + Vec3(8, -4, 2));
-    write_mesh(here / name, mesh);
+    io::write_mesh(here / name, mesh);
   }
   std::string joint = io::read_whole_file(here / "joint.toml");
   joint.replace(joint.find("[0, 0, 0]"), 9, "[8, -4, 2]");
@@ -196,7 +196,8 @@ TEST_F(RomCommand, InTheSourceFramePointsAndZonesLieOnTheFiles) {
     for (std::size_t k = 0; k < 3; ++k)
       EXPECT_NEAR(in_source[key][k].get<double>() - in_joint[key][k].get<double>(), (std::array{8, -4, 2})[k],
                   1e-12);
-  EXPECT_EQ(read_mesh(here / "out/zone_01_flexion_fixed.vtp").mesh, read_mesh(here / "post.ply").mesh);
+  EXPECT_EQ(io::read_mesh(here / "out/zone_01_flexion_fixed.vtp").mesh,
+            io::read_mesh(here / "post.ply").mesh);
 }
 
 TEST_F(RomCommand, AllowsADepthOnRequestAndSaysThatTheLimitIsSearchedFor) {
@@ -306,7 +307,7 @@ TEST_F(RomCommand, AnUnwritableFolderIsRefusedBeforeALongMap) {
 }
 
 TEST_F(RomCommand, BodiesInContactInTheReferencePoseAreExitCodeSixWithoutAnOption) {
-  write_mesh(here / "fat.ply", box({-1, -100, -2}, {41, -10, 2}));
+  io::write_mesh(here / "fat.ply", box({-1, -100, -2}, {41, -10, 2}));
   write_joint("fat.ply", "");
   expect_refused(6, "rom joint.toml --out out", "in contact in the reference pose");
   expect_refused(6, "rom joint.toml --motion flexion --json", "--accept-reference-contact");

@@ -33,11 +33,12 @@ Json answer(const std::string& arguments) {
 
 TEST(SampleCartilagesJoint, HasTheMeshesThatTheLibraryMakes) {
   ASSERT_EQ(made().ran.exit_code, 0) << made().ran.err;
-  CartilageParameters parameters;
+  sample::CartilageParameters parameters;
   parameters.clearance_mm = 0.3;
-  const SampleCartilages expected = mirrored(sample_cartilages({}, parameters, CartilageScenario::six));
-  EXPECT_EQ(read_mesh(made().folder / "made/acetabular_cartilage.ply").mesh, expected.acetabular);
-  EXPECT_EQ(read_mesh(made().folder / "made/femoral_cartilage.ply").mesh, expected.femoral);
+  const sample::SampleCartilages expected =
+      mirrored(sample::sample_cartilages({}, parameters, sample::CartilageScenario::six));
+  EXPECT_EQ(io::read_mesh(made().folder / "made/acetabular_cartilage.ply").mesh, expected.acetabular);
+  EXPECT_EQ(io::read_mesh(made().folder / "made/femoral_cartilage.ply").mesh, expected.femoral);
 }
 
 TEST(SampleCartilagesJoint, IsFreeByTheClearanceAndStaysSoHoweverFarItRotates) {

@@ -24,17 +24,18 @@ TEST(SampleReplacementCommand, WritesTheMeshesThatTheLibraryMakesWithTheSizesInT
                    "replacement --inclination 45 --anteversion 20 --definition anatomic --neck-shaft 130 "
                    "--head-radius 18 --neck-taper 2 --facets 120 --side left --out made");
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  TotalHip hip;
+  plan::TotalHip hip;
   hip.cup = {Angle::degrees(45), Angle::degrees(20), CupDefinition::anatomic};
   hip.neck_shaft = Angle::degrees(130), hip.head_radius_mm = 18, hip.neck_taper = Angle::degrees(2);
   hip.facets = 120;
-  const ImplantMeshes expected = *sample_replacement(hip, {}, Scenario::one, Side::left);
+  const plan::ImplantMeshes expected =
+      *sample::sample_replacement(hip, {}, sample::Scenario::one, Side::left);
   for (const auto* body : {&expected.fixed, &expected.mobile})
     for (const auto& [part, mesh] : *body)
-      EXPECT_EQ(read_mesh(folder / ("made/" + part + ".ply")).mesh, mesh) << part;
-  const JointFile file = read_joint_file(folder / "made/hip.toml");
+      EXPECT_EQ(io::read_mesh(folder / ("made/" + part + ".ply")).mesh, mesh) << part;
+  const io::JointFile file = io::read_joint_file(folder / "made/hip.toml");
   ASSERT_TRUE(file.implant);
-  EXPECT_EQ(std::get<TotalHip>(*file.implant), hip);
+  EXPECT_EQ(std::get<plan::TotalHip>(*file.implant), hip);
   EXPECT_EQ(file.joint.side, Side::left);
   EXPECT_EQ(file.uncertainty.centre_mm, 0);
   EXPECT_EQ(file.uncertainty.surface_mm, 0);
@@ -89,12 +90,12 @@ TEST(SampleReplacementCommand, RefusesWrongSizesInOneLineAndWritesNothing) {
 TEST(SampleReverseShoulder, IsAShoulderWithItsSizesInTheJointFile) {
   const TemporaryFolder folder;
   ASSERT_EQ(made_implant(folder, "reverse-shoulder --retroversion 25 --out made").exit_code, 0);
-  const JointFile file = read_joint_file(folder / "made/shoulder.toml");
+  const io::JointFile file = io::read_joint_file(folder / "made/shoulder.toml");
   EXPECT_EQ(file.joint.anatomy, Anatomy::shoulder);
-  ReverseShoulder expected;
+  plan::ReverseShoulder expected;
   expected.retroversion = Angle::degrees(25);
   ASSERT_TRUE(file.implant);
-  EXPECT_EQ(std::get<ReverseShoulder>(*file.implant), expected);
+  EXPECT_EQ(std::get<plan::ReverseShoulder>(*file.implant), expected);
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ class Shoulder : public ::testing::Test {
  protected:
   void write(const ParametricShoulder& shape, const std::string& joint = "shoulder") const {
     const Joint made = shoulder(shape);
-    write_mesh(folder / "scapula.ply", made.fixed.mesh);
-    write_mesh(folder / "humerus.ply", made.mobile.mesh);
+    io::write_mesh(folder / "scapula.ply", made.fixed.mesh);
+    io::write_mesh(folder / "humerus.ply", made.mobile.mesh);
     std::ofstream(folder / "joint.toml")
         << "condyle = 1\nname = \"joint\"\nkind = \"ball\"\njoint = \"" << joint
         << "\"\nside = \"right\"\nunits = \"mm\"\n[fixed]\nname = \"scapula\"\n"

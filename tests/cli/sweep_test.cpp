@@ -55,15 +55,16 @@ std::vector<std::string> lines_of(const std::string& text) {
 TEST_F(SweepCommand, SaysWhatTheLibraryAnswers) {
   const Ran ran = sweep("--band=20 --json --out zone");
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  const LoadedJoint loaded = read_joint(folder / "hip.toml");
-  const SweepTarget sitting{"sitting", motion_named(hip_motions(), "flexion"), Angle::degrees(110),
-                            Angle::degrees(-10)},
-      pivoting{"pivoting", motion_named(hip_motions(), "external_rotation"), Angle::degrees(40)};
+  const io::LoadedJoint loaded = io::read_joint(folder / "hip.toml");
+  const plan::SweepTarget sitting{"sitting", motion::motion_named(motion::hip_motions(), "flexion"),
+                                  Angle::degrees(110), Angle::degrees(-10)},
+      pivoting{"pivoting", motion::motion_named(motion::hip_motions(), "external_rotation"),
+               Angle::degrees(40)};
   const SweepAnswer expected =
       answer_sweep(loaded.joint, loaded.report.placement,
-                   {.parameters = parse_sweep("cup.inclination=30:50:5 cup.anteversion=0:30:5"),
+                   {.parameters = plan::parse_sweep("cup.inclination=30:50:5 cup.anteversion=0:30:5"),
                     .targets = {sitting, pivoting},
-                    .bands = BandOptions{.samples = 20}});
+                    .bands = motion::BandOptions{.samples = 20}});
   const Json json = Json::parse(ran.out);
   EXPECT_EQ(json["designs"], 35);
   EXPECT_EQ(json["safe_measure"], expected.safe_measure);

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 int main() {
-  const condyle::SampleHip hip = condyle::sample_hip({}, condyle::Scenario::one);
-  condyle::write_mesh("femur.ply", hip.femur);
-  std::printf("%zu vertices\n", condyle::read_mesh("femur.ply").mesh.vertices.size());
+  const condyle::sample::SampleHip hip = condyle::sample::sample_hip({}, condyle::sample::Scenario::one);
+  condyle::io::write_mesh("femur.ply", hip.femur);
+  std::printf("%zu vertices\n", condyle::io::read_mesh("femur.ply").mesh.vertices.size());
 }

@@ -3,6 +3,6 @@
 
 bool writes_jam_file() {
   const double times_s[] = {0, 0.5};
-  condyle::write_jam_file("knee.h5", times_s, {});
+  condyle::io::write_jam_file("knee.h5", times_s, {});
   return std::filesystem::file_size("knee.h5") > 0;
 }

@@ -16,7 +16,7 @@ int main() {
   const condyle::TriMesh needle = tetrahedron({{{1, -1, -1}, {-1, -1, 0}, {1, -1, 1}, {0, -10, 0}}});
   const condyle::Joint joint{
       "door", condyle::JointKind::hinge, condyle::Side::right, {"wall", wall}, {"needle", needle}};
-  const condyle::MotionLimit flexion =
-      condyle::RangeOfMotion(joint).limit(condyle::built_in_motions(joint.kind, joint.anatomy).front());
+  const condyle::motion::MotionLimit flexion = condyle::motion::RangeOfMotion(joint).limit(
+      condyle::motion::built_in_motions(joint.kind, joint.anatomy).front());
   std::printf("flexion ends at %.3f degrees\n", flexion.end.turned.degrees());
 }

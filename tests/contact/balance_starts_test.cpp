@@ -9,7 +9,7 @@
 /// A ball in a closed shell with a rim, hollow downwards: where a balance starts from does not decide what is found, and what is
 /// refused is refused for its reason.
 
-namespace condyle {
+namespace condyle::contact {
 namespace {
 
 const ElasticLayer cartilage{10, 0.45, 3.0};
@@ -120,4 +120,4 @@ TEST(RefinedForce, IsWhatFinerTrianglesOfTheSameSurfacesGive) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::contact

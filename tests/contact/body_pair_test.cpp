@@ -11,7 +11,7 @@
 #include "support/brute_force.hpp"
 #include "support/test_meshes.hpp"
 
-namespace condyle {
+namespace condyle::contact {
 namespace {
 
 using test::box;
@@ -53,7 +53,7 @@ Pose shifted(double x, double y = 0, double z = 0) {
 
 TEST(BodyPair, HasThePairsOfRationalArithmeticInEveryPose) {
   const TriMesh fixed = test::socket({0.05, 0.1, 0}, 1.0, 1.3, 1), mobile = test::torus(1.1, 0.15, 7, 5);
-  const contact::BodyPair bodies(fixed, mobile);
+  const BodyPair bodies(fixed, mobile);
   std::size_t found = 0, free_poses = 0;
   for (int i = 0; i < 8; ++i) {
     const Pose X = turned(31 * i, {1, 0.3 * i, -0.5}, Vec3(0.02 * i, i % 4 == 0 ? -2.4 : -0.1, 0));
@@ -70,7 +70,7 @@ TEST(BodyPair, HasThePairsOfRationalArithmeticInEveryPose) {
 /// Large enough for deep trees.
 TEST(BodyPair, HasThePairsThatTestingEachWithEachFinds) {
   const TriMesh fixed = test::socket({0.3, 0.2, 0.1}, 24, 27, 4), mobile = sphere({0, 0.4, 0.2}, 23.5, 4);
-  const contact::BodyPair bodies(fixed, mobile);
+  const BodyPair bodies(fixed, mobile);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> angle(-180, 180), shift(-3, 3);
   std::size_t found = 0;
@@ -86,7 +86,7 @@ TEST(BodyPair, HasThePairsThatTestingEachWithEachFinds) {
 
 TEST(BodyPair, ABallInAMatchedSocketIsFreeUntilItsGapIsClosed) {
   const TriMesh ball = sphere({0, 0, 0}, 24, 4), hollow = test::socket({0, 0, 0}, 25, 28, 4);
-  const contact::BodyPair bodies(hollow, ball);
+  const BodyPair bodies(hollow, ball);
   for (int i = 0; i < 30; ++i) EXPECT_FALSE(bodies.touch(turned(13 * i, {1.0 * i, 2, 3})));
   // The facets of the socket's inside sag outwards from the ball and those of the ball inwards: the gap is 1
   // mm at least.
@@ -95,13 +95,13 @@ TEST(BodyPair, ABallInAMatchedSocketIsFreeUntilItsGapIsClosed) {
 }
 
 TEST(BodyPair, FacesThatTouchAreInContactAndOneRoundingApartAreNot) {
-  const contact::BodyPair bodies(box({1, -1, -1}, {3, 1, 1}), box({-1.5, -0.5, -0.5}, {1, 0.5, 0.5}));
+  const BodyPair bodies(box({1, -1, -1}, {3, 1, 1}), box({-1.5, -0.5, -0.5}, {1, 0.5, 0.5}));
   EXPECT_TRUE(bodies.touch(Pose::Identity()));
   EXPECT_FALSE(bodies.touch(shifted(-0x1p-52)));
 }
 
 TEST(BodyPair, CrossedBarsTouchWithNoVertexInside) {
-  const contact::BodyPair bodies(box({-5, 1, -0.5}, {5, 2, 0.5}), box({-0.5, 1.25, -5}, {0.5, 1.75, 5}));
+  const BodyPair bodies(box({-5, 1, -0.5}, {5, 2, 0.5}), box({-0.5, 1.25, -5}, {0.5, 1.75, 5}));
   EXPECT_TRUE(bodies.touch(Pose::Identity()));
   EXPECT_FALSE(bodies.touch(shifted(0, 0.75 + 0x1p-40)));
 }
@@ -110,14 +110,14 @@ TEST(BodyPair, ABodyInsideTheSolidOfTheOtherTouchesIt) {
   const TriMesh large = sphere({0.1, 0, 0}, 10, 2), small = sphere({2, 0, 0}, 1, 2);
   const Pose aslant = turned(40, {1, 2, 3}, {0.5, -1, 0.25});
   for (const Pose& X : {Pose::Identity(), aslant}) {
-    EXPECT_TRUE(contact::BodyPair(large, small).pairs(X).empty());
-    EXPECT_TRUE(contact::BodyPair(large, small).touch(X));
-    EXPECT_TRUE(contact::BodyPair(small, large).touch(X));
+    EXPECT_TRUE(BodyPair(large, small).pairs(X).empty());
+    EXPECT_TRUE(BodyPair(large, small).touch(X));
+    EXPECT_TRUE(BodyPair(small, large).touch(X));
   }
   // The second of two components is inside.
   const TriMesh beside_and_inside = test::joined(box({30, 30, 30}, {31, 31, 31}), small);
-  EXPECT_TRUE(contact::BodyPair(large, beside_and_inside).touch(Pose::Identity()));
-  EXPECT_TRUE(contact::BodyPair(beside_and_inside, large).touch(Pose::Identity()));
+  EXPECT_TRUE(BodyPair(large, beside_and_inside).touch(Pose::Identity()));
+  EXPECT_TRUE(BodyPair(beside_and_inside, large).touch(Pose::Identity()));
 }
 
 TEST(BodyPair, ABodyInTheHollowOfAnotherIsFree) {
@@ -125,29 +125,29 @@ TEST(BodyPair, ABodyInTheHollowOfAnotherIsFree) {
   for (auto& triangle : inner_wall.triangles) std::swap(triangle[0], triangle[1]);
   const TriMesh shell = test::joined(sphere({0, 0, 0}, 10, 2), inner_wall);
   const TriMesh small = sphere({0.5, 0, 0}, 1, 2);
-  EXPECT_FALSE(contact::BodyPair(shell, small).touch(Pose::Identity()));
-  EXPECT_FALSE(contact::BodyPair(small, shell).touch(Pose::Identity()));
+  EXPECT_FALSE(BodyPair(shell, small).touch(Pose::Identity()));
+  EXPECT_FALSE(BodyPair(small, shell).touch(Pose::Identity()));
 }
 
 TEST(BodyPair, AnOpenMeshHasNoInside) {
   TriMesh open = sphere({0, 0, 0}, 10, 2);
   open.triangles.pop_back();
   const TriMesh small = sphere({2, 0, 0}, 1, 2);
-  EXPECT_FALSE(contact::BodyPair(open, small).touch(Pose::Identity()));
-  EXPECT_FALSE(contact::BodyPair(small, open).touch(Pose::Identity()));
-  EXPECT_TRUE(contact::BodyPair(open, small).touch(shifted(7.5)));
+  EXPECT_FALSE(BodyPair(open, small).touch(Pose::Identity()));
+  EXPECT_FALSE(BodyPair(small, open).touch(Pose::Identity()));
+  EXPECT_TRUE(BodyPair(open, small).touch(shifted(7.5)));
 }
 
 TEST(BodyPair, AnEmptyMeshTouchesNothing) {
   const TriMesh ball = sphere({0, 0, 0}, 1, 1);
-  EXPECT_FALSE(contact::BodyPair(ball, TriMesh{}).touch(Pose::Identity()));
-  EXPECT_FALSE(contact::BodyPair(TriMesh{}, ball).touch(Pose::Identity()));
-  EXPECT_TRUE(contact::BodyPair(TriMesh{}, TriMesh{}).pairs(Pose::Identity()).empty());
+  EXPECT_FALSE(BodyPair(ball, TriMesh{}).touch(Pose::Identity()));
+  EXPECT_FALSE(BodyPair(TriMesh{}, ball).touch(Pose::Identity()));
+  EXPECT_TRUE(BodyPair(TriMesh{}, TriMesh{}).pairs(Pose::Identity()).empty());
 }
 
 TEST(BodyPair, TheLastHitIsAPairThatMeetsAndChangesNoAnswer) {
   const TriMesh fixed = box({10, -2, -2}, {14, 2, 2}), mobile = box({9, -1, -1}, {12, 1, 1});
-  const contact::BodyPair bodies(fixed, mobile);
+  const BodyPair bodies(fixed, mobile);
   std::optional<TrianglePair> last_witness;
   std::size_t hits = 0;
   for (int degrees = 0; degrees < 360; ++degrees) {
@@ -168,7 +168,7 @@ TEST(BodyPair, IsRightFarFromTheOriginAndBeyondSinglePrecision) {
   for (const double size : {1e9, 4e29, 1e-29}) {
     const TriMesh fixed = box({1 * size, -size, -size}, {2 * size, size, size});
     const TriMesh mobile = box({-size, -size, -size}, {size, size, size});
-    const contact::BodyPair bodies(fixed, mobile);
+    const BodyPair bodies(fixed, mobile);
     EXPECT_TRUE(bodies.touch(Pose::Identity())) << size;
     EXPECT_EQ(bodies.pairs(Pose::Identity()), test::brute_pairs(fixed, mobile)) << size;
     EXPECT_FALSE(bodies.touch(shifted(-size * 0x1p-52))) << size;
@@ -178,7 +178,7 @@ TEST(BodyPair, IsRightFarFromTheOriginAndBeyondSinglePrecision) {
 /// A pose that scales by a millionth is no rotation, but what it makes of the vertices can still be asked.
 TEST(BodyPair, IsRightForAMatrixThatIsNotQuiteARotation) {
   const TriMesh fixed = test::socket({0, 0, 0}, 25, 28, 3), mobile = sphere({0, 0, 0}, 24.9999, 3);
-  const contact::BodyPair bodies(fixed, mobile);
+  const BodyPair bodies(fixed, mobile);
   for (const double scale : {1 - 1e-5, 1 + 1e-5, 1 + 1e-3, 1 + 1e-2}) {
     Pose X = turned(50, {3, 2, 1});
     X.linear() *= scale;
@@ -187,4 +187,4 @@ TEST(BodyPair, IsRightForAMatrixThatIsNotQuiteARotation) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::contact

@@ -8,8 +8,8 @@
 namespace condyle::test {
 
 /// Every pair of triangles that meet, each tested with each.
-inline std::vector<TrianglePair> brute_pairs(const TriMesh& fixed, const TriMesh& posed_mobile) {
-  std::vector<TrianglePair> pairs;
+inline std::vector<contact::TrianglePair> brute_pairs(const TriMesh& fixed, const TriMesh& posed_mobile) {
+  std::vector<contact::TrianglePair> pairs;
   for (const auto& [f, m] : intersecting_pairs(fixed, posed_mobile)) pairs.push_back({f, m});
   return pairs;
 }

@@ -15,9 +15,11 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-ContactMeasures measured(const TriMesh& fixed, const TriMesh& mobile, const Pose& X = Pose::Identity()) {
-  const JointContact joint(fixed, mobile);
-  return measure_contact(joint, X, MeasuredContact(joint.radial(X)), DistancesOf::all_vertices);
+contact::ContactMeasures measured(const TriMesh& fixed, const TriMesh& mobile,
+                                  const Pose& X = Pose::Identity()) {
+  const contact::JointContact joint(fixed, mobile);
+  return contact::measure_contact(joint, X, contact::MeasuredContact(joint.radial(X)),
+                                  contact::DistancesOf::all_vertices);
 }
 
 /// Two spheres whose centres are d apart; the lens that they share.
@@ -49,7 +51,7 @@ Errors lens_errors(const Lens& lens, int level) {
   const Vec3 direction = Vec3(0.3, 0.8, -0.52).normalized(), away(1, 2, 3);
   const TriMesh fixed = sphere(away, lens.R, level),
                 mobile = sphere(away + lens.d * direction, lens.r, level);
-  const ContactMeasures found = measured(fixed, mobile);
+  const contact::ContactMeasures found = measured(fixed, mobile);
   const auto relative = [](double value, double exact) { return std::abs(value / exact - 1); };
   // By symmetry the centroid is on the line of centres, at the areas' mean of both caps' middles.
   const double area_R = lens.area(lens.R, lens.r), area_r = lens.area(lens.r, lens.R);
@@ -89,7 +91,7 @@ TEST(ContactMeasures, OfTwoBoxesComeToThoseOfTheCubeTheyShare) {
     for (TriMesh* mesh : {&fixed, &mobile})
       for (std::size_t v = 0; v < mesh->vertices.size(); ++v)
         mesh->vertices.set(v, mesh->vertices[v] - centre);
-    const ContactMeasures found = measured(fixed, mobile);
+    const contact::ContactMeasures found = measured(fixed, mobile);
     double area = 0, mean = 0;
     for (const auto& patch : {found.fixed, found.mobile}) {
       area = std::max(area, std::abs(patch->area_mm2 / (3 * L * L) - 1));
@@ -109,7 +111,7 @@ TEST(ContactMeasures, OfTwoBoxesComeToThoseOfTheCubeTheyShare) {
 
 TEST(ContactMeasures, OfABoxInABoxAreThoseOfTheInnerOne) {
   const TriMesh outer = box({-10, -10, -10}, {10, 10, 10}), inner = box({-1, -2, 4}, {3, 1, 9});
-  const ContactMeasures found = measured(outer, inner);
+  const contact::ContactMeasures found = measured(outer, inner);
   // Twelve triangles: every sum is of a few terms.
   EXPECT_NEAR(*found.volume_mm3, 4 * 3 * 5, 1e-12);
   EXPECT_NEAR(found.mobile->area_mm2, 2 * (4 * 3 + 3 * 5 + 4 * 5), 1e-12);
@@ -129,7 +131,7 @@ TEST(ContactMeasures, UnderACornerNeedNoVertexOfTheFace) {
   for (const Vec3& p : {Vec3(-3, -3, 5), Vec3(3, -3, 5), Vec3(0, 4, 5), Vec3(0, 0, 12)})
     tip.vertices.push_back(p);
   tip.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-  const ContactMeasures found = measured(slab, tip);
+  const contact::ContactMeasures found = measured(slab, tip);
   // Cut at 2 of 7 mm below the tip: what is cut off is similar to the whole, and the gap is linear along the edges.
   const double whole = 6 * 7 / 2.0 * 7 / 3;
   EXPECT_NEAR(*found.volume_mm3, whole * std::pow(2 / 7.0, 3), 1e-12);
@@ -138,7 +140,7 @@ TEST(ContactMeasures, UnderACornerNeedNoVertexOfTheFace) {
 }
 
 TEST(ContactMeasures, OfBodiesApartAreADistanceOnly) {
-  const ContactMeasures found = measured(box({1, 1, 1}, {2, 2, 2}), box({5, 1, 1}, {6, 2, 2}));
+  const contact::ContactMeasures found = measured(box({1, 1, 1}, {2, 2, 2}), box({5, 1, 1}, {6, 2, 2}));
   EXPECT_NEAR(found.nearest.distance_mm, 3, 1e-14);
   EXPECT_EQ(*found.volume_mm3, 0);
   EXPECT_FALSE(found.centroid);
@@ -149,7 +151,7 @@ TEST(ContactMeasures, OfBodiesApartAreADistanceOnly) {
 TEST(ContactMeasures, WithAnOpenMeshThereIsNoVolumeAndOnePatch) {
   TriMesh open = box({-10, -10, -10}, {10, 10, 10});
   open.triangles.pop_back();
-  const ContactMeasures found = measured(open, box({5, 1, 1}, {15, 2, 2}));
+  const contact::ContactMeasures found = measured(open, box({5, 1, 1}, {15, 2, 2}));
   EXPECT_FALSE(found.volume_mm3);
   EXPECT_FALSE(found.mobile);
   ASSERT_TRUE(found.fixed);
@@ -157,7 +159,7 @@ TEST(ContactMeasures, WithAnOpenMeshThereIsNoVolumeAndOnePatch) {
 
 TEST(ContactMeasures, DoNotDependOnWhichBodyIsWhich) {
   const TriMesh a = sphere({1, 2, 3}, 20, 3), b = sphere({15, 9, 5}, 12, 3);
-  const ContactMeasures one = measured(a, b), other = measured(b, a);
+  const contact::ContactMeasures one = measured(a, b), other = measured(b, a);
   EXPECT_EQ(one.mobile->area_mm2, other.fixed->area_mm2);
   EXPECT_EQ(*one.fixed->mean_depth_mm, *other.mobile->mean_depth_mm);
   EXPECT_NEAR(*one.volume_mm3, *other.volume_mm3, 1e-9 * *one.volume_mm3);

@@ -7,7 +7,7 @@
 
 /// Faces at the rim of a solid, where closed forms say what is in contact.
 
-namespace condyle {
+namespace condyle::contact {
 namespace {
 
 constexpr double stiffness = 3, depth = 0.5;
@@ -49,7 +49,7 @@ TEST(CutFaces, ShowHowTheLoadChangesAsASolidEndSlides) {
     const Pose X_FM = slab_at(0.311, turn);
     ElasticContact::Parts::Answers answers;
     contact.parts().answer(X_FM, answers);
-    const auto change = contact.parts().change_of(answers, X_FM, contact::Motions::translations);
+    const auto change = contact.parts().change_of(answers, X_FM, Motions::translations);
     // Up is positive; slid along +z the turned end crosses the sheet's middle tan(turn) further back.
     const double of_slide = stiffness * depth * 12;
     EXPECT_NEAR(change(1, 0), of_slide, 1e-9 * of_slide);
@@ -69,4 +69,4 @@ TEST(CutFaces, AreDecidedByPartsWhereTheTargetIsOpen) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::contact

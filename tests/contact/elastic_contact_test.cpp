@@ -9,7 +9,7 @@
 #include "condyle/error.hpp"
 #include "support/cup.hpp"
 
-namespace condyle {
+namespace condyle::contact {
 namespace {
 
 using test::layer_of_stiffness;
@@ -226,4 +226,4 @@ TEST(ElasticContact, LogarithmicLawNamesTheTriangleThatIsTooDeep) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::contact

@@ -11,7 +11,7 @@
 /// Cartilages of a real hip under what a pelvis puts on it while standing: rays at their rims begin and cease to meet as the hip
 /// flexes, so forces and energies jump.
 
-namespace condyle {
+namespace condyle::contact {
 namespace {
 
 struct Way {
@@ -82,4 +82,4 @@ TEST(RefusedLoad, LeavesNoMoreOnBonesThanWasApplied) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::contact

@@ -10,7 +10,7 @@
 #include "support/brute_force.hpp"
 #include "support/test_meshes.hpp"
 
-namespace condyle {
+namespace condyle::contact {
 namespace {
 
 using test::box;
@@ -26,7 +26,7 @@ Pose rotation(double degrees, const Vec3& axis, const Vec3& shift = Vec3::Zero()
 TEST(JointContact, PairsAreThoseOfRationalArithmeticOnBothMapsInEveryPose) {
   const TriMesh fixed = test::socket({0.05, 0.1, 0}, 1.0, 1.3, 1), mobile = test::torus(1.1, 0.15, 7, 5);
   std::size_t found = 0, free_poses = 0;
-  for (const auto map : {DirectionMapKind::cube, DirectionMapKind::cartesian}) {
+  for (const auto map : {radial::DirectionMapKind::cube, radial::DirectionMapKind::cartesian}) {
     const JointContact joint(fixed, mobile, {map, 8});
     for (int i = 0; i < 12; ++i) {
       const Pose X = rotation(31 * i, {1, 0.3 * i, -0.5}, Vec3(0.02 * i, i % 4 == 0 ? -2.4 : -0.1, 0));
@@ -147,4 +147,4 @@ TEST(JointContact, ACentreOnASurfaceIsRefusedByNameOfTheBody) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::contact

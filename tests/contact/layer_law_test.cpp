@@ -7,8 +7,8 @@
 namespace condyle::contact {
 namespace {
 
-const ElasticLayer cartilage{10, 0.45, 6.0};
-const double modulus = cartilage.confined_modulus_mpa();
+const ElasticLayer thick_cartilage{10, 0.45, 6.0};
+const double modulus = thick_cartilage.confined_modulus_mpa();
 const LayerHere nothing{0, 0};
 
 TEST(LayerLaw, ConfinedModulusOfCartilage) {

@@ -8,7 +8,7 @@
 #include "condyle/error.hpp"
 #include "support/cup.hpp"
 
-namespace condyle {
+namespace condyle::contact {
 namespace {
 
 using test::generic_turn;
@@ -212,4 +212,4 @@ TEST(LoadBalance, RefusesWhatHasNoMeaning) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::contact

@@ -7,7 +7,7 @@
 
 /// The derivatives that the balance steps by, against differences of the load.
 
-namespace condyle {
+namespace condyle::contact {
 namespace {
 
 using contact::LoadChange;
@@ -126,4 +126,4 @@ INSTANTIATE_TEST_SUITE_P(Rules, LoadChangeOf, testing::Values(FaceRule::face_cen
                          });
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::contact

@@ -10,7 +10,7 @@
 #include "mesh/winding_number.hpp"
 #include "support/test_meshes.hpp"
 
-namespace condyle {
+namespace condyle::contact {
 namespace {
 
 TriMesh sphere() {
@@ -31,8 +31,8 @@ TEST(MeshDoor, NoTableIsMadeOfAMeshThatDoesNotPass) {
   for (const TriMesh& broken : broken_meshes()) {
     EXPECT_THROW(JointContact(broken, sphere()), MeshError);
     EXPECT_THROW(JointContact(sphere(), broken), MeshError);
-    EXPECT_THROW(contact::BodyPair(broken, sphere()), MeshError);
-    EXPECT_THROW(contact::BodyPair(sphere(), broken), MeshError);
+    EXPECT_THROW(BodyPair(broken, sphere()), MeshError);
+    EXPECT_THROW(BodyPair(sphere(), broken), MeshError);
     EXPECT_THROW(mesh::WindingNumber{broken}, MeshError);
   }
 }
@@ -49,4 +49,4 @@ TEST(MeshDoor, NoJointHasAMeshThatDoesNotPass) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::contact

@@ -23,10 +23,11 @@
 namespace condyle::test {
 namespace {
 
-ContactMeasures measured_overlap(const TriMesh& fixed, const TriMesh& mobile,
-                                 const Pose& X_FM = Pose::Identity()) {
-  const JointContact joint(fixed, mobile);
-  return measure_contact(joint, X_FM, MeasuredContact(joint.radial(X_FM)), DistancesOf::vertices_inside);
+contact::ContactMeasures measured_overlap(const TriMesh& fixed, const TriMesh& mobile,
+                                          const Pose& X_FM = Pose::Identity()) {
+  const contact::JointContact joint(fixed, mobile);
+  return contact::measure_contact(joint, X_FM, contact::MeasuredContact(joint.radial(X_FM)),
+                                  contact::DistancesOf::vertices_inside);
 }
 
 TriMesh moved(const Pose& X, const TriMesh& mesh) {
@@ -166,8 +167,8 @@ double volume_by_patches(const TriMesh& fixed, const TriMesh& mobile, const cont
 }
 
 contact::Overlap overlap_at(const TriMesh& fixed, const TriMesh& mobile, const Pose& X_FM) {
-  const JointContact joint(fixed, mobile);
-  const RadialContact contact = joint.radial(X_FM);
+  const contact::JointContact joint(fixed, mobile);
+  const contact::RadialContact contact = joint.radial(X_FM);
   const TriMesh mobile_in_F = posed(X_FM, mobile);
   return contact::overlap_of({fixed, contact.fixed_in_mobile->state},
                              {mobile_in_F, contact.mobile_in_fixed->state}, contact.pairs);
@@ -213,7 +214,7 @@ std::vector<Case> exact_cases() {
 /// The references have ten decimals, or nine.
 TEST(Overlap, HasTheVolumeOfClosedFormsAndOfExactIntegration) {
   for (const Case& c : exact_cases()) {
-    const ContactMeasures found = measured_overlap(c.fixed, c.mobile);
+    const contact::ContactMeasures found = measured_overlap(c.fixed, c.mobile);
     ASSERT_TRUE(found.volume_mm3) << c.name;
     const double digits = std::max(5e-11, 5e-8 * (c.volume > 1000) + 5e-10 * (c.volume > 100));
     EXPECT_NEAR(*found.volume_mm3, c.volume, found.volume_error_mm3 + digits) << c.name;
@@ -228,7 +229,7 @@ TEST(Overlap, OfAThinSlabBetweenPlanesIsItsThicknessTimesItsArea) {
   for (const double thickness : {1.0, 1e-3, 1e-6, 1e-9, 1e-12}) {
     const TriMesh above = moved(off_centre, box({2, 3, 10 - thickness}, {7, 7, 20}));
     const double exact = 20 * (below.vertices[7].z() - above.vertices[0].z());
-    const ContactMeasures found = measured_overlap(below, above);
+    const contact::ContactMeasures found = measured_overlap(below, above);
     EXPECT_NEAR(*found.volume_mm3, exact, found.volume_error_mm3) << thickness;
     // Walls of the thin part are counted too.
     const double mobile = 20 + 18 * thickness;
@@ -243,7 +244,7 @@ TEST(Overlap, KeepsToItsBoundFarFromTheOrigin) {
     const Pose X = translation({far, -far / 2, far / 4});
     const TriMesh fixed = moved(X, box({1, 1, 1}, {11, 11, 11})),
                   mobile = moved(X, box({9, 8, 7}, {19, 18, 17}));
-    const ContactMeasures found = measured_overlap(fixed, mobile);
+    const contact::ContactMeasures found = measured_overlap(fixed, mobile);
     EXPECT_NEAR(*found.volume_mm3, 24, found.volume_error_mm3) << far;
     EXPECT_LT(found.volume_error_mm3, 1e-8) << far;
   }
@@ -262,15 +263,16 @@ TEST(Overlap, IsBoundedByThePatchesOfBothBodies) {
 
 TEST(Overlap, OfSurfacesThatCoincideBelongsToTheBodiesThatHaveItWithin) {
   const TriMesh ten = moved(off_centre, box({0, 0, 0}, {10, 10, 10}));
-  const ContactMeasures itself = measured_overlap(ten, ten);
+  const contact::ContactMeasures itself = measured_overlap(ten, ten);
   EXPECT_NEAR(itself.fixed->area_mm2, 600, 1e-9);
   EXPECT_NEAR(itself.mobile->area_mm2, 600, 1e-9);
-  const ContactMeasures on_it = measured_overlap(ten, moved(off_centre, box({2, 2, 10}, {5, 5, 20})));
+  const contact::ContactMeasures on_it =
+      measured_overlap(ten, moved(off_centre, box({2, 2, 10}, {5, 5, 20})));
   EXPECT_NEAR(*on_it.volume_mm3, 0, on_it.volume_error_mm3);
   EXPECT_EQ(on_it.fixed->area_mm2, 0);
   EXPECT_EQ(on_it.mobile->area_mm2, 0);
   // Three faces in common with a box inside it.
-  const ContactMeasures within = measured_overlap(ten, moved(off_centre, box({0, 0, 0}, {4, 5, 6})));
+  const contact::ContactMeasures within = measured_overlap(ten, moved(off_centre, box({0, 0, 0}, {4, 5, 6})));
   EXPECT_NEAR(*within.volume_mm3, 120, within.volume_error_mm3);
   EXPECT_NEAR(within.mobile->area_mm2, 148, 1e-9);
   EXPECT_NEAR(within.fixed->area_mm2, 74, 1e-9);
@@ -284,7 +286,8 @@ TEST(Overlap, HasTheSameVolumeHoweverBothBodiesAreTurned) {
     // The turn's own rounding: some 1e-15 of 10 mm, on 600 mm^2.
     const double turned = 1e-11;
     const auto volume = [&](const TriMesh& mobile) {
-      const ContactMeasures found = measured_overlap(moved(X, ten), moved(X, moved(off_centre, mobile)));
+      const contact::ContactMeasures found =
+          measured_overlap(moved(X, ten), moved(X, moved(off_centre, mobile)));
       EXPECT_LT(found.volume_error_mm3, 1e-8);
       return *found.volume_mm3;
     };
@@ -299,7 +302,7 @@ TEST(Overlap, WithABodyThatCoversSpaceTwiceSaysSo) {
   const TriMesh ten = moved(off_centre, box({0, 0, 0}, {10, 10, 10}));
   // Two components that share 2 x 8 x 8, of which 2 x 4 x 8 lie in the fixed body.
   const TriMesh twice = moved(off_centre, joined(box({1, 6, 1}, {5, 14, 9}), box({3, 6, 1}, {8, 14, 9})));
-  const ContactMeasures found = measured_overlap(ten, twice);
+  const contact::ContactMeasures found = measured_overlap(ten, twice);
   const double both = (4 + 5) * 4 * 8;
   EXPECT_NEAR(*found.volume_mm3, both, found.volume_error_mm3);
   // The part of 2 x 8 x 8 that lies in the overlap's surroundings, which hold the overlap.
@@ -308,7 +311,7 @@ TEST(Overlap, WithABodyThatCoversSpaceTwiceSaysSo) {
   EXPECT_EQ(found.fixed_covered_again_mm3, 0);
   // One component inside another, no surfaces that meet.
   const TriMesh nested = moved(off_centre, joined(box({-5, -5, -5}, {5, 5, 5}), box({1, 1, 1}, {4, 4, 4})));
-  const ContactMeasures in_nested = measured_overlap(ten, nested);
+  const contact::ContactMeasures in_nested = measured_overlap(ten, nested);
   EXPECT_NEAR(*in_nested.volume_mm3, 125 + 27, in_nested.volume_error_mm3);
   EXPECT_NEAR(in_nested.mobile_covered_again_mm3, 2 * 27, 1e-9);
 }
@@ -351,7 +354,7 @@ TEST(Overlap, OfABallOnAPlateHasTheAreasOfTheBallsSection) {
     const double depth = depths[i];
     const TriMesh plate = box({-60, -55, -40}, {57, 61, lowest + depth});
     const Cap cap = cap_below(ball, lowest + depth);
-    const ContactMeasures found = measured_overlap(plate, ball);
+    const contact::ContactMeasures found = measured_overlap(plate, ball);
     EXPECT_NEAR(found.fixed->area_mm2, cap.section, 1e-9) << depth;
     EXPECT_NEAR(found.mobile->area_mm2, cap.area, 1e-9) << depth;
     EXPECT_GT(*found.fixed->mean_depth_mm, 0) << depth;
@@ -365,7 +368,7 @@ TEST(Overlap, OfABallOnAPlateHasTheAreasOfTheBallsSection) {
 TEST(Overlap, OfARealHipIsWhatExactIntegrationGives) {
   const auto hip = hip_vhf_right();
   if (!hip) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
-  const JointContact joint(*hip);
+  const contact::JointContact joint(*hip);
   const auto at = [&](double flexion, double adduction, double internal_rotation) {
     return pose_at({.side = Side::right},
                    {Angle::degrees(flexion), Angle::degrees(adduction), Angle::degrees(internal_rotation)});
@@ -373,9 +376,9 @@ TEST(Overlap, OfARealHipIsWhatExactIntegrationGives) {
   const std::vector<std::pair<Pose, double>> cases{{at(110, 15, 35), 832.025917092},
                                                    {at(90, 0, 40), 78.071636459}};
   for (const auto& [X_FM, volume] : cases) {
-    const RadialContact contact = joint.radial(X_FM);
-    const ContactMeasures found =
-        measure_contact(joint, X_FM, MeasuredContact(contact), DistancesOf::vertices_inside);
+    const contact::RadialContact contact = joint.radial(X_FM);
+    const contact::ContactMeasures found = contact::measure_contact(
+        joint, X_FM, contact::MeasuredContact(contact), contact::DistancesOf::vertices_inside);
     EXPECT_NEAR(*found.volume_mm3, volume, 1e-9 + found.volume_error_mm3);
     EXPECT_LT(found.volume_error_mm3, 1e-6);
     const TriMesh femur = posed(X_FM, hip->mobile.mesh);
@@ -390,7 +393,7 @@ TEST(Overlap, OfARealHipIsWhatExactIntegrationGives) {
       const Vec3 a = femur.corner(t, 0), u = (femur.corner(t, 1) - a) / 32, v = (femur.corner(t, 2) - a) / 32;
       if (contact.mobile_in_fixed->state[femur.triangles[t][0]] == PointState::outside &&
           std::none_of(contact.pairs.begin(), contact.pairs.end(),
-                       [&](const TrianglePair& pair) { return pair.mobile == t; }))
+                       [&](const contact::TrianglePair& pair) { return pair.mobile == t; }))
         continue;
       const double part = u.cross(v).norm() / 2;
       for (int i = 0; i < 32; ++i)

@@ -8,7 +8,7 @@
 
 /// A simulated flexion of a knee, and the contact that OpenSim-JAM publishes for it.
 
-namespace condyle {
+namespace condyle::contact {
 namespace {
 
 /// Published numbers have 8 decimals, of SI units; the joint coordinates they follow from have all their digits.
@@ -103,4 +103,4 @@ TEST(PublishedBalance, IsFoundFromHalfAMillimetreOff) {
 INSTANTIATE_TEST_SUITE_P(Contacts, PublishedContact, testing::Values("tf", "pf"));
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::contact

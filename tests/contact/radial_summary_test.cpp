@@ -4,12 +4,12 @@
 
 #include "support/test_meshes.hpp"
 
-namespace condyle {
+namespace condyle::contact {
 namespace {
 
 RadialBodySummary of_points(const std::vector<Vec3>& points) {
   // A plate 5 to 6 mm from the centre, 20 mm wide.
-  const RadialTable table(test::box({-10, -10, 5}, {10, 10, 6}));
+  const radial::RadialTable table(test::box({-10, -10, 5}, {10, 10, 6}));
   Points query;
   for (const Vec3& p : points) query.push_back(p);
   return summarise(table.query(query), query, table.mesh());
@@ -50,7 +50,7 @@ TEST(RadialSummary, WithNothingAlongAnyRayThereIsNoGap) {
 TEST(RadialSummary, ADepthThroughTheFarEndOfANeckIsNotADepth) {
   // The solid holds the centre, and a neck leads away from it; a point just inside the neck's wall leaves
   // along its ray through the far end, whose surface faces the ray.
-  const RadialTable neck(test::box({-5, -5, -5}, {100, 5, 5}));
+  const radial::RadialTable neck(test::box({-5, -5, -5}, {100, 5, 5}));
   Points query;
   query.push_back({30, 4.9, 0});
   const auto summary = summarise(neck.query(query), query, neck.mesh());
@@ -62,4 +62,4 @@ TEST(RadialSummary, ADepthThroughTheFarEndOfANeckIsNotADepth) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::contact

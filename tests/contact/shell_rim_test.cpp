@@ -13,16 +13,16 @@
 
 /// A ball in a shell that has a rim: rays from the rim's flat face run lengthwise through the ball.
 
-namespace condyle {
+namespace condyle::contact {
 namespace {
 
 constexpr double inner = 25, outer = 31, ball_radius = 24.7;
 const ElasticLayer shell_cartilage{10, 0.45, 3.0};
-const Vec3 moved(0.5, 0.8, -0.35);
+const Vec3 moved_by(0.5, 0.8, -0.35);
 /// The shell_stiffness of both layers, one on the other, MPa per mm.
 const double shell_stiffness = shell_cartilage.confined_modulus_mpa() / 6;
 /// How far the ball reaches beyond the hollow.
-const double shell_depth = ball_radius + moved.norm() - inner;
+const double shell_depth = ball_radius + moved_by.norm() - inner;
 
 /// Faces of 0.8 mm; the ball's are as large. What facets of edge e take from depths: e^2 / (8 r), twice.
 constexpr double sag = 2 * 0.9 * 0.9 / (8 * ball_radius);
@@ -46,17 +46,17 @@ TEST(ShellRim, TheShellOfTheseTestsIsClosedAndLooksOutwards) {
 class ShellRim : public testing::TestWithParam<Casting> {};
 
 TEST_P(ShellRim, IsNoPartOfTheContact) {
-  const auto results = ball_in_rimmed_shell(GetParam()).at(test::translated(moved));
+  const auto results = ball_in_rimmed_shell(GetParam()).at(test::translated(moved_by));
   for (const auto* cast : {&results.fixed, &results.mobile}) {
     if (!*cast) continue;
     EXPECT_NEAR((*cast)->totals.max_depth_mm, shell_depth, sag);
     EXPECT_NEAR((*cast)->totals.max_pressure_mpa, shell_stiffness * shell_depth, shell_stiffness * sag);
     EXPECT_FALSE((*cast)->peak_is_oblique);
   }
-  // Pressures act through the centre of the sphere that casts, the shell's at -moved from the ball's. Sums over facets miss it by some
+  // Pressures act through the centre of the sphere that casts, the shell's at -moved_by from the ball's. Sums over facets miss it by some
   // hundredths of what one facet's slope, half its edge over the radius, leaves.
   const Vec3 &force = results.on_mobile.force_n,
-             about_shell = results.on_mobile.moment_nmm + moved.cross(force);
+             about_shell = results.on_mobile.moment_nmm + moved_by.cross(force);
   const Vec3 off = GetParam() == Casting::mobile  ? results.on_mobile.moment_nmm
                    : GetParam() == Casting::fixed ? about_shell
                                                   : Vec3((results.on_mobile.moment_nmm + about_shell) / 2);
@@ -135,7 +135,7 @@ TEST(CornerOrder, ChangesNoForce) {
           for (const double x : mobile.vertices.x) thickness.push_back(2 + 0.05 * x);
           options.mobile->thickness_mm = thickness;
         }
-        return ElasticContact(fixed, mobile, options).at(test::translated(moved)).on_mobile;
+        return ElasticContact(fixed, mobile, options).at(test::translated(moved_by)).on_mobile;
       };
       const Wrench one = load(hollow, ball),
                    other = load(with_corners_in_another_order(hollow), with_corners_in_another_order(ball));
@@ -146,4 +146,4 @@ TEST(CornerOrder, ChangesNoForce) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::contact

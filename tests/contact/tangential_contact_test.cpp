@@ -4,7 +4,7 @@
 
 #include "support/test_meshes.hpp"
 
-namespace condyle {
+namespace condyle::contact {
 namespace {
 
 using test::box;
@@ -78,4 +78,4 @@ TEST(TangentialContact, AnOpenBodyHasNoInsideButPairs) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::contact

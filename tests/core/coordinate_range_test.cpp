@@ -54,12 +54,12 @@ TEST(CoordinateRange, EndsAt1e30) {
 
 TEST(CoordinateRange, HoldsForEveryPoseThatIsAsked) {
   const Mesh box = test::box({1, 1, 1}, {2, 2, 2});
-  const JointContact joint(box, box);
-  const FirstContact turning(box, box, AxisFrame(Vec3::Zero(), Vec3::UnitZ()));
-  const NormalDepth normal(box, box);
-  const RadialTable table(box);
-  const SortedPoints sorted(box.vertices());
-  Penetrations out;
+  const contact::JointContact joint(box, box);
+  const motion::FirstContact turning(box, box, AxisFrame(Vec3::Zero(), Vec3::UnitZ()));
+  const contact::NormalDepth normal(box, box);
+  const radial::RadialTable table(box);
+  const radial::SortedPoints sorted(box.vertices());
+  radial::Penetrations out;
   const std::vector<std::function<void(const Pose&)>> questions = {
       [&](const Pose& X) { joint.at(X); },
       [&](const Pose& X) { joint.radial(X); },
@@ -82,9 +82,9 @@ TEST(CoordinateRange, HoldsForEveryPoseThatIsAsked) {
 
 TEST(CoordinateRange, HoldsForEveryPointThatIsAsked) {
   const Mesh box = test::box({1, 1, 1}, {2, 2, 2});
-  const RadialTable radial(box);
+  const radial::RadialTable radial(box);
   const AxisFrame axis(Vec3::Zero(), Vec3::UnitZ());
-  const RingTable tangential(box, axis);
+  const tangential::RingTable tangential(box, axis);
   Points points;
   points.push_back({0, 0, 0});
   points.push_back({0, -1e31, 0});
@@ -92,7 +92,7 @@ TEST(CoordinateRange, HoldsForEveryPointThatIsAsked) {
   EXPECT_EQ(refusal([&] { radial.query(points); }), expected);
   EXPECT_EQ(refusal([&] { tangential.query(points); }), expected);
   EXPECT_EQ(refusal([&] { tangential.occupied_arcs(points); }), expected);
-  EXPECT_EQ(refusal([&] { SortedPoints{points}; }), expected);
+  EXPECT_EQ(refusal([&] { radial::SortedPoints{points}; }), expected);
   EXPECT_EQ(refusal([&] { AxisFrame({1e308, 0, 0}, {0, 0, 1}); }), "joint axis: its point is beyond 1e30 mm");
 }
 
@@ -103,9 +103,9 @@ TEST(CoordinateRange, WithinItStatesAreThoseOfBruteForceAtItsEndsToo) {
     Points points;
     for (int i = 0; i < 60; ++i)
       points.push_back(scale * Vec3(7 * std::sin(i * 1.7), 9 * std::cos(i * 2.9), 8 * std::sin(i * 5.3)));
-    const RadialResults radial = RadialTable(mesh).query(points);
-    const TangentialResults tangential =
-        RingTable(mesh, AxisFrame(Vec3::Zero(), Vec3::UnitZ())).query(points);
+    const radial::RadialResults radial = radial::RadialTable(mesh).query(points);
+    const tangential::TangentialResults tangential =
+        tangential::RingTable(mesh, AxisFrame(Vec3::Zero(), Vec3::UnitZ())).query(points);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const PointState state =
           test::winding_number(mesh, points[i]).winding > 0 ? PointState::inside : PointState::outside;
@@ -116,31 +116,32 @@ TEST(CoordinateRange, WithinItStatesAreThoseOfBruteForceAtItsEndsToo) {
 }
 
 TEST(CoordinateRange, AVertexAlmostAtTheCentreIsRefused) {
-  for (const DirectionMapKind map : {DirectionMapKind::cube, DirectionMapKind::cartesian}) {
+  for (const radial::DirectionMapKind map :
+       {radial::DirectionMapKind::cube, radial::DirectionMapKind::cartesian}) {
     TriMesh mesh = test::box({-1, -1, -1}, {1, 1, 1});
     mesh.vertices.set(2, {0, 9e-37, -1e-40});
     try {
-      const RadialTable table(mesh, {map, {}});
+      const radial::RadialTable table(mesh, {map, {}});
       ADD_FAILURE();
     } catch (const MeshError& error) {
       EXPECT_EQ(std::string(error.what()), "the joint centre is nearer than 1e-36 mm to vertex 2");
     }
     for (const double apart : {1e-36, 0.5}) {
       mesh.vertices.set(2, {apart, 9e-37, -1e-40});
-      EXPECT_NO_THROW(RadialTable(mesh, {map, {}})) << apart;
+      EXPECT_NO_THROW(radial::RadialTable(mesh, {map, {}})) << apart;
     }
   }
 }
 
 /// A point may be as near the centre as doubles get: its gap is the centre's along its ray.
 TEST(CoordinateRange, GapsOfPointsAlmostAtTheCentreAreThoseOfTheirDirections) {
-  const RadialTable table(test::box({-3, -4, -5}, {6, 7, 8}));
+  const radial::RadialTable table(test::box({-3, -4, -5}, {6, 7, 8}));
   for (const double size : {1e-100, 1e-200, 1e-300, 1e-310, std::numeric_limits<double>::denorm_min()}) {
     Points points;
     points.push_back({size, 0, 0});
     points.push_back({0, -size, 0});
     points.push_back({size, size, size});
-    const RadialResults results = table.query(points);
+    const radial::RadialResults results = table.query(points);
     EXPECT_DOUBLE_EQ(results.radial_gap_mm[0], -6) << size;
     EXPECT_DOUBLE_EQ(results.radial_gap_mm[1], -4) << size;
     EXPECT_DOUBLE_EQ(results.radial_gap_mm[2], -6 * std::sqrt(3.0)) << size;

@@ -22,23 +22,23 @@ bool meet(const TriMesh& fixed, const TriMesh& mobile, const Pose& X) {
   });
 }
 
-bool names_a_feature(const Feature& feature, const Mesh& mesh) {
+bool names_a_feature(const motion::Feature& feature, const Mesh& mesh) {
   const std::size_t vertices = mesh.vertices().size();
   switch (feature.kind) {
-    case FeatureKind::vertex:
+    case motion::FeatureKind::vertex:
       return feature.id < vertices;
-    case FeatureKind::edge:
+    case motion::FeatureKind::edge:
       return feature.id < feature.other_end && feature.other_end < vertices;
     default:
       return feature.id < mesh.triangles().size();
   }
 }
 
-std::string fault_of(const Limit& limit, double most, const Mesh& fixed, const Mesh& mobile) {
+std::string fault_of(const motion::Limit& limit, double most, const Mesh& fixed, const Mesh& mobile) {
   const double turned = limit.turned.radians(), bound = limit.error_bound.radians();
   if (!(turned >= 0 && turned <= most)) return "a limit out of its range";
   if (!(bound >= 0 && bound <= largest_bound)) return "an error bound that is none";
-  if (limit.reason == LimitReason::contact && !limit.contact) return "a contact without a witness";
+  if (limit.reason == motion::LimitReason::contact && !limit.contact) return "a contact without a witness";
   if (!limit.contact) return {};
   if (!names_a_feature(limit.contact->fixed_feature, fixed) ||
       !names_a_feature(limit.contact->mobile_feature, mobile))
@@ -49,11 +49,12 @@ std::string fault_of(const Limit& limit, double most, const Mesh& fixed, const M
 }
 
 /// Half of the free rotation must be free, and must be reported as free if the range ends there.
-std::string fault_of_half(const FirstContact& bodies, const Pose& X, const RotationLimits& whole) {
-  const RotationRange half{whole.negative.turned * -0.5, whole.positive.turned * 0.5};
-  const RotationLimits again = bodies.limits(X, half);
-  for (const Limit* limit : {&again.negative, &again.positive}) {
-    if (limit->reason != LimitReason::end_of_range) return "contact on half of a free way";
+std::string fault_of_half(const motion::FirstContact& bodies, const Pose& X,
+                          const motion::RotationLimits& whole) {
+  const motion::RotationRange half{whole.negative.turned * -0.5, whole.positive.turned * 0.5};
+  const motion::RotationLimits again = bodies.limits(X, half);
+  for (const motion::Limit* limit : {&again.negative, &again.positive}) {
+    if (limit->reason != motion::LimitReason::end_of_range) return "contact on half of a free way";
   }
   if (again.negative.turned != -half.negative || again.positive.turned != half.positive)
     return "a range that is not reached";
@@ -61,10 +62,11 @@ std::string fault_of_half(const FirstContact& bodies, const Pose& X, const Rotat
 }
 
 /// About the z axis through the origin nothing is rounded at the start, and no heights are on the way.
-std::string fault_of_poses(const RotationLimits& limits, const TriMesh& fixed, const TriMesh& mobile) {
+std::string fault_of_poses(const motion::RotationLimits& limits, const TriMesh& fixed,
+                           const TriMesh& mobile) {
   const bool meets = meet(fixed, mobile, Pose::Identity());
   if (meets && limits.free_at_start()) return "free at the start, where surfaces meet";
-  if (!meets && limits.positive.reason == LimitReason::contact_at_start && limits.positive.contact)
+  if (!meets && limits.positive.reason == motion::LimitReason::contact_at_start && limits.positive.contact)
     return "in contact at the start by surfaces that do not meet";
   if (!limits.free_at_start()) return {};
   // Poses near each other: what rounding makes of one that is missed by a hair it does not make of all.
@@ -93,13 +95,13 @@ std::string fuzz_first_contact(std::string_view bytes) {
     const AxisFrame axis = input.axis();
     const Mesh fixed = input.mesh(), mobile = input.mesh();
     const Pose X = input.pose();
-    const FirstContact bodies(fixed, mobile, axis);
-    const RotationLimits limits = bodies.limits(X);
-    for (const Limit* limit : {&limits.negative, &limits.positive}) {
+    const motion::FirstContact bodies(fixed, mobile, axis);
+    const motion::RotationLimits limits = bodies.limits(X);
+    for (const motion::Limit* limit : {&limits.negative, &limits.positive}) {
       const std::string fault = fault_of(*limit, two_pi, fixed, mobile);
       if (!fault.empty()) return fault;
     }
-    if (!limits.free_at_start() && limits.negative.reason != LimitReason::contact_at_start)
+    if (!limits.free_at_start() && limits.negative.reason != motion::LimitReason::contact_at_start)
       return "in contact at the start on one side only";
     std::string fault = limits.free_at_start() ? fault_of_half(bodies, X, limits) : "";
     if (fault.empty() && is_z_through_origin(axis) && X.matrix() == Pose::Identity().matrix())

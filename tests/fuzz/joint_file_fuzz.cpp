@@ -15,15 +15,16 @@ namespace {
 const TemporaryFolder& folder_with_bones() {
   static const TemporaryFolder folder;
   static const bool written = [] {
-    write_mesh(folder / "a.ply", socket(Vec3::Zero(), 26, 60, 2));
-    write_mesh(folder / "b.ply", joined(sphere(Vec3::Zero(), 24, 2), box({-10, -400, -10}, {10, -40, 10})));
+    io::write_mesh(folder / "a.ply", socket(Vec3::Zero(), 26, 60, 2));
+    io::write_mesh(folder / "b.ply",
+                   joined(sphere(Vec3::Zero(), 24, 2), box({-10, -400, -10}, {10, -40, 10})));
     return true;
   }();
   static_cast<void>(written);
   return folder;
 }
 
-std::string fault_of(const JointFile& file) {
+std::string fault_of(const io::JointFile& file) {
   if (file.fixed.meshes.empty() || file.mobile.meshes.empty()) return "a body without a mesh";
   for (const JointAngle angle : all_joint_angles) {
     if (!std::isfinite(file.reference_pose[angle])) return "an angle that is not finite";
@@ -43,8 +44,8 @@ std::string fault_of(const Joint& joint) {
 std::string fuzz_joint_file(std::string_view bytes) {
   const std::filesystem::path path = folder_with_bones().file("x.toml", bytes);
   try {
-    const std::string fault = fault_of(read_joint_file(path));
-    return fault.empty() ? fault_of(read_joint(path).joint) : fault;
+    const std::string fault = fault_of(io::read_joint_file(path));
+    return fault.empty() ? fault_of(io::read_joint(path).joint) : fault;
   } catch (const FileError& error) {
     return fault_of_message(error.what(), (folder_with_bones().path() / "").string());
   } catch (const MeshError& error) {

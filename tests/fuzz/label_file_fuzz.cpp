@@ -22,7 +22,7 @@ std::string fault_of_grid(const VoxelGrid& grid) {
   return {};
 }
 
-std::string fault_of_voxels(const LabelMap& map) {
+std::string fault_of_voxels(const io::LabelMap& map) {
   if (map.layers.empty()) return "no layer";
   if (std::adjacent_find(map.labels.begin(), map.labels.end(), std::greater_equal<>()) != map.labels.end())
     return "labels that do not ascend";
@@ -40,17 +40,17 @@ std::string fault_of_voxels(const LabelMap& map) {
 }
 
 /// Summaries and masks count the same voxels as plain counting.
-std::string fault_of_summaries(const LabelMap& map) {
+std::string fault_of_summaries(const io::LabelMap& map) {
   constexpr std::size_t most_masks = 8;
   std::size_t masks = 0;
   std::int64_t in_all = 0;
-  for (const auto& summary : summaries_of(map)) {
+  for (const auto& summary : io::summaries_of(map)) {
     in_all += summary.voxels;
     if (++masks > most_masks) continue;
     const auto& layer = map.layers[summary.layer];
     const auto plain = std::count_if(layer.begin(), layer.end(),
                                      [&](const auto index) { return map.labels[index] == summary.label; });
-    const VoxelMask mask = mask_of(map, summary.layer, summary.label);
+    const VoxelMask mask = io::mask_of(map, summary.layer, summary.label);
     if (plain != summary.voxels || std::count(mask.inside.begin(), mask.inside.end(), 1) != summary.voxels)
       return "a label of another number of voxels";
     if (mask.first != summary.first || mask.size != summary.size) return "a box that differs";
@@ -59,10 +59,11 @@ std::string fault_of_summaries(const LabelMap& map) {
   return in_all == all ? "" : "voxels that no label has";
 }
 
-std::string fault_of_choice(const LabelMap& map, const std::string& text) {
-  for (const std::optional<LabelTask> task : {std::optional<LabelTask>(), std::optional(LabelTask::total)}) {
+std::string fault_of_choice(const io::LabelMap& map, const std::string& text) {
+  for (const std::optional<io::LabelTask> task :
+       {std::optional<io::LabelTask>(), std::optional(io::LabelTask::total)}) {
     try {
-      if (choose_label(map, text, task).layer >= map.layers.size()) return "a choice in no layer";
+      if (io::choose_label(map, text, task).layer >= map.layers.size()) return "a choice in no layer";
     } catch (const UsageError& error) {
       if (const auto fault = fault_of_message(error.what()); !fault.empty()) return fault;
     }
@@ -70,7 +71,7 @@ std::string fault_of_choice(const LabelMap& map, const std::string& text) {
   return {};
 }
 
-std::string fault_of(const LabelMap& map) {
+std::string fault_of(const io::LabelMap& map) {
   if (auto fault = fault_of_grid(map.grid); !fault.empty()) return fault;
   if (auto fault = fault_of_voxels(map); !fault.empty()) return fault;
   if (auto fault = fault_of_summaries(map); !fault.empty()) return fault;
@@ -87,10 +88,10 @@ std::string fault_of(const LabelMap& map) {
 }
 
 /// The format, and what a user may choose, by one byte.
-LabelFileOptions options_of(unsigned byte) {
-  LabelFileOptions options;
-  options.affine = static_cast<AffineChoice>(byte / 3 % 3);
-  if (byte / 9 % 2 == 1) options.axes = StatedAxes::ras;
+io::LabelFileOptions options_of(unsigned byte) {
+  io::LabelFileOptions options;
+  options.affine = static_cast<io::AffineChoice>(byte / 3 % 3);
+  if (byte / 9 % 2 == 1) options.axes = io::StatedAxes::ras;
   if (byte / 18 % 2 == 1) options.volume = byte / 36 % 3;
   return options;
 }
@@ -102,7 +103,7 @@ std::string fuzz_label_file(std::string_view bytes) {
   const unsigned choice = static_cast<unsigned char>(bytes[0]);
   try {
     return fault_of(
-        read_labels(bytes.substr(1), static_cast<LabelFormat>(choice % 3), name, options_of(choice)));
+        io::read_labels(bytes.substr(1), static_cast<io::LabelFormat>(choice % 3), name, options_of(choice)));
   } catch (const FileError& error) {
     return fault_of_message(error.what(), std::string(name) + ": ");
   }

@@ -39,9 +39,9 @@ std::string broken_promise(std::string_view message) {
 
 }  // namespace
 
-std::string broken_promise(std::string_view bytes, MeshFormat format) {
+std::string broken_promise(std::string_view bytes, io::MeshFormat format) {
   try {
-    return broken_promise(read_mesh(bytes, format, mesh_name).mesh);
+    return broken_promise(io::read_mesh(bytes, format, mesh_name).mesh);
   } catch (const FileError& error) {
     return broken_promise(std::string_view(error.what()));
   }

@@ -11,6 +11,6 @@ namespace condyle::test {
 /// index in range, every coordinate finite and at least one triangle, or a FileError of one line that begins
 /// with the file's name. What was broken, in words; empty if the promise was kept. Other exceptions go
 /// through.
-std::string broken_promise(std::string_view bytes, MeshFormat format);
+std::string broken_promise(std::string_view bytes, io::MeshFormat format);
 
 }  // namespace condyle::test

@@ -14,8 +14,8 @@ constexpr std::size_t most_joints = 8;
 
 /// A pose of a joint's defaults is a rotation and a place, whatever its functions are; numbers beyond a double's are not
 /// held to anything.
-std::string fault_of_pose(const ModelJoint& joint) {
-  const Pose X = pose_of(joint, joint.defaults());
+std::string fault_of_pose(const io::ModelJoint& joint) {
+  const Pose X = io::pose_of(joint, joint.defaults());
   if (!X.matrix().allFinite()) return {};
   const Eigen::Matrix3d R = X.linear();
   const double skew = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
@@ -23,10 +23,10 @@ std::string fault_of_pose(const ModelJoint& joint) {
 }
 
 /// Every proposal is a joint file.
-std::string fault_of_proposal(const Model& model, const ModelJoint& joint) {
-  ModelJointProposal proposed;
+std::string fault_of_proposal(const io::Model& model, const io::ModelJoint& joint) {
+  io::ModelJointProposal proposed;
   try {
-    proposed = propose_joint(
+    proposed = io::propose_joint(
         model,
         {.joint = joint.name, .joint_file = "joint.toml", .anatomy = Anatomy::knee, .side = Side::right});
   } catch (const FileError& error) {
@@ -34,8 +34,8 @@ std::string fault_of_proposal(const Model& model, const ModelJoint& joint) {
   } catch (const UsageError& error) {
     return fault_of_message(error.what());
   }
-  for (const ModelNote& note : proposed.notes)
-    if (auto fault = fault_of_message(to_text(note)); !fault.empty()) return fault;
+  for (const io::ModelNote& note : proposed.notes)
+    if (auto fault = fault_of_message(io::to_text(note)); !fault.empty()) return fault;
   if (!proposed.proposal.to_fill_in.empty()) return {};
   try {
     io::joint_file_of(proposed.proposal.toml, "joint.toml");
@@ -45,9 +45,9 @@ std::string fault_of_proposal(const Model& model, const ModelJoint& joint) {
   return {};
 }
 
-std::string fault_of(const Model& model) {
+std::string fault_of(const io::Model& model) {
   for (std::size_t i = 0; i < std::min(model.joints.size(), most_joints); ++i) {
-    const ModelJoint& joint = model.joints[i];
+    const io::ModelJoint& joint = model.joints[i];
     if (!joint.transform) {
       if (auto fault = fault_of_message(joint.why_not, std::string(model_name) + ": "); !fault.empty())
         return fault;
@@ -63,7 +63,7 @@ std::string fault_of(const Model& model) {
 
 std::string fuzz_model_file(std::string_view bytes) {
   try {
-    return fault_of(read_model(bytes, model_name));
+    return fault_of(io::read_model(bytes, model_name));
   } catch (const FileError& error) {
     return fault_of_message(error.what(), std::string(model_name) + ": ");
   }

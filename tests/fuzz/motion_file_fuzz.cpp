@@ -10,7 +10,7 @@
 namespace condyle::test {
 namespace {
 
-std::string fault_of(const MotionTable& table) {
+std::string fault_of(const io::MotionTable& table) {
   if (table.rows == 0 || table.values.size() != table.columns.size() ||
       table.line_of_row.size() != table.rows)
     return "a table of no shape";
@@ -20,15 +20,15 @@ std::string fault_of(const MotionTable& table) {
       if (std::isinf(value)) return "a value that is infinite";
     }
   }
-  const FrameTimes times = frame_times(table);
+  const io::FrameTimes times = io::frame_times(table);
   for (std::size_t i = 1; i < times.values.size(); ++i) {
     if (!(times.values[i] > times.values[i - 1])) return "times that do not increase";
   }
   return {};
 }
 
-std::string fault_of_poses(const MotionTable& table) {
-  const RecordedPoses poses = recorded_poses(table, {.fixed_body = "femur", .mobile_body = "tibia"});
+std::string fault_of_poses(const io::MotionTable& table) {
+  const io::RecordedPoses poses = io::recorded_poses(table, {.fixed_body = "femur", .mobile_body = "tibia"});
   if (poses.X_FM.size() != table.rows) return "another number of poses";
   for (const auto& X : poses.X_FM) {
     if (!X) continue;
@@ -39,11 +39,13 @@ std::string fault_of_poses(const MotionTable& table) {
   return {};
 }
 
-std::string fault_of_coordinates(const MotionTable& table) {
-  const NamedCoordinates coordinates = recorded_coordinates(
-      table,
-      {{.coordinate = "flexion", .column = "knee_flex_r"},
-       {.coordinate = "x", .kind = CoordinateKind::length, .column = "tx", .unit = ColumnUnit::metres}});
+std::string fault_of_coordinates(const io::MotionTable& table) {
+  const io::NamedCoordinates coordinates =
+      io::recorded_coordinates(table, {{.coordinate = "flexion", .column = "knee_flex_r"},
+                                       {.coordinate = "x",
+                                        .kind = io::CoordinateKind::length,
+                                        .column = "tx",
+                                        .unit = io::ColumnUnit::metres}});
   for (const auto& frame : coordinates.frames) {
     if (frame && frame->size() != 2) return "a frame of another number of coordinates";
   }
@@ -65,7 +67,7 @@ std::string fuzz_motion_file(std::string_view bytes) {
     }
   };
   return refused([&]() -> std::string {
-    const MotionTable table = read_motion_table(path);
+    const io::MotionTable table = io::read_motion_table(path);
     std::string fault = fault_of(table);
     if (fault.empty()) fault = refused([&] { return fault_of_poses(table); });
     return fault.empty() ? refused([&] { return fault_of_coordinates(table); }) : fault;

@@ -19,8 +19,8 @@ bool has_degenerate(const TriMesh& mesh) {
 }
 
 /// Every pair by brute force; triangles of zero area meet nothing.
-std::vector<TrianglePair> all_pairs(const TriMesh& fixed, const TriMesh& mobile) {
-  std::vector<TrianglePair> pairs;
+std::vector<contact::TrianglePair> all_pairs(const TriMesh& fixed, const TriMesh& mobile) {
+  std::vector<contact::TrianglePair> pairs;
   for (const auto& [i, j] : intersecting_pairs(fixed, mobile)) {
     if (!is_degenerate(fixed, i) && !is_degenerate(mobile, j)) pairs.push_back({i, j});
   }
@@ -43,8 +43,8 @@ std::string fuzz_pairs(std::string_view bytes) {
   try {
     const Mesh fixed = input.mesh(), mobile = input.mesh();
     const Pose X_FM = input.pose();
-    const JointContact joint(fixed, mobile);
-    const std::vector<TrianglePair> pairs = joint.pairs(X_FM);
+    const contact::JointContact joint(fixed, mobile);
+    const std::vector<contact::TrianglePair> pairs = joint.pairs(X_FM);
     const TriMesh placed = posed(X_FM, mobile.arrays());
     if (pairs != all_pairs(fixed, placed)) return "other pairs than brute force finds";
     const bool in_contact = joint.in_contact(X_FM);

@@ -14,7 +14,8 @@ namespace {
 constexpr std::size_t most_points = 8;
 
 /// One answer of the plain query.
-std::string fault_of(const RadialResults& results, std::size_t i, const TriMesh& mesh, const Vec3& point) {
+std::string fault_of(const radial::RadialResults& results, std::size_t i, const TriMesh& mesh,
+                     const Vec3& point) {
   const BruteWinding truth = winding_number(mesh, point);
   const PointState expected = truth.on_surface    ? PointState::on_surface
                               : truth.winding > 0 ? PointState::inside
@@ -33,7 +34,7 @@ std::string fault_of(const RadialResults& results, std::size_t i, const TriMesh&
 }
 
 /// The fast query of the points that are not outside, against the plain one.
-std::string fault_of(const Penetrations& found, const RadialResults& results) {
+std::string fault_of(const radial::Penetrations& found, const radial::RadialResults& results) {
   const auto not_outside = [](PointState state) { return state != PointState::outside; };
   if (found.size() !=
       static_cast<std::size_t>(std::count_if(results.state.begin(), results.state.end(), not_outside)))
@@ -47,14 +48,14 @@ std::string fault_of(const Penetrations& found, const RadialResults& results) {
   return {};
 }
 
-std::string fault_of(const RadialTable& table, const Points& points) {
-  const RadialResults results = table.query(points);
+std::string fault_of(const radial::RadialTable& table, const Points& points) {
+  const radial::RadialResults results = table.query(points);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::string fault = fault_of(results, i, table.mesh(), points[i]);
     if (!fault.empty()) return fault + ", of point " + std::to_string(i);
   }
-  Penetrations found;
-  table.penetrations(SortedPoints(points), Pose::Identity(), found);
+  radial::Penetrations found;
+  table.penetrations(radial::SortedPoints(points), Pose::Identity(), found);
   return fault_of(found, results);
 }
 
@@ -62,13 +63,13 @@ std::string fault_of(const RadialTable& table, const Points& points) {
 
 std::string fuzz_radial(std::string_view bytes) {
   FuzzInput input(bytes);
-  RadialOptions options;
-  if (input.below(4) == 0) options.map = DirectionMapKind::cartesian;
+  radial::RadialOptions options;
+  if (input.below(4) == 0) options.map = radial::DirectionMapKind::cartesian;
   if (const auto cells = input.below(24); cells > 0) options.cells_per_side = static_cast<int>(cells);
   const TriMesh mesh = input.mesh();
   const Points points = input.points(most_points);
   try {
-    const RadialTable table(mesh, options);
+    const radial::RadialTable table(mesh, options);
     if (table.is_closed() && winding_number(mesh, Vec3::Zero()).on_surface)
       return "a centre on the surface is taken";
     return fault_of(table, points);

@@ -40,29 +40,30 @@ std::string fault_of_meshes(FuzzInput& input) {
   std::vector<double> numbers(mesh.vertices.size());
   for (double& number : numbers) number = input.any_double();
   for (const char* name : {"x.ply", "x.vtp"}) {
-    write_mesh(folder() / name, mesh);
-    if (!same_bits(read_mesh(folder() / name).mesh, mesh)) return std::string(name) + " does not read back";
+    io::write_mesh(folder() / name, mesh);
+    if (!same_bits(io::read_mesh(folder() / name).mesh, mesh))
+      return std::string(name) + " does not read back";
   }
-  const std::vector<MeshArray> arrays{{"numbers", numbers}};
-  for (const VtpEncoding encoding : {VtpEncoding::binary, VtpEncoding::text}) {
-    write_vtp(folder() / "y.vtp", mesh, arrays, {}, {.encoding = encoding});
-    if (!same_bits(read_mesh(folder() / "y.vtp").mesh, mesh)) return "y.vtp does not read back";
+  const std::vector<io::MeshArray> arrays{{"numbers", numbers}};
+  for (const io::VtpEncoding encoding : {io::VtpEncoding::binary, io::VtpEncoding::text}) {
+    io::write_vtp(folder() / "y.vtp", mesh, arrays, {}, {.encoding = encoding});
+    if (!same_bits(io::read_mesh(folder() / "y.vtp").mesh, mesh)) return "y.vtp does not read back";
   }
   return {};
 }
 
 std::string fault_of_curves(FuzzInput& input) {
-  Curves curves{.axis = "time", .at = {}, .names = {"a", "b"}, .values = {{}, {}}};
+  io::Curves curves{.axis = "time", .at = {}, .names = {"a", "b"}, .values = {{}, {}}};
   double time = input.coordinate();
   if (!std::isfinite(time)) time = 0;
   for (std::size_t count = 1 + input.below(6); count > 0; --count, time = std::nextafter(time, 1e300)) {
     curves.at.push_back(time);
     for (auto& column : curves.values) column.push_back(input.any_double());
   }
-  write_curves_csv(folder() / "x.csv", curves);
-  write_sto(folder() / "x.sto", "curves", curves, AngleUnit::degrees);
+  io::write_curves_csv(folder() / "x.csv", curves);
+  io::write_sto(folder() / "x.sto", "curves", curves, io::AngleUnit::degrees);
   for (const char* name : {"x.csv", "x.sto"}) {
-    const MotionTable table = read_motion_table(folder() / name);
+    const io::MotionTable table = io::read_motion_table(folder() / name);
     if (!same_bits(table.values[0], curves.at) || !same_bits(table.values[1], curves.values[0]) ||
         !same_bits(table.values[2], curves.values[1]))
       return std::string(name) + " does not read back";
@@ -74,14 +75,14 @@ std::string fault_of_json(FuzzInput& input) {
   const Mesh mesh = input.mesh();
   std::string name;
   for (std::size_t count = input.below(12); count > 0; --count) name += static_cast<char>(input.byte() | 1);
-  std::vector<MeshInspection> meshes(1);
+  std::vector<io::MeshInspection> meshes(1);
   meshes[0].path = name;
   meshes[0].report = inspect(mesh);
-  const auto json = nlohmann::json::parse(to_json(meshes));
+  const auto json = nlohmann::json::parse(io::inspection_json(meshes));
   const auto& first = json.at("meshes").at(0);
   if (first.at("triangles") != mesh.triangles().size()) return "another number of triangles in the JSON";
   if (!same_bits(first.at("area").get<double>(), meshes[0].report.area)) return "another area in the JSON";
-  if (to_text(meshes).empty()) return "no text";
+  if (io::to_text(meshes).empty()) return "no text";
   return {};
 }
 

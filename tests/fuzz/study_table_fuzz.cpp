@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 const TemporaryFolder& folder_with_joints() {
   static const TemporaryFolder folder;
   static const bool written = [] {
-    write_mesh(folder / "post.ply", box({30, -120, -50}, {50, -80, 50}));
-    write_mesh(folder / "arm.ply", box({-1, -100, -2}, {1, -10, 2}));
+    io::write_mesh(folder / "post.ply", box({30, -120, -50}, {50, -80, 50}));
+    io::write_mesh(folder / "arm.ply", box({-1, -100, -2}, {1, -10, 2}));
     folder.file(
         "arm.toml",
         "condyle = 1\nkind = \"ball\"\nside = \"right\"\nunits = \"mm\"\n[fixed]\nmesh = \"post.ply\"\n"
@@ -37,13 +37,13 @@ const TemporaryFolder& folder_with_joints() {
 }
 
 /// Flexion of each joint, and what the first byte asks for besides.
-StudyOptions options_of(unsigned char byte) {
-  StudyOptions options;
+io::StudyOptions options_of(unsigned char byte) {
+  io::StudyOptions options;
   options.motions = {"flexion"};
-  if (byte & 1) options.depth_at = PoseDegrees{.flexion = 20};
+  if (byte & 1) options.depth_at = io::PoseDegrees{.flexion = 20};
   if (byte & 4) options.measures = true;
   if (byte & 2)
-    options.load = StudyLoad{.at = {}, .contact = {}, .force_n = Vec3(80, 0, 0), .free_directions = {}};
+    options.load = io::StudyLoad{.at = {}, .contact = {}, .force_n = Vec3(80, 0, 0), .free_directions = {}};
   return options;
 }
 
@@ -92,14 +92,14 @@ std::string fault_of_results(const io::StudyTable& table, const fs::path& out) {
   return hip == hips.ids.size() && failure == failures.ids.size() ? "" : "a result of no row";
 }
 
-std::string fault_of_parts(const Study& whole, const fs::path& parted) {
-  Study part = whole;
+std::string fault_of_parts(const io::Study& whole, const fs::path& parted) {
+  io::Study part = whole;
   part.folder = parted;
   for (const std::size_t number : {2u, 1u}) {
     part.shard = {number, 2};
-    run_study(part);
+    io::run_study(part);
   }
-  merge_study(parted);
+  io::merge_study(parted);
   for (const char* name : {"limits.csv", "hips.csv", "failures.csv", "columns.csv", "study.h5"}) {
     if (io::read_whole_file(whole.folder / name) != io::read_whole_file(parted / name))
       return std::string("shards that are merged to another ") + name;
@@ -116,8 +116,8 @@ std::string fuzz_study_table(std::string_view bytes) {
   const fs::path path = folder.file("x.csv", bytes.substr(1));
   try {
     const io::StudyTable table = io::read_study_table(path);
-    const Study study{path, folder / "out", options_of(static_cast<unsigned char>(bytes[0]))};
-    run_study(study);
+    const io::Study study{path, folder / "out", options_of(static_cast<unsigned char>(bytes[0]))};
+    io::run_study(study);
     const std::string fault = fault_of_results(table, study.folder);
     return fault.empty() && bytes[0] & 4 ? fault_of_parts(study, folder / "parted") : fault;
   } catch (const FileError& error) {

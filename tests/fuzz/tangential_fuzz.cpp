@@ -16,7 +16,8 @@ constexpr std::size_t most_ring_points = 6;
 constexpr double end_error = 1e-7, near_an_end = 10 * end_error;
 
 /// `placed` and `at` are in the axis frame, as the table places them.
-std::string fault_of(const TangentialResults& results, std::size_t i, const TriMesh& placed, const Vec3& at) {
+std::string fault_of(const tangential::TangentialResults& results, std::size_t i, const TriMesh& placed,
+                     const Vec3& at) {
   const BruteWinding truth = winding_number(placed, at);
   if (truth.on_surface != (results.state[i] == PointState::on_surface))
     return "on the surface or not is wrong";
@@ -32,9 +33,10 @@ std::string fault_of(const TangentialResults& results, std::size_t i, const TriM
   return {};
 }
 
-std::string fault_of_arcs(const OccupiedArcs& arcs, const TangentialResults& results, std::size_t i) {
+std::string fault_of_arcs(const tangential::OccupiedArcs& arcs, const tangential::TangentialResults& results,
+                          std::size_t i) {
   double last = -1;
-  for (const OccupiedArc& arc : arcs.of(i)) {
+  for (const tangential::OccupiedArc& arc : arcs.of(i)) {
     const double begin = arc.begin.radians(), end = arc.end.radians();
     if (!(begin >= 0 && begin < two_pi && end > begin && end <= begin + two_pi)) return "an arc that is none";
     if (begin < last - 2 * end_error) return "arcs that overlap";
@@ -47,9 +49,9 @@ std::string fault_of_arcs(const OccupiedArcs& arcs, const TangentialResults& res
   return {};
 }
 
-std::string fault_of(const RingTable& table, const Mesh& mesh, const Points& points) {
-  const TangentialResults results = table.query(points);
-  const OccupiedArcs arcs = table.occupied_arcs(points);
+std::string fault_of(const tangential::RingTable& table, const Mesh& mesh, const Points& points) {
+  const tangential::TangentialResults results = table.query(points);
+  const tangential::OccupiedArcs arcs = table.occupied_arcs(points);
   const TriMesh placed = in_axis_frame(table.frame(), mesh);
   for (std::size_t i = 0; i < points.size(); ++i) {
     std::string fault = fault_of(results, i, placed, table.frame().to_axis(points[i]));
@@ -65,12 +67,12 @@ std::string fuzz_tangential(std::string_view bytes) {
   FuzzInput input(bytes);
   try {
     const AxisFrame axis = input.axis();
-    RingTableOptions options;
+    tangential::RingTableOptions options;
     if (const auto cells = input.below(16); cells > 0)
       options.cells_per_triangle = 0.25 * static_cast<double>(cells);
     const Mesh mesh = input.mesh();
     const Points points = input.points(most_ring_points);
-    return fault_of(RingTable(mesh, axis, options), mesh, points);
+    return fault_of(tangential::RingTable(mesh, axis, options), mesh, points);
   } catch (const MeshError& error) {
     return fault_of_message(error.what());
   } catch (const UsageError& error) {

@@ -24,18 +24,18 @@ Joint joint_of(JointKind kind, Anatomy anatomy) {
 }
 
 std::string fault_of_pose(std::string_view text, JointKind kind, Anatomy anatomy) {
-  const PoseDegrees pose = parse_pose(text, kind, anatomy);
+  const io::PoseDegrees pose = io::parse_pose(text, kind, anatomy);
   for (const JointAngle angle : all_joint_angles) {
     if (!std::isfinite(pose[angle])) return "an angle that is not finite";
   }
   if (!pose.translation_mm.allFinite()) return "a translation that is not finite";
-  if (kind != JointKind::free && parse_pose(to_text(pose, anatomy), kind, anatomy) != pose)
+  if (kind != JointKind::free && io::parse_pose(io::to_text(pose, anatomy), kind, anatomy) != pose)
     return "a pose that does not read back";
   return {};
 }
 
 std::string fault_of_given(std::string_view text, JointKind kind, Anatomy anatomy) {
-  const Pose X = given_pose(text, joint_of(kind, anatomy)).X_FM;
+  const Pose X = io::given_pose(text, joint_of(kind, anatomy)).X_FM;
   if (!X.matrix().allFinite()) return "a pose that is not finite";
   const double off =
       (X.linear().transpose() * X.linear() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
@@ -43,18 +43,18 @@ std::string fault_of_given(std::string_view text, JointKind kind, Anatomy anatom
 }
 
 std::string fault_of_axis(std::string_view text, JointKind kind, Anatomy anatomy) {
-  const GridAxis axis = parse_grid_axis(text, anatomy);
-  const GridAxis again = parse_grid_axis(to_text(axis, anatomy), anatomy);
+  const motion::GridAxis axis = io::parse_grid_axis(text, anatomy);
+  const motion::GridAxis again = io::parse_grid_axis(io::to_text(axis, anatomy), anatomy);
   if (again.angle != axis.angle || again.first_deg != axis.first_deg || again.last_deg != axis.last_deg)
     return "an axis that does not read back";
-  MapGrid grid;
+  motion::MapGrid grid;
   grid.row = axis;
   grid.column.angle = axis.angle == JointAngle::adduction ? JointAngle::flexion : JointAngle::adduction;
   grid.vary =
       axis.angle == JointAngle::internal_rotation ? JointAngle::flexion : JointAngle::internal_rotation;
   if (grid.vary == grid.column.angle) grid.vary = JointAngle::adduction;
-  check_grid(grid, kind);
-  return grid.size() <= most_map_points ? "" : "a map of too many points";
+  motion::check_grid(grid, kind);
+  return grid.size() <= motion::most_map_points ? "" : "a map of too many points";
 }
 
 }  // namespace
@@ -74,9 +74,10 @@ std::string fuzz_text(std::string_view bytes) {
       case 2:
         return fault_of_axis(text, kind, anatomy);
       case 3:
-        return name_of(repair_named(text)) == text ? "" : "a repair of another name";
+        return io::name_of(io::repair_named(text)) == text ? "" : "a repair of another name";
       default:
-        return name_of(joint_angle_named(text, anatomy), anatomy) == text ? "" : "an angle of another name";
+        return name_of(io::joint_angle_named(text, anatomy), anatomy) == text ? ""
+                                                                              : "an angle of another name";
     }
   } catch (const UsageError& error) {
     return fault_of_message(error.what());

@@ -1,11 +1,36 @@
 # What the public headers include, directly or not, is themselves, Eigen and the standard library; and condyle.hpp has
-# all of the core's. Run as cmake -DSOURCE=... -DCOMPILER=... -DPUBLIC=... -P public_headers.cmake.
+# all of the core's. They are at most 45, and at most 150 types are directly in namespace condyle. Run as cmake -DSOURCE=... -DCOMPILER=... -DPUBLIC=... -P public_headers.cmake.
 
 cmake_minimum_required(VERSION 3.25)
 
 set(include ${SOURCE}/include)
 file(GLOB_RECURSE headers RELATIVE ${include} ${include}/condyle/*.hpp)
 file(STRINGS ${include}/condyle/condyle.hpp umbrella REGEX "#include")
+
+# A type counts if its definition, or an alias of one, begins a line within `namespace condyle {`.
+list(LENGTH headers header_count)
+if(header_count GREATER 45)
+  message(SEND_ERROR "${header_count} public headers: merge two that are one idea, or keep one in src/")
+endif()
+set(types 0)
+foreach(header ${headers})
+  set(flat FALSE)
+  file(STRINGS ${include}/${header} lines REGEX "^(namespace |}  // namespace |struct |class |enum |using )")
+  foreach(line IN LISTS lines)
+    if(line MATCHES "^namespace (.*) {$")
+      string(COMPARE EQUAL "${CMAKE_MATCH_1}" condyle flat)
+    elseif(line MATCHES "^}")
+      set(flat FALSE)
+    elseif(flat AND line MATCHES "^((struct|class|enum|enum class) [A-Za-z0-9_]+[^\;]*{|using [A-Za-z0-9_]+ =)")
+      math(EXPR types "${types} + 1")
+    endif()
+  endforeach()
+endforeach()
+if(types GREATER 150)
+  message(SEND_ERROR "${types} types are directly in namespace condyle: give them the namespace of their layer")
+elseif(types LESS 50)
+  message(SEND_ERROR "only ${types} types were found in namespace condyle: are the headers written another way?")
+endif()
 
 # The compiler's list of all files that one file is made of.
 set(lines "")

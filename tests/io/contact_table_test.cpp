@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* layer = "youngs_modulus_mpa = 10\npoisson_ratio = 0.45\n";
 
-ContactEntry entry_of(std::string_view keys, double mm_per_unit = 1) {
+io::ContactEntry entry_of(std::string_view keys, double mm_per_unit = 1) {
   const toml::table file = toml::parse("[contact]\n" + std::string(keys));
   const std::filesystem::path path = "knee.toml";
   io::TomlTable table(path, *file["contact"].as_table(), "contact");
@@ -32,20 +32,20 @@ std::string refusal(std::string_view keys) {
 }
 
 TEST(ContactTable, LeftOutKeysAreThoseOfTheDocumentation) {
-  const ContactEntry entry = entry_of("");
+  const io::ContactEntry entry = entry_of("");
   EXPECT_EQ(entry.fixed_part, "");
   EXPECT_EQ(entry.mobile_part, "");
-  EXPECT_EQ(entry.casting, Casting::both);
-  EXPECT_EQ(entry.rays.rule, FaceRule::cut_faces);
+  EXPECT_EQ(entry.casting, contact::Casting::both);
+  EXPECT_EQ(entry.rays.rule, contact::FaceRule::cut_faces);
   EXPECT_EQ(entry.rays.reach_mm, 20);
-  EXPECT_EQ(entry.law, PressureLaw::linear);
-  EXPECT_EQ(entry.moment_on, MomentOn::casting);
+  EXPECT_EQ(entry.law, contact::PressureLaw::linear);
+  EXPECT_EQ(entry.moment_on, io::MomentOn::casting);
   EXPECT_TRUE(entry.regions.empty());
   EXPECT_FALSE(entry.fixed || entry.mobile);
 }
 
 TEST(ContactTable, GivesEveryKey) {
-  const ContactEntry entry = entry_of(
+  const io::ContactEntry entry = entry_of(
       "fixed_part = \"cartilage\"\nmobile_part = \"meniscus\"\ncasting = \"fixed\"\nrule = \"face_centre\"\n"
       "reach = 12.5\nlaw = \"logarithmic\"\nmoment_on = \"target\"\n"
       "[[contact.region]]\nname = \"medial_2\"\nhalf_space = [{ normal = [0, 0, -4], offset = 1.5 }, { "
@@ -55,11 +55,11 @@ TEST(ContactTable, GivesEveryKey) {
       "[contact.mobile]\nyoungs_modulus_mpa = 8\npoisson_ratio = -0.1\nbehind = \"bones/tibia.ply\"\n");
   EXPECT_EQ(entry.fixed_part, "cartilage");
   EXPECT_EQ(entry.mobile_part, "meniscus");
-  EXPECT_EQ(entry.casting, Casting::fixed);
-  EXPECT_EQ(entry.rays.rule, FaceRule::face_centre);
+  EXPECT_EQ(entry.casting, contact::Casting::fixed);
+  EXPECT_EQ(entry.rays.rule, contact::FaceRule::face_centre);
   EXPECT_EQ(entry.rays.reach_mm, 12.5);
-  EXPECT_EQ(entry.law, PressureLaw::logarithmic);
-  EXPECT_EQ(entry.moment_on, MomentOn::target);
+  EXPECT_EQ(entry.law, contact::PressureLaw::logarithmic);
+  EXPECT_EQ(entry.moment_on, io::MomentOn::target);
 
   ASSERT_EQ(entry.regions.size(), 2u);
   EXPECT_EQ(entry.regions[0].name, "medial_2");
@@ -81,15 +81,15 @@ TEST(ContactTable, GivesEveryKey) {
 }
 
 TEST(ContactTable, EveryWordIsKnown) {
-  EXPECT_EQ(entry_of("casting = \"mobile\"").casting, Casting::mobile);
-  EXPECT_EQ(entry_of("casting = \"both\"").casting, Casting::both);
-  EXPECT_EQ(entry_of("rule = \"cut_faces\"").rays.rule, FaceRule::cut_faces);
-  EXPECT_EQ(entry_of("law = \"linear\"").law, PressureLaw::linear);
-  EXPECT_EQ(entry_of("moment_on = \"casting\"").moment_on, MomentOn::casting);
+  EXPECT_EQ(entry_of("casting = \"mobile\"").casting, contact::Casting::mobile);
+  EXPECT_EQ(entry_of("casting = \"both\"").casting, contact::Casting::both);
+  EXPECT_EQ(entry_of("rule = \"cut_faces\"").rays.rule, contact::FaceRule::cut_faces);
+  EXPECT_EQ(entry_of("law = \"linear\"").law, contact::PressureLaw::linear);
+  EXPECT_EQ(entry_of("moment_on = \"casting\"").moment_on, io::MomentOn::casting);
 }
 
 TEST(ContactTable, LengthsAreInTheUnitsOfTheFile) {
-  const ContactEntry entry = entry_of(
+  const io::ContactEntry entry = entry_of(
       "reach = 0.0125\n[[contact.region]]\nname = \"a\"\nhalf_space = [{ normal = [1, 0, 0], offset = 0.002 "
       "}]\n[contact.fixed]\n" +
           std::string(layer) + "behind = \"bone.ply\"\nthickness = 0.003\n",
@@ -178,13 +178,13 @@ class ContactSurfacesOfAJoint : public ::testing::Test {
     for (const Vec3& corner : {Vec3(-5, 0, -5), Vec3(-5, 0, 5), Vec3(5, 0, -5), Vec3(5, 0, 5)})
       square.vertices.push_back(corner);
     square.triangles = {{0, 1, 2}, {2, 1, 3}};
-    write_mesh(folder / "layer.ply", square);
-    write_mesh(folder / "bone.ply", test::box({-20, -10, -20}, {20, -2, 20}));
-    write_mesh(folder / "small.ply", test::box({-20, -10, -20}, {0, -2, 20}));
-    write_mesh(folder / "ball.ply", test::sphere({0, 20, 0}, 5, 2));
+    io::write_mesh(folder / "layer.ply", square);
+    io::write_mesh(folder / "bone.ply", test::box({-20, -10, -20}, {20, -2, 20}));
+    io::write_mesh(folder / "small.ply", test::box({-20, -10, -20}, {0, -2, 20}));
+    io::write_mesh(folder / "ball.ply", test::sphere({0, 20, 0}, 5, 2));
   }
-  LoadedJoint joint(const std::string& more) const {
-    return read_joint(folder.file(
+  io::LoadedJoint joint(const std::string& more) const {
+    return io::read_joint(folder.file(
         "joint.toml",
         "condyle = 1\nname = \"joint\"\nkind = \"free\"\njoint = \"knee\"\nside = \"right\"\nunits = "
         "\"mm\"\n[fixed]\nname = \"plate\"\nmeshes = [{ name = \"layer\", mesh = \"layer.ply\" }, { name "
@@ -192,21 +192,21 @@ class ContactSurfacesOfAJoint : public ::testing::Test {
         "centre = [1, 2, 3]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n" +
             more));
   }
-  static ElasticContactOptions options_of(const LoadedJoint& loaded) {
-    const ContactEntry& entry = *loaded.report.file.contact;
-    return elastic_options(entry, surfaces_of(entry, loaded.joint), loaded);
+  static contact::ElasticContactOptions options_of(const io::LoadedJoint& loaded) {
+    const io::ContactEntry& entry = *loaded.report.file.contact;
+    return io::elastic_options(entry, io::surfaces_of(entry, loaded.joint), loaded);
   }
 
   const test::TemporaryFolder folder;
 };
 
 TEST_F(ContactSurfacesOfAJoint, AreItsPartsByName) {
-  const LoadedJoint loaded = joint("[contact]\nfixed_part = \"layer\"\n");
-  const ContactSurfaces surfaces = surfaces_of(*loaded.report.file.contact, loaded.joint);
+  const io::LoadedJoint loaded = joint("[contact]\nfixed_part = \"layer\"\n");
+  const io::ContactSurfaces surfaces = io::surfaces_of(*loaded.report.file.contact, loaded.joint);
   EXPECT_EQ(surfaces.fixed.name, "layer");
   EXPECT_EQ(surfaces.fixed.mesh.arrays(), mesh_of_part(loaded.joint.fixed, "layer").arrays());
   EXPECT_EQ(surfaces.mobile.name, "ball");
-  EXPECT_THROW(surfaces_of({.mobile_part = "layer"}, loaded.joint), UsageError) << "the ball is one mesh";
+  EXPECT_THROW(io::surfaces_of({.mobile_part = "layer"}, loaded.joint), UsageError) << "the ball is one mesh";
 }
 
 TEST_F(ContactSurfacesOfAJoint, AThicknessCanBeGivenForEachVertex) {
@@ -241,7 +241,7 @@ TEST_F(ContactSurfacesOfAJoint, AThicknessCanBeGivenForEachVertex) {
 
 TEST_F(ContactSurfacesOfAJoint, AThicknessIsMeasuredToTheMeshBehind) {
   const std::string fixed = "[contact]\nfixed_part = \"layer\"\n[contact.fixed]\n" + std::string(layer);
-  const ElasticContactOptions options = options_of(joint(fixed + "behind = \"bone.ply\"\n"));
+  const contact::ElasticContactOptions options = options_of(joint(fixed + "behind = \"bone.ply\"\n"));
   ASSERT_TRUE(options.fixed);
   EXPECT_FALSE(options.mobile) << "rigid";
   EXPECT_EQ(options.fixed->youngs_modulus_mpa, 10);
@@ -249,13 +249,13 @@ TEST_F(ContactSurfacesOfAJoint, AThicknessIsMeasuredToTheMeshBehind) {
   ASSERT_EQ(all.size(), 4u);
   for (const double thickness : all) EXPECT_NEAR(thickness, 2, 1e-12);
 
-  const ElasticContactOptions with_half =
+  const contact::ElasticContactOptions with_half =
       options_of(joint(fixed + "behind = \"small.ply\"\nthickness = 4\n"));
   const auto& half = std::get<std::vector<double>>(with_half.fixed->thickness_mm);
   for (const std::size_t v : {0, 1}) EXPECT_NEAR(half[v], 2, 1e-12);
   for (const std::size_t v : {2, 3}) EXPECT_EQ(half[v], 4) << "nothing lies behind";
 
-  const LoadedJoint without = joint(fixed + "behind = \"small.ply\"\n");
+  const io::LoadedJoint without = joint(fixed + "behind = \"small.ply\"\n");
   try {
     options_of(without);
     FAIL();

@@ -1,4 +1,4 @@
-#include "condyle/io/file_digest.hpp"
+#include "condyle/io/mesh_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@ namespace condyle {
 namespace {
 
 std::string sha256(const std::string& contents) {
-  return digest_of(contents).sha256;
+  return io::digest_of(contents).sha256;
 }
 
 /// The examples that NIST publishes with FIPS 180-4.
@@ -39,8 +39,8 @@ TEST(FileDigest, IsSha256JustBesideTheEndOfABlock) {
 TEST(FileDigest, TakesBytesOfAnyValueAndCountsThem) {
   std::string every;
   for (int byte = 0; byte < 256; ++byte) every += static_cast<char>(byte);
-  EXPECT_EQ(digest_of(every),
-            (FileDigest{256, "40aff2e9d2d8922e47afd4648e6967497158785fbd1da870e7110266bf944880"}));
+  EXPECT_EQ(io::digest_of(every),
+            (io::FileDigest{256, "40aff2e9d2d8922e47afd4648e6967497158785fbd1da870e7110266bf944880"}));
 }
 
 }  // namespace

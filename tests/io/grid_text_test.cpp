@@ -8,7 +8,7 @@ namespace condyle {
 namespace {
 
 void expect_axis(std::string_view text, JointAngle angle, double first, double last, double step) {
-  const GridAxis axis = parse_grid_axis(text, Anatomy::hip);
+  const motion::GridAxis axis = io::parse_grid_axis(text, Anatomy::hip);
   EXPECT_EQ(axis.angle, angle);
   EXPECT_EQ(axis.first_deg, first);
   EXPECT_EQ(axis.last_deg, last);
@@ -23,8 +23,8 @@ TEST(GridText, ReadsFirstLastAndStep) {
 }
 
 TEST(GridText, IsReadBackToTheLastBit) {
-  const GridAxis axis{JointAngle::adduction, 0.1, 1.0 / 3, 1e-7};
-  const GridAxis again = parse_grid_axis(to_text(axis, Anatomy::hip), Anatomy::hip);
+  const motion::GridAxis axis{JointAngle::adduction, 0.1, 1.0 / 3, 1e-7};
+  const motion::GridAxis again = io::parse_grid_axis(io::to_text(axis, Anatomy::hip), Anatomy::hip);
   EXPECT_EQ(again.first_deg, axis.first_deg);
   EXPECT_EQ(again.last_deg, axis.last_deg);
   EXPECT_EQ(again.step_deg, axis.step_deg);
@@ -33,7 +33,7 @@ TEST(GridText, IsReadBackToTheLastBit) {
 TEST(GridText, RefusesWhatIsNotAnAxis) {
   for (const char* text : {"", "flexion", "flexion=", "flexion=a", "flexion=1:", "flexion=1:2:3:4", "=1:2",
                            "flexion=1:2:nan", "flexion=1:inf", "flexion=1 :2", "knee=1:2", "flexion=0x1"})
-    EXPECT_THROW(parse_grid_axis(text, Anatomy::hip), UsageError) << text;
+    EXPECT_THROW(io::parse_grid_axis(text, Anatomy::hip), UsageError) << text;
 }
 
 }  // namespace

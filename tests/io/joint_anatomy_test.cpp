@@ -22,8 +22,8 @@ constexpr const char* knee_landmarks =
 class JointAnatomy : public ::testing::Test {
  protected:
   void SetUp() override {
-    write_mesh(folder / "femur.ply", test::box({-30, 20, -40}, {30, 300, 40}));
-    write_mesh(folder / "tibia.ply", test::box({-25, -300, -35}, {25, -20, 35}));
+    io::write_mesh(folder / "femur.ply", test::box({-30, 20, -40}, {30, 300, 40}));
+    io::write_mesh(folder / "tibia.ply", test::box({-25, -300, -35}, {25, -20, 35}));
   }
   std::filesystem::path write(std::string_view kind, std::string_view more) const {
     return folder.file("joint.toml", "condyle = 1\nname = \"knee\"\nkind = \"" + std::string(kind) +
@@ -37,12 +37,12 @@ class JointAnatomy : public ::testing::Test {
   }
   JointDescription description(std::string_view kind, std::string_view keys,
                                std::string_view frame = given_axes) const {
-    return read_joint_file(with_axes(kind, keys, "", frame)).joint;
+    return io::read_joint_file(with_axes(kind, keys, "", frame)).joint;
   }
   std::string refusal(std::string_view kind, std::string_view keys, std::string_view after = "") const {
     const auto path = with_axes(kind, keys, after);
     try {
-      read_joint(path);
+      io::read_joint(path);
     } catch (const FileError& error) {
       return std::string(error.what()).substr(path.string().size() + 2);
     }
@@ -63,8 +63,8 @@ TEST_F(JointAnatomy, IsOneOfFive) {
 
 TEST_F(JointAnatomy, ABallIsAHipUnlessItSaysOtherwise) {
   EXPECT_EQ(description("ball", "").anatomy, Anatomy::hip);
-  EXPECT_TRUE(read_joint(with_axes("ball", "")).joint.is_hip());
-  EXPECT_FALSE(read_joint(with_axes("ball", "joint = \"shoulder\"\n")).joint.is_hip());
+  EXPECT_TRUE(io::read_joint(with_axes("ball", "")).joint.is_hip());
+  EXPECT_FALSE(io::read_joint(with_axes("ball", "joint = \"shoulder\"\n")).joint.is_hip());
 }
 
 TEST_F(JointAnatomy, AHingeOnTheLandmarksOfAKneeIsAKneeElseItFlexesForwards) {
@@ -101,17 +101,17 @@ TEST_F(JointAnatomy, OnlyAFreeJointHasATranslationFrame) {
 }
 
 TEST_F(JointAnatomy, TheReferencePoseHasTheNamesOfTheJoint) {
-  const JointFile file = read_joint_file(
+  const io::JointFile file = io::read_joint_file(
       with_axes("ball", "joint = \"ankle\"\n", "[reference_pose]\ndorsiflexion = 10\ninversion = -3\n"));
-  EXPECT_EQ(file.reference_pose, (PoseDegrees{10, -3, 0, Vec3::Zero()}));
+  EXPECT_EQ(file.reference_pose, (io::PoseDegrees{10, -3, 0, Vec3::Zero()}));
   EXPECT_NE(refusal("ball", "joint = \"ankle\"\n", "[reference_pose]\nflexion = 10\n").find("unknown key"),
             std::string::npos);
 }
 
 TEST_F(JointAnatomy, OnlyAFreeJointTranslatesInItsReferencePose) {
-  const JointFile file = read_joint_file(
+  const io::JointFile file = io::read_joint_file(
       with_axes("free", "joint = \"knee\"\n", "[reference_pose]\nflexion = 20\nx = 1.5\nz = -2\n"));
-  EXPECT_EQ(file.reference_pose, (PoseDegrees{20, 0, 0, {1.5, 0, -2}}));
+  EXPECT_EQ(file.reference_pose, (io::PoseDegrees{20, 0, 0, {1.5, 0, -2}}));
   EXPECT_EQ(refusal("ball", "", "[reference_pose]\nx = 1\n").substr(0, 8), "line 15:");
   EXPECT_NE(refusal("ball", "", "[reference_pose]\nx = 1\n").find("a ball does not translate"),
             std::string::npos);
@@ -119,9 +119,9 @@ TEST_F(JointAnatomy, OnlyAFreeJointTranslatesInItsReferencePose) {
 
 /// In whatever translation frame the reference pose is given, the posed mesh is the given one.
 TEST_F(JointAnatomy, AMobileMeshIsWhereItWasGivenInItsReferencePose) {
-  const TriMesh given = read_mesh(folder / "tibia.ply").mesh;
+  const TriMesh given = io::read_mesh(folder / "tibia.ply").mesh;
   for (const char* frame : {"fixed", "joint_axes"}) {
-    const auto [joint, report] = read_joint(
+    const auto [joint, report] = io::read_joint(
         with_axes("free", "joint = \"knee\"\ntranslation_frame = \"" + std::string(frame) + "\"\n",
                   "[reference_pose]\nflexion = 30\nadduction = 4\ninternal_rotation = -8\nx = 5\ny = -7\nz = "
                   "2\n"));
@@ -130,8 +130,9 @@ TEST_F(JointAnatomy, AMobileMeshIsWhereItWasGivenInItsReferencePose) {
       // Placing rounds once, posing back by 4u of three products of 300 mm.
       EXPECT_LE((posed(X_FM, joint.mobile.mesh.vertices()[v]) - given.vertices[v]).norm(),
                 8 * core::rounding_unit * 3 * 300);
-    EXPECT_NE(to_json({joint, report}, {}).find("\"translation_frame\": \"" + std::string(frame) + "\""),
-              std::string::npos);
+    EXPECT_NE(
+        io::frame_json({joint, report}, {}).find("\"translation_frame\": \"" + std::string(frame) + "\""),
+        std::string::npos);
   }
 }
 
@@ -140,14 +141,15 @@ TEST_F(JointAnatomy, LengthsOfAReferencePoseAreInTheUnitsOfTheFile) {
       "condyle = 1\nname = \"knee\"\nkind = \"free\"\njoint = \"knee\"\nside = \"right\"\n"
       "units = \"m\"\n[fixed]\nmesh = \"a.ply\"\n[mobile]\nmesh = \"b.ply\"\n";
   text += given_axes + std::string("[reference_pose]\ny = 0.25\n");
-  EXPECT_EQ(read_joint_file(folder.file("metres.toml", text)).reference_pose.translation_mm, Vec3(0, 250, 0));
+  EXPECT_EQ(io::read_joint_file(folder.file("metres.toml", text)).reference_pose.translation_mm,
+            Vec3(0, 250, 0));
 }
 
 TEST_F(JointAnatomy, AMotionVariesAndHoldsAnglesByTheNamesOfTheJoint) {
-  const JointFile file =
-      read_joint_file(with_axes("ball", "joint = \"shoulder\"\n",
-                                "[[motion]]\nname = \"scaption\"\nvary = \"elevation\"\nrange = [0, 150]\n"
-                                "plane_of_elevation = 30\n"));
+  const io::JointFile file = io::read_joint_file(
+      with_axes("ball", "joint = \"shoulder\"\n",
+                "[[motion]]\nname = \"scaption\"\nvary = \"elevation\"\nrange = [0, 150]\n"
+                "plane_of_elevation = 30\n"));
   ASSERT_EQ(file.motions.size(), 1u);
   EXPECT_EQ(file.motions[0].vary, JointAngle::adduction);
   EXPECT_EQ(file.motions[0].start.flexion, Angle::degrees(30));

@@ -26,8 +26,8 @@ TriMesh tibia() {
 class JointBodyPose : public ::testing::Test {
  protected:
   void SetUp() override {
-    write_mesh(folder / "femur.ply", femur());
-    write_mesh(folder / "tibia.ply", tibia());
+    io::write_mesh(folder / "femur.ply", femur());
+    io::write_mesh(folder / "tibia.ply", tibia());
   }
   std::filesystem::path write(std::string_view fixed, std::string_view mobile, std::string_view more = "",
                               std::string_view units = "mm") const {
@@ -43,7 +43,7 @@ class JointBodyPose : public ::testing::Test {
   std::string refusal(std::string_view fixed) const {
     const auto path = write(fixed, "mesh = \"tibia.ply\"");
     try {
-      read_joint(path);
+      io::read_joint(path);
     } catch (const FileError& error) {
       return std::string(error.what()).substr(path.string().size() + 2);
     }
@@ -65,18 +65,19 @@ Pose quarter_turned() {
 }
 
 TEST_F(JointBodyPose, IsWhereTheMeshLiesAmongTheOthers) {
-  const Joint own = read_joint(write(quarter_turn + std::string(plain_femur), plain_tibia)).joint;
-  write_mesh(folder / "femur.ply", posed(quarter_turned(), femur()));
-  const Joint common = read_joint(write(plain_femur, plain_tibia)).joint;
+  const Joint own = io::read_joint(write(quarter_turn + std::string(plain_femur), plain_tibia)).joint;
+  io::write_mesh(folder / "femur.ply", posed(quarter_turned(), femur()));
+  const Joint common = io::read_joint(write(plain_femur, plain_tibia)).joint;
   EXPECT_EQ(own.fixed.mesh.arrays(), common.fixed.mesh.arrays());
   EXPECT_EQ(own.mobile.mesh.arrays(), common.mobile.mesh.arrays());
 }
 
 TEST_F(JointBodyPose, OfTheMobileBodyIsThatOfTheReferencePose) {
   const std::string reference = "[reference_pose]\nflexion = 30\nx = 4\n";
-  const Joint own = read_joint(write(plain_femur, quarter_turn + std::string(plain_tibia), reference)).joint;
-  write_mesh(folder / "tibia.ply", posed(quarter_turned(), tibia()));
-  const Joint common = read_joint(write(plain_femur, plain_tibia, reference)).joint;
+  const Joint own =
+      io::read_joint(write(plain_femur, quarter_turn + std::string(plain_tibia), reference)).joint;
+  io::write_mesh(folder / "tibia.ply", posed(quarter_turned(), tibia()));
+  const Joint common = io::read_joint(write(plain_femur, plain_tibia, reference)).joint;
   for (std::size_t v = 0; v < common.mobile.mesh.vertices().size(); ++v)
     EXPECT_LE((own.mobile.mesh.vertices()[v] - common.mobile.mesh.vertices()[v]).cwiseAbs().maxCoeff(),
               2 * core::rounding_unit * 512);
@@ -85,15 +86,16 @@ TEST_F(JointBodyPose, OfTheMobileBodyIsThatOfTheReferencePose) {
 TEST_F(JointBodyPose, ATableOfTranslationAndAnglesIsThatMatrix) {
   // A knee's flexion by 90 degrees is R_z(-90).
   const JointDescription by_table =
-      read_joint_file(write("pose = { translation = [5, -6, 7], flexion = -90 }\n" + std::string(plain_femur),
-                            plain_tibia))
+      io::read_joint_file(
+          write("pose = { translation = [5, -6, 7], flexion = -90 }\n" + std::string(plain_femur),
+                plain_tibia))
           .joint;
   EXPECT_TRUE(by_table.fixed_in_W.matrix() == quarter_turned().matrix());
   EXPECT_TRUE(by_table.mobile_in_W.matrix() == Pose::Identity().matrix());
 }
 
 TEST_F(JointBodyPose, LengthsAreInTheUnitsOfTheFile) {
-  const auto file = read_joint_file(write(
+  const auto file = io::read_joint_file(write(
       "pose = [1, 0, 0, 0.005, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\nmesh = \"a.ply\"", plain_tibia, "", "m"));
   EXPECT_EQ(file.joint.fixed_in_W.translation(), Vec3(5, 0, 0));
 }
@@ -128,8 +130,8 @@ TEST_F(JointBodyPose, ABadOneIsRefusedByLineAndKey) {
 }
 
 TEST_F(JointBodyPose, AnswersInTheSourceFrameLieOnTheFiles) {
-  const LoadedJoint loaded = read_joint(write(quarter_turn + std::string(plain_femur), plain_tibia));
-  const Provenance from = provenance_of(loaded, {}, AnswerFrameName::source);
+  const io::LoadedJoint loaded = io::read_joint(write(quarter_turn + std::string(plain_femur), plain_tibia));
+  const io::Provenance from = io::provenance_of(loaded, {}, io::AnswerFrameName::source);
   const TriMesh fixed = from.frame.fixed_mesh(loaded.joint.fixed.mesh);
   for (std::size_t v = 0; v < fixed.vertices.size(); ++v) {
     EXPECT_EQ(fixed.vertices[v], femur().vertices[v]);
@@ -139,10 +141,10 @@ TEST_F(JointBodyPose, AnswersInTheSourceFrameLieOnTheFiles) {
 }
 
 TEST_F(JointBodyPose, AMatrixOfFewDigitsIsMadeARotationWithANote) {
-  const LoadedJoint loaded =
-      read_joint(write("pose = [0.8660254, -0.5, 0, 0, 0.5, 0.8660254, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n" +
-                           std::string(plain_femur),
-                       plain_tibia));
+  const io::LoadedJoint loaded =
+      io::read_joint(write("pose = [0.8660254, -0.5, 0, 0, 0.5, 0.8660254, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n" +
+                               std::string(plain_femur),
+                           plain_tibia));
   ASSERT_EQ(loaded.report.processing.size(), 1u);
   EXPECT_NE(loaded.report.processing[0].find("fixed.pose: its rotation was off by"), std::string::npos);
   // Seven digits of sine and cosine: their length is off by 4e-9 and is made 1, which turns nothing.
@@ -151,7 +153,8 @@ TEST_F(JointBodyPose, AMatrixOfFewDigitsIsMadeARotationWithANote) {
 
 TEST_F(JointBodyPose, AMeshMayBeNamedByTheEnvironment) {
   ASSERT_EQ(::setenv("CONDYLE_TEST_FOLDER", folder.path().c_str(), 1), 0);
-  const JointFile file = read_joint_file(write("mesh = \"${CONDYLE_TEST_FOLDER}/femur.ply\"", plain_tibia));
+  const io::JointFile file =
+      io::read_joint_file(write("mesh = \"${CONDYLE_TEST_FOLDER}/femur.ply\"", plain_tibia));
   EXPECT_EQ(file.fixed.meshes[0].mesh, folder / "femur.ply");
   ASSERT_EQ(::unsetenv("CONDYLE_TEST_FOLDER"), 0);
   EXPECT_EQ(refusal("mesh = \"${CONDYLE_TEST_FOLDER}/femur.ply\""),

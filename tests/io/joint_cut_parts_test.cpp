@@ -47,12 +47,12 @@ constexpr const char* around_socket =
     "{ point = [0, 46, 0], normal = [0, 0.96, -0.28] }, { point = [-44, 0, 0], normal = [-1, 0, 0] }, "
     "{ point = [0, 0, -44], normal = [0, 0, -1] }, { point = [0, -45, 0], normal = [0, -1, 0] }";
 
-std::vector<MotionLimit> limits_of(const LoadedJoint& joint) {
-  return answer_range(joint.joint, joint.report.placement, {.motions = hip_motions()}).limits;
+std::vector<motion::MotionLimit> limits_of(const io::LoadedJoint& joint) {
+  return answer_range(joint.joint, joint.report.placement, {.motions = motion::hip_motions()}).limits;
 }
 
-void expect_same(const std::vector<MotionLimit>& limits, const std::vector<MotionLimit>& expected,
-                 double within_deg) {
+void expect_same(const std::vector<motion::MotionLimit>& limits,
+                 const std::vector<motion::MotionLimit>& expected, double within_deg) {
   ASSERT_EQ(limits.size(), expected.size());
   for (std::size_t i = 0; i < limits.size(); ++i) {
     EXPECT_EQ(limits[i].end.reason, expected[i].end.reason) << limits[i].motion.name;
@@ -93,14 +93,14 @@ TriMesh turned(const TriMesh& mesh, double frontal_deg) {
 class CutParts : public ::testing::Test {
  protected:
   void SetUp() override {
-    static const SampleHip hip = sample_hip({}, Scenario::two);
+    static const sample::SampleHip hip = sample::sample_hip({}, sample::Scenario::two);
     hip_bone = hip.hip_bone, femur = hip.femur;
-    write_mesh(folder / "hip_bone.ply", hip_bone);
-    write_mesh(folder / "femur.ply", femur);
+    io::write_mesh(folder / "hip_bone.ply", hip_bone);
+    io::write_mesh(folder / "femur.ply", femur);
   }
-  LoadedJoint read(std::string_view more, std::string_view fixed = "mesh = \"hip_bone.ply\"",
-                   std::string_view name = "joint.toml") const {
-    return read_joint(folder.file(name, cut_parts::file_text(fixed, "mesh = \"femur.ply\"", more)));
+  io::LoadedJoint read(std::string_view more, std::string_view fixed = "mesh = \"hip_bone.ply\"",
+                       std::string_view name = "joint.toml") const {
+    return io::read_joint(folder.file(name, cut_parts::file_text(fixed, "mesh = \"femur.ply\"", more)));
   }
   std::string refusal(std::string_view more, std::string_view fixed = "mesh = \"hip_bone.ply\"") const {
     try {
@@ -116,7 +116,7 @@ class CutParts : public ::testing::Test {
 };
 
 TEST_F(CutParts, AreClosedAndTogetherTheBone) {
-  const LoadedJoint joint = read(cut_parts::fragment_text(cut_parts::around_socket));
+  const io::LoadedJoint joint = read(cut_parts::fragment_text(cut_parts::around_socket));
   ASSERT_EQ(joint.joint.fixed.parts.size(), 2u);
   EXPECT_EQ(joint.joint.fixed.parts[0].name, "pelvis");
   EXPECT_EQ(joint.joint.fixed.parts[1].name, "fragment");
@@ -126,7 +126,7 @@ TEST_F(CutParts, AreClosedAndTogetherTheBone) {
     return line.rfind("fragment: cut from pelvis by 4 planes: ", 0) == 0;
   }));
   // A mesh that is named in a list keeps its name.
-  const LoadedJoint named =
+  const io::LoadedJoint named =
       read(cut_parts::fragment_text(cut_parts::around_socket, "meshes = [\"hip bone\"]"),
            "meshes = [{ name = \"hip bone\", mesh = \"hip_bone.ply\" }]");
   EXPECT_EQ(named.joint.fixed.parts[0].name, "hip bone");
@@ -134,7 +134,7 @@ TEST_F(CutParts, AreClosedAndTogetherTheBone) {
 }
 
 TEST_F(CutParts, AsGivenHaveTheLimitsOfTheWholeBone) {
-  const LoadedJoint cut = read(cut_parts::fragment_text(cut_parts::around_socket)), whole = read("");
+  const io::LoadedJoint cut = read(cut_parts::fragment_text(cut_parts::around_socket)), whole = read("");
   cut_parts::expect_same(cut_parts::limits_of(cut), cut_parts::limits_of(whole), 1e-9);
   const auto a = answer_measures(cut.joint).measures, b = answer_measures(whole.joint).measures;
   EXPECT_NEAR(*a.acetabulum.centre_edge_lateral.value, *b.acetabulum.centre_edge_lateral.value, 1e-9);
@@ -142,17 +142,18 @@ TEST_F(CutParts, AsGivenHaveTheLimitsOfTheWholeBone) {
   EXPECT_NEAR(*a.both.ischiofemoral.value, *b.both.ischiofemoral.value, 1e-9);
   EXPECT_NEAR(*a.both.joint_space_least.value, *b.both.joint_space_least.value, 1e-9);
   EXPECT_TRUE(a.left_out.empty());
-  EXPECT_EQ(answer_range(cut.joint, cut.report.placement, {.motions = hip_motions()}).notes.size(),
-            answer_range(whole.joint, whole.report.placement, {.motions = hip_motions()}).notes.size());
+  EXPECT_EQ(
+      answer_range(cut.joint, cut.report.placement, {.motions = motion::hip_motions()}).notes.size(),
+      answer_range(whole.joint, whole.report.placement, {.motions = motion::hip_motions()}).notes.size());
 }
 
 TEST_F(CutParts, TurnedHaveTheLimitsOfMeshesTurnedByHand) {
-  const LoadedJoint cut = read(cut_parts::fragment_text(cut_parts::around_socket));
+  const io::LoadedJoint cut = read(cut_parts::fragment_text(cut_parts::around_socket));
   const ParameterValue ten{"fragment.frontal", 10};
-  const LoadedJoint there = with_parameters(cut, {&ten, 1});
-  write_mesh(folder / "rest.ply", mesh_of_part(cut.joint.fixed, "pelvis"));
-  write_mesh(folder / "turned.ply", cut_parts::turned(mesh_of_part(cut.joint.fixed, "fragment"), 10));
-  const LoadedJoint by_hand =
+  const io::LoadedJoint there = with_parameters(cut, {&ten, 1});
+  io::write_mesh(folder / "rest.ply", mesh_of_part(cut.joint.fixed, "pelvis"));
+  io::write_mesh(folder / "turned.ply", cut_parts::turned(mesh_of_part(cut.joint.fixed, "fragment"), 10));
+  const io::LoadedJoint by_hand =
       read("",
            "meshes = [{ name = \"rest\", mesh = \"rest.ply\" }, { name = \"fragment\", "
            "mesh = \"turned.ply\" }]",
@@ -161,7 +162,7 @@ TEST_F(CutParts, TurnedHaveTheLimitsOfMeshesTurnedByHand) {
   EXPECT_NE(cut_parts::limits_of(there)[0].end.turned.degrees(),
             cut_parts::limits_of(cut)[0].end.turned.degrees());
   // The angle of a socket about the head's centre grows by the turn; the centre is fitted.
-  const auto lateral = [](const LoadedJoint& of) {
+  const auto lateral = [](const io::LoadedJoint& of) {
     return *answer_measures(of.joint).measures.acetabulum.centre_edge_lateral.value;
   };
   constexpr double off_centre_deg = 2 * 2e-7 / 20 * 180 / std::numbers::pi;
@@ -173,14 +174,14 @@ TEST_F(CutParts, OfAFemurLeaveItsHeadAndLimitsAsTheyAre) {
   const auto fitted = [&](std::string_view more, std::string_view name) {
     std::string text = cut_parts::file_text("mesh = \"hip_bone.ply\"", "mesh = \"femur.ply\"", more);
     text.replace(text.find("[0, 0, 0]"), 9, "\"fit\"");
-    return read_joint(folder.file(name, text));
+    return io::read_joint(folder.file(name, text));
   };
-  const LoadedJoint whole = fitted("", "whole.toml"),
-                    cut = fitted(
-                        "[[part]]\nname = \"shaft\"\nbody = \"mobile\"\ncentre = [0, -40, 38]\n"
-                        "cut = [{ point = [0, -40, 0], normal = [0, 1, 0] }]\n"
-                        "[[part.parameter]]\nname = \"version\"\nrange = [-40, 40]\n",
-                        "cut.toml");
+  const io::LoadedJoint whole = fitted("", "whole.toml"),
+                        cut = fitted(
+                            "[[part]]\nname = \"shaft\"\nbody = \"mobile\"\ncentre = [0, -40, 38]\n"
+                            "cut = [{ point = [0, -40, 0], normal = [0, 1, 0] }]\n"
+                            "[[part.parameter]]\nname = \"version\"\nrange = [-40, 40]\n",
+                            "cut.toml");
   ASSERT_TRUE(is_cut(cut.joint.mobile));
   cut_parts::expect_same(cut_parts::limits_of(cut), cut_parts::limits_of(whole), 1e-9);
   const auto a = answer_measures(cut.joint).measures, b = answer_measures(whole.joint).measures;
@@ -191,13 +192,13 @@ TEST_F(CutParts, OfAFemurLeaveItsHeadAndLimitsAsTheyAre) {
   EXPECT_TRUE(a.left_out.empty());
   // The shaft turns about its own point, the head stays.
   const ParameterValue fifteen{"shaft.version", 15};
-  const LoadedJoint turned = with_parameters(cut, {&fifteen, 1});
+  const io::LoadedJoint turned = with_parameters(cut, {&fifteen, 1});
   EXPECT_EQ(mesh_of_part(turned.joint.mobile, "femur").arrays(),
             mesh_of_part(cut.joint.mobile, "femur").arrays());
 }
 
 TEST_F(CutParts, AreCutWhereTheFileSaysInItsFrameAndUnits) {
-  const LoadedJoint joint = read(cut_parts::fragment_text(cut_parts::around_socket));
+  const io::LoadedJoint joint = read(cut_parts::fragment_text(cut_parts::around_socket));
   TriMesh metres = hip_bone, femur_metres = femur;
   for (TriMesh* mesh : {&metres, &femur_metres})
     for (std::size_t v = 0; v < mesh->vertices.size(); ++v) {
@@ -205,8 +206,8 @@ TEST_F(CutParts, AreCutWhereTheFileSaysInItsFrameAndUnits) {
       const Vec3 p = mesh->vertices[v];
       mesh->vertices.set(v, Vec3(-p.y() + 512, p.x(), p.z()) / 1000);
     }
-  write_mesh(folder / "hip_bone_m.ply", metres);
-  write_mesh(folder / "femur_m.ply", femur_metres);
+  io::write_mesh(folder / "hip_bone_m.ply", metres);
+  io::write_mesh(folder / "femur_m.ply", femur_metres);
   const std::string planes =
       "{ point = [0.466, 0, 0], normal = [-0.96, 0, -0.28] }, { point = [0.512, -0.044, 0], normal = [0, -1, "
       "0] }, { point = [0.512, 0, -0.044], normal = [0, 0, -1] }, { point = [0.557, 0, 0], normal = [1, 0, "
@@ -216,7 +217,7 @@ TEST_F(CutParts, AreCutWhereTheFileSaysInItsFrameAndUnits) {
   const std::string frame = "centre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]";
   text.replace(text.find(frame), frame.size(),
                "centre = [0.512, 0, 0]\nanterior = [0, 1, 0]\nsuperior = [-1, 0, 0]");
-  const LoadedJoint other = read_joint(folder.file("metres.toml", text));
+  const io::LoadedJoint other = io::read_joint(folder.file("metres.toml", text));
   for (const char* name : {"pelvis", "fragment"}) {
     const MeshReport a = inspect(Mesh(mesh_of_part(joint.joint.fixed, name))),
                      b = inspect(Mesh(mesh_of_part(other.joint.fixed, name)));
@@ -227,19 +228,19 @@ TEST_F(CutParts, AreCutWhereTheFileSaysInItsFrameAndUnits) {
 
 TEST_F(CutParts, TakeOtherMeshesAlong) {
   const TriMesh ball = test::sphere({0, 30, 5}, 3, 2);
-  write_mesh(folder / "cartilage.ply", ball);
+  io::write_mesh(folder / "cartilage.ply", ball);
   const std::string both =
       "meshes = [{ name = \"bone\", mesh = \"hip_bone.ply\" }, { name = \"cartilage\", mesh = "
       "\"cartilage.ply\", "
       "contact = \"soft\" }]";
-  const LoadedJoint joint =
+  const io::LoadedJoint joint =
       read(cut_parts::fragment_text(cut_parts::around_socket, "meshes = [\"bone\", \"cartilage\"]"), both);
   ASSERT_EQ(joint.joint.fixed.parts.size(), 3u);
   EXPECT_EQ(joint.joint.fixed.parts[1].name, "fragment");
   EXPECT_EQ(joint.joint.fixed.parts[2].contact, PartContact::soft);
   EXPECT_EQ(mesh_of_part(joint.joint.fixed, "cartilage").arrays(), ball);
   const ParameterValue ten{"fragment.frontal", 10};
-  const LoadedJoint there = with_parameters(joint, {&ten, 1});
+  const io::LoadedJoint there = with_parameters(joint, {&ten, 1});
   const TriMesh moved = mesh_of_part(there.joint.fixed, "cartilage").arrays(),
                 expected = cut_parts::turned(ball, 10);
   for (std::size_t v = 0; v < moved.vertices.size(); ++v)
@@ -287,19 +288,19 @@ TEST_F(CutParts, AreRefusedInOneLine) {
           "contact.fixed_part: part fragment is cut from that mesh: name one that is not cut");
   TriMesh open = hip_bone;
   open.triangles.pop_back();
-  write_mesh(folder / "hip_bone.ply", open);
+  io::write_mesh(folder / "hip_bone.ply", open);
   refused(fragment(cut_parts::around_socket), "part fragment: cut: pelvis: an open boundary");
 }
 
 TEST_F(CutParts, SayWhichMotionsEndOnTheirFaces) {
   // The planes cut the front of the rim off: shifted to the side it leaves its face open to the neck.
-  const LoadedJoint joint = read(cut_parts::fragment_text("{ point = [12, 0, 0], normal = [-1, 0, 0] }"));
+  const io::LoadedJoint joint = read(cut_parts::fragment_text("{ point = [12, 0, 0], normal = [-1, 0, 0] }"));
   const ParameterValue away{"fragment.lateral", -60};
-  const LoadedJoint there = with_parameters(joint, {&away, 1});
-  const auto answer = answer_range(there.joint, there.report.placement, {.motions = hip_motions()});
+  const io::LoadedJoint there = with_parameters(joint, {&away, 1});
+  const auto answer = answer_range(there.joint, there.report.placement, {.motions = motion::hip_motions()});
   // Both faces stay in the plane; nothing else that the femur meets lies in it.
   std::string in_plane;
-  for (const MotionLimit& limit : answer.limits)
+  for (const motion::MotionLimit& limit : answer.limits)
     if (limit.end.contact && std::abs(limit.end.contact->fixed_point.x() - 12) < 1e-9)
       in_plane += (in_plane.empty() ? "" : ", ") + limit.motion.name;
   ASSERT_NE(in_plane, "") << "the neck meets the face";
@@ -315,8 +316,8 @@ TEST_F(CutParts, SayWhichMotionsEndOnTheirFaces) {
 }
 
 TEST_F(CutParts, StandInTheProvenance) {
-  const LoadedJoint joint = read(cut_parts::fragment_text(cut_parts::around_socket));
-  const Provenance from = provenance_of(joint, {});
+  const io::LoadedJoint joint = read(cut_parts::fragment_text(cut_parts::around_socket));
+  const io::Provenance from = io::provenance_of(joint, {});
   const auto json = io::provenance_json(&from);
   ASSERT_EQ(json["cuts"].size(), 1u);
   EXPECT_EQ(json["cuts"][0]["part"], "fragment");
@@ -325,27 +326,32 @@ TEST_F(CutParts, StandInTheProvenance) {
   ASSERT_EQ(json["cuts"][0]["planes"].size(), 4u);
   EXPECT_EQ(json["cuts"][0]["planes"][1]["point_mm"], (std::vector<double>{-44, 0, 0}));
   EXPECT_EQ(json["cuts"][0]["planes"][1]["normal"], (std::vector<double>{-1, 0, 0}));
-  const Provenance without = provenance_of(read(""), {});
+  const io::Provenance without = io::provenance_of(read(""), {});
   EXPECT_FALSE(io::provenance_json(&without).contains("cuts"));
 }
 
 TEST_F(CutParts, LeaveResectionTheOtherBone) {
-  const LoadedJoint joint = read(cut_parts::fragment_text(cut_parts::around_socket));
-  const Motion motion = motion_named(hip_motions(), "internal_rotation_at_90_flexion");
-  const double limit = RangeOfMotion(joint.joint).limit(motion).end.turned.degrees();
-  ResectionRequest request;
+  const io::LoadedJoint joint = read(cut_parts::fragment_text(cut_parts::around_socket));
+  const motion::Motion motion =
+      motion::motion_named(motion::hip_motions(), "internal_rotation_at_90_flexion");
+  const double limit = motion::RangeOfMotion(joint.joint).limit(motion).end.turned.degrees();
+  plan::ResectionRequest request;
   request.targets = {{motion, Angle::degrees(limit + 2)}};
-  EXPECT_GE(RangeOfMotion(resect(joint.joint, request).joint).limit(motion).end.turned.degrees(), limit + 2);
+  EXPECT_GE(
+      motion::RangeOfMotion(plan::resect(joint.joint, request).joint).limit(motion).end.turned.degrees(),
+      limit + 2);
   request.fixed_share = 0.5;
-  EXPECT_THROW(check_resection(joint.joint, request), UsageError);
+  EXPECT_THROW(plan::check_resection(joint.joint, request), UsageError);
 }
 
 TEST_F(CutParts, HaveTheBandsOfTheWholeBone) {
-  const LoadedJoint cut = read(cut_parts::fragment_text(cut_parts::around_socket)), whole = read("");
-  const std::vector<Motion> motions = {motion_named(hip_motions(), "internal_rotation_at_90_flexion"),
-                                       motion_named(hip_motions(), "abduction")};
-  const BandOptions few{.samples = 40};
-  const auto a = limit_bands(cut.joint, motions, {}, few), b = limit_bands(whole.joint, motions, {}, few);
+  const io::LoadedJoint cut = read(cut_parts::fragment_text(cut_parts::around_socket)), whole = read("");
+  const std::vector<motion::Motion> motions = {
+      motion::motion_named(motion::hip_motions(), "internal_rotation_at_90_flexion"),
+      motion::motion_named(motion::hip_motions(), "abduction")};
+  const motion::BandOptions few{.samples = 40};
+  const auto a = motion::limit_bands(cut.joint, motions, {}, few),
+             b = motion::limit_bands(whole.joint, motions, {}, few);
   for (std::size_t i = 0; i < motions.size(); ++i) {
     EXPECT_NEAR(a[i].p5.degrees(), b[i].p5.degrees(), 1e-9);
     EXPECT_NEAR(a[i].p95.degrees(), b[i].p95.degrees(), 1e-9);
@@ -361,17 +367,17 @@ TEST(CutRealParts, HaveTheLimitsOfTheWholeBoneAndOfMeshesTurnedByHand) {
   const std::string fixed = "mesh = \"" + path.string() + "\"",
                     mobile = "mesh = \"" + (*data / "hip_vhf_right/femur.ply").string() + "\"";
   const auto read = [&](std::string_view name, std::string_view body, std::string_view more) {
-    return read_joint(folder.file(name, cut_parts::file_text(body, mobile, more)));
+    return io::read_joint(folder.file(name, cut_parts::file_text(body, mobile, more)));
   };
-  const LoadedJoint cut = read("cut.toml", fixed, cut_parts::fragment_text(cut_parts::around_socket)),
-                    whole = read("whole.toml", fixed, "");
+  const io::LoadedJoint cut = read("cut.toml", fixed, cut_parts::fragment_text(cut_parts::around_socket)),
+                        whole = read("whole.toml", fixed, "");
   cut_parts::expect_sound_halves(cut.joint, whole.joint.fixed.mesh);
   cut_parts::expect_same(cut_parts::limits_of(cut), cut_parts::limits_of(whole), 1e-9);
   const ParameterValue ten{"fragment.frontal", 10};
-  const LoadedJoint there = with_parameters(cut, {&ten, 1});
-  write_mesh(folder / "rest.ply", mesh_of_part(cut.joint.fixed, "pelvis"));
-  write_mesh(folder / "turned.ply", cut_parts::turned(mesh_of_part(cut.joint.fixed, "fragment"), 10));
-  const LoadedJoint by_hand =
+  const io::LoadedJoint there = with_parameters(cut, {&ten, 1});
+  io::write_mesh(folder / "rest.ply", mesh_of_part(cut.joint.fixed, "pelvis"));
+  io::write_mesh(folder / "turned.ply", cut_parts::turned(mesh_of_part(cut.joint.fixed, "fragment"), 10));
+  const io::LoadedJoint by_hand =
       read("by_hand.toml",
            "meshes = [{ name = \"rest\", mesh = \"rest.ply\" }, { name = \"fragment\", "
            "mesh = \"turned.ply\" }]",

@@ -20,13 +20,13 @@ class JointFileMotions : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove(path_); }
 
-  JointFile read(const std::string& motions, const std::string& kind = "ball") const {
+  io::JointFile read(const std::string& motions, const std::string& kind = "ball") const {
     std::ofstream(path_)
         << "condyle = 1\nname = \"hip\"\nkind = \"" << kind
         << "\"\nside = \"right\"\nunits = \"mm\"\n[fixed]\nmesh = \"a.ply\"\n[mobile]\nmesh = \"b.ply\"\n"
            "[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n"
         << motions;
-    return read_joint_file(path_);
+    return io::read_joint_file(path_);
   }
   void expect_refused(const std::string& motions, const std::string& why,
                       const std::string& kind = "ball") const {
@@ -45,12 +45,12 @@ class JointFileMotions : public testing::Test {
 };
 
 TEST_F(JointFileMotions, AreReadInTheirOrder) {
-  const JointFile file = read(
+  const io::JointFile file = read(
       "[[motion]]\nname = \"kick\"\nvary = \"internal_rotation\"\nrange = [-5, 60]\nflexion = 90\nadduction "
       "= 12.5\n"
       "[[motion]]\nname = \"fadir\"\nvary = \"adduction\"\nrange = [10, -30]\n");
   ASSERT_EQ(file.motions.size(), 2u);
-  const Motion &kick = file.motions[0], &fadir = file.motions[1];
+  const motion::Motion &kick = file.motions[0], &fadir = file.motions[1];
   EXPECT_EQ(kick.name, "kick");
   EXPECT_EQ(kick.vary, JointAngle::internal_rotation);
   EXPECT_EQ(kick.sense, RotationSense::positive);

@@ -58,17 +58,17 @@ TriMesh femur_like() {
 class ReadJoint : public ::testing::Test {
  protected:
   void SetUp() override {
-    write_mesh(folder / "hip_bone.ply", pelvis_like());
-    write_mesh(folder / "femur.ply", femur_like());
+    io::write_mesh(folder / "hip_bone.ply", pelvis_like());
+    io::write_mesh(folder / "femur.ply", femur_like());
   }
   std::filesystem::path write(std::string_view text) const { return folder.file("joint.toml", text); }
-  LoadedJoint read(std::string_view text) const { return read_joint(write(text)); }
+  io::LoadedJoint read(std::string_view text) const { return io::read_joint(write(text)); }
 
   /// The error's message after the file's name, or "accepted".
   std::string refusal(std::string_view text) const {
     const auto path = write(text);
     try {
-      read_joint(path);
+      io::read_joint(path);
     } catch (const FileError& error) {
       const std::string message = error.what();
       EXPECT_EQ(message.find('\n'), message.npos);
@@ -124,8 +124,8 @@ TEST_F(ReadJoint, AJointMadeByHandIsTheSameBitForBit) {
 }
 
 TEST_F(ReadJoint, MetresBecomeMillimetres) {
-  write_mesh(folder / "hip_bone.ply", scaled(pelvis_like(), 0.001));
-  write_mesh(folder / "femur.ply", scaled(femur_like(), 0.001));
+  io::write_mesh(folder / "hip_bone.ply", scaled(pelvis_like(), 0.001));
+  io::write_mesh(folder / "femur.ply", scaled(femur_like(), 0.001));
   const auto [joint, report] =
       read(replaced(replaced(plain, "\"mm\"", "\"m\""), "[0.0, 0.0, 0.0]", "[0.001, 0.002, -0.003]"));
   const Vec3 centre(1, 2, -3);
@@ -195,7 +195,7 @@ TEST_F(ReadJoint, AFitThatFindsNothingIsAMeshErrorWithFileAndKey) {
   const auto path = write(
       replaced(plain, "[0.0, 0.0, 0.0]", "\"fit\"\nfit_within = { centre = [0, -300, 0], radius = 20 }"));
   try {
-    read_joint(path);
+    io::read_joint(path);
     FAIL();
   } catch (const MeshError& error) {
     EXPECT_TRUE(std::string(error.what())
@@ -244,7 +244,7 @@ TEST_F(ReadJoint, LandmarksOfBothBodiesGiveTheNeutralPose) {
       replaced(plain, axes,
                "[frame.landmarks]\n" + pelvis + text("medial_epicondyle", X * Vec3(0, -400, -40)) +
                    text("lateral_epicondyle", X * Vec3(0, -400, 40)));
-  write_mesh(folder / "femur.ply", posed(X, femur_like()));
+  io::write_mesh(folder / "femur.ply", posed(X, femur_like()));
   const auto [joint, report] = read(both);
   const JointAngles& found = report.placement.reference_pose.angles;
   EXPECT_NEAR(found.flexion.degrees(), 12, 1e-12);
@@ -263,8 +263,8 @@ TEST_F(ReadJoint, LandmarksOfBothBodiesGiveTheNeutralPose) {
 
 TEST_F(ReadJoint, ACentreIsAlsoTakenInTheFilesUnits) {
   const std::string axes = "anterior = [1.0, 0.0, 0.0]\nsuperior = [0.0, 1.0, 0.0]\n";
-  write_mesh(folder / "hip_bone.ply", scaled(pelvis_like(), 0.001));
-  write_mesh(folder / "femur.ply", scaled(femur_like(), 0.001));
+  io::write_mesh(folder / "hip_bone.ply", scaled(pelvis_like(), 0.001));
+  io::write_mesh(folder / "femur.ply", scaled(femur_like(), 0.001));
   const auto femur = read(replaced(
       replaced(
           plain, axes,
@@ -277,7 +277,7 @@ TEST_F(ReadJoint, ACentreIsAlsoTakenInTheFilesUnits) {
 TEST_F(ReadJoint, RepairsAreMadeInOrderAndReported) {
   TriMesh dirty = test::flipped(femur_like());
   dirty.vertices.push_back({500, 0, 0});
-  write_mesh(folder / "femur.ply", dirty);
+  io::write_mesh(folder / "femur.ply", dirty);
   const auto [joint, report] =
       read(replaced(plain, "mesh = \"femur.ply\"",
                     "mesh = \"femur.ply\"\nrepair = [\"drop_unreferenced\", \"flip_inverted\"]"));
@@ -289,15 +289,15 @@ TEST_F(ReadJoint, RepairsAreMadeInOrderAndReported) {
 }
 
 TEST_F(ReadJoint, MeshesInContradictingUnitsAreRefusedNamingBoth) {
-  write_mesh(folder / "femur.ply", scaled(femur_like(), 0.001));
+  io::write_mesh(folder / "femur.ply", scaled(femur_like(), 0.001));
   const std::string message = refusal(plain);
   EXPECT_NE(message.find("hip_bone.ply looks like millimetres"), message.npos) << message;
   EXPECT_NE(message.find("femur.ply like metres"), message.npos) << message;
 }
 
 TEST_F(ReadJoint, AUnitThatDoesNotFitTheMeshesIsNotedButFollowed) {
-  write_mesh(folder / "hip_bone.ply", scaled(pelvis_like(), 0.001));
-  write_mesh(folder / "femur.ply", scaled(femur_like(), 0.001));
+  io::write_mesh(folder / "hip_bone.ply", scaled(pelvis_like(), 0.001));
+  io::write_mesh(folder / "femur.ply", scaled(femur_like(), 0.001));
   const auto [joint, report] = read(plain);
   EXPECT_EQ(joint.mobile.mesh, scaled(femur_like(), 0.001));
   const auto notes = check_joint(joint, report.placement);
@@ -386,10 +386,10 @@ TEST_F(ReadJoint, UnknownKeysAreRefusedEverywhere) {
 }
 
 TEST_F(ReadJoint, UncertaintyIsReadWithItsSeed) {
-  const JointFile usual = read(plain).report.file;
+  const io::JointFile usual = read(plain).report.file;
   EXPECT_EQ(usual.uncertainty.centre_mm, 0.5);
   EXPECT_EQ(usual.band_seed, 1u);
-  const JointFile file =
+  const io::JointFile file =
       read(plain + std::string("[uncertainty]\ncentre = 0.75\naxes = 2\nsurface = 0\nseed = 42\n"))
           .report.file;
   EXPECT_EQ(file.uncertainty.centre_mm, 0.75);
@@ -438,11 +438,11 @@ TEST_F(ReadJoint, WhatIsNotTomlIsRefusedWithItsLine) {
 }
 
 TEST_F(ReadJoint, MissingFilesAreNamed) {
-  EXPECT_THROW(read_joint(folder / "none.toml"), FileError);
-  EXPECT_THROW(read_joint(folder.path()), FileError);
+  EXPECT_THROW(io::read_joint(folder / "none.toml"), FileError);
+  EXPECT_THROW(io::read_joint(folder.path()), FileError);
   const auto path = write(replaced(plain, "\"femur.ply\"", "\"none.ply\""));
   try {
-    read_joint(path);
+    io::read_joint(path);
     FAIL();
   } catch (const FileError& error) {
     EXPECT_EQ(std::string(error.what()),
@@ -453,10 +453,10 @@ TEST_F(ReadJoint, MissingFilesAreNamed) {
 TEST_F(ReadJoint, CoordinatesThatOverflowInMillimetresAreRefused) {
   TriMesh huge = femur_like();
   huge.vertices.x[7] = 1e29;
-  write_mesh(folder / "femur.ply", huge);
+  io::write_mesh(folder / "femur.ply", huge);
   const auto path = write(replaced(plain, "\"mm\"", "\"m\""));
   try {
-    read_joint(path);
+    io::read_joint(path);
     FAIL();
   } catch (const FileError& error) {
     EXPECT_TRUE(

@@ -17,12 +17,12 @@ using test::TemporaryFolder;
 class ReadHinge : public ::testing::Test {
  protected:
   void SetUp() override {
-    write_mesh(folder / "ulna.ply", test::box({-30, -40, -50}, {60, -100, 50}));
+    io::write_mesh(folder / "ulna.ply", test::box({-30, -40, -50}, {60, -100, 50}));
     X.translation() = Vec3(3, 4, 5);
-    write_mesh(folder / "humerus.ply", posed(X, test::tube(12, 60, 60, 30)));
+    io::write_mesh(folder / "humerus.ply", posed(X, test::tube(12, 60, 60, 30)));
   }
-  LoadedJoint read(std::string_view frame) const {
-    return read_joint(
+  io::LoadedJoint read(std::string_view frame) const {
+    return io::read_joint(
         folder.file("elbow.toml",
                     "condyle = 1\nname = \"elbow\"\nkind = \"hinge\"\nside = \"left\"\nunits = \"mm\"\n"
                     "[fixed]\nmesh = \"ulna.ply\"\n[mobile]\nmesh = \"humerus.ply\"\n[frame]\n" +

@@ -24,7 +24,7 @@ TEST(OutputFolder, FilesAppearTogetherOnCommitAndNothingElse) {
   const TemporaryFolder folder;
   const fs::path out = folder / "a/b";
   {
-    OutputFolder files(out);
+    io::OutputFolder files(out);
     write(files.file("one.txt"), "1");
     write(files.file("two.txt"), "2");
     EXPECT_FALSE(fs::exists(out / "one.txt"));
@@ -37,7 +37,7 @@ TEST(OutputFolder, FilesAppearTogetherOnCommitAndNothingElse) {
 TEST(OutputFolder, WithoutCommitNothingIsLeftNotEvenTheFolders) {
   const TemporaryFolder folder;
   {
-    OutputFolder files(folder / "a/b/");
+    io::OutputFolder files(folder / "a/b/");
     write(files.file("one.txt"), "1");
   }
   EXPECT_EQ(count_entries(folder.path()), 0u);
@@ -48,11 +48,11 @@ TEST(OutputFolder, OlderFilesStayUntilCommitAndAreReplacedThen) {
   folder.file("one.txt", "old");
   folder.file("other.txt", "kept");
   {
-    OutputFolder files(folder.path());
+    io::OutputFolder files(folder.path());
     write(files.file("one.txt"), "new");
   }
   EXPECT_EQ(read(folder / "one.txt"), "old");
-  OutputFolder files(folder.path());
+  io::OutputFolder files(folder.path());
   write(files.file("one.txt"), "new");
   files.commit();
   EXPECT_EQ(read(folder / "one.txt"), "new");
@@ -71,11 +71,11 @@ TEST(OutputFolder, WhatAnEarlierRunOfTheCommandLeftGoesWithTheCommitAndNothingEl
   folder.file("notes.md", "somebody's");
   fs::create_directory(folder / "folder.txt");
   {
-    OutputFolder files(folder.path(), is_text);
+    io::OutputFolder files(folder.path(), is_text);
     write(files.file("one.txt"), "new");
   }
   EXPECT_TRUE(fs::exists(folder / "two.txt")) << "not committed";
-  OutputFolder files(folder.path(), is_text);
+  io::OutputFolder files(folder.path(), is_text);
   write(files.file("one.txt"), "new");
   EXPECT_EQ(files.commit(), std::vector<fs::path>{folder / "one.txt"});
   EXPECT_FALSE(fs::exists(folder / "two.txt"));
@@ -89,7 +89,7 @@ TEST(OutputFolder, WithoutItsDocumentFilesAreSomebodysOwn) {
   const TemporaryFolder folder;
   folder.file("two.txt", "somebody's");
   const auto run = [&](std::string_view text) {
-    OutputFolder files(folder.path(), is_text, {}, "one.txt");
+    io::OutputFolder files(folder.path(), is_text, {}, "one.txt");
     write(files.file("one.txt"), std::string(text));
     files.commit();
   };
@@ -102,10 +102,10 @@ TEST(OutputFolder, WithoutItsDocumentFilesAreSomebodysOwn) {
 TEST(OutputFolder, AFolderThatCannotBeMadeIsRefusedAndLeavesNothing) {
   const TemporaryFolder folder;
   const auto file = folder.file("plain", "text");
-  EXPECT_THROW(OutputFolder{file}, FileError);
-  EXPECT_THROW(OutputFolder{file / "below"}, FileError);
-  EXPECT_THROW(OutputFolder{fs::path()}, FileError);
-  EXPECT_THROW(OutputFolder{"/proc/condyle/out"}, FileError);
+  EXPECT_THROW(io::OutputFolder{file}, FileError);
+  EXPECT_THROW(io::OutputFolder{file / "below"}, FileError);
+  EXPECT_THROW(io::OutputFolder{fs::path()}, FileError);
+  EXPECT_THROW(io::OutputFolder{"/proc/condyle/out"}, FileError);
   EXPECT_EQ(read(file), "text");
   EXPECT_EQ(count_entries(folder.path()), 1u);
 }
@@ -114,14 +114,14 @@ TEST(OutputFolder, AFolderWithoutWritePermissionIsRefused) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
   const TemporaryFolder folder;
   fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
-  EXPECT_THROW(OutputFolder{folder.path()}, FileError);
+  EXPECT_THROW(io::OutputFolder{folder.path()}, FileError);
 }
 
 TEST(OutputFolder, AFolderUnderAFilesNameStopsTheCommitBeforeTheFirstMove) {
   const TemporaryFolder folder;
   fs::create_directory(folder / "two.txt");
   {
-    OutputFolder files(folder.path());
+    io::OutputFolder files(folder.path());
     write(files.file("one.txt"), "1");
     write(files.file("two.txt"), "2");
     EXPECT_THROW(files.commit(), FileError);

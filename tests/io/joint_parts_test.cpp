@@ -24,9 +24,9 @@ TriMesh meniscus() {
 class JointParts : public ::testing::Test {
  protected:
   void SetUp() override {
-    write_mesh(folder / "femur.ply", test::box({-30, 0, -40}, {30, 300, 40}));
-    write_mesh(folder / "tibia.ply", bone());
-    write_mesh(folder / "meniscus.ply", meniscus());
+    io::write_mesh(folder / "femur.ply", test::box({-30, 0, -40}, {30, 300, 40}));
+    io::write_mesh(folder / "tibia.ply", bone());
+    io::write_mesh(folder / "meniscus.ply", meniscus());
   }
   std::filesystem::path write(std::string_view mobile) const {
     return folder.file("joint.toml",
@@ -40,7 +40,7 @@ class JointParts : public ::testing::Test {
   std::string refusal(std::string_view mobile) const {
     const auto path = write(mobile);
     try {
-      read_joint(path);
+      io::read_joint(path);
     } catch (const FileError& error) {
       return std::string(error.what()).substr(path.string().size() + 2);
     }
@@ -54,7 +54,7 @@ class JointParts : public ::testing::Test {
 };
 
 TEST_F(JointParts, AreOneMeshThatKnowsItsParts) {
-  const auto [joint, report] = read_joint(write(two));
+  const auto [joint, report] = io::read_joint(write(two));
   const Body& shank = joint.mobile;
   ASSERT_EQ(shank.parts.size(), 2u);
   EXPECT_EQ(shank.mesh.vertices().size(), bone().vertices.size() + meniscus().vertices.size());
@@ -68,9 +68,10 @@ TEST_F(JointParts, AreOneMeshThatKnowsItsParts) {
 }
 
 TEST_F(JointParts, CanBeBearing) {
-  const Body shank = read_joint(write("meshes = [{ name = \"tibia\", mesh = \"tibia.ply\" },\n"
-                                      "  { name = \"meniscus\", mesh = \"meniscus.ply\", bearing = true }]"))
-                         .joint.mobile;
+  const Body shank =
+      io::read_joint(write("meshes = [{ name = \"tibia\", mesh = \"tibia.ply\" },\n"
+                           "  { name = \"meniscus\", mesh = \"meniscus.ply\", bearing = true }]"))
+          .joint.mobile;
   EXPECT_EQ(shank.parts[0].contact, PartContact::ends);
   EXPECT_EQ(shank.parts[1].contact, PartContact::bearing);
   EXPECT_EQ(refusal("meshes = [{ name = \"tibia\", mesh = \"tibia.ply\", bearing = true }]"),
@@ -80,7 +81,7 @@ TEST_F(JointParts, CanBeBearing) {
 }
 
 TEST_F(JointParts, NameThePartOfAVertexAndATriangle) {
-  const Body shank = read_joint(write(two)).joint.mobile;
+  const Body shank = io::read_joint(write(two)).joint.mobile;
   const std::size_t vertices = bone().vertices.size(), triangles = bone().triangles.size();
   EXPECT_EQ(part_of_vertex(shank, vertices - 1)->name, "tibia");
   EXPECT_EQ(part_of_vertex(shank, vertices)->name, "meniscus");
@@ -90,14 +91,16 @@ TEST_F(JointParts, NameThePartOfAVertexAndATriangle) {
 }
 
 TEST_F(JointParts, AreMetAsIfTheyWereBodiesOfTheirOwn) {
-  const Joint joint = read_joint(write(two)).joint;
+  const Joint joint = io::read_joint(write(two)).joint;
   Pose X_FM = Pose::Identity();
   X_FM.translation() =
       Vec3(0, 6, 0);  // the meniscus reaches 4 mm into the femur, the tibia stays 14 mm below it
-  const JointContact whole(joint), meniscus_only(joint.fixed.mesh, mesh_of_part(joint.mobile, "meniscus"));
+  const contact::JointContact whole(joint),
+      meniscus_only(joint.fixed.mesh, mesh_of_part(joint.mobile, "meniscus"));
   auto pairs = whole.pairs(X_FM);
   EXPECT_FALSE(pairs.empty());
-  for (TrianglePair& pair : pairs) pair.mobile -= static_cast<Index>(joint.mobile.parts[1].first_triangle);
+  for (contact::TrianglePair& pair : pairs)
+    pair.mobile -= static_cast<Index>(joint.mobile.parts[1].first_triangle);
   const auto expected = meniscus_only.pairs(X_FM);
   ASSERT_EQ(pairs.size(), expected.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -107,13 +110,13 @@ TEST_F(JointParts, AreMetAsIfTheyWereBodiesOfTheirOwn) {
 }
 
 TEST_F(JointParts, AreReportedOneByOneWithTheirFiles) {
-  const LoadedJoint loaded = read_joint(write(two));
-  const Provenance from = provenance_of(loaded, {});
+  const io::LoadedJoint loaded = io::read_joint(write(two));
+  const io::Provenance from = io::provenance_of(loaded, {});
   ASSERT_EQ(from.mobile.files.size(), 2u);
   EXPECT_EQ(from.mobile.files[1].part, "meniscus");
   EXPECT_EQ(from.mobile.files[1].path, folder / "meniscus.ply");
-  EXPECT_NE(to_text(loaded).find("shank, meniscus: "), std::string::npos);
-  EXPECT_NE(to_json(loaded, {}, &from).find("\"name\": \"meniscus\""), std::string::npos);
+  EXPECT_NE(io::to_text(loaded).find("shank, meniscus: "), std::string::npos);
+  EXPECT_NE(io::frame_json(loaded, {}, &from).find("\"name\": \"meniscus\""), std::string::npos);
 }
 
 TEST_F(JointParts, WithoutSenseAreRefusedByLineAndKey) {

@@ -10,13 +10,13 @@
 namespace condyle {
 namespace {
 
-PoseDegrees degrees(double flexion, double adduction, double rotation) {
+io::PoseDegrees degrees(double flexion, double adduction, double rotation) {
   return {flexion, adduction, rotation};
 }
 
 std::string pose_refusal(std::string_view text, JointKind kind = JointKind::ball) {
   try {
-    parse_pose(text, kind, Anatomy::hip);
+    io::parse_pose(text, kind, Anatomy::hip);
   } catch (const UsageError& error) {
     return error.what();
   }
@@ -25,38 +25,39 @@ std::string pose_refusal(std::string_view text, JointKind kind = JointKind::ball
 
 TEST(PoseText, ReadsTheThreeAnglesInAnyOrder) {
   const auto expected = degrees(90, -10, 20);
-  EXPECT_EQ(parse_pose("flexion=90 adduction=-10 internal_rotation=20", JointKind::ball, Anatomy::hip),
+  EXPECT_EQ(io::parse_pose("flexion=90 adduction=-10 internal_rotation=20", JointKind::ball, Anatomy::hip),
             expected);
-  EXPECT_EQ(parse_pose("internal_rotation=20,flexion=+90,  adduction=-1e1\n", JointKind::ball, Anatomy::hip),
-            expected);
+  EXPECT_EQ(
+      io::parse_pose("internal_rotation=20,flexion=+90,  adduction=-1e1\n", JointKind::ball, Anatomy::hip),
+      expected);
 }
 
 TEST(PoseText, AnglesLeftOutAreZero) {
-  EXPECT_EQ(parse_pose("", JointKind::ball, Anatomy::hip), degrees(0, 0, 0));
-  EXPECT_EQ(parse_pose(" , ", JointKind::ball, Anatomy::hip), degrees(0, 0, 0));
-  EXPECT_EQ(parse_pose("adduction=5.5", JointKind::ball, Anatomy::hip), degrees(0, 5.5, 0));
+  EXPECT_EQ(io::parse_pose("", JointKind::ball, Anatomy::hip), degrees(0, 0, 0));
+  EXPECT_EQ(io::parse_pose(" , ", JointKind::ball, Anatomy::hip), degrees(0, 0, 0));
+  EXPECT_EQ(io::parse_pose("adduction=5.5", JointKind::ball, Anatomy::hip), degrees(0, 5.5, 0));
 }
 
 TEST(PoseText, ExtensionAbductionAndExternalRotationHaveTheOppositeSign) {
-  EXPECT_EQ(parse_pose("extension=15 abduction=40 external_rotation=-30", JointKind::ball, Anatomy::hip),
+  EXPECT_EQ(io::parse_pose("extension=15 abduction=40 external_rotation=-30", JointKind::ball, Anatomy::hip),
             degrees(-15, -40, 30));
 }
 
 TEST(PoseText, NoAngleIsMinusNought) {
-  const PoseDegrees pose =
-      parse_pose("extension=0 adduction=-0 external_rotation=0", JointKind::ball, Anatomy::hip);
+  const io::PoseDegrees pose =
+      io::parse_pose("extension=0 adduction=-0 external_rotation=0", JointKind::ball, Anatomy::hip);
   for (const double angle : {pose.flexion, pose.adduction, pose.internal_rotation})
     EXPECT_FALSE(std::signbit(angle));
-  EXPECT_EQ(to_text(pose, Anatomy::hip), "flexion=0 adduction=0 internal_rotation=0");
+  EXPECT_EQ(io::to_text(pose, Anatomy::hip), "flexion=0 adduction=0 internal_rotation=0");
 }
 
 /// Through radians and back 57 comes out as 57.00000000000001.
 TEST(PoseText, EveryDigitGivenIsKept) {
   ASSERT_NE(Angle::degrees(57).degrees(), 57);
-  EXPECT_EQ(
-      to_text(parse_pose("flexion=57 adduction=114 internal_rotation=0.1", JointKind::ball, Anatomy::hip),
-              Anatomy::hip),
-      "flexion=57 adduction=114 internal_rotation=0.1");
+  EXPECT_EQ(io::to_text(io::parse_pose("flexion=57 adduction=114 internal_rotation=0.1", JointKind::ball,
+                                       Anatomy::hip),
+                        Anatomy::hip),
+            "flexion=57 adduction=114 internal_rotation=0.1");
 }
 
 TEST(PoseText, WhatCannotBeMeantIsRefusedByName) {
@@ -78,7 +79,7 @@ TEST(PoseText, RefusalsAreShortAndOnOneLine) {
 }
 
 TEST(PoseText, AHingeRotatesInFlexionOnly) {
-  EXPECT_EQ(parse_pose("flexion=30 adduction=0", JointKind::hinge, Anatomy::hip), degrees(30, 0, 0));
+  EXPECT_EQ(io::parse_pose("flexion=30 adduction=0", JointKind::hinge, Anatomy::hip), degrees(30, 0, 0));
   EXPECT_EQ(pose_refusal("flexion=30 adduction=1", JointKind::hinge),
             "pose: a hinge rotates in flexion only, not in adduction");
 }
@@ -86,32 +87,33 @@ TEST(PoseText, AHingeRotatesInFlexionOnly) {
 RC_GTEST_PROP(PoseText, WhatIsWrittenReadsBack, ()) {
   // Not only short decimals.
   const auto angle = [] { return *rc::gen::inRange(-180000000, 180000001) * (1e-6 / 3); };
-  const PoseDegrees pose = degrees(angle(), angle(), angle());
-  RC_ASSERT(parse_pose(to_text(pose, Anatomy::hip), JointKind::ball, Anatomy::hip) == pose);
+  const io::PoseDegrees pose = degrees(angle(), angle(), angle());
+  RC_ASSERT(io::parse_pose(io::to_text(pose, Anatomy::hip), JointKind::ball, Anatomy::hip) == pose);
 }
 
 TEST(PoseText, EveryAngleIsFoundByItsName) {
   for (const auto angle : {JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation})
-    EXPECT_EQ(joint_angle_named(name_of(angle, Anatomy::hip), Anatomy::hip), angle);
-  EXPECT_THROW(joint_angle_named("extension", Anatomy::hip), UsageError);
+    EXPECT_EQ(io::joint_angle_named(name_of(angle, Anatomy::hip), Anatomy::hip), angle);
+  EXPECT_THROW(io::joint_angle_named("extension", Anatomy::hip), UsageError);
 }
 
 TEST(PoseText, EveryJointHasItsOwnNames) {
-  EXPECT_EQ(parse_pose("plantarflexion=20 inversion=5", JointKind::ball, Anatomy::ankle), degrees(-20, 5, 0));
-  EXPECT_EQ(parse_pose("flexion=90 valgus=11 pronation=30", JointKind::ball, Anatomy::elbow),
+  EXPECT_EQ(io::parse_pose("plantarflexion=20 inversion=5", JointKind::ball, Anatomy::ankle),
+            degrees(-20, 5, 0));
+  EXPECT_EQ(io::parse_pose("flexion=90 valgus=11 pronation=30", JointKind::ball, Anatomy::elbow),
             degrees(90, -11, 30));
-  EXPECT_EQ(parse_pose("plane_of_elevation=40 elevation=90 external_rotation=10", JointKind::ball,
-                       Anatomy::shoulder),
+  EXPECT_EQ(io::parse_pose("plane_of_elevation=40 elevation=90 external_rotation=10", JointKind::ball,
+                           Anatomy::shoulder),
             degrees(40, 90, -10));
-  EXPECT_EQ(to_text(degrees(1, 2, 3), Anatomy::ankle), "dorsiflexion=1 inversion=2 internal_rotation=3");
+  EXPECT_EQ(io::to_text(degrees(1, 2, 3), Anatomy::ankle), "dorsiflexion=1 inversion=2 internal_rotation=3");
   for (const Anatomy joint : all_anatomies)
     for (const JointAngle angle : all_joint_angles)
-      EXPECT_EQ(joint_angle_named(name_of(angle, joint), joint), angle);
+      EXPECT_EQ(io::joint_angle_named(name_of(angle, joint), joint), angle);
 }
 
 TEST(PoseText, ANameOfAnotherJointIsRefusedWithThoseThereAre) {
   try {
-    parse_pose("flexion=20", JointKind::ball, Anatomy::ankle);
+    io::parse_pose("flexion=20", JointKind::ball, Anatomy::ankle);
     ADD_FAILURE() << "accepted";
   } catch (const UsageError& error) {
     EXPECT_EQ(std::string(error.what()),
@@ -121,14 +123,14 @@ TEST(PoseText, ANameOfAnotherJointIsRefusedWithThoseThereAre) {
 }
 
 TEST(PoseText, OnlyAFreeJointTranslates) {
-  EXPECT_EQ(parse_pose("flexion=30 x=1.5,z=-2 y=+0.25", JointKind::free, Anatomy::knee),
-            (PoseDegrees{30, 0, 0, {1.5, 0.25, -2}}));
-  EXPECT_EQ(to_text(PoseDegrees{30, 0, 0, {1.5, 0, -2}}, Anatomy::knee),
+  EXPECT_EQ(io::parse_pose("flexion=30 x=1.5,z=-2 y=+0.25", JointKind::free, Anatomy::knee),
+            (io::PoseDegrees{30, 0, 0, {1.5, 0.25, -2}}));
+  EXPECT_EQ(io::to_text(io::PoseDegrees{30, 0, 0, {1.5, 0, -2}}, Anatomy::knee),
             "flexion=30 adduction=0 internal_rotation=0 x=1.5 y=0 z=-2");
   EXPECT_NE(pose_refusal("x=1"), "accepted");
   const auto refused = [](std::string_view text) {
     try {
-      parse_pose(text, JointKind::free, Anatomy::knee);
+      io::parse_pose(text, JointKind::free, Anatomy::knee);
     } catch (const UsageError& error) {
       return std::string(error.what());
     }
@@ -156,7 +158,7 @@ std::string matrix_text(const Pose& X) {
 
 std::string matrix_refusal(const std::string& text, JointKind kind = JointKind::free) {
   try {
-    given_pose(text, joint_of(kind, Anatomy::knee));
+    io::given_pose(text, joint_of(kind, Anatomy::knee));
   } catch (const UsageError& error) {
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
     return error.what();
@@ -169,7 +171,7 @@ const JointCoordinates bent{{Angle::degrees(40), Angle::degrees(-3), Angle::degr
 TEST(PoseMatrix, IsThePoseBitForBitAndItsCoordinatesAreTold) {
   const Joint knee = joint_of(JointKind::free, Anatomy::knee);
   const Pose X = pose_at(knee.coordinates(), bent, TranslationFrame::fixed);
-  const PoseArgument given = given_pose(matrix_text(X), knee);
+  const io::PoseArgument given = io::given_pose(matrix_text(X), knee);
   EXPECT_TRUE(given.X_FM.matrix() == X.matrix());
   EXPECT_TRUE(given.notes.empty());
   EXPECT_NEAR(given.pose.flexion, 40, 1e-12);
@@ -183,7 +185,7 @@ TEST(PoseMatrix, WithSevenDigitsIsMadeARotationAndSaysSo) {
   const Pose X = pose_at(knee.coordinates(), bent, TranslationFrame::fixed);
   Pose rounded = X;
   rounded.matrix() = (X.matrix() * 1e7).array().round() / 1e7;
-  const PoseArgument given = given_pose(matrix_text(rounded), knee);
+  const io::PoseArgument given = io::given_pose(matrix_text(rounded), knee);
   ASSERT_EQ(given.notes.size(), 1u);
   EXPECT_NE(given.notes[0].find("the nearest one is used"), std::string::npos);
   const Eigen::Matrix3d R = given.X_FM.linear();
@@ -213,7 +215,7 @@ TEST(PoseMatrix, OfAJointThatDoesNotTranslateHasNoTranslation) {
 
 TEST(PoseMatrix, OfAHingeTurnsAboutItsAxis) {
   const Joint hinge = joint_of(JointKind::hinge, Anatomy::knee);
-  EXPECT_EQ(given_pose("0 1 0 0 -1 0 0 0 0 0 1 0 0 0 0 1", hinge).pose.flexion, 90);
+  EXPECT_EQ(io::given_pose("0 1 0 0 -1 0 0 0 0 0 1 0 0 0 0 1", hinge).pose.flexion, 90);
   EXPECT_EQ(matrix_refusal("1 0 0 0 0 0 -1 0 0 1 0 0 0 0 0 1", JointKind::hinge),
             "pose: a hinge rotates in flexion only, not in adduction");
 }

@@ -66,13 +66,13 @@ constexpr double rounding_mm = 16 * 0x1p-44;
 class PosedParts : public ::testing::TestWithParam<Side> {
  protected:
   void SetUp() override {
-    SampleHip hip = sample_hip({}, Scenario::three);
-    if (GetParam() == Side::left) hip = mirrored(hip);
+    sample::SampleHip hip = sample::sample_hip({}, sample::Scenario::three);
+    if (GetParam() == Side::left) hip = sample::mirrored(hip);
     fragment = hip.hip_bone;
     femur = hip.femur;
-    write_mesh(folder / "fragment.ply", fragment);
-    write_mesh(folder / "femur.ply", femur);
-    write_mesh(folder / "rest.ply", rest);
+    io::write_mesh(folder / "fragment.ply", fragment);
+    io::write_mesh(folder / "femur.ply", femur);
+    io::write_mesh(folder / "rest.ply", rest);
   }
   std::filesystem::path write(std::string_view more) const {
     return folder.file("joint.toml", joint_text(name_of(GetParam()),
@@ -83,7 +83,7 @@ class PosedParts : public ::testing::TestWithParam<Side> {
   std::string refusal(std::string_view more) const {
     const auto path = write(more);
     try {
-      read_joint(path);
+      io::read_joint(path);
     } catch (const FileError& error) {
       return std::string(error.what()).substr(path.string().size() + 2);
     }
@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(Sides, PosedParts, ::testing::Values(Side::right, Side:
                          [](const auto& info) { return std::string(name_of(info.param)); });
 
 TEST_P(PosedParts, KeepEveryBitAsGiven) {
-  const Joint without = read_joint(write("")).joint, with = read_joint(write(three)).joint;
+  const Joint without = io::read_joint(write("")).joint, with = io::read_joint(write(three)).joint;
   EXPECT_EQ(with.fixed.mesh.arrays(), without.fixed.mesh.arrays());
   EXPECT_EQ(with.mobile.mesh.arrays(), without.mobile.mesh.arrays());
   const ParameterValue there{"fragment.frontal", 10}, back{"fragment.frontal", 0};
@@ -112,7 +112,7 @@ TEST_P(PosedParts, KeepEveryBitAsGiven) {
 }
 
 TEST_P(PosedParts, TurnByVersionThenSagittallyThenFrontally) {
-  const Joint joint = read_joint(write(three)).joint;
+  const Joint joint = io::read_joint(write(three)).joint;
   const auto values = parse_parameters("fragment.frontal=6 fragment.sagittal=-4, fragment.version=8");
   const Joint turned = with_parameters(joint, values);
   const Eigen::Affine3d Q = about(Vec3::Zero(), turned_by_hand(sense() * 6, -4, sense() * 8));
@@ -125,13 +125,13 @@ TEST_P(PosedParts, TurnByVersionThenSagittallyThenFrontally) {
 }
 
 TEST_P(PosedParts, HaveTheLimitsOfMeshesTurnedByHand) {
-  const LoadedJoint joint = read_joint(write(three));
+  const io::LoadedJoint joint = io::read_joint(write(three));
   const ParameterValue ten{"fragment.frontal", 10};
-  const LoadedJoint turned = with_parameters(joint, {&ten, 1});
-  write_mesh(folder / "fragment.ply",
-             moved_by_hand(fragment, about(Vec3::Zero(), turned_by_hand(sense() * 10, 0, 0))));
-  const LoadedJoint by_hand = read_joint(write(""));
-  const auto motions = hip_motions();
+  const io::LoadedJoint turned = with_parameters(joint, {&ten, 1});
+  io::write_mesh(folder / "fragment.ply",
+                 moved_by_hand(fragment, about(Vec3::Zero(), turned_by_hand(sense() * 10, 0, 0))));
+  const io::LoadedJoint by_hand = io::read_joint(write(""));
+  const auto motions = motion::hip_motions();
   const auto limits = answer_range(turned.joint, turned.report.placement, {.motions = motions}).limits,
              expected = answer_range(by_hand.joint, by_hand.report.placement, {.motions = motions}).limits,
              before = answer_range(joint.joint, joint.report.placement, {.motions = motions}).limits;
@@ -145,7 +145,7 @@ TEST_P(PosedParts, HaveTheLimitsOfMeshesTurnedByHand) {
 }
 
 TEST_P(PosedParts, AddTheirFrontalTurnToTheLateralCentreEdgeAngle) {
-  const Joint joint = read_joint(write(three)).joint;
+  const Joint joint = io::read_joint(write(three)).joint;
   const auto lateral = [](const Joint& at) {
     return *answer_measures(at).measures.acetabulum.centre_edge_lateral.value;
   };
@@ -165,7 +165,7 @@ TEST_P(PosedParts, AreMovedByEveryKindOfParameter) {
       parameter_text("up", "kind = \"translation\"\nalong = [0, 1, 0]\nrange = [-5, 5]\nvalue = 3") +
       parameter_text("diameter", "kind = \"size\"\nas_given = 52\nrange = [40, 60]\nvalue = 54");
   const Joint joint =
-      read_joint(write(part_text(std::string(head) + "\ncentre = [1, 2, 3]", parameters))).joint;
+      io::read_joint(write(part_text(std::string(head) + "\ncentre = [1, 2, 3]", parameters))).joint;
   const Eigen::Matrix3d R = 54.0 / 52 * turned_by_hand(-sense() * 5, 0, 0);
   EXPECT_LT(distance(mesh_of_part(joint.fixed, "fragment"),
                      moved_by_hand(fragment, about({1, 2, 3}, R, {0, 3, -2 * sense()}))),
@@ -180,7 +180,7 @@ TEST_P(PosedParts, AreMovedByEveryKindOfParameter) {
 
 TEST_P(PosedParts, MoveAfterThoseThatTheFileHasBefore) {
   const Joint joint =
-      read_joint(write(three + part_text("name = \"pelvis\"\nbody = \"fixed\"", parameter_text("tilt"))))
+      io::read_joint(write(three + part_text("name = \"pelvis\"\nbody = \"fixed\"", parameter_text("tilt"))))
           .joint;
   const auto values = parse_parameters("pelvis.tilt=12 fragment.frontal=5");
   const Joint moved = with_parameters(joint, values);
@@ -221,7 +221,7 @@ TEST_P(PosedParts, AreRefusedInOneLine) {
 }
 
 TEST_P(PosedParts, TakeValuesOnlyThatTheyMayHave) {
-  const Joint joint = read_joint(write(three)).joint;
+  const Joint joint = io::read_joint(write(three)).joint;
   const auto refused = [](const Joint& of, std::string_view values) -> std::string {
     try {
       with_parameters(of, parse_parameters(values));
@@ -242,35 +242,39 @@ TEST_P(PosedParts, TakeValuesOnlyThatTheyMayHave) {
     EXPECT_EQ(refused(joint, bad),
               "\"" + std::string(bad) + "\" is not a parameter and its value, as in cup.inclination=42");
   EXPECT_EQ(refused(joint, " "), "no parameter is given, as in cup.inclination=42");
-  EXPECT_EQ(refused(read_joint(write("")).joint, "fragment.frontal=1"),
+  EXPECT_EQ(refused(io::read_joint(write("")).joint, "fragment.frontal=1"),
             "the joint has no part with parameters: its file has no [[part]]");
 }
 
 TEST_P(PosedParts, StandInTheProvenance) {
-  const LoadedJoint joint = read_joint(write(three));
+  const io::LoadedJoint joint = io::read_joint(write(three));
   const ParameterValue ten{"fragment.frontal", 10};
-  const Provenance from = provenance_of(with_parameters(joint, {&ten, 1}), {});
+  const io::Provenance from = io::provenance_of(with_parameters(joint, {&ten, 1}), {});
   const auto json = io::provenance_json(&from)["parameters"];
   ASSERT_EQ(json.size(), 3u);
   EXPECT_EQ(json[0]["name"], "fragment.frontal");
   EXPECT_EQ(json[0]["value"], 10);
   EXPECT_EQ(json[0]["in_joint_file"], 0);
   EXPECT_EQ(json[0]["unit"], "deg");
-  const Provenance without = provenance_of(read_joint(write("")), {});
+  const io::Provenance without = io::provenance_of(io::read_joint(write("")), {});
   EXPECT_FALSE(io::provenance_json(&without).contains("parameters"));
 }
 
 /// A resected bone is what parts move from then on: at the values that it was cut at, and at others.
 TEST_P(PosedParts, StayWithoutTheBoneThatWasCut) {
   const Joint joint =
-      read_joint(write(part_text("name = \"femur\"\nbody = \"mobile\"", parameter_text("version")))).joint;
+      io::read_joint(write(part_text("name = \"femur\"\nbody = \"mobile\"", parameter_text("version"))))
+          .joint;
   const ParameterValue eight{"femur.version", 8}, as_given{"femur.version", 0};
   const Joint turned = with_parameters(joint, {&eight, 1});
-  const Motion motion = motion_named(hip_motions(), "internal_rotation_at_90_flexion");
-  const auto limit = [&](const Joint& of) { return RangeOfMotion(of).limit(motion).end.turned.degrees(); };
-  ResectionRequest request;
+  const motion::Motion motion =
+      motion::motion_named(motion::hip_motions(), "internal_rotation_at_90_flexion");
+  const auto limit = [&](const Joint& of) {
+    return motion::RangeOfMotion(of).limit(motion).end.turned.degrees();
+  };
+  plan::ResectionRequest request;
   request.targets = {{motion, Angle::degrees(limit(turned) + 3)}};
-  const Joint cut = resect(turned, request).joint;
+  const Joint cut = plan::resect(turned, request).joint;
   const Joint again = with_parameters(cut, {&eight, 1});
   EXPECT_LT(distance(again.mobile.mesh.arrays(), cut.mobile.mesh.arrays()), rounding_mm);
   EXPECT_EQ(again.fixed.mesh.arrays(), cut.fixed.mesh.arrays());
@@ -292,18 +296,18 @@ TEST_P(PosedParts, StayWithoutTheBoneThatWasCut) {
 TEST_P(PosedParts, WidenBandsByTheirStandardDeviations) {
   const std::string uncertain =
       part_text("name = \"pelvis\"\nbody = \"fixed\"", parameter_text("tilt", "range = [-9, 9]\nsigma = 3"));
-  const Joint joint = read_joint(write(uncertain)).joint, sure = read_joint(write("")).joint;
-  const std::vector<Motion> motions = {motion_named(hip_motions(), "flexion")};
-  const BandOptions nothing_else{.sigma = {.centre_mm = 0, .axes = Angle(), .surface_mm = 0}};
-  const LimitBand band = limit_bands(joint, motions, {}, nothing_else).front();
+  const Joint joint = io::read_joint(write(uncertain)).joint, sure = io::read_joint(write("")).joint;
+  const std::vector<motion::Motion> motions = {motion::motion_named(motion::hip_motions(), "flexion")};
+  const motion::BandOptions nothing_else{.sigma = {.centre_mm = 0, .axes = Angle(), .surface_mm = 0}};
+  const motion::LimitBand band = motion::limit_bands(joint, motions, {}, nothing_else).front();
   // A tilt changes the limit of flexion by exactly as much: 5 to 95 % of a normal distribution are 3.29 standard deviations apart, a
   // Latin hypercube of 200 has them within one of its strata, a hundredth.
   EXPECT_NEAR((band.p95 - band.p5).degrees(), 3 * 3.2897, 0.2);
   EXPECT_EQ(band.width_from.parameters, band.p95 - band.p5);
   EXPECT_EQ(band.width_from.surface, Angle());
   // Draws of the others do not depend on the parameters.
-  const LimitBand all = limit_bands(joint, motions, {}, {}).front(),
-                  before = limit_bands(sure, motions, {}, {}).front();
+  const motion::LimitBand all = motion::limit_bands(joint, motions, {}, {}).front(),
+                          before = motion::limit_bands(sure, motions, {}, {}).front();
   EXPECT_EQ(all.width_from.centre, before.width_from.centre);
   EXPECT_EQ(all.width_from.axes, before.width_from.axes);
   EXPECT_EQ(all.width_from.surface, before.width_from.surface);
@@ -321,13 +325,13 @@ TEST(PosedBones, OfARealHipTurnItsLimitsExactly) {
                  "mesh = \"" + (*data / "hip_vhf_right/femur.ply").string() + "\"",
                  part_text("name = \"pelvis\"\nbody = \"fixed\"", parameter_text("tilt")) +
                      part_text("name = \"femur\"\nbody = \"mobile\"", parameter_text("version"))));
-  const LoadedJoint joint = read_joint(path);
+  const io::LoadedJoint joint = io::read_joint(path);
   const auto limits = [&](std::string_view values) {
-    const LoadedJoint at = values.empty() ? joint : with_parameters(joint, parse_parameters(values));
-    return answer_range(at.joint, at.report.placement, {.motions = hip_motions()}).limits;
+    const io::LoadedJoint at = values.empty() ? joint : with_parameters(joint, parse_parameters(values));
+    return answer_range(at.joint, at.report.placement, {.motions = motion::hip_motions()}).limits;
   };
-  const auto degrees = [](const std::vector<MotionLimit>& of, std::string_view motion) {
-    for (const MotionLimit& limit : of)
+  const auto degrees = [](const std::vector<motion::MotionLimit>& of, std::string_view motion) {
+    for (const motion::MotionLimit& limit : of)
       if (limit.motion.name == motion) return limit.end.turned.degrees();
     return -1.0;
   };

@@ -37,7 +37,7 @@ TEST_P(RealFit, IsFoundWithoutAHint) {
   const auto& published = GetParam();
   const fs::path path = data_folder() / published.mesh;
   if (!fs::exists(path)) GTEST_SKIP() << path << " is not here";
-  const auto patch = find_sphere(read_mesh(path).mesh, {.part = published.part});
+  const auto patch = find_sphere(io::read_mesh(path).mesh, {.part = published.part});
   EXPECT_LE((patch.fit.sphere.centre - published.centre).norm(), centre_tolerance);
   EXPECT_NEAR(patch.fit.sphere.radius, published.radius, radius_tolerance);
   EXPECT_LE(patch.fit.rms_residual, 1.5 * published.rms);
@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(RealFemur, ADirtyFemurInScannerAxesStillShowsItsHead) {
   const fs::path path = data_folder() / "femur_libhip_m5_right_dirty/femur_tracked_surface.stl";
   if (!fs::exists(path)) GTEST_SKIP() << path << " is not here";
-  const auto patch = find_sphere(read_mesh(path).mesh);
+  const auto patch = find_sphere(io::read_mesh(path).mesh);
   // Femoral heads of adults: 20 to 30 mm.
   EXPECT_GT(patch.fit.sphere.radius, 20);
   EXPECT_LT(patch.fit.sphere.radius, 30);
@@ -80,7 +80,7 @@ TEST(RealFemur, ADirtyFemurInScannerAxesStillShowsItsHead) {
 TEST(RealFemur, AFitDoesNotDependOnWhereTheFemurLies) {
   const fs::path path = data_folder() / "hip_vhf_right/femur.ply";
   if (!fs::exists(path)) GTEST_SKIP() << path << " is not here";
-  const TriMesh femur = read_mesh(path).mesh;
+  const TriMesh femur = io::read_mesh(path).mesh;
   const auto still = find_sphere(femur);
   Pose X = Pose(Eigen::AngleAxisd(1.1, Vec3(1, 2, 3).normalized()));
   X.translation() = Vec3(10000, -3000, 500);
@@ -101,7 +101,7 @@ TEST(RealJoint, TheVisibleHumanHipIsReadWithItsMetresSourceNamedAsSuch) {
       "condyle = 1\nname = \"hip\"\nkind = \"ball\"\nside = \"left\"\nunits = \"mm\"\n[fixed]\nmesh = \"" +
           fs::absolute(pelvis).string() + "\"\n[mobile]\nmesh = \"" + fs::absolute(source).string() +
           "\"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n");
-  EXPECT_THROW(read_joint(joint), FileError);
+  EXPECT_THROW(io::read_joint(joint), FileError);
 }
 
 }  // namespace

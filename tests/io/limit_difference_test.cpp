@@ -15,24 +15,24 @@ using io::DifferenceIs;
 using io::limit_differences;
 using io::LimitDifference;
 
-MotionLimit limit_at(double deg, LimitReason reason) {
-  MotionLimit limit;
+motion::MotionLimit limit_at(double deg, motion::LimitReason reason) {
+  motion::MotionLimit limit;
   limit.motion.name = "there";
   limit.end.turned = Angle::degrees(deg);
   limit.end.reason = reason;
   return limit;
 }
 
-LimitDifference difference_of(const MotionLimit& before, const MotionLimit& after) {
+LimitDifference difference_of(const motion::MotionLimit& before, const motion::MotionLimit& after) {
   const Joint joint = arm_and_post();
-  const std::vector<MotionLimit> of_before{before}, of_after{after};
+  const std::vector<motion::MotionLimit> of_before{before}, of_after{after};
   return limit_differences({.joint = joint, .limits = of_before}, {.joint = joint, .limits = of_after})
       .front();
 }
 
 TEST(LimitDifference, IsAfterMinusBeforeIfBothMotionsEndByContact) {
-  const LimitDifference less =
-      difference_of(limit_at(100, LimitReason::contact), limit_at(87.5, LimitReason::contact));
+  const LimitDifference less = difference_of(limit_at(100, motion::LimitReason::contact),
+                                             limit_at(87.5, motion::LimitReason::contact));
   EXPECT_EQ(less.motion, "there");
   EXPECT_NEAR(*less.by_deg, -12.5, 1e-13);
   EXPECT_EQ(less.is, DifferenceIs::exact);
@@ -40,7 +40,8 @@ TEST(LimitDifference, IsAfterMinusBeforeIfBothMotionsEndByContact) {
 }
 
 TEST(LimitDifference, IsABoundIfTheRangeOfOneMotionEndsFirst) {
-  const MotionLimit met = limit_at(80, LimitReason::contact), free = limit_at(90, LimitReason::end_of_range);
+  const motion::MotionLimit met = limit_at(80, motion::LimitReason::contact),
+                            free = limit_at(90, motion::LimitReason::end_of_range);
   EXPECT_EQ(difference_of(met, free).is, DifferenceIs::at_least);
   EXPECT_NEAR(*difference_of(met, free).by_deg, 10, 1e-13);
   EXPECT_EQ(difference_of(free, met).is, DifferenceIs::at_most);
@@ -48,24 +49,26 @@ TEST(LimitDifference, IsABoundIfTheRangeOfOneMotionEndsFirst) {
 }
 
 TEST(LimitDifference, IsUnknownIfNeitherMotionEndsByContactOrOneStartsInIt) {
-  const MotionLimit met = limit_at(80, LimitReason::contact), free = limit_at(90, LimitReason::end_of_range),
-                    starts = limit_at(0, LimitReason::contact_at_start);
+  const motion::MotionLimit met = limit_at(80, motion::LimitReason::contact),
+                            free = limit_at(90, motion::LimitReason::end_of_range),
+                            starts = limit_at(0, motion::LimitReason::contact_at_start);
   EXPECT_FALSE(difference_of(free, free).by_deg);
   EXPECT_FALSE(difference_of(starts, met).by_deg);
   EXPECT_FALSE(difference_of(met, starts).by_deg);
 }
 
 /// Limits of displaced joints from 60 to 79 degrees, each turned by so much more.
-LimitBand band_of(double more_deg, double slope = 0) {
-  LimitBand band{};
+motion::LimitBand band_of(double more_deg, double slope = 0) {
+  motion::LimitBand band{};
   for (int i = 0; i < 20; ++i) band.turned.push_back(Angle::degrees(60 + i + more_deg + slope * i));
   return band;
 }
 
-LimitDifference with_bands(const LimitBand& before, const LimitBand& after, std::uint64_t seed_after = 1) {
+LimitDifference with_bands(const motion::LimitBand& before, const motion::LimitBand& after,
+                           std::uint64_t seed_after = 1) {
   const Joint joint = arm_and_post();
-  const std::vector<MotionLimit> limits{limit_at(70, LimitReason::contact)};
-  const std::vector<LimitBand> of_before{before}, of_after{after};
+  const std::vector<motion::MotionLimit> limits{limit_at(70, motion::LimitReason::contact)};
+  const std::vector<motion::LimitBand> of_before{before}, of_after{after};
   return limit_differences(
              {.joint = joint, .limits = limits, .bands = of_before, .band_options = {.samples = 20}},
              {.joint = joint,
@@ -99,11 +102,11 @@ TEST(LimitDifference, HasNoBandOfJointsThatAreDisplacedByOtherAmounts) {
 
 TEST(LimitDifference, OfAMotionOfTheSameJointIsZeroInEveryDisplacedOne) {
   const Joint joint = arm_and_post();
-  const std::vector<Motion> motions = built_in_motions(joint.kind, joint.anatomy);
-  const std::vector<MotionLimit> limits = RangeOfMotion(joint).limits(motions);
-  const BandOptions options{.samples = 20};
-  const std::vector<LimitBand> bands = limit_bands(joint, motions, {}, options);
-  const RomResult rom{.joint = joint, .limits = limits, .bands = bands, .band_options = options};
+  const std::vector<motion::Motion> motions = motion::built_in_motions(joint.kind, joint.anatomy);
+  const std::vector<motion::MotionLimit> limits = motion::RangeOfMotion(joint).limits(motions);
+  const motion::BandOptions options{.samples = 20};
+  const std::vector<motion::LimitBand> bands = motion::limit_bands(joint, motions, {}, options);
+  const io::RomResult rom{.joint = joint, .limits = limits, .bands = bands, .band_options = options};
   for (const LimitDifference& each : limit_differences(rom, rom)) {
     if (!each.by_deg) continue;
     EXPECT_EQ(*each.by_deg, 0);

@@ -49,14 +49,17 @@ TEST(LimitFields, AreInThePageAsTheyAreInTheFiles) {
 
 TEST(LimitFields, HaveAsManyTextsAsColumnsForAnyLimit) {
   const Joint joint = arm_and_post();
-  MotionLimit free;
+  motion::MotionLimit free;
   free.motion = {"own", JointAngle::adduction, RotationSense::negative, {}, Angle::degrees(40)};
-  MotionLimit contact = free;
-  contact.end.reason = LimitReason::contact;
-  contact.end.contact = {
-      {FeatureKind::edge, 3, 17}, {FeatureKind::face, 40}, {1, 2, 3}, {4, 5, 6}, ContactKind::bearing};
-  const std::vector<MotionLimit> limits = {free, contact};
-  const RomResult result{.joint = joint, .limits = limits};
+  motion::MotionLimit contact = free;
+  contact.end.reason = motion::LimitReason::contact;
+  contact.end.contact = {{motion::FeatureKind::edge, 3, 17},
+                         {motion::FeatureKind::face, 40},
+                         {1, 2, 3},
+                         {4, 5, 6},
+                         motion::ContactKind::bearing};
+  const std::vector<motion::MotionLimit> limits = {free, contact};
+  const io::RomResult result{.joint = joint, .limits = limits};
   for (std::size_t i = 0; i < limits.size(); ++i) {
     for (const io::LimitField& field : io::limit_fields()) {
       std::vector<std::string> texts;

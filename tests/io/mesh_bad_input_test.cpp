@@ -15,9 +15,9 @@ namespace condyle {
 namespace {
 
 /// Message of the reader's error; "read" if there is none.
-std::string complaint(std::string_view bytes, MeshFormat format, std::string_view name = "bone") {
+std::string complaint(std::string_view bytes, io::MeshFormat format, std::string_view name = "bone") {
   try {
-    read_mesh(bytes, format, name);
+    io::read_mesh(bytes, format, name);
   } catch (const FileError& error) {
     return error.what();
   }
@@ -26,7 +26,7 @@ std::string complaint(std::string_view bytes, MeshFormat format, std::string_vie
 
 std::string complaint(const std::filesystem::path& path) {
   try {
-    read_mesh(path);
+    io::read_mesh(path);
   } catch (const FileError& error) {
     return error.what();
   }
@@ -95,11 +95,11 @@ class Folder {
 };
 
 TEST(BadMeshFile, TheFilesThatTheOthersAreMadeFromAreGood) {
-  EXPECT_EQ(complaint(ply_text, MeshFormat::ply), "read");
-  EXPECT_EQ(complaint(obj_text, MeshFormat::obj), "read");
-  EXPECT_EQ(complaint(stl_text, MeshFormat::stl), "read");
-  EXPECT_EQ(complaint(vtp_text, MeshFormat::vtp), "read");
-  EXPECT_EQ(complaint(vtk_text, MeshFormat::vtk), "read");
+  EXPECT_EQ(complaint(ply_text, io::MeshFormat::ply), "read");
+  EXPECT_EQ(complaint(obj_text, io::MeshFormat::obj), "read");
+  EXPECT_EQ(complaint(stl_text, io::MeshFormat::stl), "read");
+  EXPECT_EQ(complaint(vtp_text, io::MeshFormat::vtp), "read");
+  EXPECT_EQ(complaint(vtk_text, io::MeshFormat::vtk), "read");
 }
 
 TEST(BadMeshFile, AMissingFileAFolderAndAnUnknownExtensionAreNamed) {
@@ -120,8 +120,8 @@ TEST(BadMeshFile, ExtensionsMayBeInCapitals) {
 }
 
 TEST(BadMeshFile, AnEmptyFileIsSaidToBeEmptyInEveryFormat) {
-  for (const auto format :
-       {MeshFormat::stl, MeshFormat::obj, MeshFormat::ply, MeshFormat::vtp, MeshFormat::vtk}) {
+  for (const auto format : {io::MeshFormat::stl, io::MeshFormat::obj, io::MeshFormat::ply,
+                            io::MeshFormat::vtp, io::MeshFormat::vtk}) {
     EXPECT_EQ(complaint("", format), "bone: the file is empty");
   }
 }
@@ -130,12 +130,13 @@ TEST(BadMeshFile, AnEmptyFileIsSaidToBeEmptyInEveryFormat) {
 /// In an OBJ file nothing says where it ends: one cut at a line's end is a smaller mesh, and only that.
 TEST(BadMeshFile, ACutAnywhereIsNoticedInEveryEncoding) {
   for (const auto& file : test::all_files(tetrahedron)) {
-    const TriMesh whole = read_mesh(file.bytes, file.format, file.name).mesh;
+    const TriMesh whole = io::read_mesh(file.bytes, file.format, file.name).mesh;
     int refused = 0;
     for (std::size_t size = 0; size < file.bytes.size(); ++size) {
       try {
-        const TriMesh cut = read_mesh(std::string_view(file.bytes).substr(0, size), file.format, "cut").mesh;
-        if (file.format == MeshFormat::obj) {
+        const TriMesh cut =
+            io::read_mesh(std::string_view(file.bytes).substr(0, size), file.format, "cut").mesh;
+        if (file.format == io::MeshFormat::obj) {
           ASSERT_LE(cut.triangles.size(), whole.triangles.size());
           ASSERT_TRUE(std::equal(cut.triangles.begin(), cut.triangles.end(), whole.triangles.begin()))
               << file.name << " at " << size;
@@ -155,164 +156,166 @@ TEST(BadMeshFile, ACutAnywhereIsNoticedInEveryEncoding) {
 
 TEST(BadMeshFile, ACutSaysWhereTheFileEnds) {
   const auto stl = test::stl_files(tetrahedron)[1].bytes;
-  EXPECT_EQ(complaint(std::string_view(stl).substr(0, 200), MeshFormat::stl),
+  EXPECT_EQ(complaint(std::string_view(stl).substr(0, 200), io::MeshFormat::stl),
             "bone: header: 4 triangles need 284 bytes, the file has 200");
-  EXPECT_EQ(complaint(std::string_view("\x01\x02 not long enough"), MeshFormat::stl),
+  EXPECT_EQ(complaint(std::string_view("\x01\x02 not long enough"), io::MeshFormat::stl),
             "bone: header: the file has 18 bytes, an STL file at least 84");
-  EXPECT_EQ(complaint(std::string_view(stl_text).substr(0, stl_text.find("endsolid")), MeshFormat::stl),
+  EXPECT_EQ(complaint(std::string_view(stl_text).substr(0, stl_text.find("endsolid")), io::MeshFormat::stl),
             "bone: line 9: the file ends before 'endsolid'");
   EXPECT_EQ(
-      complaint(std::string_view(stl_text).substr(0, stl_text.find(" 0 0\nvertex 0 1")), MeshFormat::stl),
+      complaint(std::string_view(stl_text).substr(0, stl_text.find(" 0 0\nvertex 0 1")), io::MeshFormat::stl),
       "bone: line 5: the file ends where a coordinate should be");
-  EXPECT_EQ(complaint(std::string_view(obj_text).substr(0, obj_text.size() - 3), MeshFormat::obj),
+  EXPECT_EQ(complaint(std::string_view(obj_text).substr(0, obj_text.size() - 3), io::MeshFormat::obj),
             "bone: line 4: face 0 has 2 corners: only triangles are read");
-  EXPECT_EQ(complaint("v 0 0 0\nv 1 0", MeshFormat::obj), "bone: line 2: a vertex needs three coordinates");
-  EXPECT_EQ(complaint("ply\nformat ascii 1.0\n", MeshFormat::ply),
+  EXPECT_EQ(complaint("v 0 0 0\nv 1 0", io::MeshFormat::obj),
+            "bone: line 2: a vertex needs three coordinates");
+  EXPECT_EQ(complaint("ply\nformat ascii 1.0\n", io::MeshFormat::ply),
             "bone: header: the file ends before 'end_header'");
-  EXPECT_EQ(complaint(std::string_view(ply_text).substr(0, ply_text.size() - 3), MeshFormat::ply),
+  EXPECT_EQ(complaint(std::string_view(ply_text).substr(0, ply_text.size() - 3), io::MeshFormat::ply),
             "bone: face 0: a list of 3 values does not fit the file");
-  EXPECT_EQ(complaint(std::string_view(vtp_text).substr(0, vtp_text.find("</Points>")), MeshFormat::vtp),
+  EXPECT_EQ(complaint(std::string_view(vtp_text).substr(0, vtp_text.find("</Points>")), io::MeshFormat::vtp),
             "bone: line 11: the file ends before '</Points>'");
-  EXPECT_EQ(complaint(std::string_view(vtk_text).substr(0, vtk_text.size() - 3), MeshFormat::vtk),
+  EXPECT_EQ(complaint(std::string_view(vtk_text).substr(0, vtk_text.size() - 3), io::MeshFormat::vtk),
             "bone: polygons: 4 numbers announced, the file ends before");
 }
 
 TEST(BadMeshFile, ACoordinateThatIsNoFiniteNumberNamesItsVertex) {
-  EXPECT_EQ(complaint(with(ply_text, "1 0 0", "1 nan 0"), MeshFormat::ply),
+  EXPECT_EQ(complaint(with(ply_text, "1 0 0", "1 nan 0"), io::MeshFormat::ply),
             "bone: vertex 1: coordinate y is nan");
-  EXPECT_EQ(complaint(with(ply_text, "0 1 0\n", "0 1 -inf\n"), MeshFormat::ply),
+  EXPECT_EQ(complaint(with(ply_text, "0 1 0\n", "0 1 -inf\n"), io::MeshFormat::ply),
             "bone: vertex 2: coordinate z is -inf");
-  EXPECT_EQ(complaint(with(obj_text, "v 1 0 0", "v inf 0 0"), MeshFormat::obj),
+  EXPECT_EQ(complaint(with(obj_text, "v 1 0 0", "v inf 0 0"), io::MeshFormat::obj),
             "bone: vertex 1: coordinate x is inf");
-  EXPECT_EQ(complaint(with(stl_text, "vertex 0 1 0", "vertex 0 NaN 0"), MeshFormat::stl),
+  EXPECT_EQ(complaint(with(stl_text, "vertex 0 1 0", "vertex 0 NaN 0"), io::MeshFormat::stl),
             "bone: vertex 2: coordinate y is nan");
-  EXPECT_EQ(complaint(with(vtp_text, "0 1 0", "0 1 INF"), MeshFormat::vtp),
+  EXPECT_EQ(complaint(with(vtp_text, "0 1 0", "0 1 INF"), io::MeshFormat::vtp),
             "bone: vertex 2: coordinate z is inf");
-  EXPECT_EQ(complaint(with(vtk_text, "0 1 0", "0 1 nan"), MeshFormat::vtk),
+  EXPECT_EQ(complaint(with(vtk_text, "0 1 0", "0 1 nan"), io::MeshFormat::vtk),
             "bone: vertex 2: coordinate z is nan");
 
   // Triangle 2, second corner, y, in binary: 84 bytes of header, 50 a triangle, 12 of normal, 12 a corner.
   const auto stl = test::stl_files(tetrahedron)[1].bytes;
   EXPECT_EQ(complaint(with_value(stl, 84 + 2 * 50 + 12 + 12 + 4, std::numeric_limits<float>::infinity()),
-                      MeshFormat::stl),
+                      io::MeshFormat::stl),
             "bone: vertex 7: coordinate y is inf");
 }
 
 TEST(BadMeshFile, AnIndexOutOfRangeNamesItsTriangle) {
-  EXPECT_EQ(complaint(with(ply_text, "3 0 1 2", "3 0 1 3"), MeshFormat::ply, "femur.ply"),
+  EXPECT_EQ(complaint(with(ply_text, "3 0 1 2", "3 0 1 3"), io::MeshFormat::ply, "femur.ply"),
             "femur.ply: triangle 0 uses vertex 3 of 3");
-  EXPECT_EQ(complaint(with(ply_text, "3 0 1 2", "3 0 -1 2"), MeshFormat::ply),
+  EXPECT_EQ(complaint(with(ply_text, "3 0 1 2", "3 0 -1 2"), io::MeshFormat::ply),
             "bone: triangle 0 uses vertex -1 of 3");
-  EXPECT_EQ(complaint(with(obj_text, "f 1 2 3", "f 1 2 4"), MeshFormat::obj),
+  EXPECT_EQ(complaint(with(obj_text, "f 1 2 3", "f 1 2 4"), io::MeshFormat::obj),
             "bone: line 4: face uses vertex 4 of 3");
-  EXPECT_EQ(complaint(with(obj_text, "f 1 2 3", "f -1 -2 -4"), MeshFormat::obj),
+  EXPECT_EQ(complaint(with(obj_text, "f 1 2 3", "f -1 -2 -4"), io::MeshFormat::obj),
             "bone: line 4: face uses vertex -4 after 3 vertices");
-  EXPECT_EQ(complaint(with(obj_text, "f 1 2 3", "f 0 1 2"), MeshFormat::obj),
+  EXPECT_EQ(complaint(with(obj_text, "f 1 2 3", "f 0 1 2"), io::MeshFormat::obj),
             "bone: line 4: '0' should be a vertex number, from 1 or, counted back, from -1");
-  EXPECT_EQ(complaint(with(vtp_text, "0 1 2", "0 1 2147483647"), MeshFormat::vtp),
+  EXPECT_EQ(complaint(with(vtp_text, "0 1 2", "0 1 2147483647"), io::MeshFormat::vtp),
             "bone: triangle 0 uses vertex 2147483647 of 3");
-  EXPECT_EQ(complaint(with(vtk_text, "3 0 1 2", "3 0 1 9"), MeshFormat::vtk),
+  EXPECT_EQ(complaint(with(vtk_text, "3 0 1 2", "3 0 1 9"), io::MeshFormat::vtk),
             "bone: triangle 0 uses vertex 9 of 3");
   // Beyond 64 signed bits.
   EXPECT_EQ(complaint(with(with(vtp_text, "Int32", "UInt64"), "0 1 2<", "0 1 18446744073709551615<"),
-                      MeshFormat::vtp),
+                      io::MeshFormat::vtp),
             "bone: triangle 0 uses vertex 9223372036854775807 of 3");
 }
 
 TEST(BadMeshFile, CountsThatTheFileCannotHoldAreNotBelieved) {
-  EXPECT_EQ(complaint(with(ply_text, "vertex 3", "vertex 99999999999"), MeshFormat::ply),
+  EXPECT_EQ(complaint(with(ply_text, "vertex 3", "vertex 99999999999"), io::MeshFormat::ply),
             "bone: header: 99999999999 elements 'vertex' announced, more than the rest of the file can hold");
-  EXPECT_EQ(complaint(with(ply_text, "face 1", "face 18446744073709551615"), MeshFormat::ply),
+  EXPECT_EQ(complaint(with(ply_text, "face 1", "face 18446744073709551615"), io::MeshFormat::ply),
             "bone: header: 18446744073709551615 elements 'face' announced, more than the rest of the file "
             "can hold");
-  EXPECT_EQ(complaint(with(ply_text, "vertex 3", "vertex -3"), MeshFormat::ply),
+  EXPECT_EQ(complaint(with(ply_text, "vertex 3", "vertex -3"), io::MeshFormat::ply),
             "bone: line 3: '-3' should be the count of elements 'vertex'");
-  EXPECT_EQ(complaint(with(ply_text, "3 0 1 2", "255 0 1 2"), MeshFormat::ply),
+  EXPECT_EQ(complaint(with(ply_text, "3 0 1 2", "255 0 1 2"), io::MeshFormat::ply),
             "bone: face 0: a list of 255 values does not fit the file");
-  EXPECT_EQ(complaint(with_value(test::stl_files(tetrahedron)[1].bytes, 80, 0xffffffffu), MeshFormat::stl),
-            "bone: header: 4294967295 triangles need 214748364834 bytes, the file has 284");
   EXPECT_EQ(
-      complaint(with(vtp_text, "NumberOfPoints=\"3\"", "NumberOfPoints=\"99999999999\""), MeshFormat::vtp),
-      "bone: array 'Points': has not the 299999999997 numbers that its piece announces");
+      complaint(with_value(test::stl_files(tetrahedron)[1].bytes, 80, 0xffffffffu), io::MeshFormat::stl),
+      "bone: header: 4294967295 triangles need 214748364834 bytes, the file has 284");
+  EXPECT_EQ(complaint(with(vtp_text, "NumberOfPoints=\"3\"", "NumberOfPoints=\"99999999999\""),
+                      io::MeshFormat::vtp),
+            "bone: array 'Points': has not the 299999999997 numbers that its piece announces");
   EXPECT_EQ(complaint(with(vtp_text, "NumberOfPolys=\"1\"", "NumberOfPolys=\"18446744073709551615\""),
-                      MeshFormat::vtp),
+                      io::MeshFormat::vtp),
             "bone: piece 0: announces more than any file can hold");
-  EXPECT_EQ(complaint(with(vtp_text, "NumberOfPolys=\"1\"", "NumberOfPolys=\"-1\""), MeshFormat::vtp),
+  EXPECT_EQ(complaint(with(vtp_text, "NumberOfPolys=\"1\"", "NumberOfPolys=\"-1\""), io::MeshFormat::vtp),
             "bone: line 4: '-1' should be 'NumberOfPolys'");
-  EXPECT_EQ(complaint(with(vtk_text, "POINTS 3", "POINTS 99999999999"), MeshFormat::vtk),
+  EXPECT_EQ(complaint(with(vtk_text, "POINTS 3", "POINTS 99999999999"), io::MeshFormat::vtk),
             "bone: points: 299999999997 numbers announced, the file ends before");
-  EXPECT_EQ(complaint(with(vtk_text, "POLYGONS 1 4", "POLYGONS 1 99999999999"), MeshFormat::vtk),
+  EXPECT_EQ(complaint(with(vtk_text, "POLYGONS 1 4", "POLYGONS 1 99999999999"), io::MeshFormat::vtk),
             "bone: polygons: 99999999999 numbers announced, the file ends before");
-  EXPECT_EQ(complaint(with(vtk_text, "POLYGONS 1 4", "POLYGONS 99999999999 4"), MeshFormat::vtk),
+  EXPECT_EQ(complaint(with(vtk_text, "POLYGONS 1 4", "POLYGONS 99999999999 4"), io::MeshFormat::vtk),
             "bone: polygons: 99999999999 cells in 4 numbers");
-  EXPECT_EQ(complaint(with(vtk_text, "POINTS 3", "POINTS -3"), MeshFormat::vtk),
+  EXPECT_EQ(complaint(with(vtk_text, "POINTS 3", "POINTS -3"), io::MeshFormat::vtk),
             "bone: line 5: '-3' should be the number of points");
 }
 
 TEST(BadMeshFile, CountsTooSmallLeaveSomethingOverAndAreNoticed) {
-  EXPECT_EQ(complaint(with(ply_text, "3 0 1 2\n", "3 0 1 2\n3 1 2 0\n"), MeshFormat::ply),
+  EXPECT_EQ(complaint(with(ply_text, "3 0 1 2\n", "3 0 1 2\n3 1 2 0\n"), io::MeshFormat::ply),
             "bone: 8 bytes after the last element");
   EXPECT_EQ(
-      complaint(test::stl_files(tetrahedron)[1].bytes.substr(5) + "12345", MeshFormat::stl).substr(0, 14),
+      complaint(test::stl_files(tetrahedron)[1].bytes.substr(5) + "12345", io::MeshFormat::stl).substr(0, 14),
       "bone: header: ");
-  EXPECT_EQ(complaint(with(vtp_text, "0 1 0\n", "0 1 0\n1 1 1\n"), MeshFormat::vtp),
+  EXPECT_EQ(complaint(with(vtp_text, "0 1 0\n", "0 1 0\n1 1 1\n"), io::MeshFormat::vtp),
             "bone: array 'Points': has more than the 9 numbers that its piece announces");
-  EXPECT_EQ(complaint(with(vtk_text, "3 0 1 2\n", "3 0 1 2\n3 1 2 0\n"), MeshFormat::vtk),
+  EXPECT_EQ(complaint(with(vtk_text, "3 0 1 2\n", "3 0 1 2\n3 1 2 0\n"), io::MeshFormat::vtk),
             "bone: line 11: '3' is no section of a PolyData file");
 }
 
 TEST(BadMeshFile, AWordThatIsNoNumberNamesItsLine) {
-  EXPECT_EQ(complaint(with(ply_text, "1 0 0", "1 O 0"), MeshFormat::ply),
+  EXPECT_EQ(complaint(with(ply_text, "1 0 0", "1 O 0"), io::MeshFormat::ply),
             "bone: line 11: 'O' should be a number of its declared type");
-  EXPECT_EQ(complaint(with(ply_text, "1 0 0", "1 0,5 0"), MeshFormat::ply),
+  EXPECT_EQ(complaint(with(ply_text, "1 0 0", "1 0,5 0"), io::MeshFormat::ply),
             "bone: line 11: '0,5' should be a number of its declared type");
-  EXPECT_EQ(complaint(with(ply_text, "1 0 0", "1e999 0 0"), MeshFormat::ply),
+  EXPECT_EQ(complaint(with(ply_text, "1 0 0", "1e999 0 0"), io::MeshFormat::ply),
             "bone: line 11: '1e999' should be a number of its declared type");
-  EXPECT_EQ(complaint(with(ply_text, "3 0 1 2", "3 0 1 1.5"), MeshFormat::ply),
+  EXPECT_EQ(complaint(with(ply_text, "3 0 1 2", "3 0 1 1.5"), io::MeshFormat::ply),
             "bone: line 13: '1.5' should be a number of its declared type");
-  EXPECT_EQ(complaint(with(obj_text, "v 1 0 0", "v 1 0 0x"), MeshFormat::obj),
+  EXPECT_EQ(complaint(with(obj_text, "v 1 0 0", "v 1 0 0x"), io::MeshFormat::obj),
             "bone: line 2: '0x' should be a coordinate");
-  EXPECT_EQ(complaint(with(stl_text, "vertex 1 0 0", "vertex 1 - 0"), MeshFormat::stl),
+  EXPECT_EQ(complaint(with(stl_text, "vertex 1 0 0", "vertex 1 - 0"), io::MeshFormat::stl),
             "bone: line 5: '-' should be a coordinate");
-  EXPECT_EQ(complaint(with(vtp_text, "1 0 0", "1 zero 0"), MeshFormat::vtp),
+  EXPECT_EQ(complaint(with(vtp_text, "1 0 0", "1 zero 0"), io::MeshFormat::vtp),
             "bone: line 8: 'zero' should be a number of array Points");
-  EXPECT_EQ(complaint(with(vtk_text, "1 0 0", "1 zero 0"), MeshFormat::vtk),
+  EXPECT_EQ(complaint(with(vtk_text, "1 0 0", "1 zero 0"), io::MeshFormat::vtk),
             "bone: line 7: 'zero' should be a number");
 }
 
 TEST(BadMeshFile, VerticesWithoutTrianglesAreNoMesh) {
-  EXPECT_EQ(complaint("v 0 0 0\nv 1 0 0\n", MeshFormat::obj), "bone: holds 2 vertices but no triangles");
-  EXPECT_EQ(complaint("# nothing\n", MeshFormat::obj), "bone: holds no vertices");
-  EXPECT_EQ(complaint("solid s\nendsolid s\n", MeshFormat::stl), "bone: holds no vertices");
-  EXPECT_EQ(complaint(with(with(ply_text, "face 1", "face 0"), "3 0 1 2\n", ""), MeshFormat::ply),
+  EXPECT_EQ(complaint("v 0 0 0\nv 1 0 0\n", io::MeshFormat::obj), "bone: holds 2 vertices but no triangles");
+  EXPECT_EQ(complaint("# nothing\n", io::MeshFormat::obj), "bone: holds no vertices");
+  EXPECT_EQ(complaint("solid s\nendsolid s\n", io::MeshFormat::stl), "bone: holds no vertices");
+  EXPECT_EQ(complaint(with(with(ply_text, "face 1", "face 0"), "3 0 1 2\n", ""), io::MeshFormat::ply),
             "bone: holds 3 vertices but no triangles");
-  EXPECT_EQ(complaint(with(vtk_text, "POLYGONS 1 4\n3 0 1 2\n", ""), MeshFormat::vtk),
+  EXPECT_EQ(complaint(with(vtk_text, "POLYGONS 1 4\n3 0 1 2\n", ""), io::MeshFormat::vtk),
             "bone: holds 3 vertices but no triangles");
 }
 
 TEST(BadMeshFile, PolygonsThatAreNoTrianglesAreRefusedByName) {
-  EXPECT_EQ(complaint(with(ply_text, "3 0 1 2", "4 0 1 2 1"), MeshFormat::ply),
+  EXPECT_EQ(complaint(with(ply_text, "3 0 1 2", "4 0 1 2 1"), io::MeshFormat::ply),
             "bone: face 0 has 4 corners: only triangles are read, unless polygons are to be split");
-  EXPECT_EQ(complaint(with(obj_text, "f 1 2 3", "f 1 2 3\nf 1 2 3 1"), MeshFormat::obj),
+  EXPECT_EQ(complaint(with(obj_text, "f 1 2 3", "f 1 2 3\nf 1 2 3 1"), io::MeshFormat::obj),
             "bone: line 5: face 1 has 4 corners: only triangles are read, unless polygons are to be split");
-  EXPECT_EQ(complaint(with(with(vtp_text, "0 1 2", "0 1 2 1"), ">3<", ">4<"), MeshFormat::vtp),
+  EXPECT_EQ(complaint(with(with(vtp_text, "0 1 2", "0 1 2 1"), ">3<", ">4<"), io::MeshFormat::vtp),
             "bone: polygon 0 has 4 corners: only triangles are read, unless polygons are to be split");
-  EXPECT_EQ(complaint(with(vtp_text, "NumberOfStrips=\"0\"", "NumberOfStrips=\"1\""), MeshFormat::vtp),
+  EXPECT_EQ(complaint(with(vtp_text, "NumberOfStrips=\"0\"", "NumberOfStrips=\"1\""), io::MeshFormat::vtp),
             "bone: line 4: triangle strip 0: only triangles are read");
-  EXPECT_EQ(complaint(with(vtk_text, "POLYGONS 1 4\n3 0 1 2", "POLYGONS 1 3\n2 0 1"), MeshFormat::vtk),
+  EXPECT_EQ(complaint(with(vtk_text, "POLYGONS 1 4\n3 0 1 2", "POLYGONS 1 3\n2 0 1"), io::MeshFormat::vtk),
             "bone: polygon 0 has 2 corners: only triangles are read");
-  EXPECT_EQ(complaint(with(vtk_text, "POLYGONS", "TRIANGLE_STRIPS"), MeshFormat::vtk),
+  EXPECT_EQ(complaint(with(vtk_text, "POLYGONS", "TRIANGLE_STRIPS"), io::MeshFormat::vtk),
             "bone: triangle strip 0: only triangles are read");
 }
 
 TEST(BadMeshFile, OneFormatUnderTheNameOfAnotherIsRefused) {
-  EXPECT_EQ(complaint(obj_text, MeshFormat::ply), "bone: line 1: should be 'ply'");
-  EXPECT_EQ(complaint(ply_text, MeshFormat::obj), "bone: line 1: 'ply' is no OBJ statement that is read");
-  EXPECT_EQ(complaint(vtp_text, MeshFormat::vtk), "bone: line 1: should be '# vtk DataFile Version ...'");
-  EXPECT_EQ(complaint(vtk_text, MeshFormat::vtp), "bone: line 11: no XML tag");
-  EXPECT_EQ(complaint(with(vtp_text, "PolyData", "UnstructuredGrid"), MeshFormat::vtp),
+  EXPECT_EQ(complaint(obj_text, io::MeshFormat::ply), "bone: line 1: should be 'ply'");
+  EXPECT_EQ(complaint(ply_text, io::MeshFormat::obj), "bone: line 1: 'ply' is no OBJ statement that is read");
+  EXPECT_EQ(complaint(vtp_text, io::MeshFormat::vtk), "bone: line 1: should be '# vtk DataFile Version ...'");
+  EXPECT_EQ(complaint(vtk_text, io::MeshFormat::vtp), "bone: line 11: no XML tag");
+  EXPECT_EQ(complaint(with(vtp_text, "PolyData", "UnstructuredGrid"), io::MeshFormat::vtp),
             "bone: line 2: holds 'UnstructuredGrid': only 'PolyData' is read");
-  EXPECT_EQ(complaint(with(vtk_text, "POLYDATA", "STRUCTURED_POINTS"), MeshFormat::vtk),
+  EXPECT_EQ(complaint(with(vtk_text, "POLYDATA", "STRUCTURED_POINTS"), io::MeshFormat::vtk),
             "bone: line 4: holds 'STRUCTURED_POINTS': only 'POLYDATA' is read");
 }
 
@@ -331,20 +334,20 @@ TEST(BadMeshFile, DamagedCompressedDataIsNoticedWithoutAWordFromVtk) {
     return bytes.find('_', bytes.find("<AppendedData")) + 1 + std::stoul(bytes.substr(attribute));
   };
   const auto lengths = lengths_in(good);
-  ASSERT_EQ(complaint(good, MeshFormat::vtp), "read");
+  ASSERT_EQ(complaint(good, io::MeshFormat::vtp), "read");
 
   testing::internal::CaptureStderr();
-  EXPECT_EQ(complaint(with_value(good, lengths, 0xffffffffu), MeshFormat::vtp),
+  EXPECT_EQ(complaint(with_value(good, lengths, 0xffffffffu), io::MeshFormat::vtp),
             "bone: array 'Points': more blocks announced than the file can hold");
-  EXPECT_EQ(complaint(with_value(good, lengths + 8, 47u), MeshFormat::vtp),
+  EXPECT_EQ(complaint(with_value(good, lengths + 8, 47u), io::MeshFormat::vtp),
             "bone: array 'Points': its blocks do not add up to the 48 bytes it needs");
-  EXPECT_EQ(complaint(with_value(good, lengths + 12, 0xfffffffu), MeshFormat::vtp),
+  EXPECT_EQ(complaint(with_value(good, lengths + 12, 0xfffffffu), io::MeshFormat::vtp),
             "bone: array 'Points': its data ends within it");
-  EXPECT_EQ(complaint(with_value(good, lengths + 16, 0xffffffffu), MeshFormat::vtp),
+  EXPECT_EQ(complaint(with_value(good, lengths + 16, 0xffffffffu), io::MeshFormat::vtp),
             "bone: array 'Points': block 0 cannot be uncompressed");
   // 100 million points, and lengths that agree with them.
   const std::string many = with(good, "NumberOfPoints=\"4\"", "NumberOfPoints=\"100000000\"");
-  EXPECT_EQ(complaint(with_value(many, lengths_in(many) + 8, 1200000000u), MeshFormat::vtp),
+  EXPECT_EQ(complaint(with_value(many, lengths_in(many) + 8, 1200000000u), io::MeshFormat::vtp),
             "bone: array 'Points': 1200000000 bytes cannot come out of its blocks");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
@@ -352,38 +355,39 @@ TEST(BadMeshFile, DamagedCompressedDataIsNoticedWithoutAWordFromVtk) {
 TEST(BadMeshFile, AHeaderThatContradictsItselfIsRefused) {
   EXPECT_EQ(
       complaint(with(ply_text, "element face 1\n", "element vertex 1\nproperty float x\nelement face 1\n"),
-                MeshFormat::ply),
+                io::MeshFormat::ply),
       "bone: header: element 'vertex' twice");
-  EXPECT_EQ(complaint(with(ply_text, "double y", "double x"), MeshFormat::ply),
+  EXPECT_EQ(complaint(with(ply_text, "double y", "double x"), io::MeshFormat::ply),
             "bone: header: vertex property 'x' twice");
-  EXPECT_EQ(complaint(with(ply_text, "double y", "int y"), MeshFormat::ply),
+  EXPECT_EQ(complaint(with(ply_text, "double y", "int y"), io::MeshFormat::ply),
             "bone: header: vertex property 'y' should be a float or a double");
-  EXPECT_EQ(complaint(with(ply_text, "double y", "double w"), MeshFormat::ply),
+  EXPECT_EQ(complaint(with(ply_text, "double y", "double w"), io::MeshFormat::ply),
             "bone: header: a vertex needs the properties x, y and z");
-  EXPECT_EQ(complaint(with(ply_text, "vertex_indices", "corners"), MeshFormat::ply),
+  EXPECT_EQ(complaint(with(ply_text, "vertex_indices", "corners"), io::MeshFormat::ply),
             "bone: header: a face needs one property 'vertex_indices'");
-  EXPECT_EQ(complaint(with(ply_text, "list uchar", "list float"), MeshFormat::ply),
+  EXPECT_EQ(complaint(with(ply_text, "list uchar", "list float"), io::MeshFormat::ply),
             "bone: line 8: the length of a list should be of an integer type");
-  EXPECT_EQ(complaint(with(ply_text, "format ascii 1.0\n", ""), MeshFormat::ply),
+  EXPECT_EQ(complaint(with(ply_text, "format ascii 1.0\n", ""), io::MeshFormat::ply),
             "bone: header: no 'format'");
-  EXPECT_EQ(complaint(with(vtp_text, "</Piece>", "</Piece>\n<Piece>\n</Piece>"), MeshFormat::vtp),
+  EXPECT_EQ(complaint(with(vtp_text, "</Piece>", "</Piece>\n<Piece>\n</Piece>"), io::MeshFormat::vtp),
             "bone: line 17: a second piece: only files of one piece are read");
-  EXPECT_EQ(complaint(with(vtp_text, "</Points>", "</Polys>"), MeshFormat::vtp),
+  EXPECT_EQ(complaint(with(vtp_text, "</Points>", "</Polys>"), io::MeshFormat::vtp),
             "bone: line 11: '</Polys>' closes what is not open");
   EXPECT_EQ(
-      complaint(with(vtp_text, "NumberOfComponents=\"3\"", "NumberOfComponents=\"2\""), MeshFormat::vtp),
+      complaint(with(vtp_text, "NumberOfComponents=\"3\"", "NumberOfComponents=\"2\""), io::MeshFormat::vtp),
       "bone: line 6: points need NumberOfComponents=\"3\"");
-  EXPECT_EQ(complaint(with(vtp_text, "offsets", "ends"), MeshFormat::vtp), "bone: no array 'Polys offsets'");
-  EXPECT_EQ(
-      complaint(with(vtp_text, "version=\"0.1\"", "compressor=\"vtkLZMADataCompressor\""), MeshFormat::vtp),
-      "bone: line 2: compressed by 'vtkLZMADataCompressor': only zlib and LZ4 are read");
-  EXPECT_EQ(complaint(with(vtk_text, "double", "int"), MeshFormat::vtk),
+  EXPECT_EQ(complaint(with(vtp_text, "offsets", "ends"), io::MeshFormat::vtp),
+            "bone: no array 'Polys offsets'");
+  EXPECT_EQ(complaint(with(vtp_text, "version=\"0.1\"", "compressor=\"vtkLZMADataCompressor\""),
+                      io::MeshFormat::vtp),
+            "bone: line 2: compressed by 'vtkLZMADataCompressor': only zlib and LZ4 are read");
+  EXPECT_EQ(complaint(with(vtk_text, "double", "int"), io::MeshFormat::vtk),
             "bone: line 5: points should be float or double");
 }
 
 TEST(BadMeshFile, AMessageIsOneLineWhateverTheFileHolds) {
-  EXPECT_EQ(complaint("v 0 0 \x01\xff\n", MeshFormat::obj), "bone: line 1: '?\?' should be a coordinate");
-  EXPECT_EQ(complaint("v 0 0 " + std::string(1000, 'x') + "\n", MeshFormat::obj),
+  EXPECT_EQ(complaint("v 0 0 \x01\xff\n", io::MeshFormat::obj), "bone: line 1: '?\?' should be a coordinate");
+  EXPECT_EQ(complaint("v 0 0 " + std::string(1000, 'x') + "\n", io::MeshFormat::obj),
             "bone: line 1: '" + std::string(40, 'x') + "...' should be a coordinate");
 }
 

@@ -59,8 +59,8 @@ TEST(MeshFormats, EveryWayOfWritingAMeshReadsBackBitForBit) {
   for (const auto& file : test::all_files(mesh)) {
     if (!file.exact) continue;
     ++compared;
-    const auto read = read_mesh(file.bytes, file.format, file.name);
-    expect_same_bits(read.mesh, file.format == MeshFormat::stl ? in_order_of_use(mesh) : mesh, file.name);
+    const auto read = io::read_mesh(file.bytes, file.format, file.name);
+    expect_same_bits(read.mesh, file.format == io::MeshFormat::stl ? in_order_of_use(mesh) : mesh, file.name);
   }
   EXPECT_GT(compared, 40u);
 }
@@ -69,10 +69,10 @@ TEST(MeshFormats, DoublesKeepTheirLastBitWhereTheFormatHasDoubles) {
   const TriMesh mesh = test::sphere({0.1, -20.3, 300.7}, 25.1, 2);
   std::size_t with_doubles = 0;
   for (const auto& file : test::all_files(mesh)) {
-    const bool doubles = file.name.find("double") != std::string::npos || file.format == MeshFormat::obj;
+    const bool doubles = file.name.find("double") != std::string::npos || file.format == io::MeshFormat::obj;
     if (!file.exact || !doubles) continue;
     ++with_doubles;
-    expect_same_bits(read_mesh(file.bytes, file.format, file.name).mesh, mesh, file.name);
+    expect_same_bits(io::read_mesh(file.bytes, file.format, file.name).mesh, mesh, file.name);
   }
   EXPECT_GT(with_doubles, 20u);
 }
@@ -81,7 +81,7 @@ TEST(MeshFormats, VtkReadsItsFilesAsWeDo) {
   const TriMesh mesh = test::torus(30.1, 7.7, 12, 7);
   for (auto* written : {test::vtp_files, test::legacy_vtk_files}) {
     for (const auto& file : written(mesh)) {
-      expect_same_bits(read_mesh(file.bytes, file.format, file.name).mesh, test::as_vtk_reads(file),
+      expect_same_bits(io::read_mesh(file.bytes, file.format, file.name).mesh, test::as_vtk_reads(file),
                        file.name);
     }
   }
@@ -95,7 +95,7 @@ TEST(MeshFormats, AnStlSoupIsWeldedWithoutTolerance) {
     soup.vertices.push_back(p);
   }
   soup.triangles = {{0, 1, 2}, {3, 4, 5}};
-  const auto read = read_mesh(test::stl_files(soup)[0].bytes, MeshFormat::stl, "soup.stl");
+  const auto read = io::read_mesh(test::stl_files(soup)[0].bytes, io::MeshFormat::stl, "soup.stl");
   EXPECT_EQ(read.welded_vertices, 2u);
   EXPECT_EQ(read.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(read.mesh.vertices.x[3], next);
@@ -106,14 +106,14 @@ TEST(MeshFormats, TextStlMayHoldSeveralSolidsAndCapitals) {
       "SOLID one\r\nFACET NORMAL 0 0 1\r\nOUTER LOOP\r\nVERTEX 0 0 0\r\nVERTEX +1.0E0 0 0\r\nVERTEX 0 1 "
       "0\r\nENDLOOP\r\n"
       "ENDFACET\r\nENDSOLID one\r\n";
-  const auto read = read_mesh(solid + solid, MeshFormat::stl, "two.stl");
+  const auto read = io::read_mesh(solid + solid, io::MeshFormat::stl, "two.stl");
   EXPECT_EQ(read.mesh.triangles.size(), 2u);
   EXPECT_EQ(read.welded_vertices, 3u);
 }
 
 TEST(MeshFormats, ObjVertexWeightsAndColoursAreNoCoordinates) {
   const auto read =
-      read_mesh("v 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0\nf 1 2 3\n", MeshFormat::obj, "colours.obj");
+      io::read_mesh("v 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0\nf 1 2 3\n", io::MeshFormat::obj, "colours.obj");
   EXPECT_EQ(read.mesh.vertices.size(), 3u);
   EXPECT_EQ(read.mesh.vertices[1], Vec3(1, 0, 0));
 }
@@ -124,7 +124,7 @@ TEST(MeshFormats, NumbersDeclaredFloatAreRoundedToFloatOnce) {
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
       "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
       "1.00000005960464477539062500001 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-  EXPECT_EQ(read_mesh(text, MeshFormat::ply, "a.ply").mesh.vertices.x[0], 1 + 0x1p-23);
+  EXPECT_EQ(io::read_mesh(text, io::MeshFormat::ply, "a.ply").mesh.vertices.x[0], 1 + 0x1p-23);
 }
 
 }  // namespace

@@ -62,14 +62,14 @@ std::string vtk_box() {
 }
 
 TEST(Polygons, AreSplitIntoTheSameTrianglesOfEveryFormat) {
-  const std::pair<std::string, MeshFormat> files[] = {{obj_box(), MeshFormat::obj},
-                                                      {ply_box(), MeshFormat::ply},
-                                                      {vtp_box(), MeshFormat::vtp},
-                                                      {vtk_box(), MeshFormat::vtk}};
-  const TriMesh first = read_mesh(files[0].first, files[0].second, "box", PolygonRule::split).mesh;
+  const std::pair<std::string, io::MeshFormat> files[] = {{obj_box(), io::MeshFormat::obj},
+                                                          {ply_box(), io::MeshFormat::ply},
+                                                          {vtp_box(), io::MeshFormat::vtp},
+                                                          {vtk_box(), io::MeshFormat::vtk}};
+  const TriMesh first = io::read_mesh(files[0].first, files[0].second, "box", io::PolygonRule::split).mesh;
   for (const auto& [bytes, format] : files) {
-    EXPECT_THROW(read_mesh(bytes, format, "box"), FileError);
-    const MeshFile file = read_mesh(bytes, format, "box", PolygonRule::split);
+    EXPECT_THROW(io::read_mesh(bytes, format, "box"), FileError);
+    const io::MeshFile file = io::read_mesh(bytes, format, "box", io::PolygonRule::split);
     EXPECT_EQ(file.split_polygons, 6u);
     EXPECT_EQ(file.mesh, first);
     const MeshReport report = inspect(file.mesh);
@@ -80,7 +80,9 @@ TEST(Polygons, AreSplitIntoTheSameTrianglesOfEveryFormat) {
 }
 
 TriMesh split(std::string_view vertices, std::string_view face) {
-  return read_mesh(fmt::format("{}\n{}", vertices, face), MeshFormat::obj, "bone", PolygonRule::split).mesh;
+  return io::read_mesh(fmt::format("{}\n{}", vertices, face), io::MeshFormat::obj, "bone",
+                       io::PolygonRule::split)
+      .mesh;
 }
 
 std::string refusal(std::string_view vertices, std::string_view face) {

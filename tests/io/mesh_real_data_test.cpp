@@ -95,7 +95,7 @@ void expect_folder_as_stated(const std::string& name, std::size_t meshes) {
   const Json stated = read_json(folder / "meta.json");
   EXPECT_EQ(stated["meshes"].size(), meshes);
   for (const auto& mesh : stated["meshes"]) {
-    expect_as_stated(read_mesh(folder / mesh["file"].get<std::string>()).mesh, mesh);
+    expect_as_stated(io::read_mesh(folder / mesh["file"].get<std::string>()).mesh, mesh);
   }
 }
 
@@ -121,7 +121,7 @@ TEST(RealMeshes, OfTheCoarseTeachingModelAreAsStated) {
 
 TEST(RealMeshes, TheDirtyPelvisHasOneDuplicateTriangle) {
   SKIP_WITHOUT_DATA();
-  auto mesh = read_mesh(real_mesh_folder() / "hip_gait2392_lowres_dirty/pelvis_r.ply").mesh;
+  auto mesh = io::read_mesh(real_mesh_folder() / "hip_gait2392_lowres_dirty/pelvis_r.ply").mesh;
   const auto report = inspect(mesh);
   EXPECT_EQ(report.duplicate_triangles.count, 1u);
   mesh.triangles.erase(mesh.triangles.begin() + *report.duplicate_triangles.first);
@@ -137,7 +137,7 @@ TEST(RealMeshes, TheTeachingModelsVtpAndPlyAreOneSurface) {
   SKIP_WITHOUT_DATA();
   const auto folder = real_mesh_folder() / "hip_gait2392_lowres_dirty";
   for (const auto& [vtp, ply] : {std::pair{"femur_r.vtp", "femur_r.ply"}, {"pelvis.vtp", "pelvis_r.ply"}}) {
-    const auto metres = read_mesh(folder / vtp).mesh, millimetres = read_mesh(folder / ply).mesh;
+    const auto metres = io::read_mesh(folder / vtp).mesh, millimetres = io::read_mesh(folder / ply).mesh;
     EXPECT_EQ(metres.triangles, millimetres.triangles);
     EXPECT_EQ(inspect(metres).likely_unit.unit, LengthUnit::metres);
     EXPECT_EQ(inspect(millimetres).likely_unit.unit, LengthUnit::millimetres);
@@ -148,7 +148,7 @@ TEST(RealMeshes, TheDirtyFemurIsAsStatedAfterTheExactWeld) {
   SKIP_WITHOUT_DATA();
   const auto folder = real_mesh_folder() / "femur_libhip_m5_right_dirty";
   const Json stated = read_json(folder / "meta.json");
-  const auto read = read_mesh(folder / "femur_tracked_surface.stl");
+  const auto read = io::read_mesh(folder / "femur_tracked_surface.stl");
   EXPECT_EQ(read.welded_vertices, stated["exact_duplicate_vertices"]);
   expect_as_stated(read.mesh, stated["after_exact_weld"]);
   EXPECT_EQ(inspect(read.mesh).duplicate_vertices.count, 0u);
@@ -157,7 +157,7 @@ TEST(RealMeshes, TheDirtyFemurIsAsStatedAfterTheExactWeld) {
 TEST(RealMeshes, TheMirroredBonesAreInvertedAndCarryOtherBonesVertices) {
   SKIP_WITHOUT_DATA();
   const auto folder = real_mesh_folder() / "hip_vhf_right/dirty";
-  auto femur = read_mesh(folder / "FemurL_source.obj").mesh;
+  auto femur = io::read_mesh(folder / "FemurL_source.obj").mesh;
   const auto report = inspect(femur);
   EXPECT_TRUE(report.is_closed());
   EXPECT_LT(report.signed_volume.value(), 0);
@@ -173,7 +173,7 @@ TEST(RealMeshes, TheMirroredBonesAreInvertedAndCarryOtherBonesVertices) {
   EXPECT_EQ(repaired.signed_volume.value(), -report.signed_volume.value());
   EXPECT_EQ(repaired.area, report.area);
 
-  const auto pelvis = inspect(read_mesh(folder / "PelvisL_source.obj").mesh);
+  const auto pelvis = inspect(io::read_mesh(folder / "PelvisL_source.obj").mesh);
   EXPECT_TRUE(pelvis.is_closed());
   EXPECT_LT(pelvis.signed_volume.value(), 0);
 }
@@ -181,12 +181,12 @@ TEST(RealMeshes, TheMirroredBonesAreInvertedAndCarryOtherBonesVertices) {
 TEST(RealMeshes, ComeBackBitForBitFromTheFilesWeWrite) {
   SKIP_WITHOUT_DATA();
   const auto mesh =
-      read_mesh(real_mesh_folder() / "femur_libhip_m5_right_dirty/femur_tracked_surface.stl").mesh;
+      io::read_mesh(real_mesh_folder() / "femur_libhip_m5_right_dirty/femur_tracked_surface.stl").mesh;
   for (const char* extension : {".ply", ".vtp"}) {
     const auto path =
         std::filesystem::temp_directory_path() / ("condyle_real_" + std::to_string(::getpid()) + extension);
-    write_mesh(path, mesh);
-    EXPECT_EQ(read_mesh(path).mesh, mesh);
+    io::write_mesh(path, mesh);
+    EXPECT_EQ(io::read_mesh(path).mesh, mesh);
     std::filesystem::remove(path);
   }
 }

@@ -77,8 +77,8 @@ TriMesh double_valued() {
 TEST_F(WrittenMesh, IsReadBackBitForBit) {
   for (const char* name : {"a.ply", "a.vtp", "B.PLY", "B.VTP"}) {
     for (const TriMesh& mesh : {float_valued(), double_valued()}) {
-      write_mesh(folder_ / name, mesh);
-      expect_same_bits(read_mesh(folder_ / name).mesh, mesh);
+      io::write_mesh(folder_ / name, mesh);
+      expect_same_bits(io::read_mesh(folder_ / name).mesh, mesh);
     }
   }
   EXPECT_EQ(files(), 4);
@@ -86,9 +86,9 @@ TEST_F(WrittenMesh, IsReadBackBitForBit) {
 
 TEST_F(WrittenMesh, TakesFloatsWhereTheyLoseNothing) {
   for (const char* name : {"a.ply", "a.vtp"}) {
-    write_mesh(folder_ / name, float_valued());
+    io::write_mesh(folder_ / name, float_valued());
     const auto with_floats = io::read_whole_file(folder_ / name);
-    write_mesh(folder_ / name, double_valued());
+    io::write_mesh(folder_ / name, double_valued());
     const auto with_doubles = io::read_whole_file(folder_ / name);
     if (std::string_view(name) == "a.ply") {
       const std::size_t vertices = float_valued().vertices.size(),
@@ -105,8 +105,8 @@ TEST_F(WrittenMesh, HasTheSameBytesEveryTime) {
   for (const char* extension : {".ply", ".vtp"}) {
     const auto one = folder_ / (std::string("one") + extension),
                two = folder_ / (std::string("two") + extension);
-    write_mesh(one, double_valued());
-    write_mesh(two, double_valued());
+    io::write_mesh(one, double_valued());
+    io::write_mesh(two, double_valued());
     EXPECT_EQ(io::read_whole_file(one), io::read_whole_file(two));
   }
 }
@@ -116,9 +116,9 @@ TEST_F(WrittenMesh, CarriesItsArraysForVtk) {
   const std::vector<double> gap = {0.1, -0.2, 0.3, 1e-300, 5, 6, 7, 8};
   const std::vector<std::int32_t> triangle = {-1, 0, 1, 2, 3, 4, 5, 11};
   const std::vector<std::uint8_t> touching = {1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 255};
-  write_vtp(folder_ / "a.vtp", mesh,
-            std::array{MeshArray{"radial_gap_mm", gap}, MeshArray{"triangle", triangle}},
-            std::array{MeshArray{"in_contact", touching}});
+  io::write_vtp(folder_ / "a.vtp", mesh,
+                std::array{io::MeshArray{"radial_gap_mm", gap}, io::MeshArray{"triangle", triangle}},
+                std::array{io::MeshArray{"in_contact", touching}});
 
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName((folder_ / "a.vtp").c_str());
@@ -140,21 +140,21 @@ TEST_F(WrittenMesh, CarriesItsArraysForVtk) {
     EXPECT_EQ(triangles->GetTuple1(i), triangle[static_cast<std::size_t>(i)]);
   }
   for (vtkIdType i = 0; i < 12; ++i) EXPECT_EQ(contacts->GetTuple1(i), touching[static_cast<std::size_t>(i)]);
-  expect_same_bits(read_mesh(folder_ / "a.vtp").mesh, mesh);
+  expect_same_bits(io::read_mesh(folder_ / "a.vtp").mesh, mesh);
 }
 
 TEST_F(WrittenMesh, HasEveryBitOfPointsArraysAndFieldsInBothEncodings) {
   const TriMesh mesh = test::box({0.1, -1.0 / 3, 1e-7}, {1.0 / 7, 2, 3e5});
   std::vector<double> gap(mesh.vertices.size(), 1.0 / 3);
   gap[0] = -0x1.fffffffffffffp-3;
-  for (const VtpEncoding encoding : {VtpEncoding::binary, VtpEncoding::text}) {
-    const VtpOptions options{encoding,
-                             {{"command", "condyle depth 'a & b'"}, {"matrix", std::vector{0.1, -2e-17}}}};
+  for (const io::VtpEncoding encoding : {io::VtpEncoding::binary, io::VtpEncoding::text}) {
+    const io::VtpOptions options{
+        encoding, {{"command", "condyle depth 'a & b'"}, {"matrix", std::vector{0.1, -2e-17}}}};
     const auto path = folder_ / "a.vtp";
-    write_vtp(path, mesh, std::array{MeshArray{"gap", gap}}, {}, options);
-    expect_same_bits(read_mesh(path).mesh, mesh);
+    io::write_vtp(path, mesh, std::array{io::MeshArray{"gap", gap}}, {}, options);
+    expect_same_bits(io::read_mesh(path).mesh, mesh);
     const bool is_text = io::read_whole_file(path).find("format=\"appended\"") == std::string::npos;
-    EXPECT_EQ(is_text, encoding == VtpEncoding::text);
+    EXPECT_EQ(is_text, encoding == io::VtpEncoding::text);
 
     vtkNew<vtkXMLPolyDataReader> reader;
     reader->SetFileName(path.c_str());
@@ -178,15 +178,15 @@ TEST_F(WrittenMesh, LeavesNothingBehindWhereItCannotBeWritten) {
   const TriMesh mesh = test::box({0, 0, 0}, {1, 2, 3});
   const auto no_folder = folder_ / "nowhere" / "a.ply";
   try {
-    write_mesh(no_folder, mesh);
+    io::write_mesh(no_folder, mesh);
     FAIL() << "written";
   } catch (const FileError& error) {
     EXPECT_EQ(error.what(), no_folder.string() + ": cannot be written: No such file or directory");
   }
   // A folder in the way: the temporary file is written, and then cannot take the name.
   std::filesystem::create_directories(folder_ / "taken.vtp" / "inside");
-  EXPECT_THROW(write_mesh(folder_ / "taken.vtp", mesh), FileError);
-  EXPECT_THROW(write_mesh(folder_ / "a.stl", mesh), FileError);
+  EXPECT_THROW(io::write_mesh(folder_ / "taken.vtp", mesh), FileError);
+  EXPECT_THROW(io::write_mesh(folder_ / "a.stl", mesh), FileError);
   EXPECT_EQ(files(), 1);
 }
 
@@ -194,7 +194,7 @@ TEST_F(WrittenMesh, LeavesNothingBehindWhereItCannotBeWritten) {
 TEST_F(WrittenMesh, AFullDiskIsNoticedAndTheOldFileStays) {
   const auto path = folder_ / "a.ply";
   const TriMesh old = test::box({0, 0, 0}, {1, 1, 1});
-  write_mesh(path, old);
+  io::write_mesh(path, old);
 
   rlimit before;
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -203,7 +203,7 @@ TEST_F(WrittenMesh, AFullDiskIsNoticedAndTheOldFileStays) {
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &little), 0);
   std::string complaint = "written";
   try {
-    write_mesh(path, double_valued());
+    io::write_mesh(path, double_valued());
   } catch (const FileError& error) {
     complaint = error.what();
   }
@@ -211,15 +211,15 @@ TEST_F(WrittenMesh, AFullDiskIsNoticedAndTheOldFileStays) {
   std::signal(SIGXFSZ, old_handler);
 
   EXPECT_EQ(complaint, path.string() + ": cannot be written: File too large");
-  EXPECT_EQ(read_mesh(path).mesh, old);
+  EXPECT_EQ(io::read_mesh(path).mesh, old);
   EXPECT_EQ(files(), 1);
 }
 
 TEST_F(WrittenMesh, TakesThePlaceOfAnOlderOneOnlyWhenWhole) {
   const auto path = folder_ / "a.ply";
-  write_mesh(path, test::box({0, 0, 0}, {1, 1, 1}));
-  write_mesh(path, test::box({0, 0, 0}, {2, 2, 2}));
-  EXPECT_EQ(read_mesh(path).mesh, test::box({0, 0, 0}, {2, 2, 2}));
+  io::write_mesh(path, test::box({0, 0, 0}, {1, 1, 1}));
+  io::write_mesh(path, test::box({0, 0, 0}, {2, 2, 2}));
+  EXPECT_EQ(io::read_mesh(path).mesh, test::box({0, 0, 0}, {2, 2, 2}));
   EXPECT_EQ(files(), 1);
 }
 

@@ -71,20 +71,21 @@ Pose at_height(double y) {
   return Pose(Eigen::Translation3d(0, y, 0));
 }
 
-DepthResult result_of(const Joint& joint, const Pose& X_FM, const ContactEntry& entry = {}) {
-  const DepthQuestion question{.joint = joint, .pose = {.translation_mm = X_FM.translation()}, .X_FM = X_FM};
-  return depth_result(question, answer_depth(joint, {.X_FM = X_FM,
-                                                     .method = DepthMethod::normal,
-                                                     .casting = entry.casting,
-                                                     .rays = entry.rays,
-                                                     .distances = DistancesOf::all_vertices}));
+io::DepthResult result_of(const Joint& joint, const Pose& X_FM, const io::ContactEntry& entry = {}) {
+  const io::DepthQuestion question{
+      .joint = joint, .pose = {.translation_mm = X_FM.translation()}, .X_FM = X_FM};
+  return io::depth_result(question, answer_depth(joint, {.X_FM = X_FM,
+                                                         .method = DepthMethod::normal,
+                                                         .casting = entry.casting,
+                                                         .rays = entry.rays,
+                                                         .distances = contact::DistancesOf::all_vertices}));
 }
-Json json_of(const Joint& joint, const Pose& X_FM, const ContactEntry& entry = {}) {
+Json json_of(const Joint& joint, const Pose& X_FM, const io::ContactEntry& entry = {}) {
   return Json::parse(result_of(joint, X_FM, entry).json);
 }
 
-const MeshArray* array_named(const std::vector<MeshArray>& arrays, std::string_view name) {
-  for (const MeshArray& array : arrays)
+const io::MeshArray* array_named(const std::vector<io::MeshArray>& arrays, std::string_view name) {
+  for (const io::MeshArray& array : arrays)
     if (array.name == name) return &array;
   return nullptr;
 }
@@ -132,7 +133,8 @@ TEST(NormalDepthResult, ABallInASheetIsAsDeepAsItsCap) {
 }
 
 TEST(NormalDepthResult, OnlyTheBodyThatCastsHasFiguresAndArrays) {
-  const DepthResult result = result_of(ball_on_sheet(), at_height(h), {.casting = Casting::fixed});
+  const io::DepthResult result =
+      result_of(ball_on_sheet(), at_height(h), {.casting = contact::Casting::fixed});
   const Json json = Json::parse(result.json);
   EXPECT_TRUE(json["bodies"]["mobile"].is_null());
   EXPECT_EQ(json["rays"]["casting"], "fixed");
@@ -181,7 +183,7 @@ TEST(NormalDepthResult, ExchangingTheBodiesExchangesTheirFigures) {
 }
 
 TEST(NormalDepthResult, WithoutContactThereAreNoDepthsAndNoCentre) {
-  const DepthResult result = result_of(ball_on_sheet(), at_height(R + 2));
+  const io::DepthResult result = result_of(ball_on_sheet(), at_height(R + 2));
   const Json json = Json::parse(result.json);
   EXPECT_FALSE(json["in_contact"]);
   EXPECT_NEAR(json["nearest_distance_mm"].get<double>(), 2, 1e-12);
@@ -206,7 +208,7 @@ TEST(NormalDepthResult, RaysFromTheFrontAndBeyondTheReachAreCounted) {
   EXPECT_EQ(usual["bodies"]["fixed"]["cut_off_by_reach"], 0);
   EXPECT_EQ(usual["bodies"]["mobile"]["met_from_front"], 0);
   // The top of the ball is 39 mm above the sheet: its rays go down through all of the ball and meet the sheet's front.
-  const DepthResult far = result_of(ball_on_sheet(), at_height(h), {.rays = {.reach_mm = 50}});
+  const io::DepthResult far = result_of(ball_on_sheet(), at_height(h), {.rays = {.reach_mm = 50}});
   const Json bodies = Json::parse(far.json)["bodies"];
   EXPECT_GT(bodies["mobile"]["met_from_front"], 0);
   EXPECT_EQ(bodies["fixed"]["met_from_front"], 0) << "the ball is closed";
@@ -222,7 +224,7 @@ TEST(NormalDepthResult, AnOverlapOfSheetsThatDoNotMeetIsSaid) {
   for (const Vec3& corner : {Vec3(-2, 0, -2), Vec3(0, 0, 2), Vec3(2, 0, -2)}) lid.vertices.push_back(corner);
   lid.triangles = {{0, 2, 1}};
   const Joint joint = joint_of({"sheet", sheet()}, {"lid", lid});
-  const DepthResult below = result_of(joint, at_height(-1), {.casting = Casting::fixed});
+  const io::DepthResult below = result_of(joint, at_height(-1), {.casting = contact::Casting::fixed});
   const Json json = Json::parse(below.json);
   EXPECT_FALSE(json["in_contact"]);
   EXPECT_NEAR(json["bodies"]["fixed"]["max_normal_depth_mm"].get<double>(), 1, 1e-12);
@@ -237,8 +239,8 @@ TEST(NormalDepthResult, TheDeepestTriangleIsOfAPart) {
   Body body{"both balls", test::joined(far, ball())};
   body.parts = {{"far", 0, far.vertices.size(), 0, first},
                 {"near", far.vertices.size(), ball().vertices.size(), first, ball().triangles.size()}};
-  const DepthResult result =
-      result_of(joint_of({"sheet", sheet()}, body), at_height(h), {.casting = Casting::mobile});
+  const io::DepthResult result =
+      result_of(joint_of({"sheet", sheet()}, body), at_height(h), {.casting = contact::Casting::mobile});
   const Json deepest = Json::parse(result.json)["bodies"]["mobile"];
   EXPECT_EQ(deepest["deepest_part"]["name"], "near");
   EXPECT_EQ(deepest["deepest_part"]["triangle"].get<std::size_t>(),
@@ -250,9 +252,10 @@ TEST(NormalDepthResult, TheDeepestTriangleIsOfAPart) {
 TEST(NormalDepthResult, IsWrittenWithItsTriangles) {
   const test::TemporaryFolder folder;
   const Joint& joint = ball_on_sheet();
-  const DepthQuestion question{.joint = joint, .pose = {.translation_mm = {0, h, 0}}, .X_FM = at_height(h)};
-  const DepthResult result = result_of(joint, at_height(h), {.casting = Casting::fixed});
-  write_depth(folder / "out", question, result, {VtpEncoding::text, VertexTables::write});
+  const io::DepthQuestion question{
+      .joint = joint, .pose = {.translation_mm = {0, h, 0}}, .X_FM = at_height(h)};
+  const io::DepthResult result = result_of(joint, at_height(h), {.casting = contact::Casting::fixed});
+  io::write_depth(folder / "out", question, result, {io::VtpEncoding::text, io::VertexTables::write});
   const std::string fixed = io::read_whole_file(folder / "out/fixed.vtp"),
                     mobile = io::read_whole_file(folder / "out/mobile.vtp");
   for (const char* array : {"depth_mm", "contact_area_mm2", "in_contact", "nearest_distance_mm"}) {
@@ -262,7 +265,7 @@ TEST(NormalDepthResult, IsWrittenWithItsTriangles) {
               std::string(array) == "in_contact" || std::string(array) == "nearest_distance_mm")
         << array;
   }
-  EXPECT_EQ(read_mesh(folder / "out/mobile.vtp").mesh, posed(at_height(h), ball()));
+  EXPECT_EQ(io::read_mesh(folder / "out/mobile.vtp").mesh, posed(at_height(h), ball()));
   EXPECT_NE(io::read_whole_file(folder / "out/fixed.csv").find("vertex,x_mm,y_mm,z_mm,nearest_distance_mm\n"),
             std::string::npos);
 }

@@ -11,7 +11,7 @@
 namespace condyle::test {
 namespace {
 
-bool is_black(const Picture& picture, std::size_t column, std::size_t row) {
+bool is_black(const io::Picture& picture, std::size_t column, std::size_t row) {
   const std::uint8_t* rgb = &picture.rgb[3 * (row * picture.width + column)];
   return rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0;
 }
@@ -58,13 +58,13 @@ TEST(PictureAnnotations, SayTheCoordinatesThatTheJointHas) {
 
 TEST(PictureAnnotations, DrawABarOfTheLengthItSays) {
   const Joint joint = two_boxes(JointKind::ball);
-  const PictureOptions options{.view = view_named("anterior", Side::right),
-                               .colour = PictureColour::none,
-                               .width = 200,
-                               .height = 200,
-                               .field_mm = 100};
+  const io::PictureOptions options{.view = io::view_named("anterior", Side::right),
+                                   .colour = io::PictureColour::none,
+                                   .width = 200,
+                                   .height = 200,
+                                   .field_mm = 100};
   // Two pixels a mm: a fifth of the width is 20 mm, so 40 pixels, 5 from the left and from below.
-  const Picture picture = draw_joint(joint, {}, Pose::Identity(), options);
+  const io::Picture picture = io::draw_joint(joint, {}, Pose::Identity(), options);
   std::size_t first = 200, last = 0;
   for (std::size_t column = 0; column < 100; ++column)
     if (is_black(picture, column, 194)) {
@@ -73,9 +73,9 @@ TEST(PictureAnnotations, DrawABarOfTheLengthItSays) {
     }
   EXPECT_EQ(first, 5u);
   EXPECT_EQ(last + 1 - first, 40u);
-  PictureOptions plain = options;
+  io::PictureOptions plain = options;
   plain.is_annotated = false;
-  const Picture bare = draw_joint(joint, {}, Pose::Identity(), plain);
+  const io::Picture bare = io::draw_joint(joint, {}, Pose::Identity(), plain);
   for (std::size_t column = 0; column < 100; ++column) EXPECT_FALSE(is_black(bare, column, 194));
 }
 

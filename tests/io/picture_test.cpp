@@ -36,7 +36,7 @@ Joint joint_of(const TriMesh& fixed, const TriMesh& mobile, Side side = Side::ri
   return {"boxes", JointKind::ball, side, {"fixed", fixed}, {"mobile", mobile}};
 }
 
-Rgb pixel(const Picture& picture, std::size_t column, std::size_t row) {
+Rgb pixel(const io::Picture& picture, std::size_t column, std::size_t row) {
   Rgb colour;
   for (std::size_t k = 0; k < 3; ++k) colour[k] = picture.rgb[3 * (row * picture.width + column) + k];
   return colour;
@@ -51,16 +51,16 @@ constexpr std::size_t side_px = 200;
 constexpr double field_mm = 100;
 
 /// 2 pixels a mm, the joint centre in the middle.
-PictureOptions bare_square(std::string_view view, Side side = Side::right) {
-  return {.view = view_named(view, side),
-          .colour = PictureColour::none,
+io::PictureOptions bare_square(std::string_view view, Side side = Side::right) {
+  return {.view = io::view_named(view, side),
+          .colour = io::PictureColour::none,
           .width = side_px,
           .height = side_px,
           .field_mm = field_mm,
           .is_annotated = false};
 }
 
-Rgb at_mm(const Picture& picture, double right, double up) {
+Rgb at_mm(const io::Picture& picture, double right, double up) {
   const double per_mm = side_px / field_mm;
   return pixel(picture, static_cast<std::size_t>(side_px / 2.0 + per_mm * right),
                static_cast<std::size_t>(side_px / 2.0 - per_mm * up));
@@ -80,7 +80,7 @@ TEST_P(Views, ShowBonesWhereTheyAre) {
   const Vec3 of_fixed(30, 20, 10), of_mobile(-10, -30, -20), half(4, 4, 4);
   const Joint joint = joint_of(fine_box(of_fixed - half, of_fixed + half),
                                fine_box(of_mobile - half, of_mobile + half), side);
-  const Picture picture = draw_joint(joint, {}, Pose::Identity(), bare_square(view, side));
+  const io::Picture picture = io::draw_joint(joint, {}, Pose::Identity(), bare_square(view, side));
   ASSERT_EQ(picture.rgb.size(), 3 * side_px * side_px);
   const auto place = [](const Vec3& p, const std::array<double, 3>& along) {
     return p.x() * along[0] + p.y() * along[1] + p.z() * along[2];
@@ -106,12 +106,12 @@ INSTANTIATE_TEST_SUITE_P(
                       ViewedFrom{"lateral", Side::left, minus_x, y}, ViewedFrom{"medial", Side::left, x, y}));
 
 TEST(PictureView, IsBetweenSeveralDirections) {
-  const ViewDirection view = view_named("anterior-superior", Side::right);
+  const io::ViewDirection view = io::view_named("anterior-superior", Side::right);
   EXPECT_NEAR((view.towards_viewer - Vec3(1, 1, 0).normalized()).norm(), 0, 1e-15);
   EXPECT_NEAR((view.up - Vec3(-1, 1, 0).normalized()).norm(), 0, 1e-15);
   for (const char* bad :
        {"", "up", "anterior-", "-anterior", "anterior-posterior", "Anterior", "medial-right-lateral-left"})
-    EXPECT_THROW(view_named(bad, Side::right), UsageError) << bad;
+    EXPECT_THROW(io::view_named(bad, Side::right), UsageError) << bad;
 }
 
 /// A plate 5 mm in front of another one, far from the joint centre so that rays to neighbouring vertices are
@@ -125,49 +125,50 @@ Joint plate_in_block() {
 
 enum class Hidden { none, fixed, mobile };
 
-Picture coloured(const Joint& joint, PictureColour colour, std::optional<double> range_mm = std::nullopt,
-                 Hidden hidden = Hidden::none) {
-  PictureOptions options = bare_square("anterior");
+io::Picture coloured(const Joint& joint, io::PictureColour colour,
+                     std::optional<double> range_mm = std::nullopt, Hidden hidden = Hidden::none) {
+  io::PictureOptions options = bare_square("anterior");
   options.colour = colour, options.range_mm = range_mm;
-  if (hidden == Hidden::fixed) options.fixed = BodyStyle::hidden;
-  if (hidden == Hidden::mobile) options.mobile = BodyStyle::hidden;
-  return draw_joint(joint, {}, Pose::Identity(), options);
+  if (hidden == Hidden::fixed) options.fixed = io::BodyStyle::hidden;
+  if (hidden == Hidden::mobile) options.mobile = io::BodyStyle::hidden;
+  return io::draw_joint(joint, {}, Pose::Identity(), options);
 }
 
 /// In the middle of what is above the legend.
-Rgb middle_of(const Picture& picture) {
+Rgb middle_of(const io::Picture& picture) {
   return pixel(picture, picture.width / 2,
                (picture.height - io::legend_height({.height = picture.height})) / 2);
 }
 
 TEST(PictureColours, AreThoseOfTheScale) {
-  const auto expect = [](const Picture& picture, PictureColour colour, double range_mm, double mm) {
+  const auto expect = [](const io::Picture& picture, io::PictureColour colour, double range_mm, double mm) {
     expect_colour(middle_of(picture), *io::ColourScale{colour, range_mm}.at(mm), 1, std::to_string(mm));
   };
   // The front of the plate at x = 107 is 5 mm from the other's front at x = 102.
-  expect(coloured(plate_before_plate(), PictureColour::nearest), PictureColour::nearest, 8, 5);
-  expect(coloured(plate_before_plate(), PictureColour::nearest, 20), PictureColour::nearest, 20, 5);
+  expect(coloured(plate_before_plate(), io::PictureColour::nearest), io::PictureColour::nearest, 8, 5);
+  expect(coloured(plate_before_plate(), io::PictureColour::nearest, 20), io::PictureColour::nearest, 20, 5);
   // For the plate behind, seen without the other, the ray along X goes on from x = 102 to the other one's back at x =
   // 106.
-  expect(coloured(plate_before_plate(), PictureColour::gap, std::nullopt, Hidden::mobile), PictureColour::gap,
-         8, 4);
-  for (const PictureColour colour : {PictureColour::nearest, PictureColour::gap})
+  expect(coloured(plate_before_plate(), io::PictureColour::gap, std::nullopt, Hidden::mobile),
+         io::PictureColour::gap, 8, 4);
+  for (const io::PictureColour colour : {io::PictureColour::nearest, io::PictureColour::gap})
     expect(coloured(plate_in_block(), colour, std::nullopt, Hidden::fixed), colour, 8, -3);
   // Depths have the first of 1, 2, 5, 10 ... as their end that holds them: 3 mm along rays at the middle, 4 at
   // the back of the plate, more at its corners, where rays are oblique.
-  expect(coloured(plate_in_block(), PictureColour::depth, std::nullopt, Hidden::fixed), PictureColour::depth,
-         5, 3);
-  expect(coloured(plate_in_block(), PictureColour::depth, 40, Hidden::fixed), PictureColour::depth, 40, 3);
+  expect(coloured(plate_in_block(), io::PictureColour::depth, std::nullopt, Hidden::fixed),
+         io::PictureColour::depth, 5, 3);
+  expect(coloured(plate_in_block(), io::PictureColour::depth, 40, Hidden::fixed), io::PictureColour::depth,
+         40, 3);
 }
 
 TEST(PictureColours, LeaveBoneWhereThereIsNothingToSay) {
-  expect_colour(middle_of(coloured(plate_before_plate(), PictureColour::depth)), io::mobile_bone, 1,
+  expect_colour(middle_of(coloured(plate_before_plate(), io::PictureColour::depth)), io::mobile_bone, 1,
                 "not inside");
-  expect_colour(middle_of(coloured(plate_before_plate(), PictureColour::gap)), io::mobile_bone, 1,
+  expect_colour(middle_of(coloured(plate_before_plate(), io::PictureColour::gap)), io::mobile_bone, 1,
                 "no ray meets it");
-  expect_colour(middle_of(coloured(plate_before_plate(), PictureColour::gap, 3, Hidden::mobile)),
+  expect_colour(middle_of(coloured(plate_before_plate(), io::PictureColour::gap, 3, Hidden::mobile)),
                 io::fixed_bone, 1, "above the range");
-  expect_colour(middle_of(coloured(plate_before_plate(), PictureColour::none)), io::mobile_bone, 1,
+  expect_colour(middle_of(coloured(plate_before_plate(), io::PictureColour::none)), io::mobile_bone, 1,
                 "none asked");
 }
 
@@ -178,12 +179,12 @@ TEST(PictureColours, HatchDepthsThatAreOnlyBounds) {
   joint.kind = JointKind::free;
   Pose X_FM = Pose::Identity();
   X_FM.translation() = Vec3(1e-9, 0, 0);  // so that no arcs are asked for
-  const PictureOptions options{.view = view_named("superior", Side::right),
-                               .fixed = BodyStyle::hidden,
-                               .width = 400,
-                               .height = 400,
-                               .field_mm = 400};
-  const Picture picture = draw_joint(joint, {}, X_FM, options);
+  const io::PictureOptions options{.view = io::view_named("superior", Side::right),
+                                   .fixed = io::BodyStyle::hidden,
+                                   .width = 400,
+                                   .height = 400,
+                                   .field_mm = 400};
+  const io::Picture picture = io::draw_joint(joint, {}, X_FM, options);
   // From above anterior is up: one pixel a mm, roughly, and the plate 150 mm above the middle.
   const std::size_t rows = 400 - io::legend_height(options);
   const auto row =
@@ -199,7 +200,7 @@ TEST(PictureColours, HatchDepthsThatAreOnlyBounds) {
   EXPECT_GT(light, 0u);
 }
 
-std::size_t pixels_like(const Picture& picture, const Rgb& colour) {
+std::size_t pixels_like(const io::Picture& picture, const Rgb& colour) {
   std::size_t count = 0;
   for (std::size_t row = 0; row < picture.height; ++row)
     for (std::size_t column = 0; column < picture.width; ++column)
@@ -209,17 +210,17 @@ std::size_t pixels_like(const Picture& picture, const Rgb& colour) {
 
 TEST(Picture, LeavesOutWhatIsHiddenAndShowsThroughGlass) {
   const Joint joint = plate_before_plate();
-  PictureOptions options = bare_square("anterior");
+  io::PictureOptions options = bare_square("anterior");
   const auto count = [&](const Rgb& bone) {
-    return pixels_like(draw_joint(joint, {}, Pose::Identity(), options), bone);
+    return pixels_like(io::draw_joint(joint, {}, Pose::Identity(), options), bone);
   };
   EXPECT_GT(count(io::fixed_bone), 1000u);
   EXPECT_GT(count(io::mobile_bone), 1000u);
-  options.mobile = BodyStyle::hidden;
+  options.mobile = io::BodyStyle::hidden;
   EXPECT_EQ(count(io::mobile_bone), 0u);
   EXPECT_GT(count(io::fixed_bone), 1000u);
-  options.mobile = BodyStyle::transparent;
-  const Rgb middle = middle_of(draw_joint(joint, {}, Pose::Identity(), options));
+  options.mobile = io::BodyStyle::transparent;
+  const Rgb middle = middle_of(io::draw_joint(joint, {}, Pose::Identity(), options));
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_LT(std::min(io::fixed_bone[k], io::mobile_bone[k]), middle[k]);
     EXPECT_GT(std::max(io::fixed_bone[k], io::mobile_bone[k]), middle[k]);
@@ -228,12 +229,12 @@ TEST(Picture, LeavesOutWhatIsHiddenAndShowsThroughGlass) {
 
 TEST(PictureMarks, CoverBonesBehindThemAndShineThroughThoseBeforeThem) {
   const Joint joint = joint_of(fine_box({-5, -40, -40}, {5, 40, 40}), fine_box({-60, -1, -1}, {-58, 1, 1}));
-  PictureOptions options = bare_square("anterior");
+  io::PictureOptions options = bare_square("anterior");
   const Rgb blue = {0, 114, 178};
   options.marks = {{box({20, -10, -30}, {21, 10, -20}), {0, 114, 178}},
                    {box({-30, -10, 20}, {-29, 10, 30}), {0, 114, 178}},
                    {box({-30, 42, -5}, {-29, 48, 5}), {0, 114, 178}}};
-  const Picture picture = draw_joint(joint, {}, Pose::Identity(), options);
+  const io::Picture picture = io::draw_joint(joint, {}, Pose::Identity(), options);
   expect_colour(at_mm(picture, 25, 0), blue, 1, "before the bone");
   Rgb through;
   for (std::size_t k = 0; k < 3; ++k) through[k] = 0.45 * blue[k] + 0.55 * io::fixed_bone[k];
@@ -243,17 +244,18 @@ TEST(PictureMarks, CoverBonesBehindThemAndShineThroughThoseBeforeThem) {
 }
 
 TEST(PictureMarks, OfMeasuresLieWhereTheyWereMeasured) {
-  HipMeasures measures;
-  EXPECT_TRUE(measure_marks(measures, Pose::Identity()).empty());
+  measure::HipMeasures measures;
+  EXPECT_TRUE(io::measure_marks(measures, Pose::Identity()).empty());
   const Vec3 head(1, 2, 3), down = -Vec3::UnitY();
-  measures.femur.neck =
-      NeckGeometry{{head, 24}, down, {}, {Vec3::UnitX(), Vec3::UnitZ()}, ClockSource::frame};
-  measures.acetabulum.plane = RimGeometry{Vec3(0, 0, 10), Vec3::UnitZ(), 30, {Vec3::UnitY(), Vec3::UnitX()}};
+  measures.femur.neck = measure::NeckGeometry{
+      {head, 24}, down, {}, {Vec3::UnitX(), Vec3::UnitZ()}, measure::ClockSource::frame};
+  measures.acetabulum.plane =
+      measure::RimGeometry{Vec3(0, 0, 10), Vec3::UnitZ(), 30, {Vec3::UnitY(), Vec3::UnitX()}};
   measures.acetabulum.rim = {
       {0, Vec3(0, 30, 10), 0, 0, true}, {1, Vec3(5, -20, 12), 0, 0, false}, {2, {}, 0, 0, false}};
   Pose X_FM = Pose::Identity();
   X_FM.translation() = Vec3(100, 0, 0);
-  const std::vector<PictureMark> marks = measure_marks(measures, X_FM);
+  const std::vector<io::PictureMark> marks = io::measure_marks(measures, X_FM);
   ASSERT_EQ(marks.size(), 5u);
   const auto expect_bounds = [](const TriMesh& mesh, const Vec3& low, const Vec3& high, const char* what) {
     const BoundingBox box = mesh::bounds_of_surface(mesh);
@@ -274,14 +276,14 @@ TEST(PictureMarks, OfMeasuresLieWhereTheyWereMeasured) {
 
 TEST(Picture, FitsBothBodiesWhateverIsHidden) {
   Joint joint = joint_of(fine_box({-5, 300, -5}, {5, 310, 5}), fine_box({-5, -80, -5}, {5, -70, 5}));
-  PictureOptions options = bare_square("anterior");
+  io::PictureOptions options = bare_square("anterior");
   options.field_mm.reset();
-  const Picture both = draw_joint(joint, {}, Pose::Identity(), options);
+  const io::Picture both = io::draw_joint(joint, {}, Pose::Identity(), options);
   // 390 mm within 92 % of 200 pixels: the boxes are 4.7 pixels high, at either end of the picture's middle column.
   expect_colour(pixel(both, 100, 10), io::fixed_bone, 1, "fixed");
   expect_colour(pixel(both, 100, 189), io::mobile_bone, 1, "mobile");
-  options.fixed = BodyStyle::hidden;
-  const Picture one = draw_joint(joint, {}, Pose::Identity(), options);
+  options.fixed = io::BodyStyle::hidden;
+  const io::Picture one = io::draw_joint(joint, {}, Pose::Identity(), options);
   expect_colour(pixel(one, 100, 10), io::white, 0, "fixed");
   expect_colour(pixel(one, 100, 189), io::mobile_bone, 1, "mobile");
 }
@@ -290,32 +292,32 @@ TEST(Picture, SmoothsEdges) {
   // An edge through the middle of pixels: 2 pixels a mm, from z = -10.25 to 10.25.
   const Joint joint =
       joint_of(fine_box({0, -10, -10.25}, {5, 10, 10.25}), fine_box({-60, -1, -1}, {-58, 1, 1}));
-  const Picture picture = draw_joint(joint, {}, Pose::Identity(), bare_square("anterior"));
+  const io::Picture picture = io::draw_joint(joint, {}, Pose::Identity(), bare_square("anterior"));
   const double shade = at_mm(picture, 10.1, 0.3)[2], inside = at_mm(picture, 9.6, 0.3)[2];
   EXPECT_NEAR(shade, (inside + 255) / 2, 8);
 }
 
 TEST(PictureLegend, IsTheScaleWithItsZero) {
-  PictureOptions options{.colour = PictureColour::gap, .width = 400, .height = 300, .range_mm = 4};
-  const Picture picture = draw_joint(plate_before_plate(), {}, Pose::Identity(), options);
+  io::PictureOptions options{.colour = io::PictureColour::gap, .width = 400, .height = 300, .range_mm = 4};
+  const io::Picture picture = io::draw_joint(plate_before_plate(), {}, Pose::Identity(), options);
   const std::size_t legend = io::legend_height(options), row = 300 - legend + legend / 4;
   // The bar reaches from 32 to 68 % of the width.
-  const io::ColourScale scale{PictureColour::gap, 4};
+  const io::ColourScale scale{io::PictureColour::gap, 4};
   for (const std::size_t column : {130u, 160u, 190u, 210u, 240u, 270u})
     expect_colour(pixel(picture, column, row),
                   *scale.at(-4 + 8 * (static_cast<double>(column) + 0.5 - 128) / 144), 1,
                   std::to_string(column));
   expect_colour(pixel(picture, 200, row + legend / 4), io::black, 0, "the mark of zero");
   EXPECT_GT(pixels_like(picture, io::black), 200u);
-  EXPECT_EQ(io::legend_height({.colour = PictureColour::none}), 0u);
+  EXPECT_EQ(io::legend_height({.colour = io::PictureColour::none}), 0u);
 }
 
 TEST(Picture, IsTheSameBytesOnOneThreadAndOnTwo) {
   const Joint joint = joint_of(sphere({0, 0, 0}, 30, 4), sphere({10, 20, -5}, 15, 4));
   const auto draw = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return draw_joint(joint, {}, Pose::Identity(),
-                      {.fixed = BodyStyle::transparent, .width = 300, .height = 200})
+    return io::draw_joint(joint, {}, Pose::Identity(),
+                          {.fixed = io::BodyStyle::transparent, .width = 300, .height = 200})
         .rgb;
   };
   EXPECT_EQ(draw(1), draw(2));
@@ -323,8 +325,8 @@ TEST(Picture, IsTheSameBytesOnOneThreadAndOnTwo) {
 
 TEST(Picture, RefusesWhatItCannotDraw) {
   const Joint joint = plate_before_plate();
-  const auto draw = [&](const PictureOptions& options) {
-    return draw_joint(joint, {}, Pose::Identity(), options);
+  const auto draw = [&](const io::PictureOptions& options) {
+    return io::draw_joint(joint, {}, Pose::Identity(), options);
   };
   EXPECT_THROW(draw({.width = 63}), UsageError);
   EXPECT_THROW(draw({.height = 8193}), UsageError);
@@ -335,18 +337,19 @@ TEST(Picture, RefusesWhatItCannotDraw) {
   TriMesh open = joint.fixed.mesh.arrays();
   open.triangles.pop_back();
   const Joint with_open = joint_of(open, joint.mobile.mesh);
-  for (const PictureColour colour : {PictureColour::depth, PictureColour::gap})
-    EXPECT_THROW(draw_joint(with_open, {}, Pose::Identity(), {.colour = colour}), MeshError);
-  expect_colour(middle_of(coloured(with_open, PictureColour::nearest)),
-                *io::ColourScale{PictureColour::nearest, 8}.at(5), 1, "nearest");
+  for (const io::PictureColour colour : {io::PictureColour::depth, io::PictureColour::gap})
+    EXPECT_THROW(io::draw_joint(with_open, {}, Pose::Identity(), {.colour = colour}), MeshError);
+  expect_colour(middle_of(coloured(with_open, io::PictureColour::nearest)),
+                *io::ColourScale{io::PictureColour::nearest, 8}.at(5), 1, "nearest");
 }
 
 TEST(PicturePng, ReadsBackWithItsProvenance) {
   const TemporaryFolder folder;
-  const Picture picture = draw_joint(plate_before_plate(), {}, Pose::Identity(), {.width = 80, .height = 64});
-  Provenance from{};
+  const io::Picture picture =
+      io::draw_joint(plate_before_plate(), {}, Pose::Identity(), {.width = 80, .height = 64});
+  io::Provenance from{};
   from.command = {"picture", "joint.toml"};
-  write_png(folder / "new/p.png", picture, &from);
+  io::write_png(folder / "new/p.png", picture, &from);
   vtkNew<vtkPNGReader> reader;
   reader->SetFileName((folder / "new/p.png").c_str());
   reader->Update();
@@ -360,13 +363,13 @@ TEST(PicturePng, ReadsBackWithItsProvenance) {
                   picture.rgb[static_cast<std::size_t>(3 * (row * 80 + column) + k)]);
   EXPECT_NE(io::read_whole_file(folder / "new/p.png").find("picture joint.toml"), std::string::npos);
   folder.file("file", "in the way");
-  EXPECT_THROW(write_png(folder / "file/p.png", picture), FileError);
+  EXPECT_THROW(io::write_png(folder / "file/p.png", picture), FileError);
 }
 
 /// A bone of which a millimetre goes at one vertex.
-CutBone cut_at(const Vec3& place) {
+plan::CutBone cut_at(const Vec3& place) {
   const TriMesh surface = box(place, place + Vec3(10, 10, 10));
-  CutBone cut{{"bone", surface}, surface, {}, {}, {}, 0, 0, 0, 0, 0, 0, Vec3::Zero()};
+  plan::CutBone cut{{"bone", surface}, surface, {}, {}, {}, 0, 0, 0, 0, 0, 0, Vec3::Zero()};
   cut.depth_mm.assign(surface.vertices.size(), 0);
   for (std::size_t v = 0; v < surface.vertices.size(); ++v)
     if (surface.vertices[v] == place) cut.depth_mm[v] = 1;
@@ -375,7 +378,7 @@ CutBone cut_at(const Vec3& place) {
 
 // Seen from in front, superior up: pictures are four wide and three high, about the joint centre.
 TEST(Picture, ACutIsInItsPictureHoweverFarFromTheJointCentre) {
-  const ViewDirection from_in_front;
+  const io::ViewDirection from_in_front;
   EXPECT_EQ(io::field_of(cut_at({20, -40, 60}), from_in_front), 110);
   EXPECT_NEAR(io::field_of(cut_at({20, -80, 60}), from_in_front), 2.2 * 80, 1e-9);
   EXPECT_NEAR(io::field_of(cut_at({20, -40, -100}), from_in_front), 2.2 * 75, 1e-9);

@@ -46,18 +46,18 @@ class ProposedHip : public testing::TestWithParam<Hip> {
     fixed_ = read_ply(*data / GetParam().folder / GetParam().fixed);
     mobile_ = read_ply(*data / GetParam().folder / GetParam().mobile);
   }
-  JointProposal proposed(Axes axes, double scale, std::optional<Side> side = {}) const {
-    write_mesh(folder_ / "bone.ply", as_exported(fixed_, axes, scale));
-    write_mesh(folder_ / "thigh.ply", as_exported(mobile_, axes, scale));
-    return propose_joint({folder_ / "bone.ply", folder_ / "thigh.ply", folder_ / "joint.toml", side, {}});
+  io::JointProposal proposed(Axes axes, double scale, std::optional<Side> side = {}) const {
+    io::write_mesh(folder_ / "bone.ply", as_exported(fixed_, axes, scale));
+    io::write_mesh(folder_ / "thigh.ply", as_exported(mobile_, axes, scale));
+    return io::propose_joint({folder_ / "bone.ply", folder_ / "thigh.ply", folder_ / "joint.toml", side, {}});
   }
-  LoadedJoint read(const std::string& toml) const {
+  io::LoadedJoint read(const std::string& toml) const {
     std::ofstream(folder_ / "joint.toml") << toml;
-    return read_joint(folder_ / "joint.toml");
+    return io::read_joint(folder_ / "joint.toml");
   }
   static std::vector<double> limits(const Joint& joint) {
     std::vector<double> out;
-    for (const MotionLimit& limit : RangeOfMotion(joint).limits(hip_motions()))
+    for (const motion::MotionLimit& limit : motion::RangeOfMotion(joint).limits(motion::hip_motions()))
       out.push_back(limit.end.turned.degrees());
     return out;
   }
@@ -69,8 +69,8 @@ INSTANTIATE_TEST_SUITE_P(SharedData, ProposedHip, testing::ValuesIn(hips),
                          [](const auto& hip) { return hip.param.folder; });
 
 TEST_P(ProposedHip, HasTheLimitsOfAFileWrittenByHand) {
-  write_mesh(folder_ / "bone.ply", fixed_);
-  write_mesh(folder_ / "thigh.ply", mobile_);
+  io::write_mesh(folder_ / "bone.ply", fixed_);
+  io::write_mesh(folder_ / "thigh.ply", mobile_);
   const std::string side = GetParam().side == Side::right ? "right" : "left";
   const auto by_hand =
       limits(read("condyle = 1\nname = \"hip\"\nkind = \"ball\"\nside = \"" + side +
@@ -81,15 +81,15 @@ TEST_P(ProposedHip, HasTheLimitsOfAFileWrittenByHand) {
     for (const double scale : {1.0, 0.001}) {
       if (axes == Axes::joint && scale != 1) continue;
       SCOPED_TRACE(testing::Message() << static_cast<int>(axes) << " " << scale);
-      const JointProposal proposal = proposed(axes, scale);
+      const io::JointProposal proposal = proposed(axes, scale);
       EXPECT_TRUE(proposal.to_fill_in.empty()) << proposal.to_fill_in.front();
       for (const char* minus_zero : {"-0,", "-0]", "-0.00,", "-0.00)", " -0 "})
         EXPECT_EQ(proposal.toml.find(minus_zero), std::string::npos) << proposal.toml;
-      const LoadedJoint loaded = read(proposal.toml);
+      const io::LoadedJoint loaded = read(proposal.toml);
       EXPECT_EQ(loaded.joint.side, GetParam().side);
       const auto found = limits(loaded.joint);
       for (std::size_t i = 0; i < found.size(); ++i)
-        EXPECT_NEAR(found[i], by_hand[i], 0.1) << hip_motions()[i].name;
+        EXPECT_NEAR(found[i], by_hand[i], 0.1) << motion::hip_motions()[i].name;
     }
   }
 }
@@ -103,20 +103,20 @@ TEST(ProposedFineHip, InMetresAndLpsHasTheLimitsOfAFileWrittenByHand) {
                 mobile = read_ply(*data / "hip_libhip_m1_left/femur.ply");
   const auto limits_of = [&](const std::string& toml) {
     std::ofstream(folder / "joint.toml") << toml;
-    const Joint joint = read_joint(folder / "joint.toml").joint;
+    const Joint joint = io::read_joint(folder / "joint.toml").joint;
     EXPECT_EQ(joint.side, Side::left);
-    return RangeOfMotion(joint).limits(hip_motions());
+    return motion::RangeOfMotion(joint).limits(motion::hip_motions());
   };
-  write_mesh(folder / "bone.ply", fixed);
-  write_mesh(folder / "thigh.ply", mobile);
+  io::write_mesh(folder / "bone.ply", fixed);
+  io::write_mesh(folder / "thigh.ply", mobile);
   const auto by_hand = limits_of(
       "condyle = 1\nname = \"hip\"\nkind = \"ball\"\nside = \"left\"\nunits = \"mm\"\n"
       "[fixed]\nmesh = \"bone.ply\"\n[mobile]\nmesh = \"thigh.ply\"\n"
       "[frame]\ncentre = \"fit\"\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n");
-  write_mesh(folder / "bone.ply", as_exported(fixed, Axes::lps, 0.001));
-  write_mesh(folder / "thigh.ply", as_exported(mobile, Axes::lps, 0.001));
-  const JointProposal proposal =
-      propose_joint({folder / "bone.ply", folder / "thigh.ply", folder / "joint.toml", {}, {}});
+  io::write_mesh(folder / "bone.ply", as_exported(fixed, Axes::lps, 0.001));
+  io::write_mesh(folder / "thigh.ply", as_exported(mobile, Axes::lps, 0.001));
+  const io::JointProposal proposal =
+      io::propose_joint({folder / "bone.ply", folder / "thigh.ply", folder / "joint.toml", {}, {}});
   ASSERT_TRUE(proposal.to_fill_in.empty()) << proposal.to_fill_in.front();
   EXPECT_NE(proposal.toml.find("units = \"m\""), std::string::npos) << proposal.toml;
   EXPECT_NE(proposal.toml.find("anterior = [0, -1, 0]"), std::string::npos) << proposal.toml;
@@ -127,25 +127,25 @@ TEST(ProposedFineHip, InMetresAndLpsHasTheLimitsOfAFileWrittenByHand) {
 
 TEST_P(ProposedHip, OfTheWrongSideIsNotGuessed) {
   const Side wrong = GetParam().side == Side::right ? Side::left : Side::right;
-  const JointProposal proposal = proposed(Axes::ras, 1, wrong);
+  const io::JointProposal proposal = proposed(Axes::ras, 1, wrong);
   ASSERT_EQ(proposal.to_fill_in.size(), 2u);
   EXPECT_TRUE(proposal.to_fill_in[0].starts_with("anterior: the bones agree with none"));
   EXPECT_THROW(read(proposal.toml), FileError) << "not to be read before it is filled in";
 }
 
 TEST_P(ProposedHip, OfExchangedBodiesHasNoHead) {
-  write_mesh(folder_ / "bone.ply", fixed_);
-  write_mesh(folder_ / "thigh.ply", mobile_);
-  const JointProposal proposal =
-      propose_joint({folder_ / "thigh.ply", folder_ / "bone.ply", folder_ / "joint.toml", {}, {}});
+  io::write_mesh(folder_ / "bone.ply", fixed_);
+  io::write_mesh(folder_ / "thigh.ply", mobile_);
+  const io::JointProposal proposal =
+      io::propose_joint({folder_ / "thigh.ply", folder_ / "bone.ply", folder_ / "joint.toml", {}, {}});
   EXPECT_FALSE(proposal.to_fill_in.empty());
 }
 
 TEST(ProposedJoint, OfTwoBoxesIsToBeFilledIn) {
   const TemporaryFolder folder;
-  write_mesh(folder / "a \"quoted\".ply", box({-20, -20, -20}, {20, 20, 20}));
-  write_mesh(folder / "b.ply", box({30, -20, -20}, {300, 20, 20}));
-  const JointProposal proposal = propose_joint(
+  io::write_mesh(folder / "a \"quoted\".ply", box({-20, -20, -20}, {20, 20, 20}));
+  io::write_mesh(folder / "b.ply", box({30, -20, -20}, {300, 20, 20}));
+  const io::JointProposal proposal = io::propose_joint(
       {folder / "a \"quoted\".ply", folder / "b.ply", folder / "sub" / "joint.toml", {}, LengthUnit::metres});
   std::vector<std::string> keys;
   for (const std::string& line : proposal.to_fill_in) keys.push_back(line.substr(0, line.find(':')));
@@ -154,11 +154,12 @@ TEST(ProposedJoint, OfTwoBoxesIsToBeFilledIn) {
   filled = "kind = \"ball\"\nside = \"right\"\n" + filled;
   std::filesystem::create_directory(folder / "sub");
   std::ofstream(folder / "sub" / "joint.toml") << filled;
-  EXPECT_TRUE(std::filesystem::equivalent(read_joint_file(folder / "sub" / "joint.toml").fixed.meshes[0].mesh,
-                                          folder / "a \"quoted\".ply"))
+  EXPECT_TRUE(std::filesystem::equivalent(
+      io::read_joint_file(folder / "sub" / "joint.toml").fixed.meshes[0].mesh, folder / "a \"quoted\".ply"))
       << filled;
   EXPECT_NE(proposal.toml.find("units = \"m\"  # given"), std::string::npos);
-  EXPECT_THROW(propose_joint({folder / "none.ply", folder / "b.ply", folder / "j.toml", {}, {}}), FileError);
+  EXPECT_THROW(io::propose_joint({folder / "none.ply", folder / "b.ply", folder / "j.toml", {}, {}}),
+               FileError);
 }
 
 }  // namespace

@@ -19,21 +19,21 @@ constexpr double most_deg = 3, most_mm = 2;
 
 class ProposedOther : public testing::Test {
  protected:
-  JointProposal proposed(const TriMesh& fixed, const TriMesh& mobile, Anatomy anatomy,
-                         std::optional<Side> side = {}) const {
-    write_mesh(folder_ / "fixed.ply", fixed);
-    write_mesh(folder_ / "mobile.ply", mobile);
-    return propose_joint({.fixed = folder_ / "fixed.ply",
-                          .mobile = folder_ / "mobile.ply",
-                          .joint_file = folder_ / "joint.toml",
-                          .side = side,
-                          .anatomy = anatomy});
+  io::JointProposal proposed(const TriMesh& fixed, const TriMesh& mobile, Anatomy anatomy,
+                             std::optional<Side> side = {}) const {
+    io::write_mesh(folder_ / "fixed.ply", fixed);
+    io::write_mesh(folder_ / "mobile.ply", mobile);
+    return io::propose_joint({.fixed = folder_ / "fixed.ply",
+                              .mobile = folder_ / "mobile.ply",
+                              .joint_file = folder_ / "joint.toml",
+                              .side = side,
+                              .anatomy = anatomy});
   }
-  LoadedJoint read(const std::string& toml) const {
+  io::LoadedJoint read(const std::string& toml) const {
     std::ofstream(folder_ / "joint.toml") << toml;
-    return read_joint(folder_ / "joint.toml");
+    return io::read_joint(folder_ / "joint.toml");
   }
-  static std::vector<std::string> keys_to_fill_in(const JointProposal& proposal) {
+  static std::vector<std::string> keys_to_fill_in(const io::JointProposal& proposal) {
     std::vector<std::string> keys;
     for (const std::string& line : proposal.to_fill_in) keys.push_back(line.substr(0, line.find(':')));
     return keys;
@@ -86,12 +86,12 @@ TEST_F(ProposedOther, KneeOfRealBonesHasTheFrameOfItsModelInAllAxesUnitsAndMirro
     const auto exported = [&, pose = X, factor = scale, mirror = is_left](const TriMesh& mesh) {
       return scaled(posed(pose, mirror ? mirrored(mesh) : mesh), factor);
     };
-    const JointProposal proposal = proposed(exported(femur), exported(tibia), Anatomy::knee);
+    const io::JointProposal proposal = proposed(exported(femur), exported(tibia), Anatomy::knee);
     ASSERT_EQ(keys_to_fill_in(proposal), Keys{}) << proposal.toml;
     EXPECT_EQ(proposal.side, is_left ? Side::left : Side::right);
     for (const char* minus_zero : {"-0,", "-0]"})
       EXPECT_EQ(proposal.toml.find(minus_zero), std::string::npos) << proposal.toml;
-    const LoadedJoint loaded = read(proposal.toml);
+    const io::LoadedJoint loaded = read(proposal.toml);
     EXPECT_EQ(loaded.joint.kind, JointKind::free);
     EXPECT_EQ(loaded.joint.anatomy, Anatomy::knee);
     EXPECT_EQ(loaded.joint.side, is_left ? Side::left : Side::right);
@@ -104,7 +104,7 @@ TEST_F(ProposedOther, KneeOfRealBonesHasTheFrameOfItsModelInAllAxesUnitsAndMirro
 }
 
 TEST_F(ProposedOther, KneeOfExchangedBonesSaysSo) {
-  const JointProposal proposal = proposed(tibia_of_knee(), femur_of({}), Anatomy::knee);
+  const io::JointProposal proposal = proposed(tibia_of_knee(), femur_of({}), Anatomy::knee);
   EXPECT_EQ(keys_to_fill_in(proposal), (Keys{"side", "centre", "anterior", "superior"}));
   EXPECT_NE(proposal.toml.find("fixed and mobile look exchanged"), std::string::npos) << proposal.toml;
 }
@@ -118,7 +118,7 @@ TEST_F(ProposedOther, OthersOfExchangedBonesSaySo) {
        {Exchanged{Anatomy::ankle, talus(), tibia_of_ankle()},
         Exchanged{Anatomy::elbow, ulna(), humerus_at_elbow()},
         Exchanged{Anatomy::shoulder, humerus_at_shoulder(), scapula()}}) {
-    const JointProposal proposal = proposed(fixed, mobile, anatomy);
+    const io::JointProposal proposal = proposed(fixed, mobile, anatomy);
     EXPECT_EQ(keys_to_fill_in(proposal), (Keys{"side", "centre", "anterior", "superior"}));
     EXPECT_NE(proposal.toml.find("fixed and mobile look exchanged"), std::string::npos) << proposal.toml;
   }
@@ -127,13 +127,13 @@ TEST_F(ProposedOther, OthersOfExchangedBonesSaySo) {
 TEST_F(ProposedOther, KneeOfAGivenSideThatItsBonesContradictHasNone) {
   const TriMesh femur = femur_of({}), tibia = tibia_of_knee();
   EXPECT_EQ(keys_to_fill_in(proposed(femur, tibia, Anatomy::knee, Side::left)), Keys{"side"});
-  const JointProposal agreed = proposed(femur, tibia, Anatomy::knee, Side::right);
+  const io::JointProposal agreed = proposed(femur, tibia, Anatomy::knee, Side::right);
   EXPECT_EQ(agreed.side, Side::right);
   EXPECT_NE(agreed.toml.find("side = \"right\"  # given"), std::string::npos) << agreed.toml;
 }
 
 TEST_F(ProposedOther, KneeOfACutFemurHasACentreOnly) {
-  const JointProposal proposal =
+  const io::JointProposal proposal =
       proposed(femur_of({.length = 60}), tibia_of_knee(), Anatomy::knee, Side::right);
   EXPECT_EQ(keys_to_fill_in(proposal), (Keys{"anterior", "superior"}));
 }
@@ -148,11 +148,11 @@ TEST_F(ProposedOther, AnkleAndElbowAreHingesAboutTheirCylinders) {
        {Hinge{Anatomy::ankle, tibia_of_ankle(), talus(), {"side"}},
         Hinge{Anatomy::elbow, humerus_at_elbow(), ulna(), {"side", "anterior"}}}) {
     const Pose X = any_pose(2);
-    const JointProposal proposal = proposed(posed(X, fixed), posed(X, mobile), anatomy);
+    const io::JointProposal proposal = proposed(posed(X, fixed), posed(X, mobile), anatomy);
     ASSERT_EQ(keys_to_fill_in(proposal), missing) << proposal.toml;
     std::string toml = proposal.toml;
     for (const std::string& key : missing) toml = filled(std::move(toml), key);
-    const LoadedJoint loaded = read(toml);
+    const io::LoadedJoint loaded = read(toml);
     EXPECT_EQ(loaded.joint.kind, JointKind::hinge);
     EXPECT_EQ(loaded.joint.anatomy, anatomy);
     const Pose& X_WF = loaded.report.placement.X_WF;
@@ -164,18 +164,18 @@ TEST_F(ProposedOther, AnkleAndElbowAreHingesAboutTheirCylinders) {
 
 TEST_F(ProposedOther, ShoulderHasTheCentreOfItsHead) {
   const Pose X = any_pose(1);
-  const JointProposal proposal =
+  const io::JointProposal proposal =
       proposed(posed(X, scapula()), posed(X, humerus_at_shoulder()), Anatomy::shoulder, Side::right);
   EXPECT_EQ(keys_to_fill_in(proposal), (Keys{"anterior", "superior"}));
   EXPECT_EQ(proposal.evidence.size(), 2u) << proposal.toml;
-  const LoadedJoint loaded = read(proposal.toml + "axes = \"RAS\"\n");
+  const io::LoadedJoint loaded = read(proposal.toml + "axes = \"RAS\"\n");
   EXPECT_EQ(loaded.joint.kind, JointKind::ball);
   EXPECT_LT((loaded.report.placement.X_WF.translation() - X.translation()).norm(), most_mm);
 }
 
 TEST_F(ProposedOther, OfTwoBoxesIsToBeFilledIn) {
   for (const Anatomy anatomy : {Anatomy::knee, Anatomy::ankle, Anatomy::elbow, Anatomy::shoulder}) {
-    const JointProposal proposal =
+    const io::JointProposal proposal =
         proposed(box({-20, -20, -20}, {20, 20, 20}), box({30, -20, -20}, {300, 20, 20}), anatomy);
     const Keys keys = keys_to_fill_in(proposal);
     EXPECT_EQ(Keys(keys.end() - 4, keys.end()), (Keys{"side", "centre", "anterior", "superior"}))
@@ -195,9 +195,9 @@ TEST_F(ProposedOther, OfAMeshInsideOutSaysSo) {
 TEST_F(ProposedOther, HipIsProposedAsWithoutAnAnatomy) {
   const TriMesh fixed = box({-20, -20, -20}, {20, 20, 20}), mobile = sphere({30, 0, 0}, 25, 4);
   const std::string named = proposed(fixed, mobile, Anatomy::hip).toml;
-  EXPECT_EQ(
-      named,
-      propose_joint({folder_ / "fixed.ply", folder_ / "mobile.ply", folder_ / "joint.toml", {}, {}}).toml);
+  EXPECT_EQ(named,
+            io::propose_joint({folder_ / "fixed.ply", folder_ / "mobile.ply", folder_ / "joint.toml", {}, {}})
+                .toml);
 }
 
 }  // namespace

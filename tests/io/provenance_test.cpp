@@ -16,8 +16,8 @@ namespace {
 class ProvenanceOfAJoint : public ::testing::Test {
  protected:
   ProvenanceOfAJoint() {
-    write_mesh(folder / "fixed.ply", box({0.3, 0.1, 0.2}, {0.5, 0.4, 0.7}));
-    write_mesh(folder / "mobile.ply", sphere({0.1, -0.2, 0.3}, 0.04, 2));
+    io::write_mesh(folder / "fixed.ply", box({0.3, 0.1, 0.2}, {0.5, 0.4, 0.7}));
+    io::write_mesh(folder / "mobile.ply", sphere({0.1, -0.2, 0.3}, 0.04, 2));
     folder.file("joint.toml", R"(condyle = 1
 name = "j"
 kind = "ball"
@@ -36,7 +36,7 @@ flexion = 57
 adduction = -10.1
 )");
   }
-  LoadedJoint read() const { return read_joint(folder / "joint.toml"); }
+  io::LoadedJoint read() const { return io::read_joint(folder / "joint.toml"); }
 
   const TemporaryFolder folder;
 };
@@ -52,19 +52,19 @@ void expect_near(const TriMesh& a, const TriMesh& b, double tolerance) {
 }
 
 TEST_F(ProvenanceOfAJoint, NamesItsFilesBySizeAndDigest) {
-  const Provenance from = provenance_of(read(), {"depth", "joint.toml"});
-  EXPECT_EQ(from.fixed.files[0].digest, digest_of(io::read_whole_file(folder / "fixed.ply")));
-  EXPECT_EQ(from.mobile.files[0].digest, digest_of(io::read_whole_file(folder / "mobile.ply")));
-  EXPECT_EQ(from.joint_digest, digest_of(io::read_whole_file(folder / "joint.toml")));
+  const io::Provenance from = io::provenance_of(read(), {"depth", "joint.toml"});
+  EXPECT_EQ(from.fixed.files[0].digest, io::digest_of(io::read_whole_file(folder / "fixed.ply")));
+  EXPECT_EQ(from.mobile.files[0].digest, io::digest_of(io::read_whole_file(folder / "mobile.ply")));
+  EXPECT_EQ(from.joint_digest, io::digest_of(io::read_whole_file(folder / "joint.toml")));
   EXPECT_EQ(from.fixed.files[0].path, folder / "fixed.ply");
 }
 
 TEST_F(ProvenanceOfAJoint, ItsMatricesBringVerticesOfTheFilesIntoTheJointAndBack) {
-  const LoadedJoint loaded = read();
-  const Provenance from = provenance_of(loaded, {});
+  const io::LoadedJoint loaded = read();
+  const io::Provenance from = io::provenance_of(loaded, {});
   for (const auto& [origin, body] :
        {std::pair(from.fixed, loaded.joint.fixed), {from.mobile, loaded.joint.mobile}}) {
-    const TriMesh of_file = read_mesh(origin.files[0].path).mesh;
+    const TriMesh of_file = io::read_mesh(origin.files[0].path).mesh;
     for (std::size_t v = 0; v < of_file.vertices.size(); ++v) {
       const Vec3 p_joint = body.mesh.vertices()[v];
       EXPECT_LT((origin.joint_from_source * of_file.vertices[v] - p_joint).norm(), rounding_mm);
@@ -74,9 +74,10 @@ TEST_F(ProvenanceOfAJoint, ItsMatricesBringVerticesOfTheFilesIntoTheJointAndBack
 }
 
 TEST_F(ProvenanceOfAJoint, TheSourceFrameLaysMeshesOnTheirFilesAndGivesPointsInMillimetres) {
-  const LoadedJoint loaded = read();
-  const AnswerFrame source = provenance_of(loaded, {}, AnswerFrameName::source).frame;
-  const TriMesh fixed = read_mesh(folder / "fixed.ply").mesh, mobile = read_mesh(folder / "mobile.ply").mesh;
+  const io::LoadedJoint loaded = read();
+  const io::AnswerFrame source = io::provenance_of(loaded, {}, io::AnswerFrameName::source).frame;
+  const TriMesh fixed = io::read_mesh(folder / "fixed.ply").mesh,
+                mobile = io::read_mesh(folder / "mobile.ply").mesh;
   expect_near(source.fixed_mesh(loaded.joint.fixed.mesh), fixed, rounding_mm / 1000);
   expect_near(source.mobile_mesh(loaded.joint.mobile.mesh), mobile, rounding_mm / 1000);
   EXPECT_LT((source.fixed_point(loaded.joint.fixed.mesh.vertices()[3]) - 1000 * fixed.vertices[3]).norm(),
@@ -87,15 +88,16 @@ TEST_F(ProvenanceOfAJoint, TheSourceFrameLaysMeshesOnTheirFilesAndGivesPointsInM
 }
 
 TEST_F(ProvenanceOfAJoint, TheJointFrameChangesNoBit) {
-  const LoadedJoint loaded = read();
-  const AnswerFrame joint = provenance_of(loaded, {}).frame;
+  const io::LoadedJoint loaded = read();
+  const io::AnswerFrame joint = io::provenance_of(loaded, {}).frame;
   EXPECT_EQ(joint.fixed_mesh(loaded.joint.fixed.mesh), loaded.joint.fixed.mesh.arrays());
   EXPECT_EQ(joint.mobile_mesh(loaded.joint.mobile.mesh), loaded.joint.mobile.mesh.arrays());
   EXPECT_EQ(joint.fixed_point({0.1, 0.2, 0.3}), Vec3(0.1, 0.2, 0.3));
 }
 
 TEST_F(ProvenanceOfAJoint, IsOneLineForEachThingInACsv) {
-  const Provenance from = provenance_of(read(), {"depth", "a b\n.toml", "--pose", "flexion=57 adduction=1"});
+  const io::Provenance from =
+      io::provenance_of(read(), {"depth", "a b\n.toml", "--pose", "flexion=57 adduction=1"});
   const std::string text = io::provenance_comments(&from);
   EXPECT_NE(text.find("# condyle_command: condyle depth 'a b?.toml' --pose 'flexion=57 adduction=1'\n"),
             text.npos)
@@ -110,9 +112,9 @@ TEST_F(ProvenanceOfAJoint, IsOneLineForEachThingInACsv) {
 }
 
 TEST(AnswerFrameName, IsJointOrSource) {
-  for (const auto name : {AnswerFrameName::joint, AnswerFrameName::source})
-    EXPECT_EQ(answer_frame_named(name_of(name)), name);
-  EXPECT_THROW(answer_frame_named("world"), UsageError);
+  for (const auto name : {io::AnswerFrameName::joint, io::AnswerFrameName::source})
+    EXPECT_EQ(io::answer_frame_named(name_of(name)), name);
+  EXPECT_THROW(io::answer_frame_named("world"), UsageError);
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST(Report, HasTheJointToTheBit) {
   const Joint joint = odd_joint();
   const JointCoordinates reference{.angles = {Angle::degrees(30), Angle::degrees(-7), {}}};
   const ReportBlock block =
-      report_block(report_html({.title = "a title", .joint = joint, .reference_pose = reference}));
+      report_block(io::report_html({.title = "a title", .joint = joint, .reference_pose = reference}));
   expect_is(block, "fixed", joint.fixed.mesh);
   expect_is(block, "mobile", joint.mobile.mesh);
   EXPECT_EQ(block.json["title"], "a title");
@@ -84,26 +84,26 @@ struct Answered {
   explicit Answered(const Joint& of)
       : joint(of),
         range(joint),
-        limits(range.limits(built_in_motions(joint.kind, joint.anatomy))),
-        map(motion_map({.row = {JointAngle::adduction, -10, 10, 5},
-                        .column = {JointAngle::internal_rotation, -20, 20, 10},
-                        .vary = JointAngle::flexion},
-                       range)) {}
-  RomResult rom() const {
+        limits(range.limits(motion::built_in_motions(joint.kind, joint.anatomy))),
+        map(motion::motion_map({.row = {JointAngle::adduction, -10, 10, 5},
+                                .column = {JointAngle::internal_rotation, -20, 20, 10},
+                                .vary = JointAngle::flexion},
+                               range)) {}
+  io::RomResult rom() const {
     return {.joint = joint, .limits = limits, .bearing = range.bearing(), .caveats = {"a term"}, .map = &map};
   }
 
   Joint joint;
-  RangeOfMotion range;
-  std::vector<MotionLimit> limits;
-  MotionMap map;
+  motion::RangeOfMotion range;
+  std::vector<motion::MotionLimit> limits;
+  motion::MotionMap map;
 };
 
 TEST(Report, SaysOfLimitsWhatRomSays) {
   const Answered answer(odd_joint());
-  const RomResult rom = answer.rom();
-  const ReportBlock block = report_block(report_html({.title = "", .joint = answer.joint, .rom = &rom}));
-  Json said = Json::parse(rom_json(rom));
+  const io::RomResult rom = answer.rom();
+  const ReportBlock block = report_block(io::report_html({.title = "", .joint = answer.joint, .rom = &rom}));
+  Json said = Json::parse(io::rom_json(rom));
   said["map"].erase("intervals");  // the page has them under "map"
   EXPECT_EQ(block.json["rom"], said);
   EXPECT_FALSE(block.json.contains("rom_error"));
@@ -113,12 +113,12 @@ TEST(Report, SaysOfLimitsWhatRomSays) {
 
 TEST(Report, HasWhatContactOfEachTriangleMeans) {
   const Joint joint = arm_and_post();
-  ContactRoles roles;
-  roles.mobile.assign(12, ContactRole::ends);
-  roles.mobile[2] = ContactRole::bearing, roles.mobile[5] = ContactRole::bearing_on_bearing;
-  roles.fixed.assign(12, ContactRole::soft);
-  const RomResult rom{.joint = joint, .limits = {}, .bearing = {.roles = roles}};
-  const ReportBlock block = report_block(report_html({.title = "", .joint = joint, .rom = &rom}));
+  motion::ContactRoles roles;
+  roles.mobile.assign(12, motion::ContactRole::ends);
+  roles.mobile[2] = motion::ContactRole::bearing, roles.mobile[5] = motion::ContactRole::bearing_on_bearing;
+  roles.fixed.assign(12, motion::ContactRole::soft);
+  const io::RomResult rom{.joint = joint, .limits = {}, .bearing = {.roles = roles}};
+  const ReportBlock block = report_block(io::report_html({.title = "", .joint = joint, .rom = &rom}));
   EXPECT_EQ(block.array<std::uint8_t>("mobile_roles", "u8"),
             (std::vector<std::uint8_t>{0, 0, 1, 0, 0, 3, 0, 0, 0, 0, 0, 0}));
   EXPECT_EQ(block.array<std::uint8_t>("fixed_roles", "u8"), std::vector<std::uint8_t>(12, 2));
@@ -126,8 +126,9 @@ TEST(Report, HasWhatContactOfEachTriangleMeans) {
 
 TEST(Report, HasAllFreeIntervalsOfAMap) {
   const Answered answer(arm_and_post());
-  const RomResult rom = answer.rom();
-  const Json map = report_block(report_html({.title = "", .joint = answer.joint, .rom = &rom})).json["map"];
+  const io::RomResult rom = answer.rom();
+  const Json map =
+      report_block(io::report_html({.title = "", .joint = answer.joint, .rom = &rom})).json["map"];
   EXPECT_EQ(map["columns"], Json({{"angle", "internal_rotation"},
                                   {"opposite", "external_rotation"},
                                   {"values_deg", {-20.0, -10.0, 0.0, 10.0, 20.0}}}));
@@ -144,8 +145,8 @@ TEST(Report, HasAllFreeIntervalsOfAMap) {
       const Json& given = map["intervals"][i][k];
       EXPECT_EQ(given[0], intervals[k].low.degrees());
       EXPECT_EQ(given[1], intervals[k].high.degrees());
-      EXPECT_EQ(given[2], intervals[k].at_low.reason == LimitReason::contact ? 1 : 0);
-      EXPECT_EQ(given[3], intervals[k].at_high.reason == LimitReason::contact ? 1 : 0);
+      EXPECT_EQ(given[2], intervals[k].at_low.reason == motion::LimitReason::contact ? 1 : 0);
+      EXPECT_EQ(given[3], intervals[k].at_high.reason == motion::LimitReason::contact ? 1 : 0);
       some_end_by_contact |= given[3] == 1;
     }
   }
@@ -154,22 +155,22 @@ TEST(Report, HasAllFreeIntervalsOfAMap) {
 
 TEST(Report, HasRadialGapsInTheReferencePoseAndAtEveryLimit) {
   const Answered answer(arm_and_post());
-  const RomResult rom = answer.rom();
-  const ReportBlock block = report_block(report_html({.title = "", .joint = answer.joint, .rom = &rom}));
+  const io::RomResult rom = answer.rom();
+  const ReportBlock block = report_block(io::report_html({.title = "", .joint = answer.joint, .rom = &rom}));
   const Json& poses = block.json["poses"];
   ASSERT_EQ(poses.size(), 1 + answer.limits.size());
   EXPECT_EQ(poses[0]["name"], "reference");
   EXPECT_EQ(poses[0]["pose"], Json::parse("[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]"));
   EXPECT_EQ(poses[0]["in_contact"], false);
   EXPECT_EQ(poses[0]["contact_point_mm"], nullptr);
-  const JointContact contact(answer.joint);
+  const contact::JointContact contact(answer.joint);
   bool some_gap = false, no_gap = false;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const JointAngles angles = i == 0 ? JointAngles{} : answer.limits[i - 1].angles_at_limit();
     EXPECT_EQ(poses[i]["coordinates_deg"], (Json{angles.flexion.degrees(), angles.adduction.degrees(),
                                                  angles.internal_rotation.degrees()}));
-    const RadialContact at = contact.radial(pose_at(answer.joint.coordinates(), angles));
-    const auto check = [&](const char* key, const RadialResults& results) {
+    const contact::RadialContact at = contact.radial(pose_at(answer.joint.coordinates(), angles));
+    const auto check = [&](const char* key, const radial::RadialResults& results) {
       const auto gaps = block.array<std::int16_t>(poses[i][key], "i16");
       ASSERT_EQ(gaps.size(), results.size());
       for (std::size_t v = 0; v < gaps.size(); ++v) {
@@ -196,13 +197,13 @@ TEST(Report, HasOfAJointBeforeItsLimitsAndTheBodiesThatChanged) {
   Joint moved = arm_and_post();
   moved.fixed.mesh = box({50, -120, -50}, {70, -80, 50});
   const Answered after(moved);
-  const RomResult rom = after.rom(), rom_before = before.rom();
-  const Report report{
+  const io::RomResult rom = after.rom(), rom_before = before.rom();
+  const io::Report report{
       .title = "",
       .joint = after.joint,
       .rom = &rom,
-      .before = ReportedBefore{.joint = before.joint, .file = "folder/before.toml", .rom = &rom_before}};
-  const ReportBlock block = report_block(report_html(report));
+      .before = io::ReportedBefore{.joint = before.joint, .file = "folder/before.toml", .rom = &rom_before}};
+  const ReportBlock block = report_block(io::report_html(report));
   const Json& found = block.json["before"];
   EXPECT_EQ(found["file"], "before.toml");
   EXPECT_EQ(found["joint"], Json({{"name", "arm and post"}, {"fixed", "post"}, {"mobile", "arm"}}));
@@ -211,9 +212,9 @@ TEST(Report, HasOfAJointBeforeItsLimitsAndTheBodiesThatChanged) {
   EXPECT_EQ(found["surfaces"]["fixed"],
             Json({{"vertices", "before_fixed_vertices"}, {"triangles", "fixed_triangles"}}))
       << "its triangles are the same";
-  expect_same_bits(
-      block.array<double>("before_fixed_vertices", "f64"),
-      report_block(report_html({.title = "", .joint = before.joint})).array<double>("fixed_vertices", "f64"));
+  expect_same_bits(block.array<double>("before_fixed_vertices", "f64"),
+                   report_block(io::report_html({.title = "", .joint = before.joint}))
+                       .array<double>("fixed_vertices", "f64"));
   ASSERT_EQ(found["differences"].size(), after.limits.size());
   for (std::size_t i = 0; i < after.limits.size(); ++i) {
     const Json& difference = found["differences"][i];
@@ -228,18 +229,18 @@ TEST(Report, HasOfAJointBeforeItsLimitsAndTheBodiesThatChanged) {
 
 TEST(Report, SaysWhyAJointBeforeHasNoLimits) {
   const Joint joint = arm_and_post();
-  const ReportBlock block = report_block(report_html(
+  const ReportBlock block = report_block(io::report_html(
       {.title = "",
        .joint = joint,
        .rom_error = "here",
-       .before = ReportedBefore{.joint = joint, .file = {}, .rom = nullptr, .rom_error = "there"}}));
+       .before = io::ReportedBefore{.joint = joint, .file = {}, .rom = nullptr, .rom_error = "there"}}));
   const Json& before = block.json["before"];
   EXPECT_EQ(before["file"], nullptr);
   EXPECT_EQ(before["rom"], nullptr);
   EXPECT_EQ(before["rom_error"], "there");
   EXPECT_EQ(before["differences"], Json::array());
   EXPECT_EQ(before["surfaces"], Json({{"fixed", nullptr}, {"mobile", nullptr}}));
-  EXPECT_FALSE(report_block(report_html({.title = "", .joint = joint})).json.contains("before"));
+  EXPECT_FALSE(report_block(io::report_html({.title = "", .joint = joint})).json.contains("before"));
 }
 
 TEST(Report, SaysWhyThereAreNoLimitsAndStoresNoPosesOfOpenMeshes) {
@@ -248,7 +249,7 @@ TEST(Report, SaysWhyThereAreNoLimitsAndStoresNoPosesOfOpenMeshes) {
   post.triangles.pop_back();
   joint.fixed.mesh = post;
   const ReportBlock block =
-      report_block(report_html({.title = "", .joint = joint, .rom_error = "post: is <open>"}));
+      report_block(io::report_html({.title = "", .joint = joint, .rom_error = "post: is <open>"}));
   EXPECT_EQ(block.json["rom"], nullptr);
   EXPECT_EQ(block.json["map"], nullptr);
   EXPECT_EQ(block.json["rom_error"], "post: is <open>");
@@ -259,7 +260,7 @@ TEST(Report, SaysWhyThereAreNoLimitsAndStoresNoPosesOfOpenMeshes) {
 TEST(Report, StoresNoPosesWhereTheCentreLiesOnASurface) {
   Joint joint = arm_and_post();
   joint.mobile.mesh = box({-1, -100, -2}, {1, 0, 2});
-  const ReportBlock block = report_block(report_html({.title = "", .joint = joint}));
+  const ReportBlock block = report_block(io::report_html({.title = "", .joint = joint}));
   EXPECT_EQ(block.json["poses"], Json::array());
   expect_is(block, "mobile", joint.mobile.mesh);
 }
@@ -268,22 +269,22 @@ TEST(Report, StoresNoPosesWhereTheCentreLiesOnASurface) {
 TEST(Report, NamesTheAnatomyThatAHingeOfNoJointTurnsAs) {
   Joint joint = arm_and_post();
   joint.kind = JointKind::hinge;
-  EXPECT_EQ(report_block(report_html({.title = "", .joint = joint})).json["joint"]["anatomy"], "hip");
+  EXPECT_EQ(report_block(io::report_html({.title = "", .joint = joint})).json["joint"]["anatomy"], "hip");
 }
 
 TEST(Report, HasFramesOfARecordedMotionWithItsGaps) {
-  LoadedJoint loaded{.joint = arm_and_post(), .report = {}};
-  JointMotion motion;
+  io::LoadedJoint loaded{.joint = arm_and_post(), .report = {}};
+  io::JointMotion motion;
   motion.times = {.values = {0, 0.1, 0.3}, .in_seconds = true};
   const Pose bent = pose_at(loaded.joint.coordinates(), JointAngles{Angle::degrees(20), {}, {}});
   motion.X_FM = {Pose::Identity(), std::nullopt, bent};
-  const ContactSurfaces surfaces{loaded.joint.fixed, loaded.joint.mobile};
-  const MotionQuestion question{.joint = loaded, .motion = motion, .surfaces = surfaces, .contact = {}};
+  const io::ContactSurfaces surfaces{loaded.joint.fixed, loaded.joint.mobile};
+  const io::MotionQuestion question{.joint = loaded, .motion = motion, .surfaces = surfaces, .contact = {}};
   MotionAnswer answer;
-  answer.frames = {FrameContact{.X_FM = Pose::Identity(), .smallest_gap_mm = 12.5}, std::nullopt,
-                   FrameContact{.X_FM = bent, .smallest_gap_mm = 1.0 / 3}};
-  const ReportBlock block = report_block(report_html(
-      {.title = "", .joint = loaded.joint, .recorded = ReportedMotion{"walk", question, answer}}));
+  answer.frames = {motion::FrameContact{.X_FM = Pose::Identity(), .smallest_gap_mm = 12.5}, std::nullopt,
+                   motion::FrameContact{.X_FM = bent, .smallest_gap_mm = 1.0 / 3}};
+  const ReportBlock block = report_block(io::report_html(
+      {.title = "", .joint = loaded.joint, .recorded = io::ReportedMotion{"walk", question, answer}}));
   const Json& recorded = block.json["recorded"];
   EXPECT_EQ(recorded["name"], "walk");
   EXPECT_EQ(recorded["axis"], "time_s");
@@ -298,7 +299,7 @@ TEST(Report, HasFramesOfARecordedMotionWithItsGaps) {
   for (std::size_t k = 0; k < 16; ++k)
     EXPECT_EQ(poses[32 + k], bent.matrix()(static_cast<int>(k / 4), static_cast<int>(k % 4)));
   EXPECT_EQ(block.array<double>(recorded["coordinates_mm"], "f64").size(), 9u);
-  const Curves curves = curves_of(question, answer);
+  const io::Curves curves = io::curves_of(question, answer);
   ASSERT_EQ(recorded["curves"].size(), curves.names.size());
   for (std::size_t i = 0; i < curves.names.size(); ++i) {
     EXPECT_EQ(recorded["curves"][i]["name"], curves.names[i]);
@@ -317,7 +318,7 @@ TEST(Report, AnyTextStaysTextAndNeverBecomesMarkup) {
   joint.name = "</script><script>alert(\"1\")</script><!--condyle-data-->";
   joint.fixed.name = "\xD7\xA2\xD7\xA6\xD7\x9D \xE2\x80\xAE'\"&amp;<b>\t\n\\";
   joint.mobile.name = std::string(1 << 20, 'M');
-  const std::string html = report_html({.title = joint.name, .joint = joint});
+  const std::string html = io::report_html({.title = joint.name, .joint = joint});
   const ReportBlock block = report_block(html);
   EXPECT_EQ(block.json["title"], joint.name);
   EXPECT_EQ(block.json["joint"]["name"], joint.name);
@@ -333,26 +334,27 @@ TEST(Report, AnyTextStaysTextAndNeverBecomesMarkup) {
 TEST(Report, ReplacesBytesThatAreNoText) {
   Joint joint = arm_and_post();
   joint.name = "a\xFFz";
-  EXPECT_EQ(report_block(report_html({.title = "", .joint = joint})).json["joint"]["name"], "a\xEF\xBF\xBDz");
+  EXPECT_EQ(report_block(io::report_html({.title = "", .joint = joint})).json["joint"]["name"],
+            "a\xEF\xBF\xBDz");
 }
 
 TEST(Report, IsTheSameBytesOnOneThreadAndOnMany) {
   const Answered answer(arm_and_post());
-  const RomResult rom = answer.rom();
-  const Report report{.title = "", .joint = answer.joint, .rom = &rom};
-  const std::string many = report_html(report);
+  const io::RomResult rom = answer.rom();
+  const io::Report report{.title = "", .joint = answer.joint, .rom = &rom};
+  const std::string many = io::report_html(report);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  EXPECT_EQ(report_html(report), many);
+  EXPECT_EQ(io::report_html(report), many);
 }
 
 TEST(Report, IsWrittenWholeOrNotAtAll) {
   const TemporaryFolder folder;
   const Joint joint = arm_and_post();
-  const Report report{.title = "", .joint = joint};
-  write_report(folder / "new/deep/report.html", report);
-  EXPECT_EQ(io::read_whole_file(folder / "new/deep/report.html"), report_html(report));
+  const io::Report report{.title = "", .joint = joint};
+  io::write_report(folder / "new/deep/report.html", report);
+  EXPECT_EQ(io::read_whole_file(folder / "new/deep/report.html"), io::report_html(report));
   folder.file("file", "in the way");
-  EXPECT_THROW(write_report(folder / "file/report.html", report), FileError);
+  EXPECT_THROW(io::write_report(folder / "file/report.html", report), FileError);
   EXPECT_THROW(io::check_output_file(folder / "file/report.html"), FileError);
   EXPECT_THROW(io::check_output_file(folder / "new"), FileError);
   EXPECT_THROW(io::check_output_file(""), FileError);
@@ -392,7 +394,7 @@ TEST(Report, HasThePartsThatTurnAndTheBodiesAsGivenWhereTheyTurned) {
   const ParameterValue values[] = {{"arm.turn", 1.0 / 3}};
   const Joint joint = with_parameters(given, values);
   const ReportBlock block =
-      report_block(report_html({.title = "a title", .joint = joint, .bearing_margin_mm = 1.5}));
+      report_block(io::report_html({.title = "a title", .joint = joint, .bearing_margin_mm = 1.5}));
   const Json& posed = block.json["posed"];
   EXPECT_EQ(posed["bearing_margin_mm"], 1.5);
   const Json& part = posed["parts"][0];
@@ -420,7 +422,7 @@ TEST(Report, HasThePartsThatTurnAndTheBodiesAsGivenWhereTheyTurned) {
 
 TEST(Report, HasNoPartsOfAJointWithout) {
   const Joint joint = odd_joint();
-  EXPECT_FALSE(report_block(report_html({.title = "a title", .joint = joint})).json.contains("posed"));
+  EXPECT_FALSE(report_block(io::report_html({.title = "a title", .joint = joint})).json.contains("posed"));
 }
 
 }  // namespace

@@ -16,21 +16,21 @@ namespace {
 
 using Json = nlohmann::json;
 
-MapGrid small_grid() {
-  MapGrid grid;
+motion::MapGrid small_grid() {
+  motion::MapGrid grid;
   grid.column = {JointAngle::adduction, -10, 10, 2.5};
   grid.row = {JointAngle::internal_rotation, -20, 20, 10};
   grid.vary = JointAngle::flexion;
   return grid;
 }
 
-MotionMap whole_map() {
-  return motion_map(small_grid(), RangeOfMotion(arm_and_post()));
+motion::MotionMap whole_map() {
+  return motion::motion_map(small_grid(), motion::RangeOfMotion(arm_and_post()));
 }
 
 TEST(MapCsv, HasALinePerPointWithBothLimitsToTheLastBit) {
-  const MotionMap map = whole_map();
-  std::istringstream in(map_csv(map));
+  const motion::MotionMap map = whole_map();
+  std::istringstream in(io::map_csv(map));
   std::string line;
   std::getline(in, line);
   EXPECT_TRUE(line.starts_with("adduction_deg,internal_rotation_deg,flexion_lower_deg,flexion_upper_deg,"));
@@ -49,9 +49,9 @@ TEST(MapCsv, HasALinePerPointWithBothLimitsToTheLastBit) {
 }
 
 TEST(MapSummary, CountsEveryPointOnceAtEitherEnd) {
-  const MotionMap map = whole_map();
+  const motion::MotionMap map = whole_map();
   const Joint joint = arm_and_post();
-  const Json json = Json::parse(rom_json({.joint = joint, .limits = {}, .map = &map}))["map"];
+  const Json json = Json::parse(io::rom_json({.joint = joint, .limits = {}, .map = &map}))["map"];
   EXPECT_EQ(json["vary"], "flexion");
   EXPECT_EQ(json["vary_opposite"], "extension");
   EXPECT_EQ(json["columns"], (Json{{"angle", "adduction"},
@@ -69,35 +69,36 @@ TEST(MapSummary, CountsEveryPointOnceAtEitherEnd) {
     EXPECT_EQ(sum, 45) << ends;
   }
   EXPECT_EQ(json["positive_ends"]["contact"], 45);
-  EXPECT_EQ(json["free_volume_deg3"].get<double>(), free_volume(map).plain_deg3);
+  EXPECT_EQ(json["free_volume_deg3"].get<double>(), motion::free_volume(map).plain_deg3);
   EXPECT_EQ(json["row_free_area_deg2"].size(), 5u);
 }
 
 /// A post in front of the arm and one behind it: with the start beyond the first, what is free lies elsewhere.
-MotionMap map_with_islands() {
+motion::MotionMap map_with_islands() {
   Joint joint = arm_and_post();
   joint.fixed.mesh = joined(joint.fixed.mesh, box({-60, -120, -50}, {-40, -80, 50}));
-  MapGrid grid = small_grid();
+  motion::MapGrid grid = small_grid();
   grid.start = Angle::degrees(30);
-  RangeOptions accepting;
-  accepting.overlap.reference_contact = ReferenceContact::accept;
-  return motion_map(grid, RangeOfMotion(joint, accepting));
+  motion::RangeOptions accepting;
+  accepting.overlap.reference_contact = motion::ReferenceContact::accept;
+  return motion::motion_map(grid, motion::RangeOfMotion(joint, accepting));
 }
 
 TEST(MapIntervals, AreThoseOfEveryPointInItsOrder) {
-  const MotionMap map = map_with_islands();
+  const motion::MotionMap map = map_with_islands();
   const Joint joint = arm_and_post();
-  const Json json = Json::parse(rom_json({.joint = joint, .limits = {}, .map = &map}))["map"]["intervals"];
+  const Json json =
+      Json::parse(io::rom_json({.joint = joint, .limits = {}, .map = &map}))["map"]["intervals"];
   ASSERT_EQ(json["offset"].size(), map.points.size() + 1);
   std::size_t k = 0, with_several = 0;
   for (std::size_t i = 0; i < map.points.size(); ++i) {
     EXPECT_EQ(json["offset"][i], k);
     with_several += map.points[i].intervals.size() > 1;
-    for (const FreeInterval& free : map.points[i].intervals) {
+    for (const motion::FreeInterval& free : map.points[i].intervals) {
       EXPECT_EQ(json["low_deg"][k], (map.grid.start + free.low).degrees());
       EXPECT_EQ(json["high_deg"][k], (map.grid.start + free.high).degrees());
-      EXPECT_EQ(json["low_reason"][k], name_of(free.at_low.reason));
-      EXPECT_EQ(json["high_reason"][k], name_of(free.at_high.reason));
+      EXPECT_EQ(json["low_reason"][k], io::name_of(free.at_low.reason));
+      EXPECT_EQ(json["high_reason"][k], io::name_of(free.at_high.reason));
       ++k;
     }
   }
@@ -119,10 +120,11 @@ std::vector<double> numbers_of(const std::string& vtp, const std::string& name) 
 }
 
 TEST(MapVtp, HasTheEndsOfTheIntervalDrawnAndAllIntervalsAsFieldData) {
-  const MotionMap map = map_with_islands();
+  const motion::MotionMap map = map_with_islands();
   const TemporaryFolder folder;
   const Joint joint = arm_and_post();
-  write_rom(folder / "out", {.joint = joint, .limits = {}, .map = &map, .vtp_encoding = VtpEncoding::text});
+  io::write_rom(folder / "out",
+                {.joint = joint, .limits = {}, .map = &map, .vtp_encoding = io::VtpEncoding::text});
   const std::string vtp = io::read_whole_file(folder / "out/map.vtp");
   const auto lower = numbers_of(vtp, "lower_deg"), upper = numbers_of(vtp, "upper_deg");
   const auto lower_reason = numbers_of(vtp, "lower_reason"), upper_reason = numbers_of(vtp, "upper_reason");
@@ -131,13 +133,15 @@ TEST(MapVtp, HasTheEndsOfTheIntervalDrawnAndAllIntervalsAsFieldData) {
   const auto low_reason = numbers_of(vtp, "interval_low_reason"),
              high_reason = numbers_of(vtp, "interval_high_reason");
   const auto at_start = numbers_of(vtp, "free_at_start"), count = numbers_of(vtp, "free_intervals");
-  const auto code = [](const Limit& end) { return end.reason == LimitReason::end_of_range ? 0 : 1; };
+  const auto code = [](const motion::Limit& end) {
+    return end.reason == motion::LimitReason::end_of_range ? 0 : 1;
+  };
   ASSERT_EQ(lower.size(), map.points.size());
   ASSERT_EQ(offset.size(), map.points.size() + 1);
   std::size_t k = 0;
   for (std::size_t i = 0; i < map.points.size(); ++i) {
-    const FreeAngles& point = map.points[i];
-    const FreeInterval* drawn = point.nearest_to_start();
+    const motion::FreeAngles& point = map.points[i];
+    const motion::FreeInterval* drawn = point.nearest_to_start();
     ASSERT_TRUE(drawn);
     EXPECT_EQ(lower[i], (map.grid.start + drawn->low).degrees());
     EXPECT_EQ(upper[i], (map.grid.start + drawn->high).degrees());
@@ -146,7 +150,7 @@ TEST(MapVtp, HasTheEndsOfTheIntervalDrawnAndAllIntervalsAsFieldData) {
     EXPECT_EQ(at_start[i], point.from_start.free_at_start() ? 1 : 0);
     EXPECT_EQ(count[i], static_cast<double>(point.intervals.size()));
     EXPECT_EQ(offset[i], static_cast<double>(k));
-    for (const FreeInterval& free : point.intervals) {
+    for (const motion::FreeInterval& free : point.intervals) {
       EXPECT_EQ(low[k], (map.grid.start + free.low).degrees());
       EXPECT_EQ(high[k], (map.grid.start + free.high).degrees());
       EXPECT_EQ(low_reason[k], code(free.at_low));
@@ -158,15 +162,15 @@ TEST(MapVtp, HasTheEndsOfTheIntervalDrawnAndAllIntervalsAsFieldData) {
 }
 
 TEST(MapIntervalsCsv, HasALinePerIntervalWithBothEndsToTheLastBit) {
-  const MotionMap map = map_with_islands();
-  std::istringstream in(map_intervals_csv(map));
+  const motion::MotionMap map = map_with_islands();
+  std::istringstream in(io::map_intervals_csv(map));
   std::string line;
   std::getline(in, line);
   EXPECT_TRUE(
       line.starts_with("adduction_deg,internal_rotation_deg,flexion_low_deg,flexion_high_deg,holds_start,low_"
                        "reason,low_contact_kind,"));
   for (std::size_t i = 0; i < map.points.size(); ++i)
-    for (const FreeInterval& free : map.points[i].intervals) {
+    for (const motion::FreeInterval& free : map.points[i].intervals) {
       ASSERT_TRUE(std::getline(in, line));
       double x, y, low, high;
       int holds_start;

@@ -20,36 +20,36 @@ namespace {
 using Json = nlohmann::json;
 
 /// Numbers that no short decimal is equal to, and every kind of feature.
-std::vector<MotionLimit> some_limits() {
-  MotionLimit contact;
+std::vector<motion::MotionLimit> some_limits() {
+  motion::MotionLimit contact;
   contact.motion = {"flexion",
                     JointAngle::flexion,
                     RotationSense::positive,
                     {Angle::degrees(0.1), Angle::degrees(1.0 / 3), Angle::degrees(-7)},
                     Angle::degrees(180)};
   contact.end.turned = Angle::radians(1.2345678901234567);
-  contact.end.reason = LimitReason::contact;
-  contact.end.contact = {{FeatureKind::edge, 3, 17},
-                         {FeatureKind::face, 40},
+  contact.end.reason = motion::LimitReason::contact;
+  contact.end.contact = {{motion::FeatureKind::edge, 3, 17},
+                         {motion::FeatureKind::face, 40},
                          {0.1, 1.0 / 3, -2e-17},
                          {7, 8, 9},
-                         ContactKind::impingement};
+                         motion::ContactKind::impingement};
   contact.end.bearing_contact =
-      EarlierContact{Angle::radians(1.1), ContactWitness{{}, {}, {1, 2, 3}, {4, 5, 6}}};
-  contact.head = HeadAtLimit{.centre_distance_mm = 1.0 / 3, .joint_space_mm = 0.1};
+      motion::EarlierContact{Angle::radians(1.1), motion::ContactWitness{{}, {}, {1, 2, 3}, {4, 5, 6}}};
+  contact.head = motion::HeadAtLimit{.centre_distance_mm = 1.0 / 3, .joint_space_mm = 0.1};
   contact.end.error_bound = Angle::radians(1.5e-12);
-  MotionLimit ended;
+  motion::MotionLimit ended;
   ended.motion = {
       "own, \"odd\" motion", JointAngle::internal_rotation, RotationSense::negative, {}, Angle::degrees(40)};
   ended.end.turned = Angle::degrees(40);
-  MotionLimit swallowed;
+  motion::MotionLimit swallowed;
   swallowed.motion = {"schön", JointAngle::adduction, RotationSense::negative, {}, Angle::degrees(90)};
-  swallowed.end.reason = LimitReason::contact_at_start;
+  swallowed.end.reason = motion::LimitReason::contact_at_start;
   return {contact, ended, swallowed};
 }
 
-BearingSurface some_bearing() {
-  BearingSurface surface;
+motion::BearingSurface some_bearing() {
+  motion::BearingSurface surface;
   surface.head = {{0.1, 0.2, 0.3}, 24.5};
   surface.margin_mm = 1.75, surface.rim_gap_mm = 2.25;
   surface.triangles = {1, 0, 1};
@@ -65,12 +65,12 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 TEST(RomJson, HasEveryKeyAndEveryBitOfTheNumbers) {
   const Joint joint = arm_and_post();
-  const std::vector<MotionLimit> limits = some_limits();
-  const Json json = Json::parse(rom_json({.joint = joint,
-                                          .limits = limits,
-                                          .bearing = {some_bearing(), {}},
-                                          .bearing_rule = BearingRule::leave_out,
-                                          .caveats = {"a term"}}));
+  const std::vector<motion::MotionLimit> limits = some_limits();
+  const Json json = Json::parse(io::rom_json({.joint = joint,
+                                              .limits = limits,
+                                              .bearing = {some_bearing(), {}},
+                                              .bearing_rule = motion::BearingRule::leave_out,
+                                              .caveats = {"a term"}}));
   EXPECT_EQ(json["condyle"], 1);
   EXPECT_EQ(json["joint"], "arm and post");
   EXPECT_EQ(json["fixed"], "post");
@@ -111,7 +111,7 @@ TEST(RomJson, HasEveryKeyAndEveryBitOfTheNumbers) {
   EXPECT_EQ(flexion["held_deg"]["internal_rotation"].get<double>(),
             limits[0].motion.start.internal_rotation.degrees());
   EXPECT_EQ(flexion["at_limit_deg"]["flexion"].get<double>(), limits[0].angles_at_limit().flexion.degrees());
-  EXPECT_EQ(flexion["guarantee"], guarantee_text(limits[0]));
+  EXPECT_EQ(flexion["guarantee"], io::guarantee_text(limits[0]));
 
   EXPECT_EQ(json["normal_range_source"], "AAOS 1965");
 
@@ -131,15 +131,15 @@ TEST(RomJson, HasEveryKeyAndEveryBitOfTheNumbers) {
 TEST(RomJson, IsValidWhateverBytesTheNamesHold) {
   Joint joint = arm_and_post();
   joint.name = "\xff\"\n";
-  std::vector<MotionLimit> limits = some_limits();
+  std::vector<motion::MotionLimit> limits = some_limits();
   limits[0].motion.name = "\xc3";
-  EXPECT_TRUE(Json::accept(rom_json({joint, limits})));
+  EXPECT_TRUE(Json::accept(io::rom_json({joint, limits})));
 }
 
 TEST(RomCsv, HasAsManyFieldsInEveryLineAndEveryBitOfTheNumbers) {
   const Joint joint = arm_and_post();
-  const std::vector<MotionLimit> limits = some_limits();
-  const auto lines = lines_of(rom_csv({joint, limits}));
+  const std::vector<motion::MotionLimit> limits = some_limits();
+  const auto lines = lines_of(io::rom_csv({joint, limits}));
   ASSERT_EQ(lines.size(), 4u);
   const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
   EXPECT_EQ(commas(lines[1]), commas(lines[0]));
@@ -159,19 +159,19 @@ TEST(RomCsv, NamesTheMeshesThatMeet) {
   Joint joint = arm_and_post();
   joint.mobile.parts = {{"shaft", 0, joint.mobile.mesh.vertices().size(), 0, 40},
                         {"tip", joint.mobile.mesh.vertices().size(), 0, 40, 1000}};
-  const auto lines = lines_of(rom_csv({joint, some_limits()}));
+  const auto lines = lines_of(io::rom_csv({joint, some_limits()}));
   EXPECT_NE(lines[0].find(",fixed_feature,mobile_feature,fixed_part,mobile_part,"), std::string::npos);
   EXPECT_NE(lines[1].find(",edge 3-17,face 40,,tip,"), std::string::npos) << lines[1];
 }
 
 TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
   const Joint joint = arm_and_post();
-  const std::vector<MotionLimit> limits = some_limits();
-  const auto lines = lines_of(rom_text({.joint = joint,
-                                        .limits = limits,
-                                        .bearing = {some_bearing(), {}},
-                                        .bearing_rule = BearingRule::leave_out,
-                                        .caveats = {"left out: nothing"}}));
+  const std::vector<motion::MotionLimit> limits = some_limits();
+  const auto lines = lines_of(io::rom_text({.joint = joint,
+                                            .limits = limits,
+                                            .bearing = {some_bearing(), {}},
+                                            .bearing_rule = motion::BearingRule::leave_out,
+                                            .caveats = {"left out: nothing"}}));
   ASSERT_EQ(lines.size(), 15u);
   EXPECT_EQ(lines[0], "arm and post: arm in post, right side");
   EXPECT_NE(lines[1].find("bearing surface: 2 of 3 triangles of arm"), std::string::npos) << lines[1];
@@ -189,13 +189,15 @@ TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
 
 TEST(RomText, SaysWhereNoRimWasFoundAndNoMinusBeforeZero) {
   Joint joint = arm_and_post();
-  const std::vector<MotionLimit> limits = some_limits();
-  BearingSurface bearing = some_bearing();
-  const auto text = [&] { return rom_text({.joint = joint, .limits = limits, .bearing = {bearing, {}}}); };
+  const std::vector<motion::MotionLimit> limits = some_limits();
+  motion::BearingSurface bearing = some_bearing();
+  const auto text = [&] {
+    return io::rom_text({.joint = joint, .limits = limits, .bearing = {bearing, {}}});
+  };
   EXPECT_NE(text().find("(radius 24.50 mm, rim 2.25 mm from it)"), std::string::npos) << text();
   bearing.rim_gap_mm.reset();
   EXPECT_NE(text().find("(radius 24.50 mm, no rim was found)"), std::string::npos) << text();
-  bearing.margin_mm = usual_bearing_margin_mm;
+  bearing.margin_mm = motion::usual_bearing_margin_mm;
   EXPECT_NE(
       text().find(
           "within 2.00 mm of the head's sphere\n    (radius 24.50 mm, no rim was found: the usual margin)"),
@@ -210,17 +212,18 @@ TEST(RomText, SaysWhereNoRimWasFoundAndNoMinusBeforeZero) {
 
 TEST(RomJson, SaysThatTheTwoBedsideTestsAreAsDefinedHere) {
   const Joint joint = arm_and_post();
-  std::vector<MotionLimit> limits(3);
+  std::vector<motion::MotionLimit> limits(3);
   for (std::size_t i = 0; i < 3; ++i) limits[i].motion.name = (std::array{"fadir", "flexion", "faber"})[i];
-  const Json motions = Json::parse(rom_json({joint, limits}))["motions"];
+  const Json motions = Json::parse(io::rom_json({joint, limits}))["motions"];
   for (const std::size_t i : {0, 2})
     EXPECT_EQ(motions[i]["definition"], "as defined here; no angles are agreed on");
   EXPECT_TRUE(motions[1]["definition"].is_null());
 }
 
-std::vector<std::string> codes_of(const Joint& joint, const Motion& motion) {
+std::vector<std::string> codes_of(const Joint& joint, const motion::Motion& motion) {
   std::vector<std::string> codes;
-  for (const MotionCaveat& caveat : motion_caveats(joint, motion)) codes.emplace_back(name_of(caveat.code));
+  for (const io::MotionCaveat& caveat : io::motion_caveats(joint, motion))
+    codes.emplace_back(name_of(caveat.code));
   return codes;
 }
 
@@ -242,12 +245,12 @@ TEST(MotionCaveats, SayOfEachMotionOfAHipWhetherBoneUsuallyEndsIt) {
       {"faber", {"capsule_restrains"}}};
   const Joint joint = arm_and_post();
   std::size_t known = 0;
-  for (const Motion& motion : hip_motions()) {
+  for (const motion::Motion& motion : motion::hip_motions()) {
     EXPECT_EQ(codes_of(joint, motion), expected.at(motion.name)) << motion.name;
     ++known;
-    for (const MotionCaveat& caveat : motion_caveats(joint, motion)) {
+    for (const io::MotionCaveat& caveat : io::motion_caveats(joint, motion)) {
       EXPECT_TRUE(caveat.text.ends_with(".")) << caveat.text;
-      EXPECT_EQ(caveat.source.empty(), caveat.code == MotionCaveatCode::end_unknown) << motion.name;
+      EXPECT_EQ(caveat.source.empty(), caveat.code == io::MotionCaveatCode::end_unknown) << motion.name;
     }
   }
   EXPECT_EQ(known, expected.size());
@@ -255,10 +258,10 @@ TEST(MotionCaveats, SayOfEachMotionOfAHipWhetherBoneUsuallyEndsIt) {
 
 TEST(MotionCaveats, AreOfMotionsThatTurnAsTheirNameSaysAndOfHipsOnly) {
   Joint joint = arm_and_post();
-  Motion motion = motion_named(hip_motions(), "extension");
+  motion::Motion motion = motion::motion_named(motion::hip_motions(), "extension");
   motion.sense = RotationSense::positive;
   EXPECT_EQ(codes_of(joint, motion), std::vector<std::string>{"end_unknown"});
-  motion = motion_named(hip_motions(), "fadir");
+  motion = motion::motion_named(motion::hip_motions(), "fadir");
   joint.fixed.name = "pelvis with Labrum";
   EXPECT_EQ(codes_of(joint, motion), std::vector<std::string>{"bone_may_end"});
   joint.anatomy = Anatomy::knee;
@@ -268,40 +271,41 @@ TEST(MotionCaveats, AreOfMotionsThatTurnAsTheirNameSaysAndOfHipsOnly) {
 TEST(Scope, IsOsseousOnlyWhereAllMeshesAreBones) {
   Joint joint = arm_and_post();
   EXPECT_TRUE(
-      scope_text(joint).starts_with("osseous contact of the meshes given; soft tissue is not modelled"));
+      io::scope_text(joint).starts_with("osseous contact of the meshes given; soft tissue is not modelled"));
   const std::size_t vertices = joint.mobile.mesh.vertices().size();
   const std::size_t triangles = joint.mobile.mesh.triangles().size();
   joint.mobile.parts = {
       {"femur", 0, vertices / 2, 0, triangles / 2},
       {"Femoral_Cartilage", vertices / 2, vertices - vertices / 2, triangles / 2, triangles - triangles / 2}};
-  EXPECT_TRUE(scope_text(joint).starts_with("contact of the bones and cartilages given; "))
-      << scope_text(joint);
+  EXPECT_TRUE(io::scope_text(joint).starts_with("contact of the bones and cartilages given; "))
+      << io::scope_text(joint);
   joint.fixed.name = "labrum";
-  EXPECT_TRUE(scope_text(joint).starts_with("contact of the bones, cartilages and labrum given; "))
-      << scope_text(joint);
+  EXPECT_TRUE(io::scope_text(joint).starts_with("contact of the bones, cartilages and labrum given; "))
+      << io::scope_text(joint);
   joint.mobile.parts.clear();
   joint.mobile.name = "lateral meniscus", joint.fixed.name = "tibial cartilage";
-  EXPECT_TRUE(scope_text(joint).starts_with("contact of the cartilages and menisci given; "))
-      << scope_text(joint);
-  for (const std::string& scope : {scope_text(joint), scope_text(arm_and_post()), scope_text()})
+  EXPECT_TRUE(io::scope_text(joint).starts_with("contact of the cartilages and menisci given; "))
+      << io::scope_text(joint);
+  for (const std::string& scope : {io::scope_text(joint), io::scope_text(arm_and_post()), io::scope_text()})
     EXPECT_TRUE(scope.ends_with("; research software, not a medical device")) << scope;
 }
 
 TEST(Scope, TakesAllWordsOfAName) {
   Joint joint = arm_and_post();
   joint.fixed.name = "acetabular cartilage with labrum", joint.mobile.name = "implant";
-  EXPECT_TRUE(scope_text(joint).starts_with("contact of the cartilages, labrum and implants given; "))
-      << scope_text(joint);
-  EXPECT_EQ(codes_of(joint, motion_named(hip_motions(), "fadir")), std::vector<std::string>{"bone_may_end"});
+  EXPECT_TRUE(io::scope_text(joint).starts_with("contact of the cartilages, labrum and implants given; "))
+      << io::scope_text(joint);
+  EXPECT_EQ(codes_of(joint, motion::motion_named(motion::hip_motions(), "fadir")),
+            std::vector<std::string>{"bone_may_end"});
   joint.fixed.name = "joint capsule";
-  EXPECT_TRUE(scope_text(joint).starts_with("contact of the soft tissue and implants given; "))
-      << scope_text(joint);
+  EXPECT_TRUE(io::scope_text(joint).starts_with("contact of the soft tissue and implants given; "))
+      << io::scope_text(joint);
 }
 
 TEST(Scope, NamesLayersThatSurfacesCarry) {
   Joint joint = arm_and_post();
-  ContactEntry entry;
-  const auto scope = [&] { return scope_text(entry, surfaces_of(entry, joint)); };
+  io::ContactEntry entry;
+  const auto scope = [&] { return io::scope_text(entry, io::surfaces_of(entry, joint)); };
   EXPECT_TRUE(scope().starts_with("osseous contact")) << scope();
   entry.mobile.emplace();
   EXPECT_TRUE(scope().starts_with("contact of the bones and elastic layers given; ")) << scope();
@@ -313,16 +317,16 @@ TEST(Scope, NamesLayersThatSurfacesCarry) {
 
 TEST(RomText, HasALineForEachCaveatWithItsMotions) {
   const Joint joint = arm_and_post();
-  std::vector<MotionLimit> limits(3);
+  std::vector<motion::MotionLimit> limits(3);
   for (std::size_t i = 0; i < 3; ++i)
-    limits[i].motion =
-        motion_named(hip_motions(), (std::array{"extension", "flexion", "adduction_at_90_flexion"})[i]);
-  const std::string text = rom_text({joint, limits});
+    limits[i].motion = motion::motion_named(
+        motion::hip_motions(), (std::array{"extension", "flexion", "adduction_at_90_flexion"})[i]);
+  const std::string text = io::rom_text({joint, limits});
   EXPECT_NE(text.find("soft tissue usually ends them before bone does (Turley 2013, PMC3589629): extension,\n"
                       "      adduction_at_90_flexion\n"),
             std::string::npos)
       << text;
-  const Json extension = Json::parse(rom_json({joint, limits}))["motions"][0];
+  const Json extension = Json::parse(io::rom_json({joint, limits}))["motions"][0];
   ASSERT_EQ(extension["caveats"].size(), 1u);
   EXPECT_EQ(extension["caveats"][0]["code"], "soft_tissue_ends");
   EXPECT_EQ(extension["caveats"][0]["source"], "Turley 2013, PMC3589629");
@@ -330,14 +334,14 @@ TEST(RomText, HasALineForEachCaveatWithItsMotions) {
 }
 
 TEST(NormalHipRange, IsGivenWhereTheSourceHasAValue) {
-  EXPECT_EQ(normal_hip_range("flexion"), Angle::degrees(120));
-  EXPECT_EQ(normal_hip_range("extension"), Angle::degrees(30));
-  EXPECT_EQ(normal_hip_range("abduction"), Angle::degrees(45));
-  EXPECT_EQ(normal_hip_range("adduction"), Angle::degrees(30));
-  EXPECT_EQ(normal_hip_range("internal_rotation"), Angle::degrees(45));
-  EXPECT_EQ(normal_hip_range("external_rotation"), Angle::degrees(45));
+  EXPECT_EQ(io::normal_hip_range("flexion"), Angle::degrees(120));
+  EXPECT_EQ(io::normal_hip_range("extension"), Angle::degrees(30));
+  EXPECT_EQ(io::normal_hip_range("abduction"), Angle::degrees(45));
+  EXPECT_EQ(io::normal_hip_range("adduction"), Angle::degrees(30));
+  EXPECT_EQ(io::normal_hip_range("internal_rotation"), Angle::degrees(45));
+  EXPECT_EQ(io::normal_hip_range("external_rotation"), Angle::degrees(45));
   for (const char* none : {"fadir", "faber", "internal_rotation_at_90_flexion", "my_motion", ""})
-    EXPECT_FALSE(normal_hip_range(none)) << none;
+    EXPECT_FALSE(io::normal_hip_range(none)) << none;
 }
 
 TEST(ClockHour, IsNamedAsAClockNamesIt) {
@@ -348,10 +352,10 @@ TEST(ClockHour, IsNamedAsAClockNamesIt) {
 }
 
 /// A limit with contact in this direction from the joint centre.
-MotionLimit contact_towards(const Vec3& p) {
-  MotionLimit limit;
+motion::MotionLimit contact_towards(const Vec3& p) {
+  motion::MotionLimit limit;
   limit.motion.name = "flexion";
-  limit.end.reason = LimitReason::contact;
+  limit.end.reason = motion::LimitReason::contact;
   limit.end.contact = {{}, {}, p, p};
   return limit;
 }
@@ -365,50 +369,50 @@ TEST(ClockHour, HasTwelveSuperiorAndThreeAnteriorOnEitherSideOfTheBody) {
     const std::vector limits{contact_towards({0, 20, lateral}), contact_towards({20, 0, lateral}),
                              contact_towards({14, 14, lateral}), contact_towards({0, -20, lateral}),
                              contact_towards({-20, 0, lateral})};
-    const RomResult result{joint, limits};
+    const io::RomResult result{joint, limits};
     const std::array hours{0.0, 3.0, 1.5, 6.0, 9.0};
     // Four roundings of an arctangent, in hours.
     for (std::size_t i = 0; i < 5; ++i)
       EXPECT_NEAR(io::clock_hour(result, limits[i]).value(), hours[i], 1e-14);
-    EXPECT_NEAR(Json::parse(rom_json(result))["motions"][2]["clock_hour"].get<double>(), 1.5, 1e-14);
-    EXPECT_NE(rom_text(result).find("  1:30\n"), std::string::npos);
-    EXPECT_NE(rom_csv(result).find(",1.5,,,,,,,,120,bone_may_end\n"), std::string::npos);
+    EXPECT_NEAR(Json::parse(io::rom_json(result))["motions"][2]["clock_hour"].get<double>(), 1.5, 1e-14);
+    EXPECT_NE(io::rom_text(result).find("  1:30\n"), std::string::npos);
+    EXPECT_NE(io::rom_csv(result).find(",1.5,,,,,,,,120,bone_may_end\n"), std::string::npos);
   }
 }
 
 TEST(ClockHour, LeavesOutWhatDidNotTouchAndHinges) {
   Joint joint = arm_and_post();
-  const std::vector<MotionLimit> limits = some_limits();
+  const std::vector<motion::MotionLimit> limits = some_limits();
   const auto with_hour = [&] {
-    return std::count_if(limits.begin(), limits.end(), [&](const MotionLimit& limit) {
+    return std::count_if(limits.begin(), limits.end(), [&](const motion::MotionLimit& limit) {
       return io::clock_hour({joint, limits}, limit).has_value();
     });
   };
   EXPECT_EQ(with_hour(), 1);
   joint.kind = JointKind::hinge;
   EXPECT_EQ(with_hour(), 0);
-  EXPECT_TRUE(Json::parse(rom_json({joint, limits}))["motions"][0]["clock_hour"].is_null());
+  EXPECT_TRUE(Json::parse(io::rom_json({joint, limits}))["motions"][0]["clock_hour"].is_null());
 }
 
 TEST(ClockHour, EndsWhereNoRimCanBe) {
   const Joint joint = arm_and_post();
-  BearingFinding bearing;
+  motion::BearingFinding bearing;
   bearing.surface.emplace().head = {Vec3::Zero(), 20};
   const std::vector limits{contact_towards({0, 31.999, 0}), contact_towards({0, 32.001, 0})};
-  const RomResult result{.joint = joint, .limits = limits, .bearing = bearing};
+  const io::RomResult result{.joint = joint, .limits = limits, .bearing = bearing};
   EXPECT_EQ(io::clock_hour(result, limits[0]), 0.0);
   EXPECT_FALSE(io::clock_hour(result, limits[1]));
 }
 
 TEST(RomJson, SaysThatLimitsWithADepthAllowedAreSearchedFor) {
   const Joint joint = arm_and_post();
-  DepthLimit depth;
+  motion::DepthLimit depth;
   depth.limit = contact_towards({1, 2, 3});
   depth.at_limit.depth_mm = 0.4375;
   depth.start_depth_mm = 0.125;
   depth.depth_grows = false;
   const Json motion = Json::parse(
-      rom_json({.joint = joint, .limits = {&depth.limit, 1}, .depths = {&depth, 1}}))["motions"][0];
+      io::rom_json({.joint = joint, .limits = {&depth.limit, 1}, .depths = {&depth, 1}}))["motions"][0];
   EXPECT_EQ(motion["depth"]["at_limit_mm"], 0.4375);
   EXPECT_EQ(motion["depth"]["at_start_mm"], 0.125);
   EXPECT_EQ(motion["depth"]["grows"], false);
@@ -418,10 +422,10 @@ TEST(RomJson, SaysThatLimitsWithADepthAllowedAreSearchedFor) {
 
 TEST(Guarantee, SaysWhatHoldsForEachReason) {
   const auto limits = some_limits();
-  EXPECT_EQ(guarantee_text(limits[0]),
+  EXPECT_EQ(io::guarantee_text(limits[0]),
             "free before the limit; in contact at it or past it by at most 8.6e-11 deg");
-  EXPECT_EQ(guarantee_text(limits[1]), "free over the whole range of 40 deg");
-  EXPECT_EQ(guarantee_text(limits[2]), "in contact before any rotation");
+  EXPECT_EQ(io::guarantee_text(limits[1]), "free over the whole range of 40 deg");
+  EXPECT_EQ(io::guarantee_text(limits[2]), "in contact before any rotation");
 }
 
 }  // namespace

@@ -11,11 +11,11 @@ namespace {
 
 TEST_F(StudyOfArms, BalancesALoadWhereItIsAskedFor) {
   cohort.write_post(3, 10);
-  Study loaded = study("out");
+  io::Study loaded = study("out");
   loaded.options.load.emplace();
   loaded.options.load->force_n = Vec3(80, 0, 0);
   loaded.options.load->free_directions = {Vec3(1, 0, 0)};  // flat on flat: nothing holds it in the other two
-  loaded.options.load->contact = {.casting = Casting::mobile,
+  loaded.options.load->contact = {.casting = contact::Casting::mobile,
                                   .reach_mm = 10,
                                   .youngs_modulus_mpa = {10},
                                   .poisson_ratio = {0},
@@ -39,7 +39,7 @@ TEST_F(StudyOfArms, BalancesALoadWhereItIsAskedFor) {
 }
 
 TEST_F(StudyOfArms, WithoutLayersCarriesNoLoad) {
-  Study loaded = study("out");
+  io::Study loaded = study("out");
   loaded.options.load.emplace();
   EXPECT_EQ(run(loaded).failures, 13u);
   EXPECT_NE(rows_of(folder / "out/failures.csv")[0].at("message").find("no layers to carry a load"),
@@ -55,7 +55,7 @@ TEST_F(StudyOfArms, IsDoneAgainForOtherThicknesses) {
     for (std::size_t v = 0; v < 8; ++v) out << thickness << "\n";
   };
   write(2);
-  Study loaded = study("out");
+  io::Study loaded = study("out");
   loaded.options.load.emplace();
   EXPECT_EQ(run(loaded).failures, 12u);
   EXPECT_TRUE(run(loaded).was_there);
@@ -66,12 +66,12 @@ TEST_F(StudyOfArms, IsDoneAgainForOtherThicknesses) {
 TEST(StudyOfSamples, CountsAForceToTheSideOfTheJoint) {
   const TemporaryFolder folder;
   std::ofstream(folder / "hips.csv") << "id,sample,side\na,1,right\nb,1,left\n";
-  Study loaded{folder / "hips.csv", folder / "out"};
+  io::Study loaded{folder / "hips.csv", folder / "out"};
   loaded.options.motions = {"flexion"};
   loaded.options.load.emplace();
   loaded.options.load->contact = {.youngs_modulus_mpa = {12}, .poisson_ratio = {0.42}, .thickness_mm = {1.5}};
   loaded.options.load->force_n = Vec3(100, 1500, -300);
-  ASSERT_EQ(run_study(loaded)->failures, 0u);
+  ASSERT_EQ(io::run_study(loaded)->failures, 0u);
   const auto hips = rows_of(folder / "out/hips.csv");
   for (const auto& hip : hips) EXPECT_EQ(hip.at("load_outcome"), "balanced");
   const auto expect_near = [&](const char* column, double sign, double within) {

@@ -19,15 +19,15 @@ std::string text_of(const std::optional<double>& value) {
 class StudyOfShapes : public ::testing::Test {
  protected:
   void write(const std::string& text) const { std::ofstream(folder / "hips.csv") << text; }
-  Study study(const std::string& out) const {
-    Study shapes{folder / "hips.csv", folder / out};
+  io::Study study(const std::string& out) const {
+    io::Study shapes{folder / "hips.csv", folder / out};
     shapes.options.motions = {"flexion"};
     shapes.options.measures = true;
     return shapes;
   }
   static Joint sample(Side side) {
-    static const SampleHip right = sample_hip({}, Scenario::one);
-    SampleHip bones = right;
+    static const sample::SampleHip right = sample::sample_hip({}, sample::Scenario::one);
+    sample::SampleHip bones = right;
     if (side == Side::left) bones = mirrored(bones);
     return {"hip", JointKind::ball, side, {"hip bone", bones.hip_bone}, {"femur", bones.femur}};
   }
@@ -37,12 +37,13 @@ class StudyOfShapes : public ::testing::Test {
 
 TEST_F(StudyOfShapes, HasWhatTheLibraryMeasuresWithTheTiltOfTheTable) {
   write("id,sample,side,pelvic_tilt_deg,neck_shaft_angle_deg\na,1,right,,127\nb,1,left,10,127\n");
-  ASSERT_EQ(run_study(study("out"))->failures, 0u);
+  ASSERT_EQ(io::run_study(study("out"))->failures, 0u);
   const auto hips = rows_of(folder / "out/hips.csv");
-  const HipMeasures expected[] = {measure_hip(sample(Side::right)),
-                                  measure_hip(sample(Side::left), {.pelvic_tilt = Angle::degrees(10)})};
+  const measure::HipMeasures expected[] = {
+      measure::measure_hip(sample(Side::right)),
+      measure::measure_hip(sample(Side::left), {.pelvic_tilt = Angle::degrees(10)})};
   for (std::size_t k = 0; k < 2; ++k)
-    for (const MeasureDefinition& each : measure_definitions())
+    for (const measure::MeasureDefinition& each : measure::measure_definitions())
       EXPECT_EQ(hips[k].at("measured_" + std::string(each.key)), text_of(each.of(expected[k]).value));
   EXPECT_EQ(hips[0].at("measured_frame"), "as scanned");
   EXPECT_EQ(hips[1].at("measured_frame"), "as scanned, tilt 10 deg given");
@@ -53,18 +54,18 @@ TEST_F(StudyOfShapes, HasWhatTheLibraryMeasuresWithTheTiltOfTheTable) {
   EXPECT_EQ(hips[0].at("neck_shaft_angle_deg"), "127");
   EXPECT_EQ(hips[1].at("pelvic_tilt_deg"), "10");
   EXPECT_FALSE(hips[0].contains("measured_alpha_3_deg_p5"));
-  EXPECT_TRUE(run_study(study("out"))->was_there);
+  EXPECT_TRUE(io::run_study(study("out"))->was_there);
 }
 
 TEST_F(StudyOfShapes, HasBandsWhereTheyAreAskedFor) {
   write("id,sample\na,1\n");
-  Study banded = study("out");
+  io::Study banded = study("out");
   banded.options.bands = {20, 3, {}};
-  ASSERT_EQ(run_study(banded)->failures, 0u);
+  ASSERT_EQ(io::run_study(banded)->failures, 0u);
   const auto hip = rows_of(folder / "out/hips.csv")[0];
-  const auto bands = measure_bands(sample(Side::right), {}, {.samples = 20, .seed = 3});
+  const auto bands = measure::measure_bands(sample(Side::right), {}, {.samples = 20, .seed = 3});
   for (std::size_t i = 0; i < bands.size(); ++i) {
-    const std::string name = "measured_" + std::string(measure_definitions()[i].key);
+    const std::string name = "measured_" + std::string(measure::measure_definitions()[i].key);
     EXPECT_EQ(hip.at(name + "_p5"), text_of(bands[i].p5)) << name;
     EXPECT_EQ(hip.at(name + "_p95"), text_of(bands[i].p95)) << name;
   }
@@ -74,7 +75,7 @@ TEST_F(StudyOfArms, RefusesATiltThatIsNone) {
   folder.file(
       "tilts.csv",
       "id,joint,pelvic_tilt_deg\na,hip1.toml,forwards\nb,hip2.toml,61\nc,hip3.toml,nan\nd,hip4.toml,-60\n");
-  Study tilted{folder / "tilts.csv", folder / "out", flexion_only()};
+  io::Study tilted{folder / "tilts.csv", folder / "out", flexion_only()};
   EXPECT_EQ(run(tilted).failures, 0u) << "a covariate where nothing is measured";
   tilted.options.measures = true;
   EXPECT_EQ(run(tilted).failures, 3u);
@@ -87,11 +88,11 @@ TEST_F(StudyOfArms, RefusesATiltThatIsNone) {
 }
 
 TEST_F(StudyOfArms, MeasuresNothingOfWhatHasNoHeadAndSaysWhy) {
-  Study shapes = study("out");
+  io::Study shapes = study("out");
   shapes.options.measures = true;
   EXPECT_EQ(run(shapes).failures, 4u);
   const auto hip = rows_of(folder / "out/hips.csv")[0];
-  for (const MeasureDefinition& each : measure_definitions())
+  for (const measure::MeasureDefinition& each : measure::measure_definitions())
     EXPECT_EQ(hip.at("measured_" + std::string(each.key)), "");
   EXPECT_NE(hip.at("measured_none").find("head_radius_mm: no spherical head"), std::string::npos);
   run(study("plain"));
@@ -103,11 +104,11 @@ TEST_F(StudyOfArms, EndsWhereMeasuresAreAskedForOfAnotherJoint) {
   text.replace(text.find("kind = \"ball\""), 13, "kind = \"hinge\"\njoint = \"knee\"");
   folder.file("knee.toml", text);
   folder.file("knees.csv", "id,joint\nk,knee.toml\n");
-  Study knees{folder / "knees.csv", folder / "knees", {}};
+  io::Study knees{folder / "knees.csv", folder / "knees", {}};
   knees.options.anatomy = Anatomy::knee;
   knees.options.measures = true;
   EXPECT_NE(message_of<UsageError>([&] {
-              run_study(knees);
+              io::run_study(knees);
             }).find("measures: are of hips, and this study is of the knee"),
             std::string::npos);
 }

@@ -37,15 +37,15 @@ inline std::vector<std::map<std::string, std::string>> rows_of(const std::filesy
 
 class StudyOfArms : public ::testing::Test {
  protected:
-  StudyDone run(const Study& study) const { return *run_study(study); }
-  Study study(const std::string& out) const { return {cohort.table(), folder / out, flexion_only()}; }
-  Study shard(const std::string& out, std::size_t number, std::size_t of) const {
-    Study one = study(out);
+  io::StudyDone run(const io::Study& study) const { return *io::run_study(study); }
+  io::Study study(const std::string& out) const { return {cohort.table(), folder / out, flexion_only()}; }
+  io::Study shard(const std::string& out, std::size_t number, std::size_t of) const {
+    io::Study one = study(out);
     one.shard = {number, of};
     return one;
   }
-  static StudyOptions flexion_only() {
-    StudyOptions options;
+  static io::StudyOptions flexion_only() {
+    io::StudyOptions options;
     options.motions = {"flexion", "extension"};
     return options;
   }

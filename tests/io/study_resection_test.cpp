@@ -15,15 +15,16 @@ namespace {
 constexpr const char* motion = "internal_rotation_at_90_flexion";
 
 Joint with_cam() {
-  const SampleHip bones = sample_hip({.alpha_angle = Angle::degrees(70)}, Scenario::one);
+  const sample::SampleHip bones =
+      sample::sample_hip({.alpha_angle = Angle::degrees(70)}, sample::Scenario::one);
   return {"hip", JointKind::ball, Side::right, {"hip bone", bones.hip_bone}, {"femur", bones.femur}};
 }
 
 class StudyOfCams : public ::testing::Test {
  protected:
-  Study study(const std::string& rows, const std::string& reach) const {
+  io::Study study(const std::string& rows, const std::string& reach) const {
     std::ofstream(folder / "hips.csv") << "id,sample,alpha_angle_deg\n" << rows;
-    Study cams{folder / "hips.csv", folder / "out"};
+    io::Study cams{folder / "hips.csv", folder / "out"};
     cams.options.motions = {motion, "flexion"};
     cams.options.resection = {parse_reach(reach), {}};
     return cams;
@@ -33,15 +34,16 @@ class StudyOfCams : public ::testing::Test {
 };
 
 TEST_F(StudyOfCams, HasWhatTheLibraryAnswers) {
-  ASSERT_EQ(run_study(study("cam,1,70\n", std::string(motion) + "=45"))->failures, 0u);
+  ASSERT_EQ(io::run_study(study("cam,1,70\n", std::string(motion) + "=45"))->failures, 0u);
   const auto hip = rows_of(folder / "out/hips.csv")[0];
   const auto limits = rows_of(folder / "out/limits.csv");
   ResectionQuery query{
-      .resection = {.targets = reach_targets(hip_motions(), std::string(motion) + "=45")},
-      .motions = {motion_named(hip_motions(), motion), motion_named(hip_motions(), "flexion")},
+      .resection = {.targets = reach_targets(motion::hip_motions(), std::string(motion) + "=45")},
+      .motions = {motion::motion_named(motion::hip_motions(), motion),
+                  motion::motion_named(motion::hip_motions(), "flexion")},
       .curve_points = 0};
   const ResectionAnswer expected = answer_resection(with_cam(), {}, query);
-  const CutBone& femur = *expected.resection.mobile;
+  const plan::CutBone& femur = *expected.resection.mobile;
   EXPECT_GT(femur.volume_mm3, 1);
   EXPECT_EQ(hip.at("resect_volume_mm3"), fmt::format("{}", femur.volume_mm3));
   EXPECT_EQ(hip.at("resect_least_volume_mm3"), fmt::format("{}", femur.least_volume_mm3));
@@ -61,9 +63,9 @@ TEST_F(StudyOfCams, HasWhatTheLibraryAnswers) {
 }
 
 TEST_F(StudyOfCams, SaysThatNothingHasToGoAndWhatStopsATarget) {
-  Study cams = study("none,1,60\ncam,1,70\n", std::string(motion) + "=45");
+  io::Study cams = study("none,1,60\ncam,1,70\n", std::string(motion) + "=45");
   cams.options.resection->cut.mobile.deepest_mm = 0.5;
-  ASSERT_EQ(run_study(cams)->failures, 0u);
+  ASSERT_EQ(io::run_study(cams)->failures, 0u);
   const auto hips = rows_of(folder / "out/hips.csv");
   EXPECT_EQ(hips[0].at("resect_volume_mm3"), "0");
   EXPECT_EQ(hips[0].at("resect_notes"), "nothing_to_do");
@@ -73,16 +75,16 @@ TEST_F(StudyOfCams, SaysThatNothingHasToGoAndWhatStopsATarget) {
 }
 
 TEST_F(StudyOfCams, EndsAtATargetThatNoJointOfItHas) {
-  EXPECT_THROW(run_study(study("cam,1,70\n", "flexion=500")), UsageError);
-  EXPECT_THROW(run_study(study("cam,1,70\n", "bending=40")), UsageError);
+  EXPECT_THROW(io::run_study(study("cam,1,70\n", "flexion=500")), UsageError);
+  EXPECT_THROW(io::run_study(study("cam,1,70\n", "bending=40")), UsageError);
   EXPECT_FALSE(std::filesystem::exists(folder / "out/study.json"));
 }
 
 TEST_F(StudyOfArms, KeepsTheLimitsOfAJointWithoutAPlanAndSaysWhyItHasNone) {
-  Study cuts = study("out");
+  io::Study cuts = study("out");
   // All reach it but the one that starts in contact.
   cuts.options.resection = {parse_reach("flexion=5"), {}};
-  cuts.options.reference_contact = ReferenceContact::accept;
+  cuts.options.reference_contact = motion::ReferenceContact::accept;
   run(cuts);
   std::size_t planned = 0;
   for (const auto& arm : rows_of(folder / "out/hips.csv")) {

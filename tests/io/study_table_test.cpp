@@ -22,7 +22,7 @@ TEST(StudyTable, IsRefusedWithTheLineThatIsWrong) {
   const auto expect = [&](std::string_view text, std::string_view saying) {
     const fs::path table = folder.file("table.csv", text);
     try {
-      run_study({table, folder / "out"});
+      io::run_study({table, folder / "out"});
       ADD_FAILURE() << text;
     } catch (const FileError& error) {
       EXPECT_NE(std::string_view(error.what()).find(saying), std::string_view::npos) << error.what();
@@ -59,7 +59,7 @@ TEST(StudyTable, CarriesColumnsThatAreNearlyCalledAsOnesThatItHasOrDoesNotNeed) 
   const TemporaryFolder folder;
   const fs::path table = folder.file(
       "table.csv", "id,joint,side,site,haed_radius_mm,unit,age\na,nothere.toml,,Bern,25,orthopaedics,61\n");
-  run_study({table, folder / "out"});
+  io::run_study({table, folder / "out"});
   const auto failure = rows_of(folder / "out/failures.csv").at(0);
   for (const char* column : {"site", "haed_radius_mm", "unit", "age"}) EXPECT_TRUE(failure.contains(column));
 }
@@ -69,7 +69,7 @@ TEST(StudyTable, TakesAByteOrderMarkCommentsAndLineEndsOfWindows) {
   const SmallCohort cohort(folder.path(), 1);
   const fs::path table =
       folder.file("other.csv", "\xEF\xBB\xBF# a remark\r\nid,joint,reason\r\nh1,hip1.toml,why not\r\n");
-  EXPECT_EQ(run_study({table, folder / "out"})->joints, 1u);
+  EXPECT_EQ(io::run_study({table, folder / "out"})->joints, 1u);
   const auto rows = rows_of(folder / "out/limits.csv");
   EXPECT_EQ(rows[0].at("table_reason"), "why not");
   EXPECT_EQ(rows[0].at("reason"), "contact");
@@ -77,10 +77,10 @@ TEST(StudyTable, TakesAByteOrderMarkCommentsAndLineEndsOfWindows) {
 
 TEST(StudyOfMeshes, TakesSideUnitsAndAxesFromTheTable) {
   const TemporaryFolder folder;
-  const SampleHip hip = sample_hip({}, Scenario::one);
+  const sample::SampleHip hip = sample::sample_hip({}, sample::Scenario::one);
   {
-    OutputFolder out(folder / "hip");
-    write_sample_hip(out, hip, Side::right);
+    io::OutputFolder out(folder / "hip");
+    io::write_sample_hip(out, hip, Side::right);
     out.commit();
   }
   TriMesh bone = hip.hip_bone, femur = hip.femur;
@@ -90,8 +90,8 @@ TEST(StudyOfMeshes, TakesSideUnitsAndAxesFromTheTable) {
       const Vec3 p = mesh->vertices[v];
       mesh->vertices.set(v, Vec3(p.z(), p.x(), p.y()) / 1000);
     }
-  write_mesh(folder / "bone_ras.ply", bone);
-  write_mesh(folder / "femur_ras.ply", femur);
+  io::write_mesh(folder / "bone_ras.ply", bone);
+  io::write_mesh(folder / "femur_ras.ply", femur);
   folder.file("table.csv",
               "id,joint,fixed,mobile,side,units,axes\n"
               "a,hip/hip.toml,,,,,\n"
@@ -101,9 +101,9 @@ TEST(StudyOfMeshes, TakesSideUnitsAndAxesFromTheTable) {
               "e,hip/hip.toml,bone_ras.ply,femur_ras.ply,right,m,RAS\n"
               "f,,bone_ras.ply,femur_ras.ply,right,m,ras\n"
               "g,,bone_ras.ply,femur_ras.ply,R,m,RAS\n");
-  Study study{folder / "table.csv", folder / "out"};
+  io::Study study{folder / "table.csv", folder / "out"};
   study.options.motions = {"flexion", "fadir"};
-  run_study(study);
+  io::run_study(study);
   const auto limits = rows_of(folder / "out/limits.csv");
   ASSERT_EQ(limits.size(), 4u);
   // The centre of b is fitted to the head: within what triangles sag below the sphere.

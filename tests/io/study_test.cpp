@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 using io::read_whole_file;
 
 TEST_F(StudyOfArms, HasARowForEveryJointAndMotionOrAFailure) {
-  const StudyDone done = run(study("out"));
+  const io::StudyDone done = run(study("out"));
   EXPECT_EQ(done.joints, 9u);
   EXPECT_EQ(done.failures, 4u);
   const auto limits = rows_of(folder / "out/limits.csv");
@@ -68,7 +68,7 @@ TEST_F(StudyOfArms, OfShardsMergedIsTheStudyOfTheWholeTableByteForByte) {
   for (const std::size_t of : {1u, 7u, 20u}) {
     const std::string out = fmt::format("in{}", of);
     for (std::size_t number = of; number >= 1; --number) run(shard(out, number, of));
-    const StudyDone merged = merge_study(folder / out);
+    const io::StudyDone merged = io::merge_study(folder / out);
     EXPECT_EQ(merged.joints, 9u);
     EXPECT_EQ(merged.failures, 4u);
     expect_same_tables("whole", out);
@@ -76,7 +76,7 @@ TEST_F(StudyOfArms, OfShardsMergedIsTheStudyOfTheWholeTableByteForByte) {
 }
 
 TEST_F(StudyOfArms, IsTheSameOnAnyNumberOfThreads) {
-  Study banded = study("one");
+  io::Study banded = study("one");
   banded.options.bands.emplace().samples = 20;
   for (const auto& [out, threads] : {std::pair("one", 1u), {"seven", 7u}}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -89,7 +89,7 @@ TEST_F(StudyOfArms, IsTheSameOnAnyNumberOfThreads) {
 TEST_F(StudyOfArms, IsNotDoneAgainForTheSameInputs) {
   EXPECT_FALSE(run(study("out")).was_there);
   const auto written = fs::last_write_time(folder / "out/study.json");
-  const StudyDone again = run(study("out"));
+  const io::StudyDone again = run(study("out"));
   EXPECT_TRUE(again.was_there);
   EXPECT_EQ(again.joints, 9u);
   EXPECT_EQ(again.failures, 4u);
@@ -100,7 +100,7 @@ TEST_F(StudyOfArms, IsDoneAgainForOtherMeshesOtherOptionsAndFilesThatWereChanged
   run(study("out"));
   cohort.write_post(3, 90);
   EXPECT_FALSE(run(study("out")).was_there);
-  Study all_motions = study("out");
+  io::Study all_motions = study("out");
   all_motions.options.motions.clear();
   EXPECT_FALSE(run(all_motions).was_there);
   EXPECT_TRUE(run(all_motions).was_there);
@@ -108,13 +108,13 @@ TEST_F(StudyOfArms, IsDoneAgainForOtherMeshesOtherOptionsAndFilesThatWereChanged
   EXPECT_FALSE(run(all_motions).was_there);
   // A file that was missing and is there now.
   std::ofstream(folder / "nothere.toml") << read_whole_file(folder / "hip1.toml");
-  const StudyDone found = run(all_motions);
+  const io::StudyDone found = run(all_motions);
   EXPECT_FALSE(found.was_there);
   EXPECT_EQ(found.failures, 3u);
 }
 
 TEST_F(StudyOfArms, IsRefusedForATableOfBytesThatAreNoUtf8) {
-  Study bytes = study("out");
+  io::Study bytes = study("out");
   bytes.table = folder / "bytes.csv";
   for (const char* table :
        {"id,joint,a\xff\nh,hip1.toml,x\n", "id,joint,a\nh,hip1.toml,\xfe\n",
@@ -127,7 +127,7 @@ TEST_F(StudyOfArms, IsRefusedForATableOfBytesThatAreNoUtf8) {
 
 /// Shard 3 of 3 has the same two joints in both tables, in other places.
 TEST_F(StudyOfArms, IsDoneAgainWhereItsRowsMoved) {
-  Study last = shard("out", 3, 3), all = study("whole");
+  io::Study last = shard("out", 3, 3), all = study("whole");
   last.table = all.table = folder / "moved.csv";
   for (const char* before : {"", "z,hip4.toml\n"}) {
     std::ofstream(last.table) << "id,joint\n" << before << "a,hip1.toml\nb,hip2.toml\nc,hip3.toml\nd,\n";
@@ -138,7 +138,7 @@ TEST_F(StudyOfArms, IsDoneAgainWhereItsRowsMoved) {
       run(last);
     }
     last.shard->number = 3;
-    merge_study(folder / "out");
+    io::merge_study(folder / "out");
     run(all);
     expect_same_tables("whole", "out");
   }
@@ -149,45 +149,45 @@ TEST_F(StudyOfArms, KeepsShardsWhoseRowsDidNotChange) {
   cohort.write_table("open.toml", "c");
   EXPECT_NE(message_of<FileError>([&] {
               EXPECT_TRUE(run(shard("out", 1, 3)).was_there);
-              merge_study(folder / "out");
+              io::merge_study(folder / "out");
             }).find("2_of_3: is of another table"),
             std::string::npos);
   EXPECT_TRUE(run(shard("out", 2, 3)).was_there);
   EXPECT_FALSE(run(shard("out", 3, 3)).was_there);
-  merge_study(folder / "out");
+  io::merge_study(folder / "out");
   run(study("whole"));
   expect_same_tables("whole", "out");
 }
 
 TEST_F(StudyOfArms, IsMergedOnlyWhereAllShardsAreThereAndWhole) {
-  EXPECT_NE(message_of<FileError>([&] { merge_study(folder / "out"); }).find("there is no shard"),
+  EXPECT_NE(message_of<FileError>([&] { io::merge_study(folder / "out"); }).find("there is no shard"),
             std::string::npos);
   for (const std::size_t number : {1u, 2u, 4u}) run(shard("out", number, 5));
   EXPECT_NE(message_of<FileError>([&] {
-              merge_study(folder / "out");
+              io::merge_study(folder / "out");
             }).find("2 of 5 shards are missing or not whole: 3, 5"),
             std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "out/limits.csv"));
   for (const std::size_t number : {3u, 5u}) run(shard("out", number, 5));
   std::ofstream(folder / "out/shards/4_of_5/failures.csv", std::ios::app) << "x\n";
   EXPECT_NE(message_of<FileError>([&] {
-              merge_study(folder / "out");
+              io::merge_study(folder / "out");
             }).find("1 of 5 shards is missing or not whole: 4"),
             std::string::npos);
   run(shard("out", 4, 5));
-  Study other = shard("out", 5, 5);
+  io::Study other = shard("out", 5, 5);
   other.options.motions = {"flexion"};
   run(other);
-  EXPECT_NE(message_of<FileError>([&] { merge_study(folder / "out"); }).find("other options"),
+  EXPECT_NE(message_of<FileError>([&] { io::merge_study(folder / "out"); }).find("other options"),
             std::string::npos);
   run(shard("out", 1, 2));
-  EXPECT_NE(message_of<FileError>([&] { merge_study(folder / "out"); }).find("shards of 2 and of 5"),
+  EXPECT_NE(message_of<FileError>([&] { io::merge_study(folder / "out"); }).find("shards of 2 and of 5"),
             std::string::npos);
 }
 
 TEST_F(StudyOfArms, EndsWithItsLowestBadJointWhereThatIsAskedFor) {
-  Study strict = study("out");
-  strict.bad_joint = BadJoint::ends_run;
+  io::Study strict = study("out");
+  strict.bad_joint = io::BadJoint::ends_run;
   EXPECT_NE(message_of<FileError>([&] { run(strict); }).find("nothere.toml"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "out/limits.csv"));
   // Tables that are there already change nothing, and stay.
@@ -197,7 +197,7 @@ TEST_F(StudyOfArms, EndsWithItsLowestBadJointWhereThatIsAskedFor) {
 }
 
 TEST_F(StudyOfArms, EndsWhereItsOptionsDoNotFit) {
-  Study wrong = study("out");
+  io::Study wrong = study("out");
   wrong.options.motions = {"flexoin"};
   EXPECT_NE(message_of<UsageError>([&] { run(wrong); }).find("flexoin"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "out/limits.csv"));
@@ -208,19 +208,19 @@ TEST_F(StudyOfArms, WritesNothingWhereItIsStopped) {
   Control control;
   control.stop = stop.get_token();
   control.progress = [&](std::size_t, std::size_t) { stop.request_stop(); };
-  EXPECT_FALSE(run_study(study("out"), control));
+  EXPECT_FALSE(io::run_study(study("out"), control));
   EXPECT_EQ(count_entries(folder / "out"), 0u);
 }
 
 TEST_F(StudyOfArms, HasBandsMapAndDepthWhereTheyAreAskedFor) {
-  Study full = study("out");
+  io::Study full = study("out");
   full.options.bands.emplace().samples = 20;
-  MapGrid grid;
+  motion::MapGrid grid;
   grid.column = {JointAngle::adduction, -10, 10, 10};
   grid.row = {JointAngle::internal_rotation, -10, 10, 5};
   grid.vary = JointAngle::flexion;
   full.options.map = grid;
-  full.options.depth_at = PoseDegrees{.flexion = 35};
+  full.options.depth_at = io::PoseDegrees{.flexion = 35};
   run(full);
   const auto limit = rows_of(folder / "out/limits.csv")[0];
   EXPECT_LT(std::stod(limit.at("band_p5_deg")), std::stod(limit.at("band_median_deg")));
@@ -298,7 +298,7 @@ TEST(StudyH5, GrowsWithTheTextsAndNotWithTheLongestOne) {
   std::string table = "id,joint,remark\n";
   for (std::size_t i = 0; i < rows; ++i)
     table += fmt::format("j{},nothere.toml,{}\n", i, i == 7 ? remark : "");
-  EXPECT_EQ(run_study({folder.file("table.csv", table), folder / "out"})->failures, rows);
+  EXPECT_EQ(io::run_study({folder.file("table.csv", table), folder / "out"})->failures, rows);
   // In the file a text has a reference of 16 bytes, and 16 beside it and up to 7 behind it where it lies; its columns, and
   // what HDF5 has beside them, take less than 64 kB.
   constexpr std::size_t text_columns = 4, beside_text = 16 + 16 + 7, beside_all = 1 << 16;
@@ -316,26 +316,26 @@ TEST_F(StudyOfArms, RefusesAPoseThatAHingeDoesNotTurnTo) {
   text.replace(text.find("kind = \"ball\""), 13, "kind = \"hinge\"\njoint = \"knee\"");
   folder.file("knee.toml", text);
   folder.file("knees.csv", "id,joint\nk,knee.toml\n");
-  Study asked{folder / "knees.csv", folder / "knees", {}};
+  io::Study asked{folder / "knees.csv", folder / "knees", {}};
   asked.options.anatomy = Anatomy::knee;
-  const auto refusal = [&] { return message_of<UsageError>([&] { run_study(asked); }); };
+  const auto refusal = [&] { return message_of<UsageError>([&] { io::run_study(asked); }); };
   constexpr auto says =
       "knees.csv: line 2: joint 'k': pose: a hinge rotates in flexion only, not in adduction";
-  asked.options.depth_at = study_pose("flexion=30 adduction=10", Anatomy::knee);
+  asked.options.depth_at = io::study_pose("flexion=30 adduction=10", Anatomy::knee);
   EXPECT_TRUE(refusal().ends_with(says)) << refusal();
-  asked.options.depth_at = study_pose("flexion=20", Anatomy::knee);
-  EXPECT_EQ(run_study(asked)->joints, 1u);
+  asked.options.depth_at = io::study_pose("flexion=20", Anatomy::knee);
+  EXPECT_EQ(io::run_study(asked)->joints, 1u);
   asked.options.depth_at.reset();
-  asked.options.load.emplace().at = study_pose("flexion=30 adduction=10", Anatomy::knee);
+  asked.options.load.emplace().at = io::study_pose("flexion=30 adduction=10", Anatomy::knee);
   EXPECT_TRUE(refusal().ends_with(says)) << refusal();
-  EXPECT_THROW(study_pose("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", Anatomy::knee), UsageError);
+  EXPECT_THROW(io::study_pose("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", Anatomy::knee), UsageError);
 }
 
 TEST_F(StudyOfArms, WithoutAnAnswerIsTheErrorOfItsFirstFailure) {
   const auto refusal = [&](std::string_view table) {
     return message_of<FileError>([&] {
       const fs::path path = folder.file("none.csv", table);
-      require_answered(*run_study({path, folder / "none"}), path);
+      io::require_answered(*io::run_study({path, folder / "none"}), path);
     });
   };
   EXPECT_NE(refusal("id,joint\na,nothere.toml\nb,in_contact.toml\n")
@@ -344,11 +344,11 @@ TEST_F(StudyOfArms, WithoutAnAnswerIsTheErrorOfItsFirstFailure) {
             std::string::npos);
   const fs::path contact = folder.file("none.csv", "id,joint\nb,in_contact.toml\na,nothere.toml\n");
   for (const bool again : {false, true}) {
-    const StudyDone done = *run_study({contact, folder / "none"});
+    const io::StudyDone done = *io::run_study({contact, folder / "none"});
     EXPECT_EQ(done.was_there, again);
-    EXPECT_THROW(require_answered(done, contact), ReferenceContactError);
+    EXPECT_THROW(io::require_answered(done, contact), motion::ReferenceContactError);
   }
-  require_answered(run(study("some")), cohort.table());
+  io::require_answered(run(study("some")), cohort.table());
 }
 
 TEST_F(StudyOfArms, NamesEveryColumnInItsDictionary) {
@@ -367,7 +367,7 @@ TEST_F(StudyOfArms, NamesEveryColumnInItsDictionary) {
 }
 
 TEST_F(StudyOfArms, SaysInEveryTableWhichVersionAndOptionsItIsOf) {
-  Study asked = study("out");
+  io::Study asked = study("out");
   asked.options.bands = {20, 7, {}};
   run(asked);
   const auto options = nlohmann::json::parse(read_whole_file(folder / "out/study.json"))["options"];
@@ -384,16 +384,16 @@ TEST_F(StudyOfArms, SaysInEveryTableWhichVersionAndOptionsItIsOf) {
 
 TEST(StudyOfSamples, GivesTheSameOfMeasuresAndOfMeshesInFiles) {
   const TemporaryFolder folder;
-  SampleCohort cohort{.n = 2, .seed = 7};
-  write_sample_cohort(folder / "measures", cohort);
-  cohort.meshes = CohortMeshes::in_files;
-  write_sample_cohort(folder / "files", cohort);
-  Study study;
+  io::SampleCohort cohort{.n = 2, .seed = 7};
+  io::write_sample_cohort(folder / "measures", cohort);
+  cohort.meshes = io::CohortMeshes::in_files;
+  io::write_sample_cohort(folder / "files", cohort);
+  io::Study study;
   study.options.motions = {"flexion", "internal_rotation_at_90_flexion"};
   for (const char* source : {"measures", "files"}) {
     study.table = folder / source / "cohort.csv";
     study.folder = folder / (std::string("of_") + source);
-    EXPECT_EQ(run_study(study)->joints, 2u);
+    EXPECT_EQ(io::run_study(study)->joints, 2u);
   }
   EXPECT_EQ(read_whole_file(folder / "of_measures/limits.csv"),
             read_whole_file(folder / "of_files/limits.csv"));

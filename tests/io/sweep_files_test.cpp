@@ -14,17 +14,18 @@
 namespace condyle::test {
 namespace {
 
-SweepResult made_sweep() {
+io::SweepResult made_sweep() {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  SweepResult result;
+  io::SweepResult result;
   result.joint = "a hip, \"made\"";
   result.scope = "what it is";
   SweepAnswer& sweep = result.answer;
   sweep.parameters = {{"cup.inclination", 30, 40, 10}, {"cup.anteversion", -0.1, 0.2, 0.1}};
-  SweepTarget sitting{"sitting, low", motion_named(hip_motions(), "flexion"), Angle::degrees(110)};
+  plan::SweepTarget sitting{"sitting, low", motion::motion_named(motion::hip_motions(), "flexion"),
+                            Angle::degrees(110)};
   sitting.pelvic_tilt = Angle::degrees(-12.3);
   sitting.source = "a book";
-  SweepTarget own{
+  plan::SweepTarget own{
       "tailor", {"tailor", JointAngle::internal_rotation, RotationSense::negative}, Angle::degrees(33.3)};
   own.motion.start.flexion = Angle::degrees(71.7);
   own.motion.range = Angle::degrees(50);
@@ -33,17 +34,19 @@ SweepResult made_sweep() {
   for (int i = 0; i < 8; ++i) {
     const bool in_contact = i == 5;
     const double first = in_contact ? none : 100 + 20.0 / (1 + i), second = in_contact ? none : 50;
-    sweep.limits.push_back({first, in_contact ? LimitReason::contact_at_start : LimitReason::contact,
-                            LimitKnownBy::closed_form, 0});
-    sweep.limits.push_back({second, in_contact ? LimitReason::contact_at_start : LimitReason::end_of_range,
-                            LimitKnownBy::meshes, in_contact ? std::uint16_t{1} : DesignLimit::no_pair});
+    sweep.limits.push_back({first,
+                            in_contact ? motion::LimitReason::contact_at_start : motion::LimitReason::contact,
+                            plan::LimitKnownBy::closed_form, 0});
+    sweep.limits.push_back(
+        {second, in_contact ? motion::LimitReason::contact_at_start : motion::LimitReason::end_of_range,
+         plan::LimitKnownBy::meshes, in_contact ? std::uint16_t{1} : plan::DesignLimit::no_pair});
     sweep.margin_deg.push_back(first - 110);
     sweep.probability.push_back(1.0 / (3 + i));
   }
   sweep.safe = {{0, -0.1, 1.0 / 3 - 0.3, std::nullopt, 0}};
   sweep.here = {37, 0.15};
-  sweep.limits_here = {{101.0 / 3, LimitReason::contact, LimitKnownBy::meshes, 1},
-                       {50, LimitReason::end_of_range, LimitKnownBy::meshes}};
+  sweep.limits_here = {{101.0 / 3, motion::LimitReason::contact, plan::LimitKnownBy::meshes, 1},
+                       {50, motion::LimitReason::end_of_range, plan::LimitKnownBy::meshes}};
   sweep.notes = {{SweepNoteCode::differs_from_closed_form, "meshes differ"}};
   sweep.caveats = {"one", "two"};
   result.units = {"deg", "mm"};
@@ -55,11 +58,11 @@ SweepResult made_sweep() {
 }
 
 TEST(SweepFiles, SayAgainWhatWasWritten) {
-  const SweepResult written = made_sweep();
-  const SweepResult read =
-      io::read_sweep_result(io::sweep_object(written), designs_csv(written), safe_csv(written), "zone");
-  EXPECT_EQ(designs_csv(read), designs_csv(written));
-  EXPECT_EQ(safe_csv(read), safe_csv(written));
+  const io::SweepResult written = made_sweep();
+  const io::SweepResult read = io::read_sweep_result(io::sweep_object(written), io::designs_csv(written),
+                                                     io::safe_csv(written), "zone");
+  EXPECT_EQ(io::designs_csv(read), io::designs_csv(written));
+  EXPECT_EQ(io::safe_csv(read), io::safe_csv(written));
   const SweepAnswer &a = read.answer, &b = written.answer;
   ASSERT_EQ(a.limits.size(), b.limits.size());
   for (std::size_t i = 0; i < b.limits.size(); ++i) {
@@ -86,21 +89,21 @@ TEST(SweepFiles, SayAgainWhatWasWritten) {
 
 TEST(SweepFiles, AreFoundAgainByTheirKeyOnly) {
   const TemporaryFolder folder;
-  const SweepResult written = made_sweep();
+  const io::SweepResult written = made_sweep();
   io::write_sweep(folder / "zone", written, "a key", nullptr);
   const auto read = io::sweep_there(folder / "zone", "a key");
   ASSERT_TRUE(read);
-  EXPECT_EQ(designs_csv(*read), designs_csv(written));
+  EXPECT_EQ(io::designs_csv(*read), io::designs_csv(written));
   ASSERT_TRUE(read->answer.best);
   EXPECT_EQ(read->answer.best, written.answer.best);
-  EXPECT_EQ(sweep_text(*read), sweep_text(written));
-  EXPECT_EQ(sweep_json(*read), sweep_json(written));
+  EXPECT_EQ(io::sweep_text(*read), io::sweep_text(written));
+  EXPECT_EQ(io::sweep_json(*read), io::sweep_json(written));
   EXPECT_FALSE(io::sweep_there(folder / "zone", "another key"));
   EXPECT_FALSE(io::sweep_there(folder / "elsewhere", "a key"));
 }
 
 TEST(SweepFiles, ThatDoNotFitTogetherAreRefused) {
-  const SweepResult written = made_sweep();
+  const io::SweepResult written = made_sweep();
   const auto refusal = [&](const io::Json& json, const std::string& designs, const std::string& safe) {
     try {
       io::read_sweep_result(json, designs, safe, "zone");
@@ -110,7 +113,7 @@ TEST(SweepFiles, ThatDoNotFitTogetherAreRefused) {
     return std::string("accepted");
   };
   const io::Json json = io::sweep_object(written);
-  const std::string designs = designs_csv(written), safe = safe_csv(written);
+  const std::string designs = io::designs_csv(written), safe = io::safe_csv(written);
   EXPECT_EQ(refusal(json, designs, safe), "accepted");
   io::Json without = json;
   without.erase("targets");

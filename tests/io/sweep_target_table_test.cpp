@@ -14,8 +14,8 @@
 namespace condyle::test {
 namespace {
 
-std::vector<SweepTarget> targets_in(std::string_view text) {
-  return io::parse_targets(text, "daily.csv", hip_motions(), JointKind::ball, Anatomy::hip);
+std::vector<plan::SweepTarget> targets_in(std::string_view text) {
+  return io::parse_targets(text, "daily.csv", motion::hip_motions(), JointKind::ball, Anatomy::hip);
 }
 
 std::string target_refusal(std::string_view text) {
@@ -28,7 +28,7 @@ std::string target_refusal(std::string_view text) {
 }
 
 TEST(TargetTable, HasMotionsByTheirNamesOrByStartAndMovement) {
-  const std::vector<SweepTarget> targets = targets_in(
+  const std::vector<plan::SweepTarget> targets = targets_in(
       "# what a day needs\r\n"
       "name,motion,start,movement,reach_deg,range_deg,pelvic_tilt_deg,source\r\n"
       "\r\n"
@@ -37,7 +37,7 @@ TEST(TargetTable, HasMotionsByTheirNamesOrByStartAndMovement) {
       "tailor,,\"flexion=80, adduction=-20\",external_rotation,45,60,,\r\n"
       "stooping,,,flexion,130,,,\r\n");
   ASSERT_EQ(targets.size(), 3u);
-  const Motion flexion = motion_named(hip_motions(), "flexion");
+  const motion::Motion flexion = motion::motion_named(motion::hip_motions(), "flexion");
   EXPECT_EQ(targets[0].name, "sitting");
   EXPECT_EQ(targets[0].motion.name, "flexion");
   EXPECT_EQ(targets[0].motion.range, flexion.range);
@@ -59,12 +59,12 @@ TEST(TargetTable, HasMotionsByTheirNamesOrByStartAndMovement) {
 }
 
 TEST(TargetTable, NeedsNoColumnsButNameAndReach) {
-  const std::vector<SweepTarget> targets = targets_in("reach_deg,name,motion\n30,sleeping,Extension\n");
+  const std::vector<plan::SweepTarget> targets = targets_in("reach_deg,name,motion\n30,sleeping,Extension\n");
   ASSERT_EQ(targets.size(), 1u);
   EXPECT_EQ(targets[0].motion.name, "extension");
   const TemporaryFolder folder;
   const auto path = folder.file("daily.csv", "reach_deg,name,motion\n30,sleeping,extension\n");
-  EXPECT_EQ(io::read_targets(path, hip_motions(), JointKind::ball, Anatomy::hip).size(), 1u);
+  EXPECT_EQ(io::read_targets(path, motion::hip_motions(), JointKind::ball, Anatomy::hip).size(), 1u);
 }
 
 TEST(TargetTable, IsRefusedWithFileLineAndColumnInOneLine) {

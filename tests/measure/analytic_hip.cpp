@@ -53,7 +53,7 @@ TriMesh star_shaped(const Vec3& axis, const Vec3& zero,
   for (int i = 179; i >= 1; --i) {
     rings.emplace_back();
     for (int k = 0; k < 360; ++k) {
-      const double from_axis = i * degree, turn = k * degree;
+      const double from_axis = i * measure::degree, turn = k * measure::degree;
       rings.back().push_back(distance(from_axis, turn) *
                              (std::cos(from_axis) * axis +
                               std::sin(from_axis) * (std::cos(turn) * zero + std::sin(turn) * quarter)));
@@ -65,8 +65,8 @@ TriMesh star_shaped(const Vec3& axis, const Vec3& zero,
 TriMesh head_with_cone(const Vec3& neck, double R, double r0, double m) {
   const double junction = std::asin(r0 / (R * std::sqrt(1 + m * m))) + std::atan(m);
   std::vector<ProfilePoint> profile{{-R, 0}};
-  for (int i = 179; i * degree > junction + 0.1 * degree; --i)
-    profile.push_back({R * std::cos(i * degree), R * std::sin(i * degree)});
+  for (int i = 179; i * measure::degree > junction + 0.1 * measure::degree; --i)
+    profile.push_back({R * std::cos(i * measure::degree), R * std::sin(i * measure::degree)});
   profile.push_back({R * std::cos(junction), R * std::sin(junction)});
   constexpr double end = 70;
   for (double along = std::ceil(R * std::cos(junction)) + 1; along < end; along += 1)
@@ -81,18 +81,19 @@ TriMesh sharp_cup(const Vec3& opening, double S, double h) {
   std::vector<ProfilePoint> profile;
   // Outwards is away from the wall: along the outer side from behind to the rim, and back inside.
   constexpr double thick = 8;
-  const int steps = static_cast<int>(std::floor(rim / degree));
+  const int steps = static_cast<int>(std::floor(rim / measure::degree));
   for (int i = 0; i <= steps; ++i) {
-    const double at = i * degree, radius = S + thick * (1 - at / rim);
+    const double at = i * measure::degree, radius = S + thick * (1 - at / rim);
     profile.push_back({-radius * std::cos(at), radius * std::sin(at)});
   }
   profile.push_back({h, S * std::sin(rim)});
-  for (int i = steps; i >= 0; --i) profile.push_back({-S * std::cos(i * degree), S * std::sin(i * degree)});
+  for (int i = steps; i >= 0; --i)
+    profile.push_back({-S * std::cos(i * measure::degree), S * std::sin(i * measure::degree)});
   return revolved(opening, profile);
 }
 
 Vec3 opening_of(double inclination_deg, double version_deg) {
-  const double I = inclination_deg * degree, V = version_deg * degree;
+  const double I = inclination_deg * measure::degree, V = version_deg * measure::degree;
   return {std::sin(I) * std::sin(V), -std::cos(I), std::sin(I) * std::cos(V)};
 }
 

@@ -11,7 +11,7 @@
 
 /// Measures of shapes with closed forms: within 0.01 degrees at facets of one degree.
 
-namespace condyle {
+namespace condyle::measure {
 namespace {
 
 using namespace test;
@@ -180,4 +180,4 @@ TEST(KnownMeasures, ANecksVectorAreaIsThatOfTheLoopItCuts) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::measure

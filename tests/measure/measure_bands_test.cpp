@@ -17,14 +17,14 @@
 
 /// Bands of measures: in closed form, the same on any number of threads, and of as many joints as they say.
 
-namespace condyle {
+namespace condyle::measure {
 namespace {
 
 using namespace test;
 
 const Joint& some_hip() {
   static const Joint hip = [] {
-    SampleHip bones = sample_hip({}, Scenario::two);
+    sample::SampleHip bones = sample::sample_hip({}, sample::Scenario::two);
     return hip_of(std::move(bones.hip_bone), std::move(bones.femur));
   }();
   return hip;
@@ -43,7 +43,7 @@ const MeasureBand& band_of(const std::vector<MeasureBand>& bands, std::string_vi
 TEST(MeasureBands, WithoutUncertaintyEveryBandIsItsMeasure) {
   const Joint& hip = some_hip();
   const HipMeasures m = measure_hip(hip);
-  const BandOptions none{.sigma = {.centre_mm = 0, .axes = Angle(), .surface_mm = 0}, .samples = 20};
+  const motion::BandOptions none{.sigma = {.centre_mm = 0, .axes = Angle(), .surface_mm = 0}, .samples = 20};
   const auto bands = measure_bands(hip, {}, none);
   ASSERT_EQ(bands.size(), measure_definitions().size());
   for (std::size_t i = 0; i < bands.size(); ++i) {
@@ -93,7 +93,7 @@ bool same_bits(const std::vector<MeasureBand>& a, const std::vector<MeasureBand>
 
 TEST(MeasureBands, OneThreadAndManyGiveTheSameBits) {
   const Joint& hip = some_hip();
-  const BandOptions options{.samples = 20, .seed = 5};
+  const motion::BandOptions options{.samples = 20, .seed = 5};
   const auto many = measure_bands(hip, {}, options);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   EXPECT_TRUE(same_bits(many, measure_bands(hip, {}, options)));
@@ -117,7 +117,7 @@ TEST(MeasureBands, AStoppedBandIsEmptyAndProgressCounts) {
 }
 
 /// Drawn one by one, not by a Latin hypercube: three coordinates, three angles and two surfaces, each normal.
-HandDisplacement drawn(std::mt19937_64& random, const Uncertainty& sigma) {
+HandDisplacement drawn(std::mt19937_64& random, const motion::Uncertainty& sigma) {
   const auto normal = [&] {
     const auto uniform = [&] { return (static_cast<double>(random() >> 11) + 0.5) / 9007199254740992.0; };
     return std::sqrt(-2 * std::log(uniform())) * std::cos(2 * std::numbers::pi * uniform());
@@ -189,4 +189,4 @@ TEST(MeasureBands, NineTenthsOfJointsDisplacedAndMeasuredByHandLieInsideThem) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::measure

@@ -15,13 +15,13 @@
 
 /// Parts missing from the meshes are not measured, with a reason; measures that do not depend on them are unchanged.
 
-namespace condyle {
+namespace condyle::measure {
 namespace {
 
 using namespace test;
 
-const SampleHip& sample() {
-  static const SampleHip hip = sample_hip({}, Scenario::two);
+const sample::SampleHip& sample() {
+  static const sample::SampleHip hip = sample::sample_hip({}, sample::Scenario::two);
   return hip;
 }
 
@@ -109,7 +109,7 @@ TEST(MissingParts, ASocketThatIsStatedIsOnTheMeshAsOneThatIsFound) {
   if (const auto real = hip_vhf_right()) hips.push_back(*real);
   for (Joint& hip : hips) {
     const HipMeasures found = measure_hip(hip);
-    const auto bearing = find_bearing_surface(hip).surface;
+    const auto bearing = motion::find_bearing_surface(hip).surface;
     ASSERT_TRUE(bearing && bearing->socket);
     hip.fixed.head = bearing->socket;
     const HipMeasures stated = measure_hip(hip);
@@ -176,4 +176,4 @@ TEST(MissingParts, CondylesThatAreTwistedOnTheShaftTwistFemoralVersion) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::measure

@@ -14,7 +14,7 @@
 
 /// Real hips: the values of an independent prototype, and what must not change them.
 
-namespace condyle {
+namespace condyle::measure {
 namespace {
 
 using namespace test;
@@ -200,4 +200,4 @@ TEST(RealMeasures, FourTrianglesForOneChangeAMeasureByLessThanAFifthUnlessItIsFl
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::measure

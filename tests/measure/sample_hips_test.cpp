@@ -18,16 +18,16 @@
 /// Sample hips are measured as they were made: as their parameters say where a parameter means the measure, and as their solids are
 /// where it means something else.
 
-namespace condyle {
+namespace condyle::measure {
 namespace {
 
 using namespace test;
 
-HipParameters drawn(std::mt19937& random) {
+sample::HipParameters drawn(std::mt19937& random) {
   const auto between = [&](double low, double high) {
     return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
   };
-  HipParameters hip;
+  sample::HipParameters hip;
   hip.lateral_centre_edge_angle = Angle::degrees(between(20, 40));
   hip.acetabular_version = Angle::degrees(between(0, 30));
   hip.acetabular_inclination = Angle::degrees(between(42, 58));
@@ -89,8 +89,8 @@ TEST(SampleMeasures, HipsAreMeasuredAsTheyWereMade) {
       radius;
   Errors neck_of_solid, neck_shaft_of_solid, torsion_of_solid;
   for (int i = 0; i < count; ++i) {
-    const HipParameters made = drawn(random);
-    const SampleHip bones = sample_hip(made, Scenario::three);
+    const sample::HipParameters made = drawn(random);
+    const sample::SampleHip bones = sample::sample_hip(made, sample::Scenario::three);
     const HipMeasures m = measure_hip(hip_of(bones.hip_bone, bones.femur));
     ASSERT_TRUE(m.femur.neck && m.acetabulum.plane);
     const double R = made.head_radius_mm;
@@ -140,7 +140,7 @@ TEST(SampleMeasures, SolidsAreOffTheParametersOfASampleHip) {
   std::mt19937 random(1);
   Errors formula, neck_shaft, torsion, neck_shaft_without_cam, torsion_without_cam;
   for (int i = 0; i < count; ++i) {
-    HipParameters made = drawn(random);
+    sample::HipParameters made = drawn(random);
     formula.add(lateral_edge_by_formula(made) -
                 lateral_edge_of_shape(sample::hip_bone_shape(made).field, made.head_radius_mm));
     const auto axes = sample::femur_axes(made);
@@ -165,4 +165,4 @@ TEST(SampleMeasures, SolidsAreOffTheParametersOfASampleHip) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::measure

@@ -9,7 +9,7 @@
 namespace condyle::test {
 double lateral_edge_of_shape(const sample::Field& hip_bone, double R) {
   const auto is_wall = [&](double angle_deg) {
-    const Vec3 towards(0, std::cos(angle_deg * degree), std::sin(angle_deg * degree));
+    const Vec3 towards(0, std::cos(angle_deg * measure::degree), std::sin(angle_deg * measure::degree));
     for (double far = R; far < R + 10; far += 0.02)
       if (hip_bone(far * towards).value <= 0) return true;
     return false;
@@ -19,7 +19,7 @@ double lateral_edge_of_shape(const sample::Field& hip_bone, double R) {
   return wall;
 }
 
-double lateral_edge_by_formula(const HipParameters& hip) {
+double lateral_edge_by_formula(const sample::HipParameters& hip) {
   // As hip_bone_shape.cpp has them: seams of the rim's plane with the cavity and with the shell, and the wall's thickness, in a socket
   // of 27.5 mm.
   constexpr double inner_seam = 4, outer_seam = 6, wall = 8, nominal = 27.5;
@@ -31,7 +31,7 @@ double lateral_edge_by_formula(const HipParameters& hip) {
   const double b = far + sign * (seam - h);
   const double c = sign * (std::sqrt(b * b + sign * 4 * far * h) - b) / (2 * far);
   const Vec3& o = socket.opening;
-  return (std::atan2(-o.y(), o.z()) + std::asin(c / std::hypot(o.y(), o.z()))) / degree;
+  return (std::atan2(-o.y(), o.z()) + std::asin(c / std::hypot(o.y(), o.z()))) / measure::degree;
 }
 
 Vec3 neck_of_shape(const sample::Field& femur, const Vec3& about, double radius) {
@@ -45,8 +45,8 @@ Vec3 neck_of_shape(const sample::Field& femur, const Vec3& about, double radius)
       return femur(radius * (std::cos(angle) * about + std::sin(angle) * side)).value <= 0;
     };
     double bone = 0;
-    while (is_bone(bone + degree)) bone += degree;
-    double none = bone + degree;
+    while (is_bone(bone + measure::degree)) bone += measure::degree;
+    double none = bone + measure::degree;
     for (int i = 0; i < 30; ++i) (is_bone((bone + none) / 2) ? bone : none) = (bone + none) / 2;
     // The integrals of sin a cos a and sin^2 a up to there.
     const double s = std::sin(bone), c = std::cos(bone);
@@ -63,11 +63,11 @@ double alpha_of_shape(const sample::Field& femur, double R, const Vec3& neck, co
       if (femur(far * towards).value <= 0) return true;
     return false;
   };
-  double angle = 15 * degree;
-  while (solid_beyond(angle)) angle += 0.02 * degree;
-  double low = angle - 0.02 * degree, high = angle;
+  double angle = 15 * measure::degree;
+  while (solid_beyond(angle)) angle += 0.02 * measure::degree;
+  double low = angle - 0.02 * measure::degree, high = angle;
   for (int i = 0; i < 20; ++i) (solid_beyond((low + high) / 2) ? low : high) = (low + high) / 2;
-  return high / degree;
+  return high / measure::degree;
 }
 
 }  // namespace condyle::test

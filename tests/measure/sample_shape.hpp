@@ -12,7 +12,7 @@ namespace condyle::test {
 double lateral_edge_of_shape(const sample::Field& hip_bone, double head_radius);
 
 /// The same in closed form, where only one of the rim's two seams is at the edge (docs/mathematics/11-measures.md).
-double lateral_edge_by_formula(const HipParameters& hip);
+double lateral_edge_by_formula(const sample::HipParameters& hip);
 
 /// Direction of the vector area that the femur's solid cuts from the sphere of this radius about the origin, from the head's centre to
 /// the foot: the integral of the normal over the part of the sphere that is inside.

@@ -13,7 +13,7 @@
 
 /// A spherical socket cut from its bone and turned about the head's centre: centre-edge angles and coverage in closed form.
 
-namespace condyle {
+namespace condyle::measure {
 namespace {
 
 using namespace test;
@@ -127,4 +127,4 @@ TEST(TurnedSocket, WithoutATurnIsMeasuredAsTheBoneThatWasNotCut) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::measure

@@ -14,7 +14,7 @@
 
 /// Bearing contact is distinguished from impingement, and only impingement ends motions.
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using namespace test;
@@ -347,4 +347,4 @@ TEST(BearingCartilage, BesideItsBoneLeavesLimitsToTheBones) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

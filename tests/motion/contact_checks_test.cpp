@@ -6,7 +6,7 @@
 
 /// Checks of layers, loads and motions.
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using Codes = std::vector<ContactNoteCode>;
@@ -24,16 +24,17 @@ Codes codes_of(const std::vector<ContactNote>& notes) {
 Mesh cartilage() {
   return test::socket(Vec3::Zero(), 25, 27.5, 3);
 }
-Codes of_layer(const ElasticLayer& layer, const Mesh& mesh = cartilage()) {
-  return codes_of(check_layers(ElasticContact(mesh, test::sphere(Vec3::Zero(), 24, 2), {.fixed = layer})));
+Codes of_layer(const contact::ElasticLayer& layer, const Mesh& mesh = cartilage()) {
+  return codes_of(
+      check_layers(contact::ElasticContact(mesh, test::sphere(Vec3::Zero(), 24, 2), {.fixed = layer})));
 }
 
 TEST(ContactChecks, SayNothingOfTissueAndImplants) {
-  for (const ElasticLayer& layer : {ElasticLayer{10, 0.45, 3.0},
-                                    {0.5, 0, 0.5},
-                                    {1000, 0.46, 8.0},
-                                    {230000, 0.3, 4.0},
-                                    {380000, 0.23, 5.0}})
+  for (const contact::ElasticLayer& layer : {contact::ElasticLayer{10, 0.45, 3.0},
+                                             {0.5, 0, 0.5},
+                                             {1000, 0.46, 8.0},
+                                             {230000, 0.3, 4.0},
+                                             {380000, 0.23, 5.0}})
     EXPECT_EQ(of_layer(layer), Codes{}) << layer.youngs_modulus_mpa;
 }
 
@@ -48,9 +49,10 @@ TEST(ContactChecks, NameWhatNoTissueOrImplantHas) {
   std::vector<double> thickness(mesh.vertices().size(), 2.0);
   thickness[7] = 0.05;
   EXPECT_EQ(of_layer({10, 0.45, thickness}), Codes{ContactNoteCode::unlikely_thickness});
-  const auto notes = check_layers(ElasticContact(cartilage(), test::sphere(Vec3::Zero(), 24, 2),
-                                                 {.fixed = ElasticLayer{1e7, 0.45, 1500.0}}),
-                                  {"acetabular cartilage", "head"});
+  const auto notes =
+      check_layers(contact::ElasticContact(cartilage(), test::sphere(Vec3::Zero(), 24, 2),
+                                           {.fixed = contact::ElasticLayer{1e7, 0.45, 1500.0}}),
+                   {"acetabular cartilage", "head"});
   ASSERT_EQ(notes.size(), 2u);
   EXPECT_NE(notes[0].text.find("acetabular cartilage"), std::string::npos);
   EXPECT_NE(notes[0].text.find("is it in Pa?"), std::string::npos);
@@ -62,9 +64,10 @@ TEST(ContactChecks, NameThicknessesBeyondTheBoundsOfTheirFile) {
   std::vector<double> thickness(mesh.vertices().size(), 2.0);
   thickness[3] = 0.5, thickness[7] = 0.8, thickness[9] = 4.5;
   const auto of_bounds = [&](std::array<double, 2> bounds) {
-    return check_layers(ElasticContact(mesh, test::sphere(Vec3::Zero(), 24, 2),
-                                       {.fixed = ElasticLayer{10, 0.45, thickness, bounds}}),
-                        {"tibial cartilage", "head"});
+    return check_layers(
+        contact::ElasticContact(mesh, test::sphere(Vec3::Zero(), 24, 2),
+                                {.fixed = contact::ElasticLayer{10, 0.45, thickness, bounds}}),
+        {"tibial cartilage", "head"});
   };
   EXPECT_EQ(codes_of(of_bounds({0.5, 4.5})), Codes{}) << "the bounds themselves are within";
   const auto notes = of_bounds({1, 4});
@@ -91,11 +94,11 @@ TEST(ContactChecks, NameForcesBeyondTenBodyWeights) {
   EXPECT_NE(notes[0].text.find("75 kg assumed"), std::string::npos);
 }
 
-Codes at_depth(double depth, FaceRule rule = FaceRule::cut_faces) {
-  const ElasticContact contact(test::plane(3, 4), test::box({-9, 0, -9}, {9, 40, 9}),
-                               {.casting = Casting::fixed,
-                                .rays = {.rule = rule, .reach_mm = 50},
-                                .fixed = ElasticLayer{1, 0.4, 3.0}});
+Codes at_depth(double depth, contact::FaceRule rule = contact::FaceRule::cut_faces) {
+  const contact::ElasticContact contact(test::plane(3, 4), test::box({-9, 0, -9}, {9, 40, 9}),
+                                        {.casting = contact::Casting::fixed,
+                                         .rays = {.rule = rule, .reach_mm = 50},
+                                         .fixed = contact::ElasticLayer{1, 0.4, 3.0}});
   return codes_of(check_contact(contact.at(test::translated({0, -depth, 0}))));
 }
 
@@ -148,4 +151,4 @@ TEST(ContactChecks, AddOnlyNewCodes) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

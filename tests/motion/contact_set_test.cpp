@@ -9,19 +9,19 @@
 #include "motion/rotation_scenes.hpp"
 #include "support/test_meshes.hpp"
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using namespace test;
 using std::numbers::pi;
 
 core::ArcSet contact_set_of(const RotationScene& scene) {
-  const motion::FeatureTree stationary(scene.stationary), rotating(scene.rotating);
-  motion::RotatingBody at_rest(stationary), moving(rotating);
+  const FeatureTree stationary(scene.stationary), rotating(scene.rotating);
+  RotatingBody at_rest(stationary), moving(rotating);
   at_rest.start_at(scene.axis, Pose::Identity());
   moving.start_at(scene.axis, Pose::Identity());
   const core::ArcSet found = motion::contact_set(at_rest, moving);
-  EXPECT_EQ(motion::contact_set(motion::RotationTable(stationary, scene.axis), moving), found)
+  EXPECT_EQ(motion::contact_set(RotationTable(stationary, scene.axis), moving), found)
       << "the same features, all made ready before";
   return found;
 }
@@ -171,4 +171,4 @@ TEST(ContactSet, IsTheSameToTheByteOnOneThreadAndMany) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

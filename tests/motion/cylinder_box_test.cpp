@@ -13,7 +13,7 @@ namespace {
 using Point = Triple<double>;
 using std::numbers::pi;
 
-std::mt19937 any_random() {
+std::mt19937 random_boxes() {
   return std::mt19937(*rc::gen::arbitrary<unsigned>());
 }
 double uniform(std::mt19937& random, double low, double high) {
@@ -54,7 +54,7 @@ void expect_held(const CylinderBox& box, const Point& p, double far) {
 }
 
 RC_GTEST_PROP(CylinderBox, OfATriangleAndOfItsEdgesHoldsEveryPointOfThem, ()) {
-  auto random = any_random();
+  auto random = random_boxes();
   for (int i = 0; i < 100; ++i) {
     const auto t = random_corners(random);
     std::array<CylinderPoint, 3> at;
@@ -72,7 +72,7 @@ RC_GTEST_PROP(CylinderBox, OfATriangleAndOfItsEdgesHoldsEveryPointOfThem, ()) {
 }
 
 RC_GTEST_PROP(CylinderBox, OfABoxHoldsEveryPointOfIt, ()) {
-  auto random = any_random();
+  auto random = random_boxes();
   for (int i = 0; i < 100; ++i) {
     const Point centre = random_corners(random)[1];
     const auto size = [&] { return std::pow(10, uniform(random, -3, 3)); };
@@ -89,7 +89,7 @@ RC_GTEST_PROP(CylinderBox, OfABoxHoldsEveryPointOfIt, ()) {
 }
 
 RC_GTEST_PROP(CylinderBox, HullHoldsBoth, ()) {
-  auto random = any_random();
+  auto random = random_boxes();
   for (int i = 0; i < 100; ++i) {
     const Point p = random_corners(random)[1], q = random_corners(random)[2];
     const auto box = hull(box_of_vertex(p, cylinder_point(p)), box_of_vertex(q, cylinder_point(q)));
@@ -131,7 +131,7 @@ TEST(GapInSense, IsTheAngleBetweenTheArcsEitherWayRound) {
 
 /// The gap is what it says: no turn smaller than it makes the arcs meet, and one as large does.
 RC_GTEST_PROP(GapInSense, IsTheSmallestRotationThatMakesTheArcsMeet, ()) {
-  auto random = any_random();
+  auto random = random_boxes();
   const auto m = arc_from(uniform(random, 0, two_pi), uniform(random, 0, 3));
   const auto f = arc_from(uniform(random, 0, two_pi), uniform(random, 0, 3));
   for (const RotationSense sense : {RotationSense::positive, RotationSense::negative}) {

@@ -11,7 +11,7 @@
 
 /// Limits by allowed depth, where the depth is known.
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using namespace test;
@@ -90,4 +90,4 @@ TEST(DepthLimit, RefusesWhatItCannotAnswer) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

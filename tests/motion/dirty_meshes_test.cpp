@@ -131,17 +131,17 @@ void expect_one_line(const std::string& what) {
   EXPECT_EQ(what.find('\n'), what.npos) << what;
 }
 
-Pairs found_pairs(const JointContact& joint, const Pose& X_FM) {
+Pairs found_pairs(const contact::JointContact& joint, const Pose& X_FM) {
   Pairs pairs;
-  for (const TrianglePair& pair : joint.pairs(X_FM)) pairs.emplace_back(pair.fixed, pair.mobile);
+  for (const contact::TrianglePair& pair : joint.pairs(X_FM)) pairs.emplace_back(pair.fixed, pair.mobile);
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
 
 /// Every vertex of the dirty_arm against exact winding numbers; says whether there was an answer.
-bool expect_right_states(const JointContact& joint, const TriMesh& fixed, const TriMesh& mobile,
+bool expect_right_states(const contact::JointContact& joint, const TriMesh& fixed, const TriMesh& mobile,
                          const Pose& X_FM) {
-  std::optional<RadialResults> found;
+  std::optional<radial::RadialResults> found;
   try {
     found = joint.radial(X_FM).mobile_in_fixed;
   } catch (const MeshError& error) {
@@ -151,7 +151,7 @@ bool expect_right_states(const JointContact& joint, const TriMesh& fixed, const 
   }
   if (!found) return false;
   for (std::size_t v = 0; v < mobile.vertices.size(); ++v) {
-    const BruteWinding exact = winding_number(fixed, mobile.vertices[v]);
+    const BruteWinding exact = test::winding_number(fixed, mobile.vertices[v]);
     const PointState state = exact.on_surface    ? PointState::on_surface
                              : exact.winding > 0 ? PointState::inside
                                                  : PointState::outside;
@@ -165,10 +165,12 @@ bool expect_right_states(const JointContact& joint, const TriMesh& fixed, const 
 
 /// Where the dirty_arm stops by contact it is free before and in contact past the bound.
 void expect_right_limit(const Mesh& fixed, const TriMesh& mobile) {
-  const RangeOfMotion range({"dirty", JointKind::ball, Side::right, {"ball", fixed}, {"arm", Mesh(mobile)}},
-                            {.bearing = {.rule = BearingRule::count}});
-  const Limit limit = range.both_limits(JointAngle::flexion, {}, {Angle(), Angle::degrees(90)}).positive;
-  ASSERT_EQ(limit.reason, LimitReason::contact);
+  const motion::RangeOfMotion range(
+      {"dirty", JointKind::ball, Side::right, {"ball", fixed}, {"arm", Mesh(mobile)}},
+      {.bearing = {.rule = motion::BearingRule::count}});
+  const motion::Limit limit =
+      range.both_limits(JointAngle::flexion, {}, {Angle(), Angle::degrees(90)}).positive;
+  ASSERT_EQ(limit.reason, motion::LimitReason::contact);
   const auto meets = [&](double degrees) {
     return !intersecting_pairs(fixed.arrays(), posed(turned(degrees), mobile)).empty();
   };
@@ -184,7 +186,7 @@ void check(const TriMesh& dirty, const std::vector<const Defect*>& made) {
     EXPECT_TRUE(made[0]->is_reported(report));
   }
   const TriMesh mobile = dirty_arm();
-  const JointContact joint(fixed, Mesh(mobile)), exchanged(Mesh(mobile), fixed);
+  const contact::JointContact joint(fixed, Mesh(mobile)), exchanged(Mesh(mobile), fixed);
   for (const double degrees : {30.0, 45.0, 60.0}) {
     const Pose X_FM = turned(degrees);
     const TriMesh there = posed(X_FM, mobile);
@@ -195,7 +197,7 @@ void check(const TriMesh& dirty, const std::vector<const Defect*>& made) {
     EXPECT_EQ(answered, report.is_closed());
   }
   if (!report.is_closed()) {
-    Penetrations out;
+    radial::Penetrations out;
     try {
       joint.mobile_in_fixed(turned(45), out);
       ADD_FAILURE() << "an open mesh has no inside";

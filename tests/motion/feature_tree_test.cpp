@@ -10,14 +10,14 @@
 #include "support/brute_force.hpp"
 #include "support/test_meshes.hpp"
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using namespace test;
 
 TEST(FeatureTree, GivesEveryEdgeAndVertexToExactlyOneOfItsTriangles) {
   const TriMesh mesh = torus(3, 1, 20, 12);
-  const motion::FeatureTree tree(mesh);
+  const FeatureTree tree(mesh);
   std::set<std::array<Index, 2>> edges;
   std::vector<int> vertices(tree.vertices().size());
   for (Index t = 0; t < tree.triangles().size(); ++t) {
@@ -41,9 +41,9 @@ TEST(FeatureTree, GivesEveryEdgeAndVertexToExactlyOneOfItsTriangles) {
 }
 
 TEST(FeatureTree, HasEveryCornerOfANodeInItsBall) {
-  const motion::FeatureTree tree(sphere({5, 6, 7}, 2, 3));
+  const FeatureTree tree(sphere({5, 6, 7}, 2, 3));
   for (const auto& node : tree.nodes()) {
-    const motion::NodeBall ball = motion::ball_of(node);
+    const NodeBall ball = motion::ball_of(node);
     for (Index t = node.first; t < node.last; ++t) {
       for (const Index v : tree.triangles()[t])
         EXPECT_LE((tree.vertices()[v] - ball.centre).norm(), ball.radius);
@@ -53,8 +53,8 @@ TEST(FeatureTree, HasEveryCornerOfANodeInItsBall) {
 
 TEST(RotatingBody, HasNodeBoxesAroundItsVerticesAboutAnyAxis) {
   const TriMesh mesh = sphere({0, 0, 0}, 2, 3);
-  const motion::FeatureTree tree(mesh);
-  motion::RotatingBody body(tree);
+  const FeatureTree tree(mesh);
+  RotatingBody body(tree);
   for (const Vec3& axis_point : {Vec3(0, 0, 0), Vec3(0.3, -0.2, 0.1), Vec3(40, 5, -7)}) {
     for (const Vec3& shift : {Vec3(0, 0, 0), Vec3(0.5, 0.25, -1), Vec3(40, 5, -7)}) {
       Pose X_RT = Pose::Identity();
@@ -62,12 +62,12 @@ TEST(RotatingBody, HasNodeBoxesAroundItsVerticesAboutAnyAxis) {
       X_RT.translation() = shift;
       body.start_at(AxisFrame(axis_point, {1, -2, 0.5}), X_RT);
       for (Index i = 0; i < tree.nodes().size(); ++i) {
-        const motion::CylinderBox node_box = body.node_box(i);
+        const CylinderBox node_box = body.node_box(i);
         const auto& node = tree.nodes()[i];
         for (Index t = node.first; t < node.last; ++t) {
           for (const Index v : tree.triangles()[t]) {
             const auto p = body.placed_vertex(v);
-            const motion::CylinderBox point = motion::box_of_vertex(p, motion::cylinder_point(p));
+            const CylinderBox point = motion::box_of_vertex(p, motion::cylinder_point(p));
             EXPECT_TRUE(node_box.overlaps_profile(point) && motion::arcs_meet(node_box, point));
           }
         }
@@ -78,7 +78,7 @@ TEST(RotatingBody, HasNodeBoxesAroundItsVerticesAboutAnyAxis) {
 
 TEST(FeatureTree, RemembersTheNumbersOfTheMesh) {
   const TriMesh mesh = joined(box({0, 0, 0}, {1, 1, 1}), sphere({5, 0, 0}, 1, 1));
-  const motion::FeatureTree tree(mesh);
+  const FeatureTree tree(mesh);
   for (Index t = 0; t < tree.triangles().size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
       EXPECT_EQ(tree.mesh_vertex(tree.triangles()[t][k]), mesh.triangles[tree.mesh_triangle(t)][k]);
@@ -91,7 +91,7 @@ TEST(FeatureTree, RemembersTheNumbersOfTheMesh) {
 TEST(FeatureTree, LeavesOutVerticesNoTriangleUses) {
   TriMesh mesh = box({0, 0, 0}, {1, 1, 1});
   mesh.vertices.push_back({9, 9, 9});
-  const motion::FeatureTree tree(mesh);
+  const FeatureTree tree(mesh);
   EXPECT_EQ(tree.vertices().size(), 8u);
   EXPECT_EQ(tree.component_vertices().size(), 1u);
   EXPECT_TRUE(tree.is_closed());
@@ -100,8 +100,8 @@ TEST(FeatureTree, LeavesOutVerticesNoTriangleUses) {
 TEST(FeatureTree, KnowsAnOpenMesh) {
   TriMesh mesh = box({0, 0, 0}, {1, 1, 1});
   mesh.triangles.pop_back();
-  EXPECT_FALSE(motion::FeatureTree(mesh).is_closed());
-  EXPECT_TRUE(motion::FeatureTree(TriMesh{}).empty());
+  EXPECT_FALSE(FeatureTree(mesh).is_closed());
+  EXPECT_TRUE(FeatureTree(TriMesh{}).empty());
 }
 
 /// Points in general position and in line with vertices and edges along the axis, on it, and level with
@@ -109,19 +109,19 @@ TEST(FeatureTree, KnowsAnOpenMesh) {
 TEST(WindingNumber, ThroughTheTableEqualsBruteForce) {
   const TriMesh mesh =
       joined(joined(torus(3, 1, 8, 6), box({-1, -1, -1}, {1, 1, 1})), box({-0.5, -2, -3}, {2, 2, 3}));
-  const motion::FeatureTree tree(mesh);
+  const FeatureTree tree(mesh);
   const AxisFrame axis(Vec3::Zero(), Vec3::UnitZ());
-  const motion::RotationTable table(tree, axis);
-  motion::RotatingBody body(tree);
+  const RotationTable table(tree, axis);
+  RotatingBody body(tree);
   body.start_at(axis, Pose::Identity());
   int inside = 0;
   for (double x = -4; x <= 4; x += 0.5) {
     for (double y = -4; y <= 4; y += 0.5) {
       for (double z = -3.25; z <= 3.25; z += 0.5) {
-        const auto truth = winding_number(mesh, Vec3(x, y, z));
+        const auto truth = test::winding_number(mesh, Vec3(x, y, z));
         if (truth.on_surface) continue;
-        EXPECT_EQ(winding_number(table, motion::Triple<double>{x, y, z}), truth.winding);
-        EXPECT_EQ(winding_number(body, motion::Triple<double>{x, y, z}), truth.winding);
+        EXPECT_EQ(winding_number(table, Triple<double>{x, y, z}), truth.winding);
+        EXPECT_EQ(winding_number(body, Triple<double>{x, y, z}), truth.winding);
         inside += truth.winding > 0;
       }
     }
@@ -130,4 +130,4 @@ TEST(WindingNumber, ThroughTheTableEqualsBruteForce) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

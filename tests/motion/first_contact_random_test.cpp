@@ -9,7 +9,7 @@
 /// First contact of random meshes: against every pair of features, against exact triangle tests just before
 /// and just after, and against itself in other words.
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using namespace test;
@@ -60,9 +60,9 @@ RC_GTEST_PROP(FirstContactRandom, EveryFeatureThatMeetsIsFoundAtItsFirstContact,
     const RotationScene scene = random_scene(random);
     if (limits(scene).positive.reason == LimitReason::contact_at_start) continue;
     const Mesh stationary_mesh = scene.stationary, rotating_mesh = scene.rotating;
-    const motion::FeatureTree stationary_tree(stationary_mesh), rotating_tree(rotating_mesh);
-    const motion::RotationTable stationary(stationary_tree, scene.axis);
-    motion::RotatingBody rotating(rotating_tree);
+    const FeatureTree stationary_tree(stationary_mesh), rotating_tree(rotating_mesh);
+    const RotationTable stationary(stationary_tree, scene.axis);
+    RotatingBody rotating(rotating_tree);
     rotating.start_at(scene.axis, Pose::Identity());
     for (const RotationSense sense : {RotationSense::negative, RotationSense::positive})
       for (const double range : {0.5, 3.0}) {
@@ -70,7 +70,7 @@ RC_GTEST_PROP(FirstContactRandom, EveryFeatureThatMeetsIsFoundAtItsFirstContact,
         const auto found = motion::feature_contacts(stationary, rotating, sense, Angle::radians(range));
         RC_ASSERT(found.size() == truth.size());
         double last = 0;
-        for (const motion::FeatureContact& contact : found) {
+        for (const FeatureContact& contact : found) {
           RC_ASSERT(truth.at(contact.feature) == contact.turned.radians());
           RC_ASSERT(last <= contact.turned.radians());
           last = contact.turned.radians();
@@ -130,8 +130,8 @@ RC_GTEST_PROP(FirstContactRandom, StartsInContactExactlyWhereSurfacesTouchOrOneI
     }
     const TriMesh rotating = in_axis_frame(scene.axis, scene.rotating);
     const TriMesh stationary = in_axis_frame(scene.axis, scene.stationary);
-    const bool inside = winding_number(stationary, rotating.vertices[0]).winding > 0 ||
-                        winding_number(rotating, stationary.vertices[0]).winding > 0;
+    const bool inside = test::winding_number(stationary, rotating.vertices[0]).winding > 0 ||
+                        test::winding_number(rotating, stationary.vertices[0]).winding > 0;
     const bool touching = brute_contact_at(scene, 0);
     const auto found = limits(scene).positive;
     RC_ASSERT((found.reason == LimitReason::contact_at_start) == (inside || touching));
@@ -204,4 +204,4 @@ TEST(FirstContactRandom, RandomScenesEndInContactStartInItAndStayFreeOften) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

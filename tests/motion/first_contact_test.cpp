@@ -12,7 +12,7 @@
 
 /// First contact where the angle is known in closed form, in several orientations and 10 m away.
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using namespace test;
@@ -128,7 +128,7 @@ RotationScene crossed_prisms(double ahead) {
 bool any_vertex_ever_touches(const RotationScene& scene) {
   const auto point = [&](const TriMesh& mesh, Index v) {
     const Vec3 p = scene.axis.to_axis(mesh.vertices[v]);
-    return motion::Triple<double>{p.x(), p.y(), p.z()};
+    return Triple<double>{p.x(), p.y(), p.z()};
   };
   const auto meets = [&](const TriMesh& a, const TriMesh& b) {
     for (Index v = 0; v < a.vertices.size(); ++v) {
@@ -252,10 +252,10 @@ TEST(FirstContact, FromManyPosesOnManyThreadsGivesTheBytesOfOne) {
   EXPECT_EQ(one, many);
   EXPECT_GT(std::count_if(one.begin(), one.end(), [](const auto& b) { return b.size() > 6; }), poses / 4);
   // A body that was never posed before.
-  const motion::FeatureTree fixed(ring), mobile(ball);
-  const motion::RotationTable table(fixed, axis);
+  const FeatureTree fixed(ring), mobile(ball);
+  const RotationTable table(fixed, axis);
   for (int i = 0; i < poses; i += 10) {
-    motion::RotatingBody fresh(mobile);
+    RotatingBody fresh(mobile);
     fresh.start_at(axis, pose(i));
     EXPECT_EQ(bytes(motion::first_contact(table, fresh)), one[i]) << i;
   }
@@ -277,4 +277,4 @@ TEST(FirstContact, RefusesAMeshThatUsesAVertexItDoesNotHave) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

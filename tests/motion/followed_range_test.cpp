@@ -16,7 +16,7 @@
 
 /// Limits of joints whose centre is not held: free before them and in contact after them, as exact tests of triangles at poses say.
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using namespace test;
@@ -70,7 +70,7 @@ TEST(FollowedRange, IsFreeBeforeItsLimitsAndInContactPastThem) {
         random_joint(random, scene % 2 ? TranslationFrame::fixed : TranslationFrame::joint_axes);
     const std::vector<TranslationKnot> knots = random_knots(random);
     const FollowedRange range(joint);
-    const JointContact bodies(joint);
+    const contact::JointContact bodies(joint);
     for (Motion motion : built_in_motions(joint.kind, joint.anatomy)) {
       SCOPED_TRACE(std::to_string(scene) + " " + motion.name);
       const MotionLimit limit = range.limit(motion, one_after_another(knots))->limit;
@@ -174,4 +174,4 @@ TEST(FollowedRange, NotesWhatSlidesAndWhatIsSoft) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -14,7 +14,7 @@
 
 /// All free intervals of a joint angle: in closed form, and against exact tests at every step.
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using namespace test;
@@ -99,7 +99,7 @@ TEST(FreeAngles, RefuseRangesOfMoreThanHalfATurn) {
 /// The joint without its bearing surface, and whether it is free at a pose: exact, surfaces alone.
 struct Impinging {
   Joint joint;
-  JointContact contact;
+  contact::JointContact contact;
 };
 
 Impinging impinging(const Joint& joint, BearingRule rule) {
@@ -111,7 +111,7 @@ Impinging impinging(const Joint& joint, BearingRule rule) {
       if (!surface->triangles[t]) rest.triangles.push_back(joint.mobile.mesh.triangles()[t]);
     part.mobile.mesh = rest;
   }
-  JointContact contact(part);
+  contact::JointContact contact(part);
   return {std::move(part), std::move(contact)};
 }
 
@@ -208,4 +208,4 @@ TEST(FreeAngles, OfARealHipAreThoseOfExactTestsAtEveryStep) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

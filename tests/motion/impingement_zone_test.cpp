@@ -12,7 +12,7 @@
 
 /// Clock faces, necks and zones with known geometry.
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using namespace test;
@@ -192,4 +192,4 @@ TEST(ImpingementZone, RefusesAnglesPastTheLimitThatMakeNoSense) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

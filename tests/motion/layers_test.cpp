@@ -19,7 +19,7 @@
 /// Bodies of several meshes whose contact ends a motion, slides or gives way: each answer is that of the pairs of meshes, each pair
 /// searched as a joint of its own.
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using namespace test;
@@ -289,4 +289,4 @@ TEST(Layers, NeedOneThatEndsMotions) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -13,7 +13,7 @@
 
 /// Bands of limits: in closed form, the same on any number of threads, and those of an independent run on real hips.
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using namespace test;
@@ -198,4 +198,4 @@ TEST(RealHipBands, AgreeWithAnIndependentRun) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -13,8 +13,8 @@ namespace condyle::test {
 /// radians, each 2^-53 of it; contact itself is short by at most 4e-12.
 inline constexpr double angle_tolerance = 5e-12;
 
-inline Motion flexion() {
-  return hip_motions().front();
+inline motion::Motion flexion() {
+  return motion::hip_motions().front();
 }
 
 /// A box somewhere between 25 and 60 mm from the centre.

@@ -7,7 +7,7 @@
 
 /// Frames of a motion give the results of single poses.
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using test::translated;
@@ -21,10 +21,11 @@ std::vector<std::optional<Pose>> lowered(std::initializer_list<double> by_mm) {
 /// A ball of 24.8 mm in a cup of 25 mm is y - 0.2 deep once lowered by y.
 TEST(MotionContact, FramesCountTheRaysThatTheReachCutsOff) {
   const TriMesh cup = test::cup(25, 4), ball = test::sphere(Vec3::Zero(), 24.8, 4);
-  const JointContact joint(cup, ball);
+  const contact::JointContact joint(cup, ball);
   const auto X_FM = lowered({0, 0.25, 0.35, 0.45, 0.6, 1.5, 5});
-  for (const Casting casting : {Casting::fixed, Casting::mobile, Casting::both}) {
-    const ElasticContact surfaces(
+  for (const contact::Casting casting :
+       {contact::Casting::fixed, contact::Casting::mobile, contact::Casting::both}) {
+    const contact::ElasticContact surfaces(
         cup, ball, {.casting = casting, .rays = {.reach_mm = 0.2}, .fixed = test::layer_of_stiffness(1)});
     const auto frames = contact_along(joint, &surfaces, X_FM);
     std::size_t cut_off = 0;
@@ -35,7 +36,7 @@ TEST(MotionContact, FramesCountTheRaysThatTheReachCutsOff) {
     EXPECT_GE(cut_off, 2u);
     EXPECT_EQ((*frames)[1]->cut_off_by_reach, 0u) << "0.05 mm deep at most";
   }
-  const NormalDepth depths(cup, ball, {.reach_mm = 0.2});
+  const contact::NormalDepth depths(cup, ball, {.reach_mm = 0.2});
   const auto frames = contact_along(joint, &depths, X_FM, BodyRole::fixed);
   for (std::size_t i = 0; i < X_FM.size(); ++i)
     EXPECT_EQ((*frames)[i]->cut_off_by_reach, depths.cut_off_by_reach(*X_FM[i])) << i;
@@ -51,8 +52,8 @@ TEST(MotionContact, ASheetWhollyBeyondTheReachIsCutOff) {
     return normal.y() > 0 ? mesh : test::flipped(std::move(mesh));
   };
   const TriMesh floor = sheet(10, Vec3::UnitY()), plate = sheet(5, -Vec3::UnitY());
-  const JointContact joint(floor, plate);
-  const NormalDepth depths(plate, floor, {.reach_mm = 0.2});
+  const contact::JointContact joint(floor, plate);
+  const contact::NormalDepth depths(plate, floor, {.reach_mm = 0.2});
   const auto frames = contact_along(joint, &depths, lowered({0.1, 0.3}));
   EXPECT_GT((*frames)[0]->surface.totals.area_mm2, 0);
   EXPECT_EQ((*frames)[0]->cut_off_by_reach, 0u);
@@ -64,12 +65,12 @@ TEST(MotionContact, ASheetWhollyBeyondTheReachIsCutOff) {
 class BlockInBalance {
  public:
   /// Balanced pose of each frame, with its number of steps; no step if it started in balance.
-  std::vector<BalancedPose> along(std::span<const std::optional<Pose>> X_FM) const {
-    std::vector<BalancedPose> poses;
+  std::vector<contact::BalancedPose> along(std::span<const std::optional<Pose>> X_FM) const {
+    std::vector<contact::BalancedPose> poses;
     const auto frames = balance_along(contact_, X_FM, std::span(&load_, 1), along_y_);
     for (const auto& frame : *frames) {
       if (!frame) continue;
-      EXPECT_EQ(frame->outcome, BalanceOutcome::balanced) << reason_of(*frame);
+      EXPECT_EQ(frame->outcome, contact::BalanceOutcome::balanced) << contact::reason_of(*frame);
       EXPECT_NEAR(frame->X_FM.translation().y(), -0.5, 1e-9);
       poses.push_back(*frame);
     }
@@ -77,11 +78,12 @@ class BlockInBalance {
   }
 
  private:
-  const ElasticContact contact_{test::box({-40, -10, -40}, {40, 0, 40}),
-                                test::box({-5, 0, -5}, {5, 5, 5}),
-                                {.casting = Casting::mobile, .fixed = test::layer_of_stiffness(6)}};
-  const Load load_{.on_mobile = {.force_n = {0, -300, 0}}};
-  const BalanceOptions along_y_{.free_directions = {Vec3::UnitY()}};
+  const contact::ElasticContact contact_{
+      test::box({-40, -10, -40}, {40, 0, 40}),
+      test::box({-5, 0, -5}, {5, 5, 5}),
+      {.casting = contact::Casting::mobile, .fixed = test::layer_of_stiffness(6)}};
+  const contact::Load load_{.on_mobile = {.force_n = {0, -300, 0}}};
+  const contact::BalanceOptions along_y_{.free_directions = {Vec3::UnitY()}};
 };
 
 TEST(MotionContact, ABalancedFrameStartsWhereTheLastOnesLead) {
@@ -103,4 +105,4 @@ TEST(MotionContact, ABalancedFrameStartsWhereTheLastOnesLead) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -14,7 +14,7 @@
 
 /// Maps against single limits, volumes against integrals.
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using namespace test;
@@ -72,7 +72,7 @@ class ImpingesAt {
     return joint;
   }
   CoordinateSystem coordinates_;
-  JointContact contact_;
+  contact::JointContact contact_;
 };
 
 /// Most points of this map that are in contact at zero internal rotation are free a few degrees away.
@@ -242,4 +242,4 @@ TEST(MotionMap, RefusesGridsThatMakeNoSenseBeforeAnyWork) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -8,7 +8,7 @@
 
 /// Paths in several angles: never past a contact, by exact triangle tests; along one angle the exact limit.
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using namespace test;
@@ -36,7 +36,7 @@ TEST(PathLimit, AlongOneAngleStopsJustShortOfTheExactLimit) {
 TEST(PathLimit, OnDiagonalPathsIsNeverPastAContactAndEndsBesideOne) {
   const Joint joint = bumpy_joint(Side::right);
   const PathFinder finder(joint);
-  const JointContact exact(joint.fixed.mesh, joint.mobile.mesh);
+  const contact::JointContact exact(joint.fixed.mesh, joint.mobile.mesh);
   std::size_t contacts = 0;
   for (const JointAngles& end : {degrees(80, 20, 10), degrees(-60, 30, 40), degrees(40, -50, -60),
                                  degrees(10, 15, 170), degrees(-90, -40, -30)}) {
@@ -97,4 +97,4 @@ TEST(PathLimit, RefusesPathsThatMakeNoSense) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

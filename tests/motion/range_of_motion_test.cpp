@@ -18,7 +18,7 @@
 /// Limits of a joint's motions: closed forms in all three angles and on both sides, the joint in other words,
 /// and the same bytes whichever way they are asked for.
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using namespace test;
@@ -401,4 +401,4 @@ TEST(MovedVertices, BothBodiesShiftedTurnAboutAnotherCentre) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -10,7 +10,7 @@
 
 /// Every built-in motion of real real_hips, against the exact sets of intersecting triangles.
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 struct HipFiles {
@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(SharedData, RealHipLimits, testing::ValuesIn(real_hips)
                          [](const auto& hip) { return hip.param.name; });
 
 TEST_P(RealHipLimits, AreFreeAMicrodegreeBeforeAndInContactAMicrodegreeAfter) {
-  const JointContact exact(joint_.fixed.mesh, joint_.mobile.mesh);
+  const contact::JointContact exact(joint_.fixed.mesh, joint_.mobile.mesh);
   const auto limits = RangeOfMotion(joint_, {.bearing = {.rule = BearingRule::count}}).limits(hip_motions());
   std::size_t contacts = 0;
   for (const MotionLimit& limit : limits) {
@@ -152,4 +152,4 @@ TEST(OverlappingRealHip, IsAnsweredWhereOnlyBearingSurfacesOverlap) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -15,7 +15,7 @@
 
 /// Contact between samples: in closed form about a held centre, by a proven bound otherwise.
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using namespace test;
@@ -75,7 +75,7 @@ struct Tooth {
 
 /// The tooth turns at a constant rate, sampled at 30 Hz, about any axis through the joint centre.
 struct ToothMotion {
-  JointContact bodies;
+  contact::JointContact bodies;
   double rate;             ///< rad / s
   std::size_t sample = 2;  ///< before the contact
   double entry_angle_rad;  ///< from that sample
@@ -92,12 +92,13 @@ struct ToothMotion {
     const Vec3 axis = into_F.col(2);
     const double period_s = 1.0 / 30, before_s = random.between(0.01, 0.99) * (period_s - duration_s);
     const double rate = 2 * tooth.half_contact() / duration_s;
-    ToothMotion motion{.bodies = JointContact(posed(pose(into_F, centre), tooth.wall()),
-                                              posed(pose(from_M.transpose(), Vec3::Zero()), tooth.tooth())),
-                       .rate = rate,
-                       .entry_angle_rad = rate * before_s,
-                       .entry_s = 2 * period_s + before_s,
-                       .exit_s = 2 * period_s + before_s + duration_s};
+    ToothMotion motion{
+        .bodies = contact::JointContact(posed(pose(into_F, centre), tooth.wall()),
+                                        posed(pose(from_M.transpose(), Vec3::Zero()), tooth.tooth())),
+        .rate = rate,
+        .entry_angle_rad = rate * before_s,
+        .entry_s = 2 * period_s + before_s,
+        .exit_s = 2 * period_s + before_s + duration_s};
     for (int i = 0; i < 5; ++i) {
       motion.time_s.push_back(i * period_s);
       const double angle = rate * ((i - 2) * period_s - before_s) - tooth.half_contact();
@@ -171,7 +172,7 @@ TEST(RecordedContact, WithADriftingCentreIsBoundedAboutTheSameEntryAndExit) {
 
 TEST(RecordedContact, OfTranslationsBeginsAndEndsWhereFacesPass) {
   // A cube of 2 mm runs along x through a plate of 1 mm, 10 mm in 0.1 s: contact while its middle is from -1 to 2.
-  const JointContact bodies(box({0, -20, -20}, {1, 20, 20}), box({-1, -1, -1}, {1, 1, 1}));
+  const contact::JointContact bodies(box({0, -20, -20}, {1, 20, 20}), box({-1, -1, -1}, {1, 1, 1}));
   const auto at = [](double x) { return pose(Eigen::Matrix3d::Identity(), {x, 0.3, 0.2}); };
   const std::vector<double> time_s{0, 0.1, 0.2};
   const std::vector<Pose> X_FM{at(-12), at(-2), at(8)};
@@ -211,7 +212,7 @@ Recording random_recording(Random& random, std::size_t samples, double rotation,
 template <class Between>
 void for_poses_between(const Recording& recording, std::size_t poses, const Between& between) {
   for (std::size_t i = 0; i + 1 < recording.X_FM.size(); ++i) {
-    const motion::ScrewMotion motion(recording.X_FM[i], recording.X_FM[i + 1], 100);
+    const ScrewMotion motion(recording.X_FM[i], recording.X_FM[i + 1], 100);
     for (std::size_t k = 1; k < poses; ++k) {
       const double s = static_cast<double>(k) / static_cast<double>(poses);
       between(recording.time_s[i] + s * (recording.time_s[i + 1] - recording.time_s[i]), motion.at(s));
@@ -222,7 +223,7 @@ void for_poses_between(const Recording& recording, std::size_t poses, const Betw
 TEST(RecordedContact, OfRandomScrewMotionsAgreesWithExactTestsOfManyPoses) {
   Random random(3);
   const Joint joint = bumpy_joint(Side::right);
-  const JointContact bodies(joint);
+  const contact::JointContact bodies(joint);
   std::size_t free = 0, in_contact = 0, contacts = 0;
   for (int i = 0; i < 4; ++i) {
     const Recording recording = random_recording(random, 6, 0.5, 3);
@@ -258,7 +259,7 @@ TEST(RecordedContact, OfRandomScrewMotionsAgreesWithExactTestsOfManyPoses) {
 TEST(RecordedContact, OfRandomRotationsAgreesWithExactTestsOfManyPoses) {
   Random random(4);
   const Joint joint = bumpy_joint(Side::left);
-  const JointContact bodies(joint);
+  const contact::JointContact bodies(joint);
   std::size_t free = 0, in_contact = 0;
   for (int i = 0; i < 4; ++i) {
     const Recording recording = random_recording(random, 6, 0.8, 0);
@@ -282,7 +283,7 @@ TEST(RecordedContact, GoesOnOverSamples) {
   // 0.1 s at 30 Hz: three samples are in contact.
   const Tooth tooth{100, 90, 2, 3};
   const double half = tooth.half_contact();
-  const JointContact bodies(tooth.wall(), tooth.tooth());
+  const contact::JointContact bodies(tooth.wall(), tooth.tooth());
   std::vector<double> time_s;
   std::vector<Pose> held, shifted;
   const double rate = 2 * half / 0.1;
@@ -313,7 +314,7 @@ TEST(RecordedContact, GoesOnOverSamples) {
 }
 
 TEST(RecordedContact, CountsABodyInsideTheOther) {
-  const JointContact bodies(sphere({0, 0, 0}, 20, 3), box({-1, -1, -1}, {1, 1, 1}));
+  const contact::JointContact bodies(sphere({0, 0, 0}, 20, 3), box({-1, -1, -1}, {1, 1, 1}));
   const std::vector<double> time_s{0, 1};
   for (const double shift_mm : {0.0, 1.0}) {
     const std::vector<Pose> X_FM{Pose::Identity(), pose(about(Vec3::UnitX(), 0.3), {shift_mm, 0, 0})};
@@ -328,7 +329,7 @@ TEST(RecordedContact, CountsABodyInsideTheOther) {
 }
 
 TEST(RecordedContact, OfABodyAtRestIsThatOfItsPose) {
-  const JointContact bodies(box({0, -20, -20}, {1, 20, 20}), box({-1, -1, -1}, {1, 1, 1}));
+  const contact::JointContact bodies(box({0, -20, -20}, {1, 20, 20}), box({-1, -1, -1}, {1, 1, 1}));
   const std::vector<double> time_s{0, 1, 2};
   const auto rest_at = [](double x) {
     return std::vector<Pose>(3, pose(Eigen::Matrix3d::Identity(), {x, 0, 0}));
@@ -342,7 +343,7 @@ TEST(RecordedContact, OfABodyAtRestIsThatOfItsPose) {
 
 TEST(RecordedContact, OfAHeadThatGlidesInItsSocketNeedsFewPoses) {
   // A gap of 0.5 mm; the centre moves by 0.1 mm while the head turns by 100 degrees.
-  const JointContact bodies(socket({0, 0, 0}, 24, 30, 4), sphere({0, 0, 0}, 23.5, 4));
+  const contact::JointContact bodies(socket({0, 0, 0}, 24, 30, 4), sphere({0, 0, 0}, 23.5, 4));
   const std::vector<double> time_s{0, 1};
   const std::vector<Pose> X_FM{Pose::Identity(), pose(about(Vec3(1, 2, 3).normalized(), 1.75), {0.1, 0, 0})};
   const RecordedContact found = contact_between(bodies, time_s, X_FM);
@@ -352,7 +353,7 @@ TEST(RecordedContact, OfAHeadThatGlidesInItsSocketNeedsFewPoses) {
 
 TEST(RecordedContact, IsOnlyPossibleWhereSurfacesPassWithinTheResolution) {
   // Two cubes pass with 1e-10 mm between their faces: less than what rounding may hide.
-  const JointContact bodies(box({0, 0, 0}, {1, 1, 1}), box({0, 0, 0}, {1, 1, 1}));
+  const contact::JointContact bodies(box({0, 0, 0}, {1, 1, 1}), box({0, 0, 0}, {1, 1, 1}));
   const auto at = [](double x) { return pose(Eigen::Matrix3d::Identity(), {x, 1 + 1e-10, 0.1}); };
   const std::vector<double> time_s{0, 1};
   const std::vector<Pose> X_FM{at(-3), at(2)};
@@ -370,7 +371,7 @@ TEST(RecordedContact, IsOnlyPossibleWhereSurfacesPassWithinTheResolution) {
 TEST(RecordedContact, IsTheSameToTheByteOnOneThreadAndMany) {
   Random random(3);
   const Joint joint = bumpy_joint(Side::right);
-  const JointContact bodies(joint);
+  const contact::JointContact bodies(joint);
   Recording recording = random_recording(random, 6, 0.5, 0);
   for (std::size_t i = 3; i < 6; ++i) recording.X_FM[i].translation().x() += static_cast<double>(i) - 2;
   const auto bits = [&] {
@@ -406,7 +407,7 @@ TEST(RecordedContact, ReportsItsProgressAndEndsWhereItIsStopped) {
 }
 
 TEST(RecordedContact, RefusesWhatIsNoRecording) {
-  const JointContact bodies(box({0, 0, 0}, {1, 1, 1}), box({2, 0, 0}, {3, 1, 1}));
+  const contact::JointContact bodies(box({0, 0, 0}, {1, 1, 1}), box({2, 0, 0}, {3, 1, 1}));
   const Pose I = Pose::Identity();
   const auto refused = [&](std::vector<double> time_s, std::vector<Pose> X_FM, const std::string& message,
                            const RecordedContactOptions& options = {}) {
@@ -430,4 +431,4 @@ TEST(RecordedContact, RefusesWhatIsNoRecording) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

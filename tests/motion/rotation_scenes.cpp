@@ -43,8 +43,8 @@ Vec3 random_direction(std::mt19937& random) {
 
 }  // namespace
 
-RotationLimits limits(const RotationScene& scene, const RotationRange& range) {
-  return FirstContact(scene.stationary, scene.rotating, scene.axis).limits(Pose::Identity(), range);
+motion::RotationLimits limits(const RotationScene& scene, const motion::RotationRange& range) {
+  return motion::FirstContact(scene.stationary, scene.rotating, scene.axis).limits(Pose::Identity(), range);
 }
 
 RotationScene moved(const Pose& X, const RotationScene& scene) {
@@ -73,8 +73,8 @@ template <class Visit>
 void for_each_contact(const RotationScene& scene, RotationSense sense, const Visit& visit) {
   const auto m = points_about_axis(scene.rotating, scene.axis),
              f = points_about_axis(scene.stationary, scene.axis);
-  const auto record = [&](const motion::ContactEvents& events, const Feature& rotating,
-                          const Feature& stationary) {
+  const auto record = [&](const motion::ContactEvents& events, const motion::Feature& rotating,
+                          const motion::Feature& stationary) {
     for (const motion::ContactEvent& event : events) {
       const double size = sense == RotationSense::positive ? event.angle : two_pi - event.angle;
       visit(BruteLimit{std::max(0.0, size - event.error), {rotating, stationary}});
@@ -86,21 +86,21 @@ void for_each_contact(const RotationScene& scene, RotationSense sense, const Vis
   };
   for (Index v = 0; v < m.size(); ++v) {
     for (Index t = 0; t < scene.stationary.triangles.size(); ++t) {
-      record(motion::vertex_meets_face(m[v], face(scene.stationary, f, t)), {FeatureKind::vertex, v},
-             {FeatureKind::face, t});
+      record(motion::vertex_meets_face(m[v], face(scene.stationary, f, t)), {motion::FeatureKind::vertex, v},
+             {motion::FeatureKind::face, t});
     }
   }
   for (Index t = 0; t < scene.rotating.triangles.size(); ++t) {
     for (Index v = 0; v < f.size(); ++v) {
-      record(motion::face_meets_vertex(face(scene.rotating, m, t), f[v]), {FeatureKind::face, t},
-             {FeatureKind::vertex, v});
+      record(motion::face_meets_vertex(face(scene.rotating, m, t), f[v]), {motion::FeatureKind::face, t},
+             {motion::FeatureKind::vertex, v});
     }
   }
   const auto stationary_edges = edges_of(scene.stationary);
   for (const auto& [a, b] : edges_of(scene.rotating)) {
     for (const auto& [c, d] : stationary_edges) {
-      record(motion::edges_meet(m[a], m[b], f[c], f[d]), {FeatureKind::edge, a, b},
-             {FeatureKind::edge, c, d});
+      record(motion::edges_meet(m[a], m[b], f[c], f[d]), {motion::FeatureKind::edge, a, b},
+             {motion::FeatureKind::edge, c, d});
     }
   }
 }
@@ -115,9 +115,9 @@ std::optional<BruteLimit> brute_first_contact(const RotationScene& scene, Rotati
   return best;
 }
 
-std::map<Feature, double> brute_feature_contacts(const RotationScene& scene, RotationSense sense,
-                                                 double range) {
-  std::map<Feature, double> first;
+std::map<motion::Feature, double> brute_feature_contacts(const RotationScene& scene, RotationSense sense,
+                                                         double range) {
+  std::map<motion::Feature, double> first;
   for_each_contact(scene, sense, [&](const BruteLimit& found) {
     if (found.size > range) return;
     const auto [place, is_new] = first.try_emplace(found.features.rotating, found.size);

@@ -18,7 +18,7 @@ struct RotationScene {
 };
 
 /// The library's answer.
-RotationLimits limits(const RotationScene& scene, const RotationRange& range = {});
+motion::RotationLimits limits(const RotationScene& scene, const motion::RotationRange& range = {});
 
 /// The same scene carried elsewhere by one rigid motion.
 RotationScene moved(const Pose& X, const RotationScene& scene);
@@ -36,8 +36,8 @@ struct BruteLimit {
 std::optional<BruteLimit> brute_first_contact(const RotationScene& scene, RotationSense sense);
 
 /// Features of the rotating body that meet the other one within the range, rad, and where each does first, by every pair of features.
-std::map<Feature, double> brute_feature_contacts(const RotationScene& scene, RotationSense sense,
-                                                 double range);
+std::map<motion::Feature, double> brute_feature_contacts(const RotationScene& scene, RotationSense sense,
+                                                         double range);
 
 /// Whether the surfaces meet once the body has turned: exact, every pair of triangles, for the rounded mesh.
 bool brute_contact_at(const RotationScene& scene, double angle);

@@ -7,7 +7,7 @@
 
 /// Screw motions hold what defines them: both poses, one line, one speed.
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using motion::ScrewMotion;
@@ -101,4 +101,4 @@ TEST(ScrewMotion, HoldsItsOriginWhereTranslationsDifferByRoundingOnly) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -10,7 +10,7 @@
 
 /// A shoulder of parametric parts: what meets the acromion ends a motion, what slides in the glenoid does not.
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using namespace test;
@@ -198,4 +198,4 @@ TEST(ShoulderBearing, IsFoundBelowAnAcromionOfAnyFineness) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -123,9 +123,9 @@ bool CgalOracle::meets(const TriMesh& other) const {
   return meets;
 }
 
-std::vector<TrianglePair> CgalOracle::pairs(const TriMesh& other) const {
+std::vector<contact::TrianglePair> CgalOracle::pairs(const TriMesh& other) const {
   const Triangles others = triangles_of(other);
-  tbb::enumerable_thread_specific<std::vector<TrianglePair>> found;
+  tbb::enumerable_thread_specific<std::vector<contact::TrianglePair>> found;
   trees_->visit_near(others, [&](std::size_t i) {
     std::vector<Triangles::const_iterator> hits;
     trees_->tree.all_intersected_primitives(others[i], std::back_inserter(hits));
@@ -133,7 +133,7 @@ std::vector<TrianglePair> CgalOracle::pairs(const TriMesh& other) const {
       found.local().push_back({static_cast<Index>(hit - trees_->triangles.begin()), static_cast<Index>(i)});
     }
   });
-  std::vector<TrianglePair> pairs;
+  std::vector<contact::TrianglePair> pairs;
   for (const auto& some : found) pairs.insert(pairs.end(), some.begin(), some.end());
   std::sort(pairs.begin(), pairs.end());
   return pairs;

@@ -5,7 +5,7 @@
 
 #include "condyle/contact.hpp"
 #include "condyle/mesh.hpp"
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 
 namespace condyle::test {
 
@@ -25,7 +25,7 @@ class CgalOracle {
   std::vector<PointState> states(PointsView points) const;
 
   /// Pairs (triangle of this mesh, triangle of the other) that share a point, ascending.
-  std::vector<TrianglePair> pairs(const TriMesh& other) const;
+  std::vector<contact::TrianglePair> pairs(const TriMesh& other) const;
 
   /// Whether there is such a pair.
   bool meets(const TriMesh& other) const;

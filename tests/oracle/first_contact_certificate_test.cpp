@@ -71,14 +71,14 @@ TEST_P(FirstContactOfRealHips, StopsAtTheLimitFreeAMicrodegreeBeforeAndTouchingA
     };
     for (const auto& [limit, sense] : {std::pair{found.negative, RotationSense::negative},
                                        std::pair{found.positive, RotationSense::positive}}) {
-      if (limit.reason == LimitReason::contact_at_start) {
+      if (limit.reason == motion::LimitReason::contact_at_start) {
         EXPECT_TRUE(touching(0));
         continue;
       }
       const double sign = sign_of(sense), end = sign * limit.turned.degrees();
       for (int k = 0; k < 10; ++k) EXPECT_FALSE(touching(end * k / 10)) << k;
       EXPECT_FALSE(touching(end - sign * microdegree)) << end;
-      if (limit.reason != LimitReason::contact) continue;
+      if (limit.reason != motion::LimitReason::contact) continue;
       ++contacts;
       EXPECT_TRUE(touching(end + sign * microdegree)) << end;
       EXPECT_LE(limit.error_bound.radians(), 4e-12);

@@ -29,10 +29,10 @@ const SidedHipFiles sided_hips[] = {
 class LimitCertificate : public testing::TestWithParam<std::tuple<SidedHipFiles, std::size_t>> {};
 INSTANTIATE_TEST_SUITE_P(SharedData, LimitCertificate,
                          testing::Combine(testing::ValuesIn(sided_hips),
-                                          testing::Range<std::size_t>(0, hip_motions().size())),
+                                          testing::Range<std::size_t>(0, motion::hip_motions().size())),
                          [](const auto& at) {
                            return std::string(std::get<0>(at.param).name) + "_" +
-                                  hip_motions()[std::get<1>(at.param)].name;
+                                  motion::hip_motions()[std::get<1>(at.param)].name;
                          });
 
 TEST_P(LimitCertificate, FreeBeforeAndInContactAfter) {
@@ -44,16 +44,17 @@ TEST_P(LimitCertificate, FreeBeforeAndInContactAfter) {
                     files.side,
                     {"hip bone", test::read_ply(*data / files.fixed)},
                     {"femur", test::read_ply(*data / files.mobile)}};
-  const Motion motion = hip_motions()[number];
-  const MotionLimit limit = RangeOfMotion(joint, {.bearing = {.rule = BearingRule::count}}).limit(motion);
+  const motion::Motion motion = motion::hip_motions()[number];
+  const motion::MotionLimit limit =
+      motion::RangeOfMotion(joint, {.bearing = {.rule = motion::BearingRule::count}}).limit(motion);
   const CgalOracle oracle(joint.fixed.mesh);
   const TriMesh mobile = test::in_spatial_order(joint.mobile.mesh);
   const auto touching = [&](Angle turned) {
     const Angle by = motion.sense == RotationSense::positive ? turned : -turned;
     return oracle.meets(
-        posed(pose_at(joint.coordinates(), turned_by(motion.start, motion.vary, by)), mobile));
+        posed(pose_at(joint.coordinates(), motion::turned_by(motion.start, motion.vary, by)), mobile));
   };
-  if (limit.end.reason == LimitReason::contact_at_start) {
+  if (limit.end.reason == motion::LimitReason::contact_at_start) {
     EXPECT_TRUE(touching(Angle()));
     return;
   }
@@ -62,7 +63,7 @@ TEST_P(LimitCertificate, FreeBeforeAndInContactAfter) {
   for (int k = 0; k < poses_before; ++k)
     EXPECT_FALSE(touching(limit.end.turned * (static_cast<double>(k) / poses_before))) << "of 200: " << k;
   EXPECT_FALSE(touching(limit.end.turned - microdegree));
-  if (limit.end.reason == LimitReason::contact) {
+  if (limit.end.reason == motion::LimitReason::contact) {
     EXPECT_TRUE(touching(limit.end.turned + microdegree));
   }
 }

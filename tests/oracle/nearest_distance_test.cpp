@@ -14,14 +14,14 @@ namespace {
 /// Every vertex of either bone against CGAL's tree, free and in contact. Both round coordinates below 400 mm in a few
 /// products: 1e-12 of them, and the square root of CGAL's squared distances, near 0, of what those round.
 TEST(NearestDistance, IsWhatCgalFindsForEveryVertex) {
-  const SampleHip hip = sample_hip({}, Scenario::one);
-  const JointContact joint(hip.hip_bone, hip.femur);
+  const sample::SampleHip hip = sample::sample_hip({}, sample::Scenario::one);
+  const contact::JointContact joint(hip.hip_bone, hip.femur);
   for (const double flexion : {0.0, 90.0, 130.0}) {
     const Pose X_FM =
         pose_at({.side = Side::right}, {Angle::degrees(flexion), Angle::degrees(3), Angle::degrees(20)});
-    const RadialContact contact = joint.radial(X_FM);
-    const ContactMeasures found =
-        measure_contact(joint, X_FM, MeasuredContact(contact), DistancesOf::all_vertices);
+    const contact::RadialContact contact = joint.radial(X_FM);
+    const contact::ContactMeasures found = contact::measure_contact(
+        joint, X_FM, contact::MeasuredContact(contact), contact::DistancesOf::all_vertices);
     const TriMesh femur_in_F = posed(X_FM, hip.femur);
     const CgalOracle oracle(hip.hip_bone);
     const auto of_mobile = oracle.distances(femur_in_F.vertices);
@@ -47,14 +47,14 @@ TEST(NearestDistance, OfTwoSurfacesIsWhatCgalFinds) {
   if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
   const TriMesh hip_bone = read_ply(*data / "hip_vhf_right/hip_bone.ply"),
                 femur = read_ply(*data / "hip_vhf_right/femur.ply");
-  const JointContact joint(hip_bone, femur);
+  const contact::JointContact joint(hip_bone, femur);
   const CgalOracle oracle(hip_bone);
   std::size_t apart = 0, between_edges = 0;
   for (const double flexion : {0.0, 25.0, 50.0, 75.0, 100.0, 140.0}) {
     const Pose X_FM = pose_at({.side = Side::right}, {Angle::degrees(flexion), Angle(), Angle::degrees(5)});
     const TriMesh femur_in_F = posed(X_FM, femur);
-    const ContactMeasures found =
-        measure_contact(joint, X_FM, MeasuredContact(joint.radial(X_FM)), DistancesOf::vertices_inside);
+    const contact::ContactMeasures found = contact::measure_contact(
+        joint, X_FM, contact::MeasuredContact(joint.radial(X_FM)), contact::DistancesOf::vertices_inside);
     EXPECT_NEAR(found.nearest.distance_mm, oracle.surface_distance(femur_in_F), 1e-9) << flexion;
     apart += found.nearest.distance_mm > 0;
     const double by_vertices = std::min(oracle.min_distance(femur_in_F.vertices),

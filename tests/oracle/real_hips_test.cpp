@@ -88,15 +88,16 @@ struct LoadedJoint {
 std::vector<Pose> grazing_poses(const LoadedJoint& meshes, double side_sign) {
   const Side side = side_sign > 0 ? Side::right : Side::left;
   const Joint joint{"", JointKind::ball, side, {"", meshes.fixed}, {"", meshes.mobile}};
-  const RangeOfMotion range(joint, {.bearing = {.rule = BearingRule::count},
-                                    .overlap = {.reference_contact = ReferenceContact::accept}});
+  const motion::RangeOfMotion range(joint,
+                                    {.bearing = {.rule = motion::BearingRule::count},
+                                     .overlap = {.reference_contact = motion::ReferenceContact::accept}});
   std::vector<Pose> poses;
-  for (const MotionLimit& limit : range.limits(hip_motions())) {
-    if (limit.end.reason != LimitReason::contact) continue;
+  for (const motion::MotionLimit& limit : range.limits(motion::hip_motions())) {
+    if (limit.end.reason != motion::LimitReason::contact) continue;
     for (const double past : {-1e-4, 1e-4}) {
       const double sense = limit.motion.sense == RotationSense::positive ? 1 : -1;
-      poses.push_back(pose_at({.side = side}, turned_by(limit.angles_at_limit(), limit.motion.vary,
-                                                        Angle::degrees(sense * past))));
+      poses.push_back(pose_at({.side = side}, motion::turned_by(limit.angles_at_limit(), limit.motion.vary,
+                                                                Angle::degrees(sense * past))));
     }
   }
   return poses;
@@ -107,7 +108,8 @@ const LoadedJoint* load(const JointFiles& files) {
   if (!files.fixed) {
     const auto [at, is_new] = loaded.try_emplace(files.name);
     if (is_new) {
-      SampleHip hip = sample_hip({}, std::string(files.name) == "sample_1" ? Scenario::one : Scenario::two);
+      sample::SampleHip hip = sample::sample_hip(
+          {}, std::string(files.name) == "sample_1" ? sample::Scenario::one : sample::Scenario::two);
       at->second = {std::move(hip.hip_bone), std::move(hip.femur)};
     }
     return &at->second;
@@ -121,8 +123,8 @@ const LoadedJoint* load(const JointFiles& files) {
 
 /// Parity is blind to how often a self-overlapping mesh is wound about a point; where the two differ,
 /// rational arithmetic computes the winding number, and it must be one that parity cannot express.
-void expect_same_states(const RadialResults& ours, const std::vector<PointState>& oracle, const TriMesh& mesh,
-                        PointsView points, std::size_t& overlapping) {
+void expect_same_states(const radial::RadialResults& ours, const std::vector<PointState>& oracle,
+                        const TriMesh& mesh, PointsView points, std::size_t& overlapping) {
   ASSERT_EQ(ours.size(), oracle.size());
   for (std::size_t i = 0; i < oracle.size(); ++i) {
     if (ours.state[i] == oracle[i]) continue;
@@ -136,9 +138,9 @@ void expect_same_states(const RadialResults& ours, const std::vector<PointState>
 }
 
 /// The fast path finds the same points inside, as deep.
-void expect_same_penetrations(const RadialTable& table, const SortedPoints& points, const Pose& X,
-                              const RadialResults& hits) {
-  Penetrations found;
+void expect_same_penetrations(const radial::RadialTable& table, const radial::SortedPoints& points,
+                              const Pose& X, const radial::RadialResults& hits) {
+  radial::Penetrations found;
   table.penetrations(points, X, found);
   const auto not_outside = std::count_if(hits.state.begin(), hits.state.end(),
                                          [](PointState state) { return state != PointState::outside; });
@@ -158,9 +160,9 @@ INSTANTIATE_TEST_SUITE_P(SharedData, ContactOfRealJoints, testing::ValuesIn(join
 TEST_P(ContactOfRealJoints, VerticesInsideAndTrianglePairsAreThoseOfCgalInEveryPose) {
   const LoadedJoint* meshes = load(GetParam());
   if (!meshes) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
-  const JointContact joint(meshes->fixed, meshes->mobile);
+  const contact::JointContact joint(meshes->fixed, meshes->mobile);
   const CgalOracle fixed_oracle(meshes->fixed), mobile_oracle(meshes->mobile);
-  const SortedPoints fixed_points(meshes->fixed.vertices), mobile_points(meshes->mobile.vertices);
+  const radial::SortedPoints fixed_points(meshes->fixed.vertices), mobile_points(meshes->mobile.vertices);
   const std::vector<simd::InstructionSet> sets = simd::instruction_sets();
   std::size_t free = 0, touching = 0, deep = 0, overlapping = 0, asked = 0;
   std::vector<Pose> all = poses(GetParam().side);
@@ -168,7 +170,7 @@ TEST_P(ContactOfRealJoints, VerticesInsideAndTrianglePairsAreThoseOfCgalInEveryP
   for (const Pose& X : all) {
     const TriMesh posed_mobile = posed(X, meshes->mobile);
     const Points fixed_in_M = posed(X.inverse(), meshes->fixed.vertices.view());
-    const RadialContact contact = joint.radial(X);
+    const contact::RadialContact contact = joint.radial(X);
     ASSERT_TRUE(contact.mobile_in_fixed && contact.fixed_in_mobile);
     expect_same_states(*contact.mobile_in_fixed, fixed_oracle.states(posed_mobile.vertices), meshes->fixed,
                        posed_mobile.vertices, overlapping);
@@ -192,13 +194,13 @@ TEST_P(ContactOfRealJoints, VerticesInsideAndTrianglePairsAreThoseOfCgalInEveryP
 TEST_P(ContactOfRealJoints, TheTangentialMethodHasTheSameVerticesInsideAndPairs) {
   const LoadedJoint* meshes = load(GetParam());
   if (!meshes) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
-  const JointContact joint(meshes->fixed, meshes->mobile);
+  const contact::JointContact joint(meshes->fixed, meshes->mobile);
   const std::vector<Pose> all = poses(GetParam().side);
   for (std::size_t i = 0; i < all.size(); i += 7) {
     // About Z the axis frame of F only permutes coordinates: both methods see the same doubles, and CGAL has
     // judged those.
-    const TangentialContact tangential = joint.tangential(all[i], Vec3::UnitZ());
-    const RadialContact radial = joint.radial(all[i]);
+    const contact::TangentialContact tangential = joint.tangential(all[i], Vec3::UnitZ());
+    const contact::RadialContact radial = joint.radial(all[i]);
     EXPECT_EQ(tangential.mobile_in_fixed->state, radial.mobile_in_fixed->state) << "pose " << i;
     EXPECT_EQ(tangential.pairs, radial.pairs) << "pose " << i;
   }
@@ -226,11 +228,11 @@ double depth_by_all_triangles(const TriMesh& mesh, const Vec3& v) {
 TEST_P(ContactOfRealJoints, DepthsAreThoseOfAnIndependentRay) {
   const LoadedJoint* meshes = load(GetParam());
   if (!meshes) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
-  const RadialTable fixed(meshes->fixed);
+  const radial::RadialTable fixed(meshes->fixed);
   std::size_t compared = 0;
   for (const Pose& X : {turned(120, 10, 30, GetParam().side), turned(-30, 0, -40, GetParam().side)}) {
     const Points points = posed(X, meshes->mobile.vertices.view());
-    const RadialResults hits = fixed.query(points);
+    const radial::RadialResults hits = fixed.query(points);
     for (std::size_t i = 0; i < hits.size(); ++i) {
       // Several boundary crossings or overlaps are counted by winding number; the plain scan knows one.
       if (hits.state[i] != PointState::inside || hits.winding[i] != 1 || compared > 400) continue;
@@ -245,11 +247,12 @@ TEST_P(ContactOfRealJoints, DepthsAreThoseOfAnIndependentRay) {
 TEST_P(ContactOfRealJoints, BothMapsGiveTheSameBytesInEveryPose) {
   const LoadedJoint* meshes = load(GetParam());
   if (!meshes) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
-  const JointContact cube(meshes->fixed, meshes->mobile, {DirectionMapKind::cube, 64});
-  const JointContact cartesian(meshes->fixed, meshes->mobile, {DirectionMapKind::cartesian, 64});
+  const contact::JointContact cube(meshes->fixed, meshes->mobile, {radial::DirectionMapKind::cube, 64});
+  const contact::JointContact cartesian(meshes->fixed, meshes->mobile,
+                                        {radial::DirectionMapKind::cartesian, 64});
   for (const double flexion : {0., 60., 120.}) {
     const Pose X = turned(flexion, 10, 20, GetParam().side);
-    const RadialContact a = cube.radial(X), b = cartesian.radial(X);
+    const contact::RadialContact a = cube.radial(X), b = cartesian.radial(X);
     EXPECT_EQ(a.mobile_in_fixed, b.mobile_in_fixed);
     EXPECT_EQ(a.fixed_in_mobile, b.fixed_in_mobile);
     EXPECT_EQ(a.pairs, b.pairs);
@@ -289,7 +292,7 @@ TEST(ContactOfRealHips, IsInTheNeutralPoseThatOfThePublishedTables) {
     SCOPED_TRACE(row.moving);
     const TriMesh fixed = test::read_ply(*data / (std::string(row.fixed) + ".ply"));
     const TriMesh moving = test::read_ply(*data / (std::string(row.moving) + ".ply"));
-    const RadialContact contact = JointContact(fixed, moving).radial(Pose::Identity());
+    const contact::RadialContact contact = contact::JointContact(fixed, moving).radial(Pose::Identity());
     EXPECT_EQ(contact.pairs.size(), row.pairs);
     const auto& hits = *contact.mobile_in_fixed;
     EXPECT_EQ(std::count(hits.state.begin(), hits.state.end(), PointState::inside), row.inside);

@@ -42,15 +42,16 @@ std::optional<Pair> first_by_cgal(const TriMesh& mesh) {
 }
 
 TEST(SampleOracle, NoScenarioOfTheSampleHipRunsIntoItselfByCgal) {
-  for (const Scenario scenario : {Scenario::one, Scenario::two, Scenario::three, Scenario::four}) {
-    const SampleHip hip = sample_hip({}, scenario);
+  for (const sample::Scenario scenario :
+       {sample::Scenario::one, sample::Scenario::two, sample::Scenario::three, sample::Scenario::four}) {
+    const sample::SampleHip hip = sample::sample_hip({}, scenario);
     EXPECT_EQ(first_by_cgal(hip.femur), std::nullopt);
     EXPECT_EQ(first_by_cgal(hip.hip_bone), std::nullopt);
   }
 }
 
 TEST(SampleOracle, FirstSelfIntersectionOfShakenMeshesIsThatOfCgal) {
-  const SampleHip hip = sample_hip({}, Scenario::one);
+  const sample::SampleHip hip = sample::sample_hip({}, sample::Scenario::one);
   std::mt19937 random(2);
   int clean = 0, broken = 0;
   for (int round = 0; round < 60; ++round) {

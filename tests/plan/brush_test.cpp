@@ -46,16 +46,16 @@ Index vertex_nearest(const Mesh& mesh, const Vec3& point) {
   return nearest;
 }
 
-BrushStroke lowering(std::vector<Index> along, double radius_mm, double depth_mm) {
+plan::BrushStroke lowering(std::vector<Index> along, double radius_mm, double depth_mm) {
   return {.along = std::move(along), .radius_mm = radius_mm, .depth_mm = depth_mm};
 }
 
-Mesh mesh_now(const Body& bone, const Brush& brush) {
+Mesh mesh_now(const Body& bone, const plan::Brush& brush) {
   return bone.mesh.moved_to(brush.vertices());
 }
 
 /// Closed, without new crossings, no triangle turned over.
-void expect_sound_bone(const Body& bone, const Brush& brush) {
+void expect_sound_bone(const Body& bone, const plan::Brush& brush) {
   const Mesh now = mesh_now(bone, brush);
   EXPECT_TRUE(now.is_closed());
   EXPECT_EQ(mesh::self_crossings_of(now).pairs, mesh::self_crossings_of(bone.mesh).pairs);
@@ -90,9 +90,9 @@ double volume_from_ball(double r, double d) {
 TEST(Brush, AStrokeOnABallTakesWhatTheClosedFormSays) {
   const Body bone = ball();
   for (const auto& [r, d] : {std::pair(8., 2.), {12., 0.5}, {6., 1.}}) {
-    Brush brush(bone);
-    const StrokeOutcome outcome = brush.stroke(lowering({0}, r, d));
-    const BrushedBone removed = brush.removed();
+    plan::Brush brush(bone);
+    const plan::StrokeOutcome outcome = brush.stroke(lowering({0}, r, d));
+    const plan::BrushedBone removed = brush.removed();
     EXPECT_EQ(outcome.limited, 0);
     EXPECT_EQ(outcome.kept, 0);
     // Between vertices the weight is a straight line: within edge^2 / 8 of it times its second derivative, at most 24 / r^2, on the border.
@@ -108,7 +108,7 @@ TEST(Brush, AStrokeOnABallTakesWhatTheClosedFormSays) {
 TEST(Brush, NoVertexIsDeeperThanItsStrokesHoweverOftenTheyPass) {
   const Body bone = ball();
   const mesh::SurfaceDistance from_before(bone.mesh);
-  Brush brush(bone);
+  plan::Brush brush(bone);
   const Index there = vertex_nearest(bone.mesh, Vec3(R, 2, 1));
   for (int i = 0; i < 5; ++i) brush.stroke(lowering({there, 0, there}, 7, 1.5));
   for (Index v = 0; v < bone.mesh.vertices().size(); ++v) {
@@ -121,9 +121,9 @@ TEST(Brush, NoVertexIsDeeperThanItsStrokesHoweverOftenTheyPass) {
 
 TEST(Brush, StrokesThatAreNotLimitedHaveNoOrder) {
   const Body bone = ball();
-  const BrushStroke one = lowering({0}, 8, 1),
-                    other = lowering({vertex_nearest(bone.mesh, Vec3(R, 5, 0))}, 5, 2);
-  Brush first(bone), second(bone);
+  const plan::BrushStroke one = lowering({0}, 8, 1),
+                          other = lowering({vertex_nearest(bone.mesh, Vec3(R, 5, 0))}, 5, 2);
+  plan::Brush first(bone), second(bone);
   EXPECT_EQ(first.stroke(one).limited + first.stroke(other).limited, 0);
   second.stroke(other), second.stroke(one);
   EXPECT_EQ(first.vertices(), second.vertices());
@@ -131,12 +131,12 @@ TEST(Brush, StrokesThatAreNotLimitedHaveNoOrder) {
 
 TEST(Brush, UndoRestoresEveryBit) {
   const Body bone = ball();
-  Brush brush(bone);
+  plan::Brush brush(bone);
   brush.stroke(lowering({0, 1}, 8, 2));
   const Points after_one = brush.vertices();
   const std::vector<double> depths = brush.depth_mm();
   brush.stroke(lowering({0}, 4, 5));
-  brush.stroke({.action = BrushAction::restore, .along = {1}, .radius_mm = 6});
+  brush.stroke({.action = plan::BrushAction::restore, .along = {1}, .radius_mm = 6});
   EXPECT_EQ(brush.steps(), 3);
   EXPECT_TRUE(brush.undo() && brush.undo());
   EXPECT_EQ(brush.vertices(), after_one);
@@ -149,10 +149,10 @@ TEST(Brush, UndoRestoresEveryBit) {
 
 TEST(Brush, WhatIsRestoredIsTheSurfaceBeforeBitByBit) {
   const Body bone = ball();
-  Brush brush(bone);
+  plan::Brush brush(bone);
   brush.stroke(lowering({0}, 6, 2));
   // The whole weight reaches half of the radius.
-  brush.stroke({.action = BrushAction::restore, .along = {0}, .radius_mm = 12});
+  brush.stroke({.action = plan::BrushAction::restore, .along = {0}, .radius_mm = 12});
   EXPECT_EQ(brush.vertices(), bone.mesh.vertices());
 }
 
@@ -160,8 +160,9 @@ TEST(Brush, WhatMustStayStaysAndIsCounted) {
   const Body bone = ball();
   std::vector<std::uint8_t> stays(bone.mesh.vertices().size(), 0);
   for (Index v = 0; v < stays.size(); ++v) stays[v] = bone.mesh.vertices()[v].y() > 1;
-  Brush brush(bone, stays);
-  const StrokeOutcome outcome = brush.stroke(lowering({vertex_nearest(bone.mesh, Vec3(R, 0, 0))}, 8, 2));
+  plan::Brush brush(bone, stays);
+  const plan::StrokeOutcome outcome =
+      brush.stroke(lowering({vertex_nearest(bone.mesh, Vec3(R, 0, 0))}, 8, 2));
   EXPECT_GT(outcome.kept, 100);
   EXPECT_GT(outcome.moved, 100);
   for (Index v = 0; v < stays.size(); ++v)
@@ -173,9 +174,9 @@ TEST(Brush, WhatMustStayStaysAndIsCounted) {
 
 TEST(Brush, AThinPlateIsNotPiercedAndItsOtherSideStays) {
   const Body bone = plate();
-  Brush brush(bone);
+  plan::Brush brush(bone);
   const Index top = vertex_nearest(bone.mesh, Vec3(0, 2, 0));
-  const StrokeOutcome outcome = brush.stroke(lowering({top}, 8, 6));
+  const plan::StrokeOutcome outcome = brush.stroke(lowering({top}, 8, 6));
   EXPECT_GT(outcome.limited, 0);
   for (Index v = 0; v < bone.mesh.vertices().size(); ++v) {
     if (bone.mesh.vertices()[v].y() < 0.5) {
@@ -190,10 +191,10 @@ TEST(Brush, AThinPlateIsNotPiercedAndItsOtherSideStays) {
 
 TEST(Brush, ACutGoesOnFromWhereItIs) {
   const Body bone = ball();
-  Brush first(bone);
+  plan::Brush first(bone);
   first.stroke(lowering({0}, 8, 2));
   const Body cut{"ball", mesh_now(bone, first)};
-  Brush brush(cut, bone.mesh.vertices());
+  plan::Brush brush(cut, bone.mesh.vertices());
   EXPECT_EQ(brush.vertices(), first.vertices());
   EXPECT_EQ(brush.removed().volume_mm3, first.removed().volume_mm3);
   EXPECT_EQ(brush.stroke(lowering({0}, 3, 1)).moved, 0);
@@ -206,8 +207,8 @@ TEST(Brush, ACutGoesOnFromWhereItIs) {
   EXPECT_FALSE(brush.undo());
 }
 
-std::string refusal(const Body& bone, const BrushStroke& stroke) {
-  Brush brush(bone);
+std::string refusal(const Body& bone, const plan::BrushStroke& stroke) {
+  plan::Brush brush(bone);
   try {
     brush.stroke(stroke);
   } catch (const UsageError& error) {
@@ -224,45 +225,46 @@ TEST(Brush, RefusesWhatIsNoStroke) {
   EXPECT_EQ(refusal(bone, lowering({0}, 0, 1)), "brush: its radius must be above 0 and at most 30 mm");
   EXPECT_EQ(refusal(bone, lowering({0}, 5, std::nan(""))),
             "brush: its depth must be above 0 and at most 20 mm");
-  EXPECT_THROW(Brush(bone, {1, 0}), UsageError);
+  EXPECT_THROW(plan::Brush(bone, {1, 0}), UsageError);
   TriMesh open = bone.mesh;
   open.triangles.pop_back();
-  EXPECT_THROW(Brush({"ball", std::move(open)}), MeshError);
+  EXPECT_THROW(plan::Brush({"ball", std::move(open)}), MeshError);
 }
 
 Joint cam_hip() {
-  HipParameters parameters;
+  sample::HipParameters parameters;
   parameters.alpha_angle = Angle::degrees(70);
-  auto [hip_bone, femur] = sample_hip(parameters, Scenario::one);
+  auto [hip_bone, femur] = sample::sample_hip(parameters, sample::Scenario::one);
   return {
       "sample", JointKind::ball, Side::right, {"hip bone", std::move(hip_bone)}, {"femur", std::move(femur)}};
 }
 
 TEST(Brush, RefusesAJointWithAnImplant) {
   Joint joint = cam_hip();
-  const BrushRequest request{.strokes = {lowering({0}, 5, 1)}};
-  EXPECT_NO_THROW(brush_joint(joint, request, {}));
+  const plan::BrushRequest request{.strokes = {lowering({0}, 5, 1)}};
+  EXPECT_NO_THROW(plan::brush_joint(joint, request, {}));
   joint.implant.emplace();
-  EXPECT_THROW(brush_joint(joint, request, {}), UsageError);
+  EXPECT_THROW(plan::brush_joint(joint, request, {}), UsageError);
 }
 
 /// Where a motion ends, on either bone.
 Index contact_vertex(const Joint& joint, BodyRole role, const char* motion) {
-  const MotionLimit limit = RangeOfMotion(joint).limit(motion_named(hip_motions(), motion));
+  const motion::MotionLimit limit =
+      motion::RangeOfMotion(joint).limit(motion::motion_named(motion::hip_motions(), motion));
   return role == BodyRole::mobile ? vertex_nearest(joint.mobile.mesh, limit.end.contact->mobile_point)
                                   : vertex_nearest(joint.fixed.mesh, limit.end.contact->fixed_point);
 }
 
 TEST(BrushedJoint, LimitsAreThoseOfAJointMadeAnewBitByBit) {
   const Joint joint = cam_hip();
-  const auto motions = hip_motions();
+  const auto motions = motion::hip_motions();
   for (const BodyRole role : {BodyRole::mobile, BodyRole::fixed}) {
     const Index there = contact_vertex(joint, role, "internal_rotation_at_90_flexion");
-    const BrushedJoint brushed =
-        brush_joint(joint, {.body = role, .strokes = {lowering({there}, 8, 2)}}, motions);
-    RangeOptions options;
-    options.bearing.roles = RangeOfMotion(joint).bearing().roles;
-    const auto anew = RangeOfMotion(brushed.joint, options).limits(motions);
+    const plan::BrushedJoint brushed =
+        plan::brush_joint(joint, {.body = role, .strokes = {lowering({there}, 8, 2)}}, motions);
+    motion::RangeOptions options;
+    options.bearing.roles = motion::RangeOfMotion(joint).bearing().roles;
+    const auto anew = motion::RangeOfMotion(brushed.joint, options).limits(motions);
     double gained = 0;
     for (std::size_t i = 0; i < motions.size(); ++i) {
       EXPECT_EQ(brushed.after[i].end.turned, anew[i].end.turned) << motions[i].name;
@@ -276,12 +278,12 @@ TEST(BrushedJoint, LimitsAreThoseOfAJointMadeAnewBitByBit) {
 
 TEST(BrushedJoint, TheBearingSurfaceStays) {
   const Joint joint = cam_hip();
-  const auto roles = RangeOfMotion(joint).bearing().roles;
-  const auto marks = protected_vertices(joint, BodyRole::mobile, roles);
+  const auto roles = motion::RangeOfMotion(joint).bearing().roles;
+  const auto marks = plan::protected_vertices(joint, BodyRole::mobile, roles);
   const auto head = std::find(marks.begin(), marks.end(), 1);
   ASSERT_NE(head, marks.end());
-  const BrushedJoint brushed =
-      brush_joint(joint, {.strokes = {lowering({static_cast<Index>(head - marks.begin())}, 30, 3)}}, {});
+  const plan::BrushedJoint brushed = plan::brush_joint(
+      joint, {.strokes = {lowering({static_cast<Index>(head - marks.begin())}, 30, 3)}}, {});
   EXPECT_GT(brushed.strokes[0].kept, 0);
   for (Index v = 0; v < marks.size(); ++v)
     if (marks[v]) {
@@ -294,7 +296,7 @@ TEST(Brush, AHundredStrokesLeaveARealFemurSound) {
   if (!joint) GTEST_SKIP() << "the shared data is missing";
   for (const Body* bone : {&joint->mobile, &joint->fixed}) {
     std::mt19937 random(5);
-    Brush brush(*bone);
+    plan::Brush brush(*bone);
     const auto count = bone->mesh.vertices().size();
     for (int i = 0; i < 100; ++i) {
       const auto share = [&] { return static_cast<double>(random()) / 4294967296.0; };

@@ -24,8 +24,8 @@ namespace {
 constexpr double in_degrees = 180 / std::numbers::pi;
 constexpr CoordinateSystem right_hip{Anatomy::hip, Side::right};
 
-CupAngles cup(double inclination, double anteversion,
-              CupDefinition definition = CupDefinition::radiographic) {
+plan::CupAngles cup(double inclination, double anteversion,
+                    CupDefinition definition = CupDefinition::radiographic) {
   return {Angle::degrees(inclination), Angle::degrees(anteversion), definition};
 }
 
@@ -110,8 +110,8 @@ const Design designs[] = {
      {111.0629, 55.9717, 44.8840, 78.9053, -1, 78.1255, 83.3512, 36.2233, 20.3117, 110.3117, 14.2686, -1}},
 };
 
-TotalHip total_hip_of(const Design& d, int facets = default_facets) {
-  TotalHip hip;
+plan::TotalHip total_hip_of(const Design& d, int facets = plan::default_facets) {
+  plan::TotalHip hip;
   hip.cup = cup(d.inclination, d.anteversion);
   hip.neck_shaft = Angle::degrees(d.neck_shaft);
   hip.stem_version = Angle::degrees(d.version);
@@ -122,7 +122,7 @@ TotalHip total_hip_of(const Design& d, int facets = default_facets) {
 }
 
 /// All meshes of a body as one.
-Body body_of(const char* name, const std::vector<ImplantMesh>& meshes) {
+Body body_of(const char* name, const std::vector<plan::ImplantMesh>& meshes) {
   TriMesh all;
   std::vector<BodyPart> parts;
   for (const auto& [part, mesh] : meshes) {
@@ -138,9 +138,9 @@ Body body_of(const char* name, const std::vector<ImplantMesh>& meshes) {
   return {name, Mesh(std::move(all)), std::move(parts)};
 }
 
-Joint joint_of(const Implant& implant, Side side = Side::right) {
-  const ImplantMeshes meshes = implant_meshes(implant, side);
-  const bool is_hip = std::holds_alternative<TotalHip>(implant);
+Joint joint_of(const plan::Implant& implant, Side side = Side::right) {
+  const plan::ImplantMeshes meshes = plan::implant_meshes(implant, side);
+  const bool is_hip = std::holds_alternative<plan::TotalHip>(implant);
   return {.name = "replacement",
           .kind = JointKind::ball,
           .side = side,
@@ -149,19 +149,19 @@ Joint joint_of(const Implant& implant, Side side = Side::right) {
           .anatomy = is_hip ? Anatomy::hip : Anatomy::shoulder};
 }
 
-std::vector<MotionLimit> mesh_limits(const Implant& implant, Side side = Side::right) {
+std::vector<motion::MotionLimit> mesh_limits(const plan::Implant& implant, Side side = Side::right) {
   const Joint joint = joint_of(implant, side);
-  const std::vector<Motion> motions = built_in_motions(JointKind::ball, joint.anatomy);
-  return RangeOfMotion(joint).limits(motions);
+  const std::vector<motion::Motion> motions = motion::built_in_motions(JointKind::ball, joint.anatomy);
+  return motion::RangeOfMotion(joint).limits(motions);
 }
 
-double largest_difference(const Implant& implant, Side side = Side::right) {
-  const auto pair = *revolved_pair(implant, side);
+double largest_difference(const plan::Implant& implant, Side side = Side::right) {
+  const auto pair = *plan::revolved_pair(implant, side);
   double most = 0;
-  for (const MotionLimit& limit : mesh_limits(implant, side)) {
+  for (const motion::MotionLimit& limit : mesh_limits(implant, side)) {
     const CoordinateSystem system{
-        std::holds_alternative<TotalHip>(implant) ? Anatomy::hip : Anatomy::shoulder, side};
-    const ClosedLimit closed = closed_limit(pair, system, limit.motion);
+        std::holds_alternative<plan::TotalHip>(implant) ? Anatomy::hip : Anatomy::shoulder, side};
+    const plan::ClosedLimit closed = plan::closed_limit(pair, system, limit.motion);
     EXPECT_EQ(limit.end.reason, closed.reason) << limit.motion.name;
     most = std::max(most, std::abs(limit.end.turned.degrees() - closed.turned.degrees()));
     EXPECT_GE(limit.end.turned.radians(), closed.of_facets_low.radians() - 1e-9) << limit.motion.name;
@@ -172,7 +172,7 @@ double largest_difference(const Implant& implant, Side side = Side::right) {
 
 TEST(CupAngles, ConvertBetweenMurraysDefinitions) {
   struct Row {
-    CupAngles radiographic, anatomic, operative;
+    plan::CupAngles radiographic, anatomic, operative;
   };
   const auto row = [](double ri, double ra, double ai, double aa, double oi, double oa) {
     return Row{cup(ri, ra), cup(ai, aa, CupDefinition::anatomic), cup(oi, oa, CupDefinition::operative)};
@@ -180,9 +180,9 @@ TEST(CupAngles, ConvertBetweenMurraysDefinitions) {
   for (const Row& each : {row(40, 15, 42.273515, 22.629056, 38.380802, 19.278960),
                           row(45, 20, 48.358857, 27.236313, 41.641143, 27.236313),
                           row(30, 10, 31.474949, 19.425400, 29.498704, 11.508393)}) {
-    for (const CupAngles& from : {each.radiographic, each.anatomic, each.operative})
-      for (const CupAngles& to : {each.radiographic, each.anatomic, each.operative}) {
-        const CupAngles found = by_definition(from, to.definition);
+    for (const plan::CupAngles& from : {each.radiographic, each.anatomic, each.operative})
+      for (const plan::CupAngles& to : {each.radiographic, each.anatomic, each.operative}) {
+        const plan::CupAngles found = plan::by_definition(from, to.definition);
         EXPECT_NEAR(found.inclination.degrees(), to.inclination.degrees(), 2e-6);
         EXPECT_NEAR(found.anteversion.degrees(), to.anteversion.degrees(), 2e-6);
       }
@@ -195,11 +195,11 @@ TEST(CupAngles, GoToAnAxisAndBackOnBothSides) {
          {CupDefinition::radiographic, CupDefinition::anatomic, CupDefinition::operative})
       for (double inclination = 1; inclination < 90; inclination += 7.5)
         for (double anteversion = -40; anteversion <= 60; anteversion += 12.5) {
-          const CupAngles given = cup(inclination, anteversion, definition);
-          const Vec3 axis = cup_axis(given, side);
+          const plan::CupAngles given = cup(inclination, anteversion, definition);
+          const Vec3 axis = plan::cup_axis(given, side);
           EXPECT_NEAR(axis.norm(), 1, 1e-15);
           EXPECT_GT(side == Side::right ? axis.z() : -axis.z(), 0);
-          const CupAngles back = cup_angles(3 * axis, definition, side);
+          const plan::CupAngles back = plan::cup_angles(3 * axis, definition, side);
           EXPECT_NEAR(back.inclination.degrees(), inclination, 1e-12);
           EXPECT_NEAR(back.anteversion.degrees(), anteversion, 1e-12);
         }
@@ -212,8 +212,8 @@ TEST(CupAngles, AreNamed) {
   EXPECT_THROW(cup_definition_named("surgical"), UsageError);
 }
 
-double half_angle(LinerShape liner, NeckShape neck) {
-  return contact_half_angle(liner, neck).degrees();
+double half_angle(plan::LinerShape liner, plan::NeckShape neck) {
+  return plan::contact_half_angle(liner, neck).degrees();
 }
 
 TEST(ContactHalfAngle, OfASharpRimAndACylinderIsClosed) {
@@ -234,13 +234,13 @@ TEST(ContactHalfAngle, OfConesAndChamfers) {
 }
 
 TEST(ClosedLimit, IsThatOfTheTables) {
-  const std::vector<Motion> motions = hip_motions();
+  const std::vector<motion::Motion> motions = motion::hip_motions();
   for (const Design& d : designs) {
-    const auto pair = *revolved_pair(total_hip_of(d), Side::right);
+    const auto pair = *plan::revolved_pair(total_hip_of(d), Side::right);
     for (std::size_t m = 0; m < motions.size(); ++m) {
-      const ClosedLimit limit = closed_limit(pair, right_hip, motions[m]);
+      const plan::ClosedLimit limit = plan::closed_limit(pair, right_hip, motions[m]);
       const bool ends = d.limits[m] < 0;
-      EXPECT_EQ(limit.reason, ends ? LimitReason::end_of_range : LimitReason::contact)
+      EXPECT_EQ(limit.reason, ends ? motion::LimitReason::end_of_range : motion::LimitReason::contact)
           << d.name << motions[m].name;
       EXPECT_NEAR(limit.turned.degrees(), ends ? motions[m].range.degrees() : d.limits[m], 6e-5)
           << d.name << " " << motions[m].name;
@@ -250,22 +250,23 @@ TEST(ClosedLimit, IsThatOfTheTables) {
 
 TEST(ClosedLimit, IsTheSameOnTheLeft) {
   for (const Design& d : designs)
-    for (const Motion& motion : hip_motions()) {
-      const ClosedLimit right = closed_limit(*revolved_pair(total_hip_of(d), Side::right), right_hip, motion);
-      const ClosedLimit left =
-          closed_limit(*revolved_pair(total_hip_of(d), Side::left), {Anatomy::hip, Side::left}, motion);
+    for (const motion::Motion& motion : motion::hip_motions()) {
+      const plan::ClosedLimit right =
+          plan::closed_limit(*plan::revolved_pair(total_hip_of(d), Side::right), right_hip, motion);
+      const plan::ClosedLimit left = plan::closed_limit(*plan::revolved_pair(total_hip_of(d), Side::left),
+                                                        {Anatomy::hip, Side::left}, motion);
       EXPECT_NEAR(right.turned.radians(), left.turned.radians(), 1e-14) << d.name << motion.name;
     }
 }
 
-double limit_of(const TotalHip& hip, const char* motion, double more_flexion = 0) {
-  Motion asked = motion_named(hip_motions(), motion);
+double limit_of(const plan::TotalHip& hip, const char* motion, double more_flexion = 0) {
+  motion::Motion asked = motion::motion_named(motion::hip_motions(), motion);
   asked.start.flexion = asked.start.flexion + Angle::degrees(more_flexion);
-  return closed_limit(*revolved_pair(hip, Side::right), right_hip, asked).turned.degrees();
+  return plan::closed_limit(*plan::revolved_pair(hip, Side::right), right_hip, asked).turned.degrees();
 }
 
 TEST(ClosedLimit, ShiftsWithTiltAndVersionOfTheStem) {
-  const TotalHip a = total_hip_of(designs[0]);
+  const plan::TotalHip a = total_hip_of(designs[0]);
   // Every pose of flexion f under a pelvis tilted forwards by 10 is that of f + 10.
   EXPECT_NEAR(limit_of(a, "flexion", 10), 118.7064, 6e-5);
   EXPECT_NEAR(limit_of(a, "flexion", -10), 138.7064, 6e-5);
@@ -274,7 +275,7 @@ TEST(ClosedLimit, ShiftsWithTiltAndVersionOfTheStem) {
   EXPECT_NEAR(limit_of(a, "fadir", 10), 19.5598, 6e-5);
   EXPECT_NEAR(limit_of(a, "fadir", -10), 41.4822, 6e-5);
   for (const double more : {10.0, -10.0}) {
-    TotalHip turned = a;
+    plan::TotalHip turned = a;
     turned.stem_version = a.stem_version + Angle::degrees(more);
     EXPECT_NEAR(limit_of(turned, "internal_rotation_at_90_flexion"), 38.6748 + more, 6e-5);
     EXPECT_NEAR(limit_of(turned, "flexion"), more > 0 ? 134.3695 : 120.6952, 6e-5);
@@ -282,15 +283,15 @@ TEST(ClosedLimit, ShiftsWithTiltAndVersionOfTheStem) {
 }
 
 TEST(ClosedLimit, SaysContactAtTheStartAndThatNothingMeets) {
-  const Motion turn{"turn", JointAngle::flexion, RotationSense::positive, {}, Angle::degrees(180)};
+  const motion::Motion turn{"turn", JointAngle::flexion, RotationSense::positive, {}, Angle::degrees(180)};
   RevolvedPair pair{Vec3::UnitY(), Vec3::UnitY(), Angle::degrees(30), Angle::degrees(30), Angle::degrees(30)};
-  EXPECT_NEAR(closed_limit(pair, right_hip, turn).turned.degrees(), 30, 1e-12);
+  EXPECT_NEAR(plan::closed_limit(pair, right_hip, turn).turned.degrees(), 30, 1e-12);
   pair.mobile_axis = Vec3(0.6, 0.8, 0);
-  EXPECT_EQ(closed_limit(pair, right_hip, turn).reason, LimitReason::contact_at_start);
-  EXPECT_EQ(closed_limit(pair, right_hip, turn).turned, Angle());
+  EXPECT_EQ(plan::closed_limit(pair, right_hip, turn).reason, motion::LimitReason::contact_at_start);
+  EXPECT_EQ(plan::closed_limit(pair, right_hip, turn).turned, Angle());
   pair.fixed_axis = Vec3::UnitZ(), pair.mobile_axis = Vec3::UnitZ();
-  EXPECT_EQ(closed_limit(pair, right_hip, turn).reason, LimitReason::end_of_range);
-  EXPECT_EQ(closed_limit(pair, right_hip, turn).turned, turn.range);
+  EXPECT_EQ(plan::closed_limit(pair, right_hip, turn).reason, motion::LimitReason::end_of_range);
+  EXPECT_EQ(plan::closed_limit(pair, right_hip, turn).turned, turn.range);
 }
 
 /// {(RI, RA): every target is free}: the intervals of RA that are free at an RI, by halving.
@@ -307,17 +308,17 @@ constexpr std::array targets{Target{"flexion", 110},
                              Target{"adduction_at_90_flexion", 10}};
 
 bool is_safe(const Vec3& neck, Angle half_angle, double ri, double ra) {
-  static const std::vector<Motion> motions = [] {
-    std::vector<Motion> all;
+  static const std::vector<motion::Motion> motions = [] {
+    std::vector<motion::Motion> all;
     for (const auto& [name, reach] : targets) {
-      all.push_back(motion_named(hip_motions(), name));
+      all.push_back(motion::motion_named(motion::hip_motions(), name));
       all.back().range = Angle::degrees(reach);
     }
     return all;
   }();
-  const RevolvedPair pair{cup_axis(cup(ri, ra), Side::right), neck, half_angle, half_angle, half_angle};
-  for (const Motion& motion : motions)
-    if (closed_limit(pair, right_hip, motion).reason != LimitReason::end_of_range) return false;
+  const RevolvedPair pair{plan::cup_axis(cup(ri, ra), Side::right), neck, half_angle, half_angle, half_angle};
+  for (const motion::Motion& motion : motions)
+    if (plan::closed_limit(pair, right_hip, motion).reason != motion::LimitReason::end_of_range) return false;
   return true;
 }
 
@@ -371,8 +372,9 @@ TEST(SafeZone, HasTheAreasAndBordersOfTheTables) {
        {{{0.2912, 28.2969}, {-3.8534, 27.3609}, {-7.5898, 26.0803}, {-10.9091, 24.4341}}}},
   };
   for (const Zone& zone : zones) {
-    const Vec3 neck = neck_axis(Angle::degrees(zone.neck_shaft), Angle::degrees(zone.version), Side::right);
-    const Angle half = contact_half_angle({zone.head, zone.head + 5}, {zone.neck});
+    const Vec3 neck =
+        plan::neck_axis(Angle::degrees(zone.neck_shaft), Angle::degrees(zone.version), Side::right);
+    const Angle half = plan::contact_half_angle({zone.head, zone.head + 5}, {zone.neck});
     for (int i = 0; i < 4; ++i) {
       const auto [low, high] = free_anteversion(neck, half, 35 + 5 * i, 2);
       EXPECT_NEAR(low, zone.at[i][0], 6e-5);
@@ -389,15 +391,16 @@ TEST(SafeZone, HasTheAreasAndBordersOfTheTables) {
 }
 
 TEST(ImplantMeshes, AreClosedWoundOutwardsAndApart) {
-  TotalHip lipped;
+  plan::TotalHip lipped;
   lipped.lip = Angle::degrees(15), lipped.chamfer = Angle::degrees(10);
-  TotalHip trapezoid;
+  plan::TotalHip trapezoid;
   trapezoid.neck_upper_width_mm = 8, trapezoid.neck_lower_width_mm = 12,
   trapezoid.neck_taper = Angle::degrees(2);
-  TotalHip bent;
+  plan::TotalHip bent;
   bent.neck_shaft = Angle::degrees(110), bent.stem_radius_mm = 10, bent.offset_mm = 50;
-  for (const Implant& implant :
-       {Implant(TotalHip{}), Implant(lipped), Implant(trapezoid), Implant(bent), Implant(ReverseShoulder{})})
+  for (const plan::Implant& implant :
+       {plan::Implant(plan::TotalHip{}), plan::Implant(lipped), plan::Implant(trapezoid), plan::Implant(bent),
+        plan::Implant(plan::ReverseShoulder{})})
     for (const Side side : {Side::right, Side::left}) {
       const Joint joint = joint_of(implant, side);
       for (const Body* body : {&joint.fixed, &joint.mobile}) {
@@ -427,7 +430,7 @@ TEST(ImplantMeshes, ComeNearerByTheSquareOfTheFacets) {
 }
 
 TEST(ImplantMeshes, OfConesAndChamfersEndMotionsWhereTheClosedFormDoes) {
-  TotalHip hip;
+  plan::TotalHip hip;
   hip.neck_taper = Angle::degrees(4);
   EXPECT_LT(largest_difference(hip), 0.01);
   hip.chamfer = Angle::degrees(-12);
@@ -436,27 +439,27 @@ TEST(ImplantMeshes, OfConesAndChamfersEndMotionsWhereTheClosedFormDoes) {
   EXPECT_LT(largest_difference(hip), 0.01);
 }
 
-std::string part_that_met(const Body& body, const Feature& feature) {
-  return (feature.kind == FeatureKind::face ? part_of_triangle(body, feature.id)
-                                            : part_of_vertex(body, feature.id))
+std::string part_that_met(const Body& body, const motion::Feature& feature) {
+  return (feature.kind == motion::FeatureKind::face ? part_of_triangle(body, feature.id)
+                                                    : part_of_vertex(body, feature.id))
       ->name;
 }
 
 TEST(ImplantMeshes, AreEndedByNeckAndLiner) {
-  const Joint joint = joint_of(TotalHip{});
-  for (const MotionLimit& limit : RangeOfMotion(joint).limits(hip_motions())) {
-    if (limit.end.reason != LimitReason::contact) continue;
-    const ContactWitness& met = *limit.end.contact;
+  const Joint joint = joint_of(plan::TotalHip{});
+  for (const motion::MotionLimit& limit : motion::RangeOfMotion(joint).limits(motion::hip_motions())) {
+    if (limit.end.reason != motion::LimitReason::contact) continue;
+    const motion::ContactWitness& met = *limit.end.contact;
     EXPECT_EQ(part_that_met(joint.mobile, met.mobile_feature), "neck") << limit.motion.name;
     EXPECT_EQ(part_that_met(joint.fixed, met.fixed_feature), "liner") << limit.motion.name;
   }
 }
 
 TEST(ReverseShoulder, IsTheSamePairWithRolesExchanged) {
-  const ReverseShoulder shoulder;
-  const auto pair = *revolved_pair(shoulder, Side::right);
+  const plan::ReverseShoulder shoulder;
+  const auto pair = *plan::revolved_pair(shoulder, Side::right);
   EXPECT_NEAR(pair.half_angle.degrees(), 102.607312, 1e-6);
-  const std::vector<Motion> motions{
+  const std::vector<motion::Motion> motions{
       {"abduction", JointAngle::adduction, RotationSense::positive, {}, Angle::degrees(180)},
       {"horizontal_flexion",
        JointAngle::flexion,
@@ -472,18 +475,18 @@ TEST(ReverseShoulder, IsTheSamePairWithRolesExchanged) {
   };
   const double known[] = {139.7805, 79.1543, 99.3252, 39.9971};
   for (std::size_t m = 0; m < motions.size(); ++m)
-    EXPECT_NEAR(closed_limit(pair, {Anatomy::shoulder, Side::right}, motions[m]).turned.degrees(), known[m],
-                6e-5)
+    EXPECT_NEAR(plan::closed_limit(pair, {Anatomy::shoulder, Side::right}, motions[m]).turned.degrees(),
+                known[m], 6e-5)
         << motions[m].name;
   for (const Side side : {Side::right, Side::left}) EXPECT_LT(largest_difference(shoulder, side), 0.01);
 }
 
 TEST(TotalHip, TurnsFartherWithALargerHeadAndLessFarWithARaisedRim) {
-  TotalHip larger;
+  plan::TotalHip larger;
   larger.head_radius_mm = 18;
-  TotalHip raised;
+  plan::TotalHip raised;
   raised.lip = Angle::degrees(15), raised.lip_width = Angle::degrees(360);
-  const auto usual = mesh_limits(TotalHip{}), with_larger = mesh_limits(larger),
+  const auto usual = mesh_limits(plan::TotalHip{}), with_larger = mesh_limits(larger),
              with_raised = mesh_limits(raised);
   double gain = 0, loss = 0;
   for (std::size_t m = 0; m < usual.size(); ++m) {
@@ -495,12 +498,12 @@ TEST(TotalHip, TurnsFartherWithALargerHeadAndLessFarWithARaisedRim) {
   }
   EXPECT_GT(gain, 10);
   EXPECT_GT(loss, 10);
-  EXPECT_FALSE(revolved_pair(raised, Side::right));
-  EXPECT_EQ(why_not_revolved(raised), "a liner with a lip is no body of revolution");
+  EXPECT_FALSE(plan::revolved_pair(raised, Side::right));
+  EXPECT_EQ(plan::why_not_revolved(raised), "a liner with a lip is no body of revolution");
 }
 
 TEST(TotalHip, WithMoreAnteversionBendsFartherAndExtendsLess) {
-  TotalHip less = total_hip_of(designs[0]), more = less;
+  plan::TotalHip less = total_hip_of(designs[0]), more = less;
   more.cup.anteversion = Angle::degrees(25);
   EXPECT_GT(limit_of(more, "flexion"), limit_of(less, "flexion"));
   EXPECT_LT(limit_of(more, "extension"), limit_of(less, "extension"));
@@ -508,18 +511,18 @@ TEST(TotalHip, WithMoreAnteversionBendsFartherAndExtendsLess) {
 }
 
 TEST(TotalHip, WithALipBehindLosesWhereTheNeckComesToIt) {
-  TotalHip behind;
+  plan::TotalHip behind;
   behind.lip = Angle::degrees(15), behind.lip_towards = Angle::degrees(120),
   behind.lip_width = Angle::degrees(120);
-  const auto usual = mesh_limits(TotalHip{}), raised = mesh_limits(behind);
+  const auto usual = mesh_limits(plan::TotalHip{}), raised = mesh_limits(behind);
   // External rotation and extension bring the neck to the rim behind; flexion to the one in front.
   for (const auto& [m, loses] : {std::pair(0, false), std::pair(5, true)})
     EXPECT_EQ(raised[m].end.turned < usual[m].end.turned - Angle::degrees(1), loses) << usual[m].motion.name;
 }
 
-std::string refused(const Implant& implant) {
+std::string refused(const plan::Implant& implant) {
   try {
-    check_implant(implant);
+    plan::check_implant(implant);
   } catch (const UsageError& error) {
     return error.what();
   }
@@ -528,38 +531,39 @@ std::string refused(const Implant& implant) {
 
 TEST(TotalHip, RefusesWrongSizesInOneLine) {
   const auto with = [](auto change) {
-    TotalHip hip;
+    plan::TotalHip hip;
     change(hip);
     return refused(hip);
   };
-  EXPECT_EQ(with([](TotalHip&) {}), "");
+  EXPECT_EQ(with([](plan::TotalHip&) {}), "");
   EXPECT_EQ(
-      with([](TotalHip& h) { h.head_radius_mm = 28; }),
+      with([](plan::TotalHip& h) { h.head_radius_mm = 28; }),
       "implant: a head of radius 28 mm is too large for a cup of radius 27 mm outside: its wall needs 1 mm");
-  EXPECT_EQ(with([](TotalHip& h) { h.clearance_mm = -1; }),
+  EXPECT_EQ(with([](plan::TotalHip& h) { h.clearance_mm = -1; }),
             "implant: a clearance of -1 mm makes the head larger than the liner");
-  EXPECT_EQ(with([](TotalHip& h) { h.neck_radius_mm = 17; }),
+  EXPECT_EQ(with([](plan::TotalHip& h) { h.neck_radius_mm = 17; }),
             "implant: the neck, of radius 17 mm, is thicker than the head, of radius 15.5 mm");
-  EXPECT_EQ(with([](TotalHip& h) { h.cup.inclination = Angle::degrees(-5); }),
+  EXPECT_EQ(with([](plan::TotalHip& h) { h.cup.inclination = Angle::degrees(-5); }),
             "implant: inclination is -5, must be 0 to 90 degrees");
-  EXPECT_EQ(with([](TotalHip& h) { h.neck_radius_mm = std::numeric_limits<double>::quiet_NaN(); }),
+  EXPECT_EQ(with([](plan::TotalHip& h) { h.neck_radius_mm = std::numeric_limits<double>::quiet_NaN(); }),
             "implant: neck_radius is nan, must be 2 to 20 mm");
-  EXPECT_EQ(with([](TotalHip& h) { h.facets = 181; }),
+  EXPECT_EQ(with([](plan::TotalHip& h) { h.facets = 181; }),
             "implant: facets is 181, must be a multiple of 4 from 24 to 2880");
-  EXPECT_EQ(with([](TotalHip& h) { h.offset_mm = 20; }),
+  EXPECT_EQ(with([](plan::TotalHip& h) { h.offset_mm = 20; }),
             "implant: the neck ends 16.3 mm from the centre of the head, too near to a cup of radius 27 mm "
             "outside: "
             "it must end 2 mm beyond, by a larger offset");
-  EXPECT_EQ(with([](TotalHip& h) { h.neck_lower_width_mm = 9; }),
+  EXPECT_EQ(with([](plan::TotalHip& h) { h.neck_lower_width_mm = 9; }),
             "implant: a trapezoid neck has both widths, neck_upper_width and neck_lower_width");
-  EXPECT_NE(with([](TotalHip& h) { h.chamfer = Angle::degrees(30), h.cup_radius_mm = 18; }), "");
-  EXPECT_NE(with([](TotalHip& h) { h.neck_taper = Angle::degrees(-8), h.neck_radius_mm = 4; }), "");
-  EXPECT_NE(with([](TotalHip& h) { h.neck_radius_mm = 15, h.liner_half_angle = Angle::degrees(119); }), "");
+  EXPECT_NE(with([](plan::TotalHip& h) { h.chamfer = Angle::degrees(30), h.cup_radius_mm = 18; }), "");
+  EXPECT_NE(with([](plan::TotalHip& h) { h.neck_taper = Angle::degrees(-8), h.neck_radius_mm = 4; }), "");
+  EXPECT_NE(with([](plan::TotalHip& h) { h.neck_radius_mm = 15, h.liner_half_angle = Angle::degrees(119); }),
+            "");
 }
 
 TEST(ImplantParameters, ReadAndWriteEachSize) {
-  for (Implant implant : {Implant(TotalHip{}), Implant(ReverseShoulder{})}) {
-    for (const ImplantParameter& each : implant_parameters(implant)) {
+  for (plan::Implant implant : {plan::Implant(plan::TotalHip{}), plan::Implant(plan::ReverseShoulder{})}) {
+    for (const plan::ImplantParameter& each : plan::implant_parameters(implant)) {
       const double value = each.value(implant), other = (each.low + 3 * each.high) / 4;
       EXPECT_GE(value, each.low) << each.name;
       EXPECT_LE(value, each.high) << each.name;

@@ -53,17 +53,17 @@ TriMesh socket(double R, double outer, const Vec3& opening = down) {
 /// Far enough for an endless wall.
 constexpr double endless = 80;
 
-ReachTarget target(const char* motion, double degrees) {
-  return {motion_named(hip_motions(), motion), Angle::degrees(degrees)};
+plan::ReachTarget target(const char* motion, double degrees) {
+  return {motion::motion_named(motion::hip_motions(), motion), Angle::degrees(degrees)};
 }
 
-ResectionRequest reaching(std::vector<ReachTarget> targets) {
-  ResectionRequest request;
+plan::ResectionRequest reaching(std::vector<plan::ReachTarget> targets) {
+  plan::ResectionRequest request;
   request.targets = std::move(targets);
   return request;
 }
 
-void expect_sound(const CutBone& cut) {
+void expect_sound(const plan::CutBone& cut) {
   EXPECT_TRUE(cut.body.mesh.is_closed());
   EXPECT_EQ(mesh::self_crossings_of(cut.body.mesh).pairs, 0);
   std::size_t turned = 0;
@@ -77,8 +77,9 @@ void expect_sound(const CutBone& cut) {
 }
 
 /// Reached by the exact limits of the joint without the bone, by at most a fifth of a degree too much, and no limit is smaller.
-void expect_reached(const Joint& before, const Resection& done, const RangeOptions& range = {}) {
-  for (const ReachOutcome& outcome : done.targets) {
+void expect_reached(const Joint& before, const plan::Resection& done,
+                    const motion::RangeOptions& range = {}) {
+  for (const plan::ReachOutcome& outcome : done.targets) {
     EXPECT_FALSE(outcome.blocked) << outcome.target.motion.name;
     EXPECT_GE(outcome.after.end.turned.degrees(), outcome.target.reach.degrees() - 1e-9)
         << outcome.target.motion.name;
@@ -86,9 +87,9 @@ void expect_reached(const Joint& before, const Resection& done, const RangeOptio
       EXPECT_LE(outcome.after.end.turned.degrees(), outcome.target.reach.degrees() + 0.2);
     }
   }
-  const auto motions = hip_motions();
-  const auto was = RangeOfMotion(before, range).limits(motions),
-             is = RangeOfMotion(done.joint, range).limits(motions);
+  const auto motions = motion::hip_motions();
+  const auto was = motion::RangeOfMotion(before, range).limits(motions),
+             is = motion::RangeOfMotion(done.joint, range).limits(motions);
   for (std::size_t i = 0; i < motions.size(); ++i)
     EXPECT_GE(is[i].end.turned.degrees(), was[i].end.turned.degrees() - 1e-9) << motions[i].name;
 }
@@ -104,7 +105,7 @@ TEST(Resection, ANeckInASocketLosesWhatTheClosedFormSays) {
        {NeckCase{25, 15, endless, 53.130102, 65, 356.680106, 215.932501, 4.434543, 0.001},
         {16, 6, endless, 67.975687, 70, 1.234676, 5.949339, 0.527678, 0.01}}) {
     const Joint joint = hip_of(socket(each.R, each.outer), neck(each.a));
-    const Resection done = resect(joint, reaching({target("flexion", each.target)}));
+    const plan::Resection done = plan::resect(joint, reaching({target("flexion", each.target)}));
     ASSERT_TRUE(done.mobile);
     EXPECT_NEAR(done.targets[0].before.end.turned.degrees(), each.limit, 0.02);
     expect_reached(joint, done);
@@ -121,7 +122,7 @@ TEST(Resection, ANeckInASocketLosesWhatTheClosedFormSays) {
 TEST(Resection, WhatMustGoUnderAWallIsTheClosedForm) {
   const NeckCase each{16, 6, 20, 67.975687, 75, 30.817788, 36.055234, 1.858895, 0.05};
   const Joint joint = hip_of(socket(each.R, each.outer), neck(each.a));
-  const Resection done = resect(joint, reaching({target("flexion", each.target)}));
+  const plan::Resection done = plan::resect(joint, reaching({target("flexion", each.target)}));
   expect_reached(joint, done);
   expect_sound(*done.mobile);
   EXPECT_NEAR(done.mobile->least_volume_mm3 / each.volume, 1, 0.01);
@@ -135,9 +136,9 @@ TEST(LongResection, DeepCutsUnderAWallAreReached) {
   for (const auto& [R, a, outer, reach, volume, most] :
        {std::array{25., 15., 30., 65., 287.130333, 306.}, std::array{24., 12., 27., 75., 261.302985, 353.}}) {
     const Joint joint = hip_of(socket(R, outer), neck(a));
-    ResectionRequest request = reaching({target("flexion", reach)});
-    request.range.bearing.rule = BearingRule::count;
-    const Resection done = resect(joint, request);
+    plan::ResectionRequest request = reaching({target("flexion", reach)});
+    request.range.bearing.rule = motion::BearingRule::count;
+    const plan::Resection done = plan::resect(joint, request);
     expect_reached(joint, done, request.range);
     expect_sound(*done.mobile);
     std::printf("%.1f mm3 of which %.1f must, %.2f mm deep\n", done.mobile->volume_mm3,
@@ -155,16 +156,16 @@ TEST(Resection, ANeckInACupLosesWhatQuadratureSays) {
   const Vec3 along =
       Eigen::AngleAxisd(-15 * degree, Vec3::UnitY()) * Vec3(0, -std::cos(shaft), std::sin(shaft));
   const Joint joint = hip_of(socket(16, 20, opening), neck(6, along));
-  ResectionRequest request = reaching({target("flexion", 135)});
-  request.range.bearing.rule = BearingRule::count;
-  const Resection one = resect(joint, request);
+  plan::ResectionRequest request = reaching({target("flexion", 135)});
+  request.range.bearing.rule = motion::BearingRule::count;
+  const plan::Resection one = plan::resect(joint, request);
   expect_reached(joint, one, request.range);
   EXPECT_NEAR(one.mobile->least_volume_mm3, 6.443, 0.01 * 6.443);
   EXPECT_LT(one.volume_mm3(), 1.02 * 6.443);
 
   request.targets.push_back(target("internal_rotation_at_90_flexion", 45));
   request.targets.push_back(target("extension", 66));
-  const Resection three = resect(joint, request);
+  const plan::Resection three = plan::resect(joint, request);
   expect_reached(joint, three, request.range);
   EXPECT_NEAR(three.mobile->least_volume_mm3, 19.627, 0.01 * 19.627);
   EXPECT_LT(three.volume_mm3(), 1.02 * 19.627);
@@ -201,9 +202,9 @@ TEST(Resection, ABallThatTouchesNoVertexLeavesItsGroove) {
     const Vec3 centre = distance * Vec3(std::cos(before_face * degree), std::sin(before_face * degree), 0);
     const Joint joint =
         hip_of(ball_at(centre, radius), block({distance - 9.3, -20, -9.7}, {distance + 9.1, 0, 9.9}));
-    ResectionRequest request = reaching({target("flexion", reach)});
-    request.range.bearing.rule = BearingRule::count;
-    const Resection done = resect(joint, request);
+    plan::ResectionRequest request = reaching({target("flexion", reach)});
+    request.range.bearing.rule = motion::BearingRule::count;
+    const plan::Resection done = plan::resect(joint, request);
     expect_reached(joint, done, request.range);
     expect_sound(*done.mobile);
     EXPECT_NEAR(done.targets[0].before.end.turned.degrees(), limit, 0.001);
@@ -215,7 +216,7 @@ TEST(Resection, ABallThatTouchesNoVertexLeavesItsGroove) {
 
 /// Where no ball of the radius comes to that stays outside of the bone: how far from one a lowered vertex is at the most, mm. Balls stand in
 /// places `spacing` apart, and may enter bone by half of that.
-double not_touched_mm(const CutBone& cut, double radius, double spacing) {
+double not_touched_mm(const plan::CutBone& cut, double radius, double spacing) {
   const TriMesh mesh(cut.body.mesh);
   const mesh::SurfaceDistance distance(mesh);
   const mesh::WindingNumber inside(cut.body.mesh);
@@ -247,13 +248,13 @@ double not_touched_mm(const CutBone& cut, double radius, double spacing) {
 /// The groove of a ball of 3 mm, and a burr.
 struct GrooveAndBurr {
   Joint joint;
-  ResectionRequest request;
+  plan::ResectionRequest request;
 
   explicit GrooveAndBurr(double burr_mm)
       : joint(hip_of(ball_at(40 * Vec3(std::cos(20 * degree), std::sin(20 * degree), 0), 3),
                      block({31.3, -20, -9.7}, {49.1, 0, 9.9}))),
         request(reaching({target("flexion", 18)})) {
-    request.range.bearing.rule = BearingRule::count;
+    request.range.bearing.rule = motion::BearingRule::count;
     request.burr_mm = burr_mm;
   }
 };
@@ -263,7 +264,7 @@ TEST(Resection, ABurrThatIsWiderThanAGrooveMakesItsOwnCap) {
   const double depth = 1.604020;
   for (const double radius : {4.0, 5.5}) {
     const GrooveAndBurr groove(2 * radius);
-    const Resection done = resect(groove.joint, groove.request);
+    const plan::Resection done = plan::resect(groove.joint, groove.request);
     expect_reached(groove.joint, done, groove.request.range);
     expect_sound(*done.mobile);
     const double cap = std::numbers::pi * depth * depth * (3 * radius - depth) / 3;
@@ -274,14 +275,14 @@ TEST(Resection, ABurrThatIsWiderThanAGrooveMakesItsOwnCap) {
     EXPECT_LT(not_touched_mm(*done.mobile, radius, 0.2), 0.15);
   }
   const GrooveAndBurr groove(11);
-  ResectionRequest any_shape = groove.request;
+  plan::ResectionRequest any_shape = groove.request;
   any_shape.burr_mm.reset();
-  EXPECT_GT(not_touched_mm(*resect(groove.joint, any_shape).mobile, 5.5, 0.2), 0.3);
+  EXPECT_GT(not_touched_mm(*plan::resect(groove.joint, any_shape).mobile, 5.5, 0.2), 0.3);
 }
 
 TEST(Resection, ABurrThatIsNarrowerThanAGrooveTakesNoMore) {
   const GrooveAndBurr groove(5);
-  const Resection done = resect(groove.joint, groove.request);
+  const plan::Resection done = plan::resect(groove.joint, groove.request);
   expect_reached(groove.joint, done, groove.request.range);
   EXPECT_LT(done.mobile->burr_volume_mm3, 0.01 * done.mobile->volume_mm3);
   EXPECT_NEAR(done.mobile->volume_mm3 / 19.92709, 1, 0.02);
@@ -289,11 +290,11 @@ TEST(Resection, ABurrThatIsNarrowerThanAGrooveTakesNoMore) {
 
 TEST(Resection, ABurrThatWouldEnterKeptBoneIsSaidTo) {
   const Joint joint = hip_of(socket(25, endless), neck(15));
-  ResectionRequest request = reaching({target("flexion", 56)});
+  plan::ResectionRequest request = reaching({target("flexion", 56)});
   request.edge_mm = 1;
-  const Resection any_shape = resect(joint, request);
+  const plan::Resection any_shape = plan::resect(joint, request);
   request.burr_mm = 30;
-  const Resection free = resect(joint, request);
+  const plan::Resection free = plan::resect(joint, request);
   EXPECT_EQ(free.mobile->burr_in_kept_mm, 0);
   // Everything from 2 mm beside what must go on.
   Points goes;
@@ -305,7 +306,7 @@ TEST(Resection, ABurrThatWouldEnterKeptBoneIsSaidTo) {
       nearest = std::min(nearest, (joint.mobile.mesh.vertices()[v] - goes[i]).norm());
     request.mobile.vertices.push_back(nearest > 2);
   }
-  const Resection kept = resect(joint, request);
+  const plan::Resection kept = plan::resect(joint, request);
   EXPECT_FALSE(kept.targets[0].blocked);
   EXPECT_GT(kept.mobile->burr_in_kept_mm, 0.05);
   EXPECT_LT(kept.volume_mm3(), free.volume_mm3());
@@ -314,7 +315,7 @@ TEST(Resection, ABurrThatWouldEnterKeptBoneIsSaidTo) {
 
 TEST(Resection, NothingIsRemovedBeforeTheLimit) {
   const Joint joint = hip_of(socket(16, endless), neck(6));
-  const Resection done = resect(joint, reaching({target("flexion", 60)}));
+  const plan::Resection done = plan::resect(joint, reaching({target("flexion", 60)}));
   EXPECT_FALSE(done.mobile || done.fixed);
   EXPECT_EQ(done.volume_mm3(), 0);
 }
@@ -322,8 +323,9 @@ TEST(Resection, NothingIsRemovedBeforeTheLimit) {
 // Along the neck's own radius a vertex must go down to the larger of the hole's sphere and the plane of the block's face at the target.
 TEST(Resection, EveryVertexIsAsDeepAsItMustBeAndLittleDeeper) {
   const double R = 25, a = 15, reach = 65;
-  const Resection done = resect(hip_of(socket(R, endless), neck(a)), reaching({target("flexion", reach)}));
-  const CutBone& cut = *done.mobile;
+  const plan::Resection done =
+      plan::resect(hip_of(socket(R, endless), neck(a)), reaching({target("flexion", reach)}));
+  const plan::CutBone& cut = *done.mobile;
   double excess = 0;
   std::size_t lowered = 0;
   for (std::size_t v = 0; v < cut.depth_mm.size(); ++v) {
@@ -350,7 +352,7 @@ TEST(Resection, WhatASweepFindsIsWhatSampledPosesFind) {
   for (const BodyRole cut : {BodyRole::mobile, BodyRole::fixed}) {
     const Mesh& other = cut == BodyRole::mobile ? joint.fixed.mesh : joint.mobile.mesh;
     for (const char* name : {"flexion", "abduction", "fadir", "internal_rotation_at_90_flexion"}) {
-      const Motion motion = motion_named(hip_motions(), name);
+      const motion::Motion motion = motion::motion_named(motion::hip_motions(), name);
       Points points;
       for (int i = 0; i < 200; ++i) points.push_back({beside(random), along(random), beside(random)});
       const Angle reach = Angle::degrees(40);
@@ -359,9 +361,9 @@ TEST(Resection, WhatASweepFindsIsWhatSampledPosesFind) {
       for (std::size_t i = 0; i < points.size(); ++i) {
         double sampled = std::numeric_limits<double>::infinity();
         for (double degrees = 0; degrees <= reach.degrees() && std::isinf(sampled); degrees += 0.5) {
-          const Pose X_FM =
-              pose_at(joint.coordinates(),
-                      turned_by(motion.start, motion.vary, Angle::degrees(degrees) * sign_of(motion.sense)));
+          const Pose X_FM = pose_at(
+              joint.coordinates(),
+              motion::turned_by(motion.start, motion.vary, Angle::degrees(degrees) * sign_of(motion.sense)));
           const Vec3 at = (cut == BodyRole::mobile ? X_FM : inverted(X_FM)) * points[i];
           if (inside.at(at).winding > 0) sampled = degrees * degree;
         }
@@ -376,19 +378,19 @@ TEST(Resection, WhatASweepFindsIsWhatSampledPosesFind) {
 // The depth that stays is that of the cut, not of what the other bone's share takes away from it.
 TEST(Resection, ADepthThatIsSharedIsHeldByEachBone) {
   const Joint joint = hip_of(socket(25, 30), neck(15));
-  ResectionRequest request = reaching({target("flexion", 56)});
+  plan::ResectionRequest request = reaching({target("flexion", 56)});
   request.fixed_share = 0.5;
   request.edge_mm = 1;
-  const Resection free = resect(joint, request);
+  const plan::Resection free = plan::resect(joint, request);
   const double deepest = std::max(free.mobile->deepest_mm, free.fixed->deepest_mm);
   request.mobile.deepest_mm = request.fixed.deepest_mm = 1.3 * deepest;
-  const Resection held = resect(joint, request);
+  const plan::Resection held = plan::resect(joint, request);
   EXPECT_FALSE(held.targets[0].blocked);
   EXPECT_NEAR(held.volume_mm3() / free.volume_mm3(), 1, 1e-3);
 }
 
 /// Loss of the volume that a bone's triangles enclose, by its cut.
-double lost_mm3(const CutBone& cut) {
+double lost_mm3(const plan::CutBone& cut) {
   const auto below = [](const TriMesh& mesh) {
     double volume = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -401,9 +403,9 @@ double lost_mm3(const CutBone& cut) {
 TEST(Resection, RimOrBothBonesReachTheSameTarget) {
   const Joint joint = hip_of(socket(25, 30), neck(15));
   for (const double share : {1.0, 0.5}) {
-    ResectionRequest request = reaching({target("flexion", 60)});
+    plan::ResectionRequest request = reaching({target("flexion", 60)});
     request.fixed_share = share;
-    const Resection done = resect(joint, request);
+    const plan::Resection done = plan::resect(joint, request);
     ASSERT_TRUE(done.fixed);
     EXPECT_EQ(done.mobile.has_value(), share < 1);
     expect_reached(joint, done);
@@ -413,17 +415,17 @@ TEST(Resection, RimOrBothBonesReachTheSameTarget) {
 }
 
 Joint sample_joint(double alpha_deg) {
-  HipParameters parameters;
+  sample::HipParameters parameters;
   parameters.alpha_angle = Angle::degrees(alpha_deg);
-  auto [hip_bone, femur] = sample_hip(parameters, Scenario::one);
+  auto [hip_bone, femur] = sample::sample_hip(parameters, sample::Scenario::one);
   return hip_of(std::move(hip_bone), std::move(femur));
 }
 
 TEST(Resection, SampleCamsReachTheirTargets) {
   for (const double alpha : {60.0, 70.0, 80.0}) {
     const Joint joint = sample_joint(alpha);
-    const Resection done =
-        resect(joint, reaching({target("internal_rotation_at_90_flexion", 50), target("fadir", 36)}));
+    const plan::Resection done =
+        plan::resect(joint, reaching({target("internal_rotation_at_90_flexion", 50), target("fadir", 36)}));
     expect_reached(joint, done);
     expect_sound(*done.mobile);
     EXPECT_LT(done.mobile->volume_mm3, 1.01 * done.mobile->least_volume_mm3 + 0.1);
@@ -437,16 +439,16 @@ TEST(Resection, SampleCamsReachTheirTargets) {
 // The hip made without a cam reaches what it reaches, so no bone of it is in the way of that: what is left of a cam lies around it. It is not
 // the same, and its alpha angle falls hardly: beside the head a cam passes through the joint space and stands in no way.
 TEST(Resection, OfACamNothingGoesThatTheHipWithoutOneHas) {
-  auto [hip_bone, femur] = sample_hip(HipParameters{}, Scenario::one);
+  auto [hip_bone, femur] = sample::sample_hip(sample::HipParameters{}, sample::Scenario::one);
   const Joint without = hip_of(std::move(hip_bone), std::move(femur));
-  std::vector<ReachTarget> targets;
+  std::vector<plan::ReachTarget> targets;
   for (const char* name : {"internal_rotation_at_90_flexion", "fadir"}) {
-    const ReachTarget any = target(name, 1);
-    const Angle end = RangeOfMotion(without).limit(any.motion).end.turned;
+    const plan::ReachTarget any = target(name, 1);
+    const Angle end = motion::RangeOfMotion(without).limit(any.motion).end.turned;
     targets.push_back({any.motion, end - Angle::degrees(0.01)});
   }
-  const Resection done = resect(sample_joint(75), reaching(targets));
-  const CutBone& cut = *done.mobile;
+  const plan::Resection done = plan::resect(sample_joint(75), reaching(targets));
+  const plan::CutBone& cut = *done.mobile;
   const mesh::WindingNumber inside(without.mobile.mesh);
   std::size_t lowered = 0;
   for (std::size_t v = 0; v < cut.depth_mm.size(); ++v) {
@@ -460,10 +462,10 @@ TEST(Resection, OfACamNothingGoesThatTheHipWithoutOneHas) {
 
 TEST(Resection, AMarginKeepsTheFixedBoneMovedOutwardsClear) {
   const Joint joint = hip_of(socket(25, endless), neck(15));
-  ResectionRequest request = reaching({target("flexion", 60)});
-  const double without = resect(joint, request).volume_mm3();
+  plan::ResectionRequest request = reaching({target("flexion", 60)});
+  const double without = plan::resect(joint, request).volume_mm3();
   request.margin_mm = 1;
-  const Resection done = resect(joint, request);
+  const plan::Resection done = plan::resect(joint, request);
   EXPECT_GT(done.volume_mm3(), without);
   // A block whose hole is nine tenths of a millimetre narrower, and its face as much farther down.
   std::vector<ProfilePoint> profile;
@@ -474,16 +476,16 @@ TEST(Resection, AMarginKeepsTheFixedBoneMovedOutwardsClear) {
     profile.push_back({-24.1 * std::cos(i * degree), 24.1 * std::sin(i * degree)});
   profile.back().beside = profile.front().beside = 0;
   const Joint nearer = hip_of(revolved(down, profile, 360), done.joint.mobile.mesh);
-  EXPECT_GE(RangeOfMotion(nearer).limit(target("flexion", 60).motion).end.turned.degrees(), 60);
+  EXPECT_GE(motion::RangeOfMotion(nearer).limit(target("flexion", 60).motion).end.turned.degrees(), 60);
 }
 
 TEST(Resection, KeptBoneStopsAMotionAndIsNamed) {
   const Joint joint = hip_of(socket(25, endless), neck(15));
-  ResectionRequest request = reaching({target("flexion", 57.5)});
+  plan::ResectionRequest request = reaching({target("flexion", 57.5)});
   request.mobile.deepest_mm = 1;
-  const Resection shallow = resect(joint, request);
+  const plan::Resection shallow = plan::resect(joint, request);
   ASSERT_TRUE(shallow.targets[0].blocked);
-  EXPECT_EQ(shallow.targets[0].blocked->by, KeptBy::depth);
+  EXPECT_EQ(shallow.targets[0].blocked->by, plan::KeptBy::depth);
   EXPECT_LE(shallow.mobile->deepest_mm, 1);
   // A depth of 1 mm is reached where 15 - 25 cos t = 1.
   const double closed_form = std::acos(14.0 / 25) / degree;
@@ -492,42 +494,42 @@ TEST(Resection, KeptBoneStopsAMotionAndIsNamed) {
 
   request.mobile = {};
   request.mobile.vertices.assign(joint.mobile.mesh.vertices().size(), 1);
-  const Resection none = resect(joint, request);
+  const plan::Resection none = plan::resect(joint, request);
   ASSERT_TRUE(none.targets[0].blocked);
-  EXPECT_EQ(none.targets[0].blocked->by, KeptBy::marked);
+  EXPECT_EQ(none.targets[0].blocked->by, plan::KeptBy::marked);
   EXPECT_EQ(none.volume_mm3(), 0);
   EXPECT_NEAR(none.targets[0].planned.degrees(), 53.13, 0.05);
 }
 
 TEST(Resection, RequestsThatSayNothingAreRefused) {
   const Joint joint = hip_of(socket(16, 20), neck(6));
-  EXPECT_THROW(resect(joint, {}), UsageError);
-  EXPECT_THROW(resect(joint, reaching({target("flexion", 0)})), UsageError);
-  EXPECT_THROW(resect(joint, reaching({target("flexion", 181)})), UsageError);
-  ResectionRequest request = reaching({target("flexion", 70)});
+  EXPECT_THROW(plan::resect(joint, {}), UsageError);
+  EXPECT_THROW(plan::resect(joint, reaching({target("flexion", 0)})), UsageError);
+  EXPECT_THROW(plan::resect(joint, reaching({target("flexion", 181)})), UsageError);
+  plan::ResectionRequest request = reaching({target("flexion", 70)});
   request.mobile.vertices = {1, 0};
-  EXPECT_THROW(resect(joint, request), UsageError);
-  const auto motions = hip_motions();
+  EXPECT_THROW(plan::resect(joint, request), UsageError);
+  const auto motions = motion::hip_motions();
   // A neck without a head bears nowhere.
   request = reaching({target("flexion", 70)});
   request.mobile.within_mm = 5;
-  EXPECT_THROW(resect(joint, request), UsageError);
+  EXPECT_THROW(plan::resect(joint, request), UsageError);
   request = reaching({target("flexion", 70)});
   request.burr_mm = 0;
-  EXPECT_THROW(resect(joint, request), UsageError);
+  EXPECT_THROW(plan::resect(joint, request), UsageError);
   EXPECT_THROW(reach_targets(motions, "flexion"), UsageError);
   EXPECT_THROW(reach_targets(motions, "flexion=nan"), UsageError);
   // A name may be given in any letters.
-  EXPECT_THROW(resect(joint, reaching(reach_targets(motions, "flexion=70 Flexion=71"))), UsageError);
+  EXPECT_THROW(plan::resect(joint, reaching(reach_targets(motions, "flexion=70 Flexion=71"))), UsageError);
   EXPECT_THROW(reach_targets(motions, " "), UsageError);
   EXPECT_EQ(reach_targets(motions, "flexion=115, fadir=30").size(), 2u);
 }
 
 // The cartilage is the bearing surface; the bone is measured before and after.
 TEST(Resection, MeasuresAreThoseOfTheBoneUnderACartilage) {
-  HipParameters parameters;
+  sample::HipParameters parameters;
   parameters.alpha_angle = Angle::degrees(70);
-  auto [hip_bone, femur] = sample_hip(parameters, Scenario::one);
+  auto [hip_bone, femur] = sample::sample_hip(parameters, sample::Scenario::one);
   const TriMesh cartilage = ball_at(Vec3::Zero(), parameters.head_radius_mm + 1);
   const std::size_t vertices = femur.vertices.size(), triangles = femur.triangles.size();
   TriMesh both = femur;
@@ -540,15 +542,15 @@ TEST(Resection, MeasuresAreThoseOfTheBoneUnderACartilage) {
   joint.mobile.parts = {{"bone", 0, vertices, 0, triangles},
                         {"cartilage", vertices, cartilage.vertices.size(), triangles,
                          cartilage.triangles.size(), PartContact::bearing}};
-  const auto radius = [](const HipMeasures& shape) { return *shape.femur.head_radius.value; };
+  const auto radius = [](const measure::HipMeasures& shape) { return *shape.femur.head_radius.value; };
   const ResectionAnswer answer = answer_resection(
       joint, {}, {.resection = reaching({target("internal_rotation_at_90_flexion", 45)}), .curve_points = 0});
   ASSERT_TRUE(answer.resection.mobile);
   expect_reached(joint, answer.resection);
-  EXPECT_NEAR(find_bearing_surface(answer.resection.joint).surface->head.radius,
+  EXPECT_NEAR(motion::find_bearing_surface(answer.resection.joint).surface->head.radius,
               parameters.head_radius_mm + 1, 0.05);
-  EXPECT_NEAR(radius(*answer.shape_before), radius(measure_hip(joint)), 1e-9);
-  EXPECT_NEAR(radius(*answer.shape_after), radius(measure_hip(joint)), 1e-9);
+  EXPECT_NEAR(radius(*answer.shape_before), radius(measure::measure_hip(joint)), 1e-9);
+  EXPECT_NEAR(radius(*answer.shape_after), radius(measure::measure_hip(joint)), 1e-9);
 }
 
 // Nothing would be inside the one and nothing would be left of the other.
@@ -560,7 +562,7 @@ TEST(Resection, BodiesThatAreInsideOutAreRefused) {
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
     (inverted.*body).mesh = Mesh(std::move(mesh));
     try {
-      resect(inverted, reaching({target("flexion", 70)}));
+      plan::resect(inverted, reaching({target("flexion", 70)}));
       FAIL() << (joint.*body).name;
     } catch (const MeshError& error) {
       EXPECT_NE(std::string(error.what()).find("inverted orientation"), std::string::npos) << error.what();
@@ -577,7 +579,8 @@ TEST(Resection, TheVisibleHumansHipLosesLittleMoreThanTheLeast) {
   if (!hip) GTEST_SKIP() << "no real hip in CONDYLE_DATA";
   // Least volumes by voxels of 0.2 mm.
   for (const auto& [gain, least, deepest] : {GainCase{5, 34.8, 1.3}, {10, 150.1, 2.8}, {15, 352.6, 4.5}}) {
-    const Resection done = resect(*hip, reaching({target("internal_rotation_at_90_flexion", 32.686 + gain)}));
+    const plan::Resection done =
+        plan::resect(*hip, reaching({target("internal_rotation_at_90_flexion", 32.686 + gain)}));
     expect_reached(*hip, done);
     expect_sound(*done.mobile);
     EXPECT_LE(done.volume_mm3(), 1.01 * least);
@@ -585,34 +588,35 @@ TEST(Resection, TheVisibleHumansHipLosesLittleMoreThanTheLeast) {
     EXPECT_LE(done.mobile->deepest_mm, deepest);
   }
   // The same bone in its place is the same joint, also if a head was fitted to it by itself.
-  const Resection done = resect(*hip, reaching({target("internal_rotation_at_90_flexion", 42.686)}));
+  const plan::Resection done =
+      plan::resect(*hip, reaching({target("internal_rotation_at_90_flexion", 42.686)}));
   const Mesh& cut_femur = done.mobile->body.mesh;
   Joint anew = *hip;
   anew.mobile.mesh = cut_femur;
-  EXPECT_NE(find_bearing_surface(anew).surface->head.radius,
-            find_bearing_surface(done.joint).surface->head.radius);
-  const auto motions = hip_motions();
-  const auto placed = RangeOfMotion(with_mobile_mesh(*hip, cut_femur)).limits(motions),
-             planned = RangeOfMotion(done.joint).limits(motions);
+  EXPECT_NE(motion::find_bearing_surface(anew).surface->head.radius,
+            motion::find_bearing_surface(done.joint).surface->head.radius);
+  const auto motions = motion::hip_motions();
+  const auto placed = motion::RangeOfMotion(plan::with_mobile_mesh(*hip, cut_femur)).limits(motions),
+             planned = motion::RangeOfMotion(done.joint).limits(motions);
   for (std::size_t i = 0; i < motions.size(); ++i)
     EXPECT_EQ(placed[i].end.turned, planned[i].end.turned) << motions[i].name;
   // From the rim, and from both: what poses 0.2 degrees apart sweep over, in voxels of 0.25 mm.
   for (const auto& [share, of_rim] : {std::pair(1.0, 149.6), {0.5, 73.1}}) {
-    ResectionRequest request = reaching({target("internal_rotation_at_90_flexion", 42.686)});
+    plan::ResectionRequest request = reaching({target("internal_rotation_at_90_flexion", 42.686)});
     request.fixed_share = share;
-    const Resection rim = resect(*hip, request);
+    const plan::Resection rim = plan::resect(*hip, request);
     expect_reached(*hip, rim);
     expect_sound(*rim.fixed);
     EXPECT_NEAR(rim.fixed->volume_mm3 / of_rim, 1, 0.01);
   }
-  ResectionRequest burr = reaching({target("internal_rotation_at_90_flexion", 42.686)});
+  plan::ResectionRequest burr = reaching({target("internal_rotation_at_90_flexion", 42.686)});
   burr.burr_mm = 5.5;
-  const Resection made = resect(*hip, burr);
+  const plan::Resection made = plan::resect(*hip, burr);
   expect_reached(*hip, made);
   expect_sound(*made.mobile);
   EXPECT_LT(made.volume_mm3(), 1.15 * 150.1);
   EXPECT_LT(not_touched_mm(*made.mobile, 2.75, 0.2), 0.15 + made.mobile->burr_in_kept_mm);
-  const Resection flexion = resect(*hip, reaching({target("flexion", 140)}));
+  const plan::Resection flexion = plan::resect(*hip, reaching({target("flexion", 140)}));
   expect_reached(*hip, flexion);
   expect_sound(*flexion.mobile);
 }

@@ -33,7 +33,7 @@ PartParameter parameter(std::string name, ParameterKind kind, double low, double
 }
 
 /// A total hip whose cup and stem are parts, with or without bones.
-PlacedJoint replaced_hip(const TotalHip& hip, const ImplantMeshes& meshes, double cup_sigma = 0) {
+PlacedJoint replaced_hip(const plan::TotalHip& hip, const plan::ImplantMeshes& meshes, double cup_sigma = 0) {
   const bool has_bones = meshes.fixed.size() > 1;
   PosedPart cup{.name = "cup", .body = BodyRole::fixed, .definition = hip.cup.definition};
   PosedPart stem{.name = "stem", .body = BodyRole::mobile};
@@ -48,20 +48,20 @@ PlacedJoint replaced_hip(const TotalHip& hip, const ImplantMeshes& meshes, doubl
   description.parts = {{cup}, {stem}};
   PlacedJoint placed = make_joint(description, plan::joined_body("pelvis", meshes.fixed),
                                   plan::joined_body("femur", meshes.mobile));
-  placed.joint.implant = implant_in_joint(hip, placed.joint);
+  placed.joint.implant = plan::implant_in_joint(hip, placed.joint);
   return placed;
 }
 
-PlacedJoint implant_alone(const TotalHip& hip, double cup_sigma = 0) {
-  return replaced_hip(hip, implant_meshes(hip, Side::right), cup_sigma);
+PlacedJoint implant_alone(const plan::TotalHip& hip, double cup_sigma = 0) {
+  return replaced_hip(hip, plan::implant_meshes(hip, Side::right), cup_sigma);
 }
 
-SweepTarget turn_to(const std::string& motion, double reach_deg) {
-  return {motion, motion_named(hip_motions(), motion), Angle::degrees(reach_deg)};
+plan::SweepTarget turn_to(const std::string& motion, double reach_deg) {
+  return {motion, motion::motion_named(motion::hip_motions(), motion), Angle::degrees(reach_deg)};
 }
 
 /// The targets of the reference zones.
-std::vector<SweepTarget> seven_targets() {
+std::vector<plan::SweepTarget> seven_targets() {
   return {turn_to("flexion", 110),
           turn_to("extension", 30),
           turn_to("internal_rotation_at_90_flexion", 30),
@@ -91,19 +91,19 @@ const Zone zones[] = {
 
 TEST(SafeZone, HasTheAreaAndTheBorderOfTheClosedForm) {
   for (const Zone& zone : zones) {
-    TotalHip hip;
+    plan::TotalHip hip;
     hip.neck_shaft = Angle::degrees(zone.neck_shaft), hip.stem_version = Angle::degrees(zone.version);
     hip.head_radius_mm = zone.head, hip.neck_radius_mm = zone.neck;
     const PlacedJoint placed = implant_alone(hip);
     const SweepAnswer sweep =
         answer_sweep(placed.joint, placed.placement,
-                     {.parameters = parse_sweep("cup.inclination=30:55:1 cup.anteversion=-25:45:1"),
+                     {.parameters = plan::parse_sweep("cup.inclination=30:55:1 cup.anteversion=-25:45:1"),
                       .targets = seven_targets()});
     EXPECT_NEAR(sweep.safe_measure, zone.area, 0.01 * zone.area) << zone.neck_shaft << " " << zone.head;
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t line = 5 + 5 * i;
-      std::vector<SafeInterval> on_line;
-      for (const SafeInterval& each : sweep.safe)
+      std::vector<plan::SafeInterval> on_line;
+      for (const plan::SafeInterval& each : sweep.safe)
         if (each.line == line) on_line.push_back(each);
       ASSERT_EQ(on_line.size(), 1u);
       // Limits in closed form: only the linear end of the search is left, of a hundredth of a step.
@@ -118,11 +118,11 @@ TEST(SafeZone, CountsDesignsAsTheGridDoes) {
   const PlacedJoint placed = implant_alone({});
   const SweepAnswer sweep =
       answer_sweep(placed.joint, placed.placement,
-                   {.parameters = parse_sweep("cup.inclination=30:55:1 cup.anteversion=-25:45:1"),
+                   {.parameters = plan::parse_sweep("cup.inclination=30:55:1 cup.anteversion=-25:45:1"),
                     .targets = seven_targets()});
   std::size_t safe = 0, by_form = 0;
   for (const double margin : sweep.margin_deg) safe += margin >= 0;
-  for (const DesignLimit& limit : sweep.limits) by_form += limit.by == LimitKnownBy::closed_form;
+  for (const plan::DesignLimit& limit : sweep.limits) by_form += limit.by == plan::LimitKnownBy::closed_form;
   // The area of squares around safe designs differs from the zone's by less than half a square along its border.
   EXPECT_NEAR(static_cast<double>(safe), 658.125 + 0.5 * (27.4 + 21.2), 30);
   EXPECT_GT(by_form, sweep.limits.size() * 9 / 10);
@@ -131,24 +131,26 @@ TEST(SafeZone, CountsDesignsAsTheGridDoes) {
 }
 
 TEST(Sweep, SearchesMeshesWhereTheClosedFormIsNotUsedAndFindsTheSame) {
-  TotalHip hip;
+  plan::TotalHip hip;
   hip.facets = 120;
   const PlacedJoint placed = implant_alone(hip);
-  const std::vector<SweepTarget> targets = seven_targets();
+  const std::vector<plan::SweepTarget> targets = seven_targets();
   const std::vector<std::string> swept{"cup.inclination", "cup.anteversion", "stem.version"};
   const plan::DesignLimits fast(placed.joint, {}, targets, swept),
       slow(placed.joint, {}, targets, swept, false);
-  std::vector<DesignLimit> a(targets.size()), b(targets.size());
+  std::vector<plan::DesignLimit> a(targets.size()), b(targets.size());
   for (const auto& values : {std::vector<double>{40, 15, 15}, {33, -5, 10}, {50, 25, 0}, {45, 8, 22}}) {
     fast.limits(values, a), slow.limits(values, b);
     const RevolvedPair pair =
-        *closed_form(with_parameters(placed.joint, std::vector<ParameterValue>{{"cup.inclination", values[0]},
-                                                                               {"cup.anteversion", values[1]},
-                                                                               {"stem.version", values[2]}}))
+        *plan::closed_form(
+             with_parameters(placed.joint, std::vector<ParameterValue>{{"cup.inclination", values[0]},
+                                                                       {"cup.anteversion", values[1]},
+                                                                       {"stem.version", values[2]}}))
              .pair;
     for (std::size_t t = 0; t < targets.size(); ++t) {
-      const ClosedLimit closed = closed_limit(pair, placed.joint.coordinates(), targets[t].motion);
-      EXPECT_EQ(b[t].by, LimitKnownBy::meshes);
+      const plan::ClosedLimit closed =
+          plan::closed_limit(pair, placed.joint.coordinates(), targets[t].motion);
+      EXPECT_EQ(b[t].by, plan::LimitKnownBy::meshes);
       EXPECT_GE(b[t].turned_deg, closed.of_facets_low.degrees() - 1e-4);
       EXPECT_LE(b[t].turned_deg, closed.of_facets_high.degrees() + 1e-4);
       EXPECT_EQ(a[t].turned_deg >= targets[t].reach.degrees(), b[t].turned_deg >= targets[t].reach.degrees());
@@ -158,7 +160,7 @@ TEST(Sweep, SearchesMeshesWhereTheClosedFormIsNotUsedAndFindsTheSame) {
 
 /// A sample hip whose pelvis tilts and turns and whose femur turns and shifts.
 PlacedJoint hip_of_parts(Side side = Side::right) {
-  const SampleHip hip = sample_hip({}, Scenario::one);
+  const sample::SampleHip hip = sample::sample_hip({}, sample::Scenario::one);
   PosedPart pelvis{.name = "pelvis", .body = BodyRole::fixed};
   pelvis.parameters = {parameter("tilt", ParameterKind::tilt, -30, 30),
                        parameter("frontal", ParameterKind::frontal, -30, 30)};
@@ -168,7 +170,7 @@ PlacedJoint hip_of_parts(Side side = Side::right) {
   JointDescription description{.name = "hip", .side = side};
   description.frame.centre = Vec3(Vec3::Zero());
   description.parts = {{pelvis}, {femur}};
-  const SampleHip used = side == Side::left ? mirrored(hip) : hip;
+  const sample::SampleHip used = side == Side::left ? mirrored(hip) : hip;
   return make_joint(description, {"hip bone", used.hip_bone}, {"femur", used.femur});
 }
 
@@ -177,19 +179,20 @@ class DesignsOfAHip : public testing::TestWithParam<std::string> {};
 TEST_P(DesignsOfAHip, HaveTheLimitsOfJointsMadeAnew) {
   const Side side = GetParam().ends_with("left") ? Side::left : Side::right;
   const PlacedJoint placed = hip_of_parts(side);
-  std::vector<SweepTarget> targets;
-  for (const Motion& motion : hip_motions()) targets.push_back({motion.name, motion, Angle::degrees(10)});
+  std::vector<plan::SweepTarget> targets;
+  for (const motion::Motion& motion : motion::hip_motions())
+    targets.push_back({motion.name, motion, Angle::degrees(10)});
   // Which one changes fastest decides whose tables are kept.
   const std::vector<std::string> swept =
       GetParam().starts_with("pelvis last")
           ? std::vector<std::string>{"femur.version", "pelvis.tilt", "pelvis.frontal"}
           : std::vector<std::string>{"pelvis.tilt", "femur.height", "femur.version"};
-  RangeOptions options;
-  options.overlap.reference_contact = ReferenceContact::accept;
+  motion::RangeOptions options;
+  options.overlap.reference_contact = motion::ReferenceContact::accept;
   options.bearing.margin_mm = 1;  // as the joint given has it: each joint made anew would find its own
   const plan::DesignLimits limits(placed.joint, options, targets, swept);
   std::mt19937 random(7);
-  std::vector<DesignLimit> found(targets.size());
+  std::vector<plan::DesignLimit> found(targets.size());
   for (int design = 0; design < 6; ++design) {
     std::vector<double> values;
     std::vector<ParameterValue> named;
@@ -200,11 +203,11 @@ TEST_P(DesignsOfAHip, HaveTheLimitsOfJointsMadeAnew) {
     }
     limits.limits(values, found);
     const Joint joint = with_parameters(placed.joint, named);
-    RangeOptions anew = options;
-    anew.bearing.surface = find_bearing_surface(placed.joint, options.bearing).surface;
-    const RangeOfMotion range(joint, anew);
+    motion::RangeOptions anew = options;
+    anew.bearing.surface = motion::find_bearing_surface(placed.joint, options.bearing).surface;
+    const motion::RangeOfMotion range(joint, anew);
     for (std::size_t t = 0; t < targets.size(); ++t) {
-      const MotionLimit limit = range.limit(targets[t].motion);
+      const motion::MotionLimit limit = range.limit(targets[t].motion);
       EXPECT_NEAR(found[t].turned_deg, limit.end.turned.degrees(), 1e-9) << targets[t].name;
       EXPECT_EQ(found[t].reason, limit.end.reason) << targets[t].name;
     }
@@ -222,16 +225,16 @@ INSTANTIATE_TEST_SUITE_P(Orders, DesignsOfAHip,
                          });
 
 TEST(Sweep, OfBoneAndImplantTogetherEndsAtTheEarlierOfBoth) {
-  const TotalHip hip;
-  const ImplantMeshes all = *sample_replacement(hip, {}, Scenario::one, Side::right);
+  const plan::TotalHip hip;
+  const plan::ImplantMeshes all = *sample::sample_replacement(hip, {}, sample::Scenario::one, Side::right);
   const PlacedJoint both = replaced_hip(hip, all);
-  ImplantMeshes bones = all, implant = all;
+  plan::ImplantMeshes bones = all, implant = all;
   for (auto* body : {&bones.fixed, &bones.mobile})
-    std::erase_if(*body,
-                  [](const ImplantMesh& mesh) { return mesh.part != "hip_bone" && mesh.part != "femur"; });
+    std::erase_if(
+        *body, [](const plan::ImplantMesh& mesh) { return mesh.part != "hip_bone" && mesh.part != "femur"; });
   for (auto* body : {&implant.fixed, &implant.mobile})
-    std::erase_if(*body,
-                  [](const ImplantMesh& mesh) { return mesh.part == "hip_bone" || mesh.part == "femur"; });
+    std::erase_if(
+        *body, [](const plan::ImplantMesh& mesh) { return mesh.part == "hip_bone" || mesh.part == "femur"; });
   JointDescription description{.name = "bones"};
   description.frame.centre = Vec3(Vec3::Zero());
   const Joint bone = make_joint(description, plan::joined_body("pelvis", bones.fixed),
@@ -239,32 +242,34 @@ TEST(Sweep, OfBoneAndImplantTogetherEndsAtTheEarlierOfBoth) {
                          .joint;
   const PlacedJoint alone = implant_alone(hip);
   const std::vector<std::string> swept{"cup.inclination", "cup.anteversion"};
-  std::vector<SweepTarget> targets;
-  for (const Motion& motion : hip_motions()) targets.push_back({motion.name, motion, Angle::degrees(10)});
-  RangeOptions every_contact;
-  every_contact.bearing.rule = BearingRule::count;
+  std::vector<plan::SweepTarget> targets;
+  for (const motion::Motion& motion : motion::hip_motions())
+    targets.push_back({motion.name, motion, Angle::degrees(10)});
+  motion::RangeOptions every_contact;
+  every_contact.bearing.rule = motion::BearingRule::count;
   const plan::DesignLimits limits(both.joint, every_contact, targets, swept);
-  const RangeOfMotion of_bone(bone, every_contact);
-  std::vector<DesignLimit> found(targets.size());
+  const motion::RangeOfMotion of_bone(bone, every_contact);
+  std::vector<plan::DesignLimit> found(targets.size());
   std::size_t by_bone = 0, by_implant = 0;
   for (const auto& values : {std::vector<double>{40, 15}, {35, 0}, {50, 25}}) {
     limits.limits(values, found);
     const Joint turned = with_parameters(
         alone.joint,
         std::vector<ParameterValue>{{"cup.inclination", values[0]}, {"cup.anteversion", values[1]}});
-    const RangeOfMotion of_implant(turned, every_contact);
+    const motion::RangeOfMotion of_implant(turned, every_contact);
     for (std::size_t t = 0; t < targets.size(); ++t) {
-      const Limit a = of_bone.limit(targets[t].motion).end, b = of_implant.limit(targets[t].motion).end;
-      const bool bone_first = a.reason != LimitReason::end_of_range &&
-                              (b.reason == LimitReason::end_of_range || a.turned < b.turned);
-      const Limit& first = bone_first ? a : b;
+      const motion::Limit a = of_bone.limit(targets[t].motion).end,
+                          b = of_implant.limit(targets[t].motion).end;
+      const bool bone_first = a.reason != motion::LimitReason::end_of_range &&
+                              (b.reason == motion::LimitReason::end_of_range || a.turned < b.turned);
+      const motion::Limit& first = bone_first ? a : b;
       // Meshes of 360 facets lie within 0.0013 degrees of the closed form that stands for them here.
       EXPECT_NEAR(found[t].turned_deg, first.turned.degrees(), bone_first ? 1e-9 : 2e-3) << targets[t].name;
-      if (first.reason == LimitReason::end_of_range) continue;
+      if (first.reason == motion::LimitReason::end_of_range) continue;
       ASSERT_LT(found[t].pair, limits.pairs().size());
-      const EndingPair& pair = limits.pairs()[found[t].pair];
+      const plan::EndingPair& pair = limits.pairs()[found[t].pair];
       const bool is_of_bones = pair.fixed == "hip_bone" && pair.mobile == "femur";
-      EXPECT_EQ(is_of_bones, bone_first && found[t].by == LimitKnownBy::meshes) << targets[t].name;
+      EXPECT_EQ(is_of_bones, bone_first && found[t].by == plan::LimitKnownBy::meshes) << targets[t].name;
       (bone_first ? by_bone : by_implant) += 1;
     }
   }
@@ -274,27 +279,27 @@ TEST(Sweep, OfBoneAndImplantTogetherEndsAtTheEarlierOfBoth) {
 
 TEST(Sweep, TiltsThePelvisByTurningItBackInFlexion) {
   const PlacedJoint placed = hip_of_parts();
-  SweepTarget standing = turn_to("flexion", 20), at_90 = turn_to("internal_rotation_at_90_flexion", 10);
+  plan::SweepTarget standing = turn_to("flexion", 20), at_90 = turn_to("internal_rotation_at_90_flexion", 10);
   standing.pelvic_tilt = at_90.pelvic_tilt = Angle::degrees(7);
-  const std::vector<SweepTarget> tilted{standing, at_90};
-  RangeOptions options;
-  options.overlap.reference_contact = ReferenceContact::accept;
-  options.bearing.rule = BearingRule::count;
+  const std::vector<plan::SweepTarget> tilted{standing, at_90};
+  motion::RangeOptions options;
+  options.overlap.reference_contact = motion::ReferenceContact::accept;
+  options.bearing.rule = motion::BearingRule::count;
   const std::vector<std::string> swept{"femur.version"};
   const plan::DesignLimits limits(placed.joint, options, tilted, swept);
-  std::vector<DesignLimit> found(2);
+  std::vector<plan::DesignLimit> found(2);
   limits.limits(std::vector<double>{0}, found);
   const Joint by_hand = with_parameters(placed.joint, std::vector<ParameterValue>{{"pelvis.tilt", 7}});
-  const RangeOfMotion range(by_hand, options);
+  const motion::RangeOfMotion range(by_hand, options);
   for (std::size_t t = 0; t < 2; ++t)
     EXPECT_NEAR(found[t].turned_deg, range.limit(tilted[t].motion).end.turned.degrees(), 1e-9);
 }
 
 TEST(Sweep, OfSharesIsThatOfTheWhole) {
   const PlacedJoint placed = implant_alone({}, 4);
-  SweepQuery query{.parameters = parse_sweep("cup.inclination=30:50:4 cup.anteversion=-20:40:5"),
+  SweepQuery query{.parameters = plan::parse_sweep("cup.inclination=30:50:4 cup.anteversion=-20:40:5"),
                    .targets = seven_targets(),
-                   .bands = BandOptions{.samples = 40}};
+                   .bands = motion::BandOptions{.samples = 40}};
   const SweepAnswer whole = answer_sweep(placed.joint, placed.placement, query);
   std::vector<SweepAnswer> shares;
   for (std::size_t number = 1; number <= 4; ++number) {
@@ -325,9 +330,9 @@ TEST(Sweep, GivesTheProbabilityOfANormalDistributionOverTheSafeInterval) {
   constexpr std::size_t samples = 400;
   const SweepAnswer sweep =
       answer_sweep(placed.joint, placed.placement,
-                   {.parameters = parse_sweep("cup.inclination=40:40:1 cup.anteversion=-10:45:5"),
+                   {.parameters = plan::parse_sweep("cup.inclination=40:40:1 cup.anteversion=-10:45:5"),
                     .targets = seven_targets(),
-                    .bands = BandOptions{.samples = samples}});
+                    .bands = motion::BandOptions{.samples = samples}});
   ASSERT_EQ(sweep.safe.size(), 1u);
   const auto below = [](double z) { return 0.5 * std::erfc(-z / std::sqrt(2)); };
   for (std::size_t i = 0; i < sweep.designs(); ++i) {
@@ -343,44 +348,45 @@ TEST(Sweep, SaysWhichDesignsAreInContactInTheReferencePose) {
   // At an inclination of 0 the opening points down and the neck, 45 degrees up from it and more, is inside the liner's angle no longer.
   const SweepAnswer sweep =
       answer_sweep(placed.joint, placed.placement,
-                   {.parameters = parse_sweep("cup.inclination=40:40:1 cup.anteversion=-60:75:5"),
+                   {.parameters = plan::parse_sweep("cup.inclination=40:40:1 cup.anteversion=-60:75:5"),
                     .targets = {turn_to("flexion", 20)}});
   for (std::size_t i = 0; i < sweep.designs(); ++i) {
     const Joint turned = with_parameters(
         placed.joint, std::vector<ParameterValue>{{"cup.anteversion", sweep.values_of(i)[1]}});
-    const RevolvedPair pair = *closed_form(turned).pair;
+    const RevolvedPair pair = *plan::closed_form(turned).pair;
     const bool apart = pair.fixed_axis.dot(pair.mobile_axis) < std::cos(pair.half_angle.radians());
     EXPECT_EQ(std::isnan(sweep.margin_deg[i]), apart) << sweep.values_of(i)[1];
   }
 }
 
 TEST(Sweep, NotesAnImplantWhoseMeshesAreNotThoseOfItsSizes) {
-  const TotalHip made;
+  const plan::TotalHip made;
   PlacedJoint placed = implant_alone(made);
-  TotalHip said = made;
+  plan::TotalHip said = made;
   said.neck_radius_mm = 7;
-  placed.joint.implant = implant_in_joint(said, placed.joint);
-  const SweepQuery query{.parameters = parse_sweep("cup.anteversion=10:20:10"),
+  placed.joint.implant = plan::implant_in_joint(said, placed.joint);
+  const SweepQuery query{.parameters = plan::parse_sweep("cup.anteversion=10:20:10"),
                          .targets = {turn_to("flexion", 110)}};
   const SweepAnswer sweep = answer_sweep(placed.joint, placed.placement, query);
   ASSERT_FALSE(sweep.notes.empty());
   EXPECT_EQ(sweep.notes[0].code, SweepNoteCode::differs_from_closed_form);
-  for (const DesignLimit& limit : sweep.limits) EXPECT_EQ(limit.by, LimitKnownBy::meshes);
-  const RangeAnswer range = answer_range(placed.joint, placed.placement, {.motions = hip_motions()});
+  for (const plan::DesignLimit& limit : sweep.limits) EXPECT_EQ(limit.by, plan::LimitKnownBy::meshes);
+  const RangeAnswer range = answer_range(placed.joint, placed.placement, {.motions = motion::hip_motions()});
   EXPECT_TRUE(std::any_of(range.notes.begin(), range.notes.end(), [](const RangeNote& note) {
     return note.code == RangeNoteCode::differs_from_closed_form;
   }));
 }
 
 TEST(Sweep, NotesThatAlsoWhereBoneEndsTheMotionsBefore) {
-  const TotalHip made;
-  PlacedJoint placed = replaced_hip(made, *sample_replacement(made, {}, Scenario::one, Side::right));
-  TotalHip said = made;
+  const plan::TotalHip made;
+  PlacedJoint placed =
+      replaced_hip(made, *sample::sample_replacement(made, {}, sample::Scenario::one, Side::right));
+  plan::TotalHip said = made;
   said.neck_radius_mm = 7;
-  placed.joint.implant = implant_in_joint(said, placed.joint);
+  placed.joint.implant = plan::implant_in_joint(said, placed.joint);
   const SweepAnswer sweep = answer_sweep(
       placed.joint, placed.placement,
-      {.parameters = parse_sweep("cup.anteversion=10:20:10"), .targets = {turn_to("adduction", 20)}});
+      {.parameters = plan::parse_sweep("cup.anteversion=10:20:10"), .targets = {turn_to("adduction", 20)}});
   ASSERT_LT(sweep.limits_here[0].turned_deg, 40);  // femur on hip bone; the neck would meet the liner at 67.6
   ASSERT_FALSE(sweep.notes.empty());
   EXPECT_EQ(sweep.notes[0].code, SweepNoteCode::differs_from_closed_form);
@@ -393,13 +399,14 @@ TEST(ClosedForm, StandsBesideTheLimitsOfMeshesAndAgrees) {
         placed.joint,
         std::vector<ParameterValue>{{"cup.inclination", 47}, {"cup.anteversion", 8}, {"stem.version", stem}});
     // The same implant made of its sizes: its cup and neck are where the parts have turned them.
-    TotalHip made;
+    plan::TotalHip made;
     made.cup = {Angle::degrees(47), Angle::degrees(8)};
     made.stem_version = Angle::degrees(stem);
-    const RevolvedPair turned = *closed_form(joint).pair, pair = *revolved_pair(made, Side::right);
+    const RevolvedPair turned = *plan::closed_form(joint).pair,
+                       pair = *plan::revolved_pair(made, Side::right);
     EXPECT_LT((turned.fixed_axis - pair.fixed_axis).norm(), 1e-14);
     EXPECT_LT((turned.mobile_axis - pair.mobile_axis).norm(), 1e-14);
-    const RangeAnswer range = answer_range(joint, placed.placement, {.motions = hip_motions()});
+    const RangeAnswer range = answer_range(joint, placed.placement, {.motions = motion::hip_motions()});
     ASSERT_EQ(range.closed.size(), range.limits.size());
     EXPECT_TRUE(std::none_of(range.notes.begin(), range.notes.end(), [](const RangeNote& note) {
       return note.code == RangeNoteCode::differs_from_closed_form;
@@ -415,19 +422,19 @@ TEST(ClosedForm, IsNoneOfAnImplantThatIsShifted) {
   PlacedJoint placed = implant_alone({});
   PosedPart& cup = placed.joint.posed->parts[0];
   cup.parameters.push_back(parameter("height", ParameterKind::translation, -5, 5));
-  EXPECT_TRUE(closed_form(placed.joint).pair);
+  EXPECT_TRUE(plan::closed_form(placed.joint).pair);
   const Joint shifted = with_parameters(placed.joint, std::vector<ParameterValue>{{"cup.height", 2}});
-  EXPECT_FALSE(closed_form(shifted).pair);
-  EXPECT_NE(closed_form(shifted).why_none.find("shifts"), std::string::npos);
+  EXPECT_FALSE(plan::closed_form(shifted).pair);
+  EXPECT_NE(plan::closed_form(shifted).why_none.find("shifts"), std::string::npos);
 }
 
 TEST(CupAngles, OfAPartAreThoseOfTheCupThatIsMadeWithThem) {
   for (const CupDefinition definition : all_cup_definitions)
     for (const Side side : {Side::right, Side::left}) {
-      TotalHip given, wanted;
+      plan::TotalHip given, wanted;
       given.cup = {Angle::degrees(41), Angle::degrees(12), definition};
       wanted.cup = {Angle::degrees(33), Angle::degrees(-7), definition};
-      const ImplantMeshes meshes = implant_meshes(given, side);
+      const plan::ImplantMeshes meshes = plan::implant_meshes(given, side);
       PosedPart cup{.name = "cup", .body = BodyRole::fixed, .definition = definition};
       cup.parameters = {parameter("inclination", ParameterKind::cup_inclination, 0, 90, 41),
                         parameter("anteversion", ParameterKind::cup_anteversion, -60, 75, 12)};
@@ -436,31 +443,31 @@ TEST(CupAngles, OfAPartAreThoseOfTheCupThatIsMadeWithThem) {
       description.parts = {{cup}};
       PlacedJoint placed = make_joint(description, plan::joined_body("pelvis", meshes.fixed),
                                       plan::joined_body("femur", meshes.mobile));
-      placed.joint.implant = implant_in_joint(given, placed.joint);
+      placed.joint.implant = plan::implant_in_joint(given, placed.joint);
       const Joint turned = with_parameters(
           placed.joint, std::vector<ParameterValue>{{"cup.inclination", 33}, {"cup.anteversion", -7}});
-      const CupAngles angles = *cup_angles(turned, definition);
+      const plan::CupAngles angles = *plan::cup_angles(turned, definition);
       EXPECT_NEAR(angles.inclination.degrees(), 33, 1e-12);
       EXPECT_NEAR(angles.anteversion.degrees(), -7, 1e-12);
       // The axis of the turned mesh itself: the mean of its vertices lies on it.
       Vec3 mean = Vec3::Zero();
       const PointsView vertices = turned.fixed.mesh.vertices().view();
       for (std::size_t v = 0; v < vertices.size(); ++v) mean += vertices[v];
-      EXPECT_GT(-mean.normalized().dot(cup_axis(wanted.cup, side)), 1 - 1e-9);
+      EXPECT_GT(-mean.normalized().dot(plan::cup_axis(wanted.cup, side)), 1 - 1e-9);
     }
 }
 
 TEST(Sweep, RefusesWhatItCannotAnswerInOneLine) {
   const PlacedJoint placed = implant_alone({});
-  const auto line = [&](const std::string& vary, std::vector<SweepTarget> targets) {
+  const auto line = [&](const std::string& vary, std::vector<plan::SweepTarget> targets) {
     try {
-      check_sweep(placed.joint, {.parameters = parse_sweep(vary), .targets = std::move(targets)});
+      check_sweep(placed.joint, {.parameters = plan::parse_sweep(vary), .targets = std::move(targets)});
     } catch (const UsageError& error) {
       return std::string(error.what());
     }
     return std::string("accepted");
   };
-  const std::vector<SweepTarget> one{turn_to("flexion", 90)};
+  const std::vector<plan::SweepTarget> one{turn_to("flexion", 90)};
   EXPECT_EQ(line("cup.inclination=30:50:1", one), "accepted");
   EXPECT_EQ(line("cup.inclinaton=30:50:1", one),
             "there is no parameter \"cup.inclinaton\" (did you mean \"cup.inclination\"?); there are "
@@ -484,11 +491,11 @@ TEST(Sweep, RefusesWhatItCannotAnswerInOneLine) {
 
 TEST(Sweep, SaysWhereItsZoneEnds) {
   const PlacedJoint placed = implant_alone({});
-  const auto codes = [&](const std::string& vary, std::vector<SweepTarget> targets) {
+  const auto codes = [&](const std::string& vary, std::vector<plan::SweepTarget> targets) {
     std::string text;
     for (const SweepNote& note :
          answer_sweep(placed.joint, placed.placement,
-                      {.parameters = parse_sweep(vary), .targets = std::move(targets)})
+                      {.parameters = plan::parse_sweep(vary), .targets = std::move(targets)})
              .notes)
       text += std::string(name_of(note.code)) + " ";
     return text;

@@ -33,13 +33,13 @@ class Answers {
     numbers_.push_back(static_cast<double>(std::size(values)));
     for (const auto& value : values) numbers_.push_back(static_cast<double>(value));
   }
-  void add(const Penetrations& found) {
+  void add(const radial::Penetrations& found) {
     add(found.point);
     add(found.depth_mm);
   }
-  void add(const SurfaceContact& found) {
+  void add(const contact::SurfaceContact& found) {
     std::vector<double> values;
-    for (const FaceContact& face : found.faces) {
+    for (const contact::FaceContact& face : found.faces) {
       values.push_back(face.face);
       values.push_back(face.area_mm2);
       values.push_back(face.max_depth_mm);
@@ -69,11 +69,11 @@ std::vector<Pose> poses_in(const char* path) {
 }
 
 void answer(const char* joint_file, const char* poses_file, const char* answers_file) {
-  const LoadedJoint loaded = read_joint(joint_file);
-  const JointContact joint(loaded.joint);
-  const NormalDepth from_mobile(joint.mobile(), joint.fixed());
+  const io::LoadedJoint loaded = io::read_joint(joint_file);
+  const contact::JointContact joint(loaded.joint);
+  const contact::NormalDepth from_mobile(joint.mobile(), joint.fixed());
   Answers answers;
-  Penetrations inside;
+  radial::Penetrations inside;
   const std::vector<Pose> poses = poses_in(poses_file);
   for (std::size_t n = 0; n < poses.size(); ++n) {
     const Pose& X_FM = poses[n];
@@ -85,11 +85,11 @@ void answer(const char* joint_file, const char* poses_file, const char* answers_
     for (const auto& [fixed, mobile] : joint.pairs(X_FM)) pairs.insert(pairs.end(), {fixed, mobile});
     answers.add(pairs);
     if (n % 10 != 0) continue;
-    const RadialContact radial = joint.radial(X_FM);
+    const contact::RadialContact radial = joint.radial(X_FM);
     answers.add(radial.mobile_in_fixed->radial_gap_mm);
     answers.add(radial.fixed_in_mobile->radial_gap_mm);
     const CoordinateSystem system = loaded.joint.coordinates();
-    const TangentialContact turned =
+    const contact::TangentialContact turned =
         joint.tangential(X_FM, axis_of(JointAngle::flexion, system, angles_at(system, X_FM)));
     answers.add(turned.mobile_in_fixed->arc_gap_mm);
     answers.add(turned.fixed_in_mobile->arc_gap_mm);
@@ -112,10 +112,10 @@ double median_seconds(int repetitions, const Act& act) {
 
 /// As bench/python_overhead.py measures them in Python.
 void print_times(const char* joint_file, const char* poses_file) {
-  const LoadedJoint loaded = read_joint(joint_file);
-  const JointContact joint(loaded.joint);
+  const io::LoadedJoint loaded = io::read_joint(joint_file);
+  const contact::JointContact joint(loaded.joint);
   const std::vector<Pose> poses = poses_in(poses_file);
-  Penetrations inside;
+  radial::Penetrations inside;
   const auto ask = [&](const Pose& X_FM) {
     joint.mobile_in_fixed(X_FM, inside);
     joint.fixed_in_mobile(X_FM, inside);
@@ -124,7 +124,7 @@ void print_times(const char* joint_file, const char* poses_file) {
   const double all = median_seconds(15, [&] {
     for (const Pose& X_FM : poses) ask(X_FM);
   });
-  std::vector<Penetrations> mobile(poses.size()), fixed(poses.size());
+  std::vector<radial::Penetrations> mobile(poses.size()), fixed(poses.size());
   const double kept = median_seconds(15, [&] {
     for (std::size_t n = 0; n < poses.size(); ++n) {
       joint.mobile_in_fixed(poses[n], mobile[n]);

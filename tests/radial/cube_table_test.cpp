@@ -13,7 +13,7 @@
 #include "support/parameter_names.hpp"
 #include "support/test_meshes.hpp"
 
-namespace condyle {
+namespace condyle::radial {
 namespace {
 
 /// Triangles of every size and place: small and large against a cell, over edges and corners of the cube,
@@ -61,10 +61,10 @@ INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, CubeTableOn, testing::ValuesIn(sim
 
 /// A table with its radii.
 struct WithRadii {
-  radial::CubeTable table;
-  radial::CellRadii radii;
+  CubeTable table;
+  CellRadii radii;
 
-  WithRadii(const TriMesh& mesh, const radial::CubeMap& map) {
+  WithRadii(const TriMesh& mesh, const CubeMap& map) {
     radial::build(mesh, map, table);
     radial::find_radii(map, table, radii);
   }
@@ -72,10 +72,10 @@ struct WithRadii {
 
 /// Points of every triangle, and directions next to theirs as near as floats may bring them, find it once in
 /// their cell, in its 8-DOP and between the cell's radii.
-void expect_points_find_their_triangles(const TriMesh& mesh, const radial::CubeMap& map,
-                                        const WithRadii& built, int points_per_triangle) {
-  const radial::CellEntries& entries = built.table.entries;
-  const radial::IntervalScale& scale = built.table.forms.scale;
+void expect_points_find_their_triangles(const TriMesh& mesh, const CubeMap& map, const WithRadii& built,
+                                        int points_per_triangle) {
+  const CellEntries& entries = built.table.entries;
+  const IntervalScale& scale = built.table.forms.scale;
   std::mt19937 random(1);
   for (Index t = 0; t < mesh.triangles.size(); ++t) {
     for (int k = 0; k < points_per_triangle; ++k) {
@@ -106,7 +106,7 @@ TEST_P(CubeTableOn, EveryPointOfATriangleFindsItInItsCellDopAndRadii) {
   for (const double largest : {0.1, 1.0, 3.0}) {
     const TriMesh mesh = triangle_soup(400, largest, 2);
     for (const int cells : {1, 5, 16, 64}) {
-      const radial::CubeMap map(cells);
+      const CubeMap map(cells);
       expect_points_find_their_triangles(mesh, map, WithRadii(mesh, map), 20);
     }
   }
@@ -115,11 +115,11 @@ TEST_P(CubeTableOn, EveryPointOfATriangleFindsItInItsCellDopAndRadii) {
 TEST_P(CubeTableOn, CellsThatClippingFindsHaveTheTriangle) {
   const TriMesh mesh = triangle_soup(400, 1, 7);
   for (const int cells : {5, 16, 64}) {
-    const radial::CubeMap map(cells);
+    const CubeMap map(cells);
     const WithRadii built(mesh, map);
     for (Index t = 0; t < mesh.triangles.size(); ++t) {
       map.visit_cells({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)},
-                      [&](const radial::CellOverlap& overlap) {
+                      [&](const CellOverlap& overlap) {
                         const auto of_cell = built.table.entries.of(overlap.cell);
                         EXPECT_EQ(std::count(of_cell.begin(), of_cell.end(), t), 1) << "triangle " << t;
                       });
@@ -137,7 +137,7 @@ void jiggle(TriMesh& mesh, double size, std::mt19937& random) {
 TEST_P(CubeTableOn, EveryPointFindsItsTriangleAfterAllVerticesMoved) {
   std::mt19937 random(11);
   for (const int cells : {5, 16, 64}) {
-    const radial::CubeMap map(cells);
+    const CubeMap map(cells);
     TriMesh mesh = triangle_soup(300, 0.3, 8);
     WithRadii built(mesh, map);
     // Little, so that rows stay; now and then more than slack or a cell holds.
@@ -154,7 +154,7 @@ TEST_P(CubeTableOn, EveryPointFindsItsTriangleAfterAllVerticesMoved) {
 TEST_P(CubeTableOn, EveryPointFindsItsTriangleAfterSomeVerticesMoved) {
   std::mt19937 random(12);
   for (const int cells : {5, 16, 64}) {
-    const radial::CubeMap map(cells);
+    const CubeMap map(cells);
     TriMesh mesh = triangle_soup(300, 0.3, 9);
     WithRadii built(mesh, map);
     radial::init_slack(mesh, built.table);
@@ -172,9 +172,8 @@ TEST_P(CubeTableOn, EveryPointFindsItsTriangleAfterSomeVerticesMoved) {
         }
       }
       radial::init_slack(mesh, built.table);
-      const std::vector<radial::PackedInterval> before = built.radii.of_cell;
-      radial::ChangedRadii changed =
-          radial::follow_vertices(mesh, map, moved, triangles, built.table, &built.radii);
+      const std::vector<PackedInterval> before = built.radii.of_cell;
+      ChangedRadii changed = radial::follow_vertices(mesh, map, moved, triangles, built.table, &built.radii);
       expect_points_find_their_triangles(mesh, map, built, 10);
       // Radii of the cells touched, and of the entries there, are those found anew for all.
       if (!changed.may_be_all) {
@@ -184,10 +183,10 @@ TEST_P(CubeTableOn, EveryPointFindsItsTriangleAfterSomeVerticesMoved) {
         std::sort(changed.cells.begin(), changed.cells.end());
         EXPECT_EQ(changed.cells, others);
       }
-      radial::CellRadii again = built.radii;
+      CellRadii again = built.radii;
       radial::find_radii(map, built.table, again);
       EXPECT_EQ(again.of_cell, built.radii.of_cell);
-      for (const radial::CellRow& row : built.table.entries.row) {
+      for (const CellRow& row : built.table.entries.row) {
         for (std::uint32_t i = row.first; i < row.last; ++i) {
           ASSERT_EQ(again.of_entry[i], built.radii.of_entry[i]);
           ASSERT_EQ(again.nearest[i], built.radii.nearest[i]);
@@ -200,7 +199,7 @@ TEST_P(CubeTableOn, EveryPointFindsItsTriangleAfterSomeVerticesMoved) {
 TEST(CubeTable, TrianglesWhoseVerticesGoToAndFroAreBinnedOnce) {
   // Over edges of the cube too: a sphere about the centre.
   TriMesh mesh = test::sphere({0.1, 0, 0}, 20, 5);
-  const radial::CubeMap map(16);
+  const CubeMap map(16);
   WithRadii built(mesh, map);
   std::mt19937 random(13);
   TriMesh there = mesh;
@@ -221,11 +220,11 @@ TEST(CubeTable, TrianglesWhoseVerticesGoToAndFroAreBinnedOnce) {
 
 TEST_P(CubeTableOn, EdgeFunctionsThatAreNumbersSayOnWhichSideOfEdgesAndPlaneAPointIs) {
   const TriMesh mesh = triangle_soup(400, 1, 3);
-  const WithRadii built(mesh, radial::CubeMap(16));
+  const WithRadii built(mesh, CubeMap(16));
   std::mt19937 random(4);
   std::size_t numbers = 0;
   for (Index t = 0; t < mesh.triangles.size(); ++t) {
-    const radial::EdgeFunctions& forms = built.table.forms.edge_functions[t];
+    const EdgeFunctions& forms = built.table.forms.edge_functions[t];
     if (std::isnan(forms.x[0])) continue;
     ++numbers;
     const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
@@ -245,7 +244,7 @@ TEST_P(CubeTableOn, EdgeFunctionsThatAreNumbersSayOnWhichSideOfEdgesAndPlaneAPoi
 }
 
 TEST(IntervalScale, CodesRiseWithTheRadiusAndHoldIt) {
-  const radial::IntervalScale scale(3.0f, 5000.0f);
+  const IntervalScale scale(3.0f, 5000.0f);
   int last = 0;
   for (float squared = 0.5f; squared < 2e4f; squared *= 1.0001f) {
     const int code = scale.code(squared);
@@ -260,7 +259,7 @@ TEST(IntervalScale, CodesRiseWithTheRadiusAndHoldIt) {
 }
 
 TEST(IntervalScale, AnEmptyIntervalAddsNothingAndMeetsNothing) {
-  const radial::PackedInterval word = radial::packed_interval(7, 9);
+  const PackedInterval word = radial::packed_interval(7, 9);
   EXPECT_EQ(simd::hull(word, radial::no_radii), word);
   EXPECT_EQ(simd::hull(radial::packed_interval(3, 5), radial::packed_interval(4, 8)),
             radial::packed_interval(3, 8));
@@ -281,29 +280,29 @@ TEST_P(CubeTableOn, AnEntryOfThePyramidHoldsAllDirectionsDisplacedByNoMoreThanIt
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (const int cells : {1, 3, 4, 12, 24, 32}) {
-    const radial::CubeMap map(cells);
-    std::vector<radial::PackedInterval> radii(map.cell_count());
+    const CubeMap map(cells);
+    std::vector<PackedInterval> radii(map.cell_count());
     for (auto& word : radii)
       word =
           radial::packed_interval(static_cast<int>(random() % 100), static_cast<int>(100 + random() % 100));
-    radial::DirectionPyramid pyramid;
+    DirectionPyramid pyramid;
     pyramid.fill(cells, radii);
     for (int k = 0; k < 100000; ++k) {
       const int level =
-          static_cast<int>(random() % static_cast<unsigned>(radial::DirectionPyramid::level_count(cells)));
-      const int n = cells >> radial::DirectionPyramid::halvings_of(level);
+          static_cast<int>(random() % static_cast<unsigned>(DirectionPyramid::level_count(cells)));
+      const int n = cells >> DirectionPyramid::halvings_of(level);
       const Place at = place_of({uniform(random), uniform(random), uniform(random)});
       const auto index = [&](double s) { return std::clamp(static_cast<int>((s + 1) * n / 2), 0, n - 1); };
-      const std::size_t start = radial::DirectionPyramid::start_of(level, cells);
-      const radial::PackedInterval entry =
+      const std::size_t start = DirectionPyramid::start_of(level, cells);
+      const PackedInterval entry =
           pyramid.data()[start + static_cast<std::size_t>((at.face * n + index(at.w)) * n + index(at.u))];
       // A direction displaced on the plane of the face, past its edges too.
-      const double width = radial::DirectionPyramid::dilation_of(level) * 2.0 / n;
+      const double width = DirectionPyramid::dilation_of(level) * 2.0 / n;
       Vec3 displaced;
       displaced[at.face % 3] = at.face < 3 ? 1 : -1;
       displaced[(at.face + 1) % 3] = at.u + width * uniform(random);
       displaced[(at.face + 2) % 3] = at.w + width * uniform(random);
-      const radial::PackedInterval word = radii[map.cell_of(displaced)];
+      const PackedInterval word = radii[map.cell_of(displaced)];
       ASSERT_EQ(simd::hull(entry, word), entry);
     }
   }
@@ -350,22 +349,21 @@ bool reaches(const Tile& from, const Tile& to, int n, int dilation) {
 TEST_P(CubeTableOn, AnEntryOfThePyramidIsTheHullOfTheTilesThatItsDilationReaches) {
   std::mt19937 random(8);
   for (const int cells : {1, 2, 3, 5, 8, 12, 20}) {
-    std::vector<radial::PackedInterval> radii(6 * static_cast<std::size_t>(cells * cells));
+    std::vector<PackedInterval> radii(6 * static_cast<std::size_t>(cells * cells));
     for (auto& word : radii)
       word = radial::packed_interval(static_cast<int>(random() % 1000),
                                      static_cast<int>(1000 + random() % 1000));
-    radial::DirectionPyramid pyramid;
+    DirectionPyramid pyramid;
     pyramid.fill(cells, radii);
     for (const int level : {0, 1, 2}) {
       const std::vector<Tile> tiles = tiles_of(cells);
       for (std::size_t i = 0; i < tiles.size(); ++i) {
-        radial::PackedInterval all = radial::no_radii;
+        PackedInterval all = radial::no_radii;
         for (std::size_t k = 0; k < tiles.size(); ++k) {
-          if (reaches(tiles[i], tiles[k], cells, radial::DirectionPyramid::dilation_of(level)))
+          if (reaches(tiles[i], tiles[k], cells, DirectionPyramid::dilation_of(level)))
             all = simd::hull(all, radii[k]);
         }
-        ASSERT_EQ(pyramid.data()[radial::DirectionPyramid::start_of(level, cells) + i], all)
-            << cells << " " << level;
+        ASSERT_EQ(pyramid.data()[DirectionPyramid::start_of(level, cells) + i], all) << cells << " " << level;
       }
     }
   }
@@ -378,9 +376,9 @@ TEST_P(CubeTableOn, APyramidOfWhichSomeCellsHaveChangedIsThatOfAllCells) {
                                    static_cast<int>(1000 + random() % 1000));
   };
   for (const int cells : {1, 3, 5, 8, 16, 24, 40}) {
-    std::vector<radial::PackedInterval> radii(6 * static_cast<std::size_t>(cells * cells));
+    std::vector<PackedInterval> radii(6 * static_cast<std::size_t>(cells * cells));
     for (auto& word : radii) word = any_radii();
-    radial::DirectionPyramid followed;
+    DirectionPyramid followed;
     followed.fill(cells, radii);
     for (int round = 0; round < 40; ++round) {
       std::vector<Index> changed(1 + random() % 3);
@@ -389,7 +387,7 @@ TEST_P(CubeTableOn, APyramidOfWhichSomeCellsHaveChangedIsThatOfAllCells) {
         radii[cell] = any_radii();
       }
       followed.refill(cells, radii, changed);
-      radial::DirectionPyramid anew;
+      DirectionPyramid anew;
       anew.fill(cells, radii);
       const std::span followed_all(followed.data(), followed.size()), all(anew.data(), anew.size());
       ASSERT_TRUE(std::equal(followed_all.begin(), followed_all.end(), all.begin(), all.end())) << cells;
@@ -404,11 +402,11 @@ TEST(PointBlocks, BlocksHoldEachPointOnceWithinTheirCapsAndRadii) {
   for (int i = 0; i < 3001; ++i)
     points.push_back({uniform(random), uniform(random) * uniform(random), uniform(random)});
   const Vec3 centre(0.2, -0.1, 0.3);
-  const radial::PointBlocks sorted(points, centre);
+  const PointBlocks sorted(points, centre);
   std::vector<Index> numbers(sorted.index().begin(), sorted.index().end());
   std::sort(numbers.begin(), numbers.end());
   for (Index i = 0; i < points.size(); ++i) ASSERT_EQ(numbers[i], i);
-  using S = radial::PointBlocks;
+  using S = PointBlocks;
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     ASSERT_EQ(sorted[i], points[sorted.index()[i]]);
     const Vec3 p = sorted[i] - centre;
@@ -427,4 +425,4 @@ TEST(PointBlocks, BlocksHoldEachPointOnceWithinTheirCapsAndRadii) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::radial

@@ -7,19 +7,19 @@
 
 #include "radial/exact/cell_dop.hpp"
 
-namespace condyle {
+namespace condyle::radial {
 namespace {
 
 template <class Map>
-std::map<Index, radial::CellOverlap> cells_of(const Map& map, const radial::Cone& cone) {
-  std::map<Index, radial::CellOverlap> cells;
-  map.visit_cells(cone, [&](const radial::CellOverlap& overlap) {
+std::map<Index, CellOverlap> cells_of(const Map& map, const Cone& cone) {
+  std::map<Index, CellOverlap> cells;
+  map.visit_cells(cone, [&](const CellOverlap& overlap) {
     EXPECT_TRUE(cells.emplace(overlap.cell, overlap).second) << "cell " << overlap.cell << " visited twice";
   });
   return cells;
 }
 
-radial::Cone random_cone(std::mt19937& random) {
+Cone random_cone(std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   std::uniform_real_distribution<double> exponent(-3, 0.5);
   const auto point = [&](double scale) {
@@ -32,7 +32,7 @@ radial::Cone random_cone(std::mt19937& random) {
 
 template <class Map>
 class DirectionMap : public testing::Test {};
-using Maps = testing::Types<radial::CartesianMap, radial::CubeMap>;
+using Maps = testing::Types<CartesianMap, CubeMap>;
 TYPED_TEST_SUITE(DirectionMap, Maps);
 
 TYPED_TEST(DirectionMap, EveryPointOfATriangleFallsIntoAListedCellAndItsRadiusInterval) {
@@ -41,7 +41,7 @@ TYPED_TEST(DirectionMap, EveryPointOfATriangleFallsIntoAListedCellAndItsRadiusIn
   for (const int cells_per_side : {1, 7, 32}) {
     const TypeParam map(cells_per_side);
     for (int i = 0; i < 300; ++i) {
-      const radial::Cone cone = random_cone(random);
+      const Cone cone = random_cone(random);
       const auto cells = cells_of(map, cone);
       for (int k = 0; k < 300; ++k) {
         double s = unit(random), t = unit(random);
@@ -63,7 +63,7 @@ TYPED_TEST(DirectionMap, TrianglesThroughTheAxesAndTheDiagonalsAreListedWhereThe
   int compared = 0;
   for (const Vec3& a : {Vec3(1, 0, 0), Vec3(0, 0, -1), Vec3(1, 1, 1), Vec3(-1, 1, -1), Vec3(1, 1, 0)}) {
     for (const Vec3& b : {Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(-1, -1, 1)}) {
-      const radial::Cone cone{2 * a, b, Vec3(0.5, 0.25, 3)};
+      const Cone cone{2 * a, b, Vec3(0.5, 0.25, 3)};
       const auto cells = cells_of(map, cone);
       for (const Vec3& p : {cone.a, cone.b, cone.c, Vec3(0.5 * (cone.a + cone.b))}) {
         if (p.norm() == 0) continue;
@@ -79,7 +79,7 @@ TYPED_TEST(DirectionMap, ATriangleSeenEdgeOnIsStillListedAlongItsLine) {
   // The plane z = 0 holds the origin: the cone has no width, but pairs and points on the surface still need
   // it.
   const TypeParam map(16);
-  const radial::Cone cone{{3, 1, 0}, {3, 2, 0}, {4, 1.5, 0}};
+  const Cone cone{{3, 1, 0}, {3, 2, 0}, {4, 1.5, 0}};
   const auto cells = cells_of(map, cone);
   for (double s = 0; s <= 1; s += 0.01) {
     const Vec3 p = cone.a + s * (cone.b - cone.a);
@@ -98,7 +98,7 @@ TYPED_TEST(DirectionMap, SliversKeepTheirRadiusInterval) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> unit(0, 1);
   for (const double width : {1e-6, 1e-10, 1e-14, 0.0}) {
-    const radial::Cone cone{{10, -5, 3}, {10, 5, 3}, {10 + width, 0.3, 3 - width}};
+    const Cone cone{{10, -5, 3}, {10, 5, 3}, {10 + width, 0.3, 3 - width}};
     const auto cells = cells_of(map, cone);
     for (int k = 0; k < 1000; ++k) {
       const double s = unit(random), t = (1 - s) * unit(random);
@@ -121,7 +121,7 @@ TYPED_TEST(DirectionMap, TheCellOfADirectionDoesNotDependOnItsLength) {
 
 TEST(CubeMap, RadiusIntervalsAreThoseInsideTheCellNotOfTheWholeTriangle) {
   // A long triangle in the plane x = 10 reaches far out; the cell straight ahead sees it at radius 10 only.
-  const radial::CubeMap map(64);
+  const CubeMap map(64);
   const auto cells = cells_of(map, {{10, -9, -9}, {10, 9, -9}, {10, 0, 9}});
   const auto& ahead = cells.at(map.cell_of({10, 0.1, 0.1}));
   EXPECT_NEAR(ahead.min_radius, 10, 1e-6);
@@ -132,11 +132,11 @@ TEST(CubeMap, RadiusIntervalsAreThoseInsideTheCellNotOfTheWholeTriangle) {
 
 TEST(CubeMap, ListsAreNotLongerThanTheExactOverlap) {
   // A triangle over exactly the lower left quarter of face +x, strictly inside the cells' borders.
-  const radial::CubeMap map(8);
+  const CubeMap map(8);
   const auto cells = cells_of(map, {{1, -0.99, -0.99}, {1, -0.02, -0.99}, {1, -0.99, -0.02}});
   // Cells 0..3 in each direction; those strictly above the diagonal i + j = 3 are not met.
   EXPECT_EQ(cells.size(), 10u);
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::radial

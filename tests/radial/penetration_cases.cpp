@@ -11,14 +11,15 @@ namespace condyle::test {
 namespace {
 
 /// The same surface behind the paper's map, whose rows have neither 8-DOPs nor edge functions.
-RadialTable reference_of(const RadialTable& table) {
-  return RadialTable(table.mesh(), {DirectionMapKind::cartesian, 24});
+radial::RadialTable reference_of(const radial::RadialTable& table) {
+  return radial::RadialTable(table.mesh(), {radial::DirectionMapKind::cartesian, 24});
 }
 
 /// Results of the plain query for the posed points that are not outside, in the order of the sorted ones.
-Penetrations plain(const RadialTable& table, PointsView points, const SortedPoints& sorted, const Pose& X) {
-  const RadialResults hits = table.query(posed(X, points));
-  Penetrations out;
+radial::Penetrations plain(const radial::RadialTable& table, PointsView points,
+                           const radial::SortedPoints& sorted, const Pose& X) {
+  const radial::RadialResults hits = table.query(posed(X, points));
+  radial::Penetrations out;
   for (const Index i : sorted.blocks().index()) {
     if (hits.state[i] == PointState::outside) continue;
     out.point.push_back(i);
@@ -82,12 +83,12 @@ Points points_near_surface(const TriMesh& mesh, std::size_t count, double factor
   return points;
 }
 
-Compared expect_plain_answers(const RadialTable& table, const Points& points, const std::vector<Pose>& poses,
-                              const Vec3& centre) {
-  const SortedPoints sorted(points, centre);
-  const RadialTable reference = reference_of(table);
+Compared expect_plain_answers(const radial::RadialTable& table, const Points& points,
+                              const std::vector<Pose>& poses, const Vec3& centre) {
+  const radial::SortedPoints sorted(points, centre);
+  const radial::RadialTable reference = reference_of(table);
   Compared compared;
-  Penetrations out;
+  radial::Penetrations out;
   for (const Pose& X : poses) {
     table.penetrations(sorted, X, out, &compared.work);
     table.add_ray_to_normal(points, X, out);

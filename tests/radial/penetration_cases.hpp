@@ -21,11 +21,11 @@ Points points_near_surface(const TriMesh& mesh, std::size_t count, double factor
 
 struct Compared {
   std::size_t found = 0;
-  PenetrationWork work;
+  radial::PenetrationWork work;
 };
 
 /// That at every pose the table says of the points what the plain query of the same surface says.
-Compared expect_plain_answers(const RadialTable& table, const Points& points, const std::vector<Pose>& poses,
-                              const Vec3& centre = Vec3::Zero());
+Compared expect_plain_answers(const radial::RadialTable& table, const Points& points,
+                              const std::vector<Pose>& poses, const Vec3& centre = Vec3::Zero());
 
 }  // namespace condyle::test

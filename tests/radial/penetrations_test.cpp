@@ -13,7 +13,7 @@
 #include "support/shared_data.hpp"
 #include "support/test_meshes.hpp"
 
-namespace condyle {
+namespace condyle::radial {
 namespace {
 
 using test::box;
@@ -256,4 +256,4 @@ TEST(InstructionSets, TheBestComesFirst) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::radial

@@ -17,7 +17,7 @@
 #endif
 #endif
 
-namespace condyle {
+namespace condyle::radial {
 namespace {
 
 /// Far more than a query takes, whatever becomes of it.
@@ -81,4 +81,4 @@ TEST(QueryStack, APenetrationQueryStaysBelow16kBOfStack) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::radial

@@ -13,7 +13,7 @@
 #include "support/parameter_names.hpp"
 #include "support/test_meshes.hpp"
 
-namespace condyle {
+namespace condyle::radial {
 namespace {
 
 using test::box;
@@ -383,4 +383,4 @@ TEST(RadialTable, CellsOutOfRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::radial

@@ -10,7 +10,7 @@
 #include "support/parameter_names.hpp"
 #include "support/test_meshes.hpp"
 
-namespace condyle {
+namespace condyle::radial {
 namespace {
 
 using test::box;
@@ -202,4 +202,4 @@ TEST(RadialTableUpdate, ANumberOfVerticesThatIsNotTheMeshsIsRefused) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::radial

@@ -7,7 +7,7 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 
-namespace condyle {
+namespace condyle::radial {
 namespace {
 
 using Rational = boost::multiprecision::cpp_rational;
@@ -111,4 +111,4 @@ TEST(TrianglePlane, LengthsFarBeyondMillimetresAreLeftToExactArithmetic) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::radial

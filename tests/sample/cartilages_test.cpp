@@ -22,7 +22,7 @@
 #include "sample/self_intersection.hpp"
 #include "sample/topology.hpp"
 
-namespace condyle {
+namespace condyle::sample {
 namespace {
 
 using sample::laid_tolerance;
@@ -144,8 +144,8 @@ TEST(SampleCartilages, ArticularSurfacesAreSpheresTheClearanceApart) {
 /// The gap of every femoral vertex that lies on the articular sphere, by the radial method in the neutral
 /// pose; of those alone that see acetabular cartilage.
 std::vector<double> articular_gaps(const SampleCartilages& cartilages, double radius) {
-  const RadialContact contact =
-      JointContact(cartilages.acetabular, cartilages.femoral).radial(Pose::Identity());
+  const contact::RadialContact contact =
+      contact::JointContact(cartilages.acetabular, cartilages.femoral).radial(Pose::Identity());
   std::vector<double> gaps;
   for (std::size_t v = 0; v < cartilages.femoral.vertices.size(); ++v) {
     const double gap = contact.mobile_in_fixed->radial_gap_mm[v];
@@ -160,7 +160,8 @@ TEST(SampleCartilages, AreApartByTheClearanceLessTheSag) {
   const double clearance = CartilageParameters{}.clearance_mm;
   for (const CartilageScenario scenario : {CartilageScenario::five, CartilageScenario::eight}) {
     const SampleCartilages& cartilages = made(scenario);
-    EXPECT_FALSE(JointContact(cartilages.acetabular, cartilages.femoral).radial(Pose::Identity()).in_contact);
+    EXPECT_FALSE(
+        contact::JointContact(cartilages.acetabular, cartilages.femoral).radial(Pose::Identity()).in_contact);
     const auto gaps = articular_gaps(cartilages, spheres.femoral);
     const double sag = facets_on_sphere(cartilages.acetabular, spheres.acetabular).sag;
     ASSERT_GT(gaps.size(), cartilages.femoral.vertices.size() / 6);
@@ -176,10 +177,10 @@ TEST(SampleCartilages, OverlapNoDeeperAtTheirRimsThanTheyWerePushed) {
   const Vec3 by(-0.02, 0.4, -0.11);
   Pose X_FM = Pose::Identity();
   X_FM.translation() = by;
-  const ElasticLayer cartilage{12, 0.42, 1.5};
+  const contact::ElasticLayer cartilage{12, 0.42, 1.5};
   for (const CartilageScenario scenario : {CartilageScenario::six, CartilageScenario::seven}) {
-    const ElasticContact contact(Mesh(made(scenario).acetabular), Mesh(made(scenario).femoral),
-                                 {.fixed = cartilage, .mobile = cartilage});
+    const contact::ElasticContact contact(Mesh(made(scenario).acetabular), Mesh(made(scenario).femoral),
+                                          {.fixed = cartilage, .mobile = cartilage});
     const auto results = contact.at(X_FM);
     ASSERT_GT(results.fixed->rim_faces + results.mobile->rim_faces, 0u);
     EXPECT_LT(results.fixed->totals.max_depth_mm, 1.5 * by.norm());
@@ -207,7 +208,7 @@ TEST(SampleCartilages, LieOnTheirOwnBonesAndClearOfTheOther) {
     double least = std::numeric_limits<double>::infinity();
     double touching = 0;  // part of the vertices
   };
-  const auto fit = [](const sample::Field& bone, const TriMesh& mesh) {
+  const auto fit = [](const Field& bone, const TriMesh& mesh) {
     Fit found;
     const std::size_t count = mesh.vertices.size();
     for (std::size_t v = 0; v < count; ++v) {
@@ -323,4 +324,4 @@ TEST(SampleCartilages, OfALeftHipAreTheMirrorImage) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::sample

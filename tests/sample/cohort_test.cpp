@@ -13,14 +13,14 @@ constexpr std::uint64_t many = 4000;
 
 TEST(SampleCohort, HasHipsWhoseMeasuresAreWithinTheirRanges) {
   for (std::uint64_t k = 1; k <= many; ++k)
-    EXPECT_NO_THROW(sample::require_valid(cohort_hip(1, k).measures)) << k;
+    EXPECT_NO_THROW(sample::require_valid(sample::cohort_hip(1, k).measures)) << k;
 }
 
 TEST(SampleCohort, IsTheSameForASeedAndAnotherForAnother) {
   for (std::uint64_t k = 1; k <= 50; ++k) {
-    EXPECT_EQ(cohort_hip(3, k).measures, cohort_hip(3, k).measures);
-    EXPECT_NE(cohort_hip(3, k).measures, cohort_hip(4, k).measures);
-    EXPECT_NE(cohort_hip(3, k).measures, cohort_hip(3, k + 1).measures);
+    EXPECT_EQ(sample::cohort_hip(3, k).measures, sample::cohort_hip(3, k).measures);
+    EXPECT_NE(sample::cohort_hip(3, k).measures, sample::cohort_hip(4, k).measures);
+    EXPECT_NE(sample::cohort_hip(3, k).measures, sample::cohort_hip(3, k + 1).measures);
   }
 }
 
@@ -29,14 +29,14 @@ TEST(SampleCohort, IsTheSameForASeedAndAnotherForAnother) {
 TEST(SampleCohort, HasMeasuresWithTheMeansOfTheirDistributions) {
   const auto density = [](double z) { return std::exp(-z * z / 2) / std::sqrt(2 * std::acos(-1)); };
   const auto below = [](double z) { return std::erfc(-z / std::sqrt(2.0)) / 2; };
-  for (const MeasureDistribution& d : cohort_distributions()) {
+  for (const sample::MeasureDistribution& d : sample::cohort_distributions()) {
     if (d.measure == "alpha_angle_deg" || d.unit == "head radii")
       continue;  // not what the hip has in the end
     const double a = (d.low - d.mean) / d.standard_deviation, b = (d.high - d.mean) / d.standard_deviation;
     const double mean = d.mean + d.standard_deviation * (density(a) - density(b)) / (below(b) - below(a));
     double sum = 0;
     for (std::uint64_t k = 1; k <= many; ++k)
-      sum += *hip_measure_named(d.measure)->value(cohort_hip(1, k).measures);
+      sum += *sample::hip_measure_named(d.measure)->value(sample::cohort_hip(1, k).measures);
     // Four standard errors of the mean, and what rounding to a tenth may shift.
     EXPECT_NEAR(sum / many, mean, 4 * d.standard_deviation / std::sqrt(double(many)) + 0.05) << d.measure;
   }
@@ -45,7 +45,7 @@ TEST(SampleCohort, HasMeasuresWithTheMeansOfTheirDistributions) {
 TEST(SampleCohort, SaysTheAlphaAngleThatTheFemurHas) {
   std::size_t cams = 0;
   for (std::uint64_t k = 1; k <= many; ++k) {
-    const CohortHip hip = cohort_hip(1, k);
+    const sample::CohortHip hip = sample::cohort_hip(1, k);
     if (hip.measures.alpha_angle) {
       EXPECT_EQ(hip.alpha_angle, *hip.measures.alpha_angle);
       ++cams;

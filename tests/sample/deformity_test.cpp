@@ -11,7 +11,7 @@
 
 /// The sample hip behaves as clinicians find deformed hips to behave.
 
-namespace condyle {
+namespace condyle::sample {
 namespace {
 
 /// Internal rotation at 90 degrees of flexion. It also checks that neither that nor FADIR depends on whether bearing
@@ -21,13 +21,13 @@ double internal_rotation_at_90_flexion_deg(const HipParameters& parameters,
   const SampleHip& hip = test::made_hip(scenario, parameters);
   const Joint joint{
       "sample hip", JointKind::ball, Side::right, {"hip bone", hip.hip_bone}, {"femur", hip.femur}};
-  const RangeOfMotion range(joint), all(joint, {.bearing = {.rule = BearingRule::count}});
+  const motion::RangeOfMotion range(joint), all(joint, {.bearing = {.rule = motion::BearingRule::count}});
   EXPECT_TRUE(range.bearing().surface);
-  const auto motions = hip_motions();
+  const auto motions = motion::hip_motions();
   double limit_deg = 0;
   for (const auto* name : {"fadir", "internal_rotation_at_90_flexion"}) {
-    const MotionLimit limit = range.limit(motion_named(motions, name));
-    EXPECT_EQ(limit.end.reason, LimitReason::contact);
+    const motion::MotionLimit limit = range.limit(motion::motion_named(motions, name));
+    EXPECT_EQ(limit.end.reason, motion::LimitReason::contact);
     limit_deg = limit.end.turned.degrees();
     EXPECT_NEAR(limit_deg, all.limit(limit.motion).end.turned.degrees(), 0.1) << name;
   }
@@ -95,4 +95,4 @@ TEST(Deformity, IsNotTakenForBearingSurfaceAtCoarserResolutions) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::sample

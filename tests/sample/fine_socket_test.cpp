@@ -11,7 +11,7 @@
 
 /// Sockets on surfaces of label maps, whose normals are rough and whose rims are round, and on hips with little of a socket.
 
-namespace condyle {
+namespace condyle::sample {
 namespace {
 
 /// Samples on a lattice of a cube about the origin: 1 inside a closed mesh and 0 outside.
@@ -76,7 +76,7 @@ class LabelMap {
 
   /// Where half of the neighbourhood is inside.
   TriMesh surface() const {
-    const auto field = [this](const Vec3& p) { return sample::FieldValue{0.5 - value(p), Vec3::Zero()}; };
+    const auto field = [this](const Vec3& p) { return FieldValue{0.5 - value(p), Vec3::Zero()}; };
     const double high = at(size_ - 1) + spacing_;
     return sample::contoured({field, {Vec3::Constant(low_ - spacing_), Vec3::Constant(high)}, {}}, spacing_);
   }
@@ -153,4 +153,4 @@ TEST(FineSocket, IsFoundOnEverySampleHip) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::sample

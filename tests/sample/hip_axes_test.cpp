@@ -53,7 +53,7 @@ Bones cut(const Bones& bones, const Cut& to) {
 }
 
 Bones mirrored(const Bones& bones) {
-  return {condyle::mirrored(bones.hip_bone), condyle::mirrored(bones.femur)};
+  return {condyle::sample::mirrored(bones.hip_bone), condyle::sample::mirrored(bones.femur)};
 }
 
 /// From the joint axes to those of the meshes.
@@ -106,7 +106,7 @@ Eigen::Matrix3d turned(std::mt19937_64& random, double most_deg) {
 /// An average one, made once: it takes a second.
 const Bones& sample_bones() {
   static const Bones bones = [] {
-    SampleHip hip = sample_hip({}, Scenario::one);
+    sample::SampleHip hip = sample::sample_hip({}, sample::Scenario::one);
     return Bones{std::move(hip.hip_bone), std::move(hip.femur)};
   }();
   return bones;

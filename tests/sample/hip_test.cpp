@@ -19,7 +19,7 @@
 #include "sample/topology.hpp"
 #include "support/brute_force.hpp"
 
-namespace condyle {
+namespace condyle::sample {
 namespace {
 
 using test::made_hip;
@@ -66,7 +66,7 @@ TEST(SampleHip, DoesNotRunIntoItself) {
 
 TEST(SampleHip, VerticesLieOnTheSolidsTheyWereMadeFrom) {
   const auto femur = sample::femur_shape({}).field, hip_bone = sample::hip_bone_shape({}).field;
-  const auto worst = [](const sample::Field& field, const TriMesh& mesh) {
+  const auto worst = [](const Field& field, const TriMesh& mesh) {
     double most = 0;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
       most = std::max(most, std::abs(field(mesh.vertices[v]).value));
@@ -285,4 +285,4 @@ TEST(SampleHip, LeftHipIsTheMirrorImage) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::sample

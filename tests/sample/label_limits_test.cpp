@@ -16,7 +16,7 @@
 
 /// Limits of a hip that was made into voxels and is read from them again, as from a label map, against its own.
 
-namespace condyle {
+namespace condyle::sample {
 namespace {
 
 using namespace test;
@@ -48,8 +48,8 @@ PlacedJoint joint_of_voxels(const VoxelGrid& grid) {
                 body_of("femur", voxelised(hip().femur, grid)));
 }
 
-std::vector<MotionLimit> limits_of(const Joint& joint) {
-  return RangeOfMotion(joint).limits(hip_motions());
+std::vector<motion::MotionLimit> limits_of(const Joint& joint) {
+  return motion::RangeOfMotion(joint).limits(motion::hip_motions());
 }
 
 std::vector<JointNoteCode> codes_of(const PlacedJoint& joint) {
@@ -67,13 +67,13 @@ TEST(LabelLimits, AreThoseOfTheBonesUpToTheGrid) {
   const double mean_deg = 2 * 0.1 * voxel_mm / head_mm * 180 / std::numbers::pi;
   const auto expected = limits_of(placed({"hip bone", hip().hip_bone}, {"femur", hip().femur}).joint);
   // The surface only: the joint's centre and axes are those of the bones.
-  const BandOptions band{.sigma = {.centre_mm = 0, .axes = {}}, .samples = 20};
+  const motion::BandOptions band{.sigma = {.centre_mm = 0, .axes = {}}, .samples = 20};
   for (const Vec3& offset : {Vec3(0.13, 0.57, 0.91), Vec3(0.46, 0.90, 0.24)}) {
     SCOPED_TRACE(offset.transpose());
     const PlacedJoint image = joint_of_voxels(grid_at(offset));
     EXPECT_TRUE(codes_of(image).empty());
     const auto limits = limits_of(image.joint);
-    const auto bands = limit_bands(image.joint, hip_motions(), {}, band);
+    const auto bands = motion::limit_bands(image.joint, motion::hip_motions(), {}, band);
     double sum = 0;
     std::size_t held = 0;
     for (std::size_t m = 0; m < limits.size(); ++m) {
@@ -118,16 +118,16 @@ TEST(LabelLimits, OfBonesCutByTheImageAreUpperBoundsAndThoseOnACutSayIt) {
   std::size_t on_cuts = 0, later = 0;
   for (std::size_t m = 0; m < limits.size(); ++m) {
     SCOPED_TRACE(limits[m].motion.name);
-    const Limit& end = limits[m].end;
+    const motion::Limit& end = limits[m].end;
     EXPECT_GE(end.turned.degrees(), above[m].end.turned.degrees() - bent_deg);
     later += end.turned.degrees() > above[m].end.turned.degrees() + bent_deg;
-    EXPECT_NE(above[m].end.kind(), ContactKind::cut);
+    EXPECT_NE(above[m].end.kind(), motion::ContactKind::cut);
     if (!end.contact) continue;
     // Both bones reach below the image, and the hip bone above it.
     const bool is_on_cut =
         is_at_height(end.contact->fixed_point, lowest) || is_at_height(end.contact->mobile_point, lowest) ||
         is_at_height(end.contact->fixed_point, cut.joint.fixed.image->cuts.at(1).offset_mm);
-    EXPECT_EQ(end.kind() == ContactKind::cut, is_on_cut);
+    EXPECT_EQ(end.kind() == motion::ContactKind::cut, is_on_cut);
     on_cuts += is_on_cut;
   }
   // Adduction: what the shaft meets first lies below the image.
@@ -138,4 +138,4 @@ TEST(LabelLimits, OfBonesCutByTheImageAreUpperBoundsAndThoseOnACutSayIt) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::sample

@@ -5,6 +5,6 @@
 namespace condyle::test {
 
 /// The sample hip of these parameters, made once per process and shared by its tests.
-const SampleHip& made_hip(Scenario scenario, const HipParameters& parameters = {});
+const sample::SampleHip& made_hip(sample::Scenario scenario, const sample::HipParameters& parameters = {});
 
 }  // namespace condyle::test

@@ -18,7 +18,7 @@
 
 /// Clinical measures, measured on the meshes.
 
-namespace condyle {
+namespace condyle::sample {
 namespace {
 
 using test::made_hip;
@@ -307,4 +307,4 @@ TEST(SampleHipMeasures, ACamSitsMidwayBetweenSuperiorAndAnteriorAndLeavesTheRest
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::sample

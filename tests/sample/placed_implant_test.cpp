@@ -18,12 +18,12 @@
 namespace condyle::test {
 namespace {
 
-const SampleHip& bones() {
-  static const SampleHip hip = sample_hip({}, Scenario::one);
+const sample::SampleHip& bones() {
+  static const sample::SampleHip hip = sample::sample_hip({}, sample::Scenario::one);
   return hip;
 }
 
-Joint joint_of(const SampleHip& hip, Side side = Side::right) {
+Joint joint_of(const sample::SampleHip& hip, Side side = Side::right) {
   return {.name = "hip",
           .kind = JointKind::ball,
           .side = side,
@@ -67,8 +67,9 @@ double farthest(const TriMesh& from, const TriMesh& to) {
   return std::sqrt(most);
 }
 
-std::vector<MotionLimit> limits_of(const Joint& joint) {
-  return RangeOfMotion(joint, {.bearing = {.rule = BearingRule::count}}).limits(hip_motions());
+std::vector<motion::MotionLimit> limits_of(const Joint& joint) {
+  return motion::RangeOfMotion(joint, {.bearing = {.rule = motion::BearingRule::count}})
+      .limits(motion::hip_motions());
 }
 
 TEST(PlacedImplant, HasTheClosedLimitsOfItsSizesIfBonesAreHidden) {
@@ -78,13 +79,14 @@ TEST(PlacedImplant, HasTheClosedLimitsOfItsSizesIfBonesAreHidden) {
   // Computed by the closed form and by meshes of other code, to 1e-4 degrees; -1 for the end of the range.
   const double expected[] = {128.7064, 61.1268, 59.5838, 67.5978,  -1,      70.5273,
                              -1,       45.3956, 38.6748, 108.6748, 30.7376, -1};
-  const std::vector<MotionLimit> limits = limits_of(joint);
+  const std::vector<motion::MotionLimit> limits = limits_of(joint);
   ASSERT_TRUE(answer.pair);
   for (std::size_t i = 0; i < limits.size(); ++i) {
-    SCOPED_TRACE(hip_motions()[i].name);
-    const ClosedLimit closed = closed_limit(*answer.pair, joint.coordinates(), hip_motions()[i]);
+    SCOPED_TRACE(motion::hip_motions()[i].name);
+    const plan::ClosedLimit closed =
+        plan::closed_limit(*answer.pair, joint.coordinates(), motion::hip_motions()[i]);
     EXPECT_EQ(limits[i].end.reason, closed.reason);
-    EXPECT_EQ(closed.reason == LimitReason::contact, expected[i] > 0);
+    EXPECT_EQ(closed.reason == motion::LimitReason::contact, expected[i] > 0);
     if (expected[i] < 0) continue;
     EXPECT_NEAR(closed.turned.degrees(), expected[i], 1e-4);
     EXPECT_NEAR(limits[i].end.turned.degrees(), expected[i], 0.002);  // of 360 facets
@@ -92,7 +94,7 @@ TEST(PlacedImplant, HasTheClosedLimitsOfItsSizesIfBonesAreHidden) {
 }
 
 TEST(PlacedImplant, OfTheSampleHipIsItsReplacement) {
-  const ImplantMeshes made = *sample_replacement({}, {}, Scenario::one, Side::right);
+  const plan::ImplantMeshes made = *sample::sample_replacement({}, {}, sample::Scenario::one, Side::right);
   const ImplantAnswer answer = placed({.of_bones = none_of_bones});
   for (const auto& [part, mesh] : made.fixed)
     if (part == "liner") {
@@ -141,7 +143,7 @@ TEST(PlacedImplant, TurnsTheCupAsTheRimIs) {
   for (const CupDefinition definition : all_cup_definitions) {
     query.hip.cup.definition = definition;
     const ImplantAnswer answer = placed(query);
-    const Vec3 cup = cup_axis(answer.hip.cup, Side::right);
+    const Vec3 cup = plan::cup_axis(answer.hip.cup, Side::right);
     EXPECT_LT(cup.cross(answer.bones.acetabulum.plane->normal).norm(), 0.01 * std::acos(-1.0) / 180);
   }
 }
@@ -167,7 +169,7 @@ TEST(PlacedImplant, OfALeftHipIsTheMirrorImage) {
   for (const auto& [a, b] :
        {std::pair(&right.joint.fixed, &left.joint.fixed), {&right.joint.mobile, &left.joint.mobile}}) {
     ASSERT_EQ(a->mesh.vertices().size(), b->mesh.vertices().size());
-    EXPECT_LT(farthest(mirrored(b->mesh.arrays()), a->mesh), 1e-6);
+    EXPECT_LT(farthest(sample::mirrored(b->mesh.arrays()), a->mesh), 1e-6);
   }
 }
 
@@ -181,9 +183,9 @@ TEST(PlacedImplant, OfARealHipLeavesItsFemurAndKeepsItClosed) {
   EXPECT_FALSE(has_note(answer, ImplantNoteCode::no_shaft));
   const Mesh femur = mesh_of_part(answer.joint.mobile, "femur");
   EXPECT_TRUE(femur.is_closed());
-  const Motion extension = motion_named(hip_motions(), "extension");
-  const ClosedLimit closed = closed_limit(*answer.pair, answer.joint.coordinates(), extension);
-  const auto limits = RangeOfMotion(answer.joint, {}).limits(std::vector{extension});
+  const motion::Motion extension = motion::motion_named(motion::hip_motions(), "extension");
+  const plan::ClosedLimit closed = plan::closed_limit(*answer.pair, answer.joint.coordinates(), extension);
+  const auto limits = motion::RangeOfMotion(answer.joint, {}).limits(std::vector{extension});
   EXPECT_NEAR(limits.front().end.turned.degrees(), closed.turned.degrees(), 0.01);
 }
 
@@ -192,7 +194,7 @@ TEST(PlacedImplant, NotesACupInBoneAndACentreThatMoved) {
   query.of_bones.cup_radius = false, query.hip.cup_radius_mm = 29;
   EXPECT_TRUE(has_note(placed(query), ImplantNoteCode::cup_in_bone));
   EXPECT_FALSE(has_note(placed(), ImplantNoteCode::cup_in_bone));
-  SampleHip moved = bones();
+  sample::SampleHip moved = bones();
   for (TriMesh* mesh : {&moved.hip_bone, &moved.femur})
     for (double& y : mesh->vertices.y) y += 2;
   const ImplantAnswer answer = placed({}, joint_of(moved));
@@ -237,8 +239,8 @@ TEST(PlacedImplant, RefusesInOneLine) {
 TEST(StemAngles, AreThoseThatMadeTheAxis) {
   for (const Side side : {Side::right, Side::left})
     for (const auto& [neck_shaft, version] : {std::pair(135.0, 15.0), {110.0, -30.0}, {160.0, 60.0}}) {
-      const StemAngles angles =
-          stem_angles(3 * neck_axis(Angle::degrees(neck_shaft), Angle::degrees(version), side), side);
+      const plan::StemAngles angles = plan::stem_angles(
+          3 * plan::neck_axis(Angle::degrees(neck_shaft), Angle::degrees(version), side), side);
       EXPECT_NEAR(angles.neck_shaft.degrees(), neck_shaft, 1e-12);
       EXPECT_NEAR(angles.version.degrees(), version, 1e-12);
     }

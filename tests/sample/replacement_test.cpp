@@ -17,12 +17,12 @@
 namespace condyle::test {
 namespace {
 
-ImplantMeshes replaced(const TotalHip& implant, Side side = Side::right) {
-  return *sample_replacement(implant, {}, Scenario::one, side);
+plan::ImplantMeshes replaced(const plan::TotalHip& implant, Side side = Side::right) {
+  return *sample::sample_replacement(implant, {}, sample::Scenario::one, side);
 }
 
 /// The parts of these names as one body.
-Body body_with(const std::vector<ImplantMesh>& meshes, const std::vector<std::string>& names) {
+Body body_with(const std::vector<plan::ImplantMesh>& meshes, const std::vector<std::string>& names) {
   TriMesh all;
   std::vector<BodyPart> parts;
   for (const auto& [part, mesh] : meshes) {
@@ -40,22 +40,25 @@ const std::vector<std::string> fixed_bone{"hip_bone"}, mobile_bone{"femur"}, fix
     mobile_implant{"head", "neck", "stem"}, fixed_all{"hip_bone", "liner"},
     mobile_all{"femur", "head", "neck", "stem"};
 
-std::vector<MotionLimit> limits_with(const ImplantMeshes& meshes, const std::vector<std::string>& fixed,
-                                     const std::vector<std::string>& mobile, Side side = Side::right) {
+std::vector<motion::MotionLimit> limits_with(const plan::ImplantMeshes& meshes,
+                                             const std::vector<std::string>& fixed,
+                                             const std::vector<std::string>& mobile,
+                                             Side side = Side::right) {
   const Joint joint{.name = "hip",
                     .kind = JointKind::ball,
                     .side = side,
                     .fixed = body_with(meshes.fixed, fixed),
                     .mobile = body_with(meshes.mobile, mobile)};
-  return RangeOfMotion(joint, {.bearing = {.rule = BearingRule::count}}).limits(hip_motions());
+  return motion::RangeOfMotion(joint, {.bearing = {.rule = motion::BearingRule::count}})
+      .limits(motion::hip_motions());
 }
 
 TEST(SampleReplacement, HasClosedPartsThatDoNotCrossEachOther) {
-  TotalHip turned;
+  plan::TotalHip turned;
   turned.stem_version = Angle::degrees(25), turned.offset_mm = 44, turned.leg_length_mm = 5;
-  for (const TotalHip& implant : {TotalHip{}, turned})
+  for (const plan::TotalHip& implant : {plan::TotalHip{}, turned})
     for (const Side side : {Side::right, Side::left}) {
-      const ImplantMeshes meshes = replaced(implant, side);
+      const plan::ImplantMeshes meshes = replaced(implant, side);
       for (const Body& body : {body_with(meshes.fixed, fixed_all), body_with(meshes.mobile, mobile_all)}) {
         EXPECT_TRUE(body.mesh.is_closed());
         EXPECT_EQ(mesh::self_crossings_of(body.mesh).pairs, 0) << body.name;
@@ -66,11 +69,11 @@ TEST(SampleReplacement, HasClosedPartsThatDoNotCrossEachOther) {
 }
 
 TEST(SampleReplacement, LosesTheHeadOfTheFemurAndKeepsItsTrochanter) {
-  const SampleHip hip = sample_hip({}, Scenario::one);
-  const ImplantMeshes meshes = replaced(TotalHip{});
+  const sample::SampleHip hip = sample::sample_hip({}, sample::Scenario::one);
+  const plan::ImplantMeshes meshes = replaced(plan::TotalHip{});
   const TriMesh& cut = meshes.mobile.front().mesh;
   ASSERT_EQ(meshes.mobile.front().part, "femur");
-  const NeckCut plane = neck_cut(TotalHip{}, Side::right);
+  const plan::NeckCut plane = plan::neck_cut(plan::TotalHip{}, Side::right);
   double nearest = 1e9;
   for (std::size_t v = 0; v < cut.vertices.size(); ++v) nearest = std::min(nearest, cut.vertices[v].norm());
   EXPECT_GT(nearest, plane.offset_mm - 1e-9);
@@ -85,7 +88,7 @@ TEST(SampleReplacement, LosesTheHeadOfTheFemurAndKeepsItsTrochanter) {
 
 TEST(SampleReplacement, EndsEachMotionWhereTheFirstOfItsPartsDoes) {
   for (const Side side : {Side::right, Side::left}) {
-    const ImplantMeshes meshes = replaced(TotalHip{}, side);
+    const plan::ImplantMeshes meshes = replaced(plan::TotalHip{}, side);
     const auto together = limits_with(meshes, fixed_all, mobile_all, side);
     const auto implant = limits_with(meshes, fixed_implant, mobile_implant, side),
                bones = limits_with(meshes, fixed_bone, mobile_bone, side),
@@ -105,9 +108,9 @@ TEST(SampleReplacement, EndsEachMotionWhereTheFirstOfItsPartsDoes) {
 }
 
 TEST(SampleReplacement, MovesTheBoneByOffsetAndLegLength) {
-  TotalHip longer;
+  plan::TotalHip longer;
   longer.leg_length_mm = 6, longer.offset_mm = 45;
-  const ImplantMeshes usual = replaced(TotalHip{}), moved = replaced(longer);
+  const plan::ImplantMeshes usual = replaced(plan::TotalHip{}), moved = replaced(longer);
   const auto lowest = [](const TriMesh& mesh) {
     return *std::min_element(mesh.vertices.y.begin(), mesh.vertices.y.end());
   };
@@ -120,7 +123,7 @@ TEST(SampleReplacement, MovesTheBoneByOffsetAndLegLength) {
 }
 
 TEST(SampleReplacement, RefusesACupLargerThanTheSocket) {
-  TotalHip large;
+  plan::TotalHip large;
   large.cup_radius_mm = 30, large.offset_mm = 50;
   try {
     replaced(large);

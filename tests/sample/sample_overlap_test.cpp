@@ -11,26 +11,27 @@
 /// Overlaps of the sample's bones and cartilages, against values that exact integration gave in another program, to the digits it
 /// gave; those of cartilages along two directions.
 
-namespace condyle {
+namespace condyle::sample {
 namespace {
 
-ContactMeasures measured(const JointContact& joint, const Pose& X_FM) {
-  return measure_contact(joint, X_FM, MeasuredContact(joint.radial(X_FM)), DistancesOf::vertices_inside);
+contact::ContactMeasures measured(const contact::JointContact& joint, const Pose& X_FM) {
+  return contact::measure_contact(joint, X_FM, contact::MeasuredContact(joint.radial(X_FM)),
+                                  contact::DistancesOf::vertices_inside);
 }
 
-JointContact cartilages(CartilageScenario scenario, double clearance_mm) {
+contact::JointContact cartilages(CartilageScenario scenario, double clearance_mm) {
   const SampleCartilages made = sample_cartilages({}, {.clearance_mm = clearance_mm}, scenario);
   return {made.acetabular, made.femoral};
 }
 
 TEST(SampleOverlap, OfCartilagesThatTouchIsWhatExactIntegrationGives) {
-  const JointContact joint = cartilages(CartilageScenario::five, 0);
+  const contact::JointContact joint = cartilages(CartilageScenario::five, 0);
   const std::vector<std::pair<double, double>> cases{{0, 19.378492},    {0.01, 25.282265}, {0.1, 117.040948},
                                                      {0.2, 239.707828}, {0.4, 503.953159}, {1, 1347.921829}};
   for (const auto& [up_mm, volume_mm3] : cases) {
     Pose X_FM = Pose::Identity();
     X_FM.translation().y() = up_mm;
-    const ContactMeasures found = measured(joint, X_FM);
+    const contact::ContactMeasures found = measured(joint, X_FM);
     EXPECT_NEAR(*found.volume_mm3, volume_mm3, 5e-7 + found.volume_error_mm3) << up_mm;
     EXPECT_LT(found.volume_error_mm3, 1e-5) << up_mm;
     EXPECT_GT(found.fixed->area_mm2, 0) << up_mm;
@@ -55,18 +56,18 @@ TEST(SampleOverlap, OfCartilagesOfFourSizesIsWhatExactIntegrationGives) {
 
 TEST(SampleOverlap, OfTheHipIsWhatExactIntegrationGives) {
   const SampleHip hip = sample_hip({}, Scenario::two);
-  const JointContact joint(hip.hip_bone, hip.femur);
+  const contact::JointContact joint(hip.hip_bone, hip.femur);
   const auto at = [](double flexion, double adduction, double internal_rotation) {
     return pose_at({.side = Side::right},
                    {Angle::degrees(flexion), Angle::degrees(adduction), Angle::degrees(internal_rotation)});
   };
   for (const auto& [X_FM, volume_mm3] :
        {std::pair(at(130, 0, 20), 478.077155), std::pair(at(110, 15, 35), 1041.4065)}) {
-    const ContactMeasures found = measured(joint, X_FM);
+    const contact::ContactMeasures found = measured(joint, X_FM);
     EXPECT_NEAR(*found.volume_mm3, volume_mm3, 5e-7 + found.volume_error_mm3);
     EXPECT_LT(found.volume_error_mm3, 1e-6);
   }
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::sample

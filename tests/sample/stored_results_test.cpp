@@ -24,7 +24,7 @@
 /// functions of angles, `ray_to_normal` is left out, and the limits of motions are rounded to 1e-8 degrees
 /// and their contact points to 1e-6 mm. Everything else is hashed by its bits.
 
-namespace condyle {
+namespace condyle::sample {
 namespace {
 
 /// FNV-1a of 64 bits, http://www.isthe.com/chongo/tech/comp/fnv; numbers as eight bytes, the lowest first.
@@ -102,7 +102,7 @@ std::vector<Pose> poses() {
           turned(7, 2, -3, 6, {-1.5, 8, -3})};
 }
 
-void add(const std::vector<TrianglePair>& pairs, Hash& hash) {
+void add(const std::vector<contact::TrianglePair>& pairs, Hash& hash) {
   hash.add(std::uint64_t{pairs.size()});
   for (const auto& [fixed, mobile] : pairs) hash.add(std::uint64_t{fixed}), hash.add(std::uint64_t{mobile});
 }
@@ -130,10 +130,10 @@ struct Seen {
   std::size_t inside = 0, pairs = 0, arcs = 0, contacts = 0;
 };
 
-std::uint64_t radial_hash(const JointContact& joint, Seen& seen) {
+std::uint64_t radial_hash(const contact::JointContact& joint, Seen& seen) {
   Hash hash;
   for (const Pose& X_FM : poses()) {
-    const RadialContact contact = joint.radial(X_FM);
+    const contact::RadialContact contact = joint.radial(X_FM);
     for (const auto* hits : {&*contact.mobile_in_fixed, &*contact.fixed_in_mobile}) {
       add_common(*hits, hash);
       hash.add_all(hits->direction);
@@ -147,11 +147,11 @@ std::uint64_t radial_hash(const JointContact& joint, Seen& seen) {
   return hash.value();
 }
 
-std::uint64_t tangential_hash(const JointContact& joint) {
+std::uint64_t tangential_hash(const contact::JointContact& joint) {
   Hash hash;
   for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(1, -2, 3)}) {
     for (const Pose& X_FM : poses()) {
-      const TangentialContact contact = joint.tangential(X_FM, axis);
+      const contact::TangentialContact contact = joint.tangential(X_FM, axis);
       for (const auto* hits : {&*contact.mobile_in_fixed, &*contact.fixed_in_mobile}) {
         add_common(*hits, hash);
         hash.add_all(hits->rotation_sense);
@@ -164,14 +164,14 @@ std::uint64_t tangential_hash(const JointContact& joint) {
   return hash.value();
 }
 
-std::uint64_t arcs_hash(const JointContact& joint, Seen& seen) {
+std::uint64_t arcs_hash(const contact::JointContact& joint, Seen& seen) {
   Hash hash;
   for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(1, -2, 3)}) {
-    const RingTable table(joint.fixed(), AxisFrame(Vec3::Zero(), axis));
-    const OccupiedArcs arcs = table.occupied_arcs(joint.mobile().vertices());
+    const tangential::RingTable table(joint.fixed(), AxisFrame(Vec3::Zero(), axis));
+    const tangential::OccupiedArcs arcs = table.occupied_arcs(joint.mobile().vertices());
     for (std::size_t point = 0; point < arcs.size(); ++point) {
       hash.add(std::uint64_t{arcs.of(point).size()});
-      for (const OccupiedArc& arc : arcs.of(point)) {
+      for (const tangential::OccupiedArc& arc : arcs.of(point)) {
         hash.add(arc.begin.radians()), hash.add(arc.end.radians());
         hash.add(std::uint64_t{arc.enters}), hash.add(std::uint64_t{arc.leaves});
       }
@@ -181,17 +181,17 @@ std::uint64_t arcs_hash(const JointContact& joint, Seen& seen) {
   return hash.value();
 }
 
-std::uint64_t motions_hash(const JointContact& joint, Seen& seen) {
-  const RangeOfMotion range(
+std::uint64_t motions_hash(const contact::JointContact& joint, Seen& seen) {
+  const motion::RangeOfMotion range(
       {"sample hip", JointKind::ball, Side::right, {"hip bone", joint.fixed()}, {"femur", joint.mobile()}},
-      {.bearing = {.rule = BearingRule::count}});
+      {.bearing = {.rule = motion::BearingRule::count}});
   Hash hash;
-  const auto add_feature = [&](const Feature& feature) {
+  const auto add_feature = [&](const motion::Feature& feature) {
     hash.add(static_cast<std::uint64_t>(feature.kind));
     hash.add(std::uint64_t{feature.id}), hash.add(std::uint64_t{feature.other_end});
   };
-  for (const MotionLimit& motion : range.limits(hip_motions())) {
-    const Limit& limit = motion.end;
+  for (const motion::MotionLimit& motion : range.limits(motion::hip_motions())) {
+    const motion::Limit& limit = motion.end;
     hash.add_rounded(limit.turned.degrees(), 1e-8);
     hash.add(static_cast<std::uint64_t>(limit.reason));
     hash.add(std::uint64_t{limit.contact.has_value()});
@@ -212,7 +212,7 @@ void expect_stored(Scenario scenario, const Hashes& stored) {
   const std::uint64_t hip_bone = hash_of(hip.hip_bone), femur = hash_of(hip.femur);
   EXPECT_TRUE(hip_bone == stored.hip_bone && femur == stored.femur)
       << "the sample is made otherwise, or on a machine whose C library rounds otherwise";
-  const JointContact joint(rounded(hip.hip_bone), rounded(hip.femur));
+  const contact::JointContact joint(rounded(hip.hip_bone), rounded(hip.femur));
   Seen seen;
   const Hashes found = {hip_bone,
                         femur,
@@ -259,4 +259,4 @@ TEST(StoredResults, OfScenarioTwoAreWhatTheyWere) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::sample

@@ -15,7 +15,7 @@
 /// bits may differ: a plane is rounded from its first corner, and of features that meet at the same angle, as an edge and its
 /// end, another one may come first. docs/concepts.md says so.
 
-namespace condyle {
+namespace condyle::sample {
 namespace {
 
 /// A mesh in another order: vertex v of it is vertex `vertex[v]` of the one it was made of; triangles likewise.
@@ -62,10 +62,11 @@ class VertexOrder : public ::testing::Test {
 };
 
 TEST_F(VertexOrder, ChangesNoStateAndNoPairAndGapsByRounding) {
-  const JointContact given(Mesh(hip.hip_bone), Mesh(hip.femur)), other(Mesh(hip_bone.mesh), Mesh(femur.mesh));
+  const contact::JointContact given(Mesh(hip.hip_bone), Mesh(hip.femur)),
+      other(Mesh(hip_bone.mesh), Mesh(femur.mesh));
   std::size_t inside = 0;
   for (const Pose& X_FM : {pose_of(0, 0), pose_of(120, 30), pose_of(100, 60)}) {
-    const RadialContact a = given.radial(X_FM), b = other.radial(X_FM);
+    const contact::RadialContact a = given.radial(X_FM), b = other.radial(X_FM);
     for (std::size_t v = 0; v < femur.vertex.size(); ++v) {
       const auto &in_order = *a.mobile_in_fixed, &in_other = *b.mobile_in_fixed;
       ASSERT_EQ(in_other.state[v], in_order.state[femur.vertex[v]]);
@@ -75,8 +76,8 @@ TEST_F(VertexOrder, ChangesNoStateAndNoPairAndGapsByRounding) {
       inside += in_other.state[v] == PointState::inside;
     }
     std::vector<std::pair<Index, Index>> expected, found;
-    for (const TrianglePair& pair : a.pairs) expected.emplace_back(pair.fixed, pair.mobile);
-    for (const TrianglePair& pair : b.pairs)
+    for (const contact::TrianglePair& pair : a.pairs) expected.emplace_back(pair.fixed, pair.mobile);
+    for (const contact::TrianglePair& pair : b.pairs)
       found.emplace_back(hip_bone.triangle[pair.fixed], femur.triangle[pair.mobile]);
     std::sort(expected.begin(), expected.end());
     std::sort(found.begin(), found.end());
@@ -87,14 +88,14 @@ TEST_F(VertexOrder, ChangesNoStateAndNoPairAndGapsByRounding) {
 
 TEST_F(VertexOrder, ChangesALimitByNoMoreThanItsErrorBound) {
   const auto limits = [](const TriMesh& fixed, const TriMesh& mobile) {
-    return RangeOfMotion(
+    return motion::RangeOfMotion(
                {"hip", JointKind::ball, Side::right, {"hip bone", Mesh(fixed)}, {"femur", Mesh(mobile)}})
-        .limits(hip_motions());
+        .limits(motion::hip_motions());
   };
   const auto given = limits(hip.hip_bone, hip.femur), other = limits(hip_bone.mesh, femur.mesh);
   ASSERT_EQ(given.size(), other.size());
   for (std::size_t i = 0; i < given.size(); ++i) {
-    const Limit &a = given[i].end, &b = other[i].end;
+    const motion::Limit &a = given[i].end, &b = other[i].end;
     EXPECT_EQ(a.reason, b.reason) << given[i].motion.name;
     EXPECT_LE(std::abs((a.turned - b.turned).degrees()), std::max(a.error_bound, b.error_bound).degrees())
         << given[i].motion.name;
@@ -102,4 +103,4 @@ TEST_F(VertexOrder, ChangesALimitByNoMoreThanItsErrorBound) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::sample

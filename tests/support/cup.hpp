@@ -16,7 +16,7 @@ inline Pose translated(const Vec3& by) {
 }
 
 /// A layer with M / h = K, MPa per mm.
-inline ElasticLayer layer_of_stiffness(double K) {
+inline contact::ElasticLayer layer_of_stiffness(double K) {
   return {K, 0.0, 1.0};
 }
 

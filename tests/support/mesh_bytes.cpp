@@ -138,7 +138,7 @@ void add_vtp_files(const TriMesh& mesh, const char* type, std::vector<MeshBytes>
         for (const auto& order : orders) {
           out.push_back(
               {fmt::format("vtp {} {} {} {} {}", mode_name, compressor.name, length.name, order.name, type),
-               MeshFormat::vtp, mode != Data::text,
+               io::MeshFormat::vtp, mode != Data::text,
                vtp_bytes(data, mode, compressor.value, length.value, order.value)});
         }
       }
@@ -160,7 +160,7 @@ void add_legacy_files(const TriMesh& mesh, const char* type, std::vector<MeshByt
       writer->SetFileVersion(version.value);
       writer->WriteToOutputStringOn();
       writer->Write();
-      out.push_back({fmt::format("vtk {} {} {}", encoding.name, version.name, type), MeshFormat::vtk,
+      out.push_back({fmt::format("vtk {} {} {}", encoding.name, version.name, type), io::MeshFormat::vtk,
                      encoding.value == VTK_BINARY, writer->GetOutputStdString()});
     }
   }
@@ -196,7 +196,7 @@ std::vector<MeshBytes> stl_files(const TriMesh& mesh) {
     append(binary, std::uint16_t{0});
   }
   text += "endsolid a bone\n";
-  return {{"stl text", MeshFormat::stl, true, text}, {"stl binary", MeshFormat::stl, true, binary}};
+  return {{"stl text", io::MeshFormat::stl, true, text}, {"stl binary", io::MeshFormat::stl, true, binary}};
 }
 
 std::vector<MeshBytes> obj_files(const TriMesh& mesh) {
@@ -212,20 +212,20 @@ std::vector<MeshBytes> obj_files(const TriMesh& mesh) {
     backwards += fmt::format("f {} {} {}\n", static_cast<int>(a) - count, static_cast<int>(b) - count,
                              static_cast<int>(c) - count);
   }
-  return {{"obj", MeshFormat::obj, true, vertices + plain},
-          {"obj with texture and normals", MeshFormat::obj, true, vertices + slashes},
-          {"obj counted back", MeshFormat::obj, true, vertices + backwards},
-          {"obj, faces first", MeshFormat::obj, true, plain + vertices}};
+  return {{"obj", io::MeshFormat::obj, true, vertices + plain},
+          {"obj with texture and normals", io::MeshFormat::obj, true, vertices + slashes},
+          {"obj counted back", io::MeshFormat::obj, true, vertices + backwards},
+          {"obj, faces first", io::MeshFormat::obj, true, plain + vertices}};
 }
 
 std::vector<MeshBytes> ply_files(const TriMesh& mesh) {
   std::vector<MeshBytes> files = {
-      {"ply text, float", MeshFormat::ply, true, ply_text<float>(mesh, "float")},
-      {"ply text, double", MeshFormat::ply, true, ply_text<double>(mesh, "float64")}};
+      {"ply text, float", io::MeshFormat::ply, true, ply_text<float>(mesh, "float")},
+      {"ply text, double", io::MeshFormat::ply, true, ply_text<double>(mesh, "float64")}};
   for (const bool big : {false, true}) {
     const std::string name = big ? "ply big-endian, " : "ply little-endian, ";
     const auto add = [&](const char* type, std::string bytes) {
-      files.push_back({name + type, MeshFormat::ply, true, std::move(bytes)});
+      files.push_back({name + type, io::MeshFormat::ply, true, std::move(bytes)});
     };
     add("float and int", ply_binary<float, std::int32_t>(mesh, "float32", "int32", big));
     add("double and uint", ply_binary<double, std::uint32_t>(mesh, "double", "uint", big));
@@ -264,7 +264,7 @@ std::vector<MeshBytes> all_files(const TriMesh& mesh) {
 }
 
 TriMesh as_vtk_reads(const MeshBytes& file) {
-  if (file.format == MeshFormat::vtp) {
+  if (file.format == io::MeshFormat::vtp) {
     vtkNew<vtkXMLPolyDataReader> reader;
     reader->ReadFromInputStringOn();
     reader->SetInputString(file.bytes);

@@ -11,7 +11,7 @@ namespace condyle::test {
 
 struct MeshBytes {
   std::string name;  ///< "ply binary big-endian, double": for the messages of a failing test.
-  MeshFormat format;
+  io::MeshFormat format;
   bool exact;  ///< Whether the writer wrote every bit of the coordinates, if these are floats.
   std::string bytes;
 };

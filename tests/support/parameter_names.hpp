@@ -9,8 +9,8 @@
 
 namespace condyle {
 
-inline void PrintTo(DirectionMapKind kind, std::ostream* out) {
-  *out << (kind == DirectionMapKind::cube ? "cube" : "cartesian");
+inline void PrintTo(radial::DirectionMapKind kind, std::ostream* out) {
+  *out << (kind == radial::DirectionMapKind::cube ? "cube" : "cartesian");
 }
 
 }  // namespace condyle

@@ -24,8 +24,8 @@ class SmallCohort {
     std::filesystem::create_directories(folder);
     arm_ = box({-1, -100, -2}, {1, -10, 2});
     for (int level = 0; level < subdivisions; ++level) arm_ = mesh::subdivided(arm_);
-    write_mesh(folder / "arm.ply", arm_);
-    write_mesh(folder / "inside.ply", box({35, -110, -2}, {45, -90, 2}));
+    io::write_mesh(folder / "arm.ply", arm_);
+    io::write_mesh(folder / "inside.ply", box({35, -110, -2}, {45, -90, 2}));
     for (std::size_t k = 1; k <= good; ++k) {
       write_post(k, wall_mm(k));
       write_joint(fmt::format("hip{}.toml", k), fmt::format("post{}.ply", k), "arm.ply");
@@ -43,7 +43,7 @@ class SmallCohort {
 
   void write_post(std::size_t k, double wall) const {
     TriMesh post = box({wall, -120, -50}, {wall + 20, -80, 50});
-    write_mesh(folder_ / fmt::format("post{}.ply", k), post);
+    io::write_mesh(folder_ / fmt::format("post{}.ply", k), post);
   }
 
   void write_joint(const std::string& name, const std::string& fixed, const std::string& mobile) const {

@@ -15,11 +15,12 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline const AxisFrame z_axis(Vec3::Zero(), Vec3::UnitZ());
 
-inline TangentialResults query_one(const TriMesh& mesh, const Vec3& p,
-                                   TangentialRule rule = TangentialRule::alternating) {
+inline tangential::TangentialResults query_one(
+    const TriMesh& mesh, const Vec3& p,
+    tangential::TangentialRule rule = tangential::TangentialRule::alternating) {
   Points points;
   points.push_back(p);
-  return RingTable(mesh, z_axis).query(points, rule);
+  return tangential::RingTable(mesh, z_axis).query(points, rule);
 }
 
 inline Vec3 on_circle(double rho, double degrees, double z) {

@@ -9,7 +9,7 @@
 
 #include "core/predicates.hpp"
 
-namespace condyle {
+namespace condyle::tangential {
 namespace {
 
 /// Against long double, which has 11 bits more: 5u of the angle within an eighth of pi of +x, else 8u.
@@ -56,4 +56,4 @@ TEST(Arctangent, KeepsItsBoundBesideTheBordersOfItsParts) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::tangential

@@ -10,14 +10,14 @@
 #include "mesh/triangle_intersection.hpp"
 #include "simd/instruction_set.hpp"
 
-namespace condyle {
+namespace condyle::tangential {
 namespace {
 
 /// Circles about z, each with triangles of its own.
 struct Pairs {
   double scale;
-  std::vector<tangential::CirclePoint> points;
-  core::UninitialisedVector<tangential::AxisVertex> vertices;
+  std::vector<CirclePoint> points;
+  core::UninitialisedVector<AxisVertex> vertices;
   std::vector<Triangle> triangles;
   std::vector<Index> circle, triangle;
 
@@ -37,7 +37,7 @@ struct Pairs {
 };
 
 struct Outcome {
-  tangential::CrossingClass crossing_class;
+  CrossingClass crossing_class;
   double angle;
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
@@ -45,15 +45,14 @@ struct Outcome {
 /// Outcomes of the pairs that may cross.
 std::map<std::size_t, Outcome> classified(const Pairs& pairs) {
   std::map<std::size_t, Outcome> all;
-  tangential::ClassifiedPairs found;
-  for (std::size_t first = 0; first < pairs.circle.size(); first += tangential::ClassifiedPairs::most) {
+  ClassifiedPairs found;
+  for (std::size_t first = 0; first < pairs.circle.size(); first += ClassifiedPairs::most) {
     tangential::classify_crossings({pairs.vertices.data(), pairs.triangles.data(), pairs.scale}, pairs.points,
                                    pairs.circle, pairs.triangle, first, found);
     for (std::size_t k = 0; k < found.count; ++k) {
       const auto crossing_class =
-          static_cast<tangential::CrossingClass>(static_cast<signed char>(found.crossing_class[k]));
-      all[found.pair[k]] = {crossing_class,
-                            crossing_class == tangential::CrossingClass::uncertain ? 0 : found.angle[k]};
+          static_cast<CrossingClass>(static_cast<signed char>(found.crossing_class[k]));
+      all[found.pair[k]] = {crossing_class, crossing_class == CrossingClass::uncertain ? 0 : found.angle[k]};
     }
   }
   return all;
@@ -68,9 +67,9 @@ struct Counts {
 void expect_as_one_by_one(const Pairs& pairs, Counts& counts) {
   const auto found = classified(pairs);
   for (std::size_t k = 0; k < pairs.circle.size(); ++k) {
-    const tangential::CirclePoint& p = pairs.points[pairs.circle[k]];
+    const CirclePoint& p = pairs.points[pairs.circle[k]];
     const mesh::TriangleCorners t = pairs.corners(k);
-    std::vector<tangential::CircleCrossing> crossings;
+    std::vector<CircleCrossing> crossings;
     TangentialWork work;
     tangential::add_crossings({p.at(), p.squared_radius, pairs.scale}, {&t[0], &t[1], &t[2]}, 0, crossings,
                               work);
@@ -81,7 +80,7 @@ void expect_as_one_by_one(const Pairs& pairs, Counts& counts) {
       EXPECT_FALSE(core::orientation(t[0], t[1], t[2], p.at()) == core::Sign::zero &&
                    mesh::contains_coplanar(t, p.at()));
       ++counts.left_out;
-    } else if (at->second.crossing_class != tangential::CrossingClass::uncertain) {
+    } else if (at->second.crossing_class != CrossingClass::uncertain) {
       ASSERT_EQ(crossings.size(), 1u);
       EXPECT_EQ(crossings[0].angle, at->second.angle);
       EXPECT_EQ(static_cast<int>(crossings[0].passage), static_cast<int>(at->second.crossing_class));
@@ -181,4 +180,4 @@ TEST(ClassifyCrossings, AreTheSameBytesOnEveryInstructionSet) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::tangential

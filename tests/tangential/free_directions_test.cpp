@@ -10,7 +10,7 @@
 #include "support/test_meshes.hpp"
 #include "tangential/build/rings.hpp"
 
-namespace condyle {
+namespace condyle::tangential {
 namespace {
 
 Vec3 at_radians(double rho, double angle, double z) {
@@ -19,12 +19,12 @@ Vec3 at_radians(double rho, double angle, double z) {
 
 TEST(FreeDirections, ATriangleIsNearTheDirectionsThatMeetIt) {
   // Across the direction at 45 degrees, across none, and around the axis.
-  EXPECT_EQ(tangential::FreeDirections::near({5, 4, 0}, {4, 5, 0}, {6, 6, 1}), 1u << 1);
-  EXPECT_EQ(tangential::FreeDirections::near({5, 1, 0}, {5, 2, 0}, {6, 2, 1}), 0u);
-  EXPECT_EQ(tangential::FreeDirections::near({5, 0, 0}, {-4, 4, 0}, {-4, -4, 1}), 0xffu);
+  EXPECT_EQ(FreeDirections::near({5, 4, 0}, {4, 5, 0}, {6, 6, 1}), 1u << 1);
+  EXPECT_EQ(FreeDirections::near({5, 1, 0}, {5, 2, 0}, {6, 2, 1}), 0u);
+  EXPECT_EQ(FreeDirections::near({5, 0, 0}, {-4, 4, 0}, {-4, -4, 1}), 0xffu);
   // With a corner on the half-plane, and in a plane through the axis.
-  EXPECT_EQ(tangential::FreeDirections::near({-5, 0, 0}, {-5, 1, 0}, {-6, 1, 1}), 1u << 4);
-  EXPECT_EQ(tangential::FreeDirections::near({0, -2, 0}, {0, -3, 0}, {0, -3, 1}), 1u << 6);
+  EXPECT_EQ(FreeDirections::near({-5, 0, 0}, {-5, 1, 0}, {-6, 1, 1}), 1u << 4);
+  EXPECT_EQ(FreeDirections::near({0, -2, 0}, {0, -3, 0}, {0, -3, 1}), 1u << 6);
 }
 
 TEST(FreeDirections, NoPointOfATriangleIsCloserInAngleToADirectionItIsNotNear) {
@@ -36,17 +36,17 @@ TEST(FreeDirections, NoPointOfATriangleIsCloserInAngleToADirectionItIsNotNear) {
     const double size = std::exp2(-8 * weight(random));
     const auto corner = [&] { return Vec3(centre + size * Vec3(uniform(random), uniform(random), 0)); };
     const Vec3 a = corner(), b = corner(), c = corner();
-    const auto near = tangential::FreeDirections::near(a, b, c);
-    for (int k = 0; k < tangential::FreeDirections::count; ++k) {
+    const auto near = FreeDirections::near(a, b, c);
+    for (int k = 0; k < FreeDirections::count; ++k) {
       if (near >> k & 1) continue;
       ++free;
       for (int j = 0; j < 20; ++j) {
         double u = weight(random), v = weight(random);
         if (u + v > 1) u = 1 - u, v = 1 - v;
         const Vec3 p = a + u * (b - a) + v * (c - a);
-        const double off = std::remainder(
-            std::atan2(p.y(), p.x()) - tangential::FreeDirections::angle_of(k).radians(), two_pi);
-        EXPECT_GT(std::abs(off), tangential::FreeDirections::clearance);
+        const double off =
+            std::remainder(std::atan2(p.y(), p.x()) - FreeDirections::angle_of(k).radians(), two_pi);
+        EXPECT_GT(std::abs(off), FreeDirections::clearance);
       }
     }
   }
@@ -54,13 +54,12 @@ TEST(FreeDirections, NoPointOfATriangleIsCloserInAngleToADirectionItIsNotNear) {
 }
 
 TEST(FreeDirections, BetweenSectorsOfCornersAreTheDirectionsThatTheTriangleMeets) {
-  EXPECT_EQ(tangential::FreeDirections::between(1u << 3), tangential::FreeDirections::Directions{0});
-  EXPECT_EQ(tangential::FreeDirections::between(1u << 7 | 1u << 0),
-            tangential::FreeDirections::Directions{1u << 0});
-  EXPECT_EQ(tangential::FreeDirections::between(1u << 2 | 1u << 5),
-            tangential::FreeDirections::Directions{1u << 3 | 1u << 4 | 1u << 5});
-  EXPECT_EQ(tangential::FreeDirections::between(1u << 1 | 1u << 5), std::nullopt);
-  EXPECT_EQ(tangential::FreeDirections::between(1u << 1 | 1u << 4 | 1u << 6), std::nullopt);
+  EXPECT_EQ(FreeDirections::between(1u << 3), FreeDirections::Directions{0});
+  EXPECT_EQ(FreeDirections::between(1u << 7 | 1u << 0), FreeDirections::Directions{1u << 0});
+  EXPECT_EQ(FreeDirections::between(1u << 2 | 1u << 5),
+            FreeDirections::Directions{1u << 3 | 1u << 4 | 1u << 5});
+  EXPECT_EQ(FreeDirections::between(1u << 1 | 1u << 5), std::nullopt);
+  EXPECT_EQ(FreeDirections::between(1u << 1 | 1u << 4 | 1u << 6), std::nullopt);
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(-1, 1);
   std::size_t decided = 0, beyond = 0;
@@ -82,21 +81,20 @@ TEST(FreeDirections, BetweenSectorsOfCornersAreTheDirectionsThatTheTriangleMeets
       }
     }
     if (!clear) continue;
-    const auto between =
-        tangential::FreeDirections::between(static_cast<tangential::FreeDirections::Sectors>(all));
+    const auto between = FreeDirections::between(static_cast<FreeDirections::Sectors>(all));
     if (!between) continue;
     // `near` may name more, on the other side of the axis; no point of the triangle is near those.
-    const auto near = tangential::FreeDirections::near(corners[0], corners[1], corners[2]);
+    const auto near = FreeDirections::near(corners[0], corners[1], corners[2]);
     EXPECT_EQ(*between & near, *between);
-    for (int k = 0; k < tangential::FreeDirections::count; ++k) {
+    for (int k = 0; k < FreeDirections::count; ++k) {
       if (*between >> k & 1 || !(near >> k & 1)) continue;
       ++beyond;
       for (int j = 0; j < 20; ++j) {
         const Vec3 p = corners[0] + std::abs(uniform(random)) * (corners[1] - corners[0]);
         const Vec3 q = p + std::abs(uniform(random)) * (corners[2] - p);
-        const double off = std::remainder(
-            std::atan2(q.y(), q.x()) - tangential::FreeDirections::angle_of(k).radians(), two_pi);
-        EXPECT_GT(std::abs(off), tangential::FreeDirections::clearance);
+        const double off =
+            std::remainder(std::atan2(q.y(), q.x()) - FreeDirections::angle_of(k).radians(), two_pi);
+        EXPECT_GT(std::abs(off), FreeDirections::clearance);
       }
     }
     ++decided;
@@ -115,18 +113,18 @@ TEST(FreeDirections, TheWindingNumberInAFreeDirectionIsThatOfEveryPointThere) {
        {test::sphere({12, 3, 1}, 7, 3), test::torus(8, 3, 31, 17), test::box({-5, -5, -5}, {5, 5, 5}),
         test::joined(test::sphere({12, 0, 0}, 6, 3), test::sphere({12, 0, 0}, 3, 3)),
         test::socket({10, 4, -3}, 8, 12, 3)}) {
-    const tangential::Rings rings =
+    const Rings rings =
         tangential::build_rings(mesh, AxisFrame(Vec3::Zero(), Vec3::UnitZ()), 2 * mesh.triangles.size());
     const mesh::WindingNumber winding(mesh);
-    const tangential::ProfileGrid& grid = rings.grid();
+    const ProfileGrid& grid = rings.grid();
     std::size_t inside = 0, compared = 0;
     for (Index row = 0; row < grid.rows; ++row) {
       for (Index column = 0; column < grid.columns; ++column) {
         const auto anchor = rings.free_directions.of(grid.cell(row, column));
-        if (anchor.direction == tangential::FreeDirections::none) continue;
+        if (anchor.direction == FreeDirections::none) continue;
         const double rho = grid.rho_min + (column + weight(random)) * grid.rho_cell;
         const double z = grid.z_min + (row + weight(random)) * grid.z_cell;
-        const double angle = tangential::FreeDirections::angle_of(anchor.direction).radians();
+        const double angle = FreeDirections::angle_of(anchor.direction).radians();
         EXPECT_EQ(winding.at(at_radians(rho, angle, z)).winding, anchor.winding) << rho << " " << z;
         inside += anchor.winding > 0, ++compared;
       }
@@ -138,4 +136,4 @@ TEST(FreeDirections, TheWindingNumberInAFreeDirectionIsThatOfEveryPointThere) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::tangential

@@ -8,7 +8,7 @@
 #include "support/test_meshes.hpp"
 #include "tangential/about_z.hpp"
 
-namespace condyle {
+namespace condyle::tangential {
 namespace {
 
 using test::angle_error, test::on_circle, test::query_one, test::z_axis;
@@ -52,4 +52,4 @@ TEST(RingTable, TheNearestArcRuleAgreesAwayFromEdgesAndUnderHalfATurn) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::tangential

@@ -10,12 +10,12 @@
 #include "support/random_triangles.hpp"
 #include "support/test_meshes.hpp"
 
-namespace condyle {
+namespace condyle::tangential {
 namespace {
 
 using Cells = std::set<std::size_t>;
 
-Cells cells_of(const tangential::ProfileGrid& grid, const Vec3& a, const Vec3& b, const Vec3& c) {
+Cells cells_of(const ProfileGrid& grid, const Vec3& a, const Vec3& b, const Vec3& c) {
   Cells cells;
   tangential::for_each_profile_run(grid, a, b, c, [&](Index row, Index first, Index last) {
     for (Index column = first; column <= last; ++column) cells.insert(grid.cell(row, column));
@@ -23,8 +23,8 @@ Cells cells_of(const tangential::ProfileGrid& grid, const Vec3& a, const Vec3& b
   return cells;
 }
 
-tangential::ProfileGrid unit_cells(double rho_max, double z_min, double z_max) {
-  tangential::ProfileGrid grid;
+ProfileGrid unit_cells(double rho_max, double z_min, double z_max) {
+  ProfileGrid grid;
   grid.rho_max = rho_max, grid.z_min = z_min, grid.z_max = z_max;
   grid.columns = static_cast<Index>(rho_max), grid.rows = static_cast<Index>(z_max - z_min);
   return grid;
@@ -79,7 +79,7 @@ TEST(ProfileRaster, EveryPointOfEveryTriangleFallsInOneOfItsCells) {
   for (const double shift : {0.0, 3.0, 1e4}) {
     const TriMesh mesh = test::triangles_of_all_sizes(random, shift, 1);
     // No triangle reaches further in from its corners than across: 2^1.5.
-    tangential::ProfileGrid::Extent extent{1e9, 0, 1e9, -1e9};
+    ProfileGrid::Extent extent{1e9, 0, 1e9, -1e9};
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
       const Vec3 p = mesh.vertices[v];
       const double rho = tangential::axis_radius(p.x(), p.y());
@@ -87,7 +87,7 @@ TEST(ProfileRaster, EveryPointOfEveryTriangleFallsInOneOfItsCells) {
       extent.rho_max = std::max(extent.rho_max, rho);
       extent.z_min = std::min(extent.z_min, p.z()), extent.z_max = std::max(extent.z_max, p.z());
     }
-    const auto grid = tangential::ProfileGrid::over(extent, 4096);
+    const auto grid = ProfileGrid::over(extent, 4096);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
       const Cells cells = cells_of(grid, a, b, c);
@@ -121,4 +121,4 @@ TEST(ProfileRaster, ACellIsMetUnlessByRounding) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::tangential

@@ -10,7 +10,7 @@
 #include "mesh/winding_number.hpp"
 #include "support/shared_data.hpp"
 
-namespace condyle {
+namespace condyle::tangential {
 namespace {
 
 struct Pair {
@@ -139,4 +139,4 @@ TEST(RealJoints, OneThreadAndManyGiveTheSameBytes) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::tangential

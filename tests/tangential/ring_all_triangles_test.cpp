@@ -15,7 +15,7 @@
 #include "tangential/circle_oracle.hpp"
 #include "tangential/exact/circle_crossing.hpp"
 
-namespace condyle {
+namespace condyle::tangential {
 namespace {
 
 using test::infinity, test::z_axis;
@@ -114,13 +114,13 @@ TEST(RingTable, CrossingsOfAClosedMeshSumToZeroAndComeBackToTheAnchor) {
     for (int i = 0; i < 20; ++i) {
       const Vec3 p(coordinate(random), coordinate(random), coordinate(random));
       if (p.x() == 0 && p.y() == 0) continue;
-      const tangential::Circle circle{p, p.x() * p.x() + p.y() * p.y(), 5};
-      std::vector<tangential::CircleCrossing> all;
+      const Circle circle{p, p.x() * p.x() + p.y() * p.y(), 5};
+      std::vector<CircleCrossing> all;
       TangentialWork work;
       int sum = 0, outwards = 0;
       for (Index t = 0; t < mesh.triangles.size(); ++t) {
         const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-        const tangential::TriangleRef corners = {&a, &b, &c};
+        const TriangleRef corners = {&a, &b, &c};
         tangential::add_crossings(circle, corners, t, all, work);
         outwards += tangential::outward_crossing(circle, corners, work);
       }
@@ -195,4 +195,4 @@ TEST(RingTable, RefiningAMeshWithoutMovingItsSurfaceChangesNoGap) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::tangential

@@ -11,7 +11,7 @@
 #include "tangential/about_z.hpp"
 #include "tangential/circle_oracle.hpp"
 
-namespace condyle {
+namespace condyle::tangential {
 namespace {
 
 using test::angle_error, test::z_axis;
@@ -108,4 +108,4 @@ TEST(RingTable, NestedBodiesAndCavitiesHaveTheArcsOfTheirUnion) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::tangential

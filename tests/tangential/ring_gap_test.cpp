@@ -11,7 +11,7 @@
 #include "support/test_meshes.hpp"
 #include "tangential/about_z.hpp"
 
-namespace condyle {
+namespace condyle::tangential {
 namespace {
 
 using test::angle_error, test::infinity, test::on_circle, test::query_one, test::z_axis;
@@ -220,4 +220,4 @@ TEST(RingTable, ASheetOfNoThicknessHoldsNothing) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::tangential

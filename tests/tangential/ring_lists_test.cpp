@@ -15,22 +15,22 @@
 #include "tangential/query/circle_cells.hpp"
 #include "tangential/query/gather_candidates.hpp"
 
-namespace condyle {
+namespace condyle::tangential {
 namespace {
 
 const AxisFrame about_z_axis(Vec3::Zero(), Vec3::UnitZ());
 
 struct Listed {
-  tangential::AxisVertices vertices;
-  tangential::ProfileBoxes boxes;
-  tangential::RingLists lists;
+  AxisVertices vertices;
+  ProfileBoxes boxes;
+  RingLists lists;
 };
 
 Listed listed(const TriMesh& mesh, std::size_t cells) {
   Listed out;
   out.vertices = tangential::vertices_in_axis_frame(mesh.vertices, about_z_axis);
   out.boxes = tangential::profile_boxes(out.vertices.rounded, mesh.triangles);
-  out.lists = tangential::RingLists(out.vertices, mesh.triangles, out.boxes, cells);
+  out.lists = RingLists(out.vertices, mesh.triangles, out.boxes, cells);
   return out;
 }
 
@@ -41,10 +41,10 @@ TEST(RingLists, ABoxIsWithinTheGridWhereItsCellsAreNoFloats) {
   for (const TriMesh& mesh : {needle, in_the_axis}) {
     for (const std::size_t cells : {1u, 12u, 400u}) {
       const Listed here = listed(mesh, cells);
-      const tangential::ProfileGrid& grid = here.lists.grid();
-      const tangential::BoxScale scale(grid, here.vertices.units_per_mm);
+      const ProfileGrid& grid = here.lists.grid();
+      const BoxScale scale(grid, here.vertices.units_per_mm);
       for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const tangential::BoxSides sides = scale.sides(here.boxes, t);
+        const BoxSides sides = scale.sides(here.boxes, t);
         EXPECT_LE(sides.first_column(), sides.last_column());
         EXPECT_LE(sides.first_row(), sides.last_row());
         EXPECT_LT(sides.last_column(), grid.columns);
@@ -61,7 +61,7 @@ TEST(RingLists, TheCircleOfEveryPointOfATriangleFindsIt) {
     for (const double shift : {0.0, 3.0, 1e4}) {
       const TriMesh mesh = test::triangles_of_all_sizes(random, shift, scale);
       for (const std::size_t cells : {1u, 64u, 4096u}) {
-        const tangential::RingLists lists = listed(mesh, cells).lists;
+        const RingLists lists = listed(mesh, cells).lists;
         Points points;
         std::vector<Index> expected;
         for (Index t = 0; t < mesh.triangles.size(); ++t) {
@@ -73,10 +73,10 @@ TEST(RingLists, TheCircleOfEveryPointOfATriangleFindsIt) {
             points.push_back(p), expected.push_back(t);
           }
         }
-        tangential::LocatedCircles circles;
+        LocatedCircles circles;
         tangential::locate_circles(about_z_axis, lists.grid(), points, circles);
         ASSERT_EQ(circles.size(), points.size()) << "shift " << shift << " scale " << scale;
-        tangential::CandidatePairs pairs;
+        CandidatePairs pairs;
         std::set<std::pair<Index, Index>> found;
         for (std::size_t done = 0; done < circles.size();) {
           done = gather_candidates(lists, circles.cell, done, pairs);
@@ -95,7 +95,7 @@ TEST(RingLists, TheCircleOfEveryPointOfATriangleFindsIt) {
 TEST(RingLists, ABoxIsNoWiderThanItsTriangleByMoreThanTwoPartsOfACell) {
   const TriMesh mesh = test::sphere({60, 3, 1}, 20, 5);
   const Listed all = listed(mesh, mesh.triangles.size() / 8);
-  const tangential::ProfileGrid& grid = all.lists.grid();
+  const ProfileGrid& grid = all.lists.grid();
   std::mt19937 random(6);
   std::uniform_real_distribution<double> weight(0, 1);
   std::size_t compared = 0;
@@ -104,10 +104,10 @@ TEST(RingLists, ABoxIsNoWiderThanItsTriangleByMoreThanTwoPartsOfACell) {
     const double z = grid.z_min + weight(random) * (grid.z_max - grid.z_min);
     Points point;
     point.push_back({rho, 0, z});
-    tangential::LocatedCircles circle;
+    LocatedCircles circle;
     tangential::locate_circles(about_z_axis, grid, point, circle);
     ASSERT_EQ(circle.size(), 1u);
-    tangential::CandidatePairs pairs;
+    CandidatePairs pairs;
     gather_candidates(all.lists, circle.cell, 0, pairs);
     for (const Index t : pairs.triangle) {
       double low = 1e9, high = 0, z_low = 1e9, z_high = -1e9, longest2 = 0;
@@ -159,24 +159,24 @@ TEST(RingLists, ListsHoldTrianglesOnceAndAreFoundTheSameOnEveryInstructionSet) {
   std::mt19937 random(8);
   const TriMesh mesh = test::triangles_of_all_sizes(random, 2, 1);
   const Listed best = listed(mesh, 200);
-  std::vector<tangential::CircleCell> circles;
+  std::vector<CircleCell> circles;
   for (Index cell = 0; cell < best.lists.grid().cells(); ++cell) {
     const auto list = best.lists.of(cell);
     std::set<Index> triangles_listed;
-    for (const tangential::RingEntry& entry : list) triangles_listed.insert(entry.triangle);
+    for (const RingEntry& entry : list) triangles_listed.insert(entry.triangle);
     EXPECT_EQ(triangles_listed.size(), list.size());
-    for (tangential::CellBox at = 0; at < 16; ++at) {
-      const tangential::CellBox z = 16 * at + 3, rho = 255 - 7 * at;
+    for (CellBox at = 0; at < 16; ++at) {
+      const CellBox z = 16 * at + 3, rho = 255 - 7 * at;
       circles.push_back({cell, z | (255 - z) << 8 | rho << 16 | (255 - rho) << 24});
     }
   }
-  tangential::CandidatePairs expected;
+  CandidatePairs expected;
   gather_candidates(best.lists, circles, 0, expected);
   EXPECT_GT(expected.circle.size(), 1000u);
   for (const simd::InstructionSet& set : simd::instruction_sets()) {
     const simd::InstructionSetInUse in_use(set);
     const Listed here = listed(mesh, 200);
-    tangential::CandidatePairs pairs;
+    CandidatePairs pairs;
     gather_candidates(here.lists, circles, 0, pairs);
     const std::size_t both = std::min(pairs.circle.size(), expected.circle.size());
     EXPECT_GT(both, 1000u);
@@ -188,4 +188,4 @@ TEST(RingLists, ListsHoldTrianglesOnceAndAreFoundTheSameOnEveryInstructionSet) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::tangential

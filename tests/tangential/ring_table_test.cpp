@@ -17,7 +17,7 @@
 #include "support/test_meshes.hpp"
 #include "tangential/about_z.hpp"
 
-namespace condyle {
+namespace condyle::tangential {
 namespace {
 
 using test::infinity, test::z_axis;
@@ -188,4 +188,4 @@ TEST(RingTable, IsTheSameForAnyNumberOfThreadsByteForByte) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::tangential

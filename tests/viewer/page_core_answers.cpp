@@ -60,7 +60,7 @@ struct Scene {
 };
 
 Scene sample_scene() {
-  const SampleHip hip = sample_hip({}, Scenario::two);
+  const sample::SampleHip hip = sample::sample_hip({}, sample::Scenario::two);
   Scene scene{.fixed = flat(hip.hip_bone),
               .mobile = flat(hip.femur),
               .questions = {},
@@ -166,12 +166,12 @@ void answer_shown(CondyleJoint* joint, const double X[16], const std::size_t (&v
     }
 }
 
-std::array<double, 3> start_of(const Motion& motion) {
+std::array<double, 3> start_of(const motion::Motion& motion) {
   return {motion.start.flexion.degrees(), motion.start.adduction.degrees(),
           motion.start.internal_rotation.degrees()};
 }
 
-void answer_limit(CondyleJoint* joint, const Motion& motion, std::ostream& answers) {
+void answer_limit(CondyleJoint* joint, const motion::Motion& motion, std::ostream& answers) {
   const std::array start = start_of(motion);
   const double held[] = {0, 0, 0};
   double limit[7];
@@ -265,7 +265,7 @@ void answer_stroke(CondyleJoint* joint, int of_fixed, int action, const std::vec
   answers << ' ' << brushed(joint, of_fixed, vertices) << '\n';
 }
 
-void answer_about(CondyleJoint* joint, const Motion& motion, std::ostream& answers) {
+void answer_about(CondyleJoint* joint, const motion::Motion& motion, std::ostream& answers) {
   const std::array start = start_of(motion);
   double limit[7];
   checked(condyle_limit_about(joint, static_cast<int>(motion.vary), motion.sense == RotationSense::positive,
@@ -283,14 +283,16 @@ void answer_edits(const Scene& scene, const std::string& folder) {
   CondyleJoint* joint = joint_of(scene);
   std::ofstream answers(folder + "/edits.txt");
   const std::size_t vertices[] = {scene.mobile.size() / 3, scene.fixed.size() / 3};
-  const SampleHip hip = sample_hip({}, Scenario::two);
+  const sample::SampleHip hip = sample::sample_hip({}, sample::Scenario::two);
   const Joint named{"sample", JointKind::ball, Side::right, {"hip bone", hip.hip_bone}, {"femur", hip.femur}};
   const auto contact =
-      *RangeOfMotion(named).limit(motion_named(hip_motions(), "internal_rotation_at_90_flexion")).end.contact;
+      *motion::RangeOfMotion(named)
+           .limit(motion::motion_named(motion::hip_motions(), "internal_rotation_at_90_flexion"))
+           .end.contact;
   const std::vector<std::uint32_t> along[] = {vertices_near(scene.mobile, contact.mobile_point, 3),
                                               vertices_near(scene.fixed, contact.fixed_point, 3)};
   const auto answer_limits = [&] {
-    for (const Motion& motion : hip_motions()) answer_limit(joint, motion, answers);
+    for (const motion::Motion& motion : motion::hip_motions()) answer_limit(joint, motion, answers);
   };
   for (const int of_fixed : {0, 1}) {
     answers << "brush " << of_fixed << " = " << checked(condyle_brush(joint, of_fixed, nullptr)) << '\n';
@@ -305,7 +307,7 @@ void answer_edits(const Scene& scene, const std::string& folder) {
   const double centre[] = {1.5, -2, 0.5}, reference[] = {0, 0, 0};
   checked(condyle_move_centre(joint, centre, reference));
   answers << "centre " << bits(centre[0]) << ' ' << bits(centre[1]) << ' ' << bits(centre[2]) << " = 0\n";
-  for (const Motion& motion : hip_motions()) answer_about(joint, motion, answers);
+  for (const motion::Motion& motion : motion::hip_motions()) answer_about(joint, motion, answers);
   condyle_free(joint);
   if (!answers) throw std::runtime_error(folder + " cannot be written");
 }
@@ -323,7 +325,7 @@ void answer(const Scene& scene, const std::string& folder) {
     constexpr std::size_t every_depth = 10;  // tables about the joint's axes are made for each
     if (i % every_depth == 0) answer_depth(joint, &scene.questions[6 * i], X, answers);
   }
-  for (const Motion& motion : hip_motions()) answer_limit(joint, motion, answers);
+  for (const motion::Motion& motion : motion::hip_motions()) answer_limit(joint, motion, answers);
   answer_map(joint, answers);
   condyle_free(joint);
   if (!answers || !shown) throw std::runtime_error(folder + " cannot be written");

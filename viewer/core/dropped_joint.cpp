@@ -86,20 +86,21 @@ Json angles_json(const JointAngles& angles) {
 }
 
 /// The keys of rom.json that the page reads.
-Json motion_json(const Joint& joint, const MotionLimit& limit, const std::optional<BearingSurface>& surface) {
+Json motion_json(const Joint& joint, const motion::MotionLimit& limit,
+                 const std::optional<motion::BearingSurface>& surface) {
   const auto& contact = limit.end.contact;
   const auto& bearing = limit.end.bearing_contact;
   const auto vary = static_cast<std::size_t>(limit.motion.vary);
-  const auto normal = normal_hip_range(limit.motion.name);
+  const auto normal = io::normal_hip_range(limit.motion.name);
   return {{"name", limit.motion.name},
           {"limit_deg", limit.end.turned.degrees()},
           {"reason", name_of(limit.end.reason)},
           {"contact_kind", io::ends_in_contact(limit) ? Json(name_of(limit.end.kind())) : Json(nullptr)},
           {"bearing_contact_deg", bearing ? Json(bearing->turned.degrees()) : Json(nullptr)},
           {"contact_point_mm", contact ? io::numbers(contact->fixed_point) : Json(nullptr)},
-          {"clock_hour",
-           contact ? io::nullable(motion::socket_hour(sagittal_clock(), surface, contact->fixed_point))
-                   : Json(nullptr)},
+          {"clock_hour", contact ? io::nullable(motion::socket_hour(motion::sagittal_clock(), surface,
+                                                                    contact->fixed_point))
+                                 : Json(nullptr)},
           {"error_bound_deg", limit.end.error_bound.degrees()},
           {"vary", coordinate_names(Anatomy::hip)[vary].positive},
           {"sense", limit.motion.sense == RotationSense::positive ? "positive" : "negative"},
@@ -107,7 +108,7 @@ Json motion_json(const Joint& joint, const MotionLimit& limit, const std::option
           {"start_deg", angles_json(limit.motion.start)},
           {"at_limit_deg", angles_json(limit.angles_at_limit())},
           {"normal_range_deg", normal ? Json(normal->degrees()) : Json(nullptr)},
-          {"caveats", io::caveats_json(motion_caveats(joint, limit.motion))},
+          {"caveats", io::caveats_json(io::motion_caveats(joint, limit.motion))},
           {"band", nullptr}};
 }
 
@@ -115,7 +116,7 @@ Json sphere_json(const Sphere& sphere) {
   return {{"centre_mm", io::numbers(sphere.centre)}, {"radius_mm", sphere.radius}};
 }
 
-Json bearing_json(const BearingFinding& found) {
+Json bearing_json(const motion::BearingFinding& found) {
   if (!found.surface) return {{"rule", "count"}, {"why_none", found.why_none}};
   const auto& surface = *found.surface;
   return {{"rule", "leave_out"},
@@ -135,7 +136,7 @@ Joint named_by_tissue(const CondyleJoint& joint) {
 /// Notes of the images first.
 Json notes_json(const PageProposal& proposal, const std::vector<RangeNote>& of_range) {
   Json list = Json::array();
-  for (const LabelNote& note : proposal.of_images)
+  for (const io::LabelNote& note : proposal.of_images)
     list.push_back({{"code", name_of(note.code)}, {"text", note.text}});
   for (Json& note : io::notes_json(proposal.notes, {}, of_range)) list.push_back(std::move(note));
   return list;
@@ -166,7 +167,7 @@ CondyleJoint* joint_of(JointDescription description, Body fixed, Body mobile, Pa
   description.frame.centre = CentreFit{};
   PlacedJoint placed = make_joint(description, std::move(fixed), std::move(mobile));
   proposal.notes = check_joint(placed.joint, placed.placement);
-  JointContact bodies(placed.joint);
+  contact::JointContact bodies(placed.joint);
   return new CondyleJoint{
       .joint = std::move(placed.joint), .bodies = std::move(bodies), .proposal = std::move(proposal)};
 }
@@ -195,8 +196,8 @@ CondyleMesh* condyle_read_mesh(const char* name, const std::uint8_t* bytes, int 
   return guarded(static_cast<CondyleMesh*>(nullptr), [&] {
     const std::string_view contents(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(count));
     try {
-      return new CondyleMesh{read_mesh(contents, mesh_format_of(name), name).mesh,
-                             {name, digest_of(contents)}};
+      return new CondyleMesh{io::read_mesh(contents, io::mesh_format_of(name), name).mesh,
+                             {name, io::digest_of(contents)}};
     } catch (const io::UnknownCompression&) {
       throw FileError(std::string(name) +
                       ": compressed by LZ4: the page reads VTP compressed by zlib or not at all");
@@ -238,19 +239,19 @@ void condyle_mesh(const CondyleJoint* joint, int of_fixed, double* vertices, std
 
 const char* condyle_description(CondyleJoint* joint) {
   return guarded(static_cast<const char*>(nullptr), [&] {
-    const RangeOfMotion& range = range_of(*joint);
+    const motion::RangeOfMotion& range = range_of(*joint);
     const PageProposal& proposal = joint->proposal;
     const Joint named = named_by_tissue(*joint);
     Json motions = Json::array();
-    const std::vector<MotionLimit> limits = range.limits(hip_motions());
-    for (const MotionLimit& limit : limits)
+    const std::vector<motion::MotionLimit> limits = range.limits(motion::hip_motions());
+    for (const motion::MotionLimit& limit : limits)
       motions.push_back(motion_json(named, limit, range.bearing().surface));
     const Json rom{{"clock_plane", "sagittal"},
                    {"motions", std::move(motions)},
                    {"notes", notes_json(proposal, range_notes(joint->joint, limits, {}, range.bearing()))},
                    {"caveats", proposal.inferred},
-                   {"normal_range_source", normal_hip_range_source},
-                   {"scope", scope_text(named)},
+                   {"normal_range_source", io::normal_hip_range_source},
+                   {"scope", io::scope_text(named)},
                    {"bearing", bearing_json(range.bearing())},
                    {"provenance",
                     {{"version", version},

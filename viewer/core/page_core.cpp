@@ -41,11 +41,11 @@ const Points& vertices_of(const CondyleJoint& joint, bool of_fixed) {
 }
 
 /// The table of the other body, for vertices of this one.
-const RadialTable& other_table(const CondyleJoint& joint, bool of_fixed) {
+const radial::RadialTable& other_table(const CondyleJoint& joint, bool of_fixed) {
   return of_fixed ? joint.bodies.mobile_table() : joint.bodies.fixed_table();
 }
 
-void find_inside(const CondyleJoint& joint, const Pose& X_FM, bool of_fixed, Penetrations& found) {
+void find_inside(const CondyleJoint& joint, const Pose& X_FM, bool of_fixed, radial::Penetrations& found) {
   if (of_fixed)
     joint.bodies.fixed_in_mobile(X_FM, found);
   else
@@ -54,20 +54,21 @@ void find_inside(const CondyleJoint& joint, const Pose& X_FM, bool of_fixed, Pen
 
 /// visit(DeepestVertex) for each vertex found inside the other body, which X brings it to.
 template <class Visit>
-void visit_inside(CondyleJoint& joint, const Pose& X, bool of_fixed, Penetrations& found,
+void visit_inside(CondyleJoint& joint, const Pose& X, bool of_fixed, radial::Penetrations& found,
                   const Visit& visit) {
   const Points& vertices = vertices_of(joint, of_fixed);
   other_table(joint, of_fixed).add_ray_to_normal(vertices, X, found);
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (found.state[i] != PointState::inside) continue;
     const Index v = found.point[i];
-    visit(DeepestVertex{v, found.depth_mm[i], other_surface(joint, of_fixed)(X * vertices[v]),
-                        found.ray_to_normal[i]});
+    visit(contact::DeepestVertex{v, found.depth_mm[i], other_surface(joint, of_fixed)(X * vertices[v]),
+                                 found.ray_to_normal[i]});
   }
 }
 
 /// About the axes in their order.
-constexpr std::array ways_about{DepthWay::flexion, DepthWay::adduction, DepthWay::internal_rotation};
+constexpr std::array ways_about{contact::DepthWay::flexion, contact::DepthWay::adduction,
+                                contact::DepthWay::internal_rotation};
 
 /// Values shown at each vertex of a body.
 struct ShownValues {
@@ -80,29 +81,29 @@ struct ShownValues {
   }
 };
 
-int number_of(LimitReason reason) {
+int number_of(motion::LimitReason reason) {
   switch (reason) {
-    case LimitReason::contact:
+    case motion::LimitReason::contact:
       return 0;
-    case LimitReason::end_of_range:
+    case motion::LimitReason::end_of_range:
       return 1;
-    case LimitReason::contact_at_start:
+    case motion::LimitReason::contact_at_start:
       return 2;
   }
   return -1;
 }
 
-int number_of(ContactKind kind) {
+int number_of(motion::ContactKind kind) {
   switch (kind) {
-    case ContactKind::unknown:
+    case motion::ContactKind::unknown:
       return 0;
-    case ContactKind::bearing:
+    case motion::ContactKind::bearing:
       return 1;
-    case ContactKind::impingement:
+    case motion::ContactKind::impingement:
       return 2;
-    case ContactKind::cut:
+    case motion::ContactKind::cut:
       return 3;
-    case ContactKind::soft:
+    case motion::ContactKind::soft:
       break;  // it ends no motion
   }
   return -1;
@@ -121,11 +122,11 @@ Pose pose_of(const double* rows) {
   return pose;
 }
 
-const RangeOfMotion& range_of(CondyleJoint& joint, const Vec3& held_mm) {
+const motion::RangeOfMotion& range_of(CondyleJoint& joint, const Vec3& held_mm) {
   if (!joint.range || joint.range_held_at != held_mm) {
-    RangeOptions options{.bearing = joint.bearing};
-    options.overlap.reference_contact = ReferenceContact::accept;
-    joint.range = std::make_shared<const RangeOfMotion>(held_at(joint.joint, held_mm), options);
+    motion::RangeOptions options{.bearing = joint.bearing};
+    options.overlap.reference_contact = motion::ReferenceContact::accept;
+    joint.range = std::make_shared<const motion::RangeOfMotion>(held_at(joint.joint, held_mm), options);
     joint.range_held_at = held_mm;
   }
   return *joint.range;
@@ -159,7 +160,7 @@ CondyleJoint* condyle_joint(int kind, int anatomy, int side, int translation_fra
                    mesh_of(mobile_vertices, mobile_vertex_count, mobile_triangles, mobile_triangle_count)},
         .anatomy = anatomies.at(static_cast<std::size_t>(anatomy)),
         .translation_frame = translation_frame == 0 ? TranslationFrame::fixed : TranslationFrame::joint_axes};
-    JointContact bodies(joint);
+    contact::JointContact bodies(joint);
     return new CondyleJoint{std::move(joint), std::move(bodies)};
   });
 }
@@ -205,13 +206,13 @@ int condyle_depth(CondyleJoint* joint, const double* pose, const double* angles_
     const Pose X_FM = pose_of(pose);
     const DepthAnswer depth =
         answer_depth(joint->bodies, joint->joint, {.X_FM = X_FM, .pose = angles_of(angles_deg)});
-    const ContactMeasures& measures = depth.measures;
-    const ReliableContact& reliable = std::get<RayDepths>(depth.depths).reliable;
+    const contact::ContactMeasures& measures = depth.measures;
+    const contact::ReliableContact& reliable = std::get<RayDepths>(depth.depths).reliable;
     std::fill_n(answer, 16, none);
     answer[0] = depth.in_contact() ? 1 : 0;
     answer[1] = 0;
-    if (const auto deepest = deepest_of(reliable)) {
-      const DeepestReliable& vertex = deepest->vertex;
+    if (const auto deepest = contact::deepest_of(reliable)) {
+      const contact::DeepestReliable& vertex = deepest->vertex;
       const Vec3 own = vertices_of(*joint, !deepest->is_mobile)[vertex.vertex];
       const Vec3 point = deepest->is_mobile ? posed(X_FM, own) : own;
       answer[1] = static_cast<double>(vertex.way);
@@ -223,7 +224,7 @@ int condyle_depth(CondyleJoint* joint, const double* pose, const double* angles_
       for (std::size_t axis = 0; axis < 3; ++axis)
         if (vertex.way == ways_about[axis]) answer[9] = vertex.rotations[axis]->angle.degrees();
     }
-    answer[10] = static_cast<double>(without_depth(reliable));
+    answer[10] = static_cast<double>(contact::without_depth(reliable));
     if (measures.mobile) answer[11] = measures.mobile->area_mm2;
     if (measures.fixed) answer[12] = measures.fixed->area_mm2;
     if (measures.volume_mm3) {
@@ -245,7 +246,7 @@ int condyle_shown(CondyleJoint* joint, const double* pose, int quantity, int of_
     // An open mesh has no inside: of it distances are shown alone.
     const bool has_inside = condyle_can_penetrate(joint, of_fixed);
     const auto what = static_cast<Shown>(quantity);
-    Penetrations inside;
+    radial::Penetrations inside;
     if (has_inside && what != Shown::radial_gap) find_inside(*joint, X_FM, of_fixed, inside);
     switch (what) {
       case Shown::radial_gap: {
@@ -257,8 +258,8 @@ int condyle_shown(CondyleJoint* joint, const double* pose, int quantity, int of_
       }
       case Shown::depth:
         if (!has_inside) break;
-        visit_inside(*joint, X, of_fixed, inside, [&](const DeepestVertex& vertex) {
-          if (vertex.applies() == DepthKind::radial)
+        visit_inside(*joint, X, of_fixed, inside, [&](const contact::DeepestVertex& vertex) {
+          if (vertex.applies() == contact::DepthKind::radial)
             shown.set(vertex.vertex, vertex.depth_mm);
           else
             shown.set(vertex.vertex, vertex.shortest_exit_mm, Mark::bound);
@@ -282,7 +283,7 @@ int condyle_in_contact(CondyleJoint* joint, const double* pose) {
 int condyle_pairs(CondyleJoint* joint, const double* pose) {
   return guarded(-1, [&] {
     joint->pair_triangles.clear();
-    for (const TrianglePair& pair : joint->bodies.pairs(pose_of(pose)))
+    for (const contact::TrianglePair& pair : joint->bodies.pairs(pose_of(pose)))
       joint->pair_triangles.insert(joint->pair_triangles.end(), {pair.fixed, pair.mobile});
     return static_cast<int>(joint->pair_triangles.size() / 2);
   });
@@ -292,12 +293,13 @@ const std::uint32_t* condyle_pair_triangles(const CondyleJoint* joint) {
   return joint->pair_triangles.data();
 }
 
-void put_limit(const RangeOfMotion& range, const PageMotion& motion, const Vec3& origin, double limit[7]) {
+void put_limit(const motion::RangeOfMotion& range, const PageMotion& motion, const Vec3& origin,
+               double limit[7]) {
   const Angle most = Angle::degrees(motion.range_deg);
-  const RotationLimits ends = range.both_limits(
+  const motion::RotationLimits ends = range.both_limits(
       all_joint_angles.at(static_cast<std::size_t>(motion.vary)), angles_of(motion.start_deg),
       {motion.is_positive ? Angle() : -most, motion.is_positive ? most : Angle()});
-  const Limit& end = motion.is_positive ? ends.positive : ends.negative;
+  const motion::Limit& end = motion.is_positive ? ends.positive : ends.negative;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const Vec3 point = end.contact ? Vec3(end.contact->fixed_point + origin) : Vec3(none, none, none);
   limit[0] = end.turned.degrees();
@@ -319,13 +321,15 @@ int condyle_limit(CondyleJoint* joint, int vary, int positive, const double* sta
 int condyle_free_angles(CondyleJoint* joint, int vary, const double* start_deg, const double* held_mm,
                         double back_deg, double forth_deg) {
   return guarded(-1, [&] {
-    const FreeAngles free =
+    const motion::FreeAngles free =
         range_of(*joint, Vec3(held_mm[0], held_mm[1], held_mm[2]))
             .free_angles(all_joint_angles.at(static_cast<std::size_t>(vary)), angles_of(start_deg),
                          {Angle::degrees(-back_deg), Angle::degrees(forth_deg)});
     joint->intervals.clear();
-    const auto by_contact = [](const Limit& end) { return end.reason == LimitReason::contact ? 1.0 : 0.0; };
-    for (const FreeInterval& interval : free.intervals)
+    const auto by_contact = [](const motion::Limit& end) {
+      return end.reason == motion::LimitReason::contact ? 1.0 : 0.0;
+    };
+    for (const motion::FreeInterval& interval : free.intervals)
       joint->intervals.insert(joint->intervals.end(),
                               {interval.low.degrees(), interval.high.degrees(), by_contact(interval.at_low),
                                by_contact(interval.at_high)});
@@ -342,14 +346,14 @@ int condyle_set_roles(CondyleJoint* joint, int count_bearing, const std::uint8_t
   return guarded(-1, [&] {
     joint->range.reset();
     const auto roles_of = [](const Body& body, const std::uint8_t* numbers) {
-      std::vector<ContactRole> roles;
+      std::vector<motion::ContactRole> roles;
       for (std::size_t t = 0; numbers && t < body.mesh.triangles().size(); ++t)
-        roles.push_back(static_cast<ContactRole>(numbers[t]));
+        roles.push_back(static_cast<motion::ContactRole>(numbers[t]));
       return roles;
     };
-    joint->bearing = {
-        .rule = count_bearing ? BearingRule::count : BearingRule::leave_out,
-        .roles = ContactRoles{roles_of(joint->joint.fixed, fixed), roles_of(joint->joint.mobile, mobile)}};
+    joint->bearing = {.rule = count_bearing ? motion::BearingRule::count : motion::BearingRule::leave_out,
+                      .roles = motion::ContactRoles{roles_of(joint->joint.fixed, fixed),
+                                                    roles_of(joint->joint.mobile, mobile)}};
     return 0;
   });
 }
@@ -357,8 +361,9 @@ int condyle_set_roles(CondyleJoint* joint, int count_bearing, const std::uint8_t
 int condyle_bearing(CondyleJoint* joint, std::uint8_t* triangles) {
   return guarded(-1, [&] {
     int count = 0;
-    for (const ContactRole role : range_of(*joint).bearing().roles.mobile) {
-      const bool slides = role == ContactRole::bearing || role == ContactRole::bearing_on_bearing;
+    for (const motion::ContactRole role : range_of(*joint).bearing().roles.mobile) {
+      const bool slides =
+          role == motion::ContactRole::bearing || role == motion::ContactRole::bearing_on_bearing;
       *triangles++ = slides;
       count += slides;
     }

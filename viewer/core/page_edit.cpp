@@ -22,17 +22,17 @@ Body& body_of(CondyleJoint& joint, BodyRole role) {
   return role == BodyRole::fixed ? joint.joint.fixed : joint.joint.mobile;
 }
 
-std::optional<Brush>& brush_of(CondyleJoint& joint, int of_fixed) {
+std::optional<plan::Brush>& brush_of(CondyleJoint& joint, int of_fixed) {
   return of_fixed ? joint.edit.fixed : joint.edit.mobile;
 }
 
-Brush& ready_brush(CondyleJoint& joint, int of_fixed) {
+plan::Brush& ready_brush(CondyleJoint& joint, int of_fixed) {
   auto& brush = brush_of(joint, of_fixed);
   if (!brush) throw UsageError("brush: the bone was not made ready");
   return *brush;
 }
 
-const Brush& ready_brush(const CondyleJoint& joint, int of_fixed) {
+const plan::Brush& ready_brush(const CondyleJoint& joint, int of_fixed) {
   return ready_brush(const_cast<CondyleJoint&>(joint), of_fixed);
 }
 
@@ -46,12 +46,12 @@ Points shifted(const Points& points, const Vec3& by) {
 void take_brushed(CondyleJoint& joint, BodyRole role, const Points& vertices) {
   Body& bone = body_of(joint, role);
   bone.mesh = bone.mesh.moved_to(vertices);
-  joint.bodies = JointContact(joint.bodies, role, bone.mesh);
+  joint.bodies = contact::JointContact(joint.bodies, role, bone.mesh);
   (role == BodyRole::fixed ? joint.to_fixed : joint.to_mobile).reset();
   joint.edit.about.reset();
   if (!joint.range) return;
   const bool is_held = role == BodyRole::fixed && joint.range_held_at != Vec3::Zero();
-  joint.range = std::make_shared<const RangeOfMotion>(
+  joint.range = std::make_shared<const motion::RangeOfMotion>(
       *joint.range, role, is_held ? shifted(vertices, joint.range_held_at) : vertices);
 }
 
@@ -74,11 +74,11 @@ int condyle_brush(CondyleJoint* joint, int of_fixed, const double* before) {
     keep_roles(*joint);
     const Body& bone = body_of(*joint, role_of(of_fixed));
     std::vector<std::uint8_t> stays =
-        protected_vertices(joint->joint, role_of(of_fixed), *joint->bearing.roles);
+        plan::protected_vertices(joint->joint, role_of(of_fixed), *joint->bearing.roles);
     const auto count = std::count(stays.begin(), stays.end(), 1);
     brush_of(*joint, of_fixed) =
-        before ? Brush(bone, points_of(before, bone.mesh.vertices().size()), std::move(stays))
-               : Brush(bone, std::move(stays));
+        before ? plan::Brush(bone, points_of(before, bone.mesh.vertices().size()), std::move(stays))
+               : plan::Brush(bone, std::move(stays));
     return static_cast<int>(count);
   });
 }
@@ -86,12 +86,12 @@ int condyle_brush(CondyleJoint* joint, int of_fixed, const double* before) {
 int condyle_stroke(CondyleJoint* joint, int of_fixed, int action, const std::uint32_t* along, int count,
                    double radius_mm, double depth_mm, std::uint32_t outcome[3]) {
   return guarded(-1, [&] {
-    constexpr std::array actions{BrushAction::lower, BrushAction::restore};
-    Brush& brush = ready_brush(*joint, of_fixed);
-    const StrokeOutcome done = brush.stroke({.action = actions.at(static_cast<std::size_t>(action)),
-                                             .along = std::vector<Index>(along, along + count),
-                                             .radius_mm = radius_mm,
-                                             .depth_mm = depth_mm});
+    constexpr std::array actions{plan::BrushAction::lower, plan::BrushAction::restore};
+    plan::Brush& brush = ready_brush(*joint, of_fixed);
+    const plan::StrokeOutcome done = brush.stroke({.action = actions.at(static_cast<std::size_t>(action)),
+                                                   .along = std::vector<Index>(along, along + count),
+                                                   .radius_mm = radius_mm,
+                                                   .depth_mm = depth_mm});
     take_brushed(*joint, role_of(of_fixed), brush.vertices());
     outcome[0] = static_cast<std::uint32_t>(done.moved);
     outcome[1] = static_cast<std::uint32_t>(done.kept);
@@ -102,7 +102,7 @@ int condyle_stroke(CondyleJoint* joint, int of_fixed, int action, const std::uin
 
 int condyle_undo_stroke(CondyleJoint* joint, int of_fixed) {
   return guarded(-1, [&] {
-    Brush& brush = ready_brush(*joint, of_fixed);
+    plan::Brush& brush = ready_brush(*joint, of_fixed);
     if (!brush.undo()) return 0;
     take_brushed(*joint, role_of(of_fixed), brush.vertices());
     return 1;
@@ -115,8 +115,8 @@ int condyle_strokes(const CondyleJoint* joint, int of_fixed) {
 
 int condyle_removed(const CondyleJoint* joint, int of_fixed, double removed[4]) {
   return guarded(-1, [&] {
-    const Brush& brush = ready_brush(*joint, of_fixed);
-    const BrushedBone bone = brush.removed();
+    const plan::Brush& brush = ready_brush(*joint, of_fixed);
+    const plan::BrushedBone bone = brush.removed();
     removed[0] = bone.volume_mm3;
     removed[1] = bone.deepest_mm;
     removed[2] = bone.deepest_vertex ? static_cast<double>(*bone.deepest_vertex) : -1;
@@ -127,7 +127,7 @@ int condyle_removed(const CondyleJoint* joint, int of_fixed, double removed[4]) 
 
 int condyle_brushed(const CondyleJoint* joint, int of_fixed, double* vertices, double* depths_mm) {
   return guarded(-1, [&] {
-    const Brush& brush = ready_brush(*joint, of_fixed);
+    const plan::Brush& brush = ready_brush(*joint, of_fixed);
     for (std::size_t v = 0; v < brush.vertices().size(); ++v)
       for (int i = 0; i < 3; ++i) vertices[3 * v + static_cast<std::size_t>(i)] = brush.vertices()[v][i];
     std::copy(brush.depth_mm().begin(), brush.depth_mm().end(), depths_mm);
@@ -140,9 +140,9 @@ int condyle_move_centre(CondyleJoint* joint, const double* centre_mm, const doub
     if (joint->joint.kind == JointKind::free) throw UsageError("centre: that of a free joint is not held");
     const Vec3 in_F(centre_mm[0], centre_mm[1], centre_mm[2]);
     const Vec3 in_M = inverted(pose_at(joint->joint.coordinates(), angles_of(reference_deg))).linear() * in_F;
-    const RangeOfMotion fixed_moved(range_of(*joint), BodyRole::fixed,
-                                    shifted(joint->joint.fixed.mesh.vertices(), in_F));
-    joint->edit.about = std::make_shared<const RangeOfMotion>(
+    const motion::RangeOfMotion fixed_moved(range_of(*joint), BodyRole::fixed,
+                                            shifted(joint->joint.fixed.mesh.vertices(), in_F));
+    joint->edit.about = std::make_shared<const motion::RangeOfMotion>(
         fixed_moved, BodyRole::mobile, shifted(joint->joint.mobile.mesh.vertices(), in_M));
     joint->edit.centre_mm = in_F;
     return 0;

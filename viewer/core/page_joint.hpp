@@ -9,8 +9,8 @@
 
 #include "condyle/brush.hpp"
 #include "condyle/contact.hpp"
-#include "condyle/io/file_digest.hpp"
 #include "condyle/io/label_file.hpp"
+#include "condyle/io/mesh_file.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/pressure.hpp"
 #include "condyle/range_of_motion.hpp"
@@ -20,28 +20,28 @@
 struct PageSurface {
   std::size_t first_vertex = 0;
   std::optional<condyle::Mesh> mesh = {};
-  std::optional<condyle::ElasticLayer> layer = {};
+  std::optional<condyle::contact::ElasticLayer> layer = {};
 };
 
 /// Layers that carry load, and what the last pose showed of them.
 struct PagePressure {
   PageSurface fixed = {}, mobile = {};
-  std::optional<condyle::ElasticContact> contact = {};
+  std::optional<condyle::contact::ElasticContact> contact = {};
   condyle::Pose results_at = condyle::Pose::Identity();
-  std::optional<condyle::ElasticContactResults> results = {};
+  std::optional<condyle::contact::ElasticContactResults> results = {};
 };
 
 /// A file that was dropped.
 struct PageFile {
   std::string name;
-  condyle::FileDigest digest;
+  condyle::io::FileDigest digest;
 };
 
 /// Evidence and input of a proposed joint.
 struct PageProposal {
   std::vector<std::string> inferred;
   std::vector<condyle::JointNote> notes = {};
-  std::vector<condyle::LabelNote> of_images = {};  ///< of bones of label maps
+  std::vector<condyle::io::LabelNote> of_images = {};  ///< of bones of label maps
   PageFile fixed = {}, mobile = {};
   std::string fixed_name = {},
               mobile_name =
@@ -50,8 +50,8 @@ struct PageProposal {
 
 /// Bones that are brushed, and the joint about another centre.
 struct PageEdit {
-  std::optional<condyle::Brush> fixed = {}, mobile = {};
-  std::shared_ptr<const condyle::RangeOfMotion> about = {};
+  std::optional<condyle::plan::Brush> fixed = {}, mobile = {};
+  std::shared_ptr<const condyle::motion::RangeOfMotion> about = {};
   condyle::Vec3 centre_mm = condyle::Vec3::Zero();
 };
 
@@ -59,17 +59,17 @@ struct PageEdit {
 struct PageParts {
   condyle::PosedParts described = {};
   std::optional<condyle::Joint> as_described = {};
-  condyle::BearingOptions bearing = {};
+  condyle::motion::BearingOptions bearing = {};
 };
 
 /// A joint of the page, and what its last answers left.
 struct CondyleJoint {
   condyle::Joint joint;
-  condyle::JointContact bodies;
-  condyle::BearingOptions bearing = {};
-  std::shared_ptr<const condyle::RangeOfMotion> range = {};
+  condyle::contact::JointContact bodies;
+  condyle::motion::BearingOptions bearing = {};
+  std::shared_ptr<const condyle::motion::RangeOfMotion> range = {};
   condyle::Vec3 range_held_at = condyle::Vec3::Zero();
-  condyle::Penetrations penetrations = {};
+  condyle::radial::Penetrations penetrations = {};
   std::vector<std::uint32_t> pair_triangles = {};
   std::vector<double> intervals = {};
   std::optional<condyle::mesh::SurfaceDistance> to_fixed = {}, to_mobile = {};
@@ -87,8 +87,8 @@ condyle::JointAngles angles_of(const double* deg);
 condyle::Pose pose_of(const double* rows);
 
 /// Made ready for rotations of a body that keeps this translation, in F: at the first call and whenever it is another one.
-const condyle::RangeOfMotion& range_of(CondyleJoint& joint,
-                                       const condyle::Vec3& held_mm = condyle::Vec3::Zero());
+const condyle::motion::RangeOfMotion& range_of(CondyleJoint& joint,
+                                               const condyle::Vec3& held_mm = condyle::Vec3::Zero());
 
 /// How far an angle, numbered in the joint's order, turns from a start.
 struct PageMotion {
@@ -98,8 +98,8 @@ struct PageMotion {
   double range_deg;
 };
 /// The seven numbers of condyle_limit(); points of the range's own frame lie at `origin`.
-void put_limit(const condyle::RangeOfMotion& range, const PageMotion& motion, const condyle::Vec3& origin,
-               double limit[7]);
+void put_limit(const condyle::motion::RangeOfMotion& range, const PageMotion& motion,
+               const condyle::Vec3& origin, double limit[7]);
 
 /// The line that condyle_error() gives.
 std::string& last_error();

@@ -19,14 +19,14 @@
 using namespace condyle;
 
 struct CondyleLabels {
-  LabelMap map;
+  io::LabelMap map;
   PageFile file;
   std::string description = {};
 };
 
 struct CondyleBone {
   const CondyleLabels& of;
-  LabelBone bone;
+  io::LabelBone bone;
 
   io::ImagedBone imaged() const { return {of.map, of.file.name, bone}; }
 };
@@ -38,23 +38,23 @@ using io::Json;
 /// Labels that a list for a person can have; TotalSegmentator's tasks have some hundred.
 constexpr std::size_t most_labels = 1000;
 
-std::string choice_of(const LabelMap& map, std::size_t layer, std::uint32_t label) {
+std::string choice_of(const io::LabelMap& map, std::size_t layer, std::uint32_t label) {
   return map.layers.size() > 1 ? fmt::format("{}:{}", layer, label) : fmt::format("{}", label);
 }
 
-std::string name_in_file(const LabelMap& map, const LabelSummary& summary) {
-  for (const LabelSegment& segment : map.segments)
+std::string name_in_file(const io::LabelMap& map, const io::LabelSummary& summary) {
+  for (const io::LabelSegment& segment : map.segments)
     if (segment.layer == summary.layer && segment.label == summary.label) return segment.name;
   return {};
 }
 
 Json labels_json(const CondyleLabels& labels) {
-  const LabelMap& map = labels.map;
+  const io::LabelMap& map = labels.map;
   if (map.labels.size() > most_labels)
     throw UsageError(fmt::format("{}: {} different values: a label map of bones has at most {}",
                                  labels.file.name, map.labels.size(), most_labels));
   Json list = Json::array();
-  for (const LabelSummary& summary : summaries_of(map))
+  for (const io::LabelSummary& summary : io::summaries_of(map))
     if (summary.label != 0)
       list.push_back({{"choice", choice_of(map, summary.layer, summary.label)},
                       {"name", name_in_file(map, summary)},
@@ -64,18 +64,18 @@ Json labels_json(const CondyleLabels& labels) {
 }
 
 /// Null where the name finds no label, as the command line chooses it.
-Json chosen_json(const LabelMap& map, const std::string& name, const std::optional<LabelTask>& task) {
+Json chosen_json(const io::LabelMap& map, const std::string& name, const std::optional<io::LabelTask>& task) {
   try {
-    const ChosenLabel chosen = choose_label(map, name, task);
+    const io::ChosenLabel chosen = io::choose_label(map, name, task);
     return {{"label", name}, {"choice", choice_of(map, chosen.layer, chosen.label)}};
   } catch (const UsageError&) {
     return nullptr;
   }
 }
 
-Json pairs_json(const LabelMap& map) {
-  constexpr std::array<std::optional<LabelTask>, 4> tasks{std::nullopt, LabelTask::total, LabelTask::total_v1,
-                                                          LabelTask::total_mr};
+Json pairs_json(const io::LabelMap& map) {
+  constexpr std::array<std::optional<io::LabelTask>, 4> tasks{
+      std::nullopt, io::LabelTask::total, io::LabelTask::total_v1, io::LabelTask::total_mr};
   Json pairs = Json::array();
   for (const auto& task : tasks) {
     if (task && !map.segments.empty()) break;  // numbers of a file with names of its own are none of a table
@@ -105,7 +105,7 @@ Side agreed_side(const std::optional<io::Stated<Side>>& stated, const kinematics
 }
 
 /// As a joint file is read, whose normals are scaled to unit length.
-Body body_of(const LabelBone& bone) {
+Body body_of(const io::LabelBone& bone) {
   Body body{bone.name, bone.surface.mesh};
   body.image = bone.image;
   for (ImageCut& cut : body.image->cuts) cut.normal.normalize();
@@ -149,9 +149,9 @@ io::ByteSource io::LabelInput::open_data(std::string_view key, const std::filesy
 CondyleLabels* condyle_read_labels(const char* name, const std::uint8_t* bytes, int count) {
   return guarded(static_cast<CondyleLabels*>(nullptr), [&] {
     const std::string_view contents(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(count));
-    const auto format = label_format_of(name);
+    const auto format = io::label_format_of(name);
     if (!format) throw FileError(std::string(name) + ": its ending is none of a label map");
-    return new CondyleLabels{read_labels(contents, *format, name), {name, digest_of(contents)}};
+    return new CondyleLabels{io::read_labels(contents, *format, name), {name, io::digest_of(contents)}};
   });
 }
 
@@ -169,8 +169,8 @@ const char* condyle_labels(CondyleLabels* labels) {
 
 CondyleBone* condyle_bone(const CondyleLabels* labels, const char* label, const char* task) {
   return guarded(static_cast<CondyleBone*>(nullptr), [&] {
-    LabelBoneRequest request{.label = label, .task = label_task_of(task)};
-    return new CondyleBone{*labels, bone_of(labels->map, labels->file.name, request)};
+    io::LabelBoneRequest request{.label = label, .task = io::label_task_of(task)};
+    return new CondyleBone{*labels, io::bone_of(labels->map, labels->file.name, request)};
   });
 }
 

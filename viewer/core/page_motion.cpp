@@ -28,7 +28,7 @@ using io::Json;
 /// So many names of columns fit a line.
 constexpr std::size_t most_named = 12;
 
-JointMotion motion_of(const Joint& joint, const MotionTable& table, std::string_view columns) {
+io::JointMotion motion_of(const Joint& joint, const io::MotionTable& table, std::string_view columns) {
   if (columns.empty()) return io::motion_of_coordinates(joint, table, io::columns_by_name(table, joint));
   const Json said = Json::parse(columns);
   if (said.at("by") != "columns")
@@ -39,7 +39,7 @@ JointMotion motion_of(const Joint& joint, const MotionTable& table, std::string_
   return io::motion_of_coordinates(joint, table, io::columns_of_json(said));
 }
 
-std::string columns_there(const MotionTable& table) {
+std::string columns_there(const io::MotionTable& table) {
   const auto named = std::span(table.columns).first(std::min(most_named, table.columns.size()));
   const std::size_t more = table.columns.size() - named.size();
   return fmt::format("its columns are {}{}", fmt::join(named, ", "),
@@ -53,10 +53,10 @@ Json numbers_json(const std::vector<double>& numbers) {
   return list;
 }
 
-Json motion_json(const Joint& joint, const JointMotion& motion) {
+Json motion_json(const Joint& joint, const io::JointMotion& motion) {
   const io::RecordedFrames frames = io::recorded_frames(joint, motion.X_FM);
   Json remarks = motion.processing;
-  for (const ContactNote& note : motion.notes) remarks.push_back(note.text);
+  for (const motion::ContactNote& note : motion.notes) remarks.push_back(note.text);
   return {{"axis", motion.times.in_seconds ? "time_s" : "frame"},
           {"times", numbers_json(motion.times.values)},
           {"coordinates_deg", numbers_json(frames.coordinates_deg)},
@@ -71,7 +71,7 @@ const char* condyle_motion(CondyleJoint* joint, const char* name, const std::uin
                            const char* columns) {
   return guarded(static_cast<const char*>(nullptr), [&] {
     const std::string_view contents(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(count));
-    const MotionTable table = io::motion_table_of(contents, name);
+    const io::MotionTable table = io::motion_table_of(contents, name);
     try {
       joint->description = motion_json(joint->joint, motion_of(joint->joint, table, columns))
                                .dump(-1, ' ', false, Json::error_handler_t::replace);

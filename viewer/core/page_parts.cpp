@@ -41,8 +41,8 @@ Mesh mesh_at(const Mesh& drawn, const double* xyz) {
 }
 
 /// What was made of the joint before is of another one.
-void take(CondyleJoint& joint, Joint moved, BearingOptions bearing) {
-  joint.bodies = JointContact(moved);
+void take(CondyleJoint& joint, Joint moved, motion::BearingOptions bearing) {
+  joint.bodies = contact::JointContact(moved);
   joint.joint = std::move(moved);
   joint.bearing = std::move(bearing);
   joint.range.reset();
@@ -128,7 +128,7 @@ int condyle_set_parameters(CondyleJoint* joint, const char* text) {
     const bool as_described = *text == '\0';
     Joint moved = with_parameters(*joint->parts.as_described,
                                   as_described ? std::vector<ParameterValue>{} : parse_parameters(text));
-    BearingOptions bearing = joint->parts.bearing;
+    motion::BearingOptions bearing = joint->parts.bearing;
     if (!as_described) bearing.roles.reset();
     take(*joint, std::move(moved), std::move(bearing));
     return 0;

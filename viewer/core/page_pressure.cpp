@@ -11,7 +11,7 @@ using namespace condyle;
 
 namespace {
 
-const ElasticContactResults& results_at(PagePressure& pressure, const Pose& X_FM) {
+const contact::ElasticContactResults& results_at(PagePressure& pressure, const Pose& X_FM) {
   if (!pressure.contact) throw UsageError("pressure: no layers were given");
   if (!pressure.results || pressure.results_at.matrix() != X_FM.matrix()) {
     pressure.results = pressure.contact->at(X_FM);
@@ -30,11 +30,11 @@ struct VertexLoads {
   std::vector<double> load_n, around_mm2;
   std::vector<bool> is_loaded;
 
-  VertexLoads(const Mesh& mesh, const SurfaceContact& contact)
+  VertexLoads(const Mesh& mesh, const contact::SurfaceContact& contact)
       : load_n(mesh.vertices().size(), 0), around_mm2(load_n), is_loaded(load_n.size(), false) {
     for (std::size_t t = 0; t < mesh.triangles().size(); ++t)
       for (const Index v : mesh.triangles()[t]) around_mm2[v] += area_mm2(mesh, t);
-    for (const FaceContact& face : contact.faces)
+    for (const contact::FaceContact& face : contact.faces)
       for (const Index v : mesh.triangles()[face.face]) load_n[v] += face.load_n, is_loaded[v] = true;
   }
 };
@@ -53,8 +53,8 @@ int condyle_surface(CondyleJoint* joint, int of_fixed, int first_vertex, int ver
     surface.mesh = mesh_of_part({"body", body, {run}}, run.name);
     surface.layer.reset();
     if (youngs_modulus_mpa != 0)
-      surface.layer = ElasticLayer{youngs_modulus_mpa, poisson_ratio,
-                                   std::vector<double>(thickness_mm, thickness_mm + vertex_count)};
+      surface.layer = contact::ElasticLayer{youngs_modulus_mpa, poisson_ratio,
+                                            std::vector<double>(thickness_mm, thickness_mm + vertex_count)};
     joint->pressure.contact.reset();
     return 0;
   });
@@ -62,20 +62,20 @@ int condyle_surface(CondyleJoint* joint, int of_fixed, int first_vertex, int ver
 
 int condyle_elastic(CondyleJoint* joint, int casting, int law, int rule, double reach_mm) {
   return guarded(-1, [&] {
-    constexpr std::array castings{Casting::fixed, Casting::mobile, Casting::both};
-    constexpr std::array laws{PressureLaw::linear, PressureLaw::logarithmic};
-    constexpr std::array rules{FaceRule::face_centre, FaceRule::cut_faces};
+    constexpr std::array castings{contact::Casting::fixed, contact::Casting::mobile, contact::Casting::both};
+    constexpr std::array laws{contact::PressureLaw::linear, contact::PressureLaw::logarithmic};
+    constexpr std::array rules{contact::FaceRule::face_centre, contact::FaceRule::cut_faces};
     PagePressure& pressure = joint->pressure;
     if (!pressure.fixed.mesh || !pressure.mobile.mesh)
       throw UsageError("pressure: both surfaces come before what they do");
     pressure.results.reset();
     pressure.contact.emplace(
         *pressure.fixed.mesh, *pressure.mobile.mesh,
-        ElasticContactOptions{.casting = castings.at(static_cast<std::size_t>(casting)),
-                              .rays = {rules.at(static_cast<std::size_t>(rule)), reach_mm},
-                              .law = laws.at(static_cast<std::size_t>(law)),
-                              .fixed = pressure.fixed.layer,
-                              .mobile = pressure.mobile.layer});
+        contact::ElasticContactOptions{.casting = castings.at(static_cast<std::size_t>(casting)),
+                                       .rays = {rules.at(static_cast<std::size_t>(rule)), reach_mm},
+                                       .law = laws.at(static_cast<std::size_t>(law)),
+                                       .fixed = pressure.fixed.layer,
+                                       .mobile = pressure.mobile.layer});
     return 0;
   });
 }
@@ -83,7 +83,7 @@ int condyle_elastic(CondyleJoint* joint, int casting, int law, int rule, double 
 int condyle_pressure(CondyleJoint* joint, const double* pose, int of_fixed, float* values,
                      std::uint8_t* marks) {
   return guarded(-1, [&] {
-    const ElasticContactResults& results = results_at(joint->pressure, pose_of(pose));
+    const contact::ElasticContactResults& results = results_at(joint->pressure, pose_of(pose));
     const std::size_t count = (of_fixed ? joint->joint.fixed : joint->joint.mobile).mesh.vertices().size();
     std::fill_n(values, count, 0.0f);
     std::fill_n(marks, count, std::uint8_t{0});

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 
 /// Contact along a motion as OpenSim-JAM's JointMechanicsTool writes it (HDF5), for scripts that read its files. SI units;
 /// points, forces and moments in the frame of the body whose surface it is.
 
-namespace condyle {
+namespace condyle::io {
 
 /// Known values of a surface, or of a region of it, in one frame of a motion; NaN if there is no answer, 0 if there
 /// is no contact.
@@ -63,4 +63,4 @@ struct JamCoordinate {
 void write_jam_file(const std::filesystem::path& path, std::span<const double> times_s,
                     std::span<const JamContact> contacts, std::span<const JamCoordinate> coordinates = {});
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -10,7 +10,6 @@
 
 #include "condyle/implant.hpp"
 #include "condyle/inspect.hpp"
-#include "condyle/io/file_digest.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/recorded_motion.hpp"
@@ -26,7 +25,7 @@
 /// Joint files: two meshes and how one rotates in the other, in TOML. Every key, with its unit and default,
 /// is in docs/joint-file.md, those of the table [contact] in docs/joint-contact.md. Bad files throw FileError, one line "file: line 7: frame.centre: what is wrong".
 
-namespace condyle {
+namespace condyle::io {
 
 struct LoadedJoint;
 
@@ -47,7 +46,7 @@ struct LayerEntry {
 /// A part of the casting surface by its place: the faces whose centre is in all half-spaces.
 struct RegionEntry {
   std::string name;
-  std::vector<HalfSpace> half_spaces;  ///< in the casting body's joint frame
+  std::vector<contact::HalfSpace> half_spaces;  ///< in the casting body's joint frame
 };
 
 /// The body whose moment is reported: the casting one, as for the force, or the target, as OpenSim-JAM prints it.
@@ -55,9 +54,9 @@ enum class MomentOn { casting, target };
 
 struct ContactEntry {
   std::string fixed_part = {}, mobile_part = {};  ///< of the bodies; empty: all of it
-  Casting casting = Casting::both;
-  NormalDepthOptions rays = {};
-  PressureLaw law = PressureLaw::linear;
+  contact::Casting casting = contact::Casting::both;
+  contact::NormalDepthOptions rays = {};
+  contact::PressureLaw law = contact::PressureLaw::linear;
   std::optional<LayerEntry> fixed = {}, mobile = {};
   MomentOn moment_on = MomentOn::casting;
   std::vector<RegionEntry> regions = {};  ///< by name, each once
@@ -73,15 +72,15 @@ ContactSurfaces surfaces_of(const ContactEntry& entry, const Joint& joint);
 /// The options of an elastic contact of these surfaces, thicknesses measured or read. FileError for a mesh or a file of
 /// thicknesses that cannot be read or has not one for each vertex,
 /// MeshError if a vertex of a layer has nothing behind it within the reach and the entry gives no thickness for that.
-ElasticContactOptions elastic_options(const ContactEntry& entry, const ContactSurfaces& surfaces,
-                                      const LoadedJoint& joint);
+contact::ElasticContactOptions elastic_options(const ContactEntry& entry, const ContactSurfaces& surfaces,
+                                               const LoadedJoint& joint);
 
 /// Values that replace a joint file's entries for its surfaces in contact; only those given replace.
 struct ContactChanges {
-  std::optional<Casting> casting = {};
-  std::optional<FaceRule> rule = {};
+  std::optional<contact::Casting> casting = {};
+  std::optional<contact::FaceRule> rule = {};
   std::optional<double> reach_mm = {};
-  std::optional<PressureLaw> law = {};
+  std::optional<contact::PressureLaw> law = {};
   /// One for both layers, or one of each: fixed, mobile.
   std::vector<double> youngs_modulus_mpa = {}, poisson_ratio = {}, thickness_mm = {};
 
@@ -123,13 +122,13 @@ struct JointFile {
   std::filesystem::path path;
   JointDescription joint;
   BodyEntry fixed, mobile;
-  std::vector<Motion> motions;      ///< of the [[motion]] tables, in their order, each name once
-  Uncertainty uncertainty = {};     ///< of the [uncertainty] table; default values if it has no entry
-  std::uint64_t band_seed = 1;      ///< of the same table
-  PoseDegrees reference_pose = {};  ///< digit by digit as the file gives it
+  std::vector<motion::Motion> motions;   ///< of the [[motion]] tables, in their order, each name once
+  motion::Uncertainty uncertainty = {};  ///< of the [uncertainty] table; default values if it has no entry
+  std::uint64_t band_seed = 1;           ///< of the same table
+  PoseDegrees reference_pose = {};       ///< digit by digit as the file gives it
   std::optional<ContactEntry> contact = {};                   ///< of the [contact] table
   std::optional<RecordedMotionMapping> recorded_motion = {};  ///< of the [recorded_motion] table
-  std::optional<Implant> implant = {};                        ///< of the [implant] table
+  std::optional<plan::Implant> implant = {};                  ///< of the [implant] table
   FileDigest digest = {};
   std::vector<std::string> processing = {};  ///< one line each: what was corrected in reading
 };
@@ -205,7 +204,8 @@ struct JointMotion {
   std::vector<std::string> processing;    ///< of the table and of its reading
   std::filesystem::path path = {};        ///< of the table
   FileDigest digest = {};
-  std::vector<ContactNote> notes = {};  ///< what looks wrong with its numbers: their unit, ranges, locks
+  /// What looks wrong with its numbers: their unit, ranges, locks.
+  std::vector<motion::ContactNote> notes = {};
 };
 
 /// By the joint file's [recorded_motion]. Without one the table must have columns named after the joint's coordinates and
@@ -217,4 +217,4 @@ JointMotion motion_of(const LoadedJoint& joint, const MotionTable& table);
 /// The coordinates of its frames, without gaps.
 std::vector<JointCoordinates> coordinates_of(const Joint& joint, const JointMotion& motion);
 
-}  // namespace condyle
+}  // namespace condyle::io

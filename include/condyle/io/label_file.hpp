@@ -15,7 +15,7 @@
 /// Label maps: images in which the value of a voxel says which bone it belongs to. Every function that reads raises FileError,
 /// one line "file: element: what is wrong", and nothing else, whatever the file holds. Bones and joints from them: docs/label-maps.md.
 
-namespace condyle {
+namespace condyle::io {
 
 /// NIfTI-1 and -2 (.nii, .nii.gz, .hdr with .img), NRRD (.nrrd, .nhdr, .seg.nrrd), MetaImage (.mha, .mhd).
 enum class LabelFormat { nifti, nrrd, metaimage };
@@ -198,4 +198,4 @@ LabelJoint propose_joint(const LabelJointRequest& request);
 std::optional<LabelJoint> propose_joint(const LabelMap& map, const LabelMap* mobile_map,
                                         const LabelJointRequest& request, const Control& control);
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -15,7 +15,18 @@
 /// nothing else, whatever the file holds. Elements are counted from 0 as ParaView shows them; lines, and the
 /// vertex numbers of an OBJ file, from 1 as the format does.
 
-namespace condyle {
+namespace condyle::io {
+
+/// Identifies a file by its contents, whatever its name and date.
+struct FileDigest {
+  std::uintmax_t bytes = 0;
+  std::string sha256;  ///< 64 hexadecimal digits, as `sha256sum` prints them
+
+  friend bool operator==(const FileDigest&, const FileDigest&) = default;
+};
+
+/// Digest of a file's whole contents. Some 3 ms per MB.
+FileDigest digest_of(std::string_view contents);
 
 /// A mesh as its file has it, in the file's own unit: a mesh file does not say which one that is.
 struct MeshFile {
@@ -75,4 +86,4 @@ void write_vtp(const std::filesystem::path& path, const TriMesh& mesh,
                std::span<const MeshArray> point_arrays, std::span<const MeshArray> cell_arrays,
                const VtpOptions& options = {});
 
-}  // namespace condyle
+}  // namespace condyle::io

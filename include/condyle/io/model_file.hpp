@@ -13,20 +13,17 @@
 #include <utility>
 #include <vector>
 
-#include "condyle/io/file_digest.hpp"
 #include "condyle/io/joint_file.hpp"
+#include "condyle/io/mesh_file.hpp"
 #include "condyle/make_joint.hpp"
 
 /// Models of OpenSim (.osim): their joints, and joint files for them. What is read and what is not: docs/models.md.
 /// A model's own units throughout: metres, radians.
 
-namespace condyle {
+namespace condyle::io {
 
-namespace io {
 struct ModelTransform;
 struct CouplerFunction;
-}  // namespace io
-
 /// Kind of a coordinate. A motion file in degrees has degrees for rotational ones only.
 enum class CoordinateMotion {
   rotational,     ///< it turns the joint by its own value
@@ -50,7 +47,7 @@ struct ModelJoint {
   std::string parent_body = {}, child_body = {};
   Pose X_PF = Pose::Identity(), X_CM = Pose::Identity();
   std::vector<ModelCoordinate> coordinates = {};
-  std::shared_ptr<const io::ModelTransform> transform = {};  ///< null if it cannot be read
+  std::shared_ptr<const ModelTransform> transform = {};  ///< null if it cannot be read
   std::string why_not = {};  ///< then one line with the reason, and where it stands
   std::size_t line = 0;
   bool is_reversed = false;  ///< has `reverse`, which exchanges parent and child up to version 30513
@@ -98,7 +95,7 @@ struct ModelContact {
 struct ModelCoupler {
   std::string name, dependent = {};
   std::vector<std::string> independent = {};
-  std::shared_ptr<const io::CouplerFunction> function = {};  ///< null if it cannot be read
+  std::shared_ptr<const CouplerFunction> function = {};  ///< null if it cannot be read
   std::string why_not = {};
 };
 
@@ -176,8 +173,8 @@ struct ModelJointRequest {
 struct ModelJointProposal {
   JointProposal proposal;
   std::vector<ModelNote> notes = {};  ///< what the model has and the file has not
-  std::string missing_body =
-      {};  ///< one line if none of a body's meshes was found: the file names them as the model does
+  /// One line if none of a body's meshes was found: the file names them as the model does.
+  std::string missing_body = {};
 };
 
 /// Centre, axes, signs, kind, meshes, contact and the columns of a recorded motion as the model has them. Throws UsageError
@@ -188,4 +185,4 @@ ModelJointProposal propose_joint(const Model& model, const ModelJointRequest& re
 /// FileError if no mesh of a body is there.
 LoadedJoint read_joint(const Model& model, const ModelJointRequest& request);
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -14,9 +14,11 @@
 
 /// Pictures of a joint in one pose, drawn without a display: docs/pictures.md.
 
-namespace condyle {
-
+namespace condyle::measure {
 struct HipMeasures;
+}  // namespace condyle::measure
+
+namespace condyle::io {
 
 /// Quantity that colours the surfaces, mm.
 enum class PictureColour {
@@ -49,7 +51,7 @@ struct PictureMark {
 /// trochanter. Vermilion: the circle of the rim's plane, its normal and the rim's points that it was fitted to; grey: the other ones.
 /// Green: where the head's contour ends at every hour around the neck. Orange: superior and the edges of the roof from the head's centre,
 /// and the rim's chords. Purple: where the bones are nearest, in the poses that this is measured in. What was not found is left out.
-std::vector<PictureMark> measure_marks(const HipMeasures& measures, const Pose& X_FM);
+std::vector<PictureMark> measure_marks(const measure::HipMeasures& measures, const Pose& X_FM);
 
 struct PictureOptions {
   ViewDirection view = {};
@@ -85,4 +87,4 @@ Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM,
 /// FileError.
 void write_png(const std::filesystem::path& path, const Picture& picture, const Provenance* from = nullptr);
 
-}  // namespace condyle
+}  // namespace condyle::io

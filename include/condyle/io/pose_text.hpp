@@ -7,7 +7,7 @@
 #include "condyle/joint.hpp"
 #include "condyle/joint_coordinates.hpp"
 
-namespace condyle {
+namespace condyle::io {
 
 /// A pose in degrees and mm, as somebody wrote it: an Angle is in radians, and degrees that come back from there may
 /// differ in the last digit.
@@ -55,14 +55,7 @@ PoseArgument given_pose(std::string_view text, const Joint& joint);
 /// The pose as parse_pose() reads it, every digit of it: "flexion=90 adduction=-10 internal_rotation=20".
 std::string to_text(const PoseDegrees& pose, Anatomy joint);
 
-std::string_view name_of(Side side) noexcept;
-std::string_view name_of(JointKind kind) noexcept;
-std::string_view name_of(Anatomy joint) noexcept;
-std::string_view name_of(TranslationFrame frame) noexcept;
-/// "flexion", or what the joint calls this angle: the positive one of its coordinate_names().
-std::string_view name_of(JointAngle angle, Anatomy joint) noexcept;
-
 /// The joint's angle of that name; throws UsageError that lists the valid names.
 JointAngle joint_angle_named(std::string_view name, Anatomy joint);
 
-}  // namespace condyle
+}  // namespace condyle::io

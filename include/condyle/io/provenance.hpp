@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "condyle/implant.hpp"
-#include "condyle/io/file_digest.hpp"
 #include "condyle/io/joint_file.hpp"
+#include "condyle/io/mesh_file.hpp"
 #include "condyle/mesh.hpp"
 #include "condyle/pose.hpp"
 
 /// Where an answer comes from, and where it is. Every key is in docs/formats.md.
 
-namespace condyle {
+namespace condyle::io {
 
 /// The frame in which an answer gives points and meshes.
 enum class AnswerFrameName {
@@ -82,10 +82,10 @@ struct Provenance {
   AnswerFrame frame;
   /// All files that were read for it, which no answer is written over: those of the joint, and what else the question took.
   std::vector<std::filesystem::path> read = {};
-  std::vector<PosedPart> parts = {};  ///< with the values that the answer is of
-  std::vector<CupAngles> cup = {};    ///< of a total hip, by each definition
+  std::vector<PosedPart> parts = {};      ///< with the values that the answer is of
+  std::vector<plan::CupAngles> cup = {};  ///< of a total hip, by each definition
 };
 Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> command,
                          AnswerFrameName frame = AnswerFrameName::joint);
 
-}  // namespace condyle
+}  // namespace condyle::io

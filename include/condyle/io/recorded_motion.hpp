@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "condyle/io/file_digest.hpp"
+#include "condyle/io/mesh_file.hpp"
 #include "condyle/mesh.hpp"
 #include "condyle/motion_contact.hpp"
 #include "condyle/pose.hpp"
@@ -16,7 +16,7 @@
 /// From a table of a recorded motion to one set of coordinates or one pose per frame. A mapping says which columns mean
 /// what; nothing is guessed. A frame with a gap in a column that is needed stays a gap: nothing is interpolated.
 
-namespace condyle {
+namespace condyle::io {
 
 /// A recorded motion as its file has it: a table of numbers with named columns, nothing converted.
 struct MotionTable {
@@ -92,8 +92,8 @@ struct NamedCoordinates {
   std::vector<std::string> names;
   /// Per frame one value for each name, in degrees or mm; nothing if one of their columns has a gap.
   std::vector<std::optional<std::vector<double>>> frames;
-  std::vector<std::string> processing;  ///< of the table and of this reading
-  std::vector<ContactNote> notes = {};  ///< values that the columns' ranges and locks do not allow
+  std::vector<std::string> processing;          ///< of the table and of this reading
+  std::vector<motion::ContactNote> notes = {};  ///< values that the columns' ranges and locks do not allow
 };
 
 /// Raises FileError for a column that is not there (naming one that was most likely meant) or could be two, and for an
@@ -106,8 +106,8 @@ struct RecordedPoses {
   FrameTimes times;
   /// X_FM = X_LF^-1 X_LM of the bodies' own frames, translation in mm; nothing if one of the 32 cells is a gap.
   std::vector<std::optional<Pose>> X_FM;
-  std::vector<std::string> processing;  ///< of the table and of this reading
-  std::vector<ContactNote> notes = {};  ///< of a model: values that its ranges and locks do not allow
+  std::vector<std::string> processing;          ///< of the table and of this reading
+  std::vector<motion::ContactNote> notes = {};  ///< of a model: values that its ranges and locks do not allow
 };
 
 /// Poses from matrices of 4 x 4 numbers, row by row, in columns named
@@ -120,4 +120,4 @@ struct RecordedPoses {
 /// neither place or in both by turns, and for a row whose rotation is off by more than 1e-4 or is a reflection.
 RecordedPoses recorded_poses(const MotionTable& table, const ColumnsOfPoses& mapping);
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -19,14 +19,14 @@
 /// Many joints of one table: `condyle study` and `condyle merge`. Every column of the table and of what is written is in
 /// docs/cohort.md.
 
-namespace condyle {
+namespace condyle::io {
 
 /// Standard deviations that hold for all joints; those left empty are as the joint's file says, else as is usual.
 struct StudyUncertainty {
   std::optional<double> centre_mm = {}, axes_deg = {}, surface_mm = {};
 
   /// Values that are set; the others are those of `of_file`.
-  Uncertainty over(const Uncertainty& of_file) const noexcept;
+  motion::Uncertainty over(const motion::Uncertainty& of_file) const noexcept;
 };
 
 struct StudyBands {
@@ -43,8 +43,8 @@ PoseDegrees study_pose(std::string_view text, Anatomy joint);
 /// Contact pressure in one pose, or in the place nearby where the contact carries a force.
 struct StudyLoad {
   PoseDegrees at = {};  ///< study_pose()
-  ContactChanges contact =
-      {};  ///< layers for joints whose files have none, and what else differs from their files
+  /// Layers for joints whose files have none, and what else differs from their files.
+  ContactChanges contact = {};
   /// On the mobile body, N: anterior, superior, lateral, the same for both sides.
   std::optional<Vec3> force_n = {};
   /// Directions of the same components that the mobile body may be translated in: BalanceOptions::free_directions.
@@ -62,20 +62,20 @@ struct StudyFollowLoad {
 struct StudyResection {
   std::vector<NamedReach> targets = {};
   /// How; its targets and its range are those of each joint. No vertex is marked to stay.
-  ResectionRequest cut = {};
+  plan::ResectionRequest cut = {};
 };
 
 /// Queries for every joint of a study: its limits, and other options.
 struct StudyOptions {
   Anatomy anatomy = Anatomy::hip;         ///< of all of them; one of another is a failure
   std::vector<std::string> motions = {};  ///< by their names; all that a joint has where empty
-  BearingOptions bearing = {};
-  ReferenceContact reference_contact = ReferenceContact::refuse;
-  std::optional<LeaveOutReferenceContacts> leave_out_reference_contacts = {};
-  std::optional<MapGrid> map = {};
+  motion::BearingOptions bearing = {};
+  motion::ReferenceContact reference_contact = motion::ReferenceContact::refuse;
+  std::optional<motion::LeaveOutReferenceContacts> leave_out_reference_contacts = {};
+  std::optional<motion::MapGrid> map = {};
   std::optional<StudyBands> bands = {};
-  std::optional<PoseDegrees> depth_at =
-      {};  ///< how deep the bodies are in each other in this pose: study_pose()
+  /// How deep the bodies are in each other in this pose: study_pose().
+  std::optional<PoseDegrees> depth_at = {};
   std::optional<StudyLoad> load = {};
   /// Free joints are answered with this, or with a recorded motion of their row; without either they are failures.
   std::optional<StudyFollowLoad> follow_load = {};
@@ -103,8 +103,8 @@ enum class BadJoint {
 struct Study {
   std::filesystem::path table, folder;
   StudyOptions options = {};
-  std::optional<Shard> shard =
-      {};  ///< one shard, into a folder of its own below `folder`; all rows where empty
+  /// One shard, into a folder of its own below `folder`; all rows where empty.
+  std::optional<Shard> shard = {};
   BadJoint bad_joint = BadJoint::is_a_row;
 };
 
@@ -145,4 +145,4 @@ void require_answered(const StudyDone& done, const std::filesystem::path& table)
 /// into memory.
 StudyDone merge_study(const std::filesystem::path& folder);
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -8,7 +8,7 @@
 #include "condyle/mesh.hpp"
 #include "condyle/sample/hip.hpp"
 
-namespace condyle {
+namespace condyle::sample {
 
 /// The cartilages of the sample hip. They lie on the bones, without a gap between: the joint space is the sum
 /// of femoral thickness, clearance and acetabular thickness.
@@ -67,4 +67,4 @@ std::optional<SampleCartilages> sample_cartilages(const HipParameters& hip,
 /// The other side: Z negated, triangles flipped so that they face outwards again.
 SampleCartilages mirrored(const SampleCartilages& cartilages);
 
-}  // namespace condyle
+}  // namespace condyle::sample

@@ -11,9 +11,9 @@
 #include "condyle/angle.hpp"
 #include "condyle/implant.hpp"
 #include "condyle/mesh.hpp"
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 
-namespace condyle {
+namespace condyle::sample {
 
 /// The measures of the sample hip, as a clinician or a designer of implants would state them. Defaults are
 /// those of an average adult; ranges are what adult hips show, somewhat widened. Sizes not named here grow
@@ -143,8 +143,9 @@ CohortHip cohort_hip(std::uint64_t seed, std::uint64_t k);
 ///
 /// Throws UsageError as check_implant() and sample_hip() do, for a cup larger than the socket, and for a neck of the femur that cannot be cut
 /// there. Empty if it was stopped. Same parameters, same bytes.
-std::optional<ImplantMeshes> sample_replacement(const TotalHip& implant, const HipParameters& bones,
-                                                const Resolution& resolution, Side side,
-                                                const std::stop_token& stop = {});
+std::optional<plan::ImplantMeshes> sample_replacement(const plan::TotalHip& implant,
+                                                      const HipParameters& bones,
+                                                      const Resolution& resolution, Side side,
+                                                      const std::stop_token& stop = {});
 
-}  // namespace condyle
+}  // namespace condyle::sample

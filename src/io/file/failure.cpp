@@ -20,7 +20,7 @@ Failure failure_of_current_exception() {
     return {bad_usage, one_line(error.what())};
   } catch (const FileError& error) {
     return {bad_file, one_line(error.what())};
-  } catch (const ReferenceContactError& error) {
+  } catch (const motion::ReferenceContactError& error) {
     return {reference_contact, one_line(error.what())};
   } catch (const MeshError& error) {
     return {unfit_mesh, one_line(error.what())};

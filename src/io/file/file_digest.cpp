@@ -1,9 +1,9 @@
-#include "condyle/io/file_digest.hpp"
+#include "condyle/io/mesh_file.hpp"
 
 #include <array>
 #include <bit>
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 /// SHA-256 of FIPS 180-4; its section numbers and letters.
@@ -73,4 +73,4 @@ FileDigest digest_of(std::string_view contents) {
   return digest;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -15,7 +15,7 @@
 #include "io/file/replaced_files.hpp"
 #include "io/file/temporary_folder.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,8 +40,8 @@ std::vector<fs::path> files_of_command(const fs::path& folder, const OutputFolde
 }
 
 void check_is_replaceable(const fs::path& path) {
-  const io::NameTaken taken = io::what_has_the_name(path);
-  if (taken == io::NameTaken::written_into || taken == io::NameTaken::refused)
+  const NameTaken taken = io::what_has_the_name(path);
+  if (taken == NameTaken::written_into || taken == NameTaken::refused)
     throw FileError(path.string() + ": is no regular file and is not replaced");
 }
 
@@ -58,7 +58,7 @@ OutputFolder::OutputFolder(const fs::path& folder, OfCommand of_command, std::sp
   const std::vector<fs::path> there = files_of_command(folder_, of_command_);
   io::check_replaces_none(there, read);
   for (const fs::path& file : there) check_is_replaceable(file);
-  aside_ = std::make_unique<io::TemporaryFolder>(folder_);
+  aside_ = std::make_unique<TemporaryFolder>(folder_);
 }
 
 OutputFolder::~OutputFolder() = default;
@@ -105,4 +105,4 @@ std::vector<fs::path> OutputFolder::commit() {
   return to;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

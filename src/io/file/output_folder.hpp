@@ -8,12 +8,9 @@
 #include <string_view>
 #include <vector>
 
-namespace condyle {
+namespace condyle::io {
 
-namespace io {
 class TemporaryFolder;
-}
-
 /// A folder of result files that appear together or not at all.
 ///
 ///     OutputFolder out(folder);              creates the folder where it is missing
@@ -52,7 +49,7 @@ class OutputFolder {
   std::vector<std::filesystem::path> names_;
   OfCommand of_command_;
   std::string document_;
-  std::unique_ptr<io::TemporaryFolder> aside_;
+  std::unique_ptr<TemporaryFolder> aside_;
 };
 
-}  // namespace condyle
+}  // namespace condyle::io

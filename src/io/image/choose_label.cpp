@@ -12,7 +12,7 @@
 #include "io/file/in_quotes.hpp"
 #include "io/mesh/parse.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 struct TableEntry {
@@ -265,4 +265,4 @@ ChosenLabel choose_label(const LabelMap& map, std::string_view text, std::option
   refuse_name(map, text, task);
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

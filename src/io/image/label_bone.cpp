@@ -7,7 +7,7 @@
 #include "condyle/io/label_file.hpp"
 #include "io/file/plain_text.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 /// Pieces below this share of the bone's voxels are specks, which are not reported.
@@ -147,4 +147,4 @@ std::optional<Side> side_in_name(std::string_view name) {
   return left ? Side::left : Side::right;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

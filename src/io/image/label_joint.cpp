@@ -7,7 +7,7 @@
 #include "core/one_line.hpp"
 #include "io/image/joint_bones.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 /// A name that every file system takes.
@@ -17,10 +17,10 @@ std::string file_name_of(std::string_view name) {
   return out + ".ply";
 }
 
-io::ProposedBody body_of(const LabelBone& bone, const std::filesystem::path& mesh,
-                         const std::filesystem::path& image) {
-  io::ProposedBody body{bone.surface.mesh, mesh, bone.name, io::origin_of(bone, image.filename().string()),
-                        bone.image};
+ProposedBody body_of(const LabelBone& bone, const std::filesystem::path& mesh,
+                     const std::filesystem::path& image) {
+  ProposedBody body{bone.surface.mesh, mesh, bone.name, io::origin_of(bone, image.filename().string()),
+                    bone.image};
   for (const LabelNote& note : bone.notes)
     body.comments.push_back(fmt::format("{}: {}", name_of(note.code), note.text));
   return body;
@@ -38,14 +38,14 @@ std::optional<LabelJoint> propose_joint(const LabelMap& map, const LabelMap* oth
   if (!fixed) return std::nullopt;
   auto mobile = bone_of(mobile_map, mobile_name, request.mobile, control);
   if (!mobile) return std::nullopt;
-  const io::ImagedBone of_fixed{map, fixed_name, *fixed}, of_mobile{mobile_map, mobile_name, *mobile};
+  const ImagedBone of_fixed{map, fixed_name, *fixed}, of_mobile{mobile_map, mobile_name, *mobile};
   io::check_are_two(of_fixed, of_mobile);
 
-  io::ProposalFacts facts{
+  ProposalFacts facts{
       .joint_file = request.joint_file,
       .from = "bones of the label map " + core::one_line(request.labels.filename().string(), 200),
       .side = io::stated_side(request.side, *fixed, *mobile),
-      .units = io::Stated<LengthUnit>{LengthUnit::millimetres, "of surfaces from label maps"},
+      .units = Stated<LengthUnit>{LengthUnit::millimetres, "of surfaces from label maps"},
       .axes_by = "surfaces from label maps are in LPS, by the image's header"};
   std::vector<LabelNote> notes = io::notes_of(of_fixed, of_mobile);
   const std::filesystem::path folder = request.joint_file.parent_path();
@@ -72,4 +72,4 @@ LabelJoint propose_joint(const LabelJointRequest& request) {
   return *propose_joint(request, {});
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -5,7 +5,7 @@
 
 #include "condyle/io/label_file.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 using Voxel = std::array<std::int64_t, 3>;
@@ -91,4 +91,4 @@ std::vector<LabelSummary> summaries_of(const LabelMap& map) {
   return summaries;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -54,7 +54,7 @@ std::optional<std::string> given(const HeaderFields& fields, const std::array<co
 bool flag(const HeaderFields& fields, const std::string& key, bool otherwise) {
   const auto value = fields.find(key);
   if (!value) return otherwise;
-  const std::string word = lower_case(*value);
+  const std::string word = io::lower_case(*value);
   if (word == "true" || word == "t" || word == "1") return true;
   if (word == "false" || word == "f" || word == "0") return false;
   fields.fail(key, fmt::format("{} is neither True nor False", in_quotes(*value)));

@@ -15,7 +15,7 @@ namespace condyle::io {
 namespace {
 
 VoxelType nrrd_type(const HeaderFields& fields) {
-  const std::string type = lower_case(fields.need("type"));
+  const std::string type = io::lower_case(fields.need("type"));
   const auto is = [&](auto... names) { return ((type == names) || ...); };
   if (is("uchar", "unsigned char", "uint8", "uint8_t")) return VoxelType::u8;
   if (is("signed char", "int8", "int8_t")) return VoxelType::i8;
@@ -35,14 +35,14 @@ VoxelType nrrd_type(const HeaderFields& fields) {
 
 std::endian byte_order(const HeaderFields& fields, VoxelType type) {
   if (bytes_of(type) == 1) return std::endian::native;
-  const std::string order = lower_case(fields.need("endian"));
+  const std::string order = io::lower_case(fields.need("endian"));
   if (order == "little") return std::endian::little;
   if (order == "big") return std::endian::big;
   fields.fail("endian", fmt::format("{} is neither 'little' nor 'big'", in_quotes(order)));
 }
 
 Packing packing(const HeaderFields& fields) {
-  const std::string encoding = lower_case(fields.need("encoding"));
+  const std::string encoding = io::lower_case(fields.need("encoding"));
   if (encoding == "raw") return Packing::none;
   if (encoding == "gzip" || encoding == "gz") return Packing::deflated;
   fields.fail("encoding", fmt::format("{} is not read: 'raw' and 'gzip' are", in_quotes(encoding)));
@@ -52,7 +52,7 @@ Packing packing(const HeaderFields& fields) {
 std::optional<StatedAxes> world_of(const HeaderFields& fields) {
   const auto value = fields.find("space");
   if (!value) return std::nullopt;
-  const std::string space = lower_case(*value);
+  const std::string space = io::lower_case(*value);
   if (space == "left-posterior-superior" || space == "lps") return StatedAxes::lps;
   if (space == "right-anterior-superior" || space == "ras") return StatedAxes::ras;
   if (space == "left-anterior-superior" || space == "las") return StatedAxes::las;
@@ -63,7 +63,7 @@ std::optional<StatedAxes> world_of(const HeaderFields& fields) {
 double nrrd_mm_per_unit(const HeaderFields& fields) {
   const auto value = fields.find("space units");
   if (!value) return 1;
-  const auto words = words_of(*value);
+  const auto words = io::words_of(*value);
   if (words.size() != 3 || words[0] != words[1] || words[0] != words[2])
     fields.fail("space units", "are not three times the same unit");
   if (words[0] == "\"mm\"" || words[0] == "\"\"") return 1;
@@ -113,11 +113,11 @@ Axes read_axes(const HeaderFields& fields) {
 void check_kinds(const HeaderFields& fields, const Axes& axes) {
   const auto value = fields.find("kinds");
   if (!value) return;
-  const auto words = words_of(*value);
+  const auto words = io::words_of(*value);
   if (words.size() != axes.sizes.size())
     fields.fail("kinds", fmt::format("are {} instead of {}", words.size(), axes.sizes.size()));
   for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::string kind = lower_case(words[i]);
+    const std::string kind = io::lower_case(words[i]);
     if (!axes.directions[i] && kind != "list" && kind != "vector" && kind != "none" && kind != "???")
       fields.fail("kinds", fmt::format("{} is no axis of layers: 'list' and 'vector' are", in_quotes(kind)));
   }

@@ -65,7 +65,7 @@ NrrdHeader read_nrrd_header(const ByteSource& source) {
     if (line->empty()) break;
     if (line->starts_with('#')) continue;
     const auto colon = line->find(": ");
-    const auto field = lower_case(line->substr(0, std::min(colon, line->size())));
+    const auto field = io::lower_case(line->substr(0, std::min(colon, line->size())));
     // A value may hold ": ", a key too: only what is a field is one.
     if (colon != std::string::npos && is_field(field)) {
       if (!header.fields.add(one_spelling(field), std::string(trimmed(line->substr(colon + 2)))))

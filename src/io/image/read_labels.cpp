@@ -8,10 +8,10 @@
 #include "io/image/label_input.hpp"
 #include "io/mesh/parse.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
-LabelMap read(const io::LabelInput& input, LabelFormat format) {
+LabelMap read(const LabelInput& input, LabelFormat format) {
   if (input.header.size() == 0) input.header.fail("the file is empty");
   switch (format) {
     case LabelFormat::nifti:
@@ -50,13 +50,13 @@ LabelMap read_labels(const std::filesystem::path& path, const LabelFileOptions& 
         "{}: unknown extension '{}': label maps in .nii, .nii.gz, .hdr, .nrrd, .nhdr, .mha and .mhd are read",
         path.string(), path.extension().string()));
   const auto header = header_of(path);
-  const io::ByteSource source(header);
+  const ByteSource source(header);
   return read({source, header, options}, *format);
 }
 
 LabelMap read_labels(std::string_view bytes, LabelFormat format, std::string_view name,
                      const LabelFileOptions& options) {
-  const io::ByteSource source(bytes, name);
+  const ByteSource source(bytes, name);
   return read({source, {}, options}, format);
 }
 
@@ -84,4 +84,4 @@ std::string_view name_of(LabelNoteCode code) noexcept {
   return "label_tables";
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

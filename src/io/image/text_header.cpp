@@ -61,7 +61,7 @@ std::string_view HeaderFields::need(const std::string& key) const {
 
 template <class T>
 std::vector<T> HeaderFields::parsed(const std::string& key, std::size_t count, std::string_view what) const {
-  const auto words = words_of(need(key));
+  const auto words = io::words_of(need(key));
   if (words.size() != count) fail(key, fmt::format("has {} values instead of {}", words.size(), count));
   std::vector<T> values(count);
   for (std::size_t i = 0; i < count; ++i)

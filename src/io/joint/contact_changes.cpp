@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 /// The one value for both bodies, or that of this one.
@@ -36,4 +36,4 @@ ContactEntry changed(ContactEntry entry, const ContactChanges& changes) {
   return entry;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -11,8 +11,7 @@
 #include "io/joint/mesh_path.hpp"
 #include "io/mesh/parse.hpp"
 
-namespace condyle {
-namespace io {
+namespace condyle::io {
 namespace {
 
 LayerEntry layer_entry(TomlTable& table, double mm_per_unit, const std::filesystem::path& folder) {
@@ -70,16 +69,17 @@ ContactEntry contact_entry(TomlTable& table, double mm_per_unit, const std::file
   ContactEntry entry;
   entry.fixed_part = table.text("fixed_part").value_or("");
   entry.mobile_part = table.text("mobile_part").value_or("");
-  constexpr Casting castings[] = {Casting::fixed, Casting::mobile, Casting::both};
+  constexpr contact::Casting castings[] = {contact::Casting::fixed, contact::Casting::mobile,
+                                           contact::Casting::both};
   if (const auto word = table.word("casting", {"fixed", "mobile", "both"})) entry.casting = castings[*word];
   if (const auto word = table.word("rule", {"face_centre", "cut_faces"}))
-    entry.rays.rule = *word == 0 ? FaceRule::face_centre : FaceRule::cut_faces;
+    entry.rays.rule = *word == 0 ? contact::FaceRule::face_centre : contact::FaceRule::cut_faces;
   if (const auto reach = table.number("reach")) {
     if (!(*reach > 0)) table.fail("reach", "must be above 0");
     entry.rays.reach_mm = mm_per_unit * *reach;
   }
   if (const auto word = table.word("law", {"linear", "logarithmic"}))
-    entry.law = *word == 0 ? PressureLaw::linear : PressureLaw::logarithmic;
+    entry.law = *word == 0 ? contact::PressureLaw::linear : contact::PressureLaw::logarithmic;
   if (const auto word = table.word("moment_on", {"casting", "target"}))
     entry.moment_on = *word == 0 ? MomentOn::casting : MomentOn::target;
   for (TomlTable& region : table.tables("region")) {
@@ -94,8 +94,6 @@ ContactEntry contact_entry(TomlTable& table, double mm_per_unit, const std::file
   return entry;
 }
 
-}  // namespace io
-
 namespace {
 
 /// Distance from each vertex of a body's mesh to the mesh behind it, which is brought into the joint as the body's
@@ -105,7 +103,7 @@ std::vector<double> measured(const Body& layer, const LayerEntry& entry, const M
   TriMesh bone = read_mesh(*entry.behind).mesh;
   for (std::size_t v = 0; v < bone.vertices.size(); ++v)
     bone.vertices.set(v, origin.joint_from_source * bone.vertices[v]);
-  std::vector<double> thickness = thickness_to(layer.mesh, Mesh(std::move(bone)), reach);
+  std::vector<double> thickness = contact::thickness_to(layer.mesh, Mesh(std::move(bone)), reach);
   std::size_t without = 0, first = 0;
   for (std::size_t v = thickness.size(); v-- > 0;)
     if (!(thickness[v] > 0)) thickness[v] = entry.thickness_mm, ++without, first = v;
@@ -121,8 +119,8 @@ std::vector<double> measured(const Body& layer, const LayerEntry& entry, const M
 std::vector<double> read_thickness(const LayerEntry& entry, const Body& surface) {
   const std::filesystem::path& path = *entry.thickness_file;
   const std::string text = io::read_whole_file(path), name = path.string();
-  const io::Source source{text, name};
-  io::TextCursor cursor(source);
+  const Source source{text, name};
+  TextCursor cursor(source);
   std::vector<double> thickness;
   for (auto word = cursor.word(); !word.empty(); word = cursor.word()) {
     double value = 0;
@@ -146,14 +144,14 @@ ContactSurfaces surfaces_of(const ContactEntry& entry, const Joint& joint) {
   return {surface(joint.fixed, entry.fixed_part), surface(joint.mobile, entry.mobile_part)};
 }
 
-ElasticContactOptions elastic_options(const ContactEntry& entry, const ContactSurfaces& surfaces,
-                                      const LoadedJoint& joint) {
+contact::ElasticContactOptions elastic_options(const ContactEntry& entry, const ContactSurfaces& surfaces,
+                                               const LoadedJoint& joint) {
   const Provenance from = provenance_of(joint, {});
   const auto layer = [&](const std::optional<LayerEntry>& of, const Body& surface, const MeshOrigin& origin) {
-    std::optional<ElasticLayer> made;
+    std::optional<contact::ElasticLayer> made;
     if (!of) return made;
-    made.emplace(
-        ElasticLayer{of->youngs_modulus_mpa, of->poisson_ratio, of->thickness_mm, of->thickness_bounds_mm});
+    made.emplace(contact::ElasticLayer{of->youngs_modulus_mpa, of->poisson_ratio, of->thickness_mm,
+                                       of->thickness_bounds_mm});
     if (of->thickness_file) made->thickness_mm = read_thickness(*of, surface);
     if (of->behind) made->thickness_mm = measured(surface, *of, origin, entry.rays.reach_mm);
     return made;
@@ -162,4 +160,4 @@ ElasticContactOptions elastic_options(const ContactEntry& entry, const ContactSu
           layer(entry.mobile, surfaces.mobile, from.mobile)};
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -10,7 +10,7 @@
 #include "condyle/io/pose_text.hpp"
 #include "io/file/in_quotes.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 [[noreturn]] void fail(std::string_view text) {
@@ -27,7 +27,7 @@ double number(std::string_view digits, std::string_view text) {
 
 }  // namespace
 
-GridAxis parse_grid_axis(std::string_view text, Anatomy joint) {
+motion::GridAxis parse_grid_axis(std::string_view text, Anatomy joint) {
   const std::size_t equals = text.find('=');
   if (equals == text.npos) fail(text);
   std::vector<double> values;
@@ -37,14 +37,14 @@ GridAxis parse_grid_axis(std::string_view text, Anatomy joint) {
     at = end;
   }
   if (values.size() > 3) fail(text);
-  GridAxis axis{joint_angle_named(text.substr(0, equals), joint), values.front(), values.front(), 1};
+  motion::GridAxis axis{joint_angle_named(text.substr(0, equals), joint), values.front(), values.front(), 1};
   if (values.size() > 1) axis.last_deg = values[1];
   if (values.size() > 2) axis.step_deg = values[2];
   return axis;
 }
 
-std::string to_text(const GridAxis& axis, Anatomy joint) {
+std::string to_text(const motion::GridAxis& axis, Anatomy joint) {
   return fmt::format("{}={}:{}:{}", name_of(axis.angle, joint), axis.first_deg, axis.last_deg, axis.step_deg);
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

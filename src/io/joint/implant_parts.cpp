@@ -11,11 +11,11 @@ namespace {
 /// Scatter of cup placement and stem version in surgery, degrees, as planning assumes it: for bands.
 constexpr double cup_sigma_deg = 4, stem_sigma_deg = 2;
 
-PartParameter angle_of(const Implant& implant, std::string_view size, std::string name, ParameterKind kind,
-                       double sigma_deg) {
-  const auto sizes = implant_parameters(implant);
+PartParameter angle_of(const plan::Implant& implant, std::string_view size, std::string name,
+                       ParameterKind kind, double sigma_deg) {
+  const auto sizes = plan::implant_parameters(implant);
   const auto found = std::find_if(sizes.begin(), sizes.end(),
-                                  [&](const ImplantParameter& each) { return each.name == size; });
+                                  [&](const plan::ImplantParameter& each) { return each.name == size; });
   PartParameter parameter{.name = std::move(name), .kind = kind, .low = found->low, .high = found->high};
   parameter.value = parameter.described = parameter.as_given = found->value(implant);
   parameter.sigma = sigma_deg;
@@ -24,8 +24,8 @@ PartParameter angle_of(const Implant& implant, std::string_view size, std::strin
 
 }  // namespace
 
-std::vector<PosedPart> implant_parts(const Implant& implant, BonesAround bones) {
-  const auto* hip = std::get_if<TotalHip>(&implant);
+std::vector<PosedPart> implant_parts(const plan::Implant& implant, BonesAround bones) {
+  const auto* hip = std::get_if<plan::TotalHip>(&implant);
   if (hip == nullptr) return {};
   const auto only = [&](std::vector<std::string> names) {
     return bones == BonesAround::some ? std::move(names) : std::vector<std::string>{};

@@ -11,6 +11,6 @@ enum class BonesAround { some, none };
 
 /// A cup and a stem that turn against the bones, at the values of a total hip, with what surgery scatters by as standard deviations. A reverse
 /// shoulder has none.
-std::vector<PosedPart> implant_parts(const Implant& implant, BonesAround bones);
+std::vector<PosedPart> implant_parts(const plan::Implant& implant, BonesAround bones);
 
 }  // namespace condyle::io

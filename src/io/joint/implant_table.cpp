@@ -8,13 +8,13 @@
 
 namespace condyle::io {
 
-Implant implant_entry(TomlTable& table, double mm_per_unit) {
-  Implant implant;
-  if (table.required_word("kind", {"total_hip", "reverse_shoulder"}) == 1) implant = ReverseShoulder{};
-  for (const ImplantParameter& each : implant_parameters(implant))
+plan::Implant implant_entry(TomlTable& table, double mm_per_unit) {
+  plan::Implant implant;
+  if (table.required_word("kind", {"total_hip", "reverse_shoulder"}) == 1) implant = plan::ReverseShoulder{};
+  for (const plan::ImplantParameter& each : plan::implant_parameters(implant))
     if (const auto value = table.number(each.name))
       each.set(implant, each.unit == "mm" ? *value * mm_per_unit : *value);
-  if (auto* hip = std::get_if<TotalHip>(&implant); hip != nullptr && table.has("definition")) {
+  if (auto* hip = std::get_if<plan::TotalHip>(&implant); hip != nullptr && table.has("definition")) {
     constexpr CupDefinition definitions[] = {CupDefinition::radiographic, CupDefinition::anatomic,
                                              CupDefinition::operative};
     hip->cup.definition =
@@ -27,18 +27,18 @@ Implant implant_entry(TomlTable& table, double mm_per_unit) {
   }
   table.finish();
   try {
-    check_implant(implant);
+    plan::check_implant(implant);
   } catch (const UsageError& error) {
     table.fail("kind", error.what());
   }
   return implant;
 }
 
-std::string implant_text(const Implant& implant) {
+std::string implant_text(const plan::Implant& implant) {
   std::string text = fmt::format("[implant]\nkind = \"{}\"\n", name_of(implant));
-  if (const auto* hip = std::get_if<TotalHip>(&implant))
+  if (const auto* hip = std::get_if<plan::TotalHip>(&implant))
     text += fmt::format("definition = \"{}\"\n", name_of(hip->cup.definition));
-  for (const ImplantParameter& each : implant_parameters(implant))
+  for (const plan::ImplantParameter& each : plan::implant_parameters(implant))
     text += fmt::format("{} = {}\n", each.name, each.value(implant));
   return text +
          fmt::format("facets = {}\n", std::visit([](const auto& design) { return design.facets; }, implant));

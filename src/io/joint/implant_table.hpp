@@ -9,9 +9,9 @@ namespace condyle::io {
 
 /// The table [implant] of a joint file, whose keys are in docs/implants.md; sizes left out have their defaults. Lengths are of the
 /// file's unit. Throws FileError with line and key.
-Implant implant_entry(TomlTable& table, double mm_per_unit);
+plan::Implant implant_entry(TomlTable& table, double mm_per_unit);
 
 /// That table of a file in mm, with every size.
-std::string implant_text(const Implant& implant);
+std::string implant_text(const plan::Implant& implant);
 
 }  // namespace condyle::io

@@ -23,7 +23,7 @@
 #include "io/joint/toml_table.hpp"
 #include "io/result/repair_text.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 using io::TomlTable;
@@ -56,20 +56,20 @@ class Lengths {
  public:
   explicit Lengths(LengthUnit unit) : scale_(mm_per(unit)) {}
 
-  Vec3 required_point(io::TomlTable& table, std::string_view key) const {
+  Vec3 required_point(TomlTable& table, std::string_view key) const {
     return scale_ * table.required(key, table.triple(key));
   }
   Vec3 in_mm(const Vec3& lengths) const { return scale_ * lengths; }
-  double positive(io::TomlTable& table, std::string_view key) const {
+  double positive(TomlTable& table, std::string_view key) const {
     const double value = table.required(key, table.number(key));
     if (!(value > 0)) table.fail(key, "must be above 0");
     return scale_ * value;
   }
-  Vec3 optional_components(io::TomlTable& table) const {
+  Vec3 optional_components(TomlTable& table) const {
     return scale_ *
            Vec3(table.number("x").value_or(0), table.number("y").value_or(0), table.number("z").value_or(0));
   }
-  double not_negative(io::TomlTable& table, std::string_view key) const {
+  double not_negative(TomlTable& table, std::string_view key) const {
     const double value = table.required(key, table.number(key));
     if (value < 0) table.fail(key, "must be 0 or more");
     return scale_ * value;
@@ -80,7 +80,7 @@ class Lengths {
 };
 
 /// X_WB of a body: a matrix row by row, or a translation and the joint's angles, about the axes of W.
-Pose body_pose(io::TomlTable& body, std::string_view key, CoordinateSystem system, const Lengths& lengths,
+Pose body_pose(TomlTable& body, std::string_view key, CoordinateSystem system, const Lengths& lengths,
                std::vector<std::string>& notes) {
   if (body.is_list("pose")) {
     try {
@@ -94,9 +94,9 @@ Pose body_pose(io::TomlTable& body, std::string_view key, CoordinateSystem syste
       body.fail("pose", error.what());
     }
   }
-  std::optional<io::TomlTable> given = body.table("pose");
+  std::optional<TomlTable> given = body.table("pose");
   if (!given) return Pose::Identity();
-  io::TomlTable& table = *given;
+  TomlTable& table = *given;
   const auto angle = [&](JointAngle name) {
     return Angle::degrees(table.number(name_of(name, system.anatomy)).value_or(0));
   };
@@ -107,7 +107,7 @@ Pose body_pose(io::TomlTable& body, std::string_view key, CoordinateSystem syste
   return X;
 }
 
-MeshEntry mesh_entry(io::TomlTable& table) {
+MeshEntry mesh_entry(TomlTable& table) {
   MeshEntry entry{{}, io::mesh_path(table, "mesh", table.required("mesh", table.text("mesh"))), {}};
   if (table.has("polygons"))
     entry.polygons =
@@ -127,7 +127,7 @@ MeshEntry mesh_entry(io::TomlTable& table) {
 }
 
 /// Where one mesh of several lies in the body's frame.
-Pose mesh_pose(io::TomlTable& mesh, std::vector<std::string>& notes) {
+Pose mesh_pose(TomlTable& mesh, std::vector<std::string>& notes) {
   const auto rows = mesh.sixteen("pose");
   if (!rows) return Pose::Identity();
   try {
@@ -142,7 +142,7 @@ Pose mesh_pose(io::TomlTable& mesh, std::vector<std::string>& notes) {
 }
 
 /// Meaning of contact with one of several meshes. Files older than version 1 mark a bearing mesh by bearing = true.
-PartContact part_contact(io::TomlTable& mesh) {
+PartContact part_contact(TomlTable& mesh) {
   const bool is_bearing = mesh.flag("bearing").value_or(false);
   if (!mesh.has("contact")) return is_bearing ? PartContact::bearing : PartContact::ends;
   if (mesh.has("bearing")) mesh.fail("bearing", "says what contact says: one of the two");
@@ -150,13 +150,12 @@ PartContact part_contact(io::TomlTable& mesh) {
   return words[mesh.required_word("contact", {"ends", "bearing", "soft"})];
 }
 
-std::vector<MeshEntry> mesh_entries(io::TomlTable& body, std::string_view key,
-                                    std::vector<std::string>& notes) {
+std::vector<MeshEntry> mesh_entries(TomlTable& body, std::string_view key, std::vector<std::string>& notes) {
   if (!body.has("meshes")) return {mesh_entry(body)};
   for (const auto of_one : {"mesh", "repair", "scale", "polygons"})
     if (body.has(of_one)) body.fail(of_one, "with meshes each of them has its own");
   std::vector<MeshEntry> entries;
-  for (io::TomlTable& table : body.tables("meshes")) {
+  for (TomlTable& table : body.tables("meshes")) {
     MeshEntry entry = mesh_entry(table);
     entry.X_BG = mesh_pose(table, notes);
     entry.part = table.required("name", table.text("name"));
@@ -178,14 +177,14 @@ std::vector<MeshEntry> mesh_entries(io::TomlTable& body, std::string_view key,
 }
 
 /// [fixed.image]: the edges of a voxel, and the planes of the faces that close the bone where its image ends.
-std::optional<BodyImage> body_image(io::TomlTable& body, const Lengths& lengths) {
-  std::optional<io::TomlTable> table = body.table("image");
+std::optional<BodyImage> body_image(TomlTable& body, const Lengths& lengths) {
+  std::optional<TomlTable> table = body.table("image");
   if (!table) return std::nullopt;
   BodyImage image;
   constexpr std::string_view edges[] = {"voxel_i", "voxel_j", "voxel_k"};
   for (int i = 0; i < 3; ++i) image.voxel.col(i) = lengths.required_point(*table, edges[i]);
   if (image.voxel.determinant() == 0) table->fail("voxel_k", "the edges of a voxel lie in one plane");
-  for (io::TomlTable& cut : table->tables("cut")) {
+  for (TomlTable& cut : table->tables("cut")) {
     const Vec3 normal = cut.required("normal", cut.triple("normal"));
     if (!(std::abs(normal.norm() - 1) <= axis_tolerance)) cut.fail("normal", "must be a unit vector");
     const double offset = cut.required("offset", cut.number("offset"));
@@ -197,12 +196,12 @@ std::optional<BodyImage> body_image(io::TomlTable& body, const Lengths& lengths)
 }
 
 /// [mobile.head] and [fixed.socket], if they are known.
-void read_known_sphere(io::TomlTable& body, std::string_view key, const Lengths& lengths, BodyEntry& entry) {
+void read_known_sphere(TomlTable& body, std::string_view key, const Lengths& lengths, BodyEntry& entry) {
   const bool is_mobile = key == "mobile";
   if (body.table(is_mobile ? "socket" : "head"))
     body.fail(is_mobile ? "socket" : "head", is_mobile ? "is of the fixed body: what the head turns in"
                                                        : "is of the mobile body: the head that turns");
-  std::optional<io::TomlTable> table = body.table(is_mobile ? "head" : "socket");
+  std::optional<TomlTable> table = body.table(is_mobile ? "head" : "socket");
   if (!table) return;
   entry.head = {lengths.required_point(*table, "centre"), lengths.positive(*table, "radius")};
   if (is_mobile && table->has("margin")) entry.bearing_margin_mm = lengths.not_negative(*table, "margin");
@@ -210,7 +209,7 @@ void read_known_sphere(io::TomlTable& body, std::string_view key, const Lengths&
 }
 
 /// A body's table is read in two parts: its pose needs what is known of the joint.
-BodyEntry body_entry(io::TomlTable& table, std::string_view key, const Lengths& lengths,
+BodyEntry body_entry(TomlTable& table, std::string_view key, const Lengths& lengths,
                      std::vector<std::string>& notes) {
   BodyEntry entry{table.text("name").value_or(std::string(key)), mesh_entries(table, key, notes),
                   body_image(table, lengths)};
@@ -222,7 +221,7 @@ BodyEntry body_entry(io::TomlTable& table, std::string_view key, const Lengths& 
 }
 
 /// The mesh behind a layer is in the frame of its body: it has no scale or pose of its own with which to follow the layer's mesh.
-void refuse_moved_layer(const io::TomlTable& contact, std::string_view key,
+void refuse_moved_layer(const TomlTable& contact, std::string_view key,
                         const std::optional<LayerEntry>& layer, const std::string& part,
                         const BodyEntry& body) {
   if (!layer || !layer->behind) return;
@@ -234,7 +233,7 @@ void refuse_moved_layer(const io::TomlTable& contact, std::string_view key,
 }
 
 /// Nor does it move with a part.
-void refuse_layer_of_part(const io::TomlTable& contact, std::string_view key,
+void refuse_layer_of_part(const TomlTable& contact, std::string_view key,
                           const std::optional<LayerEntry>& layer, const std::string& mesh, BodyRole body,
                           const std::vector<DescribedPart>& parts) {
   if (!layer || !layer->behind) return;
@@ -248,7 +247,7 @@ void refuse_layer_of_part(const io::TomlTable& contact, std::string_view key,
 }
 
 /// Faces in which a part was cut carry no load.
-void refuse_cut_contact(const io::TomlTable& contact, std::string_view key, const std::string& mesh,
+void refuse_cut_contact(const TomlTable& contact, std::string_view key, const std::string& mesh,
                         BodyRole body, const std::vector<DescribedPart>& parts) {
   for (const auto& [part, centre] : parts)
     if (part.body == body && !part.cut.empty() &&
@@ -258,7 +257,7 @@ void refuse_cut_contact(const io::TomlTable& contact, std::string_view key, cons
                                part.name));
 }
 
-CentreFit centre_fit(io::TomlTable& frame, const Lengths& lengths) {
+CentreFit centre_fit(TomlTable& frame, const Lengths& lengths) {
   CentreFit fit;
   if (frame.has("fit_body"))
     fit.body = frame.required_word("fit_body", {"fixed", "mobile"}) == 0 ? BodyRole::fixed : BodyRole::mobile;
@@ -271,7 +270,7 @@ CentreFit centre_fit(io::TomlTable& frame, const Lengths& lengths) {
 
 /// The landmarks present decide which frame is meant; every set is refused unless it is complete and nothing
 /// else is there.
-void read_landmarks(io::TomlTable& landmarks, const Lengths& lengths, FrameDescription& frame) {
+void read_landmarks(TomlTable& landmarks, const Lengths& lengths, FrameDescription& frame) {
   const auto point = [&](std::string_view key) { return lengths.required_point(landmarks, key); };
   const bool of_pelvis = landmarks.has("right_asis") || landmarks.has("left_asis");
   const bool of_femur = landmarks.has("medial_epicondyle") || landmarks.has("lateral_epicondyle");
@@ -296,7 +295,7 @@ void read_landmarks(io::TomlTable& landmarks, const Lengths& lengths, FrameDescr
   landmarks.finish();
 }
 
-void read_axes(io::TomlTable& table, const Lengths& lengths, FrameDescription& frame) {
+void read_axes(TomlTable& table, const Lengths& lengths, FrameDescription& frame) {
   if (auto landmarks = table.table("landmarks")) {
     for (const auto key : {"axes", "anterior", "superior"})
       if (table.has(key)) table.fail(key, "frame.landmarks gives the axes already: leave one of the two out");
@@ -313,7 +312,7 @@ void read_axes(io::TomlTable& table, const Lengths& lengths, FrameDescription& f
   frame.axes = FrameDirections{table.required("anterior", anterior), table.required("superior", superior)};
 }
 
-void read_centre(io::TomlTable& table, const Lengths& lengths, FrameDescription& frame) {
+void read_centre(TomlTable& table, const Lengths& lengths, FrameDescription& frame) {
   if (std::holds_alternative<TransepicondylarAxis>(frame.axes)) {
     if (table.has("centre"))
       table.fail("centre", "with hip_centre the epicondyles give the centre: leave it out");
@@ -331,8 +330,8 @@ void read_centre(io::TomlTable& table, const Lengths& lengths, FrameDescription&
   }
 }
 
-FrameDescription frame_description(io::TomlTable& file, const Lengths& lengths) {
-  io::TomlTable table = file.required("frame", file.table("frame"));
+FrameDescription frame_description(TomlTable& file, const Lengths& lengths) {
+  TomlTable table = file.required("frame", file.table("frame"));
   FrameDescription frame;
   read_axes(table, lengths, frame);
   read_centre(table, lengths, frame);
@@ -345,7 +344,7 @@ std::string hinge_text(const JointDescription& joint) {
 }
 
 /// The file's entry, else the anatomy of its frame.
-Anatomy anatomy_of(io::TomlTable& file, const JointDescription& joint) {
+Anatomy anatomy_of(TomlTable& file, const JointDescription& joint) {
   if (!file.has("joint")) {
     if (joint.kind == JointKind::free)
       file.fail_missing("joint",
@@ -361,7 +360,7 @@ Anatomy anatomy_of(io::TomlTable& file, const JointDescription& joint) {
   return anatomy;
 }
 
-TranslationFrame translation_frame_of(io::TomlTable& file, const JointDescription& joint) {
+TranslationFrame translation_frame_of(TomlTable& file, const JointDescription& joint) {
   if (!file.has("translation_frame")) return TranslationFrame::fixed;
   if (joint.kind != JointKind::free)
     file.fail("translation_frame", fmt::format("a {} does not translate", name_of(joint.kind)));
@@ -371,7 +370,7 @@ TranslationFrame translation_frame_of(io::TomlTable& file, const JointDescriptio
   return TranslationFrame::joint_axes;
 }
 
-PoseDegrees reference_pose(io::TomlTable& file, const JointDescription& joint, const Lengths& lengths) {
+PoseDegrees reference_pose(TomlTable& file, const JointDescription& joint, const Lengths& lengths) {
   auto table = file.table("reference_pose");
   if (!table) return {};
   const auto degrees = [&](JointAngle name) {
@@ -393,13 +392,13 @@ PoseDegrees reference_pose(io::TomlTable& file, const JointDescription& joint, c
 }
 
 /// Names of the table of the reference pose elsewhere, farther from its own than a slip of the pen.
-void refuse_other_names(const io::TomlTable& file) {
+void refuse_other_names(const TomlTable& file) {
   for (const auto key : {"reference", "rest", "rest_pose"})
     if (file.has(key)) file.fail(key, "unknown key (did you mean \"reference_pose\"?)");
 }
 
-void read_uncertainty(io::TomlTable& file, const Lengths& lengths, JointFile& out) {
-  Uncertainty& sigma = out.uncertainty;
+void read_uncertainty(TomlTable& file, const Lengths& lengths, JointFile& out) {
+  motion::Uncertainty& sigma = out.uncertainty;
   auto table = file.table("uncertainty");
   if (!table) return;
   if (table->has("centre")) sigma.centre_mm = lengths.not_negative(*table, "centre");
@@ -420,8 +419,8 @@ void read_uncertainty(io::TomlTable& file, const Lengths& lengths, JointFile& ou
 
 /// One [[motion]]: the range runs from where the varied angle starts to where it ends at the latest, and says
 /// by its order which way it goes.
-Motion own_motion(io::TomlTable& table, const JointDescription& joint) {
-  Motion motion;
+motion::Motion own_motion(TomlTable& table, const JointDescription& joint) {
+  motion::Motion motion;
   motion.name = table.required("name", table.text("name"));
   if (motion.name.empty()) table.fail("name", "must not be empty");
   const auto vary = table.required("vary", table.text("vary"));
@@ -441,31 +440,31 @@ Motion own_motion(io::TomlTable& table, const JointDescription& joint) {
     const double held = varies ? start : table.number(name).value_or(0);
     if (joint.kind == JointKind::hinge && angle != JointAngle::flexion && (varies || held != 0))
       table.fail(varies ? "vary" : name, hinge_text(joint));
-    motion.start = turned_by(motion.start, angle, Angle::degrees(held));
+    motion.start = motion::turned_by(motion.start, angle, Angle::degrees(held));
   }
   table.finish();
   try {
-    check_motion(motion, joint.kind);
+    motion::check_motion(motion, joint.kind);
   } catch (const UsageError& error) {
     table.fail("range", error.what());
   }
   return motion;
 }
 
-std::vector<Motion> own_motions(io::TomlTable& file, const JointDescription& joint) {
-  std::vector<Motion> motions;
-  for (io::TomlTable& table : file.tables("motion")) {
-    Motion motion = own_motion(table, joint);
-    for (const Motion& other : motions)
+std::vector<motion::Motion> own_motions(TomlTable& file, const JointDescription& joint) {
+  std::vector<motion::Motion> motions;
+  for (TomlTable& table : file.tables("motion")) {
+    motion::Motion motion = own_motion(table, joint);
+    for (const motion::Motion& other : motions)
       if (other.name == motion.name) table.fail("name", fmt::format("\"{}\" is given twice", motion.name));
     motions.push_back(std::move(motion));
   }
   return motions;
 }
 
-Implant implant_of_joint(io::TomlTable& table, const JointDescription& joint) {
-  Implant implant = io::implant_entry(table, mm_per(joint.units));
-  const Anatomy anatomy = std::holds_alternative<TotalHip>(implant) ? Anatomy::hip : Anatomy::shoulder;
+plan::Implant implant_of_joint(TomlTable& table, const JointDescription& joint) {
+  plan::Implant implant = io::implant_entry(table, mm_per(joint.units));
+  const Anatomy anatomy = std::holds_alternative<plan::TotalHip>(implant) ? Anatomy::hip : Anatomy::shoulder;
   if (joint.kind != JointKind::ball || joint.anatomy != anatomy)
     table.fail("kind", fmt::format("a {} is of a ball that is a {}", name_of(implant), name_of(anatomy)));
   return implant;
@@ -473,9 +472,9 @@ Implant implant_of_joint(io::TomlTable& table, const JointDescription& joint) {
 
 }  // namespace
 
-JointFile io::joint_file_of(std::string_view text, const std::filesystem::path& path) {
+JointFile joint_file_of(std::string_view text, const std::filesystem::path& path) {
   const toml::table root = parsed(text, path);
-  io::TomlTable file(path, root, "");
+  TomlTable file(path, root, "");
   // The version comes first: what follows may be spelt otherwise in another one.
   if (const auto version = file.required("condyle", file.integer("condyle")); version != io::format_version)
     file.fail("condyle",
@@ -489,8 +488,8 @@ JointFile io::joint_file_of(std::string_view text, const std::filesystem::path& 
   joint.kind = kinds[file.required_word("kind", {"ball", "hinge", "free"})];
   joint.side = file.required_word("side", {"right", "left"}) == 0 ? Side::right : Side::left;
   joint.units = file.required_word("units", {"mm", "m"}) == 0 ? LengthUnit::millimetres : LengthUnit::metres;
-  io::TomlTable fixed = file.required("fixed", file.table("fixed"));
-  io::TomlTable mobile = file.required("mobile", file.table("mobile"));
+  TomlTable fixed = file.required("fixed", file.table("fixed"));
+  TomlTable mobile = file.required("mobile", file.table("mobile"));
   out.fixed = body_entry(fixed, "fixed", Lengths(joint.units), out.processing);
   out.mobile = body_entry(mobile, "mobile", Lengths(joint.units), out.processing);
   for (BodyEntry* body : {&out.fixed, &out.mobile})
@@ -545,4 +544,4 @@ std::vector<std::filesystem::path> files_of(const JointFile& file) {
   return files;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

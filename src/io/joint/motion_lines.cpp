@@ -4,8 +4,8 @@
 
 namespace condyle::io {
 
-void add_motions(ProposalLines& lines, std::span<const Motion> motions, Anatomy anatomy) {
-  for (const Motion& motion : motions) {
+void add_motions(ProposalLines& lines, std::span<const motion::Motion> motions, Anatomy anatomy) {
+  for (const motion::Motion& motion : motions) {
     const double from = angle_of(motion.start, motion.vary).degrees();
     lines.add("\n[[motion]]");
     lines.add("name = " + toml_text(motion.name));

@@ -8,6 +8,6 @@
 namespace condyle::io {
 
 /// [[motion]] tables of a joint file that is made from another one.
-void add_motions(ProposalLines& lines, std::span<const Motion> motions, Anatomy anatomy);
+void add_motions(ProposalLines& lines, std::span<const motion::Motion> motions, Anatomy anatomy);
 
 }  // namespace condyle::io

@@ -13,8 +13,8 @@ template <class Answer>
 auto name_joint_file(const std::string& place, const Answer& answer) {
   try {
     return answer();
-  } catch (const ReferenceContactError& error) {
-    throw ReferenceContactError(place + ": " + error.what());
+  } catch (const motion::ReferenceContactError& error) {
+    throw motion::ReferenceContactError(place + ": " + error.what());
   } catch (const MeshError& error) {
     throw MeshError(place + ": " + error.what());
   }

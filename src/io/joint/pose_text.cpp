@@ -12,7 +12,7 @@
 #include "io/file/in_quotes.hpp"
 #include "io/joint/pose_matrix.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 /// A word for an angle and the sign it gives.
@@ -171,46 +171,6 @@ std::string to_text(const PoseDegrees& pose, Anatomy joint) {
   return text;
 }
 
-std::string_view name_of(Side side) noexcept {
-  return side == Side::right ? "right" : "left";
-}
-
-std::string_view name_of(JointKind kind) noexcept {
-  switch (kind) {
-    case JointKind::ball:
-      return "ball";
-    case JointKind::hinge:
-      return "hinge";
-    case JointKind::free:
-      break;
-  }
-  return "free";
-}
-
-std::string_view name_of(Anatomy joint) noexcept {
-  switch (joint) {
-    case Anatomy::hip:
-      return "hip";
-    case Anatomy::knee:
-      return "knee";
-    case Anatomy::ankle:
-      return "ankle";
-    case Anatomy::elbow:
-      return "elbow";
-    case Anatomy::shoulder:
-      break;
-  }
-  return "shoulder";
-}
-
-std::string_view name_of(TranslationFrame frame) noexcept {
-  return frame == TranslationFrame::fixed ? "fixed" : "joint_axes";
-}
-
-std::string_view name_of(JointAngle angle, Anatomy joint) noexcept {
-  return coordinate_names(joint)[static_cast<std::size_t>(angle)].positive;
-}
-
 JointAngle joint_angle_named(std::string_view name, Anatomy joint) {
   for (const JointAngle angle : all_joint_angles)
     if (name_of(angle, joint) == name) return angle;
@@ -219,4 +179,4 @@ JointAngle joint_angle_named(std::string_view name, Anatomy joint) {
                                name_of(JointAngle::internal_rotation, joint)));
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -137,19 +137,15 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
   return std::move(lines).proposal(stated);
 }
 
-}  // namespace condyle::io
-
-namespace condyle {
-
 JointProposal propose_joint(const ProposalRequest& request) {
   const auto body = [](const std::filesystem::path& file) {
-    return io::ProposedBody{read_mesh(file).mesh, file, file.stem().string()};
+    return ProposedBody{read_mesh(file).mesh, file, file.stem().string()};
   };
-  io::ProposalFacts facts{.joint_file = request.joint_file, .from = "the two meshes below"};
+  ProposalFacts facts{.joint_file = request.joint_file, .from = "the two meshes below"};
   if (request.side) facts.side = {*request.side, "given"};
   if (request.units) facts.units = {*request.units, "given"};
   facts.anatomy = request.anatomy;
   return io::proposal_of(body(request.fixed), body(request.mobile), facts);
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -14,7 +14,7 @@
 #include "io/result/repair_text.hpp"
 #include "mesh/enclosed_volume.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 /// A mesh of a body, and what became of it.
@@ -104,7 +104,7 @@ PlacedJoint placed(const JointFile& file, Body fixed, Body mobile) {
     PlacedJoint made = make_joint(file.joint, std::move(fixed), std::move(mobile));
     made.joint.fixed.name = file.fixed.name;
     made.joint.mobile.name = file.mobile.name;
-    if (file.implant) made.joint.implant = implant_in_joint(*file.implant, made.joint);
+    if (file.implant) made.joint.implant = plan::implant_in_joint(*file.implant, made.joint);
     return made;
   } catch (const UsageError& error) {
     throw FileError(fmt::format("{}: {}", file.path.string(), error.what()));
@@ -126,7 +126,7 @@ void note_repairs(const BodyMeshReport& body, std::vector<std::string>& notes) {
   if (body.body_from_file.linear().determinant() < 0)
     notes.push_back(fmt::format("{}: mirrored by its scale, triangles turned round", file_name(body)));
   for (const RepairDone& done : body.repairs)
-    notes.push_back(fmt::format("{}: {}", file_name(body), describe(done)));
+    notes.push_back(fmt::format("{}: {}", file_name(body), io::describe(done)));
 }
 
 std::vector<std::string> processing_of(const JointReport& report) {
@@ -143,7 +143,7 @@ std::vector<std::string> processing_of(const JointReport& report) {
 
 }  // namespace
 
-LoadedJoint io::load_joint(JointFile file) {
+LoadedJoint load_joint(JointFile file) {
   const auto is_cut = [&](BodyRole body) {
     return std::any_of(file.joint.parts.begin(), file.joint.parts.end(), [&](const DescribedPart& part) {
       return part.part.body == body && !part.part.cut.empty();
@@ -169,4 +169,4 @@ LoadedJoint with_parameters(const LoadedJoint& loaded, std::span<const Parameter
   return moved;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

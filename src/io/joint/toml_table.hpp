@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 
 namespace condyle::io {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 
 namespace condyle::io {
 

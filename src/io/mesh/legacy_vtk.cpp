@@ -36,7 +36,7 @@ class Reader {
     RawMesh raw;
     while (true) {
       const auto word = text_.word();
-      const auto section = lower_case(word);
+      const auto section = io::lower_case(word);
       // The geometry comes first: what follows belongs to the arrays.
       if (section.empty() || section == "cell_data" || section == "point_data") return raw;
       if (section == "points") {
@@ -75,12 +75,13 @@ class Reader {
     has_offsets_ = version >= first_version_with_offsets;
     text_.rest_of_line();  // the title
     const auto encoding = text_.word();
-    is_text_ = lower_case(encoding) == "ascii";
-    if (!is_text_ && lower_case(encoding) != "binary")
+    is_text_ = io::lower_case(encoding) == "ascii";
+    if (!is_text_ && io::lower_case(encoding) != "binary")
       text_.fail(in_quotes(encoding) + " should be 'ASCII' or 'BINARY'");
     text_.expect("DATASET");
     const auto kind = text_.word();
-    if (lower_case(kind) != "polydata") text_.fail("holds " + in_quotes(kind) + ": only 'POLYDATA' is read");
+    if (io::lower_case(kind) != "polydata")
+      text_.fail("holds " + in_quotes(kind) + ": only 'POLYDATA' is read");
   }
 
   Points read_points() {
@@ -134,7 +135,7 @@ class Reader {
     text_.word();  // its name
     const auto arrays = text_.number<std::uint64_t>("a number of arrays");
     for (std::uint64_t i = 0; i < arrays; ++i) {
-      while (lower_case(text_.word()) == "metadata") skip_metadata();
+      while (io::lower_case(text_.word()) == "metadata") skip_metadata();
       const auto components = text_.number<std::uint64_t>("a number of components");
       const auto tuples = text_.number<std::uint64_t>("a number of tuples");
       const VtkType type = read_type();
@@ -153,7 +154,7 @@ class Reader {
 
   VtkType read_type() {
     const auto word = text_.word();
-    const auto name = lower_case(word);
+    const auto name = io::lower_case(word);
     for (const auto& known : legacy_type_names) {
       if (known.name == name) return known.type;
     }

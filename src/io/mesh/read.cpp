@@ -12,7 +12,7 @@
 #include "io/mesh/parse.hpp"
 #include "io/mesh/split_polygon.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 using io::RawMesh;
@@ -69,10 +69,6 @@ TriMesh checked(RawMesh&& raw, const Source& source) {
   return mesh;
 }
 
-}  // namespace
-
-namespace {
-
 /// Volumes of voxels: scans, and label maps of segmentations.
 bool is_image(const std::string& name) {
   for (const std::string_view ending : {".nii", ".nii.gz", ".nrrd", ".nhdr", ".mha", ".mhd", ".mgz", ".dcm"})
@@ -109,4 +105,4 @@ MeshFile read_mesh(std::string_view bytes, MeshFormat format, std::string_view n
   return file;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -1,7 +1,7 @@
 #include "condyle/io/mesh_file.hpp"
 #include "io/file/whole_file.hpp"
 
-namespace condyle {
+namespace condyle::io {
 
 MeshFile read_mesh(const std::filesystem::path& path, PolygonRule polygons) {
   io::check_is_file(path);
@@ -9,4 +9,4 @@ MeshFile read_mesh(const std::filesystem::path& path, PolygonRule polygons) {
   return read_mesh(io::read_whole_file(path), format, path.string(), polygons);
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

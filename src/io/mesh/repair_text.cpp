@@ -8,7 +8,7 @@
 #include "condyle/error.hpp"
 #include "core/one_line.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 constexpr std::array<std::string_view, 3> repair_names{"weld", "drop_unreferenced", "flip_inverted"};
@@ -39,4 +39,4 @@ std::string describe(const RepairDone& done) {
   return fmt::format("flip_inverted: flipped {} triangles", done.count);
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -27,7 +27,7 @@ bool is_text(const Source& source) {
   if (bytes.size() >= header_size + count_size && bytes.size() == binary_size(announced_triangles(source)))
     return false;
   TextCursor text(source);
-  return lower_case(text.word()) == "solid" && bytes.find('\0') == std::string_view::npos;
+  return io::lower_case(text.word()) == "solid" && bytes.find('\0') == std::string_view::npos;
 }
 
 void add_triangle(RawMesh& raw) {
@@ -41,10 +41,10 @@ RawMesh read_text(const Source& source) {
   while (true) {  // solids: a file may hold several, one after the other
     const auto first = text.word();
     if (first.empty()) return raw;
-    if (lower_case(first) != "solid") text.fail(in_quotes(first) + " should be 'solid'");
+    if (io::lower_case(first) != "solid") text.fail(in_quotes(first) + " should be 'solid'");
     text.rest_of_line();
     while (true) {  // facets
-      const auto word = lower_case(text.word());
+      const auto word = io::lower_case(text.word());
       if (word == "endsolid") break;
       if (word.empty()) text.fail("the file ends before 'endsolid'");
       if (word != "facet") text.fail(in_quotes(word) + " should be 'facet' or 'endsolid'");

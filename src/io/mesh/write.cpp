@@ -12,7 +12,7 @@
 static_assert(std::endian::native == std::endian::little,
               "PLY files are written as the machine has the numbers");
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 template <class T>
@@ -68,4 +68,4 @@ void write_mesh(const std::filesystem::path& path, const TriMesh& mesh) {
     write_vtp(path, mesh, {}, {});
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

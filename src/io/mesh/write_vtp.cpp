@@ -25,7 +25,7 @@ static_assert(std::endian::native == std::endian::little,
 ///       <AppendedData encoding="raw">_ array array ... </AppendedData></VTKFile>
 ///     array:  blocks, size of each, size of the last one if it is smaller, compressed sizes: 64 bits each; blocks
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 template <class T>
@@ -197,4 +197,4 @@ void write_vtp(const std::filesystem::path& path, const TriMesh& mesh,
   io::write_whole_file(path, vtp_bytes(mesh, point_arrays, cell_arrays, options));
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -18,10 +18,10 @@ bool is_file(const fs::path& path) {
 /// The file beside it whose name differs in case only; the first of several in the order of their names.
 std::optional<fs::path> in_any_case(const fs::path& path) {
   std::error_code failed;
-  const std::string wanted = lower_case(path.filename().string());
+  const std::string wanted = io::lower_case(path.filename().string());
   std::vector<fs::path> found;
   for (fs::directory_iterator at(path.parent_path(), failed), end; !failed && at != end; at.increment(failed))
-    if (lower_case(at->path().filename().string()) == wanted && is_file(at->path()))
+    if (io::lower_case(at->path().filename().string()) == wanted && is_file(at->path()))
       found.push_back(at->path());
   if (found.empty()) return std::nullopt;
   return *std::min_element(found.begin(), found.end());

@@ -213,13 +213,13 @@ std::optional<Anatomy> anatomy_between(const std::string& proximal, const std::s
 }
 
 bool has_proximal_child(const ModelJoint& joint) {
-  const std::string parent = lower_case(joint.parent_body), child = lower_case(joint.child_body);
+  const std::string parent = io::lower_case(joint.parent_body), child = io::lower_case(joint.child_body);
   return !anatomy_between(parent, child) && anatomy_between(child, parent);
 }
 
 std::optional<Anatomy> anatomy_of(const ModelJoint& joint) {
-  const std::string parent = lower_case(joint.parent_body), child = lower_case(joint.child_body),
-                    name = lower_case(joint.name);
+  const std::string parent = io::lower_case(joint.parent_body), child = io::lower_case(joint.child_body),
+                    name = io::lower_case(joint.name);
   if (const auto by_bodies = anatomy_between(parent, child)) return by_bodies;
   if (has_word(name, {"hip"})) return Anatomy::hip;
   if (has_word(name, {"knee", "patellofemoral"})) return Anatomy::knee;
@@ -232,7 +232,7 @@ std::optional<Anatomy> anatomy_of(const ModelJoint& joint) {
 std::optional<Side> side_of(const ModelJoint& joint) {
   std::optional<Side> side;
   for (const std::string* name : {&joint.name, &joint.child_body, &joint.parent_body}) {
-    const std::string text = lower_case(*name);
+    const std::string text = io::lower_case(*name);
     const bool is_right = text.ends_with("_r") || text.ends_with("_right"),
                is_left = text.ends_with("_l") || text.ends_with("_left");
     if (!is_right && !is_left) continue;

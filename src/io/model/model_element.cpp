@@ -59,7 +59,7 @@ std::string ModelElement::text(std::string_view child) const {
 std::vector<double> ModelElement::numbers(const XmlElement& element) const {
   std::vector<double> values;
   const std::string text = element.text();
-  for (const std::string_view word : words_of(text)) {
+  for (const std::string_view word : io::words_of(text)) {
     double value = 0;
     if (!parse_number(word, value))
       fail_at(element, fmt::format("{}: {} is no number", element.name, in_quotes(word)));
@@ -90,7 +90,7 @@ Vec3 ModelElement::triple(std::initializer_list<std::string_view> children, cons
 
 bool ModelElement::flag(std::string_view child, bool otherwise) const {
   const XmlElement* element = element_->child(child);
-  const std::string text = element ? lower_case(element->text()) : std::string();
+  const std::string text = element ? io::lower_case(element->text()) : std::string();
   if (text.empty()) return otherwise;
   if (text == "true" || text == "1") return true;
   if (text == "false" || text == "0") return false;

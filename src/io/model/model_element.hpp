@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 #include "io/model/model_function.hpp"
 #include "io/model/xml_tree.hpp"
 

@@ -9,7 +9,7 @@
 #include "io/model/spatial_transform.hpp"
 #include "io/model/welded_bodies.hpp"
 
-namespace condyle {
+namespace condyle::io {
 
 std::string_view name_of(CoordinateMotion motion) noexcept {
   switch (motion) {
@@ -97,7 +97,7 @@ const ModelJoint& joint_named(const Model& model, std::string_view name) {
 /// Relative: welds in a circle come back to where they began but for rounding.
 constexpr double same_place = 1e-9;
 
-std::vector<io::WeldedBody> io::welded_bodies(const Model& model, const ModelJoint& joint, BodyRole role) {
+std::vector<WeldedBody> welded_bodies(const Model& model, const ModelJoint& joint, BodyRole role) {
   std::vector<WeldedBody> bodies{{role == BodyRole::fixed ? joint.parent_body : joint.child_body}};
   const auto add = [&](const ModelJoint& weld, const std::string& body, const Pose& X) {
     const auto known = std::find_if(bodies.begin(), bodies.end(),
@@ -122,7 +122,7 @@ std::vector<io::WeldedBody> io::welded_bodies(const Model& model, const ModelJoi
 
 std::vector<ModelMesh> meshes_of(const Model& model, const ModelJoint& joint, BodyRole role) {
   std::vector<ModelMesh> meshes;
-  for (const io::WeldedBody& body : io::welded_bodies(model, joint, role)) {
+  for (const WeldedBody& body : io::welded_bodies(model, joint, role)) {
     for (ModelMesh mesh : model.meshes) {
       if (mesh.body != body.name) continue;
       mesh.X_BG = body.X * mesh.X_BG;
@@ -132,4 +132,4 @@ std::vector<ModelMesh> meshes_of(const Model& model, const ModelJoint& joint, Bo
   return meshes;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -23,8 +23,7 @@
 #include "io/model/spatial_transform.hpp"
 #include "io/model/welded_bodies.hpp"
 
-namespace condyle {
-namespace io {
+namespace condyle::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -75,8 +74,8 @@ class ModelJointFile {
     if (joint_.coordinates.empty())
       throw FileError(fmt::format("{}: line {}: joint {}: it has no coordinates and does not move",
                                   model.path.string(), joint_.line, in_quotes(joint_.name)));
-    anatomy_ = request.anatomy ? request.anatomy : anatomy_of(joint_);
-    const auto side = request.side ? request.side : side_of(joint_);
+    anatomy_ = request.anatomy ? request.anatomy : io::anatomy_of(joint_);
+    const auto side = request.side ? request.side : io::side_of(joint_);
     if (!side)
       throw UsageError(fmt::format(
           "{}: joint {}: its name and its bodies' names do not agree on one side, _r or _l: give its side",
@@ -248,12 +247,12 @@ class ModelJointFile {
   }
 
   void note_given_otherwise() {
-    const auto by_names = side_of(joint_);
+    const auto by_names = io::side_of(joint_);
     if (by_names && *by_names != side_)
       note(ModelNoteCode::given_otherwise,
            fmt::format("the side is given as {}, and by its names joint {} is a {} one", name_of(side_),
                        in_quotes(joint_.name), name_of(*by_names)));
-    const auto named = anatomy_of(joint_);
+    const auto named = io::anatomy_of(joint_);
     if (anatomy_ && named && *named != *anatomy_)
       note(ModelNoteCode::given_otherwise,
            fmt::format("the joint is given as {}, and by its names joint {} is of kind {}",
@@ -263,7 +262,7 @@ class ModelJointFile {
   void write_mesh(const NamedMesh& named, bool has_name) {
     if (has_name) add("name = " + toml_text(named.name));
     add("mesh = " + toml_text(named.mesh.path ? path_of(*named.mesh.path) : named.mesh.file));
-    if (!lower_case(named.mesh.file).ends_with(".stl")) add("polygons = \"split\"");
+    if (!io::lower_case(named.mesh.file).ends_with(".stl")) add("polygons = \"split\"");
     if (named.mesh.scale != Vec3::Ones()) add("scale = " + toml_numbers(named.mesh.scale));
     if (!named.mesh.X_BG.matrix().isIdentity(0)) add("pose = " + toml_pose(named.mesh.X_BG));
     if (named.mesh.scale.prod() < 0)
@@ -485,13 +484,11 @@ class ModelJointFile {
 };
 
 }  // namespace
-}  // namespace io
-
 ModelJointProposal propose_joint(const Model& model, const ModelJointRequest& request) {
-  return io::ModelJointFile(model, request).proposal();
+  return ModelJointFile(model, request).proposal();
 }
 
-io::JointFileOfModel io::joint_file_of(const Model& model, ModelJointRequest request) {
+JointFileOfModel joint_file_of(const Model& model, ModelJointRequest request) {
   request.joint_file = model.path;
   ModelJointProposal proposed = propose_joint(model, request);
   if (!proposed.missing_body.empty()) throw FileError(proposed.missing_body);
@@ -509,4 +506,4 @@ LoadedJoint read_joint(const Model& model, const ModelJointRequest& request) {
   return io::load_joint(io::joint_file_of(model, request).file);
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -93,7 +93,7 @@ TransformAxis axis_of(const Source& source, const XmlElement& element, const std
   TransformAxis axis;
   const XmlElement* list = element.child("coordinates");
   const std::string named = list ? list->text() : std::string();
-  for (const std::string_view word : words_of(named)) {
+  for (const std::string_view word : io::words_of(named)) {
     const auto found = std::find_if(coordinates.begin(), coordinates.end(),
                                     [&](const ModelCoordinate& c) { return c.name == word; });
     if (found == coordinates.end())

@@ -15,8 +15,7 @@
 #include "io/model/read_joint.hpp"
 #include "io/model/spatial_transform.hpp"
 
-namespace condyle {
-namespace io {
+namespace condyle::io {
 namespace {
 
 constexpr int first_version = 10500, last_version = 40600;
@@ -163,7 +162,7 @@ class ModelReader {
     const Vec3 outer_scale = outer.triple({"scale_factors"}, Vec3::Ones());
     if (const XmlElement* files = visible->child("geometry_files")) {
       const std::string names = files->text();
-      for (const std::string_view file : words_of(names))
+      for (const std::string_view file : io::words_of(names))
         add_mesh({.body = name, .scale = outer_scale, .line = files->line}, std::string(file), outer);
     }
     const XmlElement* shapes = visible->at({"GeometrySet", "objects"});
@@ -270,7 +269,8 @@ class ModelReader {
     coupler.dependent = last_of_path(values.text("dependent_coordinate_name"));
     const XmlElement* list = element.child("independent_coordinate_names");
     const std::string names = list ? list->text() : std::string();
-    for (const std::string_view name : words_of(names)) coupler.independent.emplace_back(last_of_path(name));
+    for (const std::string_view name : io::words_of(names))
+      coupler.independent.emplace_back(last_of_path(name));
     if (coupler.dependent.empty()) values.fail("dependent_coordinate_name is missing");
     try {
       const auto function = values.function();
@@ -351,8 +351,6 @@ void check_length_units(const XmlElement& model, const Source& source) {
 }
 
 }  // namespace
-}  // namespace io
-
 Model read_model(const std::filesystem::path& path, std::span<const std::filesystem::path> geometry_folders) {
   io::check_is_file(path);
   std::error_code ignored;
@@ -368,20 +366,20 @@ Model read_model(std::string_view bytes, const std::filesystem::path& path,
   Model model{.path = path, .digest = digest_of(bytes)};
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (bytes.starts_with(byte_order_mark)) bytes.remove_prefix(byte_order_mark.size());
-  const io::Source source{bytes, name};
+  const Source source{bytes, name};
   if (bytes.substr(0, 2) == "\xff\xfe" || bytes.substr(0, 2) == "\xfe\xff")
     source.fail("line 1: is UTF-16: save it as UTF-8");
-  const io::XmlElement root = io::xml_tree(source);
+  const XmlElement root = io::xml_tree(source);
   if (root.name != "OpenSimDocument")
     source.fail(
         fmt::format("line {}: no OpenSim model: it begins with {}", root.line, io::in_quotes(root.name)));
   model.version = io::version_of(root, source);
-  const io::XmlElement* of_model = root.child("Model");
+  const XmlElement* of_model = root.child("Model");
   if (!of_model) source.fail(fmt::format("line {}: there is no Model in it", root.line));
   model.name = io::plain_text(of_model->label());
   io::check_length_units(*of_model, source);
-  io::ModelReader(source, model, geometry_folders).read(root);
+  ModelReader(source, model, geometry_folders).read(root);
   return model;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -51,15 +51,15 @@ void BeyondLimits::check(const CoordinateLimits& limits, std::span<const double>
                                     unit, from_lock.text(values.size())));
 }
 
-std::vector<ContactNote> BeyondLimits::notes() const {
-  std::vector<ContactNote> notes;
+std::vector<motion::ContactNote> BeyondLimits::notes() const {
+  std::vector<motion::ContactNote> notes;
   if (!beyond_.empty())
-    notes.push_back({ContactNoteCode::beyond_range,
+    notes.push_back({motion::ContactNoteCode::beyond_range,
                      fmt::format("coordinates leave the ranges that the model gives them, and are used as "
                                  "they are: {}",
                                  beyond_)});
   if (!unlocked_.empty())
-    notes.push_back({ContactNoteCode::locked_coordinate,
+    notes.push_back({motion::ContactNoteCode::locked_coordinate,
                      fmt::format("coordinates that the model locks have other values, and are used as they "
                                  "are: {}",
                                  unlocked_)});

@@ -24,7 +24,7 @@ class BeyondLimits {
   /// `values`: one per frame, degrees or mm, NaN for gaps.
   void check(const CoordinateLimits& limits, std::span<const double> values);
 
-  std::vector<ContactNote> notes() const;
+  std::vector<motion::ContactNote> notes() const;
 
  private:
   std::string beyond_, unlocked_;

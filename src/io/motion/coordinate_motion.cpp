@@ -45,11 +45,11 @@ JointMotion motion_of_coordinates(const Joint& joint, const MotionTable& table,
       if (frame) largest = std::max(largest, std::abs((*frame)[i]));
     const std::string& name = recorded.names[i];
     const bool is_length = name == "x" || name == "y" || name == "z";
-    if (auto check =
-            check_recorded(name, is_length ? RecordedKind::length_mm : RecordedKind::angle_deg, largest))
+    if (auto check = motion::check_recorded(
+            name, is_length ? motion::RecordedKind::length_mm : motion::RecordedKind::angle_deg, largest))
       motion.notes.push_back(std::move(*check));
   }
-  add_new(motion.notes, std::move(recorded.notes));
+  motion::add_new(motion.notes, std::move(recorded.notes));
   std::string missing;
   for (const CoordinateName& name : coordinate_names_of(joint.kind, joint.anatomy))
     if (std::find(recorded.names.begin(), recorded.names.end(), name.name) == recorded.names.end())
@@ -69,7 +69,7 @@ JointMotion motion_of_coordinates(const Joint& joint, const MotionTable& table,
         at.translation_mm[name[0] - 'x'] = value;
         continue;
       }
-      at.angles = turned_by(at.angles, joint_angle_named(name, joint.anatomy), Angle::degrees(value));
+      at.angles = motion::turned_by(at.angles, joint_angle_named(name, joint.anatomy), Angle::degrees(value));
     }
     motion.X_FM.emplace_back(pose_at(joint.coordinates(), at, joint.translation_frame));
   }

@@ -12,7 +12,7 @@
 #include "io/file/whole_file.hpp"
 #include "io/result/csv_field.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 /// Refuses names that a reader cannot distinguish, and numbers that it does not take.
@@ -72,4 +72,4 @@ void write_curves_csv(const std::filesystem::path& path, const Curves& curves, s
   io::write_whole_file(path, text);
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -10,7 +10,7 @@
 /// Curves along a motion, and the files they are written to. A file appears whole under its name or not at all; writing
 /// raises FileError.
 
-namespace condyle {
+namespace condyle::io {
 
 /// Numbers along a motion, one column each.
 struct Curves {
@@ -49,4 +49,4 @@ struct SeriesFile {
 /// Writes a .pvd collection: which VTP file belongs to which time.
 void write_pvd(const std::filesystem::path& path, std::span<const SeriesFile> files);
 
-}  // namespace condyle
+}  // namespace condyle::io

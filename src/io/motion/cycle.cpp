@@ -7,7 +7,7 @@
 #include "condyle/error.hpp"
 #include "io/motion/curve_files.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 /// Between a frame and the next one. std::lerp of a NaN and a number may be that number.
@@ -47,4 +47,4 @@ Curves cycle_of(const Curves& curves, double start_s, double end_s, std::size_t 
   return cycle;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -13,7 +13,7 @@ void follow(RangeRequest& request, const LoadedJoint& joint, const JointMotion& 
   FollowRecord record{coordinates_of(joint.joint, recorded), recorded.notes};
   if (motions == MotionsAre::all)
     // With none the request is refused, and says of the first motion why.
-    if (std::vector<Motion> led = motions_recorded(request.motions, record); !led.empty())
+    if (std::vector<motion::Motion> led = motions_recorded(request.motions, record); !led.empty())
       request.motions = std::move(led);
   request.follow = std::move(record);
   try {
@@ -27,7 +27,7 @@ FollowedLayers::FollowedLayers(const LoadedJoint& joint, const ContactEntry& ent
     : surfaces_(surfaces_of(entry, joint.joint)),
       contact_(surfaces_.fixed.mesh, surfaces_.mobile.mesh, elastic_options(entry, surfaces_, joint)) {}
 
-FollowLoad FollowedLayers::carrying(const Load& load, const BalanceOptions& balance) const {
+FollowLoad FollowedLayers::carrying(const contact::Load& load, const contact::BalanceOptions& balance) const {
   return {.layers = &contact_,
           .load = load,
           .balance = balance,

@@ -24,11 +24,11 @@ class FollowedLayers {
   /// Throws as surfaces_of() and elastic_options() do.
   FollowedLayers(const LoadedJoint& joint, const ContactEntry& entry);
 
-  FollowLoad carrying(const Load& load, const BalanceOptions& balance) const;
+  FollowLoad carrying(const contact::Load& load, const contact::BalanceOptions& balance) const;
 
  private:
   ContactSurfaces surfaces_;
-  ElasticContact contact_;
+  contact::ElasticContact contact_;
 };
 
 }  // namespace condyle::io

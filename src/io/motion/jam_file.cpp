@@ -18,7 +18,7 @@
 /// the outputs of OpenSim/Simulation/Model/Smith2018ArticularContactForce.h without their "casting_" or "target_"; regions as
 /// Smith2018ContactMesh.cpp there sorts triangles).
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 /// Whether JAM's scripts (jam_analysis.m) can take this as the name of a field.
@@ -67,7 +67,7 @@ void for_each_of_totals(const auto& scalar, const auto& vector) {
 }
 
 /// A vector of totals_of(frame) in each row.
-void add_vectors(io::H5Image& file, const std::string& path, const std::vector<JamFrame>& frames,
+void add_vectors(H5Image& file, const std::string& path, const std::vector<JamFrame>& frames,
                  Vec3 JamTotals::*member, const auto& totals_of) {
   std::vector<double> values;
   for (const JamFrame& frame : frames)
@@ -75,7 +75,7 @@ void add_vectors(io::H5Image& file, const std::string& path, const std::vector<J
   file.numbers(path, values, frames.size(), 3);
 }
 
-void add_totals(io::H5Image& file, const std::string& group, const std::vector<JamFrame>& frames) {
+void add_totals(H5Image& file, const std::string& group, const std::vector<JamFrame>& frames) {
   const std::string start = group + "/total_";
   for_each_of_totals(
       [&](const std::string& name, double JamTotals::*member) {
@@ -90,7 +90,7 @@ void add_totals(io::H5Image& file, const std::string& group, const std::vector<J
 }
 
 /// A column for each region; of vectors a data set for each, named by its number.
-void add_regions(io::H5Image& file, const std::string& group, const std::vector<JamFrame>& frames) {
+void add_regions(H5Image& file, const std::string& group, const std::vector<JamFrame>& frames) {
   const std::string start = group + "/regional_";
   for_each_of_totals(
       [&](const std::string& name, double JamTotals::*member) {
@@ -107,7 +107,7 @@ void add_regions(io::H5Image& file, const std::string& group, const std::vector<
       });
 }
 
-void add_triangles(io::H5Image& file, const std::string& path, const std::vector<JamFrame>& frames,
+void add_triangles(H5Image& file, const std::string& path, const std::vector<JamFrame>& frames,
                    std::vector<double> JamFrame::*member) {
   const std::size_t triangles = (frames.front().*member).size();
   std::vector<double> values;
@@ -116,7 +116,7 @@ void add_triangles(io::H5Image& file, const std::string& path, const std::vector
   if (triangles > 0) file.numbers(path, values, frames.size(), triangles);
 }
 
-void add_surface(io::H5Image& file, const std::string& contact, const JamSurface& surface) {
+void add_surface(H5Image& file, const std::string& contact, const JamSurface& surface) {
   const std::string group = contact + "/" + surface.mesh;
   file.group(group);
   const std::vector<JamFrame>& frames = surface.frames;
@@ -129,7 +129,7 @@ void add_surface(io::H5Image& file, const std::string& contact, const JamSurface
 
 std::string jam_bytes(std::span<const double> times_s, std::span<const JamContact> contacts,
                       std::span<const JamCoordinate> coordinates) {
-  io::H5Image file;
+  H5Image file;
   file.numbers("/time", {times_s.begin(), times_s.end()}, times_s.size(), 0);
   const std::string forces = "/model/forceset/Smith2018ArticularContactForce";
   for (const char* group : {"/model", "/model/forceset", forces.c_str()}) file.group(group);
@@ -166,4 +166,4 @@ void write_jam_file(const std::filesystem::path& path, std::span<const double> t
   io::write_whole_file(path, bytes);
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

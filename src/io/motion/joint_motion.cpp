@@ -12,7 +12,7 @@
 #include "io/motion/coordinate_motion.hpp"
 #include "io/motion/model_poses.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 /// Where a mesh file's frame lies in the body's joint frame, its lengths in mm.
@@ -48,7 +48,7 @@ JointMotion of_poses(const LoadedJoint& loaded, const MotionTable& table, Record
     motion.X_FM.emplace_back(X_FM);
     farthest = std::max(farthest, X_FM.translation().norm());
   }
-  if (auto check = check_recorded("the translation", RecordedKind::length_mm, farthest))
+  if (auto check = motion::check_recorded("the translation", motion::RecordedKind::length_mm, farthest))
     motion.notes.push_back(std::move(*check));
   return motion;
 }
@@ -79,4 +79,4 @@ std::vector<JointCoordinates> coordinates_of(const Joint& joint, const JointMoti
   return coordinates;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

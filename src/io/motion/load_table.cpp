@@ -56,8 +56,8 @@ void check_times(const MotionTable& table, const FrameTimes& wanted) {
 
 }  // namespace
 
-std::vector<std::optional<Load>> loads_of(const MotionTable& table, const FrameTimes& times, BodyRole frame,
-                                          bool free_rotations) {
+std::vector<std::optional<contact::Load>> loads_of(const MotionTable& table, const FrameTimes& times,
+                                                   BodyRole frame, bool free_rotations) {
   check_times(table, times);
   const std::array<Column, 3> force = columns_of(table, forces);
   std::array<Column, 3> moment = {};
@@ -69,9 +69,10 @@ std::vector<std::optional<Load>> loads_of(const MotionTable& table, const FrameT
                                   table.path.string(), *given));
     moment = columns_of(table, moments);
   }
-  std::vector<std::optional<Load>> loads(times.values.size(), Load{.on_mobile = {}, .frame = frame});
+  std::vector<std::optional<contact::Load>> loads(times.values.size(),
+                                                  contact::Load{.on_mobile = {}, .frame = frame});
   for (std::size_t i = 0; i < loads.size(); ++i) {
-    Wrench& wrench = loads[i]->on_mobile;
+    contact::Wrench& wrench = loads[i]->on_mobile;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       wrench.force_n[static_cast<Eigen::Index>(axis)] = (*force[axis])[i];
       if (moment[axis]) wrench.moment_nmm[static_cast<Eigen::Index>(axis)] = (*moment[axis])[i];

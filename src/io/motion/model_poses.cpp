@@ -46,7 +46,7 @@ class ModelMotion {
       check(coordinate, values.back(), beyond);
       check_unit(coordinate, values.back(), out.notes);
     }
-    add_new(out.notes, beyond.notes());
+    motion::add_new(out.notes, beyond.notes());
     std::vector<double> q(values.size());
     for (std::size_t row = 0; row < table_.rows; ++row) {
       for (std::size_t i = 0; i < q.size(); ++i) q[i] = values[i][row];
@@ -190,14 +190,14 @@ class ModelMotion {
 
   /// Notes angles that look like another unit. Lengths are checked by the poses that they lead to.
   static void check_unit(const ModelCoordinate& coordinate, const std::vector<double>& values,
-                         std::vector<ContactNote>& notes) {
+                         std::vector<motion::ContactNote>& notes) {
     if (coordinate.motion == CoordinateMotion::translational) return;
     double largest = 0;
     for (const double value : values)
       if (!std::isnan(value)) largest = std::max(largest, std::abs(value));
-    if (auto note =
-            check_recorded(coordinate.name, RecordedKind::angle_deg, largest * 180 / std::numbers::pi))
-      add_new(notes, {std::move(*note)});
+    if (auto note = motion::check_recorded(coordinate.name, motion::RecordedKind::angle_deg,
+                                           largest * 180 / std::numbers::pi))
+      motion::add_new(notes, {std::move(*note)});
   }
 
   const MotionTable& table_;

@@ -2,7 +2,7 @@
 #include "io/file/whole_file.hpp"
 #include "io/motion/motion_table.hpp"
 
-namespace condyle {
+namespace condyle::io {
 
 MotionTable read_motion_table(const std::filesystem::path& path) {
   io::check_is_file(path);
@@ -10,4 +10,4 @@ MotionTable read_motion_table(const std::filesystem::path& path) {
   return io::motion_table_of(io::read_whole_file(path), path);
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -11,13 +11,13 @@
 #include "io/file/words.hpp"
 #include "io/motion/table_builder.hpp"
 
-namespace condyle {
-namespace io {
+namespace condyle::io {
 namespace {
 
 std::size_t place_of(const MotionTable& table, std::string_view lower_case_name) {
-  const auto at = std::find_if(table.columns.begin(), table.columns.end(),
-                               [&](const std::string& name) { return lower_case(name) == lower_case_name; });
+  const auto at = std::find_if(table.columns.begin(), table.columns.end(), [&](const std::string& name) {
+    return io::lower_case(name) == lower_case_name;
+  });
   return static_cast<std::size_t>(at - table.columns.begin());
 }
 
@@ -89,7 +89,7 @@ std::size_t time_column(const MotionTable& table) {
 }
 
 bool is_of_opensim(const std::filesystem::path& path) {
-  const std::string extension = lower_case(path.extension().string());
+  const std::string extension = io::lower_case(path.extension().string());
   const bool of_opensim = extension == ".mot" || extension == ".sto";
   if (!of_opensim && extension != ".csv")
     throw FileError(fmt::format("{}: unknown extension '{}': .mot, .sto and .csv are read", path.string(),
@@ -97,13 +97,11 @@ bool is_of_opensim(const std::filesystem::path& path) {
   return of_opensim;
 }
 
-}  // namespace io
-
-MotionTable io::motion_table_of(std::string_view bytes, const std::filesystem::path& path) {
+MotionTable motion_table_of(std::string_view bytes, const std::filesystem::path& path) {
   const std::string name = path.string();
   const std::string_view byte_order_mark = "\xEF\xBB\xBF";
   const bool of_opensim = is_of_opensim(path);
-  io::Source source{bytes, name};
+  Source source{bytes, name};
   if (source.bytes.starts_with(byte_order_mark)) source.bytes.remove_prefix(byte_order_mark.size());
   if (io::trimmed(source.bytes).empty()) source.fail("is empty");
   MotionTable table = of_opensim ? io::read_opensim_table(source) : io::read_csv_table(source);
@@ -125,4 +123,4 @@ FrameTimes frame_times(const MotionTable& table) {
   return times;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

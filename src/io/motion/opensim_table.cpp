@@ -24,14 +24,14 @@ TableHeader read_header(TextCursor& cursor, const Source& source) {
   while (!cursor.at_end()) {
     const std::size_t line = cursor.line();
     const std::string_view text = trimmed(cursor.rest_of_line());
-    const std::string lower = lower_case(text);
+    const std::string lower = io::lower_case(text);
     if (lower == "endheader") return header;
     const std::size_t equals = text.find('=');
     const std::string_view key = trimmed(text.substr(0, equals));
     if (equals != text.npos && key.find_first_of(" \t") == key.npos) {
       const std::string value(trimmed(text.substr(equals + 1)));
       const auto [known, is_new] =
-          header.entries.try_emplace(lower_case(key), TableHeader::Entry{value, line});
+          header.entries.try_emplace(io::lower_case(key), TableHeader::Entry{value, line});
       if (!is_new && known->second.value != value)
         source.fail(fmt::format("line {}: {} is given twice, with different values", line, in_quotes(key)));
     } else if (lower.find("angles are in degrees") != lower.npos) {
@@ -46,7 +46,7 @@ TableHeader read_header(TextCursor& cursor, const Source& source) {
 std::optional<bool> in_degrees(const TableHeader& header, const Source& source) {
   const auto entry = header.entries.find("indegrees");
   if (entry == header.entries.end()) return std::nullopt;
-  const std::string value = lower_case(entry->second.value);
+  const std::string value = io::lower_case(entry->second.value);
   if (value != "yes" && value != "no")
     source.fail(fmt::format("line {}: inDegrees: must be yes or no, not {}", entry->second.line,
                             in_quotes(entry->second.value)));
@@ -56,7 +56,7 @@ std::optional<bool> in_degrees(const TableHeader& header, const Source& source) 
 /// Tables of vectors and quaternions have several numbers to a cell.
 void check_data_type(const TableHeader& header, const Source& source) {
   const auto entry = header.entries.find("datatype");
-  if (entry != header.entries.end() && lower_case(entry->second.value) != "double")
+  if (entry != header.entries.end() && io::lower_case(entry->second.value) != "double")
     source.fail(fmt::format("line {}: DataType: must be double, not {}", entry->second.line,
                             in_quotes(entry->second.value)));
 }
@@ -64,7 +64,7 @@ void check_data_type(const TableHeader& header, const Source& source) {
 /// A count that the header promises, against what is there.
 void compare_count(const TableHeader& header, const char* key, const char* what, std::size_t counted,
                    const Source& source, std::vector<std::string>& processing) {
-  const auto entry = header.entries.find(lower_case(key));
+  const auto entry = header.entries.find(io::lower_case(key));
   if (entry == header.entries.end()) return;
   std::uint64_t promised = 0;
   if (!parse_number(entry->second.value, promised))
@@ -92,7 +92,7 @@ MotionTable read_opensim_table(const Source& source) {
   std::size_t empty_line = 0;
   while (!cursor.at_end()) {
     const std::size_t line = cursor.line();
-    const std::vector<std::string_view> words = words_of(cursor.rest_of_line());
+    const std::vector<std::string_view> words = io::words_of(cursor.rest_of_line());
     if (words.empty()) {
       if (!table.line_of_row.empty() && empty_line == 0) empty_line = line;
     } else if (table.columns.empty()) {

@@ -8,7 +8,7 @@
 #include "io/file/xml_escaped.hpp"
 #include "io/motion/curve_files.hpp"
 
-namespace condyle {
+namespace condyle::io {
 /// ParaView's format: https://www.paraview.org/Wiki/ParaView/Data_formats#PVD_File_Format. Files of one time are
 /// blocks, each with a number of its own.
 void write_pvd(const std::filesystem::path& path, std::span<const SeriesFile> files) {
@@ -25,4 +25,4 @@ void write_pvd(const std::filesystem::path& path, std::span<const SeriesFile> fi
   io::write_whole_file(path, text + "  </Collection>\n</VTKFile>\n");
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

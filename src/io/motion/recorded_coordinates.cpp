@@ -12,7 +12,7 @@
 #include "io/motion/coordinate_limits.hpp"
 #include "io/motion/gaps.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 ColumnUnit unit_of(const MotionTable& table, const ColumnOfCoordinate& entry) {
@@ -54,7 +54,7 @@ bool has_none(const MotionTable& table, const std::vector<ColumnOfCoordinate>& m
   });
 }
 
-io::CoordinateLimits coordinate_limits_of(const ColumnOfCoordinate& entry) {
+CoordinateLimits coordinate_limits_of(const ColumnOfCoordinate& entry) {
   return {entry.column, entry.kind, entry.range, entry.is_locked ? entry.otherwise : std::nullopt};
 }
 
@@ -69,7 +69,7 @@ NamedCoordinates recorded_coordinates(const MotionTable& table,
   if (!mapping.empty() && has_none(table, mapping))
     throw FileError(fmt::format("{}: has none of the joint's columns, {} and the others", table.path.string(),
                                 io::in_quotes(mapping.front().column)));
-  io::BeyondLimits beyond;
+  BeyondLimits beyond;
   for (const ColumnOfCoordinate& entry : mapping) {
     out.names.push_back(entry.coordinate);
     if (entry.otherwise && !io::find_column(table, entry.column)) {
@@ -100,4 +100,4 @@ NamedCoordinates recorded_coordinates(const MotionTable& table,
   return out;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

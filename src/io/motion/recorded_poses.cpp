@@ -12,7 +12,7 @@
 #include "io/joint/nearest_rotation.hpp"
 #include "io/motion/gaps.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 /// Places of a body's sixteen columns, matrix row by row.
@@ -194,4 +194,4 @@ RecordedPoses recorded_poses(const MotionTable& table, const ColumnsOfPoses& map
   return out;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -45,13 +45,13 @@ constexpr double least_drawn_mm = 0.01;
 
 }  // namespace
 
-double depth_band_mm(const CutBone& cut) {
+double depth_band_mm(const plan::CutBone& cut) {
   for (const double width : {0.25, 0.5, 1.0})
     if (cut.deepest_mm <= width * static_cast<double>(depth_colours.size())) return width;
   return 2;
 }
 
-std::vector<PictureMark> depth_bands(const CutBone& cut) {
+std::vector<PictureMark> depth_bands(const plan::CutBone& cut) {
   const double width = depth_band_mm(cut);
   std::vector<PictureMark> bands;
   for (const auto& colour : depth_colours) bands.push_back({{}, colour});
@@ -68,7 +68,7 @@ std::vector<PictureMark> depth_bands(const CutBone& cut) {
   return bands;
 }
 
-ViewDirection view_of(const CutBone& cut) {
+ViewDirection view_of(const plan::CutBone& cut) {
   Vec3 outwards = Vec3::Zero();
   for (const Triangle& t : cut.before.triangles) {
     const Vec3 a = cut.before.vertices[t[0]], b = cut.before.vertices[t[1]], c = cut.before.vertices[t[2]];
@@ -82,7 +82,7 @@ ViewDirection view_of(const CutBone& cut) {
   return {outwards, (up - up.dot(outwards) * outwards).normalized()};
 }
 
-double field_of(const CutBone& cut, const ViewDirection& view) {
+double field_of(const plan::CutBone& cut, const ViewDirection& view) {
   constexpr double head_and_neck_mm = 110, width_to_height = 4. / 3, with_border = 1.1;
   const Vec3 across = view.up.cross(view.towards_viewer);
   double beside = 0;

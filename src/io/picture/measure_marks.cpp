@@ -5,7 +5,7 @@
 #include "condyle/hip_measures.hpp"
 #include "condyle/io/picture.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 constexpr std::array<std::uint8_t, 3> blue = {0, 114, 178}, vermilion = {213, 94, 0}, grey = {110, 110, 110},
@@ -57,7 +57,7 @@ void add_dot(TriMesh& mesh, const Vec3& at, double radius) {
       }
 }
 
-void add_ring(TriMesh& mesh, const RimGeometry& rim) {
+void add_ring(TriMesh& mesh, const measure::RimGeometry& rim) {
   const Vec3 x = rim.clock.twelve, y = rim.normal.cross(x);
   const auto at = [&](int step) {
     const double turn = 2 * std::numbers::pi * step / ring_steps;
@@ -71,7 +71,7 @@ void add_mark(std::vector<PictureMark>& marks, TriMesh mesh, const std::array<st
 }
 
 /// Shaft, condylar line, the line that version is seen along, 12 o'clock and the top of the trochanter, with the femur.
-TriMesh femur_axes(const FemurMeasures& femur, const Pose& X_FM) {
+TriMesh femur_axes(const measure::FemurMeasures& femur, const Pose& X_FM) {
   TriMesh mesh;
   const auto line = [&](const Vec3& from, const Vec3& to) { add_line(mesh, X_FM * from, X_FM * to); };
   if (femur.neck) {
@@ -88,9 +88,9 @@ TriMesh femur_axes(const FemurMeasures& femur, const Pose& X_FM) {
 }
 
 /// From the head's centre up and to the edges of the roof, and the chords of the rim.
-TriMesh roof_lines(const HipMeasures& measures) {
+TriMesh roof_lines(const measure::HipMeasures& measures) {
   TriMesh mesh;
-  const AcetabulumMeasures& socket = measures.acetabulum;
+  const measure::AcetabulumMeasures& socket = measures.acetabulum;
   bool has_edge = false;
   if (measures.femur.head)
     for (const auto* edge : {&socket.lateral_edge, &socket.anterior_edge, &socket.posterior_edge})
@@ -99,12 +99,12 @@ TriMesh roof_lines(const HipMeasures& measures) {
     const Sphere& head = *measures.femur.head;
     add_line(mesh, head.centre, head.centre + up_ahead * head.radius * socket.superior);
   }
-  for (const RimChord& chord : socket.chords) add_line(mesh, chord.back, chord.front);
+  for (const measure::RimChord& chord : socket.chords) add_line(mesh, chord.back, chord.front);
   return mesh;
 }
 
 /// Where the bones are nearest, at the poses that this is measured in.
-TriMesh nearest_places(const BothMeasures& both) {
+TriMesh nearest_places(const measure::BothMeasures& both) {
   TriMesh mesh;
   for (const auto* at : {&both.joint_space_at, &both.ischiofemoral_at})
     if (*at) {
@@ -116,12 +116,12 @@ TriMesh nearest_places(const BothMeasures& both) {
 
 }  // namespace
 
-std::vector<PictureMark> measure_marks(const HipMeasures& measures, const Pose& X_FM) {
+std::vector<PictureMark> measure_marks(const measure::HipMeasures& measures, const Pose& X_FM) {
   std::vector<PictureMark> marks;
-  const FemurMeasures& femur = measures.femur;
-  const AcetabulumMeasures& socket = measures.acetabulum;
+  const measure::FemurMeasures& femur = measures.femur;
+  const measure::AcetabulumMeasures& socket = measures.acetabulum;
   TriMesh in_plane, off_plane, plane, axis, alpha;
-  for (const RimHour& hour : socket.rim)
+  for (const measure::RimHour& hour : socket.rim)
     if (hour.point) add_dot(hour.is_in_plane ? in_plane : off_plane, *hour.point, dot_mm);
   if (socket.plane) {
     add_ring(plane, *socket.plane);
@@ -132,7 +132,7 @@ std::vector<PictureMark> measure_marks(const HipMeasures& measures, const Pose& 
     add_line(axis, X_FM * Vec3(head.centre - axis_behind * head.radius * direction),
              X_FM * Vec3(head.centre + axis_ahead * head.radius * direction));
   }
-  for (const NeckHour& hour : femur.around_neck)
+  for (const measure::NeckHour& hour : femur.around_neck)
     if (hour.alpha_point) add_dot(alpha, X_FM * *hour.alpha_point, small_dot_mm);
   add_mark(marks, std::move(plane), vermilion);
   add_mark(marks, std::move(in_plane), vermilion);
@@ -145,4 +145,4 @@ std::vector<PictureMark> measure_marks(const HipMeasures& measures, const Pose& 
   return marks;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -15,8 +15,7 @@
 #include "io/picture/surface_values.hpp"
 #include "mesh/vertex_normals.hpp"
 
-namespace condyle {
-namespace io {
+namespace condyle::io {
 namespace {
 
 /// Rows of pixels that a thread draws at a time: samples of two bodies stay within some megabytes.
@@ -300,8 +299,6 @@ void draw_strip(const Surface& fixed, const Surface& mobile, const Marks& marks,
 }
 
 }  // namespace
-}  // namespace io
-
 ViewDirection view_named(std::string_view name, Side side) {
   const double to_right = side == Side::right ? 1 : -1;  // where lateral is
   const std::pair<std::string_view, Vec3> directions[] = {{"anterior", Vec3::UnitX()},
@@ -335,26 +332,26 @@ ViewDirection view_named(std::string_view name, Side side) {
 Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM, const PictureOptions& given) {
   PictureOptions options = given;
   io::check(options);
-  const io::BothValues values = io::surface_values(options.colour, joint, at, X_FM);
-  const io::ColourScale scale{options.colour,
-                              options.range_mm                         ? *options.range_mm
-                              : options.colour == PictureColour::depth ? io::range_of_depths(values)
-                                                                       : io::usual_range_mm,
-                              options.range_mm || options.colour != PictureColour::depth};
+  const BothValues values = io::surface_values(options.colour, joint, at, X_FM);
+  const ColourScale scale{options.colour,
+                          options.range_mm                         ? *options.range_mm
+                          : options.colour == PictureColour::depth ? io::range_of_depths(values)
+                                                                   : io::usual_range_mm,
+                          options.range_mm || options.colour != PictureColour::depth};
   Picture picture{options.width, options.height,
                   std::vector<std::uint8_t>(3 * options.width * options.height, 255)};
   const std::size_t rows_of_scene = options.height - io::legend_height(options);
   const TriMesh &fixed = joint.fixed.mesh.arrays(), mobile = posed(X_FM, joint.mobile.mesh.arrays());
   const std::size_t columns = options.width * io::samples, rows = rows_of_scene * io::samples;
-  const io::Camera camera =
+  const Camera camera =
       io::camera_of(options, fixed, mobile, static_cast<double>(columns), static_cast<double>(rows));
   io::make_outer_glass(options, fixed, mobile, values, camera, static_cast<double>(columns),
                        static_cast<double>(rows));
-  const io::Surface fixed_surface(fixed, values.fixed, scale, io::fixed_bone, options.fixed, camera, columns,
-                                  rows);
-  const io::Surface mobile_surface(mobile, values.mobile, scale, io::mobile_bone, options.mobile, camera,
-                                   columns, rows);
-  const io::Marks marks(options.marks, camera, columns, rows);
+  const Surface fixed_surface(fixed, values.fixed, scale, io::fixed_bone, options.fixed, camera, columns,
+                              rows);
+  const Surface mobile_surface(mobile, values.mobile, scale, io::mobile_bone, options.mobile, camera, columns,
+                               rows);
+  const Marks marks(options.marks, camera, columns, rows);
   const std::size_t strips = (rows_of_scene + io::strip_pixels - 1) / io::strip_pixels;
   core::parallel_chunks(strips, 1, [&](std::size_t first, std::size_t end) {
     for (std::size_t strip = first; strip < end; ++strip)
@@ -367,4 +364,4 @@ Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM, 
   return picture;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -10,7 +10,7 @@
 #include "io/file/output_file.hpp"
 #include "io/result/provenance_forms.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 std::string big_endian(std::uint32_t value) {
@@ -65,4 +65,4 @@ void write_png(const std::filesystem::path& path, const Picture& picture, const 
   io::write_output_file(path, png_bytes(picture, from));
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -10,17 +10,18 @@ namespace {
 
 /// The distance, below zero inside.
 std::vector<double> signed_distances(std::vector<double> distances,
-                                     const std::optional<RadialResults>& results) {
+                                     const std::optional<radial::RadialResults>& results) {
   if (results)
     for (std::size_t v = 0; v < distances.size(); ++v)
       if (results->state[v] == PointState::inside) distances[v] = -distances[v];
   return distances;
 }
 
-SurfaceValues depths_of(std::optional<ReliableDepths> depths, std::vector<double> outside) {
+SurfaceValues depths_of(std::optional<contact::ReliableDepths> depths, std::vector<double> outside) {
   SurfaceValues values{.mm = std::move(depths->depth_mm), .outside = std::move(outside), .is_bound = {}};
   values.is_bound.reserve(values.mm.size());
-  for (const DepthWay way : depths->way) values.is_bound.push_back(way == DepthWay::nearest ? 1 : 0);
+  for (const contact::DepthWay way : depths->way)
+    values.is_bound.push_back(way == contact::DepthWay::nearest ? 1 : 0);
   return values;
 }
 
@@ -32,9 +33,9 @@ BothValues surface_values(PictureColour colour, const Joint& joint, const JointA
     mesh::require_solid(joint.fixed.mesh, joint.fixed.name);
     mesh::require_solid(joint.mobile.mesh, joint.mobile.name);
   }
-  const JointContact bodies(joint);
+  const contact::JointContact bodies(joint);
   if (colour == PictureColour::gap) {
-    RadialContact contact = bodies.radial(X_FM);
+    contact::RadialContact contact = bodies.radial(X_FM);
     return {
         .fixed = {.mm = std::move(contact.fixed_in_mobile->radial_gap_mm), .outside = {}, .is_bound = {}},
         .mobile = {.mm = std::move(contact.mobile_in_fixed->radial_gap_mm), .outside = {}, .is_bound = {}}};
@@ -44,10 +45,10 @@ BothValues surface_values(PictureColour colour, const Joint& joint, const JointA
                                     {.X_FM = X_FM,
                                      .pose = at,
                                      .method = method,
-                                     .distances = DistancesOf::all_vertices,
+                                     .distances = contact::DistancesOf::all_vertices,
                                      .measures = MeasuresOf::distances_only});
   auto& [contact, reliable] = std::get<RayDepths>(answer.depths);
-  NearestDistances& distances = answer.measures.distances;
+  contact::NearestDistances& distances = answer.measures.distances;
   auto of_fixed = signed_distances(std::move(distances.fixed), contact.fixed_in_mobile);
   auto of_mobile = signed_distances(std::move(distances.mobile), contact.mobile_in_fixed);
   if (colour == PictureColour::nearest)

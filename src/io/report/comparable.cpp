@@ -4,7 +4,7 @@
 #include "condyle/io/pose_text.hpp"
 #include "io/report/report.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 std::string kind_text(const Joint& joint) {
@@ -21,4 +21,4 @@ void check_comparable(const Joint& before, const std::string& before_name, const
                   before_name, kind_text(before), after_name, kind_text(after)));
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -21,9 +21,9 @@
 #include "io/report/block_arrays.hpp"
 #include "io/report/body_arrays.hpp"
 #include "io/report/plan_json.hpp"
+#include "io/report/posed_json.hpp"
 #include "io/report/recorded_columns.hpp"
 #include "io/report/recorded_frames.hpp"
-#include "io/report/posed_json.hpp"
 #include "io/report/surfaces_json.hpp"
 #include "io/report/sweep_block.hpp"
 #include "io/result/caveats.hpp"
@@ -44,10 +44,10 @@ constexpr double gap_units_per_mm = 100;
 constexpr std::int16_t no_gap = std::numeric_limits<std::int16_t>::max();
 
 /// Numbers as in ContactRole.
-std::vector<std::uint8_t> roles_of(const std::vector<ContactRole>& roles) {
+std::vector<std::uint8_t> roles_of(const std::vector<motion::ContactRole>& roles) {
   std::vector<std::uint8_t> numbers;
   numbers.reserve(roles.size());
-  for (const ContactRole role : roles) numbers.push_back(static_cast<std::uint8_t>(role));
+  for (const motion::ContactRole role : roles) numbers.push_back(static_cast<std::uint8_t>(role));
   return numbers;
 }
 
@@ -87,7 +87,7 @@ Json degrees_json(const JointAngles& angles) {
   return json;
 }
 
-Json axis_json(const GridAxis& axis, Anatomy joint) {
+Json axis_json(const motion::GridAxis& axis, Anatomy joint) {
   Json values = Json::array();
   for (std::size_t i = 0; i < axis.count(); ++i) values.push_back(axis.value_deg(i));
   return {{"angle", name_of(axis.angle, joint)},
@@ -95,15 +95,15 @@ Json axis_json(const GridAxis& axis, Anatomy joint) {
           {"values_deg", std::move(values)}};
 }
 
-Json map_json(const MotionMap& map) {
-  const MapGrid& grid = map.grid;
-  const auto ends_in_contact = [](const Limit& limit) {
-    return limit.reason == LimitReason::end_of_range ? 0 : 1;
+Json map_json(const motion::MotionMap& map) {
+  const motion::MapGrid& grid = map.grid;
+  const auto ends_in_contact = [](const motion::Limit& limit) {
+    return limit.reason == motion::LimitReason::end_of_range ? 0 : 1;
   };
   Json points = Json::array();
-  for (const FreeAngles& point : map.points) {
+  for (const motion::FreeAngles& point : map.points) {
     Json intervals = Json::array();
-    for (const FreeInterval& free : point.intervals)
+    for (const motion::FreeInterval& free : point.intervals)
       intervals.push_back({(grid.start + free.low).degrees(), (grid.start + free.high).degrees(),
                            ends_in_contact(free.at_low), ends_in_contact(free.at_high)});
     points.push_back(std::move(intervals));
@@ -136,18 +136,18 @@ class StoredPoses {
   /// Nothing where there are no gaps: a mesh is open, or the centre lies on a surface.
   void add(const std::string& name, const JointCoordinates& at, const std::optional<Vec3>& contact_point_F) {
     const Pose X_FM = pose_at(joint_.coordinates(), at, joint_.translation_frame);
-    const RadialContact contact = gaps_at(X_FM);
+    const contact::RadialContact contact = gaps_at(X_FM);
     if (!contact.fixed_in_mobile || !contact.mobile_in_fixed) return;
     Json coordinates = Json::array();
     for (const JointAngle angle : all_joint_angles)
       coordinates.push_back(angle_of(at.angles, angle).degrees());
     const std::string number = "pose_" + std::to_string(poses_.size());
-    const auto add_gaps = [&](const char* role, const RadialResults& results) {
+    const auto add_gaps = [&](const char* role, const radial::RadialResults& results) {
       return arrays_.add(number + role, rounded_gaps(results.radial_gap_mm));
     };
     poses_.push_back({{"name", name},
                       {"coordinates_deg", std::move(coordinates)},
-                      {"pose", rows_of(X_FM)},
+                      {"pose", io::rows_of(X_FM)},
                       {"in_contact", contact.in_contact},
                       {"contact_point_mm", contact_point_F ? numbers(*contact_point_F) : Json(nullptr)},
                       {"fixed_gaps", add_gaps("_fixed_gaps", *contact.fixed_in_mobile)},
@@ -157,7 +157,7 @@ class StoredPoses {
   Json json() && { return std::move(poses_); }
 
  private:
-  RadialContact gaps_at(const Pose& X_FM) const {
+  contact::RadialContact gaps_at(const Pose& X_FM) const {
     try {
       return contact_.radial(X_FM);
     } catch (const MeshError&) {
@@ -166,7 +166,7 @@ class StoredPoses {
   }
 
   const Joint& joint_;
-  JointContact contact_;
+  contact::JointContact contact_;
   BlockArrays& arrays_;
   Json poses_ = Json::array();
 };
@@ -176,7 +176,7 @@ Json poses_json(const Report& report, BlockArrays& arrays) {
   poses.add("reference", report.reference_pose, std::nullopt);
   if (!report.rom) return std::move(poses).json();
   const AnswerFrame frame = frame_of(*report.rom);
-  for (const MotionLimit& limit : report.rom->limits) {
+  for (const motion::MotionLimit& limit : report.rom->limits) {
     std::optional<Vec3> point;
     if (limit.end.contact) point = frame.fixed_point(limit.end.contact->fixed_point);
     const Vec3 held = report.rom->held_translation_mm.value_or(Vec3::Zero());
@@ -238,7 +238,7 @@ std::string data_block(const Report& report) {
   add_body(arrays, "fixed", joint.fixed.mesh);
   add_body(arrays, "mobile", joint.mobile.mesh);
   if (report.rom) {
-    const ContactRoles& roles = report.rom->bearing.roles;
+    const motion::ContactRoles& roles = report.rom->bearing.roles;
     if (!roles.fixed.empty()) arrays.add("fixed_roles", roles_of(roles.fixed));
     if (!roles.mobile.empty()) arrays.add("mobile_roles", roles_of(roles.mobile));
   }

@@ -27,8 +27,7 @@ extern const char condyle_report_template[];
 extern const char condyle_report_template_end[];
 }
 
-namespace condyle {
-namespace io {
+namespace condyle::io {
 namespace {
 
 constexpr std::string_view place = "<!--condyle-data-->";
@@ -65,8 +64,6 @@ std::string page_with(std::string_view page_template, std::string_view block) {
   return page += page_template.substr(at + place.size());
 }
 
-}  // namespace io
-
 std::string report_html(const Report& report) {
   return io::page_with(io::report_template(), io::data_block(report));
 }
@@ -89,4 +86,4 @@ void write_empty_report(const std::filesystem::path& path) {
   io::write_output_file(path, empty_report_html());
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -9,7 +9,7 @@
 namespace condyle::io {
 namespace {
 
-Json lowered_json(const CutBone& cut, const std::string& role, BlockArrays& arrays) {
+Json lowered_json(const plan::CutBone& cut, const std::string& role, BlockArrays& arrays) {
   std::vector<std::uint32_t> lowered;
   std::vector<double> before, depth_mm;
   for (std::uint32_t v = 0; v < cut.depth_mm.size(); ++v) {
@@ -31,7 +31,7 @@ Json plan_json(const ResectionResult& plan, BlockArrays& arrays) {
   // The page has these of the joint.
   for (const char* key : {"condyle", "joint", "fixed", "mobile", "side", "notes", "scope", "provenance"})
     json.erase(key);
-  const Resection& resection = plan.answer.resection;
+  const plan::Resection& resection = plan.answer.resection;
   json["surfaces"] = {
       {"fixed", resection.fixed ? lowered_json(*resection.fixed, "fixed", arrays) : Json(nullptr)},
       {"mobile", resection.mobile ? lowered_json(*resection.mobile, "mobile", arrays) : Json(nullptr)}};

@@ -17,7 +17,7 @@
 /// The output of `condyle report`: one HTML file that shows a joint in any browser and computes with it there. It
 /// loads nothing and sends nothing. Its contents, key by key, are in docs/report.md.
 
-namespace condyle {
+namespace condyle::io {
 
 /// A recorded motion in a report: its frames and their curves.
 struct ReportedMotion {
@@ -29,7 +29,7 @@ struct ReportedMotion {
 /// Layers that carry load, in a report: the page computes pressures with them.
 struct ReportedLayers {
   const ContactEntry& contact;
-  ElasticContactOptions options;  ///< elastic_options() of the entry
+  contact::ElasticContactOptions options;  ///< elastic_options() of the entry
 };
 
 /// What is said on the page as it was given: any text, which stays text; nothing of it is taken from the machine.
@@ -53,7 +53,7 @@ void check_comparable(const Joint& before, const std::string& before_name, const
                       const std::string& after_name);
 
 /// Throws UsageError for a sweep that a page does not show: over more than two parameters, of more designs or targets than it draws.
-void check_shown_sweep(std::span<const SweptParameter> parameters, std::size_t targets);
+void check_shown_sweep(std::span<const plan::SweptParameter> parameters, std::size_t targets);
 
 /// Contents of a report.
 struct Report {
@@ -94,4 +94,4 @@ std::string empty_report_html();
 /// Writes it; as write_report().
 void write_empty_report(const std::filesystem::path& path);
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -12,7 +12,7 @@ namespace condyle::io {
 namespace {
 
 /// The surface of a body that carries load: all of it, or one of its parts, and its layer where it has one.
-Json layer_json(const Body& body, const std::string& part, const std::optional<ElasticLayer>& layer,
+Json layer_json(const Body& body, const std::string& part, const std::optional<contact::ElasticLayer>& layer,
                 const std::string& role, BlockArrays& arrays) {
   BodyPart run{"", 0, body.mesh.vertices().size(), 0, body.mesh.triangles().size()};
   for (const BodyPart& known : body.parts)
@@ -35,7 +35,7 @@ Json layer_json(const Body& body, const std::string& part, const std::optional<E
 
 Json zones_json(const RomResult& rom, BlockArrays& arrays) {
   Json zones = Json::array();
-  for (const std::optional<ImpingementZone>& zone : rom.zones) {
+  for (const std::optional<motion::ImpingementZone>& zone : rom.zones) {
     if (!zone) continue;
     const std::string name = "zone_" + std::to_string(zones.size());
     zones.push_back({{"motion", zone->limit.motion.name},

@@ -8,16 +8,15 @@
 #include "condyle/error.hpp"
 #include "io/report/report.hpp"
 
-namespace condyle {
+namespace condyle::io {
 
-void check_shown_sweep(std::span<const SweptParameter> parameters, std::size_t targets) {
+void check_shown_sweep(std::span<const plan::SweptParameter> parameters, std::size_t targets) {
   constexpr std::size_t most_targets = 255, most_cells = 10'000;
   if (parameters.size() > 2) throw UsageError("a page shows a sweep over one or two parameters");
   if (targets > most_targets) throw UsageError("a page shows a sweep of up to 255 targets");
   if (designs_of(parameters) > most_cells) throw UsageError("a page shows a sweep of up to 10000 designs");
 }
 
-namespace io {
 namespace {
 
 /// Of each design the target that has the least to spare, the first of equals.
@@ -50,7 +49,7 @@ Json sweep_block(const SweepResult& sweep, BlockArrays& arrays) {
   json["margin_deg"] = arrays.add("sweep_margins", sweep.answer.margin_deg);
   json["least_target"] = arrays.add("sweep_least", least_of(sweep.answer));
   Json safe = Json::array();
-  for (const SafeInterval& each : sweep.answer.safe)
+  for (const plan::SafeInterval& each : sweep.answer.safe)
     safe.push_back({{"line", each.line},
                     {"low", each.low},
                     {"high", each.high},
@@ -60,5 +59,4 @@ Json sweep_block(const SweepResult& sweep, BlockArrays& arrays) {
   return json;
 }
 
-}  // namespace io
-}  // namespace condyle
+}  // namespace condyle::io

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 /// In the order in which a scope names them.
@@ -189,7 +189,7 @@ std::string_view name_of(MotionCaveatCode code) noexcept {
   return "end_unknown";
 }
 
-std::vector<MotionCaveat> motion_caveats(const Joint& joint, const Motion& motion) {
+std::vector<MotionCaveat> motion_caveats(const Joint& joint, const motion::Motion& motion) {
   if (!joint.is_hip()) return {};
   for (const auto& [name, vary, sense, caveats] : caveat_rows) {
     // A motion of one's own may have a built-in one's name and be another.
@@ -202,4 +202,4 @@ std::vector<MotionCaveat> motion_caveats(const Joint& joint, const Motion& motio
   return {unknown};
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

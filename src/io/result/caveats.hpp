@@ -12,7 +12,7 @@
 /// Caveats of the numbers: which tissues an answer covers, and whether bone is what usually ends a motion. Written
 /// once, for every text, file, figure and page.
 
-namespace condyle {
+namespace condyle::io {
 
 /// The tissues whose contact an answer covers, and those it does not: one line. A mesh is a cartilage, labrum, meniscus,
 /// ligament, capsule, tendon, muscle or implant where its name says so, else a bone; contact is called osseous only where all are bones.
@@ -59,6 +59,6 @@ struct MotionCaveat {
 ///     faber                              the capsule restrains   van Arkel et al. 2015
 ///
 /// No labrum: not where a mesh is called one.
-std::vector<MotionCaveat> motion_caveats(const Joint& joint, const Motion& motion);
+std::vector<MotionCaveat> motion_caveats(const Joint& joint, const motion::Motion& motion);
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -8,7 +8,7 @@
 
 namespace condyle::io {
 
-std::optional<double> clock_hour(const RomResult& result, const MotionLimit& limit) {
+std::optional<double> clock_hour(const RomResult& result, const motion::MotionLimit& limit) {
   if (!result.joint.is_hip() || !limit.end.contact) return std::nullopt;
   return motion::socket_hour(result.clock, result.bearing.surface, limit.end.contact->fixed_point);
 }

@@ -33,14 +33,16 @@ std::string layer_text(const std::optional<LayerEntry>& layer) {
 
 }  // namespace
 
-std::string_view name_of(Casting casting) noexcept {
-  return casting == Casting::fixed ? "fixed" : casting == Casting::mobile ? "mobile" : "both";
+std::string_view name_of(contact::Casting casting) noexcept {
+  return casting == contact::Casting::fixed    ? "fixed"
+         : casting == contact::Casting::mobile ? "mobile"
+                                               : "both";
 }
-std::string_view name_of(FaceRule rule) noexcept {
-  return rule == FaceRule::face_centre ? "face_centre" : "cut_faces";
+std::string_view name_of(contact::FaceRule rule) noexcept {
+  return rule == contact::FaceRule::face_centre ? "face_centre" : "cut_faces";
 }
-std::string_view name_of(PressureLaw law) noexcept {
-  return law == PressureLaw::linear ? "linear" : "logarithmic";
+std::string_view name_of(contact::PressureLaw law) noexcept {
+  return law == contact::PressureLaw::linear ? "linear" : "logarithmic";
 }
 
 Json contact_caveats(const ContactEntry& entry, bool with_pressure) {
@@ -57,12 +59,12 @@ Json contact_caveats(const ContactEntry& entry, bool with_pressure) {
 
 std::string contact_caveats_text(const ContactEntry& entry, const ContactSurfaces& surfaces,
                                  bool with_pressure) {
-  const std::string caster = entry.casting == Casting::both    ? "both surfaces"
-                             : entry.casting == Casting::fixed ? surfaces.fixed.name
-                                                               : surfaces.mobile.name;
+  const std::string caster = entry.casting == contact::Casting::both    ? "both surfaces"
+                             : entry.casting == contact::Casting::fixed ? surfaces.fixed.name
+                                                                        : surfaces.mobile.name;
   std::string text = fmt::format(
       "  rays along normals of {}, {}, reach {} mm\n", caster,
-      entry.rays.rule == FaceRule::face_centre ? "one per face" : "faces cut where the depth is 0",
+      entry.rays.rule == contact::FaceRule::face_centre ? "one per face" : "faces cut where the depth is 0",
       entry.rays.reach_mm);
   if (with_pressure)
     text += fmt::format("  {} law; {}: {}; {}: {}\n", name_of(entry.law), surfaces.fixed.name,
@@ -70,7 +72,7 @@ std::string contact_caveats_text(const ContactEntry& entry, const ContactSurface
   return text;
 }
 
-Json totals_json(const ContactTotals& totals, bool with_pressure) {
+Json totals_json(const contact::ContactTotals& totals, bool with_pressure) {
   const auto point = [](const std::optional<Vec3>& p) { return p ? numbers(*p) : Json(nullptr); };
   Json json{{"triangles", totals.triangles},
             {"area_mm2", totals.area_mm2},
@@ -86,11 +88,11 @@ Json totals_json(const ContactTotals& totals, bool with_pressure) {
   return json;
 }
 
-std::string oblique_text(const SurfaceContact& surface, FaceRule rule) {
+std::string oblique_text(const contact::SurfaceContact& surface, contact::FaceRule rule) {
   // Less than this would print as nothing.
   if (surface.oblique_area_mm2 < 0.005) return "";
   const std::string area = fmt::format("    {:.2f} mm2", surface.oblique_area_mm2);
-  if (rule == FaceRule::cut_faces)
+  if (rule == contact::FaceRule::cut_faces)
     return area +
            " more overlap where rays meet the other surface more than 60 degrees off its normal, as along a "
            "rim: "
@@ -110,7 +112,7 @@ std::string refined_force_text(const Vec3& force_n, const Vec3& refined_n) {
       refined, 100 * (refined - force) / force + 0.0);
 }
 
-const FaceContact* deepest_of(const SurfaceContact& surface) {
+const contact::FaceContact* deepest_of(const contact::SurfaceContact& surface) {
   const auto deepest =
       std::max_element(surface.faces.begin(), surface.faces.end(),
                        [](const auto& a, const auto& b) { return a.max_depth_mm < b.max_depth_mm; });

@@ -9,7 +9,7 @@
 #include "io/result/depth_result.hpp"
 #include "io/result/provenance_forms.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 /// Whether some result has a file of this name.
@@ -70,4 +70,4 @@ std::vector<std::filesystem::path> write_depth(const std::filesystem::path& fold
   return out.commit();
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -66,9 +66,9 @@ std::string place_text(const Vec3& p) {
   return "at " + core::rounded(p, 2) + " mm";
 }
 
-std::string measures_text(const DepthQuestion& question, const ContactMeasures& measures) {
+std::string measures_text(const DepthQuestion& question, const contact::ContactMeasures& measures) {
   std::string areas;
-  const auto add_area = [&](const Body& body, const std::optional<ContactPatch>& patch) {
+  const auto add_area = [&](const Body& body, const std::optional<contact::ContactPatch>& patch) {
     if (!patch || !patch->mean_depth_mm) return;
     areas += fmt::format("{} {:.1f} mm2 of {} (mean depth {:.3f} mm)", areas.empty() ? "" : ",",
                          patch->area_mm2, body.name, *patch->mean_depth_mm);
@@ -95,16 +95,16 @@ std::string measures_text(const DepthQuestion& question, const ContactMeasures& 
   return text + nearest_text(measures);
 }
 
-std::string nearest_text(const ContactMeasures& measures) {
+std::string nearest_text(const contact::ContactMeasures& measures) {
   return fmt::format("  nearest distance of the surfaces: {:.3f} mm\n", measures.nearest.distance_mm);
 }
 
-void add_measures(Json& json, const DepthQuestion& question, const ContactMeasures& measures) {
+void add_measures(Json& json, const DepthQuestion& question, const contact::ContactMeasures& measures) {
   const AnswerFrame frame = question.frame();
   const auto point = [&](const std::optional<Vec3>& p) {
     return p ? numbers(frame.fixed_point(*p)) : Json(nullptr);
   };
-  const auto patch_json = [&](const std::optional<ContactPatch>& patch) -> Json {
+  const auto patch_json = [&](const std::optional<contact::ContactPatch>& patch) -> Json {
     if (!patch) return nullptr;
     return {{"area_mm2", patch->area_mm2},
             {"mean_depth_mm", nullable(patch->mean_depth_mm)},
@@ -121,7 +121,7 @@ void add_measures(Json& json, const DepthQuestion& question, const ContactMeasur
   add_nearest(json, question, measures);
 }
 
-void add_nearest(Json& json, const DepthQuestion& question, const ContactMeasures& measures) {
+void add_nearest(Json& json, const DepthQuestion& question, const contact::ContactMeasures& measures) {
   const AnswerFrame frame = question.frame();
   json["nearest_distance_mm"] = measures.nearest.distance_mm;
   json["nearest_points_mm"] = {{"mobile", numbers(frame.fixed_point(measures.nearest.on_mobile))},
@@ -147,10 +147,11 @@ std::string vertex_text(const Body& body, Index vertex) {
                      part ? fmt::format(" ({} of {})", vertex - part->first_vertex, part->name) : "");
 }
 
-DepthArrays arrays_of(const Body& body, std::vector<MeshArray> points, const std::vector<TrianglePair>& pairs,
-                      Index TrianglePair::*triangle, std::vector<MeshArray> triangles) {
+DepthArrays arrays_of(const Body& body, std::vector<MeshArray> points,
+                      const std::vector<contact::TrianglePair>& pairs, Index contact::TrianglePair::*triangle,
+                      std::vector<MeshArray> triangles) {
   std::vector<std::uint8_t> in_contact(body.mesh.triangles().size());
-  for (const TrianglePair& pair : pairs) in_contact[pair.*triangle] = 1;
+  for (const contact::TrianglePair& pair : pairs) in_contact[pair.*triangle] = 1;
   if (!body.parts.empty()) {
     std::vector<std::int32_t> part;
     for (std::size_t i = 0; i < body.parts.size(); ++i)
@@ -161,7 +162,7 @@ DepthArrays arrays_of(const Body& body, std::vector<MeshArray> points, const std
   return {std::move(points), std::move(triangles)};
 }
 
-std::string pairs_csv(const Joint& joint, const std::vector<TrianglePair>& pairs) {
+std::string pairs_csv(const Joint& joint, const std::vector<contact::TrianglePair>& pairs) {
   const bool parts = !joint.fixed.parts.empty() || !joint.mobile.parts.empty();
   std::string text =
       fmt::format("fixed_triangle,mobile_triangle{}\n", parts ? ",fixed_part,mobile_part" : "");
@@ -178,32 +179,28 @@ std::string pairs_csv(const Joint& joint, const std::vector<TrianglePair>& pairs
   return text;
 }
 
-std::optional<JointAngle> angle_of(DepthWay way) noexcept {
+std::optional<JointAngle> angle_of(contact::DepthWay way) noexcept {
   switch (way) {
-    case DepthWay::flexion:
+    case contact::DepthWay::flexion:
       return JointAngle::flexion;
-    case DepthWay::adduction:
+    case contact::DepthWay::adduction:
       return JointAngle::adduction;
-    case DepthWay::internal_rotation:
+    case contact::DepthWay::internal_rotation:
       return JointAngle::internal_rotation;
-    case DepthWay::none:
-    case DepthWay::radial:
-    case DepthWay::nearest:
+    case contact::DepthWay::none:
+    case contact::DepthWay::radial:
+    case contact::DepthWay::nearest:
       break;
   }
   return std::nullopt;
 }
-
-}  // namespace condyle::io
-
-namespace condyle {
 
 DepthResult depth_result(const DepthQuestion& question, const DepthAnswer& answer) {
   if (const auto* rays = std::get_if<RayDepths>(&answer.depths))
     return io::ray_result(question, answer, *rays);
   if (const auto* arcs = std::get_if<ArcDepths>(&answer.depths))
     return io::arc_result(question, answer, *arcs);
-  return io::normal_result(question, answer, std::get<NormalContact>(answer.depths));
+  return io::normal_result(question, answer, std::get<contact::NormalContact>(answer.depths));
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

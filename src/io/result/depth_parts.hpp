@@ -104,33 +104,34 @@ void add_deepest(Json& json, const std::optional<Deepest>& deepest) {
 std::string place_text(const Vec3& p);
 
 /// Areas, volume and nearest distance, one line each for those there are; and under the keys of docs/formats-depth.md.
-std::string measures_text(const DepthQuestion& question, const ContactMeasures& measures);
-void add_measures(Json& json, const DepthQuestion& question, const ContactMeasures& measures);
+std::string measures_text(const DepthQuestion& question, const contact::ContactMeasures& measures);
+void add_measures(Json& json, const DepthQuestion& question, const contact::ContactMeasures& measures);
 
 /// The nearest distance only, out of all measures.
-std::string nearest_text(const ContactMeasures& measures);
-void add_nearest(Json& json, const DepthQuestion& question, const ContactMeasures& measures);
+std::string nearest_text(const contact::ContactMeasures& measures);
+void add_nearest(Json& json, const DepthQuestion& question, const contact::ContactMeasures& measures);
 
 /// Nearest distances as the one array that a body has where the other mesh is open.
 MeshArray nearest_array(const std::vector<double>& distances);
 
 /// Arrays of one body, with those of its triangles marked that are in a pair.
-DepthArrays arrays_of(const Body& body, std::vector<MeshArray> points, const std::vector<TrianglePair>& pairs,
-                      Index TrianglePair::*triangle, std::vector<MeshArray> triangles = {});
+DepthArrays arrays_of(const Body& body, std::vector<MeshArray> points,
+                      const std::vector<contact::TrianglePair>& pairs, Index contact::TrianglePair::*triangle,
+                      std::vector<MeshArray> triangles = {});
 
 /// Intersecting triangle pairs as CSV text with a header line; with their parts where a body has several.
-std::string pairs_csv(const Joint& joint, const std::vector<TrianglePair>& pairs);
+std::string pairs_csv(const Joint& joint, const std::vector<contact::TrianglePair>& pairs);
 
 /// Why a body has no figures; one line.
 std::string open_line(const Body& body);
 
 /// The angle whose axis a way turns about; nothing for those that turn about none.
-std::optional<JointAngle> angle_of(DepthWay way) noexcept;
+std::optional<JointAngle> angle_of(contact::DepthWay way) noexcept;
 
 /// depth_result() of each method.
 DepthResult ray_result(const DepthQuestion& question, const DepthAnswer& answer, const RayDepths& depths);
 DepthResult arc_result(const DepthQuestion& question, const DepthAnswer& answer, const ArcDepths& depths);
 DepthResult normal_result(const DepthQuestion& question, const DepthAnswer& answer,
-                          const NormalContact& contact);
+                          const contact::NormalContact& contact);
 
 }  // namespace condyle::io

@@ -14,7 +14,7 @@
 
 /// Results of `condyle depth`, for files. Every key, array, unit and sign is in docs/formats-depth.md.
 
-namespace condyle {
+namespace condyle::io {
 
 /// The pose that a result belongs to.
 struct DepthQuestion {
@@ -65,4 +65,4 @@ std::vector<std::filesystem::path> write_depth(const std::filesystem::path& fold
                                                const DepthQuestion& question, const DepthResult& result,
                                                const DepthFiles& files = {});
 
-}  // namespace condyle
+}  // namespace condyle::io

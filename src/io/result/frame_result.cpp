@@ -13,7 +13,7 @@
 #include "io/result/provenance_forms.hpp"
 #include "io/result/repair_text.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 using io::Json;
@@ -149,7 +149,7 @@ std::string to_text(const LoadedJoint& loaded) {
   return out;
 }
 
-std::string to_json(const LoadedJoint& loaded, std::span<const JointNote> notes, const Provenance* from) {
+std::string frame_json(const LoadedJoint& loaded, std::span<const JointNote> notes, const Provenance* from) {
   const auto& [joint, report] = loaded;
   const JointPlacement& placement = report.placement;
   Json out{{"file", report.file.path.string()},
@@ -176,4 +176,4 @@ std::string to_json(const LoadedJoint& loaded, std::span<const JointNote> notes,
   return io::document(out);
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

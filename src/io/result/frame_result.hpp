@@ -9,11 +9,11 @@
 
 /// Results of `condyle frame`: how a joint was made from its file. Keys of the JSON are listed in docs/joint-file.md.
 
-namespace condyle {
+namespace condyle::io {
 
 /// For people, and for programs: whole documents that end with a newline.
 std::string to_text(const LoadedJoint& joint);
-std::string to_json(const LoadedJoint& joint, std::span<const JointNote> notes,
-                    const Provenance* from = nullptr);
+std::string frame_json(const LoadedJoint& joint, std::span<const JointNote> notes,
+                       const Provenance* from = nullptr);
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -18,7 +18,7 @@
 #include "io/result/implant_result.hpp"
 #include "io/result/provenance_forms.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 constexpr std::string_view of_fixed[] = {"liner"}, of_mobile[] = {"head", "neck", "stem"};
@@ -52,7 +52,7 @@ void write_body(OutputFolder& out, std::string_view role, const Body& body) {
     write_mesh(out.file(files[i]), mesh_of_part(body, body.parts[i].name));
 }
 
-void add_body(io::ProposalLines& lines, std::string_view role, const Body& body) {
+void add_body(ProposalLines& lines, std::string_view role, const Body& body) {
   lines.add(fmt::format("\n[{}]", role));
   lines.add("name = " + io::toml_text(body.name));
   const std::vector<std::string> files = files_of(role, body);
@@ -69,13 +69,13 @@ std::string name_with_implant(const Joint& joint) {
 }
 
 /// Sizes of an implant are given and not measured; axes and seed are those of the joint before.
-Uncertainty uncertainty_of(const JointFile* file) {
-  Uncertainty sigma{.centre_mm = 0, .surface_mm = 0, .surface_voxels = 0};
+motion::Uncertainty uncertainty_of(const JointFile* file) {
+  motion::Uncertainty sigma{.centre_mm = 0, .surface_mm = 0, .surface_voxels = 0};
   if (file != nullptr) sigma.axes = file->uncertainty.axes;
   return sigma;
 }
 
-void add_uncertainty(io::ProposalLines& lines, const JointFile* file) {
+void add_uncertainty(ProposalLines& lines, const JointFile* file) {
   lines.add("\n[uncertainty]  # sizes of an implant are given, not measured");
   lines.add("centre = 0.0\nsurface = 0.0");
   if (file == nullptr) return;
@@ -86,8 +86,8 @@ void add_uncertainty(io::ProposalLines& lines, const JointFile* file) {
 
 std::string implant_joint_file(const ImplantResult& result) {
   const Joint& joint = result.answer.joint;
-  const Implant implant = result.answer.hip;
-  io::ProposalLines lines;
+  const plan::Implant implant = result.answer.hip;
+  ProposalLines lines;
   lines.add(fmt::format("# Written by condyle implant {}.", version));
   lines.add(fmt::format("condyle = {}", io::format_version));
   lines.add("name = " + io::toml_text(name_with_implant(result.joint)));
@@ -97,7 +97,7 @@ std::string implant_joint_file(const ImplantResult& result) {
   add_body(lines, "mobile", joint.mobile);
   lines.add("\n[frame]  # the meshes are in the joint frame, about the centre of cup and head");
   lines.add("centre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n");
-  lines.add(io::implant_text(implant) + io::parts_text(io::implant_parts(implant, io::BonesAround::some)));
+  lines.add(io::implant_text(implant) + io::parts_text(io::implant_parts(implant, BonesAround::some)));
   if (result.file) io::add_motions(lines, result.file->motions, Anatomy::hip);
   add_uncertainty(lines, result.file);
   return std::move(lines).proposal(joint.side).toml;
@@ -111,14 +111,14 @@ LoadedJoint joint_with_implant(const ImplantResult& result) {
   file.joint.name = name_with_implant(result.joint);
   file.joint.side = result.joint.side;
   file.joint.frame.centre = Vec3(Vec3::Zero());
-  for (PosedPart& part : io::implant_parts(answer.hip, io::BonesAround::some))
+  for (PosedPart& part : io::implant_parts(answer.hip, BonesAround::some))
     file.joint.parts.push_back({std::move(part)});
   if (result.file) file.motions = result.file->motions, file.band_seed = result.file->band_seed;
   file.uncertainty = uncertainty_of(result.file);
   auto [joint, placement] = make_joint(file.joint, answer.joint.fixed, answer.joint.mobile);
   report.processing = placement.processing;
   report.placement = std::move(placement);
-  joint.implant = implant_in_joint(answer.hip, joint);
+  joint.implant = plan::implant_in_joint(answer.hip, joint);
   return {std::move(joint), std::move(report)};
 }
 
@@ -129,11 +129,11 @@ void check_implant_folder(const std::filesystem::path& folder, const Provenance*
 std::vector<std::filesystem::path> write_implant(const std::filesystem::path& folder,
                                                  const ImplantResult& result) {
   OutputFolder out(folder, is_of_implant, io::files_read(result.provenance), "implant.json");
-  io::write_whole_file(out.file("implant.json"), implant_json(result));
+  io::write_whole_file(out.file("implant.json"), io::implant_json(result));
   io::write_whole_file(out.file("hip.toml"), implant_joint_file(result));
   write_body(out, "fixed", result.answer.joint.fixed);
   write_body(out, "mobile", result.answer.joint.mobile);
   return out.commit();
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -10,32 +10,33 @@
 #include "io/result/parameters.hpp"
 #include "io/result/provenance_forms.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 using io::Json;
 
 /// " 40.00 15.00 radiographic, 42.27 22.63 anatomic, ..."
-std::string by_all_definitions(const CupAngles& cup) {
+std::string by_all_definitions(const plan::CupAngles& cup) {
   std::string text;
   for (const CupDefinition definition : all_cup_definitions) {
-    const CupAngles angles = by_definition(cup, definition);
+    const plan::CupAngles angles = plan::by_definition(cup, definition);
     text += fmt::format("{} {:.2f} {:.2f} {}", definition == CupDefinition::radiographic ? "" : ",",
                         angles.inclination.degrees(), angles.anteversion.degrees(), name_of(definition));
   }
   return text;
 }
 
-std::vector<CupAngles> each_definition(const CupAngles& cup) {
-  std::vector<CupAngles> angles;
-  for (const CupDefinition definition : all_cup_definitions) angles.push_back(by_definition(cup, definition));
+std::vector<plan::CupAngles> each_definition(const plan::CupAngles& cup) {
+  std::vector<plan::CupAngles> angles;
+  for (const CupDefinition definition : all_cup_definitions)
+    angles.push_back(plan::by_definition(cup, definition));
   return angles;
 }
 
-std::optional<CupAngles> rim_angles(const ImplantResult& result) {
+std::optional<plan::CupAngles> rim_angles(const ImplantResult& result) {
   const auto& rim = result.answer.bones.acetabulum.plane;
   if (!rim) return std::nullopt;
-  return cup_angles(rim->normal, CupDefinition::radiographic, result.joint.side);
+  return plan::cup_angles(rim->normal, CupDefinition::radiographic, result.joint.side);
 }
 
 std::vector<std::string_view> sizes_of_bones(const SizesOfBones& of) {
@@ -61,7 +62,7 @@ std::string place_text(const Vec3& p) {
 
 std::string centre_lines(const ImplantResult& result) {
   const ImplantAnswer& answer = result.answer;
-  const FemurMeasures& femur = answer.bones.femur;
+  const measure::FemurMeasures& femur = answer.bones.femur;
   std::string text = fmt::format("  centre: that of the {}, at {}\n", name_of(answer.centre_of),
                                  place_text(answer.centre_mm));
   text += fmt::format("  bone: head of radius {:.2f} mm, residuals {:.2f} mm rms and {:.2f} mm at the most",
@@ -81,14 +82,14 @@ std::string rim_line(const ImplantResult& result) {
   return fmt::format("  rim of the bone, inclination and anteversion:{}\n", by_all_definitions(*rim));
 }
 
-std::string measure_text(std::string_view name, const Measure& measure) {
+std::string measure_text(std::string_view name, const measure::Measure& measure) {
   return measure.value ? fmt::format("{} {:.2f} deg", name, *measure.value)
                        : fmt::format("no {}: {}", name, measure.why_none);
 }
 
 std::string stem_lines(const ImplantAnswer& answer) {
-  const TotalHip& hip = answer.hip;
-  const FemurMeasures& femur = answer.bones.femur;
+  const plan::TotalHip& hip = answer.hip;
+  const measure::FemurMeasures& femur = answer.bones.femur;
   std::string text =
       fmt::format("  stem: neck-shaft angle {:.2f} deg{}, version {:.2f} deg{}, offset {:.2f} mm{}\n",
                   hip.neck_shaft.degrees(), whose(answer.of_bones.neck_shaft), hip.stem_version.degrees(),
@@ -122,16 +123,16 @@ std::string indented(const std::string& lines) {
   return text;
 }
 
-Json sizes_json(const TotalHip& hip) {
-  Json json{{"kind", name_of(Implant(hip))}, {"definition", name_of(hip.cup.definition)}};
-  for (const ImplantParameter& each : implant_parameters(hip))
+Json sizes_json(const plan::TotalHip& hip) {
+  Json json{{"kind", name_of(plan::Implant(hip))}, {"definition", name_of(hip.cup.definition)}};
+  for (const plan::ImplantParameter& each : plan::implant_parameters(hip))
     json[fmt::format("{}_{}", each.name, each.unit)] = each.value(hip);
   json["facets"] = hip.facets;
   return json;
 }
 
 Json head_json(const ImplantAnswer& answer) {
-  const FemurMeasures& femur = answer.bones.femur;
+  const measure::FemurMeasures& femur = answer.bones.femur;
   return {{"centre_mm", io::numbers(femur.head->centre)},
           {"radius_mm", *femur.head_radius.value},
           {"rms_mm", *femur.head_rms.value},
@@ -151,7 +152,7 @@ Json overhang_json(const std::optional<CupOverhang>& overhang) {
 }
 
 Json bone_json(const ImplantAnswer& answer) {
-  const FemurMeasures& femur = answer.bones.femur;
+  const measure::FemurMeasures& femur = answer.bones.femur;
   Json axis = nullptr;
   if (femur.neck) axis = io::numbers(femur.neck->direction);
   return {{"neck_axis", std::move(axis)},
@@ -168,21 +169,22 @@ Json implant_notes_json(const std::vector<ImplantNote>& notes) {
 
 }  // namespace
 
-std::string implant_lines(const Implant& implant, Side side) {
+std::string implant_lines(const plan::Implant& implant, Side side) {
   std::string text;
-  if (const auto* hip = std::get_if<TotalHip>(&implant))
+  if (const auto* hip = std::get_if<plan::TotalHip>(&implant))
     text += fmt::format("cup, inclination and anteversion:{}\n", by_all_definitions(hip->cup));
-  const auto pair = revolved_pair(implant, side);
+  const auto pair = plan::revolved_pair(implant, side);
   text += pair ? fmt::format("neck meets liner where their axes are {:.4f} degrees apart\n",
                              pair->half_angle.degrees())
-               : fmt::format("limits of meshes only: {}\n", why_not_revolved(implant));
+               : fmt::format("limits of meshes only: {}\n", plan::why_not_revolved(implant));
   return text;
 }
 
 std::string implant_text(const ImplantResult& result) {
   const ImplantAnswer& answer = result.answer;
-  std::string text = fmt::format("{}: total hip in its place, {} side, angles in the frame: {}\n",
-                                 result.joint.name, name_of(result.joint.side), stated_frame(answer.bones));
+  std::string text =
+      fmt::format("{}: total hip in its place, {} side, angles in the frame: {}\n", result.joint.name,
+                  name_of(result.joint.side), measure::stated_frame(answer.bones));
   text += io::parameters_text(result.joint);
   text += indented(implant_lines(answer.hip, result.joint.side)) + rim_line(result) + cup_line(answer);
   text += centre_lines(result) + stem_lines(answer);
@@ -199,7 +201,7 @@ std::string implant_json(const ImplantResult& result) {
             {"fixed", result.joint.fixed.name},
             {"mobile", result.joint.mobile.name},
             {"side", name_of(result.joint.side)},
-            {"frame", stated_frame(answer.bones)},
+            {"frame", measure::stated_frame(answer.bones)},
             {"implant", sizes_json(answer.hip)},
             {"of_bones", sizes_of_bones(answer.of_bones)},
             {"cup", io::cup_json(each_definition(answer.hip.cup))},
@@ -227,4 +229,4 @@ std::string implant_json(const ImplantResult& result) {
   return io::document(std::move(json));
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -12,7 +12,7 @@
 
 /// Results of `condyle implant`: text, JSON, and the joint with the implant. docs/implants.md.
 
-namespace condyle {
+namespace condyle::io {
 
 struct ImplantResult {
   const Joint& joint;  ///< before
@@ -24,7 +24,7 @@ struct ImplantResult {
 };
 
 /// The angles of a cup by each definition, and where liner and neck first touch in closed form, or why there is none: a line each.
-std::string implant_lines(const Implant& implant, Side side);
+std::string implant_lines(const plan::Implant& implant, Side side);
 
 std::string implant_text(const ImplantResult& result);
 std::string implant_json(const ImplantResult& result);
@@ -39,4 +39,4 @@ void check_implant_folder(const std::filesystem::path& folder, const Provenance*
 std::vector<std::filesystem::path> write_implant(const std::filesystem::path& folder,
                                                  const ImplantResult& result);
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -13,7 +13,7 @@
 #include "io/result/provenance_forms.hpp"
 #include "io/result/repair_text.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 using io::Json;
@@ -79,7 +79,7 @@ void append(std::string& out, const MeshInspection& mesh) {
   if (mesh.welded_vertices > 0) out += fmt::format("  merged {} duplicate vertices\n", mesh.welded_vertices);
   if (mesh.split_polygons > 0)
     out += fmt::format("  split {} polygons into triangles\n", mesh.split_polygons);
-  for (const RepairDone& done : mesh.repairs) out += fmt::format("  repair {}\n", condyle::describe(done));
+  for (const RepairDone& done : mesh.repairs) out += fmt::format("  repair {}\n", describe(done));
   out += fmt::format("  {} component{}\n", r.components.size(), r.components.size() == 1 ? "" : "s");
   for (std::size_t i = 0; i < std::min(r.components.size(), components_listed); ++i)
     out += fmt::format("    {}: {}\n", i, describe(r.components[i]));
@@ -158,7 +158,7 @@ std::string to_text(std::span<const MeshInspection> meshes) {
   return out;
 }
 
-std::string to_json(std::span<const MeshInspection> meshes, const std::vector<std::string>& command) {
+std::string inspection_json(std::span<const MeshInspection> meshes, const std::vector<std::string>& command) {
   Json out{{"meshes", Json::array()}};
   Json files = Json::array();
   for (const MeshInspection& mesh : meshes) {
@@ -171,4 +171,4 @@ std::string to_json(std::span<const MeshInspection> meshes, const std::vector<st
   return io::document(out);
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

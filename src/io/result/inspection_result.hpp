@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "condyle/inspect.hpp"
-#include "condyle/io/file_digest.hpp"
 #include "condyle/io/mesh_file.hpp"
 
 /// Results of `condyle inspect`. Keys of the JSON are listed in docs/mesh-files.md.
 
-namespace condyle {
+namespace condyle::io {
 
 /// One inspected mesh file.
 struct MeshInspection {
@@ -36,6 +35,7 @@ InspectedMesh inspect_file(const std::filesystem::path& path, const std::vector<
 /// For people, and for programs: whole documents that end with a newline. `command`: the command line word by word, without
 /// the program; empty if there is none.
 std::string to_text(std::span<const MeshInspection> meshes);
-std::string to_json(std::span<const MeshInspection> meshes, const std::vector<std::string>& command = {});
+std::string inspection_json(std::span<const MeshInspection> meshes,
+                            const std::vector<std::string>& command = {});
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -17,14 +17,14 @@ std::string field_name(std::string_view name) {
   return out.substr(0, 63);
 }
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 JamTotals without_answer() {
-  const Vec3 no_vector = Vec3::Constant(nothing);
-  return {nothing, nothing, nothing, no_vector, nothing, nothing, no_vector, no_vector, no_vector};
+  const Vec3 no_vector = Vec3::Constant(no_value);
+  return {no_value, no_value, no_value, no_vector, no_value, no_value, no_vector, no_vector, no_vector};
 }
 
-JamTotals in_si_units(const ContactTotals& totals) {
+JamTotals in_si_units(const contact::ContactTotals& totals) {
   return {.contact_area_m2 = 1e-6 * totals.area_mm2,
           .mean_proximity_m = 1e-3 * totals.mean_depth_mm,
           .max_proximity_m = 1e-3 * totals.max_depth_mm,
@@ -37,8 +37,8 @@ JamTotals in_si_units(const ContactTotals& totals) {
 }
 
 /// A half of a surface, in JAM's order: even ones are below 0 along an axis, odd ones not.
-HalfSpace half_of_region(std::size_t region) {
-  HalfSpace half{Vec3::Unit(static_cast<Eigen::Index>(region / 2)), 0};
+contact::HalfSpace half_of_region(std::size_t region) {
+  contact::HalfSpace half{Vec3::Unit(static_cast<Eigen::Index>(region / 2)), 0};
   if (region % 2 == 0)
     half.normal = -half.normal;
   else
@@ -49,29 +49,29 @@ HalfSpace half_of_region(std::size_t region) {
 /// The casting surface of a motion.
 class CastingSurface {
  public:
-  CastingSurface(const Mesh& mesh, FaceRule rule, bool with_pressure)
+  CastingSurface(const Mesh& mesh, contact::FaceRule rule, bool with_pressure)
       : mesh_(mesh), rule_(rule), with_pressure_(with_pressure) {}
 
-  JamFrame frame(const std::optional<FrameContact>& frame) const {
+  JamFrame frame(const std::optional<motion::FrameContact>& frame) const {
     const std::size_t triangles = mesh_.triangles().size();
     JamFrame jam;
     if (!frame) {
       jam.total = without_answer();
       jam.regional.assign(jam_regions, without_answer());
-      jam.triangle_proximity_m.assign(triangles, nothing);
-      if (with_pressure_) jam.triangle_pressure_pa.assign(triangles, nothing);
+      jam.triangle_proximity_m.assign(triangles, no_value);
+      if (with_pressure_) jam.triangle_pressure_pa.assign(triangles, no_value);
       return jam;
     }
-    const SurfaceContact& surface = frame->surface;
+    const contact::SurfaceContact& surface = frame->surface;
     jam.total = in_si_units(surface.totals);
     for (std::size_t region = 0; region < jam_regions; ++region) {
-      const HalfSpace half = half_of_region(region);
-      jam.regional.push_back(
-          in_si_units(totals_of(faces_within(surface.faces, mesh_, {&half, 1}), mesh_, rule_)));
+      const contact::HalfSpace half = half_of_region(region);
+      jam.regional.push_back(in_si_units(
+          contact::totals_of(contact::faces_within(surface.faces, mesh_, {&half, 1}), mesh_, rule_)));
     }
     jam.triangle_proximity_m.assign(triangles, 0);
     if (with_pressure_) jam.triangle_pressure_pa.assign(triangles, 0);
-    for (const FaceContact& face : surface.faces) {
+    for (const contact::FaceContact& face : surface.faces) {
       jam.triangle_proximity_m[face.face] = 1e-3 * face.mean_depth_mm();
       if (with_pressure_) jam.triangle_pressure_pa[face.face] = 1e6 * face.mean_pressure_mpa();
     }
@@ -80,7 +80,7 @@ class CastingSurface {
 
  private:
   const Mesh& mesh_;
-  FaceRule rule_;
+  contact::FaceRule rule_;
   bool with_pressure_;
 };
 
@@ -88,7 +88,7 @@ class CastingSurface {
 
 JamContact jam_contact(const MotionQuestion& question, const MotionAnswer& answer) {
   const ContactSurfaces& surfaces = question.surfaces;
-  const bool fixed_casts = question.contact.casting == Casting::fixed;
+  const bool fixed_casts = question.contact.casting == contact::Casting::fixed;
   const Body &casting = fixed_casts ? surfaces.fixed : surfaces.mobile,
              &target = fixed_casts ? surfaces.mobile : surfaces.fixed;
   JamContact contact{
@@ -106,7 +106,7 @@ std::vector<JamCoordinate> jam_coordinates(const MotionQuestion& question, const
     const std::size_t number = coordinates.size();
     auto& values = coordinates.emplace_back(JamCoordinate{field_name(name.name), {}}).values;
     for (const auto& frame : answer.frames)
-      values.push_back(frame ? unit * coordinate_at(joint, frame->X_FM, number) + 0.0 : nothing);
+      values.push_back(frame ? unit * coordinate_at(joint, frame->X_FM, number) + 0.0 : no_value);
   }
   return coordinates;
 }

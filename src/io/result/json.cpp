@@ -10,7 +10,7 @@ Json numbers(const Vec3& p) {
   return {p.x(), p.y(), p.z()};
 }
 
-Json notes_json(std::span<const JointNote> notes, std::span<const ContactNote> of_contact,
+Json notes_json(std::span<const JointNote> notes, std::span<const motion::ContactNote> of_contact,
                 std::span<const RangeNote> of_range) {
   Json list = Json::array();
   const auto add = [&](const auto& some) {

@@ -15,7 +15,7 @@
 #include "condyle/joint.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/motion_contact.hpp"
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 #include "io/result/caveats.hpp"
 
 /// Common parts of all JSON answers.
@@ -51,7 +51,7 @@ Json numbers(const Vec3& p);
 
 /// Under `notes` in every answer: what looks wrong with a joint, what its limits must be read with, and what looks wrong with its
 /// materials, loads and motion.
-Json notes_json(std::span<const JointNote> notes, std::span<const ContactNote> of_contact = {},
+Json notes_json(std::span<const JointNote> notes, std::span<const motion::ContactNote> of_contact = {},
                 std::span<const RangeNote> of_range = {});
 
 /// Caveats of a motion's limit, under `caveats`: code, text, and source or null.

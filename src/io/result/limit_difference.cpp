@@ -9,11 +9,11 @@
 namespace condyle::io {
 namespace {
 
-bool are_paired(const BandOptions& a, const BandOptions& b) noexcept {
+bool are_paired(const motion::BandOptions& a, const motion::BandOptions& b) noexcept {
   return a.seed == b.seed && a.samples == b.samples;
 }
 
-DifferenceBand difference_band(const LimitBand& before, const LimitBand& after) {
+DifferenceBand difference_band(const motion::LimitBand& before, const motion::LimitBand& after) {
   std::vector<double> differences;
   for (std::size_t i = 0; i < after.turned.size(); ++i)
     differences.push_back(after.turned[i].degrees() - before.turned[i].degrees());
@@ -23,16 +23,16 @@ DifferenceBand difference_band(const LimitBand& before, const LimitBand& after) 
 }
 
 /// Without its band.
-LimitDifference limit_difference(const MotionLimit& before, const MotionLimit& after) {
+LimitDifference limit_difference(const motion::MotionLimit& before, const motion::MotionLimit& after) {
   LimitDifference difference{.motion = after.motion.name};
-  const auto ends_by = [&](LimitReason of_before, LimitReason of_after) {
+  const auto ends_by = [&](motion::LimitReason of_before, motion::LimitReason of_after) {
     return before.end.reason == of_before && after.end.reason == of_after;
   };
-  if (ends_by(LimitReason::contact, LimitReason::contact))
+  if (ends_by(motion::LimitReason::contact, motion::LimitReason::contact))
     difference.is = DifferenceIs::exact;
-  else if (ends_by(LimitReason::contact, LimitReason::end_of_range))
+  else if (ends_by(motion::LimitReason::contact, motion::LimitReason::end_of_range))
     difference.is = DifferenceIs::at_least;
-  else if (ends_by(LimitReason::end_of_range, LimitReason::contact))
+  else if (ends_by(motion::LimitReason::end_of_range, motion::LimitReason::contact))
     difference.is = DifferenceIs::at_most;
   else
     return difference;

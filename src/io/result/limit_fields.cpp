@@ -30,10 +30,10 @@ Json limit_deg(const LimitOf& of) {
   return of.limit().end.turned.degrees();
 }
 Json reason(const LimitOf& of) {
-  return condyle::name_of(of.limit().end.reason);
+  return name_of(of.limit().end.reason);
 }
 Json contact_kind(const LimitOf& of) {
-  return ends_in_contact(of.limit()) ? Json(condyle::name_of(of.limit().end.kind())) : Json(nullptr);
+  return ends_in_contact(of.limit()) ? Json(name_of(of.limit().end.kind())) : Json(nullptr);
 }
 Json bearing_contact_deg(const LimitOf& of) {
   const auto& bearing = of.limit().end.bearing_contact;
@@ -54,7 +54,7 @@ Json soft_contact_point_mm(const LimitOf& of) {
                                : Json(nullptr);
 }
 /// The mesh of a body of several that a contact is on.
-Json part_name(const Body& body, const Feature& feature) {
+Json part_name(const Body& body, const motion::Feature& feature) {
   const BodyPart* part = part_of(body, feature);
   return part ? Json(part->name) : Json(nullptr);
 }
@@ -64,15 +64,15 @@ Json soft_contact_parts(const LimitOf& of) {
   return {{"fixed", part_name(of.joint().fixed, soft->contact->fixed_feature)},
           {"mobile", part_name(of.joint().mobile, soft->contact->mobile_feature)}};
 }
-Json soft_part(const LimitOf& of, const Body& body, Feature ContactWitness::*feature) {
+Json soft_part(const LimitOf& of, const Body& body, motion::Feature motion::ContactWitness::*feature) {
   const auto& soft = of.limit().end.soft_contact;
   return soft && soft->contact ? part_name(body, (*soft->contact).*feature) : Json(nullptr);
 }
 Json soft_fixed_part(const LimitOf& of) {
-  return soft_part(of, of.joint().fixed, &ContactWitness::fixed_feature);
+  return soft_part(of, of.joint().fixed, &motion::ContactWitness::fixed_feature);
 }
 Json soft_mobile_part(const LimitOf& of) {
-  return soft_part(of, of.joint().mobile, &ContactWitness::mobile_feature);
+  return soft_part(of, of.joint().mobile, &motion::ContactWitness::mobile_feature);
 }
 Json centre_distance_mm(const LimitOf& of) {
   return of.limit().head ? nullable(of.limit().head->centre_distance_mm) : Json(nullptr);
@@ -98,7 +98,7 @@ Json start_deg(const LimitOf& of) {
                    [&](JointAngle angle) { return given_degrees(angle_of(of.limit().motion.start, angle)); });
 }
 Json held_deg(const LimitOf& of) {
-  const Motion& motion = of.limit().motion;
+  const motion::Motion& motion = of.limit().motion;
   Json json;
   for (const JointAngle angle : all_joint_angles)
     if (angle != motion.vary)
@@ -134,9 +134,9 @@ Json contact_point_mobile_mm(const LimitOf& of) {
   const auto& contact = of.limit().end.contact;
   return contact ? numbers(frame_of(of.result).mobile_point(contact->mobile_point)) : Json(nullptr);
 }
-Json feature_json(const Feature& feature, const Body& body) {
+Json feature_json(const motion::Feature& feature, const Body& body) {
   Json json{{"kind", name_of(feature.kind)}};
-  if (feature.kind == FeatureKind::edge)
+  if (feature.kind == motion::FeatureKind::edge)
     json["vertices"] = {feature.id, feature.other_end};
   else
     json["id"] = feature.id;
@@ -151,11 +151,11 @@ Json features(const LimitOf& of) {
 }
 Json fixed_feature(const LimitOf& of) {
   const auto& contact = of.limit().end.contact;
-  return contact ? Json(text_of(contact->fixed_feature)) : Json(nullptr);
+  return contact ? Json(io::text_of(contact->fixed_feature)) : Json(nullptr);
 }
 Json mobile_feature(const LimitOf& of) {
   const auto& contact = of.limit().end.contact;
-  return contact ? Json(text_of(contact->mobile_feature)) : Json(nullptr);
+  return contact ? Json(io::text_of(contact->mobile_feature)) : Json(nullptr);
 }
 Json fixed_part(const LimitOf& of) {
   const auto& contact = of.limit().end.contact;
@@ -166,8 +166,8 @@ Json mobile_part(const LimitOf& of) {
   return contact ? part_name(of.joint().mobile, contact->mobile_feature) : Json(nullptr);
 }
 Json side(const LimitOf& of) {
-  const auto found = contact_side(of.joint(), of.limit());
-  return found ? Json(condyle::name_of(*found)) : Json(nullptr);
+  const auto found = motion::contact_side(of.joint(), of.limit());
+  return found ? Json(name_of(*found)) : Json(nullptr);
 }
 Json hour(const LimitOf& of) {
   return nullable(clock_hour(of.result, of.limit()));
@@ -180,7 +180,7 @@ Json of_band(const LimitOf& of, const auto& read) {
 }
 Json band(const LimitOf& of) {
   const bool has_parameters = has_uncertain_parameters(of.joint());
-  return of_band(of, [&](const LimitBand& band) {
+  return of_band(of, [&](const motion::LimitBand& band) {
     Json json{{"p5_deg", band.p5.degrees()},
               {"median_deg", band.median.degrees()},
               {"p95_deg", band.p95.degrees()},
@@ -195,25 +195,25 @@ Json band(const LimitOf& of) {
   });
 }
 Json band_p5(const LimitOf& of) {
-  return of_band(of, [](const LimitBand& band) { return band.p5.degrees(); });
+  return of_band(of, [](const motion::LimitBand& band) { return band.p5.degrees(); });
 }
 Json band_median(const LimitOf& of) {
-  return of_band(of, [](const LimitBand& band) { return band.median.degrees(); });
+  return of_band(of, [](const motion::LimitBand& band) { return band.median.degrees(); });
 }
 Json band_p95(const LimitOf& of) {
-  return of_band(of, [](const LimitBand& band) { return band.p95.degrees(); });
+  return of_band(of, [](const motion::LimitBand& band) { return band.p95.degrees(); });
 }
 Json band_from_centre(const LimitOf& of) {
-  return of_band(of, [](const LimitBand& band) { return band.width_from.centre.degrees(); });
+  return of_band(of, [](const motion::LimitBand& band) { return band.width_from.centre.degrees(); });
 }
 Json band_from_axes(const LimitOf& of) {
-  return of_band(of, [](const LimitBand& band) { return band.width_from.axes.degrees(); });
+  return of_band(of, [](const motion::LimitBand& band) { return band.width_from.axes.degrees(); });
 }
 Json band_from_surface(const LimitOf& of) {
-  return of_band(of, [](const LimitBand& band) { return band.width_from.surface.degrees(); });
+  return of_band(of, [](const motion::LimitBand& band) { return band.width_from.surface.degrees(); });
 }
 Json band_without_contact(const LimitOf& of) {
-  return of_band(of, [](const LimitBand& band) { return band.share_without_contact; });
+  return of_band(of, [](const motion::LimitBand& band) { return band.share_without_contact; });
 }
 
 Json normal_range_deg(const LimitOf& of) {
@@ -226,7 +226,7 @@ Json caveats(const LimitOf& of) {
 Json caveat_codes(const LimitOf& of) {
   std::string codes;
   for (const MotionCaveat& caveat : motion_caveats(of.joint(), of.limit().motion))
-    codes += fmt::format("{}{}", codes.empty() ? "" : " ", condyle::name_of(caveat.code));
+    codes += fmt::format("{}{}", codes.empty() ? "" : " ", name_of(caveat.code));
   return codes;
 }
 Json guarantee(const LimitOf& of) {
@@ -235,7 +235,7 @@ Json guarantee(const LimitOf& of) {
 }
 Json depth(const LimitOf& of) {
   if (of.result.depths.empty()) return left_out();
-  const DepthLimit& depth = of.result.depths[of.index];
+  const motion::DepthLimit& depth = of.result.depths[of.index];
   return {{"at_start_mm", depth.start_depth_mm},
           {"at_limit_mm", depth.at_limit.depth_mm},
           {"ray_to_normal_deg", depth.at_limit.ray_to_normal.degrees()},
@@ -243,9 +243,9 @@ Json depth(const LimitOf& of) {
 }
 Json closed_form(const LimitOf& of) {
   if (of.result.closed.empty()) return left_out();
-  const ClosedLimit& closed = of.result.closed[of.index];
+  const plan::ClosedLimit& closed = of.result.closed[of.index];
   return {{"limit_deg", closed.turned.degrees()},
-          {"reason", condyle::name_of(closed.reason)},
+          {"reason", name_of(closed.reason)},
           {"of_facets_deg", {closed.of_facets_low.degrees(), closed.of_facets_high.degrees()}}};
 }
 Json zone(const LimitOf& of) {

@@ -1,33 +1,33 @@
 #include "io/result/rom_result.hpp"
 
-namespace condyle {
+namespace condyle::io {
 
-std::string_view name_of(LimitReason reason) noexcept {
+std::string_view name_of(motion::LimitReason reason) noexcept {
   switch (reason) {
-    case LimitReason::contact:
+    case motion::LimitReason::contact:
       return "contact";
-    case LimitReason::end_of_range:
+    case motion::LimitReason::end_of_range:
       return "end_of_range";
-    case LimitReason::contact_at_start:
+    case motion::LimitReason::contact_at_start:
       return "contact_at_start";
   }
   return "contact";
 }
 
-std::string_view name_of(ContactKind kind) noexcept {
+std::string_view name_of(motion::ContactKind kind) noexcept {
   switch (kind) {
-    case ContactKind::unknown:
+    case motion::ContactKind::unknown:
       return "unknown";
-    case ContactKind::bearing:
+    case motion::ContactKind::bearing:
       return "bearing";
-    case ContactKind::impingement:
+    case motion::ContactKind::impingement:
       return "impingement";
-    case ContactKind::cut:
+    case motion::ContactKind::cut:
       return "cut";
-    case ContactKind::soft:
+    case motion::ContactKind::soft:
       return "soft";
   }
   return "unknown";
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

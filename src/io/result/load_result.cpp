@@ -16,7 +16,7 @@
 #include "io/result/pressure_map.hpp"
 #include "io/result/provenance_forms.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 using io::Json;
@@ -26,21 +26,21 @@ bool is_of_load(std::string_view name) {
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-Json wrench_json(const Wrench& wrench) {
+Json wrench_json(const contact::Wrench& wrench) {
   return {{"force_n", io::numbers(wrench.force_n)}, {"moment_nmm", io::numbers(wrench.moment_nmm)}};
 }
 
 /// The force on the casting body, and the moment on the body that the joint file names for it.
-Json totals_json(const ContactEntry& contact, ContactTotals totals) {
+Json totals_json(const ContactEntry& contact, contact::ContactTotals totals) {
   if (contact.moment_on == MomentOn::target) totals.moment_nmm = -totals.moment_nmm;
   return io::totals_json(totals, true);
 }
 
 Json surface_json(const ContactEntry& contact, const Body& body,
-                  const std::optional<SurfaceContact>& surface) {
+                  const std::optional<contact::SurfaceContact>& surface) {
   if (!surface) return nullptr;
   Json json = totals_json(contact, surface->totals);
-  const FaceContact* deepest = io::deepest_of(*surface);
+  const contact::FaceContact* deepest = io::deepest_of(*surface);
   json["deepest_triangle"] = deepest ? Json(deepest->face) : Json(nullptr);
   if (deepest) io::add_triangle_part(json, "deepest_part", body, deepest->face);
   json["met_from_front"] = surface->met_from_front;
@@ -52,14 +52,15 @@ Json surface_json(const ContactEntry& contact, const Body& body,
 }
 
 /// Sums over the faces of a region.
-ContactTotals region_totals(const ContactEntry& contact, const RegionEntry& region, const Body& body,
-                            const SurfaceContact& surface) {
-  return totals_of(faces_within(surface.faces, body.mesh, region.half_spaces), body.mesh, contact.rays.rule);
+contact::ContactTotals region_totals(const ContactEntry& contact, const RegionEntry& region, const Body& body,
+                                     const contact::SurfaceContact& surface) {
+  return contact::totals_of(contact::faces_within(surface.faces, body.mesh, region.half_spaces), body.mesh,
+                            contact.rays.rule);
 }
 
 /// Loads of each region of a casting surface; an empty list if the joint file has none.
 Json regions_json(const ContactEntry& contact, const Body& body,
-                  const std::optional<SurfaceContact>& surface) {
+                  const std::optional<contact::SurfaceContact>& surface) {
   if (!surface) return nullptr;
   Json regions = Json::array();
   for (const RegionEntry& region : contact.regions) {
@@ -71,9 +72,9 @@ Json regions_json(const ContactEntry& contact, const Body& body,
 }
 
 std::string surface_text(const ContactEntry& contact, const Body& body,
-                         const std::optional<SurfaceContact>& surface) {
+                         const std::optional<contact::SurfaceContact>& surface) {
   if (!surface) return "";
-  const ContactTotals& totals = surface->totals;
+  const contact::ContactTotals& totals = surface->totals;
   const std::string oblique = io::oblique_text(*surface, contact.rays.rule);
   if (totals.triangles == 0) return fmt::format("  {}: no contact\n", body.name) + oblique;
   const Index deepest = io::deepest_of(*surface)->face;
@@ -85,7 +86,7 @@ std::string surface_text(const ContactEntry& contact, const Body& body,
                       totals.mean_pressure_mpa, totals.max_pressure_mpa,
                       core::rounded(*totals.centre_of_pressure, 2));
   for (const RegionEntry& region : contact.regions) {
-    const ContactTotals of = region_totals(contact, region, body, *surface);
+    const contact::ContactTotals of = region_totals(contact, region, body, *surface);
     text += of.triangles == 0
                 ? fmt::format("    {}: no contact\n", region.name)
                 : fmt::format("    {}: {:.2f} mm2, pressure {:.3f} MPa at most, force {} N, {:.2f} in all\n",
@@ -109,15 +110,15 @@ std::string load_text(const LoadQuestion& question, const LoadAnswer& answer) {
   for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
   if (answer.balanced) {
     const Vec3 moved = answer.X_FM.translation() - question.X_FM.translation();
-    if (answer.balanced->outcome == BalanceOutcome::balanced)
+    if (answer.balanced->outcome == contact::BalanceOutcome::balanced)
       text += fmt::format("  balanced after {} steps, {} mm from the pose given\n", answer.balanced->steps,
                           core::rounded(moved, 2));
     else
-      text += fmt::format("  {}\n", reason_of(*answer.balanced));
+      text += fmt::format("  {}\n", contact::reason_of(*answer.balanced));
   }
   text += surface_text(question.contact, question.surfaces.fixed, answer.contact.fixed) +
           surface_text(question.contact, question.surfaces.mobile, answer.contact.mobile);
-  const Wrench& load = answer.contact.on_mobile;
+  const contact::Wrench& load = answer.contact.on_mobile;
   text +=
       fmt::format("  on {}: force {} N, {:.2f} in all; moment {} N mm about its origin\n", joint.mobile.name,
                   core::rounded(load.force_n, 2), load.force_n.norm(), core::rounded(load.moment_nmm, 2));
@@ -149,7 +150,7 @@ std::string load_json(const LoadQuestion& question, const LoadAnswer& answer) {
   json["X_FM"] = std::move(rows);
   if (answer.balanced) {
     json["balance"] = {{"outcome", name_of(answer.balanced->outcome)},
-                       {"reason", reason_of(*answer.balanced)},
+                       {"reason", contact::reason_of(*answer.balanced)},
                        {"steps", answer.balanced->steps},
                        {"load", wrench_json(question.load->on_mobile)},
                        {"load_frame", question.load->frame == BodyRole::fixed ? "fixed" : "mobile"},
@@ -184,7 +185,7 @@ std::vector<std::filesystem::path> write_load(const std::filesystem::path& folde
   const AnswerFrame frame = question.provenance ? question.provenance->frame : AnswerFrame{};
   const VtpOptions options{encoding, io::provenance_fields(question.provenance)};
   const auto write = [&](const char* name, const Body& body, const TriMesh& in_F,
-                         const std::optional<SurfaceContact>& surface) {
+                         const std::optional<contact::SurfaceContact>& surface) {
     const std::vector<MeshArray> arrays =
         surface ? io::pressure_map(*surface, body, true) : io::part_map(body);
     write_vtp(out.file(name), frame.fixed_mesh(in_F), {}, arrays, options);
@@ -196,4 +197,4 @@ std::vector<std::filesystem::path> write_load(const std::filesystem::path& folde
   return out.commit();
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

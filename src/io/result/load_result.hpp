@@ -15,7 +15,7 @@
 
 /// Results of `condyle load`, for files. Every key and array is in docs/formats-load.md.
 
-namespace condyle {
+namespace condyle::io {
 
 struct LoadQuestion {
   const Joint& joint;
@@ -23,7 +23,7 @@ struct LoadQuestion {
   Pose X_FM;
   const ContactSurfaces& surfaces;
   ContactEntry contact;
-  std::optional<Load> load = {};  ///< that was balanced
+  std::optional<contact::Load> load = {};  ///< that was balanced
   std::vector<JointNote> notes = {};
   const Provenance* provenance = nullptr;
 };
@@ -41,4 +41,4 @@ std::vector<std::filesystem::path> write_load(const std::filesystem::path& folde
                                               const LoadQuestion& question, const LoadAnswer& answer,
                                               VtpEncoding encoding = VtpEncoding::binary);
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -8,7 +8,7 @@
 #include "io/result/movement_words.hpp"
 #include "io/result/rom_result.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 /// Headings of what csv_of() writes.
@@ -19,10 +19,10 @@ std::string end_columns(std::string_view end) {
       end);
 }
 
-std::string csv_of(const Limit& end, const AnswerFrame& frame) {
+std::string csv_of(const motion::Limit& end, const AnswerFrame& frame) {
   std::string text = fmt::format(
-      ",{},{},{},{}", name_of(end.reason), end.reason == LimitReason::end_of_range ? "" : name_of(end.kind()),
-      end.error_bound.degrees(),
+      ",{},{},{},{}", name_of(end.reason),
+      end.reason == motion::LimitReason::end_of_range ? "" : name_of(end.kind()), end.error_bound.degrees(),
       end.bearing_contact ? fmt::format("{}", end.bearing_contact->turned.degrees()) : "");
   if (!end.contact) return text + ",,,";
   const Vec3 p = frame.fixed_point(end.contact->fixed_point);
@@ -36,15 +36,16 @@ std::string_view movement_name(JointAngle angle, RotationSense sense, Anatomy jo
   return sense == RotationSense::positive ? positive : negative;
 }
 
-std::string map_text(const MotionMap& map) {
-  const MapSummary summary = summarise(map);
+std::string map_text(const motion::MotionMap& map) {
+  const MapSummary summary = map_summary_of(map);
   std::string text = fmt::format(
       "map of {} over {} and {}, {} points\n", io::spaced(name_of(map.grid.vary, map.anatomy)),
       to_text(map.grid.column, map.anatomy), to_text(map.grid.row, map.anatomy), map.points.size());
   const auto line = [&](RotationSense sense, const ReasonCounts& counts) {
     text += fmt::format("  {:<18} {} end in contact, {} at the end of the range, {} in contact at start\n",
-                        io::movement_words(map.grid.vary, sense, map.anatomy), counts[LimitReason::contact],
-                        counts[LimitReason::end_of_range], counts[LimitReason::contact_at_start]);
+                        io::movement_words(map.grid.vary, sense, map.anatomy),
+                        counts[motion::LimitReason::contact], counts[motion::LimitReason::end_of_range],
+                        counts[motion::LimitReason::contact_at_start]);
   };
   line(RotationSense::positive, summary.positive_ends);
   line(RotationSense::negative, summary.negative_ends);
@@ -59,8 +60,8 @@ std::string map_text(const MotionMap& map) {
                             name_of(JointAngle::adduction, map.anatomy));
 }
 
-std::string map_csv(const MotionMap& map, const AnswerFrame& frame) {
-  const MapGrid& grid = map.grid;
+std::string map_csv(const motion::MotionMap& map, const AnswerFrame& frame) {
+  const motion::MapGrid& grid = map.grid;
   const std::string_view varied = name_of(grid.vary, map.anatomy);
   std::string text =
       fmt::format("{0}_deg,{1}_deg,{2}_lower_deg,{2}_upper_deg", name_of(grid.column.angle, map.anatomy),
@@ -69,7 +70,8 @@ std::string map_csv(const MotionMap& map, const AnswerFrame& frame) {
   text += "\n";
   const std::size_t columns = grid.column.count();
   for (std::size_t i = 0; i < map.points.size(); ++i) {
-    const Limit &negative = map.points[i].from_start.negative, &positive = map.points[i].from_start.positive;
+    const motion::Limit &negative = map.points[i].from_start.negative,
+                        &positive = map.points[i].from_start.positive;
     text +=
         fmt::format("{},{},{},{}{}{}\n", grid.column.value_deg(i % columns), grid.row.value_deg(i / columns),
                     (grid.start - negative.turned).degrees(), (grid.start + positive.turned).degrees(),
@@ -78,8 +80,8 @@ std::string map_csv(const MotionMap& map, const AnswerFrame& frame) {
   return text;
 }
 
-std::string map_intervals_csv(const MotionMap& map, const AnswerFrame& frame) {
-  const MapGrid& grid = map.grid;
+std::string map_intervals_csv(const motion::MotionMap& map, const AnswerFrame& frame) {
+  const motion::MapGrid& grid = map.grid;
   std::string text = fmt::format("{0}_deg,{1}_deg,{2}_low_deg,{2}_high_deg,holds_start",
                                  name_of(grid.column.angle, map.anatomy),
                                  name_of(grid.row.angle, map.anatomy), name_of(grid.vary, map.anatomy));
@@ -87,7 +89,7 @@ std::string map_intervals_csv(const MotionMap& map, const AnswerFrame& frame) {
   text += "\n";
   const std::size_t columns = grid.column.count();
   for (std::size_t i = 0; i < map.points.size(); ++i)
-    for (const FreeInterval& free : map.points[i].intervals)
+    for (const motion::FreeInterval& free : map.points[i].intervals)
       text += fmt::format("{},{},{},{},{}{}{}\n", grid.column.value_deg(i % columns),
                           grid.row.value_deg(i / columns), (grid.start + free.low).degrees(),
                           (grid.start + free.high).degrees(), free.holds_start() ? 1 : 0,
@@ -95,4 +97,4 @@ std::string map_intervals_csv(const MotionMap& map, const AnswerFrame& frame) {
   return text;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -6,13 +6,13 @@
 
 #include "condyle/motion_map.hpp"
 
-namespace condyle {
+namespace condyle::io {
 
 /// At how many points of a map one end has each reason.
 struct ReasonCounts {
   std::array<std::size_t, 3> of{};
 
-  std::size_t operator[](LimitReason reason) const { return of[static_cast<std::size_t>(reason)]; }
+  std::size_t operator[](motion::LimitReason reason) const { return of[static_cast<std::size_t>(reason)]; }
 };
 
 /// Summary of a map.
@@ -20,18 +20,18 @@ struct MapSummary {
   ReasonCounts negative_ends, positive_ends;
   std::size_t free_elsewhere = 0;  ///< points in contact at the start that are free at other angles
   std::size_t with_islands = 0;    ///< points with a free interval beyond the one that is drawn
-  FreeVolume volume;
+  motion::FreeVolume volume;
 };
 
-inline MapSummary summarise(const MotionMap& map) {
+inline MapSummary map_summary_of(const motion::MotionMap& map) {
   MapSummary summary;
-  for (const FreeAngles& point : map.points) {
+  for (const motion::FreeAngles& point : map.points) {
     ++summary.negative_ends.of[static_cast<std::size_t>(point.from_start.negative.reason)];
     ++summary.positive_ends.of[static_cast<std::size_t>(point.from_start.positive.reason)];
     summary.free_elsewhere += !point.from_start.free_at_start() && !point.intervals.empty();
     summary.with_islands += point.intervals.size() > 1;
   }
-  summary.volume = free_volume(map);
+  summary.volume = motion::free_volume(map);
   return summary;
 }
 
@@ -42,13 +42,13 @@ inline MapSummary summarise(const MotionMap& map) {
 struct MapIntervals {
   std::vector<std::size_t> offset = {0};
   std::vector<double> low_deg, high_deg;  ///< values of the varied angle
-  std::vector<LimitReason> low_reason, high_reason;
+  std::vector<motion::LimitReason> low_reason, high_reason;
 };
 
-inline MapIntervals all_intervals(const MotionMap& map) {
+inline MapIntervals all_intervals(const motion::MotionMap& map) {
   MapIntervals all;
-  for (const FreeAngles& point : map.points) {
-    for (const FreeInterval& free : point.intervals) {
+  for (const motion::FreeAngles& point : map.points) {
+    for (const motion::FreeInterval& free : point.intervals) {
       all.low_deg.push_back((map.grid.start + free.low).degrees());
       all.high_deg.push_back((map.grid.start + free.high).degrees());
       all.low_reason.push_back(free.at_low.reason);
@@ -59,4 +59,4 @@ inline MapIntervals all_intervals(const MotionMap& map) {
   return all;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -12,29 +12,29 @@ Json point_or_null(const std::optional<Vec3>& point) {
   return if_found(point, [](const Vec3& p) { return numbers(p); });
 }
 
-Json closest(const std::optional<ClosestBones>& at) {
-  return if_found(at, [](const ClosestBones& points) {
+Json closest(const std::optional<measure::ClosestBones>& at) {
+  return if_found(at, [](const measure::ClosestBones& points) {
     return Json{{"fixed_mm", numbers(points.fixed_point)}, {"mobile_mm", numbers(points.mobile_point)}};
   });
 }
 
-void add_femur(const FemurMeasures& femur, Json& json) {
+void add_femur(const measure::FemurMeasures& femur, Json& json) {
   json["head"] = if_found(femur.head, [](const Sphere& head) {
     return Json{{"centre_mm", numbers(head.centre)}, {"radius_mm", head.radius}};
   });
-  json["neck"] = if_found(femur.neck, [](const NeckGeometry& neck) {
+  json["neck"] = if_found(femur.neck, [](const measure::NeckGeometry& neck) {
     return Json{{"head_centre_mm", numbers(neck.head.centre)}, {"direction", numbers(neck.direction)}};
   });
-  json["clock"] = if_found(femur.neck, [](const NeckGeometry& neck) {
+  json["clock"] = if_found(femur.neck, [](const measure::NeckGeometry& neck) {
     return Json{{"twelve", numbers(neck.clock.twelve)},
                 {"three", numbers(neck.clock.three)},
-                {"from", neck.clock_from == ClockSource::shaft ? "shaft" : "frame"}};
+                {"from", neck.clock_from == measure::ClockSource::shaft ? "shaft" : "frame"}};
   });
-  json["shaft"] = if_found(femur.shaft, [](const ShaftGeometry& shaft) {
+  json["shaft"] = if_found(femur.shaft, [](const measure::ShaftGeometry& shaft) {
     return Json{
         {"first_mm", numbers(shaft.first)}, {"last_mm", numbers(shaft.last)}, {"bound_deg", shaft.bound_deg}};
   });
-  json["condyles"] = if_found(femur.condyles, [](const CondyleGeometry& condyles) {
+  json["condyles"] = if_found(femur.condyles, [](const measure::CondyleGeometry& condyles) {
     return Json{{"middle_mm", numbers(condyles.middle)},
                 {"medial_mm", numbers(condyles.medial)},
                 {"lateral_mm", numbers(condyles.lateral)}};
@@ -44,14 +44,14 @@ void add_femur(const FemurMeasures& femur, Json& json) {
   });
 }
 
-void add_acetabulum(const AcetabulumMeasures& acetabulum, Json& json) {
-  json["rim_plane"] = if_found(acetabulum.plane, [](const RimGeometry& plane) {
+void add_acetabulum(const measure::AcetabulumMeasures& acetabulum, Json& json) {
+  json["rim_plane"] = if_found(acetabulum.plane, [](const measure::RimGeometry& plane) {
     return Json{{"centre_mm", numbers(plane.centre)},
                 {"normal", numbers(plane.normal)},
                 {"radius_mm", plane.radius_mm}};
   });
   json["chords"] = Json::array();
-  for (const RimChord& chord : acetabulum.chords)
+  for (const measure::RimChord& chord : acetabulum.chords)
     json["chords"].push_back({{"height_mm", chord.height_mm},
                               {"front_mm", numbers(chord.front)},
                               {"back_mm", numbers(chord.back)}});
@@ -65,7 +65,7 @@ void add_acetabulum(const AcetabulumMeasures& acetabulum, Json& json) {
 
 }  // namespace
 
-Json measure_geometry(const HipMeasures& measures) {
+Json measure_geometry(const measure::HipMeasures& measures) {
   Json json;
   add_femur(measures.femur, json);
   add_acetabulum(measures.acetabulum, json);

@@ -18,23 +18,23 @@
 #include "io/result/parameters.hpp"
 #include "io/result/provenance_forms.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 using io::Json;
 
 /// By which axes acetabular angles are measured, and what to think of them.
-std::string pelvis_text(const HipMeasures& measures) {
+std::string pelvis_text(const measure::HipMeasures& measures) {
   const char* warning = measures.pelvis_frame.empty()
                             ? ": the pelvis may have lain turned, and acetabular angles turn with it"
                             : "";
-  return stated_frame(measures) + warning;
+  return measure::stated_frame(measures) + warning;
 }
 
 /// "    alpha_12_deg, alpha_3_deg: ...", a line for each sentence, in the order of the measures.
-std::string by_sentence(const HipMeasures& measures, std::string Measure::*sentence) {
+std::string by_sentence(const measure::HipMeasures& measures, std::string measure::Measure::*sentence) {
   std::vector<std::pair<std::string, std::string>> keys_of;
-  for (const MeasureDefinition& each : measure_definitions()) {
+  for (const measure::MeasureDefinition& each : measure::measure_definitions()) {
     const std::string& said = each.of(measures).*sentence;
     if (said.empty()) continue;
     const auto known =
@@ -50,12 +50,12 @@ std::string by_sentence(const HipMeasures& measures, std::string Measure::*sente
 }
 
 /// Definition of each measure, its planes and axes, and the source of its normal range.
-std::string definitions_text(const HipMeasures& measures) {
+std::string definitions_text(const measure::HipMeasures& measures) {
   std::string text = "  definitions:\n";
-  for (const MeasureDefinition& each : measure_definitions()) {
-    text +=
-        fmt::format("    {}: {}\n      by {}{}; {}\n", each.key, each.definition, each.measured_by,
-                    each.in_pelvis_frame ? fmt::format(" ({})", stated_frame(measures)) : "", each.source);
+  for (const measure::MeasureDefinition& each : measure::measure_definitions()) {
+    text += fmt::format("    {}: {}\n      by {}{}; {}\n", each.key, each.definition, each.measured_by,
+                        each.in_pelvis_frame ? fmt::format(" ({})", measure::stated_frame(measures)) : "",
+                        each.source);
     if (each.normal)
       text += fmt::format("      normal {:g} to {:g}: {}; {}\n", each.normal->low, each.normal->high,
                           each.normal->meaning, each.normal->source);
@@ -64,40 +64,41 @@ std::string definitions_text(const HipMeasures& measures) {
 }
 
 /// With as many digits as its unit is read with.
-std::string measured_number(const MeasureDefinition& definition, double value) {
+std::string measured_number(const measure::MeasureDefinition& definition, double value) {
   return fmt::format("{:.{}f}", value, definition.unit == "1" ? 3 : definition.unit == "h" ? 2 : 1);
 }
 
-std::string measured_value(const MeasureDefinition& definition, const Measure& measure) {
+std::string measured_value(const measure::MeasureDefinition& definition, const measure::Measure& measure) {
   if (!measure.value) return "-";
   return measured_number(definition, *measure.value) +
          (definition.unit == "1" ? "" : fmt::format(" {}", definition.unit));
 }
 
 /// "41.2 to 47.9", or nothing.
-std::string measure_band_text(const MeasureDefinition& definition, const MeasureBand& band) {
+std::string measure_band_text(const measure::MeasureDefinition& definition,
+                              const measure::MeasureBand& band) {
   if (!band.p5 || !band.p95) return "-";
   return measured_number(definition, *band.p5) + " to " + measured_number(definition, *band.p95);
 }
 
-std::string normal_text(const MeasureDefinition& definition) {
+std::string normal_text(const measure::MeasureDefinition& definition) {
   return definition.normal ? fmt::format("{:g} to {:g}", definition.normal->low, definition.normal->high)
                            : "";
 }
 
-std::string_view heading_of(MeasuredPart part) {
+std::string_view heading_of(measure::MeasuredPart part) {
   switch (part) {
-    case MeasuredPart::femur:
+    case measure::MeasuredPart::femur:
       return "femur";
-    case MeasuredPart::acetabulum:
+    case measure::MeasuredPart::acetabulum:
       return "acetabulum";
-    case MeasuredPart::both:
+    case measure::MeasuredPart::both:
       break;
   }
   return "both";
 }
 
-Json measure_band_json(const MeasureBand& band) {
+Json measure_band_json(const measure::MeasureBand& band) {
   return {{"p5", io::nullable(band.p5)},
           {"median", io::nullable(band.median)},
           {"p95", io::nullable(band.p95)},
@@ -119,8 +120,8 @@ Json names_in(std::string_view names) {
   return list;
 }
 
-Json measure_entry(const MeasureDefinition& definition, const HipMeasures& measures) {
-  const Measure& measure = definition.of(measures);
+Json measure_entry(const measure::MeasureDefinition& definition, const measure::HipMeasures& measures) {
+  const measure::Measure& measure = definition.of(measures);
   Json json{{"key", definition.key},
             {"part", heading_of(definition.part)},
             {"unit", definition.unit},
@@ -130,7 +131,7 @@ Json measure_entry(const MeasureDefinition& definition, const HipMeasures& measu
             {"definition", definition.definition},
             {"measured_by", names_in(definition.measured_by)},
             {"source", definition.source}};
-  json["frame"] = definition.in_pelvis_frame ? Json(stated_frame(measures)) : Json(nullptr);
+  json["frame"] = definition.in_pelvis_frame ? Json(measure::stated_frame(measures)) : Json(nullptr);
   json["normal"] = definition.normal ? Json{{"low", definition.normal->low},
                                             {"high", definition.normal->high},
                                             {"meaning", definition.normal->meaning},
@@ -139,28 +140,28 @@ Json measure_entry(const MeasureDefinition& definition, const HipMeasures& measu
   return json;
 }
 
-Json point_or_null(const std::optional<Vec3>& point) {
+Json numbers_or_null(const std::optional<Vec3>& point) {
   return point ? io::numbers(*point) : Json(nullptr);
 }
 
-Json neck_json(const FemurMeasures& femur) {
+Json neck_json(const measure::FemurMeasures& femur) {
   Json json = Json::array();
-  for (const NeckHour& at : femur.around_neck)
+  for (const measure::NeckHour& at : femur.around_neck)
     json.push_back({{"hour", at.hour},
                     {"alpha_deg", io::nullable(at.alpha_deg)},
                     {"alpha_at_1mm_deg", io::nullable(at.alpha_at_1mm_deg)},
                     {"is_doubtful", at.is_doubtful},
-                    {"alpha_point_mm", point_or_null(at.alpha_point)},
+                    {"alpha_point_mm", numbers_or_null(at.alpha_point)},
                     {"offset_mm", io::nullable(at.offset_mm)},
-                    {"offset_point_mm", point_or_null(at.offset_point)}});
+                    {"offset_point_mm", numbers_or_null(at.offset_point)}});
   return json;
 }
 
-Json rim_json(const AcetabulumMeasures& acetabulum) {
+Json rim_json(const measure::AcetabulumMeasures& acetabulum) {
   Json json = Json::array();
-  for (const RimHour& at : acetabulum.rim)
+  for (const measure::RimHour& at : acetabulum.rim)
     json.push_back({{"hour", at.hour},
-                    {"point_mm", point_or_null(at.point)},
+                    {"point_mm", numbers_or_null(at.point)},
                     {"cover_deg", at.point ? Json(at.cover_deg) : Json(nullptr)},
                     {"centre_edge_deg", at.point ? Json(at.centre_edge_deg) : Json(nullptr)},
                     {"is_in_plane", at.is_in_plane}});
@@ -186,29 +187,31 @@ std::string measure_text(const MeasureResult& result) {
   text += io::parameters_text(joint);
   text += fmt::format("  pelvis: {}\n", pelvis_text(result.answer.measures));
   std::size_t widest = 0;
-  for (const MeasureDefinition& each : measure_definitions()) widest = std::max(widest, each.key.size());
+  for (const measure::MeasureDefinition& each : measure::measure_definitions())
+    widest = std::max(widest, each.key.size());
   std::string_view heading;
   const bool has_bands = !result.answer.bands.empty();
-  for (std::size_t i = 0; i < measure_definitions().size(); ++i) {
-    const MeasureDefinition& each = measure_definitions()[i];
+  for (std::size_t i = 0; i < measure::measure_definitions().size(); ++i) {
+    const measure::MeasureDefinition& each = measure::measure_definitions()[i];
     if (heading != heading_of(each.part)) {
       heading = heading_of(each.part);
       text += fmt::format("  {:<{}}  {:>10}{}  normal\n", heading, widest + 2, "",
                           has_bands ? fmt::format("  {:<16}", "5 to 95 %") : "");
     }
-    const Measure& measure = each.of(result.answer.measures);
+    const measure::Measure& measure = each.of(result.answer.measures);
     const std::string band =
         has_bands ? fmt::format("  {:<16}", measure_band_text(each, result.answer.bands[i])) : "";
     std::string line = fmt::format("    {:<{}}  {:>10}{}  {}", each.key, widest,
                                    measured_value(each, measure), band, normal_text(each));
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
-  if (const std::string reasons = by_sentence(result.answer.measures, &Measure::why_none); !reasons.empty())
+  if (const std::string reasons = by_sentence(result.answer.measures, &measure::Measure::why_none);
+      !reasons.empty())
     text += "  cannot be computed:\n" + reasons;
   std::string notes;
   for (const std::string& sentence : result.answer.measures.left_out)
     notes += fmt::format("    {}\n", sentence);
-  notes += by_sentence(result.answer.measures, &Measure::note);
+  notes += by_sentence(result.answer.measures, &measure::Measure::note);
   if (!notes.empty()) text += "  to be read with:\n" + notes;
   if (has_bands)
     text += fmt::format("  5 to 95 % of {} joints with centre, axes and surfaces displaced, seed {}\n",
@@ -220,11 +223,11 @@ std::string measure_text(const MeasureResult& result) {
   return text + fmt::format("  {}\n", scope_text(joint));
 }
 
-io::Json io::measure_object(const MeasureResult& result) {
-  const HipMeasures& measures = result.answer.measures;
+Json measure_object(const MeasureResult& result) {
+  const measure::HipMeasures& measures = result.answer.measures;
   Json list = Json::array();
-  for (std::size_t i = 0; i < measure_definitions().size(); ++i) {
-    list.push_back(measure_entry(measure_definitions()[i], measures));
+  for (std::size_t i = 0; i < measure::measure_definitions().size(); ++i) {
+    list.push_back(measure_entry(measure::measure_definitions()[i], measures));
     list.back()["band"] =
         result.answer.bands.empty() ? Json(nullptr) : measure_band_json(result.answer.bands[i]);
   }
@@ -233,7 +236,7 @@ io::Json io::measure_object(const MeasureResult& result) {
             {"fixed", result.joint.fixed.name},
             {"mobile", result.joint.mobile.name},
             {"side", name_of(result.joint.side)},
-            {"pelvis_frame", stated_frame(measures)},
+            {"pelvis_frame", measure::stated_frame(measures)},
             {"pelvic_tilt_deg", measures.pelvic_tilt.degrees()},
             {"left_out", measures.left_out},
             {"measures", std::move(list)},
@@ -251,7 +254,7 @@ std::string measure_json(const MeasureResult& result) {
   return io::document(io::measure_object(result));
 }
 
-std::string measure_geometry_json(const HipMeasures& measures) {
+std::string measure_geometry_json(const measure::HipMeasures& measures) {
   Json json = io::measure_geometry(measures);
   io::drop_negative_zeros(json);
   return json.dump();
@@ -264,10 +267,11 @@ std::string measures_csv(const MeasureResult& result) {
   text +=
       "key,part,value,unit,p5,median,p95,samples_without_value,normal_low,normal_high,normal_meaning,"
       "normal_source,frame,measured_by,why_none,note,definition,source\n";
-  for (std::size_t i = 0; i < measure_definitions().size(); ++i) {
-    const MeasureDefinition& each = measure_definitions()[i];
-    const MeasureBand band = result.answer.bands.empty() ? MeasureBand{} : result.answer.bands[i];
-    const Measure& measure = each.of(result.answer.measures);
+  for (std::size_t i = 0; i < measure::measure_definitions().size(); ++i) {
+    const measure::MeasureDefinition& each = measure::measure_definitions()[i];
+    const measure::MeasureBand band =
+        result.answer.bands.empty() ? measure::MeasureBand{} : result.answer.bands[i];
+    const measure::Measure& measure = each.of(result.answer.measures);
     const std::string fields[] = {
         std::string(each.key),
         std::string(heading_of(each.part)),
@@ -281,7 +285,7 @@ std::string measures_csv(const MeasureResult& result) {
         each.normal ? fmt::format("{}", each.normal->high) : "",
         each.normal ? io::csv_field(each.normal->meaning) : "",
         each.normal ? io::csv_field(each.normal->source) : "",
-        each.in_pelvis_frame ? io::csv_field(stated_frame(result.answer.measures)) : "",
+        each.in_pelvis_frame ? io::csv_field(measure::stated_frame(result.answer.measures)) : "",
         io::csv_field(each.measured_by),
         io::csv_field(measure.why_none),
         io::csv_field(measure.note),
@@ -295,7 +299,7 @@ std::string measures_csv(const MeasureResult& result) {
 std::string neck_csv(const MeasureResult& result) {
   std::string text =
       io::provenance_comments(result.provenance) + "hour,alpha_deg,alpha_at_1mm_deg,is_doubtful,offset_mm\n";
-  for (const NeckHour& at : result.answer.measures.femur.around_neck)
+  for (const measure::NeckHour& at : result.answer.measures.femur.around_neck)
     text += fmt::format("{},{},{},{},{}\n", at.hour, csv_number(at.alpha_deg),
                         csv_number(at.alpha_at_1mm_deg), at.is_doubtful ? 1 : 0, csv_number(at.offset_mm));
   return text;
@@ -304,7 +308,7 @@ std::string neck_csv(const MeasureResult& result) {
 std::string rim_csv(const MeasureResult& result) {
   std::string text = io::provenance_comments(result.provenance) +
                      "hour,x_mm,y_mm,z_mm,cover_deg,centre_edge_deg,is_in_plane\n";
-  for (const RimHour& at : result.answer.measures.acetabulum.rim)
+  for (const measure::RimHour& at : result.answer.measures.acetabulum.rim)
     text += at.point ? fmt::format("{},{},{},{},{},{},{}\n", at.hour, at.point->x(), at.point->y(),
                                    at.point->z(), at.cover_deg, at.centre_edge_deg, at.is_in_plane ? 1 : 0)
                      : fmt::format("{},,,,,,0\n", at.hour);
@@ -327,4 +331,4 @@ std::vector<std::filesystem::path> write_measures(const std::filesystem::path& f
   return out.commit();
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

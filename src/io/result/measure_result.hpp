@@ -11,7 +11,7 @@
 
 /// Results of `condyle measure`: text, JSON, tables. Rows and keys are those of measure_definitions(); docs/measures.md.
 
-namespace condyle {
+namespace condyle::io {
 
 struct MeasureResult {
   const Joint& joint;
@@ -31,7 +31,7 @@ std::string neck_csv(const MeasureResult& result);
 std::string rim_csv(const MeasureResult& result);
 
 /// The object `geometry` of the JSON by itself.
-std::string measure_geometry_json(const HipMeasures& measures);
+std::string measure_geometry_json(const measure::HipMeasures& measures);
 
 /// FileError if the folder is not to be written to.
 void check_measure_folder(const std::filesystem::path& folder, const Provenance* from);
@@ -39,4 +39,4 @@ void check_measure_folder(const std::filesystem::path& folder, const Provenance*
 std::vector<std::filesystem::path> write_measures(const std::filesystem::path& folder,
                                                   const MeasureResult& result);
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -19,7 +19,7 @@ namespace {
 /// A joint's kind as a joint file would state it; empty for a joint that cannot be read.
 std::optional<JointMapping> mapping_of_names(const ModelJoint& joint) {
   if (!joint.transform || joint.coordinates.empty()) return std::nullopt;
-  return mapping_of(joint, anatomy_of(joint), side_of(joint).value_or(Side::right));
+  return mapping_of(joint, io::anatomy_of(joint), io::side_of(joint).value_or(Side::right));
 }
 
 std::pair<std::size_t, std::size_t> meshes_found(const Model& model, const ModelJoint& joint, BodyRole role) {
@@ -94,8 +94,8 @@ Json model_joint_json(const ModelJoint& joint) {
   for (const ModelCoordinate& coordinate : joint.coordinates)
     json["coordinates"].push_back(model_coordinate_json(coordinate));
   if (!joint.transform) json["refused"] = joint.why_not;
-  if (const auto anatomy = anatomy_of(joint)) json["anatomy"] = name_of(*anatomy);
-  if (const auto side = side_of(joint)) json["side"] = name_of(*side);
+  if (const auto anatomy = io::anatomy_of(joint)) json["anatomy"] = name_of(*anatomy);
+  if (const auto side = io::side_of(joint)) json["side"] = name_of(*side);
   if (const auto mapping = mapping_of_names(joint)) {
     json["kind"] = name_of(mapping->kind);
     json["posed_by_model"] = mapping->columns.empty();

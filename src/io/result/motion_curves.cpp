@@ -6,7 +6,7 @@
 #include "io/result/coordinate_at.hpp"
 #include "io/result/motion_result.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
@@ -40,8 +40,8 @@ class Columns {
 
 /// With both castings, the mean load on the mobile body, in its frame; with one, the load on the casting body in its
 /// own.
-Wrench load_of(const ContactEntry& contact, const FrameContact& frame) {
-  if (contact.casting != Casting::both)
+contact::Wrench load_of(const ContactEntry& contact, const motion::FrameContact& frame) {
+  if (contact.casting != contact::Casting::both)
     return {frame.surface.totals.force_n, frame.surface.totals.moment_nmm};
   const Eigen::Matrix3d R_MF = frame.X_FM.linear().transpose();
   return {R_MF * frame.on_mobile.force_n, R_MF * frame.on_mobile.moment_nmm};
@@ -49,29 +49,29 @@ Wrench load_of(const ContactEntry& contact, const FrameContact& frame) {
 
 /// A frame's totals, of all faces or of a region's, and the load that goes with them.
 struct FrameTotals {
-  ContactTotals totals;
-  Wrench load;
+  contact::ContactTotals totals;
+  contact::Wrench load;
 };
 
 /// Adds their values, under names that begin with `prefix`.
 void add_contact(const MotionQuestion& question, Columns& columns, const std::string& prefix,
                  const std::vector<std::optional<FrameTotals>>& frames) {
-  const auto add = [&](const char* name, double ContactTotals::*value) {
+  const auto add = [&](const char* name, double contact::ContactTotals::*value) {
     columns.add(prefix + name, frames, [&](const FrameTotals& f) { return f.totals.*value; });
   };
-  const auto add_centre = [&](const char* name, std::optional<Vec3> ContactTotals::*centre) {
+  const auto add_centre = [&](const char* name, std::optional<Vec3> contact::ContactTotals::*centre) {
     columns.add_vector(prefix + name, "_mm", frames, [&](const FrameTotals& f) {
       return (f.totals.*centre).value_or(Vec3::Constant(nothing));
     });
   };
-  add("area_mm2", &ContactTotals::area_mm2);
-  add("mean_depth_mm", &ContactTotals::mean_depth_mm);
-  add("max_depth_mm", &ContactTotals::max_depth_mm);
-  add_centre("centre_of_depth", &ContactTotals::centre_of_depth);
+  add("area_mm2", &contact::ContactTotals::area_mm2);
+  add("mean_depth_mm", &contact::ContactTotals::mean_depth_mm);
+  add("max_depth_mm", &contact::ContactTotals::max_depth_mm);
+  add_centre("centre_of_depth", &contact::ContactTotals::centre_of_depth);
   if (!question.with_pressure) return;
-  add("mean_pressure_mpa", &ContactTotals::mean_pressure_mpa);
-  add("max_pressure_mpa", &ContactTotals::max_pressure_mpa);
-  add_centre("centre_of_pressure", &ContactTotals::centre_of_pressure);
+  add("mean_pressure_mpa", &contact::ContactTotals::mean_pressure_mpa);
+  add("max_pressure_mpa", &contact::ContactTotals::max_pressure_mpa);
+  add_centre("centre_of_pressure", &contact::ContactTotals::centre_of_pressure);
   const double sign = question.contact.moment_on == MomentOn::casting ? 1 : -1;
   columns.add_vector(prefix + "force", "_n", frames, [](const FrameTotals& f) { return f.load.force_n; });
   columns.add_vector(prefix + "moment", "_nmm", frames,
@@ -96,15 +96,16 @@ Curves region_curves_of(const MotionQuestion& question, const MotionAnswer& answ
   curves.at = question.motion.times.values;
   Columns columns(curves, answer.frames.size());
   const ContactEntry& contact = question.contact;
-  const Mesh& casting =
-      contact.casting == Casting::fixed ? question.surfaces.fixed.mesh : question.surfaces.mobile.mesh;
+  const Mesh& casting = contact.casting == contact::Casting::fixed ? question.surfaces.fixed.mesh
+                                                                   : question.surfaces.mobile.mesh;
   for (const RegionEntry& region : contact.regions) {
-    add_contact(
-        question, columns, region.name + "_", totals_of_frames(answer, [&](const FrameContact& frame) {
-          const ContactTotals totals = totals_of(
-              faces_within(frame.surface.faces, casting, region.half_spaces), casting, contact.rays.rule);
-          return FrameTotals{totals, {totals.force_n, totals.moment_nmm}};
-        }));
+    add_contact(question, columns, region.name + "_",
+                totals_of_frames(answer, [&](const motion::FrameContact& frame) {
+                  const contact::ContactTotals totals =
+                      totals_of(contact::faces_within(frame.surface.faces, casting, region.half_spaces),
+                                casting, contact.rays.rule);
+                  return FrameTotals{totals, {totals.force_n, totals.moment_nmm}};
+                }));
   }
   return curves;
 }
@@ -115,7 +116,7 @@ Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer) {
   curves.axis = question.motion.times.in_seconds ? "time_s" : "frame";
   curves.at = question.motion.times.values;
   Columns columns(curves, frames.size());
-  add_contact(question, columns, "", totals_of_frames(answer, [&](const FrameContact& frame) {
+  add_contact(question, columns, "", totals_of_frames(answer, [&](const motion::FrameContact& frame) {
                 return FrameTotals{frame.surface.totals, load_of(question.contact, frame)};
               }));
   columns.add("in_contact", frames, [](const auto& f) { return f.in_contact ? 1.0 : 0.0; });
@@ -124,18 +125,18 @@ Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer) {
   columns.add("smallest_gap_mm", frames, [](const auto& f) { return f.smallest_gap_mm; });
   columns.add("oblique_area_mm2", frames, [](const auto& f) { return f.surface.oblique_area_mm2; });
   const Joint& joint = question.joint.joint;
-  const std::vector<io::CoordinateName> coordinates = io::coordinate_names_of(joint.kind, joint.anatomy);
+  const std::vector<CoordinateName> coordinates = io::coordinate_names_of(joint.kind, joint.anatomy);
   for (std::size_t i = 0; i < coordinates.size(); ++i)
     columns.add(coordinates[i].name + (coordinates[i].kind == CoordinateKind::angle ? "_deg" : "_mm"), frames,
-                [&](const FrameContact& f) { return io::coordinate_at(joint, f.X_FM, i); });
+                [&](const motion::FrameContact& f) { return io::coordinate_at(joint, f.X_FM, i); });
   if (!answer.balanced.empty()) {
-    columns.add("balanced", answer.balanced, [](const BalancedPose& pose) {
-      return pose.outcome == BalanceOutcome::balanced ? 1.0 : 0.0;
+    columns.add("balanced", answer.balanced, [](const contact::BalancedPose& pose) {
+      return pose.outcome == contact::BalanceOutcome::balanced ? 1.0 : 0.0;
     });
     columns.add("residual_n", answer.balanced,
-                [](const BalancedPose& pose) { return pose.residual.force_n.norm(); });
+                [](const contact::BalancedPose& pose) { return pose.residual.force_n.norm(); });
   }
   return curves;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

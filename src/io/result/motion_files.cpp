@@ -15,7 +15,7 @@
 #include "io/result/provenance_forms.hpp"
 #include "io/result/rom_parts.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 /// Whether some motion has a file of this name.
@@ -31,10 +31,10 @@ bool is_of_motion(std::string_view name) {
 }
 
 /// Where the bodies meet as a contact begins or ends; empty if no features are known to.
-std::string meeting_fields(const MotionQuestion& question, const ContactEnd& end) {
+std::string meeting_fields(const MotionQuestion& question, const motion::ContactEnd& end) {
   if (!end.contact) return ",,,,,";
   const auto& [fixed, mobile] = question.surfaces;
-  const auto part = [](const Body& body, const Feature& feature) {
+  const auto part = [](const Body& body, const motion::Feature& feature) {
     const BodyPart* of = io::part_of(body, feature);
     return of ? io::csv_field(of->name) : std::string();
   };
@@ -45,20 +45,21 @@ std::string meeting_fields(const MotionQuestion& question, const ContactEnd& end
 }
 
 /// When a contact begins or ends; without an uncertainty where the recording does before it.
-std::string end_fields(const ContactEnd& end, ContactEndRole role) {
-  return fmt::format("{},{},{},{}", end.time_s, name_of(end.kind, role),
-                     end.kind == ContactEndKind::recording ? "" : fmt::format("{}", end.uncertainty_s),
-                     end.turned.degrees());
+std::string end_fields(const motion::ContactEnd& end, ContactEndRole role) {
+  return fmt::format(
+      "{},{},{},{}", end.time_s, name_of(end.kind, role),
+      end.kind == motion::ContactEndKind::recording ? "" : fmt::format("{}", end.uncertainty_s),
+      end.turned.degrees());
 }
 
-std::string contacts_csv(const MotionQuestion& question, const RecordedContact& between) {
+std::string contacts_csv(const MotionQuestion& question, const motion::RecordedContact& between) {
   std::string text =
       "entry_s,entry_kind,entry_uncertainty_s,entry_turned_deg,exit_s,exit_kind,exit_uncertainty_s,"
       "exit_turned_deg,is_certain";
   for (const char* end : {"entry", "exit"})
     text += fmt::format(",{0}_x_mm,{0}_y_mm,{0}_z_mm,{0}_fixed_part,{0}_mobile_part", end);
   text += "\n";
-  for (const ContactInterval& contact : between.contacts)
+  for (const motion::ContactInterval& contact : between.contacts)
     text += fmt::format("{},{},{}{}{}\n", end_fields(contact.entry, ContactEndRole::entry),
                         end_fields(contact.exit, ContactEndRole::exit), contact.is_certain ? 1 : 0,
                         meeting_fields(question, contact.entry), meeting_fields(question, contact.exit));
@@ -70,7 +71,7 @@ void write_maps(OutputFolder& out, const MotionQuestion& question, const MotionA
   const ContactSurfaces& surfaces = question.surfaces;
   const AnswerFrame frame_of_answer = question.provenance ? question.provenance->frame : AnswerFrame{};
   const VtpOptions options{encoding, io::provenance_fields(question.provenance)};
-  const bool fixed_casts = question.contact.casting == Casting::fixed;
+  const bool fixed_casts = question.contact.casting == contact::Casting::fixed;
   const Body& casting = fixed_casts ? surfaces.fixed : surfaces.mobile;
   const std::vector<MeshArray> of_target = io::part_map(fixed_casts ? surfaces.mobile : surfaces.fixed);
   std::vector<SeriesFile> series;
@@ -79,7 +80,7 @@ void write_maps(OutputFolder& out, const MotionQuestion& question, const MotionA
               options);
   for (std::size_t i = 0; i < answer.frames.size(); ++i) {
     if (!answer.frames[i]) continue;
-    const FrameContact& frame = *answer.frames[i];
+    const motion::FrameContact& frame = *answer.frames[i];
     const auto arrays = io::pressure_map(frame.surface, casting, question.with_pressure);
     const double time = question.motion.times.values[i];
     const std::string mobile = fmt::format("map_mobile_{:05}.vtp", i);
@@ -124,8 +125,8 @@ std::vector<std::filesystem::path> write_motion(const std::filesystem::path& fol
     write_jam_file(out.file("jam.h5"), question.motion.times.values, {&contact, 1},
                    io::jam_coordinates(question, answer));
   }
-  io::write_whole_file(out.file("motion.json"), motion_json(question, answer));
+  io::write_whole_file(out.file("motion.json"), io::motion_json(question, answer));
   return out.commit();
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

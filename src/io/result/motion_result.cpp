@@ -15,7 +15,7 @@
 #include "io/result/provenance_forms.hpp"
 #include "io/result/rom_parts.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 using io::Json;
@@ -26,7 +26,7 @@ struct Summary {
               oblique = 0, oblique_peak = 0;
   struct Largest {
     double value = 0, at = 0;
-    const FrameContact* frame = nullptr;
+    const motion::FrameContact* frame = nullptr;
   };
   Largest area, depth, pressure, force;
 };
@@ -38,7 +38,7 @@ Summary summary_of(const MotionQuestion& question, const MotionAnswer& answer) {
     const auto& frame = answer.frames[i];
     if (!question.motion.X_FM[i]) ++summary.gaps;
     if (!answer.balanced.empty() && answer.balanced[i]) {
-      if (answer.balanced[i]->outcome == BalanceOutcome::balanced) ++summary.balanced;
+      if (answer.balanced[i]->outcome == contact::BalanceOutcome::balanced) ++summary.balanced;
       if (answer.balanced[i]->carries_load()) ++summary.carried;
     }
     if (!frame) continue;
@@ -47,16 +47,16 @@ Summary summary_of(const MotionQuestion& question, const MotionAnswer& answer) {
     if (frame->cut_off_by_reach > 0) ++summary.cut_off;
     if (frame->surface.oblique_area_mm2 > 0) ++summary.oblique;
     if (frame->surface.peak_is_oblique) ++summary.oblique_peak;
-    const ContactTotals& totals = frame->surface.totals;
+    const contact::ContactTotals& totals = frame->surface.totals;
     const auto consider = [&](Summary::Largest& largest, double value) {
       if (value > largest.value) largest = {value, question.motion.times.values[i], &*frame};
     };
     consider(summary.area, totals.area_mm2);
     consider(summary.depth, totals.max_depth_mm);
     consider(summary.pressure, totals.max_pressure_mpa);
-    const bool both = question.contact.casting == Casting::both;
+    const bool both = question.contact.casting == contact::Casting::both;
     consider(summary.force,
-             (both ? frame->on_mobile : Wrench{totals.force_n, totals.moment_nmm}).force_n.norm());
+             (both ? frame->on_mobile : contact::Wrench{totals.force_n, totals.moment_nmm}).force_n.norm());
   }
   return summary;
 }
@@ -76,8 +76,8 @@ std::vector<OutOfBalance> out_of_balance(const MotionAnswer& answer) {
         {i, "no_load", false, "the load is zero along the free directions: no pose was searched"});
   for (std::size_t i = 0; i < answer.balanced.size(); ++i) {
     const auto& pose = answer.balanced[i];
-    if (pose && pose->outcome != BalanceOutcome::balanced)
-      frames.push_back({i, name_of(pose->outcome), pose->carries_load(), reason_of(*pose)});
+    if (pose && pose->outcome != contact::BalanceOutcome::balanced)
+      frames.push_back({i, name_of(pose->outcome), pose->carries_load(), contact::reason_of(*pose)});
   }
   std::sort(frames.begin(), frames.end(),
             [](const OutOfBalance& a, const OutOfBalance& b) { return a.frame < b.frame; });
@@ -86,12 +86,13 @@ std::vector<OutOfBalance> out_of_balance(const MotionAnswer& answer) {
 
 /// The body whose surface FrameContact::surface is of.
 const Body& casting_body(const MotionQuestion& question) {
-  return question.contact.casting == Casting::fixed ? question.surfaces.fixed : question.surfaces.mobile;
+  return question.contact.casting == contact::Casting::fixed ? question.surfaces.fixed
+                                                             : question.surfaces.mobile;
 }
 
-Json end_json(const MotionQuestion& question, const ContactEnd& end, ContactEndRole role) {
+Json end_json(const MotionQuestion& question, const motion::ContactEnd& end, ContactEndRole role) {
   // Beyond the recording nothing is known.
-  const bool is_known = end.kind != ContactEndKind::recording;
+  const bool is_known = end.kind != motion::ContactEndKind::recording;
   Json json{{"time_s", end.time_s},
             {"kind", name_of(end.kind, role)},
             {"uncertainty_s", is_known ? Json(end.uncertainty_s) : Json(nullptr)},
@@ -108,10 +109,11 @@ Json end_json(const MotionQuestion& question, const ContactEnd& end, ContactEndR
   return json;
 }
 
-Json between_json(const MotionQuestion& question, const RecordedContact& between) {
-  const auto exact = std::count(between.searched.begin(), between.searched.end(), BetweenSamples::exact);
+Json between_json(const MotionQuestion& question, const motion::RecordedContact& between) {
+  const auto exact =
+      std::count(between.searched.begin(), between.searched.end(), motion::BetweenSamples::exact);
   Json contacts = Json::array();
-  for (const ContactInterval& contact : between.contacts)
+  for (const motion::ContactInterval& contact : between.contacts)
     contacts.push_back({{"entry", end_json(question, contact.entry, ContactEndRole::entry)},
                         {"exit", end_json(question, contact.exit, ContactEndRole::exit)},
                         {"is_certain", contact.is_certain},
@@ -121,18 +123,19 @@ Json between_json(const MotionQuestion& question, const RecordedContact& between
           {"contacts", std::move(contacts)}};
 }
 
-std::string between_text(const RecordedContact& between) {
-  const bool exact = std::all_of(between.searched.begin(), between.searched.end(),
-                                 [](BetweenSamples searched) { return searched == BetweenSamples::exact; });
+std::string between_text(const motion::RecordedContact& between) {
+  const bool exact =
+      std::all_of(between.searched.begin(), between.searched.end(),
+                  [](motion::BetweenSamples searched) { return searched == motion::BetweenSamples::exact; });
   std::string text = fmt::format(
       "  between the samples too ({}): {}\n", exact ? "exact" : "bounded where the centre moves",
       between.contacts.empty() ? "no contact" : fmt::format("{} contacts", between.contacts.size()));
   constexpr std::size_t most = 10;
   for (std::size_t i = 0; i < std::min(most, between.contacts.size()); ++i) {
-    const ContactInterval& contact = between.contacts[i];
-    const auto end = [](const ContactEnd& at, const char* of_recording) {
+    const motion::ContactInterval& contact = between.contacts[i];
+    const auto end = [](const motion::ContactEnd& at, const char* of_recording) {
       return fmt::format("{:.6f} s{}", at.time_s,
-                         at.kind == ContactEndKind::recording ? of_recording
+                         at.kind == motion::ContactEndKind::recording ? of_recording
                          : at.uncertainty_s > 0 ? fmt::format(" within {:.1e} s", at.uncertainty_s)
                                                 : "");
     };
@@ -146,11 +149,11 @@ std::string between_text(const RecordedContact& between) {
 
 }  // namespace
 
-std::string_view name_of(ContactEndKind kind, ContactEndRole role) noexcept {
-  return kind == ContactEndKind::exact     ? "exact"
-         : kind == ContactEndKind::bounded ? "bounded"
-         : role == ContactEndRole::entry   ? "recording_begins"
-                                           : "recording_ends";
+std::string_view name_of(motion::ContactEndKind kind, ContactEndRole role) noexcept {
+  return kind == motion::ContactEndKind::exact     ? "exact"
+         : kind == motion::ContactEndKind::bounded ? "bounded"
+         : role == ContactEndRole::entry           ? "recording_begins"
+                                                   : "recording_ends";
 }
 
 std::string motion_text(const MotionQuestion& question, const MotionAnswer& answer) {
@@ -205,7 +208,7 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
         "  in {} frames rays meet the other surface more than 60 degrees off its normal, as along a rim: "
         "{}\n",
         summary.oblique,
-        question.contact.rays.rule == FaceRule::cut_faces
+        question.contact.rays.rule == contact::FaceRule::cut_faces
             ? "that overlap is counted apart, without a depth"
             : fmt::format(
                   "their length is no depth, and the largest values of {} frames are of such a triangle",
@@ -275,4 +278,4 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
   return io::document(std::move(json));
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -16,7 +16,7 @@
 
 /// Results of `condyle motion`, for files. Every column, key and array is in docs/motion-files.md.
 
-namespace condyle {
+namespace condyle::io {
 
 struct MotionQuestion {
   const LoadedJoint& joint;
@@ -31,7 +31,7 @@ struct MotionQuestion {
 /// How one end of a contact is known: "exact", "bounded", "recording_begins" of an entry or "recording_ends" of an exit: the bodies
 /// were in contact before the first, or are after the last sample.
 enum class ContactEndRole { entry, exit };
-std::string_view name_of(ContactEndKind kind, ContactEndRole role) noexcept;
+std::string_view name_of(motion::ContactEndKind kind, ContactEndRole role) noexcept;
 
 /// One curve for each number of a frame; nothing for gaps, and for centres of frames without contact.
 Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer);
@@ -65,4 +65,4 @@ std::vector<std::filesystem::path> write_motion(const std::filesystem::path& fol
                                                 const MotionQuestion& question, const MotionAnswer& answer,
                                                 const MotionFiles& files = {});
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -6,13 +6,13 @@
 #include "io/result/pressure_map.hpp"
 #include "io/result/provenance_forms.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
-using View = io::BodyView<NormalCast>;
-using NormalViews = io::BodyViews<NormalCast>;
+using View = BodyView<contact::NormalCast>;
+using NormalViews = BodyViews<contact::NormalCast>;
 
-NormalViews views(const DepthQuestion& question, const NormalContact& contact) {
+NormalViews views(const DepthQuestion& question, const contact::NormalContact& contact) {
   return {question, contact.mobile, contact.fixed};
 }
 
@@ -25,22 +25,22 @@ Vec3 centre_of(const View& view) {
   return view.frame.fixed_point(posed(view.X_F, *view.summary->surface.totals.centre_of_depth));
 }
 
-io::Json body_json(const NormalViews& bodies, const View& view) {
+Json body_json(const NormalViews& bodies, const View& view) {
   if (!view.summary) return nullptr;
   const auto& [surface, cut_off_by_reach] = *view.summary;
-  const ContactTotals& totals = surface.totals;
-  const FaceContact* deepest = io::deepest_of(surface);
-  io::Json json{{"target", other_of(bodies, view).body.name},
-                {"triangles", view.body.mesh.triangles().size()},
-                {"triangles_in_contact", totals.triangles},
-                {"area_mm2", totals.area_mm2},
-                {"mean_normal_depth_mm", totals.mean_depth_mm},
-                {"max_normal_depth_mm", totals.max_depth_mm},
-                {"deepest_triangle", deepest ? io::Json(deepest->face) : io::Json(nullptr)}};
+  const contact::ContactTotals& totals = surface.totals;
+  const contact::FaceContact* deepest = io::deepest_of(surface);
+  Json json{{"target", other_of(bodies, view).body.name},
+            {"triangles", view.body.mesh.triangles().size()},
+            {"triangles_in_contact", totals.triangles},
+            {"area_mm2", totals.area_mm2},
+            {"mean_normal_depth_mm", totals.mean_depth_mm},
+            {"max_normal_depth_mm", totals.max_depth_mm},
+            {"deepest_triangle", deepest ? Json(deepest->face) : Json(nullptr)}};
   if (deepest) io::add_triangle_part(json, "deepest_part", view.body, deepest->face);
   const auto& centre = totals.centre_of_depth;
-  json["centre_mm"] = centre ? io::numbers(centre_of(view)) : io::Json(nullptr);
-  json["centre_own_mm"] = !centre                   ? io::Json(nullptr)
+  json["centre_mm"] = centre ? io::numbers(centre_of(view)) : Json(nullptr);
+  json["centre_own_mm"] = !centre                   ? Json(nullptr)
                           : &view == &bodies.mobile ? io::numbers(view.frame.mobile_point(*centre))
                                                     : io::numbers(view.frame.fixed_point(*centre));
   json["met_from_front"] = surface.met_from_front;
@@ -53,14 +53,14 @@ io::Json body_json(const NormalViews& bodies, const View& view) {
 
 /// The rays that the answer rests on.
 ContactEntry rays_of(const DepthAnswer& answer) {
-  return {.casting = answer.request.casting.value_or(Casting::both),
-          .rays = answer.request.rays.value_or(NormalDepthOptions{})};
+  return {.casting = answer.request.casting.value_or(contact::Casting::both),
+          .rays = answer.request.rays.value_or(contact::NormalDepthOptions{})};
 }
 
 std::string normal_json(const DepthQuestion& question, const DepthAnswer& answer,
-                        const NormalContact& contact) {
+                        const contact::NormalContact& contact) {
   const NormalViews bodies = views(question, contact);
-  io::Json json = io::depth_header(question, answer, "normal");
+  Json json = io::depth_header(question, answer, "normal");
   json["in_contact"] = contact.in_contact;
   json["triangle_pairs"] = contact.pairs.size();
   json["rays"] = io::contact_caveats(rays_of(answer), false);
@@ -71,12 +71,12 @@ std::string normal_json(const DepthQuestion& question, const DepthAnswer& answer
   return io::document(json);
 }
 
-std::string body_text(const NormalViews& bodies, const View& view, const NormalDepthOptions& rays) {
+std::string body_text(const NormalViews& bodies, const View& view, const contact::NormalDepthOptions& rays) {
   const auto& [surface, cut_off_by_reach] = *view.summary;
-  const ContactTotals& totals = surface.totals;
+  const contact::ContactTotals& totals = surface.totals;
   const std::string& target = other_of(bodies, view).body.name;
   std::string text = fmt::format("  from {} to {}: ", view.body.name, target);
-  if (const FaceContact* deepest = io::deepest_of(surface)) {
+  if (const contact::FaceContact* deepest = io::deepest_of(surface)) {
     text += fmt::format(
         "{:.2f} mm2 of {} triangles, centred {}\n"
         "    depth along normals {:.3f} mm in the mean, {:.3f} at most, triangle {}{}\n",
@@ -99,7 +99,7 @@ std::string body_text(const NormalViews& bodies, const View& view, const NormalD
 }
 
 std::string normal_text(const DepthQuestion& question, const DepthAnswer& answer,
-                        const NormalContact& contact) {
+                        const contact::NormalContact& contact) {
   const NormalViews bodies = views(question, contact);
   const ContactEntry rays = rays_of(answer);
   std::string text = io::depth_headline(question, answer, contact.pairs.size());
@@ -115,23 +115,23 @@ std::string normal_text(const DepthQuestion& question, const DepthAnswer& answer
   return text + io::nearest_text(answer.measures);
 }
 
-std::vector<MeshArray> arrays_of(const std::optional<NormalCast>& cast, const Body& body) {
+std::vector<MeshArray> arrays_of(const std::optional<contact::NormalCast>& cast, const Body& body) {
   if (!cast) return {};
   return io::pressure_map(cast->surface, body, false);
 }
 
 }  // namespace
 
-DepthResult io::normal_result(const DepthQuestion& question, const DepthAnswer& answer,
-                              const NormalContact& contact) {
+DepthResult normal_result(const DepthQuestion& question, const DepthAnswer& answer,
+                          const contact::NormalContact& contact) {
   const Body &fixed = question.joint.fixed, &mobile = question.joint.mobile;
-  const NearestDistances& nearest = answer.measures.distances;
+  const contact::NearestDistances& nearest = answer.measures.distances;
   return {normal_text(question, answer, contact), normal_json(question, answer, contact),
           pairs_csv(question.joint, contact.pairs),
-          io::arrays_of(fixed, {nearest_array(nearest.fixed)}, contact.pairs, &TrianglePair::fixed,
-                        condyle::arrays_of(contact.fixed, fixed)),
-          io::arrays_of(mobile, {nearest_array(nearest.mobile)}, contact.pairs, &TrianglePair::mobile,
-                        condyle::arrays_of(contact.mobile, mobile))};
+          io::arrays_of(fixed, {nearest_array(nearest.fixed)}, contact.pairs, &contact::TrianglePair::fixed,
+                        arrays_of(contact.fixed, fixed)),
+          io::arrays_of(mobile, {nearest_array(nearest.mobile)}, contact.pairs,
+                        &contact::TrianglePair::mobile, arrays_of(contact.mobile, mobile))};
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

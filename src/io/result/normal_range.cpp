@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace condyle {
+namespace condyle::io {
 
 std::optional<Angle> normal_hip_range(std::string_view motion) noexcept {
   struct Range {
@@ -17,4 +17,4 @@ std::optional<Angle> normal_hip_range(std::string_view motion) noexcept {
   return std::nullopt;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

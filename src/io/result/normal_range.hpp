@@ -5,7 +5,7 @@
 
 #include "condyle/angle.hpp"
 
-namespace condyle {
+namespace condyle::io {
 
 /// How far a healthy adult hip is said to turn in the motion of this name; empty if the source has no value. American Academy
 /// of Orthopaedic Surgeons, "Joint Motion: Method of Measuring and Recording", Chicago 1965: flexion 120, extension 30,
@@ -17,4 +17,4 @@ std::optional<Angle> normal_hip_range(std::string_view motion) noexcept;
 /// The source as results and figures name it.
 inline constexpr std::string_view normal_hip_range_source = "AAOS 1965";
 
-}  // namespace condyle
+}  // namespace condyle::io

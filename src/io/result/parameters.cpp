@@ -11,7 +11,7 @@ std::string parameters_text(const Joint& joint) {
   if (const std::string changed = changed_parameters(joint); !changed.empty())
     text += fmt::format("  not as in the joint file: {}\n", changed);
   for (const CupDefinition definition : all_cup_definitions)
-    if (const auto cup = cup_angles(joint, definition))
+    if (const auto cup = plan::cup_angles(joint, definition))
       text +=
           fmt::format("{}{:.2f} {:.2f} {}",
                       text.ends_with('\n') || text.empty() ? "  cup, inclination and anteversion: " : ", ",
@@ -19,9 +19,9 @@ std::string parameters_text(const Joint& joint) {
   return text.empty() || text.ends_with('\n') ? text : text + "\n";
 }
 
-Json cup_json(std::span<const CupAngles> cup) {
+Json cup_json(std::span<const plan::CupAngles> cup) {
   Json json;
-  for (const CupAngles& angles : cup)
+  for (const plan::CupAngles& angles : cup)
     json[name_of(angles.definition)] = {{"inclination_deg", angles.inclination.degrees()},
                                         {"anteversion_deg", angles.anteversion.degrees()}};
   return json;

@@ -16,7 +16,7 @@ namespace condyle::io {
 std::string parameters_text(const Joint& joint);
 
 /// An object for each of Murray's definitions: inclination_deg and anteversion_deg.
-Json cup_json(std::span<const CupAngles> cup);
+Json cup_json(std::span<const plan::CupAngles> cup);
 
 /// ", cup.inclination by 4 deg": the standard deviations of parameters, for the sentence on a band.
 std::string sigmas_text(const Joint& joint);

@@ -19,11 +19,11 @@ inline std::vector<MeshArray> part_map(const Body& body) {
 
 /// One number per triangle of the surface that casts, 0 if it is not in contact: pressure_mpa, depth_mm, contact_area_mm2;
 /// and part_map().
-inline std::vector<MeshArray> pressure_map(const SurfaceContact& surface, const Body& body,
+inline std::vector<MeshArray> pressure_map(const contact::SurfaceContact& surface, const Body& body,
                                            bool with_pressure) {
   const std::size_t triangles = body.mesh.triangles().size();
   std::vector<double> pressure(triangles, 0), depth(triangles, 0), area(triangles, 0);
-  for (const FaceContact& face : surface.faces) {
+  for (const contact::FaceContact& face : surface.faces) {
     pressure[face.face] = face.mean_pressure_mpa();
     depth[face.face] = face.mean_depth_mm();
     area[face.face] = face.area_mm2;

@@ -12,13 +12,13 @@
 #include "io/result/parameters.hpp"
 #include "io/result/provenance_forms.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
-std::vector<CupAngles> cup_of(const Joint& joint) {
-  std::vector<CupAngles> cup;
+std::vector<plan::CupAngles> cup_of(const Joint& joint) {
+  std::vector<plan::CupAngles> cup;
   for (const CupDefinition definition : all_cup_definitions)
-    if (const auto angles = cup_angles(joint, definition)) cup.push_back(*angles);
+    if (const auto angles = plan::cup_angles(joint, definition)) cup.push_back(*angles);
   return cup;
 }
 
@@ -87,27 +87,27 @@ std::vector<double> row_by_row(const Eigen::Affine3d& X) {
   return rows;
 }
 
-io::Json matrix_json(const Eigen::Affine3d& X) {
+Json matrix_json(const Eigen::Affine3d& X) {
   const std::vector<double> rows = row_by_row(X);
-  io::Json json = io::Json::array();
+  Json json = Json::array();
   for (std::size_t i = 0; i < 16; i += 4) json.push_back({rows[i], rows[i + 1], rows[i + 2], rows[i + 3]});
   return json;
 }
 
-io::Json source_json(const MeshSource& file) {
-  io::Json json = io::file_json(file.path, file.digest);
+Json source_json(const MeshSource& file) {
+  Json json = io::file_json(file.path, file.digest);
   if (!file.source_from_file.matrix().isIdentity(0))
     json["source_from_file"] = matrix_json(file.source_from_file);
   return json;
 }
 
-io::Json mesh_json(const MeshOrigin& mesh) {
-  io::Json json;
+Json mesh_json(const MeshOrigin& mesh) {
+  Json json;
   if (mesh.files.size() == 1) {
     json = source_json(mesh.files.front());
   } else {
     for (const MeshSource& file : mesh.files) {
-      io::Json part{{"name", file.part}};
+      Json part{{"name", file.part}};
       part.update(source_json(file));
       json["files"].push_back(std::move(part));
     }
@@ -195,8 +195,6 @@ Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> com
           cup_of(loaded.joint)};
 }
 
-namespace io {
-
 Json file_json(const std::filesystem::path& path, const FileDigest& digest) {
   return {{"path", path.string()}, {"bytes", digest.bytes}, {"sha256", digest.sha256}};
 }
@@ -251,5 +249,4 @@ std::string provenance_comments(const Provenance* from) {
   return text;
 }
 
-}  // namespace io
-}  // namespace condyle
+}  // namespace condyle::io

@@ -10,7 +10,7 @@
 namespace condyle::io {
 
 /// ">120": where the range ends without contact; the band behind it where some displaced joints do meet in the range.
-inline std::string beyond_range(Angle range, const LimitBand* band) {
+inline std::string beyond_range(Angle range, const motion::LimitBand* band) {
   const std::string end = fmt::format(">{:g}", std::round(10 * range.degrees()) / 10);
   if (!band) return end;
   const std::string p5 = fmt::format("{:.0f}", band->p5.degrees()),
@@ -19,7 +19,7 @@ inline std::string beyond_range(Angle range, const LimitBand* band) {
 }
 
 /// "131.9° (126–135)": a limit with its band, as it may be quoted.
-inline std::string quoted_limit(Angle limit, const LimitBand& band) {
+inline std::string quoted_limit(Angle limit, const motion::LimitBand& band) {
   return fmt::format("{:.1f}\xC2\xB0 ({:.0f}\xE2\x80\x93{:.0f})", limit.degrees(), band.p5.degrees(),
                      band.p95.degrees());
 }

@@ -8,102 +8,101 @@
 #include "io/result/depth_parts.hpp"
 #include "io/result/provenance_forms.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
-using RadialViews = io::BodyViews<RadialBodySummary>;
+using RadialViews = BodyViews<contact::RadialBodySummary>;
 
-const char* name_of(DepthKind kind) {
-  return kind == DepthKind::radial ? "radial" : "tangential";
+const char* kind_name(contact::DepthKind kind) {
+  return kind == contact::DepthKind::radial ? "radial" : "tangential";
 }
 
-RadialViews views(const DepthQuestion& question, const RadialSummary& summary) {
+RadialViews views(const DepthQuestion& question, const contact::RadialSummary& summary) {
   return {question, summary.mobile, summary.fixed};
 }
 
 auto deepest_of(const RadialViews& bodies) {
-  return bodies.deepest(&RadialBodySummary::deepest, &DeepestVertex::depth_mm);
+  return bodies.deepest(&contact::RadialBodySummary::deepest, &contact::DeepestVertex::depth_mm);
 }
 
 /// The deepest of those whose radial depth is a depth.
 auto deepest_facing_of(const RadialViews& bodies) {
-  return bodies.deepest(&RadialBodySummary::deepest_facing, &DeepestVertex::depth_mm);
+  return bodies.deepest(&contact::RadialBodySummary::deepest_facing, &contact::DeepestVertex::depth_mm);
 }
 
-io::Json body_json(const io::BodyView<RadialBodySummary>& view) {
+Json body_json(const BodyView<contact::RadialBodySummary>& view) {
   if (!view.summary) return nullptr;
-  const RadialBodySummary& summary = *view.summary;
+  const contact::RadialBodySummary& summary = *view.summary;
   return {{"vertices", view.body.mesh.vertices().size()},
           {"vertices_inside", summary.vertices_inside},
           {"vertices_on_surface", summary.vertices_on_surface},
           {"vertices_inside_oblique", summary.oblique_inside},
           {"max_radial_depth_mm", summary.deepest ? summary.deepest->depth_mm : 0.0},
           {"max_facing_radial_depth_mm", summary.deepest_facing ? summary.deepest_facing->depth_mm : 0.0},
-          {"deepest_vertex", summary.deepest ? io::Json(summary.deepest->vertex) : io::Json(nullptr)},
+          {"deepest_vertex", summary.deepest ? Json(summary.deepest->vertex) : Json(nullptr)},
           {"min_gap_mm", io::nullable(summary.min_gap_mm)}};
 }
 
 /// The body whose vertex is deepest by the depth to read, and that vertex.
 struct DeepestOf {
-  const io::BodyView<RadialBodySummary>* view = nullptr;
-  DeepestReliable vertex;
+  const BodyView<contact::RadialBodySummary>* view = nullptr;
+  contact::DeepestReliable vertex;
 };
 
-std::optional<DeepestOf> deepest_of(const RadialViews& bodies, const ReliableContact& reliable) {
-  const auto deepest = condyle::deepest_of(reliable);
+std::optional<DeepestOf> deepest_of(const RadialViews& bodies, const contact::ReliableContact& reliable) {
+  const auto deepest = condyle::contact::deepest_of(reliable);
   if (!deepest) return std::nullopt;
   return DeepestOf{deepest->is_mobile ? &bodies.mobile : &bodies.fixed, deepest->vertex};
 }
 
-const ExitRotation* rotation_of(const DeepestReliable& vertex) noexcept {
+const contact::ExitRotation* rotation_of(const contact::DeepestReliable& vertex) noexcept {
   const auto angle = io::angle_of(vertex.way);
   return angle ? &*vertex.rotations[static_cast<std::size_t>(*angle)] : nullptr;
 }
 
-io::Json reliable_json(const std::optional<DeepestOf>& deepest, Anatomy joint) {
+Json reliable_json(const std::optional<DeepestOf>& deepest, Anatomy joint) {
   if (!deepest) return nullptr;
   const auto& [view, vertex] = *deepest;
   const auto angle = io::angle_of(vertex.way);
-  const ExitRotation* rotation = rotation_of(vertex);
-  io::Json json{{"depth_mm", vertex.depth_mm},
-                {"kind", angle ? "tangential" : "radial"},
-                {"about", angle ? io::Json(name_of(*angle, joint)) : io::Json(nullptr)},
-                {"depth_deg", rotation ? io::Json(rotation->angle.degrees()) : io::Json(nullptr)},
-                {"body", view->key},
-                {"vertex", vertex.vertex},
-                {"point_mm", io::numbers(view->place_of(vertex.vertex))},
-                {"nearest_distance_mm", vertex.nearest_distance_mm},
-                {"radial_depth_mm", vertex.radial_depth_mm},
-                {"ray_to_normal_deg", vertex.ray_to_normal.degrees()}};
+  const contact::ExitRotation* rotation = rotation_of(vertex);
+  Json json{{"depth_mm", vertex.depth_mm},
+            {"kind", angle ? "tangential" : "radial"},
+            {"about", angle ? Json(name_of(*angle, joint)) : Json(nullptr)},
+            {"depth_deg", rotation ? Json(rotation->angle.degrees()) : Json(nullptr)},
+            {"body", view->key},
+            {"vertex", vertex.vertex},
+            {"point_mm", io::numbers(view->place_of(vertex.vertex))},
+            {"nearest_distance_mm", vertex.nearest_distance_mm},
+            {"radial_depth_mm", vertex.radial_depth_mm},
+            {"ray_to_normal_deg", vertex.ray_to_normal.degrees()}};
   io::add_part(json, "part", view->body, vertex.vertex);
   for (const JointAngle about : all_joint_angles) {
     const auto& way = vertex.rotations[static_cast<std::size_t>(about)];
     json["rotations"][name_of(about, joint)] =
-        way ? io::Json{{"depth_deg", way->angle.degrees()}, {"depth_mm", way->arc_mm}} : io::Json(nullptr);
+        way ? Json{{"depth_deg", way->angle.degrees()}, {"depth_mm", way->arc_mm}} : Json(nullptr);
   }
   return json;
 }
 
 std::string rays_json(const DepthQuestion& question, const DepthAnswer& answer, const RayDepths& depths,
-                      const RadialSummary& summary) {
+                      const contact::RadialSummary& summary) {
   const auto& [contact, reliable] = depths;
   const RadialViews bodies = views(question, summary);
   const auto deepest = deepest_of(bodies);
   const auto facing = deepest_facing_of(bodies);
-  io::Json json = io::depth_header(question, answer,
-                                   answer.request.method == DepthMethod::reliable ? "reliable" : "radial");
+  Json json = io::depth_header(question, answer,
+                               answer.request.method == DepthMethod::reliable ? "reliable" : "radial");
   bodies.add_counts(json, contact.in_contact, contact.pairs.size());
   json["reliable_depth"] = reliable_json(deepest_of(bodies, reliable), question.joint.anatomy);
-  json["vertices_without_depth"] = without_depth(reliable);
+  json["vertices_without_depth"] = contact::without_depth(reliable);
   io::add_measures(json, question, answer.measures);
   json["max_radial_depth_mm"] = deepest ? deepest->vertex.depth_mm : 0.0;
   json["max_facing_radial_depth_mm"] = facing ? facing->vertex.depth_mm : 0.0;
   io::add_deepest(json, deepest);
-  json["deepest_ray_to_normal_deg"] =
-      deepest ? io::Json(deepest->vertex.ray_to_normal.degrees()) : io::Json(nullptr);
-  json["deepest_shortest_exit_mm"] = deepest ? io::Json(deepest->vertex.shortest_exit_mm) : io::Json(nullptr);
-  json["depth_to_read"] = deepest ? io::Json(name_of(deepest->vertex.applies())) : io::Json(nullptr);
-  json["min_gap_mm"] = io::nullable(bodies.least(&RadialBodySummary::min_gap_mm));
+  json["deepest_ray_to_normal_deg"] = deepest ? Json(deepest->vertex.ray_to_normal.degrees()) : Json(nullptr);
+  json["deepest_shortest_exit_mm"] = deepest ? Json(deepest->vertex.shortest_exit_mm) : Json(nullptr);
+  json["depth_to_read"] = deepest ? Json(kind_name(deepest->vertex.applies())) : Json(nullptr);
+  json["min_gap_mm"] = io::nullable(bodies.least(&contact::RadialBodySummary::min_gap_mm));
   for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(*view);
   json["scope"] = scope_text(question.joint);
   json["provenance"] = io::provenance_json(question.provenance);
@@ -112,7 +111,7 @@ std::string rays_json(const DepthQuestion& question, const DepthAnswer& answer, 
 
 std::string reliable_text(const DeepestOf& deepest, Anatomy joint) {
   const auto& [view, vertex] = deepest;
-  const ExitRotation* rotation = rotation_of(vertex);
+  const contact::ExitRotation* rotation = rotation_of(vertex);
   const std::string way =
       rotation ? fmt::format("along the arc of {}, {:.3f} deg", name_of(*io::angle_of(vertex.way), joint),
                              rotation->angle.degrees())
@@ -123,13 +122,13 @@ std::string reliable_text(const DeepestOf& deepest, Anatomy joint) {
 }
 
 std::string rays_text(const DepthQuestion& question, const DepthAnswer& answer, const RayDepths& depths,
-                      const RadialSummary& summary) {
+                      const contact::RadialSummary& summary) {
   const auto& [contact, reliable] = depths;
   const RadialViews bodies = views(question, summary);
   std::string text = io::depth_headline(question, answer, contact.pairs.size());
   if (const auto deepest = deepest_of(bodies, reliable))
     text += reliable_text(*deepest, question.joint.anatomy);
-  if (const std::size_t count = without_depth(reliable); count > 0)
+  if (const std::size_t count = contact::without_depth(reliable); count > 0)
     text += fmt::format("  {} vertices inside have no {}, only a nearest distance\n", count,
                         answer.request.method == DepthMethod::reliable
                             ? "depth along their ray or an arc"
@@ -141,14 +140,14 @@ std::string rays_text(const DepthQuestion& question, const DepthAnswer& answer, 
                           : io::open_line(view->body);
   }
   // In contact it would be the gap of whatever vertex is nearest to being inside.
-  if (const auto gap = bodies.least(&RadialBodySummary::min_gap_mm); gap && !contact.in_contact)
+  if (const auto gap = bodies.least(&contact::RadialBodySummary::min_gap_mm); gap && !contact.in_contact)
     text += fmt::format("  smallest gap along a ray: {:.3f} mm\n", *gap);
   return text;
 }
 
-std::vector<MeshArray> arrays_of(const std::optional<RadialResults>& results,
+std::vector<MeshArray> arrays_of(const std::optional<radial::RadialResults>& results,
                                  const std::vector<double>& nearest,
-                                 const std::optional<ReliableDepths>& reliable) {
+                                 const std::optional<contact::ReliableDepths>& reliable) {
   if (!results) return {io::nearest_array(nearest)};
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const std::size_t count = results->size();
@@ -160,7 +159,7 @@ std::vector<MeshArray> arrays_of(const std::optional<RadialResults>& results,
         std::isfinite(results->radial_gap_mm[i]) ? results->radial_gap_mm[i] + 0.0 : none;
     inside[i] = results->state[i] == PointState::inside;
     way[i] = static_cast<std::uint8_t>(reliable->way[i]);
-    is_reliable[i] = reliable->way[i] != DepthWay::nearest;
+    is_reliable[i] = reliable->way[i] != contact::DepthWay::nearest;
     gap[i] = radial_gap;
     depth[i] = inside[i] != 0 ? -radial_gap : 0;
     angle[i] = results->ray_to_normal[i].degrees();
@@ -176,19 +175,18 @@ std::vector<MeshArray> arrays_of(const std::optional<RadialResults>& results,
 
 }  // namespace
 
-DepthResult io::ray_result(const DepthQuestion& question, const DepthAnswer& answer,
-                           const RayDepths& depths) {
+DepthResult ray_result(const DepthQuestion& question, const DepthAnswer& answer, const RayDepths& depths) {
   const auto& [contact, reliable] = depths;
-  const NearestDistances& nearest = answer.measures.distances;
-  const RadialSummary summary = summarise(contact, nearest);
-  return {rays_text(question, answer, depths, summary), rays_json(question, answer, depths, summary),
-          pairs_csv(question.joint, contact.pairs),
-          io::arrays_of(question.joint.fixed,
-                        condyle::arrays_of(contact.fixed_in_mobile, nearest.fixed, reliable.fixed),
-                        contact.pairs, &TrianglePair::fixed),
-          io::arrays_of(question.joint.mobile,
-                        condyle::arrays_of(contact.mobile_in_fixed, nearest.mobile, reliable.mobile),
-                        contact.pairs, &TrianglePair::mobile)};
+  const contact::NearestDistances& nearest = answer.measures.distances;
+  const contact::RadialSummary summary = contact::summarise(contact, nearest);
+  return {
+      rays_text(question, answer, depths, summary), rays_json(question, answer, depths, summary),
+      pairs_csv(question.joint, contact.pairs),
+      io::arrays_of(question.joint.fixed, arrays_of(contact.fixed_in_mobile, nearest.fixed, reliable.fixed),
+                    contact.pairs, &contact::TrianglePair::fixed),
+      io::arrays_of(question.joint.mobile,
+                    arrays_of(contact.mobile_in_fixed, nearest.mobile, reliable.mobile), contact.pairs,
+                    &contact::TrianglePair::mobile)};
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

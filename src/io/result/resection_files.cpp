@@ -11,7 +11,7 @@
 #include "io/result/provenance_forms.hpp"
 #include "io/result/resection_result.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 /// Whether some result has a file of this name: body meshes are numbered where a body has several.
@@ -27,7 +27,7 @@ bool is_of_resection(std::string_view name) {
   return false;
 }
 
-void write_depths(OutputFolder& out, std::string_view role, const CutBone& cut,
+void write_depths(OutputFolder& out, std::string_view role, const plan::CutBone& cut,
                   const ResectionResult& result) {
   std::vector<std::int32_t> needed(cut.needed_by.begin(), cut.needed_by.end());
   const MeshArray arrays[] = {
@@ -37,7 +37,7 @@ void write_depths(OutputFolder& out, std::string_view role, const CutBone& cut,
 }
 
 /// The bone alone, without what goes, which is drawn in bands of depth.
-void draw_depths(OutputFolder& out, std::string_view role, const CutBone& cut,
+void draw_depths(OutputFolder& out, std::string_view role, const plan::CutBone& cut,
                  const ResectionResult& result) {
   if (!(cut.volume_mm3 > 0)) return;
   PictureOptions options;
@@ -66,13 +66,13 @@ void check_resection_folder(const std::filesystem::path& folder, const Provenanc
 std::vector<std::filesystem::path> write_resection(const std::filesystem::path& folder,
                                                    const ResectionResult& result) {
   OutputFolder out(folder, is_of_resection, io::files_read(result.provenance), "resection.json");
-  const Resection& resection = result.answer.resection;
+  const plan::Resection& resection = result.answer.resection;
   io::write_whole_file(out.file("resection.json"), resection_json(result));
   io::write_whole_file(out.file("limits.csv"), resection_limits_csv(result));
   if (!result.answer.curve.empty()) io::write_whole_file(out.file("curve.csv"), resection_curve_csv(result));
   if (const std::string hours = resection_hours_csv(result); !hours.empty())
     io::write_whole_file(out.file("hours.csv"), hours);
-  const auto write = [&](std::string_view role, const std::optional<CutBone>& cut) {
+  const auto write = [&](std::string_view role, const std::optional<plan::CutBone>& cut) {
     if (!cut) return;
     write_depths(out, role, *cut, result);
     draw_depths(out, role, *cut, result);
@@ -87,4 +87,4 @@ std::vector<std::filesystem::path> write_resection(const std::filesystem::path& 
   return out.commit();
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -22,7 +22,7 @@
 #include "io/result/resection_object.hpp"
 #include "io/result/rom_result.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 using io::Json;
@@ -32,12 +32,12 @@ constexpr int bins_per_hour = 2;
 /// The bones that were cut, by role.
 struct CutOfBody {
   BodyRole role;
-  const CutBone& cut;
+  const plan::CutBone& cut;
 
   std::string_view role_name() const { return role == BodyRole::mobile ? "mobile" : "fixed"; }
 };
 
-std::vector<CutOfBody> cuts_of(const Resection& resection) {
+std::vector<CutOfBody> cuts_of(const plan::Resection& resection) {
   std::vector<CutOfBody> cuts;
   if (resection.mobile) cuts.push_back({BodyRole::mobile, *resection.mobile});
   if (resection.fixed) cuts.push_back({BodyRole::fixed, *resection.fixed});
@@ -47,7 +47,7 @@ std::vector<CutOfBody> cuts_of(const Resection& resection) {
 /// The hour of a point around the neck; empty without one.
 std::optional<double> neck_hour(const ResectionAnswer& answer, const Vec3& p) {
   if (!answer.shape_before || !answer.shape_before->femur.neck) return std::nullopt;
-  const NeckGeometry& neck = *answer.shape_before->femur.neck;
+  const measure::NeckGeometry& neck = *answer.shape_before->femur.neck;
   return neck.clock.hour_of(p - neck.head.centre);
 }
 
@@ -58,7 +58,7 @@ std::optional<double> deepest_hour(const ResectionAnswer& answer, const CutOfBod
 /// How deep the mobile bone is cut in each half hour.
 std::vector<double> depth_by_hour(const ResectionAnswer& answer) {
   std::vector<double> deepest(12 * bins_per_hour, 0);
-  const CutBone& cut = *answer.resection.mobile;
+  const plan::CutBone& cut = *answer.resection.mobile;
   for (std::size_t v = 0; v < cut.depth_mm.size(); ++v) {
     if (cut.depth_mm[v] == 0) continue;
     const double hour = *neck_hour(answer, cut.before.vertices[v]);
@@ -72,7 +72,8 @@ bool has_hours(const ResectionAnswer& answer) {
   return answer.resection.mobile && neck_hour(answer, Vec3::UnitX()).has_value();
 }
 
-std::string target_line(const ReachOutcome& outcome, const std::vector<LimitBand>& bands, std::size_t i) {
+std::string target_line(const plan::ReachOutcome& outcome, const std::vector<motion::LimitBand>& bands,
+                        std::size_t i) {
   std::string line = fmt::format("  {}: {:.1f} deg, {:.1f} without the bone; asked for {:.1f}",
                                  outcome.target.motion.name, outcome.before.end.turned.degrees(),
                                  outcome.after.end.turned.degrees(), outcome.target.reach.degrees());
@@ -82,7 +83,7 @@ std::string target_line(const ReachOutcome& outcome, const std::vector<LimitBand
 }
 
 std::string cut_lines(const ResectionResult& result, const CutOfBody& cut) {
-  const CutBone& bone = cut.cut;
+  const plan::CutBone& bone = cut.cut;
   std::string text = fmt::format(
       "  {}: {:.1f} mm3 go, {:.1f} of it in the way, over {:.0f} mm2; {:.2f} mm at the deepest, ({:.1f}, "
       "{:.1f}, {:.1f}) "
@@ -95,19 +96,20 @@ std::string cut_lines(const ResectionResult& result, const CutOfBody& cut) {
   return text + "\n";
 }
 
-std::string limit_value(const MotionLimit& limit) {
-  if (limit.end.reason == LimitReason::end_of_range) return io::beyond_range(limit.end.turned, nullptr);
+std::string limit_value(const motion::MotionLimit& limit) {
+  if (limit.end.reason == motion::LimitReason::end_of_range)
+    return io::beyond_range(limit.end.turned, nullptr);
   return fmt::format("{:.1f}", limit.end.turned.degrees());
 }
 
 /// To the digit that is shown, and 0 without a sign.
-double shown_gain(const MotionLimit& before, const MotionLimit& after) {
+double shown_gain(const motion::MotionLimit& before, const motion::MotionLimit& after) {
   return std::round(10 * (after.end.turned - before.end.turned).degrees()) / 10 + 0.0;
 }
 
 std::string limit_lines(const ResectionAnswer& answer) {
   std::size_t widest = 0;
-  for (const MotionLimit& limit : answer.before) widest = std::max(widest, limit.motion.name.size());
+  for (const motion::MotionLimit& limit : answer.before) widest = std::max(widest, limit.motion.name.size());
   std::string text =
       fmt::format("  {:<{}}  {:>8}  {:>8}  {:>6}\n", "limits (deg)", widest + 2, "before", "after", "gain");
   for (std::size_t i = 0; i < answer.before.size(); ++i)
@@ -121,7 +123,7 @@ std::string limit_lines(const ResectionAnswer& answer) {
 std::string shape_lines(const ResectionAnswer& answer) {
   if (!answer.shape_before) return {};
   std::string text;
-  for (const MeasureDefinition& each : measure_definitions()) {
+  for (const measure::MeasureDefinition& each : measure::measure_definitions()) {
     const auto &a = each.of(*answer.shape_before).value, &b = each.of(*answer.shape_after).value;
     const auto shown = [](const std::optional<double>& value) {
       return value ? fmt::format("{:.1f}", *value) : "-";
@@ -142,11 +144,11 @@ std::string curve_lines(const ResectionAnswer& answer) {
   return text;
 }
 
-Json limit_json(const MotionLimit& limit) {
+Json limit_json(const motion::MotionLimit& limit) {
   return {{"limit_deg", limit.end.turned.degrees()}, {"reason", name_of(limit.end.reason)}};
 }
 
-Json blocked_json(const std::optional<Blocked>& blocked) {
+Json blocked_json(const std::optional<plan::Blocked>& blocked) {
   if (!blocked) return nullptr;
   return {{"kept_by", name_of(blocked->by)},
           {"body", blocked->body == BodyRole::mobile ? "mobile" : "fixed"},
@@ -154,10 +156,10 @@ Json blocked_json(const std::optional<Blocked>& blocked) {
 }
 
 Json target_json(const ResectionAnswer& answer, std::size_t i) {
-  const ReachOutcome& outcome = answer.resection.targets[i];
+  const plan::ReachOutcome& outcome = answer.resection.targets[i];
   Json json{{"motion", outcome.target.motion.name},
-            {"reach_deg", asked_degrees(outcome.target.reach)},
-            {"planned_deg", asked_degrees(outcome.planned)},
+            {"reach_deg", plan::asked_degrees(outcome.target.reach)},
+            {"planned_deg", plan::asked_degrees(outcome.planned)},
             {"before", limit_json(outcome.before)},
             {"after", limit_json(outcome.after)},
             {"blocked", blocked_json(outcome.blocked)}};
@@ -169,7 +171,7 @@ Json target_json(const ResectionAnswer& answer, std::size_t i) {
 }
 
 Json cut_json(const ResectionAnswer& answer, const CutOfBody& cut) {
-  const CutBone& bone = cut.cut;
+  const plan::CutBone& bone = cut.cut;
   Json json{{"body", cut.role_name()},
             {"name", bone.body.name},
             {"volume_mm3", bone.volume_mm3},
@@ -186,7 +188,7 @@ Json cut_json(const ResectionAnswer& answer, const CutOfBody& cut) {
 Json shape_json(const ResectionAnswer& answer) {
   if (!answer.shape_before) return nullptr;
   Json list = Json::array();
-  for (const MeasureDefinition& each : measure_definitions())
+  for (const measure::MeasureDefinition& each : measure::measure_definitions())
     list.push_back({{"key", each.key},
                     {"unit", each.unit},
                     {"before", io::nullable(each.of(*answer.shape_before).value)},
@@ -216,9 +218,9 @@ std::string exact_vector(const Vec3& v) {
 }
 
 /// Motions and uncertainty of the old joint file.
-void add_settings(io::ProposalLines& lines, const JointFile& file) {
+void add_settings(ProposalLines& lines, const JointFile& file) {
   io::add_motions(lines, file.motions, file.joint.anatomy);
-  const Uncertainty& sigma = file.uncertainty;
+  const motion::Uncertainty& sigma = file.uncertainty;
   lines.add("\n[uncertainty]");
   lines.add(fmt::format("centre = {}\naxes = {:.12g}\nseed = {}", sigma.centre_mm, sigma.axes.degrees(),
                         file.band_seed));
@@ -242,7 +244,7 @@ std::string resection_text(const ResectionResult& result) {
   return text + fmt::format("  {}\n", scope_text(result.joint));
 }
 
-io::Json io::resection_object(const ResectionResult& result) {
+Json resection_object(const ResectionResult& result) {
   const ResectionAnswer& answer = result.answer;
   Json targets = Json::array(), cuts = Json::array(), limits = Json::array();
   for (std::size_t i = 0; i < answer.resection.targets.size(); ++i) targets.push_back(target_json(answer, i));
@@ -283,11 +285,11 @@ std::string resection_limits_csv(const ResectionResult& result) {
   std::string text = io::provenance_comments(result.provenance) +
                      "motion,before_deg,before_reason,after_deg,after_reason,reach_deg\n";
   for (std::size_t i = 0; i < answer.before.size(); ++i) {
-    const MotionLimit &a = answer.before[i], &b = answer.after[i];
+    const motion::MotionLimit &a = answer.before[i], &b = answer.after[i];
     std::string reach;
-    for (const ReachOutcome& outcome : answer.resection.targets)
+    for (const plan::ReachOutcome& outcome : answer.resection.targets)
       if (outcome.target.motion.name == a.motion.name)
-        reach = fmt::format("{}", asked_degrees(outcome.target.reach));
+        reach = fmt::format("{}", plan::asked_degrees(outcome.target.reach));
     text += fmt::format("{},{},{},{},{},{}\n", io::csv_field(a.motion.name), a.end.turned.degrees(),
                         name_of(a.end.reason), b.end.turned.degrees(), name_of(b.end.reason), reach);
   }
@@ -315,7 +317,7 @@ std::string resection_hours_csv(const ResectionResult& result) {
 
 std::string resected_joint_file(const ResectionResult& result) {
   const Joint& joint = result.answer.resection.joint;
-  io::ProposalLines lines;
+  ProposalLines lines;
   lines.add(
       fmt::format("# Written by condyle resect {}: {} without the bone that must go.", version, joint.name));
   lines.add(fmt::format("condyle = {}", io::format_version));
@@ -377,4 +379,4 @@ std::string resected_joint_file(const ResectionResult& result) {
   return std::move(lines).proposal(joint.side).toml;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -13,7 +13,7 @@
 /// Results of `condyle resect`: text, JSON, tables, the depth on the surface, and the joint without the bone.
 /// docs/planning.md.
 
-namespace condyle {
+namespace condyle::io {
 
 struct ResectionResult {
   const Joint& joint;  ///< before
@@ -42,4 +42,4 @@ void check_resection_folder(const std::filesystem::path& folder, const Provenanc
 std::vector<std::filesystem::path> write_resection(const std::filesystem::path& folder,
                                                    const ResectionResult& result);
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -2,16 +2,16 @@
 #include "io/result/provenance_forms.hpp"
 #include "io/result/rom_result.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
-bool has_columns(const io::LimitField& field, const Joint& joint) {
+bool has_columns(const LimitField& field, const Joint& joint) {
   switch (field.joints) {
-    case io::LimitJoints::all:
+    case LimitJoints::all:
       return true;
-    case io::LimitJoints::hips:
+    case LimitJoints::hips:
       return joint.is_hip();
-    case io::LimitJoints::shoulders:
+    case LimitJoints::shoulders:
       return joint.anatomy == Anatomy::shoulder;
   }
   return false;
@@ -20,13 +20,13 @@ bool has_columns(const io::LimitField& field, const Joint& joint) {
 }  // namespace
 
 std::string rom_csv(const RomResult& result) {
-  std::vector<const io::LimitField*> fields;
-  for (const io::LimitField& field : io::limit_fields())
+  std::vector<const LimitField*> fields;
+  for (const LimitField& field : io::limit_fields())
     if (has_columns(field, result.joint)) fields.push_back(&field);
 
   std::vector<std::string> line;
   for (const auto* field : fields)
-    for (io::ResultColumn& column : io::columns_of(*field, result.joint.anatomy))
+    for (ResultColumn& column : io::columns_of(*field, result.joint.anatomy))
       line.push_back(std::move(column.name));
   std::string text = io::provenance_comments(result.provenance) + io::csv_line(line);
   for (std::size_t i = 0; i < result.limits.size(); ++i) {
@@ -37,4 +37,4 @@ std::string rom_csv(const RomResult& result) {
   return text;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

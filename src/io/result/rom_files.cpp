@@ -20,7 +20,7 @@
 #include "io/result/provenance_forms.hpp"
 #include "io/result/zone_result.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 /// Whether it is what condyle.plot draws of some result: of an earlier one, it would belie this one.
@@ -51,8 +51,8 @@ VtpOptions vtp_options(const RomResult& result) {
 void write_zones(OutputFolder& out, const RomResult& result) {
   for (std::size_t i = 0; i < result.zones.size(); ++i) {
     if (!result.zones[i]) continue;
-    const ImpingementZone& zone = *result.zones[i];
-    const auto write = [&](std::string_view role, const TriMesh& mesh, const BodyZone& body) {
+    const motion::ImpingementZone& zone = *result.zones[i];
+    const auto write = [&](std::string_view role, const TriMesh& mesh, const motion::BodyZone& body) {
       const MeshArray in_zone = zone_cell_array(body, mesh.triangles.size());
       const std::string motion = file_name_part(zone.limit.motion.name);
       write_vtp(out.file(fmt::format("zone_{:02}_{}_{}.vtp", i + 1, motion, role)), mesh,
@@ -66,17 +66,17 @@ void write_zones(OutputFolder& out, const RomResult& result) {
 }
 
 /// Code of the reason for an interval's end in a VTP file.
-std::int32_t code_of(LimitReason reason) noexcept {
-  return reason == LimitReason::end_of_range ? 0 : 1;
+std::int32_t code_of(motion::LimitReason reason) noexcept {
+  return reason == motion::LimitReason::end_of_range ? 0 : 1;
 }
 constexpr std::int32_t nothing_free = -1;
 
 /// The free intervals of all points, which are more than a value per point.
-void add_intervals(const MotionMap& map, VtpOptions& options) {
+void add_intervals(const motion::MotionMap& map, VtpOptions& options) {
   MapIntervals all = all_intervals(map);
-  const auto codes = [](const std::vector<LimitReason>& reasons) {
+  const auto codes = [](const std::vector<motion::LimitReason>& reasons) {
     std::vector<double> numbers;
-    for (const LimitReason reason : reasons) numbers.push_back(code_of(reason));
+    for (const motion::LimitReason reason : reasons) numbers.push_back(code_of(reason));
     return numbers;
   };
   options.fields.push_back({"interval_offset", std::vector<double>(all.offset.begin(), all.offset.end())});
@@ -87,7 +87,7 @@ void add_intervals(const MotionMap& map, VtpOptions& options) {
 }
 
 /// The grid as a flat surface in degrees, columns along x and rows along y, with what is free at its points.
-void write_map_surface(const std::filesystem::path& path, const MotionMap& map, VtpOptions options) {
+void write_map_surface(const std::filesystem::path& path, const motion::MotionMap& map, VtpOptions options) {
   const std::size_t columns = map.grid.column.count(), rows = map.grid.row.count();
   TriMesh surface;
   std::vector<double> lower, upper, width;
@@ -96,15 +96,16 @@ void write_map_surface(const std::filesystem::path& path, const MotionMap& map, 
   for (std::size_t i = 0; i < map.points.size(); ++i) {
     surface.vertices.push_back(
         {map.grid.column.value_deg(i % columns), map.grid.row.value_deg(i / columns), 0});
-    const FreeAngles& point = map.points[i];
-    const FreeInterval* drawn = point.nearest_to_start();
+    const motion::FreeAngles& point = map.points[i];
+    const motion::FreeInterval* drawn = point.nearest_to_start();
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     lower.push_back(drawn ? (map.grid.start + drawn->low).degrees() : none);
     upper.push_back(drawn ? (map.grid.start + drawn->high).degrees() : none);
     lower_reason.push_back(drawn ? code_of(drawn->at_low.reason) : nothing_free);
     upper_reason.push_back(drawn ? code_of(drawn->at_high.reason) : nothing_free);
     double free = 0;
-    for (const FreeInterval& interval : point.intervals) free += (interval.high - interval.low).degrees();
+    for (const motion::FreeInterval& interval : point.intervals)
+      free += (interval.high - interval.low).degrees();
     width.push_back(free);
     intervals.push_back(static_cast<std::int32_t>(point.intervals.size()));
     free_at_start.push_back(point.from_start.free_at_start() ? 1 : 0);
@@ -128,7 +129,7 @@ void write_map_surface(const std::filesystem::path& path, const MotionMap& map, 
 }
 
 void write_map(OutputFolder& out, const RomResult& result) {
-  const MotionMap& map = *result.map;
+  const motion::MotionMap& map = *result.map;
   const std::string comments = io::provenance_comments(result.provenance);
   io::write_whole_file(out.file("map.csv"), comments + map_csv(map, frame_of(result)));
   io::write_whole_file(out.file("map_intervals.csv"), comments + map_intervals_csv(map, frame_of(result)));
@@ -161,4 +162,4 @@ std::vector<std::filesystem::path> write_rom(const std::filesystem::path& folder
   return out.commit();
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -5,7 +5,7 @@
 
 #include "io/result/rom_result.hpp"
 
-namespace condyle {
+namespace condyle::io {
 
 /// Throws FileError if write_rom() could not write into the folder, or would write over a file that was read
 /// (Provenance::read): to be called before long work. Leaves nothing.
@@ -16,4 +16,4 @@ void check_rom_folder(const std::filesystem::path& folder, const Provenance* fro
 /// appear or none, and files of an earlier result go. Returns what was written. Throws FileError.
 std::vector<std::filesystem::path> write_rom(const std::filesystem::path& folder, const RomResult& result);
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -15,7 +15,7 @@
 #include "io/result/rom_parts.hpp"
 #include "io/result/rom_result.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 using io::Json;
@@ -23,14 +23,14 @@ using io::Json;
 /// JSON of the i-th motion.
 Json motion_json(const RomResult& result, std::size_t i) {
   Json json;
-  for (const io::LimitField& field : io::limit_fields()) {
+  for (const LimitField& field : io::limit_fields()) {
     if (*field.key == 0) continue;
     if (Json value = field.json({result, i}); !value.is_discarded()) json[field.key] = std::move(value);
   }
   return json;
 }
 
-Json json_of(const BandOptions& options, const Joint& joint) {
+Json json_of(const motion::BandOptions& options, const Joint& joint) {
   Json sigma{{"centre_mm", options.sigma.centre_mm},
              {"axes_deg", options.sigma.axes.degrees()},
              {"surface_mm", options.sigma.surface_mm}};
@@ -45,13 +45,13 @@ Json json_of(const BandOptions& options, const Joint& joint) {
 
 Json json_of(const ReasonCounts& counts) {
   Json json;
-  for (const LimitReason reason :
-       {LimitReason::contact, LimitReason::end_of_range, LimitReason::contact_at_start})
+  for (const motion::LimitReason reason : {motion::LimitReason::contact, motion::LimitReason::end_of_range,
+                                           motion::LimitReason::contact_at_start})
     json[name_of(reason)] = counts[reason];
   return json;
 }
 
-Json json_of(const GridAxis& axis, Anatomy joint) {
+Json json_of(const motion::GridAxis& axis, Anatomy joint) {
   return {{"angle", name_of(axis.angle, joint)},
           {"opposite", movement_name(axis.angle, RotationSense::negative, joint)},
           {"first_deg", axis.first_deg},
@@ -61,9 +61,9 @@ Json json_of(const GridAxis& axis, Anatomy joint) {
 }
 
 Json json_of(const MapIntervals& all) {
-  const auto names = [](const std::vector<LimitReason>& reasons) {
+  const auto names = [](const std::vector<motion::LimitReason>& reasons) {
     Json list = Json::array();
-    for (const LimitReason reason : reasons) list.push_back(name_of(reason));
+    for (const motion::LimitReason reason : reasons) list.push_back(name_of(reason));
     return list;
   };
   return {{"offset", all.offset},
@@ -73,8 +73,8 @@ Json json_of(const MapIntervals& all) {
           {"high_reason", names(all.high_reason)}};
 }
 
-Json json_of(const MotionMap& map) {
-  const MapSummary summary = summarise(map);
+Json json_of(const motion::MotionMap& map) {
+  const MapSummary summary = map_summary_of(map);
   return {{"vary", name_of(map.grid.vary, map.anatomy)},
           {"vary_opposite", movement_name(map.grid.vary, RotationSense::negative, map.anatomy)},
           {"start_deg", map.grid.start.degrees()},
@@ -106,7 +106,7 @@ Json contact_of_meshes(const Body& body) {
 }
 
 Json bearing_json(const RomResult& result) {
-  Json json{{"rule", result.bearing_rule == BearingRule::count ? "count" : "leave_out"}};
+  Json json{{"rule", result.bearing_rule == motion::BearingRule::count ? "count" : "leave_out"}};
   if (const Joint& joint = result.joint; !joint.fixed.parts.empty() || !joint.mobile.parts.empty())
     json["meshes"] = {{"fixed", contact_of_meshes(joint.fixed)}, {"mobile", contact_of_meshes(joint.mobile)}};
   const auto& surface = result.bearing.surface;
@@ -130,7 +130,7 @@ Json bearing_json(const RomResult& result) {
 
 /// Closed forms of the joint's implant.
 Json implant_json(const Joint& joint) {
-  const ClosedForm form = closed_form(joint);
+  const plan::ClosedForm form = plan::closed_form(joint);
   Json json{{"fixed_part", joint.implant->fixed_mesh}, {"mobile_part", joint.implant->mobile_mesh}};
   json["half_angle_deg"] = form.pair ? Json(form.pair->half_angle.degrees()) : Json(nullptr);
   json["between_axes_deg"] =
@@ -143,7 +143,7 @@ Json implant_json(const Joint& joint) {
 
 }  // namespace
 
-Json io::rom_object(const RomResult& result) {
+Json rom_object(const RomResult& result) {
   Json json{{"condyle", io::format_version},
             {"joint", result.joint.name},
             {"fixed", result.joint.fixed.name},
@@ -151,9 +151,9 @@ Json io::rom_object(const RomResult& result) {
             {"anatomy", io::anatomy_json(result.joint)},
             {"side", name_of(result.joint.side)},
             {"bearing", bearing_json(result)},
-            {"clock_plane", !result.joint.is_hip()                  ? Json(nullptr)
-                            : result.clock_plane == ClockPlane::rim ? Json("rim")
-                                                                    : Json("sagittal")},
+            {"clock_plane", !result.joint.is_hip()                          ? Json(nullptr)
+                            : result.clock_plane == motion::ClockPlane::rim ? Json("rim")
+                                                                            : Json("sagittal")},
             {"normal_range_source", result.joint.is_hip() ? Json(normal_hip_range_source) : Json(nullptr)},
             {"held_translation_mm",
              result.held_translation_mm ? io::numbers(*result.held_translation_mm) : Json(nullptr)},
@@ -174,4 +174,4 @@ std::string rom_json(const RomResult& result) {
   return io::document(io::rom_object(result));
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

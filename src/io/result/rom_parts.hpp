@@ -13,25 +13,25 @@
 namespace condyle::io {
 
 /// "vertex", "edge", "face".
-std::string_view name_of(FeatureKind kind) noexcept;
+std::string_view name_of(motion::FeatureKind kind) noexcept;
 
 /// "vertex 12", "edge 3-7", "face 40".
-std::string text_of(const Feature& feature);
+std::string text_of(const motion::Feature& feature);
 
 /// The part of a body that a feature of its mesh is of; null if the body is one mesh.
-const BodyPart* part_of(const Body& body, const Feature& feature) noexcept;
+const BodyPart* part_of(const Body& body, const motion::Feature& feature) noexcept;
 
-inline bool ends_in_contact(const MotionLimit& limit) noexcept {
-  return limit.end.reason != LimitReason::end_of_range;
+inline bool ends_in_contact(const motion::MotionLimit& limit) noexcept {
+  return limit.end.reason != motion::LimitReason::end_of_range;
 }
 
 /// The two bedside tests, whose angles nobody has agreed on.
-inline bool is_as_defined_here(const Motion& motion) noexcept {
+inline bool is_as_defined_here(const motion::Motion& motion) noexcept {
   return motion.name == "fadir" || motion.name == "faber";
 }
 
 /// Range in the living, behind the limit of a hip's motion; none if no source has a value.
-inline std::optional<Angle> normal_range(const RomResult& result, const MotionLimit& limit) noexcept {
+inline std::optional<Angle> normal_range(const RomResult& result, const motion::MotionLimit& limit) noexcept {
   return result.joint.is_hip() ? normal_hip_range(limit.motion.name) : std::nullopt;
 }
 

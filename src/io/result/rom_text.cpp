@@ -21,7 +21,7 @@
 #include "io/result/rom_parts.hpp"
 #include "io/result/rom_result.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 /// Characters of well-formed UTF-8: what a terminal shows, for the usual scripts.
@@ -67,7 +67,7 @@ std::string bearing_text(const RomResult& result) {
                : "";
   const std::string rim = surface->rim_gap_mm ? fmt::format(", rim {:.2f} mm from it", *surface->rim_gap_mm)
                           : !surface->parts.empty() ? ""
-                          : surface->margin_mm == usual_bearing_margin_mm
+                          : surface->margin_mm == motion::usual_bearing_margin_mm
                               ? ", no rim was found: the usual margin"
                               : ", no rim was found";
   const std::string within = fmt::format("within {:.2f} mm of the head's sphere", surface->margin_mm);
@@ -76,7 +76,8 @@ std::string bearing_text(const RomResult& result) {
                                  : fmt::format("{}, as the joint file says, and what lies {}",
                                                fmt::join(surface->parts, " and "), within);
   const std::string beside =
-      surface->beside_gap_mm && *surface->beside_gap_mm < usual_bearing_margin_mm + rim_reserve_mm
+      surface->beside_gap_mm &&
+              *surface->beside_gap_mm < motion::usual_bearing_margin_mm + motion::rim_reserve_mm
           ? fmt::format(", {} {:.2f} mm beside its socket", result.joint.fixed.name, *surface->beside_gap_mm)
           : "";
   return fmt::format(
@@ -84,7 +85,7 @@ std::string bearing_text(const RomResult& result) {
       "    ({} {:.2f} mm{}{}); contact on it {}\n",
       surface->count(), surface->triangles.size(), result.joint.mobile.name, extent,
       surface->parts.empty() ? "radius" : "its sphere has radius", surface->head.radius, rim, beside,
-      result.bearing_rule == BearingRule::count ? "counts" : "does not end a motion");
+      result.bearing_rule == motion::BearingRule::count ? "counts" : "does not end a motion");
 }
 
 /// A line for each word that the joint file has for meshes other than bone.
@@ -103,9 +104,9 @@ std::string meshes_text(const RomResult& result) {
                of_fixed = meshes_of(fixed, PartContact::bearing);
     const std::string on = of_fixed.empty() ? fixed.name : fmt::format("{}", fmt::join(of_fixed, " and "));
     if (!of_mobile.empty())
-      text +=
-          fmt::format("  bearing: {} slides on {}; contact of the two {}\n", fmt::join(of_mobile, " and "),
-                      on, result.bearing_rule == BearingRule::count ? "counts" : "does not end a motion");
+      text += fmt::format(
+          "  bearing: {} slides on {}; contact of the two {}\n", fmt::join(of_mobile, " and "), on,
+          result.bearing_rule == motion::BearingRule::count ? "counts" : "does not end a motion");
   }
   std::vector<std::string_view> soft = meshes_of(fixed, PartContact::soft);
   for (const std::string_view name : meshes_of(mobile, PartContact::soft)) soft.push_back(name);
@@ -114,39 +115,39 @@ std::string meshes_text(const RomResult& result) {
   return text;
 }
 
-std::string_view words_of(const MotionLimit& limit) noexcept {
+std::string_view words_of(const motion::MotionLimit& limit) noexcept {
   if (limit.translation_ends)
     return limit.translation_mm ? "no contact, translation ends" : "unknown: load not carried";
   switch (limit.end.reason) {
-    case LimitReason::contact:
+    case motion::LimitReason::contact:
       switch (limit.end.kind()) {
-        case ContactKind::bearing:
+        case motion::ContactKind::bearing:
           return "bearing contact";
-        case ContactKind::impingement:
+        case motion::ContactKind::impingement:
           return "impingement";
-        case ContactKind::cut:
+        case motion::ContactKind::cut:
           return "cut of image: no limit";
-        case ContactKind::soft:
+        case motion::ContactKind::soft:
           return "soft contact";
-        case ContactKind::unknown:
+        case motion::ContactKind::unknown:
           return "contact";
       }
       return "";
-    case LimitReason::end_of_range:
+    case motion::LimitReason::end_of_range:
       return "no contact in range";
-    case LimitReason::contact_at_start:
+    case motion::LimitReason::contact_at_start:
       return "in contact at start";
   }
   return "";
 }
 
 /// The contact that a motion is listed by, null if it has none.
-using ContactOf = const ContactWitness* (*)(const MotionLimit& limit);
+using ContactOf = const motion::ContactWitness* (*)(const motion::MotionLimit& limit);
 
-const ContactWitness* end_of(const MotionLimit& limit) {
+const motion::ContactWitness* end_of(const motion::MotionLimit& limit) {
   return limit.end.contact ? &*limit.end.contact : nullptr;
 }
-const ContactWitness* soft_contact_of(const MotionLimit& limit) {
+const motion::ContactWitness* soft_contact_of(const motion::MotionLimit& limit) {
   const auto& soft = limit.end.soft_contact;
   return soft && soft->contact ? &*soft->contact : nullptr;
 }
@@ -155,8 +156,8 @@ const ContactWitness* soft_contact_of(const MotionLimit& limit) {
 std::string met_text(const RomResult& result, std::string_view heading, ContactOf contact_of) {
   const Joint& joint = result.joint;
   std::vector<std::pair<std::string, std::vector<std::string_view>>> lines;
-  for (const MotionLimit& limit : result.limits) {
-    const ContactWitness* contact = contact_of(limit);
+  for (const motion::MotionLimit& limit : result.limits) {
+    const motion::ContactWitness* contact = contact_of(limit);
     if (!contact) continue;
     const BodyPart *fixed = io::part_of(joint.fixed, contact->fixed_feature),
                    *mobile = io::part_of(joint.mobile, contact->mobile_feature);
@@ -179,7 +180,7 @@ std::string met_text(const RomResult& result, std::string_view heading, ContactO
 std::string closed_text(const RomResult& result) {
   const Joint& joint = result.joint;
   if (!joint.implant || !result.depths.empty()) return "";
-  const ClosedForm form = closed_form(joint);
+  const plan::ClosedForm form = plan::closed_form(joint);
   if (!form.pair) return wrapped(fmt::format("  no closed form: {}\n", form.why_none));
   return wrapped(fmt::format(
       "  closed form: {} on {} as bodies of revolution, in contact where their axes are {:.4f} deg apart\n",
@@ -211,7 +212,7 @@ std::string table_text(std::span<const Column> columns) {
   return text;
 }
 
-std::string surface_text(const Uncertainty& sigma, const Joint& joint) {
+std::string surface_text(const motion::Uncertainty& sigma, const Joint& joint) {
   const bool fixed = sigma.is_by_voxels(joint.fixed), mobile = sigma.is_by_voxels(joint.mobile);
   const std::string voxels = fmt::format("{:g} voxels", sigma.surface_voxels);
   if (fixed && mobile) return voxels;
@@ -227,7 +228,7 @@ std::string band_text(const RomResult& result) {
     return result.depths.empty() && !result.follows
                ? "  band unknown: --band computes how far these limits move with what is uncertain\n"
                : "";
-  const BandOptions& options = result.band_options;
+  const motion::BandOptions& options = result.band_options;
   std::string text = fmt::format(
       "  band: 5 to 95 % of {} joints with the centre moved by {:g} mm, the axes by {:g} deg and the "
       "surfaces by {}{}\n"
@@ -239,7 +240,7 @@ std::string band_text(const RomResult& result) {
       surface{Align::right, {"surface"}}, parameters{Align::right, {"parameters"}},
       free{Align::right, {"no contact"}};
   for (std::size_t i = 0; i < result.bands.size(); ++i) {
-    const LimitBand& band = result.bands[i];
+    const motion::LimitBand& band = result.bands[i];
     name.cells.push_back(result.limits[i].motion.name);
     const auto add = [](Column& column, Angle angle) {
       column.cells.push_back(fmt::format("{:.1f}", angle.degrees()));
@@ -263,7 +264,7 @@ std::string caveat_text(const RomResult& result) {
     std::vector<std::string_view> motions;
   };
   std::vector<Line> lines;
-  for (const MotionLimit& limit : result.limits)
+  for (const motion::MotionLimit& limit : result.limits)
     for (const MotionCaveat& caveat : motion_caveats(result.joint, limit.motion)) {
       const auto same = std::find_if(lines.begin(), lines.end(), [&](const Line& line) {
         return line.caveat.summary == caveat.summary && line.caveat.source == caveat.source;
@@ -284,7 +285,7 @@ std::string caveat_text(const RomResult& result) {
 /// The plane in which hours are read; nothing where there are none.
 std::string clock_words(const RomResult& result) {
   if (!result.joint.is_hip()) return "";
-  return result.clock_plane == ClockPlane::rim
+  return result.clock_plane == motion::ClockPlane::rim
              ? "  clock: hours in the plane of the rim, 6 at the notch and 3 anterior\n"
              : "  clock: hours in the sagittal plane, 12 superior and 3 anterior\n";
 }
@@ -307,7 +308,7 @@ std::string zones_text(const RomResult& result) {
     of_mobile.cells.push_back(fmt::format("{:.1f}", zone->mobile.area_mm2));
     double deepest = 0;
     bool any_depth = false;
-    for (const BodyZone* body : {&zone->fixed, &zone->mobile}) {
+    for (const motion::BodyZone* body : {&zone->fixed, &zone->mobile}) {
       for (const double arc_mm : body->tangential_depth_mm)
         if (std::isfinite(arc_mm)) deepest = std::max(deepest, arc_mm);
       any_depth |= !body->tangential_depth_mm.empty();
@@ -333,7 +334,8 @@ std::string rom_text(const RomResult& result) {
     if (result.limits[i].translation_ends && !result.limits[i].translation_mm) return "-";
     const Angle turned = result.limits[i].end.turned;
     // Where what a translation follows ends, the motion is known to there, not free beyond.
-    if (result.limits[i].end.reason == LimitReason::end_of_range && !result.limits[i].translation_ends)
+    if (result.limits[i].end.reason == motion::LimitReason::end_of_range &&
+        !result.limits[i].translation_ends)
       return io::beyond_range(turned, result.bands.empty() ? nullptr : &result.bands[i]);
     return result.bands.empty() ? fmt::format("{:.2f}", turned.degrees())
                                 : io::quoted_limit(turned, result.bands[i]);
@@ -342,14 +344,14 @@ std::string rom_text(const RomResult& result) {
       reason{Align::left, {"ended by"}}, point{Align::left, {"contact point (mm)"}},
       clock{Align::right, {"clock"}}, bearing{Align::right, {"bearing (deg)"}},
       soft{Align::right, {"soft (deg)"}}, closed{Align::right, {"closed form"}};
-  const auto earlier_text = [](const std::optional<EarlierContact>& contact) {
+  const auto earlier_text = [](const std::optional<motion::EarlierContact>& contact) {
     return contact ? fmt::format("{:.2f}", contact->turned.degrees()) : "-";
   };
   for (std::size_t i = 0; i < result.limits.size(); ++i) {
-    const MotionLimit& limit = result.limits[i];
+    const motion::MotionLimit& limit = result.limits[i];
     name.cells.push_back(limit.motion.name);
     turned.cells.push_back(limit_text(i));
-    const auto side = contact_side(result.joint, limit);
+    const auto side = motion::contact_side(result.joint, limit);
     reason.cells.push_back(std::string(words_of(limit)) + (side ? fmt::format(", {}", name_of(*side)) : ""));
     point.cells.push_back(limit.end.contact
                               ? core::rounded(frame_of(result).fixed_point(limit.end.contact->fixed_point), 2)
@@ -357,7 +359,7 @@ std::string rom_text(const RomResult& result) {
     bearing.cells.push_back(earlier_text(limit.end.bearing_contact));
     soft.cells.push_back(earlier_text(limit.end.soft_contact));
     if (!result.closed.empty())
-      closed.cells.push_back(result.closed[i].reason == LimitReason::end_of_range
+      closed.cells.push_back(result.closed[i].reason == motion::LimitReason::end_of_range
                                  ? "-"
                                  : fmt::format("{:.2f}", result.closed[i].turned.degrees()));
     const auto hour = io::clock_hour(result, limit);
@@ -374,10 +376,10 @@ std::string rom_text(const RomResult& result) {
   std::vector<Column> shown{std::move(name), std::move(turned), std::move(reason)};
   shown.push_back(std::move(joint.is_hip() ? clock : point));
   if (std::any_of(result.limits.begin(), result.limits.end(),
-                  [](const MotionLimit& limit) { return limit.end.bearing_contact.has_value(); }))
+                  [](const motion::MotionLimit& limit) { return limit.end.bearing_contact.has_value(); }))
     shown.push_back(std::move(bearing));
   if (std::any_of(result.limits.begin(), result.limits.end(),
-                  [](const MotionLimit& limit) { return limit.end.soft_contact.has_value(); }))
+                  [](const motion::MotionLimit& limit) { return limit.end.soft_contact.has_value(); }))
     shown.push_back(std::move(soft));
   if (!result.closed.empty()) shown.push_back(std::move(closed));
   text += table_text(shown);
@@ -387,11 +389,11 @@ std::string rom_text(const RomResult& result) {
   text += zones_text(result);
   text += band_text(result);
   if (std::any_of(result.limits.begin(), result.limits.end(),
-                  [](const MotionLimit& limit) { return io::is_as_defined_here(limit.motion); }))
+                  [](const motion::MotionLimit& limit) { return io::is_as_defined_here(limit.motion); }))
     text += "  fadir and faber: as defined here (--list-motions); no angles are agreed on\n";
   text += caveat_text(result);
   if (result.map) text += wrapped(map_text(*result.map));
   return text + wrapped(fmt::format("  {}\n", scope_text(result.joint)));
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

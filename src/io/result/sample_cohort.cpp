@@ -15,7 +15,7 @@
 #include "io/result/limit_fields.hpp"
 #include "io/result/sample_files.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -26,12 +26,12 @@ std::string folder_name(std::size_t k) {
   return fmt::format("hips/{:06}", k);
 }
 
-Side side_of(const CohortHip& hip) {
+Side side_of(const sample::CohortHip& hip) {
   return hip.is_left ? Side::left : Side::right;
 }
 
 /// As a column of the table has it; empty for a hip without a cam.
-std::string field_of(const HipMeasure& measure, const HipParameters& of) {
+std::string field_of(const sample::HipMeasure& measure, const sample::HipParameters& of) {
   const auto value = measure.value(of);
   return value ? fmt::format("{:.1f}", *value) : "";
 }
@@ -39,16 +39,17 @@ std::string field_of(const HipMeasure& measure, const HipParameters& of) {
 std::string table_of(const SampleCohort& cohort) {
   const bool in_files = cohort.meshes == CohortMeshes::in_files;
   std::vector<std::string> header = {"id", in_files ? "joint" : "sample", "side"};
-  for (const HipMeasure& measure : hip_measures()) header.emplace_back(measure.name);
+  for (const sample::HipMeasure& measure : sample::hip_measures()) header.emplace_back(measure.name);
   header.emplace_back("bone_alpha_angle_deg");
   std::string text = io::csv_line(header);
   for (std::size_t k = 1; k <= cohort.n; ++k) {
-    const CohortHip hip = cohort_hip(cohort.seed, k);
+    const sample::CohortHip hip = sample::cohort_hip(cohort.seed, k);
     std::vector<std::string> fields = {
         fmt::format("hip_{:06}", k),
         in_files ? folder_name(k) + "/hip.toml" : fmt::format("{}", static_cast<int>(cohort.scenario)),
         std::string(name_of(side_of(hip)))};
-    for (const HipMeasure& measure : hip_measures()) fields.push_back(field_of(measure, hip.measures));
+    for (const sample::HipMeasure& measure : sample::hip_measures())
+      fields.push_back(field_of(measure, hip.measures));
     fields.push_back(fmt::format("{:.1f}", hip.alpha_angle.degrees()));
     text += io::csv_line(fields);
   }
@@ -56,12 +57,12 @@ std::string table_of(const SampleCohort& cohort) {
 }
 
 std::string description_of(const SampleCohort& cohort) {
-  io::Json json{{"condyle", version},
-                {"hips", cohort.n},
-                {"seed", cohort.seed},
-                {"scenario", static_cast<int>(cohort.scenario)},
-                {"meshes", cohort.meshes == CohortMeshes::in_files}};
-  for (const MeasureDistribution& d : cohort_distributions())
+  Json json{{"condyle", version},
+            {"hips", cohort.n},
+            {"seed", cohort.seed},
+            {"scenario", static_cast<int>(cohort.scenario)},
+            {"meshes", cohort.meshes == CohortMeshes::in_files}};
+  for (const sample::MeasureDistribution& d : sample::cohort_distributions())
     json["distributions"].push_back({{"measure", d.measure},
                                      {"unit", d.unit},
                                      {"distribution", "normal, cut off"},
@@ -73,16 +74,16 @@ std::string description_of(const SampleCohort& cohort) {
 }
 
 void write_hip(const fs::path& folder, const SampleCohort& cohort, std::size_t k) {
-  const CohortHip drawn = cohort_hip(cohort.seed, k);
-  SampleHip hip = [&] {
+  const sample::CohortHip drawn = sample::cohort_hip(cohort.seed, k);
+  sample::SampleHip hip = [&] {
     try {
-      return sample_hip(drawn.measures, cohort.scenario);
+      return sample::sample_hip(drawn.measures, cohort.scenario);
     } catch (const UsageError&) {
-      return SampleHip{};  // these measures together make no hip
+      return sample::SampleHip{};  // these measures together make no hip
     }
   }();
   if (hip.femur.triangles.empty()) return;
-  if (drawn.is_left) hip = mirrored(hip);
+  if (drawn.is_left) hip = sample::mirrored(hip);
   OutputFolder out(folder / folder_name(k));
   write_sample_hip(out, hip, side_of(drawn));
   out.commit();
@@ -126,4 +127,4 @@ std::optional<std::vector<fs::path>> write_sample_cohort(const fs::path& folder,
   return out.commit();
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -22,7 +22,7 @@
 #include "mesh/voxelise.hpp"
 #include "plan/joined_body.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 struct BodyFile {
@@ -60,7 +60,8 @@ std::string joint_file_text(const std::string& joint, const BodyFile& fixed, con
 }
 
 /// Writes a mesh for each part.
-std::string body_of_parts(OutputFolder& out, std::string_view name, const std::vector<ImplantMesh>& parts) {
+std::string body_of_parts(OutputFolder& out, std::string_view name,
+                          const std::vector<plan::ImplantMesh>& parts) {
   std::string meshes;
   for (const auto& [part, mesh] : parts) {
     const std::string file = part + ".ply";
@@ -76,8 +77,8 @@ struct ImplantNames {
 };
 
 /// A body of one mesh is called after it, as there answers name no part.
-ImplantNames names_of(const ImplantMeshes& meshes, const Implant& implant, Side side) {
-  const bool is_hip = std::holds_alternative<TotalHip>(implant);
+ImplantNames names_of(const plan::ImplantMeshes& meshes, const plan::Implant& implant, Side side) {
+  const bool is_hip = std::holds_alternative<plan::TotalHip>(implant);
   return {fmt::format("{} replacement of the {} {}", is_hip ? "total" : "reverse", name_of(side),
                       is_hip ? "hip" : "shoulder"),
           meshes.fixed.size() == 1 ? meshes.fixed.front().part
@@ -86,13 +87,13 @@ ImplantNames names_of(const ImplantMeshes& meshes, const Implant& implant, Side 
           is_hip ? "femur" : "humerus"};
 }
 
-io::BonesAround bones_around(const ImplantMeshes& meshes) {
-  return meshes.fixed.size() > 1 ? io::BonesAround::some : io::BonesAround::none;
+BonesAround bones_around(const plan::ImplantMeshes& meshes) {
+  return meshes.fixed.size() > 1 ? BonesAround::some : BonesAround::none;
 }
 
 }  // namespace
 
-void write_sample_hip(OutputFolder& out, const SampleHip& hip, Side side) {
+void write_sample_hip(OutputFolder& out, const sample::SampleHip& hip, Side side) {
   const BodyFile hip_bone = {"hip bone", "hip_bone.ply"}, femur = {"femur", "femur.ply"};
   write_mesh(out.file(hip_bone.mesh), hip.hip_bone);
   write_mesh(out.file(femur.mesh), hip.femur);
@@ -100,11 +101,12 @@ void write_sample_hip(OutputFolder& out, const SampleHip& hip, Side side) {
                        joint_file_text(fmt::format("sample {} hip", name_of(side)), hip_bone, femur, side));
 }
 
-void write_sample_implant(OutputFolder& out, const ImplantMeshes& meshes, const Implant& implant, Side side) {
+void write_sample_implant(OutputFolder& out, const plan::ImplantMeshes& meshes, const plan::Implant& implant,
+                          Side side) {
   const ImplantNames names = names_of(meshes, implant, side);
   const std::string fixed = body_of_parts(out, names.fixed, meshes.fixed),
                     mobile = body_of_parts(out, names.mobile, meshes.mobile);
-  const bool is_hip = std::holds_alternative<TotalHip>(implant);
+  const bool is_hip = std::holds_alternative<plan::TotalHip>(implant);
   io::write_whole_file(out.file(is_hip ? "hip.toml" : "shoulder.toml"),
                        joint_file_text(names.joint, fixed, mobile, side, is_hip ? "hip" : "shoulder") + "\n" +
                            io::implant_text(implant) +
@@ -113,13 +115,14 @@ void write_sample_implant(OutputFolder& out, const ImplantMeshes& meshes, const 
                            "centre = 0.0\nsurface = 0.0\n");
 }
 
-LoadedJoint sample_implant_joint(const ImplantMeshes& meshes, const Implant& implant, Side side) {
+LoadedJoint sample_implant_joint(const plan::ImplantMeshes& meshes, const plan::Implant& implant, Side side) {
   const ImplantNames names = names_of(meshes, implant, side);
   JointReport report;
   report.file.implant = implant;
   report.file.joint.name = names.joint;
   report.file.joint.side = side;
-  report.file.joint.anatomy = std::holds_alternative<TotalHip>(implant) ? Anatomy::hip : Anatomy::shoulder;
+  report.file.joint.anatomy =
+      std::holds_alternative<plan::TotalHip>(implant) ? Anatomy::hip : Anatomy::shoulder;
   report.file.joint.frame.centre = Vec3(Vec3::Zero());
   for (PosedPart& part : io::implant_parts(implant, bones_around(meshes)))
     report.file.joint.parts.push_back({std::move(part)});
@@ -128,11 +131,11 @@ LoadedJoint sample_implant_joint(const ImplantMeshes& meshes, const Implant& imp
                                        plan::joined_body(names.mobile, meshes.mobile));
   report.processing = placement.processing;
   report.placement = std::move(placement);
-  joint.implant = implant_in_joint(implant, joint);
+  joint.implant = plan::implant_in_joint(implant, joint);
   return {std::move(joint), std::move(report)};
 }
 
-void write_sample_labels(OutputFolder& out, const SampleHip& hip, Side side, double voxel_mm) {
+void write_sample_labels(OutputFolder& out, const sample::SampleHip& hip, Side side, double voxel_mm) {
   constexpr double finest_mm = 0.2, coarsest_mm = 5;
   if (!(voxel_mm >= finest_mm && voxel_mm <= coarsest_mm))
     throw UsageError(fmt::format("voxel: from {} to {} mm", finest_mm, coarsest_mm));
@@ -171,7 +174,7 @@ void write_sample_labels(OutputFolder& out, const SampleHip& hip, Side side, dou
   io::write_labels(out.file("labels.nii.gz"), grid, labels);
 }
 
-void write_sample_cartilages(OutputFolder& out, const SampleCartilages& cartilages, Side side) {
+void write_sample_cartilages(OutputFolder& out, const sample::SampleCartilages& cartilages, Side side) {
   const BodyFile acetabular = {"acetabular cartilage", "acetabular_cartilage.ply"};
   const BodyFile femoral = {"femoral cartilage", "femoral_cartilage.ply"};
   write_mesh(out.file(acetabular.mesh), cartilages.acetabular);
@@ -180,4 +183,4 @@ void write_sample_cartilages(OutputFolder& out, const SampleCartilages& cartilag
   io::write_whole_file(out.file("cartilages.toml"), joint_file_text(name, acetabular, femoral, side));
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -14,26 +14,27 @@
 #include "condyle/sample/hip.hpp"
 #include "io/file/output_folder.hpp"
 
-namespace condyle {
+namespace condyle::io {
 
 /// Puts a sample hip into a folder as a joint that everything else reads: hip_bone.ply, femur.ply and
 /// hip.toml. The meshes are those of the side given, already mirrored for a left hip.
-void write_sample_hip(OutputFolder& out, const SampleHip& hip, Side side);
+void write_sample_hip(OutputFolder& out, const sample::SampleHip& hip, Side side);
 
 /// Puts a label map of a sample hip into a folder, labels.nii.gz: cubes of this width, in mm, with the labels that
 /// TotalSegmentator gives femur and hip bone of that side. Throws UsageError for voxels below 0.2 or above 5 mm.
-void write_sample_labels(OutputFolder& out, const SampleHip& hip, Side side, double voxel_mm);
+void write_sample_labels(OutputFolder& out, const sample::SampleHip& hip, Side side, double voxel_mm);
 
 /// The same for the cartilages: acetabular_cartilage.ply, which is fixed, femoral_cartilage.ply and
 /// cartilages.toml.
-void write_sample_cartilages(OutputFolder& out, const SampleCartilages& cartilages, Side side);
+void write_sample_cartilages(OutputFolder& out, const sample::SampleCartilages& cartilages, Side side);
 
 /// Puts an implant into a folder as a joint: hip.toml or shoulder.toml, with the sizes of the implant in it, and a mesh for each part, named
 /// after it. Bands move its axes only: a centre displaced by as much as the clearance would bring head and liner into contact. The meshes are those of the side given.
-void write_sample_implant(OutputFolder& out, const ImplantMeshes& meshes, const Implant& implant, Side side);
+void write_sample_implant(OutputFolder& out, const plan::ImplantMeshes& meshes, const plan::Implant& implant,
+                          Side side);
 
 /// The joint that reading these files makes.
-LoadedJoint sample_implant_joint(const ImplantMeshes& meshes, const Implant& implant, Side side);
+LoadedJoint sample_implant_joint(const plan::ImplantMeshes& meshes, const plan::Implant& implant, Side side);
 
 /// Where a study gets the hips of a cohort from.
 enum class CohortMeshes {
@@ -45,7 +46,7 @@ enum class CohortMeshes {
 struct SampleCohort {
   std::size_t n = 0;
   std::uint64_t seed = 1;
-  Scenario scenario = Scenario::one;
+  sample::Scenario scenario = sample::Scenario::one;
   CohortMeshes meshes = CohortMeshes::of_measures;
 };
 
@@ -57,4 +58,4 @@ std::optional<std::vector<std::filesystem::path>> write_sample_cohort(const std:
                                                                       const SampleCohort& cohort,
                                                                       const Control& control = {});
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -8,41 +8,41 @@
 #include "io/result/depth_parts.hpp"
 #include "io/result/provenance_forms.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
-using ArcViews = io::BodyViews<TangentialBodySummary>;
-using Deepest = ArcViews::Deepest<DeepestRotation>;
+using ArcViews = BodyViews<contact::TangentialBodySummary>;
+using Deepest = ArcViews::Deepest<contact::DeepestRotation>;
 
-ArcViews views(const DepthQuestion& question, const TangentialContact& contact) {
-  const auto summary_of = [](const std::optional<TangentialResults>& results) {
-    return results ? std::optional(summarise(*results)) : std::nullopt;
+ArcViews views(const DepthQuestion& question, const contact::TangentialContact& contact) {
+  const auto summary_of = [](const std::optional<tangential::TangentialResults>& results) {
+    return results ? std::optional(contact::summarise(*results)) : std::nullopt;
   };
   return {question, summary_of(contact.mobile_in_fixed), summary_of(contact.fixed_in_mobile)};
 }
 
 std::optional<Deepest> longest(const ArcViews& bodies) {
-  return bodies.deepest(&TangentialBodySummary::deepest, &DeepestRotation::depth_mm);
+  return bodies.deepest(&contact::TangentialBodySummary::deepest, &contact::DeepestRotation::depth_mm);
 }
 
 std::optional<Deepest> largest(const ArcViews& bodies) {
-  return bodies.deepest(&TangentialBodySummary::largest_angle, &DeepestRotation::depth);
+  return bodies.deepest(&contact::TangentialBodySummary::largest_angle, &contact::DeepestRotation::depth);
 }
 
-io::Json degrees_of(const std::optional<Angle>& angle) {
-  return angle ? io::Json(angle->degrees()) : io::Json(nullptr);
+Json degrees_of(const std::optional<Angle>& angle) {
+  return angle ? Json(angle->degrees()) : Json(nullptr);
 }
 
-io::Json body_json(const io::BodyView<TangentialBodySummary>& view) {
+Json body_json(const BodyView<contact::TangentialBodySummary>& view) {
   if (!view.summary) return nullptr;
-  const TangentialBodySummary& summary = *view.summary;
+  const contact::TangentialBodySummary& summary = *view.summary;
   return {{"vertices", view.body.mesh.vertices().size()},
           {"vertices_inside", summary.vertices_inside},
           {"vertices_on_surface", summary.vertices_on_surface},
           {"vertices_without_exit", summary.without_exit},
           {"max_tangential_depth_deg", summary.largest_angle ? summary.largest_angle->depth.degrees() : 0.0},
           {"max_tangential_depth_mm", summary.deepest ? summary.deepest->depth_mm : 0.0},
-          {"deepest_vertex", summary.deepest ? io::Json(summary.deepest->vertex) : io::Json(nullptr)},
+          {"deepest_vertex", summary.deepest ? Json(summary.deepest->vertex) : Json(nullptr)},
           {"min_gap_deg", degrees_of(summary.min_gap)},
           {"min_gap_mm", io::nullable(summary.min_gap_mm)}};
 }
@@ -57,7 +57,7 @@ std::string arcs_json(const DepthQuestion& question, const DepthAnswer& answer, 
   const auto& [axis, contact] = depths;
   const ArcViews bodies = views(question, contact);
   const auto deepest = longest(bodies), furthest = largest(bodies);
-  io::Json json = io::depth_header(question, answer, "tangential");
+  Json json = io::depth_header(question, answer, "tangential");
   json["about"] = name_of(axis.about, question.joint.anatomy);
   json["axis"] = io::numbers(question.frame().fixed_direction(axis.direction_F));
   bodies.add_counts(json, contact.in_contact, contact.pairs.size());
@@ -65,8 +65,8 @@ std::string arcs_json(const DepthQuestion& question, const DepthAnswer& answer, 
   json["max_tangential_depth_deg"] = furthest ? furthest->vertex.depth.degrees() : 0.0;
   json["max_tangential_depth_mm"] = deepest ? deepest->vertex.depth_mm : 0.0;
   io::add_deepest(json, deepest);
-  json["min_gap_deg"] = degrees_of(bodies.least(&TangentialBodySummary::min_gap));
-  json["min_gap_mm"] = io::nullable(bodies.least(&TangentialBodySummary::min_gap_mm));
+  json["min_gap_deg"] = degrees_of(bodies.least(&contact::TangentialBodySummary::min_gap));
+  json["min_gap_mm"] = io::nullable(bodies.least(&contact::TangentialBodySummary::min_gap_mm));
   for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(*view);
   json["scope"] = scope_text(question.joint);
   json["provenance"] = io::provenance_json(question.provenance);
@@ -95,13 +95,13 @@ std::string arcs_text(const DepthQuestion& question, const DepthAnswer& answer, 
           fmt::format("  {} of them are inside at every angle of {}\n", view->summary->without_exit, about);
     }
   }
-  if (const auto gap = bodies.least(&TangentialBodySummary::min_gap); gap && !contact.in_contact) {
+  if (const auto gap = bodies.least(&contact::TangentialBodySummary::min_gap); gap && !contact.in_contact) {
     text += fmt::format("  smallest gap by rotating: {:.3f} deg\n", gap->degrees());
   }
   return text;
 }
 
-std::vector<MeshArray> arrays_of(const std::optional<TangentialResults>& results,
+std::vector<MeshArray> arrays_of(const std::optional<tangential::TangentialResults>& results,
                                  const std::vector<double>& nearest) {
   if (!results) return {io::nearest_array(nearest)};
   const std::size_t count = results->size();
@@ -136,16 +136,15 @@ std::vector<MeshArray> arrays_of(const std::optional<TangentialResults>& results
 
 }  // namespace
 
-DepthResult io::arc_result(const DepthQuestion& question, const DepthAnswer& answer,
-                           const ArcDepths& depths) {
-  const TangentialContact& contact = depths.contact;
-  const NearestDistances& nearest = answer.measures.distances;
+DepthResult arc_result(const DepthQuestion& question, const DepthAnswer& answer, const ArcDepths& depths) {
+  const contact::TangentialContact& contact = depths.contact;
+  const contact::NearestDistances& nearest = answer.measures.distances;
   return {arcs_text(question, answer, depths), arcs_json(question, answer, depths),
           pairs_csv(question.joint, contact.pairs),
-          io::arrays_of(question.joint.fixed, condyle::arrays_of(contact.fixed_in_mobile, nearest.fixed),
-                        contact.pairs, &TrianglePair::fixed),
-          io::arrays_of(question.joint.mobile, condyle::arrays_of(contact.mobile_in_fixed, nearest.mobile),
-                        contact.pairs, &TrianglePair::mobile)};
+          io::arrays_of(question.joint.fixed, arrays_of(contact.fixed_in_mobile, nearest.fixed),
+                        contact.pairs, &contact::TrianglePair::fixed),
+          io::arrays_of(question.joint.mobile, arrays_of(contact.mobile_in_fixed, nearest.mobile),
+                        contact.pairs, &contact::TrianglePair::mobile)};
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -10,7 +10,7 @@ Json in_degrees(const std::optional<Angle>& angle) {
   return angle ? Json(angle->degrees()) : Json(nullptr);
 }
 
-Json body_json(const BodyZone& zone, const std::optional<Vec3>& centroid) {
+Json body_json(const motion::BodyZone& zone, const std::optional<Vec3>& centroid) {
   const auto deepest = [](const std::vector<double>& depths) -> Json {
     double most = 0;
     for (const double depth : depths)
@@ -27,7 +27,7 @@ Json body_json(const BodyZone& zone, const std::optional<Vec3>& centroid) {
 
 }  // namespace
 
-Json zone_json(const std::optional<ImpingementZone>& zone, const AnswerFrame& frame) {
+Json zone_json(const std::optional<motion::ImpingementZone>& zone, const AnswerFrame& frame) {
   if (!zone) return nullptr;
   const auto &of_fixed = zone->fixed.centroid_mm, &of_mobile = zone->mobile.centroid_mm;
   Json fixed = body_json(zone->fixed, of_fixed ? std::optional(frame.fixed_point(*of_fixed)) : std::nullopt);

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 /// VTK's readers take no infinities in text; NaN says "none" in every array of ours.
@@ -18,7 +18,7 @@ std::vector<double> finite_or_nan(std::vector<double> values) {
 
 }  // namespace
 
-std::vector<MeshArray> zone_point_arrays(const BodyZone& zone) {
+std::vector<MeshArray> zone_point_arrays(const motion::BodyZone& zone) {
   if (zone.radial_depth_mm.empty()) return {};
   return {{"radial_depth_mm", finite_or_nan(zone.radial_depth_mm)},
           {"ray_to_normal_deg", finite_or_nan(zone.ray_to_normal_deg)},
@@ -26,16 +26,16 @@ std::vector<MeshArray> zone_point_arrays(const BodyZone& zone) {
           {"tangential_depth_mm", finite_or_nan(zone.tangential_depth_mm)}};
 }
 
-MeshArray zone_cell_array(const BodyZone& zone, std::size_t triangles) {
+MeshArray zone_cell_array(const motion::BodyZone& zone, std::size_t triangles) {
   std::vector<std::uint8_t> in_zone(triangles);
   for (const Index t : zone.triangles) in_zone[t] = 1;
   return {"in_zone", std::move(in_zone)};
 }
 
-Pose zone_pose(const ImpingementZone& zone, CoordinateSystem system) {
-  const Motion& motion = zone.limit.motion;
+Pose zone_pose(const motion::ImpingementZone& zone, CoordinateSystem system) {
+  const motion::Motion& motion = zone.limit.motion;
   const Angle onwards = zone.past * sign_of(motion.sense);
-  return pose_at(system, turned_by(zone.limit.angles_at_limit(), motion.vary, onwards));
+  return pose_at(system, motion::turned_by(zone.limit.angles_at_limit(), motion.vary, onwards));
 }
 
 std::string file_name_part(std::string_view motion) {
@@ -49,4 +49,4 @@ std::string file_name_part(std::string_view motion) {
   return part;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -11,7 +11,7 @@
 #include "io/mesh/parse.hpp"
 #include "io/study/study_files.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -53,7 +53,7 @@ std::string_view rows_of(const std::string& text) {
   return std::string_view(text).substr(text.find('\n') + 1);
 }
 
-void append(io::StudyResults& whole, const io::StudyResults& shard, const fs::path& folder) {
+void append(StudyResults& whole, const StudyResults& shard, const fs::path& folder) {
   if (shard.record.family != whole.record.family || shard.columns != whole.columns)
     throw FileError(fmt::format("{}: is of another table, other options or another version than shard 1",
                                 folder.string()));
@@ -65,7 +65,7 @@ void append(io::StudyResults& whole, const io::StudyResults& shard, const fs::pa
 }
 
 /// The table of the study may lie in its folder under a name that the results have.
-void check_keeps_the_table(const fs::path& folder, const io::StudyRecord& record) {
+void check_keeps_the_table(const fs::path& folder, const StudyRecord& record) {
   for (const fs::path& file : io::study_result_files(folder)) {
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) continue;
@@ -89,7 +89,7 @@ void check_keeps_the_shards(const fs::path& folder, std::size_t of) {
 StudyDone merge_study(const fs::path& folder) {
   const std::size_t of = shards_in(folder);
   check_all_there(folder, of);
-  io::StudyResults whole = io::read_study(io::shard_folder(folder, {1, of}));
+  StudyResults whole = io::read_study(io::shard_folder(folder, {1, of}));
   check_keeps_the_table(folder, whole.record);
   check_keeps_the_shards(folder, of);
   for (std::size_t number = 2; number <= of; ++number) {
@@ -109,4 +109,4 @@ StudyDone merge_study(const fs::path& folder) {
           io::noted_joints(whole)};
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

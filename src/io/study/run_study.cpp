@@ -20,7 +20,7 @@
 #include "io/study/study_joint.hpp"
 #include "io/study/study_options.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 using io::StudyAnswer;
@@ -35,8 +35,8 @@ Rows rows_of(const StudyTable& table, const Shard& shard) {
 }
 
 /// Contents of study.json before the tables are known.
-io::StudyRecord record_of(const Study& study, const StudyTable& table) {
-  io::StudyRecord record;
+StudyRecord record_of(const Study& study, const StudyTable& table) {
+  StudyRecord record;
   record.version = version;
   record.options = io::options_json(study.options);
   record.table = table.path.string();
@@ -48,7 +48,7 @@ io::StudyRecord record_of(const Study& study, const StudyTable& table) {
 }
 
 /// `inputs` of each row in their order. Where rows stand counts too: results have their numbers, messages their lines.
-std::string key_of(const io::StudyRecord& record, const std::string& columns, Rows rows,
+std::string key_of(const StudyRecord& record, const std::string& columns, Rows rows,
                    const std::vector<std::string>& inputs) {
   std::vector<std::size_t> places;
   for (const StudyRow& row : rows) places.insert(places.end(), {row.number, row.line});
@@ -137,8 +137,9 @@ class Answers {
   std::size_t done_ = 0;
 };
 
-io::StudyTexts texts_of(const std::vector<StudyAnswer>& answers, const io::StudyColumns& columns) {
-  io::StudyTexts texts{header_of(columns.limits), header_of(columns.hips), header_of(columns.failures)};
+StudyTexts texts_of(const std::vector<StudyAnswer>& answers, const StudyColumns& columns) {
+  StudyTexts texts{io::header_of(columns.limits), io::header_of(columns.hips),
+                   io::header_of(columns.failures)};
   for (const StudyAnswer& answer : answers) {
     texts.limits += answer.limits;
     texts.hips += answer.hip;
@@ -165,11 +166,11 @@ void check_replaces_none(const Study& study, const std::filesystem::path& folder
 }
 
 /// The study in the folder, if it is the one that this run would write.
-std::optional<StudyDone> done_before(const std::filesystem::path& folder, const io::StudyRecord& asked,
+std::optional<StudyDone> done_before(const std::filesystem::path& folder, const StudyRecord& asked,
                                      const std::string& columns, const StudyTable& table, Rows rows) {
   const auto there = io::read_study_record(folder);
   if (!there || there->key != key_of(asked, columns, rows, inputs_of(table, rows))) return std::nullopt;
-  io::StudyResults results = io::read_study(folder);
+  StudyResults results = io::read_study(folder);
   // Other rows of the table may have changed: then the shard belongs to the new table as it is.
   if (there->family != asked.family) {
     results.record = asked;
@@ -209,8 +210,8 @@ std::optional<StudyDone> run_study(const Study& study, const Control& control) {
   const StudyTable table = io::read_study_table(study.table);
   const Rows rows = rows_of(table, study.shard.value_or(Shard{}));
   const auto folder = study.shard ? io::shard_folder(study.folder, *study.shard) : study.folder;
-  const io::StudyColumns columns = io::study_columns(table, study.options);
-  io::StudyResults results{record_of(study, table), io::columns_csv(columns), {}};
+  const StudyColumns columns = io::study_columns(table, study.options);
+  StudyResults results{record_of(study, table), io::columns_csv(columns), {}};
   check_replaces_none(study, folder, table);
   // A folder that cannot be written to is reported before the work, not after it.
   io::prepare_study_folder(folder);
@@ -237,4 +238,4 @@ std::optional<StudyDone> run_study(const Study& study, const Control& control) {
                    io::noted_joints(results)};
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -68,11 +68,11 @@ void check_kind(const StudyTable& table, const StudyRow& row, const LoadedJoint&
         file));
 }
 
-std::vector<Motion> motions_of(const LoadedJoint& loaded, const StudyOptions& options) {
-  std::vector<Motion> known = known_motions(loaded);
+std::vector<motion::Motion> motions_of(const LoadedJoint& loaded, const StudyOptions& options) {
+  std::vector<motion::Motion> known = known_motions(loaded);
   if (options.motions.empty()) return known;
-  std::vector<Motion> chosen;
-  for (const std::string& name : options.motions) chosen.push_back(motion_named(known, name));
+  std::vector<motion::Motion> chosen;
+  for (const std::string& name : options.motions) chosen.push_back(motion::motion_named(known, name));
   return chosen;
 }
 
@@ -101,24 +101,24 @@ std::string limit_lines(const Cells& row, const RomResult& result,
   return lines;
 }
 
-void add_map(Cells& fields, const MotionMap& map) {
-  const MapSummary summary = summarise(map);
+void add_map(Cells& fields, const motion::MotionMap& map) {
+  const MapSummary summary = map_summary_of(map);
   const auto add = [&](auto value) { fields.push_back(fmt::format("{}", value)); };
   add(map.points.size());
   add(summary.volume.plain_deg3);
   add(summary.volume.weighted_deg3);
   for (const ReasonCounts* ends : {&summary.negative_ends, &summary.positive_ends})
-    for (const LimitReason reason :
-         {LimitReason::contact, LimitReason::end_of_range, LimitReason::contact_at_start})
+    for (const motion::LimitReason reason : {motion::LimitReason::contact, motion::LimitReason::end_of_range,
+                                             motion::LimitReason::contact_at_start})
       add((*ends)[reason]);
   add(summary.free_elsewhere);
   add(summary.with_islands);
 }
 
 /// Empty if nothing is a depth.
-std::string name_of_kind(DepthWay way, Anatomy joint) {
+std::string name_of_kind(contact::DepthWay way, Anatomy joint) {
   if (const auto angle = angle_of(way)) return std::string(name_of(*angle, joint));
-  return way == DepthWay::radial ? "radial" : "";
+  return way == contact::DepthWay::radial ? "radial" : "";
 }
 
 /// The pose as `condyle depth` reads it for this joint, which refuses one that a hinge does not turn to.
@@ -135,7 +135,7 @@ PoseDegrees pose_of(const StudyTable& table, const StudyRow& row, const Joint& j
 void add_depth(Cells& fields, const Joint& joint, const PoseDegrees& at) {
   const DepthAnswer answer =
       answer_depth(joint, {.X_FM = pose_at(joint.coordinates(), at.angles()), .pose = at.angles()});
-  const ContactMeasures& measures = answer.measures;
+  const contact::ContactMeasures& measures = answer.measures;
   const auto deepest = deepest_of(std::get<RayDepths>(answer.depths).reliable);
   fields.push_back(answer.in_contact() ? "1" : "0");
   fields.push_back(deepest ? fmt::format("{}", deepest->vertex.depth_mm) : "");
@@ -148,7 +148,7 @@ void add_depth(Cells& fields, const Joint& joint, const PoseDegrees& at) {
   fields.push_back(fmt::format("{}", measures.nearest.distance_mm));
 }
 
-Cells hip_fields(const LoadedJoint& loaded, const BearingFinding& bearing, std::string_view notes,
+Cells hip_fields(const LoadedJoint& loaded, const motion::BearingFinding& bearing, std::string_view notes,
                  std::string_view inputs) {
   const auto& surface = bearing.surface;
   return {std::string(name_of(loaded.joint.side)), surface ? fmt::format("{}", surface->head.radius) : "",
@@ -158,7 +158,7 @@ Cells hip_fields(const LoadedJoint& loaded, const BearingFinding& bearing, std::
 /// Codes of what looks wrong with a joint that was read, as a sample hip is as it was made, and with its load or motion. Throws MeshError if that is to end
 /// the run.
 std::string notes_on(const StudyTable& table, const StudyRow& row, const LoadedJoint& loaded,
-                     std::span<const ContactNote> of_contact, BadJoint bad_joint) {
+                     std::span<const motion::ContactNote> of_contact, BadJoint bad_joint) {
   std::string codes, texts;
   const auto take = [&](const auto& note) {
     codes += (codes.empty() ? "" : " ") + std::string(name_of(note.code));
@@ -166,7 +166,7 @@ std::string notes_on(const StudyTable& table, const StudyRow& row, const LoadedJ
   };
   if (!is_sample(table, row))
     for (const JointNote& note : check_joint(loaded.joint, loaded.report.placement)) take(note);
-  for (const ContactNote& note : of_contact) take(note);
+  for (const motion::ContactNote& note : of_contact) take(note);
   if (bad_joint == BadJoint::ends_run && !codes.empty())
     throw MeshError(fmt::format("{}: line {}: joint {}: {}", table.path.string(), row.line,
                                 in_quotes(table.id(row)), texts));
@@ -194,7 +194,7 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
   RangeRequest request = range_request_of(loaded, options);
   const StudyFollow followed =
       name_joint_file(place, [&] { return StudyFollow(table, row, loaded, options, request); });
-  add_new(load.notes, range_request_notes(request));
+  motion::add_new(load.notes, range_request_notes(request));
   std::string notes = notes_on(table, row, loaded, load.notes, study.bad_joint);
   std::optional<Cells> measures;
   if (options.measures) {

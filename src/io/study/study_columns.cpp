@@ -84,7 +84,7 @@ std::vector<const LimitField*> study_limit_fields(LimitsHave have) {
 
 Columns limit_columns(LimitsHave have, Anatomy joint) {
   Columns columns;
-  for (const LimitField* field : study_limit_fields(have)) append(columns, columns_of(*field, joint));
+  for (const LimitField* field : study_limit_fields(have)) append(columns, io::columns_of(*field, joint));
   return columns;
 }
 
@@ -97,7 +97,7 @@ Columns following_columns() {
 Columns carried_columns(const StudyTable& table) {
   Columns columns;
   for (const auto& [column, name, is_number] : table.carried) {
-    const HipMeasure* measure = hip_measure_named(table.columns[column]);
+    const sample::HipMeasure* measure = sample::hip_measure_named(table.columns[column]);
     columns.push_back({name, measure ? std::string(measure->unit) : "",
                        is_number ? number_column : text_column,
                        measure ? fmt::format("from the table: {}", measure->meaning) : "from the table"});

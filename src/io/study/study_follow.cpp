@@ -41,7 +41,7 @@ StudyFollow::StudyFollow(const StudyTable& table, const StudyRow& row, const Loa
 
 void StudyFollow::follow_load(const LoadedJoint& joint, const StudyFollowLoad& given, RangeRequest& request) {
   layers_.emplace(joint, study_contact_of(joint, given.contact));
-  BalanceOptions balance;
+  contact::BalanceOptions balance;
   for (const Vec3& direction : given.free_directions)
     balance.free_directions.push_back(in_joint_frame(joint.joint, direction));
   request.follow =

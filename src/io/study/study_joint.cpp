@@ -98,18 +98,21 @@ double measure_in(const StudyTable& table, const StudyRow& row, std::string_view
 }
 
 LoadedJoint made(const StudyTable& table, const StudyRow& row) {
-  static constexpr std::pair<std::string_view, Scenario> scenarios[] = {
-      {"1", Scenario::one}, {"2", Scenario::two}, {"3", Scenario::three}, {"4", Scenario::four}};
-  const Scenario scenario = one_of(table, row, "sample", scenarios);
-  HipParameters measures;
-  for (const HipMeasure& measure : hip_measures())
+  static constexpr std::pair<std::string_view, sample::Scenario> scenarios[] = {
+      {"1", sample::Scenario::one},
+      {"2", sample::Scenario::two},
+      {"3", sample::Scenario::three},
+      {"4", sample::Scenario::four}};
+  const sample::Scenario scenario = one_of(table, row, "sample", scenarios);
+  sample::HipParameters measures;
+  for (const sample::HipMeasure& measure : sample::hip_measures())
     if (!table.field(row, measure.name).empty()) measure.set(measures, measure_in(table, row, measure.name));
   JointFile file{.path = table.path, .joint = {}, .fixed = {}, .mobile = {}, .motions = {}};
   file.joint.name = table.id(row);
   file.joint.side = side_of(table, row);
   try {
-    SampleHip hip = sample_hip(measures, scenario);
-    if (file.joint.side == Side::left) hip = mirrored(hip);
+    sample::SampleHip hip = sample::sample_hip(measures, scenario);
+    if (file.joint.side == Side::left) hip = sample::mirrored(hip);
     PlacedJoint placed =
         make_joint(file.joint, {"hip bone", std::move(hip.hip_bone)}, {"femur", std::move(hip.femur)});
     return {std::move(placed.joint), {std::move(file), {}, {}, std::move(placed.placement), {}}};
@@ -282,7 +285,7 @@ std::vector<std::filesystem::path> files_of(const StudyTable& table, const Study
     if (!table.field(row, column).empty()) files.push_back(path_in(table, row, column));
   if (table.field(row, "joint").empty()) return files;
   try {
-    const auto of_joint = condyle::files_of(read_joint_file(path_in(table, row, "joint")));
+    const auto of_joint = files_of(read_joint_file(path_in(table, row, "joint")));
     files.insert(files.end(), of_joint.begin(), of_joint.end());
   } catch (const FileError&) {
     // the row will be a failure

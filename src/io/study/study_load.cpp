@@ -24,10 +24,10 @@ void add(Cells& fields, const Vec3& v) {
 }
 
 /// Empty if the body's surface was not cast, a mean or a centre also where nothing of it is in contact.
-void add_surface(Cells& fields, const std::optional<SurfaceContact>& surface) {
+void add_surface(Cells& fields, const std::optional<contact::SurfaceContact>& surface) {
   const std::size_t end = fields.size() + 9;
   if (surface) {
-    const ContactTotals& totals = surface->totals;
+    const contact::ContactTotals& totals = surface->totals;
     add(fields, totals.area_mm2);
     if (totals.triangles > 0)
       for (const double value :
@@ -41,9 +41,10 @@ void add_surface(Cells& fields, const std::optional<SurfaceContact>& surface) {
   fields.resize(end);
 }
 
-LoadRequest request_of(const Joint& joint, const StudyLoad& load, const BodyNames& names) {
+LoadRequest request_of(const Joint& joint, const StudyLoad& load, const motion::BodyNames& names) {
   LoadRequest request{.X_FM = pose_at(joint.coordinates(), load.at.angles()), .names = names};
-  if (load.force_n) request.load = Load{.on_mobile = {.force_n = in_joint_frame(joint, *load.force_n)}};
+  if (load.force_n)
+    request.load = contact::Load{.on_mobile = {.force_n = in_joint_frame(joint, *load.force_n)}};
   for (const Vec3& direction : load.free_directions)
     request.balance.free_directions.push_back(in_joint_frame(joint, direction));
   return request;
@@ -104,8 +105,8 @@ std::vector<ResultColumn> load_columns() {
 StudyLoadAnswer study_load_answer(const LoadedJoint& loaded, const StudyLoad& load) {
   const ContactEntry contact = study_contact_of(loaded, load.contact);
   const ContactSurfaces surfaces = surfaces_of(contact, loaded.joint);
-  const ElasticContact layers(surfaces.fixed.mesh, surfaces.mobile.mesh,
-                              elastic_options(contact, surfaces, loaded));
+  const contact::ElasticContact layers(surfaces.fixed.mesh, surfaces.mobile.mesh,
+                                       elastic_options(contact, surfaces, loaded));
   LoadRequest request = request_of(loaded.joint, load, {surfaces.fixed.name, surfaces.mobile.name});
   LoadAnswer answer = answer_load(layers, request);
   return {std::move(request), std::move(answer)};

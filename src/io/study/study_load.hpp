@@ -29,7 +29,7 @@ StudyLoadAnswer study_load_answer(const LoadedJoint& loaded, const StudyLoad& lo
 /// The columns of this joint. FileError if it has no layers.
 struct LoadFields {
   std::vector<std::string> fields;
-  std::vector<ContactNote> notes;  ///< on layers, load and contact
+  std::vector<motion::ContactNote> notes;  ///< on layers, load and contact
 };
 LoadFields load_fields(const LoadedJoint& loaded, const StudyLoad& load);
 

@@ -17,7 +17,7 @@ namespace {
 constexpr const char* tilt_column = "pelvic_tilt_deg";
 
 /// Tables of samples have columns by the names of measures: what was asked for, which is not what is measured.
-std::string column_name(const MeasureDefinition& definition, const char* of_band = "") {
+std::string column_name(const measure::MeasureDefinition& definition, const char* of_band = "") {
   return fmt::format("measured_{}{}", definition.key, of_band);
 }
 
@@ -28,24 +28,25 @@ std::string number_or_empty(const std::optional<double>& value) {
 Angle tilt_in(const StudyTable& table, const StudyRow& row) {
   const std::string_view text = table.field(row, tilt_column);
   double degrees = 0;
-  if (!text.empty() && !(parse_number(text, degrees) && std::abs(degrees) <= largest_pelvic_tilt_deg))
+  if (!text.empty() &&
+      !(parse_number(text, degrees) && std::abs(degrees) <= measure::largest_pelvic_tilt_deg))
     throw FileError(fmt::format("{}: {} is no number of degrees from {:g} to {:g}",
-                                table.place(row, tilt_column), in_quotes(text), -largest_pelvic_tilt_deg,
-                                largest_pelvic_tilt_deg));
+                                table.place(row, tilt_column), in_quotes(text),
+                                -measure::largest_pelvic_tilt_deg, measure::largest_pelvic_tilt_deg));
   return Angle::degrees(degrees);
 }
 
 /// "alpha_3_deg: ...; alpha_largest_deg: ...", of the measures that have such a sentence.
-std::string sentences(const HipMeasures& measures, std::string Measure::*sentence) {
+std::string sentences(const measure::HipMeasures& measures, std::string measure::Measure::*sentence) {
   std::string text;
-  for (const MeasureDefinition& each : measure_definitions())
+  for (const measure::MeasureDefinition& each : measure::measure_definitions())
     if (const std::string& said = each.of(measures).*sentence; !said.empty())
       text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", each.key, said);
   return csv_field(text);
 }
 
 /// All that a measure's row in the files of one joint says of it.
-std::string meaning_of(const MeasureDefinition& each) {
+std::string meaning_of(const measure::MeasureDefinition& each) {
   std::string text = fmt::format("{}; by {}; {}", each.definition, each.measured_by, each.source);
   if (each.normal)
     text += fmt::format("; normal {:g} to {:g}: {}; {}", each.normal->low, each.normal->high,
@@ -64,7 +65,7 @@ std::string joined(const std::vector<std::string>& sentences) {
 
 std::vector<ResultColumn> measure_columns(bool with_bands) {
   std::vector<ResultColumn> columns;
-  for (const MeasureDefinition& each : measure_definitions()) {
+  for (const measure::MeasureDefinition& each : measure::measure_definitions()) {
     const std::string unit(each.unit == "1" ? "" : each.unit);
     columns.push_back({column_name(each), unit, number_column, meaning_of(each)});
     if (!with_bands) continue;
@@ -80,23 +81,23 @@ std::vector<ResultColumn> measure_columns(bool with_bands) {
 
 std::optional<std::vector<std::string>> measure_fields(const StudyTable& table, const StudyRow& row,
                                                        const LoadedJoint& loaded,
-                                                       const std::optional<BandOptions>& band_options,
+                                                       const std::optional<motion::BandOptions>& band_options,
                                                        std::stop_token stop) {
   const auto answer = answer_measures(
       loaded.joint, {measure_request_of(loaded, tilt_in(table, row)), band_options}, {{}, stop});
   if (!answer) return std::nullopt;
   const auto& [measures, bands, as_requested] = *answer;
   std::vector<std::string> fields;
-  for (std::size_t i = 0; i < measure_definitions().size(); ++i) {
-    fields.push_back(number_or_empty(measure_definitions()[i].of(measures).value));
+  for (std::size_t i = 0; i < measure::measure_definitions().size(); ++i) {
+    fields.push_back(number_or_empty(measure::measure_definitions()[i].of(measures).value));
     if (bands.empty()) continue;
     fields.push_back(number_or_empty(bands[i].p5));
     fields.push_back(number_or_empty(bands[i].p95));
   }
-  fields.push_back(csv_field(stated_frame(measures)));
+  fields.push_back(csv_field(measure::stated_frame(measures)));
   fields.push_back(csv_field(joined(measures.left_out)));
-  fields.push_back(sentences(measures, &Measure::note));
-  fields.push_back(sentences(measures, &Measure::why_none));
+  fields.push_back(sentences(measures, &measure::Measure::note));
+  fields.push_back(sentences(measures, &measure::Measure::why_none));
   return fields;
 }
 

@@ -10,8 +10,7 @@
 #include "io/study/study_columns.hpp"
 #include "io/study/study_files.hpp"
 
-namespace condyle {
-namespace io {
+namespace condyle::io {
 namespace {
 
 std::size_t place_of(const std::vector<ResultColumn>& columns, std::string_view name) {
@@ -56,8 +55,6 @@ std::optional<StudyFailure> first_failure(const StudyResults& results) {
   return first;
 }
 
-}  // namespace io
-
 void require_answered(const StudyDone& done, const std::filesystem::path& table) {
   if (done.joints > 0 || !done.first_failure) return;
   const std::string text = fmt::format("{}: none of {} joints was answered; the first one: {}",
@@ -68,10 +65,10 @@ void require_answered(const StudyDone& done, const std::filesystem::path& table)
     case io::unfit_mesh:
       throw MeshError(text);
     case io::reference_contact:
-      throw ReferenceContactError(text);
+      throw motion::ReferenceContactError(text);
     default:
       throw std::runtime_error(text);
   }
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

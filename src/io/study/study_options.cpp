@@ -32,9 +32,10 @@ Json follow_load_json(const StudyFollowLoad& load) {
 }
 
 Json resection_json(const StudyResection& resection) {
-  const ResectionRequest& cut = resection.cut;
+  const plan::ResectionRequest& cut = resection.cut;
   Json json;
-  for (const auto& [motion, reach] : resection.targets) json["reach_deg"][motion] = asked_degrees(reach);
+  for (const auto& [motion, reach] : resection.targets)
+    json["reach_deg"][motion] = plan::asked_degrees(reach);
   json["fixed_share"] = cut.fixed_share;
   json["margin_mm"] = cut.margin_mm;
   json["burr_mm"] = nullable(cut.burr_mm);
@@ -58,9 +59,9 @@ std::string options_json(const StudyOptions& options) {
   Json json;
   json["anatomy"] = name_of(options.anatomy);
   json["motions"] = options.motions.empty() ? Json("all") : Json(options.motions);
-  json["bearing"] = options.bearing.rule == BearingRule::count ? Json("count") : Json("leave_out");
+  json["bearing"] = options.bearing.rule == motion::BearingRule::count ? Json("count") : Json("leave_out");
   json["bearing_margin_mm"] = nullable(options.bearing.margin_mm);
-  json["accept_reference_contact"] = options.reference_contact == ReferenceContact::accept;
+  json["accept_reference_contact"] = options.reference_contact == motion::ReferenceContact::accept;
   json["exclude_reference_contacts"] = options.leave_out_reference_contacts
                                            ? Json(options.leave_out_reference_contacts->rings)
                                            : Json(nullptr);
@@ -81,16 +82,12 @@ std::string options_json(const StudyOptions& options) {
   return json.dump();
 }
 
-}  // namespace condyle::io
-
-namespace condyle {
-
-Uncertainty StudyUncertainty::over(const Uncertainty& of_file) const noexcept {
-  Uncertainty sigma = of_file;
+motion::Uncertainty StudyUncertainty::over(const motion::Uncertainty& of_file) const noexcept {
+  motion::Uncertainty sigma = of_file;
   if (centre_mm) sigma.centre_mm = *centre_mm;
   if (axes_deg) sigma.axes = Angle::degrees(*axes_deg);
   if (surface_mm) sigma.surface_mm = *surface_mm, sigma.surface_voxels = 0;
   return sigma;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

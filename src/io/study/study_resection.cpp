@@ -24,7 +24,7 @@ std::string number(double value) {
 struct Removed {
   double volume_mm3 = 0, least_volume_mm3 = 0, area_mm2 = 0, deepest_mm = 0;
 
-  explicit Removed(const Resection& resection) {
+  explicit Removed(const plan::Resection& resection) {
     for (const auto* cut : {&resection.mobile, &resection.fixed}) {
       if (!*cut) continue;
       volume_mm3 += (*cut)->volume_mm3;
@@ -46,8 +46,8 @@ Cells fields_of(const ResectionAnswer& answer) {
   const Removed removed(answer.resection);
   Cells fields = {number(removed.volume_mm3), number(removed.least_volume_mm3), number(removed.area_mm2),
                   number(removed.deepest_mm)};
-  for (const ReachOutcome& outcome : answer.resection.targets) {
-    fields.push_back(number(asked_degrees(outcome.planned)));
+  for (const plan::ReachOutcome& outcome : answer.resection.targets) {
+    fields.push_back(number(plan::asked_degrees(outcome.planned)));
     fields.push_back(number(outcome.after.end.turned.degrees()));
     fields.emplace_back(outcome.blocked ? name_of(outcome.blocked->by) : "");
   }
@@ -76,7 +76,7 @@ std::vector<ResultColumn> resection_columns(const StudyResection& resection) {
     columns.push_back({name + "_planned_deg", "deg", number_column,
                        fmt::format("the target of {} degrees, or as far as bone that stays lets the motion "
                                    "go",
-                                   asked_degrees(reach))});
+                                   plan::asked_degrees(reach))});
     columns.push_back(
         {name + "_after_deg", "deg", number_column, "how far the motion goes without the bone"});
     columns.push_back(
@@ -108,7 +108,7 @@ std::optional<ResectionFields> resection_fields(const LoadedJoint& loaded, const
     const auto answer = answer_resection(joint, loaded.report.placement, query, {{}, stop});
     if (!answer) return std::nullopt;
     fields.of_hip = fields_of(*answer);
-    for (const MotionLimit& limit : answer->after)
+    for (const motion::MotionLimit& limit : answer->after)
       fields.of_limits.push_back(
           {number(limit.end.turned.degrees()), std::string(name_of(limit.end.reason))});
   } catch (const MeshError& error) {

@@ -48,7 +48,7 @@ std::vector<std::string> missing_columns(const StudyTable& table) {
   if (of_labels) add({"fixed_label", "mobile_label", "task"});
   if (of_meshes) add({"fixed", "mobile", "units", "axes"});
   if (of_samples)
-    for (const HipMeasure& measure : hip_measures()) add({measure.name});
+    for (const sample::HipMeasure& measure : sample::hip_measures()) add({measure.name});
   if (!of_samples && !of_meshes && !of_labels && !of_models)
     add({"joint", "fixed", "mobile", "labels", "opensim_model", "sample"});
   return names;
@@ -58,7 +58,7 @@ std::vector<std::string> missing_columns(const StudyTable& table) {
 void check_spelling(const StudyTable& table, std::size_t line, const Source& source) {
   const std::vector<std::string> missing = missing_columns(table);
   for (const std::string& name : table.columns) {
-    if (is_source(name) || hip_measure_named(name)) continue;
+    if (is_source(name) || sample::hip_measure_named(name)) continue;
     std::string lower = name;
     std::transform(lower.begin(), lower.end(), lower.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "condyle/io/file_digest.hpp"
+#include "condyle/io/mesh_file.hpp"
 
 namespace condyle::io {
 

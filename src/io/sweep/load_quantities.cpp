@@ -17,7 +17,7 @@ SweepQuantities load_quantities(const LoadedJoint& loaded, const StudyLoad& load
             const LoadAnswer answer = study_load_answer({joint, loaded.report}, load).answer;
             const auto& surface = answer.contact.mobile ? answer.contact.mobile : answer.contact.fixed;
             if (!answer.carries_load() || !surface) return {none, none, none};
-            const ContactTotals& totals = surface->totals;
+            const contact::ContactTotals& totals = surface->totals;
             const bool any = totals.triangles > 0;
             return {any ? totals.max_pressure_mpa : 0, any ? totals.mean_pressure_mpa : 0, totals.area_mm2};
           }};

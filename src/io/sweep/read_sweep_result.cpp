@@ -44,8 +44,8 @@ JointAngles angles_in(const Json& json, Anatomy anatomy) {
   return {angle(JointAngle::flexion), angle(JointAngle::adduction), angle(JointAngle::internal_rotation)};
 }
 
-SweepTarget target_in(const Json& json, Anatomy anatomy) {
-  SweepTarget target{json.at("name").get<std::string>()};
+plan::SweepTarget target_in(const Json& json, Anatomy anatomy) {
+  plan::SweepTarget target{json.at("name").get<std::string>()};
   target.motion.name = json.at("motion").get<std::string>();
   for (const JointAngle angle : all_joint_angles)
     for (const RotationSense sense : {RotationSense::positive, RotationSense::negative})
@@ -59,21 +59,23 @@ SweepTarget target_in(const Json& json, Anatomy anatomy) {
   return target;
 }
 
-LimitReason reason_in(std::string_view word) {
-  for (const LimitReason reason : {LimitReason::contact, LimitReason::contact_at_start})
-    if (word == condyle::name_of(reason)) return reason;
-  return LimitReason::end_of_range;
+motion::LimitReason reason_in(std::string_view word) {
+  for (const motion::LimitReason reason :
+       {motion::LimitReason::contact, motion::LimitReason::contact_at_start})
+    if (word == name_of(reason)) return reason;
+  return motion::LimitReason::end_of_range;
 }
 
-LimitKnownBy known_in(std::string_view word) {
-  return word == condyle::name_of(LimitKnownBy::meshes) ? LimitKnownBy::meshes : LimitKnownBy::closed_form;
+plan::LimitKnownBy known_in(std::string_view word) {
+  return word == name_of(plan::LimitKnownBy::meshes) ? plan::LimitKnownBy::meshes
+                                                     : plan::LimitKnownBy::closed_form;
 }
 
 std::uint16_t pair_in(const SweepAnswer& sweep, std::string_view fixed, std::string_view mobile) {
   for (std::size_t i = 0; i < sweep.pairs.size(); ++i)
     if (sweep.pairs[i].fixed == fixed && sweep.pairs[i].mobile == mobile)
       return static_cast<std::uint16_t>(i);
-  return DesignLimit::no_pair;
+  return plan::DesignLimit::no_pair;
 }
 
 /// The pair of "neck on liner", whose names may hold " on " too.
@@ -81,7 +83,7 @@ std::uint16_t pair_in(const SweepAnswer& sweep, std::string_view text) {
   for (std::size_t i = 0; i < sweep.pairs.size(); ++i)
     if (text == fmt::format("{} on {}", sweep.pairs[i].mobile, sweep.pairs[i].fixed))
       return static_cast<std::uint16_t>(i);
-  return DesignLimit::no_pair;
+  return plan::DesignLimit::no_pair;
 }
 
 void read_document(const Json& json, SweepResult& result) {
@@ -104,7 +106,7 @@ void read_document(const Json& json, SweepResult& result) {
   sweep.share = {json.at("share").at("number").get<std::size_t>(),
                  json.at("share").at("of").get<std::size_t>()};
   sweep.first_design = json.at("first_design").get<std::size_t>();
-  for (const SweptParameter& each : sweep.parameters)
+  for (const plan::SweptParameter& each : sweep.parameters)
     sweep.here.push_back(json.at("here").at("values").at(each.name).get<double>());
   for (const Json& each : json.at("here").at("limits")) {
     const Json& by = each.at("ended_by");
@@ -113,11 +115,11 @@ void read_document(const Json& json, SweepResult& result) {
                                         : each.at("limit_deg").get<double>(),
          reason_in(each.at("reason").get<std::string>()), known_in(each.at("known_by").get<std::string>()),
          by.is_null()
-             ? DesignLimit::no_pair
+             ? plan::DesignLimit::no_pair
              : pair_in(sweep, by.at("fixed").get<std::string>(), by.at("mobile").get<std::string>())});
   }
   for (const Json& each : json.at("sweep_notes"))
-    if (each.at("code").get<std::string>() == condyle::name_of(SweepNoteCode::differs_from_closed_form))
+    if (each.at("code").get<std::string>() == name_of(SweepNoteCode::differs_from_closed_form))
       sweep.notes.push_back({SweepNoteCode::differs_from_closed_form, each.at("text").get<std::string>()});
   for (const Json& each : json.at("quantities")) {
     sweep.quantity_names.push_back(each.get<std::string>());
@@ -170,7 +172,7 @@ SweepResult read_sweep_result(const Json& json, std::string_view designs, std::s
     if (row.size() != others + 4) throw FileError(safe_name + ": has other columns than sweep.json says");
     std::size_t line = 0;
     for (std::size_t p = 0; p < others; ++p) {
-      const SweptParameter& parameter = sweep.parameters[p];
+      const plan::SweptParameter& parameter = sweep.parameters[p];
       const double value = number_in(row[p], safe_name);
       line = line * parameter.count() +
              static_cast<std::size_t>(std::lround((value - parameter.first) / parameter.step));

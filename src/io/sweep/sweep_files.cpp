@@ -151,7 +151,7 @@ std::string sweep_key(const Provenance& from, const SweepQuery& query, std::stri
     for (const MeshSource& mesh : body->files) all.push_back(mesh.digest.sha256);
   for (const PosedPart& part : from.parts)
     for (const PartParameter& parameter : part.parameters) all.push_back(parameter.value);
-  for (const SweptParameter& each : query.parameters)
+  for (const plan::SweptParameter& each : query.parameters)
     all.push_back({each.name, each.first, each.last, each.step});
   all.push_back(
       {static_cast<int>(query.range.bearing.rule),

@@ -17,12 +17,12 @@
 #include "io/result/provenance_forms.hpp"
 #include "io/result/rom_result.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 using io::Json;
 
-std::span<const DesignLimit> limits_of(const SweepAnswer& sweep, std::size_t design) {
+std::span<const plan::DesignLimit> limits_of(const SweepAnswer& sweep, std::size_t design) {
   return std::span(sweep.limits)
       .subspan((design - sweep.first_design) * sweep.targets.size(), sweep.targets.size());
 }
@@ -66,9 +66,9 @@ std::size_t count_safe(const SweepAnswer& sweep) {
 }
 
 /// "neck on liner".
-std::string ending_text(const SweepAnswer& sweep, const DesignLimit& limit) {
-  if (limit.pair == DesignLimit::no_pair) return "";
-  const EndingPair& pair = sweep.pairs[limit.pair];
+std::string ending_text(const SweepAnswer& sweep, const plan::DesignLimit& limit) {
+  if (limit.pair == plan::DesignLimit::no_pair) return "";
+  const plan::EndingPair& pair = sweep.pairs[limit.pair];
   return fmt::format("{} on {}", pair.mobile, pair.fixed);
 }
 
@@ -81,7 +81,7 @@ std::string values_text(const SweepAnswer& sweep, std::span<const double> values
 }
 
 /// The target with a design's smallest margin, and the margin.
-std::string margin_text(const SweepAnswer& sweep, std::span<const DesignLimit> limits) {
+std::string margin_text(const SweepAnswer& sweep, std::span<const plan::DesignLimit> limits) {
   if (std::isnan(limits.front().turned_deg))
     return fmt::format("in contact in the reference pose: {}", ending_text(sweep, limits.front()));
   std::size_t least = 0;
@@ -93,14 +93,15 @@ std::string margin_text(const SweepAnswer& sweep, std::span<const DesignLimit> l
              : fmt::format("not safe, {:.2f} deg short of {}", -over(least), sweep.targets[least].name);
 }
 
-std::string limit_text(const DesignLimit& limit) {
+std::string limit_text(const plan::DesignLimit& limit) {
   if (std::isnan(limit.turned_deg)) return "-";
-  return fmt::format("{}{:.2f}", limit.reason == LimitReason::end_of_range ? ">" : "", limit.turned_deg);
+  return fmt::format("{}{:.2f}", limit.reason == motion::LimitReason::end_of_range ? ">" : "",
+                     limit.turned_deg);
 }
 
 std::string measure_text(const SweepAnswer& sweep) {
   std::string unit;
-  for (const SweptParameter& parameter : sweep.parameters)
+  for (const plan::SweptParameter& parameter : sweep.parameters)
     if (parameter.count() > 1) unit += fmt::format("{}{}", unit.empty() ? "" : " x ", parameter.name);
   if (!(sweep.window_measure > 0)) return "";
   return fmt::format("; {:.6g} of {:.6g} ({}), {:.1f} %", sweep.safe_measure, sweep.window_measure, unit,
@@ -109,7 +110,7 @@ std::string measure_text(const SweepAnswer& sweep) {
 
 std::string table_of_targets(const SweepAnswer& sweep) {
   std::size_t widest = 6;
-  for (const SweepTarget& target : sweep.targets) widest = std::max(widest, target.name.size());
+  for (const plan::SweepTarget& target : sweep.targets) widest = std::max(widest, target.name.size());
   std::string text = fmt::format("  {:<{}}  {:>7}  {:>9}  {:>9}  {:>12}  ended by\n", "target", widest,
                                  "reach", "here", "best", "missed by");
   for (std::size_t t = 0; t < sweep.targets.size(); ++t) {
@@ -117,9 +118,9 @@ std::string table_of_targets(const SweepAnswer& sweep) {
     std::size_t missed = 0;
     std::vector<bool> ends(sweep.pairs.size());
     for (std::size_t i = 0; i < sweep.designs(); ++i) {
-      const DesignLimit& limit = sweep.limits[i * sweep.targets.size() + t];
+      const plan::DesignLimit& limit = sweep.limits[i * sweep.targets.size() + t];
       missed += !(limit.turned_deg >= reach);
-      if (limit.pair != DesignLimit::no_pair) ends[limit.pair] = true;
+      if (limit.pair != plan::DesignLimit::no_pair) ends[limit.pair] = true;
     }
     std::string by;
     for (std::size_t k = 0; k < ends.size(); ++k)
@@ -133,18 +134,18 @@ std::string table_of_targets(const SweepAnswer& sweep) {
   return text;
 }
 
-Json limit_json(const SweepAnswer& sweep, std::span<const DesignLimit> limits) {
+Json limit_json(const SweepAnswer& sweep, std::span<const plan::DesignLimit> limits) {
   Json list = Json::array();
   for (std::size_t t = 0; t < limits.size(); ++t) {
-    const DesignLimit& limit = limits[t];
-    list.push_back(
-        {{"target", sweep.targets[t].name},
-         {"limit_deg", std::isnan(limit.turned_deg) ? Json(nullptr) : Json(limit.turned_deg)},
-         {"reason", name_of(limit.reason)},
-         {"ended_by", limit.pair == DesignLimit::no_pair ? Json(nullptr)
-                                                         : Json{{"fixed", sweep.pairs[limit.pair].fixed},
-                                                                {"mobile", sweep.pairs[limit.pair].mobile}}},
-         {"known_by", name_of(limit.by)}});
+    const plan::DesignLimit& limit = limits[t];
+    list.push_back({{"target", sweep.targets[t].name},
+                    {"limit_deg", std::isnan(limit.turned_deg) ? Json(nullptr) : Json(limit.turned_deg)},
+                    {"reason", name_of(limit.reason)},
+                    {"ended_by", limit.pair == plan::DesignLimit::no_pair
+                                     ? Json(nullptr)
+                                     : Json{{"fixed", sweep.pairs[limit.pair].fixed},
+                                            {"mobile", sweep.pairs[limit.pair].mobile}}},
+                    {"known_by", name_of(limit.by)}});
   }
   return list;
 }
@@ -155,7 +156,7 @@ Json values_json(const SweepAnswer& sweep, std::span<const double> values) {
   return json;
 }
 
-Json target_json(const SweepTarget& target, Anatomy anatomy) {
+Json target_json(const plan::SweepTarget& target, Anatomy anatomy) {
   Json start;
   for (const JointAngle angle : all_joint_angles)
     start[name_of(angle, anatomy)] = io::given_degrees(angle_of(target.motion.start, angle));
@@ -170,9 +171,9 @@ Json target_json(const SweepTarget& target, Anatomy anatomy) {
 }
 
 std::size_t known_by_form(const SweepAnswer& sweep) {
-  return static_cast<std::size_t>(
-      std::count_if(sweep.limits.begin(), sweep.limits.end(),
-                    [](const DesignLimit& limit) { return limit.by == LimitKnownBy::closed_form; }));
+  return static_cast<std::size_t>(std::count_if(
+      sweep.limits.begin(), sweep.limits.end(),
+      [](const plan::DesignLimit& limit) { return limit.by == plan::LimitKnownBy::closed_form; }));
 }
 
 ParameterKind swept_kind(const Joint& joint, const std::string& name) {
@@ -195,7 +196,7 @@ SweepResult sweep_result_of(const LoadedJoint& loaded, SweepAnswer answer, const
                      .side = loaded.joint.side,
                      .scope = scope_text(loaded.joint),
                      .answer = std::move(answer)};
-  for (const SweptParameter& swept : result.answer.parameters)
+  for (const plan::SweptParameter& swept : result.answer.parameters)
     result.units.emplace_back(unit_of(swept_kind(loaded.joint, swept.name)));
   result.bands = query.bands;
   result.notes = io::notes_json(notes);
@@ -206,7 +207,7 @@ SweepResult sweep_result_of(const LoadedJoint& loaded, SweepAnswer answer, const
 std::string sweep_text(const SweepResult& result) {
   const SweepAnswer& sweep = result.answer;
   std::string axes;
-  for (const SweptParameter& each : sweep.parameters)
+  for (const plan::SweptParameter& each : sweep.parameters)
     axes += fmt::format("{}{} {:.10g} to {:.10g} by {:.10g}", axes.empty() ? "" : ", ", each.name, each.first,
                         each.last, each.step);
   std::string text = fmt::format("{}: {}\n  {} designs, {} targets", result.joint, axes, sweep.designs(),
@@ -239,11 +240,11 @@ std::string sweep_text(const SweepResult& result) {
   return text + fmt::format("  {}\n", result.scope);
 }
 
-Json io::sweep_object(const SweepResult& result) {
+Json sweep_object(const SweepResult& result) {
   const SweepAnswer& sweep = result.answer;
   Json parameters = Json::array(), targets = Json::array(), pairs = Json::array(), notes = Json::array();
   for (std::size_t p = 0; p < sweep.parameters.size(); ++p) {
-    const SweptParameter& each = sweep.parameters[p];
+    const plan::SweptParameter& each = sweep.parameters[p];
     parameters.push_back({{"name", each.name},
                           {"unit", result.units[p]},
                           {"first", each.first},
@@ -251,8 +252,9 @@ Json io::sweep_object(const SweepResult& result) {
                           {"step", each.step},
                           {"count", each.count()}});
   }
-  for (const SweepTarget& target : sweep.targets) targets.push_back(target_json(target, result.anatomy));
-  for (const EndingPair& pair : sweep.pairs)
+  for (const plan::SweepTarget& target : sweep.targets)
+    targets.push_back(target_json(target, result.anatomy));
+  for (const plan::EndingPair& pair : sweep.pairs)
     pairs.push_back({{"fixed", pair.fixed}, {"mobile", pair.mobile}});
   for (const SweepNote& note : sweep.notes)
     notes.push_back({{"code", name_of(note.code)}, {"text", note.text}});
@@ -299,11 +301,11 @@ std::string sweep_json(const SweepResult& result) {
 std::string designs_csv(const SweepResult& result) {
   const SweepAnswer& sweep = result.answer;
   std::string text;
-  for (const SweptParameter& parameter : sweep.parameters) text += io::csv_field(parameter.name) + ",";
+  for (const plan::SweptParameter& parameter : sweep.parameters) text += io::csv_field(parameter.name) + ",";
   text += "margin_deg,safe";
   if (result.bands) text += ",probability";
   for (const std::string& name : sweep.quantity_names) text += "," + io::csv_field(name);
-  for (const SweepTarget& target : sweep.targets)
+  for (const plan::SweepTarget& target : sweep.targets)
     for (const char* column : {"limit_deg", "reason", "ended_by", "known_by"})
       text += "," + io::csv_field(fmt::format("{}_{}", target.name, column));
   text += "\n";
@@ -314,7 +316,7 @@ std::string designs_csv(const SweepResult& result) {
     if (result.bands) text += fmt::format(",{}", sweep.probability[i]);
     for (const double value : quantities_of(sweep, sweep.first_design + i))
       text += std::isnan(value) ? "," : fmt::format(",{}", value);
-    for (const DesignLimit& limit : limits_of(sweep, sweep.first_design + i)) {
+    for (const plan::DesignLimit& limit : limits_of(sweep, sweep.first_design + i)) {
       text += std::isnan(limit.turned_deg) ? "," : fmt::format(",{}", limit.turned_deg);
       text += fmt::format(",{},{},{}", name_of(limit.reason), io::csv_field(ending_text(sweep, limit)),
                           name_of(limit.by));
@@ -332,7 +334,7 @@ std::string safe_csv(const SweepResult& result) {
   const std::string& last = sweep.parameters.back().name;
   text += fmt::format("{},{},low_target,high_target\n", io::csv_field(last + "_low"),
                       io::csv_field(last + "_high"));
-  for (const SafeInterval& interval : sweep.safe) {
+  for (const plan::SafeInterval& interval : sweep.safe) {
     const std::vector<double> values = sweep.values_of(interval.line * sweep.parameters.back().count());
     for (std::size_t p = 0; p < others; ++p) text += fmt::format("{},", values[p]);
     text += fmt::format("{},{},{},{}\n", interval.low, interval.high, target_name(sweep, interval.low_target),
@@ -341,4 +343,4 @@ std::string safe_csv(const SweepResult& result) {
   return text;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

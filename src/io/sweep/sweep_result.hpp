@@ -13,7 +13,7 @@
 
 /// Results of `condyle sweep`. Every key, column, unit and sign is in docs/sweeps.md.
 
-namespace condyle {
+namespace condyle::io {
 
 /// A sweep and what it must be read with.
 struct SweepResult {
@@ -23,9 +23,9 @@ struct SweepResult {
   std::string scope;
   SweepAnswer answer;
   std::vector<std::string> units = {};  ///< of each parameter: "deg" or "mm"
-  std::optional<BandOptions> bands = {};
-  io::Json notes = io::Json::array();  ///< on the joint's set-up
-  io::Json provenance = nullptr;
+  std::optional<motion::BandOptions> bands = {};
+  Json notes = Json::array();  ///< on the joint's set-up
+  Json provenance = nullptr;
 };
 
 SweepResult sweep_result_of(const LoadedJoint& loaded, SweepAnswer answer, const SweepQuery& query,
@@ -38,8 +38,6 @@ std::string designs_csv(const SweepResult& result);
 /// A row for each safe interval along the last parameter.
 std::string safe_csv(const SweepResult& result);
 
-namespace io {
-
 /// sweep_json() before it is text.
 Json sweep_object(const SweepResult& result);
 
@@ -47,5 +45,4 @@ Json sweep_object(const SweepResult& result);
 SweepResult read_sweep_result(const Json& json, std::string_view designs, std::string_view safe,
                               std::string_view name);
 
-}  // namespace io
-}  // namespace condyle
+}  // namespace condyle::io

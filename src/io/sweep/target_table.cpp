@@ -79,13 +79,14 @@ Movement movement_of(const TargetRow& row, Anatomy joint) {
                            : in_quotes(row.text("movement")) + " is none; there are " + names);
 }
 
-Motion motion_of(const TargetRow& row, std::span<const Motion> motions, JointKind kind, Anatomy joint) {
+motion::Motion motion_of(const TargetRow& row, std::span<const motion::Motion> motions, JointKind kind,
+                         Anatomy joint) {
   const bool is_named = !row.text("motion").empty();
   if (is_named) {
     for (const std::string_view other : {"start", "movement", "range_deg"})
       if (!row.text(other).empty()) row.fail(other, "the motion that is named has its own");
     try {
-      return motion_named(motions, row.text("motion"));
+      return motion::motion_named(motions, row.text("motion"));
     } catch (const UsageError& error) {
       row.fail("motion", error.what());
     }
@@ -93,7 +94,7 @@ Motion motion_of(const TargetRow& row, std::span<const Motion> motions, JointKin
   if (row.text("start").empty() && row.text("movement").empty())
     row.fail("motion", "must name a motion, or start and movement say one");
   const Movement movement = movement_of(row, joint);
-  Motion motion{std::string(row.text("name")), movement.angle, movement.sense};
+  motion::Motion motion{std::string(row.text("name")), movement.angle, movement.sense};
   if (!row.text("start").empty()) {
     try {
       motion.start = parse_pose(row.text("start"), kind, joint).coordinates().angles;
@@ -106,8 +107,9 @@ Motion motion_of(const TargetRow& row, std::span<const Motion> motions, JointKin
   return motion;
 }
 
-SweepTarget target_of(const TargetRow& row, std::span<const Motion> motions, JointKind kind, Anatomy joint) {
-  SweepTarget target{std::string(row.text("name"))};
+plan::SweepTarget target_of(const TargetRow& row, std::span<const motion::Motion> motions, JointKind kind,
+                            Anatomy joint) {
+  plan::SweepTarget target{std::string(row.text("name"))};
   if (target.name.empty()) row.fail("name", "is empty");
   target.motion = motion_of(row, motions, kind, joint);
   const auto reach = row.number("reach_deg");
@@ -138,12 +140,13 @@ void check_header(const std::vector<std::string>& columns, std::size_t line, con
 
 }  // namespace
 
-std::vector<SweepTarget> parse_targets(std::string_view text, std::string_view name,
-                                       std::span<const Motion> motions, JointKind kind, Anatomy joint) {
+std::vector<plan::SweepTarget> parse_targets(std::string_view text, std::string_view name,
+                                             std::span<const motion::Motion> motions, JointKind kind,
+                                             Anatomy joint) {
   const Source source{text, name};
   TextCursor cursor(source);
   std::vector<std::string> columns;
-  std::vector<SweepTarget> targets;
+  std::vector<plan::SweepTarget> targets;
   while (!cursor.at_end()) {
     const std::size_t line = cursor.line();
     const std::string_view row = cursor.rest_of_line();
@@ -163,8 +166,9 @@ std::vector<SweepTarget> parse_targets(std::string_view text, std::string_view n
   return targets;
 }
 
-std::vector<SweepTarget> read_targets(const std::filesystem::path& path, std::span<const Motion> motions,
-                                      JointKind kind, Anatomy joint) {
+std::vector<plan::SweepTarget> read_targets(const std::filesystem::path& path,
+                                            std::span<const motion::Motion> motions, JointKind kind,
+                                            Anatomy joint) {
   return parse_targets(read_whole_file(path), path.string(), motions, kind, joint);
 }
 

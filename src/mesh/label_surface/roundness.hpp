@@ -1,6 +1,6 @@
 #pragma once
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 #include "core/ordered_sums.hpp"
 
 namespace condyle::mesh {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "condyle/angle.hpp"
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 #include "motion/events/rotation_function.hpp"
 
 /// Contact events: the angles at which features of a rotating body meet features of a stationary one

@@ -7,7 +7,7 @@
 #include "core/formatted.hpp"
 #include "mesh/enclosed_volume.hpp"
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using core::formatted;
@@ -37,7 +37,8 @@ constexpr double largest_angle_deg = 720, largest_length_mm = 1000;
 constexpr double far_apart = 20, far_within = 10;
 
 /// Where a thickness that varies is beyond what is to be expected of it.
-void note_bounds(const ElasticLayer& layer, const std::string& name, std::vector<ContactNote>& notes) {
+void note_bounds(const contact::ElasticLayer& layer, const std::string& name,
+                 std::vector<ContactNote>& notes) {
   const auto* many = std::get_if<std::vector<double>>(&layer.thickness_mm);
   if (!many || many->empty() || !layer.thickness_bounds_mm) return;
   const auto [least, greatest] = *layer.thickness_bounds_mm;
@@ -60,7 +61,7 @@ void note_bounds(const ElasticLayer& layer, const std::string& name, std::vector
                        beyond});
 }
 
-void note_layer(const std::optional<ElasticLayer>& layer, const Mesh& mesh, std::string_view body,
+void note_layer(const std::optional<contact::ElasticLayer>& layer, const Mesh& mesh, std::string_view body,
                 std::vector<ContactNote>& notes) {
   if (!layer) return;
   const std::string name(body);
@@ -197,24 +198,25 @@ void add_new(std::vector<ContactNote>& notes, std::vector<ContactNote> more) {
 }
 
 std::vector<ContactNote> check_layers(const Mesh& fixed, const Mesh& mobile,
-                                      const ElasticContactOptions& options, const BodyNames& names) {
+                                      const contact::ElasticContactOptions& options, const BodyNames& names) {
   std::vector<ContactNote> notes;
   note_layer(options.fixed, fixed, names.fixed, notes);
   note_layer(options.mobile, mobile, names.mobile, notes);
   return notes;
 }
 
-std::vector<ContactNote> check_layers(const ElasticContact& contact, const BodyNames& names) {
+std::vector<ContactNote> check_layers(const contact::ElasticContact& contact, const BodyNames& names) {
   return check_layers(contact.fixed(), contact.mobile(), contact.options(), names);
 }
 
-std::vector<ContactNote> check_load(const Load& load) {
+std::vector<ContactNote> check_load(const contact::Load& load) {
   std::vector<ContactNote> notes;
   note_force(load.on_mobile.force_n.norm(), "the force to be carried", notes);
   return notes;
 }
 
-std::vector<ContactNote> check_contact(const ElasticContactResults& results, const BodyNames& names) {
+std::vector<ContactNote> check_contact(const contact::ElasticContactResults& results,
+                                       const BodyNames& names) {
   std::vector<ContactNote> notes;
   double strain = 0;
   for (const auto* cast : {&results.fixed, &results.mobile})
@@ -235,7 +237,7 @@ std::vector<ContactNote> check_motion(std::span<const std::optional<FrameContact
   for (const auto& frame : frames) {
     if (!frame) continue;
     ++answered;
-    const SurfaceContact& surface = frame->surface;
+    const contact::SurfaceContact& surface = frame->surface;
     strain = std::max(strain, surface.max_strain);
     force = std::max(force, force_of(*frame));
     crushed += surface.max_strain > 1;
@@ -285,4 +287,4 @@ std::optional<ContactNote> check_recorded(std::string_view coordinate, RecordedK
   return std::nullopt;
 }
 
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -53,9 +53,9 @@ Vec3 crossing(const Vec3& p, const Vec3& q, const MeshCorners& t) {
 }  // namespace
 
 LastingContact lasting_contact(const Mesh& fixed, const Mesh& mobile, const Pose& X_FM,
-                               std::span<const TrianglePair> pairs, const Speed& speed) {
+                               std::span<const contact::TrianglePair> pairs, const Speed& speed) {
   assert(!pairs.empty());
-  const auto witness = [&](const TrianglePair& pair, const Vec3& on_fixed, const Vec3& on_mobile) {
+  const auto witness = [&](const contact::TrianglePair& pair, const Vec3& on_fixed, const Vec3& on_mobile) {
     return ContactWitness{{FeatureKind::face, pair.fixed},
                           {FeatureKind::face, pair.mobile},
                           on_fixed,

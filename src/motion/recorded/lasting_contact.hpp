@@ -25,6 +25,6 @@ struct LastingContact {
 ///
 /// Among many pairs some are evaluated; another choice would only change how long contact is known to last.
 LastingContact lasting_contact(const Mesh& fixed, const Mesh& mobile, const Pose& X_FM,
-                               std::span<const TrianglePair> pairs, const Speed& speed);
+                               std::span<const contact::TrianglePair> pairs, const Speed& speed);
 
 }  // namespace condyle::motion

@@ -10,7 +10,7 @@
 #include "core/per_thread.hpp"
 #include "mesh/surface_to_surface.hpp"
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 /// Counts frames done and reports them, one thread at a time.
@@ -50,8 +50,8 @@ bool may_cut_off(const FrameContact& frame, double max_depth_mm, double reach_mm
   return max_depth_mm > 0 ? max_depth_mm > reach_mm / 2 : frame.in_contact || !both_closed;
 }
 
-void ask(const ElasticContact& surfaces, BodyRole, FrameContact& frame) {
-  ElasticContactResults results = surfaces.at(frame.X_FM);
+void ask(const contact::ElasticContact& surfaces, BodyRole, FrameContact& frame) {
+  contact::ElasticContactResults results = surfaces.at(frame.X_FM);
   double max_depth_mm = 0;
   for (const auto* surface : {&results.fixed, &results.mobile})
     if (*surface) max_depth_mm = std::max(max_depth_mm, (*surface)->totals.max_depth_mm);
@@ -61,7 +61,7 @@ void ask(const ElasticContact& surfaces, BodyRole, FrameContact& frame) {
   frame.surface = std::move(results.mobile ? *results.mobile : *results.fixed);
   frame.on_mobile = results.on_mobile;
 }
-void ask(const NormalDepth& surfaces, BodyRole casting, FrameContact& frame) {
+void ask(const contact::NormalDepth& surfaces, BodyRole casting, FrameContact& frame) {
   const Pose X_CT = casting == BodyRole::fixed ? frame.X_FM : inverted(frame.X_FM);
   surfaces.at(X_CT, frame.surface);
   const bool closed = surfaces.casting().is_closed() && surfaces.target().is_closed();
@@ -99,8 +99,8 @@ class SmallestGap {
 }  // namespace
 
 std::optional<std::vector<std::optional<FrameContact>>> contact_along(
-    const JointContact& joint, const SurfaceQuestion& surfaces, std::span<const std::optional<Pose>> X_FM,
-    BodyRole casting, const Control& control) {
+    const contact::JointContact& joint, const SurfaceQuestion& surfaces,
+    std::span<const std::optional<Pose>> X_FM, BodyRole casting, const Control& control) {
   const mesh::TriangleTree fixed(joint.fixed()), mobile(joint.mobile());
   std::vector<std::optional<FrameContact>> frames(X_FM.size());
   ProgressCount progress(control, frames.size());
@@ -123,12 +123,12 @@ std::optional<std::vector<std::optional<FrameContact>>> contact_along(
   return frames;
 }
 
-std::optional<std::vector<std::optional<BalancedPose>>> balance_along(
-    const ElasticContact& surfaces, std::span<const std::optional<Pose>> X_FM, std::span<const Load> loads,
-    const BalanceOptions& how, const Control& control) {
+std::optional<std::vector<std::optional<contact::BalancedPose>>> balance_along(
+    const contact::ElasticContact& surfaces, std::span<const std::optional<Pose>> X_FM,
+    std::span<const contact::Load> loads, const contact::BalanceOptions& how, const Control& control) {
   if (loads.size() != 1 && loads.size() != X_FM.size())
     throw UsageError(std::to_string(loads.size()) + " loads for " + std::to_string(X_FM.size()) + " frames");
-  std::vector<std::optional<BalancedPose>> frames(X_FM.size());
+  std::vector<std::optional<contact::BalancedPose>> frames(X_FM.size());
   ProgressCount progress(control, frames.size());
   // How the load moved the body at the last frame, and how that changes from frame to frame where it does so smoothly.
   Vec3 moved = Vec3::Zero(), change = Vec3::Zero();
@@ -138,9 +138,10 @@ std::optional<std::vector<std::optional<BalancedPose>>> balance_along(
     if (X_FM[i]) {
       Pose start = *X_FM[i];
       start.translation() += moved + change;
-      frames[i] = named(i, [&] { return balance(surfaces, start, loads[loads.size() == 1 ? 0 : i], how); });
+      frames[i] =
+          named(i, [&] { return contact::balance(surfaces, start, loads[loads.size() == 1 ? 0 : i], how); });
     }
-    const bool balanced = frames[i] && frames[i]->outcome == BalanceOutcome::balanced;
+    const bool balanced = frames[i] && frames[i]->outcome == contact::BalanceOutcome::balanced;
     change.setZero();
     if (frames[i] && frames[i]->carries_load()) {
       const Vec3 here = frames[i]->X_FM.translation() - X_FM[i]->translation();
@@ -153,4 +154,4 @@ std::optional<std::vector<std::optional<BalancedPose>>> balance_along(
   return frames;
 }
 
-}  // namespace condyle
+}  // namespace condyle::motion

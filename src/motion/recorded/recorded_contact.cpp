@@ -12,7 +12,7 @@
 #include "motion/recorded/rotation_contacts.hpp"
 #include "motion/recorded/screw_contacts.hpp"
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using motion::ContactPart;
@@ -66,13 +66,13 @@ struct Segment {
 /// The bodies, and what each thread keeps of them.
 class SegmentSearch {
  public:
-  explicit SegmentSearch(const JointContact& bodies)
+  explicit SegmentSearch(const contact::JointContact& bodies)
       : bodies_(bodies),
         reach_mm_(reach_of(bodies.mobile())),
         fixed_(bodies.fixed()),
         mobile_(bodies.mobile()),
         workers_([this] {
-          return Worker{motion::RotatingBody(fixed_), motion::RotatingBody(mobile_)};
+          return Worker{RotatingBody(fixed_), RotatingBody(mobile_)};
         }) {}
 
   ScrewMotion motion(const Pose& from, const Pose& to) const { return {from, to, reach_mm_}; }
@@ -87,7 +87,7 @@ class SegmentSearch {
       segment.contacts = motion::rotation_contacts(worker.fixed, worker.mobile, motion);
     } else {
       segment.searched = BetweenSamples::bounded;
-      motion::ScrewContacts found = motion::screw_contacts({bodies_, fixed_, mobile_}, motion, resolution);
+      ScrewContacts found = motion::screw_contacts({bodies_, fixed_, mobile_}, motion, resolution);
       segment.contacts = std::move(found.contacts), segment.poses = found.poses;
     }
     return segment;
@@ -95,12 +95,12 @@ class SegmentSearch {
 
  private:
   struct Worker {
-    motion::RotatingBody fixed, mobile;
+    RotatingBody fixed, mobile;
   };
 
-  const JointContact& bodies_;
+  const contact::JointContact& bodies_;
   double reach_mm_;
-  motion::FeatureTree fixed_, mobile_;
+  FeatureTree fixed_, mobile_;
   core::PerThread<Worker> workers_;
 };
 
@@ -179,13 +179,13 @@ RecordedContact put_together(std::span<const double> time_s, std::span<const Seg
 
 }  // namespace
 
-RecordedContact contact_between(const JointContact& bodies, std::span<const double> time_s,
+RecordedContact contact_between(const contact::JointContact& bodies, std::span<const double> time_s,
                                 std::span<const Pose> X_FM, const RecordedContactOptions& options) {
   return *contact_between(bodies, time_s, X_FM, options, {});
 }
 
-std::optional<RecordedContact> contact_between(const JointContact& bodies, std::span<const double> time_s,
-                                               std::span<const Pose> X_FM,
+std::optional<RecordedContact> contact_between(const contact::JointContact& bodies,
+                                               std::span<const double> time_s, std::span<const Pose> X_FM,
                                                const RecordedContactOptions& options,
                                                const Control& control) {
   check_samples(time_s, X_FM, options);
@@ -213,4 +213,4 @@ std::optional<RecordedContact> contact_between(const JointContact& bodies, std::
   return put_together(time_s, segments);
 }
 
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -3,15 +3,15 @@
 #include "motion/recorded/contact_part.hpp"
 #include "motion/recorded/screw_motion.hpp"
 
-namespace condyle {
+namespace condyle::contact {
 class JointContact;
-}
+}  // namespace condyle::contact
 
 namespace condyle::motion {
 
 /// Two bodies asked at many poses.
 struct PosedBodies {
-  const JointContact& contact;
+  const contact::JointContact& contact;
   const FeatureTree &fixed, &mobile;  ///< of the same meshes
 };
 

@@ -12,7 +12,7 @@
 #include "kinematics/hip_parts.hpp"
 #include "motion/rom/contact_roles.hpp"
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 /// The meshes of the mobile body that are called bearing: names, and marks of their triangles.
@@ -64,7 +64,7 @@ struct LimitingGap {
 };
 
 /// Infinite if nothing limits the margin.
-LimitingGap narrowest_gap(const BearingSurface& surface) {
+LimitingGap limiting_gap(const BearingSurface& surface) {
   constexpr double none = std::numeric_limits<double>::infinity();
   const double rim = surface.rim_gap_mm.value_or(none), beside = surface.beside_gap_mm.value_or(none);
   return beside < rim ? LimitingGap{beside, MarginLimit::beside_socket} : LimitingGap{rim, MarginLimit::rim};
@@ -114,7 +114,7 @@ BearingFinding surface_of(const Joint& joint, const BearingOptions& options) {
                         off, farthest_head_centre_mm));
   find_socket(joint, surface);
   // A bearing cartilage reaches nearly to the rim's, and its own contact is none of impingement: no reserve is kept there.
-  const auto [gap, by] = narrowest_gap(surface);
+  const auto [gap, by] = limiting_gap(surface);
   const double room = gap - (has_parts ? 0 : rim_reserve_mm);
   const std::optional<double> stated = options.margin_mm ? options.margin_mm : joint.mobile.bearing_margin_mm;
   surface.margin_mm = stated.value_or(std::min(usual_bearing_margin_mm, room));
@@ -155,4 +155,4 @@ BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& op
   return found;
 }
 
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -5,7 +5,7 @@
 #include "condyle/error.hpp"
 #include "kinematics/socket_rim.hpp"
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 /// Sine of one degree: nearer to the plane's normal a direction does not say where it points on the plane.
@@ -73,4 +73,4 @@ ClockFace neck_clock(const NeckAxis& neck) {
   return clock_face(neck.direction);
 }
 
-}  // namespace condyle
+}  // namespace condyle::motion

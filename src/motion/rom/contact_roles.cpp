@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 ContactRole role_of(PartContact contact) noexcept {
@@ -63,7 +63,7 @@ bool ContactRoles::distinguish_bearing() const noexcept {
   return holds(mobile, ContactRole::bearing) || holds(mobile, ContactRole::bearing_on_bearing);
 }
 
-std::vector<std::uint8_t> motion::triangles_within(const TriMesh& mobile, const BearingSurface& surface) {
+std::vector<std::uint8_t> triangles_within(const TriMesh& mobile, const BearingSurface& surface) {
   const double radius = surface.head.radius + surface.margin_mm;
   std::vector<std::uint8_t> near_centre(mobile.vertices.size());
   for (std::size_t v = 0; v < mobile.vertices.size(); ++v)
@@ -76,7 +76,7 @@ std::vector<std::uint8_t> motion::triangles_within(const TriMesh& mobile, const 
   return within;
 }
 
-ContactRoles motion::contact_roles(const Joint& joint, const std::optional<BearingSurface>& surface) {
+ContactRoles contact_roles(const Joint& joint, const std::optional<BearingSurface>& surface) {
   const Body &fixed = joint.fixed, &mobile = joint.mobile;
   const auto has_words = [](const Body& body) {
     return has_part(body, PartContact::bearing) || has_part(body, PartContact::soft);
@@ -97,7 +97,7 @@ ContactRoles motion::contact_roles(const Joint& joint, const std::optional<Beari
   return roles;
 }
 
-ContactKind motion::kind_of(ContactRole fixed, ContactRole mobile) noexcept {
+ContactKind kind_of(ContactRole fixed, ContactRole mobile) noexcept {
   if (fixed == ContactRole::soft || mobile == ContactRole::soft) return ContactKind::soft;
   const bool slides = mobile == ContactRole::bearing ||
                       (mobile == ContactRole::bearing_on_bearing && fixed == ContactRole::bearing);
@@ -124,4 +124,4 @@ ContactKind BearingFinding::kind_of(const TriMesh& fixed, const TriMesh& mobile,
   return kind == ContactKind::impingement && !roles.distinguish_bearing() ? ContactKind::unknown : kind;
 }
 
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -2,7 +2,7 @@
 
 #include "condyle/range_of_motion.hpp"
 
-namespace condyle {
+namespace condyle::motion {
 
 std::string_view name_of(ContactSide side) noexcept {
   switch (side) {
@@ -30,4 +30,4 @@ std::optional<ContactSide> contact_side(const Joint& joint, const MotionLimit& l
   return x > 0 ? ContactSide::anterior : ContactSide::posterior;
 }
 
-}  // namespace condyle
+}  // namespace condyle::motion

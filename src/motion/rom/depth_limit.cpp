@@ -6,7 +6,7 @@
 #include "condyle/error.hpp"
 #include "radial/exact/ray_scan.hpp"
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 /// Parts of the first too deep step that are tried before halving.
@@ -27,7 +27,7 @@ struct DeepVertex {
 };
 
 /// The first in number of those that are deepest.
-std::optional<DeepVertex> deepest_vertex(const Penetrations& inside) {
+std::optional<DeepVertex> deepest_vertex(const radial::Penetrations& inside) {
   std::optional<DeepVertex> deepest;
   for (std::size_t i = 0; i < inside.size(); ++i) {
     if (inside.state[i] != PointState::inside) continue;
@@ -55,13 +55,13 @@ struct DepthRange::Parts {
   CoordinateSystem system;
   AllowedDepth allowed;
   BearingFinding bearing;
-  JointContact contact;
+  contact::JointContact contact;
 };
 
 DepthRange::DepthRange(const Joint& joint, const AllowedDepth& allowed) {
   check(allowed);
-  parts_ = std::make_unique<Parts>(
-      Parts{joint.kind, joint.coordinates(), allowed, find_bearing_surface(joint), JointContact(joint)});
+  parts_ = std::make_unique<Parts>(Parts{joint.kind, joint.coordinates(), allowed,
+                                         find_bearing_surface(joint), contact::JointContact(joint)});
   for (const auto& [body, table] : {std::pair{&joint.fixed, &parts_->contact.fixed_table()},
                                     std::pair{&joint.mobile, &parts_->contact.mobile_table()}})
     if (!table->is_closed()) throw MeshError(body->name + ": is open: depth needs an inside");
@@ -74,7 +74,7 @@ DeepestPlace DepthRange::deepest(const JointAngles& at) const {
   DeepestPlace deepest;
   const Pose X_MF = inverted(X);
   const TriMesh &fixed = parts_->contact.fixed(), &mobile = parts_->contact.mobile();
-  Penetrations found;
+  radial::Penetrations found;
   parts_->contact.mobile_in_fixed(X, found);
   const auto m = deepest_vertex(found);
   parts_->contact.fixed_in_mobile(X, found);
@@ -154,4 +154,4 @@ const BearingFinding& DepthRange::bearing() const noexcept {
   return parts_->bearing;
 }
 
-}  // namespace condyle
+}  // namespace condyle::motion

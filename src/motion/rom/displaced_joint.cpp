@@ -151,14 +151,10 @@ void DisplacedJoint::limits(const Displacement& by, std::span<DisplacedLimit> ou
   parts_->limits(by, out);
 }
 
-}  // namespace condyle::motion
-
-namespace condyle {
-
 std::vector<DisplacedLimit> limits_about(const Joint& joint, std::span<const Motion> motions,
                                          const RangeOptions& range, std::span<const Vec3> centres) {
   for (const Motion& motion : motions) check_motion(motion, joint.kind);
-  const motion::DisplacedJoint displaced(joint, motions, range, {});
+  const DisplacedJoint displaced(joint, motions, range, {});
   std::vector<DisplacedLimit> limits(centres.size() * motions.size());
   core::parallel_chunks(centres.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
@@ -167,4 +163,4 @@ std::vector<DisplacedLimit> limits_about(const Joint& joint, std::span<const Mot
   return limits;
 }
 
-}  // namespace condyle
+}  // namespace condyle::motion

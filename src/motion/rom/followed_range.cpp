@@ -8,7 +8,7 @@
 #include "motion/rom/overlap.hpp"
 #include "motion/search/path_clearance.hpp"
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 /// Finer ones would run into the rounding that clearance() allows for.
@@ -31,7 +31,7 @@ class FollowedTranslation {
                    frame_);
   }
   /// How fast the body moves between two knots, per radian. Axes turn no faster than the angle, and a translation along them with them.
-  motion::Speed speed(const TranslationKnot& from, const TranslationKnot& to) const {
+  Speed speed(const TranslationKnot& from, const TranslationKnot& to) const {
     const Vec3 &a = from.translation_mm, &b = to.translation_mm;
     const double along = (b - a).norm() / (to.turned - from.turned).radians();
     const double about =
@@ -63,33 +63,33 @@ struct FollowedRange::Parts {
   Joint joint;
   BearingFinding bearing;
   BearingRule rule;
-  motion::PartsOfJoint included;
-  std::vector<motion::FeatureTree> fixed = {}, mobile = {};
+  PartsOfJoint included;
+  std::vector<FeatureTree> fixed = {}, mobile = {};
 
   Parts(const Joint& of, const BearingOptions& options)
       : joint(of),
         bearing(find_bearing_surface(of, options)),
         rule(bearing.roles.distinguish_bearing() ? options.rule : BearingRule::count),
         included(motion::parts_that_count(of, {}, bearing, rule)) {
-    for (const motion::PartOfMesh& part : included.fixed) fixed.emplace_back(part.mesh);
-    for (const motion::PartOfMesh& part : included.mobile) mobile.emplace_back(part.mesh);
+    for (const PartOfMesh& part : included.fixed) fixed.emplace_back(part.mesh);
+    for (const PartOfMesh& part : included.mobile) mobile.emplace_back(part.mesh);
   }
 
   /// Two triangles that less than the tolerance brings together.
   struct Met {
     Angle turned;
-    motion::Clearance clearance;
-    motion::PairOfParts parts;
+    Clearance clearance;
+    PairOfParts parts;
     Pose X_FM;
   };
 
-  using PartPairs = std::span<const motion::PairOfParts>;
+  using PartPairs = std::span<const PairOfParts>;
 
   /// The pair of parts that the motion can bring together first.
-  std::optional<std::pair<motion::Clearance, motion::PairOfParts>> nearest(PartPairs pairs, const Pose& X_FM,
-                                                                           const motion::Speed& speed) const {
-    std::optional<std::pair<motion::Clearance, motion::PairOfParts>> found;
-    for (const motion::PairOfParts& pair : pairs) {
+  std::optional<std::pair<Clearance, PairOfParts>> nearest(PartPairs pairs, const Pose& X_FM,
+                                                           const Speed& speed) const {
+    std::optional<std::pair<Clearance, PairOfParts>> found;
+    for (const PairOfParts& pair : pairs) {
       const double least = found ? found->first.free_for : motion::far_enough;
       const auto near = motion::clearance(fixed[pair.fixed], mobile[pair.mobile], X_FM, least, speed);
       if (near) found = {*near, pair};
@@ -101,7 +101,7 @@ struct FollowedRange::Parts {
   std::optional<Met> first_met(PartPairs pairs, const FollowedTranslation& path, const TranslationKnot& from,
                                const TranslationKnot& to, Angle tolerance, const std::stop_token& stop,
                                std::size_t& poses) const {
-    const motion::Speed speed = path.speed(from, to);
+    const Speed speed = path.speed(from, to);
     for (Angle turned = from.turned; turned < to.turned && !stop.stop_requested();) {
       const Pose X_FM = path.pose(between(from, to, turned));
       const auto near = nearest(pairs, X_FM, speed);
@@ -156,8 +156,8 @@ struct FollowedRange::Parts {
   std::optional<EarlierContact> earlier(ContactKind kind, const FollowedTranslation& path, Knots knots,
                                         Angle limit, Angle tolerance, const std::stop_token& stop,
                                         std::size_t& poses) const {
-    std::vector<motion::PairOfParts> pairs;
-    for (const motion::PairOfParts& pair : included.earlier)
+    std::vector<PairOfParts> pairs;
+    for (const PairOfParts& pair : included.earlier)
       if (pair.kind == kind) pairs.push_back(pair);
     for (std::size_t i = 1; !pairs.empty() && i < knots.size() && knots[i - 1].turned < limit; ++i) {
       const auto met = first_met(pairs, path, knots[i - 1], knots[i], tolerance, stop, poses);
@@ -234,4 +234,4 @@ std::optional<FollowedLimit> FollowedRange::limit(const Motion& motion, const Ne
   return stop.stop_requested() ? std::nullopt : std::optional(std::move(out));
 }
 
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -11,13 +11,14 @@
 #include "motion/rom/overlap.hpp"
 #include "motion/rom/socket_hour.hpp"
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 /// counts(v): whether vertex v may be part of the zone.
 template <class Counts>
-void take_depths(const std::optional<RadialResults>& radial,
-                 const std::optional<TangentialResults>& tangential, const Counts& counts, BodyZone& zone) {
+void take_depths(const std::optional<radial::RadialResults>& radial,
+                 const std::optional<tangential::TangentialResults>& tangential, const Counts& counts,
+                 BodyZone& zone) {
   if (!radial || !tangential) return;
   const std::size_t count = radial->size();
   for (auto* values : {&zone.radial_depth_mm, &zone.ray_to_normal_deg, &zone.tangential_depth_deg,
@@ -106,7 +107,7 @@ struct ZoneFinder::Parts {
   std::optional<NeckAxis> neck;
   Mesh whole_fixed, whole_mobile;
   CountedContact counted;
-  JointContact contact;  ///< of what is not soft
+  contact::JointContact contact;  ///< of what is not soft
 };
 
 ZoneFinder::ZoneFinder(const Joint& joint, const ZoneOptions& options) {
@@ -116,7 +117,7 @@ ZoneFinder::ZoneFinder(const Joint& joint, const ZoneOptions& options) {
   const std::optional<BearingSurface>& bearing = found.surface;
   std::optional<NeckAxis> neck = options.neck;
   if (!neck && bearing && joint.is_hip()) neck = find_neck_axis(joint.mobile.mesh, bearing->head.radius);
-  motion::PartsOfJoint hard = motion::parts_that_count(joint, {}, found, BearingRule::count);
+  PartsOfJoint hard = motion::parts_that_count(joint, {}, found, BearingRule::count);
   auto& [fixed, fixed_in_whole] = hard.fixed.front();
   auto& [mobile, mobile_in_whole] = hard.mobile.front();
   CountedContact counted{CountedBody(fixed, std::move(fixed_in_whole), found.roles.fixed),
@@ -125,7 +126,7 @@ ZoneFinder::ZoneFinder(const Joint& joint, const ZoneOptions& options) {
   parts_ = std::make_unique<Parts>(Parts{joint.coordinates(), joint.is_hip(), options.past,
                                          options.socket_clock ? *options.socket_clock : sagittal_clock(),
                                          bearing, neck, joint.fixed.mesh, joint.mobile.mesh,
-                                         std::move(counted), JointContact(fixed, mobile)});
+                                         std::move(counted), contact::JointContact(fixed, mobile)});
 }
 
 ZoneFinder::~ZoneFinder() = default;
@@ -144,10 +145,11 @@ std::optional<ImpingementZone> ZoneFinder::zone(const MotionLimit& limit) const 
   const Angle onwards = past * sign_of(limit.motion.sense);
   const JointAngles at = turned_by(limit.angles_at_limit(), limit.motion.vary, onwards);
   const Pose X_FM = pose_at(system, at);
-  const RadialContact radial = contact.radial(X_FM);
+  const contact::RadialContact radial = contact.radial(X_FM);
   const bool both_closed = radial.mobile_in_fixed && radial.fixed_in_mobile;
-  const TangentialContact tangential =
-      both_closed ? contact.tangential(X_FM, axis_of(limit.motion.vary, system, at)) : TangentialContact{};
+  const contact::TangentialContact tangential =
+      both_closed ? contact.tangential(X_FM, axis_of(limit.motion.vary, system, at))
+                  : contact::TangentialContact{};
   // clang 14 does not let a lambda have a structured binding.
   const CountedContact& counted = counted_contact;
   take_depths(
@@ -165,7 +167,7 @@ std::optional<ImpingementZone> ZoneFinder::zone(const MotionLimit& limit) const 
       },
       zone.fixed);
   std::vector<Index> of_fixed, of_mobile;
-  for (const TrianglePair& pair : radial.pairs) {
+  for (const contact::TrianglePair& pair : radial.pairs) {
     if (!counted.counts(counted.fixed.triangles[pair.fixed], counted.mobile.triangles[pair.mobile])) continue;
     of_fixed.push_back(pair.fixed);
     of_mobile.push_back(pair.mobile);
@@ -184,4 +186,4 @@ std::optional<ImpingementZone> ZoneFinder::zone(const MotionLimit& limit) const 
   return zone;
 }
 
-}  // namespace condyle
+}  // namespace condyle::motion

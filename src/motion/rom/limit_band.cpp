@@ -7,7 +7,7 @@
 #include "motion/rom/displaced_joint.hpp"
 #include "motion/rom/displacement.hpp"
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using motion::Displacement;
@@ -59,7 +59,7 @@ std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<
                                                   const RangeOptions& range, const BandOptions& options,
                                                   const Control& control) {
   check(options, motions, joint.kind);
-  const motion::DisplacedJoint displaced(joint, motions, range, options.sigma);
+  const DisplacedJoint displaced(joint, motions, range, options.sigma);
   const std::vector<Displacement> samples =
       motion::displacements(options, kinematics::uncertain_parameters(joint));
 
@@ -121,4 +121,4 @@ std::vector<LimitBand> limit_bands(const Joint& joint, std::span<const Motion> m
   return *limit_bands(joint, motions, range, options, {});
 }
 
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -10,7 +10,7 @@
 #include "condyle/error.hpp"
 #include "core/parallel.hpp"
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 /// How far past the last step an axis may end and still count as stopping on it, in steps: decimal steps such as 0.1
@@ -164,4 +164,4 @@ FreeVolume free_volume(const MotionMap& map) {
   return volume;
 }
 
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -7,7 +7,7 @@
 #include "core/near_name.hpp"
 #include "core/one_line.hpp"
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 constexpr auto flexion = JointAngle::flexion, adduction = JointAngle::adduction,
@@ -164,18 +164,6 @@ void check_motion(const Motion& motion, JointKind kind) {
   }
 }
 
-Angle angle_of(const JointAngles& angles, JointAngle angle) noexcept {
-  switch (angle) {
-    case JointAngle::flexion:
-      return angles.flexion;
-    case JointAngle::adduction:
-      return angles.adduction;
-    case JointAngle::internal_rotation:
-      break;
-  }
-  return angles.internal_rotation;
-}
-
 JointAngles turned_by(JointAngles from, JointAngle angle, Angle by) noexcept {
   Angle& changed = angle == JointAngle::flexion     ? from.flexion
                    : angle == JointAngle::adduction ? from.adduction
@@ -188,4 +176,4 @@ JointAngles MotionLimit::angles_at_limit() const noexcept {
   return turned_by(motion.start, motion.vary, end.turned * sign_of(motion.sense));
 }
 
-}  // namespace condyle
+}  // namespace condyle::motion

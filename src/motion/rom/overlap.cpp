@@ -50,7 +50,7 @@ std::string number(double value) {
 }
 
 /// Where one body's vertices are deepest in the other.
-std::string deepest(const Body& body, const Body& other, const RadialBodySummary& summary) {
+std::string deepest(const Body& body, const Body& other, const contact::RadialBodySummary& summary) {
   const Vec3 p = body.mesh.vertices()[summary.deepest->vertex];
   return body.name + " vertex " + std::to_string(summary.deepest->vertex) + " at (" + number(p.x()) + ", " +
          number(p.y()) + ", " + number(p.z()) + ") mm is " + number(summary.deepest->depth_mm) +
@@ -113,8 +113,9 @@ void leave_out_contacts(const Joint& joint, const OverlapOptions& options, const
   const int rings = options.leave_out_reference_contacts->rings;
   if (rings < 0) throw UsageError("contacts in the reference pose to leave out: rings must not be below 0");
   const Mesh &fixed = joint.fixed.mesh, &mobile = joint.mobile.mesh;
-  const auto pairs = JointContact(fixed, mobile).pairs(pose_at(joint.coordinates(), options.reference_pose));
-  for (const TrianglePair& pair : pairs)
+  const auto pairs =
+      contact::JointContact(fixed, mobile).pairs(pose_at(joint.coordinates(), options.reference_pose));
+  for (const contact::TrianglePair& pair : pairs)
     // Soft meshes end no motion: the bone under them stays.
     if (bearing.kind_of(pair.fixed, pair.mobile) != ContactKind::soft)
       of_fixed[pair.fixed] = of_mobile[pair.mobile] = 0;
@@ -158,15 +159,15 @@ PartsOfJoint parts_that_count(const Joint& joint, const OverlapOptions& options,
 }
 
 std::string explain_overlap(const Joint& joint, const JointAngles& at) {
-  const JointContact bodies(joint.fixed.mesh, joint.mobile.mesh);
+  const contact::JointContact bodies(joint.fixed.mesh, joint.mobile.mesh);
   const Pose X_FM = pose_at(joint.coordinates(), at);
-  const RadialContact contact = bodies.radial(X_FM);
-  const RadialSummary summary = summarise(bodies, X_FM, contact);
+  const contact::RadialContact contact = bodies.radial(X_FM);
+  const contact::RadialSummary summary = contact::summarise(bodies, X_FM, contact);
   std::string text = joint.mobile.name + " and " + joint.fixed.name +
                      " are in contact in the reference pose: " + std::to_string(contact.pairs.size()) +
                      " pairs of triangles meet";
-  const RadialBodySummary mobile = summary.mobile.value_or(RadialBodySummary{});
-  const RadialBodySummary fixed = summary.fixed.value_or(RadialBodySummary{});
+  const contact::RadialBodySummary mobile = summary.mobile.value_or(contact::RadialBodySummary{});
+  const contact::RadialBodySummary fixed = summary.fixed.value_or(contact::RadialBodySummary{});
   const double mobile_depth = mobile.deepest ? mobile.deepest->depth_mm : 0;
   const double fixed_depth = fixed.deepest ? fixed.deepest->depth_mm : 0;
   if (mobile.deepest && mobile_depth >= fixed_depth) {

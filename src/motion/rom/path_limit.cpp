@@ -6,7 +6,7 @@
 #include "motion/rom/overlap.hpp"
 #include "motion/search/path_clearance.hpp"
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 /// Finer ones would run into the rounding that clearance() allows for.
@@ -48,27 +48,27 @@ double largest_rotation(const JointAngles& from, const JointAngles& to) noexcept
 
 struct PathFinder::Parts {
   RangeOfMotion range;
-  motion::PartsOfJoint included;
+  PartsOfJoint included;
   Mesh whole_fixed, whole_mobile;
-  std::vector<motion::FeatureTree> fixed = {}, mobile = {};
+  std::vector<FeatureTree> fixed = {}, mobile = {};
 
   Parts(const Joint& joint, const RangeOptions& options)
       : range(joint, options),
         included(motion::parts_that_count(joint, options.overlap, range.bearing(), range.bearing_rule())),
         whole_fixed(joint.fixed.mesh),
         whole_mobile(joint.mobile.mesh) {
-    for (const motion::PartOfMesh& part : included.fixed) fixed.emplace_back(part.mesh);
-    for (const motion::PartOfMesh& part : included.mobile) mobile.emplace_back(part.mesh);
+    for (const PartOfMesh& part : included.fixed) fixed.emplace_back(part.mesh);
+    for (const PartOfMesh& part : included.mobile) mobile.emplace_back(part.mesh);
   }
 
   /// The clearance of the parts that are free for least.
   struct Nearest {
-    motion::Clearance clearance;
-    motion::PairOfParts parts;
+    Clearance clearance;
+    PairOfParts parts;
   };
   std::optional<Nearest> nearest_at(const Pose& X_FM) const {
     std::optional<Nearest> nearest;
-    for (const motion::PairOfParts& pair : included.impinging) {
+    for (const PairOfParts& pair : included.impinging) {
       const auto found = motion::clearance(fixed[pair.fixed], mobile[pair.mobile], X_FM, motion::far_enough);
       if (found && (!nearest || found->free_for < nearest->clearance.free_for)) nearest = {*found, pair};
     }
@@ -128,4 +128,4 @@ PathLimit PathFinder::limit(std::span<const JointAngles> waypoints, Angle tolera
   return out;
 }
 
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -16,16 +16,16 @@
 #include "motion/search/contact_set.hpp"
 #include "motion/search/first_contact.hpp"
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 /// One body as it counts: its features, and the numbers its triangles have in the whole mesh.
 struct IncludedBody {
   Mesh mesh;
-  motion::FeatureTree tree;
+  FeatureTree tree;
   std::vector<Index> triangle_in_whole;
 
-  explicit IncludedBody(motion::PartOfMesh part)
+  explicit IncludedBody(PartOfMesh part)
       : mesh(std::move(part.mesh)), tree(mesh), triangle_in_whole(std::move(part.triangle_in_whole)) {}
   /// The same triangles over vertices elsewhere.
   IncludedBody(const IncludedBody& before, const Points& vertices)
@@ -61,7 +61,7 @@ constexpr std::size_t most_probed_vertices = 512;
 enum class Rotating { fixed, mobile };
 
 /// Coarser than usual: such a table is asked once.
-constexpr RingTableOptions coarse_rings{.cells_per_triangle = 0.03};
+constexpr tangential::RingTableOptions coarse_rings{.cells_per_triangle = 0.03};
 
 /// Tables about the axis of adduction that a part of the fixed body keeps: built-in motions change adduction at two flexions.
 constexpr std::size_t adductions_kept = 2;
@@ -88,18 +88,18 @@ struct RangeOfMotion::Parts {
   /// A part of the fixed body.
   struct FixedPart {
     IncludedBody body;
-    motion::RotationTable flexion_table;
-    core::LatestFew<Angle, std::optional<motion::RotationTable>, adductions_kept> adduction_tables = {};
+    RotationTable flexion_table;
+    core::LatestFew<Angle, std::optional<RotationTable>, adductions_kept> adduction_tables = {};
 
-    FixedPart(motion::PartOfMesh part, CoordinateSystem system)
+    FixedPart(PartOfMesh part, CoordinateSystem system)
         : body(std::move(part)), flexion_table(body.tree, flexion_axis(system)) {}
     FixedPart(const FixedPart& before, const Points& vertices, CoordinateSystem system)
         : body(before.body, vertices), flexion_table(body.tree, flexion_axis(system)) {}
 
     /// About the axis that the angles of a start have.
-    std::shared_ptr<const std::optional<motion::RotationTable>> adduction_table(
-        CoordinateSystem axes, const JointAngles& start) const {
-      return adduction_tables.get(start.flexion, [&](std::optional<motion::RotationTable>& table) {
+    std::shared_ptr<const std::optional<RotationTable>> adduction_table(CoordinateSystem axes,
+                                                                        const JointAngles& start) const {
+      return adduction_tables.get(start.flexion, [&](std::optional<RotationTable>& table) {
         table.emplace(body.tree, AxisFrame(Vec3::Zero(), axis_of(JointAngle::adduction, axes, start)));
       });
     }
@@ -110,9 +110,9 @@ struct RangeOfMotion::Parts {
     IncludedBody body;
     AxisFrame rotation_axis;
     Points probed_vertices;
-    core::Lazy<std::optional<motion::RotationTable>> table = {};
+    core::Lazy<std::optional<RotationTable>> table = {};
 
-    MobilePart(motion::PartOfMesh part, CoordinateSystem system)
+    MobilePart(PartOfMesh part, CoordinateSystem system)
         : body(std::move(part)),
           rotation_axis(rotation_axis_in_M(system)),
           probed_vertices(body.spread_vertices(most_probed_vertices)) {}
@@ -122,7 +122,7 @@ struct RangeOfMotion::Parts {
           probed_vertices(body.spread_vertices(most_probed_vertices)) {}
 
     /// The part stationary about the axis of internal rotation.
-    const motion::RotationTable& rotation_table() const {
+    const RotationTable& rotation_table() const {
       return *table.get([&](auto& made) { made.emplace(body.tree, rotation_axis); });
     }
   };
@@ -133,31 +133,31 @@ struct RangeOfMotion::Parts {
   BearingRule bearing_rule;
   BearingFinding bearing;
   LeftOut left_out;
-  std::vector<motion::PairOfParts> impinging, earlier;
+  std::vector<PairOfParts> impinging, earlier;
   // Neither moves: tables and threads refer to their trees. Joints that differ in the other body share them.
   std::vector<std::shared_ptr<const FixedPart>> fixed = {};
   std::vector<std::shared_ptr<const MobilePart>> mobile = {};
 
   /// Storage of one thread for a part of the fixed body: ready to rotate, and the table of the flexion of its last adduction.
   struct FixedWorker {
-    motion::RotatingBody rotating;
+    RotatingBody rotating;
     std::optional<Angle> flexion = {};
-    std::shared_ptr<const std::optional<motion::RotationTable>> adduction_table = {};
+    std::shared_ptr<const std::optional<RotationTable>> adduction_table = {};
     /// About the axis whose contacts it last collected.
-    std::optional<RingTable> rings = {};
+    std::optional<tangential::RingTable> rings = {};
   };
   struct Worker {
     std::vector<FixedWorker> fixed;
-    std::vector<motion::RotatingBody> mobile;
+    std::vector<RotatingBody> mobile;
 
     explicit Worker(const Parts& parts) {
-      for (const auto& part : parts.fixed) fixed.push_back({motion::RotatingBody(part->body.tree)});
+      for (const auto& part : parts.fixed) fixed.push_back({RotatingBody(part->body.tree)});
       for (const auto& part : parts.mobile) mobile.emplace_back(part->body.tree);
     }
   };
   mutable core::PerThread<Worker> workers;
 
-  Parts(const Joint& joint, BearingFinding found, BearingRule rule, motion::PartsOfJoint included)
+  Parts(const Joint& joint, BearingFinding found, BearingRule rule, PartsOfJoint included)
       : kind(joint.kind),
         system(joint.coordinates()),
         whole_fixed(joint.fixed.mesh),
@@ -168,9 +168,9 @@ struct RangeOfMotion::Parts {
         impinging(std::move(included.impinging)),
         earlier(std::move(included.earlier)),
         workers([this] { return Worker(*this); }) {
-    for (motion::PartOfMesh& part : included.fixed)
+    for (PartOfMesh& part : included.fixed)
       fixed.push_back(std::make_shared<const FixedPart>(std::move(part), system));
-    for (motion::PartOfMesh& part : included.mobile)
+    for (PartOfMesh& part : included.mobile)
       mobile.push_back(std::make_shared<const MobilePart>(std::move(part), system));
   }
 
@@ -197,8 +197,7 @@ struct RangeOfMotion::Parts {
     }
   }
 
-  const motion::RotationTable& adduction_table(Worker& worker, std::size_t part,
-                                               const JointAngles& start) const {
+  const RotationTable& adduction_table(Worker& worker, std::size_t part, const JointAngles& start) const {
     FixedWorker& of_part = worker.fixed[part];
     if (of_part.flexion != start.flexion) {
       of_part.adduction_table = fixed[part]->adduction_table(system, start);
@@ -209,17 +208,17 @@ struct RangeOfMotion::Parts {
 
   /// One part of each body, ready to turn by an angle from its start: whichever has the axis at rest has its table.
   struct Rotation {
-    const motion::RotationTable& stationary;
-    motion::RotatingBody& rotating;
+    const RotationTable& stationary;
+    RotatingBody& rotating;
   };
-  Rotation rotation_of(Worker& worker, const motion::PairOfParts& pair, JointAngle vary,
+  Rotation rotation_of(Worker& worker, const PairOfParts& pair, JointAngle vary,
                        const JointAngles& start) const {
     const Pose X_FM = pose_at(system, start);
-    const auto started = [&](const motion::RotationTable& table, motion::RotatingBody& body, const Pose& X) {
+    const auto started = [&](const RotationTable& table, RotatingBody& body, const Pose& X) {
       body.start_at(table.frame(), X);
       return Rotation{table, body};
     };
-    motion::RotatingBody& rotating = worker.mobile[pair.mobile];
+    RotatingBody& rotating = worker.mobile[pair.mobile];
     return vary == JointAngle::internal_rotation ? started(mobile[pair.mobile]->rotation_table(),
                                                            worker.fixed[pair.fixed].rotating, inverted(X_FM))
            : vary == JointAngle::adduction
@@ -228,7 +227,7 @@ struct RangeOfMotion::Parts {
   }
 
   /// First contact of one part of each body.
-  RotationLimits first_contact(Worker& worker, const motion::PairOfParts& pair, JointAngle vary,
+  RotationLimits first_contact(Worker& worker, const PairOfParts& pair, JointAngle vary,
                                const JointAngles& start, const RotationRange& range) const {
     const Rotation rotation = rotation_of(worker, pair, vary, start);
     RotationLimits limits = motion::first_contact(rotation.stationary, rotation.rotating, range);
@@ -258,7 +257,7 @@ struct RangeOfMotion::Parts {
   }
 
   /// As the search reports it, in terms of the whole bodies and labelled.
-  void finish(ContactWitness& contact, const motion::PairOfParts& pair, Rotating rotating) const {
+  void finish(ContactWitness& contact, const PairOfParts& pair, Rotating rotating) const {
     if (rotating == Rotating::fixed) contact = exchanged(contact);
     contact.fixed_feature = fixed[pair.fixed]->body.in_whole(contact.fixed_feature);
     contact.mobile_feature = mobile[pair.mobile]->body.in_whole(contact.mobile_feature);
@@ -271,20 +270,20 @@ struct RangeOfMotion::Parts {
 
   /// Angles at which two parts meet each other's surface, over a full turn, and those at which a vertex of the mobile one is
   /// inside. Angles in `known` are not evaluated and are in the answer.
-  core::ArcSet contact_angles(Worker& worker, const motion::PairOfParts& pair, JointAngle vary,
+  core::ArcSet contact_angles(Worker& worker, const PairOfParts& pair, JointAngle vary,
                               const JointAngles& start, std::vector<core::Arc> known) const {
     const AxisFrame axis(Vec3::Zero(), axis_of(vary, system, start));
     const Mesh& stationary = fixed[pair.fixed]->body.mesh;
-    std::optional<RingTable>& rings = worker.fixed[pair.fixed].rings;
+    std::optional<tangential::RingTable>& rings = worker.fixed[pair.fixed].rings;
     const bool has_rings = rings && rings->frame().direction() == axis.direction();
     if (stationary.is_closed() && !has_rings) rings.emplace(stationary, axis, coarse_rings);
     // A vertex inside is contact: its surface crosses the fixed one, or all of it is inside. Vertices detect most
     // contact, without a pair of triangles; the ends of intervals remain.
     if (rings) {
-      const OccupiedArcs arcs =
+      const tangential::OccupiedArcs arcs =
           rings->occupied_arcs(posed(pose_at(system, start), mobile[pair.mobile]->probed_vertices.view()));
       for (std::size_t v = 0; v < arcs.size(); ++v)
-        for (const OccupiedArc& arc : arcs.of(v)) {
+        for (const tangential::OccupiedArc& arc : arcs.of(v)) {
           const Angle width = arc.end - arc.begin - arc_slack * 2;
           if (width > narrowest_arc) known.push_back({arc.begin + arc_slack, width});
         }
@@ -307,7 +306,7 @@ struct RangeOfMotion::Parts {
     HeadAtLimit head;
     if (surface.socket)
       head.centre_distance_mm = (posed(X_FM, surface.head.centre) - surface.socket->centre).norm();
-    for (const motion::PairOfParts& pair : earlier) {
+    for (const PairOfParts& pair : earlier) {
       if (pair.kind != ContactKind::bearing) continue;
       const auto nearest = mesh::closest_points(fixed[pair.fixed]->body.tree.triangle_tree(),
                                                 mobile[pair.mobile]->body.tree.triangle_tree(), X_FM);
@@ -333,7 +332,7 @@ void note_before(const Limit& limit, const Limit& earlier, std::optional<Earlier
 RangeOfMotion::RangeOfMotion(const Joint& joint, const RangeOptions& options) {
   BearingFinding bearing = find_bearing_surface(joint, options.bearing);
   const BearingRule rule = bearing.roles.distinguish_bearing() ? options.bearing.rule : BearingRule::count;
-  motion::PartsOfJoint included = motion::parts_that_count(joint, options.overlap, bearing, rule);
+  PartsOfJoint included = motion::parts_that_count(joint, options.overlap, bearing, rule);
   parts_ = std::make_unique<Parts>(joint, std::move(bearing), rule, std::move(included));
   const OverlapOptions& overlap = options.overlap;
   if (overlap.reference_contact == ReferenceContact::accept) return;
@@ -352,7 +351,7 @@ RotationLimits RangeOfMotion::both_limits(JointAngle vary, const JointAngles& st
   Parts::Worker& worker = parts_->workers.local();
   RotationLimits limits = parts_->first_end(worker, vary, start, range);
   if (!limits.free_at_start()) return limits;
-  for (const motion::PairOfParts& pair : parts_->earlier) {
+  for (const PairOfParts& pair : parts_->earlier) {
     const RotationLimits earlier =
         parts_->first_contact(worker, pair, vary, start, {-limits.negative.turned, limits.positive.turned});
     const bool is_soft = pair.kind == ContactKind::soft;
@@ -446,4 +445,4 @@ const LeftOut& RangeOfMotion::left_out() const noexcept {
   return parts_->left_out;
 }
 
-}  // namespace condyle
+}  // namespace condyle::motion

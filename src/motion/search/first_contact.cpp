@@ -313,10 +313,6 @@ std::vector<FeatureContact> feature_contacts(const RotationTable& stationary, Ro
   return contacts;
 }
 
-}  // namespace condyle::motion
-
-namespace condyle {
-
 SearchWork& SearchWork::operator+=(const SearchWork& more) noexcept {
   node_pairs += more.node_pairs;
   leaf_pairs += more.leaf_pairs;
@@ -327,15 +323,15 @@ SearchWork& SearchWork::operator+=(const SearchWork& more) noexcept {
 }
 
 struct FirstContact::Parts {
-  motion::FeatureTree fixed, mobile;
-  motion::RotationTable table;
-  mutable core::PerThread<motion::RotatingBody> rotating;
+  FeatureTree fixed, mobile;
+  RotationTable table;
+  mutable core::PerThread<RotatingBody> rotating;
 
   Parts(const Mesh& fixed_mesh, const Mesh& mobile_mesh, const AxisFrame& axis_F)
       : fixed(fixed_mesh),
         mobile(mobile_mesh),
         table(fixed, axis_F),
-        rotating([this] { return motion::RotatingBody(mobile); }) {}
+        rotating([this] { return RotatingBody(mobile); }) {}
 };
 
 FirstContact::FirstContact(const Mesh& fixed, const Mesh& mobile, const AxisFrame& axis_F)
@@ -350,9 +346,9 @@ RotationLimits FirstContact::limits(const Pose& X_FM, const RotationRange& range
   const double low = range.negative.radians(), high = range.positive.radians();
   if (!(low <= 0 && low >= -two_pi && high >= 0 && high <= two_pi))
     throw UsageError("first contact: a range goes from at most a full turn back over 0 to a full turn on");
-  motion::RotatingBody& rotating = parts_->rotating.local();
+  RotatingBody& rotating = parts_->rotating.local();
   rotating.start_at(parts_->table.frame(), X_FM);
   return motion::first_contact(parts_->table, rotating, range);
 }
 
-}  // namespace condyle
+}  // namespace condyle::motion

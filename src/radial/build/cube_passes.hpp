@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 #include "radial/build/cell_row.hpp"
 #include "radial/build/edge_functions.hpp"
 #include "radial/exact/cell_dop.hpp"

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 #include "simd/packed_interval.hpp"
 
 namespace condyle::radial {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 
 namespace condyle::radial {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 #include "core/predicates.hpp"
 
 namespace condyle::radial {

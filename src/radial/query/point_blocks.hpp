@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 #include "core/uninitialised.hpp"
 
 namespace condyle::radial {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 #include "simd/packed_range.hpp"
 
 namespace condyle::tangential {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 
 namespace condyle::tangential {
 

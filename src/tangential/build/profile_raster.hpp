@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 #include "core/predicates.hpp"
 #include "tangential/build/profile_grid.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "condyle/angle.hpp"
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 #include "condyle/tangential.hpp"
 #include "core/predicates.hpp"
 

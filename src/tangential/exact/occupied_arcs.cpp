@@ -7,8 +7,7 @@
 
 #include "core/wrapped_angle.hpp"
 
-namespace condyle {
-namespace tangential {
+namespace condyle::tangential {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -115,8 +114,6 @@ AngularGap gap_at_point(int winding, std::span<const CircleCrossing> crossings) 
           go_ahead ? RotationSense::positive : RotationSense::negative};
 }
 
-}  // namespace tangential
-
 OccupiedArcs::OccupiedArcs(std::vector<std::size_t> offset, std::vector<OccupiedArc> arcs)
     : offset_(std::move(offset)), arc_(std::move(arcs)) {
   assert(!offset_.empty() && offset_.back() == arc_.size());
@@ -152,4 +149,4 @@ AngularGap OccupiedArcs::gap_at(std::size_t point, Angle phi) const noexcept {
   return {-to_end, last.leaves, RotationSense::negative};
 }
 
-}  // namespace condyle
+}  // namespace condyle::tangential

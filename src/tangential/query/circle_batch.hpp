@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 #include "condyle/tangential.hpp"
 #include "core/uninitialised.hpp"
 #include "tangential/build/rings.hpp"

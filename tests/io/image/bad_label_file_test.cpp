@@ -15,9 +15,9 @@ using test::put;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Message of the reader's error; "read" if there is none.
-std::string label_complaint(std::string_view bytes, LabelFormat format) {
+std::string label_complaint(std::string_view bytes, io::LabelFormat format) {
   try {
-    read_labels(bytes, format, "bones");
+    io::read_labels(bytes, format, "bones");
   } catch (const FileError& error) {
     return error.what();
   }
@@ -26,7 +26,7 @@ std::string label_complaint(std::string_view bytes, LabelFormat format) {
 
 std::string label_complaint(const std::filesystem::path& path) {
   try {
-    read_labels(path);
+    io::read_labels(path);
   } catch (const FileError& error) {
     return error.what();
   }
@@ -392,7 +392,7 @@ bool is_like(std::string_view message, std::string_view expected) {
   return true;
 }
 
-void expect_one_line_for_each(const std::vector<Damage>& damages, LabelFormat format) {
+void expect_one_line_for_each(const std::vector<Damage>& damages, io::LabelFormat format) {
   for (const auto& damage : damages) {
     const auto message = label_complaint(damage.bytes, format);
     EXPECT_TRUE(is_like(message, damage.message))
@@ -404,15 +404,15 @@ void expect_one_line_for_each(const std::vector<Damage>& damages, LabelFormat fo
 }
 
 TEST(BadNiftiFile, EndsInOneLine) {
-  expect_one_line_for_each(damaged_nifti(), LabelFormat::nifti);
+  expect_one_line_for_each(damaged_nifti(), io::LabelFormat::nifti);
 }
 
 TEST(BadNrrdFile, EndsInOneLine) {
-  expect_one_line_for_each(damaged_nrrd(), LabelFormat::nrrd);
+  expect_one_line_for_each(damaged_nrrd(), io::LabelFormat::nrrd);
 }
 
 TEST(BadMetaImageFile, EndsInOneLine) {
-  expect_one_line_for_each(damaged_metaimage(), LabelFormat::metaimage);
+  expect_one_line_for_each(damaged_metaimage(), io::LabelFormat::metaimage);
 }
 
 TEST(BadLabelFile, WithANumberThatIsNotFiniteAnywhereInItsAffineIsRefused) {
@@ -420,17 +420,17 @@ TEST(BadLabelFile, WithANumberThatIsNotFiniteAnywhereInItsAffineIsRefused) {
                                   std::numeric_limits<float>::infinity()};
   for (const float value : not_finite)
     for (std::size_t at = 280; at < 328; at += 4) {
-      const auto message = label_complaint(changed(test::nifti(image()), at, value), LabelFormat::nifti);
+      const auto message = label_complaint(changed(test::nifti(image()), at, value), io::LabelFormat::nifti);
       EXPECT_TRUE(message.starts_with("bones: srow: places voxels at (")) << at << ": " << message;
     }
 }
 
 TEST(BadLabelFile, CutAnywhereEndsInOneLine) {
-  const std::vector<std::pair<std::string, LabelFormat>> files = {
-      {test::nifti(image()), LabelFormat::nifti},
-      {test::gzipped(test::nifti(image(), {.version = 2})), LabelFormat::nifti},
-      {test::nrrd(image(), {.is_gzip = true}), LabelFormat::nrrd},
-      {test::meta(image(), {.is_compressed = true}), LabelFormat::metaimage}};
+  const std::vector<std::pair<std::string, io::LabelFormat>> files = {
+      {test::nifti(image()), io::LabelFormat::nifti},
+      {test::gzipped(test::nifti(image(), {.version = 2})), io::LabelFormat::nifti},
+      {test::nrrd(image(), {.is_gzip = true}), io::LabelFormat::nrrd},
+      {test::meta(image(), {.is_compressed = true}), io::LabelFormat::metaimage}};
   for (const auto& [bytes, format] : files) {
     EXPECT_EQ(label_complaint(bytes, format), "read");
     for (std::size_t size = 0; size < bytes.size(); ++size) {
@@ -464,15 +464,15 @@ TEST(BadLabelFile, MissingAFolderUnknownOrWithoutItsDataIsNamed) {
 
 TEST(BadLabelFile, ThatInflatesToMoreThanItPromisesIsReadNoFurther) {
   const auto bomb = test::nifti(image()) + std::string(std::size_t{1} << 26, '\0');
-  const auto map = read_labels(test::gzipped(bomb), LabelFormat::nifti, "bones");
+  const auto map = io::read_labels(test::gzipped(bomb), io::LabelFormat::nifti, "bones");
   ASSERT_EQ(map.notes.size(), 1u);
-  EXPECT_EQ(map.notes[0].code, LabelNoteCode::more_bytes);
+  EXPECT_EQ(map.notes[0].code, io::LabelNoteCode::more_bytes);
 }
 
 TEST(BadLabelFile, WithAnEndlessHeaderIsRefused) {
-  EXPECT_EQ(label_complaint("NRRD0004\n# " + std::string(std::size_t{20} << 20, 'x'), LabelFormat::nrrd),
+  EXPECT_EQ(label_complaint("NRRD0004\n# " + std::string(std::size_t{20} << 20, 'x'), io::LabelFormat::nrrd),
             "bones: the header is longer than 16 MB");
-  EXPECT_EQ(label_complaint(std::string(std::size_t{20} << 20, 'x'), LabelFormat::metaimage),
+  EXPECT_EQ(label_complaint(std::string(std::size_t{20} << 20, 'x'), io::LabelFormat::metaimage),
             "bones: the header is longer than 16 MB");
 }
 

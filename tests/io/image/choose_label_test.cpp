@@ -12,7 +12,7 @@ test::LabelImage labelled_image(std::size_t layers = 1) {
 }
 
 /// With names as TotalSegmentator writes them.
-LabelMap named_by_nifti(const std::string& labels) {
+io::LabelMap named_by_nifti(const std::string& labels) {
   const std::string xml =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?> <CaretExtension>\n"
       "<Date><![CDATA[2013-07-14T05:45:09]]></Date>\n<VolumeInformation Index=\"0\">\n<LabelTable>\n" +
@@ -21,15 +21,17 @@ LabelMap named_by_nifti(const std::string& labels) {
       "<VolumeType><![CDATA[Label]]></VolumeType>\n</VolumeInformation></CaretExtension>";
   const std::string extensions =
       std::string("\1\0\0\0", 4) + test::nifti_extension(6, "a comment") + test::nifti_extension(0, xml);
-  return read_labels(test::nifti(labelled_image(), {.extensions = extensions}), LabelFormat::nifti, "bones");
+  return io::read_labels(test::nifti(labelled_image(), {.extensions = extensions}), io::LabelFormat::nifti,
+                         "bones");
 }
 
-LabelMap named_by_slicer(const std::string& lines, std::size_t layers) {
-  return read_labels(test::nrrd(labelled_image(layers), {.more_lines = lines}), LabelFormat::nrrd, "bones");
+io::LabelMap named_by_slicer(const std::string& lines, std::size_t layers) {
+  return io::read_labels(test::nrrd(labelled_image(layers), {.more_lines = lines}), io::LabelFormat::nrrd,
+                         "bones");
 }
 
-LabelMap without_names() {
-  return read_labels(test::nifti(labelled_image()), LabelFormat::nifti, "bones");
+io::LabelMap without_names() {
+  return io::read_labels(test::nifti(labelled_image()), io::LabelFormat::nifti, "bones");
 }
 
 const std::string femurs =
@@ -37,9 +39,9 @@ const std::string femurs =
     "<Label Key=\"76\" Red=\"0.1\" Green=\"0.2\" Blue=\"0.3\" Alpha=\"1\"><![CDATA[femur_right]]></Label>\n";
 
 /// "layer:label name", or the error.
-std::string chosen(const LabelMap& map, std::string_view text, std::optional<LabelTask> task = {}) {
+std::string chosen(const io::LabelMap& map, std::string_view text, std::optional<io::LabelTask> task = {}) {
   try {
-    const auto choice = choose_label(map, text, task);
+    const auto choice = io::choose_label(map, text, task);
     return std::to_string(choice.layer) + ":" + std::to_string(choice.label) + " " + choice.name;
   } catch (const UsageError& error) {
     return error.what();
@@ -115,33 +117,33 @@ TEST(ChosenLabels, AreNeverGuessedByLikeness) {
 
 TEST(ChosenLabels, ByTheNamesOfATask) {
   const auto map = without_names();
-  EXPECT_EQ(chosen(map, "femur_left", LabelTask::total), "0:75 femur_left");
-  EXPECT_EQ(chosen(map, "Femur Right", LabelTask::total), "0:76 femur_right");
-  EXPECT_EQ(chosen(map, "femur_left", LabelTask::total_v1),
+  EXPECT_EQ(chosen(map, "femur_left", io::LabelTask::total), "0:75 femur_left");
+  EXPECT_EQ(chosen(map, "Femur Right", io::LabelTask::total), "0:76 femur_right");
+  EXPECT_EQ(chosen(map, "femur_left", io::LabelTask::total_v1),
             "no voxel has the label 88: the image holds 3, 75, 76, 120");
   EXPECT_TRUE(
-      chosen(map, "femur_lef", LabelTask::total_mr).starts_with("no label is called 'femur_lef' (did"));
-  EXPECT_TRUE(choose_label(map, "femur_left", LabelTask::total).notes.empty());
+      chosen(map, "femur_lef", io::LabelTask::total_mr).starts_with("no label is called 'femur_lef' (did"));
+  EXPECT_TRUE(io::choose_label(map, "femur_left", io::LabelTask::total).notes.empty());
 }
 
 TEST(ChosenLabels, MustNotContradictTheFile) {
   const auto map = named_by_nifti("<Label Key=\"75\">tibia</Label><Label Key=\"3\">femur_right</Label>");
-  EXPECT_EQ(chosen(map, "femur_left", LabelTask::total),
+  EXPECT_EQ(chosen(map, "femur_left", io::LabelTask::total),
             "femur_left is 75 in TotalSegmentator's total, which the file calls 'tibia'");
-  EXPECT_EQ(chosen(map, "femur_right", LabelTask::total),
+  EXPECT_EQ(chosen(map, "femur_right", io::LabelTask::total),
             "'femur_right' is 76 in TotalSegmentator's total, but 3 in the file");
   EXPECT_EQ(chosen(map, "femur_right"), "0:3 femur_right");
 }
 
 TEST(ChosenLabels, ByNumberAreTakenAsGivenAndNoted) {
-  const auto choice = choose_label(named_by_nifti(femurs), "75");
+  const auto choice = io::choose_label(named_by_nifti(femurs), "75");
   EXPECT_EQ(choice.name, "femur_left");
   ASSERT_EQ(choice.notes.size(), 1u);
-  EXPECT_EQ(choice.notes[0].code, LabelNoteCode::label_tables);
+  EXPECT_EQ(choice.notes[0].code, io::LabelNoteCode::label_tables);
   EXPECT_EQ(choice.notes[0].text,
             "Label 75 is taken as given: it is 'femur_left' in the file, femur_left in TotalSegmentator's "
             "total.");
-  EXPECT_EQ(choose_label(without_names(), "3").notes[0].text,
+  EXPECT_EQ(io::choose_label(without_names(), "3").notes[0].text,
             "Label 3 is taken as given: neither the file nor a known table names it.");
   EXPECT_EQ(chosen(without_names(), "90"), "no voxel has the label 90: the image holds 3, 75, 76, 120");
   EXPECT_TRUE(chosen(without_names(), "-3").starts_with("'-3': the file names no labels"));
@@ -149,8 +151,8 @@ TEST(ChosenLabels, ByNumberAreTakenAsGivenAndNoted) {
 
 TEST(ChosenLabels, ANumberOfVersion1IsSomethingElseInVersion2) {
   const test::LabelImage brain{{2, 1, 1}, Eigen::Affine3d::Identity(), {{0, 90}}};
-  const auto map = read_labels(test::nifti(brain), LabelFormat::nifti, "bones");
-  EXPECT_EQ(choose_label(map, "90").notes[0].text,
+  const auto map = io::read_labels(test::nifti(brain), io::LabelFormat::nifti, "bones");
+  EXPECT_EQ(io::choose_label(map, "90").notes[0].text,
             "Label 90 is taken as given: it is brain in TotalSegmentator's total, hip_left in "
             "TotalSegmentator's total_v1.");
 }
@@ -164,9 +166,9 @@ TEST(ChosenLabels, ANumberThatIsAnotherLabelsNameIsRefused) {
 }
 
 TEST(LabelTasks, AreReadByName) {
-  for (const auto task : {LabelTask::total, LabelTask::total_v1, LabelTask::total_mr})
-    EXPECT_EQ(label_task_of(name_of(task)), task);
-  EXPECT_EQ(label_task_of("Total"), std::nullopt);
+  for (const auto task : {io::LabelTask::total, io::LabelTask::total_v1, io::LabelTask::total_mr})
+    EXPECT_EQ(io::label_task_of(name_of(task)), task);
+  EXPECT_EQ(io::label_task_of("Total"), std::nullopt);
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ const std::vector<Placement>& placements() {
   return all;
 }
 
-void expect_same(const LabelMap& map, const LabelImage& image, double tolerance = 1e-9) {
+void expect_same(const io::LabelMap& map, const LabelImage& image, double tolerance = 1e-9) {
   EXPECT_EQ(map.grid.size, image.size);
   EXPECT_LE((map.grid.X_WI.matrix() - image.X_WI.matrix()).cwiseAbs().maxCoeff(), tolerance)
       << map.grid.X_WI.matrix() << "\ninstead of\n"
@@ -203,7 +203,7 @@ TEST_P(LabelFormats, GiveTheSameGridAndVoxels) {
   const auto& [placement, way] = GetParam();
   const TemporaryFolder folder;
   const auto image = test::label_image(placement.X_WI);
-  const auto map = read_labels(way.write(image, folder));
+  const auto map = io::read_labels(way.write(image, folder));
   expect_same(map, image);
   EXPECT_TRUE(map.notes.empty()) << map.notes.front().text;
   EXPECT_TRUE(map.segments.empty());
@@ -216,11 +216,12 @@ INSTANTIATE_TEST_SUITE_P(EveryWay, LabelFormats,
                                   std::get<1>(both.param).name;
                          });
 
-LabelMap read(const std::string& bytes, LabelFormat format, const LabelFileOptions& options = {}) {
-  return read_labels(bytes, format, "bones", options);
+io::LabelMap read(const std::string& bytes, io::LabelFormat format,
+                  const io::LabelFileOptions& options = {}) {
+  return io::read_labels(bytes, format, "bones", options);
 }
 
-bool has_note(const LabelMap& map, LabelNoteCode code) {
+bool has_note(const io::LabelMap& map, io::LabelNoteCode code) {
   return std::any_of(map.notes.begin(), map.notes.end(), [&](const auto& note) { return note.code == code; });
 }
 
@@ -229,7 +230,7 @@ TEST(LabelLayers, LieInterleavedWhereTheListIsFirstAndElsewhereWhereItStands) {
   for (const bool is_gzip : {false, true})
     for (std::size_t axis = 0; axis < 4; ++axis) {
       SCOPED_TRACE(axis);
-      expect_same(read(test::nrrd(image, {.is_gzip = is_gzip, .layer_axis = axis}), LabelFormat::nrrd),
+      expect_same(read(test::nrrd(image, {.is_gzip = is_gzip, .layer_axis = axis}), io::LabelFormat::nrrd),
                   image);
     }
 }
@@ -240,7 +241,7 @@ TEST(LabelLayers, StayApartOverManyBlocks) {
   for (auto& layer : image.layers)
     for (int i = 0; i < 70 * 71 * 72; ++i) layer.push_back(static_cast<std::uint32_t>(random() % 7));
   for (const std::size_t axis : {0u, 2u, 3u})
-    expect_same(read(test::nrrd(image, {.layer_axis = axis}), LabelFormat::nrrd), image);
+    expect_same(read(test::nrrd(image, {.layer_axis = axis}), io::LabelFormat::nrrd), image);
 }
 
 TEST(NiftiAffine, ByQuaternionIsThatOfTheRows) {
@@ -252,8 +253,8 @@ TEST(NiftiAffine, ByQuaternionIsThatOfTheRows) {
       const Matrix3d axes = (is_mirrored ? turned() * Vector3d(1, 1, -1).asDiagonal() : turned()) *
                             Matrix3d(spacing.asDiagonal());
       const auto image = test::label_image(affine(axes, origin));
-      const auto map =
-          read(test::nifti(image, {.version = version, .sform = false, .qform = true}), LabelFormat::nifti);
+      const auto map = read(test::nifti(image, {.version = version, .sform = false, .qform = true}),
+                            io::LabelFormat::nifti);
       // NIfTI-1 keeps floats: 2^-24 of the numbers at most, those of 800 mm.
       expect_same(map, image, version == 1 ? 800 * std::ldexp(1, -22) : 1e-9);
     }
@@ -266,10 +267,11 @@ TEST(NiftiAffine, AHalfTurnHasNoRealPart) {
     // In RAS, as the quaternion is; the image is in LPS.
     const Matrix3d axes = Vector3d(-1, -1, 1).asDiagonal() * half * spacing.asDiagonal();
     const auto image = test::label_image(affine(axes, origin));
-    expect_same(read(test::nifti(image, {.version = 2, .sform = false, .qform = true}), LabelFormat::nifti),
-                image);
+    expect_same(
+        read(test::nifti(image, {.version = 2, .sform = false, .qform = true}), io::LabelFormat::nifti),
+        image);
     // In floats, (0.6, 0, 0.8) is longer than 1: the square of the real part would be negative.
-    expect_same(read(test::nifti(image, {.sform = false, .qform = true}), LabelFormat::nifti), image,
+    expect_same(read(test::nifti(image, {.sform = false, .qform = true}), io::LabelFormat::nifti), image,
                 800 * std::ldexp(1, -22));
   }
 }
@@ -279,25 +281,25 @@ TEST(NiftiAffine, TheFirstPixdimIsPlusForZero) {
   auto bytes = test::nifti(image, {.version = 2, .sform = false, .qform = true});
   ASSERT_EQ(bytes.substr(104, 8), test::bytes_of(1.0, std::endian::little));
   test::put(bytes, 104, 0.0);
-  expect_same(read(bytes, LabelFormat::nifti), image);
+  expect_same(read(bytes, io::LabelFormat::nifti), image);
 }
 
 TEST(NiftiAffine, TwoThatDifferAreNotedAndTheUserChooses) {
   const auto image = test::label_image(placements()[0].X_WI);
   auto bytes = test::nifti(image, {.version = 2, .qform = true});
-  EXPECT_FALSE(has_note(read(bytes, LabelFormat::nifti), LabelNoteCode::two_affines));
+  EXPECT_FALSE(has_note(read(bytes, io::LabelFormat::nifti), io::LabelNoteCode::two_affines));
 
   // The offset along x: just below and just above a tenth of a voxel.
   const auto x = -origin.x();
   test::put(bytes, 376, x + 0.099 * spacing.x());
-  EXPECT_FALSE(has_note(read(bytes, LabelFormat::nifti), LabelNoteCode::two_affines));
+  EXPECT_FALSE(has_note(read(bytes, io::LabelFormat::nifti), io::LabelNoteCode::two_affines));
   test::put(bytes, 376, x + 0.101 * spacing.x());
-  const auto by_sform = read(bytes, LabelFormat::nifti);
-  EXPECT_TRUE(has_note(by_sform, LabelNoteCode::two_affines));
+  const auto by_sform = read(bytes, io::LabelFormat::nifti);
+  EXPECT_TRUE(has_note(by_sform, io::LabelNoteCode::two_affines));
   expect_same(by_sform, image);
 
-  const auto by_qform = read(bytes, LabelFormat::nifti, {.affine = AffineChoice::qform});
-  EXPECT_TRUE(has_note(by_qform, LabelNoteCode::two_affines));
+  const auto by_qform = read(bytes, io::LabelFormat::nifti, {.affine = io::AffineChoice::qform});
+  EXPECT_TRUE(has_note(by_qform, io::LabelNoteCode::two_affines));
   EXPECT_NEAR(by_qform.grid.X_WI.translation().x(), origin.x() - 0.101 * spacing.x(), 1e-12);
 }
 
@@ -306,28 +308,29 @@ TEST(NiftiAffine, ThatDoesNotCountMayBeBroken) {
   for (const std::size_t at : {std::size_t{112}, std::size_t{352}, std::size_t{376}}) {  // pixdim[1], b, x
     auto bytes = test::nifti(image, {.version = 2, .qform = true});
     test::put(bytes, at, std::nan(""));
-    const auto map = read(bytes, LabelFormat::nifti);
+    const auto map = read(bytes, io::LabelFormat::nifti);
     expect_same(map, image);
-    EXPECT_TRUE(has_note(map, LabelNoteCode::two_affines));
+    EXPECT_TRUE(has_note(map, io::LabelNoteCode::two_affines));
   }
 }
 
 TEST(NiftiAffine, WithoutOrientationNeedsStatedAxes) {
   const auto image = test::label_image(Affine3d(Eigen::Scaling(spacing)));
   const auto bytes = test::nifti(image, {.sform = false});
-  EXPECT_THROW(read(bytes, LabelFormat::nifti), FileError);
-  expect_same(read(bytes, LabelFormat::nifti, {.axes = StatedAxes::lps}), image);
-  const auto ras = read(bytes, LabelFormat::nifti, {.axes = StatedAxes::ras});
+  EXPECT_THROW(read(bytes, io::LabelFormat::nifti), FileError);
+  expect_same(read(bytes, io::LabelFormat::nifti, {.axes = io::StatedAxes::lps}), image);
+  const auto ras = read(bytes, io::LabelFormat::nifti, {.axes = io::StatedAxes::ras});
   EXPECT_EQ(ras.grid.X_WI.linear(), Matrix3d(Vector3d(-0.75, -0.8125, 2.5).asDiagonal()));
 }
 
 TEST(NiftiUnits, AreConverted) {
   const auto image = test::label_image(placements()[2].X_WI);
   for (const auto& [code, mm] : {std::pair{1, 1000.0}, {2, 1.0}, {3, 1e-3}})
-    expect_same(read(test::nifti(image, {.version = 2, .units = code, .unit_mm = mm}), LabelFormat::nifti),
-                image);
-  const auto unknown = read(test::nifti(image, {.units = 0}), LabelFormat::nifti);
-  EXPECT_TRUE(has_note(unknown, LabelNoteCode::unknown_units));
+    expect_same(
+        read(test::nifti(image, {.version = 2, .units = code, .unit_mm = mm}), io::LabelFormat::nifti),
+        image);
+  const auto unknown = read(test::nifti(image, {.units = 0}), io::LabelFormat::nifti);
+  EXPECT_TRUE(has_note(unknown, io::LabelNoteCode::unknown_units));
   expect_same(unknown, image);
 }
 
@@ -335,14 +338,14 @@ TEST(NiftiVolumes, AreChosenByNumber) {
   const auto image = test::label_image(placements()[1].X_WI, 3);
   for (const bool is_gzip : {false, true}) {
     const auto bytes = is_gzip ? test::gzipped(test::nifti(image)) : test::nifti(image);
-    EXPECT_THROW(read(bytes, LabelFormat::nifti), FileError);
-    EXPECT_THROW(read(bytes, LabelFormat::nifti, {.volume = 3}), FileError);
-    EXPECT_THROW(read(bytes, LabelFormat::nifti, {.volume = -1}), FileError);
+    EXPECT_THROW(read(bytes, io::LabelFormat::nifti), FileError);
+    EXPECT_THROW(read(bytes, io::LabelFormat::nifti, {.volume = 3}), FileError);
+    EXPECT_THROW(read(bytes, io::LabelFormat::nifti, {.volume = -1}), FileError);
     if (!is_gzip) {
-      EXPECT_THROW(read(bytes.substr(0, bytes.size() - 1), LabelFormat::nifti, {.volume = 0}), FileError);
+      EXPECT_THROW(read(bytes.substr(0, bytes.size() - 1), io::LabelFormat::nifti, {.volume = 0}), FileError);
     }
     for (std::size_t volume = 0; volume < 3; ++volume) {
-      const auto map = read(bytes, LabelFormat::nifti, {.volume = static_cast<std::int64_t>(volume)});
+      const auto map = read(bytes, io::LabelFormat::nifti, {.volume = static_cast<std::int64_t>(volume)});
       expect_same(map, {image.size, image.X_WI, {image.layers[volume]}});
       EXPECT_TRUE(map.notes.empty());
     }
@@ -354,28 +357,28 @@ TEST(LabelValues, WithinAThousandthOfAWholeNumberCountAsIt) {
   auto bytes = test::nifti(image, {.type = 64});
   test::put(bytes, 352, 1.0009);
   test::put(bytes, 360, 1.9991);
-  expect_same(read(bytes, LabelFormat::nifti), image);
+  expect_same(read(bytes, io::LabelFormat::nifti), image);
   test::put(bytes, 352, 1.0011);
-  EXPECT_THROW(read(bytes, LabelFormat::nifti), FileError);
+  EXPECT_THROW(read(bytes, io::LabelFormat::nifti), FileError);
 }
 
 TEST(LabelValues, ReachTheLargestNumberOf32Bits) {
   const LabelImage image{{3, 1, 1}, Affine3d::Identity(), {{0, 4294967295u, 65536}}};
   for (const int type : {768, 1024, 1280, 64})
-    expect_same(read(test::nifti(image, {.type = type}), LabelFormat::nifti), image);
+    expect_same(read(test::nifti(image, {.type = type}), io::LabelFormat::nifti), image);
 }
 
 TEST(LabelValues, AreAtMost65535Different) {
   LabelImage image{{65536, 1, 1}, Affine3d::Identity(), {{}}};
   for (std::uint32_t i = 0; i < 65536; ++i) image.layers[0].push_back(std::min(i, 65534u));
-  expect_same(read(test::nrrd(image, {.type = 512}), LabelFormat::nrrd), image);
+  expect_same(read(test::nrrd(image, {.type = 512}), io::LabelFormat::nrrd), image);
   image.layers[0].back() = 65535;
-  EXPECT_THROW(read(test::nrrd(image, {.type = 512}), LabelFormat::nrrd), FileError);
-  EXPECT_THROW(read(test::nrrd(image, {.type = 768}), LabelFormat::nrrd), FileError);
+  EXPECT_THROW(read(test::nrrd(image, {.type = 512}), io::LabelFormat::nrrd), FileError);
+  EXPECT_THROW(read(test::nrrd(image, {.type = 768}), io::LabelFormat::nrrd), FileError);
 }
 
 TEST(LabelGrid, HasNoNegativeZeros) {
-  const auto map = read(test::nifti(test::label_image(placements()[0].X_WI)), LabelFormat::nifti);
+  const auto map = read(test::nifti(test::label_image(placements()[0].X_WI)), io::LabelFormat::nifti);
   for (const double number : map.grid.X_WI.matrix().reshaped())
     EXPECT_FALSE(number == 0 && std::signbit(number));
 }
@@ -384,8 +387,8 @@ TEST(NrrdSpace, WithoutAKnownWorldNeedsAStatedOne) {
   const auto image = test::label_image(placements()[3].X_WI);
   for (const char* space : {"", "3D-right-handed"}) {
     const auto bytes = test::nrrd(image, {.space = space});
-    EXPECT_THROW(read(bytes, LabelFormat::nrrd), FileError);
-    expect_same(read(bytes, LabelFormat::nrrd, {.axes = StatedAxes::lps}), image);
+    EXPECT_THROW(read(bytes, io::LabelFormat::nrrd), FileError);
+    expect_same(read(bytes, io::LabelFormat::nrrd, {.axes = io::StatedAxes::lps}), image);
   }
 }
 
@@ -393,7 +396,7 @@ TEST(NrrdSpace, UnitsAreConverted) {
   auto image = test::label_image(placements()[3].X_WI);
   const auto bytes = test::nrrd(image, {.more_lines = "space units: \"um\" \"um\" \"um\"\n"});
   image.X_WI.matrix().topRows<3>() *= 1e-3;
-  expect_same(read(bytes, LabelFormat::nrrd), image);
+  expect_same(read(bytes, io::LabelFormat::nrrd), image);
 }
 
 TEST(MetaImageMatrix, HasTheAxesInItsRows) {
@@ -401,26 +404,27 @@ TEST(MetaImageMatrix, HasTheAxesInItsRows) {
   const std::string header =
       "NDims = 3\nDimSize = 2 1 1\nElementType = MET_UCHAR\nElementSpacing = 10 10 10\nOffset = 1 2 3\n"
       "TransformMatrix = 0.8 0.6 0 -0.6 0.8 0 0 0 1\nElementDataFile = LOCAL\n";
-  const auto map = read(header + std::string("\1\2", 2), LabelFormat::metaimage);
+  const auto map = read(header + std::string("\1\2", 2), io::LabelFormat::metaimage);
   EXPECT_LE((map.grid.X_WI * Vector3d(1, 0, 0) - Vector3d(9, 8, 3)).norm(), 1e-12);
   EXPECT_LE((map.grid.X_WI * Vector3d(0, 1, 0) - Vector3d(-5, 10, 3)).norm(), 1e-12);
 }
 
 TEST(LabelBytes, AreNotedBeyondThoseThatTheHeaderPromises) {
   const auto image = test::label_image(placements()[0].X_WI);
-  for (const auto& [bytes, format] : {std::pair{test::nifti(image), LabelFormat::nifti},
-                                      {test::nrrd(image), LabelFormat::nrrd},
-                                      {test::meta(image), LabelFormat::metaimage}}) {
-    EXPECT_FALSE(has_note(read(bytes, format), LabelNoteCode::more_bytes));
+  for (const auto& [bytes, format] : {std::pair{test::nifti(image), io::LabelFormat::nifti},
+                                      {test::nrrd(image), io::LabelFormat::nrrd},
+                                      {test::meta(image), io::LabelFormat::metaimage}}) {
+    EXPECT_FALSE(has_note(read(bytes, format), io::LabelNoteCode::more_bytes));
     const auto map = read(bytes + "x", format);
-    EXPECT_TRUE(has_note(map, LabelNoteCode::more_bytes));
+    EXPECT_TRUE(has_note(map, io::LabelNoteCode::more_bytes));
     expect_same(map, image);
   }
 }
 
 TEST(EmptySegmentation, IsNotedForASingleVoxel) {
   const LabelImage image{{1, 1, 1}, Affine3d::Identity(), {{0}}};
-  EXPECT_TRUE(has_note(read(test::nrrd(image), LabelFormat::nrrd), LabelNoteCode::empty_segmentation));
+  EXPECT_TRUE(
+      has_note(read(test::nrrd(image), io::LabelFormat::nrrd), io::LabelNoteCode::empty_segmentation));
 }
 
 TEST(DetachedData, LieBelowTheFolderOfTheHeaderUnlessTheUserAllows) {
@@ -433,11 +437,11 @@ TEST(DetachedData, LieBelowTheFolderOfTheHeaderUnlessTheUserAllows) {
   folder.file("inner/deeper/bones.raw", test::nrrd_data(image, how));
   std::filesystem::create_symlink(folder / "bones.raw", inner / "link.raw");
 
-  const auto read_as = [&](const std::string& data_file, const LabelFileOptions& options) {
+  const auto read_as = [&](const std::string& data_file, const io::LabelFileOptions& options) {
     folder.file("inner/a.mhd", test::meta_header(image, {.data_file = data_file}));
-    expect_same(read_labels(inner / "a.mhd", options), image);
-    return read_labels(folder.file("inner/a.nhdr", test::nrrd_header(image, {.data_file = data_file})),
-                       options);
+    expect_same(io::read_labels(inner / "a.mhd", options), image);
+    return io::read_labels(folder.file("inner/a.nhdr", test::nrrd_header(image, {.data_file = data_file})),
+                           options);
   };
   for (const std::string& outside :
        {std::string("../bones.raw"), std::string("link.raw"), std::string("deeper/../../bones.raw"),
@@ -452,11 +456,11 @@ TEST(DetachedData, LieBelowTheFolderOfTheHeaderUnlessTheUserAllows) {
 }
 
 TEST(LabelFormatOf, IsWhatTheNameEndsIn) {
-  EXPECT_EQ(label_format_of("a/b.nii.gz"), LabelFormat::nifti);
-  EXPECT_EQ(label_format_of("B.SEG.NRRD"), LabelFormat::nrrd);
-  EXPECT_EQ(label_format_of("b.mhd"), LabelFormat::metaimage);
-  EXPECT_EQ(label_format_of("b.stl"), std::nullopt);
-  EXPECT_EQ(label_format_of("b.gz"), std::nullopt);
+  EXPECT_EQ(io::label_format_of("a/b.nii.gz"), io::LabelFormat::nifti);
+  EXPECT_EQ(io::label_format_of("B.SEG.NRRD"), io::LabelFormat::nrrd);
+  EXPECT_EQ(io::label_format_of("b.mhd"), io::LabelFormat::metaimage);
+  EXPECT_EQ(io::label_format_of("b.stl"), std::nullopt);
+  EXPECT_EQ(io::label_format_of("b.gz"), std::nullopt);
 }
 
 }  // namespace

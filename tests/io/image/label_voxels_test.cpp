@@ -21,8 +21,8 @@ test::LabelImage sparse_image(std::uint32_t seed) {
   return image;
 }
 
-LabelMap read(const test::LabelImage& image) {
-  return read_labels(test::nrrd(image), LabelFormat::nrrd, "bones");
+io::LabelMap read(const test::LabelImage& image) {
+  return io::read_labels(test::nrrd(image), io::LabelFormat::nrrd, "bones");
 }
 
 std::uint32_t value_at(const test::LabelImage& image, std::size_t layer, std::array<std::int64_t, 3> v) {
@@ -48,10 +48,10 @@ TEST(LabelMask, HasTheVoxelsOfTheLabelInTheirSmallestBox) {
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
     const auto image = sparse_image(seed);
     const auto map = read(image);
-    const auto summaries = summaries_of(map);
+    const auto summaries = io::summaries_of(map);
     for (std::size_t layer = 0; layer < 2; ++layer)
       for (const std::uint32_t label : {0u, 10u, 20u, 30u}) {
-        const auto mask = mask_of(map, layer, label);
+        const auto mask = io::mask_of(map, layer, label);
         std::vector<bool> expected;
         for (const auto value : image.layers[layer]) expected.push_back(value == label);
         EXPECT_EQ(unpacked(mask), expected);
@@ -86,7 +86,7 @@ TEST(LabelMask, HasTheVoxelsOfTheLabelInTheirSmallestBox) {
 TEST(LabelMask, KeepsTheGridOfTheImage) {
   auto image = sparse_image(1);
   image.X_WI.translation() << 1, 2, 3;
-  const auto mask = mask_of(read(image), 0, 10);
+  const auto mask = io::mask_of(read(image), 0, 10);
   EXPECT_EQ(mask.image.size, image.size);
   EXPECT_EQ(mask.image.X_WI.matrix(), image.X_WI.matrix());
 }

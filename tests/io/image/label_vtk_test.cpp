@@ -18,7 +18,7 @@ namespace {
 void expect_same_as_vtk(const test::LabelImage& image, const test::NiftiWriting& how) {
   const test::TemporaryFolder folder;
   const auto path = folder.file("bones.nii", test::nifti(image, how));
-  const auto map = read_labels(path);
+  const auto map = io::read_labels(path);
   const auto inverse = map.grid.X_WI.inverse();
 
   vtkNew<vtkNIFTIImageReader> reader;

@@ -25,26 +25,26 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 /// The model in a folder of its own, every mesh it names a box of some centimetres.
-Model with_boxes(const fs::path& file, const fs::path& folder) {
+io::Model with_boxes(const fs::path& file, const fs::path& folder) {
   const fs::path copy = folder / file.filename();
   fs::copy_file(file, copy, fs::copy_options::overwrite_existing);
   const TriMesh box = test::box({-0.02, -0.03, -0.02}, {0.03, 0.02, 0.01});
-  for (const ModelMesh& mesh : read_model(copy).meshes) {
+  for (const io::ModelMesh& mesh : io::read_model(copy).meshes) {
     std::string name = mesh.file;
     std::replace(name.begin(), name.end(), '\\', '/');
     const fs::path path = folder / "Geometry" / name;
     fs::create_directories(path.parent_path());
     if (fs::exists(path)) continue;
     if (path.extension() == ".vtp")
-      write_mesh(path, box);
+      io::write_mesh(path, box);
     else
       std::ofstream(path, std::ios::binary) << test::stl_files(box).front().bytes;
   }
-  return read_model(copy);
+  return io::read_model(copy);
 }
 
-MotionTable table_of(const Json& joint) {
-  MotionTable table;
+io::MotionTable table_of(const Json& joint) {
+  io::MotionTable table;
   table.path = "poses.sto";
   table.in_degrees = false;
   table.rows = joint["poses"].size();
@@ -73,21 +73,21 @@ TEST_P(ModelJoints, PlaceTheChildWhereTheModelDoes) {
   const Json reference = Json::parse(file);
   for (const Json& of_model : reference["models"]) {
     const test::TemporaryFolder folder;
-    const Model model = with_boxes(source / of_model["model"].get<std::string>(), folder.path());
+    const io::Model model = with_boxes(source / of_model["model"].get<std::string>(), folder.path());
     for (const Json& expected : of_model["joints"]) {
       if (expected["coordinates"].empty()) continue;
       const auto name = expected["joint"].get<std::string>();
       SCOPED_TRACE(model.path.string() + " " + name);
-      ModelJointRequest request{.joint = name, .joint_file = {}};
+      io::ModelJointRequest request{.joint = name, .joint_file = {}};
       if (source.filename() == "osim_small") request.anatomy = Anatomy::knee, request.side = Side::left;
       if (name.find("subtalar") != name.npos || name.find("mtp") != name.npos)
         request.anatomy = Anatomy::ankle;
-      if (meshes_of(model, joint_named(model, name), BodyRole::fixed).empty() ||
-          meshes_of(model, joint_named(model, name), BodyRole::mobile).empty())
+      if (io::meshes_of(model, io::joint_named(model, name), BodyRole::fixed).empty() ||
+          io::meshes_of(model, io::joint_named(model, name), BodyRole::mobile).empty())
         continue;
-      const LoadedJoint loaded = read_joint(model, request);
-      const JointMotion motion = motion_of(loaded, table_of(expected));
-      const Provenance from = provenance_of(loaded, {});
+      const io::LoadedJoint loaded = io::read_joint(model, request);
+      const io::JointMotion motion = io::motion_of(loaded, table_of(expected));
+      const io::Provenance from = io::provenance_of(loaded, {});
       for (std::size_t i = 0; i < motion.X_FM.size(); ++i) {
         const Eigen::Affine3d X =
             from.fixed.source_from_joint * Eigen::Affine3d(*motion.X_FM[i]) * from.mobile.joint_from_source;
@@ -95,7 +95,7 @@ TEST_P(ModelJoints, PlaceTheChildWhereTheModelDoes) {
         EXPECT_LE((X.matrix() - wanted.matrix()).cwiseAbs().maxCoeff(), 1e-12) << expected["poses"][i]["q"];
       }
       ++joints;
-      if (std::holds_alternative<std::vector<ColumnOfCoordinate>>(*loaded.report.file.recorded_motion))
+      if (std::holds_alternative<std::vector<io::ColumnOfCoordinate>>(*loaded.report.file.recorded_motion))
         ++by_columns;
     }
   }
@@ -152,8 +152,8 @@ class SmallModel : public ::testing::Test {
  protected:
   void SetUp() override {
     const TriMesh box = test::box({-0.02, -0.03, -0.02}, {0.03, 0.02, 0.01});
-    write_mesh(folder_.path() / "pelvis.ply", box);
-    write_mesh(folder_.path() / "femur.ply", box);
+    io::write_mesh(folder_.path() / "pelvis.ply", box);
+    io::write_mesh(folder_.path() / "femur.ply", box);
   }
 
   fs::path written(const std::string& text) const {
@@ -161,15 +161,15 @@ class SmallModel : public ::testing::Test {
     std::ofstream(path, std::ios::binary) << text;
     return path;
   }
-  Model model(const Hip& hip) const { return read_model(written(hip.text())); }
+  io::Model model(const Hip& hip) const { return io::read_model(written(hip.text())); }
 
   /// The error of a refused model, or its only joint.
   std::string refusal(const std::string& text) const {
     try {
-      const Model model = read_model(written(text));
-      for (const ModelJoint& joint : model.joints) {
+      const io::Model model = io::read_model(written(text));
+      for (const io::ModelJoint& joint : model.joints) {
         if (!joint.transform) return joint.why_not;
-        propose_joint(model, {.joint = joint.name, .joint_file = {}});
+        io::propose_joint(model, {.joint = joint.name, .joint_file = {}});
       }
     } catch (const std::exception& error) {
       return error.what();
@@ -180,9 +180,9 @@ class SmallModel : public ::testing::Test {
   test::TemporaryFolder folder_;
 };
 
-MotionTable one_frame(std::vector<std::string> columns, std::vector<std::vector<double>> values,
-                      bool in_degrees) {
-  MotionTable table;
+io::MotionTable one_frame(std::vector<std::string> columns, std::vector<std::vector<double>> values,
+                          bool in_degrees) {
+  io::MotionTable table;
   table.path = "walk.mot";
   table.columns = std::move(columns);
   table.values = std::move(values);
@@ -193,24 +193,25 @@ MotionTable one_frame(std::vector<std::string> columns, std::vector<std::vector<
 }
 
 TEST_F(SmallModel, IsAHip) {
-  const Model model = this->model({});
+  const io::Model model = this->model({});
   EXPECT_EQ(model.name, "small & plain");
-  const LoadedJoint loaded = read_joint(model, {.joint = "hip_r", .joint_file = {}});
+  const io::LoadedJoint loaded = io::read_joint(model, {.joint = "hip_r", .joint_file = {}});
   EXPECT_EQ(loaded.joint.kind, JointKind::ball);
   EXPECT_EQ(loaded.joint.side, Side::right);
   EXPECT_TRUE(loaded.joint.is_hip());
-  const auto& columns = std::get<std::vector<ColumnOfCoordinate>>(*loaded.report.file.recorded_motion);
+  const auto& columns = std::get<std::vector<io::ColumnOfCoordinate>>(*loaded.report.file.recorded_motion);
   ASSERT_EQ(columns.size(), 3u);
-  for (const ColumnOfCoordinate& column : columns) EXPECT_EQ(column.sign, 1);
+  for (const io::ColumnOfCoordinate& column : columns) EXPECT_EQ(column.sign, 1);
   EXPECT_EQ(columns[2].column, "hip_r/rot");
 }
 
 TEST_F(SmallModel, OfALeftSideHasTheSignsOfItsAxes) {
   Hip hip{.name = "hip_l", .body = "femur_l"};
   const auto signs = [&] {
-    const LoadedJoint loaded = read_joint(model(hip), {.joint = "hip_l", .joint_file = {}});
+    const io::LoadedJoint loaded = io::read_joint(model(hip), {.joint = "hip_l", .joint_file = {}});
     std::string text;
-    for (const auto& column : std::get<std::vector<ColumnOfCoordinate>>(*loaded.report.file.recorded_motion))
+    for (const auto& column :
+         std::get<std::vector<io::ColumnOfCoordinate>>(*loaded.report.file.recorded_motion))
       text += column.sign > 0 ? '+' : '-';
     return text;
   };
@@ -221,16 +222,16 @@ TEST_F(SmallModel, OfALeftSideHasTheSignsOfItsAxes) {
 }
 
 /// That a joint so made places the child's body where the model's functions do, at coordinates within and beyond theirs.
-void expect_poses_of_model(const Model& model, const ModelJointRequest& request, JointKind kind,
+void expect_poses_of_model(const io::Model& model, const io::ModelJointRequest& request, JointKind kind,
                            bool by_columns) {
-  const ModelJoint& joint = joint_named(model, request.joint);
-  const LoadedJoint loaded = read_joint(model, request);
+  const io::ModelJoint& joint = io::joint_named(model, request.joint);
+  const io::LoadedJoint loaded = io::read_joint(model, request);
   EXPECT_EQ(loaded.joint.kind, kind);
-  EXPECT_EQ(std::holds_alternative<std::vector<ColumnOfCoordinate>>(*loaded.report.file.recorded_motion),
+  EXPECT_EQ(std::holds_alternative<std::vector<io::ColumnOfCoordinate>>(*loaded.report.file.recorded_motion),
             by_columns);
-  const Provenance from = provenance_of(loaded, {});
+  const io::Provenance from = io::provenance_of(loaded, {});
   for (const double size : {0.0, 0.3, -1.1, 2.5}) {
-    MotionTable table = one_frame({"time"}, {{0}}, false);
+    io::MotionTable table = one_frame({"time"}, {{0}}, false);
     std::vector<double> q;
     for (std::size_t i = 0; i < joint.coordinates.size(); ++i) {
       q.push_back(size * (1 - 0.3 * static_cast<double>(i)));
@@ -238,9 +239,9 @@ void expect_poses_of_model(const Model& model, const ModelJointRequest& request,
       table.values.push_back({q.back()});
     }
     const Eigen::Affine3d X = from.fixed.source_from_joint *
-                              Eigen::Affine3d(*motion_of(loaded, table).X_FM[0]) *
+                              Eigen::Affine3d(*io::motion_of(loaded, table).X_FM[0]) *
                               from.mobile.joint_from_source;
-    EXPECT_LE((X.matrix() - pose_of(joint, q).matrix()).cwiseAbs().maxCoeff(), 1e-12) << size;
+    EXPECT_LE((X.matrix() - io::pose_of(joint, q).matrix()).cwiseAbs().maxCoeff(), 1e-12) << size;
   }
 }
 
@@ -266,11 +267,12 @@ TEST_F(SmallModel, WithOffsetsKeepsThem) {
   const auto with = [&](const std::string& joint, std::initializer_list<std::string_view> names) {
     std::string text = Hip{.joint = joint}.text();
     const std::string three = coordinates({"flex", "add", "rot"});
-    return read_model(written(text.replace(text.find(three), three.size(), coordinates(names))));
+    return io::read_model(written(text.replace(text.find(three), three.size(), coordinates(names))));
   };
   for (const Anatomy anatomy : {Anatomy::knee, Anatomy::ankle, Anatomy::elbow})
     for (const Side side : {Side::right, Side::left}) {
-      const ModelJointRequest request{.joint = "hip_r", .joint_file = {}, .anatomy = anatomy, .side = side};
+      const io::ModelJointRequest request{
+          .joint = "hip_r", .joint_file = {}, .anatomy = anatomy, .side = side};
       expect_poses_of_model(with(hinge, {"flex"}), request, JointKind::hinge, true);
       expect_poses_of_model(with(angles, {"flex", "add", "rot"}), request, JointKind::ball, true);
       expect_poses_of_model(with(angles + moved, {"flex", "add", "rot", "x", "y", "z"}), request,
@@ -280,7 +282,7 @@ TEST_F(SmallModel, WithOffsetsKeepsThem) {
                             request, JointKind::free, false);
     }
   for (const Anatomy anatomy : {Anatomy::hip, Anatomy::shoulder}) {
-    const ModelJointRequest request{
+    const io::ModelJointRequest request{
         .joint = "hip_r", .joint_file = {}, .anatomy = anatomy, .side = Side::left};
     expect_poses_of_model(with(hinge, {"flex"}), request, JointKind::ball, false);
     expect_poses_of_model(with(angles, {"flex", "add", "rot"}), request, JointKind::ball,
@@ -299,15 +301,15 @@ TEST_F(SmallModel, ScaledFunctionsAreRadiansInOpenSim) {
 TEST_F(SmallModel, OfAnotherOrderIsPosedByTheModel) {
   const Hip hip{.joint = axis("rotation1", "add", "1 0 0") + axis("rotation2", "flex", "0 0 1") +
                          axis("rotation3", "rot", "0 1 0")};
-  const LoadedJoint loaded = read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
+  const io::LoadedJoint loaded = io::read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
   EXPECT_EQ(loaded.joint.kind, JointKind::ball);
-  EXPECT_TRUE(std::holds_alternative<PosesOfModel>(*loaded.report.file.recorded_motion));
+  EXPECT_TRUE(std::holds_alternative<io::PosesOfModel>(*loaded.report.file.recorded_motion));
 }
 
 TEST_F(SmallModel, MirroredByItsScaleKeepsItsInside) {
-  const Model model =
+  const io::Model model =
       this->model({.mesh = "<mesh_file>femur.ply</mesh_file><scale_factors>2 1 -1</scale_factors>"});
-  const LoadedJoint loaded = read_joint(model, {.joint = "hip_r", .joint_file = {}});
+  const io::LoadedJoint loaded = io::read_joint(model, {.joint = "hip_r", .joint_file = {}});
   const MeshReport report = inspect(loaded.joint.mobile.mesh);
   EXPECT_NEAR(report.signed_volume.value(), 2 * 50.0 * 50 * 30, 1e-6);
   bool said = false;
@@ -319,12 +321,12 @@ TEST_F(SmallModel, DegreesAreOfRotationalCoordinatesOnly) {
   const std::string spline = "<SimmSpline name=\"function\"><x>-1 0 1</x><y>1 0 -1</y></SimmSpline>";
   const Hip hip{.joint = axis("rotation1", "flex", "0 0 1") + axis("rotation2", "add", "1 0 0", spline) +
                          axis("rotation3", "rot", "0 1 0")};
-  const LoadedJoint loaded = read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
-  MotionTable table =
+  const io::LoadedJoint loaded = io::read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
+  io::MotionTable table =
       one_frame({"time", "flex", "hip_r/add/value", "rot", "rot_u"}, {{0}, {30}, {0.2}, {NAN}, {5}}, true);
-  EXPECT_FALSE(motion_of(loaded, table).X_FM[0].has_value()) << "a gap is no pose";
+  EXPECT_FALSE(io::motion_of(loaded, table).X_FM[0].has_value()) << "a gap is no pose";
   table.values[3] = {-10};
-  const JointMotion motion = motion_of(loaded, table);
+  const io::JointMotion motion = io::motion_of(loaded, table);
   const JointAngles angles = angles_at(loaded.joint.coordinates(), *motion.X_FM[0]);
   EXPECT_NEAR(angles.flexion.degrees(), 30, 1e-12);
   EXPECT_NEAR(angles.adduction.radians(), -0.2, 1e-14);
@@ -340,12 +342,13 @@ TEST_F(SmallModel, CoordinatesWithoutAColumnHaveTheirDefaults) {
   std::string text = hip.text();
   text.replace(text.find(R"(<Coordinate name="add"/>)"), 24,
                R"(<Coordinate name="add"><default_value>0.1</default_value></Coordinate>)");
-  const LoadedJoint loaded = read_joint(read_model(written(text)), {.joint = "hip_r", .joint_file = {}});
-  MotionTable table = one_frame({"time", "flex"}, {{0}, {30}}, true);
-  const JointMotion motion = motion_of(loaded, table);
+  const io::LoadedJoint loaded =
+      io::read_joint(io::read_model(written(text)), {.joint = "hip_r", .joint_file = {}});
+  io::MotionTable table = one_frame({"time", "flex"}, {{0}, {30}}, true);
+  const io::JointMotion motion = io::motion_of(loaded, table);
   EXPECT_NEAR(angles_at(loaded.joint.coordinates(), *motion.X_FM[0]).adduction.radians(), 0.1, 1e-14);
   table.columns[1] = "nothing";
-  EXPECT_THROW(motion_of(loaded, table), FileError);
+  EXPECT_THROW(io::motion_of(loaded, table), FileError);
 }
 
 TEST_F(SmallModel, CouplersGiveWhatHasNoColumn) {
@@ -357,9 +360,9 @@ TEST_F(SmallModel, CouplersGiveWhatHasNoColumn) {
 <coupled_coordinates_function><LinearFunction><coefficients>0.5 0.1</coefficients></LinearFunction></coupled_coordinates_function>
 <independent_coordinate_names>flex</independent_coordinate_names><dependent_coordinate_name>rot</dependent_coordinate_name>
 <scale_factor>2</scale_factor></CoordinateCouplerConstraint></objects></ConstraintSet>)"};
-  const LoadedJoint loaded = read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
-  MotionTable table = one_frame({"time", "flex"}, {{0}, {0.3}}, false);
-  const JointAngles angles = angles_at(loaded.joint.coordinates(), *motion_of(loaded, table).X_FM[0]);
+  const io::LoadedJoint loaded = io::read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
+  io::MotionTable table = one_frame({"time", "flex"}, {{0}, {0.3}}, false);
+  const JointAngles angles = angles_at(loaded.joint.coordinates(), *io::motion_of(loaded, table).X_FM[0]);
   EXPECT_NEAR(angles.internal_rotation.radians(), 2 * (0.5 * 0.3 + 0.1), 1e-14);
 }
 
@@ -381,17 +384,17 @@ Hip hip_with(const std::string& couplers) {
 
 TEST_F(SmallModel, CouplersMayNameCoordinatesByPaths) {
   const Hip hip = hip_with(coupler("c", "/jointset/hip_r/rot", "/jointset/hip_r/flex"));
-  const LoadedJoint loaded = read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
-  const JointMotion motion = motion_of(loaded, one_frame({"time", "flex"}, {{0}, {0.3}}, false));
+  const io::LoadedJoint loaded = io::read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
+  const io::JointMotion motion = io::motion_of(loaded, one_frame({"time", "flex"}, {{0}, {0.3}}, false));
   EXPECT_NEAR(angles_at(loaded.joint.coordinates(), *motion.X_FM[0]).internal_rotation.radians(), 0.15,
               1e-14);
 }
 
 TEST_F(SmallModel, TwoCouplersOfOneCoordinateAreRefusedByTheirNames) {
   const Hip hip = hip_with(coupler("first", "rot", "flex") + coupler("second", "rot", "add"));
-  const LoadedJoint loaded = read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
+  const io::LoadedJoint loaded = io::read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
   try {
-    motion_of(loaded, one_frame({"time", "flex"}, {{0}, {0.3}}, false));
+    io::motion_of(loaded, one_frame({"time", "flex"}, {{0}, {0.3}}, false));
     ADD_FAILURE() << "not refused";
   } catch (const FileError& error) {
     EXPECT_NE(std::string(error.what()).find("constraints 'first' and 'second' both give coordinate 'rot'"),
@@ -408,16 +411,17 @@ TEST_F(SmallModel, CouplersWithoutAColumnEitherAreRefused) {
 <coupled_coordinates_function><LinearFunction><coefficients>0.5 0.1</coefficients></LinearFunction></coupled_coordinates_function>
 <independent_coordinate_names>flex</independent_coordinate_names><dependent_coordinate_name>rot</dependent_coordinate_name>
 <scale_factor>2</scale_factor></CoordinateCouplerConstraint></objects></ConstraintSet>)"};
-  const LoadedJoint loaded = read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
-  EXPECT_THROW(motion_of(loaded, one_frame({"time", "other"}, {{0}, {0.3}}, false)), FileError);
+  const io::LoadedJoint loaded = io::read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
+  EXPECT_THROW(io::motion_of(loaded, one_frame({"time", "other"}, {{0}, {0.3}}, false)), FileError);
 }
 
 TEST_F(SmallModel, TakesColumnsOfItsJointOnly) {
-  const LoadedJoint loaded = read_joint(model({}), {.joint = "hip_r", .joint_file = {}});
+  const io::LoadedJoint loaded = io::read_joint(model({}), {.joint = "hip_r", .joint_file = {}});
   const auto flexion = [&](std::vector<std::string> names) {
     std::vector<std::vector<double>> values;
     for (std::size_t i = 0; i < names.size(); ++i) values.push_back({0.1 * static_cast<double>(i)});
-    const JointMotion motion = motion_of(loaded, one_frame(std::move(names), std::move(values), false));
+    const io::JointMotion motion =
+        io::motion_of(loaded, one_frame(std::move(names), std::move(values), false));
     return angles_at(loaded.joint.coordinates(), *motion.X_FM[0]).flexion.radians();
   };
   EXPECT_NEAR(flexion({"time", "flex"}), 0.1, 1e-14);
@@ -435,9 +439,9 @@ TEST_F(SmallModel, IsReversedUpToVersion30513) {
     hip.version = version;
     std::string text = hip.text();
     text.replace(text.find("<SpatialTransform>"), 0, "<reverse>true</reverse>");
-    const Model model = read_model(written(text));
-    const auto says = std::any_of(model.notes.begin(), model.notes.end(), [](const ModelNote& note) {
-      return note.code == ModelNoteCode::reverse_passed_over;
+    const io::Model model = io::read_model(written(text));
+    const auto says = std::any_of(model.notes.begin(), model.notes.end(), [](const io::ModelNote& note) {
+      return note.code == io::ModelNoteCode::reverse_passed_over;
     });
     return model.joints.front().parent_body + (says ? ", said" : "");
   };
@@ -450,18 +454,20 @@ TEST_F(SmallModel, SaysThatItsChildIsTheProximalBone) {
   const auto says = [&](const std::string& body) {
     Hip hip;
     hip.body = body;
-    const ModelJointProposal proposal = propose_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
-    return std::any_of(proposal.notes.begin(), proposal.notes.end(),
-                       [](const ModelNote& note) { return note.code == ModelNoteCode::exchanged_bodies; });
+    const io::ModelJointProposal proposal =
+        io::propose_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
+    return std::any_of(proposal.notes.begin(), proposal.notes.end(), [](const io::ModelNote& note) {
+      return note.code == io::ModelNoteCode::exchanged_bodies;
+    });
   };
   EXPECT_FALSE(says("femur_r"));
   std::string text = Hip{.name = "knee_r", .body = "tibia_r"}.text();
   for (std::size_t at = text.find("pelvis"); at != text.npos; at = text.find("pelvis", at + 1))
     text.replace(at, 6, "talus0");
-  const ModelJointProposal ankle = propose_joint(
-      read_model(written(text)), {.joint = "knee_r", .joint_file = {}, .anatomy = Anatomy::ankle});
-  EXPECT_TRUE(std::any_of(ankle.notes.begin(), ankle.notes.end(), [](const ModelNote& note) {
-    return note.code == ModelNoteCode::exchanged_bodies;
+  const io::ModelJointProposal ankle = io::propose_joint(
+      io::read_model(written(text)), {.joint = "knee_r", .joint_file = {}, .anatomy = Anatomy::ankle});
+  EXPECT_TRUE(std::any_of(ankle.notes.begin(), ankle.notes.end(), [](const io::ModelNote& note) {
+    return note.code == io::ModelNoteCode::exchanged_bodies;
   }));
 }
 
@@ -469,9 +475,11 @@ TEST_F(SmallModel, SaysThatItsFrameIsTurnedInItsBody) {
   const auto says = [&](std::string_view orientation) {
     std::string text = Hip().text();
     text.insert(text.find("<translation>"), fmt::format("<orientation>{}</orientation>", orientation));
-    const auto notes = propose_joint(read_model(written(text)), {.joint = "hip_r", .joint_file = {}}).notes;
-    return std::any_of(notes.begin(), notes.end(),
-                       [](const ModelNote& note) { return note.code == ModelNoteCode::turned_frame; });
+    const auto notes =
+        io::propose_joint(io::read_model(written(text)), {.joint = "hip_r", .joint_file = {}}).notes;
+    return std::any_of(notes.begin(), notes.end(), [](const io::ModelNote& note) {
+      return note.code == io::ModelNoteCode::turned_frame;
+    });
   };
   for (const char* orientation : {"0 0 0", "0.7 0 0", "0 0.7 0", "0 0 -0.7"})
     EXPECT_FALSE(says(orientation)) << orientation;
@@ -482,8 +490,8 @@ TEST_F(SmallModel, SaysThatItsFrameIsTurnedInItsBody) {
 TEST_F(SmallModel, SaysThatItIsGivenOtherwiseThanItIsCalled) {
   const auto codes = [&](std::optional<Anatomy> anatomy, std::optional<Side> side) {
     std::string text;
-    for (const ModelNote& note :
-         propose_joint(model({}), {.joint = "hip_r", .joint_file = {}, .anatomy = anatomy, .side = side})
+    for (const io::ModelNote& note :
+         io::propose_joint(model({}), {.joint = "hip_r", .joint_file = {}, .anatomy = anatomy, .side = side})
              .notes)
       text += std::string(name_of(note.code)) + " ";
     return text;
@@ -521,12 +529,12 @@ TEST_F(SmallModel, HasWeldsThatAgreeWhereBodiesAre) {
     return text.insert(text.find("<CustomJoint"), welds);
   };
   const std::string chain = weld("w1", "femur_r", "a", "0.1") + weld("w2", "a", "b", "0.2");
-  const Model closed = read_model(written(with(chain + weld("w3", "b", "femur_r", "-0.3"))));
-  EXPECT_NE(propose_joint(closed, {.joint = "hip_r", .joint_file = {}}).proposal.toml.find("femur"),
+  const io::Model closed = io::read_model(written(with(chain + weld("w3", "b", "femur_r", "-0.3"))));
+  EXPECT_NE(io::propose_joint(closed, {.joint = "hip_r", .joint_file = {}}).proposal.toml.find("femur"),
             std::string::npos);
-  const Model open = read_model(written(with(chain + weld("w3", "b", "femur_r", "-0.31"))));
+  const io::Model open = io::read_model(written(with(chain + weld("w3", "b", "femur_r", "-0.31"))));
   try {
-    propose_joint(open, {.joint = "hip_r", .joint_file = {}});
+    io::propose_joint(open, {.joint = "hip_r", .joint_file = {}});
     ADD_FAILURE() << "accepted";
   } catch (const FileError& error) {
     EXPECT_NE(std::string(error.what()).find("where other welds do not have it"), std::string::npos)
@@ -535,11 +543,12 @@ TEST_F(SmallModel, HasWeldsThatAgreeWhereBodiesAre) {
 }
 
 TEST_F(SmallModel, NamesFilesFromWhereTheJointFileReallyIs) {
-  const Model model = this->model({});
+  const io::Model model = this->model({});
   fs::create_directories(folder_.path() / "out/deep");
   fs::create_directory_symlink(folder_.path() / "out/deep", folder_.path() / "link");
   const auto mesh_line = [&](const fs::path& joint_file) {
-    const std::string toml = propose_joint(model, {.joint = "hip_r", .joint_file = joint_file}).proposal.toml;
+    const std::string toml =
+        io::propose_joint(model, {.joint = "hip_r", .joint_file = joint_file}).proposal.toml;
     const std::size_t at = toml.find("mesh = ");
     return toml.substr(at, toml.find('\n', at) - at);
   };
@@ -552,8 +561,8 @@ TEST_F(SmallModel, NamesFilesFromWhereTheJointFileReallyIs) {
 TEST_F(SmallModel, SaysWhatNobodyMeansOfItsMeshes) {
   const auto notes_of = [&](const std::string& mesh) {
     std::string codes;
-    for (const ModelNote& note :
-         propose_joint(model({.mesh = mesh}), {.joint = "hip_r", .joint_file = {}}).notes)
+    for (const io::ModelNote& note :
+         io::propose_joint(model({.mesh = mesh}), {.joint = "hip_r", .joint_file = {}}).notes)
       codes += fmt::format("{} ", name_of(note.code));
     return codes;
   };
@@ -564,30 +573,31 @@ TEST_F(SmallModel, SaysWhatNobodyMeansOfItsMeshes) {
   const std::string again = "</Mesh><Mesh name=\"g\">" + file;
   EXPECT_EQ(notes_of(file + again), "repeated_mesh ");
   EXPECT_EQ(notes_of(file + again + "<scale_factors>1 1 1.1</scale_factors>"), "") << "another mesh";
-  const LoadedJoint once = read_joint(model({.mesh = file + again}), {.joint = "hip_r", .joint_file = {}});
+  const io::LoadedJoint once =
+      io::read_joint(model({.mesh = file + again}), {.joint = "hip_r", .joint_file = {}});
   EXPECT_EQ(once.joint.mobile.mesh.triangles().size(), 12u);
   EXPECT_TRUE(once.joint.mobile.parts.empty());
 }
 
 TEST_F(SmallModel, FindsMeshesInAnyCaseAndSaysSo) {
-  const Model model = this->model({.mesh = "<mesh_file>FEMUR.PLY</mesh_file>"});
+  const io::Model model = this->model({.mesh = "<mesh_file>FEMUR.PLY</mesh_file>"});
   ASSERT_TRUE(model.meshes[1].path);
   ASSERT_EQ(model.notes.size(), 1u);
-  EXPECT_EQ(to_text(model.notes[0]), "other_case: mesh 'FEMUR.PLY' was found as 'femur.ply'");
+  EXPECT_EQ(io::to_text(model.notes[0]), "other_case: mesh 'FEMUR.PLY' was found as 'femur.ply'");
 }
 
 TEST_F(SmallModel, WithoutMeshesNamesWhereTheyWereLookedFor) {
-  const Model model = this->model({.mesh = "<mesh_file>none.vtp</mesh_file>"});
-  const ModelJointProposal proposed = propose_joint(model, {.joint = "hip_r", .joint_file = {}});
+  const io::Model model = this->model({.mesh = "<mesh_file>none.vtp</mesh_file>"});
+  const io::ModelJointProposal proposed = io::propose_joint(model, {.joint = "hip_r", .joint_file = {}});
   EXPECT_NE(proposed.missing_body.find("no mesh of body 'femur_r' was found; looked for"), std::string::npos);
   EXPECT_NE(proposed.missing_body.find("Geometry/none.vtp"), std::string::npos);
   fs::remove(folder_.path() / "pelvis.ply");
-  const ModelJointProposal neither =
-      propose_joint(read_model(folder_.path() / "model.osim"), {.joint = "hip_r", .joint_file = {}});
+  const io::ModelJointProposal neither =
+      io::propose_joint(io::read_model(folder_.path() / "model.osim"), {.joint = "hip_r", .joint_file = {}});
   for (const char* body : {"no mesh of body 'pelvis'", "no mesh of body 'femur_r'"})
     EXPECT_NE(neither.missing_body.find(body), std::string::npos) << neither.missing_body;
   EXPECT_NE(proposed.proposal.toml.find("none.vtp"), std::string::npos);
-  EXPECT_THROW(read_joint(model, {.joint = "hip_r", .joint_file = {}}), FileError);
+  EXPECT_THROW(io::read_joint(model, {.joint = "hip_r", .joint_file = {}}), FileError);
 }
 
 TEST_F(SmallModel, RefusesInOneLine) {
@@ -679,8 +689,8 @@ TEST_F(SmallModel, FollowsSocketsAsTheyArePaths) {
   };
   for (const auto& [socket, along] : cases) {
     SCOPED_TRACE(socket);
-    const Model model = read_model(written(with_frames(socket)));
-    const ModelJoint& joint = model.joints.front();
+    const io::Model model = io::read_model(written(with_frames(socket)));
+    const io::ModelJoint& joint = model.joints.front();
     if (along < 0) {
       EXPECT_NE(joint.why_not.find("could be one of several frames"), std::string::npos) << joint.why_not;
       continue;
@@ -689,7 +699,7 @@ TEST_F(SmallModel, FollowsSocketsAsTheyArePaths) {
     EXPECT_EQ(joint.X_PF.translation(), Vec3(along, 0, 0));
   }
   for (const char* socket : {"/bodyset/pelvis/F9", "/bodyset/femur_r/off", "F1", ".."})
-    EXPECT_FALSE(read_model(written(with_frames(socket))).joints.front().transform) << socket;
+    EXPECT_FALSE(io::read_model(written(with_frames(socket))).joints.front().transform) << socket;
 }
 
 TEST_F(SmallModel, RefusesFunctionsThatItDoesNotRead) {
@@ -717,13 +727,14 @@ TEST_F(SmallModel, RefusesCouplersOfAnotherNumberOfCoordinates) {
 </MultiplierFunction></coupled_coordinates_function><independent_coordinate_names>flex</independent_coordinate_names>
 <dependent_coordinate_name>rot</dependent_coordinate_name></CoordinateCouplerConstraint></objects></ConstraintSet>)",
                                       slopes)};
-    const LoadedJoint loaded = read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
-    EXPECT_THROW(motion_of(loaded, one_frame({"time", "flex"}, {{0}, {0.3}}, false)), FileError) << slopes;
+    const io::LoadedJoint loaded = io::read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
+    EXPECT_THROW(io::motion_of(loaded, one_frame({"time", "flex"}, {{0}, {0.3}}, false)), FileError)
+        << slopes;
   }
 }
 
 TEST_F(SmallModel, ReadsMeshesOfTheModelItself) {
-  const Model model = this->model(
+  const io::Model model = this->model(
       {.more =
            "<components><Mesh "
            "name=\"a\"><socket_frame>/bodyset/femur_r</socket_frame><mesh_file>pelvis.ply</mesh_file></Mesh>"

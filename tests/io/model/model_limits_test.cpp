@@ -26,11 +26,11 @@ class ModelLimits : public ::testing::Test {
  protected:
   void SetUp() override {
     for (const char* name : {"pelvis.ply", "femur.ply"})
-      write_mesh(folder_.path() / name, test::box({-0.02, -0.03, -0.02}, {0.03, 0.02, 0.01}));
+      io::write_mesh(folder_.path() / name, test::box({-0.02, -0.03, -0.02}, {0.03, 0.02, 0.01}));
   }
 
-  Model model(std::string_view axes, std::string_view flexion, std::string_view rotation,
-              std::string_view more = "") const {
+  io::Model model(std::string_view axes, std::string_view flexion, std::string_view rotation,
+                  std::string_view more = "") const {
     std::string joint;
     constexpr const char* names[] = {"flex", "add", "rot"};
     for (std::size_t i = 0; i < 3; ++i)
@@ -48,11 +48,11 @@ class ModelLimits : public ::testing::Test {
 <Coordinate name="add"/><Coordinate name="rot">{}</Coordinate></coordinates>
 <SpatialTransform>{}</SpatialTransform></CustomJoint></objects></JointSet>{}</Model></OpenSimDocument>)",
         flexion, rotation, joint, more);
-    return read_model(path);
+    return io::read_model(path);
   }
 
-  static MotionTable table(std::vector<double> flexion, std::vector<double> rotation) {
-    MotionTable table;
+  static io::MotionTable table(std::vector<double> flexion, std::vector<double> rotation) {
+    io::MotionTable table;
     table.path = "walk.mot";
     table.columns = {"time", "flex", "add", "rot"};
     table.rows = flexion.size();
@@ -64,10 +64,10 @@ class ModelLimits : public ::testing::Test {
     return table;
   }
 
-  static std::vector<std::string> notes_of(const Model& model, const MotionTable& table) {
-    const LoadedJoint loaded = read_joint(model, {.joint = "hip_r", .joint_file = {}});
+  static std::vector<std::string> notes_of(const io::Model& model, const io::MotionTable& table) {
+    const io::LoadedJoint loaded = io::read_joint(model, {.joint = "hip_r", .joint_file = {}});
     std::vector<std::string> notes;
-    for (const ContactNote& note : motion_of(loaded, table).notes)
+    for (const motion::ContactNote& note : io::motion_of(loaded, table).notes)
       notes.push_back(fmt::format("{}: {}", name_of(note.code), note.text));
     return notes;
   }
@@ -81,15 +81,15 @@ TEST_F(ModelLimits, AreNotedTheSameByColumnsAndByTheModel) {
       "'hip_r/flex', -57.2958 to 85.9437 degrees, in 2 of 5 frames by up to 28.65",
       "locked_coordinate: coordinates that the model locks have other values, and are used as they are: "
       "'hip_r/rot', at 5.72958 degrees, in 1 of 5 frames by up to 11.46"};
-  const MotionTable recorded = table({0, 1.5, 2, std::nan(""), -1.1}, {0.1, 0.1, 0.3, 0.1, 0.1});
+  const io::MotionTable recorded = table({0, 1.5, 2, std::nan(""), -1.1}, {0.1, 0.1, 0.3, 0.1, 0.1});
   for (const std::string_view axes : {by_columns, by_model}) {
     SCOPED_TRACE(axes);
-    const Model limited =
+    const io::Model limited =
         model(axes, "<range>-1 1.5</range>", "<default_value>0.1</default_value><locked>true</locked>");
     EXPECT_EQ(notes_of(limited, recorded), wanted);
     // The same poses as without.
-    const auto poses = [&](const Model& of) {
-      return motion_of(read_joint(of, {.joint = "hip_r", .joint_file = {}}), recorded).X_FM;
+    const auto poses = [&](const io::Model& of) {
+      return io::motion_of(io::read_joint(of, {.joint = "hip_r", .joint_file = {}}), recorded).X_FM;
     };
     const auto with = poses(limited), without = poses(model(axes, "", ""));
     ASSERT_EQ(with.size(), without.size());
@@ -104,7 +104,7 @@ TEST_F(ModelLimits, AreNotedTheSameByColumnsAndByTheModel) {
 
 TEST_F(ModelLimits, AreNotNotedOfWhatAFileRounds) {
   // 120 degrees are written as 2.0943951, and a locked column holds its default in as many digits.
-  const MotionTable rounded = table({120 * std::numbers::pi / 180, 2.09439510}, {0.1, 0.10000001});
+  const io::MotionTable rounded = table({120 * std::numbers::pi / 180, 2.09439510}, {0.1, 0.10000001});
   for (const std::string_view axes : {by_columns, by_model})
     EXPECT_EQ(notes_of(model(axes, "<range>2.0943951 -2.0943951</range>",
                              "<default_value>0.1</default_value><locked>true</locked>"),
@@ -113,7 +113,7 @@ TEST_F(ModelLimits, AreNotNotedOfWhatAFileRounds) {
 }
 
 TEST_F(ModelLimits, HoldForWhatStandsInForAColumn) {
-  MotionTable without = table({0.1, 0.2}, {0, 0});
+  io::MotionTable without = table({0.1, 0.2}, {0, 0});
   without.columns.pop_back(), without.values.pop_back();
   for (const std::string_view axes : {by_columns, by_model}) {
     const auto notes = notes_of(
@@ -125,15 +125,15 @@ TEST_F(ModelLimits, HoldForWhatStandsInForAColumn) {
 }
 
 TEST_F(ModelLimits, StandInTheJointFileAndAreReadBack) {
-  const ModelJointProposal proposal = propose_joint(
+  const io::ModelJointProposal proposal = io::propose_joint(
       model(by_columns, "<range>-1 1.5</range>", "<default_value>0.1</default_value><locked>true</locked>"),
       {.joint = "hip_r", .joint_file = folder_.path() / "hip.toml"});
   EXPECT_NE(proposal.proposal.toml.find("range = [-57.29577951308232, 85.94366926962348] }"),
             std::string::npos)
       << proposal.proposal.toml;
   std::ofstream(folder_.path() / "hip.toml") << proposal.proposal.toml;
-  const auto columns = std::get<std::vector<ColumnOfCoordinate>>(
-      *read_joint_file(folder_.path() / "hip.toml").recorded_motion);
+  const auto columns = std::get<std::vector<io::ColumnOfCoordinate>>(
+      *io::read_joint_file(folder_.path() / "hip.toml").recorded_motion);
   ASSERT_EQ(columns.size(), 3u);
   EXPECT_EQ(columns[0].range, (std::array{-57.29577951308232, 85.94366926962348}));
   EXPECT_FALSE(columns[0].is_locked || columns[1].range);
@@ -141,7 +141,7 @@ TEST_F(ModelLimits, StandInTheJointFileAndAreReadBack) {
 }
 
 TEST_F(ModelLimits, WithoutEndsAreHugeNumbersThatAJointFileHolds) {
-  const Model endless = model(by_columns, "<range>-1e308 1e308</range>", "");
+  const io::Model endless = model(by_columns, "<range>-1e308 1e308</range>", "");
   EXPECT_EQ(notes_of(endless, table({0, 100}, {0, 0})),
             std::vector<std::string>{"unlikely_angle: flexion reaches 5730 degrees, more than two turns: is "
                                      "its column in degrees, and read as radians?"});
@@ -171,25 +171,26 @@ class ModelLayers : public ModelLimits {
   void SetUp() override {
     ModelLimits::SetUp();
     // Concentric balls: 4 mm from one to the other everywhere.
-    write_mesh(folder_.path() / "femur.ply", scaled(test::sphere({0, 0, 0}, 24, 3)));
-    write_mesh(folder_.path() / "inner.ply", scaled(test::sphere({0, 0, 0}, 20, 3)));
+    io::write_mesh(folder_.path() / "femur.ply", scaled(test::sphere({0, 0, 0}, 24, 3)));
+    io::write_mesh(folder_.path() / "inner.ply", scaled(test::sphere({0, 0, 0}, 20, 3)));
   }
   static TriMesh scaled(TriMesh mesh) {
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, mesh.vertices[v] / 1000);
     return mesh;
   }
-  Model with(std::string_view least, std::string_view greatest, std::string_view reach = "0.02") const {
+  io::Model with(std::string_view least, std::string_view greatest, std::string_view reach = "0.02") const {
     return model(by_columns, "", "", fmt::format(fmt::runtime(cartilages), least, greatest, reach));
   }
-  static std::vector<ContactNote> layer_notes(const Model& model) {
-    const LoadedJoint loaded = read_joint(model, {.joint = "hip_r", .joint_file = {}});
-    const ContactEntry& entry = *loaded.report.file.contact;
-    const ContactSurfaces surfaces = surfaces_of(entry, loaded.joint);
-    return check_layers(surfaces.fixed.mesh, surfaces.mobile.mesh, elastic_options(entry, surfaces, loaded));
+  static std::vector<motion::ContactNote> layer_notes(const io::Model& model) {
+    const io::LoadedJoint loaded = io::read_joint(model, {.joint = "hip_r", .joint_file = {}});
+    const io::ContactEntry& entry = *loaded.report.file.contact;
+    const io::ContactSurfaces surfaces = io::surfaces_of(entry, loaded.joint);
+    return motion::check_layers(surfaces.fixed.mesh, surfaces.mobile.mesh,
+                                io::elastic_options(entry, surfaces, loaded));
   }
-  static std::string refusal(const Model& model) {
+  static std::string refusal(const io::Model& model) {
     try {
-      propose_joint(model, {.joint = "hip_r", .joint_file = {}});
+      io::propose_joint(model, {.joint = "hip_r", .joint_file = {}});
     } catch (const FileError& error) {
       return error.what();
     }
@@ -198,14 +199,14 @@ class ModelLayers : public ModelLimits {
 };
 
 TEST_F(ModelLayers, BeyondTheirBoundsAreNoted) {
-  const auto has = [&](const Model& model, ContactNoteCode code) {
+  const auto has = [&](const io::Model& model, motion::ContactNoteCode code) {
     const auto notes = layer_notes(model);
     return std::any_of(notes.begin(), notes.end(),
-                       [&](const ContactNote& note) { return note.code == code; });
+                       [&](const motion::ContactNote& note) { return note.code == code; });
   };
-  EXPECT_FALSE(has(with("0.001", "0.01"), ContactNoteCode::thickness_beyond_bounds));
-  EXPECT_TRUE(has(with("0.001", "0.003"), ContactNoteCode::thickness_beyond_bounds));
-  EXPECT_TRUE(has(with("0.005", "0.01"), ContactNoteCode::thickness_beyond_bounds));
+  EXPECT_FALSE(has(with("0.001", "0.01"), motion::ContactNoteCode::thickness_beyond_bounds));
+  EXPECT_TRUE(has(with("0.001", "0.003"), motion::ContactNoteCode::thickness_beyond_bounds));
+  EXPECT_TRUE(has(with("0.005", "0.01"), motion::ContactNoteCode::thickness_beyond_bounds));
 }
 
 TEST_F(ModelLayers, OfNumbersThatNoLayerHasAreRefused) {

@@ -54,19 +54,20 @@ TEST(OldAndNewModels, HaveTheSameJoint) {
   if (!data || !fs::exists(*data / "osim_small")) GTEST_SKIP() << "no models";
   const test::TemporaryFolder folder;
   std::ofstream(folder.path() / "new.osim") << version_4;
-  const Model newest = read_model(folder.path() / "new.osim");
-  const ModelJoint& wanted = joint_named(newest, "knee_r");
-  const auto proposed = [](const Model& model) {
-    return joint_lines(propose_joint(model, {.joint = "knee_r", .joint_file = {}}).proposal.toml);
+  const io::Model newest = io::read_model(folder.path() / "new.osim");
+  const io::ModelJoint& wanted = io::joint_named(newest, "knee_r");
+  const auto proposed = [](const io::Model& model) {
+    return joint_lines(io::propose_joint(model, {.joint = "knee_r", .joint_file = {}}).proposal.toml);
   };
   for (const char* name : {"old_10905.osim", "old_20302.osim", "connectors_30502.osim"}) {
     SCOPED_TRACE(name);
-    const Model model = read_model(*data / "osim_small" / name);
-    const ModelJoint& joint = joint_named(model, "knee_r");
+    const io::Model model = io::read_model(*data / "osim_small" / name);
+    const io::ModelJoint& joint = io::joint_named(model, "knee_r");
     EXPECT_EQ(joint.defaults(), wanted.defaults());
     EXPECT_EQ(joint.coordinates[0].range, wanted.coordinates[0].range);
     for (double angle = -2.5; angle <= 0.5; angle += 0.3)
-      EXPECT_EQ(pose_of(joint, std::vector{angle}).matrix(), pose_of(wanted, std::vector{angle}).matrix())
+      EXPECT_EQ(io::pose_of(joint, std::vector{angle}).matrix(),
+                io::pose_of(wanted, std::vector{angle}).matrix())
           << angle;
     EXPECT_EQ(proposed(model), proposed(newest));
   }

@@ -36,11 +36,11 @@ class ReferencePoses : public ::testing::TestWithParam<const char*> {
 TEST_P(ReferencePoses, AreThoseOfEveryJoint) {
   std::size_t poses = 0;
   for (const Json& of_model : models_) {
-    const Model model = read_model(folder_ / of_model["model"].get<std::string>());
+    const io::Model model = io::read_model(folder_ / of_model["model"].get<std::string>());
     EXPECT_EQ(model.version, of_model["version"].get<int>());
     for (const Json& expected : of_model["joints"]) {
       SCOPED_TRACE(model.path.string() + " " + expected["joint"].get<std::string>());
-      const ModelJoint& joint = joint_named(model, expected["joint"].get<std::string>());
+      const io::ModelJoint& joint = io::joint_named(model, expected["joint"].get<std::string>());
       EXPECT_EQ(joint.type, expected["type"]);
       EXPECT_EQ(joint.parent_body, expected["parent_body"]);
       EXPECT_EQ(joint.child_body, expected["child_body"]);
@@ -55,7 +55,7 @@ TEST_P(ReferencePoses, AreThoseOfEveryJoint) {
         EXPECT_EQ(joint.coordinates[i].is_clamped, coordinate["clamped"].get<bool>());
       }
       for (const Json& pose : expected["poses"]) {
-        const Pose X = pose_of(joint, pose["q"].get<std::vector<double>>());
+        const Pose X = io::pose_of(joint, pose["q"].get<std::vector<double>>());
         const double off =
             (X.matrix() - test::pose_of_rows(pose["child_in_parent"]).matrix()).cwiseAbs().maxCoeff();
         EXPECT_LE(off, 1e-12) << pose["q"];
@@ -68,17 +68,17 @@ TEST_P(ReferencePoses, AreThoseOfEveryJoint) {
 
 TEST_P(ReferencePoses, AreOfBodiesWithTheseMeshes) {
   for (const Json& of_model : models_) {
-    const Model model = read_model(folder_ / of_model["model"].get<std::string>());
+    const io::Model model = io::read_model(folder_ / of_model["model"].get<std::string>());
     for (const Json& expected : of_model["joints"]) {
-      const ModelJoint& joint = joint_named(model, expected["joint"].get<std::string>());
+      const io::ModelJoint& joint = io::joint_named(model, expected["joint"].get<std::string>());
       SCOPED_TRACE(model.path.string() + " " + joint.name);
       for (const auto& [role, key] :
            {std::pair{BodyRole::fixed, "meshes_of_parent"}, {BodyRole::mobile, "meshes_of_child"}}) {
-        std::vector<ModelMesh> meshes = meshes_of(model, joint, role);
+        std::vector<io::ModelMesh> meshes = io::meshes_of(model, joint, role);
         const std::string& body = role == BodyRole::fixed ? joint.parent_body : joint.child_body;
-        std::erase_if(meshes, [&](const ModelMesh& mesh) { return mesh.body != body; });  // welded to it
+        std::erase_if(meshes, [&](const io::ModelMesh& mesh) { return mesh.body != body; });  // welded to it
         std::string ours, theirs;
-        for (const ModelMesh& mesh : meshes) ours += mesh.file + " ";
+        for (const io::ModelMesh& mesh : meshes) ours += mesh.file + " ";
         for (const Json& mesh : expected[key]) theirs += mesh["file"].get<std::string>() + " ";
         ASSERT_EQ(ours, theirs) << key;
         for (std::size_t i = 0; i < meshes.size(); ++i) {
@@ -105,9 +105,9 @@ TEST(RefusedModels, EndInOneLine) {
   for (const auto& entry : std::filesystem::directory_iterator(*data / "osim_small" / "refused")) {
     SCOPED_TRACE(entry.path().string());
     try {
-      const Model model = read_model(entry.path());
+      const io::Model model = io::read_model(entry.path());
       std::string why;
-      for (const ModelJoint& joint : model.joints)
+      for (const io::ModelJoint& joint : model.joints)
         if (!joint.transform) why = joint.why_not;
       EXPECT_FALSE(why.empty()) << "nothing was refused";
       throw FileError(why);

@@ -22,7 +22,7 @@ using test::TemporaryFolder;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Doubles that lose something in fewer than 17 digits, the ends of their range, and gaps.
-Curves some_curves() {
+io::Curves some_curves() {
   return {.axis = "time",
           .at = {0, 0.1, 1.0 / 3, 1e6},
           .names = {"tf_contact.casting.total.contact_area", "b"},
@@ -42,7 +42,7 @@ void expect_equal_columns(const std::vector<double>& read, const std::vector<dou
   }
 }
 
-void expect_read_back(const MotionTable& table, const Curves& curves) {
+void expect_read_back(const io::MotionTable& table, const io::Curves& curves) {
   ASSERT_EQ(table.columns.size(), 1 + curves.names.size());
   EXPECT_EQ(table.columns[0], curves.axis);
   expect_equal_columns(table.values[0], curves.at);
@@ -55,21 +55,21 @@ void expect_read_back(const MotionTable& table, const Curves& curves) {
 
 TEST(CurveFiles, AStoFileIsReadBackBitForBit) {
   const TemporaryFolder folder;
-  for (const AngleUnit unit : {AngleUnit::degrees, AngleUnit::radians}) {
-    write_sto(folder / "a.sto", "contact of a knee", some_curves(), unit);
-    const MotionTable table = read_motion_table(folder / "a.sto");
+  for (const io::AngleUnit unit : {io::AngleUnit::degrees, io::AngleUnit::radians}) {
+    io::write_sto(folder / "a.sto", "contact of a knee", some_curves(), unit);
+    const io::MotionTable table = io::read_motion_table(folder / "a.sto");
     expect_read_back(table, some_curves());
-    EXPECT_EQ(table.in_degrees, unit == AngleUnit::degrees);
+    EXPECT_EQ(table.in_degrees, unit == io::AngleUnit::degrees);
   }
 }
 
 TEST(CurveFiles, ACsvFileIsReadBackBitForBit) {
   const TemporaryFolder folder;
-  Curves curves = some_curves();
+  io::Curves curves = some_curves();
   curves.axis = "cycle_percent";
   curves.names = {"depth, greatest", "the \"other\" one"};
-  write_curves_csv(folder / "a.csv", curves, "# version: 1\n# command: condyle, of course\n");
-  expect_read_back(read_motion_table(folder / "a.csv"), curves);
+  io::write_curves_csv(folder / "a.csv", curves, "# version: 1\n# command: condyle, of course\n");
+  expect_read_back(io::read_motion_table(folder / "a.csv"), curves);
   EXPECT_TRUE(
       io::read_whole_file(folder / "a.csv")
           .starts_with("# version: 1\n# command: condyle, of course\ncycle_percent,\"depth, greatest\","));
@@ -77,12 +77,12 @@ TEST(CurveFiles, ACsvFileIsReadBackBitForBit) {
 
 TEST(CurveFiles, WhatCouldNotBeReadBackIsNotWritten) {
   const TemporaryFolder folder;
-  const auto complaint = [&](const Curves& curves, const char* file) {
+  const auto complaint = [&](const io::Curves& curves, const char* file) {
     try {
       if (std::string_view(file) == "a.sto")
-        write_sto(folder / file, "title", curves, AngleUnit::degrees);
+        io::write_sto(folder / file, "title", curves, io::AngleUnit::degrees);
       else
-        write_curves_csv(folder / file, curves);
+        io::write_curves_csv(folder / file, curves);
     } catch (const FileError& error) {
       EXPECT_EQ(test::count_entries(folder.path()), 0u);
       return std::string(error.what()).substr((folder / file).string().size());
@@ -92,7 +92,7 @@ TEST(CurveFiles, WhatCouldNotBeReadBackIsNotWritten) {
   };
   for (const char* file : {"a.sto", "a.csv"}) {
     EXPECT_EQ(complaint(some_curves(), file), "written");
-    Curves curves = some_curves();
+    io::Curves curves = some_curves();
     curves.names[1] = curves.names[0] = "a";
     EXPECT_EQ(complaint(curves, file), ": cannot be written: column 'a' is there twice");
     curves.names[1] = "time";
@@ -112,9 +112,9 @@ TEST(CurveFiles, WhatCouldNotBeReadBackIsNotWritten) {
 
 /// A line is its own interpolation; a parabola's is off by (t - a)(b - t) between frames a and b.
 TEST(CycleOf, IsLinearBetweenFrames) {
-  Curves curves{.axis = "time", .at = {1, 2, 4, 8}, .names = {"line", "parabola"}, .values = {{}, {}}};
+  io::Curves curves{.axis = "time", .at = {1, 2, 4, 8}, .names = {"line", "parabola"}, .values = {{}, {}}};
   for (const double t : curves.at) curves.values[0].push_back(3 * t - 2), curves.values[1].push_back(t * t);
-  const Curves cycle = cycle_of(curves, 1.5, 6, 10);
+  const io::Curves cycle = io::cycle_of(curves, 1.5, 6, 10);
   EXPECT_EQ(cycle.axis, "cycle_percent");
   EXPECT_EQ(cycle.names, curves.names);
   ASSERT_EQ(cycle.at.size(), 10u);
@@ -130,7 +130,7 @@ TEST(CycleOf, IsLinearBetweenFrames) {
 }
 
 TEST(CycleOf, HasAHundredAndOnePointsUnlessToldAndItsEndsAreFrames) {
-  const Curves cycle = cycle_of(
+  const io::Curves cycle = io::cycle_of(
       {.axis = "time", .at = {0, 0.3, 0.7, 1.1}, .names = {"a"}, .values = {{1, 2, 3, 4}}}, 0.3, 1.1);
   EXPECT_EQ(cycle.at.size(), 101u);
   EXPECT_EQ(cycle.at[50], 50);
@@ -139,34 +139,34 @@ TEST(CycleOf, HasAHundredAndOnePointsUnlessToldAndItsEndsAreFrames) {
 }
 
 TEST(CycleOf, DoesNotBridgeGaps) {
-  const Curves cycle = cycle_of({.axis = "time",
-                                 .at = {0, 1, 2, 3, 4},
-                                 .names = {"a", "b"},
-                                 .values = {{0, 10, none, 30, 40}, {0, 1, 2, 3, 4}}},
-                                0, 4, 9);
+  const io::Curves cycle = io::cycle_of({.axis = "time",
+                                         .at = {0, 1, 2, 3, 4},
+                                         .names = {"a", "b"},
+                                         .values = {{0, 10, none, 30, 40}, {0, 1, 2, 3, 4}}},
+                                        0, 4, 9);
   const std::vector<double> expected = {0, 5, 10, none, none, none, 30, 35, 40};
   expect_equal_columns(cycle.values[0], expected);
   expect_equal_columns(cycle.values[1], {0, 0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4});
 }
 
 TEST(CycleOf, RefusesACycleThatIsNotInTheMotion) {
-  const Curves curves{.axis = "time", .at = {0, 1}, .names = {"a"}, .values = {{0, 1}}};
-  EXPECT_NO_THROW(cycle_of(curves, 0, 1, 2));
-  EXPECT_THROW(cycle_of(curves, 0, 1, 1), UsageError);
-  EXPECT_THROW(cycle_of(curves, 1, 1), UsageError);
-  EXPECT_THROW(cycle_of(curves, 1, 0), UsageError);
-  EXPECT_THROW(cycle_of(curves, none, 1), UsageError);
-  EXPECT_THROW(cycle_of(curves, -1e-9, 1), UsageError);
-  EXPECT_THROW(cycle_of(curves, 0, std::nextafter(1, 2)), UsageError);
-  EXPECT_THROW(cycle_of({.axis = "time", .at = {}, .names = {}, .values = {}}, 0, 1), UsageError);
+  const io::Curves curves{.axis = "time", .at = {0, 1}, .names = {"a"}, .values = {{0, 1}}};
+  EXPECT_NO_THROW(io::cycle_of(curves, 0, 1, 2));
+  EXPECT_THROW(io::cycle_of(curves, 0, 1, 1), UsageError);
+  EXPECT_THROW(io::cycle_of(curves, 1, 1), UsageError);
+  EXPECT_THROW(io::cycle_of(curves, 1, 0), UsageError);
+  EXPECT_THROW(io::cycle_of(curves, none, 1), UsageError);
+  EXPECT_THROW(io::cycle_of(curves, -1e-9, 1), UsageError);
+  EXPECT_THROW(io::cycle_of(curves, 0, std::nextafter(1, 2)), UsageError);
+  EXPECT_THROW(io::cycle_of({.axis = "time", .at = {}, .names = {}, .values = {}}, 0, 1), UsageError);
 }
 
 TEST(Pvd, IsACollectionWithATimeAndAPartForEachFile) {
   const TemporaryFolder folder;
   const std::array files = {
-      SeriesFile{0.1, "fixed", "f_0.vtp"}, SeriesFile{0.1, "mobile", "m & \"n\"<0>.vtp"},
-      SeriesFile{1.0 / 3, "fixed", "f_0.vtp"}, SeriesFile{1.0 / 3, "mobile", "m_1.vtp"}};
-  write_pvd(folder / "series.pvd", files);
+      io::SeriesFile{0.1, "fixed", "f_0.vtp"}, io::SeriesFile{0.1, "mobile", "m & \"n\"<0>.vtp"},
+      io::SeriesFile{1.0 / 3, "fixed", "f_0.vtp"}, io::SeriesFile{1.0 / 3, "mobile", "m_1.vtp"}};
+  io::write_pvd(folder / "series.pvd", files);
 
   const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(
       vtkXMLUtilities::ReadElementFromFile((folder / "series.pvd").c_str()));
@@ -178,7 +178,7 @@ TEST(Pvd, IsACollectionWithATimeAndAPartForEachFile) {
   ASSERT_EQ(collection->GetNumberOfNestedElements(), 4);
   for (int i = 0; i < 4; ++i) {
     vtkXMLDataElement* entry = collection->GetNestedElement(i);
-    const SeriesFile& file = files[static_cast<std::size_t>(i)];
+    const io::SeriesFile& file = files[static_cast<std::size_t>(i)];
     double time = 0;
     EXPECT_STREQ(entry->GetName(), "DataSet");
     EXPECT_EQ(entry->GetScalarAttribute("timestep", time), 1);

@@ -55,7 +55,7 @@ Contents contents_of(const std::filesystem::path& path) {
 }
 
 /// Numbers that differ in every place.
-JamFrame frame_of(double first, std::size_t triangles, std::size_t regions = 0) {
+io::JamFrame frame_of(double first, std::size_t triangles, std::size_t regions = 0) {
   double next = first;
   const auto one = [&] { return next += 1.0 / 128; };
   const auto three = [&] {
@@ -63,17 +63,18 @@ JamFrame frame_of(double first, std::size_t triangles, std::size_t regions = 0) 
     return Vec3(x, y, one());
   };
   const auto totals = [&] {
-    return JamTotals{.contact_area_m2 = one(),
-                     .mean_proximity_m = one(),
-                     .max_proximity_m = one(),
-                     .centre_of_proximity_m = three(),
-                     .mean_pressure_pa = one(),
-                     .max_pressure_pa = one(),
-                     .centre_of_pressure_m = three(),
-                     .contact_force_n = three(),
-                     .contact_moment_nm = three()};
+    return io::JamTotals{.contact_area_m2 = one(),
+                         .mean_proximity_m = one(),
+                         .max_proximity_m = one(),
+                         .centre_of_proximity_m = three(),
+                         .mean_pressure_pa = one(),
+                         .max_pressure_pa = one(),
+                         .centre_of_pressure_m = three(),
+                         .contact_force_n = three(),
+                         .contact_moment_nm = three()};
   };
-  JamFrame frame{.total = totals(), .regional = {}, .triangle_proximity_m = {}, .triangle_pressure_pa = {}};
+  io::JamFrame frame{
+      .total = totals(), .regional = {}, .triangle_proximity_m = {}, .triangle_pressure_pa = {}};
   for (std::size_t r = 0; r < regions; ++r) frame.regional.push_back(totals());
   for (std::size_t t = 0; t < triangles; ++t)
     frame.triangle_proximity_m.push_back(one()), frame.triangle_pressure_pa.push_back(-one());
@@ -83,7 +84,7 @@ JamFrame frame_of(double first, std::size_t triangles, std::size_t regions = 0) 
 const std::string forces = "/model/forceset/Smith2018ArticularContactForce";
 const std::array times = {0.0, 0.01, 0.02};
 
-std::vector<JamContact> two_contacts() {
+std::vector<io::JamContact> two_contacts() {
   return {{"tf_contact",
            {"tibia_cartilage", {frame_of(0, 4, 6), frame_of(100, 4, 6), frame_of(200, 4, 6)}},
            {"femur_cartilage", {frame_of(300, 2), frame_of(400, 2), frame_of(500, 2)}}},
@@ -108,58 +109,58 @@ void expect_dataset(const Contents& contents, const std::string& path, const std
 TEST(JamFile, HasTheGroupsAndDatasetsThatScriptsRead) {
   const TemporaryFolder folder;
   const auto contacts = two_contacts();
-  const std::vector<JamCoordinate> coordinates = {{"flexion", {10, 20, 30}}, {"x", {1e-3, 2e-3, 4e-3}}};
-  write_jam_file(folder / "knee.h5", times, contacts, coordinates);
+  const std::vector<io::JamCoordinate> coordinates = {{"flexion", {10, 20, 30}}, {"x", {1e-3, 2e-3, 4e-3}}};
+  io::write_jam_file(folder / "knee.h5", times, contacts, coordinates);
   Contents contents = contents_of(folder / "knee.h5");
 
   expect_dataset(contents, "/time", {3}, {0, 0.01, 0.02});
   expect_dataset(contents, "/model/coordinateset/flexion/value", {3}, {10, 20, 30});
   expect_dataset(contents, "/model/coordinateset/x/value", {3}, {1e-3, 2e-3, 4e-3});
   std::size_t datasets = 3;
-  for (const JamContact& contact : contacts)
-    for (const JamSurface* surface : {&contact.casting, &contact.target}) {
+  for (const io::JamContact& contact : contacts)
+    for (const io::JamSurface* surface : {&contact.casting, &contact.target}) {
       const std::string group = forces + "/" + contact.name + "/" + surface->mesh + "/";
       if (surface->frames.empty()) continue;
-      const auto expect_scalar = [&](const std::string& name, double JamTotals::*member) {
+      const auto expect_scalar = [&](const std::string& name, double io::JamTotals::*member) {
         std::vector<double> total, regional;
-        for (const JamFrame& frame : surface->frames) {
+        for (const io::JamFrame& frame : surface->frames) {
           total.push_back(frame.total.*member);
-          for (const JamTotals& region : frame.regional) regional.push_back(region.*member);
+          for (const io::JamTotals& region : frame.regional) regional.push_back(region.*member);
         }
         expect_dataset(contents, group + "total_" + name, {3}, total), ++datasets;
         if (!regional.empty())
           expect_dataset(contents, group + "regional_" + name, {3, 6}, regional), ++datasets;
       };
-      const auto expect_vector = [&](const std::string& name, Vec3 JamTotals::*member) {
+      const auto expect_vector = [&](const std::string& name, Vec3 io::JamTotals::*member) {
         const auto expect_rows = [&](const std::string& path, const auto& totals_of) {
           std::vector<double> values;
-          for (const JamFrame& frame : surface->frames)
+          for (const io::JamFrame& frame : surface->frames)
             for (int i = 0; i < 3; ++i) values.push_back((totals_of(frame).*member)[i]);
           expect_dataset(contents, group + path, {3, 3}, values), ++datasets;
         };
-        expect_rows("total_" + name, [](const JamFrame& frame) { return frame.total; });
+        expect_rows("total_" + name, [](const io::JamFrame& frame) { return frame.total; });
         for (std::size_t r = 0; r < surface->frames[0].regional.size(); ++r)
           expect_rows("regional_" + name + "/" + std::to_string(r),
-                      [&](const JamFrame& frame) { return frame.regional[r]; });
+                      [&](const io::JamFrame& frame) { return frame.regional[r]; });
       };
-      const auto expect_triangles = [&](const char* name, std::vector<double> JamFrame::*member) {
+      const auto expect_triangles = [&](const char* name, std::vector<double> io::JamFrame::*member) {
         const std::size_t count = (surface->frames[0].*member).size();
         std::vector<double> values;
-        for (const JamFrame& frame : surface->frames)
+        for (const io::JamFrame& frame : surface->frames)
           for (const double value : frame.*member) values.push_back(value);
         if (count > 0) expect_dataset(contents, group + name, {3, count}, values), ++datasets;
       };
-      expect_scalar("contact_area", &JamTotals::contact_area_m2);
-      expect_scalar("mean_proximity", &JamTotals::mean_proximity_m);
-      expect_scalar("max_proximity", &JamTotals::max_proximity_m);
-      expect_vector("center_of_proximity", &JamTotals::centre_of_proximity_m);
-      expect_scalar("mean_pressure", &JamTotals::mean_pressure_pa);
-      expect_scalar("max_pressure", &JamTotals::max_pressure_pa);
-      expect_vector("center_of_pressure", &JamTotals::centre_of_pressure_m);
-      expect_vector("contact_force", &JamTotals::contact_force_n);
-      expect_vector("contact_moment", &JamTotals::contact_moment_nm);
-      expect_triangles("triangle_proximity", &JamFrame::triangle_proximity_m);
-      expect_triangles("triangle_pressure", &JamFrame::triangle_pressure_pa);
+      expect_scalar("contact_area", &io::JamTotals::contact_area_m2);
+      expect_scalar("mean_proximity", &io::JamTotals::mean_proximity_m);
+      expect_scalar("max_proximity", &io::JamTotals::max_proximity_m);
+      expect_vector("center_of_proximity", &io::JamTotals::centre_of_proximity_m);
+      expect_scalar("mean_pressure", &io::JamTotals::mean_pressure_pa);
+      expect_scalar("max_pressure", &io::JamTotals::max_pressure_pa);
+      expect_vector("center_of_pressure", &io::JamTotals::centre_of_pressure_m);
+      expect_vector("contact_force", &io::JamTotals::contact_force_n);
+      expect_vector("contact_moment", &io::JamTotals::contact_moment_nm);
+      expect_triangles("triangle_proximity", &io::JamFrame::triangle_proximity_m);
+      expect_triangles("triangle_pressure", &io::JamFrame::triangle_pressure_pa);
     }
 
   std::vector<std::string> groups;
@@ -179,10 +180,10 @@ TEST(JamFile, HasTheGroupsAndDatasetsThatScriptsRead) {
 TEST(JamFile, ItsTotalsAreNamedAsThePublishedOnes) {
   const auto data = test::shared_data();
   if (!data) GTEST_SKIP() << "real motions are not here: set CONDYLE_DATA";
-  const MotionTable published =
-      read_motion_table(*data / "knee_lenhart2015_right" / "passive_flexion_contact_reference.sto");
+  const io::MotionTable published =
+      io::read_motion_table(*data / "knee_lenhart2015_right" / "passive_flexion_contact_reference.sto");
   const TemporaryFolder folder;
-  write_jam_file(folder / "knee.h5", times, two_contacts());
+  io::write_jam_file(folder / "knee.h5", times, two_contacts());
   const Contents contents = contents_of(folder / "knee.h5");
   const std::string start = "tf_contact.casting.total.";
   std::size_t totals = 0;
@@ -203,8 +204,8 @@ TEST(JamFile, HasTheSameBytesEveryTimeAndKeepsNan) {
   const TemporaryFolder folder;
   auto contacts = two_contacts();
   contacts[0].casting.frames[1].total.max_pressure_pa = std::nan("");
-  write_jam_file(folder / "a.h5", times, contacts);
-  write_jam_file(folder / "b.h5", times, contacts);
+  io::write_jam_file(folder / "a.h5", times, contacts);
+  io::write_jam_file(folder / "b.h5", times, contacts);
   EXPECT_EQ(io::read_whole_file(folder / "a.h5"), io::read_whole_file(folder / "b.h5"));
   const Contents contents = contents_of(folder / "a.h5");
   EXPECT_TRUE(std::isnan(contents.at(forces + "/tf_contact/tibia_cartilage/total_max_pressure").values[1]));
@@ -213,9 +214,9 @@ TEST(JamFile, HasTheSameBytesEveryTimeAndKeepsNan) {
 
 TEST(JamFile, NamesThatScriptsCouldNotReadAreRefused) {
   const TemporaryFolder folder;
-  const auto complaint = [&](const std::vector<JamContact>& contacts) {
+  const auto complaint = [&](const std::vector<io::JamContact>& contacts) {
     try {
-      write_jam_file(folder / "a.h5", times, contacts);
+      io::write_jam_file(folder / "a.h5", times, contacts);
     } catch (const FileError& error) {
       EXPECT_EQ(test::count_entries(folder.path()), 0u);
       return std::string(error.what()).substr((folder / "a.h5: cannot be written: ").string().size());
@@ -224,21 +225,22 @@ TEST(JamFile, NamesThatScriptsCouldNotReadAreRefused) {
     return std::string("written");
   };
   const auto named = [](const std::string& contact, const std::string& casting, const std::string& target) {
-    return JamContact{contact, {casting, {}}, {target, {}}};
+    return io::JamContact{contact, {casting, {}}, {target, {}}};
   };
   const std::string longest(63, 'a');
   EXPECT_EQ(complaint({named("a", "B_1", longest)}), "written");
   for (const std::string& name : {std::string(), std::string("hip bone"), std::string("a/b"),
                                   std::string("_a"), std::string("1a"), std::string("\xC3\xA4")})
-    for (const JamContact& contact : {named(name, "a", "b"), named("a", name, "b"), named("a", "b", name)})
+    for (const io::JamContact& contact :
+         {named(name, "a", "b"), named("a", name, "b"), named("a", "b", name)})
       EXPECT_NE(complaint({contact}).find("must be a letter and then up to 62 letters, digits and _"),
                 std::string::npos);
   EXPECT_NE(complaint({named("a", "b", longest + "a")}), "written");
   EXPECT_EQ(complaint({named("a", "b", "c"), named("a", "d", "e")}), "contact 'a' is there twice");
   EXPECT_EQ(complaint({named("a", "b", "b")}), "contact 'a' has two meshes of one name, 'b'");
-  const auto complaint_of = [&](const std::vector<JamCoordinate>& coordinates) {
+  const auto complaint_of = [&](const std::vector<io::JamCoordinate>& coordinates) {
     try {
-      write_jam_file(folder / "a.h5", times, {}, coordinates);
+      io::write_jam_file(folder / "a.h5", times, {}, coordinates);
     } catch (const FileError& error) {
       return std::string(error.what());
     }
@@ -250,7 +252,7 @@ TEST(JamFile, NamesThatScriptsCouldNotReadAreRefused) {
   EXPECT_NE(complaint_of({{"x", values}, {"x", values}}).find("coordinate 'x' is there twice"),
             std::string::npos);
   EXPECT_EQ(test::count_entries(folder.path()), 0u);
-  EXPECT_THROW(write_jam_file(folder / "nowhere" / "a.h5", times, two_contacts()), FileError);
+  EXPECT_THROW(io::write_jam_file(folder / "nowhere" / "a.h5", times, two_contacts()), FileError);
 }
 
 }  // namespace

@@ -31,8 +31,8 @@ class RecordedBodies {
       return out;
     };
     const TriMesh body = test::box({-11, -95, -7}, {13, -20, 9});
-    write_mesh(folder_ / "mobile.ply", scaled(body));
-    write_mesh(folder_ / "fixed.ply", scaled(posed(X_FM, Mesh(body))));
+    io::write_mesh(folder_ / "mobile.ply", scaled(body));
+    io::write_mesh(folder_ / "fixed.ply", scaled(posed(X_FM, Mesh(body))));
     std::string names, numbers;
     const auto add = [&](const char* name, const Pose& X) {
       for (int row = 0; row < 4; ++row)
@@ -58,8 +58,8 @@ class RecordedBodies {
         kind, units, of_fixed, of_mobile, frame, more);
   }
   void expect_bodies_together(const std::string& joint_file) const {
-    const LoadedJoint loaded = read_joint(folder_.file("knee.toml", joint_file));
-    const JointMotion motion = motion_of(loaded, read_motion_table(folder_ / "motion.csv"));
+    const io::LoadedJoint loaded = io::read_joint(folder_.file("knee.toml", joint_file));
+    const io::JointMotion motion = io::motion_of(loaded, io::read_motion_table(folder_ / "motion.csv"));
     ASSERT_EQ(motion.X_FM.size(), 1u);
     const auto &fixed = loaded.joint.fixed.mesh, &mobile = loaded.joint.mobile.mesh;
     ASSERT_EQ(fixed.vertices().size(), mobile.vertices().size());
@@ -100,17 +100,17 @@ TEST(JointMotion, RecordedPosesInMetresAreThoseInMillimetres) {
 /// Along the joint's axes a bent knee's y is along the tibia: at 90 degrees of flexion the femur's X.
 TEST(JointMotion, TranslationsAreRecordedAlongTheAxesThatTheJointNames) {
   const test::TemporaryFolder folder;
-  write_mesh(folder / "body.ply", test::box({-11, -95, -7}, {13, -20, 9}));
-  const MotionTable table = read_motion_table(
+  io::write_mesh(folder / "body.ply", test::box({-11, -95, -7}, {13, -20, 9}));
+  const io::MotionTable table = io::read_motion_table(
       folder.file("bent.csv", "time,flexion_deg,x_mm,y_mm,z_mm\n0,90,1,10,2\n1,0,1,10,2\n"));
   for (const bool along_joint : {false, true}) {
-    const LoadedJoint knee = read_joint(folder.file(
+    const io::LoadedJoint knee = io::read_joint(folder.file(
         "knee.toml",
         "condyle = 1\nname = \"knee\"\nkind = \"free\"\njoint = \"knee\"\nside = \"right\"\nunits = "
         "\"mm\"\ntranslation_frame = \"" +
             std::string(along_joint ? "joint_axes" : "fixed") +
             "\"\n[fixed]\nmesh = \"body.ply\"\n[mobile]\nmesh = \"body.ply\"\n[frame]\n" + standard));
-    const JointMotion motion = motion_of(knee, table);
+    const io::JointMotion motion = io::motion_of(knee, table);
     const Vec3 bent = along_joint ? Vec3(10, -1, 2) : Vec3(1, 10, 2);
     EXPECT_LE((motion.X_FM[0]->translation() - bent).norm(), 1e-14) << along_joint;
     EXPECT_EQ(motion.X_FM[1]->translation(), Vec3(1, 10, 2)) << "the same at zero angles";
@@ -130,9 +130,9 @@ TEST(JointMotion, ABallDoesNotTranslate) {
   };
   const auto axes = "\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]";
   bodies.expect_bodies_together(ball("centre = [5, -6, 70]" + std::string(axes)));
-  const LoadedJoint off = read_joint(bodies.folder().file("off.toml", ball(standard)));
+  const io::LoadedJoint off = io::read_joint(bodies.folder().file("off.toml", ball(standard)));
   try {
-    motion_of(off, read_motion_table(bodies.folder() / "motion.csv"));
+    io::motion_of(off, io::read_motion_table(bodies.folder() / "motion.csv"));
     ADD_FAILURE() << "accepted";
   } catch (const FileError& error) {
     EXPECT_EQ(error.what(),

@@ -18,7 +18,7 @@ namespace {
 using test::expect_complaints;
 using test::replaced;
 
-const auto only_read = [](const std::filesystem::path& path) { read_motion_table(path); };
+const auto only_read = [](const std::filesystem::path& path) { io::read_motion_table(path); };
 
 /// Kinds of damage that any OpenSim table can have.
 const std::string mot =
@@ -93,11 +93,12 @@ TEST(DamagedMotion, States) {
        {with("0.01\t0.6\t0\t", "0.01\t0.6\t0\t0.002\n0.02\t"),
         "line 7: has 2 values, and there are 4 columns"}},
       [](const std::filesystem::path& path) {
-        recorded_coordinates(read_motion_table(path), {{.coordinate = "flexion", .column = "knee_flex_r"},
-                                                       {.coordinate = "x",
-                                                        .kind = CoordinateKind::length,
-                                                        .column = "knee_tx_r",
-                                                        .unit = ColumnUnit::metres}});
+        io::recorded_coordinates(io::read_motion_table(path),
+                                 {{.coordinate = "flexion", .column = "knee_flex_r"},
+                                  {.coordinate = "x",
+                                   .kind = io::CoordinateKind::length,
+                                   .column = "knee_tx_r",
+                                   .unit = io::ColumnUnit::metres}});
       });
 }
 
@@ -144,7 +145,7 @@ TEST(DamagedMotion, Matrices) {
        {with("\t30\t", "\tinf\t"), "line 4: column 'tibia_T34': 'inf' is not finite"},
        {with("\n1\t", "\n0\t"), "line 5: column 'time': 0 does not come after 0: times must increase"}},
       [](const std::filesystem::path& path) {
-        recorded_poses(read_motion_table(path), {"F", "tibia", {}});
+        io::recorded_poses(io::read_motion_table(path), {"F", "tibia", {}});
       });
 }
 
@@ -188,7 +189,7 @@ TEST(DamagedMotion, Xmalab) {
        {with("30", "INF"), "line 2: column 'M_TZ_25Hz': 'INF' is not finite"},
        {with("\n2 ", "\n1 "), "line 3: column 'Frame': 1 does not come after 1: times must increase"}},
       [](const std::filesystem::path& path) {
-        recorded_poses(read_motion_table(path), {"F", "M", {}});
+        io::recorded_poses(io::read_motion_table(path), {"F", "M", {}});
       });
 }
 
@@ -217,19 +218,20 @@ TEST(DamagedMotion, Csv) {
         "line 2: '0' should be the name of column 1: the names of the columns are missing"},
        {with("flexion", "flexoin"), "has no column 'flexion' (did you mean \"flexoin\"?)"}},
       [](const std::filesystem::path& path) {
-        recorded_coordinates(read_motion_table(path),
-                             {{.coordinate = "flexion", .column = "flexion", .unit = ColumnUnit::degrees}});
+        io::recorded_coordinates(
+            io::read_motion_table(path),
+            {{.coordinate = "flexion", .column = "flexion", .unit = io::ColumnUnit::degrees}});
       });
 }
 
 const std::string loads = "time,force_x_n,force_y_n,force_z_n\n0,0,-1000,0\n0.1,0,-1500,0\n0.2,,,\n";
 
 TEST(DamagedMotion, Loads) {
-  const FrameTimes times{{0, 0.1, 0.2}};
+  const io::FrameTimes times{{0, 0.1, 0.2}};
   const auto with = [](std::string_view from, std::string_view to) { return replaced(loads, from, to); };
   const auto read = [&](bool free_rotations) {
     return [&times, free_rotations](const std::filesystem::path& path) {
-      io::loads_of(read_motion_table(path), times, BodyRole::fixed, free_rotations);
+      io::loads_of(io::read_motion_table(path), times, BodyRole::fixed, free_rotations);
     };
   };
   const std::string beside =
@@ -256,7 +258,7 @@ TEST(DamagedMotion, Loads) {
 }
 
 TEST(RecordedLoads, AFrameWithAGapHasNone) {
-  const FrameTimes times{{0, 0.1, 0.2}};
+  const io::FrameTimes times{{0, 0.1, 0.2}};
   const auto given = io::loads_of(test::read_table("loads.csv", loads), times, BodyRole::mobile, false);
   ASSERT_EQ(given.size(), 3u);
   EXPECT_EQ(given[1]->on_mobile.force_n, Vec3(0, -1500, 0));
@@ -269,16 +271,16 @@ TEST(RecordedLoads, AFrameWithAGapHasNone) {
 TEST(RecordedLoads, AreZeroWhereNothingActsAlongWhatIsFree) {
   Pose X_FM = Pose::Identity();
   X_FM.linear() << 0, -1, 0, 1, 0, 0, 0, 0, 1;
-  const Load fixed{.on_mobile = {{3, 0, 0}, {}}},
+  const contact::Load fixed{.on_mobile = {{3, 0, 0}, {}}},
       mobile{.on_mobile = {{3, 0, 0}, {}}, .frame = BodyRole::mobile};
-  const Load moment{.on_mobile = {{0, 0, 0}, {0, 1, 0}}};
-  EXPECT_TRUE(is_zero_along({}, X_FM, {}));
-  EXPECT_FALSE(is_zero_along(fixed, X_FM, {}));
-  const BalanceOptions along_y{.free_directions = {Vec3(0, 2, 0)}};
-  EXPECT_TRUE(is_zero_along(fixed, X_FM, along_y));
-  EXPECT_FALSE(is_zero_along(mobile, X_FM, along_y));
-  EXPECT_TRUE(is_zero_along(moment, X_FM, {}));
-  EXPECT_FALSE(is_zero_along(moment, X_FM, {.free_rotations = true}));
+  const contact::Load moment{.on_mobile = {{0, 0, 0}, {0, 1, 0}}};
+  EXPECT_TRUE(contact::is_zero_along({}, X_FM, {}));
+  EXPECT_FALSE(contact::is_zero_along(fixed, X_FM, {}));
+  const contact::BalanceOptions along_y{.free_directions = {Vec3(0, 2, 0)}};
+  EXPECT_TRUE(contact::is_zero_along(fixed, X_FM, along_y));
+  EXPECT_FALSE(contact::is_zero_along(mobile, X_FM, along_y));
+  EXPECT_TRUE(contact::is_zero_along(moment, X_FM, {}));
+  EXPECT_FALSE(contact::is_zero_along(moment, X_FM, {.free_rotations = true}));
 }
 
 /// The same mutations every time: bytes exchanged, pieces left out and repeated, ends cut off.
@@ -316,7 +318,7 @@ TEST(DamagedMotion, AnyBytesGiveAWholeTableOrOneLine) {
     for (int i = 0; i < 300; ++i) {
       const std::string bytes = mutated(text, random);
       const std::string complaint = test::refusal(name, bytes, [&](const std::filesystem::path& path) {
-        const MotionTable table = read_motion_table(path);
+        const io::MotionTable table = io::read_motion_table(path);
         ASSERT_GT(table.rows, 0u);
         ASSERT_EQ(table.values.size(), table.columns.size());
         ASSERT_EQ(table.line_of_row.size(), table.rows);
@@ -338,7 +340,7 @@ TEST(DamagedMotion, FilesThatAreNone) {
   const test::TemporaryFolder folder;
   const auto complaint = [](const std::filesystem::path& path) {
     try {
-      read_motion_table(path);
+      io::read_motion_table(path);
     } catch (const FileError& error) {
       return std::string(error.what());
     }

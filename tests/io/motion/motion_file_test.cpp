@@ -23,18 +23,18 @@ const std::string a_mot =
 const std::string a_csv = "# a comment\ntime,flexion,tx\n0,19.5,-0.25\n# another\n0.1,2e1,+.125\n";
 
 TEST(MotionFile, ReadsWhatTheOpenSimHeaderIsFollowedBy) {
-  const MotionTable table = read_table("walk.mot", a_mot);
+  const io::MotionTable table = read_table("walk.mot", a_mot);
   EXPECT_EQ(table.columns, (Strings{"time", "hip_flexion_r", "pelvis_tx"}));
   EXPECT_EQ(table.rows, 2u);
   EXPECT_EQ(table.values, (std::vector<std::vector<double>>{{0.4, 0.5}, {19.5, 20}, {-0.25, 0.125}}));
   EXPECT_EQ(table.line_of_row, (std::vector<std::size_t>{12, 13}));
   EXPECT_EQ(table.in_degrees, true);
   EXPECT_EQ(table.processing, Strings{});
-  EXPECT_EQ(table.digest, digest_of(a_mot));
+  EXPECT_EQ(table.digest, io::digest_of(a_mot));
 }
 
 TEST(MotionFile, HeaderLinesComeInAnyOrderAndMayBeLeftOut) {
-  const MotionTable table =
+  const io::MotionTable table =
       read_table("a.STO", " indegrees = no \nnColumns=2\nname = of a model = x\nENDHEADER\n\nt a\n1 2\n");
   EXPECT_EQ(table.in_degrees, false);
   EXPECT_EQ(table.columns, (Strings{"t", "a"}));
@@ -42,7 +42,7 @@ TEST(MotionFile, HeaderLinesComeInAnyOrderAndMayBeLeftOut) {
 }
 
 TEST(MotionFile, InDegreesIsFollowedAgainstTheWordsAndANoteSaysSo) {
-  const MotionTable table = read_table("a.mot", replaced(a_mot, "inDegrees=yes", "inDegrees=no"));
+  const io::MotionTable table = read_table("a.mot", replaced(a_mot, "inDegrees=yes", "inDegrees=no"));
   EXPECT_EQ(table.in_degrees, false);
   EXPECT_EQ(table.processing,
             Strings{"the header says inDegrees=no and in words that angles are in degrees: inDegrees=no is "
@@ -52,7 +52,7 @@ TEST(MotionFile, InDegreesIsFollowedAgainstTheWordsAndANoteSaysSo) {
 }
 
 TEST(MotionFile, WrongCountsInTheHeaderAreNoted) {
-  const MotionTable table =
+  const io::MotionTable table =
       read_table("a.mot", replaced(replaced(a_mot, "nRows=2", "nRows=1"), "nColumns=3", "nColumns=7"));
   EXPECT_EQ(table.rows, 2u);
   EXPECT_EQ(table.processing,
@@ -61,7 +61,7 @@ TEST(MotionFile, WrongCountsInTheHeaderAreNoted) {
 }
 
 TEST(MotionFile, ReadsCsvWithComments) {
-  const MotionTable table = read_table("walk.csv", a_csv);
+  const io::MotionTable table = read_table("walk.csv", a_csv);
   EXPECT_EQ(table.columns, (Strings{"time", "flexion", "tx"}));
   EXPECT_EQ(table.values, (std::vector<std::vector<double>>{{0, 0.1}, {19.5, 20}, {-0.25, 0.125}}));
   EXPECT_EQ(table.line_of_row, (std::vector<std::size_t>{3, 5}));
@@ -69,7 +69,7 @@ TEST(MotionFile, ReadsCsvWithComments) {
 }
 
 TEST(MotionFile, CsvNamesMayBeQuotedAndHaveBlanksAroundThem) {
-  const MotionTable table = read_table("a.csv", " \"a, \"\"b\"\"\" , c \n\"1\", 2 \n");
+  const io::MotionTable table = read_table("a.csv", " \"a, \"\"b\"\"\" , c \n\"1\", 2 \n");
   EXPECT_EQ(table.columns, (Strings{"a, \"b\"", "c"}));
   EXPECT_EQ(table.values, (std::vector<std::vector<double>>{{1}, {2}}));
 }
@@ -81,7 +81,7 @@ TEST(MotionFile, GapsAreKept) {
         {"a.mot", replaced(a_mot, "19.5", "-nan(ind)")},
         {"a.csv", replaced(a_csv, "19.5", "")},
         {"a.csv", replaced(a_csv, "19.5", " NaN ")}}) {
-    const MotionTable table = read_table(name, text);
+    const io::MotionTable table = read_table(name, text);
     EXPECT_TRUE(std::isnan(table.values[1][0])) << text;
     EXPECT_EQ(table.values[1][1], 20) << text;
   }
@@ -91,10 +91,10 @@ TEST(MotionFile, LineEndsMarksAndEmptyLinesAtTheEndMakeNoDifference) {
   for (const auto& [name, text] : {std::pair<const char*, std::string>{"a.mot", a_mot}, {"a.csv", a_csv}}) {
     std::string windows = "\xEF\xBB\xBF";
     for (const char c : text) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
-    const MotionTable expected = read_table(name, text);
+    const io::MotionTable expected = read_table(name, text);
     for (const std::string& variant :
          {windows, windows + "\r\n \r\n", text + "\n\n\t\n", text.substr(0, text.size() - 1)}) {
-      const MotionTable table = read_table(name, variant);
+      const io::MotionTable table = read_table(name, variant);
       EXPECT_EQ(table.columns, expected.columns);
       EXPECT_EQ(table.values, expected.values);
       EXPECT_EQ(table.line_of_row, expected.line_of_row);
@@ -113,7 +113,7 @@ TEST(MotionFile, NumbersAreTheSameInEveryLocale) {
 }
 
 TEST(MotionFile, FramesAreCountedWhereThereIsNoTime) {
-  const auto times = [](std::string_view text) { return frame_times(read_table("a.csv", text)); };
+  const auto times = [](std::string_view text) { return io::frame_times(read_table("a.csv", text)); };
   EXPECT_EQ(times("Time,a\n0.5,1\n0.75,2\n").values, (std::vector{0.5, 0.75}));
   EXPECT_TRUE(times("Time,a\n0.5,1\n0.75,2\n").in_seconds);
   EXPECT_EQ(times("Frame,a\n11,1\n12,2\n").values, (std::vector<double>{11, 12}));
@@ -123,7 +123,8 @@ TEST(MotionFile, FramesAreCountedWhereThereIsNoTime) {
 }
 
 TEST(MotionFile, TheSecondTyOfXmalabIsTz) {
-  const MotionTable table = read_table("a.csv", "b_TX_9Hz , b_TY_9Hz , b_TY_9Hz , b_1_9Hz\n1 , 2 , 3 , 1\n");
+  const io::MotionTable table =
+      read_table("a.csv", "b_TX_9Hz , b_TY_9Hz , b_TY_9Hz , b_1_9Hz\n1 , 2 , 3 , 1\n");
   EXPECT_EQ(table.columns, (Strings{"b_TX_9Hz", "b_TY_9Hz", "b_TZ_9Hz", "b_1_9Hz"}));
   EXPECT_EQ(table.processing.size(), 1u);
 }
@@ -131,7 +132,8 @@ TEST(MotionFile, TheSecondTyOfXmalabIsTz) {
 TEST(MotionFile, ReadsRealFiles) {
   const auto folder = test::shared_data();
   if (!folder) GTEST_SKIP() << "real motions are not here: set CONDYLE_DATA";
-  const MotionTable walk = read_motion_table(*folder / "motion_gait2354_walk" / "subject01_walk1_ik.mot");
+  const io::MotionTable walk =
+      io::read_motion_table(*folder / "motion_gait2354_walk" / "subject01_walk1_ik.mot");
   EXPECT_EQ(walk.rows, 73u);
   EXPECT_EQ(walk.columns.size(), 24u);
   EXPECT_EQ(walk.in_degrees, true);
@@ -140,11 +142,11 @@ TEST(MotionFile, ReadsRealFiles) {
   EXPECT_EQ(walk.processing, Strings{});
 
   const auto knee = *folder / "knee_lenhart2015_right";
-  const MotionTable states = read_motion_table(knee / "passive_flexion_states.sto");
+  const io::MotionTable states = io::read_motion_table(knee / "passive_flexion_states.sto");
   EXPECT_EQ(states.rows, 251u);
   EXPECT_EQ(states.in_degrees, false);
   EXPECT_EQ(states.processing, Strings{});
-  const MotionTable contact = read_motion_table(knee / "passive_flexion_contact_reference.sto");
+  const io::MotionTable contact = io::read_motion_table(knee / "passive_flexion_contact_reference.sto");
   EXPECT_EQ(contact.columns.size(), 35u);
   ASSERT_EQ(contact.processing.size(), 1u);
   EXPECT_NE(contact.processing[0].find("inDegrees=no is followed"), std::string::npos);

@@ -21,9 +21,9 @@ inline std::string replaced(std::string text, std::string_view from, std::string
   return at == text.npos ? text : text.replace(at, from.size(), to);
 }
 
-inline MotionTable read_table(std::string_view name, std::string_view text) {
+inline io::MotionTable read_table(std::string_view name, std::string_view text) {
   const TemporaryFolder folder;
-  return read_motion_table(folder.file(name, text));
+  return io::read_motion_table(folder.file(name, text));
 }
 
 /// Message of the error of `question` after the file's name; "accepted" if there is none. One line, with that name

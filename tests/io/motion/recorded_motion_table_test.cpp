@@ -10,11 +10,11 @@ namespace condyle {
 namespace {
 
 const std::array<io::CoordinateName, 3> knee = {
-    io::CoordinateName{"flexion", CoordinateKind::angle},
-    io::CoordinateName{"internal_rotation", CoordinateKind::angle},
-    io::CoordinateName{"x", CoordinateKind::length}};
+    io::CoordinateName{"flexion", io::CoordinateKind::angle},
+    io::CoordinateName{"internal_rotation", io::CoordinateKind::angle},
+    io::CoordinateName{"x", io::CoordinateKind::length}};
 
-RecordedMotionMapping mapping_of(std::string_view text) {
+io::RecordedMotionMapping mapping_of(std::string_view text) {
   const toml::table file = toml::parse(text);
   const std::filesystem::path path = "knee.toml";
   io::TomlTable table(path, *file["recorded_motion"].as_table(), "recorded_motion");
@@ -31,7 +31,7 @@ std::string refusal(std::string_view keys) {
 }
 
 TEST(RecordedMotionTable, GivesColumnsOfCoordinates) {
-  const auto mapping = std::get<std::vector<ColumnOfCoordinate>>(mapping_of(
+  const auto mapping = std::get<std::vector<io::ColumnOfCoordinate>>(mapping_of(
       "[recorded_motion]\nx = { column = \"knee_tx_r\", unit = \"m\" }\nflexion = \"knee_flex_r\"\n"
       "internal_rotation = { column = \"knee_rot_r\", unit = \"rad\", sign = -1, offset = 2.5 }\n"));
   ASSERT_EQ(mapping.size(), 3u);
@@ -41,17 +41,17 @@ TEST(RecordedMotionTable, GivesColumnsOfCoordinates) {
   EXPECT_EQ(mapping[0].sign, 1);
   EXPECT_EQ(mapping[0].offset, 0);
   EXPECT_EQ(mapping[1].coordinate, "internal_rotation");
-  EXPECT_EQ(mapping[1].unit, ColumnUnit::radians);
+  EXPECT_EQ(mapping[1].unit, io::ColumnUnit::radians);
   EXPECT_EQ(mapping[1].sign, -1);
   EXPECT_EQ(mapping[1].offset, 2.5);
   EXPECT_EQ(mapping[2].coordinate, "x");
-  EXPECT_EQ(mapping[2].kind, CoordinateKind::length);
+  EXPECT_EQ(mapping[2].kind, io::CoordinateKind::length);
   EXPECT_EQ(mapping[2].column, "knee_tx_r");
-  EXPECT_EQ(mapping[2].unit, ColumnUnit::metres);
+  EXPECT_EQ(mapping[2].unit, io::ColumnUnit::metres);
 }
 
 TEST(RecordedMotionTable, GivesColumnsOfPoses) {
-  const auto mapping = std::get<ColumnsOfPoses>(
+  const auto mapping = std::get<io::ColumnsOfPoses>(
       mapping_of("[recorded_motion]\nfixed_body = \"femur\"\nmobile_body = \"tibia\"\nunits = \"m\"\n"));
   EXPECT_EQ(mapping.fixed_body, "femur");
   EXPECT_EQ(mapping.mobile_body, "tibia");

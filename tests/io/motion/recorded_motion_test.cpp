@@ -22,17 +22,18 @@ using Frame = std::optional<std::vector<double>>;
 constexpr double degree = std::numbers::pi / 180;
 
 TEST(RecordedCoordinates, UnitSignAndOffsetAreApplied) {
-  const MotionTable table = read_table("a.csv", "time,a,b,c,d\n0,90,0.5,1.25,2\n1,-30,-0.25,2,4\n");
-  const NamedCoordinates out = recorded_coordinates(
-      table, {{.coordinate = "flexion", .column = "a", .unit = ColumnUnit::degrees, .sign = -1, .offset = 5},
-              {.coordinate = "adduction", .column = "b", .unit = ColumnUnit::radians},
-              {.coordinate = "x", .kind = CoordinateKind::length, .column = "c", .unit = ColumnUnit::metres},
-              {.coordinate = "y",
-               .kind = CoordinateKind::length,
-               .column = "d",
-               .unit = ColumnUnit::millimetres,
-               .sign = -1,
-               .offset = 0.5}});
+  const io::MotionTable table = read_table("a.csv", "time,a,b,c,d\n0,90,0.5,1.25,2\n1,-30,-0.25,2,4\n");
+  const io::NamedCoordinates out = io::recorded_coordinates(
+      table,
+      {{.coordinate = "flexion", .column = "a", .unit = io::ColumnUnit::degrees, .sign = -1, .offset = 5},
+       {.coordinate = "adduction", .column = "b", .unit = io::ColumnUnit::radians},
+       {.coordinate = "x", .kind = io::CoordinateKind::length, .column = "c", .unit = io::ColumnUnit::metres},
+       {.coordinate = "y",
+        .kind = io::CoordinateKind::length,
+        .column = "d",
+        .unit = io::ColumnUnit::millimetres,
+        .sign = -1,
+        .offset = 0.5}});
   EXPECT_EQ(out.names, (Strings{"flexion", "adduction", "x", "y"}));
   EXPECT_EQ(out.frames, (std::vector<Frame>{{{-85, 0.5 * (180 / std::numbers::pi), 1250, -1.5}},
                                             {{35, -0.25 * (180 / std::numbers::pi), 2000, -3.5}}}));
@@ -42,51 +43,51 @@ TEST(RecordedCoordinates, UnitSignAndOffsetAreApplied) {
 
 TEST(RecordedCoordinates, AnglesAreAsTheHeaderSays) {
   const std::string sto = "inDegrees=no\nendheader\ntime a\n0 1\n";
-  const auto angle = [](const std::string& text, std::optional<ColumnUnit> unit) {
-    return recorded_coordinates(read_table("a.sto", text),
-                                {{.coordinate = "flexion", .column = "a", .unit = unit}})
+  const auto angle = [](const std::string& text, std::optional<io::ColumnUnit> unit) {
+    return io::recorded_coordinates(read_table("a.sto", text),
+                                    {{.coordinate = "flexion", .column = "a", .unit = unit}})
         .frames[0]
         ->front();
   };
   EXPECT_EQ(angle(sto, {}), 180 / std::numbers::pi);
   EXPECT_EQ(angle(replaced(sto, "=no", "=yes"), {}), 1);
-  EXPECT_EQ(angle(sto, ColumnUnit::radians), 180 / std::numbers::pi);
-  EXPECT_EQ(angle(replaced(sto, "=no", "=yes"), ColumnUnit::degrees), 1);
+  EXPECT_EQ(angle(sto, io::ColumnUnit::radians), 180 / std::numbers::pi);
+  EXPECT_EQ(angle(replaced(sto, "=no", "=yes"), io::ColumnUnit::degrees), 1);
 }
 
 TEST(RecordedCoordinates, AUnitThatContradictsTheHeaderIsRefused) {
-  const auto refused = [](const char* header, ColumnUnit unit) {
+  const auto refused = [](const char* header, io::ColumnUnit unit) {
     return test::refusal("a.sto", std::string(header) + "\nendheader\ntime /j/k/a/value\n0 1\n",
                          [&](const auto& path) {
-                           recorded_coordinates(read_motion_table(path),
-                                                {{.coordinate = "flexion", .column = "a", .unit = unit}});
+                           io::recorded_coordinates(io::read_motion_table(path),
+                                                    {{.coordinate = "flexion", .column = "a", .unit = unit}});
                          });
   };
   EXPECT_EQ(
-      refused("inDegrees=yes", ColumnUnit::radians),
+      refused("inDegrees=yes", io::ColumnUnit::radians),
       "column 'a': its unit is given as radians, and the header says inDegrees=yes: leave the unit out, "
       "or correct the header");
-  EXPECT_EQ(refused("inDegrees=no", ColumnUnit::degrees),
+  EXPECT_EQ(refused("inDegrees=no", io::ColumnUnit::degrees),
             "column 'a': its unit is given as degrees, and the header says inDegrees=no: leave the unit out, "
             "or correct the header");
-  EXPECT_EQ(refused("title", ColumnUnit::radians), "accepted") << "no header says it";
+  EXPECT_EQ(refused("title", io::ColumnUnit::radians), "accepted") << "no header says it";
 }
 
 TEST(RecordedCoordinates, AFrameWithAGapIsAGapAndOnlyInColumnsThatAreNeeded) {
-  const MotionTable table = read_table("a.csv", "time,a,b,c\n0,1,2,\n1,,2,3\n2,1,nan,3\n3,1,2,3\n");
-  const NamedCoordinates out =
-      recorded_coordinates(table, {{.coordinate = "flexion", .column = "a", .unit = ColumnUnit::degrees},
-                                   {.coordinate = "adduction", .column = "b", .unit = ColumnUnit::degrees}});
+  const io::MotionTable table = read_table("a.csv", "time,a,b,c\n0,1,2,\n1,,2,3\n2,1,nan,3\n3,1,2,3\n");
+  const io::NamedCoordinates out = io::recorded_coordinates(
+      table, {{.coordinate = "flexion", .column = "a", .unit = io::ColumnUnit::degrees},
+              {.coordinate = "adduction", .column = "b", .unit = io::ColumnUnit::degrees}});
   EXPECT_EQ(out.frames, (std::vector<Frame>{{{1, 2}}, std::nullopt, std::nullopt, {{1, 2}}}));
   EXPECT_EQ(out.processing,
             Strings{"2 of 4 frames are gaps, the first in line 3: they are left out, not interpolated"});
 }
 
 TEST(RecordedCoordinates, AWholeNameGoesBeforeTheCoordinateOfAPath) {
-  const MotionTable table =
+  const io::MotionTable table =
       read_table("a.sto", "inDegrees=yes\nendheader\ntime /j/k/flex/value /j/k/flex/speed flex\n0 1 2 3\n");
   const auto value = [&](const char* column) {
-    return recorded_coordinates(table, {{.coordinate = "flexion", .column = column}}).frames[0]->front();
+    return io::recorded_coordinates(table, {{.coordinate = "flexion", .column = column}}).frames[0]->front();
   };
   EXPECT_EQ(value("flex"), 3);
   EXPECT_EQ(value("/j/k/flex/value"), 1);
@@ -134,7 +135,7 @@ const std::vector<std::pair<Pose, Pose>> frames = {
 /// A product of two matrices of a rotation and of a difference of places below 700 mm, each entry three products.
 constexpr double rounding = 16 * core::rounding_unit;
 
-void expect_X_FM(const RecordedPoses& poses, double scale) {
+void expect_X_FM(const io::RecordedPoses& poses, double scale) {
   ASSERT_EQ(poses.X_FM.size(), frames.size());
   for (std::size_t i = 0; i < frames.size(); ++i) {
     ASSERT_TRUE(poses.X_FM[i]);
@@ -149,11 +150,11 @@ void expect_X_FM(const RecordedPoses& poses, double scale) {
 TEST(RecordedPoses, BothConventionsAreToldByWhere0001Stands) {
   for (const bool transposed : {false, true})
     for (const bool of_jam : {false, true}) {
-      const MotionTable table =
+      const io::MotionTable table =
           read_table("a.csv", of_jam ? csv_of(jam_names("F"), jam_names("M"), frames, transposed)
                                      : csv_of(xmalab_columns("F"), xmalab_columns("M"), frames, transposed));
-      expect_X_FM(recorded_poses(table, {"F", "M", LengthUnit::millimetres}), 1);
-      expect_X_FM(recorded_poses(table, {"F", "M", LengthUnit::metres}), 1000);
+      expect_X_FM(io::recorded_poses(table, {"F", "M", LengthUnit::millimetres}), 1);
+      expect_X_FM(io::recorded_poses(table, {"F", "M", LengthUnit::metres}), 1000);
     }
 }
 
@@ -162,7 +163,7 @@ TEST(RecordedPoses, WithoutAnyTranslationTheNamesTell) {
       {Pose::Identity(), test::some_pose(0.5, {0, 0, 1}, {0, 0, 0})}};
   const double c = std::cos(0.5), s = std::sin(0.5);
   for (const bool of_jam : {false, true}) {
-    const RecordedPoses poses = recorded_poses(
+    const io::RecordedPoses poses = io::recorded_poses(
         read_table("a.csv", of_jam ? csv_of(jam_names("F"), jam_names("M"), turned, false)
                                    : csv_of(xmalab_columns("F"), xmalab_columns("M"), turned, true)),
         {"F", "M", {}});
@@ -181,7 +182,7 @@ TEST(RecordedPoses, AGapInEitherBodyIsAGap) {
   // The last number of row 2, and the first of row 1.
   text.replace(text.rfind(',', ends[3]) + 1, ends[3] - text.rfind(',', ends[3]) - 1, "NaN");
   text.replace(ends[1] + 1, text.find(',', ends[1]) - ends[1] - 1, "");
-  const RecordedPoses poses = recorded_poses(read_table("a.csv", text), {"F", "M", {}});
+  const io::RecordedPoses poses = io::recorded_poses(read_table("a.csv", text), {"F", "M", {}});
   EXPECT_TRUE(poses.X_FM[0]);
   EXPECT_FALSE(poses.X_FM[1]);
   EXPECT_FALSE(poses.X_FM[2]);
@@ -195,7 +196,7 @@ TEST(RecordedPoses, RotationsThatAreALittleOffBecomeTheNearestOnes) {
   for (const double stretch : {1e-12, 0.9e-9, 4.9e-5}) {
     Pose X_LM = frames[0].second;
     X_LM.linear().col(1) *= 1 + stretch;
-    const RecordedPoses poses = recorded_poses(
+    const io::RecordedPoses poses = io::recorded_poses(
         read_table("a.csv", csv_of(jam_names("F"), jam_names("M"), {{frames[0].first, X_LM}}, false)),
         {"F", "M", {}});
     const Eigen::Matrix3d R = frames[0].first.linear().transpose() * frames[0].second.linear();
@@ -218,9 +219,9 @@ Vec3 knee_angles(const Eigen::Matrix3d& R) {
 TEST(RecordedPoses, AKneeMeasuredByMriIsWhereItsReadmeSays) {
   const auto folder = test::shared_data();
   if (!folder) GTEST_SKIP() << "real motions are not here: set CONDYLE_DATA";
-  const RecordedPoses poses =
-      recorded_poses(read_motion_table(*folder / "motion_mri_knee" / "passive_body_transformations.sto"),
-                     {"femur_distal_r", "tibia_proximal_r", LengthUnit::metres});
+  const io::RecordedPoses poses = io::recorded_poses(
+      io::read_motion_table(*folder / "motion_mri_knee" / "passive_body_transformations.sto"),
+      {"femur_distal_r", "tibia_proximal_r", LengthUnit::metres});
   ASSERT_EQ(poses.X_FM.size(), 60u);
   struct Row {
     std::size_t row;
@@ -243,22 +244,22 @@ TEST(RecordedPoses, AKneeMeasuredByMriIsWhereItsReadmeSays) {
 TEST(RecordedCoordinates, OfARealWalkAndARealKnee) {
   const auto folder = test::shared_data();
   if (!folder) GTEST_SKIP() << "real motions are not here: set CONDYLE_DATA";
-  const NamedCoordinates hip =
-      recorded_coordinates(read_motion_table(*folder / "motion_gait2354_walk" / "subject01_walk1_ik.mot"),
-                           {{.coordinate = "flexion", .column = "hip_flexion_r"}});
+  const io::NamedCoordinates hip = io::recorded_coordinates(
+      io::read_motion_table(*folder / "motion_gait2354_walk" / "subject01_walk1_ik.mot"),
+      {{.coordinate = "flexion", .column = "hip_flexion_r"}});
   double least = 1000, most = -1000;
   for (const Frame& frame : hip.frames)
     least = std::min(least, frame->front()), most = std::max(most, frame->front());
   EXPECT_NEAR(least, -21.69, 0.005);
   EXPECT_NEAR(most, 21.67, 0.005);
 
-  const NamedCoordinates knee = recorded_coordinates(
-      read_motion_table(*folder / "knee_lenhart2015_right" / "passive_flexion_states.sto"),
+  const io::NamedCoordinates knee = io::recorded_coordinates(
+      io::read_motion_table(*folder / "knee_lenhart2015_right" / "passive_flexion_states.sto"),
       {{.coordinate = "flexion", .column = "knee_flex_r"},
        {.coordinate = "x",
-        .kind = CoordinateKind::length,
+        .kind = io::CoordinateKind::length,
         .column = "knee_tx_r",
-        .unit = ColumnUnit::metres}});
+        .unit = io::ColumnUnit::metres}});
   // The digits of the file, converted: a rounding of each number and one of each product.
   EXPECT_DOUBLE_EQ(knee.frames[1]->at(0), -4.166025947653313e-10 / degree);
   EXPECT_DOUBLE_EQ(knee.frames[1]->at(1), 0.4800858074338325);
