@@ -275,7 +275,9 @@ void report_command(const ReportArguments& options, const CLI::App& command) {
   if (loaded.report.file.recorded_motion) report.recorded_motion = &*loaded.report.file.recorded_motion;
   if (before) report.before.emplace(before->answered(request));
   std::optional<io::SweepResult> sweep;
-  if (sweep_query) report.sweep = &sweep.emplace(answered_sweep(loaded, *sweep_query));
+  if (sweep_query && answer) report.sweep = &sweep.emplace(answered_sweep(loaded, *sweep_query));
+  if (sweep_query && !answer)
+    note("no safe zone: without limits the page shows none, and --sweep is not computed");
   if (layers) report.layers.emplace(std::move(*layers));
   if (recorded)
     report.recorded.emplace(io::ReportedMotion{std::filesystem::path(options.motion).filename().string(),

@@ -188,6 +188,21 @@ TEST_F(ReportCommand, SetsParametersOfTheJointAfterOnly) {
   EXPECT_NE(block["before"]["surfaces"]["fixed"], nullptr);
 }
 
+TEST_F(ReportCommand, SaysThatWithoutLimitsThereIsNoSafeZone) {
+  write_joint(
+      "[[part]]\nname = \"tilted\"\nbody = \"fixed\"\n[[part.parameter]]\nname = \"tilt\"\nrange = [-20, "
+      "20]\n");
+  folder.file("targets.csv", "name,motion,reach_deg,pelvic_tilt_deg,source\nsitting,flexion,20,,\n");
+  const std::string swept = " --sweep tilted.tilt=-10:10:10 --targets targets.csv";
+  EXPECT_EQ(answer(swept)["sweep"]["parameters"].size(), 1u);
+
+  write_arm(box({-1, -100, -2}, {41, -10, 2}));
+  const Ran ran = run("report joint.toml --out report.html" + swept);
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_NE(ran.err.find("no safe zone: without limits"), ran.err.npos) << ran.err;
+  EXPECT_FALSE(report_block(io::read_whole_file(folder / "report.html")).json.contains("sweep"));
+}
+
 TEST_F(ReportCommand, ShowsAComparisonOfWhichOneJointHasNoLimits) {
   io::write_mesh(folder / "long.ply", box({-1, -100, -2}, {41, -10, 2}));
   write_other("after.toml", "mesh = \"arm.ply\"", "mesh = \"long.ply\"");

@@ -63,7 +63,7 @@ void for_each_finding(const MeshReport& r, const Visit& visit) {
 }
 
 /// A sheet has no genus: said as such, not as a number.
-std::string describe(const MeshComponent& c) {
+std::string component_text(const MeshComponent& c) {
   if (!c.closed) return fmt::format("{} triangles, open", c.triangles);
   std::string out = fmt::format("{} triangles, closed", c.triangles);
   if (c.genus) out += fmt::format(", genus {}", *c.genus);
@@ -82,7 +82,7 @@ void append(std::string& out, const MeshInspection& mesh) {
   for (const RepairDone& done : mesh.repairs) out += fmt::format("  repair {}\n", describe(done));
   out += fmt::format("  {} component{}\n", r.components.size(), r.components.size() == 1 ? "" : "s");
   for (std::size_t i = 0; i < std::min(r.components.size(), components_listed); ++i)
-    out += fmt::format("    {}: {}\n", i, describe(r.components[i]));
+    out += fmt::format("    {}: {}\n", i, component_text(r.components[i]));
   if (r.components.size() > components_listed)
     out += fmt::format("    and {} more\n", r.components.size() - components_listed);
   for_each_finding(r, [&](const char*, const char* words, const auto& finding) {
