@@ -138,6 +138,8 @@ test("a pin stands at its vertex: by number and by pointer, in its own frame and
   assert.equal(await page.locator(".pins li").count(), 3);
   await page.getByRole("button", { name: "Remove pin 2" }).focus();
   await page.keyboard.press("Enter");
+  await page.waitForFunction(() => document.querySelectorAll(".scene-number").length === 2);
+  assert.equal(await page.locator(".pins li").count(), 2);
   assert.deepEqual(await page.locator(".scene-number").allTextContents(), ["1", "2"]);
   await page.evaluate(axeSource);
   assert.deepEqual((await page.evaluate(() => globalThis.axe.run("#panel-details"))).violations.map(({ id }) => id), []);

@@ -364,7 +364,7 @@ test("meshes dropped on a report take its place once that is confirmed, with the
   await keep(page, "replaced");
   await drop(page, sampleFiles);
   await page.getByRole("alert").waitFor();
-  assert.match(await page.getByRole("alert").textContent(), /reload it, then drop others/);
+  assert.match(await page.getByRole("alert").textContent(), /reload it before dropping others/);
   assert.deepEqual(complaints, []);
   assert.deepEqual(requests, []);
   await page.reload();

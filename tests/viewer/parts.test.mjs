@@ -149,7 +149,7 @@ test("a value outside of its range is refused in one line, and nothing turns", a
   const { page } = await opened("tilted");
   const { text } = readReport(pathOf("tilted"));
   await field(page, "pelvis tilt, degrees").fill("20.5");
-  assert.equal(await panel(page).locator("[role=status]").textContent(), "20.5° is not between −20° and 20°: not taken.");
+  assert.equal(await panel(page).locator("[role=status]").textContent(), "20.5° is not between −20° and 20°: ignored.");
   assert.equal(await field(page, "pelvis tilt, degrees").getAttribute("aria-invalid"), "true");
   assert.equal(await field(page, "pelvis tilt, degrees").getAttribute("aria-valuenow"), "10");
   await settled(page);
@@ -188,7 +188,7 @@ test("of parts, brush and centre one changes the joint at a time, and the others
   assert.equal(await page.locator(".blocked:visible").textContent(), "The brush has taken bone: undo its strokes first.");
   await openFold(page, "Resect by brush");
   await page.getByRole("button", { name: "Undo stroke" }).click();
-  await page.waitForFunction(() => /^No bone is taken/.test(document.querySelector(".brush-said").textContent));
+  await page.waitForFunction(() => /^No bone removed yet/.test(document.querySelector(".brush-said").textContent));
   await openFold(page, "Move the joint centre");
   await page.getByRole("button", { name: "+0.5 mm superior" }).click();
   await openFold(page, title);
