@@ -24,6 +24,8 @@ try {
   const { page } = await openPage(browser, join(folder, "report.html"), { width: 1440, height: 900, fragment: "#flexion=70&internal_rotation=20" });
   await settled(page);
   await page.waitForFunction(() => [...document.querySelectorAll(".slider-readout")].every(({ textContent }) => textContent !== ""));
+  // The distance between the bones comes last.
+  await page.getByText(/^Free · .* clear$/).waitFor();
   await page.screenshot({ path: join(root, "docs/images/page.png") });
   await drawPlan();
 } finally {

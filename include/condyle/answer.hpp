@@ -218,7 +218,7 @@ std::optional<std::size_t> frame_of_largest_force(const MotionAnswer& answer);
 /// with this angle, linear between two frames.
 struct FollowRecord {
   std::vector<JointCoordinates> frames = {};
-  /// What looks wrong with the recorded numbers: the answer hands them on.
+  /// Warnings on the recorded numbers: the answer hands them on.
   std::vector<motion::ContactNote> notes = {};
 };
 
@@ -490,7 +490,7 @@ struct ImplantAnswer {
   Vec3 centre_mm;              ///< of cup and head: the origin of the new joint
   measure::HipMeasures bones;  ///< before
   std::optional<Sphere> socket = {};
-  /// Of the head's centre, if the joint was placed by a fit to it.
+  /// Uncertainty of the head's centre, if the joint was placed by a fit to it.
   std::optional<double> centre_bound_mm = {};
   double room_mm = 0;                          ///< from the centre to the nearest bone of the fixed body
   std::optional<CupOverhang> stands_out = {};  ///< empty if the edge stands out nowhere, or without a rim

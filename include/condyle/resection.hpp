@@ -75,7 +75,7 @@ struct CutBone {
   double burr_volume_mm3 = 0;  ///< the part of what was removed that goes only because a burr is no smaller
   /// By how much the burr's ball would have to enter bone that stays, at the most; 0 where it need not.
   double burr_in_kept_mm = 0;
-  /// Of the surface before, where the cut is deeper than a per cent of its deepest place.
+  /// Area of the surface before, where the cut is deeper than a per cent of its deepest place.
   double area_mm2 = 0;
   double deepest_mm = 0;
   Vec3 deepest_at = Vec3::Zero();  ///< on the surface before

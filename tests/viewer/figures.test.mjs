@@ -25,11 +25,12 @@ for (const start of [[0, 0, 0], [40, 10, 0], [100, 10, 0]])
     const tracks = await page.evaluate(() => [...document.querySelectorAll(".track-strip")].map((strip) => ({
       free: [...strip.querySelectorAll(".free")].map((rect) => [Number(rect.getAttribute("x")), Number(rect.getAttribute("x")) + Number(rect.getAttribute("width"))]),
       kinds: [...new Set([...strip.children].map((rect) => rect.getAttribute("class")))],
+      hidden: [...strip.children].filter((rect) => rect.getBoundingClientRect().width === 0).length,
       low: Number(strip.nextElementSibling.min), high: Number(strip.nextElementSibling.max),
       text: strip.closest(".slider").querySelector(".slider-readout").textContent,
     })));
     assert.equal(tracks.length, 3);
-    for (const [vary, { free, kinds, low, high, text }] of tracks.entries()) {
+    for (const [vary, { free, kinds, hidden, low, high, text }] of tracks.entries()) {
       const all = await freeOf(page, start, vary);
       const wanted = all.filter(([from, to]) => to >= low && from <= high);
       const x = (deg) => (100 * (Math.min(high, Math.max(low, deg)) - low)) / (high - low);
@@ -37,6 +38,7 @@ for (const start of [[0, 0, 0], [40, 10, 0], [100, 10, 0]])
       wanted.forEach(([from, to], i) => assert.ok(Math.abs(free[i][0] - x(from)) < 1e-6 && Math.abs(free[i][1] - Math.max(x(to), x(from) + 0.3)) < 1e-6));
       const [from, to] = all.find(([least, most]) => least <= start[vary] && start[vary] <= most);
       assert.equal(text, `free ${degrees(from)} to ${degrees(to)}`);
+      assert.equal(hidden, 0, "each mark is seen");
       assert.ok(kinds.every((kind) => ["blocked", "free", "band"].includes(kind)), kinds.join());
     }
     await page.context().close();

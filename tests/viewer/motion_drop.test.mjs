@@ -33,7 +33,7 @@ async function opened(path) {
   return page;
 }
 
-const plays = (page, path) => page.getByRole("status").filter({ hasText: `${basename(path)}, a file that was dropped, plays on this joint` }).waitFor();
+const plays = (page, path) => page.getByRole("status").filter({ hasText: `The dropped file ${basename(path)} plays on this joint` }).waitFor();
 
 /// The page's frames of a file, as the core reads it.
 function framesOf(page, path, text) {

@@ -136,9 +136,9 @@ test("what turned is seen where it was, as a ghost, which can be hidden", async 
   assert.equal(await hasGhost(page, "fixed"), false);
   await set(page, { "cup inclination, degrees": 55 });
   assert.deepEqual([await hasGhost(page, "fixed"), await hasGhost(page, "mobile")], [true, false]);
-  await page.getByLabel("Show parts as in the report, seen through").uncheck();
+  await page.getByLabel("Show the report's parts as a ghost").uncheck();
   assert.equal(await hasGhost(page, "fixed"), false);
-  await page.getByLabel("Show parts as in the report, seen through").check();
+  await page.getByLabel("Show the report's parts as a ghost").check();
   assert.equal(await hasGhost(page, "fixed"), true);
   await changed(page, () => page.getByRole("button", { name: "Back to the report's" }).click());
   assert.equal(await hasGhost(page, "fixed"), false);
@@ -176,7 +176,7 @@ test("of parts, brush and centre one changes the joint at a time, and the others
   for (const [name, heading] of [["Resect by brush", "Resect by brush"], ["Move the joint centre", "Move the joint centre"]]) {
     await openFold(page, heading);
     assert.equal(await panel(page, name).count(), 0, name);
-    assert.equal(await page.locator(".blocked:visible").textContent(), "Parts are turned: set them back to the report's values first.");
+    assert.equal(await page.locator(".must-wait:visible").textContent(), "Parts are turned: set them back to the report's values first.");
   }
   await openFold(page, title);
   await changed(page, () => page.getByRole("button", { name: "Back to the report's" }).click());
@@ -185,14 +185,14 @@ test("of parts, brush and centre one changes the joint at a time, and the others
   await page.waitForFunction(() => /mm³ gone/.test(document.querySelector(".brush-said").textContent));
   await openFold(page, title);
   assert.equal(await panel(page).count(), 0);
-  assert.equal(await page.locator(".blocked:visible").textContent(), "The brush has taken bone: undo its strokes first.");
+  assert.equal(await page.locator(".must-wait:visible").textContent(), "The brush has taken bone: undo its strokes first.");
   await openFold(page, "Resect by brush");
   await page.getByRole("button", { name: "Undo stroke" }).click();
   await page.waitForFunction(() => /^No bone removed yet/.test(document.querySelector(".brush-said").textContent));
   await openFold(page, "Move the joint centre");
   await page.getByRole("button", { name: "+0.5 mm superior" }).click();
   await openFold(page, title);
-  assert.equal(await page.locator(".blocked:visible").textContent(), "The joint centre is moved: set it back first.");
+  assert.equal(await page.locator(".must-wait:visible").textContent(), "The joint centre is moved: set it back first.");
   await openFold(page, "Move the joint centre");
   await page.getByRole("button", { name: "Back to the centre" }).click();
   await openFold(page, title);

@@ -25,7 +25,7 @@ CondyleJoint* condyle_joint(int kind, int anatomy, int side, int translation_fra
                             const std::uint32_t* mobile_triangles, int mobile_triangle_count);
 void condyle_free(CondyleJoint* joint);
 
-/// What contact of each triangle of either body means, as it was found before, in numbers of ContactRole; null where each ends a
+/// The role of each triangle of either body in contact, as found before, in numbers of ContactRole; null where each ends a
 /// motion. `count_bearing` 1: bearing contact does too. Without this call a bearing surface is looked for at the first question
 /// about motions.
 int condyle_set_roles(CondyleJoint* joint, int count_bearing, const std::uint8_t* fixed,

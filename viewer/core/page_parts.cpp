@@ -40,7 +40,7 @@ Mesh mesh_at(const Mesh& drawn, const double* xyz) {
   return drawn.moved_to(std::move(points));
 }
 
-/// What was made of the joint before is of another one.
+/// Drops everything that was made of the joint before.
 void take(CondyleJoint& joint, Joint moved, motion::BearingOptions bearing) {
   joint.bodies = contact::JointContact(moved);
   joint.joint = std::move(moved);

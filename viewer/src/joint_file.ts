@@ -69,7 +69,7 @@ function sphereLines({ rom, parts }: ReportText): string[] {
   ];
 }
 
-/// What is known of a head or socket goes with the meshes as they are given.
+/// A known head or socket goes with the meshes as given.
 function givenSphereLines(posed: StoredPosed): string[] {
   const lines = (name: string, body: BodyName) => {
     const { head, bearing_margin_mm } = posed[body];

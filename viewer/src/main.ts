@@ -70,7 +70,7 @@ function sceneOf(arrays: JointArrays, parts: ReportText["parts"], label: string)
   }
 }
 
-/// What no report holds: its user's notes, and a motion of a file that was dropped on it.
+/// Content that no report holds: its user's notes, and the motion of a dropped file.
 interface Added {
   notes?: UserNotes | undefined;
   motion?: RecordedMotion;
@@ -95,7 +95,7 @@ class Page {
   private readonly plan: PlanPanel | null;
   private readonly removed: BothValues | null;
   private fragmentTimer = 0;
-  /// By the core; else the report says what bears.
+  /// Whether the core found the bearing surface; else it is the report's.
   private bearingIsFound: boolean;
   /// One of the report's poses, if the page cannot compute.
   private storedPose: StoredPose | null = null;
@@ -249,7 +249,7 @@ class Page {
     return { motion: droppedMotion(file.name, frames, this.text), remarks: frames.remarks };
   }
 
-  /// What the user has added, and the address of what is seen, for the page that takes this one's place.
+  /// The user's notes and the address of the present view, for the page that takes this one's place.
   handOver(): UserNotes {
     this.writeView();
     const { notes } = this.notes!;
@@ -390,7 +390,7 @@ class Page {
     if (rests) this.ask(this.motion.coordinates);
   }
 
-  /// The same of a joint whose parts turn: what bears is found anew.
+  /// The same for a joint whose parts turn: the bearing surface is found again.
   private takeTurned({ fixed: fixedBody, mobile }: Turned, rests: boolean): void {
     this.scene?.replaceBody("fixed", fixedBody);
     this.scene?.replaceBody("mobile", mobile);
@@ -687,7 +687,7 @@ function openEmpty(shown: () => void = () => undefined): DropPanel | undefined {
   return panel;
 }
 
-/// What a copy was saved with; null of a page that is none. It opens with the view of then, unless the address says another.
+/// The notes of a saved copy; null for a page that is not a copy. It opens with the view it was saved with, unless the address gives another.
 function copiedWith({ fixed, mobile }: JointArrays): Copied | null {
   const block = notesBlock();
   if (block === null) return null;

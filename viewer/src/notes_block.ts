@@ -1,7 +1,7 @@
 import { bytesOf } from "./report";
 import { bodyNames, type Picked } from "./scene/scene";
 
-/// What a user has added to a page: it is saved with a copy of the page, in a block of its own beside the report's data.
+/// A user's additions to a page: they are saved with a copy of the page, in a block of its own beside the report's data.
 export interface UserNotes {
   text: string;
   pins: Pin[];

@@ -275,7 +275,7 @@ export interface StoredParameter {
   in_joint_file: number;
   as_given: number;
   sigma: number;
-  /// Of a translation.
+  /// Direction of a translation.
   along: Three;
 }
 
@@ -370,7 +370,7 @@ export interface ReportText {
   plan: StoredPlan | null;
   /// Set in a report of two joints.
   before?: StoredBefore | null;
-  /// Of a joint with parts that turn.
+  /// Present for a joint with parts that turn.
   posed?: StoredPosed | null;
   sweep?: StoredSweep | null;
 }

@@ -47,7 +47,7 @@ export const words = {
   /// About sixty words, to fit on one card.
   helpText:
     "The strip shows where motions end, with a 90 % band and the normal range. Press a figure and the joint goes there. Drag the bones to turn " +
-    "them, the sliders to move the joint: solid bars are free, hatched ones blocked. Figures has the map and the clock face, Details the method " +
+    "them, the sliders to move the joint: dark bars are free, pale ones blocked. Figures has the map and the clock face, Details the method " +
     "and files. Only bone is computed: soft tissue usually stops a hip earlier. Undo goes one step back.",
   keys: [
     ["1 2 3 4", "tabs"], ["F", "fit the joint"], ["U", "undo"], ["0", "back to zero"], ["Space", "play"], ["?", "this card"],
@@ -109,7 +109,7 @@ export const words = {
   notTheReport: "What is shown is no longer the report of this file, but the joint of files that were dropped: reload the page to have the report back.",
   dropNeedsCore: (name: string) => `${name}: this page cannot compute, and so reads no motion files.`,
   motionPlays: (name: string, count: number) =>
-    `${name}, a file that was dropped, plays on this joint: ${count} ${count === 1 ? "frame" : "frames"}, no part of the report. Reload the page for the report as it was; ` +
+    `The dropped file ${name} plays on this joint: ${count} ${count === 1 ? "frame" : "frames"}. It is not part of the report: reload the page to return to that; ` +
     "contact over time is for condyle report --motion.",
   coreDamaged:
     "The computing part of this file is damaged: the page shows only the poses stored in it. Make the report again.",
@@ -340,10 +340,10 @@ export const words = {
   partUnit: { deg: "°", mm: " mm" } as Record<string, string>,
   parameterRange: (range: string, sigma: string | null) => (sigma ? `${range}, SD ${sigma}` : range),
   partsReset: "Back to the report's",
-  showAsReported: "Show parts as in the report, seen through",
+  showAsReported: "Show the report's parts as a ghost",
   partsLimits: "Limits as in the report and with parts turned",
   osseousOnly: "Bone only: osseous limits.",
-  partsNote: "The pose, free intervals and colours are of the joint as it stands here. Strip, tiles and figures are the report's.",
+  partsNote: "Pose, free intervals and colours show the turned joint. Strip, tiles and figures are the report's.",
   partsCommand: "On the command line",
   partsAsInFile: "as in the joint file",
   tookAll: (ms: string) => `All after ${ms} ms.`,

@@ -204,7 +204,7 @@ struct JointMotion {
   std::vector<std::string> processing;    ///< of the table and of its reading
   std::filesystem::path path = {};        ///< of the table
   FileDigest digest = {};
-  /// What looks wrong with its numbers: their unit, ranges, locks.
+  /// Warnings on its numbers: their unit, ranges, locks.
   std::vector<motion::ContactNote> notes = {};
 };
 

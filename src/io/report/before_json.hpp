@@ -5,7 +5,7 @@
 
 namespace condyle::io {
 
-/// What rom.json says, but for the intervals of a map, which the page has of their own, and for folders unless `labels` keeps them.
+/// The content of rom.json without the intervals of a map, which the page stores apart, and without folders unless `labels` keeps them.
 /// Null without limits.
 Json reported_rom(const RomResult* rom, const ReportLabels& labels);
 

@@ -37,7 +37,7 @@ Json part_json(const PosedPart& part) {
           {"parameters", std::move(parameters)}};
 }
 
-/// What the core needs of a body beside the mesh that the page draws.
+/// The properties of a body that the core needs beside the mesh that the page draws.
 Json body_json(const Body& body, const UnposedBody& given, const std::string& role, BlockArrays& arrays) {
   Json cut_triangles = Json::array();
   for (const BodyPart& part : body.parts) cut_triangles.push_back(part.cut_triangles);

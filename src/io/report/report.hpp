@@ -32,7 +32,7 @@ struct ReportedLayers {
   contact::ElasticContactOptions options;  ///< elastic_options() of the entry
 };
 
-/// What is said on the page as it was given: any text, which stays text; nothing of it is taken from the machine.
+/// Texts that the page shows as they were given: any text, which stays text; nothing of it is taken from the machine.
 struct ReportLabels {
   std::optional<std::string> case_name = {}, note = {}, date = {};
   /// Whether files are named by their whole paths, and the command as it was given; else by their names alone.

@@ -19,7 +19,7 @@ void check_shown_sweep(std::span<const plan::SweptParameter> parameters, std::si
 
 namespace {
 
-/// Of each design the target that has the least to spare, the first of equals.
+/// The target with the smallest margin for each design; the first of equal ones.
 std::vector<std::uint8_t> least_of(const SweepAnswer& sweep) {
   std::vector<std::uint8_t> least;
   const std::size_t width = sweep.targets.size();

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What io::Inflate asks of zlib, for the page, which has no zlib: functions in JavaScript (zlib.js), by pako.
+/// The functions of zlib that io::Inflate calls, for the page, which has no zlib: functions in JavaScript (zlib.js), by pako.
 
 using Bytef = unsigned char;
 using uInt = unsigned int;

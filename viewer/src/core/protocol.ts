@@ -36,7 +36,7 @@ export interface PosedArrays {
   mobile: GivenBody;
 }
 
-/// What is null is as in the drawn body, or not known.
+/// Null: as in the drawn body, or not known.
 export interface GivenBody {
   meshes: { name: string; contact: string; place: Uint32Array }[];
   vertices: Float64Array | null;
@@ -219,7 +219,7 @@ export type Query =
   | { of: "memory" };
 export type QueryAnswer = number | MotionFrames | Details | Depth | BothPenetrations | BothValues | LiveLimit | [number, number, number, number][];
 
-/// What condyle_motion() says of a motion file; null in a gap.
+/// The answer of condyle_motion() on a motion file; null in a gap.
 export interface MotionFrames {
   axis: "time_s" | "frame";
   times: number[];

@@ -27,7 +27,7 @@ export interface BrushOptions {
   text: ReportText;
   arrays: JointArrays;
   names: Record<BodyName, string>;
-  /// Of a bone that a plan cuts: where its surface was.
+  /// The surface before the cut, for a bone that a plan cuts.
   before: Record<BodyName, Float64Array | null>;
   /// Limits of the joint before a plan, by the names of motions; none without a plan.
   limitsBefore: ReadonlyMap<string, EndOfMotion>;
@@ -102,7 +102,7 @@ export class BrushPanel {
         button(words.saveJointFile, () => void this.saveJointFile())));
     this.element.classList.add("edit-panel");
     this.limits.mark(this.shown);
-    // What is made once is made before the first stroke.
+    // Tables are built before the first stroke.
     this.element.addEventListener("focusin", () => void this.prepare(this.body));
     this.element.addEventListener("pointerenter", () => void this.prepare(this.body));
   }

@@ -15,22 +15,22 @@ export interface Edited {
   scene: JointScene | null;
   text: ReportText;
   arrays: JointArrays;
-  /// Holds arrays of a plan; none of a joint dropped on the page.
+  /// Holds the arrays of a plan; null for a joint dropped on the page.
   report: Report | null;
-  /// A bone is another one now, or both bodies are; `rests` once the hand does.
+  /// A bone has changed, or both bodies have; `rests` once the hand does.
   brushed: (brushed: Brushed, rests: boolean) => void;
   turned: (turned: Turned, rests: boolean) => void;
 }
 
 type Change = "parts" | "brush" | "centre";
 
-/// What changes the joint by hand, where limits are exact and nothing lies on the bones.
+/// Panels that change the joint by hand, if limits are exact and no layers lie on the bones.
 export function addEditPanels({ core, scene, text, arrays, report, brushed, turned }: Edited): void {
   const { rom, layers, plan, joint, posed } = text;
   if (!rom || rom.exact === false || layers || questionsOf(text).length === 0) return;
   const changes: Record<Change, boolean> = { parts: false, brush: false, centre: false };
   const strokes = { fixed: 0, mobile: 0 };
-  /// What turns parts does not work beside what takes bone or moves the centre.
+  /// The parts do not turn while bone is removed or the centre is moved, and the other way round.
   const mark = (what: Change, isChanged: boolean) => {
     if (changes[what] === isChanged || !parts) return;
     changes[what] = isChanged;
@@ -55,7 +55,7 @@ export function addEditPanels({ core, scene, text, arrays, report, brushed, turn
   for (const panel of [parts?.sweep, brush, parts, centre]) if (panel) addPlanPanel(panel.element);
 }
 
-/// Where the surface of a bone was before a plan cut it; null of one that is as it was.
+/// The surface of a bone before a plan cut it; null for an uncut bone.
 function beforePlan(report: Report | null, arrays: JointArrays, body: BodyName): Float64Array | null {
   const cut = report?.text.plan?.surfaces[body];
   if (!cut) return null;

@@ -80,7 +80,7 @@ export class LiveLimits {
     this.show(i, endOf(limit));
   }
 
-  /// What stands there is of a joint that is past.
+  /// The values shown belong to an earlier state of the joint.
   wait(): void {
     for (const { head } of this.rows) head.classList.add("waits");
   }

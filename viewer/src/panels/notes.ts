@@ -7,7 +7,7 @@ import { words } from "../words";
 
 const clickTolerance_px = 4;
 
-/// What the user writes on the page, and points on the bones that it is about.
+/// The user's text on the page, and pins on the bones it is about.
 export class NotesPanel {
   readonly element: HTMLDetailsElement;
   private readonly list = html("ol", { class: "pins" });

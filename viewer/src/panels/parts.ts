@@ -65,7 +65,7 @@ export class PartsPanel {
     this.showValues();
   }
 
-  /// Of each parameter its value now, by "cup.inclination".
+  /// The present value of each parameter, by "cup.inclination".
   get values(): Map<string, number> {
     return new Map(this.rows.map(({ name, value }) => [name, value]));
   }
@@ -138,7 +138,7 @@ export class PartsPanel {
     this.showGhosts();
   }
 
-  /// Of the bodies that stand otherwise than in the report.
+  /// Ghosts of the bodies that differ from the report.
   private showGhosts(): void {
     for (const body of bodyNames) {
       const { vertices, triangles } = this.options.arrays[body];

@@ -6,11 +6,11 @@ export function addPlanPanel(element: HTMLElement): void {
   if (!place) return;
   const title = element.querySelector("h2");
   place.append(html("details", { name: "plan-panels", class: "fold", open: place.childElementCount === 0 },
-    html("summary", {}, title ?? ""), html("p", { class: "small blocked", role: "status" }), element));
+    html("summary", {}, title ?? ""), html("p", { class: "small must-wait", role: "status" }), element));
   place.dispatchEvent(new Event("filled", { bubbles: true }));
 }
 
-/// Of panels that change the joint one works at a time: the others say why they wait, in their place. Null: it works.
+/// Replaces a panel by the reason why it waits: only one panel changes the joint at a time. Null: it works.
 export function setBlocked(element: HTMLElement, why: string | null): void {
   element.hidden = why !== null;
   const said = element.previousElementSibling;

@@ -33,7 +33,7 @@ export function sentenceOf(motion: MotionAnswer, report: ReportText): string {
   return words.endsSentence(name, limitText(motion), againstNormal(motion, report), placeOf(motion, report));
 }
 
-/// What a limit lacks of the normal range or has beyond it; null for joints without normal ranges.
+/// How far a limit is short of the normal range or beyond it; null for joints without normal ranges.
 function againstNormal(motion: MotionAnswer, { rom }: ReportText): string | null {
   const { normal_range_deg: normal, limit_deg } = motion, lacks = deficitOf(motion);
   if (normal === null) return rom?.motions.some(({ normal_range_deg }) => normal_range_deg !== null) ? words.noNormal : null;

@@ -6,7 +6,7 @@ import { words } from "../words";
 import { figure } from "./figure";
 
 const width = 560, left = 52, right = 12, top = 4, bottom = 34;
-/// Of a plane and of a strip.
+/// Heights of a map and of a strip.
 const planeHeight = 126, stripHeight = 34;
 /// Cells at least so wide and high have their margins in them.
 const roomForNumber = { width: 24, height: 12 };
@@ -24,15 +24,15 @@ interface Axis {
   half: number;
 }
 
-/// Which designs of a sweep leave every target free: a cell for each that was computed, a line where values along the last parameter are
-/// known to; and a point at the values of the joint, which drags and moves by arrow keys.
+/// The designs of a sweep that leave every target free: a cell for each computed design, a line along the last parameter where values are
+/// known to be free, and a point at the values of the joint, which drags and moves by arrow keys.
 export class SweepMap {
   readonly element: HTMLElement;
   private readonly x: Axis;
   private readonly y: Axis | null;
   private readonly picture: SVGSVGElement;
   private readonly point = svg("g", { class: "cross" });
-  /// As the point itself says, in short.
+  /// The point's own text, shortened.
   private readonly said = html("p", { class: "small", "aria-hidden": "true" });
   private at: number[];
 
