@@ -86,7 +86,7 @@ test("a file whose columns the joint file maps plays with the numbers of condyle
   const made = await assertFrames(page, motion, joint, text);
   for (const frame of [0, 2, 1]) await assertShown(page, frame, made, text.coordinates);
   assert.equal(await page.locator("#user-notes").inputValue(), "kept");
-  assert.deepEqual(await page.locator(".scene-overlay").count(), 1);
+  assert.deepEqual(await page.locator("#scene .scene-overlay").count(), 1);
   // Limits stay those of the report, and a second file takes the place of the first.
   assert.equal(await page.locator(".result").count(), 4);
   const gap = written("with_gap.csv", "time,flexion,adduction,rotation\n0,1,2,3\n0.5,,2,3\n1,30,-4,0.1\n");
