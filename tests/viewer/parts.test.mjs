@@ -329,6 +329,16 @@ test("over one parameter the zone is a strip, and outside of it the joint has no
   await page.context().close();
 });
 
+test("notes of the sweep stand under the zone", async () => {
+  for (const { name } of zones) {
+    const { text } = readReport(pathOf(name)), { page } = await openedZone(name);
+    const shown = await page.getByRole("region", { name: "Safe zone", exact: true }).innerText();
+    for (const note of text.sweep.sweep_notes) assert.ok(shown.includes(`Note: ${note.text}.`), `${name}: ${note.text}`);
+    await page.context().close();
+  }
+  assert.ok(zones.some(({ name }) => readReport(pathOf(name)).text.sweep.sweep_notes.length > 0), "one has a note");
+});
+
 test("nothing of the zone scrolls on a window 900 pixels high", async () => {
   for (const { name } of zones) {
     const { page } = await openedZone(name);

@@ -1,10 +1,10 @@
 #include "io/report/sweep_block.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "answer/sweep_summary.hpp"
 #include "condyle/error.hpp"
 #include "io/report/report.hpp"
 
@@ -24,13 +24,8 @@ std::vector<std::uint8_t> least_of(const SweepAnswer& sweep) {
   std::vector<std::uint8_t> least;
   const std::size_t width = sweep.targets.size();
   for (std::size_t i = 0; i < sweep.designs(); ++i) {
-    const auto over = [&](std::size_t t) {
-      return sweep.limits[i * width + t].turned_deg - sweep.targets[t].reach.degrees();
-    };
-    std::size_t best = 0;
-    for (std::size_t t = 1; t < width; ++t)
-      if (over(t) < over(best)) best = t;
-    least.push_back(static_cast<std::uint8_t>(best));
+    const auto limits = std::span(sweep.limits).subspan(i * width, width);
+    least.push_back(static_cast<std::uint8_t>(answer::least_target(sweep.targets, limits)));
   }
   return least;
 }

@@ -4,6 +4,7 @@ import { button, html, section } from "../dom";
 import type { ReportText } from "../report";
 import { words } from "../words";
 import { NumberField } from "./angle_field";
+import { LiveEdit } from "./live_edit";
 import { LiveLimits, questionsOf } from "./live_limits";
 
 const farthest_mm = 5, step_mm = 0.5;
@@ -13,17 +14,23 @@ const axes = ["x", "y", "z"] as const;
 export class CentrePanel {
   readonly element: HTMLElement;
   private readonly limits: LiveLimits;
-  private readonly asked;
+  private readonly edit: LiveEdit;
   private readonly fields: NumberField[];
   private readonly refusal = html("p", { role: "status", class: "small" });
   private readonly offset: [number, number, number] = [0, 0, 0];
-  private isBusy = false;
-  private waits = false;
 
   /// `moved` whether the centre is elsewhere than in the report.
-  constructor(private readonly core: CoreClient, private readonly text: ReportText, private readonly moved: (isMoved: boolean) => void) {
-    this.asked = questionsOf(text);
-    const motions = this.asked.map(({ motion }) => motion);
+  constructor(core: CoreClient, text: ReportText, private readonly moved: (isMoved: boolean) => void) {
+    const asked = questionsOf(text), motions = asked.map(({ motion }) => motion);
+    this.edit = new LiveEdit(core, asked.map(({ question }) => question), {
+      edit: () => ({ of: "centre", offset_mm: [...this.offset], reference_deg: text.reference_deg }),
+      tables: () => [this.limits],
+      edited: () => undefined,
+      shown: (took_ms, rests) => {
+        if (rests) this.element.dataset["allAfter"] = took_ms.toFixed(1);
+      },
+      failed: (message) => (this.refusal.textContent = message),
+    });
     this.limits = new LiveLimits(words.centreLimits, words.centreChange, motions, motions, motions);
     this.fields = axes.map((axis, i) => new NumberField(
       words.centreAlong[axis], -farthest_mm, farthest_mm, step_mm, " mm", false, (mm) => this.move(i, mm), (why) => (this.refusal.textContent = why ?? "")));
@@ -67,34 +74,8 @@ export class CentrePanel {
     this.ask();
   }
 
-  /// One place is computed at a time; of those requested meanwhile only the latest.
   private ask(): void {
     this.moved(this.offset.some((mm) => mm !== 0));
-    this.waits = true;
-    if (!this.isBusy) this.send();
-  }
-
-  private send(): void {
-    const { asked, text } = this, begun = performance.now();
-    this.waits = false;
-    this.isBusy = true;
-    this.limits.wait();
-    const done = () => {
-      this.isBusy = false;
-      if (this.waits) this.send();
-    };
-    this.core.edit({ of: "centre", offset_mm: [...this.offset], reference_deg: text.reference_deg }, asked.map(({ question }) => question), {
-      edited: () => undefined,
-      limit: (i, limit) => {
-        this.limits.showLimit(i, limit);
-        if (i < asked.length - 1) return;
-        this.element.dataset["allAfter"] = (performance.now() - begun).toFixed(1);
-        done();
-      },
-      failed: (message) => {
-        this.refusal.textContent = message;
-        done();
-      },
-    });
+    this.edit.ask();
   }
 }

@@ -6,6 +6,7 @@ import type { ReportText, StoredPosed } from "../report";
 import { save, saveBlob } from "../save";
 import { bodyNames, type JointScene } from "../scene/scene";
 import { words } from "../words";
+import { LiveEdit } from "./live_edit";
 import { LiveLimits, questionsOf } from "./live_limits";
 import { ParameterRow } from "./parameter_row";
 import { SweepPanel, type ShownSweep } from "./sweep";
@@ -29,7 +30,7 @@ export interface PartsOptions {
 export class PartsPanel {
   readonly element: HTMLElement;
   private readonly limits: LiveLimits;
-  private readonly asked;
+  private readonly edit: LiveEdit;
   private readonly rows: ParameterRow[];
   private readonly said = html("p", { role: "status", class: "small" });
   private readonly option = html("input", { type: "text", readonly: true, class: "command", "aria-label": words.partsCommand });
@@ -39,13 +40,20 @@ export class PartsPanel {
   readonly sweep: SweepPanel | null;
   /// Where the bodies are now.
   private now: Turned | null = null;
-  private isBusy = false;
-  private waits = false;
 
   constructor(private readonly core: CoreClient, private readonly scene: JointScene | null, private readonly options: PartsOptions) {
     const { text, posed, sweep } = options;
-    this.asked = questionsOf(text);
-    const motions = this.asked.map(({ motion }) => motion);
+    const asked = questionsOf(text), motions = asked.map(({ motion }) => motion);
+    this.edit = new LiveEdit(core, asked.map(({ question }) => question), {
+      edit: () => ({ of: "parts", values: this.textOf(this.rows.filter(({ isTurned }) => isTurned)) }),
+      tables: () => this.tables,
+      edited: (turned, rests) => this.take(turned as Turned, rests),
+      shown: (took_ms, rests) => {
+        this.took.textContent = words.tookAll(took_ms.toFixed(0));
+        if (rests) this.element.dataset["allAfter"] = took_ms.toFixed(1);
+      },
+      failed: (message) => (this.said.textContent = message),
+    });
     this.limits = new LiveLimits(words.partsLimits, words.gained, motions, motions, motions, "");
     this.sweep = sweep && new SweepPanel(sweep, motions, (values) => this.set(values));
     this.rows = posed.parts.flatMap((part) => part.parameters.map((parameter) =>
@@ -99,42 +107,15 @@ export class PartsPanel {
     this.option.value = differing.length ? `--set "${this.textOf(differing)}"` : words.partsAsInFile;
   }
 
-  /// One set of values is under way at a time; of those meanwhile only the latest is looked at.
   private ask(): void {
     this.showValues();
     this.options.turned(this.rows.some(({ isTurned }) => isTurned));
-    this.waits = true;
-    if (!this.isBusy) this.send();
+    this.edit.ask();
   }
 
-  private send(): void {
-    const { asked } = this, begun = performance.now();
-    this.waits = false;
-    this.isBusy = true;
-    for (const table of this.tables) table.wait();
-    const done = () => {
-      this.isBusy = false;
-      if (this.waits) this.send();
-    };
-    this.core.edit({ of: "parts", values: this.textOf(this.rows.filter(({ isTurned }) => isTurned)) }, asked.map(({ question }) => question), {
-      edited: (turned) => this.take(turned as Turned),
-      limit: (i, limit) => {
-        for (const table of this.tables) table.showLimit(i, limit);
-        if (i < asked.length - 1) return;
-        this.took.textContent = words.tookAll((performance.now() - begun).toFixed(0));
-        if (!this.waits) this.element.dataset["allAfter"] = (performance.now() - begun).toFixed(1);
-        done();
-      },
-      failed: (message) => {
-        this.said.textContent = message;
-        done();
-      },
-    });
-  }
-
-  private take(turned: Turned): void {
+  private take(turned: Turned, rests: boolean): void {
     this.now = turned;
-    this.options.changed(turned, !this.waits);
+    this.options.changed(turned, rests);
     this.showGhosts();
   }
 

@@ -22,7 +22,7 @@ export class SweepPanel {
     const { stored, margins, least } = sweep;
     this.limits = new LiveLimits(words.sweepLimits, words.gained, motions, motions, motions, "");
     this.map = new SweepMap(stored, margins, least, (values) => moved(new Map(stored.parameters.map(({ name }, i) => [name, values[i]!]))));
-    this.element = section(words.sweep, this.map.element, this.limits.element, html("p", { class: "small" }, words.sweepNote));
+    this.element = section(words.sweep, this.map.element, this.limits.element, html("p", { class: "small" }, words.sweepNote, ...stored.sweep_notes.map(({ text }) => ` ${words.sweepNoted(text)}`)));
     this.element.classList.add("edit-panel");
   }
 

@@ -7,7 +7,7 @@ import { figure } from "./figure";
 
 const width = 560, left = 52, right = 12, top = 4, bottom = 34;
 /// Heights of a map and of a strip.
-const planeHeight = 126, stripHeight = 34;
+const planeHeight = 112, stripHeight = 34;
 /// Cells at least so wide and high have their margins in them.
 const roomForNumber = { width: 24, height: 12 };
 
