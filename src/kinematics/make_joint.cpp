@@ -2,12 +2,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "condyle/error.hpp"
+#include "core/composed.hpp"
 #include "core/coordinate_range.hpp"
+#include "core/extended.hpp"
 #include "core/formatted.hpp"
 #include "core/rounded.hpp"
 #include "kinematics/cut_parts.hpp"
@@ -37,20 +40,28 @@ void check_units(const Body& fixed, const LikelyUnit& of_fixed, const Body& mobi
                      mobile.name + " like " + name_of(*of_mobile.unit) + ": give both in one unit");
 }
 
+/// X_AW X_WB in extended precision, row by row without the last one.
+std::array<core::Extended, 12> wide_product(const Pose& X_AW, const Pose& X_WB) {
+  const auto element = [&](int i, int k) {
+    const auto product = [&](int j) { return core::Extended(X_AW(i, j)) * core::Extended(X_WB(j, k)); };
+    return (product(0) + product(1)) + (product(2) + product(3));
+  };
+  return {element(0, 0), element(0, 1), element(0, 2), element(0, 3), element(1, 0), element(1, 1),
+          element(1, 2), element(1, 3), element(2, 0), element(2, 1), element(2, 2), element(2, 3)};
+}
+
 /// X_AW X_WB * (scale p) in extended precision, rounded once per coordinate; untouched where nothing is to be done.
 Mesh placed(const Pose& X_AW, const Pose& X_WB, double scale, const Body& body) {
-  const auto wide = [](const Pose& X) -> Eigen::Matrix<long double, 4, 4> {
-    return X.matrix().cast<long double>();
-  };
-  const Eigen::Matrix<long double, 4, 4> m = wide(X_AW) * wide(X_WB);
-  if (scale == 1 && m == wide(Pose::Identity())) return body.mesh;
+  using core::Extended;
+  const std::array<Extended, 12> m = wide_product(X_AW, X_WB);
+  if (scale == 1 && m == wide_product(Pose::Identity(), Pose::Identity())) return body.mesh;
   Points points = body.mesh.vertices();
   for (std::size_t v = 0; v < points.size(); ++v) {
-    const long double x = scale * static_cast<long double>(points.x[v]);
-    const long double y = scale * static_cast<long double>(points.y[v]);
-    const long double z = scale * static_cast<long double>(points.z[v]);
-    const auto row = [&](int i) {
-      return static_cast<double>(m(i, 0) * x + m(i, 1) * y + m(i, 2) * z + m(i, 3));
+    const Extended x = Extended(scale) * Extended(points.x[v]);
+    const Extended y = Extended(scale) * Extended(points.y[v]);
+    const Extended z = Extended(scale) * Extended(points.z[v]);
+    const auto row = [&](std::size_t i) {
+      return static_cast<double>(m[4 * i] * x + m[4 * i + 1] * y + m[4 * i + 2] * z + m[4 * i + 3]);
     };
     const Vec3 p(row(0), row(1), row(2));
     if (!(p.cwiseAbs().maxCoeff() <= core::largest_coordinate))
@@ -74,7 +85,7 @@ std::optional<BodyImage> placed_image(const Pose& X_AB, const std::optional<Body
 
 std::optional<Sphere> placed_head(const Pose& X_AB, const std::optional<Sphere>& head) {
   if (!head) return std::nullopt;
-  return Sphere{X_AB * head->centre, head->radius};
+  return Sphere{posed(X_AB, head->centre), head->radius};
 }
 
 /// The axes about a centre, from directions or landmarks.
@@ -220,9 +231,9 @@ std::vector<std::string> processing_of(const JointPlacement& placement) {
 Pose mobile_frame(const JointDescription& description, const Pose& X_FW, JointPlacement& placement) {
   if (!description.frame.mobile_axes) {
     placement.reference_pose = description.reference_pose;
-    return inverted(pose_at(description.coordinates(), description.reference_pose,
-                            description.translation_frame)) *
-           X_FW;
+    return core::composed(inverted(pose_at(description.coordinates(), description.reference_pose,
+                                           description.translation_frame)),
+                          X_FW);
   }
   if (description.kind == JointKind::hinge)
     throw UsageError("frame: a hinge takes the landmarks of one body");
@@ -233,7 +244,7 @@ Pose mobile_frame(const JointDescription& description, const Pose& X_FW, JointPl
   try {
     const Pose X_WM =
         frame_from_landmarks(placement.X_WF.translation(), description.side, *description.frame.mobile_axes);
-    placement.reference_pose.angles = angles_at(description.coordinates(), X_FW * X_WM);
+    placement.reference_pose.angles = angles_at(description.coordinates(), core::composed(X_FW, X_WM));
     placement.pose_from_landmarks = true;
     return inverted(X_WM);
   } catch (const UsageError& error) {
@@ -247,8 +258,8 @@ std::vector<PosedPart> placed_parts(const JointDescription& description, const P
   for (const auto& [described, centre_in_W] : description.parts) {
     PosedPart part = described;
     const Pose& X_BW = part.body == BodyRole::fixed ? X_FW : X_MW;
-    part.centre = centre_in_W ? X_BW * *centre_in_W : Vec3::Zero();
-    for (CutPlane& plane : part.cut) plane = {X_BW * plane.point, X_BW.linear() * plane.normal};
+    part.centre = centre_in_W ? posed(X_BW, *centre_in_W) : Vec3::Zero();
+    for (CutPlane& plane : part.cut) plane = {posed(X_BW, plane.point), X_BW.linear() * plane.normal};
     for (PartParameter& parameter : part.parameters) parameter.described = parameter.value;
     parts.push_back(std::move(part));
   }
@@ -281,10 +292,10 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
   const double scale = scale_of(description.units);
   fixed.mesh = placed(X_FW, description.fixed_in_W, scale, fixed);
   mobile.mesh = placed(X_MW, description.mobile_in_W, scale, mobile);
-  fixed.image = placed_image(X_FW * description.fixed_in_W, fixed.image);
-  mobile.image = placed_image(X_MW * description.mobile_in_W, mobile.image);
-  fixed.head = placed_head(X_FW * description.fixed_in_W, fixed.head);
-  mobile.head = placed_head(X_MW * description.mobile_in_W, mobile.head);
+  fixed.image = placed_image(core::composed(X_FW, description.fixed_in_W), fixed.image);
+  mobile.image = placed_image(core::composed(X_MW, description.mobile_in_W), mobile.image);
+  fixed.head = placed_head(core::composed(X_FW, description.fixed_in_W), fixed.head);
+  mobile.head = placed_head(core::composed(X_MW, description.mobile_in_W), mobile.head);
   std::vector<PosedPart> parts = placed_parts(description, X_FW, X_MW);
   const kinematics::CutParts cut = kinematics::cut_parts(parts, fixed, mobile);
   kinematics::check_parts(parts, fixed, mobile);

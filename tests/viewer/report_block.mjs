@@ -9,7 +9,11 @@ const types = { f64: Float64Array, u32: Uint32Array, i16: Int16Array, u8: Uint8A
 
 /// The JSON of a report, and its arrays by name.
 export function readReport(path) {
-  const block = inflateSync(Buffer.from(dataElement.exec(readFileSync(path, "utf8"))[2], "base64"));
+  return readBlock(inflateSync(Buffer.from(dataElement.exec(readFileSync(path, "utf8"))[2], "base64")));
+}
+
+/// The same of a block that is not compressed.
+export function readBlock(block) {
   const end = 16 + block.readUInt32LE(12);
   const text = JSON.parse(block.subarray(16, end));
   const array = (name) => {

@@ -1,6 +1,6 @@
 import { CoreClient } from "./core/client";
 import { lineOf } from "./core/error_line";
-import type { BothValues, Brushed, Coordinates, JointArrays, MapQuestion, MotionFrames, Proposal, Query, ShownQuantity, Turned, Values } from "./core/protocol";
+import type { BothValues, Brushed, Coordinates, JointArrays, MapQuestion, MotionFrames, NamedFile, Proposal, Query, ShownQuantity, Turned, Values } from "./core/protocol";
 import { button, checkbox, choice, fold, html, named, section, shortened, spaced } from "./dom";
 import { jointArraysOf } from "./joint_arrays";
 import { clearMessages, post, warn } from "./messages";
@@ -10,7 +10,7 @@ import { keepPage, notesBlock, pageWith } from "./page_copy";
 import { Clearance } from "./panels/clearance";
 import { ComparePanel } from "./panels/compare";
 import { DisplayPanel } from "./panels/display";
-import { DropPanel } from "./panels/drop";
+import { DropPanel, isJointFile } from "./panels/drop";
 import { addEditPanels } from "./panels/edits";
 import { figuresPanel } from "./panels/figures";
 import { FreeAngles } from "./panels/free_angles";
@@ -70,10 +70,12 @@ function sceneOf(arrays: JointArrays, parts: ReportText["parts"], label: string)
   }
 }
 
-/// Content that no report holds: its user's notes, and the motion of a dropped file.
+/// Content that no report holds: its user's notes, and the motion of a dropped file. A joint of dropped files takes no notes: no copy of the
+/// page would have it.
 interface Added {
   notes?: UserNotes | undefined;
   motion?: RecordedMotion;
+  isDropped?: boolean;
 }
 
 /// The page of one report.
@@ -137,7 +139,7 @@ class Page {
       this.display.element.append(this.zones.element);
     }
     this.placeViewTools(names);
-    this.notes = report && new NotesPanel(this.scene, names, arrays, added.notes ?? { text: "", pins: [] }, () => this.putNotesOnPaper());
+    this.notes = report && !added.isDropped ? new NotesPanel(this.scene, names, arrays, added.notes ?? { text: "", pins: [] }, () => this.putNotesOnPaper()) : null;
     const shape = text.measures ? shapePanel(text.measures, this.scene) : null;
     const compared = report && text.before ? new ComparePanel(this.scene, report, text.before, () => this.rememberView()) : null;
     if (compared) this.display.remember("before", compared.box, (on) => compared.show(on));
@@ -250,11 +252,10 @@ class Page {
   }
 
   /// The user's notes and the address of the present view, for the page that takes this one's place.
-  handOver(): UserNotes {
+  handOver(): UserNotes | undefined {
     this.writeView();
-    const { notes } = this.notes!;
     this.close();
-    return notes;
+    return this.notes?.notes;
   }
 
   /// The curves, and the joint in the first frame.
@@ -661,30 +662,71 @@ function openEmpty(shown: () => void = () => undefined): DropPanel | undefined {
   if (!canCompute) return void warn(words.noWebAssemblyToRead);
   found("title").textContent = words.noData;
   found("scene").append(html("p", { class: "drop-hint" }, words.dropHint));
+  const drops = new AbortController();
   const warnOnly = (message: string) => {
     clearMessages();
     warn(message);
   };
-  const refuse = (error: unknown) => warnOnly(isCoreDamage(error) ? words.coreDamagedToRead : lineOf(error));
-  const show = (core: CoreClient, proposal: Proposal) => {
+  const refuse = (error: unknown) => warnOnly(reasonOf(error));
+  const leave = () => {
     clearMessages();
     panel.element.remove();
     found("scene").replaceChildren();
+  };
+  const show = (core: CoreClient, proposal: Proposal) => {
+    leave();
     new Page(textOfProposal(proposal), proposal.joint, null, true).compute(core);
     shown();
   };
-  const panel = new DropPanel(async (fixedFile, mobileFile, side) => {
+  const attempt = async (work: () => Promise<void>) => {
     try {
-      const { core, proposal } = await CoreClient.propose(await wasmBytes(), fixedFile, mobileFile, side);
-      show(core, proposal);
+      await work();
       return true;
     } catch (error) {
       refuse(error);
       return false;
     }
-  }, new LabelDrop(wasmBytes, show, refuse), warnOnly);
+  };
+  const panel = new DropPanel({
+    signal: drops.signal, labels: new LabelDrop(wasmBytes, show, refuse), refuse: warnOnly,
+    meshes: (fixedFile, mobileFile, side) => attempt(async () => {
+      const { core, proposal } = await CoreClient.propose(await wasmBytes(), fixedFile, mobileFile, side);
+      show(core, proposal);
+    }),
+    jointFile: (files) => attempt(async () => {
+      const report = await readJoint(files);
+      drops.abort();
+      leave();
+      await showDropped(report);
+      shown();
+    }),
+  });
   found("side").append(panel.element);
   return panel;
+}
+
+/// Reason why files were not taken, in a line.
+function reasonOf(error: unknown): string {
+  return isCoreDamage(error) ? words.coreDamagedToRead : lineOf(error);
+}
+
+/// The joint of a joint file and its meshes. Rejects with the line of a file that is not taken.
+async function readJoint(files: readonly NamedFile[]): Promise<Report> {
+  const [joint, other] = files.filter(({ path }) => isJointFile(path));
+  if (other) throw new Error(words.dropOneJoint(named(joint!.path), named(other.path)));
+  const paths = new Set<string>();
+  for (const { path } of files) {
+    if (paths.has(path)) throw new Error(words.dropSameName(named(path)));
+    paths.add(path);
+  }
+  return Report.of(await CoreClient.blockOfJoint(await wasmBytes(), joint!, files));
+}
+
+/// The joint of dropped files, with what the page leaves to the command.
+async function showDropped(report: Report): Promise<void> {
+  await show(report, true);
+  const lines = [...(hasReport() ? [words.notTheReport] : []), ...(report.text.only_in_reports ?? []).map((table) => words.onlyInReports[table])];
+  if (lines.length) post("status", lines.join(" "));
 }
 
 /// The notes of a saved copy; null for a page that is not a copy. It opens with the view it was saved with, unless the address gives another.
@@ -703,6 +745,11 @@ function copiedWith({ fixed, mobile }: JointArrays): Copied | null {
 
 const canCompute = typeof WebAssembly !== "undefined";
 
+/// Whether the file of this page is a report; else it is the page without a joint.
+function hasReport(): boolean {
+  return textOf("condyle-data") !== null;
+}
+
 async function open(): Promise<void> {
   keepPage();
   found("unfinished").remove();
@@ -710,24 +757,41 @@ async function open(): Promise<void> {
   found("scope").textContent = words.footer;
   const data = textOf("condyle-data");
   if (data === null) return void openEmpty();
-  const report = await Report.read(data);
-  const arrays = jointArraysOf(report), copied = copiedWith(arrays);
-  const newPage = (computes: boolean, added: Added) => new Page(report.text, arrays, report, computes, added);
+  await show(await Report.read(data), false);
+}
+
+/// The joint of a report, which takes the place of another page that was closed.
+async function show(report: Report, isDropped: boolean): Promise<void> {
+  const arrays = jointArraysOf(report), copied = isDropped ? null : copiedWith(arrays);
+  const newPage = (computes: boolean, added: Added) => new Page(report.text, arrays, report, computes, { ...added, isDropped });
   let page = newPage(canCompute, { notes: copied ?? undefined });
   if (copied) page.sayIsCopy(copied);
   const compute = async () => page.compute(await CoreClient.open(await wasmBytes(), structuredClone(arrays)));
   const drops = new AbortController();
+  const leave = () => {
+    drops.abort();
+    page.close();
+    leaveReport();
+  };
   takeDrops({
-    signal: drops.signal, computes: canCompute, read: (file) => page.readMotion(file),
+    signal: drops.signal, computes: canCompute, read: (file) => page.readMotion(file), isReport: !isDropped,
     play: async (motion) => {
       page = newPage(true, { notes: page.handOver(), motion });
       await compute();
       page.playFromStart();
     },
     replace: (files) => {
-      drops.abort();
-      page.close();
-      replaceReport(files);
+      leave();
+      void openEmpty(hasReport() ? () => post("status", words.notTheReport) : undefined)?.add(files);
+    },
+    readJoint: async (files) => {
+      const dropped = await readJoint(files).catch((error: unknown) => {
+        throw new Error(reasonOf(error));
+      });
+      return () => {
+        leave();
+        return showDropped(dropped);
+      };
     },
   });
   if (!canCompute) return page.useStoredPoses(words.noWebAssembly);
@@ -739,13 +803,11 @@ async function open(): Promise<void> {
   }
 }
 
-/// As on the page without a joint. The line in the foot stays.
-function replaceReport(files: File[]): void {
-  // Another joint has another view.
+/// Another joint has another view. The line in the foot stays.
+function leaveReport(): void {
   history.replaceState(null, "", "#");
   clearMessages();
-  found("scope").textContent = `${words.footer} ${words.notTheReport}`;
-  void openEmpty(() => post("status", words.notTheReport))?.add(files);
+  if (hasReport()) found("scope").textContent = `${words.footer} ${words.notTheReport}`;
 }
 
 open().catch((error: unknown) => {

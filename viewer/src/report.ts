@@ -373,6 +373,8 @@ export interface ReportText {
   /// Present for a joint with parts that turn.
   posed?: StoredPosed | null;
   sweep?: StoredSweep | null;
+  /// Set for a joint file that was read in this page: its tables whose answers take the command.
+  only_in_reports?: "contact"[];
 }
 
 const headBytes = 16;
@@ -411,6 +413,11 @@ export class Report {
     } catch {
       throw new ReportError(words.damaged + words.notCompressed);
     }
+    return Report.of(block);
+  }
+
+  /// The same of a block that is not compressed.
+  static of(block: ArrayBuffer): Report {
     const bytes = new Uint8Array(block);
     if (bytes.length < headBytes || new TextDecoder().decode(bytes.subarray(0, magic.length)) !== magic)
       throw new ReportError(words.damaged + words.wrongMagic);

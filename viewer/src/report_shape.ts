@@ -171,7 +171,7 @@ const report = object({
     curves: list(object({ name: text, unit: text, values: text })),
   })),
   recorded_motion: ifThere(object({ by: oneOf("columns", "poses", "model") })), measures: orNull(measures), plan: orNull(plan),
-  before: ifThere(orNull(before)), posed: ifThere(orNull(posed)), sweep: ifThere(orNull(sweep)),
+  before: ifThere(orNull(before)), posed: ifThere(orNull(posed)), sweep: ifThere(orNull(sweep)), only_in_reports: ifThere(list(oneOf("contact"))),
 });
 
 /// The text of a block with every key that the page reads; throws ReportError that names the first wrong one.

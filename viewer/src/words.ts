@@ -102,15 +102,15 @@ export const words = {
   planDetails: "Limits and notes of the plan",
   measures: "Measures of the hip",
   dropOnReport:
-    "This page shows a joint and reads a motion file for it (.mot, .sto, .csv), or meshes or label maps of another hip. For a joint file, make a page: " +
-    "condyle report JOINT.",
-  replaceReport: (names: string) => `${names}: opened, they take the place of the joint of this report, and notes that were not saved go. The page reloaded has the report again.`,
+    "This page shows a joint and reads a motion file for it (.mot, .sto, .csv), or another joint: a joint file (.toml) with its meshes, or meshes or label maps " +
+    "of a hip.",
+  replaceJoint: (names: string) => `${names}: opened, the joint takes the place of this one, and notes that were not saved go. The page reloaded is as its file has it.`,
   replaceReportButton: "Open in its place",
   notTheReport: "What is shown is no longer the report of this file, but the joint of files that were dropped: reload the page to have the report back.",
   dropNeedsCore: (name: string) => `${name}: this page cannot compute, and so reads no motion files.`,
-  motionPlays: (name: string, count: number) =>
-    `The dropped file ${name} plays on this joint: ${count} ${count === 1 ? "frame" : "frames"}. It is not part of the report: reload the page to return to that; ` +
-    "contact over time is for condyle report --motion.",
+  motionPlays: (name: string, count: number, ofReport: boolean) =>
+    `The dropped file ${name} plays on this joint: ${count} ${count === 1 ? "frame" : "frames"}. ` +
+    (ofReport ? "It is not part of the report: reload the page to return to that; contact" : "Contact") + " over time is for condyle report --motion.",
   coreDamaged:
     "The computing part of this file is damaged: the page shows only the poses stored in it. Make the report again.",
   coreDamagedToRead: "The computing part of this file is damaged: the page cannot read files. Make the page again.",
@@ -414,16 +414,20 @@ export const words = {
 
   drop: "Drop your own",
   dropHere:
-    "Drop the meshes of a hip here, or choose them: the hip bone first, or a file named femur (STL, OBJ, PLY, VTP, VTK). Or a label map with " +
-    "both bones, or a mask of each (.nii, .nii.gz, .nrrd, .mha). They stay on this computer.",
+    "Drop a joint file (.toml) here with its meshes, or the folder with all of them. Or the meshes of a hip: the hip bone first, or a file named femur " +
+    "(STL, OBJ, PLY, VTP, VTK). Or a label map with both bones, or a mask of each (.nii, .nii.gz, .nrrd, .mha). They stay on this computer.",
   dropSide: "Side",
   dropSides: { automatic: "automatic", right: "right", left: "left" },
   dropSecond: (name: string) => `${name} is the fixed bone; now add the mobile one.`,
-  dropHint: "Drop the meshes of a hip on this page, or a label map",
+  dropHint: "Drop the meshes of a hip on this page, a label map, or a joint file with its meshes",
   dropTwo: "A joint has two meshes: drop both together, or one after the other.",
   dropBusy: "The page is still reading the files dropped before.",
   dropDone: "This page shows the joint of the files dropped first: reload it before dropping others.",
   dropMixed: "A joint needs two meshes or label maps, not one of each: drop both bones in one form.",
+  dropOneJoint: (one: string, other: string) => `Two joint files were dropped, ${one} and ${other}: drop one with its meshes.`,
+  dropSameName: (name: string) => `Two files named ${name} were dropped: drop the folder that has both, so that their paths distinguish them.`,
+  dropManyFiles: (most: number) => `The folder has more than ${most} files: drop one that holds a joint file and its meshes.`,
+  onlyInReports: { contact: "Pressure by the table [contact] of the joint file is for condyle report --load." },
   reading: (name: string) => `Reading ${name}…`,
   surfaceOf: (label: string) => `Surface of ${label}…`,
   theMask: "the mask",

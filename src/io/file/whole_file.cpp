@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "condyle/error.hpp"
+#include "core/one_line.hpp"
 #include "io/file/replaced_files.hpp"
 
 namespace condyle::io {
@@ -35,6 +36,12 @@ std::filesystem::path temporary_name_beside(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+std::string why_no_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored)) return {};
+  return "there is no file " + core::one_line(path.string(), 300);
+}
 
 void check_is_file(const std::filesystem::path& path) {
   std::error_code error;

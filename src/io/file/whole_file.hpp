@@ -6,6 +6,9 @@
 
 namespace condyle::io {
 
+/// "there is no file PATH", on one line; empty if there is something of that name.
+std::string why_no_file(const std::filesystem::path& path);
+
 /// Raises FileError for a file that is missing, a folder, or something else that is not a regular file.
 void check_is_file(const std::filesystem::path& path);
 

@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
+#include <optional>
 #include <string>
 
+#include "io/file/environment.hpp"
 #include "io/file/in_quotes.hpp"
 
 namespace condyle::io {
@@ -18,9 +19,9 @@ std::filesystem::path mesh_path(const TomlTable& table, std::string_view key, st
     const std::size_t end = text.find('}', begin);
     if (end == text.npos) table.fail(key, "has ${ without }");
     const std::string name(text.substr(begin + 2, end - begin - 2));
-    const char* value = std::getenv(name.c_str());
+    const std::optional<std::string> value = environment_variable(name);
     if (!value) table.fail(key, fmt::format("the environment variable {} is not set", in_quotes(name)));
-    out += value;
+    out += *value;
     at = end + 1;
   }
   if (out.empty()) table.fail(key, "must name a file");

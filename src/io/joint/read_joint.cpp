@@ -7,7 +7,6 @@
 #include "condyle/implant.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "core/one_line.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/joint/append_mesh.hpp"
 #include "io/joint/load_joint.hpp"
@@ -32,10 +31,8 @@ struct LoadedBody {
 /// `key` and the joint file are named where the mesh cannot be opened: it may be the key that is wrong.
 void check_mesh_exists(const MeshEntry& entry, const std::string& key,
                        const std::filesystem::path& joint_file) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(entry.mesh, ignored))
-    throw FileError(fmt::format("{}: {}.mesh: there is no file {}", joint_file.string(), key,
-                                core::one_line(entry.mesh.string(), 300)));
+  if (const std::string why = io::why_no_file(entry.mesh); !why.empty())
+    throw FileError(fmt::format("{}: {}.mesh: {}", joint_file.string(), key, why));
 }
 
 /// Into the body's frame. A mirrored mesh has its triangles turned round, so that it keeps its inside.

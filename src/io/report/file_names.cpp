@@ -11,7 +11,7 @@ namespace {
 constexpr std::array<std::string_view, 4> with_text = {"--title", "--case", "--note", "--date"};
 
 bool is_text_option(std::string_view word) {
-  return std::ranges::find(with_text, word.substr(0, word.find('='))) != with_text.end();
+  return std::find(with_text.begin(), with_text.end(), word.substr(0, word.find('='))) != with_text.end();
 }
 
 /// "--out=folder/hip.html" becomes "--out=hip.html".

@@ -1,6 +1,6 @@
 import type {
   BoneChoice, BothValues, Brushed, Coordinates, Depth, DroppedFile, Edit, FromWorker, SideChoice, JointArrays, LabelMap, LimitQuestion, LiveLimit,
-  MapQuestion, Proposal, Quantity, Query, QueryAnswer, Shown, ToWorker, Turned,
+  MapQuestion, NamedFile, Proposal, Quantity, Query, QueryAnswer, Shown, ToWorker, Turned,
 } from "./protocol";
 
 declare const workerSource: string;
@@ -57,6 +57,15 @@ export class CoreClient {
     const answer = await core.first({ type: "propose", wasm, fixed, mobile, side }, [wasm]);
     if (answer.type !== "proposed") throw new Error(answer.type);
     return { core, proposal: answer.proposal };
+  }
+
+  /// The data block of a joint file and of what was dropped with it, read in a worker that ends with it.
+  static async blockOfJoint(wasm: ArrayBuffer, joint: NamedFile, files: readonly NamedFile[]): Promise<ArrayBuffer> {
+    const core = new CoreClient();
+    const answer = await core.first({ type: "jointFile", wasm, joint, files }, [wasm]);
+    core.close();
+    if (answer.type !== "block") throw new Error(answer.type);
+    return answer.block;
   }
 
   /// A label map, read in a worker of its own; further ones are read there by readLabels().
@@ -204,6 +213,7 @@ export class CoreClient {
         return;
       case "ready":
       case "proposed":
+      case "block":
       case "labels":
       case "step":
         return;

@@ -235,6 +235,12 @@ export interface DroppedFile {
   bytes: ArrayBuffer;
 }
 
+/// A file of a drop, not read yet, and its path in the folder that was dropped, or its name.
+export interface NamedFile {
+  path: string;
+  file: File;
+}
+
 /// The side of the joint of two files: inferred from their bones, or given.
 export type SideChoice = "automatic" | "right" | "left";
 
@@ -271,6 +277,7 @@ export type ToWorker =
   | { type: "labels"; wasm: ArrayBuffer | null; file: DroppedFile }
   | { type: "join"; fixed: BoneChoice; mobile: BoneChoice; side: SideChoice }
   | { type: "propose"; wasm: ArrayBuffer; fixed: DroppedFile; mobile: DroppedFile; side: SideChoice }
+  | { type: "jointFile"; wasm: ArrayBuffer; joint: NamedFile; files: readonly NamedFile[] }
   | { type: "open"; wasm: ArrayBuffer; joint: JointArrays }
   | { type: "pose"; id: number; at: Coordinates; quantity: Quantity; ranges: [number, number][] | null }
   | { type: "query"; id: number; query: Query }
@@ -282,6 +289,8 @@ export type ToWorker =
 export type FromWorker =
   | { type: "ready" }
   | { type: "proposed"; proposal: Proposal }
+  /// As a report has it.
+  | { type: "block"; block: ArrayBuffer }
   | { type: "labels"; map: LabelMap }
   /// The surface of this label is next, or, if it is null, the joint.
   | { type: "step"; label: string | null }

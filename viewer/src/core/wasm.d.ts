@@ -65,6 +65,11 @@ declare module "page-core" {
     _condyle_free_bone(bone: number): void;
     _condyle_bone_name(bone: number): number;
     _condyle_motion(joint: number, name: number, bytes: number, count: number, columns: number): number;
+    _condyle_drop_file(path: number): number;
+    _condyle_fill_file(path: number, bytes: number, count: number): number;
+    _condyle_joint_meshes(path: number, bytes: number, count: number): number;
+    _condyle_joint_block(): number;
+    _condyle_joint_block_bytes(): number;
     _condyle_join(fixed: number, mobile: number, side: number): number;
   }
   const pageCore: (options: { wasmBinary: ArrayBuffer; zlib: object }) => Promise<PageCore>;

@@ -1,5 +1,6 @@
 import { lineOf } from "./error_line";
 import { CoreJoint } from "./joint";
+import { blockOfJoint } from "./joint_file";
 import { CoreLabels } from "./labels";
 import type { Edit, FromWorker, LimitQuestion, MapQuestion, Quantity, Query, QueryAnswer, ToWorker } from "./protocol";
 
@@ -134,6 +135,12 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
         const opened = await CoreJoint.propose(data.wasm, data.fixed, data.mobile, data.side);
         joint = opened.joint;
         say({ type: "proposed", proposal: opened.proposal });
+      });
+      return;
+    case "jointFile":
+      void attempt(async () => {
+        const block = await blockOfJoint(data.wasm, data.joint, data.files);
+        say({ type: "block", block }, [block]);
       });
       return;
     case "labels":

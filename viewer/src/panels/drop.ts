@@ -1,14 +1,32 @@
 import { choice, html, named, section } from "../dom";
-import type { DroppedFile, SideChoice } from "../core/protocol";
+import type { DroppedFile, NamedFile, SideChoice } from "../core/protocol";
 import { words } from "../words";
 import { isLabelMap, type LabelDrop } from "./label_drop";
+import { catchDrops, withNames } from "./page_drop";
+
+/// Whether a file of this name is a joint file.
+export function isJointFile(name: string): boolean {
+  return /\.toml$/i.test(name);
+}
 
 /// Whether a file of this name is a mesh.
 export function isMesh(name: string): boolean {
   return /\.(stl|obj|ply|vtp|vtk)$/i.test(name);
 }
 
-/// Where files are dropped or chosen: two meshes, the fixed bone first if they come one by one, or label maps.
+/// Which joint the page makes of files.
+export interface DropTaker {
+  signal: AbortSignal;
+  /// Two meshes; returns whether they made a joint.
+  meshes: (fixed: DroppedFile, mobile: DroppedFile, side: SideChoice) => Promise<boolean>;
+  /// The same of a joint file and its meshes.
+  jointFile: (files: NamedFile[]) => Promise<boolean>;
+  labels: LabelDrop;
+  /// The reason why files are not taken.
+  refuse: (why: string) => void;
+}
+
+/// Where files are dropped or chosen: a joint file with its meshes, two meshes, the fixed bone first if they come one by one, or label maps.
 export class DropPanel {
   readonly element: HTMLElement;
   private readonly progress = html("p", { "aria-live": "polite", id: "drop-progress" });
@@ -17,12 +35,10 @@ export class DropPanel {
   /// One pair is read at a time; once a pair makes a joint, the page shows it.
   private state: "open" | "busy" | "done" = "open";
 
-  /// `take` returns whether two meshes made a joint; `refuse` is called with the reason why files are not taken.
-  constructor(
-    private readonly take: (fixed: DroppedFile, mobile: DroppedFile, side: SideChoice) => Promise<boolean>,
-    private readonly labels: LabelDrop, private readonly refuse: (why: string) => void) {
+  constructor(private readonly taker: DropTaker) {
+    const { labels } = taker;
     const input = html("input", {
-      type: "file", multiple: true, accept: ".stl,.obj,.ply,.vtp,.vtk,.nii,.gz,.nrrd,.mha", id: "files",
+      type: "file", multiple: true, accept: ".toml,.stl,.obj,.ply,.vtp,.vtk,.nii,.gz,.nrrd,.mha", id: "files",
     });
     this.element = section(
       words.drop, html("p", {}, html("label", { for: "files" }, words.dropHere)), input,
@@ -31,31 +47,40 @@ export class DropPanel {
       side: () => this.side, progress: (said) => (this.progress.textContent = said), busy: (state) => (this.state = state),
     });
     input.addEventListener("change", () => {
-      const files = [...(input.files ?? [])];
+      const files = withNames(input.files ?? []);
       // The same file can be chosen again after a repair.
       input.value = "";
       void this.add(files);
     });
-    document.addEventListener("dragover", (event) => event.preventDefault());
-    document.addEventListener("drop", (event) => {
-      event.preventDefault();
-      void this.add([...(event.dataTransfer?.files ?? [])]);
-    });
+    catchDrops((files) => void this.add(files), taker.signal);
   }
 
   /// As if they were dropped.
-  async add(files: readonly File[]): Promise<void> {
-    if (files.length === 0) return;
-    if (this.state !== "open") return this.refuse(this.state === "busy" ? words.dropBusy : words.dropDone);
+  async add(dropped: NamedFile[]): Promise<void> {
+    if (dropped.length === 0) return;
+    const { labels, refuse } = this.taker;
+    if (this.state !== "open") return refuse(this.state === "busy" ? words.dropBusy : words.dropDone);
+    if (dropped.some(({ path }) => isJointFile(path))) return this.addJointFile(dropped);
+    const files = dropped.map(({ file }) => file);
     const maps = files.filter(({ name }) => isLabelMap(name));
     if (maps.length > 0) {
       const hasMeshes = maps.length < files.length || this.waiting.length > 0;
       this.waiting = [];
-      return hasMeshes ? this.refuse(words.dropMixed) : this.labels.add(maps);
+      return hasMeshes ? refuse(words.dropMixed) : labels.add(maps);
     }
-    const { isWaiting } = this.labels;
-    this.labels.reset();
-    return isWaiting ? this.refuse(words.dropMixed) : this.addMeshes(files);
+    const { isWaiting } = labels;
+    labels.reset();
+    return isWaiting ? refuse(words.dropMixed) : this.addMeshes(files);
+  }
+
+  /// What was dropped before it is left: a joint file names all of its meshes.
+  private async addJointFile(files: NamedFile[]): Promise<void> {
+    this.waiting = [];
+    this.taker.labels.reset();
+    this.state = "busy";
+    this.progress.textContent = words.loading;
+    this.state = (await this.taker.jointFile(files)) ? "done" : "open";
+    this.progress.textContent = "";
   }
 
   private async addMeshes(files: readonly File[]): Promise<void> {
@@ -74,7 +99,7 @@ export class DropPanel {
     }
     this.waiting = [];
     const [fixed, mobile] = inOrder(first!, second);
-    this.state = (await this.take(fixed, mobile, this.side)) ? "done" : "open";
+    this.state = (await this.taker.meshes(fixed, mobile, this.side)) ? "done" : "open";
     this.progress.textContent = "";
   }
 }
