@@ -150,9 +150,9 @@ test("a file dropped on a report leaves the page, and is answered in a line", as
   const { page } = await openPage(browser, pathOf("sample"));
   const client = await page.context().newCDPSession(page);
   for (const type of ["dragEnter", "dragOver", "drop"])
-    await client.send("Input.dispatchDragEvent", { type, x: 300, y: 300, data: { items: [], files: [join(reports, "sample/hip.toml")], dragOperationsMask: 1 } });
+    await client.send("Input.dispatchDragEvent", { type, x: 300, y: 300, data: { items: [], files: [join(reports, "targets.csv"), join(reports, "sample/femur.ply")], dragOperationsMask: 1 } });
   await page.getByRole("alert").waitFor();
-  assert.match(await page.getByRole("alert").textContent(), /^This page shows a joint .*For a joint file, make a page: condyle report JOINT\./);
+  assert.match(await page.getByRole("alert").textContent(), /^This page shows a joint .*or another joint: a joint file \(\.toml\) with its meshes/);
   assert.ok(page.url().split("#")[0].endsWith("sample.html"));
   assert.equal(await page.locator("#scene > canvas").count(), 1);
   await page.context().close();

@@ -143,7 +143,7 @@ test("bad motion files are refused with the command's line and the columns that 
     await drop(page, [path]);
     await page.waitForFunction((wanted) => [...document.querySelectorAll("[role=alert]")].some(({ textContent }) => textContent === wanted), line + more);
   }
-  await drop(page, [join(reports, "sample/hip.toml")]);
+  await drop(page, [join(reports, "sample/femur.ply"), join(reports, "sample/moves.csv")]);
   await page.getByText("This page shows a joint and reads a motion file for it").waitFor();
   assert.equal(await page.locator("#scene > canvas").count(), 1);
   assert.equal(await page.getByRole("slider", { name: "Frame", exact: true, includeHidden: true }).count(), 0);
