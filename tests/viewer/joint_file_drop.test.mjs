@@ -68,6 +68,10 @@ test("a joint file dropped with its meshes on the page without a joint shows wha
   await assertLimits(page, rom);
   await assertDepths(page, sample("hip.toml"), [[140, 0, 0], [100, -20, 30], [0, 0, 0]]);
   await keep(page, "dropped_joint_file");
+  await openTab(page, "Details");
+  const side = await page.locator("#side").textContent();
+  for (const said of [`By condyle ${rom.provenance.version} in this page, from dropped files`, rom.provenance.joint_file.sha256, rom.provenance.fixed_mesh.sha256, rom.provenance.mobile_mesh.sha256])
+    assert.ok(side.includes(said), said);
   assert.deepEqual([await alerts(page), complaints, requests], [[], [], []]);
   await page.context().close();
 });
@@ -178,6 +182,19 @@ test("a knee that is in contact says why it has no limits, and what of its file 
   await page.getByText("Pressure by the table [contact] of the joint file is for condyle report --load.").waitFor();
   await openTab(page, "Details");
   assert.match(await page.locator("#side").textContent(), /in contact in the reference pose/);
+  assert.deepEqual([await alerts(page), complaints], [[], []]);
+  await page.context().close();
+});
+
+test("a real hip of 44,000 triangles opens with the command's limits", { skip: !existsSync(join(reports, "vhf_right.toml")) && "not made" }, async (t) => {
+  const { page, complaints } = await openPage(browser, empty, { answers: false }), joint = join(reports, "vhf_right.toml");
+  const begun = performance.now();
+  await drop(page, [joint, ...["hip_bone", "femur"].map((bone) => join(data, "hip_vhf_right", `${bone}.ply`))]);
+  await shows(page, "^Right hip");
+  t.diagnostic(`from drop to limits ${Math.round(performance.now() - begun)} ms`);
+  await page.waitForFunction(() => Number(document.documentElement.dataset.answered) > 0);
+  t.diagnostic(`to the first pose ${Math.round(performance.now() - begun)} ms`);
+  await assertLimits(page, answer("rom", joint));
   assert.deepEqual([await alerts(page), complaints], [[], []]);
   await page.context().close();
 });

@@ -86,7 +86,7 @@ export interface RomAnswer {
   scope: string;
   provenance?: {
     version: string;
-    /// Set by a report; a joint of files dropped on the page has neither.
+    /// Set by a report; of files dropped on the page it is empty, or neither is there.
     command?: string[];
     joint_file?: MeshSource;
     fixed_mesh: MeshSource | { files: MeshSource[] };

@@ -44,7 +44,7 @@ export function sourcesOf(provenance: NonNullable<RomAnswer["provenance"]>, titl
   const { version, command, joint_file } = provenance;
   const files = [...(joint_file ? [joint_file] : []), ...filesOf(provenance.fixed_mesh), ...filesOf(provenance.mobile_mesh)];
   return [
-    html("p", {}, shortened(command ? words.madeBy(version, command.join(" ")) : words.madeHere(version), longestLine)),
+    html("p", {}, shortened(command?.length ? words.madeBy(version, command.join(" ")) : words.madeHere(version), longestLine)),
     table([words.file, words.bytes, words.sha256], files.map(({ path, bytes, sha256 }) => [path, String(bytes), sha256]), title),
   ];
 }
