@@ -82,7 +82,8 @@ test("the parts of a dropped joint turn, with the command's limits, and a motion
   for (const path of meshes) cpSync(path, join(folder, path.split("/").at(-1)));
   await drop(page, [joint, ...meshes]);
   await shows(page, "^Right hip");
-  await settled(page);
+  await assertLimits(page, answer("rom", joint));
+  await assertDepths(page, joint, [[110, 0, 40]]);
   await openTab(page, "Plan");
   await page.locator("summary", { hasText: "Turn the parts" }).click();
   const region = page.getByRole("region", { name: "Turn the parts", exact: true });
@@ -186,14 +187,27 @@ test("a knee that is in contact says why it has no limits, and what of its file 
   await page.context().close();
 });
 
-test("a real hip of 44,000 triangles opens with the command's limits", { skip: !existsSync(join(reports, "vhf_right.toml")) && "not made" }, async (t) => {
-  const { page, complaints } = await openPage(browser, empty, { answers: false }), joint = join(reports, "vhf_right.toml");
-  const begun = performance.now();
-  await drop(page, [joint, ...["hip_bone", "femur"].map((bone) => join(data, "hip_vhf_right", `${bone}.ply`))]);
-  await shows(page, "^Right hip");
-  t.diagnostic(`from drop to limits ${Math.round(performance.now() - begun)} ms`);
-  await page.waitForFunction(() => Number(document.documentElement.dataset.answered) > 0);
-  t.diagnostic(`to the first pose ${Math.round(performance.now() - begun)} ms`);
+for (const [name, side, source] of [["vhf_right", "Right", "hip_vhf_right"], ["libhip_left", "Left", "hip_libhip_m1_left"]])
+  test(`the real hip ${name} opens with the command's limits and depths`, { skip: !existsSync(join(reports, `${name}.toml`)) && "not made" }, async (t) => {
+    const { page, complaints } = await openPage(browser, empty, { answers: false }), joint = join(reports, `${name}.toml`);
+    const begun = performance.now();
+    await drop(page, [joint, ...["hip_bone", "femur"].map((bone) => join(data, source, `${bone}.ply`))]);
+    await shows(page, `^${side} hip`);
+    t.diagnostic(`from drop to limits ${Math.round(performance.now() - begun)} ms`);
+    await page.waitForFunction(() => Number(document.documentElement.dataset.answered) > 0);
+    t.diagnostic(`to the first pose ${Math.round(performance.now() - begun)} ms`);
+    await assertLimits(page, answer("rom", joint));
+    await assertDepths(page, joint, [[130, 0, 30]]);
+    assert.deepEqual([await alerts(page), complaints], [[], []]);
+    await page.context().close();
+  });
+
+test("a shoulder with an implant, which is no hip, opens with the command's limits", async () => {
+  const shoulder = join(folder, "shoulder"), joint = join(shoulder, "shoulder.toml");
+  execFileSync(condyle, ["sample", "reverse-shoulder", "--facets", "72", "--out", shoulder], { stdio: "ignore" });
+  const { page, complaints } = await openPage(browser, empty, { answers: false });
+  await drop(page, [joint, ...["head", "pillar", "liner", "stem"].map((name) => join(shoulder, `${name}.ply`))]);
+  await shows(page, "^Right shoulder");
   await assertLimits(page, answer("rom", joint));
   assert.deepEqual([await alerts(page), complaints], [[], []]);
   await page.context().close();
