@@ -6,6 +6,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { deflateSync } from "node:zlib";
 import { angleOf, axeSource, keep, openPage, reports, root, settled, sharedBrowser } from "./browser.mjs";
+import { assertCommandLimits } from "./command_limits.mjs";
 import { makeLabelMaps } from "./label_maps.mjs";
 
 const condyle = join(root, "build/release/condyle");
@@ -239,13 +240,7 @@ function limitsOfMeshes() {
 async function assertLimits(page, motions) {
   await answered(page);
   await settled(page);
-  for (const motion of motions) {
-    const limit = await page.evaluate((question) => condyle.query({ of: "limit", limit: question }), {
-      start: Object.values(motion.start_deg), vary: Object.keys(motion.start_deg).indexOf(motion.vary),
-      positive: motion.sense === "positive", range_deg: motion.range_deg,
-    });
-    assert.equal(limit.turned_deg, motion.limit_deg, motion.name);
-  }
+  await assertCommandLimits(page, motions);
   assert.equal(await page.locator(".result").count(), 4);
 }
 

@@ -26,7 +26,7 @@ const sampleFiles = [sample("hip_bone.ply"), sample("femur.ply")];
 
 /// What both blocks have; the command and the poses for pages without a core are of the report only.
 function common({ text, array }) {
-  const { arrays, poses, only_in_reports, ...rest } = structuredClone(text);
+  const { arrays, poses, only_in_reports, taken_by_name, ...rest } = structuredClone(text);
   if (rest.rom) rest.rom.provenance.command = [];
   const names = Object.keys(arrays).filter((name) => !name.startsWith("pose_"));
   return { rest, names: names.sort(), bytes: Object.fromEntries(names.map((name) => [name, Buffer.from(array(name).buffer)])) };

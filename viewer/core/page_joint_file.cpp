@@ -31,6 +31,8 @@ namespace {
 struct Drop {
   std::map<std::string, std::string, std::less<>> files = {};
   std::optional<io::JointFile> joint = {};
+  io::Json by_name =
+      io::Json::array();  ///< meshes that do not lie where the joint file says: there, and what was taken
   std::string answer = {};
 };
 
@@ -52,9 +54,12 @@ std::vector<std::string> dropped_at(const std::filesystem::path& path) {
 /// Meshes by the names under which they were dropped, which messages then have.
 io::Json name_meshes(io::JointFile& file) {
   io::Json paths = io::Json::array();
+  drop().by_name = io::Json::array();
   for (io::BodyEntry* body : {&file.fixed, &file.mobile})
     for (io::MeshEntry& entry : body->meshes)
       if (const std::vector<std::string> dropped = dropped_at(entry.mesh); dropped.size() == 1) {
+        const std::string there = entry.mesh.lexically_normal().string();
+        if (dropped.front() != there) drop().by_name.push_back({{"mesh", there}, {"taken", dropped.front()}});
         entry.mesh = dropped.front();
         paths.push_back(dropped.front());
       }
@@ -91,6 +96,7 @@ std::string block_of_joint(const io::LoadedJoint& loaded) {
   io::BlockArrays arrays;
   io::Json json = io::joint_object(report, arrays);
   json["only_in_reports"] = only_in_reports(loaded.report.file);
+  json["taken_by_name"] = drop().by_name;
   return io::block_of(std::move(json), arrays);
 }
 

@@ -719,13 +719,22 @@ async function readJoint(files: readonly NamedFile[]): Promise<Report> {
     if (paths.has(path)) throw new Error(words.dropSameName(named(path)));
     paths.add(path);
   }
+  // A browser that is given two files of one name may number the second one.
+  for (const path of paths) {
+    const first = path.replace(/ \(\d+\)(\.[^./]*)$/, "$1");
+    if (!path.includes("/") && first !== path && paths.has(first)) throw new Error(words.dropMaybeSameName(named(first), named(path)));
+  }
   return Report.of(await CoreClient.blockOfJoint(await wasmBytes(), joint!, files));
 }
 
 /// The joint of dropped files, with what the page leaves to the command.
 async function showDropped(report: Report): Promise<void> {
   await show(report, true);
-  const lines = [...(hasReport() ? [words.notTheReport] : []), ...(report.text.only_in_reports ?? []).map((table) => words.onlyInReports[table])];
+  const { only_in_reports = [], taken_by_name = [] } = report.text;
+  const lines = [
+    ...(hasReport() ? [words.notTheReport] : []), ...taken_by_name.map(({ mesh, taken }) => words.takenByName(named(mesh), named(taken))),
+    ...only_in_reports.map((table) => words.onlyInReports[table]),
+  ];
   if (lines.length) post("status", lines.join(" "));
 }
 

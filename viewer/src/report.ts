@@ -375,6 +375,8 @@ export interface ReportText {
   sweep?: StoredSweep | null;
   /// Set for a joint file that was read in this page: its tables whose answers take the command.
   only_in_reports?: "contact"[];
+  /// And its meshes that were not where it has them, and the dropped files of the same name that were taken.
+  taken_by_name?: { mesh: string; taken: string }[];
 }
 
 const headBytes = 16;

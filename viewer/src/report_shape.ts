@@ -172,6 +172,7 @@ const report = object({
   })),
   recorded_motion: ifThere(object({ by: oneOf("columns", "poses", "model") })), measures: orNull(measures), plan: orNull(plan),
   before: ifThere(orNull(before)), posed: ifThere(orNull(posed)), sweep: ifThere(orNull(sweep)), only_in_reports: ifThere(list(oneOf("contact"))),
+  taken_by_name: ifThere(list(object({ mesh: text, taken: text }))),
 });
 
 /// The text of a block with every key that the page reads; throws ReportError that names the first wrong one.

@@ -427,6 +427,9 @@ export const words = {
   dropOneJoint: (one: string, other: string) => `Two joint files were dropped, ${one} and ${other}: drop one with its meshes.`,
   dropSameName: (name: string) => `Two files named ${name} were dropped: drop the folder that has both, so that their paths distinguish them.`,
   dropManyFiles: (most: number) => `The folder has more than ${most} files: drop one that holds a joint file and its meshes.`,
+  dropMaybeSameName: (one: string, other: string) =>
+    `${one} and ${other} were dropped, which may be two files of one name: drop the folder that has both, or one of them.`,
+  takenByName: (mesh: string, taken: string) => `${taken} was taken for ${mesh}, which was not dropped.`,
   onlyInReports: { contact: "Pressure by the table [contact] of the joint file is for condyle report --load." },
   reading: (name: string) => `Reading ${name}…`,
   surfaceOf: (label: string) => `Surface of ${label}…`,
