@@ -55,7 +55,7 @@ TEST(Composed, MovesPointsAsBothPosesDoAndHasTheOrderOfVectorisedSums) {
                           .toRotationMatrix();
       pose.translation() = Vec3(within(random), within(random), within(random));
     }
-    const auto& [first, second] = poses;
+    const Pose &first = poses[0], &second = poses[1];
     const Pose both = composed(first, second);
     const Vec3 p(within(random), within(random), within(random));
     // A dozen roundings of numbers below 256.
