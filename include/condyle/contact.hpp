@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "condyle/angle.hpp"
@@ -22,6 +23,7 @@ class JointContact;
 class BodyPair;
 const BodyPair& body_pair_of(const JointContact& joint);
 struct ChosenVertices;
+struct MovedVertices;
 struct ChosenArcs;
 ChosenArcs arcs_of(const JointContact& joint, const Pose& X_FM, const Vec3& axis_F,
                    const ChosenVertices& vertices);
@@ -74,6 +76,17 @@ class JointContact {
   JointContact(JointContact&&) noexcept;
   JointContact& operator=(JointContact&&) noexcept;
 
+  /// A body has deformed: new positions of all its vertices in its own frame, as many as there were. Tables and trees that were
+  /// made follow; ring tables are made anew when they are next needed. Answers are those of a JointContact made anew, in whatever
+  /// order vertices that are inside come: depths and sets to the bit. Other contacts that share the body keep it as it was.
+  ///
+  /// A twentieth to a fifth of the cost of making, docs/deforming.md. UsageError if the number differs; MeshError if a coordinate
+  /// is not finite or beyond 1e30 mm or the surface now holds the joint centre. A refused update changes nothing. Not while
+  /// another thread queries.
+  void update(BodyRole body, PointsView vertices);
+  /// The same for some vertices, each named once; UsageError also if a number is no vertex's or is there twice.
+  void update(BodyRole body, std::span<const Index> moved, PointsView positions);
+
   /// Vertices inside either body, or on its surface, with radial depths, and intersecting pairs. The fast
   /// path: vertices that are certainly outside cost next to nothing. Raises MeshError if the joint centre
   /// lies on a surface.
@@ -105,6 +118,7 @@ class JointContact {
 
  private:
   struct Parts;
+  void update(BodyRole body, const MovedVertices& moved);
   friend const BodyPair& contact::body_pair_of(const JointContact& joint);
   friend ChosenArcs contact::arcs_of(const JointContact& joint, const Pose& X_FM, const Vec3& axis_F,
                                      const ChosenVertices& vertices);

@@ -19,8 +19,10 @@ constexpr double mm_per(LengthUnit unit) noexcept {
 class Mesh;
 namespace mesh {
 class EdgeTable;
+class VertexTriangles;
 class Findings;
 const EdgeTable& edges_of(const Mesh& mesh);
+const VertexTriangles& triangles_at_vertices_of(const Mesh& mesh);
 Findings& findings_of(const Mesh& mesh);
 }  // namespace mesh
 
@@ -71,15 +73,18 @@ class Mesh {
   /// The first directed edge, in the order of triangles, that is used more often than its opposite.
   const std::optional<DirectedEdge>& unbalanced_edge() const noexcept;
 
-  /// The same triangles with other vertex positions: whether the mesh is closed is not computed again. Raises
-  /// MeshError if the number of vertices differs, and as the constructor does.
+  /// The same triangles with other vertex positions. What depends on the triangles alone is shared and not computed again:
+  /// whether the mesh is closed, its edges, the triangles at each vertex. Raises MeshError if the number of vertices differs,
+  /// and as the constructor does.
   Mesh moved_to(Points vertices) const;
 
   operator const TriMesh&() const noexcept { return arrays(); }
 
  private:
+  struct Connectivity;
   struct Checked;
   friend const mesh::EdgeTable& mesh::edges_of(const Mesh& mesh);
+  friend const mesh::VertexTriangles& mesh::triangles_at_vertices_of(const Mesh& mesh);
   friend mesh::Findings& mesh::findings_of(const Mesh& mesh);
 
   explicit Mesh(std::shared_ptr<const Checked> checked) noexcept;

@@ -111,6 +111,14 @@ class NormalDepth {
   NormalDepth(NormalDepth&&) noexcept;
   NormalDepth& operator=(NormalDepth&&) noexcept;
 
+  /// The casting surface or the target has deformed: new positions of all vertices, or of some, each named once. Answers are those
+  /// of a NormalDepth made anew, to the bit. UsageError if numbers of vertices differ, a number is no vertex's or is there twice;
+  /// MeshError as Mesh::moved_to(). A refused update changes nothing. Not while another thread queries.
+  void update_casting(PointsView vertices);
+  void update_casting(std::span<const Index> moved, PointsView positions);
+  void update_target(PointsView vertices);
+  void update_target(std::span<const Index> moved, PointsView positions);
+
   /// X_CT is the pose of the target in the casting body: X_FM with the fixed body casting, its inverse with the mobile one.
   /// UsageError if it is not finite or translates beyond 1e30 mm. Some 0.1 microseconds a ray.
   SurfaceContact at(const Pose& X_CT) const;

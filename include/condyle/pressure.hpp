@@ -81,6 +81,12 @@ class ElasticContact {
   ElasticContact(ElasticContact&&) noexcept;
   ElasticContact& operator=(ElasticContact&&) noexcept;
 
+  /// A body has deformed: new positions of all its vertices, or of some, each named once. Thicknesses stay with their vertices.
+  /// Answers are those of an ElasticContact made anew, to the bit. UsageError if numbers of vertices differ, a number is no
+  /// vertex's or is there twice; MeshError as Mesh::moved_to(). A refused update changes nothing. Not while another thread queries.
+  void update(BodyRole body, PointsView vertices);
+  void update(BodyRole body, std::span<const Index> moved, PointsView positions);
+
   /// MeshError with the logarithmic law if the overlap reaches the thickness, naming the triangle.
   ElasticContactResults at(const Pose& X_FM) const;
 

@@ -91,13 +91,21 @@ struct PenetrationWork {
   std::uint64_t uncertain = 0;    ///< points decided in double, or exactly
 };
 
-/// Points of the mobile body, sorted once into blocks of neighbours for RadialTable::penetrations. Immutable
-/// and shared: a copy costs a pointer.
+/// Points of the mobile body, sorted once into blocks of neighbours for RadialTable::penetrations. A copy costs a pointer, and
+/// an update of one changes no other.
 class SortedPoints {
  public:
   /// Points in M's frame, mm; `centre` is the joint centre in that frame. UsageError for a coordinate that is not finite or
   /// beyond 1e30 mm. n log n.
   explicit SortedPoints(PointsView points, const Vec3& centre = Vec3::Zero());
+
+  /// The points have moved: new positions of all, as many as there were. Blocks keep their points, so results keep their
+  /// order; blocks of points that have moved apart are slower to ask. UsageError if the number differs or a coordinate is not finite
+  /// or beyond 1e30 mm. Linear.
+  void update(PointsView points);
+  /// The same of those points that are marked, one mark for each; `points` are all. Little more than reading the marks if they
+  /// are few.
+  void update(PointsView points, std::span<const char> is_moved);
 
   std::size_t size() const noexcept;
 
@@ -105,7 +113,7 @@ class SortedPoints {
   const PointBlocks& blocks() const noexcept { return *blocks_; }
 
  private:
-  std::shared_ptr<const PointBlocks> blocks_;
+  std::shared_ptr<PointBlocks> blocks_;
 };
 
 /// Contents of a table, for tuning and for the figures of docs/performance.md.

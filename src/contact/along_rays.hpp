@@ -1,6 +1,9 @@
 #pragma once
 
-#include "condyle/pose.hpp"
+#include <array>
+#include <cmath>
+
+#include "condyle/mesh.hpp"
 
 namespace condyle::contact {
 
@@ -8,6 +11,18 @@ namespace condyle::contact {
 inline Vec3 unit(const Vec3& v) {
   const double length = v.norm();
   return length > 0 ? Vec3(v / length) : Vec3(Vec3::Zero());
+}
+
+/// The area of a face along its normal.
+inline Vec3 area_vector(const TriMesh& mesh, std::size_t face) {
+  const Vec3 a = mesh.corner(face, 0);
+  return (mesh.corner(face, 1) - a).cross(mesh.corner(face, 2) - a) / 2;
+}
+
+/// The angle of a triangle at one of its corners, radians.
+inline double angle_at(const std::array<Vec3, 3>& corners, std::size_t k) {
+  const Vec3 a = corners[(k + 1) % 3] - corners[k], b = corners[(k + 2) % 3] - corners[k];
+  return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 /// The cosine of `oblique_ray`: a ray that meets the target at a smaller one to its normal has no depth.

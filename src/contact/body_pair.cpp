@@ -132,13 +132,29 @@ int winding_number(const mesh::TriangleTree& tree, const Vec3& p, const BoxOf& b
 
 }  // namespace
 
-BodyPair::Body::Body(const Mesh& mesh)
-    : tree(mesh::tree_of(mesh)),
-      is_closed(mesh.is_closed()),
-      place_of_triangle(mesh.triangles().size()),
-      piece_vertices(tree->one_vertex_of_each_piece()) {
+BodyPair::Body::Body(const Mesh& mesh) : tree(mesh::tree_of(mesh)), is_closed(mesh.is_closed()) {
+  number_places();
+}
+
+void BodyPair::Body::number_places() {
+  piece_vertices = tree->one_vertex_of_each_piece();
+  place_of_triangle.resize(tree->triangles().size());
   for (Index place = 0; place < place_of_triangle.size(); ++place)
     place_of_triangle[tree->mesh_triangles()[place]] = place;
+}
+
+void BodyPair::Body::update(const Mesh& mesh, std::span<const char> is_moved) {
+  // Held twice here; a third holder is a copy of this pair.
+  if (!refitted || refitted.use_count() > 2) refitted = std::make_shared<mesh::TriangleTree>(*tree);
+  tree = refitted;
+  refitted->refit(mesh.vertices(), is_moved);
+  if (!refitted->is_worn()) return;
+  *refitted = mesh::TriangleTree(mesh);
+  number_places();
+}
+
+void BodyPair::update(BodyRole body, const Mesh& mesh, std::span<const char> is_moved) {
+  (body == BodyRole::fixed ? fixed_ : mobile_).update(mesh, is_moved);
 }
 
 BodyPair::BodyPair(const Mesh& fixed, const Mesh& mobile) : fixed_(fixed), mobile_(mobile) {}

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "condyle/contact.hpp"
@@ -16,6 +17,10 @@ namespace condyle::contact {
 class BodyPair {
  public:
   BodyPair(const Mesh& fixed, const Mesh& mobile);
+
+  /// A body has deformed: its mesh now, moved from the one before, and a mark for each vertex that says whether it has moved; without
+  /// marks, all have. Its tree is refitted, or made anew where it is worn.
+  void update(BodyRole body, const Mesh& mesh, std::span<const char> is_moved = {});
 
   /// Whether the bodies share a point: surfaces that meet (touching counts; triangles of zero area meet
   /// nothing), or one body inside the other's solid, where that one is closed.
@@ -34,12 +39,15 @@ class BodyPair {
 
  private:
   struct Body {
-    std::shared_ptr<const mesh::TriangleTree> tree;  ///< the mesh's own
+    std::shared_ptr<const mesh::TriangleTree> tree;  ///< the mesh's own, until it has deformed
+    std::shared_ptr<mesh::TriangleTree> refitted;    ///< then this one
     bool is_closed;
     std::vector<Index> place_of_triangle;  ///< By the mesh's number.
     std::vector<Index> piece_vertices;     ///< The place of one vertex of each connected piece.
 
     explicit Body(const Mesh& mesh);
+    void update(const Mesh& mesh, std::span<const char> is_moved);
+    void number_places();
   };
   bool one_inside_other(const Pose& X_FM) const;
 

@@ -129,9 +129,9 @@ void OverlapSampler::sample_by_parts(const Pose& X_CT, const LayerThicknesses& t
   auto scratch = scratch_.take();
   cast_inwards(X_CT, *scratch, out);
   scratch->rim.clear();
-  for (Index face = 0; face < corner_ray_.size(); ++face) {
-    const auto& rays = corner_ray_[face];
-    if (face_area_[face] > 0 && std::any_of(rays.begin(), rays.end(), [&](Index ray) {
+  for (Index face = 0; face < rays_.faces(); ++face) {
+    const auto& rays = rays_.of_corners(face);
+    if (rays_.face_area(face) > 0 && std::any_of(rays.begin(), rays.end(), [&](Index ray) {
           return scratch->ends.has(ray) || scratch->oblique[ray];
         }))
       scratch->rim.push_back({.face = face, .by_parts = true});
@@ -148,22 +148,22 @@ void OverlapSampler::cast_outwards(const Pose& X_CT, Scratch& scratch, Results& 
   scratch.rays.clear();
   scratch.owner.clear();
   scratch.outwards.assign(ends.rays(), 0);
-  for (Index face = 0; face < corner_ray_.size(); ++face) {
-    const auto& [a, b, c] = corner_ray_[face];
-    if (face_area_[face] == 0) continue;
+  for (Index face = 0; face < rays_.faces(); ++face) {
+    const auto& [a, b, c] = rays_.of_corners(face);
+    if (rays_.face_area(face) == 0) continue;
     const int oblique = oblique_corners(face, scratch);
-    if (oblique == 3) out.oblique_area += face_area_[face];
+    if (oblique == 3) out.oblique_area += rays_.face_area(face);
     if (oblique == 3 || !(oblique > 0 || ends.has(a) || ends.has(b) || ends.has(c))) continue;
     scratch.active.push_back(face);
     // A ray that meets the target inwards, though at a slant, is not outside it. Beside it parts decide, which need
     // no gaps.
     if (oblique > 0) continue;
-    for (const Index ray : corner_ray_[face]) scratch.outwards[ray] = !ends.has(ray);
+    for (const Index ray : rays_.of_corners(face)) scratch.outwards[ray] = !ends.has(ray);
   }
   for (Index ray = 0; ray < ends.rays(); ++ray) {
     if (!scratch.outwards[ray]) continue;
     scratch.owner.push_back(ray);
-    scratch.rays.push_back({casting_.vertices()[ray_owner_[ray]], ray_normal_[ray]});
+    scratch.rays.push_back({casting_.vertices()[rays_.owner(ray)], rays_.normal(ray)});
   }
   mesh::nearest_hits(ray_target_, inverted(X_CT), scratch.rays, options_.reach_mm, scratch.hits);
   out.rays += scratch.rays.size();
@@ -172,30 +172,30 @@ void OverlapSampler::cast_outwards(const Pose& X_CT, Scratch& scratch, Results& 
     if (!scratch.hits.is_hit(i)) continue;
     const Index triangle = scratch.hits.triangle[i];
     ends.set(ray, {-scratch.hits.distance[i], triangle,
-                   depth_gradient(core::turned(X_CT, target_normal_[triangle]), -ray_normal_[ray])});
+                   depth_gradient(core::turned(X_CT, target_normal_[triangle]), -rays_.normal(ray))});
   }
 }
 
 bool OverlapSampler::runs_on(Index face, const RayEnds& ends, Index a, Index b) const {
   return ends.has(a) && ends.has(b) &&
-         std::abs(ends[a].depth - ends[b].depth) <= steepest_linear * longest_edge_[face];
+         std::abs(ends[a].depth - ends[b].depth) <= steepest_linear * rays_.longest_edge(face);
 }
 
 bool OverlapSampler::is_rim(Index face, const RayEnds& ends) const {
-  const auto& [a, b, c] = corner_ray_[face];
+  const auto& [a, b, c] = rays_.of_corners(face);
   return !(runs_on(face, ends, a, b) && runs_on(face, ends, b, c) && runs_on(face, ends, c, a));
 }
 
 std::optional<OverlapSampler::LeavingEdge> OverlapSampler::leaving_edge(Index face, std::size_t edge,
                                                                         const RayEnds& ends) const {
   const std::size_t next = (edge + 1) % 3;
-  const bool inside = is_inside(ends, corner_ray_[face][edge]);
-  if (inside == is_inside(ends, corner_ray_[face][next])) return std::nullopt;
+  const bool inside = is_inside(ends, rays_.of_corners(face)[edge]);
+  if (inside == is_inside(ends, rays_.of_corners(face)[next])) return std::nullopt;
   return inside ? LeavingEdge{edge, next} : LeavingEdge{next, edge};
 }
 
 int OverlapSampler::oblique_corners(Index face, const Scratch& scratch) const {
-  const auto& [a, b, c] = corner_ray_[face];
+  const auto& [a, b, c] = rays_.of_corners(face);
   return scratch.oblique[a] + scratch.oblique[b] + scratch.oblique[c];
 }
 
@@ -203,11 +203,11 @@ bool OverlapSampler::is_decided_by_parts(Index face, const Scratch& scratch) con
   const RayEnds& ends = scratch.ends;
   // An open target ends where no edge meets it, and what has no depth beside what has one ends at no edge of the target either.
   if (!target_is_closed_ || oblique_corners(face, scratch) > 0) return true;
-  const auto& rays = corner_ray_[face];
+  const auto& rays = rays_.of_corners(face);
   for (std::size_t k = 0; k < 3; ++k) {
     if (!is_inside(ends, rays[k])) continue;
     // A corner that lies deeper than the face is long, and yet next to where the target ends, looks along a side of it.
-    if (ends[rays[k]].depth > longest_edge_[face]) return true;
+    if (ends[rays[k]].depth > rays_.longest_edge(face)) return true;
     // Two may be inside different parts of the target.
     const Index next = rays[(k + 1) % 3];
     if (is_inside(ends, next) && !runs_on(face, ends, rays[k], next)) return true;
@@ -224,7 +224,7 @@ void OverlapSampler::cast_along_edges(const Pose& X_CT, Scratch& scratch, Result
     rim.by_parts = is_decided_by_parts(rim.face, scratch);
     for (Index k = 0; k < 3 && !rim.by_parts; ++k) {
       const auto edge = leaving_edge(rim.face, k, ends);
-      const auto& rays = corner_ray_[rim.face];
+      const auto& rays = rays_.of_corners(rim.face);
       if (!edge || runs_on(rim.face, ends, rays[edge->in], rays[edge->out])) continue;
       const Vec3 from = casting_corner(rim.face, edge->in);
       scratch.owner.push_back(3 * i + k);
@@ -255,12 +255,12 @@ void OverlapSampler::cast_parts(const Pose& X_CT, Scratch& scratch, Results& out
     if (!rim.by_parts) continue;
     rim.first_part = static_cast<Index>(scratch.rays.size());
     const auto& corners = casting_.triangles()[rim.face];
-    const auto& rays = corner_ray_[rim.face];
+    const auto& rays = rays_.of_corners(rim.face);
     for (const auto& w : centres)
       scratch.rays.push_back(
           {mixed(w, casting_.vertices()[corners[0]], casting_.vertices()[corners[1]],
                  casting_.vertices()[corners[2]]),
-           unit(-mixed(w, ray_normal_[rays[0]], ray_normal_[rays[1]], ray_normal_[rays[2]]))});
+           unit(-mixed(w, rays_.normal(rays[0]), rays_.normal(rays[1]), rays_.normal(rays[2])))});
   }
   mesh::nearest_hits(ray_target_, inverted(X_CT), scratch.rays, options_.reach_mm, scratch.hits);
   out.rays += scratch.rays.size();
@@ -270,7 +270,7 @@ OverlapSampler::Part OverlapSampler::part_of(Index face, const RimFace* rim,
                                              const LayerThicknesses& thicknesses, const Pose& X_TC,
                                              const RayEnds& ends) const {
   const auto& vertices = casting_.triangles()[face];
-  const auto& rays = corner_ray_[face];
+  const auto& rays = rays_.of_corners(face);
   // Where the part ends on an edge: `share` of the way from one corner to the other.
   const auto between = [&](const PartCorner& a, const PartCorner& b, double share, double depth) {
     PartCorner c;
@@ -295,7 +295,7 @@ OverlapSampler::Part OverlapSampler::part_of(Index face, const RimFace* rim,
     corner.gradient = end.gradient;
     if (!thicknesses.target.empty())
       corner.target_thickness =
-          target_thickness(end, corner.point, -ray_normal_[rays[k]], X_TC, thicknesses.target);
+          target_thickness(end, corner.point, -rays_.normal(rays[k]), X_TC, thicknesses.target);
   }
   // From the corner behind the one outside, or else the one inside: a part of four corners is halved the same wherever the
   // triangle's corners are counted from.
@@ -316,7 +316,7 @@ OverlapSampler::Part OverlapSampler::part_of(Index face, const RimFace* rim,
     }
     // Up to the rim what the ray from the corner inside ends on is taken to run on, if it is no wall.
     const RayEnd& end = ends[rays[edge->in]];
-    const Vec3& normal = ray_normal_[rays[edge->in]];
+    const Vec3& normal = rays_.normal(rays[edge->in]);
     PartCorner last = between(inside, outside, rim->crossings[k]->share, end.depth);
     const Vec3 met = inside.point - end.depth * normal;
     const double run_on = end.gradient.dot(met - last.point);
@@ -352,8 +352,8 @@ void OverlapSampler::sample_part(Index face, const Part& part, Quadrature quadra
         std::abs((b.at[0] - a.at[0]) * (c.at[1] - a.at[1]) - (b.at[1] - a.at[1]) * (c.at[0] - a.at[0]));
     if (!(share > 0)) continue;
     for (const auto& [at, weight] : nodes)
-      out.samples.push_back({face, share * face_area_[face] * weight, mixed(at, a.depth, b.depth, c.depth),
-                             mixed(at, a.point, b.point, c.point),
+      out.samples.push_back({face, share * rays_.face_area(face) * weight,
+                             mixed(at, a.depth, b.depth, c.depth), mixed(at, a.point, b.point, c.point),
                              mixed(at, a.gradient, b.gradient, c.gradient),
                              mixed(at, a.casting_thickness, b.casting_thickness, c.casting_thickness),
                              mixed(at, a.target_thickness, b.target_thickness, c.target_thickness)});
@@ -364,14 +364,14 @@ void OverlapSampler::sample_part(Index face, const Part& part, Quadrature quadra
 // along: the area grows by (v x l).n times what of the line follows that end.
 void OverlapSampler::sample_border(const RimFace& rim, const Part& part, const Pose& X_CT,
                                    const RayEnds& ends, Results& out) const {
-  const auto& rays = corner_ray_[rim.face];
+  const auto& rays = rays_.of_corners(rim.face);
   struct End {
     const PartCorner* corner;
     Vec3 along;         ///< the edge, out of the target
     Vec3 slid, turned;  ///< how far along it the end moves when the target is translated, and turned
   };
   const auto met_by = [&](std::size_t k) -> Vec3 {
-    return casting_corner(rim.face, k) - ends[rays[k]].depth * ray_normal_[rays[k]];
+    return casting_corner(rim.face, k) - ends[rays[k]].depth * rays_.normal(rays[k]);
   };
   const auto end_on = [&](std::size_t k, const LeavingEdge& edge) -> End {
     const PartCorner& corner = part.on_edge(k);
@@ -390,7 +390,7 @@ void OverlapSampler::sample_border(const RimFace& rim, const Part& part, const P
   std::array<End, 2> line;
   for (std::size_t k = 0; k < 3; ++k)
     if (const auto edge = leaving_edge(rim.face, k, ends)) line[edge->in == k ? 0 : 1] = end_on(k, *edge);
-  const Vec3 across = (line[1].corner->point - line[0].corner->point).cross(face_normal_[rim.face]);
+  const Vec3 across = (line[1].corner->point - line[0].corner->point).cross(rays_.face_normals()[rim.face]);
   // Gauss's two nodes: pressures and moves are linear along the line, or nearly.
   for (const double at : {0.5 - std::sqrt(1.0 / 12), 0.5 + std::sqrt(1.0 / 12)}) {
     const PartCorner &a = *line[0].corner, &b = *line[1].corner;
@@ -414,11 +414,11 @@ void OverlapSampler::sample_parts_of(const RimFace& rim, const LayerThicknesses&
     const auto overlap = overlap_of(direction, scratch.hits, rim.first_part + part, X_CT);
     if (!overlap || !(overlap->end.depth > 0)) continue;
     if (overlap->oblique) {
-      out.oblique_area += face_area_[face] / face_parts;
+      out.oblique_area += rays_.face_area(face) / face_parts;
       continue;
     }
     const RayEnd& end = overlap->end;
-    OverlapSample sample{face, face_area_[face] / face_parts, end.depth, point, end.gradient, 0, 0};
+    OverlapSample sample{face, rays_.face_area(face) / face_parts, end.depth, point, end.gradient, 0, 0};
     if (!thicknesses.casting.empty())
       sample.casting_thickness =
           mixed(centres[part], thicknesses.casting[a], thicknesses.casting[b], thicknesses.casting[c]);

@@ -224,6 +224,23 @@ const ElasticContactOptions& ElasticContact::options() const noexcept {
   return parts_->options;
 }
 
+void ElasticContact::update(BodyRole body, PointsView vertices) {
+  parts_->update(body, moved_vertices(body == BodyRole::fixed ? fixed() : mobile(), vertices));
+}
+
+void ElasticContact::update(BodyRole body, std::span<const Index> moved, PointsView positions) {
+  parts_->update(body, moved_vertices(body == BodyRole::fixed ? fixed() : mobile(), moved, positions));
+}
+
+void ElasticContact::Parts::update(BodyRole body, const MovedVertices& moved) {
+  const bool is_fixed = body == BodyRole::fixed;
+  (is_fixed ? fixed : mobile) = moved.mesh;
+  std::optional<ElasticCast>& from_body = is_fixed ? from_fixed : from_mobile;
+  std::optional<ElasticCast>& from_other = is_fixed ? from_mobile : from_fixed;
+  if (from_body) from_body->sampler().update_casting(moved.mesh, moved.is_moved);
+  if (from_other) from_other->sampler().update_target(moved.mesh, moved.is_moved);
+}
+
 ElasticContactResults ElasticContact::at(const Pose& X_FM) const {
   core::require_in_range(X_FM);
   auto answers = parts_->pool.take();

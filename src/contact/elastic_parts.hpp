@@ -4,6 +4,7 @@
 
 #include "condyle/pressure.hpp"
 #include "contact/layer_law.hpp"
+#include "contact/moved_vertices.hpp"
 #include "contact/overlap_sampler.hpp"
 #include "core/pool.hpp"
 
@@ -25,6 +26,7 @@ class ElasticCast {
   void answer_by_parts(const Pose& X_CT, Answer& out) const;
   void add_up(const Answer& answer, SurfaceContact& out) const;
 
+  OverlapSampler& sampler() noexcept { return sampler_; }
   const OverlapSampler& sampler() const noexcept { return sampler_; }
 
  private:
@@ -61,6 +63,7 @@ struct ElasticContact::Parts {
   struct Answers {
     ElasticCast::Answer of_fixed, of_mobile;
   };
+  void update(BodyRole body, const MovedVertices& moved);
   void answer(const Pose& X_FM, Answers& out) const;
   MobileLoad load_of(const Answers& answers, const Pose& X_FM) const;
   LoadChange change_of(const Answers& answers, const Pose& X_FM, Motions motions) const;

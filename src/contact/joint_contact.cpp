@@ -10,6 +10,7 @@
 #include "condyle/error.hpp"
 #include "contact/body_pair.hpp"
 #include "contact/chosen_arcs.hpp"
+#include "contact/moved_vertices.hpp"
 #include "core/coordinate_range.hpp"
 #include "core/lazy.hpp"
 #include "core/turned.hpp"
@@ -32,6 +33,9 @@ bool any_contact(const ContactResults<VertexResults>& contact) {
 /// Ring tables of one body about the axes that were asked last.
 class RingTables {
  public:
+  void clear() {
+    for (Kept& kept : kept_) kept.table.reset();
+  }
   std::shared_ptr<const tangential::RingTable> about(const Mesh& mesh, const Vec3& point,
                                                      const Vec3& direction) {
     const std::scoped_lock lock(mutex_);
@@ -67,6 +71,29 @@ class ContactBody {
       : role_(std::move(role)), mesh_(std::move(mesh)), options_(options) {}
 
   const Mesh& mesh() const noexcept { return mesh_; }
+
+  /// A refused update leaves everything as it was: what may refuse comes first.
+  void update(const MovedVertices& moved) {
+    if (std::optional<radial::RadialTable>* table = table_.current()) {
+      try {
+        if (moved.are_all())
+          (*table)->update(moved.positions);
+        else
+          (*table)->update(moved.some, moved.positions);
+      } catch (const MeshError& error) {
+        throw MeshError(role_ + ": " + error.what());
+      }
+    }
+    if (std::optional<radial::SortedPoints>* points = sorted_vertices_.current())
+      (*points)->update(moved.mesh.vertices(), moved.is_moved);
+    ring_tables_.clear();
+    mesh_ = moved.mesh;
+  }
+  /// The body as it is now, apart from this one: nothing is made of it yet.
+  std::shared_ptr<ContactBody> with_mesh(const Mesh& mesh) const {
+    return std::make_shared<ContactBody>(role_, mesh, options_);
+  }
+
   const radial::RadialTable& table() const {
     return *table_.get([&](std::optional<radial::RadialTable>& table) {
       try {
@@ -97,7 +124,7 @@ class ContactBody {
 
 struct JointContact::Parts {
   /// Joints that differ in the other body share it.
-  std::shared_ptr<const ContactBody> fixed, mobile;
+  std::shared_ptr<ContactBody> fixed, mobile;
   radial::RadialOptions options;
   core::Lazy<std::optional<BodyPair>> trees = {};
 
@@ -114,11 +141,11 @@ struct JointContact::Parts {
 
 namespace {
 
-std::shared_ptr<const ContactBody> fixed_body(Mesh mesh, const radial::RadialOptions& options) {
-  return std::make_shared<const ContactBody>("fixed body", std::move(mesh), options);
+std::shared_ptr<ContactBody> fixed_body(Mesh mesh, const radial::RadialOptions& options) {
+  return std::make_shared<ContactBody>("fixed body", std::move(mesh), options);
 }
-std::shared_ptr<const ContactBody> mobile_body(Mesh mesh, const radial::RadialOptions& options) {
-  return std::make_shared<const ContactBody>("mobile body", std::move(mesh), options);
+std::shared_ptr<ContactBody> mobile_body(Mesh mesh, const radial::RadialOptions& options) {
+  return std::make_shared<ContactBody>("mobile body", std::move(mesh), options);
 }
 
 }  // namespace
@@ -136,6 +163,26 @@ JointContact::JointContact(const JointContact& before, BodyRole changed, Mesh me
 JointContact::~JointContact() = default;
 JointContact::JointContact(JointContact&&) noexcept = default;
 JointContact& JointContact::operator=(JointContact&&) noexcept = default;
+
+void JointContact::update(BodyRole body, PointsView vertices) {
+  const Mesh& mesh = body == BodyRole::fixed ? fixed() : mobile();
+  update(body, moved_vertices(mesh, vertices));
+}
+
+void JointContact::update(BodyRole body, std::span<const Index> moved, PointsView positions) {
+  const Mesh& mesh = body == BodyRole::fixed ? fixed() : mobile();
+  update(body, moved_vertices(mesh, moved, positions));
+}
+
+void JointContact::update(BodyRole body, const MovedVertices& moved) {
+  std::shared_ptr<ContactBody>& part = body == BodyRole::fixed ? parts_->fixed : parts_->mobile;
+  if (part.use_count() > 1)
+    part = part->with_mesh(moved.mesh);
+  else
+    part->update(moved);
+  if (std::optional<BodyPair>* pair = parts_->trees.current())
+    (*pair)->update(body, moved.mesh, moved.is_moved);
+}
 
 const BodyPair& body_pair_of(const JointContact& joint) {
   return joint.parts_->bodies();

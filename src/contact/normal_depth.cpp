@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "condyle/error.hpp"
+#include "contact/moved_vertices.hpp"
 #include "contact/overlap_sampler.hpp"
 #include "core/coordinate_range.hpp"
 
@@ -13,6 +14,21 @@ NormalDepth::NormalDepth(Mesh casting, Mesh target, NormalDepthOptions options)
 NormalDepth::~NormalDepth() = default;
 NormalDepth::NormalDepth(NormalDepth&&) noexcept = default;
 NormalDepth& NormalDepth::operator=(NormalDepth&&) noexcept = default;
+
+void NormalDepth::update_casting(PointsView vertices) {
+  sampler_->update_casting(moved_vertices(casting(), vertices).mesh);
+}
+void NormalDepth::update_casting(std::span<const Index> moved, PointsView positions) {
+  const MovedVertices now = moved_vertices(casting(), moved, positions);
+  sampler_->update_casting(now.mesh, now.is_moved);
+}
+void NormalDepth::update_target(PointsView vertices) {
+  sampler_->update_target(moved_vertices(target(), vertices).mesh);
+}
+void NormalDepth::update_target(std::span<const Index> moved, PointsView positions) {
+  const MovedVertices now = moved_vertices(target(), moved, positions);
+  sampler_->update_target(now.mesh, now.is_moved);
+}
 
 const Mesh& NormalDepth::casting() const noexcept {
   return sampler_->casting();

@@ -1,9 +1,7 @@
 #include "contact/overlap_sampler.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 #include "condyle/error.hpp"
@@ -14,40 +12,15 @@
 namespace condyle::contact {
 namespace {
 
-/// Faces that meet at a larger angle than this meet at a crease: each side has its own normals there.
-const double crease_cosine = std::cos(40 * std::numbers::pi / 180);
-
-Vec3 area_vector(const TriMesh& mesh, std::size_t face) {
-  const Vec3 a = mesh.corner(face, 0);
-  return (mesh.corner(face, 1) - a).cross(mesh.corner(face, 2) - a) / 2;
-}
-
-double angle_at(const TriMesh& mesh, std::size_t face, int corner) {
-  const Vec3 p = mesh.corner(face, corner);
-  const Vec3 a = mesh.corner(face, (corner + 1) % 3) - p, b = mesh.corner(face, (corner + 2) % 3) - p;
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
-/// The mean of the normals around a vertex, weighted by angles, of length 1: of all faces, or of those on one face's side of
-/// any crease.
-Vec3 corner_normal(const TriMesh& mesh, std::span<const Vec3> face_normals,
-                   const mesh::VertexTriangles& around, Index vertex, std::optional<Index> side = {}) {
+/// The mean of the normals of the faces around a vertex, weighted by angles, of length 1.
+Vec3 vertex_normal(const TriMesh& mesh, std::span<const Vec3> face_normals, std::span<const Index> around,
+                   Index vertex) {
   Vec3 sum = Vec3::Zero();
-  for (const Index f : around.of(vertex)) {
-    if (side && face_normals[f].dot(face_normals[*side]) < crease_cosine) continue;
-    for (int k = 0; k < 3; ++k)
-      if (mesh.triangles[f][static_cast<std::size_t>(k)] == vertex)
-        sum += angle_at(mesh, f, k) * face_normals[f];
-  }
+  for (const Index f : around)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (mesh.triangles[f][k] == vertex)
+        sum += angle_at({mesh.corner(f, 0), mesh.corner(f, 1), mesh.corner(f, 2)}, k) * face_normals[f];
   return unit(sum);
-}
-
-/// The face of a cube that a normal points to. Rays of one side after those of another: the two sides of a thin layer lie
-/// so near each other that rays in the order of places alone would run both ways in one bundle.
-int side_of(const Vec3& normal) {
-  Eigen::Index axis;
-  normal.cwiseAbs().maxCoeff(&axis);
-  return 2 * static_cast<int>(axis) + (normal[axis] < 0 ? 1 : 0);
 }
 
 std::vector<Vec3> unit_normals(const TriMesh& mesh) {
@@ -63,69 +36,41 @@ OverlapSampler::OverlapSampler(Mesh casting, Mesh target, NormalDepthOptions opt
       target_(std::move(target)),
       options_(options),
       target_is_closed_(target_.is_closed()),
-      ray_target_(target_) {
+      ray_target_(target_),
+      target_normal_(unit_normals(target_)),
+      rays_(casting_, options.rule) {
   if (!(options.reach_mm > 0)) throw UsageError("the reach of rays must be above 0 mm");
-  target_normal_ = unit_normals(target_);
-  face_normal_ = unit_normals(casting_);
-  for (std::size_t t = 0; t < casting_.triangles().size(); ++t) {
-    const Vec3 a = casting_.corner(t, 0), b = casting_.corner(t, 1), c = casting_.corner(t, 2);
-    face_area_.push_back(area_vector(casting_, t).norm());
-    longest_edge_.push_back(std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()}));
-  }
-  const mesh::TriangleTree order(casting_);
-  if (options.rule == FaceRule::face_centre)
-    make_centre_rays(order);
-  else
-    make_corner_rays(order);
-  if (!target_is_closed_ || ray_target_.tree().empty()) return;
+  if (target_is_closed_ && !ray_target_.tree().empty())
+    origins_inside_.emplace(target_, nearest_of_target(), ray_origins());
+}
+
+double OverlapSampler::nearest_of_target() const {
+  return double{ray_target_.tree().nodes()[0].nearest};
+}
+
+Points OverlapSampler::ray_origins() const {
   Points origins;
-  for (std::size_t ray = 0; ray < inward_.size(); ++ray) origins.push_back(inward_[ray].origin);
-  origins_inside_.emplace(target_, double{ray_target_.tree().nodes()[0].nearest}, std::move(origins));
+  origins.reserve(rays_.size());
+  for (const mesh::Ray& ray : rays_.inward()) origins.push_back(ray.origin);
+  return origins;
 }
 
-void OverlapSampler::make_centre_rays(const mesh::TriangleTree& order) {
-  for (const Index face : order.mesh_triangles())
-    if (face_area_[face] > 0) ray_owner_.push_back(face);
-  std::stable_sort(ray_owner_.begin(), ray_owner_.end(),
-                   [&](Index a, Index b) { return side_of(face_normal_[a]) < side_of(face_normal_[b]); });
-  centre_ray_.assign(casting_.triangles().size(), no_index);
-  for (const Index face : ray_owner_) {
-    centre_ray_[face] = static_cast<Index>(inward_.size());
-    inward_.push_back({(casting_.corner(face, 0) + casting_.corner(face, 1) + casting_.corner(face, 2)) / 3,
-                       -face_normal_[face]});
-  }
+void OverlapSampler::update_casting(const Mesh& casting, std::span<const char> is_moved) {
+  casting_ = casting;
+  const bool are_same_rays = rays_.update(casting_, is_moved);
+  if (origins_inside_) origins_inside_->update_points(ray_origins(), are_same_rays);
 }
 
-void OverlapSampler::make_corner_rays(const mesh::TriangleTree& order) {
-  struct Ray {
-    Index vertex;
-    Vec3 normal;
-    std::vector<Index> corners;  ///< three times the face, and which
-  };
-  const mesh::VertexTriangles around(casting_);
-  std::vector<Ray> rays;
-  for (const Index vertex : order.mesh_vertices()) {
-    const std::size_t first = rays.size();
-    for (const Index face : around.of(vertex)) {
-      if (face_area_[face] == 0) continue;
-      const Vec3 normal = corner_normal(casting_, face_normal_, around, vertex, face);
-      // Corners on one side of a crease have the same sums, to the bit.
-      std::size_t ray = first;
-      while (ray < rays.size() && rays[ray].normal != normal) ++ray;
-      if (ray == rays.size()) rays.push_back({vertex, normal, {}});
-      for (Index k = 0; k < 3; ++k)
-        if (casting_.triangles()[face][k] == vertex) rays[ray].corners.push_back(3 * face + k);
-    }
+void OverlapSampler::update_target(const Mesh& target, std::span<const char> is_moved) {
+  target_ = target;
+  ray_target_.update(target_, is_moved);
+  const auto& triangles = target_.triangles();
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto& [a, b, c] = triangles[t];
+    if (is_moved.empty() || is_moved[a] || is_moved[b] || is_moved[c])
+      target_normal_[t] = unit(area_vector(target_, t));
   }
-  std::stable_sort(rays.begin(), rays.end(),
-                   [](const Ray& a, const Ray& b) { return side_of(a.normal) < side_of(b.normal); });
-  corner_ray_.resize(casting_.triangles().size());
-  for (const Ray& ray : rays) {
-    for (const Index corner : ray.corners) corner_ray_[corner / 3][corner % 3] = Index(ray_owner_.size());
-    ray_owner_.push_back(ray.vertex);
-    ray_normal_.push_back(ray.normal);
-    inward_.push_back({casting_.vertices()[ray.vertex], -ray.normal});
-  }
+  if (origins_inside_) origins_inside_->update_surface(target_, nearest_of_target());
 }
 
 std::optional<OverlapSampler::Overlap> OverlapSampler::overlap_of(const Vec3& direction_C,
@@ -178,11 +123,11 @@ void OverlapSampler::sample(const Pose& X_CT, Quadrature quadrature, const Layer
 
 void OverlapSampler::cast_inwards(const Pose& X_CT, Scratch& scratch, Results& out) const {
   const Pose X_TC = inverted(X_CT);
-  const std::size_t count = inward_.size();
+  const std::size_t count = rays_.size();
   scratch.ends.clear(count);
   scratch.oblique.assign(count, false);
   const auto take_end = [&](Index ray, std::size_t hit) {
-    const auto overlap = overlap_of(inward_[ray].direction, scratch.hits, hit, X_CT);
+    const auto overlap = overlap_of(rays_.inward()[ray].direction, scratch.hits, hit, X_CT);
     if (!overlap) return;
     scratch.oblique[ray] = overlap->oblique;
     if (overlap->oblique && options_.rule == FaceRule::cut_faces) return;
@@ -190,14 +135,14 @@ void OverlapSampler::cast_inwards(const Pose& X_CT, Scratch& scratch, Results& o
     out.met_from_front += overlap->met_from_front;
   };
   if (!origins_inside_ || !origins_inside_->find(X_TC, scratch.inside)) {
-    mesh::nearest_hits(ray_target_, X_TC, inward_, options_.reach_mm, scratch.hits);
+    mesh::nearest_hits(ray_target_, X_TC, rays_.inward(), options_.reach_mm, scratch.hits);
     out.rays = count;
     for (Index ray = 0; ray < count; ++ray) take_end(ray, ray);
     return;
   }
   const auto& inside = scratch.inside;
   scratch.rays.clear();
-  for (const Index ray : inside.point) scratch.rays.push_back(inward_[ray]);
+  for (const Index ray : inside.point) scratch.rays.push_back(rays_.inward()[ray]);
   // The exit through the centre ends near the ray's end.
   mesh::nearest_hits(ray_target_, X_TC, scratch.rays, options_.reach_mm, scratch.hits, inside.triangle);
   out.rays = inside.size();
@@ -208,17 +153,17 @@ void OverlapSampler::sample_centres(const Pose& X_CT, const LayerThicknesses& th
                                     Results& out) const {
   const Pose X_TC = inverted(X_CT);
   // In the order of faces, whatever the order of rays: sums are then those of a reader of the file.
-  for (Index face = 0; face < centre_ray_.size(); ++face) {
-    const Index ray = centre_ray_[face];
+  for (Index face = 0; face < rays_.faces(); ++face) {
+    const Index ray = rays_.of_centre(face);
     if (ray == no_index || !scratch.ends.has(ray)) continue;
     const RayEnd& end = scratch.ends[ray];
     if (!(end.depth > 0)) continue;
     if (scratch.oblique[ray]) {
-      out.oblique_area += face_area_[face];
+      out.oblique_area += rays_.face_area(face);
       out.oblique_faces.push_back(face);
     }
-    const auto& [centre, direction] = inward_[ray];
-    OverlapSample sample{face, face_area_[face], end.depth, centre, end.gradient, 0, 0};
+    const auto& [centre, direction] = rays_.inward()[ray];
+    OverlapSample sample{face, rays_.face_area(face), end.depth, centre, end.gradient, 0, 0};
     if (!thicknesses.casting.empty()) {
       const auto& [a, b, c] = casting_.triangles()[face];
       sample.casting_thickness =
@@ -232,14 +177,14 @@ void OverlapSampler::sample_centres(const Pose& X_CT, const LayerThicknesses& th
 
 std::size_t OverlapSampler::cut_off_by_reach(const Pose& X_CT) const {
   mesh::RayHits hits;
-  mesh::nearest_hits(ray_target_, inverted(X_CT), inward_, 2 * options_.reach_mm, hits);
+  mesh::nearest_hits(ray_target_, inverted(X_CT), rays_.inward(), 2 * options_.reach_mm, hits);
   const double least_cosine = options_.rule == FaceRule::cut_faces ? oblique_cosine : 0;
   std::size_t count = 0;
-  for (std::size_t ray = 0; ray < ray_owner_.size(); ++ray) {
+  for (std::size_t ray = 0; ray < rays_.size(); ++ray) {
     if (!hits.is_hit(ray) || hits.distance[ray] <= options_.reach_mm) continue;
-    const Vec3 direction =
-        options_.rule == FaceRule::face_centre ? -face_normal_[ray_owner_[ray]] : -ray_normal_[ray];
-    if (direction.dot(core::turned(X_CT, target_normal_[hits.triangle[ray]])) > least_cosine) ++count;
+    if (rays_.inward()[ray].direction.dot(core::turned(X_CT, target_normal_[hits.triangle[ray]])) >
+        least_cosine)
+      ++count;
   }
   return count;
 }
@@ -289,12 +234,11 @@ void add_up(const OverlapSampler& sampler, const OverlapSampler::Results& found,
 
 std::vector<double> distances_along_normals(const Mesh& from, const Mesh& to, double reach) {
   const auto face_normals = unit_normals(from);
-  const mesh::VertexTriangles around(from);
-  const mesh::TriangleTree order(from);
+  const mesh::VertexTriangles& around = mesh::triangles_at_vertices_of(from);
   std::vector<Index> owner;
   std::vector<mesh::Ray> rays;
-  for (const Index vertex : order.mesh_vertices()) {
-    const Vec3 normal = corner_normal(from, face_normals, around, vertex);
+  for (const Index vertex : mesh::tree_of(from)->mesh_vertices()) {
+    const Vec3 normal = vertex_normal(from, face_normals, around.of(vertex), vertex);
     if (normal.isZero()) continue;
     owner.push_back(vertex);
     rays.push_back({from.vertices()[vertex], -normal});

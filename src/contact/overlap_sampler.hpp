@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "condyle/normal_depth.hpp"
+#include "contact/casting_rays.hpp"
 #include "contact/points_inside.hpp"
 #include "core/pool.hpp"
 #include "mesh/ray_hits.hpp"
@@ -57,6 +58,11 @@ class OverlapSampler {
  public:
   OverlapSampler(Mesh casting, Mesh target, NormalDepthOptions options);
 
+  /// A surface has deformed: the mesh now, moved from the one before, and a mark for each vertex that says whether it has moved;
+  /// without marks, all have. Samples are those of a sampler made anew, to the bit.
+  void update_casting(const Mesh& casting, std::span<const char> is_moved = {});
+  void update_target(const Mesh& target, std::span<const char> is_moved = {});
+
   struct Results {
     std::vector<OverlapSample> samples;
     std::vector<OverlapCorner> corners;
@@ -81,11 +87,11 @@ class OverlapSampler {
   const Mesh& target() const noexcept { return target_; }
   const NormalDepthOptions& options() const noexcept { return options_; }
   /// Outward, of length 1; zero of a face without area.
-  std::span<const Vec3> face_normals() const noexcept { return face_normal_; }
+  std::span<const Vec3> face_normals() const noexcept { return rays_.face_normals(); }
 
  private:
-  void make_centre_rays(const mesh::TriangleTree& order);
-  void make_corner_rays(const mesh::TriangleTree& order);
+  double nearest_of_target() const;
+  Points ray_origins() const;
 
   /// End of a ray: the depth is below 0 if a ray outwards met the target.
   struct RayEnd {
@@ -190,18 +196,8 @@ class OverlapSampler {
   bool target_is_closed_;
   mesh::RayTarget ray_target_;
   std::vector<Vec3> target_normal_;  ///< per triangle, length 1
-  std::vector<double> face_area_;
-  std::vector<Vec3> face_normal_;
-  std::vector<double> longest_edge_;
-  std::vector<mesh::Ray> inward_;  ///< along negative normals
+  CastingRays rays_;
   std::optional<PointsInside> origins_inside_;
-  /// The face, or the vertex, that each ray starts from; neighbours follow each other.
-  std::vector<Index> ray_owner_;
-  std::vector<Index> centre_ray_;  ///< with face centres: the ray of each face, or no_index
-  /// With cut faces: the normal of each ray, and the rays of each face's corners. A vertex has one ray where the surface is
-  /// smooth about it, and one for each side of a crease.
-  std::vector<Vec3> ray_normal_;
-  std::vector<std::array<Index, 3>> corner_ray_;
   mutable core::Pool<Scratch> scratch_;
   mutable core::Pool<Results> found_;
 };

@@ -10,6 +10,9 @@ namespace {
 /// RadialTable::penetrations() is fast up to here: translations, in distances of the surface from the origin.
 constexpr double farthest_translation = 4;
 
+/// A surface that deforms before each question is never prepared; one that has come to rest soon is.
+constexpr int undecided_after_update = 16;
+
 /// Whether no ray from a point outside first meets a surface from behind. Then winding numbers are nowhere below 0,
 /// and points outside have 0.
 bool is_plain_solid(const Mesh& mesh) {
@@ -21,13 +24,34 @@ bool is_plain_solid(const Mesh& mesh) {
 }  // namespace
 
 PointsInside::PointsInside(Mesh surface, double nearest_mm, Points points)
-    : surface_(std::move(surface)), nearest_(nearest_mm), points_(std::move(points)) {}
+    : surface_(std::move(surface)), nearest_(nearest_mm), points_(std::move(points)), undecided_(0) {}
+
+void PointsInside::update_points(Points points, bool are_same) {
+  points_ = std::move(points);
+  std::optional<Prepared>* prepared = prepared_.current();
+  if (!prepared || !*prepared) return;
+  if (are_same)
+    (*prepared)->points.update(points_);
+  else
+    (*prepared)->points = radial::SortedPoints(points_);
+}
+
+void PointsInside::update_surface(Mesh surface, double nearest_mm) {
+  surface_ = std::move(surface), nearest_ = nearest_mm;
+  prepared_.make_out_of_date();
+  undecided_ = undecided_after_update;
+}
 
 bool PointsInside::find(const Pose& X_of_points, radial::Penetrations& out) const {
   if (!surface_.is_closed() || !(nearest_ > 0) ||
       !(X_of_points.translation().norm() <= farthest_translation * nearest_))
     return false;
+  if (undecided_.load(std::memory_order_relaxed) > 0) {
+    undecided_.fetch_sub(1, std::memory_order_relaxed);
+    return false;
+  }
   const auto& prepared = prepared_.get([&](std::optional<Prepared>& made) {
+    made.reset();
     if (is_plain_solid(surface_))
       made.emplace(Prepared{radial::RadialTable(surface_), radial::SortedPoints(points_)});
   });

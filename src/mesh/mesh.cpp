@@ -1,15 +1,16 @@
 #include "condyle/mesh.hpp"
 
 #include <algorithm>
-#include <mutex>
 #include <string>
 #include <utility>
 
 #include "condyle/error.hpp"
 #include "core/coordinate_range.hpp"
+#include "core/lazy.hpp"
 #include "mesh/edge_balance.hpp"
 #include "mesh/edge_table.hpp"
 #include "mesh/findings.hpp"
+#include "mesh/vertex_triangles.hpp"
 
 namespace condyle {
 namespace {
@@ -62,19 +63,24 @@ void check_triangles(const TriMesh& mesh) {
 
 }  // namespace
 
+/// What depends on the triangles alone: meshes that differ in where their vertices are share it.
+struct Mesh::Connectivity {
+  std::optional<DirectedEdge> unbalanced_edge;
+  core::Lazy<std::optional<mesh::EdgeTable>> edges = {};
+  core::Lazy<mesh::VertexTriangles> triangles_at_vertices = {};
+};
+
 struct Mesh::Checked {
   TriMesh arrays;
-  std::optional<DirectedEdge> unbalanced_edge;
-  mutable std::once_flag edges_built = {};
-  mutable std::optional<mesh::EdgeTable> edges = {};
+  std::shared_ptr<const Connectivity> connectivity;
   mutable mesh::Findings findings = {};
 };
 
 Mesh::Mesh(TriMesh arrays) {
   check_vertices(arrays.vertices);
   check_triangles(arrays);
-  const auto unbalanced = mesh::first_unbalanced_edge(arrays);
-  checked_ = std::shared_ptr<const Checked>(new Checked{std::move(arrays), unbalanced});
+  std::shared_ptr<const Connectivity> connectivity(new Connectivity{mesh::first_unbalanced_edge(arrays)});
+  checked_ = std::shared_ptr<const Checked>(new Checked{std::move(arrays), std::move(connectivity)});
 }
 
 Mesh::Mesh(std::shared_ptr<const Checked> checked) noexcept : checked_(std::move(checked)) {}
@@ -85,7 +91,7 @@ Mesh Mesh::moved_to(Points vertices) const {
     throw MeshError(std::to_string(vertices.size()) + " vertices in place of " +
                     std::to_string(arrays().vertices.size()));
   return Mesh(std::shared_ptr<const Checked>(
-      new Checked{{std::move(vertices), arrays().triangles}, checked_->unbalanced_edge}));
+      new Checked{{std::move(vertices), arrays().triangles}, checked_->connectivity}));
 }
 
 const TriMesh& Mesh::arrays() const noexcept {
@@ -93,13 +99,16 @@ const TriMesh& Mesh::arrays() const noexcept {
 }
 
 const std::optional<DirectedEdge>& Mesh::unbalanced_edge() const noexcept {
-  return checked_->unbalanced_edge;
+  return checked_->connectivity->unbalanced_edge;
 }
 
 const mesh::EdgeTable& mesh::edges_of(const Mesh& mesh) {
-  const Mesh::Checked& checked = *mesh.checked_;
-  std::call_once(checked.edges_built, [&] { checked.edges.emplace(checked.arrays); });
-  return *checked.edges;
+  return *mesh.checked_->connectivity->edges.get([&](auto& edges) { edges.emplace(mesh); });
+}
+
+const mesh::VertexTriangles& mesh::triangles_at_vertices_of(const Mesh& mesh) {
+  return mesh.checked_->connectivity->triangles_at_vertices.get(
+      [&](auto& triangles) { triangles = VertexTriangles(mesh); });
 }
 
 mesh::Findings& mesh::findings_of(const Mesh& mesh) {

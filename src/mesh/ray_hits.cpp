@@ -330,9 +330,38 @@ constexpr double least_cosine = 1e-9;
 HWY_EXPORT(nearest_hits_any);
 
 RayTarget::RayTarget(const TriMesh& mesh) : tree_(mesh), leaf_of_(mesh.triangles.size(), no_index) {
+  build();
+}
+
+void RayTarget::build() {
+  branches_.clear(), leaves_.clear();
+  measure_size();
+  if (!tree_.empty()) add_branch(0);
+}
+
+void RayTarget::measure_size() {
+  size_ = 0;
   for (const Vec3& vertex : tree_.vertices())
     size_ = std::max(size_, static_cast<float>(vertex.cwiseAbs().maxCoeff()));
-  if (!tree_.empty()) add_branch(0);
+}
+
+void RayTarget::update(const TriMesh& mesh, std::span<const char> is_moved) {
+  tree_.refit(mesh.vertices, is_moved);
+  if (tree_.is_worn()) {
+    tree_ = TriangleTree(mesh);
+    return build();
+  }
+  measure_size();
+  for (Branch& branch : branches_) set_boxes(branch);
+  const auto has_moved = [&](const Leaf& leaf) {
+    if (is_moved.empty()) return true;
+    for (Index t = leaf.first; t < leaf.first + leaf.count; ++t)
+      for (const Index v : mesh.triangles[tree_.mesh_triangles()[t]])
+        if (is_moved[v]) return true;
+    return false;
+  };
+  for (Leaf& leaf : leaves_)
+    if (has_moved(leaf)) set_triangles(leaf);
 }
 
 Index RayTarget::add_branch(Index node) {
@@ -355,20 +384,36 @@ Index RayTarget::add_branch(Index node) {
     const auto& box = nodes[boxes[lane]];
     const Index below = box.is_leaf() ? add_leaf(box) : add_branch(boxes[lane]);
     if (box.is_leaf()) branches_[number].leaves |= 1u << lane;
+    branches_[number].node[lane] = boxes[lane];
     Boxes& of_branch = branches_[number].boxes;
     of_branch.below[lane] = below;
     of_branch.used |= 1u << lane;
-    for (std::size_t k = 0; k < 3; ++k)
-      of_branch.centre[k][lane] = box.centre[k], of_branch.half[k][lane] = box.half[k];
   }
+  set_boxes(branches_[number]);
   return number;
+}
+
+void RayTarget::set_boxes(Branch& branch) const {
+  for (unsigned bits = branch.boxes.used; bits != 0; bits &= bits - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+    const auto& box = tree_.nodes()[branch.node[lane]];
+    for (std::size_t k = 0; k < 3; ++k)
+      branch.boxes.centre[k][lane] = box.centre[k], branch.boxes.half[k][lane] = box.half[k];
+  }
 }
 
 Index RayTarget::add_leaf(const TriangleTree::Node& node) {
   const auto number = static_cast<Index>(leaves_.size());
   Leaf& leaf = leaves_.emplace_back();
-  for (Index t = node.first; t < node.last; ++t) {
-    const std::size_t lane = t - node.first;
+  leaf.first = node.first, leaf.count = node.last - node.first;
+  set_triangles(leaf);
+  for (Index t = node.first; t < node.last; ++t) leaf_of_[tree_.mesh_triangles()[t]] = number;
+  return number;
+}
+
+void RayTarget::set_triangles(Leaf& leaf) const {
+  for (std::size_t lane = 0; lane < leaf.count; ++lane) {
+    const Index t = leaf.first + static_cast<Index>(lane);
     const auto corners = tree_.corners(t);
     const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     for (int k = 0; k < 3; ++k) {
@@ -377,9 +422,7 @@ Index RayTarget::add_leaf(const TriangleTree::Node& node) {
     }
     leaf.flat[lane] = least_cosine * normal.norm();
     leaf.number[lane] = static_cast<double>(tree_.mesh_triangles()[t]);
-    leaf_of_[tree_.mesh_triangles()[t]] = number;
   }
-  return number;
 }
 
 void nearest_hits(const RayTarget& target, const Pose& X_TR, std::span<const Ray> rays, double reach,

@@ -18,6 +18,9 @@ class RayTarget {
  public:
   explicit RayTarget(const TriMesh& mesh);
 
+  /// The surface has deformed: TriangleTree::refit(). A worn tree is made anew.
+  void update(const TriMesh& mesh, std::span<const char> is_moved = {});
+
   const TriangleTree& tree() const noexcept { return tree_; }
 
   static constexpr std::size_t width = 8;
@@ -31,7 +34,8 @@ class RayTarget {
   /// Three generations of the tree of triangles.
   struct Branch {
     Boxes boxes;
-    unsigned leaves = 0;  ///< the lanes that hold a leaf; the others hold branches
+    unsigned leaves = 0;     ///< the lanes that hold a leaf; the others hold branches
+    Index node[width] = {};  ///< of the tree, of each lane
   };
   /// Triangles; lanes beyond the last have none that a ray could meet.
   struct alignas(64) Leaf {
@@ -39,6 +43,7 @@ class RayTarget {
     double normal[3][width] = {};     ///< twice the area along the normal
     double flat[width] = {};          ///< a normal less than this along a ray is seen from the side
     double number[width] = {};        ///< in the mesh; exact as a double
+    Index first = 0, count = 0;       ///< places of the triangles in the tree
   };
   const std::vector<Branch>& branches() const noexcept { return branches_; }
   const std::vector<Leaf>& leaves() const noexcept { return leaves_; }
@@ -46,6 +51,10 @@ class RayTarget {
   float size() const noexcept { return size_; }  ///< the largest coordinate
 
  private:
+  void build();
+  void measure_size();
+  void set_boxes(Branch& branch) const;
+  void set_triangles(Leaf& leaf) const;
   Index add_branch(Index node);
   Index add_leaf(const TriangleTree::Node& node);
 

@@ -108,6 +108,19 @@ Extent extent_of(const std::array<Vec3, 3>& t) noexcept {
           min - longest / 3 - 16 * core::rounding_unit * max, max};
 }
 
+/// Bounds of a node from its box and its shell in single precision.
+Extent extent_of(const TriangleTree::Node& node) noexcept {
+  Extent extent;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<std::size_t>(axis);
+    extent.low[axis] = double{node.centre[k]} - double{node.half[k]};
+    extent.high[axis] = double{node.centre[k]} + double{node.half[k]};
+  }
+  extent.squared_nearest = double{node.nearest} * double{node.nearest};
+  extent.squared_farthest = double{node.farthest} * double{node.farthest};
+  return extent;
+}
+
 void set_bounds(TriangleTree::Node& node, const Extent& extent) noexcept {
   for (int axis = 0; axis < 3; ++axis) {
     const auto k = static_cast<std::size_t>(axis);
@@ -202,6 +215,43 @@ TriangleTree TriangleTree::moved_to(const Points& mesh_vertices) const {
     set_bounds(node, extents[i]);
   }
   return moved;
+}
+
+void TriangleTree::refit(const Points& mesh_vertices, std::span<const char> is_moved) {
+  if (empty()) return;
+  if (overlap_made_ == 0) overlap_made_ = overlap();
+  const auto has_moved = [&](Index place) { return is_moved.empty() || is_moved[mesh_vertices_[place]]; };
+  for (Index place = 0; place < vertices_.size(); ++place)
+    if (has_moved(place)) vertices_[place] = mesh_vertices[mesh_vertices_[place]];
+  std::vector<char> is_refitted(is_moved.empty() ? 0 : nodes_.size());
+  const auto needs_refit = [&](const Node& node) {
+    if (is_moved.empty()) return true;
+    if (!node.is_leaf()) return is_refitted[node.child] || is_refitted[node.child + 1];
+    return std::any_of(
+        triangles_.begin() + node.first, triangles_.begin() + node.last,
+        [&](const Triangle& t) { return has_moved(t[0]) || has_moved(t[1]) || has_moved(t[2]); });
+  };
+  // Children come after their parent.
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    Node& node = nodes_[i];
+    if (!needs_refit(node)) continue;
+    Extent extent;
+    if (node.is_leaf()) {
+      for (Index t = node.first; t < node.last; ++t) extent.extend(extent_of(corners(t)));
+    } else {
+      extent.extend(extent_of(nodes_[node.child]));
+      extent.extend(extent_of(nodes_[node.child + 1]));
+    }
+    set_bounds(node, extent);
+    if (!is_refitted.empty()) is_refitted[i] = true;
+  }
+  overlap_now_ = overlap();
+}
+
+double TriangleTree::overlap() const noexcept {
+  double sum = 0;
+  for (const Node& node : nodes_) sum += double{node.size()};
+  return sum / double{nodes_[0].size()};
 }
 
 void TriangleTree::number_anew(const TriMesh& mesh) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "condyle/mesh.hpp"
@@ -47,6 +48,13 @@ class TriangleTree {
   /// while it is small. Linear.
   TriangleTree moved_to(const Points& mesh_vertices) const;
 
+  /// Moves the tree's own vertices: those of the mesh that are marked, one mark for each; without marks, all. Bounds above the
+  /// leaves are those of the single-precision boxes below, a little wider than those of a tree made anew. Linear, and for few
+  /// marks little more than reading them.
+  void refit(const Points& mesh_vertices, std::span<const char> is_moved = {});
+  /// Whether boxes have grown so far beyond those of the tree as it was made that making it anew pays. After refit().
+  bool is_worn() const noexcept { return overlap_now_ > most_wear * overlap_made_; }
+
   bool empty() const noexcept { return triangles_.empty(); }
   const std::vector<Node>& nodes() const noexcept { return nodes_; }
   /// Corners are places of vertices, in the mesh's order.
@@ -65,12 +73,18 @@ class TriangleTree {
   }
 
  private:
+  /// A tree is worn if the sizes of its boxes, in sizes of its root, have grown by this: a search opens about as many more.
+  static constexpr double most_wear = 1.5;
+
   void number_anew(const TriMesh& mesh);
+  /// The sizes of all boxes over that of the root.
+  double overlap() const noexcept;
 
   std::vector<Node> nodes_;
   std::vector<Triangle> triangles_;
   std::vector<Vec3> vertices_;
   std::vector<Index> mesh_triangles_, mesh_vertices_;
+  double overlap_made_ = 0, overlap_now_ = 0;  ///< from the first refit on
 };
 
 /// The mesh's own tree: built when first asked for, by whichever thread, and kept with the mesh.

@@ -31,4 +31,7 @@ class VertexTriangles {
   std::vector<Index> first_, triangle_;
 };
 
+/// The mesh's own: built when first asked for, by whichever thread, and kept with the mesh and all that are moved from it.
+const VertexTriangles& triangles_at_vertices_of(const Mesh& mesh);
+
 }  // namespace condyle::mesh

@@ -1,4 +1,8 @@
 #include "condyle/radial.hpp"
+
+#include <string>
+
+#include "condyle/error.hpp"
 #include "core/coordinate_range.hpp"
 #include "radial/direction_table.hpp"
 
@@ -21,6 +25,19 @@ void Penetrations::resize(std::size_t count) {
 
 SortedPoints::SortedPoints(PointsView points, const Vec3& centre)
     : blocks_((core::require_in_range(points), std::make_shared<PointBlocks>(points, centre))) {}
+
+void SortedPoints::update(PointsView points) {
+  update(points, {});
+}
+
+void SortedPoints::update(PointsView points, std::span<const char> is_moved) {
+  if (points.size() != size())
+    throw UsageError("an update of " + std::to_string(size()) + " points gives " +
+                     std::to_string(points.size()));
+  core::require_in_range(points);
+  if (blocks_.use_count() > 1) blocks_ = std::make_shared<PointBlocks>(*blocks_);
+  blocks_->move(points, is_moved);
+}
 
 std::size_t SortedPoints::size() const noexcept {
   return blocks_->size();

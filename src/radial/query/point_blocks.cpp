@@ -47,21 +47,40 @@ PointBlocks::PointBlocks(PointsView points, const Vec3& centre) : centre_(centre
   for (Index i = 0; i < points.size(); ++i) index_[i] = i;
   sort_into_blocks(points, index_);
   for (auto& column : rounded_) column.resize(rounded_up_to(fan, size()));
-  for (std::size_t i = 0; i < rounded_[0].size(); ++i) {
-    const Vec3 p = points[index_[std::min(i, size() - 1)]];
-    if (i < size()) point_[i] = p;
-    const Vec3 about_centre = p - centre_;
-    for (int k = 0; k < 3; ++k) {
-      rounded_[static_cast<std::size_t>(k)][i] = static_cast<float>(about_centre[k]);
-    }
-    reach_ = std::max(reach_, about_centre.norm());
-  }
+  for (std::size_t i = 0; i < size(); ++i) point_[i] = points[index_[i]];
+  for (std::size_t i = 0; i < rounded_[0].size(); ++i) round(i);
+  for (const Vec3& p : point_) reach_ = std::max(reach_, (p - centre_).norm());
   std::size_t count = size();
   for (std::size_t level = 0; level < levels; ++level) {
     block_count_[level] = count = (count + fan - 1) / fan;
     for (auto& column : block_[level]) column.assign(rounded_up_to(fan, count), 0.0f);
     for (std::size_t block = 0; block < count; ++block) describe_block(level, block);
   }
+}
+
+void PointBlocks::round(std::size_t i) {
+  const Vec3 about_centre = point_[std::min(i, size() - 1)] - centre_;
+  for (int k = 0; k < 3; ++k) rounded_[static_cast<std::size_t>(k)][i] = static_cast<float>(about_centre[k]);
+}
+
+void PointBlocks::move(PointsView points, std::span<const char> is_moved) {
+  const auto has_moved = [&](std::size_t i) { return is_moved.empty() || is_moved[index_[i]]; };
+  const auto describe_moved = [&](std::size_t level, std::size_t points_per_block) {
+    for (std::size_t block = 0; block < block_count_[level]; ++block) {
+      const std::size_t first = block * points_per_block, last = std::min(first + points_per_block, size());
+      std::size_t i = first;
+      while (i < last && !has_moved(i)) ++i;
+      if (i < last) describe_block(level, block);
+    }
+  };
+  for (std::size_t i = 0; i < size(); ++i)
+    if (has_moved(i)) point_[i] = points[index_[i]];
+  for (std::size_t i = 0; i < rounded_[0].size(); ++i)
+    if (has_moved(std::min(i, size() - 1))) round(i);
+  reach_ = 0;
+  for (const Vec3& p : point_) reach_ = std::max(reach_, (p - centre_).norm());
+  describe_moved(0, fan);
+  describe_moved(1, fan * fan);
 }
 
 void PointBlocks::describe_block(std::size_t level, std::size_t block) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "condyle/pose.hpp"
 #include "core/uninitialised.hpp"
@@ -24,6 +25,9 @@ class PointBlocks {
 
   /// Points in M's frame; `centre` is the joint centre in that frame. n log n.
   explicit PointBlocks(PointsView points, const Vec3& centre = Vec3::Zero());
+
+  /// The points have moved: those that are marked, one mark for each; without marks, all. Blocks keep their points, in their order.
+  void move(PointsView points, std::span<const char> is_moved = {});
 
   std::size_t size() const noexcept { return index_.size(); }
   std::size_t block_count(std::size_t level) const noexcept { return block_count_[level]; }
@@ -54,6 +58,7 @@ class PointBlocks {
   const float* block(std::size_t level, Column column) const noexcept { return block_[level][column].data(); }
 
  private:
+  void round(std::size_t i);
   void describe_block(std::size_t level, std::size_t block);
 
   Vec3 centre_;

@@ -1,0 +1,222 @@
+#include "contact/casting_rays.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "contact/along_rays.hpp"
+#include "core/parallel.hpp"
+#include "mesh/triangle_tree.hpp"
+#include "mesh/vertex_triangles.hpp"
+
+namespace condyle::contact {
+namespace {
+
+/// Faces that meet at a larger angle than this meet at a crease: each side has its own normals there.
+const double crease_cosine = std::cos(40 * std::numbers::pi / 180);
+
+/// Faces, or vertices, that a thread takes at once: some tens of microseconds.
+constexpr std::size_t grain = 512;
+
+/// The face of a cube that a normal points to. Rays of one side after those of another: the two sides of a thin layer lie
+/// so near each other that rays in the order of places alone would run both ways in one bundle.
+int side_of(const Vec3& normal) {
+  Eigen::Index axis;
+  normal.cwiseAbs().maxCoeff(&axis);
+  return 2 * static_cast<int>(axis) + (normal[axis] < 0 ? 1 : 0);
+}
+
+/// The elements that are marked, or all if there are no marks.
+std::vector<Index> numbers_of(std::size_t count, const auto& is_taken) {
+  std::vector<Index> numbers;
+  for (Index i = 0; i < count; ++i)
+    if (is_taken(i)) numbers.push_back(i);
+  return numbers;
+}
+
+}  // namespace
+
+struct CastingRays::SideOfCrease {
+  Index ray;
+  Vec3 normal;
+};
+
+CastingRays::CastingRays(const Mesh& casting, FaceRule rule)
+    : rule_(rule),
+      face_area_(casting.triangles().size()),
+      face_normal_(casting.triangles().size()),
+      longest_edge_(casting.triangles().size()),
+      corner_angle_(rule == FaceRule::cut_faces ? casting.triangles().size() : 0) {
+  core::parallel_chunks(faces(), grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t face = first; face < last; ++face) measure_face(casting, static_cast<Index>(face));
+  });
+  make_rays(casting);
+}
+
+void CastingRays::measure_face(const TriMesh& casting, Index face) {
+  const Vec3 area = area_vector(casting, face);
+  face_area_[face] = area.norm();
+  face_normal_[face] = unit(area);
+  const std::array<Vec3, 3> p = {casting.corner(face, 0), casting.corner(face, 1), casting.corner(face, 2)};
+  longest_edge_[face] = std::max({(p[1] - p[0]).norm(), (p[2] - p[1]).norm(), (p[0] - p[2]).norm()});
+  if (rule_ != FaceRule::cut_faces) return;
+  for (std::size_t k = 0; k < 3; ++k) corner_angle_[face][k] = angle_at(p, k);
+}
+
+void CastingRays::make_rays(const Mesh& casting) {
+  owner_.clear(), inward_.clear();
+  if (rule_ == FaceRule::face_centre)
+    make_centre_rays(casting);
+  else
+    make_corner_rays(casting);
+}
+
+mesh::Ray CastingRays::centre_ray(const TriMesh& casting, Index face) const {
+  return {(casting.corner(face, 0) + casting.corner(face, 1) + casting.corner(face, 2)) / 3,
+          -face_normal_[face]};
+}
+
+void CastingRays::make_centre_rays(const Mesh& casting) {
+  for (const Index face : mesh::tree_of(casting)->mesh_triangles())
+    if (face_area_[face] > 0) owner_.push_back(face);
+  std::stable_sort(owner_.begin(), owner_.end(),
+                   [&](Index a, Index b) { return side_of(face_normal_[a]) < side_of(face_normal_[b]); });
+  centre_ray_.assign(faces(), no_index);
+  for (const Index face : owner_) {
+    centre_ray_[face] = static_cast<Index>(inward_.size());
+    inward_.push_back(centre_ray(casting, face));
+  }
+}
+
+void CastingRays::visit_corner_normals(const TriMesh& casting, std::span<const Index> around, Index vertex,
+                                       const auto& take) const {
+  const auto has_area = [&](Index face) { return face_area_[face] > 0; };
+  const auto on_one_side = [&](Index a, Index b) {
+    return face_normal_[a].dot(face_normal_[b]) >= crease_cosine;
+  };
+  const auto mean_normal = [&](const auto& counts) {
+    Vec3 sum = Vec3::Zero();
+    for (const Index face : around) {
+      if (!counts(face)) continue;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (casting.triangles[face][k] == vertex) sum += corner_angle_[face][k] * face_normal_[face];
+    }
+    return unit(sum);
+  };
+  const bool is_smooth = std::all_of(around.begin(), around.end(), [&](const Index& face) {
+    return !has_area(face) ||
+           std::all_of(around.begin(), around.begin() + (&face - around.data()),
+                       [&](Index other) { return !has_area(other) || on_one_side(face, other); });
+  });
+  const Vec3 of_all = is_smooth ? mean_normal(has_area) : Vec3::Zero();
+  for (const Index face : around) {
+    if (!has_area(face)) continue;
+    const Vec3 normal =
+        is_smooth ? of_all : mean_normal([&](Index other) { return on_one_side(other, face); });
+    for (std::size_t k = 0; k < 3; ++k)
+      if (casting.triangles[face][k] == vertex) take(face, k, normal);
+  }
+}
+
+void CastingRays::make_corner_rays(const Mesh& casting) {
+  const mesh::VertexTriangles& around = mesh::triangles_at_vertices_of(casting);
+  std::vector<std::array<Vec3, 3>> normals(faces());
+  core::parallel_chunks(casting.vertices().size(), grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const auto vertex = static_cast<Index>(i);
+      visit_corner_normals(casting, around.of(vertex), vertex,
+                           [&](Index face, std::size_t k, const Vec3& n) { normals[face][k] = n; });
+    }
+  });
+  corner_ray_.assign(faces(), {0, 0, 0});
+  for (const Index vertex : mesh::tree_of(casting)->mesh_vertices()) {
+    const std::size_t first = inward_.size();
+    for (const Index face : around.of(vertex)) {
+      if (face_area_[face] == 0) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (casting.triangles()[face][k] != vertex) continue;
+        std::size_t ray = first;
+        while (ray < inward_.size() && normal(ray) != normals[face][k]) ++ray;
+        if (ray == inward_.size()) {
+          owner_.push_back(vertex);
+          inward_.push_back({casting.vertices()[vertex], -normals[face][k]});
+        }
+        corner_ray_[face][k] = static_cast<Index>(ray);
+      }
+    }
+  }
+  std::vector<Index> order(size());
+  std::iota(order.begin(), order.end(), Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return side_of(normal(a)) < side_of(normal(b)); });
+  std::vector<Index> owner, place(size());
+  std::vector<mesh::Ray> inward;
+  owner.reserve(size()), inward.reserve(size());
+  for (const Index ray : order) {
+    place[ray] = static_cast<Index>(inward.size());
+    owner.push_back(owner_[ray]), inward.push_back(inward_[ray]);
+  }
+  owner_ = std::move(owner), inward_ = std::move(inward);
+  for (Index face = 0; face < faces(); ++face)
+    if (face_area_[face] > 0)
+      for (Index& ray : corner_ray_[face]) ray = place[ray];
+}
+
+bool CastingRays::move_corner_rays(const TriMesh& casting, std::span<const Index> around, Index vertex,
+                                   std::vector<SideOfCrease>& sides) {
+  sides.clear();
+  bool are_same = true;
+  visit_corner_normals(casting, around, vertex, [&](Index face, std::size_t k, const Vec3& n) {
+    const Index ray = corner_ray_[face][k];
+    bool is_known = false;
+    for (const SideOfCrease& side : sides) {
+      are_same = are_same && (side.ray == ray) == (side.normal == n);
+      is_known = is_known || side.ray == ray;
+    }
+    if (!is_known) sides.push_back({ray, n});
+  });
+  if (are_same)
+    for (const auto& [ray, n] : sides) inward_[ray] = {casting.vertices[vertex], -n};
+  return are_same;
+}
+
+bool CastingRays::update(const Mesh& casting, std::span<const char> is_moved) {
+  const auto& triangles = casting.triangles();
+  const auto moves = [&](Index face) {
+    const auto& [a, b, c] = triangles[face];
+    return is_moved.empty() || is_moved[a] || is_moved[b] || is_moved[c];
+  };
+  const std::vector<Index> moved_faces = numbers_of(faces(), moves);
+  std::atomic<bool> are_same = true;
+  core::parallel_chunks(moved_faces.size(), grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const Index face = moved_faces[i];
+      const bool had_area = face_area_[face] > 0;
+      measure_face(casting, face);
+      if ((face_area_[face] > 0) != had_area) are_same.store(false, std::memory_order_relaxed);
+    }
+  });
+  if (are_same && rule_ == FaceRule::face_centre) {
+    for (const Index face : moved_faces)
+      if (centre_ray_[face] != no_index) inward_[centre_ray_[face]] = centre_ray(casting, face);
+  } else if (are_same) {
+    const mesh::VertexTriangles& around = mesh::triangles_at_vertices_of(casting);
+    std::vector<char> is_at_moved(casting.vertices().size());
+    for (const Index face : moved_faces)
+      for (const Index v : triangles[face]) is_at_moved[v] = true;
+    const std::vector<Index> vertices =
+        numbers_of(is_at_moved.size(), [&](Index v) { return is_at_moved[v]; });
+    core::parallel_chunks(vertices.size(), grain, [&](std::size_t first, std::size_t last) {
+      std::vector<SideOfCrease> sides;
+      for (std::size_t i = first; i < last; ++i)
+        if (!move_corner_rays(casting, around.of(vertices[i]), vertices[i], sides))
+          are_same.store(false, std::memory_order_relaxed);
+    });
+  }
+  if (!are_same) make_rays(casting);
+  return are_same;
+}
+
+}  // namespace condyle::contact
