@@ -232,6 +232,22 @@ py::array_t<std::int64_t> integers_in(const py::object& given, std::string_view 
   return py::array_t<std::int64_t, py::array::forcecast>(array);
 }
 
+std::vector<Index> vertices_in(const py::object& given, std::string_view name, std::size_t count) {
+  const std::string named(name);
+  const py::array_t<std::int64_t> numbers = integers_in(given, name, {-1}, "(K,)");
+  std::vector<Index> vertices;
+  for (py::ssize_t i = 0; i < numbers.shape(0); ++i) {
+    const std::int64_t vertex = numbers.at(i);
+    if (vertex < 0 || vertex >= static_cast<std::int64_t>(no_index))
+      throw UsageError(named + ": vertex " + std::to_string(vertex) + " is none of the mesh's");
+    vertices.push_back(static_cast<Index>(vertex));
+  }
+  if (vertices.size() != count)
+    throw UsageError(named + ": " + std::to_string(vertices.size()) + " numbers for " +
+                     std::to_string(count) + " positions");
+  return vertices;
+}
+
 std::vector<Triangle> triangles_in(const py::object& given, std::size_t vertices) {
   const py::array_t<std::int64_t> numbers = integers_in(given, "triangles", {-1, 3}, "(T, 3)");
   const auto numbers_at = numbers.unchecked<2>();

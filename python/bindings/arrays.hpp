@@ -103,6 +103,10 @@ std::vector<std::optional<Pose>> poses_with_gaps_in(const py::object& given, std
 py::array_t<std::int64_t> integers_in(const py::object& given, std::string_view name,
                                       std::vector<py::ssize_t> shape, std::string_view wanted);
 
+/// Numbers of vertices, one for each of `count` positions. UsageError if they are not as many, or one is no number of a vertex
+/// in any mesh.
+std::vector<Index> vertices_in(const py::object& given, std::string_view name, std::size_t count);
+
 /// Triangles of a (T, 3) array of integers, in range. MeshError for one that is not.
 std::vector<Triangle> triangles_in(const py::object& given, std::size_t vertices);
 

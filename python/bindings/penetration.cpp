@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <mutex>
+#include <shared_mutex>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -77,16 +79,69 @@ py::object vertices_dict(bool is_asked, VertexLists&& lists, bool with_angles) {
   return dict;
 }
 
-py::tuple radial(const JointHandle& handle, const py::object& given, bool of_mobile, bool of_fixed,
+/// Bodies that may be asked as long as this lives: those of a joint, which nothing changes, or those that an update may change,
+/// which waits until they were asked. Made without the interpreter's lock: other threads go on meanwhile.
+struct Asked {
+  const contact::JointContact& contact;
+  std::shared_lock<std::shared_mutex> lock = {};
+};
+
+/// Two bodies that any thread may ask and any thread may deform.
+class DeformingContact {
+ public:
+  DeformingContact(const Mesh& fixed, const Mesh& mobile) : contact_(fixed, mobile) {}
+
+  Asked asked() const { return {contact_, std::shared_lock(mutex_)}; }
+  void update(bool is_fixed, const py::object& given) {
+    const PointsIn vertices(given, "vertices");
+    change([&](contact::JointContact& contact) { contact.update(role(is_fixed), vertices.view()); });
+  }
+  void update_some(bool is_fixed, const py::object& moved, const py::object& given) {
+    const PointsIn positions(given, "vertices");
+    const std::vector<Index> vertices = vertices_in(moved, "moved", positions.size());
+    change(
+        [&](contact::JointContact& contact) { contact.update(role(is_fixed), vertices, positions.view()); });
+  }
+  Mesh fixed() const {
+    const py::gil_scoped_release released;
+    return asked().contact.fixed();
+  }
+  Mesh mobile() const {
+    const py::gil_scoped_release released;
+    return asked().contact.mobile();
+  }
+
+ private:
+  static BodyRole role(bool is_fixed) { return is_fixed ? BodyRole::fixed : BodyRole::mobile; }
+  void change(const auto& by) {
+    const py::gil_scoped_release released;
+    const std::unique_lock lock(mutex_);
+    by(contact_);
+  }
+
+  mutable std::shared_mutex mutex_;
+  contact::JointContact contact_;
+};
+
+Asked asked(const JointHandle& handle) {
+  return {handle.contact};
+}
+Asked asked(const DeformingContact& contact) {
+  return contact.asked();
+}
+
+template <class Bodies>
+py::tuple radial(const Bodies& bodies, const py::object& given, bool of_mobile, bool of_fixed,
                  const py::object& progress) {
   const PosesIn in = poses_in(given, "pose");
-  const contact::JointContact& contact = handle.contact;
-  of_mobile = of_mobile && contact.fixed().is_closed();
-  of_fixed = of_fixed && contact.mobile().is_closed();
   VertexLists mobile, fixed;
   Follower follower(progress, in.poses.size());
   {
     const py::gil_scoped_release released;
+    const Asked held = asked(bodies);
+    const contact::JointContact& contact = held.contact;
+    of_mobile = of_mobile && contact.fixed().is_closed();
+    of_fixed = of_fixed && contact.mobile().is_closed();
     std::vector<radial::Penetrations> mobile_now(std::min(in.poses.size(), poses_at_once)),
         fixed_now(mobile_now.size());
     for (std::size_t first = 0; first < in.poses.size(); first += poses_at_once) {
@@ -136,15 +191,17 @@ py::tuple tangential(const JointHandle& handle, const py::object& given, std::si
 }
 
 /// (K, 2) pairs of all poses, pose n owning [offset[n], offset[n + 1]).
-py::tuple pairs(const JointHandle& handle, const py::object& given, const py::object& progress) {
+template <class Bodies>
+py::tuple pairs(const Bodies& bodies, const py::object& given, const py::object& progress) {
   const PosesIn in = poses_in(given, "pose");
   std::vector<contact::TrianglePair> all;
   std::vector<std::int64_t> offset{0};
   Follower follower(progress, in.poses.size());
   {
     const py::gil_scoped_release released;
+    const Asked held = asked(bodies);
     for (std::size_t n = 0; n < in.poses.size(); ++n) {
-      const std::vector<contact::TrianglePair> found = handle.contact.pairs(in.poses[n]);
+      const std::vector<contact::TrianglePair> found = held.contact.pairs(in.poses[n]);
       all.insert(all.end(), found.begin(), found.end());
       offset.push_back(static_cast<std::int64_t>(all.size()));
       follower.poll(n + 1);
@@ -161,15 +218,17 @@ py::tuple pairs(const JointHandle& handle, const py::object& given, const py::ob
                         array_of(std::move(offset)));
 }
 
-py::tuple in_contact(const JointHandle& handle, const py::object& given, const py::object& progress) {
+template <class Bodies>
+py::tuple in_contact(const Bodies& bodies, const py::object& given, const py::object& progress) {
   const PosesIn in = poses_in(given, "pose");
   py::array_t<bool> answers(static_cast<py::ssize_t>(in.poses.size()));
   bool* answer = answers.mutable_data();
   Follower follower(progress, in.poses.size());
   {
     const py::gil_scoped_release released;
+    const Asked held = asked(bodies);
     for (std::size_t n = 0; n < in.poses.size(); ++n) {
-      answer[n] = handle.contact.in_contact(in.poses[n]);
+      answer[n] = held.contact.in_contact(in.poses[n]);
       follower.poll(n + 1);
     }
   }
@@ -179,10 +238,19 @@ py::tuple in_contact(const JointHandle& handle, const py::object& given, const p
 }  // namespace
 
 void bind_penetration(py::module_& module) {
-  module.def("penetration_radial", &radial);
+  module.def("penetration_radial", &radial<JointHandle>);
   module.def("penetration_tangential", &tangential);
-  module.def("pairs", &pairs);
-  module.def("in_contact", &in_contact);
+  module.def("pairs", &pairs<JointHandle>);
+  module.def("in_contact", &in_contact<JointHandle>);
+  py::class_<DeformingContact>(module, "JointContact")
+      .def(py::init<const Mesh&, const Mesh&>())
+      .def("radial", &radial<DeformingContact>)
+      .def("pairs", &pairs<DeformingContact>)
+      .def("in_contact", &in_contact<DeformingContact>)
+      .def("update", &DeformingContact::update)
+      .def("update_some", &DeformingContact::update_some)
+      .def_property_readonly("fixed", &DeformingContact::fixed)
+      .def_property_readonly("mobile", &DeformingContact::mobile);
 }
 
 }  // namespace condyle::python

@@ -40,17 +40,7 @@ class SharedRadialTable {
 
   void update_some(const py::object& moved, const py::object& given) {
     const PointsIn positions(given, "vertices");
-    const py::array_t<std::int64_t> numbers = integers_in(moved, "moved", {-1}, "(K,)");
-    std::vector<Index> vertices;
-    for (py::ssize_t i = 0; i < numbers.shape(0); ++i) {
-      const std::int64_t vertex = numbers.at(i);
-      if (vertex < 0 || vertex >= static_cast<std::int64_t>(no_index))
-        throw UsageError("moved: vertex " + std::to_string(vertex) + " is none of the table's");
-      vertices.push_back(static_cast<Index>(vertex));
-    }
-    if (vertices.size() != positions.size())
-      throw UsageError("moved: " + std::to_string(vertices.size()) + " numbers for " +
-                       std::to_string(positions.size()) + " positions");
+    const std::vector<Index> vertices = vertices_in(moved, "moved", positions.size());
     const py::gil_scoped_release released;
     const std::unique_lock lock(mutex_);
     table_.update(vertices, positions.view());

@@ -22,6 +22,7 @@ from ._implant import REVERSE_SHOULDER_SIZES, SampleImplant, sample_replacement
 from ._implant import sample_reverse_shoulder
 from ._inspect import Finding, MeshComponent, MeshReport, inspect
 from ._joint import Joint, read_joint
+from ._joint_contact import JointContact
 from ._labels import Label, LabelMap, LabelNote, LabelPiece, LabelSurface, SurfaceCut, read_labels, surface
 from ._limit_band import LimitBand
 from ._followed_range import FollowedRange
@@ -53,7 +54,7 @@ __all__ = [
     "ContactEnd", "ContactFrames", "ContactInterval", "ContactMeasures", "ContactNote", "ContactPatch",
     "ContactTotals", "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit", "DepthRange", "Depths", "Design",
     "ElasticContact", "ElasticContactResults", "ElasticLayer", "EndingPair", "FileError", "Finding", "FirstContact", "FrameContact",
-    "FollowedRange", "HipMeasure", "HipMeasures", "MeasureBand", "NormalRange", "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointMotion", "JointNote", "PartParameter",
+    "FollowedRange", "HipMeasure", "HipMeasures", "MeasureBand", "NormalRange", "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointContact", "JointMotion", "JointNote", "PartParameter",
     "JointProposal", "JointWarning", "KINDS", "KNOWN_BY", "Label", "LabelMap", "LabelNote", "LabelPiece", "LabelSurface", "Limit",
     "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Model", "ModelCoordinate", "ModelJoint", "ModelMesh", "ModelNote", "Motion", "MotionLimit",
     "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",

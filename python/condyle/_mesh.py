@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native
 from ._errors import UsageError
 from ._native import Mesh as NativeMesh
-from ._words import Path, PolygonRule, Repair, path_of, refuse_masked, word
+from ._words import Path, PolygonRule, Repair, array, path_of, refuse_masked, word
 
 
 class TriMesh:
@@ -314,3 +314,22 @@ def write_mesh(path: Path, mesh: MeshLike) -> None:
     mesh = TriMesh.of(mesh)
     whole = mesh if mesh.vertex_map is None else TriMesh(mesh.vertices, mesh.triangles, merge=False)
     _native.write_mesh(path_of(path), whole._native)
+
+
+def merged_positions(mesh: TriMesh, vertices: ArrayLike) -> ArrayLike:
+    """New positions of the vertices of a mesh: of those that merged vertices became."""
+    if mesh.vertex_map is None:
+        return vertices
+    positions = array(vertices, "vertices", f"an array of shape {mesh.vertices.shape}")
+    if positions.shape != mesh.vertices.shape:
+        raise UsageError(f"vertices: an array of shape {mesh.vertices.shape} is needed, not {positions.shape}")
+    merged: NDArray[Any] = positions[mesh._first]
+    if not np.array_equal(merged[mesh.vertex_map], positions):
+        raise UsageError("vertices: some that were merged are no longer in one place")
+    return merged
+
+
+def refuse_merged(mesh: TriMesh) -> None:
+    """Numbers of vertices are those of the mesh as it was given only where none were merged."""
+    if mesh.vertex_map is not None:
+        raise UsageError("moved: the mesh has merged vertices: give the positions of all")

@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._answer import Columns
-from ._errors import OutOfRangeError, UsageError
+from ._errors import OutOfRangeError
 from ._gaps import VertexGaps
-from ._mesh import MeshLike, TriMesh
-from ._words import ArcRule, CellMap, array, count, number, word
+from ._mesh import MeshLike, TriMesh, merged_positions, refuse_merged
+from ._words import ArcRule, CellMap, count, number, word
 
 
 class RadialTable:
@@ -77,21 +77,11 @@ class RadialTable:
         Answers are then those of a table made anew. UsageError where numbers do not fit, MeshError where the surface
         now holds the origin; the table is then what it was. A third to nearly half the cost of making one.
         """
-        given = self._mesh
-        if moved is not None:
-            if given.vertex_map is not None:
-                raise UsageError("moved: the mesh has merged vertices: give the positions of all")
-            self._native.update_some(moved, vertices)
-        elif given.vertex_map is None:
-            self._native.update(vertices)
+        if moved is None:
+            self._native.update(merged_positions(self._mesh, vertices))
         else:
-            positions = array(vertices, "vertices", f"an array of shape {given.vertices.shape}")
-            if positions.shape != given.vertices.shape:
-                raise UsageError(f"vertices: an array of shape {given.vertices.shape} is needed, not {positions.shape}")
-            merged = positions[given._first]
-            if not np.array_equal(merged[given.vertex_map], positions):
-                raise UsageError("vertices: some that were merged are no longer in one place")
-            self._native.update(merged)
+            refuse_merged(self._mesh)
+            self._native.update_some(moved, vertices)
 
     @property
     def mesh(self) -> TriMesh:
