@@ -36,7 +36,7 @@ struct JointQuestion {
   std::vector<std::string_view> scenes, quick_scenes;
 };
 
-const std::array<JointQuestion, 6> joint_questions = {{
+const std::array<JointQuestion, 7> joint_questions = {{
     {"first_contact", ask_first_contact, {"sample_1", "sample_2", "sample_3", "sample_4"}, {"sample_1"}},
     {"motion_map", ask_motion_map, {"hip_vhf_right", "sample_3"}, {"sample_1"}},
     {"limit_bands", ask_limit_bands, {"hip_vhf_right"}, {"sample_1"}},
@@ -50,6 +50,7 @@ const std::array<JointQuestion, 6> joint_questions = {{
       "libhip_cartilage_nogap", "sample_8"},
      {"sample_1"}},
     {"ring_table", ask_ring_table, {"libhip_1", "libhip_2", "libhip_3", "libhip_4"}, {"sample_1"}},
+    {"deforming", ask_deforming, {"hip_vhf_right", "libhip_cartilage_nogap"}, {"sample_1"}},
 }};
 
 /// Questions to a joint in its recorded motion.

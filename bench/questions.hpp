@@ -31,6 +31,9 @@ void ask_inside_limits(const Scene& scene, Effort effort, Report& report);
 /// Costs of the ring table: building it, a pose, and all angles at once.
 void ask_ring_table(const Scene& scene, Effort effort, Report& report);
 
+/// A fixed body that deforms in each step: contacts that follow it, made anew, and the trees of others refitted.
+void ask_deforming(const Scene& scene, Effort effort, Report& report);
+
 // With a joint and a motion of their own; false where these are not there.
 
 /// Pressure in both contacts of a knee over a recorded flexion.

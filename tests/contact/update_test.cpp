@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <exception>
 #include <fstream>
 #include <numeric>
 #include <random>
@@ -161,7 +162,7 @@ TEST(Update, AJointContactAnswersAsOneMadeAnewFor600RandomDeformations) {
       const JointContact anew(fixed.mesh(), mobile.mesh());
       const Pose X = random_pose(random, 0.3);
       expect_same(contact, anew, X);
-      if (i % 10 == 0) {
+      if (i % 100 == 0) {
         EXPECT_EQ(contact.radial(X).mobile_in_fixed, anew.radial(X).mobile_in_fixed);
         EXPECT_EQ(contact.tangential(X, Vec3::UnitZ()).mobile_in_fixed,
                   anew.tangential(X, Vec3::UnitZ()).mobile_in_fixed);
@@ -234,7 +235,7 @@ TEST(Update, ThicknessesStayWithTheirVertices) {
 std::string refusal(const auto& update) {
   try {
     update();
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     return error.what();
   }
   return "";
