@@ -37,7 +37,7 @@ const TableHead deforming_head{
      {"peer_steps", "its steps a second"}}};
 
 /// Frames of the deformation, gone through again and again, each with a pose of its own.
-constexpr int frames = 6;
+constexpr int frame_count = 6;
 
 /// One hundredth of the vertices, neighbours in number.
 struct SomeVertices {
@@ -46,7 +46,7 @@ struct SomeVertices {
 
   SomeVertices(const Points& all, int frame) {
     const std::size_t count = std::max<std::size_t>(1, all.size() / 100);
-    const std::size_t first = all.size() / frames * static_cast<std::size_t>(frame);
+    const std::size_t first = all.size() / frame_count * static_cast<std::size_t>(frame);
     for (std::size_t i = first; i < std::min(first + count, all.size()); ++i) {
       numbers.push_back(static_cast<Index>(i));
       positions.push_back(all[i]);
@@ -55,7 +55,7 @@ struct SomeVertices {
 };
 
 /// What is asked in each step. A contact that has been asked once has made what it needs.
-struct Deforming {
+struct DeformingQuestion {
   std::string question;
   std::function<void(const Pose&)> make, ask;
   std::function<void(const Points&)> update;
@@ -65,8 +65,8 @@ struct Deforming {
 };
 
 template <class Contact>
-Deforming deforming(std::string question, Contact& kept, const std::function<Contact()>& made,
-                    const std::function<void(const Contact&, const Pose&)>& ask) {
+DeformingQuestion deforming(std::string question, Contact& kept, const std::function<Contact()>& made,
+                            const std::function<void(const Contact&, const Pose&)>& ask) {
   return {std::move(question),
           [made, ask](const Pose& X_FM) { ask(made(), X_FM); },
           [&kept, ask](const Pose& X_FM) { ask(kept, X_FM); },
@@ -81,18 +81,18 @@ class Measured {
   Measured(const Scene& scene, Effort effort, Report& report)
       : scene_(scene), effort_(effort), report_(report) {
     const Points& rest = fixed().vertices;
-    for (int frame = 0; frame < frames; ++frame) {
+    for (int frame = 0; frame < frame_count; ++frame) {
       all_.push_back(deformed(rest, frame + 1));
       some_.emplace_back(all_.back(), frame);
     }
   }
 
-  void operator()(const Deforming& asked) {
+  void operator()(const DeformingQuestion& asked) {
     const auto kind = asked.peer.empty() ? std::nullopt : method_named(asked.peer);
     const auto peer = kind ? kind->make({fixed(), scene_.joint.mobile.mesh}) : nullptr;
     const auto each = [](const auto& step) {
       return [step] {
-        for (int frame = 0; frame < frames; ++frame) step(static_cast<std::size_t>(frame));
+        for (int frame = 0; frame < frame_count; ++frame) step(static_cast<std::size_t>(frame));
       };
     };
     const auto X = [&](std::size_t frame) { return scene_.poses[frame].X_FM; };
@@ -109,7 +109,7 @@ class Measured {
              if (peer) peer->deform(all_[f]), asked.ask_peer(*peer, X(f));
            })});
     });
-    const auto seconds = [&](std::size_t way) { return median(samples[way]) / frames; };
+    const auto seconds = [&](std::size_t way) { return median(samples[way]) / frame_count; };
     const double making = seconds(0) - seconds(1), update = seconds(2), some = seconds(4);
     report_.table(deforming_head)
         .add({scene_.joint.name, asked.question, std::int64_t(fixed().vertices.size()), making * 1e3,
@@ -144,17 +144,17 @@ void ask_deforming(const Scene& scene, Effort effort, Report& report) {
   condyle::radial::Penetrations found;
 
   contact::JointContact of_inside = joint(), of_pairs = joint(), of_both = joint();
-  Deforming vertices = deforming<contact::JointContact>(
+  DeformingQuestion vertices = deforming<contact::JointContact>(
       "vertices inside and depths", of_inside, joint,
       [&](const contact::JointContact& c, const Pose& X) { c.mobile_in_fixed(X, found); });
   vertices.peer = "embree_16_robust";
   vertices.ask_peer = [&](Method& method, const Pose& X) { method.find_inside(X, inside); };
-  Deforming triangles =
+  DeformingQuestion triangles =
       deforming<contact::JointContact>("pairs of triangles", of_pairs, joint,
                                        [](const contact::JointContact& c, const Pose& X) { c.pairs(X); });
   triangles.peer = "fcl_obbrss";
   triangles.ask_peer = [&](Method& method, const Pose& X) { method.find_pairs(X, pairs); };
-  const Deforming both =
+  const DeformingQuestion both =
       deforming<contact::JointContact>("vertices of both bodies, and pairs", of_both, joint,
                                        [](const contact::JointContact& c, const Pose& X) { c.at(X); });
   const auto layered = [&] {
@@ -162,9 +162,9 @@ void ask_deforming(const Scene& scene, Effort effort, Report& report) {
     return contact::ElasticContact(fixed, mobile, {.fixed = layer, .mobile = layer});
   };
   contact::ElasticContact of_pressure = layered();
-  const Deforming pressure = deforming<contact::ElasticContact>(
+  const DeformingQuestion pressure = deforming<contact::ElasticContact>(
       "pressure", of_pressure, layered, [](const contact::ElasticContact& c, const Pose& X) { c.at(X); });
-  for (const Deforming& asked : {vertices, triangles, both, pressure}) measure(asked);
+  for (const DeformingQuestion& asked : {vertices, triangles, both, pressure}) measure(asked);
 }
 
 }  // namespace bench

@@ -9,9 +9,8 @@ namespace examples {
 using condyle::Index;
 using condyle::TriMesh;
 
-TriMesh ball(double radius) {
-  // Rings of constant latitude between two poles.
-  constexpr Index rings = 31, around = 64;
+TriMesh ball(double radius, Index rings) {
+  const Index around = 2 * (rings + 1);
   TriMesh mesh;
   for (Index i = 1; i <= rings; ++i) {
     const double latitude = std::numbers::pi * i / (rings + 1);
@@ -31,6 +30,21 @@ TriMesh ball(double radius) {
     for (Index i = 0; i + 1 < rings; ++i) {
       mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
       mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return mesh;
+}
+
+TriMesh sheet(double half, Index n) {
+  TriMesh mesh;
+  for (Index i = 0; i <= n; ++i)
+    for (Index k = 0; k <= n; ++k)
+      mesh.vertices.push_back({half * (2.0 * i / n - 1), 0, half * (2.0 * k / n - 1)});
+  for (Index i = 0; i < n; ++i) {
+    for (Index k = 0; k < n; ++k) {
+      const Index a = i * (n + 1) + k, b = a + n + 1;
+      mesh.triangles.push_back({a, a + 1, b});
+      mesh.triangles.push_back({a + 1, b + 1, b});
     }
   }
   return mesh;
