@@ -57,7 +57,8 @@ struct SomeVertices {
 /// What is asked in each step. A contact that has been asked once has made what it needs.
 struct DeformingQuestion {
   std::string question;
-  std::function<void(const Pose&)> make, ask;
+  std::function<void(const Points&, const Pose&)> make;
+  std::function<void(const Pose&)> ask;
   std::function<void(const Points&)> update;
   std::function<void(const SomeVertices&)> update_some;
   std::string peer;  ///< a method, which answers the nearest thing
@@ -65,10 +66,13 @@ struct DeformingQuestion {
 };
 
 template <class Contact>
-DeformingQuestion deforming(std::string question, Contact& kept, const std::function<Contact()>& made,
+DeformingQuestion deforming(std::string question, Contact& kept,
+                            const std::function<Contact(const Mesh&)>& made,
                             const std::function<void(const Contact&, const Pose&)>& ask) {
   return {std::move(question),
-          [made, ask](const Pose& X_FM) { ask(made(), X_FM); },
+          [made, ask, &kept](const Points& now, const Pose& X_FM) {
+            ask(made(kept.fixed().moved_to(now)), X_FM);
+          },
           [&kept, ask](const Pose& X_FM) { ask(kept, X_FM); },
           [&kept](const Points& all) { kept.update(BodyRole::fixed, all); },
           [&kept](const SomeVertices& some) { kept.update(BodyRole::fixed, some.numbers, some.positions); },
@@ -100,8 +104,8 @@ class Measured {
     tbb::task_arena(1).execute([&] {
       samples = interleaved(
           effort_ == Effort::full ? 7 : 1,
-          {each([&](std::size_t f) { asked.make(X(f)); }), each([&](std::size_t f) { asked.ask(X(f)); }),
-           each([&](std::size_t f) { asked.update(all_[f]); }),
+          {each([&](std::size_t f) { asked.make(all_[f], X(f)); }),
+           each([&](std::size_t f) { asked.ask(X(f)); }), each([&](std::size_t f) { asked.update(all_[f]); }),
            each([&](std::size_t f) { asked.update(all_[f]), asked.ask(X(f)); }),
            each([&](std::size_t f) { asked.update_some(some_[f]); }),
            each([&](std::size_t f) { asked.update_some(some_[f]), asked.ask(X(f)); }),
@@ -138,12 +142,12 @@ class Measured {
 void ask_deforming(const Scene& scene, Effort effort, Report& report) {
   const Mesh fixed(scene.joint.fixed.mesh), mobile(scene.joint.mobile.mesh);
   Measured measure(scene, effort, report);
-  const auto joint = [&] { return contact::JointContact(fixed, mobile); };
+  const auto joint = [&](const Mesh& now) { return contact::JointContact(now, mobile); };
   std::vector<contact::TrianglePair> pairs;
   std::vector<InsideVertex> inside;
   condyle::radial::Penetrations found;
 
-  contact::JointContact of_inside = joint(), of_pairs = joint(), of_both = joint();
+  contact::JointContact of_inside = joint(fixed), of_pairs = joint(fixed), of_both = joint(fixed);
   DeformingQuestion vertices = deforming<contact::JointContact>(
       "vertices inside and depths", of_inside, joint,
       [&](const contact::JointContact& c, const Pose& X) { c.mobile_in_fixed(X, found); });
@@ -157,11 +161,11 @@ void ask_deforming(const Scene& scene, Effort effort, Report& report) {
   const DeformingQuestion both =
       deforming<contact::JointContact>("vertices of both bodies, and pairs", of_both, joint,
                                        [](const contact::JointContact& c, const Pose& X) { c.at(X); });
-  const auto layered = [&] {
+  const auto layered = [&](const Mesh& now) {
     const contact::ElasticLayer layer{12, 0.42, 1.6};
-    return contact::ElasticContact(fixed, mobile, {.fixed = layer, .mobile = layer});
+    return contact::ElasticContact(now, mobile, {.fixed = layer, .mobile = layer});
   };
-  contact::ElasticContact of_pressure = layered();
+  contact::ElasticContact of_pressure = layered(fixed);
   const DeformingQuestion pressure = deforming<contact::ElasticContact>(
       "pressure", of_pressure, layered, [](const contact::ElasticContact& c, const Pose& X) { c.at(X); });
   for (const DeformingQuestion& asked : {vertices, triangles, both, pressure}) measure(asked);

@@ -23,7 +23,7 @@ TriMesh ball(double radius, Index rings) {
   const Index top = rings * around, bottom = top + 1;
   mesh.vertices.push_back({0, radius, 0});
   mesh.vertices.push_back({0, -radius, 0});
-  const auto at = [](Index i, Index j) { return i * around + j % around; };
+  const auto at = [around](Index i, Index j) { return i * around + j % around; };
   for (Index j = 0; j < around; ++j) {
     mesh.triangles.push_back({top, at(0, j), at(0, j + 1)});
     mesh.triangles.push_back({bottom, at(rings - 1, j + 1), at(rings - 1, j)});

@@ -10,7 +10,7 @@ namespace {
 PoseRows rows_of(const SimTK::Transform& X) {
   PoseRows rows;
   for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) rows[i][k] = X.R()(i, k);
+    for (int k = 0; k < 3; ++k) rows[i][k] = X.R()[i][k];
     rows[i][3] = X.p()[i];
   }
   return rows;
@@ -62,7 +62,7 @@ struct SimbodyWorld::System {
       moved = SimTK::MobilizedBody::Free(matter.Ground(), X, rigid, SimTK::Transform());
     if (body.damping > 0) SimTK::Force::GlobalDamper(forces, matter, body.damping);
     SimTK::Force::ConstantForce(forces, moved, SimTK::Vec3(0), other_force);
-    SimTK::Force::Custom(all, new ContactForce(moved, std::move(contact), calls));
+    SimTK::Force::Custom(forces, new ContactForce(moved, std::move(contact), calls));
     system.realizeTopology();
     integrator = std::make_unique<SimTK::RungeKuttaMersonIntegrator>(system);
     integrator->setAccuracy(1e-6);

@@ -1,10 +1,10 @@
 #include "contact/casting_rays.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "contact/along_rays.hpp"
 #include "core/parallel.hpp"
@@ -66,7 +66,7 @@ void CastingRays::measure_face(const TriMesh& casting, Index face) {
 }
 
 void CastingRays::make_rays(const Mesh& casting) {
-  owner_.clear(), inward_.clear();
+  last_ray_.assign(rule_ == FaceRule::cut_faces ? casting.vertices().size() : 0, no_index);
   if (rule_ == FaceRule::face_centre)
     make_centre_rays(casting);
   else
@@ -79,14 +79,15 @@ mesh::Ray CastingRays::centre_ray(const TriMesh& casting, Index face) const {
 }
 
 void CastingRays::make_centre_rays(const Mesh& casting) {
+  std::vector<Index> order;
   for (const Index face : mesh::tree_of(casting)->mesh_triangles())
-    if (face_area_[face] > 0) owner_.push_back(face);
-  std::stable_sort(owner_.begin(), owner_.end(),
+    if (face_area_[face] > 0) order.push_back(face);
+  std::stable_sort(order.begin(), order.end(),
                    [&](Index a, Index b) { return side_of(face_normal_[a]) < side_of(face_normal_[b]); });
   centre_ray_.assign(faces(), no_index);
-  for (const Index face : owner_) {
-    centre_ray_[face] = static_cast<Index>(inward_.size());
-    inward_.push_back(centre_ray(casting, face));
+  for (const Index face : order) {
+    centre_ray_[face] = static_cast<Index>(size());
+    add_ray(face, centre_ray(casting, face));
   }
 }
 
@@ -131,34 +132,33 @@ void CastingRays::make_corner_rays(const Mesh& casting) {
     }
   });
   corner_ray_.assign(faces(), {0, 0, 0});
+  struct VertexRay {
+    Index vertex;
+    Vec3 normal;
+  };
+  std::vector<VertexRay> rays;
   for (const Index vertex : mesh::tree_of(casting)->mesh_vertices()) {
-    const std::size_t first = inward_.size();
+    const std::size_t first = rays.size();
     for (const Index face : around.of(vertex)) {
       if (face_area_[face] == 0) continue;
       for (std::size_t k = 0; k < 3; ++k) {
         if (casting.triangles()[face][k] != vertex) continue;
         std::size_t ray = first;
-        while (ray < inward_.size() && normal(ray) != normals[face][k]) ++ray;
-        if (ray == inward_.size()) {
-          owner_.push_back(vertex);
-          inward_.push_back({casting.vertices()[vertex], -normals[face][k]});
-        }
+        while (ray < rays.size() && rays[ray].normal != normals[face][k]) ++ray;
+        if (ray == rays.size()) rays.push_back({vertex, normals[face][k]});
         corner_ray_[face][k] = static_cast<Index>(ray);
       }
     }
   }
-  std::vector<Index> order(size());
+  std::vector<Index> order(rays.size()), place(rays.size());
   std::iota(order.begin(), order.end(), Index{0});
   std::stable_sort(order.begin(), order.end(),
-                   [&](Index a, Index b) { return side_of(normal(a)) < side_of(normal(b)); });
-  std::vector<Index> owner, place(size());
-  std::vector<mesh::Ray> inward;
-  owner.reserve(size()), inward.reserve(size());
+                   [&](Index a, Index b) { return side_of(rays[a].normal) < side_of(rays[b].normal); });
   for (const Index ray : order) {
-    place[ray] = static_cast<Index>(inward.size());
-    owner.push_back(owner_[ray]), inward.push_back(inward_[ray]);
+    const auto& [vertex, n] = rays[ray];
+    place[ray] = static_cast<Index>(size());
+    add_ray(vertex, {casting.vertices()[vertex], -n});
   }
-  owner_ = std::move(owner), inward_ = std::move(inward);
   for (Index face = 0; face < faces(); ++face)
     if (face_area_[face] > 0)
       for (Index& ray : corner_ray_[face]) ray = place[ray];
@@ -177,46 +177,86 @@ bool CastingRays::move_corner_rays(const TriMesh& casting, std::span<const Index
     }
     if (!is_known) sides.push_back({ray, n});
   });
+  for (const auto& [ray, n] : sides) are_same = are_same && owner_[ray] == vertex && is_used_[ray];
+  std::size_t used = 0;
+  for (Index ray = last_ray_[vertex]; ray != no_index; ray = ray_before_[ray]) used += is_used_[ray] != 0;
+  are_same = are_same && used == sides.size();
   if (are_same)
     for (const auto& [ray, n] : sides) inward_[ray] = {casting.vertices[vertex], -n};
   return are_same;
 }
 
+void CastingRays::share_out_corner_rays(const TriMesh& casting, std::span<const Index> around, Index vertex) {
+  std::vector<Index> rays;
+  for (Index ray = last_ray_[vertex]; ray != no_index; ray = ray_before_[ray]) rays.push_back(ray);
+  for (const Index ray : rays) is_used_[ray] = false;
+  std::vector<Index> used;
+  visit_corner_normals(casting, around, vertex, [&](Index face, std::size_t k, const Vec3& n) {
+    auto ray = std::find_if(used.begin(), used.end(), [&](Index known) { return normal(known) == n; });
+    if (ray == used.end()) {
+      if (rays.empty()) {
+        add_ray(vertex, {});
+        rays.push_back(last_ray_[vertex]);
+      }
+      ray = used.insert(used.end(), rays.back());
+      rays.pop_back();
+      inward_[*ray] = {casting.vertices[vertex], -n}, is_used_[*ray] = true;
+    }
+    corner_ray_[face][k] = *ray;
+  });
+}
+
+void CastingRays::add_ray(Index owner, const mesh::Ray& ray) {
+  const auto number = static_cast<Index>(size());
+  owner_.push_back(owner), inward_.push_back(ray), is_used_.push_back(true);
+  if (rule_ == FaceRule::cut_faces) ray_before_.push_back(std::exchange(last_ray_[owner], number));
+}
+
 bool CastingRays::update(const Mesh& casting, std::span<const char> is_moved) {
   const auto& triangles = casting.triangles();
-  const auto moves = [&](Index face) {
+  const std::vector<Index> moved_faces = numbers_of(faces(), [&](Index face) {
     const auto& [a, b, c] = triangles[face];
     return is_moved.empty() || is_moved[a] || is_moved[b] || is_moved[c];
-  };
-  const std::vector<Index> moved_faces = numbers_of(faces(), moves);
-  std::atomic<bool> are_same = true;
-  core::parallel_chunks(moved_faces.size(), grain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const Index face = moved_faces[i];
-      const bool had_area = face_area_[face] > 0;
-      measure_face(casting, face);
-      if ((face_area_[face] > 0) != had_area) are_same.store(false, std::memory_order_relaxed);
-    }
   });
-  if (are_same && rule_ == FaceRule::face_centre) {
-    for (const Index face : moved_faces)
-      if (centre_ray_[face] != no_index) inward_[centre_ray_[face]] = centre_ray(casting, face);
-  } else if (are_same) {
-    const mesh::VertexTriangles& around = mesh::triangles_at_vertices_of(casting);
-    std::vector<char> is_at_moved(casting.vertices().size());
-    for (const Index face : moved_faces)
-      for (const Index v : triangles[face]) is_at_moved[v] = true;
-    const std::vector<Index> vertices =
-        numbers_of(is_at_moved.size(), [&](Index v) { return is_at_moved[v]; });
-    core::parallel_chunks(vertices.size(), grain, [&](std::size_t first, std::size_t last) {
-      std::vector<SideOfCrease> sides;
-      for (std::size_t i = first; i < last; ++i)
-        if (!move_corner_rays(casting, around.of(vertices[i]), vertices[i], sides))
-          are_same.store(false, std::memory_order_relaxed);
-    });
+  core::parallel_chunks(moved_faces.size(), grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) measure_face(casting, moved_faces[i]);
+  });
+  return rule_ == FaceRule::face_centre ? update_centre_rays(casting, moved_faces)
+                                        : update_corner_rays(casting, moved_faces);
+}
+
+bool CastingRays::update_centre_rays(const Mesh& casting, std::span<const Index> moved_faces) {
+  const std::size_t before = size();
+  for (const Index face : moved_faces) {
+    Index& ray = centre_ray_[face];
+    if (ray == no_index) {
+      if (face_area_[face] == 0) continue;
+      ray = static_cast<Index>(size());
+      add_ray(face, {});
+    }
+    is_used_[ray] = face_area_[face] > 0;
+    if (is_used_[ray]) inward_[ray] = centre_ray(casting, face);
   }
-  if (!are_same) make_rays(casting);
-  return are_same;
+  return size() == before;
+}
+
+bool CastingRays::update_corner_rays(const Mesh& casting, std::span<const Index> moved_faces) {
+  const std::size_t before = size();
+  const mesh::VertexTriangles& around = mesh::triangles_at_vertices_of(casting);
+  std::vector<char> is_at_moved(casting.vertices().size());
+  for (const Index face : moved_faces)
+    for (const Index v : casting.triangles()[face]) is_at_moved[v] = true;
+  const std::vector<Index> vertices = numbers_of(is_at_moved.size(), [&](Index v) { return is_at_moved[v]; });
+  std::vector<char> has_other_rays(vertices.size());
+  core::parallel_chunks(vertices.size(), grain, [&](std::size_t first, std::size_t last) {
+    std::vector<SideOfCrease> sides;
+    for (std::size_t i = first; i < last; ++i)
+      has_other_rays[i] = !move_corner_rays(casting, around.of(vertices[i]), vertices[i], sides);
+  });
+  // New rays get their numbers in the order of vertices, whichever threads found them.
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    if (has_other_rays[i]) share_out_corner_rays(casting, around.of(vertices[i]), vertices[i]);
+  return size() == before;
 }
 
 }  // namespace condyle::contact

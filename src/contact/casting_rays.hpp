@@ -17,12 +17,13 @@ class CastingRays {
   CastingRays(const Mesh& casting, FaceRule rule);
 
   /// The surface has deformed: `casting` is the mesh now, and the marks, one for each vertex, say which have moved; without marks,
-  /// all. False if rays are others than before: creases have come or gone, or faces without area. Rays are then as for a mesh made
-  /// anew.
+  /// all. False if there are more rays than before, where a crease has come; those of one that has gone stay, without a corner.
   bool update(const Mesh& casting, std::span<const char> is_moved);
 
   std::span<const mesh::Ray> inward() const noexcept { return inward_; }
   std::size_t size() const noexcept { return inward_.size(); }
+  /// Whether a corner has this ray, or a face.
+  bool is_used(std::size_t ray) const noexcept { return is_used_[ray]; }
   /// The face, or the vertex, that a ray starts from.
   Index owner(std::size_t ray) const noexcept { return owner_[ray]; }
   /// Outward, of length 1, of the surface where the ray starts.
@@ -52,6 +53,11 @@ class CastingRays {
   struct SideOfCrease;
   bool move_corner_rays(const TriMesh& casting, std::span<const Index> around, Index vertex,
                         std::vector<SideOfCrease>& sides);
+  /// Where a crease has come or gone: the vertex's rays, used before or not, and new ones where those do not suffice.
+  void share_out_corner_rays(const TriMesh& casting, std::span<const Index> around, Index vertex);
+  void add_ray(Index owner, const mesh::Ray& ray);
+  bool update_centre_rays(const Mesh& casting, std::span<const Index> faces);
+  bool update_corner_rays(const Mesh& casting, std::span<const Index> faces);
 
   FaceRule rule_;
   std::vector<double> face_area_;
@@ -60,6 +66,9 @@ class CastingRays {
   std::vector<std::array<double, 3>> corner_angle_;  ///< radians; with cut faces
   std::vector<Index> owner_;
   std::vector<mesh::Ray> inward_;
+  std::vector<char> is_used_;
+  /// With cut faces: the last ray of a vertex, and of a ray the one before it of the same vertex; no_index at the end.
+  std::vector<Index> last_ray_, ray_before_;
   std::vector<Index> centre_ray_;
   std::vector<std::array<Index, 3>> corner_ray_;
 };

@@ -127,6 +127,7 @@ void OverlapSampler::cast_inwards(const Pose& X_CT, Scratch& scratch, Results& o
   scratch.ends.clear(count);
   scratch.oblique.assign(count, false);
   const auto take_end = [&](Index ray, std::size_t hit) {
+    if (!rays_.is_used(ray)) return;
     const auto overlap = overlap_of(rays_.inward()[ray].direction, scratch.hits, hit, X_CT);
     if (!overlap) return;
     scratch.oblique[ray] = overlap->oblique;
@@ -181,7 +182,7 @@ std::size_t OverlapSampler::cut_off_by_reach(const Pose& X_CT) const {
   const double least_cosine = options_.rule == FaceRule::cut_faces ? oblique_cosine : 0;
   std::size_t count = 0;
   for (std::size_t ray = 0; ray < rays_.size(); ++ray) {
-    if (!hits.is_hit(ray) || hits.distance[ray] <= options_.reach_mm) continue;
+    if (!rays_.is_used(ray) || !hits.is_hit(ray) || hits.distance[ray] <= options_.reach_mm) continue;
     if (rays_.inward()[ray].direction.dot(core::turned(X_CT, target_normal_[hits.triangle[ray]])) >
         least_cosine)
       ++count;
