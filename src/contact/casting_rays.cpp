@@ -17,6 +17,9 @@ namespace {
 /// Faces that meet at a larger angle than this meet at a crease: each side has its own normals there.
 const double crease_cosine = std::cos(40 * std::numbers::pi / 180);
 
+/// Faces within half of that angle of one of them are within all of it of each other, whatever is rounded.
+const double smooth_cosine = std::cos(20 * std::numbers::pi / 180) + 1e-9;
+
 /// Faces, or vertices, that a thread takes at once: some tens of microseconds.
 constexpr std::size_t grain = 512;
 
@@ -91,6 +94,19 @@ void CastingRays::make_centre_rays(const Mesh& casting) {
   }
 }
 
+bool CastingRays::is_smooth_at(std::span<const Index> around) const {
+  const auto are_near = [&](Index a, Index b, double cosine) {
+    return face_area_[a] == 0 || face_area_[b] == 0 || face_normal_[a].dot(face_normal_[b]) >= cosine;
+  };
+  const auto first =
+      std::find_if(around.begin(), around.end(), [&](Index face) { return face_area_[face] > 0; });
+  if (std::all_of(first, around.end(), [&](Index face) { return are_near(face, *first, smooth_cosine); }))
+    return true;
+  for (auto a = first; a != around.end(); ++a)
+    if (!std::all_of(first, a, [&](Index b) { return are_near(*a, b, crease_cosine); })) return false;
+  return true;
+}
+
 void CastingRays::visit_corner_normals(const TriMesh& casting, std::span<const Index> around, Index vertex,
                                        const auto& take) const {
   const auto has_area = [&](Index face) { return face_area_[face] > 0; };
@@ -106,11 +122,7 @@ void CastingRays::visit_corner_normals(const TriMesh& casting, std::span<const I
     }
     return unit(sum);
   };
-  const bool is_smooth = std::all_of(around.begin(), around.end(), [&](const Index& face) {
-    return !has_area(face) ||
-           std::all_of(around.begin(), around.begin() + (&face - around.data()),
-                       [&](Index other) { return !has_area(other) || on_one_side(face, other); });
-  });
+  const bool is_smooth = is_smooth_at(around);
   const Vec3 of_all = is_smooth ? mean_normal(has_area) : Vec3::Zero();
   for (const Index face : around) {
     if (!has_area(face)) continue;

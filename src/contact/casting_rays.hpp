@@ -45,6 +45,8 @@ class CastingRays {
   void make_corner_rays(const Mesh& casting);
   void measure_face(const TriMesh& casting, Index face);
   mesh::Ray centre_ray(const TriMesh& casting, Index face) const;
+  /// Whether faces with area around a vertex meet at no crease.
+  bool is_smooth_at(std::span<const Index> around) const;
   /// take(face, corner, normal) for each face with area around a vertex: the mean of the normals of the faces around it on that
   /// face's side of any crease, weighted by angles, of length 1. Corners on one side have the same normal, to the bit.
   void visit_corner_normals(const TriMesh& casting, std::span<const Index> around, Index vertex,

@@ -1,6 +1,7 @@
 #include "contact/points_inside.hpp"
 
 #include <utility>
+#include <vector>
 
 #include "condyle/inspect.hpp"
 
@@ -27,13 +28,16 @@ PointsInside::PointsInside(Mesh surface, double nearest_mm, Points points)
     : surface_(std::move(surface)), nearest_(nearest_mm), points_(std::move(points)), undecided_(0) {}
 
 void PointsInside::update_points(Points points, bool are_same) {
-  points_ = std::move(points);
+  const Points before = std::exchange(points_, std::move(points));
   std::optional<Prepared>* prepared = prepared_.current();
   if (!prepared || !*prepared) return;
-  if (are_same)
-    (*prepared)->points.update(points_);
-  else
+  if (!are_same) {
     (*prepared)->points = radial::SortedPoints(points_);
+    return;
+  }
+  std::vector<char> is_moved(points_.size());
+  for (std::size_t i = 0; i < is_moved.size(); ++i) is_moved[i] = points_[i] != before[i];
+  (*prepared)->points.update(points_, is_moved);
 }
 
 void PointsInside::update_surface(Mesh surface, double nearest_mm) {

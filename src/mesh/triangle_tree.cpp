@@ -9,6 +9,7 @@
 
 #include "core/float_bounds.hpp"
 #include "core/lazy.hpp"
+#include "core/parallel.hpp"
 #include "core/predicates.hpp"
 #include "mesh/findings.hpp"
 
@@ -231,19 +232,27 @@ void TriangleTree::refit(const Points& mesh_vertices, std::span<const char> is_m
         triangles_.begin() + node.first, triangles_.begin() + node.last,
         [&](const Triangle& t) { return has_moved(t[0]) || has_moved(t[1]) || has_moved(t[2]); });
   };
+  const auto mark = [&](std::size_t i) {
+    if (!is_refitted.empty()) is_refitted[i] = true;
+  };
+  core::parallel_chunks(nodes_.size(), 1024, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      Node& node = nodes_[i];
+      if (!node.is_leaf() || !needs_refit(node)) continue;
+      Extent extent;
+      for (Index t = node.first; t < node.last; ++t) extent.extend(extent_of(corners(t)));
+      set_bounds(node, extent);
+      mark(i);
+    }
+  });
   // Children come after their parent.
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     Node& node = nodes_[i];
-    if (!needs_refit(node)) continue;
-    Extent extent;
-    if (node.is_leaf()) {
-      for (Index t = node.first; t < node.last; ++t) extent.extend(extent_of(corners(t)));
-    } else {
-      extent.extend(extent_of(nodes_[node.child]));
-      extent.extend(extent_of(nodes_[node.child + 1]));
-    }
+    if (node.is_leaf() || !needs_refit(node)) continue;
+    Extent extent = extent_of(nodes_[node.child]);
+    extent.extend(extent_of(nodes_[node.child + 1]));
     set_bounds(node, extent);
-    if (!is_refitted.empty()) is_refitted[i] = true;
+    mark(i);
   }
   overlap_now_ = overlap();
 }

@@ -88,18 +88,17 @@ void PointBlocks::describe_block(std::size_t level, std::size_t block) {
   const std::size_t first = block * points_per_block, last = std::min(first + points_per_block, size());
   Vec3 sum = Vec3::Zero();
   double least = std::numeric_limits<double>::infinity(), greatest = 0;
+  std::array<Vec3, fan * fan> direction;
   for (std::size_t i = first; i < last; ++i) {
     const Vec3 p = point_[i] - centre_;
     const double radius = p.norm();
     least = std::min(least, radius), greatest = std::max(greatest, radius);
-    if (radius > 0) sum += p / radius;
+    if (radius > 0) sum += direction[i - first] = p / radius;
   }
   const Vec3 axis = sum.norm() > 0 ? Vec3(sum.normalized()) : Vec3(1, 0, 0);
   double widest = least > 0 ? 0 : 2;
-  for (std::size_t i = first; i < last && least > 0; ++i) {
-    const Vec3 p = point_[i] - centre_;
-    widest = std::max(widest, (p / p.norm() - axis).norm());
-  }
+  if (least > 0)
+    for (std::size_t i = 0; i < last - first; ++i) widest = std::max(widest, (direction[i] - axis).norm());
   const auto set = [&](Column column, float value) { block_[level][column][block] = value; };
   for (int k = 0; k < 3; ++k) set(static_cast<Column>(axis_x + k), static_cast<float>(axis[k]));
   // The axis as floats is off by up to 2^-25 in each coordinate.
