@@ -120,7 +120,7 @@ TEST(CMemory, EveryAllocationOfAJointContactMayFail) {
 }
 
 TEST(CMemory, EveryAllocationOfAnElasticContactMayFail) {
-  const HeldMesh F = c_mesh(box({-4, -1, -4}, {4, 0, 4})), M = c_mesh(box({-1, -0.1, -1}, {1, 1, 1}));
+  const HeldMesh F = c_mesh(box({-40, -10, -40}, {40, 0, 40})), M = c_mesh(box({-1, -0.1, -1}, {1, 1, 1}));
   const condyle_pose pose = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}};
   const auto options = made<HeldOptions>(condyle_elastic_options_create);
   const double thickness = 2;
