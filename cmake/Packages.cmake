@@ -36,8 +36,9 @@ endif()
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libcondyle1)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
+# CPack's own would be made for every package, and warns of the Python module, which has no such name.
+file(WRITE ${PROJECT_BINARY_DIR}/shlibs "libcondyle_c 1 libcondyle1 (>= ${PROJECT_VERSION})\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/shlibs)
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "The C interface of Condyle, for simulators: libcondyle_c.so.1.")
 
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_NAME condyle-doc)
