@@ -47,6 +47,7 @@ test -e "$root/usr/share/doc/condyle-doc/api/index.html"
 bare
 cp out/packages/libcondyle*.deb examples/c/needle.c "$root/packages/"
 install gcc libc6-dev pkg-config "/$(cd "$root" && ls ./packages/libcondyle1_*.deb)" "/$(cd "$root" && ls ./packages/libcondyle-dev_*.deb)"
+# shellcheck disable=SC2016
 inside sh -c 'gcc -std=c99 /packages/needle.c $(pkg-config --cflags --libs condyle-c) -o /tmp/needle && /tmp/needle'
 
 bare

@@ -5,7 +5,8 @@
 namespace condyle::core::exact {
 namespace {
 
-/// In place: predicates are asked from where nothing may fail, and integers that take memory could.
+/// In place: predicates are asked from where nothing may fail, and integers that take memory could. Boost takes some to multiply two
+/// of 40 limbs or more, and of two factors in a polynomial of degree three one has 34 at most.
 template <unsigned bits>
 using Within = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
     bits, bits, boost::multiprecision::signed_magnitude, boost::multiprecision::unchecked, void>>;

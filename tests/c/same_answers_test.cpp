@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <thread>
 
 #include "c/held.hpp"
 #include "condyle/contact.hpp"
@@ -277,6 +278,27 @@ TEST(CInterface, TurnsAboutAnAxisUpToTheContactOfCpp) {
       expect_same(expected.positive, positive);
     }
   }
+}
+
+TEST(CInterface, AnswersManyThreadsOfOneObjectAsOne) {
+  const auto c = made<HeldContact>(condyle_joint_contact_create, c_mesh(hip().hip_bone).get(),
+                                   c_mesh(hip().femur).get());
+  const contact::JointContact cpp(hip().hip_bone, hip().femur);
+  std::vector<contact::Contact> expected;
+  for (const Pose& X : poses()) expected.push_back(cpp.at(X));
+  std::vector<std::thread> threads;
+  for (std::size_t first = 0; first < 4; ++first) {
+    threads.emplace_back([&, first] {
+      const auto results = made<HeldResults>(condyle_contact_results_create);
+      for (std::size_t i = 0; i < 2 * expected.size(); ++i) {
+        const std::size_t n = (first + i) % expected.size();
+        const condyle_pose pose = c_pose(poses()[n]);
+        ASSERT_EQ(condyle_joint_contact_at(c.get(), &pose, results.get()), CONDYLE_OK);
+        expect_same(expected[n], results.get());
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
 }
 
 }  // namespace
