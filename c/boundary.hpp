@@ -41,6 +41,15 @@ T& required(T* argument, const char* name) {
   return *argument;
 }
 
+/// An object without arguments. Required first: an assignment evaluates its right side before its left.
+template <class T>
+condyle_status make(T** object, const char* name) noexcept {
+  return guarded([&] {
+    T*& out = required(object, name);
+    out = new T;
+  });
+}
+
 /// Answers of results. UsageError if they have none.
 template <class T>
 const T& answered(const T* results) {

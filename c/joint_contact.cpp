@@ -64,7 +64,7 @@ void condyle_joint_contact_destroy(condyle_joint_contact* contact) {
 }
 
 condyle_status condyle_contact_results_create(condyle_contact_results** results) {
-  return c::guarded([&] { c::required(results, "results") = new condyle_contact_results; });
+  return c::make(results, "results");
 }
 
 void condyle_contact_results_destroy(condyle_contact_results* results) {

@@ -137,7 +137,7 @@ void condyle_normal_depth_destroy(condyle_normal_depth* depth) {
 }
 
 condyle_status condyle_normal_results_create(condyle_normal_results** results) {
-  return c::guarded([&] { c::required(results, "results") = new condyle_normal_results; });
+  return c::make(results, "results");
 }
 
 void condyle_normal_results_destroy(condyle_normal_results* results) {
@@ -164,7 +164,7 @@ condyle_status condyle_normal_results_surface(const condyle_normal_results* resu
 }
 
 condyle_status condyle_elastic_options_create(condyle_elastic_options** options) {
-  return c::guarded([&] { c::required(options, "options") = new condyle_elastic_options; });
+  return c::make(options, "options");
 }
 
 void condyle_elastic_options_destroy(condyle_elastic_options* options) {
@@ -220,7 +220,7 @@ void condyle_elastic_contact_destroy(condyle_elastic_contact* contact) {
 }
 
 condyle_status condyle_elastic_results_create(condyle_elastic_results** results) {
-  return c::guarded([&] { c::required(results, "results") = new condyle_elastic_results; });
+  return c::make(results, "results");
 }
 
 void condyle_elastic_results_destroy(condyle_elastic_results* results) {

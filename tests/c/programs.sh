@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Programs in C: each example compiles as C99 and as C++ without a warning, and answers as its closed forms do; under valgrind too,
-# without errors or leaks.
-# Usage: programs.sh SOURCE_FOLDER LIBRARY CXX_COMPILER WORK_FOLDER [valgrind]
+# Programs in C: each example compiles as C99 and as C++ without a warning, and answers as its closed forms do. With the program
+# of the tests, under valgrind, without errors or leaks, and so do the tests of what is passed in wrong
+# and of memory that ends.
+# Usage: programs.sh SOURCE_FOLDER LIBRARY CXX_COMPILER WORK_FOLDER [TESTS]
 set -euo pipefail
-sources=$1 library=$2 compiler=$3 work=$4 under=${5:-}
+sources=$1 library=$2 compiler=$3 work=$4 tests=${5:-}
 fail() { echo "$*" >&2; exit 1; }
-if [ "$under" = valgrind ] && ! command -v valgrind >/dev/null; then
+if [ -n "$tests" ] && ! command -v valgrind >/dev/null; then
   echo "******** SKIPPED: there is no valgrind ********" >&2
   exit 77
 fi
@@ -24,15 +25,17 @@ turns 30.000 degrees, then vertex 3 of the needle meets the wall at x = 5.000 mm
 vertex 3 is 3.750 mm inside
 180.000 N on 100.000 mm2, 27.000 N mm stored
 TEXT
-if [ "$under" = valgrind ]; then
+if [ -n "$tests" ]; then
   # Threads of oneTBB go on to the end of the process: what only they hold may be lost, and is none of the library's.
-  valgrind --quiet --leak-check=full --errors-for-leak-kinds=definite --show-leak-kinds=definite --error-exitcode=1 "$work/needle" \
-    >"$work/answers.txt"
+  checked=(valgrind --quiet --leak-check=full --errors-for-leak-kinds=definite --show-leak-kinds=definite --error-exitcode=1)
+  "${checked[@]}" "$work/needle" >"$work/answers.txt"
+  # With the program's own operator new, which fails where the tests say.
+  "${checked[@]}" --soname-synonyms=somalloc=nouserintercepts "$tests" '--gtest_filter=CErrors.*:CMemory.*' --gtest_brief=1
 else
   "$work/needle" >"$work/answers.txt"
 fi
 diff "$work/expected.txt" "$work/answers.txt" || fail "these are the answers"
-[ "$under" = valgrind ] && exit 0
+[ -z "$tests" ] || exit 0
 "$compiler" -x c++ -std=c++11 "${warnings[@]}" -Wno-missing-field-initializers "${sanitized[@]}" "$sources/examples/c/needle.c" -x none \
   "${linked[@]}" -o "$work/needle_in_cpp"
 "$work/needle_in_cpp" | diff "$work/expected.txt" -
