@@ -39,9 +39,8 @@ extern "C" {
 typedef int condyle_status;
 enum {
   CONDYLE_OK = 0,
-  CONDYLE_BAD_ARGUMENT = 1,  ///< a null pointer, a value outside its domain, results without an answer
-  CONDYLE_BAD_MESH =
-      2,  ///< the mesh does not allow the query: a bad index, an open surface, a centre on the surface
+  CONDYLE_BAD_ARGUMENT = 1,   ///< a null pointer, a value outside its domain, results without an answer
+  CONDYLE_BAD_MESH = 2,       ///< a mesh does not allow the query: a bad index, an open surface
   CONDYLE_OUT_OF_MEMORY = 3,  ///< objects passed in are as usable as before
   CONDYLE_INTERNAL_ERROR = 4  ///< a mistake of the library
 };
@@ -170,11 +169,11 @@ typedef struct condyle_surface_contact {
   double centre_of_pressure_mm[3];                  ///< weighted by pressure times area
   double force_n[3];                                ///< on the casting body: the sum of -p A n
   double moment_nmm[3];                             ///< the same about the origin of its frame
-  size_t
-      met_from_front;  ///< rays that met the front of an open target: the casting point is outside, and counted
-  size_t rim_faces;    ///< faces at the rim of the target, which are cut there
-  double
-      oblique_area_mm2;  ///< whose rays meet the target more than 60 degrees off its normal: their length is no depth
+  /// Rays that met the front of an open target: the casting point is outside of its body, if it has one. Counted all the same.
+  size_t met_from_front;
+  size_t rim_faces;  ///< faces at the rim of the target, which are cut there
+  /// Overlapping area whose rays meet the target more than 60 degrees off its normal: their length is no depth.
+  double oblique_area_mm2;
   int peak_is_oblique;  ///< with CONDYLE_FACE_CENTRE: the largest depth or pressure comes from such a ray
   double max_strain;    ///< the largest depth over the thickness of both layers there
 } condyle_surface_contact;
