@@ -19,7 +19,11 @@ warnings=(-Wall -Wextra -pedantic -Werror)
 linked=(-I "$sources/include" "$library" "-Wl,-rpath,$folder" "-Wl,-rpath-link,$folder")
 # shellcheck disable=SC2206
 sanitized=(${PROGRAM_FLAGS:-})
-"$c_compiler" -std=c99 "${warnings[@]}" -O1 -g "${sanitized[@]}" "$sources/examples/c/needle.c" "${linked[@]}" -o "$work/needle"
+"$c_compiler" -std=c99 "${warnings[@]}" -O1 -g "${sanitized[@]}" -I "$sources/include" -c "$sources/examples/c/needle.c" -o "$work/needle.o"
+# Sanitizers of C++ come with its compiler.
+linker=$c_compiler
+[ -z "${PROGRAM_FLAGS:-}" ] || linker=$compiler
+"$linker" "${sanitized[@]}" "$work/needle.o" "${linked[@]}" -o "$work/needle"
 cat >"$work/expected.txt" <<'TEXT'
 turns 30.000 degrees, then vertex 3 of the needle meets the wall at x = 5.000 mm
 vertex 3 is 3.750 mm inside
