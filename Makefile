@@ -151,10 +151,10 @@ package-test: package wheel
 	@scripts/package_test.sh
 
 format: clang_dependencies
-	@git ls-files '*.hpp' '*.cpp' | xargs clang-format -i
+	@git ls-files '*.hpp' '*.cpp' '*.h' '*.c' | xargs clang-format -i
 
 format-check: clang_dependencies
-	@git ls-files '*.hpp' '*.cpp' | xargs clang-format --dry-run -Werror
+	@git ls-files '*.hpp' '*.cpp' '*.h' '*.c' | xargs clang-format --dry-run -Werror
 
 clean:
 	@rm -rf build out

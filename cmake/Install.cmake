@@ -1,5 +1,5 @@
-# What cmake --install places, in three parts (components): the command; the libraries with their headers and what finds
-# them; the documentation.
+# What cmake --install places, in parts (components): the command; the libraries with their headers and what finds them; the
+# shared library of the C interface; the documentation.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -20,6 +20,12 @@ if(CONDYLE_IO)
   install_library(condyle_io io)
   install(TARGETS condyle_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
 endif()
+if(CONDYLE_C)
+  install(TARGETS condyle_c EXPORT condyle_c
+          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development
+          FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+  install(EXPORT condyle_c NAMESPACE condyle:: FILE condyle-c.cmake DESTINATION ${condyle_cmake_folder} COMPONENT development)
+endif()
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/condyleConfig.cmake.in
                               ${PROJECT_BINARY_DIR}/cmake/condyleConfig.cmake
@@ -28,7 +34,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/cmake/condyleConfigVersio
 install(FILES ${PROJECT_BINARY_DIR}/cmake/condyleConfig.cmake ${PROJECT_BINARY_DIR}/cmake/condyleConfigVersion.cmake
         DESTINATION ${condyle_cmake_folder} COMPONENT development)
 
-# condyle.pc finds its prefix from its own place, since cmake --install may be told another than was configured.
+# They find their prefix from their own place, since cmake --install may be told another than was configured.
 set(pc_prefix ${CMAKE_INSTALL_PREFIX})
 set(pc_libdir ${CMAKE_INSTALL_LIBDIR})
 set(pc_includedir ${CMAKE_INSTALL_INCLUDEDIR})
@@ -40,13 +46,22 @@ endif()
 if(NOT IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")
   set(pc_includedir "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
 endif()
-configure_file(${PROJECT_SOURCE_DIR}/cmake/condyle.pc.in ${PROJECT_BINARY_DIR}/cmake/condyle.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/cmake/condyle.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+set(pc_files condyle)
+if(CONDYLE_C)
+  list(APPEND pc_files condyle-c)
+endif()
+foreach(pc_file ${pc_files})
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/${pc_file}.pc.in ${PROJECT_BINARY_DIR}/cmake/${pc_file}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/cmake/${pc_file}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+endforeach()
 
 # Whoever gets one part gets the licence.
 set(condyle_parts command:condyle development:libcondyle-dev documentation:condyle-doc)
 if(CONDYLE_PYTHON)
   list(APPEND condyle_parts python:python3-condyle)
+endif()
+if(CONDYLE_C)
+  list(APPEND condyle_parts library:libcondyle1)
 endif()
 foreach(part ${condyle_parts})
   string(REGEX MATCH "^(.*):(.*)$" matched ${part})

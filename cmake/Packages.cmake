@@ -1,5 +1,5 @@
-# Debian packages, one for each part that cmake --install knows: docs/install.md. The libraries are static, so there is no
-# package of a runtime.
+# Debian packages, one for each part that cmake --install knows: docs/install.md. The libraries of C++ are static, so the only
+# package of a runtime is that of the C interface.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME condyle)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
@@ -10,6 +10,9 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_COMPONENTS_ALL command development documentation)
 if(CONDYLE_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
+if(CONDYLE_C)
+  list(APPEND CPACK_COMPONENTS_ALL library)
 endif()
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -26,6 +29,17 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libtbb-dev, libhwy-
 # condyle::io only.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libhdf5-dev, libaec-dev, zlib1g-dev, liblz4-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Static libraries and headers, for find_package(condyle) and pkg-config.")
+if(CONDYLE_C)
+  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libcondyle1 (= ${PROJECT_VERSION})")
+endif()
+
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libcondyle1)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
+# CPack's own would be made for every package, and warns of the Python module, which has no such name.
+file(WRITE ${PROJECT_BINARY_DIR}/shlibs "libcondyle_c 1 libcondyle1 (>= ${PROJECT_VERSION})\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/shlibs)
+set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "The C interface of Condyle, for simulators: libcondyle_c.so.1.")
 
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_NAME condyle-doc)
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)

@@ -20,6 +20,7 @@ packages=(
 tests=(
   libgtest-dev librapidcheck-dev libcgal-dev         # CGAL is an oracle there, and a peer
   libvtk9-dev                                        # the reader of what is written, and a peer
+  valgrind                                           # for leaks of programs that use the C interface
   pybind11-dev python3-dev python3-numpy             # the Python module
   python3-pytest python3-hypothesis mypy             # its tests
   python3-matplotlib python3-vtk9                    # its figures, and those of surfaces in .vtp files

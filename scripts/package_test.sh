@@ -45,6 +45,12 @@ inside python3 -c "import condyle; print(condyle.read_joint('/tmp/sample/hip.tom
 test -e "$root/usr/share/doc/condyle-doc/api/index.html"
 
 bare
+cp out/packages/libcondyle*.deb examples/c/needle.c "$root/packages/"
+install gcc libc6-dev pkg-config "/$(cd "$root" && ls ./packages/libcondyle1_*.deb)" "/$(cd "$root" && ls ./packages/libcondyle-dev_*.deb)"
+# shellcheck disable=SC2016
+inside sh -c 'gcc -std=c99 /packages/needle.c $(pkg-config --cflags --libs condyle-c) -o /tmp/needle && /tmp/needle'
+
+bare
 cp out/wheel/*.whl tests/release/wheel_answers.py README.md "$root/packages/"
 install python3-venv python3-numpy
 inside python3 -m venv --system-site-packages /tmp/environment

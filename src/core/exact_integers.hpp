@@ -17,8 +17,8 @@ using Integer = boost::multiprecision::cpp_int;
 
 /// The doubles as integers: out[i] = in[i] * 2^k, one k for all, every digit kept. The sign of a homogeneous
 /// polynomial of them is the sign of the same polynomial of the doubles. All must be finite.
-template <std::size_t N>
-std::array<Integer, N> to_integers(const std::array<double, N>& in) {
+template <std::size_t N, class Int = Integer>
+std::array<Int, N> to_integers(const std::array<double, N>& in) {
   std::array<long long, N> mantissa{};
   std::array<int, N> exponent{};
   int lowest = std::numeric_limits<int>::max();
@@ -29,7 +29,7 @@ std::array<Integer, N> to_integers(const std::array<double, N>& in) {
     exponent[i] = e - 53;
     lowest = std::min(lowest, exponent[i]);
   }
-  std::array<Integer, N> out;
+  std::array<Int, N> out;
   for (std::size_t i = 0; i < N; ++i) {
     if (mantissa[i] == 0) continue;
     out[i] = mantissa[i];
@@ -38,7 +38,8 @@ std::array<Integer, N> to_integers(const std::array<double, N>& in) {
   return out;
 }
 
-inline Sign sign_of(const Integer& value) noexcept {
+template <class Backend, boost::multiprecision::expression_template_option templates>
+Sign sign_of(const boost::multiprecision::number<Backend, templates>& value) noexcept {
   return static_cast<Sign>(value.sign());
 }
 

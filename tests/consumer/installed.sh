@@ -42,6 +42,19 @@ export PKG_CONFIG_PATH
 says ./by_pkg_config "flexion ends at 30.000 degrees"
 
 in_cache() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"; }
+if [ "$(in_cache CONDYLE_C)" = ON ]; then
+  cmake --install "$build" --prefix prefix --component library >/dev/null
+  # The C compiler beside that of C++.
+  c_compiler=$(sed -E 's/clang\+\+/clang/; s/g\+\+/gcc/; s/c\+\+/cc/' <<<"$compiler")
+  needle=$here/../../examples/c/needle.c
+  cmake -S "$here/c" -B in_c -G Ninja -DCMAKE_PREFIX_PATH="$PWD/prefix" -DCMAKE_C_COMPILER="$c_compiler" -DNEEDLE="$needle" \
+    -DCMAKE_C_FLAGS="${CONSUMER_FLAGS:-}" >configure.txt || fail "$(cat configure.txt)"
+  cmake --build in_c >build.txt || fail "$(cat build.txt)"
+  says in_c/needle "vertex 3 is 3.750 mm inside"
+  # shellcheck disable=SC2046,SC2086
+  "$c_compiler" ${CONSUMER_FLAGS:-} -std=c99 "$needle" -o needle_by_pkg_config $(pkg-config --cflags --libs condyle-c)
+  LD_LIBRARY_PATH=$(pkg-config --variable=libdir condyle-c) says ./needle_by_pkg_config "vertex 3 is 3.750 mm inside"
+fi
 if [ "$(in_cache CONDYLE_PYTHON)" = ON ]; then
   cmake --install "$build" --prefix prefix --component python >/dev/null
   module=$(find "$PWD/prefix" -type d -path '*/*-packages/condyle')

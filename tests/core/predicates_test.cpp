@@ -84,5 +84,28 @@ TEST(Predicates, ThreePointsOnALineThatDoubleArithmeticBends) {
   }
 }
 
+TEST(Predicates, IntegersInPlaceHoldWhateverDoublesAreFarApart) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> uniform(0.5, 1);
+  std::bernoulli_distribution coin;
+  // About 168 bits, where larger integers take over, and up to all that doubles span.
+  for (const int apart : {0, 60, 113, 114, 115, 116, 117, 400, 1100, 1990}) {
+    for (int i = 0; i < 40; ++i) {
+      const auto number = [&] {
+        const double value = std::ldexp(uniform(random), (coin(random) ? apart : 0) - 1000);
+        return coin(random) ? value : -value;
+      };
+      const auto point = [&] { return Vec3(number(), number(), number()); };
+      const Vec3 a = point(), b = point(), c = point(), d = point();
+      EXPECT_EQ(core::exact::orientation(a, b, c, d), exact_orientation(a, b, c, d)) << apart;
+      EXPECT_EQ(core::exact::orientation(a, b, c), exact_orientation(Vec3::Zero(), a, b, c)) << apart;
+      const auto product = [](double x, double y) { return Rational(x) * Rational(y); };
+      const Rational minor = product(a.x(), b.y()) - product(a.y(), b.x());
+      EXPECT_EQ(core::exact::determinant_2x2(a.x(), a.y(), b.x(), b.y()),
+                static_cast<core::Sign>(minor.sign()));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace condyle

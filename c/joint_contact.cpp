@@ -1,0 +1,147 @@
+#include <span>
+#include <string>
+#include <type_traits>
+
+#include "boundary.hpp"
+#include "condyle/contact.hpp"
+
+struct condyle_joint_contact {
+  condyle::contact::JointContact joint;
+};
+
+struct condyle_contact_results {
+  bool has_answer = false;
+  condyle::contact::Contact contact = {};
+};
+
+namespace condyle::c {
+namespace {
+
+static_assert(static_cast<int>(PointState::on_surface) == CONDYLE_ON_SURFACE &&
+              static_cast<int>(PointState::inside) == CONDYLE_INSIDE);
+static_assert(static_cast<int>(radial::RayDirection::towards_centre) == CONDYLE_TOWARDS_CENTRE &&
+              static_cast<int>(radial::RayDirection::away_from_centre) == CONDYLE_AWAY_FROM_CENTRE);
+
+/// The bytes of enumerators, which are unsigned chars.
+template <class Enum>
+const std::uint8_t* bytes_of(const std::vector<Enum>& values) noexcept {
+  static_assert(std::is_same_v<std::underlying_type_t<Enum>, std::uint8_t>);
+  return reinterpret_cast<const std::uint8_t*>(values.data());
+}
+
+/// As JointContact::at(), into vertices that keep their capacity.
+void answer(const contact::JointContact& joint, const Pose& X_FM, contact::Contact& out) {
+  auto& [mobile, fixed, pairs, in_contact] = out;
+  const auto vertices = [](bool other_is_closed, std::optional<radial::Penetrations>& kept) -> auto* {
+    if (!other_is_closed)
+      kept.reset();
+    else if (!kept)
+      kept.emplace();
+    return kept ? &*kept : nullptr;
+  };
+  if (auto* inside = vertices(joint.fixed().is_closed(), mobile)) joint.mobile_in_fixed(X_FM, *inside);
+  if (auto* inside = vertices(joint.mobile().is_closed(), fixed)) joint.fixed_in_mobile(X_FM, *inside);
+  pairs = joint.pairs(X_FM);
+  in_contact = !pairs.empty() || (mobile && mobile->size() > 0) || (fixed && fixed->size() > 0);
+}
+
+}  // namespace
+}  // namespace condyle::c
+
+using namespace condyle;
+
+condyle_status condyle_joint_contact_create(const condyle_mesh* fixed, const condyle_mesh* mobile,
+                                            condyle_joint_contact** contact) {
+  return c::guarded([&] {
+    condyle_joint_contact*& out = c::required(contact, "contact");
+    out = new condyle_joint_contact{
+        contact::JointContact(c::required(fixed, "fixed").mesh, c::required(mobile, "mobile").mesh)};
+  });
+}
+
+void condyle_joint_contact_destroy(condyle_joint_contact* contact) {
+  delete contact;
+}
+
+condyle_status condyle_contact_results_create(condyle_contact_results** results) {
+  return c::make(results, "results");
+}
+
+void condyle_contact_results_destroy(condyle_contact_results* results) {
+  delete results;
+}
+
+condyle_status condyle_joint_contact_at(const condyle_joint_contact* contact, const condyle_pose* X_FM,
+                                        condyle_contact_results* results) {
+  return c::guarded([&] {
+    condyle_contact_results& out = c::required(results, "results");
+    out.has_answer = false;
+    c::answer(c::required(contact, "contact").joint, c::pose_of(X_FM, "X_FM"), out.contact);
+    out.has_answer = true;
+  });
+}
+
+condyle_status condyle_joint_contact_in_contact(const condyle_joint_contact* contact,
+                                                const condyle_pose* X_FM, int* in_contact) {
+  return c::guarded([&] {
+    int& out = c::required(in_contact, "in_contact");
+    out = c::required(contact, "contact").joint.in_contact(c::pose_of(X_FM, "X_FM"));
+  });
+}
+
+condyle_status condyle_joint_contact_radial_gaps(const condyle_joint_contact* contact,
+                                                 const condyle_pose* X_FM, condyle_body body, double* gaps_mm,
+                                                 size_t count) {
+  return c::guarded([&] {
+    const contact::JointContact& joint = c::required(contact, "contact").joint;
+    const bool of_mobile = c::role_of(body) == BodyRole::mobile;
+    const Points& vertices = (of_mobile ? joint.mobile() : joint.fixed()).vertices();
+    if (count != vertices.size())
+      throw UsageError("count is " + std::to_string(count) + ", and the body has " +
+                       std::to_string(vertices.size()) + " vertices");
+    if (count > 0) c::require(gaps_mm, "gaps_mm");
+    const Pose X_FM_in = c::pose_of(X_FM, "X_FM");
+    const std::vector<double> gaps =
+        of_mobile ? joint.fixed_table().radial_gaps(posed(X_FM_in, vertices))
+                  : joint.mobile_table().radial_gaps(posed(inverted(X_FM_in), vertices));
+    std::copy(gaps.begin(), gaps.end(), gaps_mm);
+  });
+}
+
+condyle_status condyle_contact_results_vertices(const condyle_contact_results* results, condyle_body body,
+                                                condyle_vertices_inside* out) {
+  return c::guarded([&] {
+    const contact::Contact& contact = c::answered(results).contact;
+    condyle_vertices_inside& view = c::required(out, "out");
+    const auto& inside =
+        c::role_of(body) == BodyRole::mobile ? contact.mobile_in_fixed : contact.fixed_in_mobile;
+    view = {};
+    if (inside)
+      view = {1,
+              inside->size(),
+              inside->point.data(),
+              c::bytes_of(inside->state),
+              inside->depth_mm.data(),
+              inside->triangle.data(),
+              c::bytes_of(inside->direction)};
+  });
+}
+
+condyle_status condyle_contact_results_pairs(const condyle_contact_results* results, const uint32_t** pairs,
+                                             size_t* pair_count) {
+  return c::guarded([&] {
+    // Two numbers side by side, which C reads as one array.
+    static_assert(sizeof(contact::TrianglePair) == 2 * sizeof(std::uint32_t));
+    const auto& found = c::answered(results).contact.pairs;
+    const std::uint32_t*& first = c::required(pairs, "pairs");
+    c::required(pair_count, "pair_count") = found.size();
+    first = found.empty() ? nullptr : &found.front().fixed;
+  });
+}
+
+condyle_status condyle_contact_results_in_contact(const condyle_contact_results* results, int* in_contact) {
+  return c::guarded([&] {
+    const contact::Contact& contact = c::answered(results).contact;
+    c::required(in_contact, "in_contact") = contact.in_contact;
+  });
+}

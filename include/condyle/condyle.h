@@ -1,0 +1,315 @@
+#ifndef CONDYLE_CONDYLE_H
+#define CONDYLE_CONDYLE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/// The C interface, of the shared library libcondyle_c.so.1: meshes, contact of two bodies at a pose, depths along normals,
+/// elastic contact, and rotation about an axis up to contact. docs/c-interface.md. C99 and C++; link with -lcondyle_c.
+///
+/// Units: mm, N, N mm, MPa; angles are degrees. Frames: F is that of the fixed body, M that of the mobile body; a pose X_FM
+/// has p_F = X_FM p_M. Points are x, y, z one after the other.
+///
+/// Errors: every function that can fail returns a condyle_status, CONDYLE_OK or what went wrong, and condyle_last_error() has a
+/// line about it. What a function would have written it then leaves alone, unless it says otherwise. No exception leaves
+/// the library, and it neither prints nor exits.
+///
+/// Ownership: whatever a _create function gives is the caller's, who hands it back once to the _destroy function of its kind; that takes
+/// NULL too. Arrays passed in are copied. Pointers that a function gives into results are good until the results are
+/// queried for again or destroyed.
+///
+/// Threads: any number of threads may query one object at a time, each with results of its own; queries use the threads of
+/// oneTBB, and answers do not depend on how many these are. Options, results, and whatever a function takes without const
+/// belong to one thread at a time.
+///
+/// Growth: names and structs of this header stay as they are as long as the library is libcondyle_c.so.1. What is
+/// added has a name of its own.
+
+#if defined(__GNUC__)
+#define CONDYLE_API __attribute__((visibility("default")))
+#else
+#define CONDYLE_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// What a function answers: one of the values below.
+typedef int condyle_status;
+enum {
+  CONDYLE_OK = 0,
+  CONDYLE_BAD_ARGUMENT = 1,   ///< a null pointer, a value outside its domain, results without an answer
+  CONDYLE_BAD_MESH = 2,       ///< a mesh does not allow the query: a bad index, an open surface
+  CONDYLE_OUT_OF_MEMORY = 3,  ///< objects passed in are as usable as before
+  CONDYLE_INTERNAL_ERROR = 4  ///< a mistake of the library
+};
+
+/// One line about the last call of this thread that failed, in English, of at most 1023 bytes; empty if none did. Good until
+/// the next call that fails in this thread.
+CONDYLE_API const char* condyle_last_error(void);
+
+/// Version of the library: "0.1.0".
+CONDYLE_API const char* condyle_version(void);
+
+/// Which of the two bodies.
+typedef int condyle_body;
+enum { CONDYLE_FIXED = 0, CONDYLE_MOBILE = 1 };
+
+/// A rigid motion: p_F[i] = sum over k of rotation[3 i + k] p_M[k], plus translation_mm[i]. The rotation is row-major, its rows
+/// orthonormal to 1e-6 and without reflection; the translation is at most 1e30 mm. Else CONDYLE_BAD_ARGUMENT.
+typedef struct condyle_pose {
+  double rotation[9];
+  double translation_mm[3];
+} condyle_pose;
+
+// ---- meshes ---------------------------------------------------------------------------------------------------------------
+
+/// A triangle mesh that was checked. Immutable; objects made from it keep what they need of it, so it may be destroyed
+/// before they are.
+typedef struct condyle_mesh condyle_mesh;
+
+/// From `vertex_count` points in mm and `triangle_count` triples of vertex numbers from 0, counter-clockwise seen from outside.
+/// CONDYLE_BAD_MESH names the first bad element: "triangle 812 uses vertex 40991 of 40000". Linear.
+CONDYLE_API condyle_status condyle_mesh_create(const double* xyz_mm, size_t vertex_count,
+                                               const uint32_t* triangles, size_t triangle_count,
+                                               condyle_mesh** mesh);
+CONDYLE_API void condyle_mesh_destroy(condyle_mesh* mesh);
+
+/// 0 for NULL.
+CONDYLE_API size_t condyle_mesh_vertex_count(const condyle_mesh* mesh);
+CONDYLE_API size_t condyle_mesh_triangle_count(const condyle_mesh* mesh);
+/// 1 if every edge is used as often in one direction as in the other, so that the surface has an inside; else, and for NULL, 0.
+CONDYLE_API int condyle_mesh_is_closed(const condyle_mesh* mesh);
+
+// ---- contact at a pose ----------------------------------------------------------------------------------------------------
+
+/// A fixed and a mobile body, each in its own frame with the joint centre as origin. Depths and gaps are radial: along the ray
+/// from the centre. Tables are built by the first query that needs them.
+typedef struct condyle_joint_contact condyle_joint_contact;
+
+/// Open meshes are accepted: they have no inside, but triangles that meet.
+CONDYLE_API condyle_status condyle_joint_contact_create(const condyle_mesh* fixed, const condyle_mesh* mobile,
+                                                        condyle_joint_contact** contact);
+CONDYLE_API void condyle_joint_contact_destroy(condyle_joint_contact* contact);
+
+/// What a query found at one pose. Vertices reuse the memory of the query before: once there is enough, they allocate nothing.
+typedef struct condyle_contact_results condyle_contact_results;
+
+CONDYLE_API condyle_status condyle_contact_results_create(condyle_contact_results** results);
+CONDYLE_API void condyle_contact_results_destroy(condyle_contact_results* results);
+
+/// Vertices of each body that are inside the other or on its surface, and the triangles that intersect. CONDYLE_BAD_MESH if the
+/// joint centre lies on a surface. After an error the results have no answer.
+CONDYLE_API condyle_status condyle_joint_contact_at(const condyle_joint_contact* contact,
+                                                    const condyle_pose* X_FM,
+                                                    condyle_contact_results* results);
+
+/// Whether the bodies share a point, 1 or 0; ends at the first witness found, so sooner than condyle_joint_contact_at().
+CONDYLE_API condyle_status condyle_joint_contact_in_contact(const condyle_joint_contact* contact,
+                                                            const condyle_pose* X_FM, int* in_contact);
+
+/// The radial gap of every vertex of `body` to the other body, mm: > 0 apart, < 0 penetrating, 0 on the surface; infinite if its ray
+/// meets nothing. `count` is the number of the body's vertices. CONDYLE_BAD_MESH if the other body is open.
+CONDYLE_API condyle_status condyle_joint_contact_radial_gaps(const condyle_joint_contact* contact,
+                                                             const condyle_pose* X_FM, condyle_body body,
+                                                             double* gaps_mm, size_t count);
+
+/// Values of `state` and `direction` below.
+enum { CONDYLE_ON_SURFACE = 1, CONDYLE_INSIDE = 2 };
+enum { CONDYLE_TOWARDS_CENTRE = 0, CONDYLE_AWAY_FROM_CENTRE = 1 };
+
+/// The vertices of one body that are not outside the other, one array for each quantity, `count` long. Vertices that are
+/// neighbours in space follow each other; their numbers do not ascend.
+typedef struct condyle_vertices_inside {
+  int other_is_closed;  ///< 0 if the other body has no inside: then nothing is known, and count is 0
+  size_t count;
+  const uint32_t* vertex;
+  const uint8_t* state;      ///< CONDYLE_INSIDE or CONDYLE_ON_SURFACE
+  const double* depth_mm;    ///< along the ray to the nearer exit, >= 0
+  const uint32_t* triangle;  ///< of the other body: where the ray leaves it, or one that the vertex lies on
+  const uint8_t* direction;  ///< along the ray to that triangle
+} condyle_vertices_inside;
+
+/// CONDYLE_BAD_ARGUMENT before the first answer, as the next two.
+CONDYLE_API condyle_status condyle_contact_results_vertices(const condyle_contact_results* results,
+                                                            condyle_body body, condyle_vertices_inside* out);
+/// The exact set of pairs of triangles that share a point, ascending: pairs[2 i] of the fixed body, pairs[2 i + 1] of the mobile body,
+/// i < pair_count.
+CONDYLE_API condyle_status condyle_contact_results_pairs(const condyle_contact_results* results,
+                                                         const uint32_t** pairs, size_t* pair_count);
+/// 1 if surfaces meet or a body is wholly inside the other, else 0.
+CONDYLE_API condyle_status condyle_contact_results_in_contact(const condyle_contact_results* results,
+                                                              int* in_contact);
+
+// ---- depth along normals --------------------------------------------------------------------------------------------------
+
+/// A face of the casting surface in contact. Integrals are over the part in contact, in the frame of the casting body.
+typedef struct condyle_face_contact {
+  uint32_t face;
+  double area_mm2;  ///< of the part in contact
+  double max_depth_mm;
+  double overlap_mm3;            ///< integral of the depth
+  double overlap_moment_mm4[3];  ///< integral of depth times place
+  double max_pressure_mpa;       ///< pressures and loads are 0 of depths without layers
+  double load_n;                 ///< integral of the pressure
+  double load_moment_nmm[3];     ///< integral of pressure times place
+} condyle_face_contact;
+
+/// Faces in contact, and sums over them, in the frame of the casting body.
+typedef struct condyle_surface_contact {
+  int is_cast;  ///< 0 if this body's surface is not cast: then all else is 0
+  size_t face_count;
+  const condyle_face_contact* faces;  ///< ascending
+  double area_mm2;
+  double mean_depth_mm, max_depth_mm;
+  double mean_pressure_mpa, max_pressure_mpa;
+  int has_centre_of_depth, has_centre_of_pressure;  ///< 0 without contact; the centre is then 0
+  double centre_of_depth_mm[3];                     ///< weighted by depth times area
+  double centre_of_pressure_mm[3];                  ///< weighted by pressure times area
+  double force_n[3];                                ///< on the casting body: the sum of -p A n
+  double moment_nmm[3];                             ///< the same about the origin of its frame
+  /// Rays that met the front of an open target: the casting point is outside of its body, if it has one. Counted all the same.
+  size_t met_from_front;
+  size_t rim_faces;  ///< faces at the rim of the target, which are cut there
+  /// Overlapping area whose rays meet the target more than 60 degrees off its normal: their length is no depth.
+  double oblique_area_mm2;
+  int peak_is_oblique;  ///< with CONDYLE_FACE_CENTRE: the largest depth or pressure comes from such a ray
+  double max_strain;    ///< the largest depth over the thickness of both layers there
+} condyle_surface_contact;
+
+/// What a face contributes: the part where the depth, linear between rays from its corners, is above 0; or the whole face with the
+/// depth at its centre, the rule of OpenSim-JAM.
+typedef int condyle_face_rule;
+enum { CONDYLE_FACE_CENTRE = 0, CONDYLE_CUT_FACES = 1 };
+
+/// Rays along the negative normals of a casting surface to a target surface. Both may be open.
+typedef struct condyle_normal_depth condyle_normal_depth;
+
+/// `reach_mm` > 0 is how far rays go; 20 is usual.
+CONDYLE_API condyle_status condyle_normal_depth_create(const condyle_mesh* casting,
+                                                       const condyle_mesh* target, condyle_face_rule rule,
+                                                       double reach_mm, condyle_normal_depth** depth);
+CONDYLE_API void condyle_normal_depth_destroy(condyle_normal_depth* depth);
+
+typedef struct condyle_normal_results condyle_normal_results;
+
+CONDYLE_API condyle_status condyle_normal_results_create(condyle_normal_results** results);
+CONDYLE_API void condyle_normal_results_destroy(condyle_normal_results* results);
+
+/// X_CT is the pose of the target in the casting body: X_FM if the fixed body is cast, its inverse if the mobile one is. After an
+/// error the results have no answer.
+CONDYLE_API condyle_status condyle_normal_depth_at(const condyle_normal_depth* depth,
+                                                   const condyle_pose* X_CT, condyle_normal_results* results);
+CONDYLE_API condyle_status condyle_normal_results_surface(const condyle_normal_results* results,
+                                                          condyle_surface_contact* out);
+
+// ---- elastic contact ------------------------------------------------------------------------------------------------------
+
+/// Which surface is cast; with both the load is the mean of the two.
+typedef int condyle_casting;
+enum { CONDYLE_CAST_FIXED = 0, CONDYLE_CAST_MOBILE = 1, CONDYLE_CAST_BOTH = 2 };
+
+/// Pressure of an overlap d of a layer of thickness h: M d / h, or -M ln(1 - d / h); M is the modulus of a layer that cannot
+/// spread sideways.
+typedef int condyle_pressure_law;
+enum { CONDYLE_LINEAR = 0, CONDYLE_LOGARITHMIC = 1 };
+
+/// Options of elastic contact: both surfaces cast, cut faces, reach 20 mm, the linear law, and no layer, until they are set.
+typedef struct condyle_elastic_options condyle_elastic_options;
+
+CONDYLE_API condyle_status condyle_elastic_options_create(condyle_elastic_options** options);
+CONDYLE_API void condyle_elastic_options_destroy(condyle_elastic_options* options);
+CONDYLE_API condyle_status condyle_elastic_options_set_casting(condyle_elastic_options* options,
+                                                               condyle_casting casting);
+CONDYLE_API condyle_status condyle_elastic_options_set_law(condyle_elastic_options* options,
+                                                           condyle_pressure_law law);
+CONDYLE_API condyle_status condyle_elastic_options_set_rays(condyle_elastic_options* options,
+                                                            condyle_face_rule rule, double reach_mm);
+/// The layer of a body: `thickness_count` is 1 for one thickness, or the number of the body's vertices, each with its own. A body
+/// without a layer is rigid, and one of the two needs one. Values are checked by condyle_elastic_contact_create(): modulus > 0,
+/// Poisson's ratio > -1 and < 0.5, thicknesses > 0.
+CONDYLE_API condyle_status condyle_elastic_options_set_layer(condyle_elastic_options* options,
+                                                             condyle_body body, double youngs_modulus_mpa,
+                                                             double poisson_ratio, const double* thickness_mm,
+                                                             size_t thickness_count);
+
+/// Two surfaces with their layers: an elastic foundation.
+typedef struct condyle_elastic_contact condyle_elastic_contact;
+
+/// The options are copied. CONDYLE_BAD_ARGUMENT for one that is outside its domain, and without a layer.
+CONDYLE_API condyle_status condyle_elastic_contact_create(const condyle_mesh* fixed,
+                                                          const condyle_mesh* mobile,
+                                                          const condyle_elastic_options* options,
+                                                          condyle_elastic_contact** contact);
+CONDYLE_API void condyle_elastic_contact_destroy(condyle_elastic_contact* contact);
+
+typedef struct condyle_elastic_results condyle_elastic_results;
+
+CONDYLE_API condyle_status condyle_elastic_results_create(condyle_elastic_results** results);
+CONDYLE_API void condyle_elastic_results_destroy(condyle_elastic_results* results);
+
+/// CONDYLE_BAD_MESH with the logarithmic law if the overlap reaches the thickness. After an error the results have no answer.
+CONDYLE_API condyle_status condyle_elastic_contact_at(const condyle_elastic_contact* contact,
+                                                      const condyle_pose* X_FM,
+                                                      condyle_elastic_results* results);
+
+typedef struct condyle_wrench {
+  double force_n[3];
+  double moment_nmm[3];
+} condyle_wrench;
+
+/// The load of the fixed body on the mobile one, in F, about the origin of M; and what is stored in the layers, N mm.
+CONDYLE_API condyle_status condyle_elastic_results_load(const condyle_elastic_results* results,
+                                                        condyle_wrench* on_mobile, double* energy_nmm);
+/// The surface of one body, in its own frame.
+CONDYLE_API condyle_status condyle_elastic_results_surface(const condyle_elastic_results* results,
+                                                           condyle_body body, condyle_surface_contact* out);
+
+// ---- rotation about an axis -----------------------------------------------------------------------------------------------
+
+/// Two bodies made ready for rotations of the mobile one about one axis that stays in the fixed one.
+typedef struct condyle_first_contact condyle_first_contact;
+
+/// The axis goes through a point, in mm, along a direction of any length but zero, both in F.
+CONDYLE_API condyle_status condyle_first_contact_create(const condyle_mesh* fixed, const condyle_mesh* mobile,
+                                                        const double axis_point_mm[3],
+                                                        const double axis_direction[3],
+                                                        condyle_first_contact** first_contact);
+CONDYLE_API void condyle_first_contact_destroy(condyle_first_contact* first_contact);
+
+/// Why a rotation ends: the surfaces meet there and not before; nothing meets in the whole range; or the bodies are in
+/// contact at the start already.
+enum { CONDYLE_CONTACT = 0, CONDYLE_END_OF_RANGE = 1, CONDYLE_CONTACT_AT_START = 2 };
+
+enum { CONDYLE_VERTEX = 0, CONDYLE_EDGE = 1, CONDYLE_FACE = 2 };
+
+/// A vertex or a face by its number, an edge by its two vertices, ascending.
+typedef struct condyle_feature {
+  int kind;
+  uint32_t id;
+  uint32_t other_end;  ///< edges only, else 0xffffffff
+} condyle_feature;
+
+/// How far the mobile body turns in one sense.
+typedef struct condyle_rotation_limit {
+  double turned_deg;       ///< from the start, >= 0 in either sense
+  double error_bound_deg;  ///< contact is at turned_deg or past it by at most this, never before
+  int reason;
+  int has_witness;  ///< 0 without contact, or if a body is inside the other and surfaces do not meet
+  condyle_feature fixed_feature, mobile_feature;  ///< what meets
+  double fixed_point_mm[3], mobile_point_mm[3];   ///< where, each in its own body's frame
+} condyle_rotation_limit;
+
+/// How far the mobile body turns about the axis from X_FM before anything meets, in closed form, with no step. The range is from
+/// `negative_deg`, -360 to 0, to `positive_deg`, 0 to 360; positive is counter-clockwise seen from the tip of the direction.
+CONDYLE_API condyle_status condyle_first_contact_limits(const condyle_first_contact* first_contact,
+                                                        const condyle_pose* X_FM, double negative_deg,
+                                                        double positive_deg, condyle_rotation_limit* negative,
+                                                        condyle_rotation_limit* positive);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "condyle/condyle.h"
+#include "condyle/mesh.hpp"
+
+/// Objects of the C interface that destroy themselves, and C++'s arguments as it takes them.
+
+namespace condyle::test {
+
+template <auto destroy>
+struct Destroyed {
+  void operator()(auto* object) const noexcept { destroy(object); }
+};
+template <class T, auto destroy>
+using Held = std::unique_ptr<T, Destroyed<destroy>>;
+
+using HeldMesh = Held<condyle_mesh, condyle_mesh_destroy>;
+using HeldContact = Held<condyle_joint_contact, condyle_joint_contact_destroy>;
+using HeldResults = Held<condyle_contact_results, condyle_contact_results_destroy>;
+using HeldDepth = Held<condyle_normal_depth, condyle_normal_depth_destroy>;
+using HeldNormalResults = Held<condyle_normal_results, condyle_normal_results_destroy>;
+using HeldOptions = Held<condyle_elastic_options, condyle_elastic_options_destroy>;
+using HeldElastic = Held<condyle_elastic_contact, condyle_elastic_contact_destroy>;
+using HeldElasticResults = Held<condyle_elastic_results, condyle_elastic_results_destroy>;
+using HeldRotation = Held<condyle_first_contact, condyle_first_contact_destroy>;
+
+/// What a _create function makes; null where it fails.
+template <class Object, class... Arguments>
+Object made(condyle_status (*create)(Arguments...), auto... arguments) {
+  typename Object::pointer object = nullptr;
+  create(arguments..., &object);
+  return Object(object);
+}
+
+inline HeldMesh c_mesh(const TriMesh& mesh) {
+  std::vector<double> xyz;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    for (int k = 0; k < 3; ++k) xyz.push_back(mesh.vertices[v][k]);
+  return made<HeldMesh>(condyle_mesh_create, xyz.data(), mesh.vertices.size(),
+                        mesh.triangles.empty() ? nullptr : mesh.triangles.front().data(),
+                        mesh.triangles.size());
+}
+
+inline condyle_pose c_pose(const Pose& X) {
+  condyle_pose out;
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) out.rotation[3 * i + k] = X.matrix()(i, k);
+    out.translation_mm[i] = X.matrix()(i, 3);
+  }
+  return out;
+}
+
+}  // namespace condyle::test

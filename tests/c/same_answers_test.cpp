@@ -1,0 +1,305 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <thread>
+
+#include "c/held.hpp"
+#include "condyle/contact.hpp"
+#include "condyle/first_contact.hpp"
+#include "condyle/pressure.hpp"
+#include "condyle/sample/hip.hpp"
+#include "condyle/version.hpp"
+#include "support/test_meshes.hpp"
+
+/// What C answers has the bits of what C++ answers.
+
+namespace condyle {
+namespace {
+
+using namespace test;
+
+const sample::SampleHip& hip() {
+  static const sample::SampleHip made = sample::sample_hip({}, sample::Scenario::two);
+  return made;
+}
+
+Pose rotated(double degrees, const Vec3& axis, const Vec3& shift = Vec3::Zero()) {
+  Pose X = Pose::Identity();
+  X.linear() = Eigen::AngleAxisd(Angle::degrees(degrees).radians(), axis.normalized()).toRotationMatrix();
+  X.translation() = shift;
+  return X;
+}
+
+/// Apart; and flexed, turned and displaced into contact.
+std::vector<Pose> poses() {
+  return {Pose::Identity(), rotated(125, {0, 0, 1}), rotated(140, {0.2, 0.1, 1}),
+          rotated(20, {1, 2, 3}, {-3, 5.5, -2}), rotated(95, {0, 0.4, 1}, {1, 4, -1})};
+}
+
+template <class T>
+std::vector<T> array(const T* first, std::size_t count) {
+  return {first, first + count};
+}
+
+template <class Enum>
+std::vector<std::uint8_t> bytes(const std::vector<Enum>& values) {
+  std::vector<std::uint8_t> out;
+  for (const Enum value : values) out.push_back(static_cast<std::uint8_t>(value));
+  return out;
+}
+
+Vec3 vector(const double (&xyz)[3]) {
+  return {xyz[0], xyz[1], xyz[2]};
+}
+
+void expect_same(const std::optional<radial::Penetrations>& cpp, const condyle_vertices_inside& c) {
+  ASSERT_EQ(c.other_is_closed, cpp ? 1 : 0);
+  if (!cpp) return;
+  ASSERT_EQ(c.count, cpp->size());
+  EXPECT_EQ(array(c.vertex, c.count), cpp->point);
+  EXPECT_EQ(array(c.state, c.count), bytes(cpp->state));
+  EXPECT_EQ(array(c.depth_mm, c.count), cpp->depth_mm);
+  EXPECT_EQ(array(c.triangle, c.count), cpp->triangle);
+  EXPECT_EQ(array(c.direction, c.count), bytes(cpp->direction));
+}
+
+/// Results of C against those of C++; how many vertices are inside.
+std::size_t expect_same(const contact::Contact& cpp, const condyle_contact_results* c) {
+  condyle_vertices_inside mobile, fixed;
+  EXPECT_EQ(condyle_contact_results_vertices(c, CONDYLE_MOBILE, &mobile), CONDYLE_OK);
+  EXPECT_EQ(condyle_contact_results_vertices(c, CONDYLE_FIXED, &fixed), CONDYLE_OK);
+  expect_same(cpp.mobile_in_fixed, mobile);
+  expect_same(cpp.fixed_in_mobile, fixed);
+  const std::uint32_t* pairs;
+  std::size_t count;
+  EXPECT_EQ(condyle_contact_results_pairs(c, &pairs, &count), CONDYLE_OK);
+  EXPECT_EQ(count, cpp.pairs.size());
+  for (std::size_t i = 0; i < std::min(count, cpp.pairs.size()); ++i)
+    EXPECT_EQ((contact::TrianglePair{pairs[2 * i], pairs[2 * i + 1]}), cpp.pairs[i]);
+  int in_contact = -1;
+  EXPECT_EQ(condyle_contact_results_in_contact(c, &in_contact), CONDYLE_OK);
+  EXPECT_EQ(in_contact, cpp.in_contact ? 1 : 0);
+  return mobile.count + fixed.count;
+}
+
+void expect_same(const contact::SurfaceContact& cpp, const condyle_surface_contact& c) {
+  EXPECT_EQ(c.is_cast, 1);
+  ASSERT_EQ(c.face_count, cpp.faces.size());
+  for (std::size_t i = 0; i < c.face_count; ++i) {
+    const contact::FaceContact& a = cpp.faces[i];
+    const condyle_face_contact& b = c.faces[i];
+    ASSERT_EQ(b.face, a.face);
+    ASSERT_EQ((std::array{b.area_mm2, b.max_depth_mm, b.overlap_mm3, b.max_pressure_mpa, b.load_n}),
+              (std::array{a.area_mm2, a.max_depth_mm, a.overlap_mm3, a.max_pressure_mpa, a.load_n}));
+    ASSERT_EQ(vector(b.overlap_moment_mm4), a.overlap_moment);
+    ASSERT_EQ(vector(b.load_moment_nmm), a.load_moment);
+  }
+  const contact::ContactTotals& totals = cpp.totals;
+  EXPECT_EQ((std::array{c.area_mm2, c.mean_depth_mm, c.max_depth_mm, c.mean_pressure_mpa, c.max_pressure_mpa,
+                        c.oblique_area_mm2, c.max_strain}),
+            (std::array{totals.area_mm2, totals.mean_depth_mm, totals.max_depth_mm, totals.mean_pressure_mpa,
+                        totals.max_pressure_mpa, cpp.oblique_area_mm2, cpp.max_strain}));
+  EXPECT_EQ(c.has_centre_of_depth, totals.centre_of_depth ? 1 : 0);
+  EXPECT_EQ(vector(c.centre_of_depth_mm), totals.centre_of_depth.value_or(Vec3::Zero()));
+  EXPECT_EQ(c.has_centre_of_pressure, totals.centre_of_pressure ? 1 : 0);
+  EXPECT_EQ(vector(c.centre_of_pressure_mm), totals.centre_of_pressure.value_or(Vec3::Zero()));
+  EXPECT_EQ(vector(c.force_n), totals.force_n);
+  EXPECT_EQ(vector(c.moment_nmm), totals.moment_nmm);
+  EXPECT_EQ(c.met_from_front, cpp.met_from_front);
+  EXPECT_EQ(c.rim_faces, cpp.rim_faces);
+  EXPECT_EQ(c.peak_is_oblique, cpp.peak_is_oblique ? 1 : 0);
+}
+
+void expect_same(const motion::Limit& cpp, const condyle_rotation_limit& c) {
+  EXPECT_EQ(c.turned_deg, cpp.turned.degrees());
+  EXPECT_EQ(c.error_bound_deg, cpp.error_bound.degrees());
+  EXPECT_EQ(c.reason, static_cast<int>(cpp.reason));
+  ASSERT_EQ(c.has_witness, cpp.contact ? 1 : 0);
+  if (!cpp.contact) return;
+  for (const auto& [of_c, of_cpp] : {std::pair{c.fixed_feature, cpp.contact->fixed_feature},
+                                     std::pair{c.mobile_feature, cpp.contact->mobile_feature}}) {
+    EXPECT_EQ(of_c.kind, static_cast<int>(of_cpp.kind));
+    EXPECT_EQ(of_c.id, of_cpp.id);
+    EXPECT_EQ(of_c.other_end, of_cpp.other_end);
+  }
+  EXPECT_EQ(vector(c.fixed_point_mm), cpp.contact->fixed_point);
+  EXPECT_EQ(vector(c.mobile_point_mm), cpp.contact->mobile_point);
+}
+
+TEST(CInterface, HasTheVersionOfTheLibrary) {
+  EXPECT_EQ(condyle_version(), version);
+}
+
+TEST(CInterface, KnowsAMeshAsItWasGiven) {
+  const HeldMesh closed = c_mesh(hip().femur), open = c_mesh(plane(1, 3));
+  EXPECT_EQ(condyle_mesh_vertex_count(closed.get()), hip().femur.vertices.size());
+  EXPECT_EQ(condyle_mesh_triangle_count(closed.get()), hip().femur.triangles.size());
+  EXPECT_EQ(condyle_mesh_is_closed(closed.get()), 1);
+  EXPECT_EQ(condyle_mesh_is_closed(open.get()), 0);
+}
+
+TEST(CInterface, FindsTheVerticesAndPairsOfCppInOneResultsObjectForManyPoses) {
+  const contact::JointContact cpp(hip().hip_bone, hip().femur);
+  HeldMesh fixed = c_mesh(hip().hip_bone), mobile = c_mesh(hip().femur);
+  const auto c = made<HeldContact>(condyle_joint_contact_create, fixed.get(), mobile.get());
+  fixed.reset(), mobile.reset();  // The contact has what it needs.
+  const auto results = made<HeldResults>(condyle_contact_results_create);
+  std::size_t most_inside = 0, free_poses = 0;
+  for (const Pose& X : poses()) {
+    const condyle_pose pose = c_pose(X);
+    ASSERT_EQ(condyle_joint_contact_at(c.get(), &pose, results.get()), CONDYLE_OK) << condyle_last_error();
+    const contact::Contact expected = cpp.at(X);
+    most_inside = std::max(most_inside, expect_same(expected, results.get()));
+    free_poses += !expected.in_contact;
+    int in_contact = -1;
+    ASSERT_EQ(condyle_joint_contact_in_contact(c.get(), &pose, &in_contact), CONDYLE_OK);
+    EXPECT_EQ(in_contact, expected.in_contact ? 1 : 0);
+  }
+  EXPECT_GT(most_inside, 10u);
+  EXPECT_GT(free_poses, 0u);
+}
+
+TEST(CInterface, GivesTheRadialGapsOfCpp) {
+  const contact::JointContact cpp(hip().hip_bone, hip().femur);
+  const auto c = made<HeldContact>(condyle_joint_contact_create, c_mesh(hip().hip_bone).get(),
+                                   c_mesh(hip().femur).get());
+  std::vector<double> mobile(hip().femur.vertices.size()), fixed(hip().hip_bone.vertices.size());
+  for (const Pose& X : poses()) {
+    const condyle_pose pose = c_pose(X);
+    ASSERT_EQ(condyle_joint_contact_radial_gaps(c.get(), &pose, CONDYLE_MOBILE, mobile.data(), mobile.size()),
+              CONDYLE_OK);
+    ASSERT_EQ(condyle_joint_contact_radial_gaps(c.get(), &pose, CONDYLE_FIXED, fixed.data(), fixed.size()),
+              CONDYLE_OK);
+    const contact::RadialContact expected = cpp.radial(X);
+    EXPECT_EQ(mobile, expected.mobile_in_fixed->radial_gap_mm);
+    EXPECT_EQ(fixed, expected.fixed_in_mobile->radial_gap_mm);
+  }
+}
+
+TEST(CInterface, SaysThatAnOpenBodyHasNoInside) {
+  const TriMesh sheet = plane(2, 4), ball = sphere({0, 0.3, 0.1}, 1, 2);
+  const contact::JointContact cpp(sheet, ball);
+  const auto c = made<HeldContact>(condyle_joint_contact_create, c_mesh(sheet).get(), c_mesh(ball).get());
+  const auto results = made<HeldResults>(condyle_contact_results_create);
+  // Off the vertices and the sheet, which hold the centre.
+  const Pose X = rotated(10, {1, 0.3, 2}, {0.1, 0.2, 0});
+  const condyle_pose pose = c_pose(X);
+  try {
+    const contact::Contact expected = cpp.at(X);
+    ASSERT_EQ(condyle_joint_contact_at(c.get(), &pose, results.get()), CONDYLE_OK) << condyle_last_error();
+    EXPECT_FALSE(expected.mobile_in_fixed);
+    EXPECT_GT(expect_same(expected, results.get()), 0u);
+  } catch (const std::exception& error) {
+    FAIL() << error.what();
+  }
+}
+
+TEST(CInterface, CastsNormalsAsCppDoes) {
+  for (const auto rule : {contact::FaceRule::face_centre, contact::FaceRule::cut_faces}) {
+    const contact::NormalDepth cpp(hip().hip_bone, hip().femur, {rule, 12});
+    const auto c = made<HeldDepth>(condyle_normal_depth_create, c_mesh(hip().hip_bone).get(),
+                                   c_mesh(hip().femur).get(), static_cast<int>(rule), 12.0);
+    const auto results = made<HeldNormalResults>(condyle_normal_results_create);
+    double area = 0;
+    for (const Pose& X : poses()) {
+      const condyle_pose pose = c_pose(X);
+      ASSERT_EQ(condyle_normal_depth_at(c.get(), &pose, results.get()), CONDYLE_OK) << condyle_last_error();
+      condyle_surface_contact surface;
+      ASSERT_EQ(condyle_normal_results_surface(results.get(), &surface), CONDYLE_OK);
+      expect_same(cpp.at(X), surface);
+      area += surface.area_mm2;
+    }
+    EXPECT_GT(area, 0);
+  }
+}
+
+TEST(CInterface, PressesLayersAsCppDoes) {
+  std::vector<double> of_vertices(hip().femur.vertices.size());
+  for (std::size_t v = 0; v < of_vertices.size(); ++v) of_vertices[v] = 20 + 0.001 * static_cast<double>(v);
+  const contact::ElasticLayer fixed{12, 0.45, 25.0}, mobile{8, 0.4, of_vertices};
+  for (const auto casting : {contact::Casting::fixed, contact::Casting::mobile, contact::Casting::both}) {
+    const contact::ElasticContactOptions options{
+        casting, {contact::FaceRule::cut_faces, 15}, contact::PressureLaw::logarithmic, fixed, mobile};
+    const contact::ElasticContact cpp(hip().hip_bone, hip().femur, options);
+    const auto given = made<HeldOptions>(condyle_elastic_options_create);
+    const double thickness = 25;
+    for (const condyle_status status :
+         {condyle_elastic_options_set_casting(given.get(), static_cast<int>(casting)),
+          condyle_elastic_options_set_law(given.get(), CONDYLE_LOGARITHMIC),
+          condyle_elastic_options_set_rays(given.get(), CONDYLE_CUT_FACES, 15),
+          condyle_elastic_options_set_layer(given.get(), CONDYLE_FIXED, 12, 0.45, &thickness, 1),
+          condyle_elastic_options_set_layer(given.get(), CONDYLE_MOBILE, 8, 0.4, of_vertices.data(),
+                                            of_vertices.size())})
+      ASSERT_EQ(status, CONDYLE_OK) << condyle_last_error();
+    const auto c = made<HeldElastic>(condyle_elastic_contact_create, c_mesh(hip().hip_bone).get(),
+                                     c_mesh(hip().femur).get(), given.get());
+    const auto results = made<HeldElasticResults>(condyle_elastic_results_create);
+    double stored = 0;
+    for (const Pose& X : poses()) {
+      const condyle_pose pose = c_pose(X);
+      ASSERT_EQ(condyle_elastic_contact_at(c.get(), &pose, results.get()), CONDYLE_OK)
+          << condyle_last_error();
+      const contact::ElasticContactResults expected = cpp.at(X);
+      condyle_wrench on_mobile;
+      double energy = -1;
+      ASSERT_EQ(condyle_elastic_results_load(results.get(), &on_mobile, &energy), CONDYLE_OK);
+      EXPECT_EQ(vector(on_mobile.force_n), expected.on_mobile.force_n);
+      EXPECT_EQ(vector(on_mobile.moment_nmm), expected.on_mobile.moment_nmm);
+      EXPECT_EQ(energy, expected.energy_nmm);
+      stored += energy;
+      for (const auto& [body, cast] :
+           {std::pair{CONDYLE_FIXED, &expected.fixed}, std::pair{CONDYLE_MOBILE, &expected.mobile}}) {
+        condyle_surface_contact surface;
+        ASSERT_EQ(condyle_elastic_results_surface(results.get(), body, &surface), CONDYLE_OK);
+        if (*cast)
+          expect_same(**cast, surface);
+        else
+          EXPECT_EQ(surface.is_cast, 0);
+      }
+    }
+    EXPECT_GT(stored, 0);
+  }
+}
+
+TEST(CInterface, TurnsAboutAnAxisUpToTheContactOfCpp) {
+  const Vec3 point(1, 0.5, 0), direction(0.1, 0.2, 1);
+  const motion::FirstContact cpp(hip().hip_bone, hip().femur, AxisFrame(point, direction));
+  const auto c = made<HeldRotation>(condyle_first_contact_create, c_mesh(hip().hip_bone).get(),
+                                    c_mesh(hip().femur).get(), point.data(), direction.data());
+  condyle_rotation_limit negative, positive;
+  for (const Pose& X : poses()) {
+    for (const double range : {5.0, 360.0}) {
+      const condyle_pose pose = c_pose(X);
+      ASSERT_EQ(condyle_first_contact_limits(c.get(), &pose, -range, range, &negative, &positive), CONDYLE_OK)
+          << condyle_last_error();
+      const motion::RotationLimits expected = cpp.limits(X, {Angle::degrees(-range), Angle::degrees(range)});
+      expect_same(expected.negative, negative);
+      expect_same(expected.positive, positive);
+    }
+  }
+}
+
+TEST(CInterface, AnswersManyThreadsOfOneObjectAsOne) {
+  const auto c = made<HeldContact>(condyle_joint_contact_create, c_mesh(hip().hip_bone).get(),
+                                   c_mesh(hip().femur).get());
+  const contact::JointContact cpp(hip().hip_bone, hip().femur);
+  std::vector<contact::Contact> expected;
+  for (const Pose& X : poses()) expected.push_back(cpp.at(X));
+  std::vector<std::thread> threads;
+  for (std::size_t first = 0; first < 4; ++first) {
+    threads.emplace_back([&, first] {
+      const auto results = made<HeldResults>(condyle_contact_results_create);
+      for (std::size_t i = 0; i < 2 * expected.size(); ++i) {
+        const std::size_t n = (first + i) % expected.size();
+        const condyle_pose pose = c_pose(poses()[n]);
+        ASSERT_EQ(condyle_joint_contact_at(c.get(), &pose, results.get()), CONDYLE_OK);
+        expect_same(expected[n], results.get());
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+}
+
+}  // namespace
+}  // namespace condyle
