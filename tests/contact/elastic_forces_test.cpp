@@ -57,12 +57,13 @@ ForceScene slab_in_sheet() {
           {test::plane(6, 23), slab, {.casting = Casting::fixed, .fixed = layer_of_stiffness(6)}},
           X_FM};
 }
-ForceScene ball_in_ring(PressureLaw law) {
+/// Deep in the ring some faces of the ball meet its rim.
+ForceScene ball_in_ring(PressureLaw law, double height = 7.2) {
   return {"ball in ring",
           {test::torus(12, 6, 60, 40),
            test::sphere(Vec3::Zero(), 10, 4),
            {.law = law, .fixed = ElasticLayer{12, 0.42, 2.0}, .mobile = ElasticLayer{8, 0.45, 1.5}}},
-          pose_turned(0.7, {1, 2, 3}, {0.2, -0.1, 7.2})};
+          pose_turned(0.7, {1, 2, 3}, {0.2, -0.1, height})};
 }
 std::vector<ForceScene> all_scenes() {
   std::vector<ForceScene> scenes;
@@ -175,7 +176,30 @@ void expect_stiffness(const ForceScene& scene) {
 }
 
 TEST(ContactForces, StiffnessIsThatOfDifferences) {
-  for (const ForceScene& scene : all_scenes()) expect_stiffness(scene);
+  for (const Casting casting : {Casting::fixed, Casting::mobile, Casting::both})
+    for (const FaceRule rule : {FaceRule::cut_faces, FaceRule::face_centre})
+      expect_stiffness(cup_scene(casting, rule));
+  expect_stiffness(slab_in_sheet());
+  expect_stiffness(ball_in_ring(PressureLaw::linear, 10));
+}
+
+TEST(ContactForces, StiffnessIsNearlyThatOfDifferencesAtRimsOfCurvedBodies) {
+  // Depths of a face that a rim cuts are taken to run on, and are mixed from the corners of the part in contact: as that changes
+  // its shape the mixture changes, which no derivative knows.
+  const ForceScene scene = ball_in_ring(PressureLaw::linear);
+  ASSERT_GT(scene.contact.at(scene.X_FM).mobile->rim_faces, 50u);
+  const Mat6 stiffness = scene.contact.forces(scene.X_FM, {.stiffness = true}).stiffness;
+  Mat6 measured;
+  for (int i = 0; i < 6; ++i) {
+    const Vec6 by = 1e-6 * Vec6::Unit(i);
+    measured.col(i) = -(wrench_after(scene, by) - wrench_after(scene, -by)) / 2e-6;
+  }
+  // With turns about arms of 10 mm, as the ball has, all is in N / mm.
+  Vec6 unit;
+  unit << Vec3::Ones(), Vec3::Constant(0.1);
+  const Mat6 apart = unit.asDiagonal() * (stiffness - measured) * unit.asDiagonal();
+  const Mat6 whole = unit.asDiagonal() * measured * unit.asDiagonal();
+  EXPECT_LE(apart.norm(), 1e-3 * whole.norm());
 }
 
 TEST(ContactForces, StiffnessIsThatOfBalanceWhereLoadsStayInPlace) {
@@ -238,9 +262,9 @@ Height stepped(const Height& s, double dt, const auto& acceleration) {
 
 TEST(ContactForces, CarryASphereThatOscillatesAsItsClosedFormSays) {
   const SphereOnLayer known;
-  const ElasticContact contact = known.contact(11, 150, 7);
-  // Kilograms: N / kg are 1000 mm/s^2. The weight presses it in by 2 mm.
-  const double depth = 2, mass = 2, weight = known.force(depth);
+  const ElasticContact contact = known.contact(14, 200, 7);
+  // Kilograms: N / kg are 1000 mm/s^2. The weight presses it in by 4 mm.
+  const double depth = 4, mass = 2, weight = known.force(depth);
   ContactForces forces;
   const auto push = [&](double y) {
     contact.forces(translated({0, y, 0}), {}, forces);
@@ -248,7 +272,7 @@ TEST(ContactForces, CarryASphereThatOscillatesAsItsClosedFormSays) {
   };
   const double amplitude = 0.02, rest = known.R - depth;
   const double period = 2 * std::numbers::pi * std::sqrt(mass / (1000 * known.stiffness(depth)));
-  const double dt = period / 40;
+  const double dt = period / 24;
   Height state{rest + amplitude, 0};
   const auto energy = [&] {
     push(state.y);
@@ -257,12 +281,10 @@ TEST(ContactForces, CarryASphereThatOscillatesAsItsClosedFormSays) {
   const double at_first = energy();
   EXPECT_NEAR(forces.energy_nmm, known.energy(depth - amplitude), 1e-3 * known.energy(depth - amplitude));
   std::vector<double> downwards;  // times at which it passes the middle
-  double low = state.y, high = state.y, t = 0;
   std::vector<Height> path{state};
-  for (int i = 0; i < 100; ++i, t += dt) {
+  for (int i = 0; i < 60; ++i) {
     state = stepped(state, dt, [&](double y, double) { return 1000 * (push(y) - weight) / mass; });
     path.push_back(state);
-    low = std::min(low, state.y), high = std::max(high, state.y);
   }
   // Energy is kept: of what oscillates, k a^2 / 2, to a thousandth.
   const double oscillating = known.stiffness(depth) * amplitude * amplitude / 2;
@@ -278,7 +300,7 @@ TEST(ContactForces, CarryASphereThatOscillatesAsItsClosedFormSays) {
 
 TEST(ContactForces, BounceASphereBackToTheHeightItWasDroppedFrom) {
   const SphereOnLayer known;
-  const ElasticContact contact = known.contact(9, 90, 6);
+  const ElasticContact contact = known.contact(9, 90, 7);
   const double mass = 2, weight = 2 * 9.81, drop = 5;
   ContactForces forces;
   const auto acceleration = [&](double y, double) {
@@ -286,15 +308,15 @@ TEST(ContactForces, BounceASphereBackToTheHeightItWasDroppedFrom) {
     return 1000 * (forces.on_mobile_body.force_n.y() - weight) / mass;
   };
   Height state{known.R + drop, 0};
-  double deepest = 0, highest = 0;
-  while (state.y > known.R || state.v <= 0) {
+  double deepest = 0;
+  while (state.y <= known.R || state.v <= 0) {
     // A step in the air is exact at any length; in contact 1 / 300 of the fall.
     const double dt = state.y > known.R + 0.3 ? 5e-4 : 1e-4;
     state = stepped(state, dt, acceleration);
     deepest = std::max(deepest, known.R - state.y);
     ASSERT_LT(deepest, 2);
   }
-  highest = state.y + state.v * state.v / (2 * 9810.0);
+  const double highest = state.y + state.v * state.v / (2 * 9810.0);
   EXPECT_NEAR(highest - known.R, drop, 1e-3 * drop);
   // Deepest where the layers hold what it fell by.
   double lower = 0, upper = 2;
@@ -302,7 +324,8 @@ TEST(ContactForces, BounceASphereBackToTheHeightItWasDroppedFrom) {
     const double middle = (lower + upper) / 2;
     (known.energy(middle) < weight * (drop + middle) ? lower : upper) = middle;
   }
-  EXPECT_NEAR(deepest, lower, 2e-3 * lower);
+  // Faces of the sphere sag by 0.0008 mm, and those of the plane by as much.
+  EXPECT_NEAR(deepest, lower, 0.0015);
 }
 
 /// A block of 10 by 10 mm pressed by 0.3 mm into a layer of 6 MPa per mm.
@@ -313,7 +336,7 @@ struct Block {
 };
 Block pressed_block(Casting casting = Casting::mobile) {
   return {{test::box({-40, -10, -40}, {40, 0, 40}),
-           test::box({-5, 0, -5}, {5, 5, 5}),
+           test::box({-3, 0, -6}, {7, 5, 4}),
            {.casting = casting, .fixed = layer_of_stiffness(6)}}};
 }
 
@@ -384,35 +407,6 @@ std::vector<Vec3> times(const ContactForces& found, bool mobile, const Vec3& by)
   return rows;
 }
 
-TEST(VertexStiffness, OfAWholeBodyIsThatOfDifferencesBetweenPlanes) {
-  // Along the rays of a flat casting surface all that is held stays as it is.
-  const ForceScene scene = slab_in_sheet();
-  const ContactForces found = scene.contact.forces(scene.X_FM, {.vertex_stiffness = true});
-  ASSERT_FALSE(found.on_mobile.empty());
-  const double step = 1e-5;
-  const auto forces_at = [&](double up) {
-    Pose X = scene.X_FM;
-    X.translation().y() += up;
-    return scene.contact.forces(X, {.vertex_forces = true});
-  };
-  const ContactForces above = forces_at(step), below = forces_at(-step);
-  ASSERT_EQ(above.on_fixed.size(), found.on_fixed.size());
-  ASSERT_EQ(below.on_mobile.size(), found.on_mobile.size());
-  const auto with_mobile = times(found, true, scene.X_FM.linear().transpose() * Vec3::UnitY());
-  const auto with_fixed = times(found, false, Vec3::UnitY());
-  double largest = 0;
-  for (const Vec3& row : with_mobile) largest = std::max(largest, row.norm());
-  for (std::size_t i = 0; i < with_mobile.size(); ++i) {
-    const std::size_t fixed = found.on_fixed.size();
-    const auto of = [&](const ContactForces& at) {
-      return i < fixed ? at.on_fixed[i].force_n : at.on_mobile[i - fixed].force_n;
-    };
-    const Vec3 measured = -(of(above) - of(below)) / (2 * step);
-    EXPECT_LE((with_mobile[i] - measured).norm(), 1e-6 * largest) << i;
-    EXPECT_LE((with_fixed[i] + measured).norm(), 1e-6 * largest) << i;
-  }
-}
-
 TEST(VertexStiffness, OnTheCastingBodyIsThatOfDifferencesWhateverTheTarget) {
   // With the casting body in its place, translations of the target change depths and no more.
   const ForceScene scene = cup_scene(Casting::fixed, FaceRule::cut_faces);
@@ -453,10 +447,42 @@ struct Sheets {
     return {test::plane(6, 24), upper, {.casting = Casting::fixed, .fixed = layer_of_stiffness(K)}};
   }
 };
-Sheets sheets() {
-  Pose X_FM = pose_turned(0.03, {2, 0, 1}, {0.1, -0.4, 0.13});
+Sheets sheets(double height = -0.4) {
+  Pose X_FM = pose_turned(0.03, {2, 0, 1}, {0.1, height, 0.13});
   X_FM.linear() = X_FM.linear() * Eigen::AngleAxisd(0.5, Vec3::UnitY()).toRotationMatrix();
   return {test::flipped(test::plane(4, 3)), X_FM};
+}
+
+TEST(VertexStiffness, OfAWholeBodyIsThatOfDifferencesBetweenPlanes) {
+  // Along the rays of a flat casting surface all that is held stays as it is, also where the depth is 0.
+  for (const double height : {-0.4, -0.03}) {
+    const Sheets of_sheets = sheets(height);
+    const ForceScene scene{"sheets", of_sheets.contact(), of_sheets.X_FM};
+    const ContactForces found = scene.contact.forces(scene.X_FM, {.vertex_stiffness = true});
+    ASSERT_FALSE(found.on_mobile.empty());
+    const double step = 1e-5;
+    const auto forces_at = [&](double up) {
+      Pose X = scene.X_FM;
+      X.translation().y() += up;
+      return scene.contact.forces(X, {.vertex_forces = true});
+    };
+    const ContactForces above = forces_at(step), below = forces_at(-step);
+    ASSERT_EQ(above.on_fixed.size(), found.on_fixed.size());
+    ASSERT_EQ(below.on_mobile.size(), found.on_mobile.size());
+    const auto with_mobile = times(found, true, scene.X_FM.linear().transpose() * Vec3::UnitY());
+    const auto with_fixed = times(found, false, Vec3::UnitY());
+    double largest = 0;
+    for (const Vec3& row : with_mobile) largest = std::max(largest, row.norm());
+    for (std::size_t i = 0; i < with_mobile.size(); ++i) {
+      const std::size_t fixed = found.on_fixed.size();
+      const auto of = [&](const ContactForces& at) {
+        return i < fixed ? at.on_fixed[i].force_n : at.on_mobile[i - fixed].force_n;
+      };
+      const Vec3 measured = -(of(above) - of(below)) / (2 * step);
+      EXPECT_LE((with_mobile[i] - measured).norm(), 1e-6 * largest) << i;
+      EXPECT_LE((with_fixed[i] + measured).norm(), 1e-6 * largest) << i;
+    }
+  }
 }
 
 TEST(VertexStiffness, OfAVertexOfTheTargetIsThatOfDifferences) {
