@@ -30,7 +30,7 @@ py::object shaped(std::vector<double>&& values, const py::tuple& shape) {
   return array_of(std::move(values)).attr("reshape")(shape);
 }
 
-py::tuple tuple_of(const std::vector<contact::VertexForce>& forces) {
+py::tuple vertex_forces_out(const std::vector<contact::VertexForce>& forces) {
   std::vector<Index> vertices;
   std::vector<double> values;
   for (const contact::VertexForce& each : forces) {
@@ -40,7 +40,7 @@ py::tuple tuple_of(const std::vector<contact::VertexForce>& forces) {
   return py::make_tuple(array_of(std::move(vertices)), shaped(std::move(values), py::make_tuple(-1, 3)));
 }
 
-py::tuple tuple_of(const std::vector<contact::VertexStiffness>& blocks) {
+py::tuple vertex_stiffness_out(const std::vector<contact::VertexStiffness>& blocks) {
   std::vector<Index> rows, columns;
   std::vector<double> values;
   for (const contact::VertexStiffness& each : blocks) {
@@ -94,10 +94,10 @@ py::dict forces_at(const contact::ElasticContact& contact, const py::object& pos
     dict["stiffness"] = shaped(std::move(values), py::make_tuple(6, 6));
   }
   const bool with_vertices = options.vertex_forces || options.vertex_stiffness;
-  dict["on_fixed"] = with_vertices ? py::object(tuple_of(forces.on_fixed)) : py::none();
-  dict["on_mobile"] = with_vertices ? py::object(tuple_of(forces.on_mobile)) : py::none();
+  dict["on_fixed"] = with_vertices ? py::object(vertex_forces_out(forces.on_fixed)) : py::none();
+  dict["on_mobile"] = with_vertices ? py::object(vertex_forces_out(forces.on_mobile)) : py::none();
   dict["vertex_stiffness"] =
-      options.vertex_stiffness ? py::object(tuple_of(forces.vertex_stiffness)) : py::none();
+      options.vertex_stiffness ? py::object(vertex_stiffness_out(forces.vertex_stiffness)) : py::none();
   dict["patches"] = options.patches ? py::object(patches_of(forces)) : py::none();
   return dict;
 }
