@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "condyle/contact.hpp"
+#include "condyle/contact_forces.hpp"
 #include "condyle/make_joint.hpp"
 #include "condyle/normal_depth.hpp"
 #include "condyle/pressure.hpp"
@@ -56,11 +57,6 @@ struct ElasticContactOptions {
   std::optional<ElasticLayer> fixed = {}, mobile = {};
 };
 
-/// Force and moment about a point, N and N mm.
-struct Wrench {
-  Vec3 force_n = Vec3::Zero(), moment_nmm = Vec3::Zero();
-};
-
 /// Results at one pose.
 struct ElasticContactResults {
   /// Results for the surfaces that were cast, each in its own body's frame; pressures and loads are filled in.
@@ -89,6 +85,13 @@ class ElasticContact {
 
   /// MeshError with the logarithmic law if the overlap reaches the thickness, naming the triangle.
   ElasticContactResults at(const Pose& X_FM) const;
+
+  /// What a simulator integrates: forces, stiffness, friction, damping (condyle/contact_forces.hpp). UsageError if an option is
+  /// outside its domain; MeshError as at(). The second keeps the memory of an earlier result.
+  ///
+  ///     const ContactForces now = knee.forces(X_FM, {.vertex_forces = true, .stiffness = true});
+  ContactForces forces(const Pose& X_FM, const ForceOptions& options = {}) const;
+  void forces(const Pose& X_FM, const ForceOptions& options, ContactForces& out) const;
 
   /// The force on the mobile body, in F, with the depth evaluated at 16 points of each face in contact: it shows the
   /// effect of mesh edges on `at(X_FM).on_mobile`, whose depths are linear from corner to corner. Sixteen times the

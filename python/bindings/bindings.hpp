@@ -33,6 +33,7 @@ void bind_clock_face(py::module_& module);
 void bind_surface_contact(py::module_& module);
 void bind_normal_contact(py::module_& module);
 void bind_pressure(py::module_& module);
+void bind_contact_forces(py::module_& module);
 void bind_motion_contact(py::module_& module);
 void bind_recorded_motion(py::module_& module);
 void bind_report(py::module_& module);

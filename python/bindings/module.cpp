@@ -31,6 +31,7 @@ PYBIND11_MODULE(_native, module) {
   bind_surface_contact(module);
   bind_normal_contact(module);
   bind_pressure(module);
+  bind_contact_forces(module);
   bind_motion_contact(module);
   bind_recorded_motion(module);
   bind_report(module);

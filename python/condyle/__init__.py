@@ -10,6 +10,7 @@ error that the module raises on purpose is a :class:`CondyleError` of one line: 
 from ._brush import Brushed, BrushStroke, StrokeOutcome
 from ._clock_face import ClockFace, clock_face, find_neck_axis, find_rim_clock, neck_clock, sagittal_clock
 from ._contact_checks import ContactNote
+from ._contact_forces import ContactForces, ForcePatch, VertexForces, VertexStiffness
 from ._depth_range import DeepestPlace, DepthLimit, DepthRange
 from ._described_joint import BodyPart, JointNote, PartParameter
 from ._errors import CondyleError, FileError, JointWarning, MeshError, OutOfRangeError, ReferenceContactError
@@ -37,7 +38,7 @@ from ._native import version as __version__
 from ._penetration import INSIDE, NO_INDEX, ON_SURFACE, OUTSIDE, Penetration, Penetrations, VerticesInside
 from ._placed_implant import REPLACEMENT_SIZES, PlacedImplant
 from ._poses import Pose, Poses
-from ._pressure import BalancedPose, BalanceOptions, ElasticContact, ElasticContactResults, ElasticLayer
+from ._pressure import BalancedPose, BalanceOptions, ContactRamp, ElasticContact, ElasticContactResults, ElasticLayer
 from ._propose_joint import JointProposal, propose_joint
 from ._range_of_motion import Bearing, RangeOfMotion
 from ._recorded_motion import ContactEnd, ContactInterval, JointMotion, MotionTable, RecordedContact
@@ -51,17 +52,17 @@ from ._tables import OccupiedArcs, RadialTable, RingTable
 
 __all__ = [
     "BalanceOptions", "BalancedPose", "Bearing", "Blocked", "BrushStroke", "Brushed", "CurvePoint", "CutBone", "ReachedTarget", "Resection", "BodyPart", "BodyZone", "Caveat", "ClockFace", "CondyleError",
-    "ContactEnd", "ContactFrames", "ContactInterval", "ContactMeasures", "ContactNote", "ContactPatch",
+    "ContactEnd", "ContactForces", "ContactFrames", "ContactInterval", "ContactMeasures", "ContactNote", "ContactPatch", "ContactRamp",
     "ContactTotals", "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit", "DepthRange", "Depths", "Design",
     "ElasticContact", "ElasticContactResults", "ElasticLayer", "EndingPair", "FileError", "Finding", "FirstContact", "FrameContact",
-    "FollowedRange", "HipMeasure", "HipMeasures", "MeasureBand", "NormalRange", "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointContact", "JointMotion", "JointNote", "PartParameter",
+    "FollowedRange", "HipMeasure", "HipMeasures", "MeasureBand", "NormalRange", "ForcePatch", "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointContact", "JointMotion", "JointNote", "PartParameter",
     "JointProposal", "JointWarning", "KINDS", "KNOWN_BY", "Label", "LabelMap", "LabelNote", "LabelPiece", "LabelSurface", "Limit",
     "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Model", "ModelCoordinate", "ModelJoint", "ModelMesh", "ModelNote", "Motion", "MotionLimit",
     "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",
     "OutOfRangeError", "PathLimit", "Penetration", "Penetrations", "PlacedImplant", "Pose", "Poses", "REASONS", "REPLACEMENT_SIZES", "REVERSE_SHOULDER_SIZES", "RadialTable",
     "RangeOfMotion", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits", "SampleCartilages",
     "SafeInterval", "SampleHip", "SampleImplant", "SphereFit", "Study", "StudyLoad", "StudyResection", "StrokeOutcome", "StudyTable", "SurfaceContact", "SurfaceCut", "Sweep", "Target", "TriMesh",
-    "UnknownNameError", "UsageError", "VertexDepths", "VertexGaps", "VerticesInside", "WAYS", "__version__",
+    "UnknownNameError", "UsageError", "VertexDepths", "VertexForces", "VertexGaps", "VertexStiffness", "VerticesInside", "WAYS", "__version__",
     "clock_face", "find_cylinder", "find_neck_axis", "find_rim_clock", "find_sphere", "fit_cylinder", "fit_sphere",
     "inspect", "merge_study", "neck_clock", "propose_joint", "read_joint", "read_labels", "read_mesh", "read_model",
     "read_motion_table", "read_study", "run_study", "sagittal_clock", "sample_cartilages", "sample_cohort",

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._contact_checks import ContactNote, contact_notes, warn_of
+from ._contact_forces import ContactForces, forces_of
 from ._described_joint import DescribedJoint
 from ._errors import UsageError
 from ._mesh import MeshLike, TriMesh
@@ -197,6 +198,47 @@ class ElasticContact:
         self._warn(results)
         return results[0] if is_one else results
 
+    def forces(self, pose: ArrayLike, *, velocity: Optional[ArrayLike] = None,
+               angular_velocity: Optional[ArrayLike] = None, friction: float = 0, slip_velocity: float = 1,
+               damping: float = 0, factor: float = 1, vertex_forces: bool = False, stiffness: bool = False,
+               vertex_stiffness: bool = False, patches: bool = False) -> ContactForces:
+        """:class:`ContactForces` of X_FM, (4, 4), for a simulator to integrate (docs/forces.md).
+
+        Parameters
+        ----------
+        velocity, angular_velocity : (3,)
+            Of the origin of M, mm/s, and of the mobile body, rad/s, relative to the fixed body, in F; at rest if not given.
+        friction : float
+            Coefficient mu: the traction is mu p v / sqrt(v^2 + s^2) against the sliding velocity v.
+        slip_velocity : float
+            s, mm/s, above 0.
+        damping : float
+            c, s/mm: pressures are multiplied by max(0, 1 + c * rate of depth).
+        factor : float
+            From 0 to 1: pressures, energy and stiffness are multiplied by it, as :class:`ContactRamp` gives it.
+        vertex_forces, stiffness, vertex_stiffness, patches : bool
+            What is computed too; with `vertex_stiffness` also `vertex_forces`.
+
+        UsageError for numbers outside their domain; MeshError as :meth:`at`. No warnings: :meth:`at` has them.
+
+        C++: `condyle::ElasticContact::forces` in condyle/contact_forces.hpp.
+
+        >>> import condyle, numpy as np
+        >>> layers = condyle.sample_cartilages(clearance_mm=-0.3)
+        >>> contact = condyle.ElasticContact(layers.acetabular, layers.femoral,
+        ...                                  mobile_layer=condyle.ElasticLayer(12, 0.42, 1.65))
+        >>> found = contact.forces(np.eye(4), velocity=[0, 5, 0], friction=0.01, vertex_forces=True)
+        >>> bool(np.allclose(found.on_mobile.force_n.sum(axis=0), found.force_n))
+        True
+        """
+        found = _native.forces_at(self._native, pose, {
+            "velocity": velocity, "angular_velocity": angular_velocity,
+            "friction": number(friction, "friction"), "slip_velocity": number(slip_velocity, "slip_velocity"),
+            "damping": number(damping, "damping"), "factor": number(factor, "factor"),
+            "vertex_forces": bool(vertex_forces), "stiffness": bool(stiffness),
+            "vertex_stiffness": bool(vertex_stiffness), "patches": bool(patches)})
+        return forces_of(found, self._fixed, self._mobile)
+
     @property
     def notes(self) -> tuple[ContactNote, ...]:
         """Warnings on the layers: moduli, Poisson's ratios, thicknesses, a layer on a bone.
@@ -273,6 +315,56 @@ class ElasticContact:
 
     def __repr__(self) -> str:
         return f"ElasticContact(fixed={self._fixed!r}, mobile={self._mobile!r})"
+
+
+class ContactRamp:
+    """Brings a contact in smoothly that overlaps before the first step: from nothing to all of it.
+
+    `start` is the pose (4, 4) of the first step, `duration_s` is above 0.
+
+    C++: `condyle::ContactRamp` in condyle/contact_forces.hpp.
+
+    >>> import condyle, numpy as np
+    >>> layers = condyle.sample_cartilages(clearance_mm=-0.3)
+    >>> contact = condyle.ElasticContact(layers.acetabular, layers.femoral,
+    ...                                  mobile_layer=condyle.ElasticLayer(12, 0.42, 1.65))
+    >>> ramp = condyle.ContactRamp(contact, np.eye(4), 0.1)
+    >>> ramp.has_overlap, [ramp.factor_at(t) for t in (0, 0.05, 0.1)]
+    (True, [0.0, 0.5, 1.0])
+    """
+
+    __slots__ = ("_native",)
+
+    def __init__(self, contact: ElasticContact, start: ArrayLike, duration_s: float) -> None:
+        if not isinstance(contact, ElasticContact):
+            raise UsageError(f"contact: an ElasticContact is needed, not {type(contact).__name__}")
+        self._native = _native.ContactRamp(contact._native, start, number(duration_s, "duration_s"))
+
+    @property
+    def has_overlap(self) -> bool:
+        return self.max_depth_mm > 0
+
+    @property
+    def max_depth_mm(self) -> float:
+        """The largest overlap at the start."""
+        return self._native.max_depth_mm
+
+    @property
+    def energy_nmm(self) -> float:
+        """Stored in the layers at the start."""
+        return self._native.energy_nmm
+
+    @property
+    def duration_s(self) -> float:
+        return self._native.duration_s
+
+    def factor_at(self, time_s: float) -> float:
+        """3 s^2 - 2 s^3 at the share s of the duration, 0 before it and 1 after it; 1 throughout without overlap."""
+        return self._native.factor_at(number(time_s, "time_s"))
+
+    def __repr__(self) -> str:
+        return (f"ContactRamp({self.duration_s:g} s, overlap {self.max_depth_mm:.3g} mm, "
+                f"energy {self.energy_nmm:.6g} N mm)")
 
 
 def _loads(force_n: ArrayLike, moment_nmm: ArrayLike) -> tuple[NDArray[Any], NDArray[Any]]:

@@ -77,6 +77,8 @@ struct OverlapSampler::PartCorner {
   double depth;
   Vec3 point, gradient;
   double casting_thickness, target_thickness;
+  Index of_ray = no_index;  ///< the face's corner whose ray is taken to run on up to here
+  Barycentric start{};      ///< and the place that the ray is taken at
 };
 
 /// Corners in the sense of the face's, four at most.
@@ -286,7 +288,7 @@ OverlapSampler::Part OverlapSampler::part_of(Index face, const RimFace* rim,
   for (std::size_t k = 0; k < 3; ++k) {
     PartCorner& corner = corners[k];
     const Index v = vertices[k];
-    corner = {{}, 0, casting_.vertices()[v], Vec3::Zero(), 0, 0};
+    corner = {{}, 0, casting_.vertices()[v], Vec3::Zero(), 0, 0, no_index, {}};
     corner.at[k] = 1;
     if (!thicknesses.casting.empty()) corner.casting_thickness = thicknesses.casting[v];
     if (!ends.has(rays[k])) continue;
@@ -320,8 +322,12 @@ OverlapSampler::Part OverlapSampler::part_of(Index face, const RimFace* rim,
     PartCorner last = between(inside, outside, rim->crossings[k]->share, end.depth);
     const Vec3 met = inside.point - end.depth * normal;
     const double run_on = end.gradient.dot(met - last.point);
-    if (std::abs(run_on - end.depth) <= steepest_at_rim * (last.point - inside.point).norm())
+    last.of_ray = static_cast<Index>(edge->in);
+    last.start = inside.at;
+    if (std::abs(run_on - end.depth) <= steepest_at_rim * (last.point - inside.point).norm()) {
       last.depth = std::max(0.0, run_on);
+      last.start = last.at;
+    }
     last.gradient = end.gradient;
     if (!thicknesses.target.empty())
       last.target_thickness = target_thickness({last.depth, end.triangle, end.gradient}, last.point, -normal,
@@ -351,12 +357,28 @@ void OverlapSampler::sample_part(Index face, const Part& part, Quadrature quadra
     const double share =
         std::abs((b.at[0] - a.at[0]) * (c.at[1] - a.at[1]) - (b.at[1] - a.at[1]) * (c.at[0] - a.at[0]));
     if (!(share > 0)) continue;
-    for (const auto& [at, weight] : nodes)
-      out.samples.push_back({face, share * rays_.face_area(face) * weight,
-                             mixed(at, a.depth, b.depth, c.depth), mixed(at, a.point, b.point, c.point),
+    const bool runs_on = a.of_ray != no_index || b.of_ray != no_index || c.of_ray != no_index;
+    for (const auto& [at, weight] : nodes) {
+      out.samples.push_back({face,
+                             share * rays_.face_area(face) * weight,
+                             mixed(at, a.depth, b.depth, c.depth),
+                             mixed(at, a.point, b.point, c.point),
                              mixed(at, a.gradient, b.gradient, c.gradient),
                              mixed(at, a.casting_thickness, b.casting_thickness, c.casting_thickness),
-                             mixed(at, a.target_thickness, b.target_thickness, c.target_thickness)});
+                             mixed(at, a.target_thickness, b.target_thickness, c.target_thickness),
+                             {mixed(at, a.at[0], b.at[0], c.at[0]), mixed(at, a.at[1], b.at[1], c.at[1]),
+                              mixed(at, a.at[2], b.at[2], c.at[2])}});
+      if (!runs_on) continue;
+      out.samples.back().run_on = static_cast<Index>(out.run_on.size());
+      RunOn& rays = out.run_on.emplace_back();
+      for (const auto& [corner, of_corner] :
+           {std::pair{&a, at[0]}, std::pair{&b, at[1]}, std::pair{&c, at[2]}})
+        for (std::size_t ray = 0; ray < 3; ++ray)
+          if (corner->of_ray == no_index)
+            rays[ray][ray] += of_corner * corner->at[ray];
+          else
+            rays[corner->of_ray][ray] += of_corner * corner->start[ray];
+    }
   }
 }
 
@@ -418,7 +440,9 @@ void OverlapSampler::sample_parts_of(const RimFace& rim, const LayerThicknesses&
       continue;
     }
     const RayEnd& end = overlap->end;
-    OverlapSample sample{face, rays_.face_area(face) / face_parts, end.depth, point, end.gradient, 0, 0};
+    OverlapSample sample{
+        face,        rays_.face_area(face) / face_parts, end.depth, point, end.gradient, 0, 0, centres[part],
+        end.triangle};
     if (!thicknesses.casting.empty())
       sample.casting_thickness =
           mixed(centres[part], thicknesses.casting[a], thicknesses.casting[b], thicknesses.casting[c]);

@@ -86,6 +86,10 @@ void ElasticCast::answer_samples(Answer& out) const {
   for (const OverlapBorder& border : out.found.borders) out.of_border.push_back(layers_at(border).pressure);
 }
 
+double ElasticCast::pressure_at(const OverlapCorner& corner) const {
+  return layers_at(corner).pressure;
+}
+
 void ElasticCast::add_up(const Answer& answer, SurfaceContact& out) const {
   std::vector<double> of_samples, of_corners;
   double strain = 0;
@@ -200,7 +204,7 @@ struct CastInF {
 
 }  // namespace
 ElasticContact::ElasticContact(Mesh fixed, Mesh mobile, ElasticContactOptions options)
-    : parts_(new Parts{std::move(fixed), std::move(mobile), std::move(options), {}, {}, {}}) {
+    : parts_(new Parts{std::move(fixed), std::move(mobile), std::move(options), {}, {}, {}, {}}) {
   Parts& p = *parts_;
   const auto& o = p.options;
   contact::check_layer(o.fixed, p.fixed, "fixed");

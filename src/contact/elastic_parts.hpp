@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "condyle/pressure.hpp"
+#include "contact/force_scratch.hpp"
 #include "contact/layer_law.hpp"
 #include "contact/moved_vertices.hpp"
 #include "contact/overlap_sampler.hpp"
@@ -25,6 +26,8 @@ class ElasticCast {
   /// The same from 16 places of each face, for sums of loads only. Throws as answer() does.
   void answer_by_parts(const Pose& X_CT, Answer& out) const;
   void add_up(const Answer& answer, SurfaceContact& out) const;
+  /// MPa.
+  double pressure_at(const OverlapCorner& corner) const;
 
   OverlapSampler& sampler() noexcept { return sampler_; }
   const OverlapSampler& sampler() const noexcept { return sampler_; }
@@ -71,6 +74,7 @@ struct ElasticContact::Parts {
   ElasticContactResults results_of(const Answers& answers, const MobileLoad& load) const;
 
   mutable core::Pool<Answers> pool;
+  mutable core::Pool<ForceScratch> force_pool;
 };
 
 }  // namespace condyle::contact

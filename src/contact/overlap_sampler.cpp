@@ -105,6 +105,7 @@ void OverlapSampler::clear(Results& out) {
   out.corners.clear();
   out.borders.clear();
   out.oblique_faces.clear();
+  out.run_on.clear();
   out.met_from_front = out.rim_faces = 0;
   out.oblique_area = 0;
 }
@@ -118,6 +119,7 @@ void OverlapSampler::sample(const Pose& X_CT, Quadrature quadrature, const Layer
     sample_centres(X_CT, thicknesses, *scratch, out);
   else
     sample_faces(X_CT, quadrature, thicknesses, *scratch, out);
+  std::swap(out.ends, scratch->ends);
   scratch_.put_back(std::move(scratch));
 }
 
@@ -164,7 +166,8 @@ void OverlapSampler::sample_centres(const Pose& X_CT, const LayerThicknesses& th
       out.oblique_faces.push_back(face);
     }
     const auto& [centre, direction] = rays_.inward()[ray];
-    OverlapSample sample{face, rays_.face_area(face), end.depth, centre, end.gradient, 0, 0};
+    OverlapSample sample{face, rays_.face_area(face),       end.depth,   centre, end.gradient, 0,
+                         0,    {1.0 / 3, 1.0 / 3, 1.0 / 3}, end.triangle};
     if (!thicknesses.casting.empty()) {
       const auto& [a, b, c] = casting_.triangles()[face];
       sample.casting_thickness =

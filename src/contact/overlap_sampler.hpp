@@ -23,7 +23,15 @@ struct OverlapSample {
   Vec3 point;                                  ///< on the casting surface
   Vec3 gradient;                               ///< of the depth when the target is translated
   double casting_thickness, target_thickness;  ///< where asked for, else 0
+  std::array<double, 3> at;                    ///< the point, in shares of the face's corners
+  /// The target's triangle that the sample's own ray ends on; none if the depth is linear between the rays of the corners.
+  Index triangle = no_index;
+  Index run_on = no_index;  ///< in Results::run_on, at a rim that cuts the face
 };
+
+/// Which rays give the depth of a sample at a rim, where a corner's ray is taken to run on: row k is of the ray of corner k, and
+/// has the place that it is taken at, in shares of the face's corners, times what it counts for.
+using RunOn = std::array<std::array<double, 3>, 3>;
 
 /// A corner of the part of a face in contact: it stands for no area, and may be where depth or pressure is largest. Where
 /// thicknesses are not asked for, the deepest of a face.
@@ -63,36 +71,6 @@ class OverlapSampler {
   void update_casting(const Mesh& casting, std::span<const char> is_moved = {});
   void update_target(const Mesh& target, std::span<const char> is_moved = {});
 
-  struct Results {
-    std::vector<OverlapSample> samples;
-    std::vector<OverlapCorner> corners;
-    std::vector<OverlapBorder> borders;
-    std::size_t met_from_front = 0, rim_faces = 0;
-    double oblique_area = 0;  ///< whose rays meet the target too far off its normal to have a depth
-    std::vector<Index>
-        oblique_faces;     ///< with face centres, which count all the same: those faces, ascending
-    std::size_t rays = 0;  ///< cast
-  };
-  void sample(const Pose& X_CT, Quadrature quadrature, const LayerThicknesses& thicknesses,
-              Results& out) const;
-  /// With cut faces: samples of each face that has a corner in contact at the centres of 16 parts, in place of depths that are linear
-  /// from corner to corner. No corners and no borders.
-  void sample_by_parts(const Pose& X_CT, const LayerThicknesses& thicknesses, Results& out) const;
-  std::size_t cut_off_by_reach(const Pose& X_CT) const;
-
-  /// Memory for samples, kept between queries.
-  core::Pool<Results>& found_pool() const noexcept { return found_; }
-
-  const Mesh& casting() const noexcept { return casting_; }
-  const Mesh& target() const noexcept { return target_; }
-  const NormalDepthOptions& options() const noexcept { return options_; }
-  /// Outward, of length 1; zero of a face without area.
-  std::span<const Vec3> face_normals() const noexcept { return rays_.face_normals(); }
-
- private:
-  double nearest_of_target() const;
-  Points ray_origins() const;
-
   /// End of a ray: the depth is below 0 if a ray outwards met the target.
   struct RayEnd {
     double depth;
@@ -115,6 +93,61 @@ class OverlapSampler {
     std::vector<Index> of_ray_;
     std::vector<RayEnd> ends_;
   };
+
+  struct Results {
+    std::vector<OverlapSample> samples;
+    std::vector<OverlapCorner> corners;
+    std::vector<OverlapBorder> borders;
+    std::size_t met_from_front = 0, rim_faces = 0;
+    double oblique_area = 0;  ///< whose rays meet the target too far off its normal to have a depth
+    std::vector<Index>
+        oblique_faces;     ///< with face centres, which count all the same: those faces, ascending
+    std::size_t rays = 0;  ///< cast
+    RayEnds ends;          ///< of sample(): where rays inwards, and outwards beside them, end
+    std::vector<RunOn> run_on;
+  };
+  void sample(const Pose& X_CT, Quadrature quadrature, const LayerThicknesses& thicknesses,
+              Results& out) const;
+  /// With cut faces: samples of each face that has a corner in contact at the centres of 16 parts, in place of depths that are linear
+  /// from corner to corner. No corners and no borders.
+  void sample_by_parts(const Pose& X_CT, const LayerThicknesses& thicknesses, Results& out) const;
+  std::size_t cut_off_by_reach(const Pose& X_CT) const;
+
+  /// A place of the target that gives a sample its depth: a ray through the sample, or one of those that its depth is linear between.
+  struct SampleEnd {
+    Index triangle;
+    double weight;                ///< of its depth in the sample's
+    Vec3 met;                     ///< in the plane of the triangle, in the casting body's frame
+    Vec3 gradient;                ///< of its depth when the target is translated
+    std::array<double, 3> start;  ///< where its ray starts, in shares of the face's corners
+  };
+  /// Three at most. Their weights add up to 1.
+  class SampleEnds {
+   public:
+    void add(const SampleEnd& end) { ends_[count_++] = end; }
+    const SampleEnd* begin() const noexcept { return ends_.data(); }
+    const SampleEnd* end() const noexcept { return ends_.data() + count_; }
+
+   private:
+    std::array<SampleEnd, 3> ends_;
+    std::size_t count_ = 0;
+  };
+  /// Of a sample that sample() gave.
+  SampleEnds ends_of(const OverlapSample& sample, const Results& found) const;
+
+  /// Memory for samples, kept between queries.
+  core::Pool<Results>& found_pool() const noexcept { return found_; }
+
+  const Mesh& casting() const noexcept { return casting_; }
+  const Mesh& target() const noexcept { return target_; }
+  const NormalDepthOptions& options() const noexcept { return options_; }
+  /// Outward, of length 1; zero of a face without area.
+  std::span<const Vec3> face_normals() const noexcept { return rays_.face_normals(); }
+
+ private:
+  double nearest_of_target() const;
+  Points ray_origins() const;
+
   /// Where an edge of a face leaves the target.
   struct Crossing {
     double share;    ///< of the edge, from the corner inside

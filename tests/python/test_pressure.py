@@ -115,3 +115,73 @@ def test_wrong_loads_are_refused_in_one_line(forces: object) -> None:
     with pytest.raises(condyle.UsageError) as refused:
         on_the_plane().balance_along([lowered(0.1)] * 3, forces)
     assert "\n" not in str(refused.value)
+
+
+def test_forces_of_a_sliding_block_have_their_closed_form() -> None:
+    contact, N = on_the_plane(), STIFFNESS * 0.3 * AREA
+    found = contact.forces(lowered(0.3), velocity=[3, -2, 4], friction=0.2, slip_velocity=0.5, damping=0.1)
+    pressed, slides = N * (1 + 0.1 * 2), 5 / np.hypot(5, 0.5)
+    along = np.array([0.6, 0, 0.8])
+    assert found.force_n == pytest.approx(pressed * ([0, 1, 0] - 0.2 * slides * along), rel=1e-12)
+    assert found.friction_power == pytest.approx(0.2 * pressed * slides * 5, rel=1e-12)
+    assert found.damping_power == pytest.approx((pressed - N) * 2, rel=1e-11)
+    assert found.energy_nmm == pytest.approx(N * 0.3 / 2, rel=1e-12)
+    assert found.factor == 1
+    assert found.stiffness is found.on_fixed is found.on_mobile is found.vertex_stiffness is found.patches is None
+
+
+def test_forces_on_vertices_and_their_stiffness_add_up() -> None:
+    contact = on_the_plane()
+    turned = lowered(0.3)
+    turned[:3, :3] = [[0, 0, 1], [0, 1, 0], [-1, 0, 0]]
+    found = contact.forces(turned, stiffness=True, vertex_stiffness=True, patches=True)
+    k = STIFFNESS * AREA
+    assert found.stiffness.shape == (6, 6)
+    assert found.stiffness[:3, :3] == pytest.approx(np.diag([0, k, 0]), abs=1e-9)
+    for on, rotation, sign in ((found.on_fixed, np.eye(3), -1), (found.on_mobile, turned[:3, :3], 1)):
+        assert (np.diff(on.vertex.astype(int)) > 0).all() and on.force_n.shape == (len(on), 3)
+        assert rotation @ on.force_n.sum(axis=0) == pytest.approx(sign * found.force_n, rel=1e-12, abs=1e-9)
+    blocks = found.vertex_stiffness
+    size = len(found.on_fixed) + len(found.on_mobile)
+    dense = np.zeros((size, 3, size, 3))
+    dense[blocks.row, :, blocks.column, :] = blocks.block
+    moved = np.tile([0.0, 1, 0], (size, 1))
+    moved[:len(found.on_fixed)] = 0
+    pushed = np.einsum("aibj,bj->ai", dense, moved)
+    assert pushed[len(found.on_fixed):].sum(axis=0) == pytest.approx([0, k, 0], abs=1e-9)
+    assert pushed[:len(found.on_fixed)].sum(axis=0) == pytest.approx([0, -k, 0], abs=1e-9)
+    (patch,) = found.patches
+    assert patch.casting == "mobile" and patch.face.tolist() == contact.at(turned).mobile.face.tolist()
+    assert patch.area_mm2 == pytest.approx(AREA) and patch.load_n == pytest.approx(k * 0.3)
+    assert patch.max_pressure_mpa == pytest.approx(STIFFNESS * 0.3)
+    assert patch.centre_of_pressure[[0, 2]] == pytest.approx([0, 0], abs=1e-9)
+    assert not patch.force_n.flags.writeable and not found.stiffness.flags.writeable
+
+
+def test_vertices_of_a_soup_have_the_numbers_given() -> None:
+    soup = condyle.TriMesh(BLOCK.vertices[BLOCK.triangles].reshape(-1, 3), np.arange(36).reshape(-1, 3))
+    contact = condyle.ElasticContact(PLANE, soup, fixed_layer=LAYER, casting="mobile")
+    found = contact.forces(lowered(0.3), vertex_forces=True).on_mobile
+    assert found.vertex.max() >= 8
+    assert (soup.vertices[found.vertex][:, 1] == 0).all()
+
+
+def test_a_ramp_brings_an_overlap_in() -> None:
+    contact = on_the_plane()
+    ramp = condyle.ContactRamp(contact, lowered(0.3), 0.2)
+    assert ramp.has_overlap and ramp.max_depth_mm == pytest.approx(0.3) and ramp.duration_s == 0.2
+    assert ramp.energy_nmm == pytest.approx(STIFFNESS * AREA * 0.3**2 / 2)
+    assert [ramp.factor_at(t) for t in (-1, 0, 0.1, 0.2, 9)] == [0, 0, 0.5, 1, 1]
+    half = contact.forces(lowered(0.3), factor=ramp.factor_at(0.1))
+    assert half.factor == 0.5 and half.force_n[1] == pytest.approx(STIFFNESS * 0.3 * AREA / 2)
+    assert condyle.ContactRamp(contact, lowered(-1), 0.2).factor_at(0) == 1
+
+
+@pytest.mark.parametrize("wrong", [{"friction": -0.1}, {"slip_velocity": 0}, {"damping": -1}, {"factor": 1.5},
+                                   {"factor": "all"}, {"velocity": [0, 1]}, {"angular_velocity": [0, np.nan, 0]}])
+def test_wrong_options_of_forces_are_refused_in_one_line(wrong: dict[str, object]) -> None:
+    with pytest.raises(condyle.UsageError) as refused:
+        on_the_plane().forces(lowered(0.3), **wrong)
+    assert "\n" not in str(refused.value)
+    with pytest.raises(condyle.UsageError):
+        condyle.ContactRamp(on_the_plane(), lowered(0.3), 0)
