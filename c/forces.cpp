@@ -101,7 +101,7 @@ condyle_status set_force_option(condyle_force_options* options, const Change& ch
 const Forces& answered_with(const condyle_force_results* results, int part, const char* name) {
   const condyle_force_results& in = answered(results);
   if (!(in.requested & part))
-    throw UsageError(std::string("the results have no ") + name + ": set it in the options");
+    throw UsageError(std::string("the results have no ") + name + " among their parts");
   return in.forces;
 }
 

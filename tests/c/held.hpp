@@ -27,6 +27,9 @@ using HeldNormalResults = Held<condyle_normal_results, condyle_normal_results_de
 using HeldOptions = Held<condyle_elastic_options, condyle_elastic_options_destroy>;
 using HeldElastic = Held<condyle_elastic_contact, condyle_elastic_contact_destroy>;
 using HeldElasticResults = Held<condyle_elastic_results, condyle_elastic_results_destroy>;
+using HeldForceOptions = Held<condyle_force_options, condyle_force_options_destroy>;
+using HeldForces = Held<condyle_force_results, condyle_force_results_destroy>;
+using HeldRamp = Held<condyle_ramp, condyle_ramp_destroy>;
 using HeldRotation = Held<condyle_first_contact, condyle_first_contact_destroy>;
 
 /// What a _create function makes; null where it fails.
@@ -37,10 +40,15 @@ Object made(condyle_status (*create)(Arguments...), auto... arguments) {
   return Object(object);
 }
 
-inline HeldMesh c_mesh(const TriMesh& mesh) {
+inline std::vector<double> c_points(const Points& points) {
   std::vector<double> xyz;
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-    for (int k = 0; k < 3; ++k) xyz.push_back(mesh.vertices[v][k]);
+  for (std::size_t v = 0; v < points.size(); ++v)
+    for (int k = 0; k < 3; ++k) xyz.push_back(points[v][k]);
+  return xyz;
+}
+
+inline HeldMesh c_mesh(const TriMesh& mesh) {
+  const std::vector<double> xyz = c_points(mesh.vertices);
   return made<HeldMesh>(condyle_mesh_create, xyz.data(), mesh.vertices.size(),
                         mesh.triangles.empty() ? nullptr : mesh.triangles.front().data(),
                         mesh.triangles.size());

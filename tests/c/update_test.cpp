@@ -1,0 +1,279 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "c/held.hpp"
+#include "c/same_answers.hpp"
+#include "condyle/error.hpp"
+
+/// Contacts of C follow bodies that deform as those of C++ do, and refuse what these refuse.
+
+namespace condyle {
+namespace {
+
+using namespace test;
+
+/// A body that swells and shrinks along waves.
+Points waved(const Points& first, double phase) {
+  Points moved(first.size());
+  for (std::size_t v = 0; v < first.size(); ++v) {
+    const Vec3 p = first[v];
+    moved.set(v, (1 + 0.02 * std::sin(0.1 * p.x() + 0.2 * p.y() + phase)) * p);
+  }
+  return moved;
+}
+
+/// Every seventh vertex, and where a wave takes it.
+struct SomeMoved {
+  std::vector<Index> vertices = {};
+  Points positions = {};
+  std::vector<double> xyz = {};
+};
+SomeMoved some_moved(const Points& first, double phase) {
+  const Points all = waved(first, phase);
+  SomeMoved some;
+  for (std::size_t v = 3; v < first.size(); v += 7) {
+    some.vertices.push_back(static_cast<Index>(v));
+    some.positions.push_back(all[v]);
+  }
+  some.xyz = c_points(some.positions);
+  return some;
+}
+
+TEST(CUpdate, AJointContactFollowsItsBodiesAsThatOfCppDoes) {
+  contact::JointContact cpp(hip().hip_bone, hip().femur);
+  const auto c = made<HeldContact>(condyle_joint_contact_create, c_mesh(hip().hip_bone).get(),
+                                   c_mesh(hip().femur).get());
+  const auto results = made<HeldResults>(condyle_contact_results_create);
+  std::size_t most_inside = 0;
+  double phase = 0;
+  for (const Pose& X : poses()) {
+    for (const auto& [role, body, first] :
+         {std::tuple{BodyRole::fixed, CONDYLE_FIXED, &hip().hip_bone.vertices},
+          std::tuple{BodyRole::mobile, CONDYLE_MOBILE, &hip().femur.vertices}}) {
+      const Points all = waved(*first, ++phase);
+      cpp.update(role, all);
+      ASSERT_EQ(condyle_joint_contact_update(c.get(), body, c_points(all).data(), all.size()), CONDYLE_OK)
+          << condyle_last_error();
+      const SomeMoved some = some_moved(*first, ++phase);
+      cpp.update(role, some.vertices, some.positions);
+      ASSERT_EQ(condyle_joint_contact_update_some(c.get(), body, some.vertices.data(), some.vertices.size(),
+                                                  some.xyz.data()),
+                CONDYLE_OK)
+          << condyle_last_error();
+    }
+    const condyle_pose pose = c_pose(X);
+    ASSERT_EQ(condyle_joint_contact_at(c.get(), &pose, results.get()), CONDYLE_OK) << condyle_last_error();
+    most_inside = std::max(most_inside, expect_same(cpp.at(X), results.get()));
+  }
+  EXPECT_GT(most_inside, 10u);
+}
+
+TEST(CUpdate, NormalDepthsFollowBothSurfacesAsThoseOfCppDo) {
+  contact::NormalDepth cpp(hip().hip_bone, hip().femur);
+  const auto c = made<HeldDepth>(condyle_normal_depth_create, c_mesh(hip().hip_bone).get(),
+                                 c_mesh(hip().femur).get(), CONDYLE_CUT_FACES, 20.0);
+  const auto results = made<HeldNormalResults>(condyle_normal_results_create);
+  const condyle_pose pose = c_pose(poses()[2]);
+  double area = 0;
+  const auto expect_same_answers = [&](condyle_status status) {
+    ASSERT_EQ(status, CONDYLE_OK) << condyle_last_error();
+    ASSERT_EQ(condyle_normal_depth_at(c.get(), &pose, results.get()), CONDYLE_OK) << condyle_last_error();
+    condyle_surface_contact surface;
+    ASSERT_EQ(condyle_normal_results_surface(results.get(), &surface), CONDYLE_OK);
+    EXPECT_NE(surface.area_mm2, area);
+    area = surface.area_mm2;
+    expect_same(cpp.at(poses()[2]), surface);
+  };
+  const Points casting = waved(hip().hip_bone.vertices, 1), target = waved(hip().femur.vertices, 2);
+  const SomeMoved some_casting = some_moved(hip().hip_bone.vertices, 3),
+                  some_target = some_moved(hip().femur.vertices, 4);
+  cpp.update_casting(casting);
+  expect_same_answers(condyle_normal_depth_update_casting(c.get(), c_points(casting).data(), casting.size()));
+  cpp.update_target(target);
+  expect_same_answers(condyle_normal_depth_update_target(c.get(), c_points(target).data(), target.size()));
+  cpp.update_casting(some_casting.vertices, some_casting.positions);
+  expect_same_answers(condyle_normal_depth_update_casting_some(
+      c.get(), some_casting.vertices.data(), some_casting.vertices.size(), some_casting.xyz.data()));
+  cpp.update_target(some_target.vertices, some_target.positions);
+  expect_same_answers(condyle_normal_depth_update_target_some(
+      c.get(), some_target.vertices.data(), some_target.vertices.size(), some_target.xyz.data()));
+}
+
+/// The line of C++, whatever kind of error it is.
+std::string line_of(const auto& update) {
+  try {
+    update();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(CUpdate, WhatIsRefusedHasTheLineOfCppAndChangesNothing) {
+  const TriMesh fixed = socket(Vec3::Zero(), 10, 13, 2), mobile = sphere({0, 0.2, 0}, 9.9, 2);
+  const contact::ElasticContactOptions layer{.fixed = contact::ElasticLayer{10, 0.4, 2.0}};
+  contact::JointContact joint(fixed, mobile);
+  contact::ElasticContact elastic(fixed, mobile, layer);
+  contact::NormalDepth depth(fixed, mobile);
+  const HeldMesh F = c_mesh(fixed), M = c_mesh(mobile);
+  const auto c_joint = made<HeldContact>(condyle_joint_contact_create, F.get(), M.get());
+  const auto options = made<HeldOptions>(condyle_elastic_options_create);
+  const double thickness = 2;
+  ASSERT_EQ(condyle_elastic_options_set_layer(options.get(), CONDYLE_FIXED, 10, 0.4, &thickness, 1),
+            CONDYLE_OK);
+  const auto c_elastic = made<HeldElastic>(condyle_elastic_contact_create, F.get(), M.get(), options.get());
+  const auto c_depth =
+      made<HeldDepth>(condyle_normal_depth_create, F.get(), M.get(), CONDYLE_CUT_FACES, 20.0);
+  const auto results = made<HeldResults>(condyle_contact_results_create);
+  const auto elastic_results = made<HeldElasticResults>(condyle_elastic_results_create);
+  const auto depths = made<HeldNormalResults>(condyle_normal_results_create);
+  const condyle_pose pose = c_pose(Pose::Identity());
+  const auto expect_unchanged = [&] {
+    ASSERT_EQ(condyle_joint_contact_at(c_joint.get(), &pose, results.get()), CONDYLE_OK);
+    EXPECT_GT(expect_same(contact::JointContact(fixed, mobile).at(Pose::Identity()), results.get()), 0u);
+    ASSERT_EQ(condyle_elastic_contact_at(c_elastic.get(), &pose, elastic_results.get()), CONDYLE_OK);
+    condyle_surface_contact surface;
+    ASSERT_EQ(condyle_elastic_results_surface(elastic_results.get(), CONDYLE_MOBILE, &surface), CONDYLE_OK);
+    expect_same(*contact::ElasticContact(fixed, mobile, layer).at(Pose::Identity()).mobile, surface);
+    ASSERT_EQ(condyle_normal_depth_at(c_depth.get(), &pose, depths.get()), CONDYLE_OK);
+    ASSERT_EQ(condyle_normal_results_surface(depths.get(), &surface), CONDYLE_OK);
+    expect_same(contact::NormalDepth(fixed, mobile).at(Pose::Identity()), surface);
+  };
+  expect_unchanged();
+  const auto expect_refused = [](condyle_status status, condyle_status expected, const std::string& line) {
+    EXPECT_EQ(status, expected);
+    EXPECT_NE(line, "");
+    EXPECT_EQ(condyle_last_error(), line);
+  };
+
+  Points fewer = mobile.vertices, infinite = mobile.vertices, far = mobile.vertices;
+  fewer.x.pop_back(), fewer.y.pop_back(), fewer.z.pop_back();
+  infinite.x[5] = std::numeric_limits<double>::infinity();
+  far.y[4] = 2e30;
+  for (const auto& [points, status] :
+       {std::pair{&fewer, CONDYLE_BAD_ARGUMENT}, std::pair{&infinite, CONDYLE_BAD_MESH},
+        std::pair{&far, CONDYLE_BAD_MESH}}) {
+    const std::vector<double> xyz = c_points(*points);
+    expect_refused(condyle_joint_contact_update(c_joint.get(), CONDYLE_MOBILE, xyz.data(), points->size()),
+                   status, line_of([&, all = points] { joint.update(BodyRole::mobile, *all); }));
+    expect_refused(
+        condyle_elastic_contact_update(c_elastic.get(), CONDYLE_MOBILE, xyz.data(), points->size()), status,
+        line_of([&, all = points] { elastic.update(BodyRole::mobile, *all); }));
+    expect_refused(condyle_normal_depth_update_target(c_depth.get(), xyz.data(), points->size()), status,
+                   line_of([&, all = points] { depth.update_target(*all); }));
+    expect_unchanged();
+  }
+
+  const Points three(3);
+  const std::vector<double> xyz = c_points(three);
+  for (const std::vector<Index>& numbers : {std::vector<Index>{3, 9999, 4}, std::vector<Index>{3, 4, 3}}) {
+    expect_refused(
+        condyle_joint_contact_update_some(c_joint.get(), CONDYLE_MOBILE, numbers.data(), 3, xyz.data()),
+        CONDYLE_BAD_ARGUMENT, line_of([&] { joint.update(BodyRole::mobile, numbers, three); }));
+    expect_refused(
+        condyle_elastic_contact_update_some(c_elastic.get(), CONDYLE_MOBILE, numbers.data(), 3, xyz.data()),
+        CONDYLE_BAD_ARGUMENT, line_of([&] { elastic.update(BodyRole::mobile, numbers, three); }));
+    expect_refused(condyle_normal_depth_update_casting_some(c_depth.get(), numbers.data(), 3, xyz.data()),
+                   CONDYLE_BAD_ARGUMENT, line_of([&] { depth.update_casting(numbers, three); }));
+    expect_refused(condyle_normal_depth_update_target_some(c_depth.get(), numbers.data(), 3, xyz.data()),
+                   CONDYLE_BAD_ARGUMENT, line_of([&] { depth.update_target(numbers, three); }));
+    expect_unchanged();
+  }
+
+  // The ball is shifted so that its surface holds the joint centre.
+  Points through_centre = mobile.vertices;
+  for (double& x : through_centre.x) x += 9.9;
+  for (double& y : through_centre.y) y -= 0.2;
+  (void)joint.at(Pose::Identity());
+  expect_refused(condyle_joint_contact_update(c_joint.get(), CONDYLE_MOBILE, c_points(through_centre).data(),
+                                              through_centre.size()),
+                 CONDYLE_BAD_MESH, line_of([&] { joint.update(BodyRole::mobile, through_centre); }));
+  expect_unchanged();
+
+  const std::vector<Index> numbers = {1, 2, 3};
+  expect_refused(condyle_joint_contact_update(nullptr, CONDYLE_MOBILE, xyz.data(), 3), CONDYLE_BAD_ARGUMENT,
+                 "contact is a null pointer");
+  expect_refused(condyle_elastic_contact_update(nullptr, CONDYLE_MOBILE, xyz.data(), 3), CONDYLE_BAD_ARGUMENT,
+                 "contact is a null pointer");
+  expect_refused(condyle_normal_depth_update_casting(nullptr, xyz.data(), 3), CONDYLE_BAD_ARGUMENT,
+                 "depth is a null pointer");
+  expect_refused(condyle_joint_contact_update(c_joint.get(), 2, xyz.data(), 3), CONDYLE_BAD_ARGUMENT,
+                 "body: there is no value 2");
+  expect_refused(condyle_joint_contact_update(c_joint.get(), CONDYLE_FIXED, nullptr, 3), CONDYLE_BAD_ARGUMENT,
+                 "xyz_mm is a null pointer");
+  expect_refused(condyle_joint_contact_update_some(c_joint.get(), CONDYLE_FIXED, nullptr, 3, xyz.data()),
+                 CONDYLE_BAD_ARGUMENT, "vertices is a null pointer");
+  expect_refused(
+      condyle_elastic_contact_update_some(c_elastic.get(), CONDYLE_FIXED, numbers.data(), 3, nullptr),
+      CONDYLE_BAD_ARGUMENT, "xyz_mm is a null pointer");
+  expect_unchanged();
+  EXPECT_EQ(condyle_joint_contact_update_some(c_joint.get(), CONDYLE_FIXED, nullptr, 0, nullptr), CONDYLE_OK);
+  expect_unchanged();
+}
+
+TEST(CUpdate, AnglesOfRaysAreThoseOfCpp) {
+  contact::JointContact cpp(hip().hip_bone, hip().femur);
+  const auto c = made<HeldContact>(condyle_joint_contact_create, c_mesh(hip().hip_bone).get(),
+                                   c_mesh(hip().femur).get());
+  const auto results = made<HeldResults>(condyle_contact_results_create);
+  double smallest = 90, largest = 0;
+  const auto expect_angles = [&](const std::vector<Angle>& expected, condyle_body body) {
+    std::vector<double> angles(expected.size());
+    ASSERT_EQ(condyle_joint_contact_ray_angles(c.get(), results.get(), body, angles.data(), angles.size()),
+              CONDYLE_OK)
+        << condyle_last_error();
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      ASSERT_EQ(angles[i], expected[i].degrees());
+      smallest = std::min(smallest, angles[i]), largest = std::max(largest, angles[i]);
+    }
+  };
+  for (const Pose& X : poses()) {
+    const condyle_pose pose = c_pose(X);
+    ASSERT_EQ(condyle_joint_contact_at(c.get(), &pose, results.get()), CONDYLE_OK);
+    contact::Contact expected = cpp.at(X);
+    cpp.fixed_table().add_ray_to_normal(cpp.mobile().vertices(), X, *expected.mobile_in_fixed);
+    cpp.mobile_table().add_ray_to_normal(cpp.fixed().vertices(), inverted(X), *expected.fixed_in_mobile);
+    expect_angles(expected.mobile_in_fixed->ray_to_normal, CONDYLE_MOBILE);
+    expect_angles(expected.fixed_in_mobile->ray_to_normal, CONDYLE_FIXED);
+  }
+  // On either side of 60 degrees, where a radial depth ends to be one.
+  EXPECT_LT(smallest, 60);
+  EXPECT_GT(largest, 60);
+}
+
+TEST(CUpdate, TheAngleOfARayThroughAFlatWallHasItsClosedForm) {
+  // A corner at (6, 8, 0) leaves the wall through x = 5, its ray asin(0.8) off the normal.
+  const TriMesh wall = box({5, -30, -30}, {15, 30, 30});
+  TriMesh needle = box({-1, -1, -1}, {1, 1, 1});
+  needle.vertices.set(7, {6, 8, 0});
+  const auto c = made<HeldContact>(condyle_joint_contact_create, c_mesh(wall).get(), c_mesh(needle).get());
+  const auto results = made<HeldResults>(condyle_contact_results_create);
+  double angle = -7;
+  EXPECT_EQ(condyle_joint_contact_ray_angles(c.get(), results.get(), CONDYLE_MOBILE, &angle, 1),
+            CONDYLE_BAD_ARGUMENT);
+  const condyle_pose pose = c_pose(Pose::Identity());
+  ASSERT_EQ(condyle_joint_contact_at(c.get(), &pose, results.get()), CONDYLE_OK) << condyle_last_error();
+  ASSERT_EQ(condyle_joint_contact_ray_angles(c.get(), results.get(), CONDYLE_MOBILE, &angle, 1), CONDYLE_OK)
+      << condyle_last_error();
+  EXPECT_NEAR(angle, std::asin(0.8) * 180 / M_PI, 1e-12);
+  EXPECT_EQ(condyle_joint_contact_ray_angles(c.get(), results.get(), CONDYLE_MOBILE, &angle, 2),
+            CONDYLE_BAD_ARGUMENT);
+  EXPECT_STREQ(condyle_last_error(), "count is 2, and 1 vertices are not outside");
+  EXPECT_EQ(condyle_joint_contact_ray_angles(c.get(), results.get(), CONDYLE_MOBILE, nullptr, 1),
+            CONDYLE_BAD_ARGUMENT);
+  EXPECT_EQ(condyle_joint_contact_ray_angles(nullptr, results.get(), CONDYLE_MOBILE, &angle, 1),
+            CONDYLE_BAD_ARGUMENT);
+  // A contact with fewer vertices.
+  const auto other =
+      made<HeldContact>(condyle_joint_contact_create, c_mesh(wall).get(), c_mesh({Points(1), {}}).get());
+  EXPECT_EQ(condyle_joint_contact_ray_angles(other.get(), results.get(), CONDYLE_MOBILE, &angle, 1),
+            CONDYLE_BAD_ARGUMENT);
+  EXPECT_STREQ(condyle_last_error(), "the results are those of another contact");
+}
+
+}  // namespace
+}  // namespace condyle
