@@ -14,9 +14,6 @@ namespace {
 
 using namespace test;
 
-constexpr int all_parts =
-    CONDYLE_STIFFNESS | CONDYLE_VERTEX_FORCES | CONDYLE_VERTEX_STIFFNESS | CONDYLE_PATCHES;
-
 /// A ball in a ring whose tube it is pressed into, in C++ and in C.
 struct BallInRing {
   TriMesh ring = torus(12, 6, 40, 24), ball = sphere(Vec3::Zero(), 10, 3);

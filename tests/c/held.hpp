@@ -32,6 +32,9 @@ using HeldForces = Held<condyle_force_results, condyle_force_results_destroy>;
 using HeldRamp = Held<condyle_ramp, condyle_ramp_destroy>;
 using HeldRotation = Held<condyle_first_contact, condyle_first_contact_destroy>;
 
+inline constexpr int all_parts =
+    CONDYLE_STIFFNESS | CONDYLE_VERTEX_FORCES | CONDYLE_VERTEX_STIFFNESS | CONDYLE_PATCHES;
+
 /// What a _create function makes; null where it fails.
 template <class Object, class... Arguments>
 Object made(condyle_status (*create)(Arguments...), auto... arguments) {
