@@ -336,8 +336,8 @@ CONDYLE_API condyle_status condyle_force_options_set_factor(condyle_force_option
 enum { CONDYLE_STIFFNESS = 1, CONDYLE_VERTEX_FORCES = 2, CONDYLE_VERTEX_STIFFNESS = 4, CONDYLE_PATCHES = 8 };
 CONDYLE_API condyle_status condyle_force_options_set_parts(condyle_force_options* options, int parts);
 
-/// Forces at one pose. Kept from step to step it keeps its memory: once there is enough, what condyle_elastic_contact_forces() answers
-/// allocates nothing in it.
+/// Forces at one pose. It keeps its memory from step to step: once there is enough, steps allocate nothing, but for rays from points so near
+/// the surface of a closed body that only exact numbers decide on which side they are.
 typedef struct condyle_force_results condyle_force_results;
 
 CONDYLE_API condyle_status condyle_force_results_create(condyle_force_results** results);

@@ -47,4 +47,4 @@ for name in needle falling_ball; do
 done
 [ -n "$tests" ] || exit 0
 # With the program's own operator new, which fails where the tests say.
-"${checked[@]}" --soname-synonyms=somalloc=nouserintercepts "$tests" '--gtest_filter=CErrors.*:CMemory.*' --gtest_brief=1
+"${checked[@]}" --soname-synonyms=somalloc=nouserintercepts "$tests" '--gtest_filter=CErrors.*:CMemory.*:CForces.*' --gtest_brief=1

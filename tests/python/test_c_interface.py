@@ -14,6 +14,7 @@ LIBRARY = os.environ.get("CONDYLE_C_LIBRARY")
 pytestmark = pytest.mark.skipif(LIBRARY is None, reason="CONDYLE_C_LIBRARY names no library")
 
 FIXED, MOBILE = 0, 1
+STIFFNESS, VERTEX_FORCES = 1, 2
 
 
 class Pose(ctypes.Structure):
@@ -41,6 +42,15 @@ class RotationLimit(ctypes.Structure):
 
 class Wrench(ctypes.Structure):
     _fields_ = [("force_n", c_double * 3), ("moment_nmm", c_double * 3)]
+
+
+class ForceLoad(ctypes.Structure):
+    _fields_ = [("on_mobile", Wrench), ("energy_nmm", c_double), ("friction_power", c_double), ("damping_power", c_double),
+                ("factor", c_double)]
+
+
+class VertexForces(ctypes.Structure):
+    _fields_ = [("count", c_size_t), ("vertex", POINTER(c_uint32)), ("force_n", POINTER(c_double))]
 
 
 @pytest.fixture(scope="module")
@@ -146,6 +156,81 @@ def test_layers_push_as_those_of_the_module_do(library: Any) -> None:
     assert energy.value == expected.energy_nmm
     for handle, kind in ((results, "elastic_results"), (contact, "elastic_contact"), (options, "elastic_options"),
                          (fixed, "mesh"), (mobile, "mesh")):
+        getattr(library, f"condyle_{kind}_destroy")(handle)
+
+
+def pointer(numbers: np.ndarray) -> c_void_p:
+    return numbers.ctypes.data_as(c_void_p)
+
+
+def test_a_body_that_deforms_is_followed_as_by_the_module(library: Any) -> None:
+    layers = condyle.sample_cartilages(clearance_mm=0.1)
+    fixed, mobile = mesh(library, layers.acetabular), mesh(library, layers.femoral)
+    contact, results = made(library, "joint_contact", fixed, mobile), made(library, "contact_results")
+    module, pose = condyle.JointContact(layers.acetabular, layers.femoral), Pose.of(np.eye(4))
+    larger = np.ascontiguousarray(1.01 * layers.femoral.vertices)
+    some = np.arange(3, len(larger), 7, dtype=np.uint32)
+    places = np.ascontiguousarray(1.005 * layers.femoral.vertices[some])
+    counts = []
+    for moved, positions in ((None, larger), (some, places)):
+        if moved is None:
+            check(library, library.condyle_joint_contact_update(contact, MOBILE, pointer(positions), c_size_t(len(positions))))
+        else:
+            check(library, library.condyle_joint_contact_update_some(contact, MOBILE, pointer(moved), c_size_t(len(moved)),
+                                                                     pointer(positions)))
+        module.update("mobile", positions, moved=moved)
+        check(library, library.condyle_joint_contact_at(contact, byref(pose), results))
+        found, expected = VerticesInside(), module.penetration(np.eye(4)).mobile
+        check(library, library.condyle_contact_results_vertices(results, MOBILE, byref(found)))
+        order, expected_order = np.argsort(array(found.vertex, found.count)), np.argsort(expected.vertex)
+        np.testing.assert_array_equal(array(found.vertex, found.count)[order], expected.vertex[expected_order])
+        np.testing.assert_array_equal(array(found.depth_mm, found.count)[order], expected.depth_mm[expected_order])
+        counts.append(found.count)
+    assert counts[0] > counts[1] > 0
+    with pytest.raises(ValueError, match="^an update of [0-9]+ vertices gives 3$"):
+        check(library, library.condyle_joint_contact_update(contact, MOBILE, pointer(larger), c_size_t(3)))
+    for handle, kind in ((results, "contact_results"), (contact, "joint_contact"), (fixed, "mesh"), (mobile, "mesh")):
+        getattr(library, f"condyle_{kind}_destroy")(handle)
+
+
+def test_forces_are_those_of_the_module(library: Any) -> None:
+    layers = condyle.sample_cartilages(clearance_mm=0)
+    fixed, mobile, layer = mesh(library, layers.acetabular), mesh(library, layers.femoral), made(library, "elastic_options")
+    check(library, library.condyle_elastic_options_set_layer(layer, MOBILE, c_double(12), c_double(0.42), byref(c_double(1.65)),
+                                                             c_size_t(1)))
+    contact = made(library, "elastic_contact", fixed, mobile, layer)
+    options, results = made(library, "force_options"), made(library, "force_results")
+    velocity, angular_velocity = np.array([3.0, -2.0, 1.5]), np.array([0.1, -0.2, 0.15])
+    matrix = np.eye(4)
+    matrix[1, 3] = 0.3
+    pose = Pose.of(matrix)
+    module = condyle.ElasticContact(layers.acetabular, layers.femoral, mobile_layer=condyle.ElasticLayer(12, 0.42, 1.65))
+    module_ramp, ramp = condyle.ContactRamp(module, matrix, 0.05), made(library, "ramp", contact, byref(pose), c_double(0.05))
+    library.condyle_ramp_factor_at.restype = c_double
+    factor = library.condyle_ramp_factor_at(ramp, c_double(0.02))
+    assert factor == module_ramp.factor_at(0.02)
+    for status in (library.condyle_force_options_set_motion(options, pointer(velocity), pointer(angular_velocity)),
+                   library.condyle_force_options_set_friction(options, c_double(0.1), c_double(2)),
+                   library.condyle_force_options_set_damping(options, c_double(0.01)),
+                   library.condyle_force_options_set_factor(options, c_double(factor)),
+                   library.condyle_force_options_set_parts(options, STIFFNESS | VERTEX_FORCES)):
+        check(library, status)
+    check(library, library.condyle_elastic_contact_forces(contact, byref(pose), options, results))
+    load, stiffness, vertices = ForceLoad(), np.empty((6, 6)), VertexForces()
+    check(library, library.condyle_force_results_load(results, byref(load)))
+    check(library, library.condyle_force_results_stiffness(results, pointer(stiffness)))
+    check(library, library.condyle_force_results_vertices(results, FIXED, byref(vertices)))
+    expected = module.forces(matrix, velocity=velocity, angular_velocity=angular_velocity, friction=0.1, slip_velocity=2, damping=0.01,
+                             factor=factor, stiffness=True, vertex_forces=True)
+    assert list(load.on_mobile.force_n) == expected.force_n.tolist() and load.on_mobile.force_n[1] < -10
+    assert list(load.on_mobile.moment_nmm) == expected.moment_nmm.tolist()
+    assert [load.energy_nmm, load.friction_power, load.damping_power, load.factor] == [
+        expected.energy_nmm, expected.friction_power, expected.damping_power, factor]
+    np.testing.assert_array_equal(stiffness, expected.stiffness)
+    np.testing.assert_array_equal(array(vertices.vertex, vertices.count), expected.on_fixed.vertex)
+    np.testing.assert_array_equal(array(vertices.force_n, 3 * vertices.count).reshape(-1, 3), expected.on_fixed.force_n)
+    for handle, kind in ((ramp, "ramp"), (results, "force_results"), (options, "force_options"), (contact, "elastic_contact"),
+                         (layer, "elastic_options"), (fixed, "mesh"), (mobile, "mesh")):
         getattr(library, f"condyle_{kind}_destroy")(handle)
 
 
