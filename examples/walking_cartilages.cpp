@@ -318,11 +318,9 @@ int run(int argc, char** argv) {
               double(hip.rounds) / steps, ms(hip.seconds.update), ms(hip.seconds.query),
               ms(hip.seconds.tissue));
   std::printf("real-time factor %.2f\n", steps * time_step / wall);
-  std::printf("overlap met %.3f mm, left %.4f mm
-", hip.deepest_met, hip.deepest_left);
-  std::printf("surfaces give way by up to %.3f mm, the centre moves by up to %.3f mm
-", hip.largest_displacement,
-              hip.farthest_centre);
+  std::printf("overlap met %.3f mm, left %.4f mm\n", hip.deepest_met, hip.deepest_left);
+  std::printf("surfaces give way by up to %.3f mm, the centre moves by up to %.3f mm\n",
+              hip.largest_displacement, hip.farthest_centre);
   return hip.deepest_left <= most_left ? 0 : 1;
 }
 
