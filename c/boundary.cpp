@@ -83,6 +83,16 @@ Points points_of(const double* xyz_mm, std::size_t count, const char* name) {
   return points;
 }
 
+std::span<const Index> numbers_of(const std::uint32_t* vertices, std::size_t count) {
+  if (count > 0) require(vertices, "vertices");
+  return {vertices, count};
+}
+
+Vec3 vector_of(const double* xyz, const char* name) {
+  require(xyz, name);
+  return {xyz[0], xyz[1], xyz[2]};
+}
+
 }  // namespace condyle::c
 
 using namespace condyle;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 
 #include "condyle/condyle.h"
@@ -64,6 +66,11 @@ BodyRole role_of(condyle_body body);
 
 /// `count` points given x, y, z one after the other.
 Points points_of(const double* xyz_mm, std::size_t count, const char* name);
+
+/// Numbers of vertices, borrowed.
+std::span<const Index> numbers_of(const std::uint32_t* vertices, std::size_t count);
+
+Vec3 vector_of(const double* xyz, const char* name);
 
 /// One of consecutive values from 0, as an enumerator. UsageError for any other number.
 template <class Enum>

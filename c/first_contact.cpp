@@ -36,11 +36,6 @@ condyle_rotation_limit limit_of(const motion::Limit& limit) noexcept {
   return out;
 }
 
-Vec3 vector_of(const double* xyz, const char* name) {
-  require(xyz, name);
-  return {xyz[0], xyz[1], xyz[2]};
-}
-
 }  // namespace
 }  // namespace condyle::c
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -11,6 +12,7 @@ struct condyle_joint_contact {
 
 struct condyle_contact_results {
   bool has_answer = false;
+  condyle::Pose X_FM = condyle::Pose::Identity();
   condyle::contact::Contact contact = {};
 };
 
@@ -63,6 +65,23 @@ void condyle_joint_contact_destroy(condyle_joint_contact* contact) {
   delete contact;
 }
 
+condyle_status condyle_joint_contact_update(condyle_joint_contact* contact, condyle_body body,
+                                            const double* xyz_mm, size_t vertex_count) {
+  return c::guarded([&] {
+    contact::JointContact& joint = c::required(contact, "contact").joint;
+    joint.update(c::role_of(body), c::points_of(xyz_mm, vertex_count, "xyz_mm"));
+  });
+}
+
+condyle_status condyle_joint_contact_update_some(condyle_joint_contact* contact, condyle_body body,
+                                                 const uint32_t* vertices, size_t count,
+                                                 const double* xyz_mm) {
+  return c::guarded([&] {
+    contact::JointContact& joint = c::required(contact, "contact").joint;
+    joint.update(c::role_of(body), c::numbers_of(vertices, count), c::points_of(xyz_mm, count, "xyz_mm"));
+  });
+}
+
 condyle_status condyle_contact_results_create(condyle_contact_results** results) {
   return c::make(results, "results");
 }
@@ -76,7 +95,9 @@ condyle_status condyle_joint_contact_at(const condyle_joint_contact* contact, co
   return c::guarded([&] {
     condyle_contact_results& out = c::required(results, "results");
     out.has_answer = false;
-    c::answer(c::required(contact, "contact").joint, c::pose_of(X_FM, "X_FM"), out.contact);
+    const contact::JointContact& joint = c::required(contact, "contact").joint;
+    out.X_FM = c::pose_of(X_FM, "X_FM");
+    c::answer(joint, out.X_FM, out.contact);
     out.has_answer = true;
   });
 }
@@ -105,6 +126,35 @@ condyle_status condyle_joint_contact_radial_gaps(const condyle_joint_contact* co
         of_mobile ? joint.fixed_table().radial_gaps(posed(X_FM_in, vertices))
                   : joint.mobile_table().radial_gaps(posed(inverted(X_FM_in), vertices));
     std::copy(gaps.begin(), gaps.end(), gaps_mm);
+  });
+}
+
+condyle_status condyle_joint_contact_ray_angles(const condyle_joint_contact* contact,
+                                                condyle_contact_results* results, condyle_body body,
+                                                double* angles_deg, size_t count) {
+  return c::guarded([&] {
+    const contact::JointContact& joint = c::required(contact, "contact").joint;
+    const Pose X_FM = c::answered(results).X_FM;
+    const bool of_mobile = c::role_of(body) == BodyRole::mobile;
+    auto& inside = of_mobile ? results->contact.mobile_in_fixed : results->contact.fixed_in_mobile;
+    const std::size_t found = inside ? inside->size() : 0;
+    if (count != found)
+      throw UsageError("count is " + std::to_string(count) + ", and " + std::to_string(found) +
+                       " vertices are not outside");
+    if (count == 0) return;
+    c::require(angles_deg, "angles_deg");
+    const Mesh &body_mesh = of_mobile ? joint.mobile() : joint.fixed(),
+               &other = of_mobile ? joint.fixed() : joint.mobile();
+    const auto all_below = [](const std::vector<Index>& numbers, std::size_t end) {
+      return std::all_of(numbers.begin(), numbers.end(), [&](Index i) { return i < end || i == no_index; });
+    };
+    if (!all_below(inside->point, body_mesh.vertices().size()) ||
+        !all_below(inside->triangle, other.triangles().size()))
+      throw UsageError("the results are those of another contact");
+    const radial::RadialTable& table = of_mobile ? joint.fixed_table() : joint.mobile_table();
+    table.add_ray_to_normal(body_mesh.vertices(), of_mobile ? X_FM : inverted(X_FM), *inside);
+    std::transform(inside->ray_to_normal.begin(), inside->ray_to_normal.end(), angles_deg,
+                   [](Angle angle) { return angle.degrees(); });
   });
 }
 

@@ -4,6 +4,7 @@
 #include "boundary.hpp"
 #include "condyle/normal_depth.hpp"
 #include "condyle/pressure.hpp"
+#include "elastic.hpp"
 
 struct condyle_normal_depth {
   condyle::contact::NormalDepth depth;
@@ -29,10 +30,6 @@ struct condyle_normal_results {
 
 struct condyle_elastic_options {
   condyle::contact::ElasticContactOptions options = {};
-};
-
-struct condyle_elastic_contact {
-  condyle::contact::ElasticContact contact;
 };
 
 struct condyle_elastic_results {
@@ -136,6 +133,38 @@ void condyle_normal_depth_destroy(condyle_normal_depth* depth) {
   delete depth;
 }
 
+condyle_status condyle_normal_depth_update_casting(condyle_normal_depth* depth, const double* xyz_mm,
+                                                   size_t vertex_count) {
+  return c::guarded([&] {
+    contact::NormalDepth& out = c::required(depth, "depth").depth;
+    out.update_casting(c::points_of(xyz_mm, vertex_count, "xyz_mm"));
+  });
+}
+
+condyle_status condyle_normal_depth_update_casting_some(condyle_normal_depth* depth, const uint32_t* vertices,
+                                                        size_t count, const double* xyz_mm) {
+  return c::guarded([&] {
+    contact::NormalDepth& out = c::required(depth, "depth").depth;
+    out.update_casting(c::numbers_of(vertices, count), c::points_of(xyz_mm, count, "xyz_mm"));
+  });
+}
+
+condyle_status condyle_normal_depth_update_target(condyle_normal_depth* depth, const double* xyz_mm,
+                                                  size_t vertex_count) {
+  return c::guarded([&] {
+    contact::NormalDepth& out = c::required(depth, "depth").depth;
+    out.update_target(c::points_of(xyz_mm, vertex_count, "xyz_mm"));
+  });
+}
+
+condyle_status condyle_normal_depth_update_target_some(condyle_normal_depth* depth, const uint32_t* vertices,
+                                                       size_t count, const double* xyz_mm) {
+  return c::guarded([&] {
+    contact::NormalDepth& out = c::required(depth, "depth").depth;
+    out.update_target(c::numbers_of(vertices, count), c::points_of(xyz_mm, count, "xyz_mm"));
+  });
+}
+
 condyle_status condyle_normal_results_create(condyle_normal_results** results) {
   return c::make(results, "results");
 }
@@ -217,6 +246,23 @@ condyle_status condyle_elastic_contact_create(const condyle_mesh* fixed, const c
 
 void condyle_elastic_contact_destroy(condyle_elastic_contact* contact) {
   delete contact;
+}
+
+condyle_status condyle_elastic_contact_update(condyle_elastic_contact* contact, condyle_body body,
+                                              const double* xyz_mm, size_t vertex_count) {
+  return c::guarded([&] {
+    contact::ElasticContact& out = c::required(contact, "contact").contact;
+    out.update(c::role_of(body), c::points_of(xyz_mm, vertex_count, "xyz_mm"));
+  });
+}
+
+condyle_status condyle_elastic_contact_update_some(condyle_elastic_contact* contact, condyle_body body,
+                                                   const uint32_t* vertices, size_t count,
+                                                   const double* xyz_mm) {
+  return c::guarded([&] {
+    contact::ElasticContact& out = c::required(contact, "contact").contact;
+    out.update(c::role_of(body), c::numbers_of(vertices, count), c::points_of(xyz_mm, count, "xyz_mm"));
+  });
 }
 
 condyle_status condyle_elastic_results_create(condyle_elastic_results** results) {

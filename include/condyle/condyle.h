@@ -5,9 +5,10 @@
 #include <stdint.h>
 
 /// The C interface, of the shared library libcondyle_c.so.1: meshes, contact of two bodies at a pose, depths along normals,
-/// elastic contact, and rotation about an axis up to contact. docs/c-interface.md. C99 and C++; link with -lcondyle_c.
+/// elastic contact with forces for simulators, and rotation about an axis up to contact; contacts follow bodies that deform.
+/// docs/c-interface.md. C99 and C++; link with -lcondyle_c.
 ///
-/// Units: mm, N, N mm, MPa; angles are degrees. Frames: F is that of the fixed body, M that of the mobile body; a pose X_FM
+/// Units: mm, N, N mm, MPa, s; angles are degrees, angular velocities rad/s. Frames: F is that of the fixed body, M that of the mobile body; a pose X_FM
 /// has p_F = X_FM p_M. Points are x, y, z one after the other.
 ///
 /// Errors: every function that can fail returns a condyle_status, CONDYLE_OK or what went wrong, and condyle_last_error() has a
@@ -21,6 +22,11 @@
 /// Threads: any number of threads may query one object at a time, each with results of its own; queries use the threads of
 /// oneTBB, and answers do not depend on how many these are. Options, results, and whatever a function takes without const
 /// belong to one thread at a time.
+///
+/// Updates: a body of a contact that has deformed gets new positions of all vertices, x, y, z one after the other in its own frame, as
+/// many as there were; or of some, each named once. Answers are those of an object made anew. CONDYLE_BAD_ARGUMENT if numbers differ, a
+/// number is no vertex's or is there twice; CONDYLE_BAD_MESH if a coordinate is not finite or beyond 1e30 mm. A refused update changes
+/// nothing. Not while another thread queries. Objects made from the same meshes, and results, stay as they are.
 ///
 /// Growth: names and structs of this header stay as they are as long as the library is libcondyle_c.so.1. What is
 /// added has a name of its own.
@@ -41,7 +47,7 @@ enum {
   CONDYLE_OK = 0,
   CONDYLE_BAD_ARGUMENT = 1,   ///< a null pointer, a value outside its domain, results without an answer
   CONDYLE_BAD_MESH = 2,       ///< a mesh does not allow the query: a bad index, an open surface
-  CONDYLE_OUT_OF_MEMORY = 3,  ///< objects passed in are as usable as before
+  CONDYLE_OUT_OF_MEMORY = 3,  ///< objects passed in are as usable as before, but for some updates that say so
   CONDYLE_INTERNAL_ERROR = 4  ///< a mistake of the library
 };
 
@@ -93,6 +99,14 @@ CONDYLE_API condyle_status condyle_joint_contact_create(const condyle_mesh* fixe
                                                         condyle_joint_contact** contact);
 CONDYLE_API void condyle_joint_contact_destroy(condyle_joint_contact* contact);
 
+/// A body has deformed: "Updates" above. CONDYLE_BAD_MESH also if the surface now holds the joint centre. Neither a refused update nor
+/// CONDYLE_OUT_OF_MEMORY changes anything. Vertices inside keep the order that the contact was made with.
+CONDYLE_API condyle_status condyle_joint_contact_update(condyle_joint_contact* contact, condyle_body body,
+                                                        const double* xyz_mm, size_t vertex_count);
+CONDYLE_API condyle_status condyle_joint_contact_update_some(condyle_joint_contact* contact,
+                                                             condyle_body body, const uint32_t* vertices,
+                                                             size_t count, const double* xyz_mm);
+
 /// What a query found at one pose. Vertices reuse the memory of the query before: once there is enough, they allocate nothing.
 typedef struct condyle_contact_results condyle_contact_results;
 
@@ -131,9 +145,17 @@ typedef struct condyle_vertices_inside {
   const uint8_t* direction;  ///< along the ray to that triangle
 } condyle_vertices_inside;
 
-/// CONDYLE_BAD_ARGUMENT before the first answer, as the next two.
+/// CONDYLE_BAD_ARGUMENT before the first answer, as the next three.
 CONDYLE_API condyle_status condyle_contact_results_vertices(const condyle_contact_results* results,
                                                             condyle_body body, condyle_vertices_inside* out);
+/// The angle between the ray of each vertex and the normal of its triangle, degrees from 0 to 90, in the order of
+/// condyle_vertices_inside, whose `count` it takes. It tells depths from mere lengths: through a flat wall at 60 degrees from the ray the
+/// radial depth is twice the shortest exit, and beyond that it means nothing. A function of its own: the angle costs more than all else
+/// of a vertex. `results` are the last ones of this contact; after an update the angles are those of the bodies as they are now.
+CONDYLE_API condyle_status condyle_joint_contact_ray_angles(const condyle_joint_contact* contact,
+                                                            condyle_contact_results* results,
+                                                            condyle_body body, double* angles_deg,
+                                                            size_t count);
 /// The exact set of pairs of triangles that share a point, ascending: pairs[2 i] of the fixed body, pairs[2 i + 1] of the mobile body,
 /// i < pair_count.
 CONDYLE_API condyle_status condyle_contact_results_pairs(const condyle_contact_results* results,
@@ -192,6 +214,19 @@ CONDYLE_API condyle_status condyle_normal_depth_create(const condyle_mesh* casti
                                                        double reach_mm, condyle_normal_depth** depth);
 CONDYLE_API void condyle_normal_depth_destroy(condyle_normal_depth* depth);
 
+/// A surface has deformed: "Updates" above. After CONDYLE_OUT_OF_MEMORY an update may have ended halfway: queries and updates are then
+/// refused by CONDYLE_BAD_ARGUMENT, and the object has to be made anew.
+CONDYLE_API condyle_status condyle_normal_depth_update_casting(condyle_normal_depth* depth,
+                                                               const double* xyz_mm, size_t vertex_count);
+CONDYLE_API condyle_status condyle_normal_depth_update_casting_some(condyle_normal_depth* depth,
+                                                                    const uint32_t* vertices, size_t count,
+                                                                    const double* xyz_mm);
+CONDYLE_API condyle_status condyle_normal_depth_update_target(condyle_normal_depth* depth,
+                                                              const double* xyz_mm, size_t vertex_count);
+CONDYLE_API condyle_status condyle_normal_depth_update_target_some(condyle_normal_depth* depth,
+                                                                   const uint32_t* vertices, size_t count,
+                                                                   const double* xyz_mm);
+
 typedef struct condyle_normal_results condyle_normal_results;
 
 CONDYLE_API condyle_status condyle_normal_results_create(condyle_normal_results** results);
@@ -244,6 +279,14 @@ CONDYLE_API condyle_status condyle_elastic_contact_create(const condyle_mesh* fi
                                                           condyle_elastic_contact** contact);
 CONDYLE_API void condyle_elastic_contact_destroy(condyle_elastic_contact* contact);
 
+/// A body has deformed: "Updates" above. Thicknesses stay with their vertices. After CONDYLE_OUT_OF_MEMORY an update may have ended
+/// halfway: queries and updates are then refused by CONDYLE_BAD_ARGUMENT, and the contact has to be made anew.
+CONDYLE_API condyle_status condyle_elastic_contact_update(condyle_elastic_contact* contact, condyle_body body,
+                                                          const double* xyz_mm, size_t vertex_count);
+CONDYLE_API condyle_status condyle_elastic_contact_update_some(condyle_elastic_contact* contact,
+                                                               condyle_body body, const uint32_t* vertices,
+                                                               size_t count, const double* xyz_mm);
+
 typedef struct condyle_elastic_results condyle_elastic_results;
 
 CONDYLE_API condyle_status condyle_elastic_results_create(condyle_elastic_results** results);
@@ -265,6 +308,123 @@ CONDYLE_API condyle_status condyle_elastic_results_load(const condyle_elastic_re
 /// The surface of one body, in its own frame.
 CONDYLE_API condyle_status condyle_elastic_results_surface(const condyle_elastic_results* results,
                                                            condyle_body body, condyle_surface_contact* out);
+
+// ---- forces for a simulator -----------------------------------------------------------------------------------------------
+
+/// What condyle_elastic_contact_forces() computes, and how: without motion, friction and damping, the factor 1, the load only,
+/// until they are set. A setter refuses a value outside its domain by CONDYLE_BAD_ARGUMENT and leaves the options as they were.
+/// docs/forces.md has the formulas.
+typedef struct condyle_force_options condyle_force_options;
+
+CONDYLE_API condyle_status condyle_force_options_create(condyle_force_options** options);
+CONDYLE_API void condyle_force_options_destroy(condyle_force_options* options);
+/// Of the mobile body relative to the fixed one, in F: velocity of the origin of M, mm/s, and angular velocity, rad/s. Friction and damping
+/// depend on it.
+CONDYLE_API condyle_status condyle_force_options_set_motion(condyle_force_options* options,
+                                                            const double velocity_mm_s[3],
+                                                            const double angular_velocity_rad_s[3]);
+/// The traction is coefficient p v / sqrt(v^2 + s^2) against the sliding velocity v, with the slip velocity s > 0, 1 mm/s until set:
+/// Coulomb's friction, made smooth about v = 0. Nothing sticks. The coefficient is >= 0.
+CONDYLE_API condyle_status condyle_force_options_set_friction(condyle_force_options* options,
+                                                              double coefficient, double slip_velocity_mm_s);
+/// Hunt and Crossley's, >= 0: pressures are multiplied by max(0, 1 + damping * rate of depth).
+CONDYLE_API condyle_status condyle_force_options_set_damping(condyle_force_options* options,
+                                                             double damping_s_per_mm);
+/// From 0 to 1: pressures, energy and stiffness are multiplied by it. condyle_ramp_factor_at() has one for each time.
+CONDYLE_API condyle_status condyle_force_options_set_factor(condyle_force_options* options, double factor);
+/// What is computed besides the load: a sum of these values. Vertex forces come with the vertex stiffness too.
+enum { CONDYLE_STIFFNESS = 1, CONDYLE_VERTEX_FORCES = 2, CONDYLE_VERTEX_STIFFNESS = 4, CONDYLE_PATCHES = 8 };
+CONDYLE_API condyle_status condyle_force_options_set_parts(condyle_force_options* options, int parts);
+
+/// Forces at one pose. Kept from step to step it keeps its memory: once there is enough, what condyle_elastic_contact_forces() answers
+/// allocates nothing in it.
+typedef struct condyle_force_results condyle_force_results;
+
+CONDYLE_API condyle_status condyle_force_results_create(condyle_force_results** results);
+CONDYLE_API void condyle_force_results_destroy(condyle_force_results* results);
+
+/// CONDYLE_BAD_MESH as condyle_elastic_contact_at(). After an error the results have no answer.
+CONDYLE_API condyle_status condyle_elastic_contact_forces(const condyle_elastic_contact* contact,
+                                                          const condyle_pose* X_FM,
+                                                          const condyle_force_options* options,
+                                                          condyle_force_results* results);
+
+typedef struct condyle_force_load {
+  condyle_wrench on_mobile;  ///< in F, about the origin of M, with friction and damping
+  double energy_nmm;         ///< stored in the layers
+  double friction_power;     ///< taken out of the motion, N mm/s, >= 0
+  double damping_power;      ///< the same
+  double
+      factor;  ///< as it was set: below 1 a ramp is in force, and nothing is the answer of the layers themselves
+} condyle_force_load;
+
+CONDYLE_API condyle_status condyle_force_results_load(const condyle_force_results* results,
+                                                      condyle_force_load* out);
+
+/// 6 x 6, row-major: minus the derivative of the wrench. Rows are force and moment; columns a translation of the mobile body (mm) and a
+/// rotation (rad) about the origin of M, both in F, which carry the origin of M along. A contact that pushes back has positive
+/// eigenvalues in its symmetric part. Of the elastic part, friction and damping left out; not symmetric. CONDYLE_BAD_ARGUMENT if the
+/// options did not have it, as the parts below.
+CONDYLE_API condyle_status condyle_force_results_stiffness(const condyle_force_results* results,
+                                                           double stiffness[36]);
+
+/// The vertices of a body with a share in the contact, ascending. Those of the mobile body add up to the wrench, those of the fixed body to
+/// its reverse, moments too.
+typedef struct condyle_vertex_forces {
+  size_t count;
+  const uint32_t* vertex;
+  const double* force_n;  ///< x, y, z of each vertex, in the frame of its body
+} condyle_vertex_forces;
+
+CONDYLE_API condyle_status condyle_force_results_vertices(const condyle_force_results* results,
+                                                          condyle_body body, condyle_vertex_forces* out);
+
+/// Minus the derivative of the elastic force on one vertex when another is moved, N/mm, with areas, normals, directions of rays,
+/// triangles met and shares of vertices held. Ascending by row, then by column; what is not there is 0.
+typedef struct condyle_vertex_stiffness {
+  size_t count;
+  const uint32_t*
+      row;  ///< places in the vertices of the fixed body, and after these in those of the mobile body
+  const uint32_t* column;  ///< the same
+  const double*
+      block;  ///< 3 x 3 each, row-major: rows in the frame of the row's body, columns in that of the column's
+} condyle_vertex_stiffness;
+
+CONDYLE_API condyle_status condyle_force_results_vertex_stiffness(const condyle_force_results* results,
+                                                                  condyle_vertex_stiffness* out);
+
+/// Faces in contact that hang together by common vertices.
+typedef struct condyle_force_patch {
+  condyle_body casting;  ///< whose faces they are
+  size_t face_count;
+  const uint32_t* faces;            ///< ascending
+  double area_mm2;                  ///< in contact
+  double max_pressure_mpa;          ///< elastic, times the factor: without damping
+  double load_n;                    ///< integral of the pressure
+  condyle_wrench on_mobile;         ///< what it adds to that of the contact
+  double centre_of_pressure_mm[3];  ///< in F; that of the area if the load is 0
+  double centre_of_area_mm[3];      ///< in F
+} condyle_force_patch;
+
+/// Those of the fixed body's faces, then of the mobile one's, each by their first face.
+CONDYLE_API condyle_status condyle_force_results_patches(const condyle_force_results* results,
+                                                         const condyle_force_patch** patches,
+                                                         size_t* patch_count);
+
+/// Brings a contact in smoothly that overlaps before the first step, as after loading meshes: from nothing to all of it.
+typedef struct condyle_ramp condyle_ramp;
+
+/// X_FM is the first pose; `duration_s` > 0. The contact may be destroyed before it.
+CONDYLE_API condyle_status condyle_ramp_create(const condyle_elastic_contact* contact,
+                                               const condyle_pose* X_FM, double duration_s,
+                                               condyle_ramp** ramp);
+CONDYLE_API void condyle_ramp_destroy(condyle_ramp* ramp);
+/// At the first pose; 0 for NULL, and if nothing overlaps there.
+CONDYLE_API double condyle_ramp_max_depth_mm(const condyle_ramp* ramp);
+CONDYLE_API double condyle_ramp_energy_nmm(const condyle_ramp* ramp);
+/// 3 s^2 - 2 s^3 at the share s of the duration: 0 before it, 1 after it. 1 throughout if nothing overlaps at the first pose, and for
+/// NULL.
+CONDYLE_API double condyle_ramp_factor_at(const condyle_ramp* ramp, double time_s);
 
 // ---- rotation about an axis -----------------------------------------------------------------------------------------------
 

@@ -81,8 +81,8 @@ class JointContact {
   /// order vertices that are inside come: depths and sets to the bit. Other contacts that share the body keep it as it was.
   ///
   /// A twentieth to a fifth of the cost of making, docs/deforming.md. UsageError if the number differs; MeshError if a coordinate
-  /// is not finite or beyond 1e30 mm or the surface now holds the joint centre. A refused update changes nothing. Not while
-  /// another thread queries.
+  /// is not finite or beyond 1e30 mm or the surface now holds the joint centre. A refused update changes nothing, nor does one
+  /// that ends with std::bad_alloc. Not while another thread queries.
   void update(BodyRole body, PointsView vertices);
   /// The same for some vertices, each named once; UsageError also if a number is no vertex's or is there twice.
   void update(BodyRole body, std::span<const Index> moved, PointsView positions);

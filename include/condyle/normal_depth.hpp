@@ -113,7 +113,8 @@ class NormalDepth {
 
   /// The casting surface or the target has deformed: new positions of all vertices, or of some, each named once. Answers are those
   /// of a NormalDepth made anew, to the bit. UsageError if numbers of vertices differ, a number is no vertex's or is there twice;
-  /// MeshError as Mesh::moved_to(). A refused update changes nothing. Not while another thread queries.
+  /// MeshError as Mesh::moved_to(). A refused update changes nothing. Not while another thread queries. After std::bad_alloc it may have
+  /// ended halfway: queries and updates then raise UsageError, and the object has to be made anew.
   void update_casting(PointsView vertices);
   void update_casting(std::span<const Index> moved, PointsView positions);
   void update_target(PointsView vertices);

@@ -80,6 +80,7 @@ class ElasticContact {
   /// A body has deformed: new positions of all its vertices, or of some, each named once. Thicknesses stay with their vertices.
   /// Answers are those of an ElasticContact made anew, to the bit. UsageError if numbers of vertices differ, a number is no
   /// vertex's or is there twice; MeshError as Mesh::moved_to(). A refused update changes nothing. Not while another thread queries.
+  /// After std::bad_alloc it may have ended halfway: queries and updates then raise UsageError, and the contact has to be made anew.
   void update(BodyRole body, PointsView vertices);
   void update(BodyRole body, std::span<const Index> moved, PointsView positions);
 

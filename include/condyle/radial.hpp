@@ -147,7 +147,8 @@ class RadialTable {
 
   /// The surface has deformed: new positions of all vertices, as many as there were. Answers are those of a
   /// table made anew for the mesh as it is now. Raises UsageError if the number differs and MeshError if
-  /// a coordinate is not finite or the surface now holds the origin; the table is then what it was before.
+  /// a coordinate is not finite or the surface now holds the origin; the table is then what it was before. After
+  /// std::bad_alloc it may only be assigned to or destroyed.
   ///
   /// The first update gives each vertex a slack rectangle on the cube: triangles are binned by the rectangles
   /// of their vertices. Later updates bin only those triangles again whose vertices leave their rectangles,

@@ -127,6 +127,7 @@ void OverlapSampler::sample_faces(const Pose& X_CT, Quadrature quadrature,
 
 void OverlapSampler::sample_by_parts(const Pose& X_CT, const LayerThicknesses& thicknesses,
                                      Results& out) const {
+  require_whole();
   clear(out);
   auto scratch = scratch_.take();
   cast_inwards(X_CT, *scratch, out);

@@ -2,6 +2,7 @@
 #include <array>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <string>
 #include <utility>
@@ -64,6 +65,24 @@ class RingTables {
   std::array<Kept, most_axes> kept_;  ///< The latest first.
 };
 
+template <class Part>
+void discard(core::Lazy<std::optional<Part>>& part) noexcept {
+  if (std::optional<Part>* made = part.current()) made->reset();
+  part.make_out_of_date();
+}
+
+/// For a part that is checked already, so that it cannot be refused: without memory it is made anew when it is next needed.
+template <class Part, class Update>
+void update_or_discard(core::Lazy<std::optional<Part>>& part, const Update& update) {
+  std::optional<Part>* made = part.current();
+  if (!made) return;
+  try {
+    update(**made);
+  } catch (const std::bad_alloc&) {
+    discard(part);
+  }
+}
+
 /// One of the two bodies, and what is made of it when it is first needed.
 class ContactBody {
  public:
@@ -72,7 +91,8 @@ class ContactBody {
 
   const Mesh& mesh() const noexcept { return mesh_; }
 
-  /// A refused update leaves everything as it was: what may refuse comes first.
+  /// A refused update leaves everything as it was: what may refuse comes first. A table or blocks that memory runs out for are
+  /// half updated: they are made anew when they are next needed.
   void update(const MovedVertices& moved) {
     if (std::optional<radial::RadialTable>* table = table_.current()) {
       try {
@@ -82,10 +102,14 @@ class ContactBody {
           (*table)->update(moved.some, moved.positions);
       } catch (const MeshError& error) {
         throw MeshError(role_ + ": " + error.what());
+      } catch (const std::bad_alloc&) {
+        discard(table_);
+        throw;
       }
     }
-    if (std::optional<radial::SortedPoints>* points = sorted_vertices_.current())
-      (*points)->update(moved.mesh.vertices(), moved.is_moved);
+    update_or_discard(sorted_vertices_, [&](radial::SortedPoints& points) {
+      points.update(moved.mesh.vertices(), moved.is_moved);
+    });
     ring_tables_.clear();
     mesh_ = moved.mesh;
   }
@@ -180,8 +204,7 @@ void JointContact::update(BodyRole body, const MovedVertices& moved) {
     part = part->with_mesh(moved.mesh);
   else
     part->update(moved);
-  if (std::optional<BodyPair>* pair = parts_->trees.current())
-    (*pair)->update(body, moved.mesh, moved.is_moved);
+  update_or_discard(parts_->trees, [&](BodyPair& pair) { pair.update(body, moved.mesh, moved.is_moved); });
 }
 
 const BodyPair& body_pair_of(const JointContact& joint) {

@@ -55,13 +55,22 @@ Points OverlapSampler::ray_origins() const {
   return origins;
 }
 
+void OverlapSampler::require_whole() const {
+  if (!is_whole_) throw UsageError("memory ran out in an update of this contact: it has to be made anew");
+}
+
 void OverlapSampler::update_casting(const Mesh& casting, std::span<const char> is_moved) {
+  require_whole();
+  is_whole_ = false;
   casting_ = casting;
   const bool are_same_rays = rays_.update(casting_, is_moved);
   if (origins_inside_) origins_inside_->update_points(ray_origins(), are_same_rays);
+  is_whole_ = true;
 }
 
 void OverlapSampler::update_target(const Mesh& target, std::span<const char> is_moved) {
+  require_whole();
+  is_whole_ = false;
   target_ = target;
   ray_target_.update(target_, is_moved);
   const auto& triangles = target_.triangles();
@@ -71,6 +80,7 @@ void OverlapSampler::update_target(const Mesh& target, std::span<const char> is_
       target_normal_[t] = unit(area_vector(target_, t));
   }
   if (origins_inside_) origins_inside_->update_surface(target_, nearest_of_target());
+  is_whole_ = true;
 }
 
 std::optional<OverlapSampler::Overlap> OverlapSampler::overlap_of(const Vec3& direction_C,
@@ -112,6 +122,7 @@ void OverlapSampler::clear(Results& out) {
 
 void OverlapSampler::sample(const Pose& X_CT, Quadrature quadrature, const LayerThicknesses& thicknesses,
                             Results& out) const {
+  require_whole();
   clear(out);
   auto scratch = scratch_.take();
   cast_inwards(X_CT, *scratch, out);
@@ -180,6 +191,7 @@ void OverlapSampler::sample_centres(const Pose& X_CT, const LayerThicknesses& th
 }
 
 std::size_t OverlapSampler::cut_off_by_reach(const Pose& X_CT) const {
+  require_whole();
   mesh::RayHits hits;
   mesh::nearest_hits(ray_target_, inverted(X_CT), rays_.inward(), 2 * options_.reach_mm, hits);
   const double least_cosine = options_.rule == FaceRule::cut_faces ? oblique_cosine : 0;

@@ -145,6 +145,8 @@ class OverlapSampler {
   std::span<const Vec3> face_normals() const noexcept { return rays_.face_normals(); }
 
  private:
+  /// UsageError if an update ended halfway. Each query and update begins with it.
+  void require_whole() const;
   double nearest_of_target() const;
   Points ray_origins() const;
 
@@ -231,6 +233,7 @@ class OverlapSampler {
   std::vector<Vec3> target_normal_;  ///< per triangle, length 1
   CastingRays rays_;
   std::optional<PointsInside> origins_inside_;
+  bool is_whole_ = true;  ///< false during an update, and for good once memory runs out in one
   mutable core::Pool<Scratch> scratch_;
   mutable core::Pool<Results> found_;
 };
