@@ -254,7 +254,7 @@ class ElasticContact:
 
         UsageError for numbers outside their domain; MeshError as :meth:`at`. No warnings: :meth:`at` has them.
 
-        C++: `condyle::ElasticContact::forces` in condyle/contact_forces.hpp.
+        C++: `condyle::ElasticContact::forces` in condyle/pressure.hpp.
 
         >>> import condyle, numpy as np
         >>> layers = condyle.sample_cartilages(clearance_mm=-0.3)
@@ -361,7 +361,7 @@ class ContactRamp:
 
     `start` is the pose (4, 4) of the first step, `duration_s` is above 0.
 
-    C++: `condyle::ContactRamp` in condyle/contact_forces.hpp.
+    C++: `condyle::ContactRamp` in condyle/pressure.hpp.
 
     >>> import condyle, numpy as np
     >>> layers = condyle.sample_cartilages(clearance_mm=-0.3)

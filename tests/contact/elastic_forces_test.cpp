@@ -5,8 +5,8 @@
 #include <numbers>
 #include <string>
 
-#include "condyle/contact_forces.hpp"
 #include "condyle/error.hpp"
+#include "condyle/pressure.hpp"
 #include "contact/elastic_parts.hpp"
 #include "support/cup.hpp"
 
