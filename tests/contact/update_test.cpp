@@ -7,6 +7,7 @@
 #include <numeric>
 #include <random>
 #include <string>
+#include <thread>
 
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
@@ -323,6 +324,29 @@ TEST(Update, AMeshThatMovedSharesWhatItsTrianglesAloneSay) {
   EXPECT_EQ(&mesh::edges_of(moved), &edges);
   EXPECT_EQ(&mesh::triangles_at_vertices_of(moved), &mesh::triangles_at_vertices_of(mesh));
   EXPECT_TRUE(moved.is_closed());
+}
+
+TEST(Update, IsSeenByEveryThreadThatAsksAfterIt) {
+  Deforming fixed(test::socket(Vec3::Zero(), 10, 13, 2), 0.4, 16),
+      mobile(test::sphere(Vec3::Zero(), 9.9, 2), 0.4, 17);
+  const ElasticContactOptions options{.fixed = ElasticLayer{10, 0.4, 2.0}};
+  JointContact joint(fixed.mesh(), mobile.mesh());
+  ElasticContact elastic(fixed.mesh(), mobile.mesh(), options);
+  for (int i = 0; i < 30; ++i) {
+    Deforming& mesh = i % 2 ? fixed : mobile;
+    const BodyRole body = i % 2 ? BodyRole::fixed : BodyRole::mobile;
+    const std::vector<Index> moved = mesh.move_some();
+    joint.update(body, moved, mesh.of(moved));
+    elastic.update(body, moved, mesh.of(moved));
+    std::vector<std::thread> threads;
+    for (int k = 0; k < 4; ++k)
+      threads.emplace_back([&] {
+        expect_same(joint, JointContact(fixed.mesh(), mobile.mesh()), Pose::Identity());
+        expect_same(elastic.at(Pose::Identity()),
+                    ElasticContact(fixed.mesh(), mobile.mesh(), options).at(Pose::Identity()));
+      });
+    for (std::thread& thread : threads) thread.join();
+  }
 }
 
 /// Resident memory of this process, kB.
