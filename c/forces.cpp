@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "boundary.hpp"
-#include "condyle/contact_forces.hpp"
+#include "condyle/pressure.hpp"
 #include "elastic.hpp"
 
 struct condyle_force_options {

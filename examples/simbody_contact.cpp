@@ -117,17 +117,19 @@ bool rest(const char* joint_file, const char* states_file) {
                                elastic_options(entry, surfaces, knee));
   const Pose extended =
       condyle::io::motion_of(knee, condyle::io::read_motion_table(states_file)).X_FM.front().value();
-  // Twice what the contact carries there presses the bodies together.
-  const Vec3 load = -2 * contact.at(extended).on_mobile.force_n;
+  // What the contact carries there presses the bodies together; they are let go a little aside.
+  const Vec3 load = -contact.at(extended).on_mobile.force_n;
   const auto balanced = condyle::contact::balance(contact, extended, {.on_mobile = {.force_n = load}});
-  examples::SimbodyWorld world({4e-3, 1, array_of(load), 10}, rows_of(extended), load_of(contact));
+  Pose start = extended;
+  start.translation() += Vec3(0.3, -0.1, 0.2);
+  examples::SimbodyWorld world({4e-3, 1, array_of(load), 0.5}, rows_of(start), load_of(contact));
   const auto begin = std::chrono::steady_clock::now();
   constexpr double seconds = 1;
   world.advance_to(seconds);
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const Pose X = pose_of(world.pose());
   const double off = (X.translation() - balanced.X_FM.translation()).norm();
-  const double moved = (X.translation() - extended.translation()).norm();
+  const double moved = (X.translation() - start.translation()).norm();
   std::printf("knee: load %.0f N, moved %.3f mm; at rest %.1e mm from its balance, %.1e of the load left\n",
               load.norm(), moved, off, (contact.at(X).on_mobile.force_n + load).norm() / load.norm());
   std::printf("%ld evaluations of the contact, real-time factor %.2f\n", world.contact_calls(),

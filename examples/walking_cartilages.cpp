@@ -1,6 +1,7 @@
 // The cartilages of a hip deform as the femur walks: contact in each step of a millisecond, both layers following. Springs hold
 // every vertex of the articular surfaces to its place on the bone and to its neighbours; a step of the tissue is implicit, then
-// what overlaps is pushed apart along the rays, half by half, until nothing is deeper than a hundredth of a millimetre.
+// what overlaps is pushed apart along the rays, half by half, until nothing is deeper than a hundredth of a millimetre. The femur turns
+// as it was recorded and is pressed into the socket by the load of a walk: its centre goes where the springs carry the load.
 //
 //     walking_cartilages [STEPS]                               the sample hip, rotating as a walk does about
 //     walking_cartilages STEPS FIXED.ply MOBILE.ply WALK.mot   cartilages about the hip centre, a recorded walk of the left hip
@@ -28,7 +29,8 @@ constexpr double density = 1.1e-9;        // tonnes per mm^3: forces are then N
 constexpr double relaxation_time = 0.05;  // s, of the tissue's damping
 constexpr double most_left = 0.01;        // mm of overlap
 constexpr int most_rounds = 30;
-constexpr double pressed = 0.35;  // mm that the head is pressed into the socket at the peaks of the load
+constexpr double least_load = 300, peak_load = 1500;  // N
+constexpr double bone_damping = 20;                   // N s/mm, of the centre's motion
 
 /// A layer whose articular side moves: masses on springs to the bone and along edges.
 class Tissue {
@@ -37,7 +39,8 @@ class Tissue {
   Tissue(TriMesh rest, double outward) : rest_(std::move(rest)), at_(rest_.vertices) {
     find_free(outward);
     displacement_ = velocity_ = Eigen::MatrixX3d::Zero(Eigen::Index(free_.size()), 3);
-    const auto [mass, stiffness] = assembled();
+    const auto [mass, foundation, stiffness] = assembled();
+    foundation_ = foundation;
     mass_ = mass / (time_step * time_step);
     damping_ = stiffness * (relaxation_time / time_step);
     system_.compute(stiffness + damping_ + Eigen::SparseMatrix<double>(mass_.asDiagonal()));
@@ -61,6 +64,10 @@ class Tissue {
   }
   /// After the last push of a step.
   void end_step() { velocity_ = (displacement_ - before_) / time_step; }
+  /// What the springs to the bone, and their damping, exert on it, N.
+  Vec3 force_on_bone() const {
+    return (displacement_ + relaxation_time * velocity_).transpose() * foundation_;
+  }
 
   double largest_displacement() const { return displacement_.rowwise().norm().maxCoeff(); }
 
@@ -74,7 +81,7 @@ class Tissue {
     }
     number_.assign(rest_.vertices.size(), no_index);
     for (Index v = 0; v < number_.size(); ++v) {
-      // The side that lies on the bone and the rim between both are held.
+      // The side that lies on the bone is held.
       if (outward * normals[v].normalized().dot(rest_.vertices[v].normalized()) < 0.5) continue;
       number_[v] = Index(free_.size());
       free_.push_back(v);
@@ -82,12 +89,13 @@ class Tissue {
   }
 
   struct Assembled {
-    Eigen::VectorXd mass;
+    Eigen::VectorXd mass, foundation;
     Eigen::SparseMatrix<double> stiffness;
   };
   Assembled assembled() const {
     const auto count = Eigen::Index(free_.size());
-    Assembled out{Eigen::VectorXd::Zero(count), Eigen::SparseMatrix<double>(count, count)};
+    Assembled out{Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count),
+                  Eigen::SparseMatrix<double>(count, count)};
     std::vector<Eigen::Triplet<double>> entries;
     for (std::size_t t = 0; t < rest_.triangles.size(); ++t) {
       const Triangle& corners = rest_.triangles[t];
@@ -97,6 +105,7 @@ class Tissue {
         const Index i = number_[corners[k]], j = number_[corners[(k + 1) % 3]];
         if (i == no_index) continue;
         out.mass[i] += density * third * thickness;
+        out.foundation[i] += confined_modulus * third / thickness;
         entries.emplace_back(i, i, confined_modulus * third / thickness);
         if (j == no_index) continue;
         // A strip of the layer along the edge; each edge is met twice.
@@ -118,7 +127,7 @@ class Tissue {
   Points at_;
   std::vector<Index> free_, number_;
   Eigen::MatrixX3d displacement_, velocity_, before_;
-  Eigen::VectorXd mass_;
+  Eigen::VectorXd mass_, foundation_;
   Eigen::SparseMatrix<double> damping_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> system_;
 };
@@ -167,7 +176,9 @@ class Hip {
         fixed_pushes_(fixed_),
         mobile_pushes_(mobile_) {}
 
-  void step(const Pose& X_FM) {
+  /// The femur's rotation, and the load on it.
+  void step(Pose X_FM, const Vec3& load) {
+    X_FM.translation() = centre_;
     {
       const Stopwatch watch(seconds.tissue);
       fixed_.step(), mobile_.step();
@@ -194,13 +205,16 @@ class Hip {
     deepest_left = std::max(deepest_left, left);
     const Stopwatch watch(seconds.tissue);
     fixed_.end_step(), mobile_.end_step();
+    const Vec3 carried = X_FM.linear() * mobile_.force_on_bone();
+    centre_ += time_step / bone_damping * (load + carried);
+    farthest_centre = std::max(farthest_centre, centre_.norm());
     largest_displacement =
         std::max({largest_displacement, fixed_.largest_displacement(), mobile_.largest_displacement()});
   }
 
   Seconds seconds;
   std::size_t rounds = 0;
-  double deepest_met = 0, deepest_left = 0, largest_displacement = 0;
+  double deepest_met = 0, deepest_left = 0, largest_displacement = 0, farthest_centre = 0;
 
  private:
   static double deepest_of(const radial::Penetrations& inside) {
@@ -230,9 +244,10 @@ class Hip {
   contact::JointContact contact_;
   Pushes fixed_pushes_, mobile_pushes_;
   radial::Penetrations in_fixed_, in_mobile_;
+  Vec3 centre_ = Vec3::Zero();
 };
 
-/// Angles of a walk at one time, and how much of the load's peak is on the hip.
+/// Angles of a walk.
 struct Walk {
   std::vector<double> times;
   std::vector<std::array<double, 3>> degrees;  // flexion, adduction, internal rotation
@@ -246,11 +261,13 @@ struct Walk {
     const auto angle = [&](std::size_t k) {
       return Angle::degrees((1 - share) * degrees[after - 1][k] + share * degrees[after][k]);
     };
-    Pose X = pose_at({Anatomy::hip, side}, {angle(0), angle(1), angle(2)});
-    // Two peaks in a step, mainly upwards: about what instrumented hips measure.
-    const double load = std::pow(std::sin(2 * std::numbers::pi * time / duration()), 2);
-    X.translation() = pressed * load * Vec3(0.1, 0.95, side == Side::right ? -0.3 : 0.3).normalized();
-    return X;
+    return pose_at({Anatomy::hip, side}, {angle(0), angle(1), angle(2)});
+  }
+  /// Two peaks in a step, mainly upwards: about what instrumented hips measure.
+  Vec3 load_at(double time, Side side) const {
+    const double share = std::pow(std::sin(2 * std::numbers::pi * time / duration()), 2);
+    return (least_load + (peak_load - least_load) * share) *
+           Vec3(0.1, 0.95, side == Side::right ? -0.3 : 0.3).normalized();
   }
 };
 
@@ -292,15 +309,18 @@ int run(int argc, char** argv) {
   double wall = 0;
   {
     const Stopwatch watch(wall);
-    for (int i = 1; i <= steps; ++i) hip.step(walk.at(i * time_step, is_recorded ? Side::left : Side::right));
+    const Side side = is_recorded ? Side::left : Side::right;
+    for (int i = 1; i <= steps; ++i)
+      hip.step(walk.at(i * time_step, side), walk.load_at(i * time_step, side));
   }
   const auto ms = [&](double seconds) { return 1e3 * seconds / steps; };
   std::printf("%d steps of 1 ms, %.1f rounds each: update %.2f ms, query %.2f ms, tissue %.2f ms\n", steps,
               double(hip.rounds) / steps, ms(hip.seconds.update), ms(hip.seconds.query),
               ms(hip.seconds.tissue));
   std::printf("real-time factor %.2f\n", steps * time_step / wall);
-  std::printf("overlap met %.3f mm, left %.4f mm; displacement up to %.3f mm\n", hip.deepest_met,
-              hip.deepest_left, hip.largest_displacement);
+  std::printf("overlap met %.3f mm, left %.4f mm\n", hip.deepest_met, hip.deepest_left);
+  std::printf("surfaces give way by up to %.3f mm, the centre moves by up to %.3f mm\n",
+              hip.largest_displacement, hip.farthest_centre);
   return hip.deepest_left <= most_left ? 0 : 1;
 }
 

@@ -27,7 +27,7 @@ set(mesh_headers inspect label_surface mesh)
 set(kinematics_headers fit joint joint_checks joint_coordinates make_joint)
 set(radial_headers radial)
 set(tangential_headers tangential)
-set(contact_headers contact contact_forces contact_measures normal_depth pressure)
+set(contact_headers contact contact_measures normal_depth pressure)
 set(motion_headers bearing first_contact impingement_zone limit_band motion_contact motion_map
                    range_of_motion)
 set(measure_headers hip_measures)

@@ -31,7 +31,6 @@
 #include "condyle/contact.hpp"
 #include "condyle/contact_measures.hpp"
 #include "condyle/normal_depth.hpp"
-#include "condyle/contact_forces.hpp"
 #include "condyle/pressure.hpp"
 
 // Motions.

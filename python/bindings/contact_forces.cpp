@@ -1,4 +1,3 @@
-#include "condyle/contact_forces.hpp"
 
 #include "arrays.hpp"
 #include "bindings.hpp"

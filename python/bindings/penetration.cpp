@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <mutex>
-#include <shared_mutex>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -79,55 +77,11 @@ py::object vertices_dict(bool is_asked, VertexLists&& lists, bool with_angles) {
   return dict;
 }
 
-/// Bodies that may be asked as long as this lives: those of a joint, which nothing changes, or those that an update may change,
-/// which waits until they were asked. Made without the interpreter's lock: other threads go on meanwhile.
-struct Asked {
-  const contact::JointContact& contact;
-  std::shared_lock<std::shared_mutex> lock = {};
-};
-
-/// Two bodies that any thread may ask and any thread may deform.
-class DeformingContact {
- public:
-  DeformingContact(const Mesh& fixed, const Mesh& mobile) : contact_(fixed, mobile) {}
-
-  Asked asked() const { return {contact_, std::shared_lock(mutex_)}; }
-  void update(bool is_fixed, const py::object& given) {
-    const PointsIn vertices(given, "vertices");
-    change([&](contact::JointContact& contact) { contact.update(role(is_fixed), vertices.view()); });
-  }
-  void update_some(bool is_fixed, const py::object& moved, const py::object& given) {
-    const PointsIn positions(given, "vertices");
-    const std::vector<Index> vertices = vertices_in(moved, "moved", positions.size());
-    change(
-        [&](contact::JointContact& contact) { contact.update(role(is_fixed), vertices, positions.view()); });
-  }
-  Mesh fixed() const {
-    const py::gil_scoped_release released;
-    return asked().contact.fixed();
-  }
-  Mesh mobile() const {
-    const py::gil_scoped_release released;
-    return asked().contact.mobile();
-  }
-
- private:
-  static BodyRole role(bool is_fixed) { return is_fixed ? BodyRole::fixed : BodyRole::mobile; }
-  void change(const auto& by) {
-    const py::gil_scoped_release released;
-    const std::unique_lock lock(mutex_);
-    by(contact_);
-  }
-
-  mutable std::shared_mutex mutex_;
-  contact::JointContact contact_;
-};
-
-Asked asked(const JointHandle& handle) {
-  return {handle.contact};
+const contact::JointContact& contact_of(const JointHandle& handle) {
+  return handle.contact;
 }
-Asked asked(const DeformingContact& contact) {
-  return contact.asked();
+const contact::JointContact& contact_of(const contact::JointContact& contact) {
+  return contact;
 }
 
 template <class Bodies>
@@ -138,8 +92,7 @@ py::tuple radial(const Bodies& bodies, const py::object& given, bool of_mobile, 
   Follower follower(progress, in.poses.size());
   {
     const py::gil_scoped_release released;
-    const Asked held = asked(bodies);
-    const contact::JointContact& contact = held.contact;
+    const contact::JointContact& contact = contact_of(bodies);
     of_mobile = of_mobile && contact.fixed().is_closed();
     of_fixed = of_fixed && contact.mobile().is_closed();
     std::vector<radial::Penetrations> mobile_now(std::min(in.poses.size(), poses_at_once)),
@@ -199,9 +152,8 @@ py::tuple pairs(const Bodies& bodies, const py::object& given, const py::object&
   Follower follower(progress, in.poses.size());
   {
     const py::gil_scoped_release released;
-    const Asked held = asked(bodies);
     for (std::size_t n = 0; n < in.poses.size(); ++n) {
-      const std::vector<contact::TrianglePair> found = held.contact.pairs(in.poses[n]);
+      const std::vector<contact::TrianglePair> found = contact_of(bodies).pairs(in.poses[n]);
       all.insert(all.end(), found.begin(), found.end());
       offset.push_back(static_cast<std::int64_t>(all.size()));
       follower.poll(n + 1);
@@ -226,9 +178,8 @@ py::tuple in_contact(const Bodies& bodies, const py::object& given, const py::ob
   Follower follower(progress, in.poses.size());
   {
     const py::gil_scoped_release released;
-    const Asked held = asked(bodies);
     for (std::size_t n = 0; n < in.poses.size(); ++n) {
-      answer[n] = held.contact.in_contact(in.poses[n]);
+      answer[n] = contact_of(bodies).in_contact(in.poses[n]);
       follower.poll(n + 1);
     }
   }
@@ -242,15 +193,30 @@ void bind_penetration(py::module_& module) {
   module.def("penetration_tangential", &tangential);
   module.def("pairs", &pairs<JointHandle>);
   module.def("in_contact", &in_contact<JointHandle>);
-  py::class_<DeformingContact>(module, "JointContact")
-      .def(py::init<const Mesh&, const Mesh&>())
-      .def("radial", &radial<DeformingContact>)
-      .def("pairs", &pairs<DeformingContact>)
-      .def("in_contact", &in_contact<DeformingContact>)
-      .def("update", &DeformingContact::update)
-      .def("update_some", &DeformingContact::update_some)
-      .def_property_readonly("fixed", &DeformingContact::fixed)
-      .def_property_readonly("mobile", &DeformingContact::mobile);
+  using contact::JointContact;
+  const auto role = [](bool is_fixed) { return is_fixed ? BodyRole::fixed : BodyRole::mobile; };
+  py::class_<JointContact>(module, "JointContact")
+      .def(py::init([](const Mesh& fixed, const Mesh& mobile) {
+        return std::make_unique<JointContact>(fixed, mobile);
+      }))
+      .def("radial", &radial<JointContact>)
+      .def("pairs", &pairs<JointContact>)
+      .def("in_contact", &in_contact<JointContact>)
+      .def("update",
+           [role](JointContact& contact, bool is_fixed, const py::object& given) {
+             const PointsIn vertices(given, "vertices");
+             const py::gil_scoped_release released;
+             contact.update(role(is_fixed), vertices.view());
+           })
+      .def("update_some",
+           [role](JointContact& contact, bool is_fixed, const py::object& moved, const py::object& given) {
+             const PointsIn positions(given, "vertices");
+             const std::vector<Index> vertices = vertices_in(moved, "moved", positions.size());
+             const py::gil_scoped_release released;
+             contact.update(role(is_fixed), vertices, positions.view());
+           })
+      .def_property_readonly("fixed", &JointContact::fixed)
+      .def_property_readonly("mobile", &JointContact::mobile);
 }
 
 }  // namespace condyle::python

@@ -89,6 +89,20 @@ void bind_pressure(py::module_& module) {
            })
       .def("notes",
            [](const contact::ElasticContact& contact) { return list_of(motion::check_layers(contact)); })
+      .def("update",
+           [](contact::ElasticContact& contact, bool is_fixed, const py::object& given) {
+             const PointsIn vertices(given, "vertices");
+             const py::gil_scoped_release released;
+             contact.update(is_fixed ? BodyRole::fixed : BodyRole::mobile, vertices.view());
+           })
+      .def("update_some",
+           [](contact::ElasticContact& contact, bool is_fixed, const py::object& moved,
+              const py::object& given) {
+             const PointsIn positions(given, "vertices");
+             const std::vector<Index> vertices = vertices_in(moved, "moved", positions.size());
+             const py::gil_scoped_release released;
+             contact.update(is_fixed ? BodyRole::fixed : BodyRole::mobile, vertices, positions.view());
+           })
       .def_property_readonly("fixed", &contact::ElasticContact::fixed)
       .def_property_readonly("mobile", &contact::ElasticContact::mobile);
   module.def("elastic_of_file", &elastic_of_file);

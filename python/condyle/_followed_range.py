@@ -14,7 +14,7 @@ from ._described_joint import DescribedJoint
 from ._errors import UsageError
 from ._limits import MotionLimit, end_text, motion_limit_of
 from ._motion import MotionLike, Motions
-from ._pressure import ElasticContact
+from ._pressure import ElasticContact, used
 from ._words import BearingRule, Body, Path, Progress, number, path_of, progress_of, report_labels, text_of, word
 
 
@@ -62,9 +62,10 @@ class FollowedRange:
         C++: `condyle::answer_range` in condyle/answer.hpp.
         """
         question = self._question
-        _native.write_followed_report(
-            question.joint._asked, path_of(path), None if title is None else text_of(title, "title"), *question.arguments(),
-            report_labels(case, note, date, whole_paths), progress_of(progress))
+        with used(question.contact):
+            _native.write_followed_report(
+                question.joint._asked, path_of(path), None if title is None else text_of(title, "title"),
+                *question.arguments(), report_labels(case, note, date, whole_paths), progress_of(progress))
 
     def __getitem__(self, name: str) -> MotionLimit:
         for limit in self.limits:
@@ -97,5 +98,6 @@ def followed_range(joint: DescribedJoint, motions: Optional[Sequence[MotionLike]
                "frame": word(frame, "frame", Body), "free_directions": np.reshape(free_directions, (-1, 3)),
                "step_deg": number(step_deg, "step_deg")}
     question = _Question(joint, [known.tuple_of(each) for each in asked], poses, contact, options)
-    limits, notes, caveats = _native.followed_limits(joint._asked, *question.arguments(), progress_of(progress))
+    with used(contact):
+        limits, notes, caveats = _native.followed_limits(joint._asked, *question.arguments(), progress_of(progress))
     return FollowedRange(tuple(motion_limit_of(each, known, joint) for each in limits), reported(notes), caveats, question)

@@ -11,6 +11,7 @@ from . import _native
 from ._mesh import MeshLike, TriMesh, merged_positions, refuse_merged
 from ._penetration import Penetration, Penetrations, vertices_inside
 from ._pressure import ManyMatrices, OneMatrix
+from ._shared_use import SharedUse
 from ._words import Bodies, Body, Progress, array, progress_of, word
 
 
@@ -39,11 +40,12 @@ class JointContact:
     True
     """
 
-    __slots__ = ("_native", "_fixed", "_mobile", "__weakref__")
+    __slots__ = ("_native", "_fixed", "_mobile", "_shared", "__weakref__")
 
     def __init__(self, fixed: MeshLike, mobile: MeshLike) -> None:
         self._fixed, self._mobile = TriMesh.of(fixed), TriMesh.of(mobile)
         self._native = _native.JointContact(self._fixed._native, self._mobile._native)
+        self._shared = SharedUse()
 
     @overload
     def penetration(self, pose: OneMatrix, *, bodies: Bodies = "both", progress: Progress = None) -> Penetration: ...
@@ -57,7 +59,9 @@ class JointContact:
         X_FM (4, 4), or (N, 4, 4) for :class:`Penetrations`. MeshError where the joint centre lies on a surface.
         """
         word(bodies, "bodies", Bodies)
-        is_one, mobile, fixed = self._native.radial(pose, bodies != "fixed", bodies != "mobile", progress_of(progress))
+        with self._shared.use():
+            is_one, mobile, fixed = self._native.radial(
+                pose, bodies != "fixed", bodies != "mobile", progress_of(progress))
         inside = vertices_inside(mobile, self._mobile, is_one), vertices_inside(fixed, self._fixed, is_one)
         if is_one:
             return Penetration(*inside, "radial")
@@ -72,7 +76,8 @@ class JointContact:
     def pairs(self, pose: ArrayLike, *, progress: Progress = None
               ) -> Union[NDArray[np.uint32], list[NDArray[np.uint32]]]:
         """The exact set of triangle pairs that meet, (K, 2), ascending; of N poses a list of N. Open meshes too."""
-        is_one, found, offset = self._native.pairs(pose, progress_of(progress))
+        with self._shared.use():
+            is_one, found, offset = self._native.pairs(pose, progress_of(progress))
         return found if is_one else [found[first:last] for first, last in zip(offset[:-1], offset[1:])]
 
     @overload
@@ -83,7 +88,8 @@ class JointContact:
 
     def in_contact(self, pose: ArrayLike, *, progress: Progress = None) -> Union[bool, NDArray[np.bool_]]:
         """Whether the bodies share a point: a bool, of N poses (N,) bool."""
-        is_one, answers = self._native.in_contact(pose, progress_of(progress))
+        with self._shared.use():
+            is_one, answers = self._native.in_contact(pose, progress_of(progress))
         return bool(answers[0]) if is_one else answers
 
     def update(self, body: Body, vertices: ArrayLike, *, moved: Optional[ArrayLike] = None) -> None:
@@ -95,21 +101,24 @@ class JointContact:
         """
         is_fixed = word(body, "body", Body) == "fixed"
         mesh = self._fixed if is_fixed else self._mobile
-        if moved is None:
-            self._native.update(is_fixed, merged_positions(mesh, vertices))
-        else:
-            refuse_merged(mesh)
-            self._native.update_some(is_fixed, moved, vertices)
+        with self._shared.change("update"):
+            if moved is None:
+                self._native.update(is_fixed, merged_positions(mesh, vertices))
+            else:
+                refuse_merged(mesh)
+                self._native.update_some(is_fixed, moved, vertices)
 
     @property
     def fixed(self) -> TriMesh:
         """The mesh of the fixed body as it is now."""
-        return TriMesh._moved(self._native.fixed, self._fixed)
+        with self._shared.use():
+            return TriMesh._moved(self._native.fixed, self._fixed)
 
     @property
     def mobile(self) -> TriMesh:
         """The mesh of the mobile body as it is now."""
-        return TriMesh._moved(self._native.mobile, self._mobile)
+        with self._shared.use():
+            return TriMesh._moved(self._native.mobile, self._mobile)
 
     def __repr__(self) -> str:
         return f"JointContact(fixed={self._fixed!r}, mobile={self._mobile!r})"

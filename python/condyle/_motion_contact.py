@@ -13,7 +13,7 @@ from ._contact_checks import ContactNote, reported
 from ._described_joint import DescribedJoint
 from ._errors import UsageError
 from ._poses import Pose
-from ._pressure import ElasticContact
+from ._pressure import ElasticContact, used
 from ._surface_contact import SurfaceContact, surface_of
 from ._words import Body, FaceRule, Progress, number, progress_of, word
 
@@ -63,10 +63,11 @@ def contact_along(joint: DescribedJoint, poses: ArrayLike, surfaces: Optional[El
                   rule: FaceRule, reach_mm: float, progress: Progress) -> ContactFrames:
     if surfaces is not None and not isinstance(surfaces, ElasticContact):
         raise UsageError(f"surfaces: an ElasticContact is needed, not {type(surfaces).__name__}")
-    found, notes = _native.contact_along(
-        joint._asked, poses, None if surfaces is None else surfaces._native,
-        word(casting, "casting", Body), word(rule, "rule", FaceRule),
-        number(reach_mm, "reach_mm"), progress_of(progress))
+    with used(surfaces):
+        found, notes = _native.contact_along(
+            joint._asked, poses, None if surfaces is None else surfaces._native,
+            word(casting, "casting", Body), word(rule, "rule", FaceRule),
+            number(reach_mm, "reach_mm"), progress_of(progress))
     for frame in found:
         if frame is not None:
             frame["surface"] = surface_of(frame["surface"])

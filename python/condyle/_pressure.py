@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from typing import Any, Iterable, Optional, Sequence, Union, overload
 
@@ -13,8 +14,9 @@ from ._contact_checks import ContactNote, contact_notes, warn_of
 from ._contact_forces import ContactForces, forces_of
 from ._described_joint import DescribedJoint
 from ._errors import UsageError
-from ._mesh import MeshLike, TriMesh
+from ._mesh import MeshLike, TriMesh, merged_positions, refuse_merged
 from ._poses import Pose
+from ._shared_use import SharedUse
 from ._surface_contact import SurfaceContact, surface_of
 from ._words import BalanceOutcome, Bodies, Body, FaceRule, PressureLaw, Progress, array, count, number, progress_of
 from ._words import word
@@ -126,7 +128,7 @@ class BalancedPose:
 
 
 class ElasticContact:
-    """Two surfaces with their layers, ready to be asked at any pose. Any number of threads may ask.
+    """Two surfaces with their layers, ready to be asked at any pose. Any number of threads may ask; an update waits for them.
 
     Parameters
     ----------
@@ -152,13 +154,13 @@ class ElasticContact:
     ('balanced', [0.0, -800.0, 0.0])
     """
 
-    __slots__ = ("_native", "_fixed", "_mobile", "_has_warned", "__weakref__")
+    __slots__ = ("_native", "_fixed", "_mobile", "_has_warned", "_shared", "__weakref__")
 
     def __init__(self, fixed: MeshLike, mobile: MeshLike, *, fixed_layer: Optional[ElasticLayer] = None,
                  mobile_layer: Optional[ElasticLayer] = None, casting: Bodies = "both",
                  rule: FaceRule = "cut_faces", reach_mm: float = 20, law: PressureLaw = "linear") -> None:
         self._fixed, self._mobile = TriMesh.of(fixed), TriMesh.of(mobile)
-        self._has_warned = False
+        self._has_warned, self._shared = False, SharedUse()
         for layer, what in ((fixed_layer, "fixed_layer"), (mobile_layer, "mobile_layer")):
             if layer is not None and not isinstance(layer, ElasticLayer):
                 raise UsageError(f"{what}: an ElasticLayer is needed, not {type(layer).__name__}")
@@ -178,8 +180,38 @@ class ElasticContact:
         contact = cls.__new__(cls)
         contact._native = native
         contact._fixed, contact._mobile = TriMesh._of_native(native.fixed), TriMesh._of_native(native.mobile)
-        contact._has_warned = False
+        contact._has_warned, contact._shared = False, SharedUse()
         return contact
+
+    def update(self, body: Body, vertices: ArrayLike, *, moved: Optional[ArrayLike] = None) -> None:
+        """A body has deformed: (V, 3) new positions of all its vertices in its own frame, or of the K vertices `moved` (K,).
+
+        Thicknesses stay with their vertices. Answers are then those of a contact made anew, to the bit. UsageError where
+        numbers do not fit, MeshError where a coordinate is not finite; the contact is then what it was. Waits for questions of
+        other threads. docs/deforming.md has the cost.
+
+        C++: `condyle::ElasticContact::update` in condyle/pressure.hpp.
+        """
+        is_fixed = word(body, "body", Body) == "fixed"
+        mesh = self._fixed if is_fixed else self._mobile
+        with self._shared.change("update"):
+            if moved is None:
+                self._native.update(is_fixed, merged_positions(mesh, vertices))
+            else:
+                refuse_merged(mesh)
+                self._native.update_some(is_fixed, moved, vertices)
+
+    @property
+    def fixed(self) -> TriMesh:
+        """The mesh of the fixed body as it is now."""
+        with self._shared.use():
+            return TriMesh._moved(self._native.fixed, self._fixed)
+
+    @property
+    def mobile(self) -> TriMesh:
+        """The mesh of the mobile body as it is now."""
+        with self._shared.use():
+            return TriMesh._moved(self._native.mobile, self._mobile)
 
     @overload
     def at(self, pose: OneMatrix, *, progress: Progress = None) -> ElasticContactResults: ...
@@ -193,7 +225,8 @@ class ElasticContact:
 
         MeshError with the logarithmic law where the overlap reaches the thickness.
         """
-        is_one, found = self._native.at(pose, progress_of(progress))
+        with self._shared.use():
+            is_one, found = self._native.at(pose, progress_of(progress))
         results = [results_of(each) for each in found]
         self._warn(results)
         return results[0] if is_one else results
@@ -221,7 +254,7 @@ class ElasticContact:
 
         UsageError for numbers outside their domain; MeshError as :meth:`at`. No warnings: :meth:`at` has them.
 
-        C++: `condyle::ElasticContact::forces` in condyle/contact_forces.hpp.
+        C++: `condyle::ElasticContact::forces` in condyle/pressure.hpp.
 
         >>> import condyle, numpy as np
         >>> layers = condyle.sample_cartilages(clearance_mm=-0.3)
@@ -231,12 +264,13 @@ class ElasticContact:
         >>> bool(np.allclose(found.on_mobile.force_n.sum(axis=0), found.force_n))
         True
         """
-        found = _native.forces_at(self._native, pose, {
-            "velocity": velocity, "angular_velocity": angular_velocity,
-            "friction": number(friction, "friction"), "slip_velocity": number(slip_velocity, "slip_velocity"),
-            "damping": number(damping, "damping"), "factor": number(factor, "factor"),
-            "vertex_forces": bool(vertex_forces), "stiffness": bool(stiffness),
-            "vertex_stiffness": bool(vertex_stiffness), "patches": bool(patches)})
+        with self._shared.use():
+            found = _native.forces_at(self._native, pose, {
+                "velocity": velocity, "angular_velocity": angular_velocity,
+                "friction": number(friction, "friction"), "slip_velocity": number(slip_velocity, "slip_velocity"),
+                "damping": number(damping, "damping"), "factor": number(factor, "factor"),
+                "vertex_forces": bool(vertex_forces), "stiffness": bool(stiffness),
+                "vertex_stiffness": bool(vertex_stiffness), "patches": bool(patches)})
         return forces_of(found, self._fixed, self._mobile)
 
     @property
@@ -252,7 +286,8 @@ class ElasticContact:
         >>> [note.code for note in contact.notes]
         ['unlikely_modulus']
         """
-        return contact_notes(self._native.notes())
+        with self._shared.use():
+            return contact_notes(self._native.notes())
 
     def refined_force_n(self, pose: ArrayLike) -> Optional[NDArray[np.float64]]:
         """(3,) the force on the mobile body, in F, with the depth asked at 16 places of each face in contact.
@@ -261,11 +296,13 @@ class ElasticContact:
 
         C++: `condyle::ElasticContact::refined_force_n` in condyle/pressure.hpp.
         """
-        return self._native.refined_force_n(pose)
+        with self._shared.use():
+            return self._native.refined_force_n(pose)
 
     def cut_off_by_reach(self, pose: ArrayLike) -> int:
         """How many rays of this pose meet the other surface only beyond the reach, up to twice of it."""
-        return self._native.cut_off_by_reach(pose)
+        with self._shared.use():
+            return self._native.cut_off_by_reach(pose)
 
     def balance(self, force_n: ArrayLike, *, moment_nmm: ArrayLike = (0, 0, 0), start: Optional[ArrayLike] = None,
                 frame: Body = "fixed", free_directions: ArrayLike = (), free_rotations: bool = False,
@@ -280,8 +317,9 @@ class ElasticContact:
         C++: `condyle::balance` in condyle/pressure.hpp.
         """
         _refuse_moment(moment_nmm, free_rotations)
-        pose = balanced(_native.balance(self._native, np.eye(4) if start is None else start, force_n, moment_nmm,
-                                        _terms(options, frame, free_directions, free_rotations)))
+        with self._shared.use():
+            pose = balanced(_native.balance(self._native, np.eye(4) if start is None else start, force_n, moment_nmm,
+                                            _terms(options, frame, free_directions, free_rotations)))
         self._warn([pose])
         return pose
 
@@ -300,8 +338,9 @@ class ElasticContact:
         """
         _refuse_moment(moment_nmm, free_rotations)
         forces, moments = _loads(force_n, moment_nmm)
-        found = _native.balance_along(self._native, poses, forces, moments,
-                                      _terms(options, frame, free_directions, free_rotations), progress_of(progress))
+        with self._shared.use():
+            found = _native.balance_along(self._native, poses, forces, moments,
+                                          _terms(options, frame, free_directions, free_rotations), progress_of(progress))
         frames = [None if pose is None else balanced(pose) for pose in found]
         self._warn(frames)
         return frames
@@ -322,7 +361,7 @@ class ContactRamp:
 
     `start` is the pose (4, 4) of the first step, `duration_s` is above 0.
 
-    C++: `condyle::ContactRamp` in condyle/contact_forces.hpp.
+    C++: `condyle::ContactRamp` in condyle/pressure.hpp.
 
     >>> import condyle, numpy as np
     >>> layers = condyle.sample_cartilages(clearance_mm=-0.3)
@@ -338,7 +377,8 @@ class ContactRamp:
     def __init__(self, contact: ElasticContact, start: ArrayLike, duration_s: float) -> None:
         if not isinstance(contact, ElasticContact):
             raise UsageError(f"contact: an ElasticContact is needed, not {type(contact).__name__}")
-        self._native = _native.ContactRamp(contact._native, start, number(duration_s, "duration_s"))
+        with contact._shared.use():
+            self._native = _native.ContactRamp(contact._native, start, number(duration_s, "duration_s"))
 
     @property
     def has_overlap(self) -> bool:
@@ -406,3 +446,8 @@ def results_of(found: dict[str, Any]) -> ElasticContactResults:
     found["fixed"], found["mobile"] = surface_of(found["fixed"]), surface_of(found["mobile"])
     found["notes"] = contact_notes(found["notes"])
     return ElasticContactResults(**found)
+
+
+def used(contact: Optional[ElasticContact]) -> AbstractContextManager[None]:
+    """Holds updates off while a question that takes the contact along is answered."""
+    return nullcontext() if contact is None else contact._shared.use()

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <span>
 
-#include "condyle/contact_forces.hpp"
 #include "condyle/error.hpp"
 #include "condyle/pressure.hpp"
 #include "contact/elastic_parts.hpp"

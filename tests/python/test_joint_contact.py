@@ -113,3 +113,65 @@ def test_threads_ask_while_another_deforms(layers: condyle.SampleCartilages) -> 
     for thread in threads:
         thread.join()
     assert seen <= known
+
+
+def test_pressure_follows_bodies_to_the_bit(layers: condyle.SampleCartilages) -> None:
+    rng = np.random.default_rng(2)
+    layer = condyle.ElasticLayer(12, 0.42, 1.65)
+
+    def made(fixed: condyle.MeshLike, mobile: condyle.MeshLike) -> condyle.ElasticContact:
+        return condyle.ElasticContact(fixed, mobile, fixed_layer=layer, mobile_layer=layer)
+
+    contact = made(layers.acetabular, layers.femoral)
+    mobile = np.array(layers.femoral.vertices)
+    for step in range(4):
+        moved = rng.choice(len(mobile), 40, replace=False)
+        mobile[moved] *= 1 + 0.002 * rng.random((40, 1))
+        if step % 2:
+            contact.update("mobile", mobile)
+        else:
+            contact.update("mobile", mobile[moved], moved=moved)
+        found, anew = contact.at(np.eye(4)), made(layers.acetabular, (mobile, layers.femoral.triangles)).at(np.eye(4))
+        np.testing.assert_array_equal(found.force_n, anew.force_n)
+        np.testing.assert_array_equal(found.moment_nmm, anew.moment_nmm)
+        assert found.energy_nmm == anew.energy_nmm > 0
+    np.testing.assert_array_equal(contact.mobile.vertices, mobile)
+    with pytest.raises(condyle.UsageError, match="vertices gives 2"):
+        contact.update("fixed", mobile[:2])
+
+
+def test_a_contact_is_not_deformed_by_the_progress_of_its_own_question(layers: condyle.SampleCartilages) -> None:
+    contact = condyle.ElasticContact(layers.acetabular, layers.femoral, mobile_layer=condyle.ElasticLayer(12, 0.42, 1.65))
+    poses = np.tile(np.eye(4), (2, 1, 1))
+
+    def deform(done: int, total: int) -> None:
+        contact.update("mobile", 1.001 * layers.femoral.vertices)
+
+    with pytest.raises(condyle.UsageError, match="not while it is asked"):
+        contact.at(poses, progress=deform)
+    contact.update("mobile", 1.001 * layers.femoral.vertices)
+
+
+def test_pressure_is_asked_while_another_thread_deforms(layers: condyle.SampleCartilages) -> None:
+    layer = condyle.ElasticLayer(12, 0.42, 1.65)
+    small, large = np.array(layers.femoral.vertices), 1.002 * layers.femoral.vertices
+    known = {condyle.ElasticContact(layers.acetabular, (v, layers.femoral.triangles), mobile_layer=layer).at(
+        np.eye(4)).energy_nmm for v in (small, large)}
+    contact = condyle.ElasticContact(layers.acetabular, layers.femoral, mobile_layer=layer)
+    seen: set[float] = set()
+    done = threading.Event()
+
+    def ask() -> None:
+        while not done.is_set():
+            seen.add(contact.at(np.eye(4)).energy_nmm)
+
+    threads = [threading.Thread(target=ask) for _ in range(2)]
+    for thread in threads:
+        thread.start()
+    for step in range(60):
+        contact.update("mobile", large if step % 2 else small)
+        contact.forces(np.eye(4))
+    done.set()
+    for thread in threads:
+        thread.join()
+    assert seen <= known
