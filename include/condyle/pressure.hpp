@@ -181,7 +181,7 @@ class ElasticContact {
   /// MeshError with the logarithmic law if the overlap reaches the thickness, naming the triangle.
   ElasticContactResults at(const Pose& X_FM) const;
 
-  /// What a simulator integrates: forces, stiffness, friction, damping (condyle/contact_forces.hpp). UsageError if an option is
+  /// What a simulator integrates: forces, stiffness, friction, damping (ContactForces). UsageError if an option is
   /// outside its domain; MeshError as at(). The second keeps the memory of an earlier result.
   ///
   ///     const ContactForces now = knee.forces(X_FM, {.vertex_forces = true, .stiffness = true});

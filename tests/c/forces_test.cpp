@@ -5,7 +5,7 @@
 
 #include "c/held.hpp"
 #include "c/same_answers.hpp"
-#include "condyle/contact_forces.hpp"
+#include "condyle/pressure.hpp"
 
 /// Forces for a simulator, and contacts that are stepped, have the bits of C++.
 
