@@ -26,6 +26,8 @@ void check_size(const char* what, std::size_t count, std::size_t most) {
 
 /// Whether the vertices are apart, and nowhere far enough.
 bool is_too_small(const Points& points) {
+  // The first two vertices of nearly every mesh are.
+  if (points.size() > 1 && (points[1] - points[0]).cwiseAbs().maxCoeff() >= core::least_size) return false;
   double extent = 0;
   for (const auto* column : {&points.x, &points.y, &points.z}) {
     if (column->empty()) return false;
