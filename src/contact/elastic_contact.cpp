@@ -6,6 +6,7 @@
 #include "condyle/pressure.hpp"
 #include "contact/elastic_parts.hpp"
 #include "core/coordinate_range.hpp"
+#include "core/cross_matrix.hpp"
 #include "core/formatted.hpp"
 
 namespace condyle::contact {
@@ -107,12 +108,6 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-Eigen::Matrix3d cross_matrix(const Vec3& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 /// A surface that is cast: `sense` is 1 of the fixed body and -1 of the mobile one; the pose and the origin bring what is in C
 /// to F.
 struct CastInF {
@@ -170,7 +165,7 @@ struct CastInF {
         moments += sample.point * (weight(i) * g);
       }
       change.topRows<3>() += normal * growth;
-      change.bottomRows<3>() -= cross_matrix(normal) * moments;
+      change.bottomRows<3>() -= core::cross_matrix(normal) * moments;
     });
     for (std::size_t i = 0; i < answer.found.borders.size(); ++i) {
       const OverlapBorder& border = answer.found.borders[i];
@@ -183,7 +178,7 @@ struct CastInF {
     }
     Matrix6 to_F = Matrix6::Zero();
     to_F.topLeftCorner<3, 3>() = to_F.bottomRightCorner<3, 3>() = X_FC.linear();
-    to_F.bottomLeftCorner<3, 3>() = cross_matrix(X_FC.translation() - origin_M) * X_FC.linear();
+    to_F.bottomLeftCorner<3, 3>() = core::cross_matrix(X_FC.translation() - origin_M) * X_FC.linear();
     return to_F * change * to_F.transpose();
   }
 

@@ -7,6 +7,7 @@
 #include "condyle/pressure.hpp"
 #include "contact/elastic_parts.hpp"
 #include "core/coordinate_range.hpp"
+#include "core/cross_matrix.hpp"
 
 /// docs/forces.md.
 
@@ -19,12 +20,6 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 /// A triangle whose height over its longest edge is less than about a hundredth of that takes no couple about the edge: the forces
 /// would be a hundred times those they turn, and rounded as much worse.
 constexpr double narrow_triangle = 1e-4;
-
-Eigen::Matrix3d crossing(const Vec3& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 /// How a force of one sample is spread over the vertices of the target. It acts at the sample, off the triangle: shares of the
 /// place where the ray ends give its sum, and a couple on the triangle the rest of its moment.
@@ -207,14 +202,14 @@ class CastForces {
     }
     Matrix6d to_F = Matrix6d::Zero();
     to_F.topLeftCorner<3, 3>() = to_F.bottomRightCorner<3, 3>() = X_FC_.linear();
-    to_F.bottomLeftCorner<3, 3>() = crossing(X_FC_.translation() - origin_M_) * X_FC_.linear();
+    to_F.bottomLeftCorner<3, 3>() = core::cross_matrix(X_FC_.translation() - origin_M_) * X_FC_.linear();
     Matrix6d change = to_F * change_ * to_F.transpose();
     // Loads of the fixed body's faces stay where they are, and the origin of M leaves them; those of the mobile body's turn with it.
     if (casting_ == BodyRole::fixed) {
-      change.bottomLeftCorner<3, 3>() += crossing(elastic_.head<3>());
+      change.bottomLeftCorner<3, 3>() += core::cross_matrix(elastic_.head<3>());
     } else {
-      change.topRightCorner<3, 3>() -= crossing(elastic_.head<3>());
-      change.bottomRightCorner<3, 3>() -= crossing(elastic_.tail<3>());
+      change.topRightCorner<3, 3>() -= core::cross_matrix(elastic_.head<3>());
+      change.bottomRightCorner<3, 3>() -= core::cross_matrix(elastic_.tail<3>());
     }
     out.stiffness -= change;
   }
