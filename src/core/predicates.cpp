@@ -25,6 +25,13 @@ int bits_of(const std::array<double, N>& in) {
   return highest < lowest ? 0 : highest - lowest;
 }
 
+/// Apart, so that whoever needs few bits has not the stack of many: some 30 kB.
+template <unsigned bits, std::size_t N>
+[[gnu::noinline]] Sign sign_within(const std::array<double, N>& in, const auto& polynomial) {
+  const Within<bits> value = polynomial(to_integers<N, Within<bits>>(in));
+  return sign_of(value);
+}
+
 /// Sign of a polynomial of degree three of differences of the doubles, with six terms at most: of b bits, it has fewer than
 /// 3 (b + 1) + 3. All doubles together span 2151; coordinates of bodies some 100, and with fewer limbs to clear the sign of
 /// four points takes 500 ns instead of 830.
@@ -32,12 +39,8 @@ template <std::size_t N>
 Sign sign_of_cubic(const std::array<double, N>& in, const auto& polynomial) {
   constexpr unsigned few = 512, enough = 6528;
   static_assert(3 * (2151 + 1) + 3 <= enough);
-  if (3 * (bits_of(in) + 1) + 3 <= static_cast<int>(few)) {
-    const Within<few> value = polynomial(to_integers<N, Within<few>>(in));
-    return sign_of(value);
-  }
-  const Within<enough> value = polynomial(to_integers<N, Within<enough>>(in));
-  return sign_of(value);
+  return 3 * (bits_of(in) + 1) + 3 <= static_cast<int>(few) ? sign_within<few>(in, polynomial)
+                                                            : sign_within<enough>(in, polynomial);
 }
 
 template <class Int>
