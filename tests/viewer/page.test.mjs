@@ -165,7 +165,7 @@ test("a figure pressed shows where bone meets bone once the joint has turned the
   await keep(page, "zone");
   assert.ok(region(seen, isContactPoint).count > 10, "the contact point");
   // The ring of the pin stands around the contact point.
-  const ring = page.locator(".scene-pin-drawing circle");
+  const ring = page.locator("#scene .scene-pin-drawing circle");
   const [x, y] = await page.evaluate((point) => condyle.scene.project(point), fadir.contact_point_mm);
   assert.ok(Math.hypot(Number(await ring.getAttribute("cx")) - x, Number(await ring.getAttribute("cy")) - y) < 1, "the pin");
   assert.ok(region(seen, isZone).count > 10, "the zone");

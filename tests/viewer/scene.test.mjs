@@ -191,6 +191,7 @@ test("two picked points have the distance of their vertices", async () => {
   const { page } = await openPage(browser, pathOf("sample"));
   await plain(page);
   await viewOptions(page, false);
+  await settled(page);
   const box = await page.locator("#scene > canvas").boundingBox();
   const femur = region(await pixels(page), isFemur), hip = region(await pixels(page), isHipBone);
   const places = [femur, { x: hip.x, y: hip.y - 0.1 }].map(({ x, y }) => [box.x + x * box.width, box.y + y * box.height]);
