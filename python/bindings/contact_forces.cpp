@@ -12,16 +12,16 @@ contact::ForceOptions force_options_in(const py::dict& given) {
     const py::object value = given[name];
     return value.is_none() ? Vec3(Vec3::Zero()) : vector_in(value, name);
   };
-  return {
-      .motion = {.velocity_mm_s = vector("velocity"), .angular_velocity_rad_s = vector("angular_velocity")},
-      .friction = given["friction"].cast<double>(),
-      .slip_velocity_mm_s = given["slip_velocity"].cast<double>(),
-      .damping_s_per_mm = given["damping"].cast<double>(),
-      .factor = given["factor"].cast<double>(),
-      .vertex_forces = given["vertex_forces"].cast<bool>(),
-      .stiffness = given["stiffness"].cast<bool>(),
-      .vertex_stiffness = given["vertex_stiffness"].cast<bool>(),
-      .patches = given["patches"].cast<bool>()};
+  return {.motion = {.velocity_mm_s = vector("velocity_mm_s"),
+                     .angular_velocity_rad_s = vector("angular_velocity_rad_s")},
+          .friction = given["friction"].cast<double>(),
+          .slip_velocity_mm_s = given["slip_velocity"].cast<double>(),
+          .damping_s_per_mm = given["damping"].cast<double>(),
+          .factor = given["factor"].cast<double>(),
+          .vertex_forces = given["vertex_forces"].cast<bool>(),
+          .stiffness = given["stiffness"].cast<bool>(),
+          .vertex_stiffness = given["vertex_stiffness"].cast<bool>(),
+          .patches = given["patches"].cast<bool>()};
 }
 
 /// Row by row in memory.

@@ -231,21 +231,21 @@ class ElasticContact:
         self._warn(results)
         return results[0] if is_one else results
 
-    def forces(self, pose: ArrayLike, *, velocity: Optional[ArrayLike] = None,
-               angular_velocity: Optional[ArrayLike] = None, friction: float = 0, slip_velocity: float = 1,
-               damping: float = 0, factor: float = 1, vertex_forces: bool = False, stiffness: bool = False,
+    def forces(self, pose: ArrayLike, *, velocity_mm_s: Optional[ArrayLike] = None,
+               angular_velocity_rad_s: Optional[ArrayLike] = None, friction: float = 0, slip_velocity_mm_s: float = 1,
+               damping_s_per_mm: float = 0, factor: float = 1, vertex_forces: bool = False, stiffness: bool = False,
                vertex_stiffness: bool = False, patches: bool = False) -> ContactForces:
         """:class:`ContactForces` of X_FM, (4, 4), for a simulator to integrate (docs/forces.md).
 
         Parameters
         ----------
-        velocity, angular_velocity : (3,)
+        velocity_mm_s, angular_velocity_rad_s : (3,)
             Of the origin of M, mm/s, and of the mobile body, rad/s, relative to the fixed body, in F; at rest if not given.
         friction : float
             Coefficient mu: the traction is mu p v / sqrt(v^2 + s^2) against the sliding velocity v.
-        slip_velocity : float
+        slip_velocity_mm_s : float
             s, mm/s, above 0.
-        damping : float
+        damping_s_per_mm : float
             c, s/mm: pressures are multiplied by max(0, 1 + c * rate of depth).
         factor : float
             From 0 to 1: pressures, energy and stiffness are multiplied by it, as :class:`ContactRamp` gives it.
@@ -260,15 +260,15 @@ class ElasticContact:
         >>> layers = condyle.sample_cartilages(clearance_mm=-0.3)
         >>> contact = condyle.ElasticContact(layers.acetabular, layers.femoral,
         ...                                  mobile_layer=condyle.ElasticLayer(12, 0.42, 1.65))
-        >>> found = contact.forces(np.eye(4), velocity=[0, 5, 0], friction=0.01, vertex_forces=True)
+        >>> found = contact.forces(np.eye(4), velocity_mm_s=[0, 5, 0], friction=0.01, vertex_forces=True)
         >>> bool(np.allclose(found.on_mobile.force_n.sum(axis=0), found.force_n))
         True
         """
         with self._shared.use():
             found = _native.forces_at(self._native, pose, {
-                "velocity": velocity, "angular_velocity": angular_velocity,
-                "friction": number(friction, "friction"), "slip_velocity": number(slip_velocity, "slip_velocity"),
-                "damping": number(damping, "damping"), "factor": number(factor, "factor"),
+                "velocity_mm_s": velocity_mm_s, "angular_velocity_rad_s": angular_velocity_rad_s,
+                "friction": number(friction, "friction"), "slip_velocity": number(slip_velocity_mm_s, "slip_velocity_mm_s"),
+                "damping": number(damping_s_per_mm, "damping_s_per_mm"), "factor": number(factor, "factor"),
                 "vertex_forces": bool(vertex_forces), "stiffness": bool(stiffness),
                 "vertex_stiffness": bool(vertex_stiffness), "patches": bool(patches)})
         return forces_of(found, self._fixed, self._mobile)

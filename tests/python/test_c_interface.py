@@ -220,8 +220,8 @@ def test_forces_are_those_of_the_module(library: Any) -> None:
     check(library, library.condyle_force_results_load(results, byref(load)))
     check(library, library.condyle_force_results_stiffness(results, pointer(stiffness)))
     check(library, library.condyle_force_results_vertices(results, FIXED, byref(vertices)))
-    expected = module.forces(matrix, velocity=velocity, angular_velocity=angular_velocity, friction=0.1, slip_velocity=2,
-                             damping=0.01, factor=factor, stiffness=True, vertex_forces=True)
+    expected = module.forces(matrix, velocity_mm_s=velocity, angular_velocity_rad_s=angular_velocity, friction=0.1, slip_velocity_mm_s=2,
+                             damping_s_per_mm=0.01, factor=factor, stiffness=True, vertex_forces=True)
     assert list(load.on_mobile.force_n) == expected.force_n.tolist() and load.on_mobile.force_n[1] < -10
     assert list(load.on_mobile.moment_nmm) == expected.moment_nmm.tolist()
     assert [load.energy_nmm, load.friction_power, load.damping_power, load.factor] == [

@@ -119,7 +119,7 @@ def test_wrong_loads_are_refused_in_one_line(forces: object) -> None:
 
 def test_forces_of_a_sliding_block_have_their_closed_form() -> None:
     contact, N = on_the_plane(), STIFFNESS * 0.3 * AREA
-    found = contact.forces(lowered(0.3), velocity=[3, -2, 4], friction=0.2, slip_velocity=0.5, damping=0.1)
+    found = contact.forces(lowered(0.3), velocity_mm_s=[3, -2, 4], friction=0.2, slip_velocity_mm_s=0.5, damping_s_per_mm=0.1)
     pressed, slides = N * (1 + 0.1 * 2), 5 / np.hypot(5, 0.5)
     along = np.array([0.6, 0, 0.8])
     assert found.force_n == pytest.approx(pressed * ([0, 1, 0] - 0.2 * slides * along), rel=1e-12)
@@ -177,8 +177,8 @@ def test_a_ramp_brings_an_overlap_in() -> None:
     assert condyle.ContactRamp(contact, lowered(-1), 0.2).factor_at(0) == 1
 
 
-@pytest.mark.parametrize("wrong", [{"friction": -0.1}, {"slip_velocity": 0}, {"damping": -1}, {"factor": 1.5},
-                                   {"factor": "all"}, {"velocity": [0, 1]}, {"angular_velocity": [0, np.nan, 0]}])
+@pytest.mark.parametrize("wrong", [{"friction": -0.1}, {"slip_velocity_mm_s": 0}, {"damping_s_per_mm": -1}, {"factor": 1.5},
+                                   {"factor": "all"}, {"velocity_mm_s": [0, 1]}, {"angular_velocity_rad_s": [0, np.nan, 0]}])
 def test_wrong_options_of_forces_are_refused_in_one_line(wrong: dict[str, object]) -> None:
     with pytest.raises(condyle.UsageError) as refused:
         on_the_plane().forces(lowered(0.3), **wrong)
