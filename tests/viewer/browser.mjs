@@ -52,11 +52,20 @@ export async function openPage(browser, path, { width = 1280, height = 800, frag
   return { page, complaints, requests, firstAnswer_ms: performance.now() - begun };
 }
 
-/// Waits until what was asked of the core is answered and drawn.
+/// Waits until what was asked of the core is answered and drawn. A joint that takes the place of another brings a core of its own, and
+/// what was asked of the one before may have no answer.
 export async function settled(page) {
   await page.waitForFunction(() => globalThis.condyle !== undefined);
   await page.evaluate(async () => {
-    await condyle.query({ of: "pose", at: { angles: [0, 0, 0], translation: [0, 0, 0] } });
+    for (let asked; asked !== globalThis.condyle;) {
+      asked = globalThis.condyle;
+      let isAnswered = false;
+      const replaced = async () => {
+        while (!isAnswered && asked === globalThis.condyle) await new Promise((later) => setTimeout(later, 50));
+      };
+      await Promise.race([asked.query({ of: "pose", at: { angles: [0, 0, 0], translation: [0, 0, 0] } }), replaced()]);
+      isAnswered = true;
+    }
     await new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));
   });
 }
