@@ -80,7 +80,7 @@ class JointContact {
   /// made follow; ring tables are made anew when they are next needed. Answers are those of a JointContact made anew, in whatever
   /// order vertices that are inside come: depths and sets to the bit. Other contacts that share the body keep it as it was.
   ///
-  /// A twentieth to a fifth of the cost of making, docs/deforming.md. UsageError if the number differs; MeshError if a coordinate
+  /// docs/deforming.md has the cost. UsageError if the number differs; MeshError if a coordinate
   /// is not finite or beyond 1e30 mm or the surface now holds the joint centre. A refused update changes nothing, nor does one
   /// that ends with std::bad_alloc. Not while another thread queries.
   void update(BodyRole body, PointsView vertices);

@@ -84,7 +84,7 @@ struct ElasticContactResults {
 //       step(forces.on_mobile_body, forces.stiffness);
 //     }
 
-/// Of the mobile body relative to the fixed one, in F.
+/// How the mobile body moves relative to the fixed one, in F.
 struct RelativeMotion {
   Vec3 velocity_mm_s = Vec3::Zero();  ///< of the origin of M
   Vec3 angular_velocity_rad_s = Vec3::Zero();

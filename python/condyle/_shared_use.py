@@ -16,7 +16,7 @@ class SharedUse:
 
     def __init__(self) -> None:
         self._free = threading.Condition()
-        self._users: dict[int, int] = {}  # uses by each thread: one may ask again from what it is told of its progress
+        self._users: dict[int, int] = {}  # the number of uses by each thread: a progress callback may ask again
         self._changes = 0  # waiting, or under way: new users let them pass
 
     @contextmanager

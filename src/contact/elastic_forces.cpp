@@ -127,7 +127,7 @@ class CastForces {
 
   const Mesh& casting_mesh() const { return cast_.sampler().casting(); }
   const Mesh& target_mesh() const { return cast_.sampler().target(); }
-  /// Of the mobile body relative to the fixed one.
+  /// How fast the mobile body moves there relative to the fixed one.
   Vec3 velocity_at(const Vec3& point) const { return sliding_ + turning_.cross(point); }
 
   void add_sample(std::size_t i, ContactForces& out) {

@@ -62,7 +62,7 @@ struct ForceScratch {
   VertexSets sets;
   std::vector<StiffnessTerm> terms;
   std::vector<Eigen::Matrix3d> blocks;
-  // Of one face.
+  // These are filled for one face at a time.
   std::vector<std::uint64_t> face_vertices;
   std::vector<SampleVertex> sample_vertices;
   std::vector<std::size_t> sample_begin;

@@ -132,7 +132,7 @@ class OverlapSampler {
     std::array<SampleEnd, 3> ends_;
     std::size_t count_ = 0;
   };
-  /// Of a sample that sample() gave.
+  /// The ray ends that determine the depth of a sample from sample().
   SampleEnds ends_of(const OverlapSample& sample, const Results& found) const;
 
   /// Memory for samples, kept between queries.

@@ -78,7 +78,7 @@ std::vector<ForceScene> all_scenes() {
 
 const RelativeMotion some_motion{{3, -2, 1.5}, {0.1, -0.2, 0.15}};
 
-/// Of forces on vertices of a body with the pose X_FB, in F, about the origin of M; and how large what is added up is.
+/// Adds up the forces on vertices of a body with the pose X_FB, in F, about the origin of M; and reports how large the terms are.
 struct VertexSum {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
 };
