@@ -187,6 +187,7 @@ condyle_status condyle_force_results_load(const condyle_force_results* results, 
     load.energy_nmm = in.energy_nmm;
     load.friction_power = in.friction_power;
     load.damping_power = in.damping_power;
+    load.max_strain = in.max_strain;
     load.factor = in.factor;
   });
 }

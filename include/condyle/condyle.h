@@ -354,6 +354,7 @@ typedef struct condyle_force_load {
   double energy_nmm;         ///< stored in the layers
   double friction_power;     ///< taken out of the motion, N mm/s, >= 0
   double damping_power;      ///< the same
+  double max_strain;  ///< the largest depth over the layers' thickness; above 1 the forces mean nothing
   double
       factor;  ///< as it was set: below 1 a ramp is in force, and nothing is the answer of the layers themselves
 } condyle_force_load;

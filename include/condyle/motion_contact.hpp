@@ -110,6 +110,9 @@ std::vector<ContactNote> check_load(const contact::Load& load);
 std::vector<ContactNote> check_contact(const contact::ElasticContactResults& results,
                                        const BodyNames& names = {});
 
+/// Looks at the force and the strain of the layers in what a simulator integrates.
+std::vector<ContactNote> check_contact(const contact::ContactForces& forces);
+
 /// Checks the frames of a motion, one note for all: strain, force, the source of the peaks, and the distance of the
 /// bodies in most frames that have an answer.
 std::vector<ContactNote> check_motion(std::span<const std::optional<FrameContact>> frames,

@@ -141,6 +141,9 @@ struct ContactForces {
   double energy_nmm = 0;  ///< stored in the layers
   /// Taken out of the motion by friction and by damping, N mm / s: >= 0.
   double friction_power = 0, damping_power = 0;
+  /// The largest depth over the thickness of both layers at that place, whatever the factor. Above 1 no layer is compressed so far, and the
+  /// forces are none: motion::check_contact() has a note.
+  double max_strain = 0;
   /// The factor asked for: below 1 a ramp is in force, and nothing here is the answer of the layers themselves.
   double factor = 1;
   /// Minus the derivative of the wrench: rows are force and moment, columns a translation of the mobile body (mm) and a

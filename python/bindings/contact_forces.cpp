@@ -84,7 +84,9 @@ py::dict forces_at(const contact::ElasticContact& contact, const py::object& pos
   dict["energy_nmm"] = forces.energy_nmm;
   dict["friction_power"] = forces.friction_power;
   dict["damping_power"] = forces.damping_power;
+  dict["max_strain"] = forces.max_strain;
   dict["factor"] = forces.factor;
+  dict["notes"] = list_of(motion::check_contact(forces));
   dict["stiffness"] = py::none();
   if (options.stiffness) {
     std::vector<double> values;

@@ -8,6 +8,7 @@ from typing import Any, Optional
 import numpy as np
 from numpy.typing import NDArray
 
+from ._contact_checks import ContactNote, contact_notes
 from ._mesh import TriMesh
 from ._words import Body
 
@@ -75,6 +76,8 @@ class ContactForces:
         Stored in the layers.
     friction_power, damping_power : float
         Taken out of the motion, N mm / s; 0 or more.
+    max_strain : float
+        The largest depth over the thickness of both layers there. Above 1 no layer is compressed so far, and the forces are none.
     factor : float
         The factor asked for: below 1 a ramp is in force.
     stiffness : (6, 6) float64
@@ -83,6 +86,8 @@ class ContactForces:
     on_fixed, on_mobile : VertexForces
     vertex_stiffness : VertexStiffness
     patches : tuple of ForcePatch
+    notes : tuple of ContactNote
+        What looks wrong: layers compressed too far, a force that no joint carries.
     """
 
     force_n: NDArray[np.float64]
@@ -90,12 +95,14 @@ class ContactForces:
     energy_nmm: float
     friction_power: float
     damping_power: float
+    max_strain: float
     factor: float
     stiffness: Optional[NDArray[np.float64]]
     on_fixed: Optional[VertexForces]
     on_mobile: Optional[VertexForces]
     vertex_stiffness: Optional[VertexStiffness]
     patches: Optional[tuple[ForcePatch, ...]]
+    notes: tuple[ContactNote, ...]
 
 
 def forces_of(found: dict[str, Any], fixed: TriMesh, mobile: TriMesh) -> ContactForces:
@@ -107,4 +114,5 @@ def forces_of(found: dict[str, Any], fixed: TriMesh, mobile: TriMesh) -> Contact
         found["vertex_stiffness"] = VertexStiffness(*found["vertex_stiffness"])
     if found["patches"] is not None:
         found["patches"] = tuple(ForcePatch(**each) for each in found["patches"])
+    found["notes"] = contact_notes(found["notes"])
     return ContactForces(**found)

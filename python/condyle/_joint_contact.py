@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Optional, Union, overload
+from typing import Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._mesh import MeshLike, TriMesh, merged_positions, refuse_merged
+from ._deforming import DeformingContact
+from ._mesh import MeshLike, TriMesh
 from ._penetration import Penetration, Penetrations, vertices_inside
 from ._pressure import ManyMatrices, OneMatrix
 from ._shared_use import SharedUse
-from ._words import Bodies, Body, Progress, array, progress_of, word
+from ._words import Bodies, Progress, array, progress_of, word
 
 
-class JointContact:
+class JointContact(DeformingContact):
     """A fixed and a mobile body, each in its own frame with the joint centre as origin, which may deform.
 
     The answers of a :class:`Joint`, which nothing changes, for bodies that a simulation moves vertex by vertex. Tables and
@@ -40,7 +41,9 @@ class JointContact:
     True
     """
 
-    __slots__ = ("_native", "_fixed", "_mobile", "_shared", "__weakref__")
+    __slots__ = ("__weakref__",)
+
+    _native: _native.JointContact
 
     def __init__(self, fixed: MeshLike, mobile: MeshLike) -> None:
         self._fixed, self._mobile = TriMesh.of(fixed), TriMesh.of(mobile)
@@ -91,34 +94,6 @@ class JointContact:
         with self._shared.use():
             is_one, answers = self._native.in_contact(pose, progress_of(progress))
         return bool(answers[0]) if is_one else answers
-
-    def update(self, body: Body, vertices: ArrayLike, *, moved: Optional[ArrayLike] = None) -> None:
-        """A body has deformed: (V, 3) new positions of all its vertices in its own frame, or of the K vertices `moved` (K,).
-
-        Answers are then those of a contact made anew; vertices inside may come in another order. UsageError where numbers do
-        not fit, MeshError where a coordinate is not finite or the surface now holds the joint centre; the contact is then what it
-        was. docs/deforming.md has the cost.
-        """
-        is_fixed = word(body, "body", Body) == "fixed"
-        mesh = self._fixed if is_fixed else self._mobile
-        with self._shared.change("update"):
-            if moved is None:
-                self._native.update(is_fixed, merged_positions(mesh, vertices))
-            else:
-                refuse_merged(mesh)
-                self._native.update_some(is_fixed, moved, vertices)
-
-    @property
-    def fixed(self) -> TriMesh:
-        """The mesh of the fixed body as it is now."""
-        with self._shared.use():
-            return TriMesh._moved(self._native.fixed, self._fixed)
-
-    @property
-    def mobile(self) -> TriMesh:
-        """The mesh of the mobile body as it is now."""
-        with self._shared.use():
-            return TriMesh._moved(self._native.mobile, self._mobile)
 
     def __repr__(self) -> str:
         return f"JointContact(fixed={self._fixed!r}, mobile={self._mobile!r})"

@@ -12,9 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native
 from ._contact_checks import ContactNote, contact_notes, warn_of
 from ._contact_forces import ContactForces, forces_of
+from ._deforming import DeformingContact
 from ._described_joint import DescribedJoint
 from ._errors import UsageError
-from ._mesh import MeshLike, TriMesh, merged_positions, refuse_merged
+from ._mesh import MeshLike, TriMesh
 from ._poses import Pose
 from ._shared_use import SharedUse
 from ._surface_contact import SurfaceContact, surface_of
@@ -127,7 +128,7 @@ class BalancedPose:
         return self.outcome in ("balanced", "unstable", "at_jump")
 
 
-class ElasticContact:
+class ElasticContact(DeformingContact):
     """Two surfaces with their layers, ready to be asked at any pose. Any number of threads may ask; an update waits for them.
 
     Parameters
@@ -154,7 +155,9 @@ class ElasticContact:
     ('balanced', [0.0, -800.0, 0.0])
     """
 
-    __slots__ = ("_native", "_fixed", "_mobile", "_has_warned", "_shared", "__weakref__")
+    __slots__ = ("_has_warned", "__weakref__")
+
+    _native: _native.ElasticContact
 
     def __init__(self, fixed: MeshLike, mobile: MeshLike, *, fixed_layer: Optional[ElasticLayer] = None,
                  mobile_layer: Optional[ElasticLayer] = None, casting: Bodies = "both",
@@ -182,36 +185,6 @@ class ElasticContact:
         contact._fixed, contact._mobile = TriMesh._of_native(native.fixed), TriMesh._of_native(native.mobile)
         contact._has_warned, contact._shared = False, SharedUse()
         return contact
-
-    def update(self, body: Body, vertices: ArrayLike, *, moved: Optional[ArrayLike] = None) -> None:
-        """A body has deformed: (V, 3) new positions of all its vertices in its own frame, or of the K vertices `moved` (K,).
-
-        Thicknesses stay with their vertices. Answers are then those of a contact made anew, to the bit. UsageError where
-        numbers do not fit, MeshError where a coordinate is not finite; the contact is then what it was. Waits for questions of
-        other threads. docs/deforming.md has the cost.
-
-        C++: `condyle::ElasticContact::update` in condyle/pressure.hpp.
-        """
-        is_fixed = word(body, "body", Body) == "fixed"
-        mesh = self._fixed if is_fixed else self._mobile
-        with self._shared.change("update"):
-            if moved is None:
-                self._native.update(is_fixed, merged_positions(mesh, vertices))
-            else:
-                refuse_merged(mesh)
-                self._native.update_some(is_fixed, moved, vertices)
-
-    @property
-    def fixed(self) -> TriMesh:
-        """The mesh of the fixed body as it is now."""
-        with self._shared.use():
-            return TriMesh._moved(self._native.fixed, self._fixed)
-
-    @property
-    def mobile(self) -> TriMesh:
-        """The mesh of the mobile body as it is now."""
-        with self._shared.use():
-            return TriMesh._moved(self._native.mobile, self._mobile)
 
     @overload
     def at(self, pose: OneMatrix, *, progress: Progress = None) -> ElasticContactResults: ...
@@ -252,12 +225,12 @@ class ElasticContact:
         vertex_forces, stiffness, vertex_stiffness, patches : bool
             What is computed too; with `vertex_stiffness` also `vertex_forces`.
 
-        UsageError for numbers outside their domain; MeshError as :meth:`at`. No warnings: :meth:`at` has them.
+        UsageError for numbers outside their domain; MeshError as :meth:`at`.
 
         C++: `condyle::ElasticContact::forces` in condyle/pressure.hpp.
 
         >>> import condyle, numpy as np
-        >>> layers = condyle.sample_cartilages(clearance_mm=-0.3)
+        >>> layers = condyle.sample_cartilages(clearance_mm=-0.05)
         >>> contact = condyle.ElasticContact(layers.acetabular, layers.femoral,
         ...                                  mobile_layer=condyle.ElasticLayer(12, 0.42, 1.65))
         >>> found = contact.forces(np.eye(4), velocity_mm_s=[0, 5, 0], friction=0.01, vertex_forces=True)
@@ -271,7 +244,9 @@ class ElasticContact:
                 "damping": number(damping_s_per_mm, "damping_s_per_mm"), "factor": number(factor, "factor"),
                 "vertex_forces": bool(vertex_forces), "stiffness": bool(stiffness),
                 "vertex_stiffness": bool(vertex_stiffness), "patches": bool(patches)})
-        return forces_of(found, self._fixed, self._mobile)
+        forces = forces_of(found, self._fixed, self._mobile)
+        self._warn([forces])
+        return forces
 
     @property
     def notes(self) -> tuple[ContactNote, ...]:
@@ -345,7 +320,7 @@ class ElasticContact:
         self._warn(frames)
         return frames
 
-    def _warn(self, answers: Iterable[Union[ElasticContactResults, BalancedPose, None]]) -> None:
+    def _warn(self, answers: Iterable[Union[ElasticContactResults, ContactForces, BalancedPose, None]]) -> None:
         """Warns of what looks wrong with answers, and with the layers at the first one."""
         of_answers = [note for each in answers if each is not None for note in each.notes]
         of_layers = () if self._has_warned else self.notes

@@ -87,8 +87,8 @@ void ElasticCast::answer_samples(Answer& out) const {
   for (const OverlapBorder& border : out.found.borders) out.of_border.push_back(layers_at(border).pressure);
 }
 
-double ElasticCast::pressure_at(const OverlapCorner& corner) const {
-  return layers_at(corner).pressure;
+LayerAnswer ElasticCast::answer_at(const OverlapCorner& corner) const {
+  return layers_at(corner);
 }
 
 void ElasticCast::add_up(const Answer& answer, SurfaceContact& out) const {

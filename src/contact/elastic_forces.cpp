@@ -110,6 +110,8 @@ class CastForces {
   }
 
   void add_to(ContactForces& out) {
+    for (const OverlapCorner& corner : answer_.found.corners)
+      out.max_strain = std::max(out.max_strain, cast_.answer_at(corner).strain);
     if (options_.patches) find_patches(out);
     const auto& samples = answer_.found.samples;
     for (std::size_t begin = 0, end = 0; begin < samples.size(); begin = end) {
@@ -137,6 +139,7 @@ class CastForces {
     const double area = options_.factor * share_ * sample.area;
     const double elastic = area * layers.pressure;
     out.energy_nmm += area * layers.energy;
+    out.max_strain = std::max(out.max_strain, layers.strain);
     Ends ends;
     if (options_.damping_s_per_mm > 0 || options_.vertex_forces || options_.vertex_stiffness ||
         options_.stiffness)
@@ -314,7 +317,7 @@ class CastForces {
       if (scratch_.sets.has(casting_mesh().triangles()[corner.face][0])) {
         ForcePatch& patch = out.patches[patch_of(corner.face)];
         patch.max_pressure_mpa =
-            std::max(patch.max_pressure_mpa, options_.factor * cast_.pressure_at(corner));
+            std::max(patch.max_pressure_mpa, options_.factor * cast_.answer_at(corner).pressure);
       }
   }
   void add_to_patch(std::size_t i, double load, const Wrench& wrench, ContactForces& out) {
@@ -405,7 +408,7 @@ void ElasticContact::forces(const Pose& X_FM, const ForceOptions& options, Conta
   core::require_in_range(X_FM);
   check_force_options(options);
   out.on_mobile_body = {};
-  out.energy_nmm = out.friction_power = out.damping_power = 0;
+  out.energy_nmm = out.friction_power = out.damping_power = out.max_strain = 0;
   out.factor = options.factor;
   out.stiffness.setZero();
   out.on_fixed.clear();

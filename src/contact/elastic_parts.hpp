@@ -27,7 +27,7 @@ class ElasticCast {
   void answer_by_parts(const Pose& X_CT, Answer& out) const;
   void add_up(const Answer& answer, SurfaceContact& out) const;
   /// MPa.
-  double pressure_at(const OverlapCorner& corner) const;
+  LayerAnswer answer_at(const OverlapCorner& corner) const;
 
   OverlapSampler& sampler() noexcept { return sampler_; }
   const OverlapSampler& sampler() const noexcept { return sampler_; }

@@ -56,8 +56,9 @@ void expect_same_forces(const contact::ContactForces& cpp, const condyle_force_r
   condyle_force_load load;
   ASSERT_EQ(condyle_force_results_load(c, &load), CONDYLE_OK) << condyle_last_error();
   expect_same_wrench(cpp.on_mobile_body, load.on_mobile);
-  EXPECT_EQ((std::array{load.energy_nmm, load.friction_power, load.damping_power, load.factor}),
-            (std::array{cpp.energy_nmm, cpp.friction_power, cpp.damping_power, cpp.factor}));
+  EXPECT_EQ(
+      (std::array{load.energy_nmm, load.friction_power, load.damping_power, load.max_strain, load.factor}),
+      (std::array{cpp.energy_nmm, cpp.friction_power, cpp.damping_power, cpp.max_strain, cpp.factor}));
   double stiffness[36];
   ASSERT_EQ(condyle_force_results_stiffness(c, stiffness), CONDYLE_OK) << condyle_last_error();
   for (int i = 0; i < 6; ++i)

@@ -46,7 +46,7 @@ class Wrench(ctypes.Structure):
 
 class ForceLoad(ctypes.Structure):
     _fields_ = [("on_mobile", Wrench), ("energy_nmm", c_double), ("friction_power", c_double), ("damping_power", c_double),
-                ("factor", c_double)]
+                ("max_strain", c_double), ("factor", c_double)]
 
 
 class VertexForces(ctypes.Structure):

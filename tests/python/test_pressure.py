@@ -185,3 +185,14 @@ def test_wrong_options_of_forces_are_refused_in_one_line(wrong: dict[str, object
     assert "\n" not in str(refused.value)
     with pytest.raises(condyle.UsageError):
         condyle.ContactRamp(on_the_plane(), lowered(0.3), 0)
+
+
+def test_forces_say_as_pressure_does_that_layers_are_compressed_beyond_their_thickness() -> None:
+    layers = condyle.sample_cartilages(clearance_mm=-0.3)
+    contact = condyle.ElasticContact(layers.acetabular, layers.femoral, mobile_layer=condyle.ElasticLayer(12, 0.42, 1.65))
+    with pytest.warns(condyle.JointWarning, match="no layer is compressed so far"):
+        found = contact.forces(np.eye(4), factor=0.5)
+    with pytest.warns(condyle.JointWarning, match="no layer is compressed so far"):
+        expected = contact.at(np.eye(4))
+    assert found.max_strain == max(expected.fixed.max_strain, expected.mobile.max_strain) > 1
+    assert "deeper_than_layers" in [note.code for note in found.notes]

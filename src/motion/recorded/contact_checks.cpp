@@ -228,6 +228,13 @@ std::vector<ContactNote> check_contact(const contact::ElasticContactResults& res
   return notes;
 }
 
+std::vector<ContactNote> check_contact(const contact::ContactForces& forces) {
+  std::vector<ContactNote> notes;
+  note_strain(forces.max_strain, "", notes);
+  note_force(forces.on_mobile_body.force_n.norm(), "the contact's force", notes);
+  return notes;
+}
+
 std::vector<ContactNote> check_motion(std::span<const std::optional<FrameContact>> frames,
                                       const BodyNames& names) {
   std::vector<ContactNote> notes;
