@@ -136,7 +136,7 @@ int main(void) {
   static double xyz[3 * BALL_VERTICES];
   const double radius_mm = 10, larger_mm = 11.2, start_mm = 9.5;
   const condyle_pose start = pose_at(start_mm);
-  falling_ball on = {NULL, NULL, NULL, NULL, 0, 0, 0, {{{0, 0, 0}, {0, 0, 0}}, 0, 0, 0, 0}};
+  falling_ball on = {NULL, NULL, NULL, NULL, 0, 0, 0, {{{0, 0, 0}, {0, 0, 0}}, 0, 0, 0, 0, 0}};
   double stiffness[36];
   on.contact = ball_on_layer(radius_mm);
   on.height_mm = start_mm;

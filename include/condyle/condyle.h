@@ -355,8 +355,7 @@ typedef struct condyle_force_load {
   double friction_power;     ///< taken out of the motion, N mm/s, >= 0
   double damping_power;      ///< the same
   double max_strain;  ///< the largest depth over the layers' thickness; above 1 the forces mean nothing
-  double
-      factor;  ///< as it was set: below 1 a ramp is in force, and nothing is the answer of the layers themselves
+  double factor;  ///< as it was set: below 1 a ramp is in force, and nothing here is the layers' own answer
 } condyle_force_load;
 
 CONDYLE_API condyle_status condyle_force_results_load(const condyle_force_results* results,
