@@ -56,7 +56,7 @@ endfunction()
 # Compiles the sources of a target several at a time, so that the headers that they share are read once for all of them, and the
 # templates that they share compiled once: most of their time. Those of one layer (the first folder below the target's) go
 # together, in units of about equal size: private names have to differ within a layer. Sources that Highway compiles once for every
-# instruction set stay out.
+# instruction set stay out. Layers are folders below the target's, or below another: condyle_unify(target [folder]).
 function(condyle_unify target)
   if(NOT CONDYLE_UNITY)
     return()
@@ -68,6 +68,10 @@ function(condyle_unify target)
   target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage -Wno-maybe-uninitialized>)
   get_target_property(sources ${target} SOURCES)
   get_target_property(folder_of_target ${target} SOURCE_DIR)
+  set(folder_of_layers ${folder_of_target})
+  if(ARGC GREATER 1)
+    set(folder_of_layers ${ARGV1})
+  endif()
   foreach(source IN LISTS sources)
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder_of_target} OUTPUT_VARIABLE path)
     file(STRINGS ${path} own_translation_unit REGEX "foreach_target\\.h" LIMIT_COUNT 1)
@@ -75,7 +79,7 @@ function(condyle_unify target)
       continue()
     endif()
     cmake_path(GET path PARENT_PATH folder)
-    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${folder_of_target})
+    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${folder_of_layers})
     string(REGEX MATCH "^[^/]+" layer "${folder}")
     string(MAKE_C_IDENTIFIER "${layer}" layer)
     file(SIZE ${path} bytes)

@@ -20,14 +20,14 @@ constexpr std::array<std::uint32_t, 64> K = {
     0x19a4c116, 0x1e376c08, 0x2748774c, 0x34b0bcb5, 0x391c0cb3, 0x4ed8aa4a, 0x5b9cca4f, 0x682e6ff3,
     0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2};
 
-using Words = std::array<std::uint32_t, 8>;
+using HashWords = std::array<std::uint32_t, 8>;
 
 /// Section 5.3.3: of the square roots of the first 8 primes.
-constexpr Words first_hash = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                              0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+constexpr HashWords first_hash = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
+                                  0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
 
 /// Section 6.2.2: one block of 64 bytes.
-void add_block(Words& H, const char* block) noexcept {
+void add_block(HashWords& H, const char* block) noexcept {
   std::array<std::uint32_t, 64> W;
   for (std::size_t t = 0; t < 16; ++t) {
     W[t] = 0;
@@ -62,7 +62,7 @@ std::string padded_end(std::string_view contents) {
 }  // namespace
 
 FileDigest digest_of(std::string_view contents) {
-  Words H = first_hash;
+  HashWords H = first_hash;
   const std::string end = padded_end(contents);
   for (std::size_t at = 0; at + block_bytes <= contents.size(); at += block_bytes)
     add_block(H, contents.data() + at);
