@@ -65,7 +65,9 @@ def same_files(a: Path, b: Path) -> None:
         assert (a / name).read_bytes() == (b / name).read_bytes(), name
 
 
-def test_every_option_of_the_command_is_one_of_python(table: Path, command: str, tmp_path: Path):
+def test_every_option_of_the_command_is_one_of_python(hip_file: Path, command: str, tmp_path: Path):
+    table = tmp_path / "hip.csv"
+    table.write_text(f"id,joint\na,{hip_file}\n", encoding="utf-8")
     subprocess.run([command, "study", table, "--out", tmp_path / "a", "--motion", "flexion", "--bearing", "1.5",
                     "--accept-reference-contact", "--exclude-reference-contacts", "--map", "flexion=0:20:10",
                     "internal_rotation=-10:10:10", "--vary", "adduction", "--band=20", "--seed", "3", "--sigma-centre",
