@@ -35,9 +35,10 @@ command: command_dependencies build/release/build.ninja
 demo: command
 	@scripts/demo.sh
 
-# Runs the tests of a preset on two cores and says last, in one line, how many of them were skipped and why.
+# Runs the tests of a preset on two cores and says last, in one line, how many of them were skipped and why. Three at a time, since some
+# wait for signals, jobs and processes.
 run_tests = rm -rf build/$(1)/test_results; status=0; \
-  ctest --preset $(1) --parallel 2 --output-junit test_results/ctest.junit || status=$$?; \
+  ctest --preset $(1) --parallel 3 --output-junit test_results/ctest.junit || status=$$?; \
   scripts/count_skipped.sh build/$(1)/test_results; exit $$status
 
 test: dependencies
@@ -59,9 +60,9 @@ sanitize sanitize-thread: clang_dependencies
 # Some of it: the library and the command built, and the tests of predicates and of every fuzz target on its corpus.
 SOME_SANITIZED = core fuzz
 sanitize-some: clang_dependencies
-	@cmake --preset sanitize >/dev/null
-	@cmake --build --preset sanitize --target condyle_cli $(SOME_SANITIZED:%=test_%)
-	@ctest --preset sanitize --parallel 2 -R '^($(subst $() ,|,$(SOME_SANITIZED)))$$'
+	@cmake --preset $@ >/dev/null
+	@cmake --build --preset $@ --target condyle_cli $(SOME_SANITIZED:%=test_%)
+	@ctest --preset $@ --parallel 2 -R '^($(subst $() ,|,$(SOME_SANITIZED)))$$'
 
 # Coverage-guided fuzzing, a minute of each target; FUZZ_SECONDS=600 for longer, FUZZ_TARGETS="radial pairs" for some. New
 # inputs gather in build/fuzz/corpus; what is found stays in build/fuzz/found and belongs, cut down, in tests/fuzz/corpus.
