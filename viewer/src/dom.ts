@@ -21,6 +21,16 @@ export function svg<K extends keyof SVGElementTagNameMap>(
   return filled(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
 }
 
+/// The element of the page that has this id.
+export function found<T extends HTMLElement>(id: string): T {
+  return document.getElementById(id) as T;
+}
+
+/// Its text; null if the page has no such element.
+export function textOf(id: string): string | null {
+  return document.getElementById(id)?.textContent ?? null;
+}
+
 /// A title over contents, as one landmark of the page.
 export function section(title: string, ...children: Child[]): HTMLElement {
   const id = `section-${title.toLowerCase().replaceAll(/[^a-z]+/g, "-")}`;

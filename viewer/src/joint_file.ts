@@ -1,7 +1,7 @@
 import type { ReportText, StoredPart, StoredPosed } from "./report";
 import type { Surface } from "./core/protocol";
 import type { Part } from "./scene/body";
-import { bodyNames, type BodyName } from "./scene/scene";
+import { bodyNames, type BodyName } from "./scene/body_names";
 
 /// Files of a joint that was changed on the page: meshes in the joint frame, and a joint file that names them.
 

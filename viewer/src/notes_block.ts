@@ -1,5 +1,6 @@
-import { bytesOf } from "./report";
-import { bodyNames, type Picked } from "./scene/scene";
+import { bytesOf } from "./packed";
+import { bodyNames } from "./scene/body_names";
+import type { Picked } from "./scene/picking";
 
 /// A user's additions to a page: they are saved with a copy of the page, in a block of its own beside the report's data.
 export interface UserNotes {

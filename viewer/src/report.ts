@@ -1,5 +1,4 @@
-import type { Proposal } from "./core/protocol";
-import { named } from "./dom";
+import { bytesOf, inflated } from "./packed";
 import type { Part } from "./scene/body";
 import { checkedText, ReportError } from "./report_shape";
 import { words } from "./words";
@@ -386,18 +385,6 @@ const elementTypes = {
 };
 type Elements = { [T in keyof typeof elementTypes]: InstanceType<(typeof elementTypes)[T]> };
 
-/// The bytes of a text in base 64.
-export function bytesOf(base64: string): Uint8Array<ArrayBuffer> {
-  const text = atob(base64.trim());
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-  return bytes;
-}
-
-export async function inflated(bytes: Uint8Array<ArrayBuffer>, format: CompressionFormat): Promise<ArrayBuffer> {
-  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream(format))).arrayBuffer();
-}
-
 /// Scope: what the joint's answers cover and what they exclude.
 export function scopeOf({ scope, rom }: ReportText): string | null {
   return scope ?? rom?.scope ?? null;
@@ -443,21 +430,4 @@ export class Report {
     const Type = elementTypes[type];
     return new Type(this.arrays.slice(place.offset, place.offset + place.length * Type.BYTES_PER_ELEMENT)) as Elements[T];
   }
-}
-
-/// The report text of a joint that was dropped on the page.
-export function textOfProposal(proposal: Proposal): ReportText {
-  const side = proposal.joint.side === 0 ? "right" : "left", { fixed, mobile } = proposal.bodies;
-  return {
-    version: "", title: words.dropped(named(fixed), named(mobile)),
-    joint: { name: words.dropped(named(fixed), named(mobile)), kind: "ball", anatomy: "hip", side, fixed, mobile, translation_frame: "fixed" },
-    coordinates: [
-      { name: "flexion", opposite: "extension" }, { name: "adduction", opposite: "abduction" },
-      { name: "internal_rotation", opposite: "external_rotation" },
-    ],
-    reference_deg: [0, 0, 0], reference_mm: [0, 0, 0],
-    scope: proposal.rom.scope, rom: proposal.rom,
-    map: null, zones: [], layers: null, parts: { fixed: [], mobile: [] }, arrays: {}, poses: [], recorded: null, measures: null,
-    plan: null,
-  };
 }

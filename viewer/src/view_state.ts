@@ -1,4 +1,5 @@
-import { bodyNames, type BodyName, type ClipAxis } from "./scene/scene";
+import { bodyNames, type BodyName } from "./scene/body_names";
+import type { ClipAxis } from "./scene/scene";
 
 /// State of the scene's display.
 export interface DisplayState {

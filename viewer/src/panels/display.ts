@@ -1,7 +1,9 @@
 import { button, checkbox, choice, html, named, section } from "../dom";
 import type { ShownQuantity } from "../core/protocol";
 import type { Marked, Part } from "../scene/body";
-import { bodyNames, type BodyName, type ClipAxis, type JointScene, type View } from "../scene/scene";
+import { bodyNames, type BodyName } from "../scene/body_names";
+import type { ClipAxis, JointScene } from "../scene/scene";
+import type { View } from "../scene/views";
 import { colourScale } from "../scene/colour_scale";
 import type { DisplayState } from "../view_state";
 import { words } from "../words";

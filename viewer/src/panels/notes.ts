@@ -2,7 +2,9 @@ import type { JointArrays } from "../core/protocol";
 import { button, checkbox, choice, fold, html } from "../dom";
 import { longestNotes, longestPinText, mostPins, type Pin, type UserNotes } from "../notes_block";
 import { fixed } from "../numbers";
-import type { BodyName, JointScene, Picked } from "../scene/scene";
+import type { BodyName } from "../scene/body_names";
+import type { Picked } from "../scene/picking";
+import type { JointScene } from "../scene/scene";
 import { words } from "../words";
 
 const clickTolerance_px = 4;

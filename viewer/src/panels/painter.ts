@@ -1,4 +1,6 @@
-import type { BodyName, JointScene, PickedPoint } from "../scene/scene";
+import type { BodyName } from "../scene/body_names";
+import type { PickedPoint } from "../scene/picking";
+import type { JointScene } from "../scene/scene";
 
 export interface PainterHooks {
   /// Whether the panel of the brush is seen: else the pointer turns the joint.

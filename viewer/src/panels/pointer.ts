@@ -1,6 +1,8 @@
 import { button, checkbox, choice, html } from "../dom";
 import { fixed } from "../numbers";
-import type { BodyName, JointScene, Picked } from "../scene/scene";
+import type { BodyName } from "../scene/body_names";
+import type { Picked } from "../scene/picking";
+import type { JointScene } from "../scene/scene";
 import { words } from "../words";
 
 const clickTolerance_px = 4;

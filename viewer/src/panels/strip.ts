@@ -24,6 +24,12 @@ export function placeOf(motion: MotionAnswer, { joint, rom }: ReportText): strin
   return [meets, contact_side, isHip && rom?.bearing?.head ? words.awayFromRim : null].filter(Boolean).join(", ");
 }
 
+/// "1:08, neck on rim"
+export function pinOf(motion: MotionAnswer, text: ReportText): string {
+  const place = placeOf(motion, text);
+  return motion.clock_hour === null ? place : `${clockTime(motion.clock_hour)}, ${place.replace(` at ${clockTime(motion.clock_hour)}`, "")}`;
+}
+
 /// One sentence about a motion: where it ends, its band, how much it lacks, and where contact is.
 export function sentenceOf(motion: MotionAnswer, report: ReportText): string {
   const name = capital(named(motionName(motion.name)));

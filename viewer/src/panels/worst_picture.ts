@@ -1,16 +1,39 @@
 import { html } from "../dom";
 import type { JointArrays } from "../core/protocol";
-import type { ReportText, StoredPose } from "../report";
+import type { MotionAnswer, ReportText, StoredPose } from "../report";
+import { headlineMotion } from "../result";
 import { JointScene } from "../scene/scene";
+import { motionName } from "../words";
+import { placeOf, sentenceOf } from "./strip";
 
+/// The picture for paper waits until the page has answered and is idle.
+const pictureAfter_ms = 1500;
 const size_px = { width: 1200, height: 720 };
 /// The camera has turned by then.
 const arrived_ms = 700;
 /// Beyond so many triangles a second scene costs more than a picture is worth: paper shows the scene on the screen.
 const most = 600_000;
 
+/// Draws the limit that the sentence is about while nobody waits, unless `closed` is aborted meanwhile. `drawn` takes the picture and what it shows.
+export function drawWorst(text: ReportText, arrays: JointArrays, closed: AbortSignal, drawn: (picture: string, caption: string) => void): void {
+  const { rom, joint } = text;
+  const headline = rom && headlineMotion(rom, joint.anatomy === "hip" && joint.kind !== "hinge");
+  const pose = headline && text.poses.find(({ name }) => name === headline.name);
+  if (!headline || !pose || headline.reason !== "contact") return;
+  window.setTimeout(() => {
+    if (closed.aborted) return;
+    void pictureOf(text, arrays, pose, labelOf(headline, text), rom.bearing?.head?.radius_mm ?? null).then((picture) => {
+      if (picture) drawn(picture, sentenceOf(headline, text));
+    });
+  }, pictureAfter_ms);
+}
+
+function labelOf(motion: MotionAnswer, text: ReportText): string {
+  return [motionName(motion.name), placeOf(motion, text)].filter(Boolean).join(": ");
+}
+
 /// A picture of the joint at one of the report's poses, drawn beside the page; null if it is too large or the browser draws no scene.
-export async function pictureOf(
+async function pictureOf(
   text: ReportText, { fixed, mobile }: JointArrays, pose: StoredPose, label: string, radius_mm: number | null): Promise<string | null> {
   if ((fixed.triangles.length + mobile.triangles.length) / 3 > most) return null;
   const place = html("div", { class: "beside-page", "aria-hidden": "true" });

@@ -1,7 +1,8 @@
-import { html } from "../dom";
-import type { Surface, Values } from "../core/protocol";
-import type { StoredSurface } from "../report";
+import { html, named } from "../dom";
+import type { JointArrays, Surface, Values } from "../core/protocol";
+import type { ReportText, StoredSurface } from "../report";
 import { colourScale } from "../scene/colour_scale";
+import type { BodyName } from "../scene/body_names";
 import { words } from "../words";
 
 const size_px = 640, margin_px = 10;
@@ -14,7 +15,7 @@ export class Plateau {
   private readonly triangles: Uint32Array;
   private readonly places: Float64Array;
 
-  constructor(surface: Surface, stored: StoredSurface, private readonly name: string) {
+  constructor(readonly body: BodyName, surface: Surface, stored: StoredSurface, private readonly name: string) {
     this.triangles = surface.triangles.subarray(3 * stored.first_triangle, 3 * (stored.first_triangle + stored.triangles));
     const { vertices } = surface, { first_vertex: first, vertices: count } = stored;
     // Right (Z) to the right, front (X) up.
@@ -52,4 +53,17 @@ export class Plateau {
     this.caption.textContent = caption;
     this.canvas.setAttribute("aria-label", caption);
   }
+}
+
+/// The surface of a tibia that carries load; null for a joint without one.
+export function plateauOf({ layers, joint }: ReportText, arrays: JointArrays): Plateau | null {
+  if (!layers || joint.anatomy !== "knee") return null;
+  const height = (body: BodyName) => {
+    const { vertices } = arrays[body];
+    let sum = 0;
+    for (let i = 1; i < vertices.length; i += 3) sum += vertices[i]!;
+    return sum / vertices.length;
+  };
+  const body: BodyName = height("fixed") < height("mobile") ? "fixed" : "mobile";
+  return new Plateau(body, arrays[body], layers[body], named(joint[body]));
 }

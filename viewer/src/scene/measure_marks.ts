@@ -1,5 +1,5 @@
 import type { StoredMeasures } from "../report";
-import type { BodyName } from "./scene";
+import type { BodyName } from "./body_names";
 
 /// Lines and points drawn on a body, in its frame; x, y and z of each point in turn.
 export interface Marks {

@@ -5,7 +5,7 @@ export type Three = readonly [number, number, number];
 export type Side = "right" | "left";
 
 /// The views with buttons on the page.
-export const viewDirections = {
+const viewDirections = {
   anterior: [1, 0, 0], posterior: [-1, 0, 0], superior: [0, 1, 0], inferior: [0, -1, 0], right: [0, 0, 1], left: [0, 0, -1],
 } as const;
 export type View = keyof typeof viewDirections;

@@ -1,0 +1,39 @@
+import type { CoreClient } from "../core/client";
+import type { JointArrays } from "../core/protocol";
+import { section } from "../dom";
+import { clockDrawing } from "../plots/clock";
+import { figure } from "../plots/figure";
+import { plateauOf, type Plateau } from "../plots/plateau";
+import type { MotionAnswer, ReportText } from "../report";
+import { words } from "../words";
+import { figuresPanel } from "./figures";
+import { MapSection } from "./map_section";
+import type { MotionPanel } from "./motion";
+
+/// Figures of a joint: the surface that carries its load, its recorded motion, its map and its clock.
+export class JointFigures {
+  readonly element: HTMLElement;
+  readonly plateau: Plateau | null;
+  readonly map: MapSection | null;
+
+  /// `recorded` is the panel of the recorded motion; `core` answers if the page computes.
+  constructor(
+    text: ReportText, arrays: JointArrays, motion: MotionPanel, recorded: HTMLElement | null, computes: boolean, core: () => CoreClient | null) {
+    const { rom, map, joint } = text;
+    const go = computes || text.poses.length ? (to: MotionAnswer) => motion.goToEnd(to) : null;
+    const hasLimits = rom?.motions.some(({ reason }) => reason !== "contact_at_start") ?? false;
+    const clock = rom && clockDrawing(rom.motions, rom.clock_plane, go);
+    this.plateau = computes ? plateauOf(text, arrays) : null;
+    this.map = joint.kind !== "hinge" && (map || (computes && hasLimits)) ? new MapSection(text, motion, computes, core) : null;
+    this.element = figuresPanel([
+      { key: "curves", figures: [...(this.plateau ? [this.plateau.element] : []), ...(recorded ? [recorded] : [])] },
+      { key: "map", figures: [...(this.map ? [this.map.element] : []), ...(clock ? [clockSection(figure(clock))] : [])] },
+    ]);
+  }
+}
+
+function clockSection(drawn: HTMLElement): HTMLElement {
+  const made = section(words.clock, drawn);
+  made.classList.add("clock-section");
+  return made;
+}

@@ -1,0 +1,79 @@
+import type { CoreClient } from "../core/client";
+import type { Coordinates, MapQuestion } from "../core/protocol";
+import { button, html, section } from "../dom";
+import { MapPlot } from "../plots/map";
+import type { Interval, MapAnswer, ReportText } from "../report";
+import { words } from "../words";
+import type { MotionPanel } from "./motion";
+
+/// The report's map, or a button that has the page compute one.
+export class MapSection {
+  readonly element = section(words.map);
+  private readonly progress = html("p", { id: "map-progress", role: "status" });
+  private plot: MapPlot | null = null;
+  /// Numbers of the angles of the map's columns and rows.
+  private angles: [number, number] | null = null;
+
+  /// `core` answers if the page computes: then the map moves the joint.
+  constructor(
+    private readonly text: ReportText, private readonly motion: MotionPanel, private readonly computes: boolean,
+    private readonly core: () => CoreClient | null) {
+    if (text.map) this.show(text.map);
+    else this.element.append(this.progress, this.askButton());
+  }
+
+  /// Takes the intervals of a point that the core has computed.
+  set(point: number, intervals: Interval[]): void {
+    this.plot?.set(point, intervals);
+    this.progress.textContent = this.plot?.progress() ?? "";
+  }
+
+  /// Marks where the joint is.
+  mark({ angles }: Coordinates): void {
+    if (this.angles) this.plot?.setPose(angles[this.angles[0]]!, angles[this.angles[1]]!);
+  }
+
+  private show(answer: MapAnswer): void {
+    const angle = (name: string) => this.text.coordinates.findIndex((c) => c.name === name);
+    const at = (column: number, row: number): [number, number, number] => {
+      const { angles } = this.motion.coordinates;
+      angles[angle(answer.columns.angle)] = column;
+      angles[angle(answer.rows.angle)] = row;
+      return angles;
+    };
+    this.plot = new MapPlot(answer, this.computes ? {
+      go: (column, row) => {
+        const angles = at(column, row);
+        angles[angle(answer.vary)] = answer.start_deg;
+        this.motion.goTo(angles);
+      },
+      drag: (column, row) => this.motion.drag(at(column, row)),
+    } : null);
+    this.angles = [angle(answer.columns.angle), angle(answer.rows.angle)];
+    this.mark(this.motion.coordinates);
+    this.element.append(this.plot.element);
+  }
+
+  private askButton(): HTMLButtonElement {
+    const ask = button(words.computeMap, () => {
+      const core = this.core();
+      if (!core) return;
+      ask.remove();
+      const question = { ...coarseMap(), held: this.text.rom?.held_translation_mm ?? this.text.reference_mm } satisfies MapQuestion;
+      const [column, row, vary] = [question.columnAngle, question.rowAngle, question.vary].map((i) => this.text.coordinates[i]!);
+      this.show({
+        columns: { angle: column!.name, opposite: column!.opposite, values_deg: question.columns },
+        rows: { angle: row!.name, opposite: row!.opposite, values_deg: question.rows },
+        vary: vary!.name, vary_opposite: vary!.opposite, start_deg: 0, intervals: [],
+      });
+      core.askMap(question);
+    });
+    return ask;
+  }
+}
+
+/// Internal rotation over flexion and adduction, every ten degrees.
+function coarseMap(): MapQuestion {
+  const every10 = (first: number, last: number) => Array.from({ length: (last - first) / 10 + 1 }, (_, i) => first + 10 * i);
+  return { columnAngle: 0, rowAngle: 1, vary: 2, columns: every10(-20, 120), rows: every10(-40, 30) };
+}

@@ -1,0 +1,89 @@
+import {
+  BufferAttribute, BufferGeometry, DoubleSide, Line, LineBasicMaterial, LineLoop, LineSegments, Mesh, MeshBasicMaterial, type Object3D, Points,
+  PointsMaterial, Quaternion, type Scene, SphereGeometry, Vector3,
+} from "three";
+import type { SceneBody } from "./body";
+import type { BodyName } from "./body_names";
+import { contactColour } from "./colour_scale";
+import type { Marks } from "./measure_marks";
+
+const brushColour = "#00b050";
+
+/// Objects drawn besides the surfaces of the bones: the contact point, a distance, marks of measures, removed bone, the ring of a brush.
+export class Annotations {
+  private readonly contactPoint: Mesh;
+  private readonly ring: LineLoop;
+  private measure: Line | null = null;
+  private marks: Object3D[] = [];
+  private readonly removed: Record<BodyName, Mesh | null> = { fixed: null, mobile: null };
+
+  constructor(private readonly scene: Scene, private readonly bodies: Record<BodyName, SceneBody>) {
+    this.contactPoint = new Mesh(new SphereGeometry(1, 24, 16), new MeshBasicMaterial({ color: contactColour, depthTest: false, transparent: true }));
+    this.contactPoint.renderOrder = 9;
+    this.contactPoint.visible = false;
+    this.ring = brushRing();
+    scene.add(this.contactPoint);
+  }
+
+  /// A ball about a point in F.
+  showContactPoint(point: readonly [number, number, number] | null, radius_mm: number): void {
+    this.contactPoint.visible = point !== null;
+    if (point) this.contactPoint.position.set(...point);
+    this.contactPoint.scale.setScalar(radius_mm);
+  }
+
+  showDistance(ends: [Vector3, Vector3] | null): void {
+    if (this.measure) this.scene.remove(this.measure);
+    this.measure = ends
+      ? new Line(new BufferGeometry().setFromPoints(ends), new LineBasicMaterial({ color: "#c2185b", depthTest: false })) : null;
+    if (this.measure) this.scene.add(this.measure);
+  }
+
+  /// Lines and points that move with their bodies; null: none.
+  showMarks(marks: readonly Marks[] | null): void {
+    for (const mark of this.marks) mark.removeFromParent();
+    const geometry = (xyz: readonly number[]) => new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(xyz), 3));
+    this.marks = (marks ?? []).flatMap(({ body, colour, lines, points }) => {
+      // Axes lie inside their bones.
+      const drawn = [
+        new LineSegments(geometry(lines), new LineBasicMaterial({ color: colour, depthTest: false })),
+        new Points(geometry(points), new PointsMaterial({ color: colour, size: 3 })),
+      ];
+      for (const each of drawn) each.renderOrder = 6;
+      this.bodies[body].mesh.add(...drawn);
+      return drawn;
+    });
+  }
+
+  /// The surface that a body had before some of its vertices were lowered, over them, in a colour that no scale has; null: none.
+  showRemoved(body: BodyName, removed: { vertices: Uint32Array; before: Float64Array } | null): void {
+    this.removed[body]?.removeFromParent();
+    const mesh = removed && this.bodies[body].surfaceBefore(removed.vertices, removed.before);
+    this.removed[body] = mesh && new Mesh(mesh, new MeshBasicMaterial({ color: "#1b9e77", transparent: true, opacity: 0.6, side: DoubleSide }));
+    if (this.removed[body]) this.removed[body].renderOrder = 5;
+    if (this.removed[body]) this.bodies[body].mesh.add(this.removed[body]);
+  }
+
+  /// A ring about a point of a surface, in the frame of `body`. Null: no ring.
+  brush(point: readonly [number, number, number], normal: readonly [number, number, number], radius_mm: number | null, body: BodyName): void {
+    this.ring.removeFromParent();
+    if (radius_mm !== null) {
+      this.bodies[body].mesh.add(this.ring);
+      this.ring.position.set(...point);
+      this.ring.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(...normal).normalize()));
+      this.ring.scale.setScalar(radius_mm);
+    }
+  }
+}
+
+/// A circle of radius 1 about Z.
+function brushRing(): LineLoop {
+  const steps = 64;
+  const circle = Array.from({ length: steps }, (_, k) => {
+    const turn = (2 * Math.PI * k) / steps;
+    return new Vector3(Math.cos(turn), Math.sin(turn), 0);
+  });
+  const ring = new LineLoop(new BufferGeometry().setFromPoints(circle), new LineBasicMaterial({ color: brushColour, depthTest: false, transparent: true }));
+  ring.renderOrder = 10;
+  return ring;
+}
