@@ -9,8 +9,6 @@ import { placeOf, sentenceOf } from "./strip";
 /// The picture for paper waits until the page has answered and is idle.
 const pictureAfter_ms = 1500;
 const size_px = { width: 1200, height: 720 };
-/// The camera has turned by then.
-const arrived_ms = 700;
 /// Beyond so many triangles a second scene costs more than a picture is worth: paper shows the scene on the screen.
 const most = 600_000;
 
@@ -45,8 +43,7 @@ async function pictureOf(
     scene.canvas.tabIndex = -1;
     scene.setJointRadius(radius_mm);
     scene.setPose(pose.pose);
-    scene.arriveAt(pose.contact_point_mm, label, "mobile");
-    await new Promise((done) => setTimeout(done, arrived_ms));
+    scene.arriveAt(pose.contact_point_mm, label, "mobile", true);
     const blob = await scene.picture("");
     scene.canvas.getContext("webgl2")?.getExtension("WEBGL_lose_context")?.loseContext();
     return await dataUrlOf(blob);

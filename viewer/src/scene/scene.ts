@@ -138,14 +138,15 @@ export class JointScene {
   // -- a limit ----------------------------------------------------------------------------------------------------------------------
 
   /// Turns the camera to look along a contact from the side on which the joint is open, at the surface of `from`; the other bone becomes
-  /// glass, and a pin with a text stands at the point. Null: the motion's end has no contact point, and the camera stays.
-  arriveAt(point: readonly [number, number, number] | null, label: string, from: BodyName): void {
+  /// glass, and a pin with a text stands at the point. Null: the motion's end has no contact point, and the camera stays. `atOnce`: the
+  /// camera does not move there, it is there.
+  arriveAt(point: readonly [number, number, number] | null, label: string, from: BodyName, atOnce = false): void {
     this.leaveLimit();
     if (!point) return;
     this.limit = { point: new Vector3(...point), label, glass: otherThan(from) };
     this.showContactPoint(point);
     this.applyOpacities();
-    this.turnToLimit();
+    this.turnToLimit(atOnce);
   }
 
   /// The limit's pin and glass go; the camera stays.
@@ -386,11 +387,13 @@ export class JointScene {
     if (this.camera.isFitted) this.fitTo(this.fitted);
   }
 
-  private turnToLimit(): void {
+  private turnToLimit(atOnce = false): void {
     const { point, glass } = this.limit!;
     const towards = directionOnto(point, this.standing(otherThan(glass)), this.standing(glass));
     this.fitted = "joint";
-    this.camera.turnFitted({ towards, ...this.fitting() });
+    const to = { towards, ...this.fitting() };
+    if (atOnce) this.camera.standFitted(to);
+    else this.camera.turnFitted(to);
   }
 
   private standing(name: BodyName): Standing {
