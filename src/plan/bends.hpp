@@ -6,7 +6,7 @@
 
 namespace condyle::plan {
 
-/// An edge of a surface that is lowered: its ends, as deep as they are, and the ways inwards there.
+/// An edge of a surface that is lowered: its ends, as deep as they are, and the inward directions there.
 struct LoweredEdge {
   Vec3 from, to, inwards_from, inwards_to;
   double depth_from, depth_to, room;

@@ -416,7 +416,7 @@ bool BoneCut::reaches_by_smaller_triangles() const {
 CutBone BoneCut::cut_bone() const {
   CutBone cut{surface_->body(), surface_->body().mesh, {}, {}, {}, 0, 0, 0, 0, 0, 0, Vec3::Zero()};
   cut.body.mesh = surface_->mesh();
-  // Along a wall the way inwards is longer than the wall is deep.
+  // Along a wall the distance inwards is longer than the wall is deep.
   const mesh::SurfaceDistance from_before(cut.before);
   for (Index v = 0; v < surface_->vertices().size(); ++v) {
     const CutSurface::Vertex& vertex = surface_->vertices()[v];

@@ -12,16 +12,16 @@
 #include "mesh/require_solid.hpp"
 #include "mesh/surface_distance.hpp"
 #include "mesh/vertex_triangles.hpp"
-#include "plan/inward_ways.hpp"
+#include "plan/inward_directions.hpp"
 #include "plan/moved_triangles.hpp"
 
 namespace condyle::plan {
 namespace {
 
-/// Ways inwards are mean normals over about this length, so many means at most.
+/// Inward directions are mean normals over about this length, so many means at most.
 constexpr double brush_smoothing_mm = 3;
 constexpr int most_brush_means = 100;
-/// Weight of a stroke: whole up to this share of its radius, and where ways inwards make an angle of at least this cosine.
+/// Weight of a stroke: whole up to this share of its radius, and where inward directions make an angle of at least this cosine.
 constexpr double whole_share_of_radius = 0.5, whole_facing = 0.5;
 /// A vertex that would turn a triangle over or run through another goes less deep by this share, repeatedly; not at all below the least.
 constexpr double share_held_back = 0.8, least_share = 0.05;
@@ -50,7 +50,7 @@ std::vector<Index> numbers_to(std::size_t count) {
   return numbers;
 }
 
-std::vector<Vec3> ways_of(const Mesh& before, double edge_mm) {
+std::vector<Vec3> inward_directions_of(const Mesh& before, double edge_mm) {
   const double reach = edge_mm > 0 ? brush_smoothing_mm / edge_mm : 1;
   const int means = std::clamp(static_cast<int>(std::min(reach * reach, 1e6)), 1, most_brush_means);
   return plan::inward_directions(before, numbers_to(before.vertices().size()),
@@ -91,7 +91,7 @@ struct Brush::Parts {
   std::shared_ptr<const mesh::TriangleTree> tree;  ///< of the surface before
   MovedTriangles moved_triangles;
   std::vector<Vec3> inwards;
-  std::vector<double> along_mm;  ///< of each vertex: how far it lies inwards along its way
+  std::vector<double> along_mm;  ///< of each vertex: how far it lies inwards along its direction
   std::vector<double> depth_mm;  ///< and its distance from the surface before
   std::vector<BrushStep> steps = {};
 
@@ -104,7 +104,7 @@ struct Brush::Parts {
         triangles_of(before),
         tree(mesh::tree_of(before)),
         moved_triangles(before),
-        inwards(ways_of(before, edge_mm)),
+        inwards(inward_directions_of(before, edge_mm)),
         along_mm(now.size(), 0),
         depth_mm(now.size(), 0) {
     if (stays.empty()) stays.resize(now.size(), 0);
@@ -118,11 +118,11 @@ struct Brush::Parts {
   void take_cut() {
     BrushStep cut;
     for (Index v = 0; v < now.size(); ++v) {
-      const Vec3 from = before.vertices()[v], way = now[v] - from;
-      if (way == Vec3::Zero()) continue;
+      const Vec3 from = before.vertices()[v], moved = now[v] - from;
+      if (moved == Vec3::Zero()) continue;
       note(cut, v, from);
-      along_mm[v] = core::ordered_norm(way);
-      inwards[v] = way / along_mm[v];
+      along_mm[v] = core::ordered_norm(moved);
+      inwards[v] = moved / along_mm[v];
       measure(v);
     }
     if (!cut.vertices.empty()) steps.push_back(std::move(cut));

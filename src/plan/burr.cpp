@@ -102,7 +102,7 @@ void Burr::lower_into(const Ball& ball, const Need& need) {
     const Vec3 from_centre = surface_.at(v) - ball.centre;
     if (from_centre.norm() >= radius_ - tolerance_mm) continue;
     const CutSurface::Vertex& vertex = surface_.vertices()[v];
-    // To the far side along its way inwards, or as far as it may.
+    // To the far side along its inward direction, or as far as it may.
     const double along = from_centre.dot(vertex.inwards), length2 = vertex.inwards.squaredNorm();
     const double further =
         (std::sqrt(along * along + length2 * (radius_ * radius_ - from_centre.squaredNorm())) - along) /

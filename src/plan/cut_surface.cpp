@@ -8,7 +8,7 @@
 
 #include "mesh/edge_table.hpp"
 #include "mesh/winding_number.hpp"
-#include "plan/inward_ways.hpp"
+#include "plan/inward_directions.hpp"
 
 namespace condyle::plan {
 namespace {

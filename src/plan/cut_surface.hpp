@@ -59,9 +59,9 @@ class CutSurface {
   CutSurface(Body body, const std::vector<std::uint8_t>& near, std::vector<std::optional<KeptBy>> kept,
              std::optional<double> deepest_mm, double edge_mm);
 
-  /// The ways inwards: mean normals over about this length.
+  /// The inward directions: mean normals over about this length.
   void smooth_directions(double over_mm);
-  /// Goes on from another surface some of whose edges were split: the ways inwards are between those at their ends, so that no triangle is
+  /// Goes on from another surface some of whose edges were split: the inward directions are between those at their ends, so that no triangle is
   /// turned over as long as the whole one was not.
   void go_on_from(const CutSurface& whole, const std::vector<Between>& vertices);
   /// Where edges are to be split so that triangles can follow the bottom of a cut: near the bend of the depth along each, if a straight line

@@ -1,4 +1,4 @@
-#include "plan/inward_ways.hpp"
+#include "plan/inward_directions.hpp"
 
 #include "core/ordered_sums.hpp"
 #include "mesh/vertex_normals.hpp"
