@@ -33,8 +33,8 @@ from ._resection import Resection, resection
 from ._recorded_motion import JointMotion, RecordedContact, recorded_contact
 from ._surface_contact import NormalContact, normal_contact
 from ._sweep import Sweep, TargetLike, sweep
-from ._words import Anatomy, Axes, Ball, BearingRule, Bodies, Body, Cavities, Colour, CupDefinition, CutFrom, DepthMethod, FaceRule, GapMethod
-from ._words import ImplantCentre, JointKind, LabelTask, LengthUnit, Look, Path, Pieces, Progress, Side, TranslationFrame, count, number, path_of, progress_of
+from ._words import Anatomy, Axes, Ball, BearingRule, Bodies, Body, BodyStyle, Cavities, Colour, CupDefinition, CutFrom, DepthMethod, FaceRule, GapMethod
+from ._words import ImplantCentre, JointKind, LabelTask, LengthUnit, Path, Pieces, Progress, Side, TranslationFrame, count, number, path_of, progress_of
 from ._words import text_of, word
 
 
@@ -693,8 +693,8 @@ class Joint(DescribedJoint):
         return followed_range(self, motions, poses, contact, force_n, frame, free_directions, step_deg, bearing,
                               bearing_margin_mm, progress)
 
-    def picture(self, pose: OnePoseLike, *, view: str = "anterior", colour: Colour = "depth", fixed: Look = "solid",
-                mobile: Look = "solid", width: int = 1200, height: int = 900, range_mm: Optional[float] = None,
+    def picture(self, pose: OnePoseLike, *, view: str = "anterior", colour: Colour = "depth", fixed: BodyStyle = "solid",
+                mobile: BodyStyle = "solid", width: int = 1200, height: int = 900, range_mm: Optional[float] = None,
                 field_mm: Optional[float] = None, measures: bool = False, plain: bool = False) -> NDArray[np.uint8]:
         """Both bodies at one pose, drawn without a display: (height, width, 3) uint8, red, green, blue, from the top left.
 
@@ -727,7 +727,7 @@ class Joint(DescribedJoint):
         """
         return _native.picture(
             *self._asked_at(pose), text_of(view, "view"),
-            word(colour, "colour", Colour), word(fixed, "fixed", Look), word(mobile, "mobile", Look),
+            word(colour, "colour", Colour), word(fixed, "fixed", BodyStyle), word(mobile, "mobile", BodyStyle),
             count(width, "width"), count(height, "height"),
             None if range_mm is None else number(range_mm, "range_mm"),
             None if field_mm is None else number(field_mm, "field_mm"), bool(measures), bool(plain))
