@@ -11,7 +11,8 @@ export const require = createRequire(join(root, "viewer/package.json"));  // pac
 const { chromium } = require("playwright-core");
 export const axeSource = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 
-// Software draws here: the page is put together without WebGL, and scenes are not smoothed at their edges, which takes a third of the time.
+// Software draws here, and draws less: the page is put together without WebGL, and scenes are not smoothed at their edges. Pictures in
+// build/page/seen are rougher than what a user sees.
 const quiet = ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
   "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing",
   "--webgl-antialiasing-mode=none"];
@@ -70,6 +71,19 @@ export async function settled(page) {
     }
     await new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));
   });
+}
+
+/// Waits until the page has its panels: its script is unpacked after it is loaded.
+export async function panelsPlaced(page) {
+  await page.locator("#side > *").first().waitFor({ state: "attached" });
+}
+
+/// Drops files by their paths on the page, as a hand does.
+export async function drop(page, files) {
+  await panelsPlaced(page);
+  const client = await page.context().newCDPSession(page);
+  for (const type of ["dragEnter", "dragOver", "drop"])
+    await client.send("Input.dispatchDragEvent", { type, x: 300, y: 300, data: { items: [], files, dragOperationsMask: 1 } });
 }
 
 /// Turns the joint as typing into the fields does.

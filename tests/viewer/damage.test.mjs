@@ -4,7 +4,7 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { deflateSync, inflateSync } from "node:zlib";
-import { angleOf, keep, openPage, pathOf, reports, settled, sharedBrowser, tile } from "./browser.mjs";
+import { angleOf, drop, keep, openPage, pathOf, reports, settled, sharedBrowser, tile } from "./browser.mjs";
 import { changed, withText } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
@@ -148,9 +148,7 @@ test("a report whose core is damaged says so, once, and shows the poses that it 
 
 test("a file dropped on a report leaves the page, and is answered in a line", async () => {
   const { page } = await openPage(browser, pathOf("sample"));
-  const client = await page.context().newCDPSession(page);
-  for (const type of ["dragEnter", "dragOver", "drop"])
-    await client.send("Input.dispatchDragEvent", { type, x: 300, y: 300, data: { items: [], files: [join(reports, "targets.csv"), join(reports, "sample/femur.ply")], dragOperationsMask: 1 } });
+  await drop(page, [join(reports, "targets.csv"), join(reports, "sample/femur.ply")]);
   await page.getByRole("alert").waitFor();
   assert.match(await page.getByRole("alert").textContent(), /^This page shows a joint .*or another joint: a joint file \(\.toml\) with its meshes/);
   assert.ok(page.url().split("#")[0].endsWith("sample.html"));

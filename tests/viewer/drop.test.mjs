@@ -5,7 +5,7 @@ import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { deflateSync } from "node:zlib";
-import { angleOf, axeSource, keep, openPage, reports, root, settled, sharedBrowser } from "./browser.mjs";
+import { angleOf, axeSource, drop, keep, openPage, reports, root, settled, sharedBrowser } from "./browser.mjs";
 import { assertCommandLimits } from "./command_limits.mjs";
 import { makeLabelMaps } from "./label_maps.mjs";
 
@@ -149,12 +149,6 @@ const sampleFiles = ["hip_bone.ply", "femur.ply"].map((name) => join(reports, "s
 const answered = (page) => page.waitForFunction(() => Number(document.documentElement.dataset.answered) > 0);
 
 /// As a hand does it, file by file or all at once.
-async function drop(page, files) {
-  const client = await page.context().newCDPSession(page);
-  for (const type of ["dragEnter", "dragOver", "drop"])
-    await client.send("Input.dispatchDragEvent", { type, x: 300, y: 300, data: { items: [], files, dragOperationsMask: 1 } });
-}
-
 test("a side that is given counts, and one that the bones speak against is refused as init refuses its axes", async () => {
   const { page } = await openPage(browser, empty, { answers: false });
   const side = page.getByLabel("Side", { exact: true });

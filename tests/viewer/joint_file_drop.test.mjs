@@ -5,7 +5,7 @@ import { execFileSync } from "node:child_process";
 import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { angleOf, keep, openPage, openTab, reports, root, settled, sharedBrowser } from "./browser.mjs";
+import { angleOf, drop, keep, openPage, openTab, reports, root, settled, sharedBrowser } from "./browser.mjs";
 import { assertCommandLimits } from "./command_limits.mjs";
 
 const condyle = join(root, "build/release/condyle");
@@ -22,12 +22,6 @@ function written(name, text) {
 }
 
 /// As a hand does it; folders too.
-async function drop(page, files) {
-  const client = await page.context().newCDPSession(page);
-  for (const type of ["dragEnter", "dragOver", "drop"])
-    await client.send("Input.dispatchDragEvent", { type, x: 300, y: 300, data: { items: [], files, dragOperationsMask: 1 } });
-}
-
 const shows = (page, title) => page.waitForFunction((wanted) => new RegExp(wanted).test(document.getElementById("title").textContent) && globalThis.condyle, title);
 const alerts = (page) => page.getByRole("alert").allTextContents();
 const refused = (page, line) => page.waitForFunction((wanted) => [...document.querySelectorAll("[role=alert]")].some(({ textContent }) => textContent === wanted), line);

@@ -4,7 +4,7 @@ import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import { test } from "node:test";
-import { angleOf, has, keep, openPage, openTab, pathOf, reports, root, settled, sharedBrowser } from "./browser.mjs";
+import { angleOf, drop, has, keep, openPage, openTab, pathOf, reports, root, settled, sharedBrowser } from "./browser.mjs";
 import { readReport } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
@@ -16,15 +16,6 @@ const run = (...words) => execFileSync(condyle, words, { stdio: ["ignore", "igno
 function written(name, text) {
   writeFileSync(join(folder, name), text);
   return join(folder, name);
-}
-
-async function drop(page, paths) {
-  const transfer = await page.evaluateHandle((files) => {
-    const held = new DataTransfer();
-    for (const { name, bytes } of files) held.items.add(new File([Uint8Array.from(atob(bytes), (c) => c.charCodeAt(0))], name));
-    return held;
-  }, paths.map((path) => ({ name: basename(path), bytes: readFileSync(path).toString("base64") })));
-  await page.dispatchEvent("body", "drop", { dataTransfer: transfer });
 }
 
 async function opened(path) {

@@ -5,7 +5,7 @@ import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { keep, openPage, openTab, pathOf, reports, root, settled, sharedBrowser } from "./browser.mjs";
+import { keep, openPage, openTab, panelsPlaced, pathOf, reports, root, settled, sharedBrowser } from "./browser.mjs";
 import { readReport } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
@@ -238,6 +238,7 @@ test("without parts, and where nothing can be computed, no parts are offered", a
   assert.equal(await page.locator("summary", { hasText: title }).count(), 0);
   await page.context().close();
   const { page: still } = await openPage(browser, pathOf("tilted"), { script: "delete globalThis.WebAssembly", answers: false });
+  await panelsPlaced(still);
   assert.equal(await still.locator("summary", { hasText: title }).count(), 0);
   await still.context().close();
 });

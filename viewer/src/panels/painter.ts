@@ -83,10 +83,10 @@ export class Painter {
   }
 
   private showRing({ point, normal, body }: PickedPoint): void {
-    this.scene.brush(point, normal, this.hooks.radius_mm(), body);
+    this.scene.showRing({ point, normal, body, radius_mm: this.hooks.radius_mm() });
   }
 
   private hideRing(): void {
-    this.scene.brush([0, 0, 0], [0, 0, 1], null);
+    this.scene.showRing(null);
   }
 }

@@ -9,6 +9,14 @@ import type { Marks } from "./measure_marks";
 
 const brushColour = "#00b050";
 
+/// Where a brush is: a circle about a point of a surface, in the frame of its body.
+export interface Ring {
+  body: BodyName;
+  point: readonly [number, number, number];
+  normal: readonly [number, number, number];
+  radius_mm: number;
+}
+
 /// Objects drawn besides the surfaces of the bones: the contact point, a distance, marks of measures, removed bone, the ring of a brush.
 export class Annotations {
   private readonly contactPoint: Mesh;
@@ -64,15 +72,14 @@ export class Annotations {
     if (this.removed[body]) this.bodies[body].mesh.add(this.removed[body]);
   }
 
-  /// A ring about a point of a surface, in the frame of `body`. Null: no ring.
-  brush(point: readonly [number, number, number], normal: readonly [number, number, number], radius_mm: number | null, body: BodyName): void {
+  /// Null: no ring.
+  showRing(ring: Ring | null): void {
     this.ring.removeFromParent();
-    if (radius_mm !== null) {
-      this.bodies[body].mesh.add(this.ring);
-      this.ring.position.set(...point);
-      this.ring.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(...normal).normalize()));
-      this.ring.scale.setScalar(radius_mm);
-    }
+    if (!ring) return;
+    this.bodies[ring.body].mesh.add(this.ring);
+    this.ring.position.set(...ring.point);
+    this.ring.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(...ring.normal).normalize()));
+    this.ring.scale.setScalar(ring.radius_mm);
   }
 }
 

@@ -1,6 +1,6 @@
 import { AmbientLight, Box3, DirectionalLight, Matrix4, Plane, Scene, Vector3, WebGLRenderer } from "three";
 import type { Surface } from "../core/protocol";
-import { Annotations } from "./annotations";
+import { Annotations, type Ring } from "./annotations";
 import { SceneBody, type Ghost, type Marked, type Part } from "./body";
 import { bodyNames, otherThan, type BodyName } from "./body_names";
 import type { ColourScale } from "./colour_scale";
@@ -40,7 +40,6 @@ export class JointScene {
   private limit: { point: Vector3; label: string; glass: BodyName } | null = null;
   private scale: ColourScale | null = null;
   private pins: readonly Picked[] = [];
-  private pickedBody: BodyName = "mobile";
   private frameAsked = false;
   private givenRadius_mm: number | null = null;
   private foundRadius_mm: number | null = null;
@@ -269,16 +268,12 @@ export class JointScene {
 
   /// The point of a bone under a point of the page, in that body's frame; null if no bone is there.
   pickPoint(event: { clientX: number; clientY: number }): PickedPoint | null {
-    const picked = this.picker.pickPoint(event, this.camera.drawing());
-    if (picked) this.pickedBody = picked.body;
-    return picked;
+    return this.picker.pickPoint(event, this.camera.drawing());
   }
 
-  /// A ring about a point of a surface, in the frame of `body`: the last one of pickPoint(), if none is named. Null: no ring.
-  brush(
-    point: readonly [number, number, number], normal: readonly [number, number, number], radius_mm: number | null,
-    body: BodyName = this.pickedBody): void {
-    this.annotations.brush(point, normal, radius_mm, body);
+  /// The ring of a brush; null: none.
+  showRing(ring: Ring | null): void {
+    this.annotations.showRing(ring);
     this.draw();
   }
 
