@@ -197,13 +197,10 @@ void add_init(CLI::App& app) {
       "The side of the body. Default: by the labels' names or the model's, else inferred from the bones");
   command
       ->add_option_function<std::string>(
-          "--units",
-          [options](const std::string& units) {
-            options->units = units == "m" ? LengthUnit::metres : LengthUnit::millimetres;
-          },
+          "--units", [options](const std::string& units) { options->units = length_unit_named(units); },
           "The unit of both meshes. Default: inferred from their size")
-      ->check(CLI::IsMember({"mm", "m"}))
-      ->option_text("mm|m");
+      ->check(CLI::IsMember({"mm", "cm", "in", "m"}))
+      ->option_text("mm|cm|in|m");
   command
       ->add_option("-o,--out", options->out,
                    "Write the joint file here, and surfaces of a label map beside it")

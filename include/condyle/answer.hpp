@@ -265,6 +265,7 @@ enum class RangeNoteCode : std::uint8_t {
   narrow_bearing_margin,  ///< Head and rim are too close for bearing contact to be distinguished from impingement.
   limit_on_cut,           ///< A motion ends on a face that closes a bone where its image ends: no limit.
   limit_on_part_cut,  ///< A motion ends on a face in which a part was cut from its body.
+  limit_on_piece,     ///< Motions end on a piece of a body that holds neither head nor socket nor most of it.
   sliding_surfaces,   ///< Surfaces slide on each other by nature, and where they first touch a motion ends.
   translation_ends,   ///< The record or load of the translation ends before the motion's range.
   differs_from_closed_form,  ///< Meshes of an implant end a motion elsewhere than bodies of its sizes do.

@@ -14,6 +14,8 @@
 
 namespace condyle::motion {
 
+// Lengths of a head of usual_head_radius_mm; those of another head grow with its radius: by_head().
+
 /// Below the joint space of nearly every hip, 2 to 4 mm between bones, and above the roughness of a segmented head.
 inline constexpr double usual_bearing_margin_mm = 2;
 /// Kept between the bearing surface and the rim, so that nothing that can meet the rim is called bearing.

@@ -17,6 +17,16 @@ struct Sphere {
   double radius;
 };
 
+/// Lengths that belong to a hip or shoulder are stated for a head of this radius, mm, and grow with the head: no angle depends on the
+/// size of a child or an animal, nor on the unit of a file.
+inline constexpr double usual_head_radius_mm = 24;
+inline double by_head(double usual_mm, double head_radius) noexcept {
+  return usual_mm * (head_radius / usual_head_radius_mm);
+}
+inline double by_head(double usual_mm, const Sphere& head) noexcept {
+  return by_head(usual_mm, head.radius);
+}
+
 struct SphereFit {
   Sphere sphere;
   double rms_residual;          ///< of |vertex - centre| - radius, mm
@@ -33,13 +43,20 @@ SphereFit fit_sphere(PointsView points);
 /// mesh of inverted orientation, heads are sockets.
 enum class SphericalPart { head, socket };
 
+/// Radii between which a sphere is looked for by default, in parts of the root of the surface's area, so that a bone of any size has
+/// its head: 10 to 72 mm on a whole adult femur, whose head has 24. A ball has 0.282, a thin hemispherical cup of two sides as much, the
+/// socket of a whole pelvis with its sacrum 0.06.
+inline constexpr double smallest_radius_share = 1 / 24.4, largest_radius_share = 1 / 3.4;
+/// ... of an open sheet, such as a cartilage: a cap of an eighth of a sphere has 0.8.
+inline constexpr double largest_radius_share_of_sheet = 0.8;
+
 /// Where a spherical part is looked for. Lengths in mm.
 struct SphereSearch {
   SphericalPart part = SphericalPart::head;
-  double smallest_radius = 10;  ///< heads of children's femora and of adult humeri lie well inside
-  double largest_radius = 45;
-  std::optional<Sphere> within = {};  ///< only vertices inside this ball are considered
-  std::size_t resamples = 0;          ///< fits to resampled parts of the surface, for a bound on the centre
+  std::optional<double> smallest_radius = {};  ///< default: smallest_radius_share of the surface
+  std::optional<double> largest_radius = {};   ///< default: largest_radius_share of the surface
+  std::optional<Sphere> within = {};           ///< only vertices inside this ball are considered
+  std::size_t resamples = 0;  ///< fits to resampled parts of the surface, for a bound on the centre
 };
 
 /// A spherical part of a surface.
@@ -52,10 +69,10 @@ struct SphericalPatch {
 
 /// The spherical part of a surface: the head that covers most of its sphere, or the socket with most supporting area, by
 /// how well its normals point to the centre. Found without a hint, fitted only to the vertices of that part.
-/// Deterministic. Throws MeshError if no part of the surface is spherical: at
-/// least a tenth of a sphere, spread in all directions (no strip, as where a sphere touches a cylinder from
+/// Deterministic. Only surface that faces the outside is considered: no piece of it inside another. Throws MeshError if no part of the
+/// surface is spherical: at least a tenth of a sphere, spread in all directions (no strip, as where a sphere touches a cylinder from
 /// inside), 12 vertices or more.
-SphericalPatch find_sphere(const TriMesh& mesh, const SphereSearch& search = {});
+SphericalPatch find_sphere(const Mesh& mesh, const SphereSearch& search = {});
 
 struct Cylinder {
   Vec3 point;      ///< on the axis, nearest the centroid of the vertices used
@@ -93,8 +110,8 @@ struct CylinderSearch {
 /// times the length in radii, so that a long and full one wins): found without a hint, fitted only to the
 /// vertices of that part. On a whole long bone that is its shaft: limit the search to the condyles to get
 /// those, and inside a ball the part with most area is taken and may be as imperfect as a talar dome, whose residuals
-/// are a twentieth of its radius. Deterministic. Throws MeshError if no part of the surface is cylindrical, or where
-/// its parts do not agree on a direction within largest_direction_bound.
-CylinderFit find_cylinder(const TriMesh& mesh, const CylinderSearch& search = {});
+/// are a twentieth of its radius. Deterministic. Only surface that faces the outside is considered. Throws MeshError if no part of the
+/// surface is cylindrical, or where its parts do not agree on a direction within largest_direction_bound.
+CylinderFit find_cylinder(const Mesh& mesh, const CylinderSearch& search = {});
 
 }  // namespace condyle

@@ -42,6 +42,12 @@ struct TriangleCrossing {
   friend bool operator==(const TriangleCrossing&, const TriangleCrossing&) = default;
 };
 
+struct BoundingBox {
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();
+
+  double diagonal() const { return (high - low).norm(); }
+};
+
 /// Triangles that hang together over edges, two triangles' or more. Solids that touch in a vertex are two
 /// components.
 struct MeshComponent {
@@ -53,12 +59,9 @@ struct MeshComponent {
   std::optional<int> genus;
   /// Where closed; negative when inverted, as the boundary of a cavity is.
   std::optional<double> signed_volume;
-};
-
-struct BoundingBox {
-  Vec3 low, high;
-
-  double diagonal() const { return (high - low).norm(); }
+  BoundingBox bounds{};
+  /// The component that most of it lies inside, whichever way the two are wound; number in `components`.
+  std::optional<Index> inside = {};
 };
 
 struct EdgeLengths {
@@ -105,7 +108,7 @@ struct MeshReport {
 
   std::vector<MeshComponent> components;  ///< By first triangle.
 
-  BoundingBox bounds{Vec3::Zero(), Vec3::Zero()};
+  BoundingBox bounds{};
   double area = 0;
   std::optional<double> signed_volume;  ///< Where closed.
   EdgeLengths edge_lengths{0, 0, 0};
@@ -119,9 +122,6 @@ struct MeshReport {
 
 /// Looks at everything once, in n log n unless it crosses itself all over.
 MeshReport inspect(const Mesh& mesh);
-
-/// The report's guess of the unit, without the rest of it. Linear.
-LikelyUnit likely_unit(const TriMesh& mesh);
 
 /// The report's guess of the unit, without the rest of it. Linear.
 LikelyUnit likely_unit(const TriMesh& mesh);
@@ -150,6 +150,15 @@ std::size_t drop_unreferenced_vertices(TriMesh& mesh);
 /// MeshError if the orientation cannot be determined (not closed) or if only some components are inverted: these may
 /// be the boundaries of cavities, which are oriented like that.
 std::size_t flip_inverted(TriMesh& mesh);
+
+// A mesh may hold more than one bone means: specks, another bone, another leg, walls within. These leave all but one piece out, and the
+// vertices of the others; a mesh of one piece stays as it is. The cavities of the piece that stays, wound as such, stay with it.
+
+/// Of the pieces that lie in no other the one of most volume; of most area if the mesh is open. n log n.
+TriMesh largest_piece(const Mesh& mesh);
+
+/// The piece whose surface is nearest a point, such as a joint centre: of two legs the one at this hip. n log n.
+TriMesh piece_at(const Mesh& mesh, const Vec3& point);
 
 /// The three as values, for lists of them.
 enum class Repair { weld, drop_unreferenced, flip_inverted };

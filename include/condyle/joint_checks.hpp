@@ -13,10 +13,13 @@
 namespace condyle {
 
 enum class JointNoteCode : std::uint8_t {
-  unlikely_size,      ///< No bone is so large or small.
+  unlikely_size,      ///< No bone is so large or small, or its head is not.
+  units_disagree,     ///< Head and socket have sizes of different units.
   open_mesh,          ///< It has no inside.
   inverted_mesh,      ///< Its volume is negative.
   self_crossings,     ///< Over more than a sliver of its surface.
+  nested_surfaces,    ///< A piece lies inside another: a wall, a nucleus or a wide cavity.
+  separate_pieces,    ///< A body is more than one piece.
   cut_by_view,        ///< It ends where its image ends: what is missing may end a motion earlier.
   same_mesh,          ///< Both bodies are one mesh.
   swapped_bodies,     ///< The head is on the fixed body.

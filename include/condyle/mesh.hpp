@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "condyle/pose.hpp"
@@ -10,11 +12,23 @@
 namespace condyle {
 
 /// The unit in which a file gives lengths. Inside the library everything is millimetres.
-enum class LengthUnit { millimetres, metres };
+enum class LengthUnit : std::uint8_t { millimetres, centimetres, inches, metres };
+inline constexpr LengthUnit all_length_units[] = {LengthUnit::millimetres, LengthUnit::centimetres,
+                                                  LengthUnit::inches, LengthUnit::metres};
 
 constexpr double mm_per(LengthUnit unit) noexcept {
-  return unit == LengthUnit::metres ? 1000 : 1;
+  return unit == LengthUnit::metres        ? 1000
+         : unit == LengthUnit::inches      ? 25.4
+         : unit == LengthUnit::centimetres ? 10
+                                           : 1;
 }
+
+/// As in files: "cm".
+std::string_view name_of(LengthUnit unit) noexcept;
+/// In a sentence: "centimetres".
+std::string_view plural_of(LengthUnit unit) noexcept;
+/// Throws UsageError that lists the valid words.
+LengthUnit length_unit_named(std::string_view word);
 
 class Mesh;
 namespace mesh {

@@ -34,8 +34,9 @@ std::optional<Sphere> ball(const py::object& centre, double radius_mm) {
   return Sphere{vector_in(centre, "within"), radius_mm};
 }
 
-py::dict find_in(const Mesh& mesh, bool is_head, double smallest_radius, double largest_radius,
-                 const py::object& within_centre, double within_radius, std::size_t resamples) {
+py::dict find_in(const Mesh& mesh, bool is_head, std::optional<double> smallest_radius,
+                 std::optional<double> largest_radius, const py::object& within_centre, double within_radius,
+                 std::size_t resamples) {
   const SphereSearch search{.part = is_head ? SphericalPart::head : SphericalPart::socket,
                             .smallest_radius = smallest_radius,
                             .largest_radius = largest_radius,

@@ -39,6 +39,8 @@ py::list components(const MeshReport& report) {
     dict["is_closed"] = part.closed;
     dict["genus"] = part.genus;
     dict["signed_volume"] = part.signed_volume;
+    dict["bounds"] = py::make_tuple(array_of(part.bounds.low), array_of(part.bounds.high));
+    dict["inside"] = part.inside;
     list.append(dict);
   }
   return list;
@@ -46,7 +48,7 @@ py::list components(const MeshReport& report) {
 
 py::object unit_of(const LikelyUnit& likely) {
   if (!likely.unit) return py::none();
-  return py::str(*likely.unit == LengthUnit::millimetres ? "mm" : "m");
+  return py::str(std::string(name_of(*likely.unit)));
 }
 
 py::dict inspected(const Mesh& mesh) {

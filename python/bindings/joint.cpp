@@ -135,7 +135,7 @@ py::tuple proposed(const std::filesystem::path& fixed, const std::filesystem::pa
   io::ProposalRequest request{.fixed = fixed, .mobile = mobile, .joint_file = joint_file};
   if (joint) request.anatomy = anatomy_named(*joint);
   if (side) request.side = *side == name_of(Side::right) ? Side::right : Side::left;
-  if (units) request.units = *units == "mm" ? LengthUnit::millimetres : LengthUnit::metres;
+  if (units) request.units = length_unit_named(*units);
   const io::JointProposal proposal = [&] {
     const py::gil_scoped_release released;
     return io::propose_joint(request);

@@ -66,7 +66,7 @@ JointDescription description_in(const py::dict& given) {
   for (const Anatomy anatomy : all_anatomies)
     if (word(given, "anatomy") == name_of(anatomy)) joint.anatomy = anatomy;
   joint.side = word(given, "side") == name_of(Side::right) ? Side::right : Side::left;
-  joint.units = word(given, "units") == "mm" ? LengthUnit::millimetres : LengthUnit::metres;
+  joint.units = length_unit_named(word(given, "units"));
   if (word(given, "translation_frame") == name_of(TranslationFrame::joint_axes))
     joint.translation_frame = TranslationFrame::joint_axes;
 

@@ -78,6 +78,17 @@ py::tuple repaired(const Mesh& mesh, const std::vector<std::string>& names) {
   return py::make_tuple(std::move(result), done);
 }
 
+Mesh largest_of(const Mesh& mesh) {
+  const py::gil_scoped_release released;
+  return Mesh(largest_piece(mesh));
+}
+
+Mesh piece_nearest(const Mesh& mesh, const py::object& point) {
+  const Vec3 p = vector_in(point, "point");
+  const py::gil_scoped_release released;
+  return Mesh(piece_at(mesh, p));
+}
+
 }  // namespace
 
 void bind_mesh(py::module_& module) {
@@ -90,6 +101,8 @@ void bind_mesh(py::module_& module) {
       .def_property_readonly("is_closed", &Mesh::is_closed);
   module.def("merged", &merged);
   module.def("repaired", &repaired);
+  module.def("largest_piece", &largest_of);
+  module.def("piece_at", &piece_nearest);
   module.def("read_mesh", &read_arrays);
   module.def("write_mesh", [](const std::filesystem::path& path, const Mesh& mesh) {
     const py::gil_scoped_release released;

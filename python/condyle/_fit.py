@@ -58,18 +58,20 @@ def fit_sphere(points: ArrayLike) -> SphereFit:
     return SphereFit(**_native.fit_sphere(points))
 
 
-def find_sphere(mesh: MeshLike, *, part: SpherePart = "head", smallest_radius_mm: float = 10,
-                largest_radius_mm: float = 45, within: Optional[Ball] = None, resamples: int = 0) -> SphereFit:
+def find_sphere(mesh: MeshLike, *, part: SpherePart = "head", smallest_radius_mm: Optional[float] = None,
+                largest_radius_mm: Optional[float] = None, within: Optional[Ball] = None, resamples: int = 0) -> SphereFit:
     """The spherical part of a surface that covers most of its sphere: found without a hint, fitted only to that part.
 
-    `part` is "head" (solid inside) or "socket" (outside). `within` is (centre, radius_mm): only vertices in that ball
+    `part` is "head" (solid inside) or "socket" (outside). Radii are looked for by the size of the surface unless they are given:
+    from 0.041 to 0.29 of the root of its area, on a whole adult femur 10 to 72 mm. A piece of the surface inside another is left out.
+    `within` is (centre, radius_mm): only vertices in that ball
     are considered. MeshError where no part of the surface is spherical.
 
     C++: `condyle::find_sphere` in condyle/fit.hpp.
     """
     mesh = TriMesh.of(mesh)
-    smallest = number(smallest_radius_mm, "smallest_radius_mm", low=0)
-    largest = number(largest_radius_mm, "largest_radius_mm", low=smallest)
+    smallest = None if smallest_radius_mm is None else number(smallest_radius_mm, "smallest_radius_mm", low=0)
+    largest = None if largest_radius_mm is None else number(largest_radius_mm, "largest_radius_mm", low=smallest or 0)
     centre, radius = (None, 0.0) if within is None else ball(within, "within")
     found = _native.find_sphere(mesh._native, word(part, "part", SpherePart) == "head", smallest, largest,
                                 centre, radius, count(resamples, "resamples", high=100_000))

@@ -39,13 +39,15 @@ class Findings(ByName[Finding]):
 
 @dataclass(frozen=True)
 class MeshComponent:
-    """Triangles that hang together over edges."""
+    """Triangles that hang together over edges. `bounds` is (low, high), each (3,); `inside` the component that most of it lies in."""
 
     first_triangle: int
     triangles: int
     is_closed: bool
     genus: Optional[int]
     signed_volume: Optional[float]
+    bounds: tuple[NDArray[np.float64], NDArray[np.float64]]
+    inside: Optional[int]
 
 
 @dataclass(frozen=True)

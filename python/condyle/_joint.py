@@ -52,7 +52,7 @@ class Joint(DescribedJoint):
     kind : "ball", "hinge" or "free"
     joint : "hip", "knee", "ankle", "elbow" or "shoulder"
     side : "right" or "left"
-    units : "mm" or "m"
+    units : "mm", "cm", "in" or "m"
         Unit of the meshes and of every length given here.
     centre : (3,) numbers, "fit", or None
         "fit": of the head of the mobile body, or with `fit_body="fixed"` of the socket. None: the origin, or what the

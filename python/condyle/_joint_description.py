@@ -21,7 +21,7 @@ def description_of(*, name: Any, kind: Any, joint: Any, side: Any, units: Any, t
                    reference_pose: Any, fixed_in_W: Any, mobile_in_W: Any) -> dict[str, Any]:
     """For the compiled part, in mm and degrees."""
     anatomy = word(joint, "joint", Anatomy)
-    to_mm = 1000.0 if word(units, "units", LengthUnit) == "m" else 1.0
+    to_mm = {"mm": 1.0, "cm": 10.0, "in": 25.4, "m": 1000.0}[word(units, "units", LengthUnit)]
     is_fit = isinstance(centre, str)
     if is_fit:
         word(centre, "centre", ("fit", "three numbers"))

@@ -159,6 +159,18 @@ class TriMesh:
         mesh, done = _native.repaired(self._native, list(repairs))
         return TriMesh._of_native(mesh, done)
 
+    def piece(self, at: Optional[ArrayLike] = None) -> TriMesh:
+        """One connected piece with the cavities in it, a mesh of its own: specks, another bone and walls within are left out.
+
+        The piece is the one whose surface is nearest the point `at`, (3,) in the mesh's unit, such as the joint centre; without a point the
+        largest by volume, of an open mesh by area.
+
+        C++: `condyle::piece_at` and `condyle::largest_piece` in condyle/inspect.hpp.
+        """
+        kept = _native.largest_piece(self._native) if at is None else _native.piece_at(self._native, at)
+        less = self._native.triangle_count - kept.triangle_count
+        return TriMesh._of_native(kept, [f"{less} of {self._native.triangle_count} triangles left out: other pieces"] if less else [])
+
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, TriMesh):
             return NotImplemented

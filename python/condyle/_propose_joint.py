@@ -26,7 +26,7 @@ def propose_joint(fixed: Path, mobile: Path, joint_file: Path, *, joint: Optiona
     """Proposes a joint file for two mesh files: kind, centre, axes, side and units. Nothing is written.
 
     `joint_file` is where it is to lie, for meshes are named from its folder; `joint` is a hip if not given, and "knee",
-    "ankle", "elbow" and "shoulder" have `fixed` nearer to the trunk; `side` "right" or "left" and `units` "mm" or "m" are
+    "ankle", "elbow" and "shoulder" have `fixed` nearer to the trunk; `side` "right" or "left" and `units` "mm", "cm", "in" or "m" are
     inferred from the bones if not given. FileError where a mesh cannot be read.
 
     C++: `condyle::propose_joint` in condyle/io/joint_file.hpp; `condyle init`.

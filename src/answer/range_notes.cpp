@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include "condyle/answer.hpp"
 #include "core/formatted.hpp"
+#include "kinematics/body_pieces.hpp"
 
 namespace condyle {
 namespace {
@@ -40,7 +42,8 @@ void note_centres(const Joint& joint, std::span<const motion::Motion> motions,
   const Vec3 head = pose_at(joint.coordinates(), range.overlap.reference_pose) * surface.head.centre;
   const Vec3& socket = surface.socket->centre;
   const double apart = (socket - head).norm();
-  if (apart <= centres_apart_mm) return;
+  // A larger head than usual turns as far about a centre that is as far off.
+  if (apart <= std::min(centres_apart_mm, by_head(centres_apart_mm, surface.head))) return;
   const std::vector<Change> changes = changes_between(joint, motions, range, head, socket);
   const Change &most = changes.back(), &middle = changes[changes.size() / 2];
   std::string text = formatted("head and socket have their centres %.1f mm apart: ", apart);
@@ -108,6 +111,36 @@ void note_part_cuts(const Joint& joint, std::span<const motion::MotionLimit> lim
   }
 }
 
+/// A vertex of a feature.
+Index vertex_of(const Body& body, const motion::Feature& feature) {
+  return feature.kind == motion::FeatureKind::face ? body.mesh.triangles()[feature.id][0] : feature.id;
+}
+
+/// Motions that end on a speck, another bone or another leg.
+void note_pieces(const Joint& joint, std::span<const motion::MotionLimit> limits,
+                 const motion::BearingFinding& bearing, std::vector<RangeNote>& notes) {
+  const kinematics::OwnVertices own =
+      kinematics::own_vertices(joint, bearing.surface ? std::optional(bearing.surface->head) : std::nullopt);
+  for (const Body* body : {&joint.fixed, &joint.mobile}) {
+    const bool is_fixed = body == &joint.fixed;
+    std::map<std::size_t, std::string> motions;
+    for (const motion::MotionLimit& limit : limits) {
+      const std::optional<motion::ContactWitness>& contact = limit.end.contact;
+      if (!contact) continue;
+      const Index v = vertex_of(*body, is_fixed ? contact->fixed_feature : contact->mobile_feature);
+      const auto piece = kinematics::stray_piece(*body, v, is_fixed ? own.fixed : own.mobile);
+      if (!piece) continue;
+      std::string& names = motions[*piece];
+      names += (names.empty() ? "" : ", ") + limit.motion.name;
+    }
+    for (const auto& [piece, names] : motions)
+      notes.push_back({RangeNoteCode::limit_on_piece,
+                       names + (names.find(',') == names.npos ? " ends" : " end") + " on a piece of " +
+                           body->name + " that holds neither its " + (is_fixed ? "socket" : "head") +
+                           " nor most of it: " + kinematics::piece_text(body->mesh, piece)});
+  }
+}
+
 std::string_view with_article(const Joint& joint) noexcept {
   if (!joint.names_its_joint()) return "a hinge";
   switch (joint.anatomy) {
@@ -167,6 +200,8 @@ std::string_view name_of(RangeNoteCode code) noexcept {
       return "limit_on_cut";
     case RangeNoteCode::limit_on_part_cut:
       return "limit_on_part_cut";
+    case RangeNoteCode::limit_on_piece:
+      return "limit_on_piece";
     case RangeNoteCode::sliding_surfaces:
       return "sliding_surfaces";
     case RangeNoteCode::translation_ends:
@@ -189,6 +224,7 @@ std::vector<RangeNote> range_notes(const Joint& joint, std::span<const motion::M
   if (range.bearing.rule == motion::BearingRule::leave_out && bearing.narrow_margin)
     note_narrow_margin(joint, *bearing.narrow_margin, notes);
   note_sliding(joint, limits, bearing, notes);
+  note_pieces(joint, limits, bearing, notes);
   return notes;
 }
 

@@ -9,6 +9,7 @@
 #include "condyle/fit.hpp"
 #include "kinematics/resampling.hpp"
 #include "kinematics/surface_points.hpp"
+#include "mesh/surface_pieces.hpp"
 
 namespace condyle {
 namespace {
@@ -211,7 +212,7 @@ std::optional<Part> grown(const TriMesh& mesh, const std::vector<kinematics::Sur
 /// Bounds from patches: so many sectors about the axis, and so many slices along it.
 constexpr int sectors = 9, slices = 3;
 
-void add_bounds(const TriMesh& mesh, CylinderFit& fit) {
+void bound_axis(const TriMesh& mesh, CylinderFit& fit) {
   const Cylinder c = fit.cylinder;
   double low = 0, high = 0;
   for (const Index v : fit.vertices) {
@@ -288,7 +289,11 @@ std::optional<Part> best_part(const TriMesh& mesh, const std::vector<kinematics:
 
 }  // namespace
 
-CylinderFit find_cylinder(const TriMesh& mesh, const CylinderSearch& search) {
+CylinderFit find_cylinder(const Mesh& mesh, const CylinderSearch& search) {
+  return kinematics::find_cylinder_on(mesh::outer_surface(mesh), search);
+}
+
+CylinderFit kinematics::find_cylinder_on(const TriMesh& mesh, const CylinderSearch& search) {
   const auto points = kinematics::surface_points(mesh, search.within);
   auto best = best_part(mesh, points, search);
   if (!best) {
@@ -298,7 +303,7 @@ CylinderFit find_cylinder(const TriMesh& mesh, const CylinderSearch& search) {
             << search.largest_radius << " mm among " << points.size() << " vertices";
     throw MeshError(message.str());
   }
-  add_bounds(mesh, best->fit);
+  bound_axis(mesh, best->fit);
   if (const Angle bound = *best->fit.direction_bound; bound > largest_direction_bound) {
     std::ostringstream message;
     message.exceptions(std::ios::badbit);  // no memory is an error, not half a message

@@ -15,6 +15,8 @@
 #include "condyle/fit.hpp"
 #include "kinematics/resampling.hpp"
 #include "kinematics/surface_points.hpp"
+#include "mesh/edge_balance.hpp"
+#include "mesh/surface_pieces.hpp"
 
 namespace condyle {
 namespace {
@@ -157,11 +159,26 @@ bool fuller(const BallCandidate& a, const BallCandidate& b) {
   return key(a) < key(b);
 }
 
+/// The radii that a sphere may have.
+struct Radii {
+  double smallest, largest;
+};
+
+/// By the root of the surface's area unless they are given.
+Radii radii_of(const TriMesh& surface, const SphereSearch& search) {
+  if (search.smallest_radius && search.largest_radius)
+    return {*search.smallest_radius, *search.largest_radius};
+  const double size = kinematics::root_of_area(surface);
+  const bool is_open = mesh::first_unbalanced_edge(surface).has_value();
+  const double largest = is_open ? largest_radius_share_of_sheet : largest_radius_share;
+  return {search.smallest_radius.value_or(smallest_radius_share * size),
+          search.largest_radius.value_or(largest * size)};
+}
+
 std::vector<BallCandidate> candidates(const std::vector<kinematics::SurfacePoint>& points, double inwards,
-                                      const SphereSearch& search) {
+                                      const Radii& radii) {
   std::vector<BallCandidate> found;
-  for (double radius = search.smallest_radius; radius <= search.largest_radius * radius_ratio;
-       radius *= radius_ratio) {
+  for (double radius = radii.smallest; radius <= radii.largest * radius_ratio; radius *= radius_ratio) {
     auto here = votes(points, inwards, radius);
     const auto kept = static_cast<std::ptrdiff_t>(std::min(here.size(), kept_per_radius));
     std::partial_sort(here.begin(), here.begin() + kept, here.end(), fuller);
@@ -294,7 +311,7 @@ struct SearchedPoints {
 /// edge of the band may come and go for ever, as on surfaces of voxels: then the last vertices are taken if the sphere stays
 /// where it is. Empty where it comes to a part that is known.
 std::optional<BallPart> grown(const SearchedPoints& searched, Sphere sphere, double inwards,
-                              const SphereSearch& search, const std::vector<BallPart>& known) {
+                              const Radii& radii, const std::vector<BallPart>& known) {
   const auto& [mesh, points, neighbours, places] = searched;
   constexpr int most_rounds = 60;
   double band = first_band * sphere.radius;
@@ -322,7 +339,7 @@ std::optional<BallPart> grown(const SearchedPoints& searched, Sphere sphere, dou
     }
     const Sphere before = std::exchange(sphere, rough ? *rough : fit->sphere);
     moved = (sphere.centre - before.centre).norm() + std::abs(sphere.radius - before.radius);
-    if (sphere.radius < search.smallest_radius || sphere.radius > search.largest_radius) return std::nullopt;
+    if (sphere.radius < radii.smallest || sphere.radius > radii.largest) return std::nullopt;
     const auto is_there = [&](const BallPart& other) {
       return near(sphere, other.patch.fit.sphere, arrived);
     };
@@ -457,7 +474,12 @@ std::optional<SphericalPatch> kinematics::patch_on(const TriMesh& mesh, const Sp
   return measured(points, part, std::move(fit)).patch;
 }
 
-SphericalPatch find_sphere(const TriMesh& mesh, const SphereSearch& search) {
+SphericalPatch find_sphere(const Mesh& mesh, const SphereSearch& search) {
+  return kinematics::find_sphere_on(mesh::outer_surface(mesh), search);
+}
+
+SphericalPatch kinematics::find_sphere_on(const TriMesh& mesh, const SphereSearch& search) {
+  const Radii radii = radii_of(mesh, search);
   const bool is_head = search.part == SphericalPart::head;
   auto points = kinematics::surface_points(mesh, search.within);
   if (!is_head) kinematics::average_normals(points, normals_cell);
@@ -465,7 +487,7 @@ SphericalPatch find_sphere(const TriMesh& mesh, const SphereSearch& search) {
   if (points.size() >= fewest_ball_vertices) {
     const SearchedPoints searched(mesh, points);
     const double inwards = is_head ? 1.0 : -1.0;
-    const auto all = candidates(points, inwards, search);
+    const auto all = candidates(points, inwards, radii);
     const std::vector<BallPart> none;
     for (const BallCandidate& candidate : all) {
       if (candidate.votes < smallest_vote_share * all.front().votes) break;
@@ -474,7 +496,7 @@ SphericalPatch find_sphere(const TriMesh& mesh, const SphereSearch& search) {
       };
       if (std::any_of(parts.begin(), parts.end(), known)) continue;
       // Sockets lie close to each other, the fossa beside the rest: none of them stands for another.
-      auto part = grown(searched, candidate.sphere, inwards, search, is_head ? parts : none);
+      auto part = grown(searched, candidate.sphere, inwards, radii, is_head ? parts : none);
       // Most candidates of a socket grow into the same part.
       const auto same = [&](const BallPart& other) {
         return other.patch.fit.vertices == part->patch.fit.vertices;
@@ -489,9 +511,8 @@ SphericalPatch find_sphere(const TriMesh& mesh, const SphereSearch& search) {
   if (parts.empty()) {
     std::ostringstream message;
     message.exceptions(std::ios::badbit);  // no memory is an error, not half a message
-    message << "no spherical " << (is_head ? "head" : "socket") << " with a radius from "
-            << search.smallest_radius << " to " << search.largest_radius << " mm among " << points.size()
-            << " vertices";
+    message << "no spherical " << (is_head ? "head" : "socket") << " with a radius from " << radii.smallest
+            << " to " << radii.largest << " mm among " << points.size() << " vertices";
     if (is_head) message << " (a mesh of inverted orientation has sockets for heads)";
     throw MeshError(message.str());
   }

@@ -4,6 +4,7 @@
 
 #include "condyle/error.hpp"
 #include "kinematics/socket_rim.hpp"
+#include "kinematics/surface_points.hpp"
 
 namespace condyle::kinematics {
 namespace {
@@ -62,15 +63,17 @@ Vec3 area_centroid(const TriMesh& mesh) {
 bool fits_into(const Sphere& head, const SphericalPatch& socket) {
   // Cartilages that touch or are pressed by some tenths of a millimetre fit too.
   constexpr double pressed_mm = 0.5;
-  return head.radius <= socket.fit.sphere.radius + std::max(socket.fit.rms_residual, pressed_mm);
+  return head.radius <=
+         socket.fit.sphere.radius + std::max(socket.fit.rms_residual, by_head(pressed_mm, head));
 }
 
-std::optional<SphericalPatch> sphere_around(const TriMesh& fixed, const Sphere& head) {
+std::optional<SphericalPatch> sphere_around(const TriMesh& fixed, const Sphere& head, std::size_t resamples) {
   try {
-    return find_sphere(fixed, {.part = SphericalPart::socket,
-                               .smallest_radius = 0.9 * head.radius,
-                               .largest_radius = largest_socket * head.radius,
-                               .within = Sphere{head.centre, socket_reach * head.radius}});
+    return find_sphere_on(fixed, {.part = SphericalPart::socket,
+                                  .smallest_radius = 0.9 * head.radius,
+                                  .largest_radius = largest_socket * head.radius,
+                                  .within = Sphere{head.centre, socket_reach * head.radius},
+                                  .resamples = resamples});
   } catch (const MeshError&) {
     return std::nullopt;
   }
@@ -87,7 +90,7 @@ std::optional<HipAnatomy> hip_anatomy(const TriMesh& hip_bone, const TriMesh& fe
   HipAnatomy anatomy{};
   try {
     // Near the hip bone there are no condyles.
-    anatomy.head = find_sphere(femur, {.within = ball_around(hip_bone)});
+    anatomy.head = find_sphere_on(femur, {.within = ball_around(hip_bone)});
   } catch (const MeshError&) {
     return std::nullopt;
   }

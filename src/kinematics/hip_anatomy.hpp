@@ -22,7 +22,8 @@ struct HipAnatomy {
 Vec3 area_centroid(const TriMesh& mesh);
 
 /// The sphere with most supporting area on the fixed body near a head; empty if there is none.
-std::optional<SphericalPatch> sphere_around(const TriMesh& fixed, const Sphere& head);
+std::optional<SphericalPatch> sphere_around(const TriMesh& fixed, const Sphere& head,
+                                            std::size_t resamples = 0);
 
 /// Whether a head has room in a socket, but for the roughness of its surface and half a millimetre that cartilages give way.
 bool fits_into(const Sphere& head, const SphericalPatch& socket);

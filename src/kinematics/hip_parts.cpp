@@ -9,13 +9,14 @@
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/surface_points.hpp"
 #include "mesh/findings.hpp"
+#include "mesh/surface_pieces.hpp"
 
 namespace condyle::kinematics {
 namespace {
 
-/// A head whose centre is near the joint centre lies within two of the largest radii that find_sphere() looks for; fewer
-/// vertices to search cost less.
-constexpr double largest_head_reach = 90;
+/// A head whose centre is near the joint centre lies within this part of the root of its surface's area, 90 mm on a whole femur and 1.3
+/// radii if all of it is a ball; fewer vertices to search cost less.
+constexpr double reach_of_head = 0.37;
 
 /// The head of a joint, and that of its checks where the two differ, at this pose and the one before.
 constexpr std::size_t heads_kept = 4;
@@ -37,7 +38,7 @@ const KeptParts& kept_with(const Mesh& mesh) {
   return mesh::findings_of(mesh).get<KeptParts>();
 }
 
-std::optional<SphericalPatch> found_sphere(const TriMesh& mesh, const SphereSearch& search) {
+std::optional<SphericalPatch> found_sphere(const Mesh& mesh, const SphereSearch& search) {
   try {
     return find_sphere(mesh, search);
   } catch (const MeshError&) {
@@ -49,7 +50,8 @@ std::optional<SphericalPatch> found_sphere(const TriMesh& mesh, const SphereSear
 
 const std::optional<SphericalPatch>& head_near_centre(const Mesh& mobile) {
   return kept_with(mobile).head_near_centre.get([&](std::optional<SphericalPatch>& head) {
-    head = found_sphere(mobile, {.within = Sphere{Vec3::Zero(), largest_head_reach}});
+    const double reach = reach_of_head * root_of_area(mesh::outer_surface(mobile));
+    head = found_sphere(mobile, {.within = Sphere{Vec3::Zero(), reach}});
   });
 }
 
@@ -66,8 +68,9 @@ void keep_head(const Mesh& mobile, const std::vector<Index>& vertices) {
 }
 
 void keep_head(const Mesh& mobile, const Sphere& head) {
-  kept_with(mobile).head_near_centre.get(
-      [&](std::optional<SphericalPatch>& known) { known = patch_on(mobile, head, SphericalPart::head); });
+  kept_with(mobile).head_near_centre.get([&](std::optional<SphericalPatch>& known) {
+    known = patch_on(mesh::outer_surface(mobile), head, SphericalPart::head);
+  });
 }
 
 const std::optional<SphericalPatch>& fitted_head(const Mesh& mobile) {
@@ -75,19 +78,22 @@ const std::optional<SphericalPatch>& fitted_head(const Mesh& mobile) {
 }
 
 std::shared_ptr<const std::optional<SphericalPatch>> socket_around(const Mesh& fixed, const Sphere& head) {
-  return kept_with(fixed).sockets.get(
-      key_of(head), [&](std::optional<SphericalPatch>& socket) { socket = sphere_around(fixed, head); });
+  return kept_with(fixed).sockets.get(key_of(head), [&](std::optional<SphericalPatch>& socket) {
+    socket = sphere_around(mesh::outer_surface(fixed), head);
+  });
 }
 
 std::shared_ptr<const std::optional<SocketRim>> rim_around(const Mesh& fixed, const Sphere& head) {
-  return kept_with(fixed).rims.get(key_of(head),
-                                   [&](std::optional<SocketRim>& rim) { rim = socket_rim(fixed, head); });
+  return kept_with(fixed).rims.get(key_of(head), [&](std::optional<SocketRim>& rim) {
+    rim = socket_rim(mesh::outer_surface(fixed), head);
+  });
 }
 
 std::shared_ptr<const std::optional<ShallowSocket>> shallow_socket_around(const Mesh& fixed,
                                                                           const Sphere& head) {
-  return kept_with(fixed).shallow_sockets.get(
-      key_of(head), [&](std::optional<ShallowSocket>& socket) { socket = find_shallow_socket(fixed, head); });
+  return kept_with(fixed).shallow_sockets.get(key_of(head), [&](std::optional<ShallowSocket>& socket) {
+    socket = find_shallow_socket(mesh::outer_surface(fixed), head);
+  });
 }
 
 }  // namespace condyle::kinematics

@@ -9,7 +9,7 @@
 #include "kinematics/socket_rim.hpp"
 
 /// Head, socket and rim of a hip or shoulder, each found when it is first needed and kept with the mesh it is on, as a mesh keeps its
-/// edges: checks, bearing surfaces, zones and clocks share them. From any thread.
+/// edges: checks, bearing surfaces, zones and clocks share them. All look at surface that faces the outside only. From any thread.
 
 namespace condyle::kinematics {
 

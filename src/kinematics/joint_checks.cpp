@@ -9,6 +9,8 @@
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
 #include "core/rounded.hpp"
+#include "kinematics/body_pieces.hpp"
+#include "kinematics/bone_sizes.hpp"
 #include "kinematics/cut_parts.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_parts.hpp"
@@ -16,14 +18,12 @@
 #include "kinematics/shoulder_checks.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
+#include "mesh/surface_pieces.hpp"
 
 namespace condyle {
 namespace {
 
 using core::formatted;
-
-/// Extent of human bones and their cartilages, mm: as for likely_unit().
-constexpr double shortest_bone = 20, longest_bone = 1000, mm_per_m = 1000;
 
 /// The share of the surface that may cross itself unmentioned: 5 mm by 5 on a femur. Letters engraved into a real hip
 /// bone take a twentieth of it, two overlapping pieces of bone ten times as much.
@@ -105,20 +105,6 @@ std::optional<SphericalPatch> head_of(const Joint& joint, const JointPlacement& 
   return head;
 }
 
-/// False if the size is no bone's: what is searched for in mm is then not found.
-bool check_size(const Body& body, Notes& notes) {
-  const double size = mesh::bounds_of_surface(body.mesh).diagonal();
-  if (size >= shortest_bone && size <= longest_bone) return true;
-  const bool in_metres = size * mm_per_m >= shortest_bone && size * mm_per_m <= longest_bone;
-  const bool in_mm = size / mm_per_m >= shortest_bone && size / mm_per_m <= longest_bone;
-  notes.add(JointNoteCode::unlikely_size,
-            body.name + formatted(" is %.4g mm across in the units stated, and no bone is%s", size,
-                                  in_metres ? ": is it in metres?"
-                                  : in_mm   ? ": is it in millimetres?"
-                                            : ""));
-  return false;
-}
-
 void check_surface(const Body& body, Notes& notes) {
   // Meshes of one body may lie in each other, as a cartilage does in its bone: what is inside one is inside the body.
   if (!body.parts.empty()) {
@@ -126,6 +112,7 @@ void check_surface(const Body& body, Notes& notes) {
       check_surface({body.name + "'s " + part.name, mesh_of_part(body, part.name)}, notes);
     return;
   }
+  notes.add(kinematics::piece_notes(body.name, body.mesh));
   if (!body.mesh.is_closed())
     notes.add(JointNoteCode::open_mesh,
               body.name + " is open: one body inside the other would not be detected");
@@ -193,7 +180,7 @@ void check_fit(const Joint& joint, const JointPlacement& placement, Notes& notes
 void check_centres(const Joint& joint, const Sphere& head, const std::optional<SphericalPatch>& socket,
                    Notes& notes) {
   const std::string& mobile = joint.mobile.name;
-  if (const double off = head.centre.norm(); off > farthest_from_head_mm)
+  if (const double off = head.centre.norm(); off > by_head(farthest_from_head_mm, head))
     notes.add(JointNoteCode::centre_off_head,
               formatted("the joint centre is %.1f mm from that of the head of ", off) + mobile +
                   formatted(", a sphere of radius %.1f mm about ", head.radius) +
@@ -207,7 +194,8 @@ void check_centres(const Joint& joint, const Sphere& head, const std::optional<S
                         cup.radius, head.radius));
     return;
   }
-  if (const double apart = (cup.centre - head.centre).norm(); apart > farthest_head_from_socket_mm)
+  if (const double apart = (cup.centre - head.centre).norm();
+      apart > by_head(farthest_head_from_socket_mm, head))
     notes.add(JointNoteCode::head_socket_apart,
               formatted("head and socket have their centres %.1f mm apart", apart));
 }
@@ -225,8 +213,10 @@ Evidence of_hip_bone(const Vec3& mass, const Vec3& opening, double rightwards) {
 
 void check_hip(const Joint& joint, const SphericalPatch& head, const SphericalPatch& socket, Notes& notes) {
   const double rightwards = joint.side == Side::right ? 1 : -1;
-  const Vec3 mass = kinematics::area_centroid(joint.fixed.mesh) - socket.fit.sphere.centre;
-  const Vec3 shaft = kinematics::area_centroid(joint.mobile.mesh) - head.fit.sphere.centre;
+  const Vec3 mass =
+      kinematics::area_centroid(mesh::outer_surface(joint.fixed.mesh)) - socket.fit.sphere.centre;
+  const Vec3 shaft =
+      kinematics::area_centroid(mesh::outer_surface(joint.mobile.mesh)) - head.fit.sphere.centre;
   if (mass.norm() < least_lever * socket.fit.sphere.radius ||
       shaft.norm() < least_lever * head.fit.sphere.radius)
     return;
@@ -348,6 +338,12 @@ std::string_view name_of(JointNoteCode code) noexcept {
   switch (code) {
     case JointNoteCode::unlikely_size:
       return "unlikely_size";
+    case JointNoteCode::units_disagree:
+      return "units_disagree";
+    case JointNoteCode::nested_surfaces:
+      return "nested_surfaces";
+    case JointNoteCode::separate_pieces:
+      return "separate_pieces";
     case JointNoteCode::open_mesh:
       return "open_mesh";
     case JointNoteCode::inverted_mesh:
@@ -390,7 +386,10 @@ std::string_view name_of(JointNoteCode code) noexcept {
 
 std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& placement) {
   Notes notes;
-  const bool fixed_is_bone = check_size(joint.fixed, notes), mobile_is_bone = check_size(joint.mobile, notes);
+  const auto head = joint.has_head() ? head_of(joint, placement) : std::nullopt;
+  kinematics::SizeNotes sizes =
+      kinematics::size_notes(joint, head && head->coverage >= fullest_stray_sphere ? head : std::nullopt);
+  notes.add(std::move(sizes.notes));
   for (const Body* body : {&joint.fixed, &joint.mobile}) {
     check_surface(*body, notes);
     check_cuts(*body, notes);
@@ -400,7 +399,7 @@ std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& pla
   if (is_same)
     notes.add(JointNoteCode::same_mesh, joint.fixed.name + " and " + joint.mobile.name +
                                             " are one mesh: is one file given for both bodies?");
-  if (is_same || !fixed_is_bone || !mobile_is_bone) return notes.take();
+  if (is_same || !sizes.are_bones) return notes.take();
   if (joint.is_hip()) {
     check_ball(joint, placement, notes);
     return notes.take();

@@ -7,6 +7,7 @@
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
 #include "kinematics/hip_anatomy.hpp"
+#include "kinematics/surface_points.hpp"
 
 namespace condyle::kinematics {
 
@@ -17,7 +18,7 @@ JointCylinder joint_cylinder(const TriMesh& bone, const TriMesh& other, double r
   if (facing->apart_mm > farthest_apart_mm)
     return {{}, core::formatted("the bones are %.0f mm apart", facing->apart_mm)};
   try {
-    CylinderFit fit = find_cylinder(
+    CylinderFit fit = find_cylinder_on(
         bone,
         {.smallest_radius = smallest, .largest_radius = largest, .within = Sphere{facing->centre, reach_mm}});
     if (*fit.direction_bound <= largest_axis_bound && *fit.axis_bound_mm <= largest_place_bound_mm)

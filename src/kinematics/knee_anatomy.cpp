@@ -12,6 +12,7 @@
 #include "kinematics/facing_part.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/joint_cylinder.hpp"
+#include "kinematics/surface_points.hpp"
 
 namespace condyle::kinematics {
 namespace {
@@ -99,9 +100,9 @@ std::optional<SphericalPatch> find_head(const TriMesh& femur, const Cylinder& ax
   const Vec3 end = axis.point + shaft.reach_mm * shaft.direction;
   try {
     SphericalPatch head =
-        find_sphere(femur, {.smallest_radius = std::max(10.0, smallest_hip_head * axis.radius),
-                            .largest_radius = largest_hip_head * axis.radius,
-                            .within = Sphere{end, hip_head_reach * axis.radius}});
+        find_sphere_on(femur, {.smallest_radius = std::max(10.0, smallest_hip_head * axis.radius),
+                               .largest_radius = largest_hip_head * axis.radius,
+                               .within = Sphere{end, hip_head_reach * axis.radius}});
     if (head.coverage < least_hip_head_coverage) return std::nullopt;
     return head;
   } catch (const MeshError&) {
@@ -115,9 +116,9 @@ std::string why_no_condyles_here(const TriMesh& femur, const Condyles& found) {
   const Cylinder& axis = found.fit.cylinder;
   const double reach = found.length_mm / 2 + largest_stray_head * axis.radius;
   try {
-    const SphericalPatch sphere = find_sphere(femur, {.smallest_radius = smallest_stray_head * axis.radius,
-                                                      .largest_radius = largest_stray_head * axis.radius,
-                                                      .within = Sphere{axis.point, reach}});
+    const SphericalPatch sphere = find_sphere_on(femur, {.smallest_radius = smallest_stray_head * axis.radius,
+                                                         .largest_radius = largest_stray_head * axis.radius,
+                                                         .within = Sphere{axis.point, reach}});
     if (sphere.coverage < least_stray_head_coverage) return {};
     return formatted(
         "the part facing the other body is a head, %.0f %% of a sphere of radius %.1f mm, and no condyles: "

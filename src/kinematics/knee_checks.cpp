@@ -5,6 +5,7 @@
 
 #include "core/formatted.hpp"
 #include "kinematics/knee_anatomy.hpp"
+#include "mesh/surface_pieces.hpp"
 
 namespace condyle::kinematics {
 namespace {
@@ -52,7 +53,8 @@ std::optional<JointNote> note_on_front_and_side(const Joint& joint, const KneeAn
 }  // namespace
 
 std::optional<JointNote> condyle_note(const Joint& joint, const Pose& X_FM) {
-  const KneeAnatomy knee = knee_anatomy_roughly(joint.fixed.mesh, joint.mobile.mesh, X_FM);
+  const KneeAnatomy knee = knee_anatomy_roughly(mesh::outer_surface(joint.fixed.mesh),
+                                                mesh::outer_surface(joint.mobile.mesh), X_FM);
   if (!knee.condyles) return std::nullopt;
   const std::string& femur = joint.fixed.name;
   if (knee.shaft && knee.shaft->direction.y() < least_upright)

@@ -9,6 +9,8 @@
 #include "core/formatted.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/knee_checks.hpp"
+#include "kinematics/surface_points.hpp"
+#include "mesh/surface_pieces.hpp"
 #include "mesh/surface_to_surface.hpp"
 #include "mesh/triangle_tree.hpp"
 
@@ -100,8 +102,8 @@ bool begins_at_joint(const Bone& bone, const TriMesh& mesh) {
 bool is_below(const Joint& joint, const Bone& fixed, const Bone& mobile, const Pose& X_FM) {
   const Vec3 up = (X_FM * mobile.middle - fixed.middle).normalized();
   if (!(up.y() > straight)) return false;
-  const Reach lower = reach_along(up, joint.fixed.mesh, Pose::Identity()),
-              upper = reach_along(up, joint.mobile.mesh, X_FM);
+  const Reach lower = reach_along(up, mesh::outer_surface(joint.fixed.mesh), Pose::Identity()),
+              upper = reach_along(up, mesh::outer_surface(joint.mobile.mesh), X_FM);
   return lower.end - upper.begin <= most_overlap * std::min(lower.length(), upper.length());
 }
 
@@ -129,9 +131,9 @@ std::optional<WholeFemur> whole_femur(const Bone& femur, const TriMesh& mesh, co
   const double length = reach.length();
   const Vec3 end = femur.middle + (reach.end - femur.middle.dot(up)) * up;
   try {
-    const SphericalPatch head = find_sphere(mesh, {.smallest_radius = smallest_head * length,
-                                                   .largest_radius = largest_head * length,
-                                                   .within = Sphere{end, head_reach * length}});
+    const SphericalPatch head = find_sphere_on(mesh, {.smallest_radius = smallest_head * length,
+                                                      .largest_radius = largest_head * length,
+                                                      .within = Sphere{end, head_reach * length}});
     if (head.coverage < least_head_coverage) return std::nullopt;
     const Vec3 from_line = head.fit.sphere.centre - femur.middle;
     return WholeFemur{up, (from_line - from_line.dot(up) * up).z()};
@@ -150,7 +152,7 @@ const char* side_word(Side side) {
 
 /// The head of a femur lies above its condyles and medial of its shaft, wherever the frame has its origin.
 std::optional<JointNote> femur_note(const Joint& joint, const Bone& bone, const Vec3& other_bone) {
-  const auto femur = whole_femur(bone, joint.fixed.mesh, bone.middle - other_bone);
+  const auto femur = whole_femur(bone, mesh::outer_surface(joint.fixed.mesh), bone.middle - other_bone);
   if (!femur) return std::nullopt;
   const std::string& name = joint.fixed.name;
   if (femur->up.y() < upright) {
@@ -169,9 +171,10 @@ std::optional<JointNote> femur_note(const Joint& joint, const Bone& bone, const 
 }  // namespace
 
 std::optional<JointNote> hip_side_note(const Joint& joint) {
-  const auto hip_bone = bone_of(joint.fixed.mesh), bone = bone_of(joint.mobile.mesh);
+  const auto hip_bone = bone_of(mesh::outer_surface(joint.fixed.mesh)),
+             bone = bone_of(mesh::outer_surface(joint.mobile.mesh));
   if (!hip_bone || !bone) return std::nullopt;
-  const auto femur = whole_femur(*bone, joint.mobile.mesh, -bone->middle);
+  const auto femur = whole_femur(*bone, mesh::outer_surface(joint.mobile.mesh), -bone->middle);
   if (!femur || femur->up.y() < upright || lateral_mm(*femur, joint.side) < least_offset_mm)
     return std::nullopt;
   const double outwards = (joint.side == Side::right ? 1 : -1) * hip_bone->middle.normalized().z();
@@ -187,7 +190,8 @@ std::vector<JointNote> long_bone_notes(const Joint& joint, const JointPlacement&
   std::vector<JointNote> notes;
   if (!joint.names_its_joint() || joint.anatomy == Anatomy::hip) return notes;
   const std::string &fixed_name = joint.fixed.name, &mobile_name = joint.mobile.name;
-  const auto fixed = bone_of(joint.fixed.mesh), mobile = bone_of(joint.mobile.mesh);
+  const auto fixed = bone_of(mesh::outer_surface(joint.fixed.mesh)),
+             mobile = bone_of(mesh::outer_surface(joint.mobile.mesh));
   if (!fixed || !mobile) return notes;
   const Pose X_FM = pose_at(joint.coordinates(), placement.reference_pose, joint.translation_frame);
   if (joint.anatomy != Anatomy::shoulder && is_below(joint, *fixed, *mobile, X_FM)) {
@@ -203,13 +207,13 @@ std::vector<JointNote> long_bone_notes(const Joint& joint, const JointPlacement&
   }
   if (joint.kind == JointKind::free) return notes;
   const bool said_already = !notes.empty() && notes.back().code == JointNoteCode::axes_not_upright;
-  if (!said_already && joint.anatomy != Anatomy::shoulder && begins_at_joint(*fixed, joint.fixed.mesh) &&
-      fixed->along.y() < upright)
+  if (!said_already && joint.anatomy != Anatomy::shoulder &&
+      begins_at_joint(*fixed, mesh::outer_surface(joint.fixed.mesh)) && fixed->along.y() < upright)
     notes.push_back({JointNoteCode::axes_not_upright,
                      fixed_name +
                          " does not lie above the joint: superior does not point up, or the centre is at "
                          "its other end"});
-  if (joint.anatomy != Anatomy::ankle && begins_at_joint(*mobile, joint.mobile.mesh) &&
+  if (joint.anatomy != Anatomy::ankle && begins_at_joint(*mobile, mesh::outer_surface(joint.mobile.mesh)) &&
       -mobile->along.y() < upright)
     notes.push_back({JointNoteCode::axes_not_upright,
                      mobile_name +

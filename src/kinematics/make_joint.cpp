@@ -13,31 +13,28 @@
 #include "core/extended.hpp"
 #include "core/formatted.hpp"
 #include "core/rounded.hpp"
+#include "kinematics/body_pieces.hpp"
 #include "kinematics/cut_parts.hpp"
+#include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_parts.hpp"
 #include "kinematics/posed_parts.hpp"
 #include "kinematics/resampling.hpp"
+#include "kinematics/surface_points.hpp"
 #include "mesh/enclosed_volume.hpp"
+#include "mesh/surface_pieces.hpp"
 
 namespace condyle {
 namespace {
 
 using core::formatted;
 
-double scale_of(LengthUnit unit) noexcept {
-  return unit == LengthUnit::metres ? 1000.0 : 1.0;
-}
-
-const char* name_of(LengthUnit unit) noexcept {
-  return unit == LengthUnit::metres ? "metres" : "millimetres";
-}
-
 /// Two meshes that contradict each other cannot both be in the unit described.
 void check_units(const Body& fixed, const LikelyUnit& of_fixed, const Body& mobile,
                  const LikelyUnit& of_mobile) {
   if (of_fixed.unit && of_mobile.unit && *of_fixed.unit != *of_mobile.unit)
-    throw UsageError("units: " + fixed.name + " looks like " + name_of(*of_fixed.unit) + " and " +
-                     mobile.name + " like " + name_of(*of_mobile.unit) + ": give both in one unit");
+    throw UsageError("units: " + fixed.name + " looks like " + std::string(plural_of(*of_fixed.unit)) +
+                     " and " + mobile.name + " like " + std::string(plural_of(*of_mobile.unit)) +
+                     ": give both in one unit");
 }
 
 /// X_AW X_WB in extended precision, row by row without the last one.
@@ -161,11 +158,51 @@ bool has_head(const JointDescription& description) noexcept {
   return description.kind == JointKind::ball || (description.kind == JointKind::free && head);
 }
 
-Pose fitted_frame(const JointDescription& description, const CentreFit& fit, const Body& body,
-                  JointPlacement& placement) {
+/// Whether enough of a surface lies about a sphere, as a head lies in its socket: a tenth of the sphere and something to spare.
+bool has_surface_about(const Mesh& mesh, const Sphere& sphere) {
+  constexpr double nearest = 0.6, farthest = 1.5;
+  constexpr std::size_t fewest = 12;
+  std::size_t count = 0;
+  const auto& vertices = mesh.vertices();
+  for (std::size_t v = 0; v < vertices.size() && count < fewest; ++v) {
+    const double squared = (vertices[v] - sphere.centre).squaredNorm() / (sphere.radius * sphere.radius);
+    count += squared > nearest * nearest && squared < farthest * farthest;
+  }
+  return count >= fewest;
+}
+
+/// The sphere that was found on one body of a hip, or that which belongs to the other body if the mesh holds several: both sockets of a
+/// pelvis, the heads of two legs.
+SphericalPatch of_this_hip(SphericalPatch found, const CentreFit& fit, const Mesh& fitted,
+                           const Mesh& other) {
+  if (fit.within || has_surface_about(other, found.fit.sphere)) return found;
+  try {
+    if (fit.body == BodyRole::fixed) {
+      const Sphere head = find_sphere(other).fit.sphere;
+      const TriMesh near = kinematics::pieces_about(fitted, head);
+      SphericalPatch socket = kinematics::find_sphere_on(
+          near, {.part = SphericalPart::socket, .resamples = kinematics::usual_resamples});
+      if (has_surface_about(other, socket.fit.sphere)) return socket;
+      const auto about = kinematics::sphere_around(near, head, kinematics::usual_resamples);
+      return about && kinematics::fits_into(head, *about) ? *about : found;
+    }
+    const BoundingBox bounds = mesh::bounds_of_surface(other);
+    const Sphere near{(bounds.low + bounds.high) / 2, bounds.diagonal() / 2};
+    SphericalPatch head = find_sphere(fitted, {.within = near, .resamples = kinematics::usual_resamples});
+    return has_surface_about(other, head.fit.sphere) ? head : found;
+  } catch (const MeshError&) {
+    return found;
+  }
+}
+
+Pose fitted_frame(const JointDescription& description, const CentreFit& fit, const Body& fixed,
+                  const Body& mobile, JointPlacement& placement) {
   placement.fitted_body = fit.body;
-  const Pose& X_WB = fit.body == BodyRole::fixed ? description.fixed_in_W : description.mobile_in_W;
-  const Mesh mesh = placed(Pose::Identity(), X_WB, scale_of(description.units), body);
+  const bool is_fixed = fit.body == BodyRole::fixed;
+  const Body &body = is_fixed ? fixed : mobile, &other = is_fixed ? mobile : fixed;
+  const Pose &X_WB = is_fixed ? description.fixed_in_W : description.mobile_in_W,
+             &X_WO = is_fixed ? description.mobile_in_W : description.fixed_in_W;
+  const Mesh mesh = placed(Pose::Identity(), X_WB, mm_per(description.units), body);
   try {
     if (has_head(description)) {
       SphereSearch search;
@@ -173,6 +210,9 @@ Pose fitted_frame(const JointDescription& description, const CentreFit& fit, con
       search.within = fit.within;
       search.resamples = kinematics::usual_resamples;
       placement.sphere = find_sphere(mesh, search);
+      if (description.anatomy == Anatomy::hip)
+        placement.sphere = of_this_hip(std::move(*placement.sphere), fit, mesh,
+                                       placed(Pose::Identity(), X_WO, mm_per(description.units), other));
     } else {
       placement.cylinder = find_cylinder(mesh, {.within = fit.within});
     }
@@ -190,7 +230,7 @@ Pose frame_of(const JointDescription& description, const Body& fixed, const Body
   if (const auto* directions = std::get_if<FrameDirections>(&frame.axes))
     placement.axis_errors = axis_errors(directions->anterior, directions->superior);
   if (const auto* fit = std::get_if<CentreFit>(&frame.centre))
-    return fitted_frame(description, *fit, fit->body == BodyRole::fixed ? fixed : mobile, placement);
+    return fitted_frame(description, *fit, fixed, mobile, placement);
   const auto* centre = std::get_if<Vec3>(&frame.centre);
   return frame_about(centre ? *centre : Vec3(Vec3::Zero()), description);
 }
@@ -289,7 +329,7 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
 
   const Pose X_FW = inverted(placement.X_WF);
   const Pose X_MW = mobile_frame(description, X_FW, placement);
-  const double scale = scale_of(description.units);
+  const double scale = mm_per(description.units);
   fixed.mesh = placed(X_FW, description.fixed_in_W, scale, fixed);
   mobile.mesh = placed(X_MW, description.mobile_in_W, scale, mobile);
   fixed.image = placed_image(core::composed(X_FW, description.fixed_in_W), fixed.image);

@@ -15,7 +15,7 @@
 namespace condyle::kinematics {
 namespace {
 
-/// mm, as of a hip's rim: surface farther off is not the socket's, and the two may overlap by as much.
+/// mm of a head of the usual size, as of a hip's rim: surface farther off is not the socket's, and the two may overlap by as much.
 constexpr double widest_joint_space = 10, deepest_overlap = 2;
 
 /// Cosine of the 45 degrees within which a dish faces the head's centre: a glenoid of twice the head's radius is off by 20
@@ -54,8 +54,8 @@ View view_of(const TriMesh& mesh, std::size_t t, const Sphere& head) {
   const double distance = middle.norm(), towards = -area.dot(middle) / distance;
   View view{towards / (distance * distance), distance - head.radius, towards / area.norm()};
   const auto [low, high] = std::minmax({a.norm(), b.norm(), c.norm()});
-  view.is_facing = view.cosine > least_facing && low - head.radius >= -deepest_overlap &&
-                   high - head.radius <= widest_joint_space;
+  view.is_facing = view.cosine > least_facing && low - head.radius >= -by_head(deepest_overlap, head) &&
+                   high - head.radius <= by_head(widest_joint_space, head);
   return view;
 }
 
@@ -82,7 +82,7 @@ Dish dish_facing(const TriMesh& fixed, const Sphere& head) {
   for (const auto& [t, view] : facing) {
     Part& part = parts[sets.find(fixed.triangles[t][0])];
     part.solid_angle += view.solid_angle;
-    part.score += view.solid_angle * (widest_joint_space - view.gap);
+    part.score += view.solid_angle * (by_head(widest_joint_space, head) - view.gap);
   }
   const auto best = std::max_element(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
     return a.second.score < b.second.score;

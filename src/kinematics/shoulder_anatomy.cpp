@@ -75,10 +75,10 @@ ShoulderAnatomy shoulder_anatomy(const TriMesh& scapula, const TriMesh& humerus)
     return shoulder;
   }
   try {
-    shoulder.head = find_sphere(humerus, {.smallest_radius = smallest_humeral_head,
-                                          .largest_radius = largest_humeral_head,
-                                          .within = Sphere{facing->centre, 2 * largest_humeral_head},
-                                          .resamples = 50});
+    shoulder.head = find_sphere_on(humerus, {.smallest_radius = smallest_humeral_head,
+                                             .largest_radius = largest_humeral_head,
+                                             .within = Sphere{facing->centre, 2 * largest_humeral_head},
+                                             .resamples = 50});
     if (shoulder.head->coverage < least_glenoid_coverage) {
       shoulder.why_no_head = core::formatted("the best head has %.0f %% of a sphere (needs %.0f)",
                                              100 * shoulder.head->coverage, 100 * least_glenoid_coverage);

@@ -7,6 +7,7 @@
 #include "core/rounded.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_parts.hpp"
+#include "mesh/surface_pieces.hpp"
 
 namespace condyle::kinematics {
 namespace {
@@ -56,7 +57,7 @@ void check_glenoid(const Joint& joint, const Sphere& head, const ShallowSocket& 
     notes.push_back({JointNoteCode::head_socket_apart,
                      "the head of " + joint.mobile.name +
                          formatted(" has its centre %.1f mm beside the axis of its socket", beside)});
-  const Vec3 mass = area_centroid(joint.fixed.mesh) - socket.middle;
+  const Vec3 mass = area_centroid(mesh::outer_surface(joint.fixed.mesh)) - socket.middle;
   if (mass.norm() < least_lever * head.radius) return;
   const bool is_right = joint.side == Side::right;
   const double lateral = (is_right ? 1 : -1) * (axis - mass.normalized()).z() / 2;
@@ -89,7 +90,7 @@ std::vector<JointNote> shoulder_notes(const Joint& joint, const JointPlacement& 
     return notes;
   }
   const Sphere& sphere = head->fit.sphere;
-  if (const double off = sphere.centre.norm(); off > farthest_from_head_mm)
+  if (const double off = sphere.centre.norm(); off > by_head(farthest_from_head_mm, sphere))
     notes.push_back({JointNoteCode::centre_off_head,
                      formatted("the joint centre is %.1f mm from that of the head of ", off) + mobile +
                          formatted(", a sphere of radius %.1f mm about ", sphere.radius) +

@@ -12,7 +12,7 @@
 namespace condyle::kinematics {
 namespace {
 
-/// Wider than any joint space between bones, mm: surface further off is not the socket's.
+/// Wider than any joint space between bones, mm, of a head of the usual size: surface further off is not the socket's.
 constexpr double widest_rim_space = 10;
 /// How far a socket may reach into the head where the two overlap, mm.
 constexpr double deepest_rim_overlap = 2;
@@ -28,11 +28,12 @@ struct Facing {
 
 Facing facing(const TriMesh& fixed, const Sphere& head) {
   const Points normals = mesh::area_normals(fixed);
+  const double overlap = by_head(deepest_rim_overlap, head), space = by_head(widest_rim_space, head);
   Facing found;
   for (std::size_t v = 0; v < fixed.vertices.size(); ++v) {
     const Vec3 ray = fixed.vertices[v] - head.centre;
     const double gap = ray.norm() - head.radius;
-    if (gap < -deepest_rim_overlap || gap > widest_rim_space || !(normals[v].dot(ray) < 0)) continue;
+    if (gap < -overlap || gap > space || !(normals[v].dot(ray) < 0)) continue;
     found.rays.push_back(ray);
     found.into_socket -= normals[v].dot(ray) / ray.squaredNorm() * ray;
   }
@@ -110,8 +111,8 @@ Plane rim_plane(const Crests& crests, const Vec3& opening) {
   return plane;
 }
 
-std::optional<RimPlane> plane_with_notch(const Crests& crests, const Vec3& opening) {
-  /// mm; and as many sectors of the notch are averaged over either way.
+std::optional<RimPlane> plane_with_notch(const Crests& crests, const Vec3& opening, const Sphere& head) {
+  /// mm of a head of the usual size; and as many sectors of the notch are averaged over either way.
   constexpr double least_notch = 4;
   constexpr std::size_t reach = 3;
   const Plane plane = rim_plane(crests, opening);
@@ -126,7 +127,7 @@ std::optional<RimPlane> plane_with_notch(const Crests& crests, const Vec3& openi
   std::size_t deepest = 0;
   for (std::size_t i = 1; i < rim_sectors; ++i)
     if (around(i) > around(deepest)) deepest = i;
-  if (!(around(deepest) / 3 >= least_notch)) return std::nullopt;
+  if (!(around(deepest) / 3 >= by_head(least_notch, head))) return std::nullopt;
   Vec3 towards = Vec3::Zero();
   for (std::size_t k = 0; k <= 2 * reach; ++k) {
     const std::size_t i = (deepest + rim_sectors - reach + k) % rim_sectors;
@@ -146,7 +147,7 @@ std::optional<SocketRim> socket_rim(const TriMesh& fixed, const Sphere& head) {
   const Crests crests = crests_of(found.rays, opening, head.radius);
   const std::vector<double> gaps = gaps_of(crests);
   if (gaps.size() < fewest_rim_sectors) return SocketRim{opening, {}, {}};
-  return SocketRim{opening, rim_quantile(gaps, 0.1), plane_with_notch(crests, opening)};
+  return SocketRim{opening, rim_quantile(gaps, 0.1), plane_with_notch(crests, opening, head)};
 }
 
 }  // namespace condyle::kinematics

@@ -7,6 +7,15 @@
 
 namespace condyle::kinematics {
 
+double root_of_area(const TriMesh& surface) {
+  double area = 0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Vec3 a = surface.corner(t, 0);
+    area += (surface.corner(t, 1) - a).cross(surface.corner(t, 2) - a).norm() / 2;
+  }
+  return std::sqrt(area);
+}
+
 std::vector<SurfacePoint> surface_points(const TriMesh& mesh, const std::optional<Sphere>& within) {
   std::vector<Vec3> doubled_area(mesh.vertices.size(), Vec3::Zero());
   std::vector<double> area(mesh.vertices.size(), 0.0);

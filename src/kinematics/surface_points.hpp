@@ -41,6 +41,13 @@ class PointNeighbours {
   std::vector<Index> end_, earlier_;
 };
 
+/// The root of a surface's area: how large a bone is, however it lies and whatever specks are about it.
+double root_of_area(const TriMesh& surface);
+
+/// find_sphere() and find_cylinder() on all of a surface, which is known to face the outside.
+SphericalPatch find_sphere_on(const TriMesh& surface, const SphereSearch& search = {});
+CylinderFit find_cylinder_on(const TriMesh& surface, const CylinderSearch& search = {});
+
 /// The mesh's numbers of some of the points.
 std::vector<Index> vertices_of(const std::vector<SurfacePoint>& points, const std::vector<Index>& chosen);
 

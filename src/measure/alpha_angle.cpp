@@ -80,7 +80,7 @@ std::optional<CircleFit> head_circle(const Contour& section, double head_radius)
     }
     head.push_back(piece);
   }
-  auto fit = fit_circle(head);
+  auto fit = fit_circle(head, head_radius);
   if (!fit || fit->kept_length < least_arc * fit->circle.radius ||
       std::abs(fit->circle.radius - head_radius) > farthest_off_circle * head_radius)
     return std::nullopt;

@@ -45,7 +45,7 @@ CentreEdgeFinding centre_edge(const SocketWall& wall, const Sphere& head, const 
   const AxisSections sections(wall.mesh, head.centre, superior, direction, superior.cross(direction),
                               wall.ends);
   std::optional<CoveredArc> roof;
-  for (const CoveredArc& next : seen(sections.at(0), head.radius + farthest_wall_mm)) {
+  for (const CoveredArc& next : seen(sections.at(0), head.radius + by_head(farthest_wall_mm, head))) {
     if (roof && next.begin <= roof->end + widest_fold) {
       if (next.end > roof->end) roof = CoveredArc{roof->begin, next.end, next.at_end, next.mesh_ends};
       continue;

@@ -38,12 +38,12 @@ struct Part {
   Vec2 at(double share) const { return from + share * (to - from); }
 };
 
-std::vector<Part> parts_of(const Contour& pieces) {
-  constexpr double longest_mm = 0.5;
+std::vector<Part> parts_of(const Contour& pieces, double head_radius) {
+  const double longest = by_head(0.5, head_radius);  // mm
   std::vector<Part> parts;
   for (const ContourPiece& piece : pieces) {
     const Vec2 along = piece.to - piece.from;
-    const double length = along.norm(), count = std::max(1.0, std::ceil(length / longest_mm));
+    const double length = along.norm(), count = std::max(1.0, std::ceil(length / longest));
     for (double i = 0; i < count; ++i)
       parts.push_back({piece.from + i / count * along, piece.from + (i + 1) / count * along, length / count});
   }
@@ -101,7 +101,8 @@ double residual(const Circle& circle, const Vec2& p) {
 /// not depend on where they begin.
 class Trimmed {
  public:
-  explicit Trimmed(const std::vector<Part>& all) : all_(all), off_(all.size()) {
+  Trimmed(const std::vector<Part>& all, double head_radius)
+      : all_(all), off_(all.size()), same_(by_head(same_mm, head_radius)) {
     for (const Part& part : all) kept_length_ += kept_share * part.length;
   }
 
@@ -163,11 +164,11 @@ class Trimmed {
     double low = 0, high = 0;
     for (const Off& off : off_) high = std::max({high, std::abs(off.from), std::abs(off.to)});
     double at = farthest_ > 0 && farthest_ < high ? farthest_ : high / 2;
-    for (int i = 0; i < most_halvings && high - low > same_mm; ++i) {
+    for (int i = 0; i < most_halvings && high - low > same_; ++i) {
       const Within sum = length_within(at);
       (sum.length < kept_length_ ? low : high) = at;
       const double step = sum.rise > 0 ? (kept_length_ - sum.length) / sum.rise : HUGE_VAL;
-      if (std::abs(step) <= same_mm) break;
+      if (std::abs(step) <= same_) break;
       at = at + step > low && at + step < high ? at + step : (low + high) / 2;
     }
     return farthest_ = at;
@@ -177,6 +178,7 @@ class Trimmed {
   std::vector<Off> off_;
   std::vector<Weighted> kept_;
   double kept_length_ = 0, farthest_ = 0;
+  double same_;
 };
 
 /// Circles to start from: of all points, and without each quarter of them as they lie around their middle.
@@ -199,9 +201,9 @@ std::vector<Circle> starts_of(const std::vector<Weighted>& all) {
 
 }  // namespace
 
-std::optional<CircleFit> fit_circle(const Contour& pieces) {
-  const std::vector<Part> parts = parts_of(pieces);
-  Trimmed trimmed(parts);
+std::optional<CircleFit> fit_circle(const Contour& pieces, double head_radius) {
+  const std::vector<Part> parts = parts_of(pieces, head_radius);
+  Trimmed trimmed(parts, head_radius);
   std::optional<Circle> best;
   double least = 0;
   for (Circle circle : starts_of(middles(parts))) {
@@ -217,7 +219,7 @@ std::optional<CircleFit> fit_circle(const Contour& pieces) {
     trimmed.keep(*best);
     const auto step = take_step(trimmed.kept(), *best);
     if (!step) return std::nullopt;
-    if (*step < settled) break;
+    if (*step < by_head(settled, head_radius)) break;
   }
   return CircleFit{*best, std::sqrt(trimmed.keep(*best)), trimmed.length()};
 }

@@ -86,7 +86,9 @@ OwnPieces piece_with(const Mesh& femur, const Body& body, const SphericalPatch& 
 OwnPieces piece_around(const Mesh& hip_bone, const Body& body, const Sphere& head) {
   const auto vote = [&](std::size_t t) {
     const double gap = (hip_bone.corner(t, 0) - head.centre).norm() - head.radius;
-    return std::abs(gap) < farthest_wall_mm ? std::max(0.0, -solid_angle(hip_bone, t, head.centre)) : 0;
+    return std::abs(gap) < by_head(farthest_wall_mm, head)
+               ? std::max(0.0, -solid_angle(hip_bone, t, head.centre))
+               : 0;
   };
   return own_pieces(hip_bone, body.name, {head.centre, pieces_reach * head.radius},
                     kinematics::cut_vertices(body), vote);

@@ -37,8 +37,8 @@ NeckHour on_side(const Contour& half, const std::optional<CircleFit>& fit, doubl
   const Circle circle{{fit->circle.centre.x(), beside}, fit->circle.radius};
   out.circle_along_mm = circle.centre.x(), out.circle_beside_mm = beside;
   out.circle_radius_mm = circle.radius, out.circle_rms_mm = fit->rms_residual;
-  AlphaFinding at_half = alpha_angle(half, circle, head_radius, alpha_tolerances_mm[0]);
-  AlphaFinding at_one = alpha_angle(half, circle, head_radius, alpha_tolerances_mm[1]);
+  AlphaFinding at_half = alpha_angle(half, circle, head_radius, by_head(alpha_tolerances_mm[0], head_radius));
+  AlphaFinding at_one = alpha_angle(half, circle, head_radius, by_head(alpha_tolerances_mm[1], head_radius));
   out.why_no_alpha = std::move(at_half.why_none), out.why_no_alpha_at_1mm = std::move(at_one.why_none);
   if (at_half.alpha) {
     out.alpha_deg = at_half.alpha->alpha_deg;

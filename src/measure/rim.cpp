@@ -50,7 +50,7 @@ std::optional<Vec2> farthest_towards_opening(const Contour& half, double reach) 
 std::vector<RimHour> rim_about(const SocketWall& wall, const Sphere& head, const Vec3& opening,
                                const motion::ClockFace& clock, const BodyAxes& axes) {
   const AxisSections sections(wall.mesh, head.centre, opening, clock.twelve, clock.three, wall.ends);
-  const double reach = head.radius + farthest_wall_mm;
+  const double reach = head.radius + by_head(farthest_wall_mm, head);
   std::vector<RimHour> rim(rim_steps);
   const auto set = [&](std::size_t step, const Contour& half) {
     const double turn = two_pi * static_cast<double>(step) / rim_steps;
@@ -105,15 +105,16 @@ Plane reweighted(const std::vector<Vec3>& points, Plane plane, const Weight& wei
 }
 
 /// Marks the hours that it is fitted to.
-Plane fit_plane(std::vector<RimHour>& rim, const Vec3& opening) {
+Plane fit_plane(std::vector<RimHour>& rim, const Vec3& opening, const Sphere& head) {
+  const double narrowest = by_head(narrowest_mm, head);
   std::vector<Vec3> points;
   for (const RimHour& hour : rim)
     if (hour.point) points.push_back(*hour.point);
   Plane plane = plane_through(points, std::vector<double>(points.size(), 1), opening);
-  plane = reweighted(points, plane, [](double d) { return 1 / std::max(d, narrowest_mm); });
+  plane = reweighted(points, plane, [&](double d) { return 1 / std::max(d, narrowest); });
   std::vector<double> off;
   for (const Vec3& p : points) off.push_back(plane.distance(p));
-  const double reach = std::max(deviations_kept * kinematics::robust_deviation(std::move(off)), narrowest_mm);
+  const double reach = std::max(deviations_kept * kinematics::robust_deviation(std::move(off)), narrowest);
   plane = reweighted(points, plane, [&](double d) {
     const double rest = 1 - d * d / (reach * reach);
     return rest > 0 ? rest * rest : 0;
@@ -161,7 +162,7 @@ std::vector<double> mean_edges(const TriMesh& mesh) {
 }  // namespace
 
 SocketWall socket_wall(const TriMesh& hip_bone, const Sphere& head, const std::vector<char>& ends) {
-  MeshPart part = facing_part(hip_bone, {head.centre, head.radius + farthest_wall_mm});
+  MeshPart part = facing_part(hip_bone, {head.centre, head.radius + by_head(farthest_wall_mm, head)});
   SocketWall wall{std::move(part.mesh), {}, {}};
   for (const Index v : part.vertices) wall.ends.push_back(ends[v]);
   wall.edge_mm = mean_edges(wall.mesh);
@@ -173,7 +174,7 @@ std::string edge_grain_note(const SocketWall& wall, const Sphere& head, const Ve
   for (std::size_t v = 0; v < wall.edge_mm.size(); ++v)
     if (const double off = (wall.mesh.vertices[v] - point).squaredNorm(); off < nearest)
       nearest = off, edge = wall.edge_mm[v];
-  if (!(edge > coarse_edge_mm)) return {};
+  if (!(edge > by_head(coarse_edge_mm, head))) return {};
   return core::formatted("triangles of %.1f mm cut off the rim here: it may end %.0f degrees farther", edge,
                          std::atan2(edge / 2, (point - head.centre).norm()) / degree);
 }
@@ -197,7 +198,7 @@ RimFinding find_rim(const SocketWall& wall, const Sphere& head, const Vec3& open
                                        360.0 * fewest_rim_steps / rim_steps);
       return found;
     }
-    const Plane plane = fit_plane(found.hours, about);
+    const Plane plane = fit_plane(found.hours, about, head);
     // The face about the normal: the rim that it is fitted to was found about one that is as good as it.
     const auto face = clock_about(plane.normal, axes.superior, axes.anterior);
     found.plane = face ? circle_in(plane, found.hours, *face) : std::nullopt;

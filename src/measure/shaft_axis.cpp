@@ -14,6 +14,8 @@
 namespace condyle::measure {
 namespace {
 
+// Lengths in mm are those of a head of the usual size, and grow with it.
+
 /// The shaft begins below the lesser trochanter, in radii of the head below its centre, and curves beyond this length, mm.
 constexpr double shaft_begins = 2.6, longest_mm = 90;
 /// Between sections, and before the end of the bone, where the face that closes it is rounded off, mm.
@@ -39,14 +41,21 @@ struct Section {
 class Sections {
  public:
   Sections(const TriMesh& femur, const Sphere& head, const std::vector<char>& ends, const Vec3& along)
-      : femur_(femur), centre_(head.centre), ends_(ends), along_(along), height_(femur.vertices.size()) {
+      : femur_(femur),
+        centre_(head.centre),
+        ends_(ends),
+        along_(along),
+        step_(by_head(step_mm, head)),
+        closed_(by_head(closed_mm, head)),
+        height_(femur.vertices.size()) {
     for (std::size_t v = 0; v < height_.size(); ++v) height_[v] = (femur.vertices[v] - centre_).dot(along);
     double reach = 0;
     for (const Triangle& t : femur.triangles)
       for (const Index v : t) reach = std::max(reach, height_[v]);
-    first_ = shaft_begins * head.radius + step_mm / 2;
-    const double length = std::min(reach - end_mm - shaft_begins * head.radius, longest_mm);
-    if (length > 0) sections_.resize(static_cast<std::size_t>(length / step_mm));
+    first_ = shaft_begins * head.radius + step_ / 2;
+    const double length =
+        std::min(reach - by_head(end_mm, head) - shaft_begins * head.radius, by_head(longest_mm, head));
+    if (length > 0) sections_.resize(static_cast<std::size_t>(length / step_));
     for (std::size_t t = 0; t < femur.triangles.size(); ++t) cut(t);
   }
 
@@ -67,16 +76,16 @@ class Sections {
   }
 
  private:
-  static bool is_whole(const Section& section) {
-    return section.area != 0 && !section.has_end && section.open.norm() < closed_mm;
+  bool is_whole(const Section& section) const {
+    return section.area != 0 && !section.has_end && section.open.norm() < closed_;
   }
 
   void cut(std::size_t t) {
     const auto [i, j, k] = femur_.triangles[t];
     const auto [low, high] = std::minmax({height_[i], height_[j], height_[k]});
-    const double next = std::max(0.0, std::ceil((low - first_) / step_mm));
+    const double next = std::max(0.0, std::ceil((low - first_) / step_));
     for (auto n = static_cast<std::size_t>(next); n < sections_.size(); ++n) {
-      const double at = first_ + step_mm * static_cast<double>(n);
+      const double at = first_ + step_ * static_cast<double>(n);
       if (at > high) break;
       add(femur_.triangles[t], at, sections_[n]);
     }
@@ -111,6 +120,7 @@ class Sections {
   Vec3 centre_;
   const std::vector<char>& ends_;
   Vec3 along_;
+  double step_, closed_;
   std::vector<double> height_;
   double first_ = 0;
   std::vector<Section> sections_;
@@ -151,14 +161,15 @@ ShaftAxis reweighted(const std::vector<Vec3>& points, ShaftAxis line, std::vecto
   return line;
 }
 
-ShaftAxis line_of(const std::vector<Vec3>& points, const Vec3& direction) {
+ShaftAxis line_of(const std::vector<Vec3>& points, const Vec3& direction, const Sphere& head) {
+  const double narrowest = by_head(narrowest_shaft_mm, head), step = by_head(step_mm, head);
   std::vector<double> weights(points.size(), 1);
   ShaftAxis line = line_through(points, weights, direction);
-  line = reweighted(points, line, weights, [](double d) { return 1 / std::max(d, narrowest_shaft_mm); });
+  line = reweighted(points, line, weights, [&](double d) { return 1 / std::max(d, narrowest); });
   std::vector<double> off;
   for (const Vec3& p : points) off.push_back(distance(line, p));
   const double reach =
-      std::max(shaft_deviations_kept * kinematics::robust_deviation(std::move(off)), narrowest_shaft_mm);
+      std::max(shaft_deviations_kept * kinematics::robust_deviation(std::move(off)), narrowest);
   line = reweighted(points, line, weights, [&](double d) {
     const double rest = 1 - d * d / (reach * reach);
     return rest > 0 ? rest * rest : 0;
@@ -167,8 +178,8 @@ ShaftAxis line_of(const std::vector<Vec3>& points, const Vec3& direction) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!(weights[i] > 0)) continue;
     const double at = points[i].dot(line.direction);
-    line.first_mm = std::min(line.first_mm, at - step_mm / 2);
-    line.last_mm = std::max(line.last_mm, at + step_mm / 2);
+    line.first_mm = std::min(line.first_mm, at - step / 2);
+    line.last_mm = std::max(line.last_mm, at + step / 2);
   }
   return line;
 }
@@ -176,20 +187,21 @@ ShaftAxis line_of(const std::vector<Vec3>& points, const Vec3& direction) {
 }  // namespace
 
 ShaftFinding find_shaft(const TriMesh& femur, const Sphere& head, const std::vector<char>& ends) {
+  const double shortest = by_head(shortest_mm, head);
   const std::string none =
-      core::formatted("no straight shaft of %.0f mm begins %.0f mm from the head's centre", shortest_mm,
+      core::formatted("no straight shaft of %.0f mm begins %.0f mm from the head's centre", shortest,
                       shaft_begins * head.radius);
   Vec3 along = (kinematics::area_centroid(femur) - head.centre).normalized();
   std::optional<ShaftAxis> line;
   for (int round = 0; round < most_shaft_rounds; ++round) {
     const std::vector<Vec3> points = Sections(femur, head, ends, along).centroids();
-    if (static_cast<double>(points.size()) * step_mm < shortest_mm) return {{}, none};
-    line = line_of(points, along);
+    if (static_cast<double>(points.size()) * by_head(step_mm, head) < shortest) return {{}, none};
+    line = line_of(points, along, head);
     const double change = (line->direction - along).norm();
     along = line->direction;
     if (change < shaft_settled) break;
   }
-  if (!(line->last_mm - line->first_mm >= shortest_mm) || !(line->bound_deg <= largest_bound_deg))
+  if (!(line->last_mm - line->first_mm >= shortest) || !(line->bound_deg <= largest_bound_deg))
     return {{}, none};
   line->point += head.centre;
   return {line, {}};

@@ -38,8 +38,9 @@ SurfaceGrain grain_of(const TriMesh& mesh, const std::vector<Index>& vertices, c
 }
 
 std::string alpha_grain_note(const SurfaceGrain& head, double radius) {
-  if (head.roughness_mm > rough_mm) return core::formatted("the head is rough by %.2f mm", head.roughness_mm);
-  if (head.edge_mm > coarse_edge_mm)
+  if (head.roughness_mm > by_head(rough_mm, radius))
+    return core::formatted("the head is rough by %.2f mm", head.roughness_mm);
+  if (head.edge_mm > by_head(coarse_edge_mm, radius))
     return core::formatted("the head's triangles of %.1f mm sag by %.2f mm", head.edge_mm,
                            head.edge_mm * head.edge_mm / (8 * radius));
   return {};

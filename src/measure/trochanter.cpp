@@ -29,7 +29,8 @@ TrochanterFinding greater_trochanter(const TriMesh& femur, const Sphere& head, c
       if (out < 0 || height <= highest) continue;
       highest = height, beyond = out, found.top = femur.vertices[v], is_end = ends[v];
     }
-  if (!found.top || beyond < least_beyond) return {{}, 0, "no greater trochanter rises beside the neck"};
+  if (!found.top || beyond < by_head(least_beyond, head))
+    return {{}, 0, "no greater trochanter rises beside the neck"};
   if (is_end) return {{}, 0, "the mesh ends at the greater trochanter"};
   found.height_mm = highest;
   return found;

@@ -14,6 +14,7 @@
 #include "mesh/edge_table.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
+#include "mesh/surface_pieces.hpp"
 
 namespace condyle {
 namespace {
@@ -184,10 +185,16 @@ void measure_components(Edges& edges, DisjointSets& fans, MeshReport& report) {
     if (component_of(t) == no_index) {
       number[in_table.of_triangle[t]] = static_cast<Index>(components.size());
       components.emplace_back().first_triangle = t;
+      components.back().bounds = {mesh.corner(t, 0), mesh.corner(t, 0)};
       vertices.push_back(0), volume.emplace_back(), manifold.push_back(true);
     }
     const Index c = component_of(t);
     ++components[c].triangles;
+    BoundingBox& bounds = components[c].bounds;
+    for (int k = 0; k < 3; ++k) {
+      bounds.low = bounds.low.cwiseMin(mesh.corner(t, k));
+      bounds.high = bounds.high.cwiseMax(mesh.corner(t, k));
+    }
     volume[c].add(mesh::volume_below(mesh, t, centre));
     for (Index corner = 3 * t; corner < 3 * t + 3; ++corner) vertices[c] += fans.find(corner) == corner;
   }
@@ -206,6 +213,21 @@ void measure_components(Edges& edges, DisjointSets& fans, MeshReport& report) {
     total.add(volume[c].value());
   }
   if (report.is_closed()) report.signed_volume = total.value();
+}
+
+/// Which components lie inside others.
+void find_nested_components(const Mesh& mesh, MeshReport& report) {
+  const mesh::SurfacePieces& pieces = mesh::pieces_of(mesh);
+  if (pieces.of_triangle.empty()) return;
+  // Components of an open mesh may be one piece, joined at vertices.
+  const auto piece_of = [&](const MeshComponent& c) { return pieces.of_triangle[c.first_triangle]; };
+  for (MeshComponent& component : report.components) {
+    const mesh::SurfacePiece& piece = pieces.all[piece_of(component)];
+    if (!piece.is_inner()) continue;
+    const auto around = std::find_if(report.components.begin(), report.components.end(),
+                                     [&](const MeshComponent& c) { return piece_of(c) == piece.around; });
+    component.inside = static_cast<Index>(around - report.components.begin());
+  }
 }
 
 void find_self_crossings(const Mesh& mesh, MeshReport& report) {
@@ -278,6 +300,7 @@ MeshReport inspect(const Mesh& mesh) {
   find_self_crossings(mesh, report);
   measure_surface(edges, report);
   measure_components(edges, fans, report);
+  find_nested_components(mesh, report);
   report.likely_unit = likely_unit_of_size(report.bounds.diagonal());
   return report;
 }

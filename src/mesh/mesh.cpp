@@ -65,6 +65,43 @@ void check_triangles(const TriMesh& mesh) {
 
 }  // namespace
 
+std::string_view name_of(LengthUnit unit) noexcept {
+  switch (unit) {
+    case LengthUnit::millimetres:
+      return "mm";
+    case LengthUnit::centimetres:
+      return "cm";
+    case LengthUnit::inches:
+      return "in";
+    case LengthUnit::metres:
+      break;
+  }
+  return "m";
+}
+
+std::string_view plural_of(LengthUnit unit) noexcept {
+  switch (unit) {
+    case LengthUnit::millimetres:
+      return "millimetres";
+    case LengthUnit::centimetres:
+      return "centimetres";
+    case LengthUnit::inches:
+      return "inches";
+    case LengthUnit::metres:
+      break;
+  }
+  return "metres";
+}
+
+LengthUnit length_unit_named(std::string_view word) {
+  std::string words;
+  for (const LengthUnit unit : all_length_units) {
+    if (name_of(unit) == word) return unit;
+    words += (words.empty() ? "" : ", ") + std::string(name_of(unit));
+  }
+  throw UsageError("units: must be one of " + words + ", not '" + std::string(word) + "'");
+}
+
 /// What depends on the triangles alone: meshes that differ in where their vertices are share it.
 struct Mesh::Connectivity {
   std::optional<DirectedEdge> unbalanced_edge;

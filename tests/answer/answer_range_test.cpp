@@ -31,9 +31,11 @@ Joint about(const Joint& joint, const Vec3& centre) {
   return other;
 }
 
+/// Solids of these scenes do not hang together: limits lie on separate pieces, which other tests look at.
 std::vector<std::string> codes(const std::vector<RangeNote>& notes) {
   std::vector<std::string> found;
-  for (const RangeNote& note : notes) found.emplace_back(name_of(note.code));
+  for (const RangeNote& note : notes)
+    if (note.code != RangeNoteCode::limit_on_piece) found.emplace_back(name_of(note.code));
   return found;
 }
 
@@ -83,7 +85,11 @@ TEST(RangeNotes, SayByHowMuchTheCentreMovesLimits) {
 }
 
 TEST(RangeNotes, AreNoneIfHeadAndSocketAreNearlyConcentric) {
-  EXPECT_TRUE(answered(head_and_post_joint({0.9, 0, 0}), {.motions = motion::hip_motions()}).notes.empty());
+  // A head of 20 mm radius may be 20/24 of a millimetre off.
+  EXPECT_EQ(codes(answered(head_and_post_joint({0.83, 0, 0}), {.motions = motion::hip_motions()}).notes),
+            std::vector<std::string>{});
+  EXPECT_EQ(codes(answered(head_and_post_joint({0.84, 0, 0}), {.motions = motion::hip_motions()}).notes),
+            std::vector<std::string>{"centre_moves_limits"});
   EXPECT_TRUE(answered(post_joint(JointAngle::flexion, Side::right).joint, {.motions = motion::hip_motions()})
                   .notes.empty())
       << "a joint without a head";
@@ -98,11 +104,12 @@ TEST(RangeNotes, SayThatANarrowGapLeavesLittleMargin) {
     return codes(answered(joint, request).notes);
   };
   const std::vector<std::string> none, narrow = {"narrow_bearing_margin"};
-  EXPECT_EQ(notes_at(21.4), none);    // 1.6 mm, of which 0.5 are reserve
-  EXPECT_EQ(notes_at(21.6), narrow);  // 1.4 mm
+  // A gap of 23 mm - r leaves r/48 less, and is narrow below r/24: from r = 23 / (1 + 1/48 + 1/24) = 21.65 on.
+  EXPECT_EQ(notes_at(21.6), none);
+  EXPECT_EQ(notes_at(21.7), narrow);
   EXPECT_EQ(notes_at(22.7), narrow);  // no margin at all
-  EXPECT_EQ(notes_at(21.6, {.margin_mm = 1.0}), none) << "the margin is stated";
-  EXPECT_EQ(notes_at(21.6, {.rule = motion::BearingRule::count}), none) << "any contact counts";
+  EXPECT_EQ(notes_at(21.7, {.margin_mm = 1.0}), none) << "the margin is stated";
+  EXPECT_EQ(notes_at(21.7, {.rule = motion::BearingRule::count}), none) << "any contact counts";
 }
 
 TEST(RangeNotes, SayThatSurfacesSlideByNatureWhereNoHeadTellsContactApart) {
@@ -175,7 +182,7 @@ TEST(RangeNotes, DoNotTurnAShoulderAboutItsGlenoidsCentre) {
   const RangeAnswer answer = answered(joint, {.motions = {abduction}});
   ASSERT_TRUE(answer.bearing.surface && answer.bearing.surface->socket);
   EXPECT_NEAR(answer.bearing.surface->socket->centre.z(), 4, 1e-8);
-  EXPECT_TRUE(answer.notes.empty());
+  EXPECT_TRUE(codes(answer.notes).empty());
   EXPECT_NEAR(answer.limits.front().end.turned.radians(), shaft_limit({}), 5e-12);
 }
 

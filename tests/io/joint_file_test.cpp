@@ -301,9 +301,42 @@ TEST_F(ReadJoint, AUnitThatDoesNotFitTheMeshesIsNotedButFollowed) {
   const auto [joint, report] = read(plain);
   EXPECT_EQ(joint.mobile.mesh, scaled(femur_like(), 0.001));
   const auto notes = check_joint(joint, report.placement);
-  ASSERT_EQ(notes.size(), 2u);
-  for (const JointNote& note : notes) EXPECT_EQ(note.code, JointNoteCode::unlikely_size) << note.text;
+  ASSERT_EQ(notes.size(), 3u);
+  for (const std::size_t body : {0u, 1u}) EXPECT_EQ(notes[body].code, JointNoteCode::unlikely_size) << notes[body].text;
+  EXPECT_EQ(notes[2].code, JointNoteCode::separate_pieces) << "ball and shaft";
   EXPECT_NE(notes[1].text.find("is it in metres?"), std::string::npos) << notes[1].text;
+}
+
+TEST_F(ReadJoint, CentimetresAndInchesBecomeMillimetres) {
+  for (const auto& [word, mm] : {std::pair{"cm", 10.0}, std::pair{"in", 25.4}}) {
+    io::write_mesh(folder / "hip_bone.ply", scaled(pelvis_like(), 1 / mm));
+    io::write_mesh(folder / "femur.ply", scaled(femur_like(), 1 / mm));
+    const auto [joint, report] = read(replaced(plain, "\"mm\"", std::string("\"") + word + "\""));
+    EXPECT_NEAR(joint.mobile.mesh.vertices()[0].norm(), Mesh(femur_like()).vertices()[0].norm(), 1e-5)
+        << word;
+    EXPECT_NE(report.processing.at(0).find("to mm"), std::string::npos);
+  }
+}
+
+TEST_F(ReadJoint, PiecesBesideTheBoneAreLeftOutIfTheFileSaysSo) {
+  const TriMesh ball = test::sphere({1.0 / 3, 0, 2.0 / 3}, 24, 4),
+                shaft = test::box({-10, -400, -10}, {10, -40, 10});
+  const auto triangles = [&](std::string_view pieces) {
+    return read(replaced(plain, "mesh = \"femur.ply\"",
+                         "mesh = \"femur.ply\"\npieces = \"" + std::string(pieces) + '"'));
+  };
+  EXPECT_EQ(triangles("all").joint.mobile.mesh.triangles().size(),
+            ball.triangles.size() + shaft.triangles.size());
+  const auto largest = triangles("largest");  // 144,000 mm^3 of shaft, 57,900 of ball
+  EXPECT_EQ(largest.joint.mobile.mesh.triangles().size(), shaft.triangles.size());
+  EXPECT_EQ(largest.report.processing.back(),
+            "femur.ply: 2048 of 2060 triangles left out: pieces beside the largest");
+  EXPECT_EQ(triangles("at_joint").joint.mobile.mesh.triangles().size(), ball.triangles.size())
+      << "24 mm from the centre, not 40";
+  EXPECT_EQ(
+      refusal(replaced(replaced(plain, "mesh = \"femur.ply\"", "mesh = \"femur.ply\"\npieces = \"at_joint\""),
+                       "centre = [0.0, 0.0, 0.0]", "centre = \"fit\"")),
+      "mobile.pieces: \"at_joint\" needs a centre that is stated in frame.centre");
 }
 
 TEST_F(ReadJoint, ScannerAxesAreNamedByOneKey) {
@@ -354,7 +387,8 @@ TEST_F(ReadJoint, WrongTypesAndWordsAreNamedWithTheirLine) {
             "line 3: kind: must be \"ball\" or \"hinge\" or \"free\", not \"saddle\"");
   EXPECT_EQ(refusal_of("\"right\"", "\"Right\""),
             "line 4: side: must be \"right\" or \"left\", not \"Right\"");
-  EXPECT_EQ(refusal_of("\"mm\"", "\"cm\""), "line 5: units: must be \"mm\" or \"m\", not \"cm\"");
+  EXPECT_EQ(refusal_of("\"mm\"", "\"ft\""),
+            "line 5: units: must be \"mm\", \"cm\", \"in\" or \"m\", not \"ft\"");
   EXPECT_EQ(refusal_of("[0.0, 0.0, 0.0]", "\"fitted\""),
             "line 13: frame.centre: must be [x, y, z] or \"fit\"");
   EXPECT_EQ(refusal_of("[0.0, 0.0, 0.0]", "[0, 0]"),

@@ -125,6 +125,28 @@ TEST(ProposedFineHip, InMetresAndLpsHasTheLimitsOfAFileWrittenByHand) {
     EXPECT_NEAR(found[i].end.turned.degrees(), by_hand[i].end.turned.degrees(), 0.1) << found[i].motion.name;
 }
 
+TEST_P(ProposedHip, InCentimetresOrInchesNamesThatUnit) {
+  const auto in_mm = limits(read(proposed(Axes::joint, 1).toml).joint);
+  for (const auto& [word, mm] : {std::pair{"cm", 10.0}, std::pair{"in", 25.4}}) {
+    const io::JointProposal proposal = proposed(Axes::joint, 1 / mm);
+    EXPECT_NE(proposal.toml.find(std::string("units = '") + word), std::string::npos) << proposal.toml;
+    const auto found = limits(read(proposal.toml).joint);
+    // Vertices are floats, a tenth of a micrometre off; a micrometre moves no limit of these hips by a hundredth of a degree.
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], in_mm[i], 0.01) << word;
+  }
+}
+
+TEST_P(ProposedHip, OfTwoUnitsScalesOneBody) {
+  io::write_mesh(folder_ / "bone.ply", fixed_);
+  io::write_mesh(folder_ / "thigh.ply", as_exported(mobile_, Axes::joint, 0.1));
+  const io::JointProposal proposal =
+      io::propose_joint({folder_ / "bone.ply", folder_ / "thigh.ply", folder_ / "joint.toml", {}, {}});
+  EXPECT_NE(proposal.toml.find("scale = [10, 10, 10]"), std::string::npos) << proposal.toml;
+  const auto found = limits(read(proposal.toml).joint),
+             in_mm = limits(read(proposed(Axes::joint, 1).toml).joint);
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], in_mm[i], 0.01);
+}
+
 TEST_P(ProposedHip, OfTheWrongSideIsNotGuessed) {
   const Side wrong = GetParam().side == Side::right ? Side::left : Side::right;
   const io::JointProposal proposal = proposed(Axes::ras, 1, wrong);

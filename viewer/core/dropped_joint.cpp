@@ -69,7 +69,7 @@ CondyleJoint* proposed_joint(const CondyleMesh& fixed, const CondyleMesh& mobile
   proposal.inferred.push_back(
       fmt::format("side: {}{}", inferred_side == Side::right ? "right" : "left", side ? ", given" : ""));
   proposal.inferred.push_back(fmt::format("axes: {}", axes->name));
-  proposal.inferred.push_back(fmt::format("units: {}", unit == LengthUnit::metres ? "m" : "mm"));
+  proposal.inferred.push_back(fmt::format("units: {}", name_of(unit)));
   proposal.inferred.insert(proposal.inferred.end(), hip_axes.evidence.begin(), hip_axes.evidence.end());
   proposal.fixed = fixed.file, proposal.mobile = mobile.file;
   proposal.fixed_name = fixed.file.name, proposal.mobile_name = mobile.file.name;

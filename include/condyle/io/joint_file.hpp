@@ -94,6 +94,13 @@ struct ContactChanges {
 /// of one otherwise; a thickness that is given takes the place of a measured one.
 ContactEntry changed(ContactEntry entry, const ContactChanges& changes);
 
+/// Which connected pieces of a mesh are the bone.
+enum class PieceRule : std::uint8_t {
+  all,
+  largest,   ///< largest_piece()
+  at_joint,  ///< piece_at() the joint centre, which is stated
+};
+
 /// One mesh of a body.
 struct MeshEntry {
   std::string part;            ///< its name among several; empty if it is the only one
@@ -101,6 +108,7 @@ struct MeshEntry {
   std::vector<Repair> repairs;
   PartContact contact = PartContact::ends;  ///< of one of several
   PolygonRule polygons = PolygonRule::refuse;
+  PieceRule pieces = PieceRule::all;
   /// Where it lies in the body's frame: p_B = X_BG diag(scale) v, in the file's unit.
   Vec3 scale = Vec3::Ones();
   Pose X_BG = Pose::Identity();
@@ -148,6 +156,7 @@ struct BodyMeshReport {
   /// p_B = body_from_file v, in the file's unit: the identity for a mesh without a scale or a pose of its own.
   Eigen::Affine3d body_from_file = Eigen::Affine3d::Identity();
   std::size_t split_polygons = 0;  ///< into triangles
+  std::string left_out = {};       ///< pieces, in a line
 };
 
 /// Steps that made a joint from a file, for reading and for checking.

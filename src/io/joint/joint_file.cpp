@@ -112,6 +112,10 @@ MeshEntry mesh_entry(TomlTable& table) {
   if (table.has("polygons"))
     entry.polygons =
         table.required_word("polygons", {"refuse", "split"}) == 0 ? PolygonRule::refuse : PolygonRule::split;
+  if (table.has("pieces"))
+    entry.pieces =
+        std::array{PieceRule::all, PieceRule::largest,
+                   PieceRule::at_joint}[table.required_word("pieces", {"all", "largest", "at_joint"})];
   if (const auto scale = table.triple("scale")) {
     if (scale->cwiseAbs().minCoeff() == 0) table.fail("scale", "must have no 0 in it");
     entry.scale = *scale;
@@ -152,7 +156,7 @@ PartContact part_contact(TomlTable& mesh) {
 
 std::vector<MeshEntry> mesh_entries(TomlTable& body, std::string_view key, std::vector<std::string>& notes) {
   if (!body.has("meshes")) return {mesh_entry(body)};
-  for (const auto of_one : {"mesh", "repair", "scale", "polygons"})
+  for (const auto of_one : {"mesh", "repair", "scale", "polygons", "pieces"})
     if (body.has(of_one)) body.fail(of_one, "with meshes each of them has its own");
   std::vector<MeshEntry> entries;
   for (TomlTable& table : body.tables("meshes")) {
@@ -487,7 +491,7 @@ JointFile joint_file_of(std::string_view text, const std::filesystem::path& path
   constexpr JointKind kinds[] = {JointKind::ball, JointKind::hinge, JointKind::free};
   joint.kind = kinds[file.required_word("kind", {"ball", "hinge", "free"})];
   joint.side = file.required_word("side", {"right", "left"}) == 0 ? Side::right : Side::left;
-  joint.units = file.required_word("units", {"mm", "m"}) == 0 ? LengthUnit::millimetres : LengthUnit::metres;
+  joint.units = all_length_units[file.required_word("units", {"mm", "cm", "in", "m"})];
   TomlTable fixed = file.required("fixed", file.table("fixed"));
   TomlTable mobile = file.required("mobile", file.table("mobile"));
   out.fixed = body_entry(fixed, "fixed", Lengths(joint.units), out.processing);

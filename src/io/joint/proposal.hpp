@@ -18,6 +18,8 @@ struct ProposedBody {
   std::string name;                        ///< as reports call it
   std::vector<std::string> comments = {};  ///< one line each, above its keys: where the surface comes from
   std::optional<BodyImage> image = {};
+  double scale = 1;           ///< of the mesh's own coordinates, if its unit is another than the other body's
+  std::string scale_by = {};  ///< evidence for it
 };
 
 /// A value that somebody stated, and who did.

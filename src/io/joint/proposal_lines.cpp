@@ -17,6 +17,7 @@ void add_keys(ProposalLines& lines, std::string_view role, const ProposedBody& b
   for (const std::string& comment : body.comments) lines.add("# " + comment);
   lines.add("name = " + toml_text(body.name));
   lines.add("mesh = " + toml_text(path_from(joint_file, body.file)));
+  if (body.scale != 1) lines.key("scale", fmt::format("[{0:g}, {0:g}, {0:g}]", body.scale), body.scale_by);
 }
 
 }  // namespace
@@ -41,15 +42,12 @@ void add_head(ProposalLines& lines, const ProposedBody& fixed, const ProposedBod
   lines.add("name = " + toml_text(mobile.name + " in " + fixed.name));
 }
 
-void add_units(ProposalLines& lines, const std::optional<Stated<LengthUnit>>& stated,
-               const LikelyUnit& of_fixed, const LikelyUnit& of_mobile) {
-  const auto text = [](LengthUnit unit) { return unit == LengthUnit::metres ? "\"m\"" : "\"mm\""; };
-  if (stated)
-    lines.key("units", text(stated->value), stated->by);
-  else if (of_mobile.unit && of_fixed.unit == of_mobile.unit)
-    lines.key("units", text(*of_mobile.unit), "inferred from the size of the meshes: " + of_mobile.reason);
+void add_units(ProposalLines& lines, const std::optional<Stated<LengthUnit>>& units) {
+  if (units)
+    lines.key("units", toml_text(name_of(units->value)), units->by);
   else
-    lines.missing("units", "\"mm\" or \"m\"", "the sizes of the meshes do not speak for one unit");
+    lines.missing("units", "\"mm\", \"cm\", \"in\" or \"m\"",
+                  "the sizes of the meshes do not speak for one unit");
 }
 
 void add_image(ProposalLines& lines, std::string_view role, const std::optional<BodyImage>& image) {

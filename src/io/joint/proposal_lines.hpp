@@ -48,8 +48,8 @@ class ProposalLines {
 void add_head(ProposalLines& lines, const ProposedBody& fixed, const ProposedBody& mobile,
               const ProposalFacts& facts);
 
-void add_units(ProposalLines& lines, const std::optional<Stated<LengthUnit>>& stated,
-               const LikelyUnit& of_fixed, const LikelyUnit& of_mobile);
+/// Empty if nothing speaks for one unit.
+void add_units(ProposalLines& lines, const std::optional<Stated<LengthUnit>>& units);
 
 /// [fixed.image]: every bit, as the planes of the cuts must hold the vertices on them.
 void add_image(ProposalLines& lines, std::string_view role, const std::optional<BodyImage>& image);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "condyle/inspect.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/make_joint.hpp"
@@ -14,9 +13,9 @@
 #include "io/joint/proposal.hpp"
 #include "io/joint/proposal_lines.hpp"
 #include "io/joint/propose_other_joint.hpp"
+#include "io/joint/propose_units.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_axes.hpp"
-#include "mesh/scale.hpp"
 
 namespace condyle::io {
 namespace {
@@ -85,13 +84,12 @@ void add_centre(ProposalLines& lines, const std::optional<kinematics::HipAnatomy
 JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const ProposalFacts& facts) {
   if (facts.anatomy && *facts.anatomy != Anatomy::hip)
     return proposal_of_other(std::move(fixed), std::move(mobile), *facts.anatomy, facts);
-  const LikelyUnit of_fixed = likely_unit(fixed.mesh), of_mobile = likely_unit(mobile.mesh);
   ProposalLines lines;
   add_head(lines, fixed, mobile, facts);
-  const LengthUnit units =
-      facts.units ? facts.units->value : of_mobile.unit.value_or(LengthUnit::millimetres);
-  mesh::scale(fixed.mesh, mm_per(units));
-  mesh::scale(mobile.mesh, mm_per(units));
+  const auto inferred = units_of_hip(fixed, mobile, facts);
+  const LengthUnit units = inferred ? inferred->value : LengthUnit::millimetres;
+  fixed.mesh = surface_in_mm(fixed, units);
+  mobile.mesh = surface_in_mm(mobile, units);
   const auto hip = kinematics::hip_anatomy(fixed.mesh, mobile.mesh);
   add_kind(lines, hip);
 
@@ -118,7 +116,7 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
              facts.axes_by           ? axes.why_none
              : axes.agreeing.empty() ? "no usual axes agree with the bones"
                                      : "more than one pair of axes and side agrees with the bones");
-  add_units(lines, facts.units, of_fixed, of_mobile);
+  add_units(lines, inferred);
 
   add_body(lines, "fixed", fixed, facts.joint_file);
   add_body(lines, "mobile", mobile, facts.joint_file);

@@ -4,16 +4,18 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "condyle/inspect.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "core/rounded.hpp"
 #include "io/joint/proposal_lines.hpp"
+#include "io/joint/propose_units.hpp"
 #include "kinematics/ankle_anatomy.hpp"
 #include "kinematics/elbow_anatomy.hpp"
 #include "kinematics/knee_anatomy.hpp"
 #include "kinematics/shoulder_anatomy.hpp"
 #include "mesh/enclosed_volume.hpp"
-#include "mesh/scale.hpp"
 
 namespace condyle::io {
 namespace {
@@ -292,16 +294,41 @@ void add_direction(ProposalLines& lines, std::string_view key, const Shown<Vec3>
     lines.missing(key, choices, shown.says);
 }
 
+/// The joint in the unit that is stated or that the sizes of the meshes speak for; if it shows no centre there, in the first other one in
+/// which the bones could be as large and it shows one.
+std::pair<std::optional<Stated<LengthUnit>>, ShownJoint> shown_in_some_unit(Anatomy anatomy,
+                                                                            const ProposedBody& fixed,
+                                                                            const ProposedBody& mobile,
+                                                                            const ProposalFacts& facts) {
+  const auto in_unit = [&](LengthUnit unit) {
+    return shown(anatomy, surface_in_mm(fixed, unit), surface_in_mm(mobile, unit));
+  };
+  auto by_size = units_by_size(fixed, mobile, facts);
+  ShownJoint joint = in_unit(by_size ? by_size->value : LengthUnit::millimetres);
+  if (joint.centre.value || facts.units) return {std::move(by_size), std::move(joint)};
+  const double size = std::max(mesh::bounds_of_surface(fixed.mesh).diagonal(),
+                               mesh::bounds_of_surface(mobile.mesh).diagonal());
+  constexpr double shortest_mm = 55, longest_mm = 600;  // of the larger bone of such a joint
+  for (const LengthUnit unit : all_length_units) {
+    if ((by_size && unit == by_size->value) || size * mm_per(unit) < shortest_mm ||
+        size * mm_per(unit) > longest_mm)
+      continue;
+    if (ShownJoint other = in_unit(unit); other.centre.value)
+      return {Stated<LengthUnit>{unit,
+                                 fmt::format("inferred: in {} the bones show such a joint", plural_of(unit))},
+              std::move(other)};
+  }
+  return {std::move(by_size), std::move(joint)};
+}
+
 }  // namespace
 
 JointProposal proposal_of_other(ProposedBody fixed, ProposedBody mobile, Anatomy anatomy,
                                 const ProposalFacts& facts) {
-  const LikelyUnit of_fixed = likely_unit(fixed.mesh), of_mobile = likely_unit(mobile.mesh);
-  const LengthUnit units =
-      facts.units ? facts.units->value : of_mobile.unit.value_or(LengthUnit::millimetres);
-  mesh::scale(fixed.mesh, mm_per(units));
-  mesh::scale(mobile.mesh, mm_per(units));
-  const ShownJoint joint = shown(anatomy, fixed.mesh, mobile.mesh);
+  auto [inferred, joint] = shown_in_some_unit(anatomy, fixed, mobile, facts);
+  const LengthUnit units = inferred ? inferred->value : LengthUnit::millimetres;
+  fixed.mesh = surface_in_mm(fixed, units);
+  mobile.mesh = surface_in_mm(mobile, units);
 
   ProposalLines lines;
   add_head(lines, fixed, mobile, facts);
@@ -309,7 +336,7 @@ JointProposal proposal_of_other(ProposedBody fixed, ProposedBody mobile, Anatomy
   lines.key("kind", toml_word(joint.kind), joint.kind_says);
   for (const std::string& choice : joint.other_choices) lines.add("# " + choice);
   const std::optional<Side> side = add_side(lines, facts.side, joint, anatomy);
-  add_units(lines, facts.units, of_fixed, of_mobile);
+  add_units(lines, inferred);
   add_body(lines, "fixed", fixed, facts.joint_file);
   add_body(lines, "mobile", mobile, facts.joint_file);
   lines.add("\n[frame]");

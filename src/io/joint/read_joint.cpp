@@ -43,7 +43,33 @@ void move(TriMesh& mesh, const Eigen::Affine3d& body_from_file) {
     for (Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
 }
 
-LoadedMesh load(const MeshEntry& entry, const std::string& key, const std::filesystem::path& joint_file) {
+/// The joint centre in the frame of a body's file, in its unit; empty if it is not stated.
+std::optional<Vec3> centre_in_file(const JointDescription& joint, BodyRole body) {
+  const auto* centre = std::get_if<Vec3>(&joint.frame.centre);
+  if (!centre) return std::nullopt;
+  const Pose& X_WB = body == BodyRole::fixed ? joint.fixed_in_W : joint.mobile_in_W;
+  return Vec3(inverted(X_WB) * *centre / mm_per(joint.units));
+}
+
+/// The pieces that the rule keeps, and in a line what it leaves out.
+TriMesh chosen_pieces(TriMesh whole, const MeshEntry& entry, const std::string& key, const JointFile& file,
+                      BodyRole body, std::string& left_out) {
+  if (entry.pieces == PieceRule::all) return whole;
+  const Mesh mesh(std::move(whole));
+  const auto centre = centre_in_file(file.joint, body);
+  if (entry.pieces == PieceRule::at_joint && !centre)
+    throw FileError(fmt::format("{}: {}.pieces: \"at_joint\" needs a centre that is stated in frame.centre",
+                                file.path.string(), key));
+  TriMesh kept = entry.pieces == PieceRule::largest ? largest_piece(mesh) : piece_at(mesh, *centre);
+  if (const std::size_t less = mesh.triangles().size() - kept.triangles.size(); less > 0)
+    left_out =
+        fmt::format("{} of {} triangles left out: pieces beside {}", less, mesh.triangles().size(),
+                    entry.pieces == PieceRule::largest ? "the largest" : "the one at the joint centre");
+  return kept;
+}
+
+LoadedMesh load(const MeshEntry& entry, const std::string& key, const JointFile& joint, BodyRole body) {
+  const std::filesystem::path& joint_file = joint.path;
   check_mesh_exists(entry, key, joint_file);
   io::check_is_file(entry.mesh);
   const MeshFormat format = mesh_format_of(entry.mesh);
@@ -60,18 +86,19 @@ LoadedMesh load(const MeshEntry& entry, const std::string& key, const std::files
   } catch (const MeshError& error) {
     throw MeshError(fmt::format("{}: {}", entry.mesh.string(), error.what()));
   }
+  file.mesh = chosen_pieces(std::move(file.mesh), entry, key, joint, body, report.left_out);
   report.vertices = file.mesh.vertices.size();
   report.triangles = file.mesh.triangles.size();
   return {std::move(file.mesh), std::move(report)};
 }
 
 /// `is_cut`: a part is cut from the body, which has its mesh named for that.
-LoadedBody load(const BodyEntry& entry, const std::string& key, bool is_cut,
-                const std::filesystem::path& joint_file) {
+LoadedBody load(const BodyEntry& entry, BodyRole body, bool is_cut, const JointFile& joint) {
+  const std::string key = body == BodyRole::fixed ? "fixed" : "mobile";
   if (entry.meshes.size() == 1) {
     const MeshEntry& mesh = entry.meshes.front();
     const bool in_list = !mesh.part.empty();
-    LoadedMesh only = load(mesh, in_list ? key + ".meshes[0]" : key, joint_file);
+    LoadedMesh only = load(mesh, in_list ? key + ".meshes[0]" : key, joint, body);
     std::vector<BodyPart> parts;
     if (is_cut)
       parts.push_back({in_list ? mesh.part : entry.name, 0, only.mesh.vertices.size(), 0,
@@ -85,7 +112,7 @@ LoadedBody load(const BodyEntry& entry, const std::string& key, bool is_cut,
   std::vector<BodyMeshReport> reports;
   std::string files;
   for (std::size_t i = 0; i < entry.meshes.size(); ++i) {
-    LoadedMesh one = load(entry.meshes[i], fmt::format("{}.meshes[{}]", key, i), joint_file);
+    LoadedMesh one = load(entry.meshes[i], fmt::format("{}.meshes[{}]", key, i), joint, body);
     parts.push_back({one.report.part, whole.vertices.size(), one.report.vertices, whole.triangles.size(),
                      one.report.triangles, entry.meshes[i].contact});
     io::append_mesh(whole, one.mesh);
@@ -124,13 +151,14 @@ void note_repairs(const BodyMeshReport& body, std::vector<std::string>& notes) {
     notes.push_back(fmt::format("{}: mirrored by its scale, triangles turned round", file_name(body)));
   for (const RepairDone& done : body.repairs)
     notes.push_back(fmt::format("{}: {}", file_name(body), io::describe(done)));
+  if (!body.left_out.empty()) notes.push_back(fmt::format("{}: {}", file_name(body), body.left_out));
 }
 
 std::vector<std::string> processing_of(const JointReport& report) {
   std::vector<std::string> notes;
   const JointPlacement& placement = report.placement;
-  if (report.file.joint.units == LengthUnit::metres)
-    notes.push_back("meshes and lengths converted from metres to mm");
+  if (const LengthUnit units = report.file.joint.units; units != LengthUnit::millimetres)
+    notes.push_back(fmt::format("meshes and lengths converted from {} to mm", plural_of(units)));
   notes.insert(notes.end(), report.file.processing.begin(), report.file.processing.end());
   for (const auto* meshes : {&report.fixed, &report.mobile})
     for (const BodyMeshReport& mesh : *meshes) note_repairs(mesh, notes);
@@ -146,8 +174,8 @@ LoadedJoint load_joint(JointFile file) {
       return part.part.body == body && !part.part.cut.empty();
     });
   };
-  LoadedBody fixed = load(file.fixed, "fixed", is_cut(BodyRole::fixed), file.path),
-             mobile = load(file.mobile, "mobile", is_cut(BodyRole::mobile), file.path);
+  LoadedBody fixed = load(file.fixed, BodyRole::fixed, is_cut(BodyRole::fixed), file),
+             mobile = load(file.mobile, BodyRole::mobile, is_cut(BodyRole::mobile), file);
   PlacedJoint made = placed(file, std::move(fixed.body), std::move(mobile.body));
   JointReport report{
       std::move(file), std::move(fixed.reports), std::move(mobile.reports), std::move(made.placement), {}};

@@ -51,7 +51,7 @@ ColumnsOfPoses columns_of_poses(TomlTable& table) {
   out.fixed_body = table.required("fixed_body", table.text("fixed_body"));
   out.mobile_body = table.required("mobile_body", table.text("mobile_body"));
   if (out.fixed_body == out.mobile_body) table.fail("mobile_body", "must be another body than fixed_body");
-  out.unit = table.required_word("units", {"mm", "m"}) == 0 ? LengthUnit::millimetres : LengthUnit::metres;
+  out.unit = all_length_units[table.required_word("units", {"mm", "cm", "in", "m"})];
   table.finish();
   return out;
 }

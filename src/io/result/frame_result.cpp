@@ -157,7 +157,7 @@ std::string frame_json(const LoadedJoint& loaded, std::span<const JointNote> not
            {"kind", name_of(joint.kind)},
            {"anatomy", io::anatomy_json(joint)},
            {"side", name_of(joint.side)},
-           {"units_of_meshes", report.file.joint.units == LengthUnit::metres ? "m" : "mm"},
+           {"units_of_meshes", name_of(report.file.joint.units)},
            {"centre_mm", io::numbers(placement.X_WF.translation())}};
   for (const auto& [name, axis] : axes_of(placement.X_WF)) out["axes"][name] = io::numbers(axis);
   out["reference_pose_deg"] = io::pose_json(reference_pose_of(report), joint.anatomy);

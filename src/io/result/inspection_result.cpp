@@ -1,4 +1,5 @@
 #include "io/result/inspection_result.hpp"
+#include "core/rounded.hpp"
 
 #include <fmt/format.h>
 
@@ -62,12 +63,15 @@ void for_each_finding(const MeshReport& r, const Visit& visit) {
   visit("unreferenced_vertices", "unreferenced vertices", r.unreferenced_vertices);
 }
 
-/// A sheet has no genus: said as such, not as a number.
-std::string component_text(const MeshComponent& c) {
-  if (!c.closed) return fmt::format("{} triangles, open", c.triangles);
-  std::string out = fmt::format("{} triangles, closed", c.triangles);
+/// A sheet has no genus: said as such, not as a number. Where a component lies matters if there are others.
+std::string component_text(const MeshComponent& c, bool is_only) {
+  std::string out = fmt::format("{} triangles, {}", c.triangles, c.closed ? "closed" : "open");
   if (c.genus) out += fmt::format(", genus {}", *c.genus);
   if (c.signed_volume) out += fmt::format(", volume {:.6g}", *c.signed_volume);
+  if (is_only) return out;
+  const Vec3 middle = (c.bounds.low + c.bounds.high) / 2;
+  out += fmt::format(", {:.4g} across about {}", c.bounds.diagonal(), core::rounded(middle, 1));
+  if (c.inside) out += fmt::format(", inside component {}", *c.inside);
   return out;
 }
 
@@ -82,7 +86,7 @@ void append(std::string& out, const MeshInspection& mesh) {
   for (const RepairDone& done : mesh.repairs) out += fmt::format("  repair {}\n", describe(done));
   out += fmt::format("  {} component{}\n", r.components.size(), r.components.size() == 1 ? "" : "s");
   for (std::size_t i = 0; i < std::min(r.components.size(), components_listed); ++i)
-    out += fmt::format("    {}: {}\n", i, component_text(r.components[i]));
+    out += fmt::format("    {}: {}\n", i, component_text(r.components[i], r.components.size() == 1));
   if (r.components.size() > components_listed)
     out += fmt::format("    and {} more\n", r.components.size() - components_listed);
   for_each_finding(r, [&](const char*, const char* words, const auto& finding) {
@@ -103,6 +107,8 @@ Json json_of(const MeshComponent& c) {
   Json out{{"first_triangle", c.first_triangle}, {"triangles", c.triangles}, {"closed", c.closed}};
   out["genus"] = c.genus ? Json(*c.genus) : Json();
   out["signed_volume"] = c.signed_volume ? Json(*c.signed_volume) : Json();
+  out["bounds"] = {{"low", io::numbers(c.bounds.low)}, {"high", io::numbers(c.bounds.high)}};
+  out["inside"] = c.inside ? Json(*c.inside) : Json();
   return out;
 }
 
@@ -129,7 +135,7 @@ Json json_of(const MeshInspection& mesh) {
                          {"median", r.edge_lengths.median},
                          {"longest", r.edge_lengths.longest}};
   const auto& unit = r.likely_unit.unit;
-  out["likely_unit"] = !unit ? Json() : Json(*unit == LengthUnit::metres ? "m" : "mm");
+  out["likely_unit"] = !unit ? Json() : Json(name_of(*unit));
   out["likely_unit_reason"] = r.likely_unit.reason;
   return out;
 }

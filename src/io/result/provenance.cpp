@@ -22,10 +22,6 @@ std::vector<plan::CupAngles> cup_of(const Joint& joint) {
   return cup;
 }
 
-double mm_of(LengthUnit unit) noexcept {
-  return unit == LengthUnit::metres ? 1000.0 : 1.0;
-}
-
 /// Each body's frame in that of its mesh file: in W, unless the body has a frame of its own there.
 Pose fixed_in_source(const JointReport& report) noexcept {
   return inverted(report.file.joint.fixed_in_W) * report.placement.X_WF;
@@ -152,7 +148,7 @@ AnswerFrame::AnswerFrame(AnswerFrameName name, const JointReport& report) : name
   if (name == AnswerFrameName::joint) return;
   X_SF_ = fixed_in_source(report);
   X_SM_ = mobile_in_source(report);
-  per_mm_ = 1 / mm_of(report.file.joint.units);
+  per_mm_ = 1 / mm_per(report.file.joint.units);
 }
 
 AnswerFrame AnswerFrame::of_held(const Vec3& translation_mm) const {
@@ -182,7 +178,7 @@ TriMesh AnswerFrame::mobile_mesh(const TriMesh& mesh) const {
 
 Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> command, AnswerFrameName frame) {
   const JointReport& report = loaded.report;
-  const double unit_mm = mm_of(report.file.joint.units);
+  const double unit_mm = mm_per(report.file.joint.units);
   return {std::move(command),
           report.file.path,
           report.file.digest,

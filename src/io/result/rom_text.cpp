@@ -67,7 +67,7 @@ std::string bearing_text(const RomResult& result) {
                : "";
   const std::string rim = surface->rim_gap_mm ? fmt::format(", rim {:.2f} mm from it", *surface->rim_gap_mm)
                           : !surface->parts.empty() ? ""
-                          : surface->margin_mm == motion::usual_bearing_margin_mm
+                          : surface->margin_mm == by_head(motion::usual_bearing_margin_mm, surface->head)
                               ? ", no rim was found: the usual margin"
                               : ", no rim was found";
   const std::string within = fmt::format("within {:.2f} mm of the head's sphere", surface->margin_mm);
@@ -77,7 +77,8 @@ std::string bearing_text(const RomResult& result) {
                                                fmt::join(surface->parts, " and "), within);
   const std::string beside =
       surface->beside_gap_mm &&
-              *surface->beside_gap_mm < motion::usual_bearing_margin_mm + motion::rim_reserve_mm
+              *surface->beside_gap_mm <
+                  by_head(motion::usual_bearing_margin_mm + motion::rim_reserve_mm, surface->head)
           ? fmt::format(", {} {:.2f} mm beside its socket", result.joint.fixed.name, *surface->beside_gap_mm)
           : "";
   return fmt::format(

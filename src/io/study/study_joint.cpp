@@ -73,6 +73,8 @@ Side side_of(const StudyTable& table, const StudyRow& row) {
 /// The row's entries in place of a joint file.
 JointFile described(const StudyTable& table, const StudyRow& row) {
   static constexpr std::pair<std::string_view, LengthUnit> units[] = {{"mm", LengthUnit::millimetres},
+                                                                      {"cm", LengthUnit::centimetres},
+                                                                      {"in", LengthUnit::inches},
                                                                       {"m", LengthUnit::metres}};
   static const std::pair<std::string_view, FrameDirections> axes[] = {
       {"joint", {}}, {"RAS", ras_axes}, {"LPS", lps_axes}};

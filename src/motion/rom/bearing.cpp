@@ -106,19 +106,20 @@ BearingFinding surface_of(const Joint& joint, const BearingOptions& options) {
                                                : ": no head was found around the joint centre"));
   surface.head = head->fit.sphere;
   surface.head_coverage = head->coverage;
-  if (const double off = surface.head.centre.norm(); off > farthest_head_centre_mm)
+  const double farthest = by_head(farthest_head_centre_mm, surface.head);
+  if (const double off = surface.head.centre.norm(); off > farthest)
     return none(
         joint.mobile.name +
         core::formatted(": the sphere found as its head has its centre %.1f mm from the joint centre, "
-                        "more than %g",
-                        off, farthest_head_centre_mm));
+                        "more than %.3g",
+                        off, farthest));
   find_socket(joint, surface);
   // A bearing cartilage reaches nearly to the rim's, and its own contact is none of impingement: no reserve is kept there.
   const auto [gap, by] = limiting_gap(surface);
-  const double room = gap - (has_parts ? 0 : rim_reserve_mm);
+  const double room = gap - (has_parts ? 0 : by_head(rim_reserve_mm, surface.head));
   const std::optional<double> stated = options.margin_mm ? options.margin_mm : joint.mobile.bearing_margin_mm;
-  surface.margin_mm = stated.value_or(std::min(usual_bearing_margin_mm, room));
-  if (!stated && !has_parts && surface.margin_mm < narrow_bearing_margin_mm)
+  surface.margin_mm = stated.value_or(std::min(by_head(usual_bearing_margin_mm, surface.head), room));
+  if (!stated && !has_parts && surface.margin_mm < by_head(narrow_bearing_margin_mm, surface.head))
     found.narrow_margin = {gap, surface.margin_mm, by};
   // Bone under a bearing cartilage is within its sphere, with a margin or without; but what meets an acromion is not bearing.
   if (has_parts && by == MarginLimit::rim) surface.margin_mm = std::max(surface.margin_mm, 0.0);
