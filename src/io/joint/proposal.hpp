@@ -18,6 +18,7 @@ struct ProposedBody {
   std::string name;                        ///< as reports call it
   std::vector<std::string> comments = {};  ///< one line each, above its keys: where the surface comes from
   std::optional<BodyImage> image = {};
+  PolygonRule polygons = PolygonRule::refuse;
 };
 
 /// A value that somebody stated, and who did.

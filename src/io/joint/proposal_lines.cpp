@@ -7,6 +7,7 @@
 #include "condyle/version.hpp"
 #include "io/file/format_version.hpp"
 #include "io/file/path_from.hpp"
+#include "io/mesh/polygon_rule.hpp"
 
 namespace condyle::io {
 namespace {
@@ -17,6 +18,8 @@ void add_keys(ProposalLines& lines, std::string_view role, const ProposedBody& b
   for (const std::string& comment : body.comments) lines.add("# " + comment);
   lines.add("name = " + toml_text(body.name));
   lines.add("mesh = " + toml_text(path_from(joint_file, body.file)));
+  if (body.polygons != PolygonRule::refuse)
+    lines.add(fmt::format("polygons = \"{}\"", name_of(body.polygons)));
 }
 
 }  // namespace
