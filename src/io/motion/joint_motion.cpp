@@ -67,6 +67,9 @@ JointMotion motion_of(const LoadedJoint& joint, const MotionTable& table) {
     return io::motion_of_coordinates(joint.joint, table, std::get<std::vector<ColumnOfCoordinate>>(*mapping));
   };
   JointMotion motion = read();
+  if (motion.times.in_seconds)
+    if (auto note = motion::check_times(motion.times.values))
+      motion::add_new(motion.notes, {std::move(*note)});
   motion.path = table.path;
   motion.digest = table.digest;
   return motion;
