@@ -34,8 +34,8 @@ from ._recorded_motion import JointMotion, RecordedContact, recorded_contact
 from ._surface_contact import NormalContact, normal_contact
 from ._sweep import Sweep, TargetLike, sweep
 from ._words import Anatomy, Axes, Ball, BearingRule, Bodies, Body, BodyStyle, Cavities, Colour, CupDefinition, CutFrom, DepthMethod, FaceRule, GapMethod
-from ._words import ImplantCentre, JointKind, LabelTask, LengthUnit, Path, Pieces, PolygonRule, Progress, Side, TranslationFrame, count, number, path_of, progress_of
-from ._words import text_of, word
+from ._words import ImplantCentre, JointKind, LabelTask, LengthUnit, Path, Pieces, PolygonRule, Progress, Side, TranslationFrame
+from ._words import count, number, path_of, progress_of, text_of, word
 
 
 class Joint(DescribedJoint):

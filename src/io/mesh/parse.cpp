@@ -33,8 +33,9 @@ std::string_view without_byte_order_mark(std::string_view text) noexcept {
 }
 
 std::size_t count_line_ends(std::string_view text) noexcept {
-  std::size_t lines = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) lines += is_line_end(text, i);
+  auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  for (std::size_t i = text.find('\r'); i != text.npos; i = text.find('\r', i + 1))
+    lines += is_line_end(text, i);
   return lines;
 }
 
@@ -46,6 +47,7 @@ TextCursor::TextCursor(const Source& source, std::size_t offset) : source_(sourc
     at_ = bytes.size() - without_byte_order_mark(bytes).size();
   }
   line_ = word_line_ = 1 + count_line_ends(bytes.substr(0, offset));
+  feed_ = std::min(bytes.find('\n', at_), bytes.size());
   const std::size_t end = bytes.find_first_of("\r\n");
   const std::size_t after = bytes.find_first_not_of('\r', end);
   ends_with_single_return_ =
@@ -63,16 +65,17 @@ std::string_view TextCursor::word() {
 
 std::string_view TextCursor::rest_of_line() {
   const auto& bytes = source_.bytes;
-  const std::size_t first = at_;
+  if (feed_ < at_) feed_ = std::min(bytes.find('\n', at_), bytes.size());
+  auto text = bytes.substr(at_, feed_ - at_);
+  text = text.substr(0, text.find('\r'));
   word_line_ = line_;
-  while (at_ < bytes.size() && bytes[at_] != '\n' && bytes[at_] != '\r') ++at_;
-  const auto text = bytes.substr(first, at_ - first);
+  at_ += text.size();
   if (at_ == bytes.size()) return text;
   ++line_;
   // A file that was converted twice has several carriage returns before a line feed.
-  std::size_t feed = at_;
-  while (!ends_with_single_return_ && feed < bytes.size() && bytes[feed] == '\r') ++feed;
-  at_ = feed < bytes.size() && bytes[feed] == '\n' ? feed + 1 : at_ + 1;
+  std::size_t last = at_;
+  while (!ends_with_single_return_ && last < bytes.size() && bytes[last] == '\r') ++last;
+  at_ = last < bytes.size() && bytes[last] == '\n' ? last + 1 : at_ + 1;
   return text;
 }
 

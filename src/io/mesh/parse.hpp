@@ -105,6 +105,7 @@ class TextCursor {
  private:
   Source source_;
   std::size_t at_, line_, word_line_;
+  std::size_t feed_;  ///< the next line feed, if it is not behind
   /// How the first line ends says how a line before binary data ends, whose first byte may look like a line feed.
   bool ends_with_single_return_ = false;
 };

@@ -50,6 +50,7 @@ JointMotion of_poses(const LoadedJoint& loaded, const MotionTable& table, Record
   }
   if (auto check = motion::check_recorded("the translation", motion::RecordedKind::length_mm, farthest))
     motion.notes.push_back(std::move(*check));
+  note_times(motion);
   return motion;
 }
 
@@ -67,9 +68,6 @@ JointMotion motion_of(const LoadedJoint& joint, const MotionTable& table) {
     return io::motion_of_coordinates(joint.joint, table, std::get<std::vector<ColumnOfCoordinate>>(*mapping));
   };
   JointMotion motion = read();
-  if (motion.times.in_seconds)
-    if (auto note = motion::check_times(motion.times.values))
-      motion::add_new(motion.notes, {std::move(*note)});
   motion.path = table.path;
   motion.digest = table.digest;
   return motion;
