@@ -112,7 +112,7 @@ TEST_F(ErrorLines, OfPolygonsAreAvoidedByTheirRuleInAJointFileToo) {
   expect_begins("init quads.obj arm.ply", 3, "quads.obj: line 9: face 0 has 4 corners");
   const Ran proposed = run_condyle(folder.path(), "init quads.obj arm.ply --polygons split");
   EXPECT_EQ(proposed.exit_code, 0) << proposed.err;
-  EXPECT_NE(proposed.out.find("mesh = \"quads.obj\"\npolygons = \"split\"\n"), std::string::npos)
+  EXPECT_NE(proposed.out.find("mesh = 'quads.obj'\npolygons = \"split\"\n"), std::string::npos)
       << proposed.out;
   const auto joint = [&](const char* rule) {
     write(std::string(rule) + ".toml",
