@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <fstream>
+#include <cstdio>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "condyle/error.hpp"
 #include "io/mesh/parse.hpp"
@@ -15,9 +16,14 @@ namespace {
 
 /// A preamble of 128 bytes, then the mark.
 bool has_mark_of_dicom(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  std::FILE* const file = std::fopen(path.c_str(), "rb");
+  if (!file) return false;
   std::array<char, 132> start{};
-  std::ifstream file(path, std::ios::binary);
-  return file.read(start.data(), start.size()) && std::string_view(start.data() + 128, 4) == "DICM";
+  const std::size_t got = std::fread(start.data(), 1, start.size(), file);
+  std::fclose(file);
+  return got == start.size() && std::string_view(start.data() + 128, 4) == "DICM";
 }
 
 }  // namespace
