@@ -21,6 +21,7 @@
 #include "help_formatter.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/joint/name_joint_file.hpp"
+#include "io/mesh/parse.hpp"
 #include "io/result/depth_result.hpp"
 #include "mesh/require_solid.hpp"
 #include "notes.hpp"
@@ -57,7 +58,8 @@ DepthRequest request_of(const DepthArguments& options, const io::PoseArgument& g
 /// By its coordinates, as a matrix, or as a matrix in a file.
 io::PoseArgument pose_of(const DepthArguments& options, const Joint& joint) {
   if (options.matrix.empty()) return io::given_pose(options.pose, joint);
-  const std::string text = io::read_whole_file(options.matrix);
+  const std::string bytes = io::read_whole_file(options.matrix);
+  const std::string text = io::without_comments({bytes, options.matrix});
   try {
     if (!io::is_matrix(text)) throw UsageError("pose: a matrix begins with a number");
     return io::given_pose(text, joint);

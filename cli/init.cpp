@@ -19,6 +19,7 @@
 #include "help_formatter.hpp"
 #include "io/file/output_file.hpp"
 #include "io/file/output_folder.hpp"
+#include "io/image/unread_image.hpp"
 #include "label_options.hpp"
 #include "model_options.hpp"
 
@@ -66,13 +67,14 @@ std::optional<Anatomy> anatomy_of(const std::string& joint) {
 
 void propose_from_meshes(const InitArguments& options) {
   if (options.mobile.empty()) throw UsageError("MOBILE: the mesh of the body that moves is needed");
-  const io::JointProposal proposal =
-      io::propose_joint(io::ProposalRequest{.fixed = options.fixed,
-                                            .mobile = options.mobile,
-                                            .joint_file = options.joint_file(),
-                                            .side = options.side,
-                                            .units = options.units,
-                                            .anatomy = anatomy_of(options.joint)});
+  const io::JointProposal proposal = io::propose_joint(
+      io::ProposalRequest{.fixed = options.fixed,
+                          .mobile = options.mobile,
+                          .joint_file = options.joint_file(),
+                          .side = options.side,
+                          .units = options.units,
+                          .anatomy = anatomy_of(options.joint),
+                          .polygons = options.model->polygons.value_or(io::PolygonRule::refuse)});
   note_to_fill_in(proposal);
   if (options.out.empty()) return print(proposal.toml);
   io::write_output_file(options.out, proposal.toml);
@@ -83,6 +85,7 @@ void check_labels(const InitArguments& options) {
   if (options.out.empty())
     throw UsageError("--out: is needed, the surfaces of the bones are written beside the joint file");
   if (options.units) throw UsageError("--units: surfaces of label maps are in mm");
+  if (options.model->polygons) throw UsageError("--polygons: surfaces of label maps have none");
   if (anatomy_of(options.joint).value_or(Anatomy::hip) != Anatomy::hip)
     throw UsageError(
         "--joint: bones of a label map are made a hip; write others with condyle surface and give both "
@@ -141,6 +144,7 @@ void propose_from_model(const InitArguments& options) {
 
 void init_command(const InitArguments& options, const CLI::App& command) {
   check_out(options);
+  io::refuse_unread_image(options.fixed);
   if (!io::label_format_of(options.fixed)) refuse_label_options(command, options.fixed);
   if (is_model(options.fixed)) return propose_from_model(options);
   if (options.model->any())

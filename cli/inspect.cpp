@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -29,7 +30,7 @@ struct InspectArguments {
   std::vector<std::string> meshes;  ///< or label maps, or models
   std::shared_ptr<LabelOptions> labels = std::make_shared<LabelOptions>();
   std::vector<std::string> geometry;  ///< folders with meshes of models
-  io::PolygonRule polygons = io::PolygonRule::refuse;
+  std::optional<io::PolygonRule> polygons;
   std::vector<std::string> repairs;
   std::string out;
   AnswerForm form = AnswerForm::text;
@@ -60,8 +61,7 @@ FileKind kind_of(const InspectArguments& options) {
   for (const std::string& path : options.meshes)
     if (kind_of(path) != kind)
       throw UsageError("MESH: meshes, label maps and models are inspected one after the other, not together");
-  const bool is_of_meshes =
-      !options.repairs.empty() || !options.out.empty() || options.polygons == io::PolygonRule::split;
+  const bool is_of_meshes = !options.repairs.empty() || !options.out.empty() || options.polygons.has_value();
   if (kind != FileKind::mesh && is_of_meshes)
     throw UsageError(
         "--repair, --polygons, --out: are for meshes; condyle surface extracts one from a label map");
@@ -105,7 +105,8 @@ void inspect_command(const InspectArguments& options, const CLI::App& command) {
   std::vector<io::MeshInspection> inspections;
   std::vector<TriMesh> repaired;
   for (const std::string& path : options.meshes) {
-    io::InspectedMesh inspected = io::inspect_file(path, repairs, options.polygons);
+    io::InspectedMesh inspected =
+        io::inspect_file(path, repairs, options.polygons.value_or(io::PolygonRule::refuse));
     inspections.push_back(std::move(inspected.inspection));
     if (!options.out.empty()) repaired.push_back(std::move(inspected.mesh));
   }
@@ -139,15 +140,7 @@ void add_inspect(CLI::App& app) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->option_text("weld,drop_unreferenced,flip_inverted");
-  command
-      ->add_option_function<std::string>(
-          "--polygons",
-          [options](const std::string& rule) {
-            options->polygons = rule == "split" ? io::PolygonRule::split : io::PolygonRule::refuse;
-          },
-          "What to do with polygons of more than three corners: a file does not say what surface is inside")
-      ->check(CLI::IsMember({"refuse", "split"}))
-      ->option_text("refuse|split (refuse)");
+  add_polygons(*command, options->polygons, "refuse");
   command->add_option("--out", options->out, "Write the meshes into this folder, as read and repaired, .ply")
       ->option_text("FOLDER");
   command->add_flag_callback(

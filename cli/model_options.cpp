@@ -8,6 +8,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/mesh/parse.hpp"
+#include "io/mesh/polygon_rule.hpp"
 
 namespace condyle::cli {
 
@@ -18,6 +19,18 @@ void add_geometry(CLI::App& command, std::vector<std::string>& folders) {
           "Look for a model's meshes here too, after its own folder and its folder Geometry; any number")
       ->allow_extra_args(false)
       ->option_text("FOLDER");
+}
+
+void add_polygons(CLI::App& command, std::optional<io::PolygonRule>& polygons, const std::string& otherwise) {
+  command
+      .add_option_function<std::string>(
+          "--polygons", [&polygons](const std::string& rule) { polygons = io::polygon_rule_named(rule); },
+          "What to do with polygons of more than three corners: refuse them; split them where their surface "
+          "is certain "
+          "or nearly so; or guess it of twisted ones too. Default: " +
+              otherwise)
+      ->check(CLI::IsMember(io::polygon_rules()))
+      ->option_text("refuse|split|guess");
 }
 
 void add_model(CLI::App& command, const std::shared_ptr<ModelOptions>& options) {
@@ -36,10 +49,11 @@ void add_model(CLI::App& command, const std::shared_ptr<ModelOptions>& options) 
                   "The contact of a model between the two bodies. Default: the first")
       ->option_text("NAME");
   add_geometry(command, options->geometry);
+  add_polygons(command, options->polygons, "refuse; for meshes of a model split");
 }
 
 std::vector<std::string> model_names() {
-  return {"--anatomy", "--contact", "--geometry"};
+  return {"--anatomy", "--contact", "--geometry", "--polygons"};
 }
 
 void add_side(CLI::App& command, std::optional<Side>& side, const std::string& help) {
@@ -67,8 +81,12 @@ io::ModelJointRequest request_of(const io::Model& model, const ModelOptions& opt
     for (const io::ModelJoint& of : model.joints) names += (names.empty() ? "" : ", ") + of.name;
     throw UsageError(fmt::format("--joint: is needed, one of {}", names.empty() ? "none" : names));
   }
-  return {
-      .joint = joint, .joint_file = {}, .anatomy = options.anatomy, .side = side, .contact = options.contact};
+  return {.joint = joint,
+          .joint_file = {},
+          .anatomy = options.anatomy,
+          .side = side,
+          .contact = options.contact,
+          .polygons = options.polygons.value_or(io::PolygonRule::split)};
 }
 
 }  // namespace condyle::cli

@@ -17,11 +17,16 @@ struct ModelOptions {
   std::vector<std::string> geometry;  ///< folders
   std::optional<Anatomy> anatomy;
   std::string contact;
+  std::optional<io::PolygonRule> polygons;
 
+  /// Whether there is an option that only a model has.
   bool any() const noexcept { return !geometry.empty() || anatomy || !contact.empty(); }
 };
 
-/// --anatomy, --contact and --geometry.
+/// --polygons; `otherwise` says what holds without it.
+void add_polygons(CLI::App& command, std::optional<io::PolygonRule>& polygons, const std::string& otherwise);
+
+/// --anatomy, --contact, --geometry and --polygons.
 void add_model(CLI::App& command, const std::shared_ptr<ModelOptions>& options);
 std::vector<std::string> model_names();
 

@@ -76,8 +76,9 @@ io::LoadedJoint joint_of(const MotionArguments& options) {
     for (const std::string& remark : loaded.report.file.processing) note(remark);
     return loaded;
   }
-  if (!options.model_joint.empty() || options.side || options.model->any())
-    throw UsageError("--joint, --side, --anatomy, --contact, --geometry: are for models of OpenSim, .osim");
+  if (!options.model_joint.empty() || options.side || options.model->any() || options.model->polygons)
+    throw UsageError(
+        "--joint, --side, --anatomy, --contact, --geometry, --polygons: are for models of OpenSim, .osim");
   return io::read_joint(options.joint);
 }
 

@@ -73,7 +73,8 @@ enum class ContactNoteCode : std::uint8_t {
   deeper_than_layers,       ///< The bodies overlap by more than their layers are thick.
   large_strain,             ///< By a large part of it.
   oblique_peak,  ///< The largest depth or pressure comes from a ray that meets the other surface at a slant.
-  unlikely_angle,        ///< A recorded angle beyond two whole turns.
+  unlikely_angle,        ///< A recorded angle beyond two whole turns, or angles that look like radians.
+  unlikely_times,        ///< Recorded times in seconds that look like milliseconds.
   unlikely_translation,  ///< A recorded translation beyond a metre.
   beyond_range,          ///< A recorded coordinate beyond the range that its model gives it.
   locked_coordinate,     ///< One that its model locks, recorded with other values.
@@ -121,6 +122,13 @@ std::vector<ContactNote> check_motion(std::span<const std::optional<FrameContact
 /// Looks at the largest size of a recorded coordinate: an angle in degrees or a length in mm.
 enum class RecordedKind : std::uint8_t { angle_deg, length_mm };
 std::optional<ContactNote> check_recorded(std::string_view coordinate, RecordedKind kind, double largest);
+
+/// Looks at all angles that a file's header says to be in degrees, each a column in degrees: the values of a motion in radians do
+/// not reach 180 degrees, and no column moves by more than that.
+std::optional<ContactNote> check_degrees(std::span<const std::vector<double>> columns);
+
+/// Looks at the times of all frames, in seconds and ascending.
+std::optional<ContactNote> check_times(std::span<const double> seconds);
 
 /// How contact was searched for between two neighbouring samples.
 enum class BetweenSamples : std::uint8_t {

@@ -9,6 +9,7 @@
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/joint_checks.hpp"
+#include "io/mesh/polygon_rule.hpp"
 #include "io/result/caveats.hpp"
 #include "joint_description.hpp"
 #include "joint_state.hpp"
@@ -131,8 +132,12 @@ std::unique_ptr<JointHandle> moved_to(const JointHandle& handle,
 /// The text of the file, the keys that it leaves to fill in, and the evidence for side and axes.
 py::tuple proposed(const std::filesystem::path& fixed, const std::filesystem::path& mobile,
                    const std::filesystem::path& joint_file, const std::optional<std::string>& joint,
-                   const std::optional<std::string>& side, const std::optional<std::string>& units) {
-  io::ProposalRequest request{.fixed = fixed, .mobile = mobile, .joint_file = joint_file};
+                   const std::optional<std::string>& side, const std::optional<std::string>& units,
+                   const std::string& polygons) {
+  io::ProposalRequest request{.fixed = fixed,
+                              .mobile = mobile,
+                              .joint_file = joint_file,
+                              .polygons = io::polygon_rule_named(polygons)};
   if (joint) request.anatomy = anatomy_named(*joint);
   if (side) request.side = *side == name_of(Side::right) ? Side::right : Side::left;
   if (units) request.units = length_unit_named(*units);

@@ -7,6 +7,7 @@
 #include "bindings.hpp"
 #include "condyle/inspect.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "io/mesh/polygon_rule.hpp"
 #include "io/result/repair_text.hpp"
 
 namespace condyle::python {
@@ -55,12 +56,12 @@ py::tuple merged(const Mesh& mesh) {
   return py::make_tuple(std::move(result), array_of(std::move(number)));
 }
 
-py::tuple read_arrays(const std::filesystem::path& path, bool split_polygons) {
+py::tuple read_arrays(const std::filesystem::path& path, const std::string& polygons) {
   auto [mesh, welded, split] = [&] {
     const py::gil_scoped_release released;
-    io::MeshFile file =
-        io::read_mesh(path, split_polygons ? io::PolygonRule::split : io::PolygonRule::refuse);
-    return std::tuple(Mesh(std::move(file.mesh)), file.welded_vertices, file.split_polygons);
+    io::MeshFile file = io::read_mesh(path, io::polygon_rule_named(polygons));
+    return std::tuple(Mesh(std::move(file.mesh)), file.welded_vertices,
+                      io::split_text(file.split_polygons, file.guessed_polygons, file.guessed_within));
   }();
   return py::make_tuple(std::move(mesh), welded, split);
 }

@@ -6,6 +6,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/model_file.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "io/mesh/polygon_rule.hpp"
 #include "joint.hpp"
 
 namespace condyle::python {
@@ -19,12 +20,13 @@ std::unique_ptr<io::Model> model_in(const std::filesystem::path& path,
 
 io::ModelJointRequest request_in(const std::string& joint, const std::string& joint_file,
                                  const std::string& anatomy, const std::string& side,
-                                 const std::string& contact) {
+                                 const std::string& contact, const std::string& polygons) {
   io::ModelJointRequest request{.joint = joint, .joint_file = joint_file};
   for (const Anatomy known : all_anatomies)
     if (anatomy == name_of(known)) request.anatomy = known;
   if (!side.empty()) request.side = side == name_of(Side::right) ? Side::right : Side::left;
   request.contact = contact;
+  request.polygons = io::polygon_rule_named(polygons);
   return request;
 }
 
@@ -80,18 +82,20 @@ py::list model_meshes(const io::Model& model) {
 }
 
 py::tuple proposed_of_model(const io::Model& model, const std::string& joint, const std::string& joint_file,
-                            const std::string& anatomy, const std::string& side, const std::string& contact) {
+                            const std::string& anatomy, const std::string& side, const std::string& contact,
+                            const std::string& polygons) {
   io::ModelJointProposal proposed =
-      io::propose_joint(model, request_in(joint, joint_file, anatomy, side, contact));
+      io::propose_joint(model, request_in(joint, joint_file, anatomy, side, contact, polygons));
   if (!proposed.missing_body.empty()) proposed.proposal.to_fill_in.push_back(proposed.missing_body);
   return py::make_tuple(proposed.proposal.toml, proposed.proposal.to_fill_in, notes_of_model(proposed.notes));
 }
 
 std::unique_ptr<JointHandle> joint_of_model(const io::Model& model, const std::string& joint,
                                             const std::string& anatomy, const std::string& side,
-                                            const std::string& contact) {
+                                            const std::string& contact, const std::string& polygons) {
   const py::gil_scoped_release released;
-  return std::make_unique<JointHandle>(io::read_joint(model, request_in(joint, "", anatomy, side, contact)));
+  return std::make_unique<JointHandle>(
+      io::read_joint(model, request_in(joint, "", anatomy, side, contact, polygons)));
 }
 
 }  // namespace

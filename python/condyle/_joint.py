@@ -34,8 +34,8 @@ from ._recorded_motion import JointMotion, RecordedContact, recorded_contact
 from ._surface_contact import NormalContact, normal_contact
 from ._sweep import Sweep, TargetLike, sweep
 from ._words import Anatomy, Axes, Ball, BearingRule, Bodies, Body, BodyStyle, Cavities, Colour, CupDefinition, CutFrom, DepthMethod, FaceRule, GapMethod
-from ._words import ImplantCentre, JointKind, LabelTask, LengthUnit, Path, Pieces, Progress, Side, TranslationFrame, count, number, path_of, progress_of
-from ._words import text_of, word
+from ._words import ImplantCentre, JointKind, LabelTask, LengthUnit, Path, Pieces, PolygonRule, Progress, Side, TranslationFrame
+from ._words import count, number, path_of, progress_of, text_of, word
 
 
 class Joint(DescribedJoint):
@@ -139,7 +139,8 @@ class Joint(DescribedJoint):
 
     @classmethod
     def from_model(cls, model: Union[Model, Path], joint: str, *, anatomy: Optional[Anatomy] = None,
-                   side: Optional[Side] = None, contact: Optional[str] = None) -> Joint:
+                   side: Optional[Side] = None, contact: Optional[str] = None,
+                   polygons: PolygonRule = "split") -> Joint:
         """The joint of a model of OpenSim: what :func:`read_joint` reads from the file that `condyle init` proposes for it.
 
         :attr:`processing` lists the parts of the model that are not used or were read differently. Raises as
@@ -148,7 +149,7 @@ class Joint(DescribedJoint):
         C++: `condyle::read_joint` in condyle/io/model_file.hpp; `condyle motion MODEL --joint`.
         """
         read = model if isinstance(model, Model) else read_model(model)
-        return cls._of_native(read._joint(joint, anatomy, side, contact))
+        return cls._of_native(read._joint(joint, anatomy, side, contact, polygons))
 
     def with_parameters(self, values: Mapping[str, float]) -> Joint:
         """The joint whose parts are moved to these values of :attr:`parameters`: {"cup.inclination": 42}.

@@ -305,9 +305,10 @@ def read_mesh(path: Path, *, polygons: PolygonRule = "refuse") -> TriMesh:
     """Reads .stl, .obj, .ply, .vtp or .vtk (legacy PolyData), in the file's own unit.
 
     Vertices keep the file's order and every bit. STL has corners and no vertices: those of the same coordinates are
-    one, numbered by their first, and corner k of triangle t is vertex `triangles[t, k]`. Polygons of more than three corners are refused, for a file does
-    not say what surface is inside; "split" takes the triangles round the first corner from which all turn one way, and the
-    mesh says how many in its `processing`. Raises FileError.
+    one, numbered by their first, and corner k of triangle t is vertex `triangles[t, k]`. Polygons of more than three
+    corners are refused, for a file does not say what surface is inside; "split" takes the triangles round the first
+    corner from which all turn one way, cuts any other flat one, and refuses twisted ones; "guess" splits these too.
+    The mesh says how many in its `processing`. Raises FileError.
 
     C++: `condyle::read_mesh` in condyle/io/mesh_file.hpp.
 
@@ -316,9 +317,9 @@ def read_mesh(path: Path, *, polygons: PolygonRule = "refuse") -> TriMesh:
         ...
     condyle.FileError: nowhere.stl: no such file
     """
-    mesh, merged, split = _native.read_mesh(path_of(path), word(polygons, "polygons", PolygonRule) == "split")
+    mesh, merged, split = _native.read_mesh(path_of(path), word(polygons, "polygons", PolygonRule))
     processing = [f"merged {merged} corners of the same coordinates"] if merged else []
-    return TriMesh._of_native(mesh, processing + ([f"split {split} polygons into triangles"] if split else []))
+    return TriMesh._of_native(mesh, processing + ([split] if split else []))
 
 
 def write_mesh(path: Path, mesh: MeshLike) -> None:

@@ -13,7 +13,7 @@ from ._errors import UnknownNameError, UsageError, warn
 from ._native import Joint as NativeJoint
 from ._native import Model as NativeModel
 from ._propose_joint import JointProposal
-from ._words import Anatomy, CoordinateMotion, Path, Side, number_array, path_of, text_of, word
+from ._words import Anatomy, CoordinateMotion, Path, PolygonRule, Side, number_array, path_of, text_of, word
 
 
 @dataclass(frozen=True)
@@ -187,26 +187,30 @@ class Model:
         return ModelJoint(self._native, name, *self._kinds[name])
 
     def propose_joint(self, joint: str, joint_file: Path, *, anatomy: Optional[Anatomy] = None,
-                      side: Optional[Side] = None, contact: Optional[str] = None) -> JointProposal:
+                      side: Optional[Side] = None, contact: Optional[str] = None,
+                      polygons: PolygonRule = "split") -> JointProposal:
         """Proposes a joint file for one of its joints. Nothing is written.
 
         `joint_file` is where it is to lie, for meshes are named from its folder; `anatomy` ("knee") and `side` are inferred from names
-        if not given; `contact` is one of `contacts`, else the first between the two bodies. The proposal's `evidence` says what the
+        if not given; `contact` is one of `contacts`, else the first between the two bodies; `polygons` is that of
+        :func:`read_mesh`. The proposal's `evidence` says what the
         model has and the file has not. UsageError for names that are not there, or do not determine joint or side.
 
         C++: `condyle::propose_joint` in condyle/io/model_file.hpp; `condyle init MODEL --joint`.
         """
         toml, to_fill_in, notes = self._native.proposed(text_of(joint, "joint"), path_of(joint_file, "joint_file"),
-                                                        *_choices(anatomy, side, contact))
+                                                        *_choices(anatomy, side, contact, polygons))
         return JointProposal(toml, tuple(to_fill_in), tuple(f"{code}: {text}" for code, text in notes))
 
-    def _joint(self, joint: str, anatomy: Optional[Anatomy], side: Optional[Side], contact: Optional[str]) -> NativeJoint:
-        return self._native.joint(text_of(joint, "joint"), *_choices(anatomy, side, contact))
+    def _joint(self, joint: str, anatomy: Optional[Anatomy], side: Optional[Side], contact: Optional[str],
+               polygons: PolygonRule) -> NativeJoint:
+        return self._native.joint(text_of(joint, "joint"), *_choices(anatomy, side, contact, polygons))
 
 
-def _choices(anatomy: Optional[Anatomy], side: Optional[Side], contact: Optional[str]) -> tuple[str, str, str]:
+def _choices(anatomy: Optional[Anatomy], side: Optional[Side], contact: Optional[str],
+             polygons: PolygonRule) -> tuple[str, str, str, str]:
     return ("" if anatomy is None else word(anatomy, "anatomy", Anatomy), "" if side is None else word(side, "side", Side),
-            "" if contact is None else text_of(contact, "contact"))
+            "" if contact is None else text_of(contact, "contact"), word(polygons, "polygons", PolygonRule))
 
 
 def read_model(path: Path, *, geometry: Union[Path, Sequence[Path]] = ()) -> Model:

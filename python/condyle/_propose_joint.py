@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Optional
 
 from . import _native
-from ._words import Anatomy, LengthUnit, Path, Side, path_of, word
+from ._words import Anatomy, LengthUnit, Path, PolygonRule, Side, path_of, word
 
 
 @dataclass(frozen=True)
@@ -22,12 +22,13 @@ class JointProposal:
 
 
 def propose_joint(fixed: Path, mobile: Path, joint_file: Path, *, joint: Optional[Anatomy] = None,
-                  side: Optional[Side] = None, units: Optional[LengthUnit] = None) -> JointProposal:
+                  side: Optional[Side] = None, units: Optional[LengthUnit] = None,
+                  polygons: PolygonRule = "refuse") -> JointProposal:
     """Proposes a joint file for two mesh files: kind, centre, axes, side and units. Nothing is written.
 
     `joint_file` is where it is to lie, for meshes are named from its folder; `joint` is a hip if not given, and "knee",
     "ankle", "elbow" and "shoulder" have `fixed` nearer to the trunk; `side` "right" or "left" and `units` "mm", "cm", "in" or "m" are
-    inferred from the bones if not given. FileError where a mesh cannot be read.
+    inferred from the bones if not given; `polygons` is that of :func:`read_mesh`, and the file says so too. FileError where a mesh cannot be read.
 
     C++: `condyle::propose_joint` in condyle/io/joint_file.hpp; `condyle init`.
     """
@@ -35,5 +36,6 @@ def propose_joint(fixed: Path, mobile: Path, joint_file: Path, *, joint: Optiona
         path_of(fixed, "fixed"), path_of(mobile, "mobile"), path_of(joint_file, "joint_file"),
         None if joint is None else word(joint, "joint", Anatomy),
         None if side is None else word(side, "side", Side),
-        None if units is None else word(units, "units", LengthUnit))
+        None if units is None else word(units, "units", LengthUnit),
+        word(polygons, "polygons", PolygonRule))
     return JointProposal(toml, tuple(to_fill_in), tuple(evidence))

@@ -56,8 +56,15 @@ struct Edges {
     for (HalfEdge h = 0; h < 3 * mesh.triangles.size(); ++h) {
       if (names_a_vertex_twice(mesh.triangles[h / 3])) continue;
       const Index edge = table.edge_of(h);
-      if (uses(edge).front() == h) visit(edge, h);
+      if (first_use(edge) == h) visit(edge, h);
     }
+  }
+
+ private:
+  HalfEdge first_use(Index edge) const {
+    const auto all = table.half_edges(edge);
+    return *std::find_if(all.begin(), all.end(),
+                         [&](HalfEdge h) { return !names_a_vertex_twice(mesh.triangles[h / 3]); });
   }
 };
 

@@ -9,6 +9,7 @@
 
 #include "core/float_bounds.hpp"
 #include "core/lazy.hpp"
+#include "core/predicates.hpp"
 #include "mesh/findings.hpp"
 #include "mesh/triangle_intersection.hpp"
 #include "mesh/triangle_tree.hpp"
@@ -61,12 +62,101 @@ std::vector<Box> boxes_of_nodes(const TriangleTree& tree, const std::vector<Box>
   return boxes;
 }
 
+/// Vertices that all triangles of a node have in common, by their places; no_index for none.
+using CommonVertices = std::array<Index, 3>;
+
+/// Of each node. Vertices that lie at one place are one.
+std::vector<CommonVertices> common_vertices(const TriangleTree& tree) {
+  const auto kept_in = [&](CommonVertices common, const CommonVertices& other) {
+    for (Index& v : common)
+      if (v != no_index && std::none_of(other.begin(), other.end(), [&](Index w) {
+            return w != no_index && tree.vertices()[v] == tree.vertices()[w];
+          }))
+        v = no_index;
+    return common;
+  };
+  std::vector<CommonVertices> common(tree.nodes().size());
+  for (std::size_t i = common.size(); i-- > 0;) {
+    const Node& node = tree.nodes()[i];
+    if (!node.is_leaf()) {
+      common[i] = kept_in(common[node.child], common[node.child + 1]);
+      continue;
+    }
+    common[i] = tree.triangles()[node.first];
+    for (Index t = node.first + 1; t < node.last; ++t) common[i] = kept_in(common[i], tree.triangles()[t]);
+  }
+  return common;
+}
+
+bool has_any(const CommonVertices& common) noexcept {
+  return std::any_of(common.begin(), common.end(), [](Index v) { return v != no_index; });
+}
+
+/// Bounds along the diagonals of a cube: the boxes of triangles that run to one vertex from all sides overlap, these tell most of
+/// them apart. Wider than what they hold by the rounding of the sums.
+struct Slabs {
+  static constexpr int directions = 10;
+  std::array<double, directions> low, high;
+
+  explicit Slabs(const Vec3& p) {
+    const double x = p.x(), y = p.y(), z = p.z();
+    const double rounding = 8 * core::rounding_unit * (std::abs(x) + std::abs(y) + std::abs(z));
+    low = {x + y, x - y, x + z, x - z, y + z, y - z, x + y + z, x + y - z, x - y + z, x - y - z};
+    high = low;
+    for (double& value : low) value -= rounding;
+    for (double& value : high) value += rounding;
+  }
+
+  void extend(const Slabs& other) noexcept {
+    for (std::size_t k = 0; k < directions; ++k) {
+      low[k] = std::min(low[k], other.low[k]);
+      high[k] = std::max(high[k], other.high[k]);
+    }
+  }
+};
+
+bool apart(const Slabs& a, const Slabs& b) noexcept {
+  for (std::size_t k = 0; k < Slabs::directions; ++k)
+    if (a.low[k] > b.high[k] || b.low[k] > a.high[k]) return true;
+  return false;
+}
+
+/// Bounds of all triangles and nodes of a mesh in which many triangles meet in one vertex; of any other they cost more than they
+/// save, and there are none.
+struct AllSlabs {
+  std::vector<Slabs> triangles, nodes;
+
+  AllSlabs(const TriangleTree& tree, const std::vector<CommonVertices>& common) {
+    constexpr Index many = 64;
+    bool has_many = false;
+    for (std::size_t i = 0; i < common.size() && !has_many; ++i)
+      has_many = tree.nodes()[i].last - tree.nodes()[i].first >= many && has_any(common[i]);
+    if (!has_many) return;
+    for (Index t = 0; t < tree.triangles().size(); ++t) {
+      const TriangleCorners c = tree.corners(t);
+      triangles.emplace_back(c[0]).extend(Slabs(c[1]));
+      triangles.back().extend(Slabs(c[2]));
+    }
+    nodes.assign(common.size(), Slabs(Vec3::Zero()));
+    for (std::size_t i = nodes.size(); i-- > 0;) {
+      const Node& node = tree.nodes()[i];
+      nodes[i] = node.is_leaf() ? triangles[node.first] : nodes[node.child];
+      if (node.is_leaf())
+        for (Index t = node.first + 1; t < node.last; ++t) nodes[i].extend(triangles[t]);
+      else
+        nodes[i].extend(nodes[node.child + 1]);
+    }
+  }
+};
+
 class CrossingSearch {
  public:
   explicit CrossingSearch(const TriangleTree& tree)
       : tree_(tree),
         triangle_boxes_(boxes_of_triangles(tree)),
-        node_boxes_(boxes_of_nodes(tree, triangle_boxes_)) {
+        node_boxes_(boxes_of_nodes(tree, triangle_boxes_)),
+        common_(common_vertices(tree)),
+        slabs_(tree, common_) {
     found_.crosses.resize(tree.triangles().size());
   }
 
@@ -74,7 +164,8 @@ class CrossingSearch {
     if (tree_.empty()) return std::move(found_);
     std::vector<std::pair<Index, Index>> open{{0, 0}};
     const auto add = [&](Index i, Index j) {
-      if (i == j || !apart(node_boxes_[i], node_boxes_[j])) open.emplace_back(i, j);
+      if (i != j && (apart(node_boxes_[i], node_boxes_[j]) || are_apart(slabs_.nodes, i, j))) return;
+      if (!all_share_a_vertex(i, j)) open.emplace_back(i, j);
     };
     while (!open.empty()) {
       const auto [i, j] = open.back();
@@ -94,6 +185,19 @@ class CrossingSearch {
   }
 
  private:
+  static bool are_apart(const std::vector<Slabs>& slabs, std::size_t i, std::size_t j) noexcept {
+    return !slabs.empty() && apart(slabs[i], slabs[j]);
+  }
+
+  /// Whether every triangle of one node has a vertex that every triangle of the other has too: then none of them cross.
+  bool all_share_a_vertex(std::size_t i, std::size_t j) const noexcept {
+    if (i == j) return has_any(common_[i]);
+    for (const Index v : common_[i])
+      for (const Index w : common_[j])
+        if (v != no_index && w != no_index && tree_.vertices()[v] == tree_.vertices()[w]) return true;
+    return false;
+  }
+
   void test_leaves(const Node& a, const Node& b, const Box& box_of_b) {
     std::array<Index, TriangleTree::leaf_triangles> near;
     for (Index s = a.first; s < a.last; ++s) {
@@ -105,7 +209,8 @@ class CrossingSearch {
         kept += static_cast<std::size_t>(!apart(box, triangle_boxes_[t]));
       }
       for (std::size_t k = 0; k < kept; ++k)
-        if (!share_a_vertex(s, near[k]) && cross(tree_.corners(s), tree_.corners(near[k])))
+        if (!share_a_vertex(s, near[k]) && !are_apart(slabs_.triangles, s, near[k]) &&
+            cross(tree_.corners(s), tree_.corners(near[k])))
           note(tree_.mesh_triangles()[s], tree_.mesh_triangles()[near[k]]);
     }
   }
@@ -135,6 +240,8 @@ class CrossingSearch {
 
   const TriangleTree& tree_;
   std::vector<Box> triangle_boxes_, node_boxes_;
+  std::vector<CommonVertices> common_;
+  AllSlabs slabs_;
   SelfCrossings found_;
 };
 

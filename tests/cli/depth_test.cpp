@@ -1,8 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <regex>
 #include <sstream>
 
@@ -65,6 +69,19 @@ TEST_F(SampleJointCommand, IsWrittenWithTheCountsOfItsScenario) {
   EXPECT_EQ(femur.triangles.size(), 1542u);
   EXPECT_EQ(hip_bone.vertices.size(), 1221u);
   EXPECT_EQ(hip_bone.triangles.size(), 2442u);
+}
+
+TEST_F(SampleJointCommand, AMatrixMayHaveCommentsAboveIt) {
+  const double c = std::cos(0.5), s = std::sin(0.5);
+  const std::string rows = fmt::format("{} {} 0 0\n{} {} 0 0\n0 0 1 0\n0 0 0 1\n", c, -s, s, c);
+  std::ofstream(folder / "plain.txt") << rows;
+  std::ofstream(folder / "titled.txt") << "\xEF\xBB\xBF# X_FM\r\n  # 4 x 4 numbers\r\n" << rows << "# end\n";
+  const Json plain = answer("depth sample/hip.toml --matrix plain.txt"),
+             titled = answer("depth sample/hip.toml --matrix titled.txt");
+  EXPECT_NEAR(titled["pose_deg"]["flexion"].get<double>(), 0.5 * 180 / std::numbers::pi, 1e-12);
+  EXPECT_EQ(titled["pose_deg"], plain["pose_deg"]);
+  std::ofstream(folder / "none.txt") << "# 1 0 0 0\n";
+  expect_refused(3, "depth sample/hip.toml --matrix none.txt", "pose: a matrix begins with a number");
 }
 
 TEST_F(SampleJointCommand, DepthIsWhatTheLibraryFinds) {

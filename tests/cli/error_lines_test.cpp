@@ -65,6 +65,74 @@ TEST_F(ErrorLines, OfACentreOnASurfaceBeginWithTheJointFile) {
     expect_begins(command, 4, "through.toml: mobile body: the joint centre lies on the surface");
 }
 
+TEST_F(ErrorLines, ShowLettersOfEveryScriptAsTheyAre) {
+  write_joint("fémur_大腿骨");
+  const std::string name = "fémur_大腿骨.toml";
+  expect_begins("rom " + name, 3, name + ": mobile.mesh: there is no file ");
+  EXPECT_NE(run_condyle(folder.path(), "rom " + name).err.find("fémur_大腿骨.ply"), std::string::npos);
+  write("schräg.obj", "v 0 0 müde\n");
+  expect_begins("inspect schräg.obj", 3, "schräg.obj: line 1: 'müde' should be a coordinate");
+  write("latin.obj",
+        "v 0 0 m\xFC"
+        "de\n");
+  expect_begins("inspect latin.obj", 3, "latin.obj: line 1: 'm?de' should be a coordinate");
+}
+
+TEST_F(ErrorLines, OfImagesThatAreNotReadNameWhatConvertsThem) {
+  write("aseg.mgz", "x");
+  write("IM000001", std::string(128, '\0') + "DICM and more");
+  for (const char* command : {"inspect aseg.mgz", "surface aseg.mgz --label 4 --out a.ply",
+                              "init aseg.mgz --fixed 1 --mobile 2 -o a.toml"})
+    expect_begins(command, 3, "aseg.mgz: FreeSurfer's images are not read: its mri_convert makes .nii.gz");
+  for (const char* command :
+       {"inspect IM000001", "surface IM000001 --label 4 --out a.ply", "init IM000001 arm.ply"})
+    expect_begins(command, 3, "IM000001: DICOM is not read: open it in 3D Slicer");
+}
+
+TEST_F(ErrorLines, OfTwistedPolygonsSayHowTheyAreRead) {
+  // A comb whose corners are above and below their plane by turns.
+  const std::string comb =
+      "v 0 0 -1\nv 9 0 1\nv 9 9 -1\nv 6 9 1\nv 6 3 -1\nv 3 3 1\nv 3 9 -1\nv 0 9 1\nf 1 2 3 4 5 6 7 8\n";
+  write("comb.obj", comb);
+  expect_begins("inspect comb.obj --polygons split", 3, "comb.obj: face 0 of 8 corners is twisted");
+  const Ran ran = run_condyle(folder.path(), "inspect comb.obj --polygons guess");
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_NE(
+      ran.out.find(
+          "split 1 polygons into triangles, 1 of them by a guess: their corners are up to 1 off one plane"),
+      std::string::npos)
+      << ran.out;
+}
+
+TEST_F(ErrorLines, OfPolygonsAreAvoidedByTheirRuleInAJointFileToo) {
+  write("quads.obj",
+        "v 40 -120 -50\nv 60 -120 -50\nv 60 -80 -50\nv 40 -80 -50\nv 40 -120 50\nv 60 -120 50\nv 60 -80 "
+        "50\nv 40 -80 50\n"
+        "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  expect_begins("init quads.obj arm.ply", 3, "quads.obj: line 9: face 0 has 4 corners");
+  const Ran proposed = run_condyle(folder.path(), "init quads.obj arm.ply --polygons split");
+  EXPECT_EQ(proposed.exit_code, 0) << proposed.err;
+  EXPECT_NE(proposed.out.find("mesh = 'quads.obj'\npolygons = \"split\"\n"), std::string::npos)
+      << proposed.out;
+  const auto joint = [&](const char* rule) {
+    write(std::string(rule) + ".toml",
+          std::string("condyle = 1\nname = \"hip\"\nkind = \"ball\"\nside = \"right\"\nunits = "
+                      "\"mm\"\n[fixed]\nmesh = \"quads.obj\"\n"
+                      "polygons = \"") +
+              rule +
+              "\"\n[mobile]\nmesh = \"arm.ply\"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\n"
+              "superior = [0, 1, 0]\n");
+    return run_condyle(folder.path(), std::string("rom ") + rule + ".toml --motion flexion").out;
+  };
+  EXPECT_EQ(joint("guess"), joint("split")) << "of flat polygons";
+  write("mark.toml",
+        "\xEF\xBB\xBF"
+        "condyle = 1\nname = \"hip\"\nkind = \"ball\"\nside = \"right\"\nunits = \"mm\"\n[fixed]\nmesh = "
+        "\"post.ply\"\n[mobile]\nmesh = \"arm.ply\"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\n"
+        "superior = [0, 1, 0]\n");
+  EXPECT_EQ(run_condyle(folder.path(), "frame mark.toml").exit_code, 0) << "a byte order mark";
+}
+
 TEST_F(ErrorLines, OfAStudyBeginWithTheJointFileOrTheLine) {
   write("met.csv", "id,joint\na,met.toml\n");
   expect_begins("study met.csv --out out --strict", 6, "met.toml: mobile and fixed are in contact");

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "condyle/error.hpp"
+#include "core/one_line.hpp"
 
 namespace condyle::test {
 namespace {
@@ -30,21 +31,27 @@ std::string broken_promise(const TriMesh& mesh) {
 
 std::string broken_promise(std::string_view message) {
   if (!message.starts_with(std::string(mesh_name) + ": ")) return "a message without the file's name";
-  if (message.size() > longest_message) return "a message too long for a line";
-  if (!std::all_of(message.begin(), message.end(), [](char c) { return c >= ' ' && c <= '~'; })) {
-    return "a message that is not one line of plain characters";
-  }
+  if (core::one_line(message, message.size()) != message)
+    return "a message that is not one line of characters that no terminal obeys";
+  if (core::one_line(message, longest_message).size() < message.size())
+    return "a message too long for a line";
   return {};
 }
 
 }  // namespace
 
 std::string broken_promise(std::string_view bytes, io::MeshFormat format) {
-  try {
-    return broken_promise(io::read_mesh(bytes, format, mesh_name).mesh);
-  } catch (const FileError& error) {
-    return broken_promise(std::string_view(error.what()));
+  for (const io::PolygonRule rule :
+       {io::PolygonRule::refuse, io::PolygonRule::split, io::PolygonRule::guess}) {
+    std::string broken;
+    try {
+      broken = broken_promise(io::read_mesh(bytes, format, mesh_name, rule).mesh);
+    } catch (const FileError& error) {
+      broken = broken_promise(std::string_view(error.what()));
+    }
+    if (!broken.empty()) return broken;
   }
+  return {};
 }
 
 }  // namespace condyle::test

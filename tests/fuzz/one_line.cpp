@@ -1,6 +1,6 @@
 #include "fuzz/one_line.hpp"
 
-#include <algorithm>
+#include "core/one_line.hpp"
 
 namespace condyle::test {
 
@@ -9,10 +9,10 @@ std::string fault_of_message(std::string_view message, std::string_view begins_w
   if (message.empty()) return "an empty message";
   if (!message.starts_with(begins_with))
     return "a message that does not begin with its file: " + std::string(message);
-  if (message.size() > longest + begins_with.size())
+  if (core::one_line(message, longest + begins_with.size()).size() < message.size())
     return "a message too long for a line: " + std::string(message);
-  if (!std::all_of(message.begin(), message.end(), [](char c) { return c >= ' ' && c <= '~'; }))
-    return "a message that is not one line of plain characters: " + std::string(message);
+  if (core::one_line(message, message.size()) != message)
+    return "a message that is not one line of characters that no terminal obeys: " + std::string(message);
   return {};
 }
 

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <numbers>
 #include <random>
 
 #include "condyle/inspect.hpp"
@@ -53,6 +57,55 @@ SelfCrossings by_brute_force(const TriMesh& mesh) {
     found.crosses[s] = found.crosses[t] = 1;
   }
   return found;
+}
+
+/// A cone of so many sides on a cone, both with their vertex on an axis of any direction.
+TriMesh two_cones(Index sides, const Eigen::Quaterniond& turn) {
+  TriMesh mesh;
+  for (Index k = 0; k < sides; ++k) {
+    const double angle = 2 * std::numbers::pi * k / sides;
+    mesh.vertices.push_back(turn * Vec3(30 * std::cos(angle), 30 * std::sin(angle), 0));
+    mesh.triangles.push_back({k, (k + 1) % sides, sides});
+    mesh.triangles.push_back({(k + 1) % sides, k, sides + 1});
+  }
+  mesh.vertices.push_back(turn * Vec3(0, 0, 40));
+  mesh.vertices.push_back(turn * Vec3(0, 0, -20));
+  return mesh;
+}
+
+TEST(SelfCrossings, OfManyTrianglesRoundAVertexAreThoseOfExactBruteForce) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (int round = 0; round < 2; ++round) {
+    const Eigen::Quaterniond turn =
+        Eigen::Quaterniond(number(random), number(random), number(random), number(random)).normalized();
+    TriMesh cones = two_cones(100, turn);
+    EXPECT_EQ(self_crossings_of(cones).pairs, 0u);
+    // The lower vertex pushed through the upper cone, and a triangle through all of it.
+    cones.vertices.set(101, turn * Vec3(15, 5, 30));
+    for (const Vec3& p : {Vec3(-50, -40, 12), Vec3(60, -30, 12.5), Vec3(0, 70, 13)})
+      cones.vertices.push_back(turn * p);
+    cones.triangles.push_back({102, 103, 104});
+    const SelfCrossings expected = by_brute_force(cones), found = self_crossings_of(cones);
+    EXPECT_GT(expected.pairs, 200u);
+    EXPECT_EQ(found.pairs, expected.pairs);
+    EXPECT_EQ(found.first, expected.first);
+    EXPECT_EQ(found.crosses, expected.crosses);
+  }
+}
+
+TEST(SelfCrossings, TakeLittleLongerForManyTrianglesRoundAVertex) {
+  // Quadratic, 160,000 triangles take 64 times as long as 20,000; n log n, less than 10 times.
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+  const auto seconds = [&](Index sides) {
+    const Mesh mesh(two_cones(sides, turn));
+    const std::clock_t begin = std::clock();
+    EXPECT_EQ(self_crossings_of(mesh).pairs, 0u);
+    return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  };
+  double few = seconds(10000);
+  few = std::min(few, seconds(10000));
+  EXPECT_LT(seconds(80000), 30 * few);
 }
 
 TEST(SelfCrossings, AreThoseOfExactBruteForce) {

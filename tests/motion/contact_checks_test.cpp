@@ -141,6 +141,39 @@ TEST(ContactChecks, NameRecordedNumbersInAnotherUnit) {
   EXPECT_EQ(check_recorded("x", RecordedKind::length_mm, 40000)->code, ContactNoteCode::unlikely_translation);
 }
 
+TEST(ContactChecks, NameAnglesInRadiansThatAreReadAsDegrees) {
+  const auto code = [](const std::vector<std::vector<double>>& columns) {
+    const auto note = check_degrees(columns);
+    return note ? std::optional(note->code) : std::nullopt;
+  };
+  // A hip from -20 to 40 degrees, its other angles smaller.
+  EXPECT_EQ(code({{-0.35, 0.2, 0.7}, {0.02, 0.05, std::nan("")}}), ContactNoteCode::unlikely_angle);
+  EXPECT_FALSE(code({{-20, 11, 40}, {1, 3, 1}})) << "degrees";
+  EXPECT_FALSE(code({{0, 0.2, 0.7}, {3.15, 3.1, 3.1}})) << "one of them beyond half a turn";
+  EXPECT_EQ(code({{0, 0.2, 0.7}, {3.14, 3.1, 3.1}}), ContactNoteCode::unlikely_angle);
+  EXPECT_FALSE(code({{1.0, 1.1, 1.29}, {2, 2, 2}})) << "at rest";
+  EXPECT_EQ(code({{1.0, 1.1, 1.31}, {2, 2, 2}}), ContactNoteCode::unlikely_angle);
+  EXPECT_FALSE(code({}));
+  EXPECT_FALSE(code({{std::nan("")}}));
+}
+
+TEST(ContactChecks, NameTimesInMilliseconds) {
+  const auto is_noted = [](double step, int frames) {
+    std::vector<double> times;
+    for (int i = 0; i < frames; ++i) times.push_back(500 + step * i);
+    return check_times(times).has_value();
+  };
+  EXPECT_FALSE(is_noted(0.01, 1000));
+  EXPECT_TRUE(is_noted(10, 3)) << "100 frames in a second";
+  EXPECT_TRUE(is_noted(2, 2));
+  EXPECT_FALSE(is_noted(1.99, 60));
+  EXPECT_FALSE(is_noted(1, 101)) << "per cent";
+  EXPECT_TRUE(is_noted(1, 122)) << "1000 frames in a second";
+  EXPECT_FALSE(is_noted(0.1, 100000)) << "a day of walking";
+  EXPECT_FALSE(check_times({}));
+  EXPECT_EQ(check_times(std::vector<double>{0, 10})->code, ContactNoteCode::unlikely_times);
+}
+
 TEST(ContactChecks, AddOnlyNewCodes) {
   std::vector<ContactNote> notes = check_load({.on_mobile = {.force_n = {0, 8000, 0}}});
   add_new(notes, {{ContactNoteCode::unlikely_load, "again"},

@@ -110,6 +110,26 @@ def test_a_soup_read_from_stl_is_joined_with_a_map_from_its_corners(tmp_path):
     np.testing.assert_array_equal(mesh.vertices[mesh.triangles], CORNERS[FACES])
 
 
+def test_polygons_are_split_where_it_is_asked_for(tmp_path):
+    comb = [(0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (1, 1), (1, 3), (0, 3)]
+
+    def write(height):
+        path = tmp_path / "comb.obj"
+        path.write_text("".join(f"v {x} {y} {height * (-1) ** i}\n" for i, (x, y) in enumerate(comb)) + "f 1 2 3 4 5 6 7 8\n")
+        return path
+
+    with pytest.raises(condyle.FileError, match="only triangles"):
+        condyle.read_mesh(write(0))
+    flat = condyle.read_mesh(write(0), polygons="split")
+    assert len(flat.triangles) == 6 and list(flat.processing) == ["split 1 polygons into triangles"]
+    with pytest.raises(condyle.FileError, match="twisted"):
+        condyle.read_mesh(write(0.25), polygons="split")
+    twisted = condyle.read_mesh(write(0.25), polygons="guess")
+    assert len(twisted.triangles) == 6 and "by a guess: their corners are up to 0.25 off one plane" in twisted.processing[0]
+    with pytest.raises(condyle.UsageError, match="polygons"):
+        condyle.read_mesh(write(0), polygons="fan")
+
+
 def test_arrays_cannot_be_written_and_outlive_their_mesh():
     mesh = condyle.TriMesh(CORNERS, FACES)
     vertices, triangles = mesh.vertices, mesh.triangles

@@ -155,8 +155,10 @@ struct BodyMeshReport {
   FileDigest digest = {};  ///< of the file before anything was done to the mesh
   /// p_B = body_from_file v, in the file's unit: the identity for a mesh without a scale or a pose of its own.
   Eigen::Affine3d body_from_file = Eigen::Affine3d::Identity();
-  std::size_t split_polygons = 0;  ///< into triangles
-  std::string left_out = {};       ///< pieces, in a line
+  std::string left_out = {};         ///< pieces, in a line
+  std::size_t split_polygons = 0;    ///< into triangles
+  std::size_t guessed_polygons = 0;  ///< of these, as MeshFile has it
+  double guessed_within = 0;         ///< likewise, in the file's unit
 };
 
 /// Steps that made a joint from a file, for reading and for checking.
@@ -182,11 +184,12 @@ LoadedJoint with_parameters(const LoadedJoint& loaded, std::span<const Parameter
 
 /// Input of a proposal.
 struct ProposalRequest {
-  std::filesystem::path fixed, mobile;   ///< mesh files
-  std::filesystem::path joint_file;      ///< where it is to lie: meshes are named from its folder
-  std::optional<Side> side = {};         ///< default: inferred from the bones
-  std::optional<LengthUnit> units = {};  ///< default: inferred from their size
-  std::optional<Anatomy> anatomy = {};   ///< which joint it is; default: a hip
+  std::filesystem::path fixed, mobile;         ///< mesh files
+  std::filesystem::path joint_file;            ///< where it is to lie: meshes are named from its folder
+  std::optional<Side> side = {};               ///< default: inferred from the bones
+  std::optional<LengthUnit> units = {};        ///< default: inferred from their size
+  std::optional<Anatomy> anatomy = {};         ///< which joint it is; default: a hip
+  PolygonRule polygons = PolygonRule::refuse;  ///< of both meshes; the file says so too
 };
 
 /// A joint file, complete but for what could not be inferred.

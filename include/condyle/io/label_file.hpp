@@ -31,6 +31,7 @@ struct LabelSegment {
 /// A warning on a label map or on a choice among its labels. It changes nothing.
 enum class LabelNoteCode {
   two_affines,         ///< NIfTI: sform and qform place the voxels differently.
+  two_voxel_sizes,     ///< NIfTI: pixdim gives voxels another size than the sform.
   unknown_units,       ///< NIfTI: no unit of length; mm was assumed.
   more_bytes,          ///< The file holds more than its header promises.
   empty_segmentation,  ///< One voxel: 3D Slicer writes an empty segmentation so.

@@ -33,12 +33,15 @@ struct MeshFile {
   TriMesh mesh;  ///< every index in range, every coordinate finite, at least one triangle
   /// STL only: duplicate corners that were merged with an earlier one.
   std::size_t welded_vertices = 0;
-  std::size_t split_polygons = 0;  ///< into triangles, as asked
+  std::size_t split_polygons = 0;    ///< into triangles, as asked
+  std::size_t guessed_polygons = 0;  ///< of these, twisted or crossing themselves: their surface is a guess
+  double guessed_within = 0;         ///< how far their corners are from one plane, at most
 };
 
 /// Polygons of more than three corners. A file does not say what surface is inside of one: `split` takes the triangles round
-/// its first corner from which all of them turn one way, and refuses one that is not convex from any corner.
-enum class PolygonRule { refuse, split };
+/// its first corner from which all of them turn one way; of a flat one without such a corner any, since all cover the same. It refuses a
+/// twisted one without such a corner, and one that crosses itself; `guess` splits these too: docs/mesh-files.md.
+enum class PolygonRule { refuse, split, guess };
 
 enum class MeshFormat { stl, obj, ply, vtp, vtk };
 

@@ -163,10 +163,11 @@ std::vector<ModelMesh> meshes_of(const Model& model, const ModelJoint& joint, Bo
 /// Options of a joint file that is proposed for a model's joint.
 struct ModelJointRequest {
   std::string joint;
-  std::filesystem::path joint_file;     ///< where it is to lie: meshes are named from its folder
-  std::optional<Anatomy> anatomy = {};  ///< default: by the names of joint and bodies
-  std::optional<Side> side = {};        ///< default: by the ending of their names
-  std::string contact = {};             ///< default: the first between the two bodies
+  std::filesystem::path joint_file;           ///< where it is to lie: meshes are named from its folder
+  std::optional<Anatomy> anatomy = {};        ///< default: by the names of joint and bodies
+  std::optional<Side> side = {};              ///< default: by the ending of their names
+  std::string contact = {};                   ///< default: the first between the two bodies
+  PolygonRule polygons = PolygonRule::split;  ///< of the model's meshes; the file says so too
 };
 
 /// A joint file for a joint of a model.

@@ -115,13 +115,18 @@ double element_mm_per_unit(const HeaderFields& fields) {
   fields.fail("DistanceUnits", fmt::format("{} is no unit of length that is read", in_quotes(*unit)));
 }
 
-/// Rows of the matrix are the directions of the axes. CenterOfRotation and AnatomicalOrientation change nothing.
-VoxelGrid grid_of(const HeaderFields& fields, const VoxelData& data) {
+/// Rows of the matrix are the directions of the axes; without one the axes are those of the world that is stated, and so is the
+/// place of the first voxel. CenterOfRotation and AnatomicalOrientation change nothing.
+VoxelGrid grid_of(const HeaderFields& fields, const VoxelData& data, const std::optional<StatedAxes>& axes) {
   Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
   const auto matrix = given(fields, std::array{"TransformMatrix", "Rotation", "Orientation"});
   if (matrix) {
     const auto numbers = fields.numbers(*matrix, 9);
     directions = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(numbers.data()).transpose();
+  } else if (!axes) {
+    fields.fail(
+        "TransformMatrix",
+        "is missing: the file does not say how its axes lie in the body; state it (ITK takes them for LPS)");
   }
   const auto spacing = fields.numbers("ElementSpacing", 3);
   Eigen::Affine3d X_WI = Eigen::Affine3d::Identity();
@@ -130,7 +135,7 @@ VoxelGrid grid_of(const HeaderFields& fields, const VoxelData& data) {
   if (const auto offset = given(fields, std::array{"Offset", "Position", "Origin"}))
     X_WI.translation() = Eigen::Vector3d::Map(fields.numbers(*offset, 3).data());
   X_WI.matrix().topRows<3>() *= element_mm_per_unit(fields);
-  return checked_grid(data.size, X_WI, StatedAxes::lps, fields.source(),
+  return checked_grid(data.size, X_WI, matrix ? StatedAxes::lps : *axes, fields.source(),
                       matrix ? *matrix : std::string("ElementSpacing"));
 }
 
@@ -165,7 +170,7 @@ LabelMap read_metaimage(const LabelInput& input) {
   check_is_image(fields);
   const VoxelData data = voxel_data(fields);
   LabelMap map;
-  map.grid = grid_of(fields, data);
+  map.grid = grid_of(fields, data, input.options.axes);
   const bool is_compressed = flag(fields, "CompressedData", false);
   const auto read = [&](const ByteSource& source, std::uint64_t at) {
     ByteStream stream(source, data_offset(fields, source, at, data, is_compressed),

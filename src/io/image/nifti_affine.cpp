@@ -78,6 +78,25 @@ double difference(const Affine3d& first, const Affine3d& second, const std::arra
   return largest;
 }
 
+/// Sizes that differ by less than this part are one size, rounded.
+constexpr double size_rounding = 1e-3;
+
+/// Where the sform, which is used, and pixdim have voxels of different sizes: half of the programs then show another size.
+void note_voxel_sizes(const NiftiHeader& header, const Affine3d& X_WI, double mm,
+                      std::vector<LabelNote>& notes) {
+  const Vector3d of_pixdim = voxel_extents(header), of_sform = X_WI.linear().colwise().norm();
+  if (!of_pixdim.allFinite() || !(of_pixdim.minCoeff() > 0)) return;
+  if (((of_sform - of_pixdim).cwiseAbs().array() <= size_rounding * of_sform.array()).all()) return;
+  const auto text = [&](const Vector3d& size) {
+    return fmt::format("{:.4g} x {:.4g} x {:.4g} mm", mm * size.x(), mm * size.y(), mm * size.z());
+  };
+  notes.push_back(
+      {LabelNoteCode::two_voxel_sizes, fmt::format("Voxels are {} by the sform, which was used as nibabel "
+                                                   "does, and {} by pixdim, which ITK and 3D Slicer "
+                                                   "take.",
+                                                   text(of_sform), text(of_pixdim))});
+}
+
 double nifti_mm_per_unit(const NiftiHeader& header, const ByteSource& source, std::vector<LabelNote>& notes) {
   switch (const int unit = header.units & 7) {
     case 0:
@@ -127,6 +146,8 @@ VoxelGrid nifti_grid(const NiftiHeader& header, const std::array<std::int64_t, 3
   const double mm = nifti_mm_per_unit(header, source, notes);
   const auto grid =
       checked_grid(size, affine_of(X_WI.linear() * mm, X_WI.translation() * mm), world, source, element);
+  if (header.sform_code > 0 && options.affine != AffineChoice::qform)
+    note_voxel_sizes(header, X_WI, mm, notes);
   if (header.sform_code > 0 && header.qform_code > 0) {
     const bool uses_qform = options.affine == AffineChoice::qform;
     const double voxels = difference(X_WI, uses_qform ? sform(header) : qform(header), size);

@@ -6,6 +6,7 @@
 #include "condyle/io/label_file.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/image/label_input.hpp"
+#include "io/image/unread_image.hpp"
 #include "io/mesh/parse.hpp"
 
 namespace condyle::io {
@@ -45,6 +46,7 @@ std::optional<LabelFormat> label_format_of(const std::filesystem::path& path) {
 LabelMap read_labels(const std::filesystem::path& path, const LabelFileOptions& options) {
   io::check_is_file(path);
   const auto format = label_format_of(path);
+  if (!format) io::refuse_unread_image(path);
   if (!format)
     throw FileError(fmt::format(
         "{}: unknown extension '{}': label maps in .nii, .nii.gz, .hdr, .nrrd, .nhdr, .mha and .mhd are read",
@@ -64,6 +66,8 @@ std::string_view name_of(LabelNoteCode code) noexcept {
   switch (code) {
     case LabelNoteCode::two_affines:
       return "two_affines";
+    case LabelNoteCode::two_voxel_sizes:
+      return "two_voxel_sizes";
     case LabelNoteCode::unknown_units:
       return "unknown_units";
     case LabelNoteCode::more_bytes:

@@ -13,10 +13,33 @@ constexpr std::uint64_t longest_header = std::uint64_t{1} << 24;  // bytes
 
 }  // namespace
 
+/// Appends the bytes that follow; false at the end of the file.
+bool HeaderLines::read_block() {
+  const std::size_t before = block_.size();
+  const std::uint64_t at = offset_ + before - used_;
+  if (at > longest_header) source_.fail("the header is longer than 16 MB");
+  block_.resize(before + line_block_size);
+  block_.resize(before + source_.read(at, std::span(block_).subspan(before)));
+  return block_.size() > before;
+}
+
+/// Where the text begins, and how its lines end.
+void HeaderLines::begin() {
+  read_block();
+  used_ = block_.size() - without_byte_order_mark(block_).size();
+  offset_ = used_;
+  const std::size_t first = block_.find_first_of("\r\n");
+  if (first == std::string::npos || block_[first] == '\n') return;
+  if (first + 1 == block_.size()) read_block();
+  const std::size_t after = block_.find_first_not_of('\r', first);
+  if (after == std::string::npos || block_[after] != '\n') end_ = '\r';
+}
+
 std::optional<std::string> HeaderLines::next() {
+  if (line_ == 0) begin();
   std::size_t searched = used_;
   while (true) {
-    const std::size_t end = block_.find('\n', searched);
+    const std::size_t end = block_.find(end_, searched);
     if (end != std::string::npos) {
       std::string line = block_.substr(used_, end - used_);
       offset_ += line.size() + 1;
@@ -28,11 +51,7 @@ std::optional<std::string> HeaderLines::next() {
     block_.erase(0, used_);
     used_ = 0;
     searched = block_.size();
-    const std::uint64_t at = offset_ + searched;
-    if (at > longest_header) source_.fail("the header is longer than 16 MB");
-    block_.resize(searched + line_block_size);
-    block_.resize(searched + source_.read(at, std::span(block_).subspan(searched)));
-    if (block_.size() > searched) continue;
+    if (read_block()) continue;
     if (block_.empty()) return std::nullopt;
     // The last line of a file may lack its end.
     std::string line = std::move(block_);

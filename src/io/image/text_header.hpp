@@ -11,7 +11,8 @@
 
 namespace condyle::io {
 
-/// The lines of a text header that data follow.
+/// The lines of a text header that data follow, as TextCursor has them: a byte order mark before them is passed over, and where the first
+/// line ends with a single carriage return all do.
 class HeaderLines {
  public:
   explicit HeaderLines(const ByteSource& source) : source_(source) {}
@@ -27,10 +28,14 @@ class HeaderLines {
   [[noreturn]] void fail(std::string_view what) const;
 
  private:
+  bool read_block();
+  void begin();
+
   const ByteSource& source_;
   std::string block_;  ///< read bytes; lines have taken those before used_
   std::size_t used_ = 0, line_ = 0;
   std::uint64_t offset_ = 0;
+  char end_ = '\n';
 };
 
 /// Keys of a text header and their values.

@@ -110,8 +110,7 @@ Pose body_pose(TomlTable& body, std::string_view key, CoordinateSystem system, c
 MeshEntry mesh_entry(TomlTable& table) {
   MeshEntry entry{{}, io::mesh_path(table, "mesh", table.required("mesh", table.text("mesh"))), {}};
   if (table.has("polygons"))
-    entry.polygons =
-        table.required_word("polygons", {"refuse", "split"}) == 0 ? PolygonRule::refuse : PolygonRule::split;
+    entry.polygons = static_cast<PolygonRule>(table.required_word("polygons", {"refuse", "split", "guess"}));
   if (table.has("pieces"))
     entry.pieces =
         std::array{PieceRule::all, PieceRule::largest,

@@ -20,6 +20,7 @@ struct ProposedBody {
   std::optional<BodyImage> image = {};
   double scale = 1;           ///< of the mesh's own coordinates, if its unit is another than the other body's
   std::string scale_by = {};  ///< evidence for it
+  PolygonRule polygons = PolygonRule::refuse;
 };
 
 /// A value that somebody stated, and who did.

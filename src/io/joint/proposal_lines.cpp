@@ -7,6 +7,7 @@
 #include "condyle/version.hpp"
 #include "io/file/format_version.hpp"
 #include "io/file/path_from.hpp"
+#include "io/mesh/polygon_rule.hpp"
 
 namespace condyle::io {
 namespace {
@@ -18,6 +19,8 @@ void add_keys(ProposalLines& lines, std::string_view role, const ProposedBody& b
   lines.add("name = " + toml_text(body.name));
   lines.add("mesh = " + toml_text(path_from(joint_file, body.file)));
   if (body.scale != 1) lines.key("scale", fmt::format("[{0:g}, {0:g}, {0:g}]", body.scale), body.scale_by);
+  if (body.polygons != PolygonRule::refuse)
+    lines.add(fmt::format("polygons = \"{}\"", name_of(body.polygons)));
 }
 
 }  // namespace

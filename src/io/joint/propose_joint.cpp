@@ -136,8 +136,11 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
 }
 
 JointProposal propose_joint(const ProposalRequest& request) {
-  const auto body = [](const std::filesystem::path& file) {
-    return ProposedBody{read_mesh(file).mesh, file, file.stem().string()};
+  const auto body = [&](const std::filesystem::path& file) {
+    return ProposedBody{.mesh = read_mesh(file, request.polygons).mesh,
+                        .file = file,
+                        .name = file.stem().string(),
+                        .polygons = request.polygons};
   };
   ProposalFacts facts{.joint_file = request.joint_file, .from = "the two meshes below"};
   if (request.side) facts.side = {*request.side, "given"};

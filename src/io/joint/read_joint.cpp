@@ -10,6 +10,7 @@
 #include "io/file/whole_file.hpp"
 #include "io/joint/append_mesh.hpp"
 #include "io/joint/load_joint.hpp"
+#include "io/mesh/polygon_rule.hpp"
 #include "io/result/repair_text.hpp"
 #include "mesh/enclosed_volume.hpp"
 
@@ -77,6 +78,8 @@ LoadedMesh load(const MeshEntry& entry, const std::string& key, const JointFile&
   MeshFile file = read_mesh(bytes, format, entry.mesh.string(), entry.polygons);
   BodyMeshReport report{entry.part, entry.mesh, 0, 0, file.welded_vertices, {}, digest_of(bytes)};
   report.split_polygons = file.split_polygons;
+  report.guessed_polygons = file.guessed_polygons;
+  report.guessed_within = file.guessed_within;
   if (entry.is_moved()) {
     report.body_from_file = Eigen::Affine3d(entry.X_BG) * Eigen::Scaling(entry.scale);
     move(file.mesh, report.body_from_file);
@@ -146,7 +149,8 @@ void note_repairs(const BodyMeshReport& body, std::vector<std::string>& notes) {
     notes.push_back(fmt::format("{}: merged {} duplicate vertices", file_name(body), body.welded_vertices));
   if (body.split_polygons > 0)
     notes.push_back(
-        fmt::format("{}: split {} polygons into triangles", file_name(body), body.split_polygons));
+        fmt::format("{}: {}", file_name(body),
+                    io::split_text(body.split_polygons, body.guessed_polygons, body.guessed_within)));
   if (body.body_from_file.linear().determinant() < 0)
     notes.push_back(fmt::format("{}: mirrored by its scale, triangles turned round", file_name(body)));
   for (const RepairDone& done : body.repairs)

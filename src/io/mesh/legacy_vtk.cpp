@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
@@ -29,7 +31,7 @@ constexpr double first_version_with_offsets = 5;
 /// Header and sections of a legacy file: lines of text, between them numbers as text or as big-endian bytes.
 class Reader {
  public:
-  explicit Reader(const Source& source) : source_(source), text_(source) {}
+  Reader(const Source& source, std::endian order) : source_(source), text_(source), order_(order) {}
 
   RawMesh read() {
     read_header();
@@ -48,7 +50,8 @@ class Reader {
       } else if (section == "vertices" || section == "lines") {
         read_cells(section);  // they bound nothing
       } else if (section == "triangle_strips") {
-        if (!read_cells(section).ends.empty()) source_.fail("triangle strip 0: only triangles are read");
+        const Cells cells = read_cells(section);
+        append_strips(raw, cells.corners, cells.ends, source_);
       } else if (section == "field") {
         skip_field();
       } else if (section == "metadata") {
@@ -138,11 +141,53 @@ class Reader {
       while (io::lower_case(text_.word()) == "metadata") skip_metadata();
       const auto components = text_.number<std::uint64_t>("a number of components");
       const auto tuples = text_.number<std::uint64_t>("a number of tuples");
-      const VtkType type = read_type();
       if (components > 0 && tuples > largest_count / components)
         source_.fail("field: announces more than any file can hold");
-      numbers<double>(type, components * tuples, "field");
+      skip_array(components * tuples);
     }
+  }
+
+  /// Whatever an array of the field data holds: numbers, texts, bits.
+  void skip_array(std::uint64_t count) {
+    const auto word = text_.word();
+    const auto name = io::lower_case(word);
+    if (name == "string" || name == "utf8_string") return skip_texts(count);
+    if (name == "bit") {
+      if (is_text_)
+        numbers<double>(VtkType::u8, count, "field");
+      else
+        numbers<double>(VtkType::u8, count / 8 + (count % 8 > 0 ? 1 : 0), "field");
+      return;
+    }
+    numbers<double>(type_of(word), count, "field");
+  }
+
+  /// Texts, as 3D Slicer puts its coordinate system here: one in a line, or each with its length before it.
+  void skip_texts(std::uint64_t count) {
+    text_.rest_of_line();
+    if (count > text_.remaining() + 1)
+      source_.fail(fmt::format("field: {} texts announced, the file ends before", count));
+    for (std::uint64_t i = 0; i < count; ++i) {
+      if (is_text_) {
+        if (text_.at_end()) source_.fail(fmt::format("field: the file ends before text {} of {}", i, count));
+        text_.rest_of_line();
+        continue;
+      }
+      const std::uint64_t length = length_of_text();
+      if (length > text_.remaining()) source_.fail(fmt::format("field: the file ends within text {}", i));
+      text_.take(static_cast<std::size_t>(length));
+    }
+  }
+
+  /// The two highest bits of the first byte say how many bytes the length has: 3 one, 2 two, 1 four, 0 eight.
+  std::uint64_t length_of_text() {
+    if (text_.remaining() == 0) source_.fail("field: the file ends before a text");
+    std::uint64_t length = static_cast<unsigned char>(text_.take(1).front());
+    const std::size_t more = (std::size_t{1} << (3 - (length >> 6))) - 1;
+    if (more > text_.remaining()) source_.fail("field: the file ends within the length of a text");
+    length &= 0x3F;
+    for (const char c : text_.take(more)) length = length << 8 | static_cast<unsigned char>(c);
+    return length;
   }
 
   /// Up to the next empty line.
@@ -152,8 +197,9 @@ class Reader {
     }
   }
 
-  VtkType read_type() {
-    const auto word = text_.word();
+  VtkType read_type() { return type_of(text_.word()); }
+
+  VtkType type_of(std::string_view word) {
     const auto name = io::lower_case(word);
     for (const auto& known : legacy_type_names) {
       if (known.name == name) return known.type;
@@ -184,7 +230,7 @@ class Reader {
         for (std::uint64_t i = 0; i < count; ++i) values.push_back(as<Out>(text_.number<Parsed>("a number")));
       } else {
         ByteCursor bytes({text_.take(count * sizeof(T)), source_.name});
-        for (std::uint64_t i = 0; i < count; ++i) values.push_back(as<Out>(bytes.value<T>(std::endian::big)));
+        for (std::uint64_t i = 0; i < count; ++i) values.push_back(as<Out>(bytes.value<T>(order_)));
       }
       return values;
     }
@@ -195,14 +241,41 @@ class Reader {
 
   Source source_;
   TextCursor text_;
+  std::endian order_;
   bool is_text_ = true, has_offsets_ = false;
 };
 
+/// Whether the numbers make sense from their lowest byte on.
+bool is_little_endian(const Source& source) {
+  try {
+    const RawMesh raw = Reader({source.bytes, source.name, PolygonRule::split}, std::endian::little).read();
+    const auto are_there = [&](const auto& corners) {
+      return std::all_of(corners.begin(), corners.end(),
+                         [&](std::int64_t v) { return v >= 0 && std::cmp_less(v, raw.vertices.size()); });
+    };
+    return raw.triangles.size() + raw.polygons.size() > 0 &&
+           std::all_of(raw.triangles.begin(), raw.triangles.end(), are_there) &&
+           std::all_of(raw.polygons.begin(), raw.polygons.end(),
+                       [&](const RawMesh::Polygon& polygon) { return are_there(polygon.corners); });
+  } catch (const FileError&) {
+    return false;
+  }
+}
+
 }  // namespace
 
-/// Legacy PolyData, text and binary, both forms of cells. Arrays after the geometry are not read.
+/// Legacy PolyData, text and binary, both forms of cells. A binary file whose counts make sense only in the other order of bytes is
+/// refused with that reason: its coordinates could look right. Arrays after the geometry are not read.
 RawMesh read_legacy_vtk(const Source& source) {
-  return Reader(source).read();
+  try {
+    return Reader(source, std::endian::big).read();
+  } catch (const FileError&) {
+    if (!is_little_endian(source)) throw;
+  }
+  source.fail(
+      "its binary numbers are little-endian, those of a legacy VTK file are big-endian: write it anew as "
+      "text, or as "
+      ".vtp");
 }
 
 }  // namespace condyle::io

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <string>
 
 #include "io/mesh/parse.hpp"
 
@@ -15,6 +16,22 @@ bool moves_no_vertex(std::string_view keyword) {
                                            "usemtl",   "usemap",   "maplib",     "lod",      "bevel",
                                            "c_interp", "d_interp", "shadow_obj", "trace_obj"};
   return std::find(std::begin(harmless), std::end(harmless), keyword) != std::end(harmless);
+}
+
+/// Statements whose last word is a name, which may end with a backslash, as a folder of Windows does.
+bool ends_with_name(std::string_view keyword) {
+  constexpr std::string_view naming[] = {"g",      "o",      "mtllib",     "usemtl",
+                                         "usemap", "maplib", "shadow_obj", "trace_obj"};
+  return keyword.starts_with('#') ||
+         std::find(std::begin(naming), std::end(naming), keyword) != std::end(naming);
+}
+
+/// Cuts the backslash off that continues a line on the next; false if there is none.
+bool cut_backslash(std::string_view& line) {
+  while (!line.empty() && is_space(line.back())) line.remove_suffix(1);
+  if (!line.ends_with('\\')) return false;
+  line.remove_suffix(1);
+  return true;
 }
 
 /// The words of one line, in turn.
@@ -59,6 +76,23 @@ std::int64_t corner_from(std::string_view word, std::size_t vertices_so_far, con
   return so_far + number;
 }
 
+/// The next line, with those on which a backslash at its end continues it. `whole` holds it then.
+std::string_view next_statement(TextCursor& text, std::string& whole) {
+  std::string_view line = text.rest_of_line();
+  if (ends_with_name(Words(line).next()) || line.find('#') != line.npos) return line;
+  std::string_view part = line;
+  if (!cut_backslash(part)) return line;
+  whole.clear();
+  for (bool goes_on = true; goes_on;) {
+    whole.append(part).append(1, ' ');
+    if (text.at_end()) break;
+    part = text.rest_of_line();
+    goes_on = cut_backslash(part);
+    if (!goes_on) whole.append(part);
+  }
+  return whole;
+}
+
 }  // namespace
 
 /// Vertices and faces; texture, normals, groups, materials, lines and points are passed over.
@@ -66,10 +100,11 @@ RawMesh read_obj(const Source& source) {
   RawMesh raw;
   std::vector<std::size_t> line_of;  // by triangle: a face may come before its vertices
   std::vector<std::int64_t> corners;
+  std::string whole;
   TextCursor text(source);
   while (!text.at_end()) {
     const std::size_t line = text.line();
-    Words words(text.rest_of_line());
+    Words words(next_statement(text, whole));
     const auto keyword = words.next();
     if (keyword == "v") {
       raw.vertices.push_back(vertex_from(words, text));

@@ -63,9 +63,17 @@ bool parse_number(std::string_view word, T& value) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
-/// Reads words and lines, and counts lines for messages.
+/// The text without the mark of UTF-8 before it, which some editors write.
+std::string_view without_byte_order_mark(std::string_view text) noexcept;
+
+/// Lines of a text that end with a line feed, or with a carriage return, or with both.
+std::size_t count_line_ends(std::string_view text) noexcept;
+
+/// Reads words and lines, and counts lines for messages. A line ends with a line feed, with a single carriage return, as Rhino
+/// and spreadsheets of a Macintosh write it, or with both; a byte order mark at the start is passed over.
 class TextCursor {
  public:
+  /// Raises FileError for a text in UTF-16.
   explicit TextCursor(const Source& source, std::size_t offset = 0);
 
   bool at_end() const noexcept { return at_ == source_.bytes.size(); }
@@ -97,7 +105,13 @@ class TextCursor {
  private:
   Source source_;
   std::size_t at_, line_, word_line_;
+  std::size_t feed_;  ///< the next line feed, if it is not behind
+  /// How the first line ends says how a line before binary data ends, whose first byte may look like a line feed.
+  bool ends_with_single_return_ = false;
 };
+
+/// The lines of a text but for comments, those that begin with '#' as numpy writes them.
+std::string without_comments(const Source& source);
 
 /// Reads fixed-size values, and never past the end.
 class ByteCursor {
@@ -143,6 +157,10 @@ Out as(T value) noexcept {
 /// Appends a face. False, and nothing done, for fewer than three corners, and for more where the rule refuses them.
 bool append_face(RawMesh& raw, std::span<const std::int64_t> corners, PolygonRule rule);
 
+/// Appends a strip: corners i, i + 1, i + 2 are a triangle, every second one wound the other way. What names a vertex twice only
+/// joins two strips and is left out.
+void append_strip(RawMesh& raw, std::span<const std::int64_t> corners);
+
 /// Its message: "face 12 has 4 corners: ...".
 std::string refused_face(std::string_view kind, std::uint64_t number, std::size_t corners);
 
@@ -152,6 +170,14 @@ void check_ends(std::span<const std::int64_t> ends, const Source& source);
 /// Appends cells that check_ends() has let pass.
 void append_cells(RawMesh& raw, std::span<const std::int64_t> corners, std::span<const std::int64_t> ends,
                   const Source& source);
+
+/// Appends strips that end at these places in the row of all corners. Fails for ends that do not ascend or do not use every
+/// corner, and for a strip of fewer than three corners.
+void append_strips(RawMesh& raw, std::span<const std::int64_t> corners, std::span<const std::int64_t> ends,
+                   const Source& source);
+
+/// Whether the file has exactly the size that the count after a binary header of STL implies.
+bool is_binary_stl(const Source& source);
 
 // One reader per format; each raises FileError only.
 RawMesh read_stl(const Source& source);

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "io/mesh/parse.hpp"
@@ -47,6 +49,14 @@ auto with_type(Type type, const Call& call) {
       break;
   }
   return call(double{});
+}
+
+/// What -1 becomes in an unsigned type; -1 for every other type.
+std::int64_t largest_unsigned(Type type) {
+  return with_type(type, [](auto zero) -> std::int64_t {
+    if constexpr (std::is_unsigned_v<decltype(zero)>) return std::numeric_limits<decltype(zero)>::max();
+    return -1;
+  });
 }
 
 std::size_t size_of(Type type) {
@@ -303,9 +313,44 @@ void read_faces(const Element& element, Values& values, RawMesh& raw, const Sour
   }
 }
 
+/// Strips of triangles, one list or several; -1, or the largest number of an unsigned type, begins a new strip.
+void read_strips(const Element& element, Values& values, RawMesh& raw, const Source& source) {
+  const auto lists = std::count_if(element.properties.begin(), element.properties.end(), is_corner_list);
+  if (lists != 1) source.fail("header: triangle strips need one property 'vertex_indices'");
+  const auto vertices = static_cast<std::int64_t>(raw.vertices.size());
+  std::vector<std::int64_t> corners;
+  for (std::uint64_t i = 0; i < element.count; ++i) {
+    for (const auto& property : element.properties) {
+      if (!is_corner_list(property)) {
+        skip_property(property, element, i, values, source);
+        continue;
+      }
+      if (!property.count_type || is_floating(property.type))
+        source.fail(
+            fmt::format("header: property '{}' of strips should be a list of integers", property.name));
+      const std::int64_t restart = largest_unsigned(property.type);
+      const auto count = list_length(property, element, i, values, source);
+      corners.clear();
+      for (std::uint64_t k = 0; k <= count; ++k) {
+        const std::int64_t corner = k < count ? values.integer(property.type, element.name, i) : -1;
+        const bool begins_new = corner == -1 || (corner == restart && corner >= vertices);
+        if (!begins_new) {
+          corners.push_back(corner);
+          continue;
+        }
+        if (corners.size() == 1 || corners.size() == 2)
+          source.fail(fmt::format("{} {}: a triangle strip has {} corners: it needs 3", element.name, i,
+                                  corners.size()));
+        append_strip(raw, corners);
+        corners.clear();
+      }
+    }
+  }
+}
+
 }  // namespace
 
-/// Elements "vertex" (x, y, z) and "face" (vertex_indices or vertex_index); all others, and all other
+/// Elements "vertex" (x, y, z), "face" and "tristrips" (vertex_indices or vertex_index); all others, and all other
 /// properties, are passed over.
 RawMesh read_ply(const Source& source) {
   const Header header = read_header(source);
@@ -320,6 +365,8 @@ RawMesh read_ply(const Source& source) {
     } else if (element.name == "face") {
       if (std::exchange(has_faces, true)) source.fail("header: element 'face' twice");
       read_faces(element, values, raw, source);
+    } else if (element.name == "tristrips") {
+      read_strips(element, values, raw, source);
     } else {
       skip_element(element, values, source);
     }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -9,6 +10,8 @@
 #include "condyle/error.hpp"
 #include "condyle/inspect.hpp"
 #include "core/coordinate_range.hpp"
+#include "io/file/compressed.hpp"
+#include "io/image/unread_image.hpp"
 #include "io/mesh/parse.hpp"
 #include "io/mesh/split_polygon.hpp"
 
@@ -19,6 +22,10 @@ using io::RawMesh;
 using io::Source;
 
 RawMesh read_raw(const Source& source, MeshFormat format) {
+  // The header of a binary STL file may hold any bytes.
+  if (const auto packer = io::packed_by(source.bytes);
+      !packer.empty() && !(format == MeshFormat::stl && io::is_binary_stl(source)))
+    source.fail(fmt::format("is compressed by {}: uncompress it first", packer));
   switch (format) {
     case MeshFormat::stl:
       return io::read_stl(source);
@@ -35,7 +42,7 @@ RawMesh read_raw(const Source& source, MeshFormat format) {
 }
 
 /// Checks everything that TriMesh promises against the file; the only place that does.
-TriMesh checked(RawMesh&& raw, const Source& source) {
+MeshFile checked(RawMesh&& raw, const Source& source) {
   const auto count = raw.vertices.size();
   if (count == 0) source.fail("holds no vertices");
   if (count >= no_index) source.fail(fmt::format("holds {} vertices, more than can be numbered", count));
@@ -49,13 +56,18 @@ TriMesh checked(RawMesh&& raw, const Source& source) {
         source.fail(fmt::format("vertex {}: coordinate {} is {}, beyond 1e30", v, axis, value));
     }
   }
-  TriMesh mesh{std::move(raw.vertices), {}};
+  MeshFile file{.mesh = {std::move(raw.vertices), {}}, .split_polygons = raw.polygons.size()};
+  TriMesh& mesh = file.mesh;
   mesh.triangles.reserve(raw.triangles.size());
   auto polygon = raw.polygons.begin();
   for (std::size_t t = 0; t <= raw.triangles.size(); ++t) {
-    for (; polygon != raw.polygons.end() && polygon->triangles_before == t; ++polygon)
-      io::append_split(mesh, polygon->corners, static_cast<std::size_t>(polygon - raw.polygons.begin()) + t,
-                       source);
+    for (; polygon != raw.polygons.end() && polygon->triangles_before == t; ++polygon) {
+      const auto off_plane = io::append_split(
+          mesh, polygon->corners, static_cast<std::size_t>(polygon - raw.polygons.begin()) + t, source);
+      if (!off_plane) continue;
+      ++file.guessed_polygons;
+      file.guessed_within = std::max(file.guessed_within, *off_plane);
+    }
     if (t == raw.triangles.size()) break;
     auto& triangle = mesh.triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
@@ -66,12 +78,12 @@ TriMesh checked(RawMesh&& raw, const Source& source) {
       triangle[k] = static_cast<Index>(v);
     }
   }
-  return mesh;
+  return file;
 }
 
 /// Volumes of voxels: scans, and label maps of segmentations.
 bool is_image(const std::string& name) {
-  for (const std::string_view ending : {".nii", ".nii.gz", ".nrrd", ".nhdr", ".mha", ".mhd", ".mgz", ".dcm"})
+  for (const std::string_view ending : {".nii", ".nii.gz", ".nrrd", ".nhdr", ".mha", ".mhd"})
     if (name.ends_with(ending)) return true;
   return false;
 }
@@ -85,12 +97,18 @@ MeshFormat mesh_format_of(const std::filesystem::path& path) {
   if (extension == ".ply") return MeshFormat::ply;
   if (extension == ".vtp") return MeshFormat::vtp;
   if (extension == ".vtk") return MeshFormat::vtk;
+  io::refuse_unread_image(path);
   if (is_image(io::lower_case(path.filename().string())))
     throw FileError(fmt::format(
         "{}: an image or label map is no mesh: .stl, .obj, .ply, .vtp and .vtk are read. Export the "
         "surface of each bone from the program that segmented it (3D Slicer: Segmentations, Export to "
         "files, STL)",
         path.string()));
+  if (extension == ".gz" || extension == ".zip" || extension == ".bz2" || extension == ".xz" ||
+      extension == ".zst")
+    throw FileError(
+        fmt::format("{}: is compressed ('{}'): uncompress it first; .stl, .obj, .ply, .vtp and .vtk are read",
+                    path.string(), extension));
   throw FileError(fmt::format("{}: unknown extension '{}': .stl, .obj, .ply, .vtp and .vtk are read",
                               path.string(), path.extension().string()));
 }
@@ -98,9 +116,7 @@ MeshFormat mesh_format_of(const std::filesystem::path& path) {
 MeshFile read_mesh(std::string_view bytes, MeshFormat format, std::string_view name, PolygonRule polygons) {
   const Source source{bytes, name, polygons};
   if (bytes.empty()) source.fail("the file is empty");
-  RawMesh raw = read_raw(source, format);
-  MeshFile file{.mesh = {}, .split_polygons = raw.polygons.size()};
-  file.mesh = checked(std::move(raw), source);
+  MeshFile file = checked(read_raw(source, format), source);
   if (format == MeshFormat::stl) file.welded_vertices = weld_exactly(file.mesh);
   return file;
 }

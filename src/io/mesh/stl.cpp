@@ -20,14 +20,12 @@ std::uint64_t binary_size(std::uint32_t triangles) {
   return header_size + count_size + std::uint64_t{triangle_size} * triangles;
 }
 
-/// Text begins with "solid", but so do the headers of some binary files. A file of exactly the size that its
-/// count implies is binary; otherwise one with a zero byte is a binary file gone wrong, for text has none.
+/// Text begins with "solid", but so do the headers of some binary files. One with a zero byte is a binary file gone wrong, for
+/// text has none.
 bool is_text(const Source& source) {
-  const auto& bytes = source.bytes;
-  if (bytes.size() >= header_size + count_size && bytes.size() == binary_size(announced_triangles(source)))
-    return false;
+  if (is_binary_stl(source)) return false;
   TextCursor text(source);
-  return io::lower_case(text.word()) == "solid" && bytes.find('\0') == std::string_view::npos;
+  return io::lower_case(text.word()) == "solid" && source.bytes.find('\0') == std::string_view::npos;
 }
 
 void add_triangle(RawMesh& raw) {
@@ -96,6 +94,11 @@ RawMesh read_binary(const Source& source) {
 }
 
 }  // namespace
+
+bool is_binary_stl(const Source& source) {
+  return source.bytes.size() >= header_size + count_size &&
+         source.bytes.size() == binary_size(announced_triangles(source));
+}
 
 /// The soup of the file: three vertices of its own for every triangle. Normals are not read.
 RawMesh read_stl(const Source& source) {

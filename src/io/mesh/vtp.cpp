@@ -30,9 +30,15 @@ struct Description {
   std::optional<std::uint64_t> appended_at;
 };
 
+/// Corners of all cells of a kind in one row, and where each cell ends.
+struct Cells {
+  std::optional<Description> connectivity, offsets;
+};
+
 struct Piece {
-  std::uint64_t points = 0, polygons = 0;
-  std::optional<Description> coordinates, connectivity, offsets;
+  std::uint64_t points = 0, polygons = 0, strips = 0;
+  std::optional<Description> coordinates;
+  Cells of_polygons, of_strips;
 };
 
 struct AppendedData {
@@ -88,7 +94,7 @@ Piece piece_from(const XmlTag& tag, const XmlCursor& xml) {
   Piece piece;
   piece.points = count_from(tag, "NumberOfPoints", xml);
   piece.polygons = count_from(tag, "NumberOfPolys", xml);
-  if (count_from(tag, "NumberOfStrips", xml) > 0) xml.fail("triangle strip 0: only triangles are read");
+  piece.strips = count_from(tag, "NumberOfStrips", xml);
   return piece;
 }
 
@@ -119,9 +125,10 @@ Description description_from(const XmlTag& tag, std::string label, const XmlCurs
 /// Where in the piece an array's description belongs; null for the arrays that make no surface.
 std::optional<Description>* place_of(const XmlTag& tag, Piece& piece, std::string_view section) {
   if (section == "Points") return &piece.coordinates;
-  if (section != "Polys") return nullptr;
+  if (section != "Polys" && section != "Strips") return nullptr;
+  Cells& cells = section == "Polys" ? piece.of_polygons : piece.of_strips;
   const auto name = tag.find("Name").value_or("");
-  return name == "connectivity" ? &piece.connectivity : name == "offsets" ? &piece.offsets : nullptr;
+  return name == "connectivity" ? &cells.connectivity : name == "offsets" ? &cells.offsets : nullptr;
 }
 
 void add_array(const XmlTag& tag, Piece& piece, const XmlCursor& xml) {
@@ -135,7 +142,8 @@ void add_array(const XmlTag& tag, Piece& piece, const XmlCursor& xml) {
   if (section == "Points" && tag.find("NumberOfComponents") != "3")
     xml.fail("points need NumberOfComponents=\"3\"");
   *place = description_from(
-      tag, section == "Points" ? "Points" : fmt::format("Polys {}", tag.find("Name").value_or("")), xml);
+      tag, section == "Points" ? "Points" : fmt::format("{} {}", section, tag.find("Name").value_or("")),
+      xml);
 }
 
 AppendedData appended_from(const XmlTag& tag, const XmlCursor& xml, const Source& source) {
@@ -173,7 +181,7 @@ RawMesh mesh_from(const Piece& piece, const VtkEncoding& encoding,
   // Three numbers each, and neither text nor base64 nor a compressed block goes without its bytes: a count so
   // large that three times it overflows cannot be true.
   constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max() / 3;
-  if (piece.points > largest || piece.polygons > largest)
+  if (piece.points > largest || piece.polygons > largest || piece.strips > largest)
     source.fail("piece 0: announces more than any file can hold");
   RawMesh raw;
   if (piece.points > 0) {
@@ -182,13 +190,22 @@ RawMesh mesh_from(const Piece& piece, const VtkEncoding& encoding,
     raw.vertices.reserve(piece.points);
     for (std::size_t i = 0; i < xyz.size(); i += 3) raw.vertices.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
   }
+  const auto ends_of = [&](const Cells& cells, std::uint64_t count, std::string_view label) {
+    return read_integers(located(cells.offsets, appended, label, source), encoding, count, source);
+  };
+  const auto corners_of = [&](const Cells& cells, std::int64_t count, std::string_view label) {
+    return read_integers(located(cells.connectivity, appended, label, source), encoding,
+                         static_cast<std::uint64_t>(count), source);
+  };
   if (piece.polygons > 0) {
-    const auto ends = read_integers(located(piece.offsets, appended, "Polys offsets", source), encoding,
-                                    piece.polygons, source);
+    const auto ends = ends_of(piece.of_polygons, piece.polygons, "Polys offsets");
     check_ends(ends, source);
-    const auto corners = read_integers(located(piece.connectivity, appended, "Polys connectivity", source),
-                                       encoding, static_cast<std::uint64_t>(ends.back()), source);
-    append_cells(raw, corners, ends, source);
+    append_cells(raw, corners_of(piece.of_polygons, ends.back(), "Polys connectivity"), ends, source);
+  }
+  if (piece.strips > 0) {
+    const auto ends = ends_of(piece.of_strips, piece.strips, "Strips offsets");
+    if (ends.back() < 0) source.fail(fmt::format("triangle strips end at corner {}", ends.back()));
+    append_strips(raw, corners_of(piece.of_strips, ends.back(), "Strips connectivity"), ends, source);
   }
   return raw;
 }

@@ -17,6 +17,7 @@
 #include "io/joint/load_joint.hpp"
 #include "io/joint/proposal_lines.hpp"
 #include "io/mesh/parse.hpp"
+#include "io/mesh/polygon_rule.hpp"
 #include "io/model/joint_mapping.hpp"
 #include "io/model/model_contact_lines.hpp"
 #include "io/model/model_joint_file.hpp"
@@ -262,7 +263,8 @@ class ModelJointFile {
   void write_mesh(const NamedMesh& named, bool has_name) {
     if (has_name) add("name = " + toml_text(named.name));
     add("mesh = " + toml_text(named.mesh.path ? path_of(*named.mesh.path) : named.mesh.file));
-    if (!io::lower_case(named.mesh.file).ends_with(".stl")) add("polygons = \"split\"");
+    if (!io::lower_case(named.mesh.file).ends_with(".stl") && request_.polygons != PolygonRule::refuse)
+      add(fmt::format("polygons = \"{}\"", io::name_of(request_.polygons)));
     if (named.mesh.scale != Vec3::Ones()) add("scale = " + toml_numbers(named.mesh.scale));
     if (!named.mesh.X_BG.matrix().isIdentity(0)) add("pose = " + toml_pose(named.mesh.X_BG));
     if (named.mesh.scale.prod() < 0)

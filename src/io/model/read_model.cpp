@@ -364,8 +364,7 @@ Model read_model(std::string_view bytes, const std::filesystem::path& path,
   io::check_folders(geometry_folders);
   const std::string name = path.string();
   Model model{.path = path, .digest = digest_of(bytes)};
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-  if (bytes.starts_with(byte_order_mark)) bytes.remove_prefix(byte_order_mark.size());
+  bytes = io::without_byte_order_mark(bytes);
   const Source source{bytes, name};
   if (bytes.substr(0, 2) == "\xff\xfe" || bytes.substr(0, 2) == "\xfe\xff")
     source.fail("line 1: is UTF-16: save it as UTF-8");

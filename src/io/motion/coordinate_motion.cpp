@@ -34,6 +34,11 @@ std::vector<ColumnOfCoordinate> columns_by_name(const MotionTable& table, const 
   return columns;
 }
 
+void note_times(JointMotion& motion) {
+  if (!motion.times.in_seconds) return;
+  if (auto note = motion::check_times(motion.times.values)) motion.notes.push_back(std::move(*note));
+}
+
 JointMotion motion_of_coordinates(const Joint& joint, const MotionTable& table,
                                   const std::vector<ColumnOfCoordinate>& mapping) {
   NamedCoordinates recorded = recorded_coordinates(table, mapping);
@@ -50,6 +55,7 @@ JointMotion motion_of_coordinates(const Joint& joint, const MotionTable& table,
       motion.notes.push_back(std::move(*check));
   }
   motion::add_new(motion.notes, std::move(recorded.notes));
+  note_times(motion);
   std::string missing;
   for (const CoordinateName& name : coordinate_names_of(joint.kind, joint.anatomy))
     if (std::find(recorded.names.begin(), recorded.names.end(), name.name) == recorded.names.end())

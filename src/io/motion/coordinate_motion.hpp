@@ -9,6 +9,9 @@ namespace condyle::io {
 /// The columns that name coordinates of the joint and their units: flexion_deg, x_mm. FileError if there is none.
 std::vector<ColumnOfCoordinate> columns_by_name(const MotionTable& table, const Joint& joint);
 
+/// Notes times in seconds that look like milliseconds.
+void note_times(JointMotion& motion);
+
 /// The motion of a joint whose coordinates these columns record; those without a column are held at 0, which is noted.
 JointMotion motion_of_coordinates(const Joint& joint, const MotionTable& table,
                                   const std::vector<ColumnOfCoordinate>& mapping);

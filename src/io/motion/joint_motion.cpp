@@ -50,6 +50,7 @@ JointMotion of_poses(const LoadedJoint& loaded, const MotionTable& table, Record
   }
   if (auto check = motion::check_recorded("the translation", motion::RecordedKind::length_mm, farthest))
     motion.notes.push_back(std::move(*check));
+  note_times(motion);
   return motion;
 }
 

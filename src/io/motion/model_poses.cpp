@@ -41,12 +41,17 @@ class ModelMotion {
     require_columns();
     std::vector<std::vector<double>> values;
     BeyondLimits beyond;
+    std::vector<std::vector<double>> degrees_by_header;
     for (const ModelCoordinate& coordinate : joint_->coordinates) {
       values.push_back(values_of(*joint_, coordinate, 0));
+      if (const auto column = column_of(table_, joint_->name, coordinate.name);
+          column && coordinate.motion == CoordinateMotion::rotational && table_.in_degrees.value_or(false))
+        degrees_by_header.push_back(table_.values[*column]);
       check(coordinate, values.back(), beyond);
       check_unit(coordinate, values.back(), out.notes);
     }
     motion::add_new(out.notes, beyond.notes());
+    if (auto note = motion::check_degrees(degrees_by_header)) motion::add_new(out.notes, {std::move(*note)});
     std::vector<double> q(values.size());
     for (std::size_t row = 0; row < table_.rows; ++row) {
       for (std::size_t i = 0; i < q.size(); ++i) q[i] = values[i][row];

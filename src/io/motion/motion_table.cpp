@@ -7,6 +7,7 @@
 #include <set>
 
 #include "condyle/error.hpp"
+#include "io/file/compressed.hpp"
 #include "io/file/plain_text.hpp"
 #include "io/file/words.hpp"
 #include "io/motion/table_builder.hpp"
@@ -19,6 +20,43 @@ std::size_t place_of(const MotionTable& table, std::string_view lower_case_name)
     return io::lower_case(name) == lower_case_name;
   });
   return static_cast<std::size_t>(at - table.columns.begin());
+}
+
+/// Whether two rows hold the same numbers, gaps included.
+bool are_equal(const MotionTable& table, std::size_t a, std::size_t b) {
+  return std::all_of(table.values.begin(), table.values.end(), [&](const std::vector<double>& column) {
+    return column[a] == column[b] || (std::isnan(column[a]) && std::isnan(column[b]));
+  });
+}
+
+/// Leaves out each row that repeats the one before it, its time included: OpenSim's RRA, CMC and analyses write their last row twice.
+void drop_repeated_rows(MotionTable& table) {
+  const std::size_t column = time_column(table);
+  if (column == table.columns.size()) return;
+  std::vector<std::size_t> kept;
+  std::size_t first_repeated = 0;
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    const bool is_repeated =
+        row > 0 && !std::isnan(table.values[column][row]) && are_equal(table, row - 1, row);
+    if (!is_repeated)
+      kept.push_back(row);
+    else if (first_repeated == 0)
+      first_repeated = row;
+  }
+  const std::size_t repeated = table.rows - kept.size();
+  if (repeated == 0) return;
+  table.processing.push_back(
+      fmt::format("line {} repeats line {}, its time included: {} read once",
+                  table.line_of_row[first_repeated], table.line_of_row[first_repeated - 1],
+                  repeated == 1 ? std::string("the row is")
+                                : fmt::format("this row and {} others like it are", repeated - 1)));
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    table.line_of_row[i] = table.line_of_row[kept[i]];
+    for (std::vector<double>& values : table.values) values[i] = values[kept[i]];
+  }
+  table.line_of_row.resize(kept.size());
+  for (std::vector<double>& values : table.values) values.resize(kept.size());
+  table.rows = kept.size();
 }
 
 void check_times(const MotionTable& table, const Source& source) {
@@ -79,6 +117,7 @@ void TableBuilder::add_row(std::span<const std::string_view> cells, std::size_t 
 MotionTable TableBuilder::finish() {
   table.rows = table.line_of_row.size();
   if (table.rows == 0) source_.fail("has no rows of numbers");
+  drop_repeated_rows(table);
   check_times(table, source_);
   return std::move(table);
 }
@@ -99,10 +138,10 @@ bool is_of_opensim(const std::filesystem::path& path) {
 
 MotionTable motion_table_of(std::string_view bytes, const std::filesystem::path& path) {
   const std::string name = path.string();
-  const std::string_view byte_order_mark = "\xEF\xBB\xBF";
   const bool of_opensim = is_of_opensim(path);
-  Source source{bytes, name};
-  if (source.bytes.starts_with(byte_order_mark)) source.bytes.remove_prefix(byte_order_mark.size());
+  const Source source{without_byte_order_mark(bytes), name};
+  if (const auto packer = packed_by(bytes); !packer.empty())
+    source.fail(fmt::format("is compressed by {}: uncompress it first", packer));
   if (io::trimmed(source.bytes).empty()) source.fail("is empty");
   MotionTable table = of_opensim ? io::read_opensim_table(source) : io::read_csv_table(source);
   table.path = path;

@@ -75,6 +75,26 @@ void compare_count(const TableHeader& header, const char* key, const char* what,
                                      promised, what, counted));
 }
 
+/// What stands between tabs, without blanks around it.
+std::vector<std::string> split_at_tabs(std::string_view line) {
+  std::vector<std::string> fields;
+  for (line = trimmed(line); true;) {
+    const std::size_t tab = line.find('\t');
+    fields.emplace_back(trimmed(line.substr(0, tab)));
+    if (tab == line.npos) return fields;
+    line.remove_prefix(tab + 1);
+  }
+}
+
+/// The names of the columns: the words of their line, or what stands between its tabs where only that is as many as the first
+/// row has values. Then names have blanks.
+std::vector<std::string> column_names(std::string_view line, std::optional<std::size_t> values) {
+  const std::vector<std::string_view> words = io::words_of(line);
+  if (values && words.size() != *values)
+    if (auto fields = split_at_tabs(line); fields.size() == *values) return fields;
+  return {words.begin(), words.end()};
+}
+
 }  // namespace
 
 MotionTable read_opensim_table(const Source& source) {
@@ -89,20 +109,25 @@ MotionTable read_opensim_table(const Source& source) {
         fmt::format("the header says inDegrees={0} and in words that angles are in {1}: inDegrees={0} "
                     "is followed",
                     *table.in_degrees ? "yes" : "no", *header.prose_in_degrees ? "degrees" : "radians"));
-  std::size_t empty_line = 0;
+  std::size_t empty_line = 0, names_line = 0;
+  std::string_view names;
   while (!cursor.at_end()) {
     const std::size_t line = cursor.line();
-    const std::vector<std::string_view> words = io::words_of(cursor.rest_of_line());
+    const std::string_view text = cursor.rest_of_line();
+    const std::vector<std::string_view> words = io::words_of(text);
     if (words.empty()) {
       if (!table.line_of_row.empty() && empty_line == 0) empty_line = line;
-    } else if (table.columns.empty()) {
-      builder.name_columns({words.begin(), words.end()}, line);
+    } else if (names.empty()) {
+      names = text;
+      names_line = line;
     } else {
+      if (table.columns.empty()) builder.name_columns(column_names(names, words.size()), names_line);
       if (empty_line != 0) source.fail(fmt::format("line {}: is empty, and rows follow", empty_line));
       builder.add_row(words, line);
     }
   }
-  if (table.columns.empty()) source.fail("has no names of columns after 'endheader'");
+  if (names.empty()) source.fail("has no names of columns after 'endheader'");
+  if (table.columns.empty()) builder.name_columns(column_names(names, std::nullopt), names_line);
   compare_count(header, "nRows", "rows", table.line_of_row.size(), source, table.processing);
   compare_count(header, "nColumns", "columns", table.columns.size(), source, table.processing);
   return builder.finish();

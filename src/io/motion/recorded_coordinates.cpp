@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "condyle/error.hpp"
 #include "condyle/io/recorded_motion.hpp"
@@ -70,6 +71,7 @@ NamedCoordinates recorded_coordinates(const MotionTable& table,
     throw FileError(fmt::format("{}: has none of the joint's columns, {} and the others", table.path.string(),
                                 io::in_quotes(mapping.front().column)));
   BeyondLimits beyond;
+  std::vector<std::vector<double>> degrees_by_header;
   for (const ColumnOfCoordinate& entry : mapping) {
     out.names.push_back(entry.coordinate);
     if (entry.otherwise && !io::find_column(table, entry.column)) {
@@ -86,6 +88,7 @@ NamedCoordinates recorded_coordinates(const MotionTable& table,
     const ColumnUnit unit = unit_of(table, entry);
     for (double& value : column) value = converted(value, unit);
     beyond.check(coordinate_limits_of(entry), column);
+    if (!entry.unit && unit == ColumnUnit::degrees) degrees_by_header.push_back(column);
     for (std::size_t row = 0; row < table.rows; ++row) {
       auto& frame = out.frames[row];
       if (!frame) continue;
@@ -96,6 +99,7 @@ NamedCoordinates recorded_coordinates(const MotionTable& table,
     }
   }
   out.notes = beyond.notes();
+  if (auto note = motion::check_degrees(degrees_by_header)) out.notes.push_back(std::move(*note));
   io::note_gaps(table, out.frames, out.processing);
   return out;
 }

@@ -53,6 +53,7 @@ void add_mesh(Json& json, const BodyMeshReport& report) {
   json["triangles"] = report.triangles;
   json["welded_vertices"] = report.welded_vertices;
   json["split_polygons"] = report.split_polygons;
+  json["guessed_polygons"] = report.guessed_polygons;
   json["repairs"] = std::move(repairs);
 }
 

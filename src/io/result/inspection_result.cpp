@@ -1,5 +1,4 @@
 #include "io/result/inspection_result.hpp"
-#include "core/rounded.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +7,10 @@
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/version.hpp"
+#include "core/rounded.hpp"
 #include "io/file/plain_text.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/mesh/polygon_rule.hpp"
 #include "io/result/json.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/repair_text.hpp"
@@ -82,7 +83,7 @@ void append(std::string& out, const MeshInspection& mesh) {
                      r.triangles, r.is_closed() ? "closed" : "not closed");
   if (mesh.welded_vertices > 0) out += fmt::format("  merged {} duplicate vertices\n", mesh.welded_vertices);
   if (mesh.split_polygons > 0)
-    out += fmt::format("  split {} polygons into triangles\n", mesh.split_polygons);
+    out += fmt::format("  {}\n", split_text(mesh.split_polygons, mesh.guessed_polygons, mesh.guessed_within));
   for (const RepairDone& done : mesh.repairs) out += fmt::format("  repair {}\n", describe(done));
   out += fmt::format("  {} component{}\n", r.components.size(), r.components.size() == 1 ? "" : "s");
   for (std::size_t i = 0; i < std::min(r.components.size(), components_listed); ++i)
@@ -119,7 +120,8 @@ Json json_of(const MeshInspection& mesh) {
            {"triangles", r.triangles},
            {"closed", r.is_closed()},
            {"welded_vertices", mesh.welded_vertices},
-           {"split_polygons", mesh.split_polygons}};
+           {"split_polygons", mesh.split_polygons},
+           {"guessed_polygons", mesh.guessed_polygons}};
   out["repairs"] = Json::array();
   for (const RepairDone& done : mesh.repairs)
     out["repairs"].push_back({{"repair", name_of(done.repair)}, {"count", done.count}});
@@ -148,7 +150,14 @@ InspectedMesh inspect_file(const std::filesystem::path& path, const std::vector<
   const MeshFormat format = mesh_format_of(path);
   const std::string bytes = io::read_whole_file(path);
   MeshFile file = read_mesh(bytes, format, path.string(), polygons);
-  MeshInspection inspection{path, digest_of(bytes), file.welded_vertices, file.split_polygons, {}, {}};
+  MeshInspection inspection{path,
+                            digest_of(bytes),
+                            file.welded_vertices,
+                            file.split_polygons,
+                            file.guessed_polygons,
+                            file.guessed_within,
+                            {},
+                            {}};
   try {
     inspection.repairs = repair_mesh(file.mesh, repairs);
   } catch (const MeshError& error) {

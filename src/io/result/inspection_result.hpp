@@ -18,6 +18,8 @@ struct MeshInspection {
   FileDigest digest;
   std::size_t welded_vertices;  ///< duplicate corners of an STL file that were merged
   std::size_t split_polygons;
+  std::size_t guessed_polygons;  ///< of these, as MeshFile has it
+  double guessed_within;         ///< likewise
   std::vector<RepairDone> repairs;
   MeshReport report;  ///< after the repairs
 };

@@ -16,18 +16,18 @@
 namespace condyle::io {
 namespace {
 
-using Columns = std::vector<ResultColumn>;
+using ColumnList = std::vector<ResultColumn>;
 
-Columns id_columns() {
+ColumnList id_columns() {
   return {{"id", "", text_column, "of the row of the table"},
           {"table_row", "", number_column, "number of the row, 1 for the first one"}};
 }
 
-Columns map_columns() {
-  Columns columns = {{"map_points", "", number_column, "grid points of the map"},
-                     {"map_free_volume_deg3", "deg^3", number_column, "of the free angles"},
-                     {"map_free_volume_weighted_deg3", "deg^3", number_column,
-                      "weighted by the invariant measure of rotations"}};
+ColumnList map_columns() {
+  ColumnList columns = {{"map_points", "", number_column, "grid points of the map"},
+                        {"map_free_volume_deg3", "deg^3", number_column, "of the free angles"},
+                        {"map_free_volume_weighted_deg3", "deg^3", number_column,
+                         "weighted by the invariant measure of rotations"}};
   for (const char* end : {"lower", "upper"})
     for (const char* reason : {"contact", "end_of_range", "contact_at_start"})
       columns.push_back({fmt::format("map_{}_{}_points", end, reason), "", number_column,
@@ -38,7 +38,7 @@ Columns map_columns() {
   return columns;
 }
 
-Columns depth_columns() {
+ColumnList depth_columns() {
   return {
       {"depth_in_contact", "", number_column, "1 where the bodies meet in the pose, else 0"},
       {"depth_mm", "mm", number_column, "of the deepest vertex of either body; empty where none is inside"},
@@ -52,7 +52,7 @@ Columns depth_columns() {
        "smallest distance of the surfaces, 0 where they meet"}};
 }
 
-Columns hip_columns() {
+ColumnList hip_columns() {
   return {{"side", "", text_column, "right or left"},
           {"bearing_radius_mm", "mm", number_column,
            "radius of the sphere of the bearing surface; empty: none known"},
@@ -62,7 +62,7 @@ Columns hip_columns() {
           {"inputs_sha256", "", text_column, "of the row and of the contents of the files it names"}};
 }
 
-void append(Columns& columns, const Columns& more) {
+void append(ColumnList& columns, const ColumnList& more) {
   columns.insert(columns.end(), more.begin(), more.end());
 }
 
@@ -82,20 +82,20 @@ std::vector<const LimitField*> study_limit_fields(LimitsHave have) {
   return fields;
 }
 
-Columns limit_columns(LimitsHave have, Anatomy joint) {
-  Columns columns;
+ColumnList limit_columns(LimitsHave have, Anatomy joint) {
+  ColumnList columns;
   for (const LimitField* field : study_limit_fields(have)) append(columns, io::columns_of(*field, joint));
   return columns;
 }
 
-Columns following_columns() {
+ColumnList following_columns() {
   return {{"exact", "", number_column,
            "1 where limits are exact; 0 where the centre is not held, and they are bounded"}};
 }
 
 /// Name, unit and meaning of what is carried.
-Columns carried_columns(const StudyTable& table) {
-  Columns columns;
+ColumnList carried_columns(const StudyTable& table) {
+  ColumnList columns;
   for (const auto& [column, name, is_number] : table.carried) {
     const sample::HipMeasure* measure = sample::hip_measure_named(table.columns[column]);
     columns.push_back({name, measure ? std::string(measure->unit) : "",
@@ -105,7 +105,7 @@ Columns carried_columns(const StudyTable& table) {
   return columns;
 }
 
-Columns failure_columns() {
+ColumnList failure_columns() {
   return {{"exit_code", "", number_column, "of condyle rom for this joint"},
           {"message", "", text_column, "one line: file, element, what is wrong"},
           {"inputs_sha256", "", text_column, "of the row and of the contents of the files it names"}};
@@ -118,9 +118,9 @@ std::vector<const LimitField*> limit_fields_of(const StudyTable& table, const St
 }
 
 StudyColumns study_columns(const StudyTable& table, const StudyOptions& options) {
-  const Columns carried = carried_columns(table);
+  const ColumnList carried = carried_columns(table);
   StudyColumns columns{id_columns(), id_columns(), id_columns()};
-  for (Columns* each : {&columns.limits, &columns.hips, &columns.failures}) append(*each, carried);
+  for (ColumnList* each : {&columns.limits, &columns.hips, &columns.failures}) append(*each, carried);
   const bool following = may_follow(table, options);
   append(columns.limits, limit_columns({options.bands.has_value(), following}, options.anatomy));
   if (options.resection) append(columns.limits, resected_limit_columns());
@@ -138,7 +138,7 @@ StudyColumns study_columns(const StudyTable& table, const StudyOptions& options)
 bool is_result_column(std::string_view name) {
   StudyOptions everything;
   everything.resection.emplace();
-  for (const Columns& columns :
+  for (const ColumnList& columns :
        {id_columns(), limit_columns({.bands = true, .following = true}, Anatomy::hip), hip_columns(),
         following_columns(), map_columns(), depth_columns(), load_columns(), measure_columns(true),
         resected_limit_columns(), resection_columns(*everything.resection), failure_columns()})
@@ -155,7 +155,7 @@ std::string header_of(const std::vector<ResultColumn>& columns) {
 
 std::string columns_csv(const StudyColumns& columns) {
   std::string lines = "table,column,unit,kind,meaning\n";
-  const auto add = [&](const char* table, const Columns& of_table) {
+  const auto add = [&](const char* table, const ColumnList& of_table) {
     for (const auto& [name, unit, kind, meaning] : of_table)
       lines += csv_line(
           {table, csv_field(name), unit, kind == text_column ? "text" : "number", csv_field(meaning)});
@@ -175,9 +175,9 @@ StudyColumns read_columns_csv(std::string_view bytes, std::string_view name) {
     const std::size_t line = cursor.line();
     const std::vector<std::string> fields = csv_fields(cursor.rest_of_line(), line, source);
     if (fields.size() != 5) source.fail(fmt::format("line {}: five fields are needed", line));
-    Columns& table = fields[0] == "limits" ? columns.limits
-                     : fields[0] == "hips" ? columns.hips
-                                           : columns.failures;
+    ColumnList& table = fields[0] == "limits" ? columns.limits
+                        : fields[0] == "hips" ? columns.hips
+                                              : columns.failures;
     table.push_back({fields[1], fields[2], fields[3] == "text" ? text_column : number_column, fields[4]});
   }
   return columns;

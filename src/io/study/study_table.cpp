@@ -147,9 +147,7 @@ std::string StudyTable::place(const StudyRow& row, std::string_view column) cons
 
 StudyTable read_study_table(const std::filesystem::path& path) {
   const std::string bytes = read_whole_file(path), name = path.string();
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  Source source{bytes, name};
-  if (source.bytes.starts_with(byte_order_mark)) source.bytes.remove_prefix(byte_order_mark.size());
+  const Source source{without_byte_order_mark(bytes), name};
   if (const std::size_t end = end_of_utf8(source.bytes); end < source.bytes.size())
     source.fail(fmt::format("line {}: is not UTF-8 (Latin-1?): save the table as UTF-8",
                             TextCursor(source, end).line()));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/formatted.hpp"
@@ -32,6 +33,14 @@ constexpr double large_strain = 0.3;
 
 /// Degrees: two whole turns. And a metre, mm.
 constexpr double largest_angle_deg = 720, largest_length_mm = 1000;
+
+/// Half a turn in radians, and 17 degrees in radians: a motion of a joint turns by more, and a body at rest that is recorded in degrees
+/// sways by little.
+constexpr double half_turn_rad = 3.1416, least_motion_rad = 0.3;
+
+/// Seconds. Cameras and simulations give tens to hundreds of frames in a second, magnetic resonance some tens in a minute: frames this far apart, or
+/// a recording this long of frames of half a second or more, are not of a motion. A motion in per cent has steps of 1 up to 100.
+constexpr double longest_step_s = 2, longest_recording_s = 120, longest_usual_step_s = 0.5;
 
 /// mm. Bones of a joint are apart by its cartilage, some mm; and layers of a few mm overlap by less than these.
 constexpr double far_apart = 20, far_within = 10;
@@ -175,6 +184,8 @@ std::string_view name_of(ContactNoteCode code) noexcept {
       return "oblique_peak";
     case ContactNoteCode::unlikely_angle:
       return "unlikely_angle";
+    case ContactNoteCode::unlikely_times:
+      return "unlikely_times";
     case ContactNoteCode::unlikely_translation:
       return "unlikely_translation";
     case ContactNoteCode::beyond_range:
@@ -292,6 +303,41 @@ std::optional<ContactNote> check_recorded(std::string_view coordinate, RecordedK
                    " reaches %.4g mm, more than a metre: is its column in millimetres, and read as metres?",
                    largest)};
   return std::nullopt;
+}
+
+std::optional<ContactNote> check_degrees(std::span<const std::vector<double>> columns) {
+  double largest = 0, widest = 0;
+  for (const std::vector<double>& column : columns) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const double value : column) {
+      if (std::isnan(value)) continue;
+      low = std::min(low, value), high = std::max(high, value);
+    }
+    if (low > high) continue;
+    largest = std::max({largest, std::abs(low), std::abs(high)});
+    widest = std::max(widest, high - low);
+  }
+  if (largest > half_turn_rad || widest < least_motion_rad) return std::nullopt;
+  return ContactNote{
+      ContactNoteCode::unlikely_angle,
+      formatted("all recorded angles are within %.3g degrees and move by at most %.3g: are they in "
+                "radians, though the header says inDegrees=yes?",
+                largest, widest)};
+}
+
+std::optional<ContactNote> check_times(std::span<const double> seconds) {
+  if (seconds.size() < 2) return std::nullopt;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < seconds.size(); ++i) steps.push_back(seconds[i] - seconds[i - 1]);
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  const double step = *middle, lasts = seconds.back() - seconds.front();
+  if (step < longest_step_s && !(step >= longest_usual_step_s && lasts > longest_recording_s))
+    return std::nullopt;
+  return ContactNote{
+      ContactNoteCode::unlikely_times,
+      formatted("frames are %.4g s apart and the recording lasts %.4g s: are its times in milliseconds?",
+                step, lasts)};
 }
 
 }  // namespace condyle::motion

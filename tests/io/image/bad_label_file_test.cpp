@@ -446,10 +446,10 @@ TEST(BadLabelFile, MissingAFolderUnknownOrWithoutItsDataIsNamed) {
   const auto missing = folder / "bones.nii", inside = folder / "inside.nii";
   EXPECT_EQ(label_complaint(missing), missing.string() + ": no such file");
   EXPECT_EQ(label_complaint(inside), inside.string() + ": is a folder, not a file");
-  const auto unknown = folder.file("bones.dcm", "x");
+  const auto unknown = folder.file("bones.tif", "x");
   EXPECT_EQ(label_complaint(unknown),
             unknown.string() +
-                ": unknown extension '.dcm': label maps in .nii, .nii.gz, .hdr, .nrrd, .nhdr, .mha and .mhd "
+                ": unknown extension '.tif': label maps in .nii, .nii.gz, .hdr, .nrrd, .nhdr, .mha and .mhd "
                 "are read");
   const auto header = folder.file("bones.hdr", test::nifti_header(image(), {.is_detached = true}));
   EXPECT_EQ(label_complaint(header),

@@ -314,6 +314,26 @@ TEST(NiftiAffine, ThatDoesNotCountMayBeBroken) {
   }
 }
 
+TEST(NiftiAffine, NotesVoxelsThatPixdimHasInAnotherSize) {
+  const auto image = test::label_image(placements()[2].X_WI);
+  const auto with_size = [&](double factor, io::AffineChoice affine = io::AffineChoice::sform_first) {
+    auto bytes = test::nifti(image, {.version = 2, .qform = affine == io::AffineChoice::qform});
+    for (int axis = 0; axis < 3; ++axis)
+      test::put(bytes, 112 + 8 * static_cast<std::size_t>(axis),
+                factor * image.X_WI.linear().col(axis).norm());
+    return read(bytes, io::LabelFormat::nifti, {.affine = affine});
+  };
+  const auto noted = with_size(0.5);
+  EXPECT_TRUE(has_note(noted, io::LabelNoteCode::two_voxel_sizes));
+  expect_same(noted, image);
+  EXPECT_FALSE(has_note(with_size(1), io::LabelNoteCode::two_voxel_sizes));
+  EXPECT_FALSE(has_note(with_size(1.0009), io::LabelNoteCode::two_voxel_sizes)) << "three digits";
+  EXPECT_TRUE(has_note(with_size(1.0011), io::LabelNoteCode::two_voxel_sizes));
+  EXPECT_FALSE(has_note(with_size(0), io::LabelNoteCode::two_voxel_sizes)) << "no size at all";
+  EXPECT_FALSE(has_note(with_size(0.5, io::AffineChoice::qform), io::LabelNoteCode::two_voxel_sizes))
+      << "the qform takes pixdim";
+}
+
 TEST(NiftiAffine, WithoutOrientationNeedsStatedAxes) {
   const auto image = test::label_image(Affine3d(Eigen::Scaling(spacing)));
   const auto bytes = test::nifti(image, {.sform = false});
@@ -407,6 +427,42 @@ TEST(MetaImageMatrix, HasTheAxesInItsRows) {
   const auto map = read(header + std::string("\1\2", 2), io::LabelFormat::metaimage);
   EXPECT_LE((map.grid.X_WI * Vector3d(1, 0, 0) - Vector3d(9, 8, 3)).norm(), 1e-12);
   EXPECT_LE((map.grid.X_WI * Vector3d(0, 1, 0) - Vector3d(-5, 10, 3)).norm(), 1e-12);
+}
+
+TEST(MetaImageMatrix, ThatIsMissingNeedsStatedAxes) {
+  const std::string bytes = std::string(
+      "NDims = 3\nDimSize = 2 1 1\nElementType = MET_UCHAR\nElementSpacing = 10 20 30\nOffset = 1 2 3\n"
+      "ElementDataFile = LOCAL\n\1\2");
+  try {
+    read(bytes, io::LabelFormat::metaimage);
+    ADD_FAILURE() << "read";
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("TransformMatrix: is missing"), std::string::npos)
+        << error.what();
+  }
+  const auto lps = read(bytes, io::LabelFormat::metaimage, {.axes = io::StatedAxes::lps});
+  EXPECT_EQ(lps.grid.X_WI * Vector3d(1, 1, 1), Vector3d(11, 22, 33));
+  const auto ras = read(bytes, io::LabelFormat::metaimage, {.axes = io::StatedAxes::ras});
+  EXPECT_EQ(ras.grid.X_WI * Vector3d(1, 1, 1), Vector3d(-11, -22, 33));
+}
+
+TEST(LabelHeaders, OfAnyLineEndsAndWithAMarkOfUtf8AreRead) {
+  const auto image = test::label_image(placements()[0].X_WI);
+  const auto with_ends = [](const std::string& header, std::string_view end) {
+    std::string out;
+    for (const char c : header) out += c == '\n' ? std::string(end) : std::string(1, c);
+    return out;
+  };
+  for (const std::string_view mark : {"", "\xEF\xBB\xBF"})
+    for (const std::string_view end : {"\n", "\r", "\r\n"}) {
+      const std::string start(mark);
+      expect_same(read(start + with_ends(test::nrrd_header(image), end) + test::nrrd_data(image),
+                       io::LabelFormat::nrrd),
+                  image);
+      expect_same(read(start + with_ends(test::meta_header(image), end) + test::meta_data(image),
+                       io::LabelFormat::metaimage),
+                  image);
+    }
 }
 
 TEST(LabelBytes, AreNotedBeyondThoseThatTheHeaderPromises) {

@@ -142,5 +142,27 @@ TEST(JointMotion, ABallDoesNotTranslate) {
   }
 }
 
+TEST(JointMotion, NotesTimesThatLookLikeMilliseconds) {
+  const test::TemporaryFolder folder;
+  io::write_mesh(folder / "a.ply", test::box({1, 1, 1}, {2, 2, 2}));
+  io::write_mesh(folder / "b.ply", test::box({-2, -2, -2}, {-1, -1, -1}));
+  const io::LoadedJoint joint = io::read_joint(folder.file(
+      "hip.toml",
+      "condyle = 1\nname = \"hip\"\nkind = \"ball\"\nside = \"right\"\nunits = \"mm\"\n[fixed]\nmesh = "
+      "\"a.ply\"\n[mobile]\nmesh = "
+      "\"b.ply\"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n"));
+  const auto codes = [&](const char* table) {
+    std::vector<motion::ContactNoteCode> found;
+    for (const auto& note : io::motion_of(joint, io::read_motion_table(folder.file("m.csv", table))).notes)
+      found.push_back(note.code);
+    return found;
+  };
+  EXPECT_EQ(codes("time,flexion_deg\n500,10\n510,20\n520,30\n"),
+            std::vector{motion::ContactNoteCode::unlikely_times});
+  EXPECT_TRUE(codes("time,flexion_deg\n0.5,10\n0.51,20\n0.52,30\n").empty());
+  EXPECT_TRUE(codes("time,flexion_deg\n0,10\n1,20\n2,30\n").empty());
+  EXPECT_TRUE(codes("frame,flexion_deg\n500,10\n510,20\n520,30\n").empty()) << "numbers of frames";
+}
+
 }  // namespace
 }  // namespace condyle

@@ -143,7 +143,7 @@ TEST(DamagedMotion, Matrices) {
         "line 5: has 32 values, and there are 33 columns"},
        {with("\t30\t", "\tmm\t"), "line 4: column 'tibia_T34': 'mm' should be a number"},
        {with("\t30\t", "\tinf\t"), "line 4: column 'tibia_T34': 'inf' is not finite"},
-       {with("\n1\t", "\n0\t"), "line 5: column 'time': 0 does not come after 0: times must increase"}},
+       {with("\n1\t", "\n-1\t"), "line 5: column 'time': -1 does not come after 0: times must increase"}},
       [](const std::filesystem::path& path) {
         io::recorded_poses(io::read_motion_table(path), {"F", "tibia", {}});
       });
@@ -187,7 +187,7 @@ TEST(DamagedMotion, Xmalab) {
        {with_last(xmalab_quarter + " , "), "line 3: has 34 values, and there are 33 columns"},
        {with("30", "3 0"), "line 2: column 'M_TZ_25Hz': '3 0' should be a number"},
        {with("30", "INF"), "line 2: column 'M_TZ_25Hz': 'INF' is not finite"},
-       {with("\n2 ", "\n1 "), "line 3: column 'Frame': 1 does not come after 1: times must increase"}},
+       {with("\n2 ", "\n0 "), "line 3: column 'Frame': 0 does not come after 1: times must increase"}},
       [](const std::filesystem::path& path) {
         io::recorded_poses(io::read_motion_table(path), {"F", "M", {}});
       });

@@ -60,6 +60,46 @@ TEST(MotionFile, WrongCountsInTheHeaderAreNoted) {
                      "the header promises 7 columns and the file has 3: all of them are read"}));
 }
 
+TEST(MotionFile, ARowThatRepeatsTheOneBeforeItIsReadOnce) {
+  // OpenSim's tools write their last row twice.
+  const io::MotionTable table = read_table("a.sto", a_mot + "  0.5\t 2e1\t +.125\n");
+  EXPECT_EQ(table.rows, 2u);
+  EXPECT_EQ(table.values, (std::vector<std::vector<double>>{{0.4, 0.5}, {19.5, 20}, {-0.25, 0.125}}));
+  EXPECT_EQ(table.line_of_row, (std::vector<std::size_t>{12, 13}));
+  EXPECT_EQ(table.processing, (Strings{"the header promises 2 rows and the file has 3: all of them are read",
+                                       "line 14 repeats line 13, its time included: the row is read once"}));
+  // Anywhere, several times, with gaps, and by any spelling of the numbers.
+  const io::MotionTable more = read_table("a.csv", "time,a,b\n0,1,\n0.0,1.0,nan\n0e3,1,\n1,2,3\n1,2,3\n");
+  EXPECT_EQ(more.rows, 2u);
+  EXPECT_EQ(more.values[1], (std::vector<double>{1, 2}));
+  EXPECT_EQ(more.line_of_row, (std::vector<std::size_t>{2, 5}));
+  EXPECT_EQ(
+      more.processing,
+      (Strings{"line 3 repeats line 2, its time included: this row and 2 others like it are read once"}));
+  // Without times, rows may be equal: a body that rests.
+  EXPECT_EQ(read_table("a.csv", "a,b\n1,2\n1,2\n").rows, 2u);
+  EXPECT_EQ(test::refusal("a.csv", "time,a\n0,1\n0,1.0000001\n",
+                          [](const std::filesystem::path& path) { io::read_motion_table(path); }),
+            "line 3: column 'time': 0 does not come after 0: times must increase");
+}
+
+TEST(MotionFile, NamesBetweenTabsMayHaveBlanks) {
+  const std::string start = "inDegrees=yes\nendheader\n", rows = "0\t1\t2\n1\t3\t4\n";
+  const io::MotionTable table = read_table("a.sto", start + "time\thip flexion r \t Knie, gebeugt\n" + rows);
+  EXPECT_EQ(table.columns, (Strings{"time", "hip flexion r", "Knie, gebeugt"}));
+  EXPECT_EQ(table.values[1], (std::vector<double>{1, 3}));
+  // A tab at the end of lines, and rows with blanks between their numbers.
+  EXPECT_EQ(read_table("a.sto", start + "time\ta b\tc d\t\n0 1 2\n").columns,
+            (Strings{"time", "a b", "c d"}));
+  // Where as many words as numbers stand there, words are names, whatever is between them.
+  EXPECT_EQ(read_table("a.sto", start + "time a\tb\n" + rows).columns, (Strings{"time", "a", "b"}));
+  const auto read = [](const std::filesystem::path& path) { io::read_motion_table(path); };
+  EXPECT_EQ(test::refusal("a.sto", start + "time hip flexion\tknee\n" + rows, read),
+            "line 4: has 3 values, and there are 4 columns");
+  EXPECT_EQ(test::refusal("a.sto", start + "time\ta b\ta b\n" + rows, read),
+            "line 3: column 'a b' is there twice");
+}
+
 TEST(MotionFile, ReadsCsvWithComments) {
   const io::MotionTable table = read_table("walk.csv", a_csv);
   EXPECT_EQ(table.columns, (Strings{"time", "flexion", "tx"}));

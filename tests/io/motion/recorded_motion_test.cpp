@@ -55,6 +55,25 @@ TEST(RecordedCoordinates, AnglesAreAsTheHeaderSays) {
   EXPECT_EQ(angle(replaced(sto, "=no", "=yes"), io::ColumnUnit::degrees), 1);
 }
 
+TEST(RecordedCoordinates, RadiansUnderAHeaderThatSaysDegreesAreNoted) {
+  const auto notes = [](std::string_view header, std::string_view rows,
+                        std::optional<io::ColumnUnit> unit = {}) {
+    return io::recorded_coordinates(
+               read_table("a.sto", fmt::format("inDegrees={}\nendheader\ntime a b\n{}", header, rows)),
+               {{.coordinate = "flexion", .column = "a", .unit = unit},
+                {.coordinate = "adduction", .column = "b"}})
+        .notes;
+  };
+  const char* radians = "0 -0.3 0.05\n0.1 0.2 0.1\n0.2 0.7 0.02\n";
+  const auto noted = notes("yes", radians);
+  ASSERT_EQ(noted.size(), 1u);
+  EXPECT_EQ(noted[0].code, motion::ContactNoteCode::unlikely_angle);
+  EXPECT_NE(noted[0].text.find("inDegrees=yes"), std::string::npos);
+  EXPECT_TRUE(notes("no", radians).empty());
+  EXPECT_TRUE(notes("yes", "0 -17 3\n0.1 11 6\n0.2 40 1\n").empty());
+  EXPECT_TRUE(notes("yes", "0 -0.3 30\n0.1 0.2 60\n0.2 0.7 0\n").empty()) << "one column moves as in degrees";
+}
+
 TEST(RecordedCoordinates, AUnitThatContradictsTheHeaderIsRefused) {
   const auto refused = [](const char* header, io::ColumnUnit unit) {
     return test::refusal("a.sto", std::string(header) + "\nendheader\ntime /j/k/a/value\n0 1\n",

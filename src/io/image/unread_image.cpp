@@ -1,0 +1,48 @@
+#include "io/image/unread_image.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "condyle/error.hpp"
+#include "io/mesh/parse.hpp"
+
+namespace condyle::io {
+namespace {
+
+/// A preamble of 128 bytes, then the mark.
+bool has_mark_of_dicom(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  std::FILE* const file = std::fopen(path.c_str(), "rb");
+  if (!file) return false;
+  std::array<char, 132> start{};
+  const std::size_t got = std::fread(start.data(), 1, start.size(), file);
+  std::fclose(file);
+  return got == start.size() && std::string_view(start.data() + 128, 4) == "DICM";
+}
+
+}  // namespace
+
+void refuse_unread_image(const std::filesystem::path& path) {
+  const auto refuse = [&](std::string_view why) {
+    throw FileError(fmt::format("{}: {}", path.string(), why));
+  };
+  const std::string name = lower_case(path.filename().string());
+  if (name.ends_with(".mgz") || name.ends_with(".mgh"))
+    refuse(
+        "FreeSurfer's images are not read: its mri_convert makes .nii.gz of a label map, which condyle init "
+        "and condyle "
+        "surface read");
+  if (name.ends_with(".dcm") || name.ends_with(".dicom") || has_mark_of_dicom(path))
+    refuse(
+        "DICOM is not read: open it in 3D Slicer, segment the bones and save the segmentation as .seg.nrrd, "
+        "which "
+        "condyle init and condyle surface read; dcm2niix makes .nii.gz of label images");
+}
+
+}  // namespace condyle::io
