@@ -12,9 +12,9 @@ namespace {
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// Curves by name, filled frame by frame.
-class Columns {
+class CurveColumns {
  public:
-  Columns(Curves& curves, std::size_t frames) : curves_(curves), frames_(frames) {}
+  CurveColumns(Curves& curves, std::size_t frames) : curves_(curves), frames_(frames) {}
 
   /// value(frame) of each frame that has one.
   template <class Frame, class Value>
@@ -54,7 +54,7 @@ struct FrameTotals {
 };
 
 /// Adds their values, under names that begin with `prefix`.
-void add_contact(const MotionQuestion& question, Columns& columns, const std::string& prefix,
+void add_contact(const MotionQuestion& question, CurveColumns& columns, const std::string& prefix,
                  const std::vector<std::optional<FrameTotals>>& frames) {
   const auto add = [&](const char* name, double contact::ContactTotals::*value) {
     columns.add(prefix + name, frames, [&](const FrameTotals& f) { return f.totals.*value; });
@@ -94,7 +94,7 @@ Curves region_curves_of(const MotionQuestion& question, const MotionAnswer& answ
   Curves curves;
   curves.axis = question.motion.times.in_seconds ? "time_s" : "frame";
   curves.at = question.motion.times.values;
-  Columns columns(curves, answer.frames.size());
+  CurveColumns columns(curves, answer.frames.size());
   const ContactEntry& contact = question.contact;
   const Mesh& casting = contact.casting == contact::Casting::fixed ? question.surfaces.fixed.mesh
                                                                    : question.surfaces.mobile.mesh;
@@ -115,7 +115,7 @@ Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer) {
   Curves curves;
   curves.axis = question.motion.times.in_seconds ? "time_s" : "frame";
   curves.at = question.motion.times.values;
-  Columns columns(curves, frames.size());
+  CurveColumns columns(curves, frames.size());
   add_contact(question, columns, "", totals_of_frames(answer, [&](const motion::FrameContact& frame) {
                 return FrameTotals{frame.surface.totals, load_of(question.contact, frame)};
               }));
