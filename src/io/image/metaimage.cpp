@@ -166,6 +166,7 @@ LabelMap read_metaimage(const LabelInput& input) {
   const VoxelData data = voxel_data(fields);
   LabelMap map;
   map.grid = grid_of(fields, data);
+  note_own_axes(input.options, map.notes);
   const bool is_compressed = flag(fields, "CompressedData", false);
   const auto read = [&](const ByteSource& source, std::uint64_t at) {
     ByteStream stream(source, data_offset(fields, source, at, data, is_compressed),
