@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._errors import UnknownNameError, UsageError
+from ._errors import UnknownNameError, UsageError, warn
 from ._native import Joint as NativeJoint
 from ._native import Model as NativeModel
 from ._propose_joint import JointProposal
@@ -75,7 +75,9 @@ class ModelJoint:
         Parameters
         ----------
         coordinates : mapping of names to numbers or (N,) arrays, or (k,) or (N, k) numbers in the order of `coordinates`
-            Radians and metres. Those that a mapping leaves out have their defaults, and so have all without any.
+            By name with the unit behind it: "knee_angle_r_deg" or "knee_angle_r_rad", a translation "knee_ty_r_mm" or
+            "knee_ty_r_m". Those that a mapping leaves out have their defaults, and so have all without any. Rows of numbers, as
+            the coordinate's own name, are the model's radians and metres; the name by itself gives a warning.
 
         Returns
         -------
@@ -86,6 +88,11 @@ class ModelJoint:
         ------
         UnknownNameError
             For a name that is no coordinate of the joint.
+
+        Warns
+        -----
+        JointWarning
+            For a name without a unit.
 
         C++: `condyle::pose_of` in condyle/io/model_file.hpp.
         """
@@ -104,13 +111,24 @@ class ModelJoint:
         return cast("NDArray[np.float64]", poses[0]) if is_one else poses
 
     def _rows_of(self, given: Mapping[str, ArrayLike]) -> tuple[NDArray[np.float64], bool]:
-        names = [coordinate.name for coordinate in self.coordinates]
-        for name in given:
-            if name not in names:
+        known = {coordinate.name + unit: (i, size) for i, coordinate in enumerate(self.coordinates)
+                 for unit, size in _units_of(coordinate).items()}
+        known.update({coordinate.name: (i, 1.0) for i, coordinate in enumerate(self.coordinates)})
+        columns = [number_array(coordinate.default, coordinate.name, "numbers") for coordinate in self.coordinates]
+        by: dict[int, str] = {}
+        for name, value in given.items():
+            if name not in known:
                 raise UnknownNameError(f"coordinates: joint {self.name} has no coordinate {name!r}; there are "
-                                       f"{', '.join(names) or 'none'}")
-        columns = [number_array(given.get(coordinate.name, coordinate.default), coordinate.name, "numbers")
-                   for coordinate in self.coordinates]
+                                       f"{', '.join(c.name for c in self.coordinates) or 'none'}")
+            i, unit = known[name]
+            if i in by:
+                raise UsageError(f"coordinates: {by[i]} and {name} are one coordinate")
+            by[i] = name
+            columns[i] = unit * number_array(value, name, "numbers")
+        for i, name in by.items():
+            if name == self.coordinates[i].name:
+                taken_as = "metres" if self.coordinates[i].motion == "translational" else "radians"
+                warn(f"coordinates: {name} is in {taken_as}: say so, with {' or '.join(_units_of(self.coordinates[i]))} behind its name")
         try:
             whole = np.broadcast_arrays(*columns) if columns else [np.zeros(())]
         except ValueError:
@@ -119,6 +137,11 @@ class ModelJoint:
             raise UsageError("coordinates: numbers or (N,) arrays are needed")
         rows = np.stack([np.atleast_1d(column) for column in whole], axis=1) if columns else np.zeros((1, 0))
         return rows, whole[0].ndim == 0
+
+
+def _units_of(coordinate: ModelCoordinate) -> dict[str, float]:
+    """What may stand behind a coordinate's name, each with its metres or radians."""
+    return {"_m": 1.0, "_mm": 1e-3} if coordinate.motion == "translational" else {"_rad": 1.0, "_deg": np.pi / 180}
 
 
 class Model:
