@@ -139,7 +139,8 @@ void propose_from_model(const InitArguments& options) {
     io::write_output_file(options.out, proposed.proposal.toml);
     note("wrote " + options.out);
   }
-  if (!proposed.missing_body.empty()) throw FileError(proposed.missing_body);
+  for (const std::string& missing : {proposed.missing_body, proposed.unreadable})
+    if (!missing.empty()) throw FileError(missing);
 }
 
 void init_command(const InitArguments& options, const CLI::App& command) {

@@ -78,7 +78,8 @@ io::ModelJointRequest request_of(const io::Model& model, const ModelOptions& opt
                                  const std::string& joint, const std::optional<Side>& side) {
   if (joint.empty()) {
     std::string names;
-    for (const io::ModelJoint& of : model.joints) names += (names.empty() ? "" : ", ") + of.name;
+    for (const io::ModelJoint& of : model.joints)
+      if (!of.name.empty()) names += (names.empty() ? "" : ", ") + of.name;
     throw UsageError(fmt::format("--joint: is needed, one of {}", names.empty() ? "none" : names));
   }
   return {.joint = joint,

@@ -40,10 +40,12 @@ py::list notes_of_model(const std::vector<io::ModelNote>& notes) {
 /// Names and types, and why some cannot be read.
 py::list model_joints(const io::Model& model) {
   py::list joints;
-  for (const io::ModelJoint& joint : model.joints)
+  for (const io::ModelJoint& joint : model.joints) {
+    if (joint.name.empty()) continue;  // nobody can ask for it
     joints.append(
         py::make_tuple(joint.name, joint.type, joint.parent_body, joint.child_body,
                        joint.transform ? py::object(py::none()) : py::object(py::str(joint.why_not))));
+  }
   return joints;
 }
 
@@ -86,7 +88,8 @@ py::tuple proposed_of_model(const io::Model& model, const std::string& joint, co
                             const std::string& polygons) {
   io::ModelJointProposal proposed =
       io::propose_joint(model, request_in(joint, joint_file, anatomy, side, contact, polygons));
-  if (!proposed.missing_body.empty()) proposed.proposal.to_fill_in.push_back(proposed.missing_body);
+  for (std::string* missing : {&proposed.missing_body, &proposed.unreadable})
+    if (!missing->empty()) proposed.proposal.to_fill_in.push_back(std::move(*missing));
   return py::make_tuple(proposed.proposal.toml, proposed.proposal.to_fill_in, notes_of_model(proposed.notes));
 }
 

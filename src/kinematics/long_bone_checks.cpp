@@ -30,6 +30,10 @@ constexpr double farthest_from_end = 0.25;
 /// olecranon reaches some 25 mm past the end of its humerus.
 constexpr double most_overlap = 0.4;
 
+/// Volume of a box round a bone that stands on another, in cubes of that one's breadth: condyles of a femur that is cut 35 mm
+/// above the joint have 0.4, a patella on a tibia 0.1, both menisci less.
+constexpr double smallest_upper_bone = 0.2;
+
 /// How far the line of a shaft may pass beside the joint centre, in parts of the distance of its middle.
 constexpr double farthest_beside = 0.5;
 
@@ -98,13 +102,37 @@ bool begins_at_joint(const Bone& bone, const TriMesh& mesh) {
          (bone.middle - lever * bone.along).norm() <= farthest_beside * lever;
 }
 
-/// Whether the fixed bone stands below the mobile one in the reference pose, end to end with it.
-bool is_below(const Joint& joint, const Bone& fixed, const Bone& mobile, const Pose& X_FM) {
+/// What stands above the fixed bone in the reference pose.
+enum class Above { nothing, small_bone, other_bone };
+
+/// Whether the mobile bone is none that another one hangs from, beside the end of the fixed one that it lies at.
+bool is_small(const TriMesh& mobile, const Pose& X_FM, const TriMesh& fixed, const Vec3& up,
+              double end_begins) {
+  double volume = 1;
+  for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ())})
+    volume *= reach_along(axis, mobile, X_FM).length();
+  Reach end;
+  for (std::size_t t = 0; t < fixed.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 corner = fixed.corner(t, k);
+      if (corner.dot(up) < end_begins) continue;
+      end.begin = std::min(end.begin, corner.z()), end.end = std::max(end.end, corner.z());
+    }
+  const double breadth = end.length();
+  return volume < smallest_upper_bone * breadth * breadth * breadth;
+}
+
+/// A patella's upper end lies beyond that of its tibia; other bones stand end to end.
+Above above_fixed(const Joint& joint, const Bone& fixed, const Bone& mobile, const Pose& X_FM) {
   const Vec3 up = (X_FM * mobile.middle - fixed.middle).normalized();
-  if (!(up.y() > straight)) return false;
-  const Reach lower = reach_along(up, mesh::outer_surface(joint.fixed.mesh), Pose::Identity()),
-              upper = reach_along(up, mesh::outer_surface(joint.mobile.mesh), X_FM);
-  return lower.end - upper.begin <= most_overlap * std::min(lower.length(), upper.length());
+  if (!(up.y() > straight)) return Above::nothing;
+  const Mesh &below = mesh::outer_surface(joint.fixed.mesh), &above = mesh::outer_surface(joint.mobile.mesh);
+  const Reach lower = reach_along(up, below, Pose::Identity()), upper = reach_along(up, above, X_FM);
+  if (upper.end >= lower.end && is_small(above, X_FM, below, up, lower.end - upper.length()))
+    return Above::small_bone;
+  const double overlap = lower.end - upper.begin;
+  return overlap <= most_overlap * std::min(lower.length(), upper.length()) ? Above::other_bone
+                                                                            : Above::nothing;
 }
 
 /// The distance from a hinge's axis, or a ball's centre, to where the bodies are nearest each other; 0 if they have no surface.
@@ -194,12 +222,13 @@ std::vector<JointNote> long_bone_notes(const Joint& joint, const JointPlacement&
              mobile = bone_of(mesh::outer_surface(joint.mobile.mesh));
   if (!fixed || !mobile) return notes;
   const Pose X_FM = pose_at(joint.coordinates(), placement.reference_pose, joint.translation_frame);
-  if (joint.anatomy != Anatomy::shoulder && is_below(joint, *fixed, *mobile, X_FM)) {
+  const Above above =
+      joint.anatomy == Anatomy::shoulder ? Above::nothing : above_fixed(joint, *fixed, *mobile, X_FM);
+  if (above == Above::other_bone)
     notes.push_back(
         {JointNoteCode::swapped_bodies, fixed_name + " lies below " + mobile_name +
                                             ": are the bodies exchanged, or does superior point down?"});
-    return notes;
-  }
+  if (above != Above::nothing) return notes;
   if (joint.anatomy == Anatomy::knee) {
     auto note = condyle_note(joint, X_FM);
     if (!note) note = femur_note(joint, *fixed, X_FM * mobile->middle);

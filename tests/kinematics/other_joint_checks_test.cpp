@@ -191,6 +191,28 @@ TEST(LongBoneChecks, NoteWhatIsWrong) {
   EXPECT_EQ(codes_of(unnamed), Codes{}) << "a hinge of no joint";
 }
 
+TEST(LongBoneChecks, SayNothingOfASmallBoneThatLiesOnALongOne) {
+  // A patella and menisci on a tibia; the tibia hangs from the joint, and is no thigh.
+  const Body tibia = of_parts("tibia", {box({-55, -430, -35}, {5, -50, 35})});
+  const TriMesh patella = box({0, -20, -22}, {20, 22, 22}), menisci = box({-50, -48, -35}, {0, -38, 35});
+  for (const TriMesh& small : {patella, menisci})
+    for (const JointKind kind : {JointKind::hinge, JointKind::ball, JointKind::free}) {
+      Joint joint{"joint", kind, Side::right, tibia, of_parts("small", {small})};
+      joint.anatomy = Anatomy::knee;
+      EXPECT_EQ(codes_of(joint), Codes{});
+      joint.fixed = of_parts("tibia", {box({-55, -140, -35}, {5, -50, 35})});
+      EXPECT_EQ(codes_of(joint), Codes{}) << "cut 90 mm below its plateau";
+    }
+  // Just beside the bound, a fifth of the cube of the tibia's breadth.
+  for (const double size : {0.21, 0.19}) {
+    Joint exchanged{"knee", JointKind::hinge, Side::right,
+                    of_parts("tibia", {box({-30, -430, -35}, {30, -30, 35})}),
+                    of_parts("femur", {box({-35, -25, -35}, {35, -25 + 70 * size, 35})})};
+    exchanged.anatomy = Anatomy::knee;
+    EXPECT_EQ(codes_of(exchanged), size > 0.2 ? Codes{Code::swapped_bodies} : Codes{}) << size;
+  }
+}
+
 TEST(LongBoneChecks, TakeAFreeJointInItsReferencePose) {
   // Both bones in the frame of the upper one, whose origin is at its other end, as in OpenSim; the lower one is brought there.
   Joint joint = rods(JointKind::free, Anatomy::knee);
@@ -284,6 +306,12 @@ TEST(LongBoneChecks, SayNothingOfTheSharedKnee) {
     Joint exchanged{"knee", kind, Side::right, {"tibia", others[2]}, {"femur", femurs[1]}};
     exchanged.anatomy = Anatomy::knee;
     EXPECT_EQ(codes_of(exchanged), Codes{Code::swapped_bodies}) << "bones cut 9 cm from the joint";
+    Joint on_tibia{"knee", kind, Side::right, {"tibia", others[2]}, {"patella", others[3]}};
+    on_tibia.anatomy = Anatomy::knee;
+    const Codes codes = codes_of(on_tibia);
+    for (const Code wrong :
+         {Code::swapped_bodies, Code::axes_not_upright, Code::axes_turned, Code::wrong_side})
+      EXPECT_EQ(std::count(codes.begin(), codes.end(), wrong), 0) << name_of(wrong);
   }
 }
 

@@ -44,9 +44,24 @@ def test_poses_are_those_of_the_reference(gait: condyle.Model) -> None:
         wanted = np.array([pose["child_in_parent"] for pose in expected["poses"]]).reshape(-1, 4, 4)
         np.testing.assert_allclose(joint.pose(rows), wanted, rtol=0, atol=1e-12)
         np.testing.assert_array_equal(joint.pose(rows[3]), joint.pose(rows)[3])
-        columns = {c.name: rows[:, i] for i, c in enumerate(joint.coordinates)}
+        columns = {coordinate.name + ("_m" if coordinate.motion == "translational" else "_rad"): rows[:, i]
+                   for i, coordinate in enumerate(joint.coordinates)}
         np.testing.assert_array_equal(joint.pose(columns), joint.pose(rows))
         assert joint.pose().shape == (4, 4)
+
+
+def test_coordinates_say_their_unit(gait: condyle.Model) -> None:
+    knee, pelvis = gait.joint("knee_r"), gait.joint("ground_pelvis")
+    wanted = knee.pose([-1.2])
+    np.testing.assert_allclose(knee.pose({"knee_angle_r_deg": np.degrees(-1.2)}), wanted, rtol=0, atol=1e-15)
+    np.testing.assert_array_equal(knee.pose({"knee_angle_r_rad": -1.2}), wanted)
+    with pytest.warns(condyle.JointWarning, match="knee_angle_r is in radians: say so, with _rad or _deg behind"):
+        np.testing.assert_array_equal(knee.pose({"knee_angle_r": -1.2}), wanted)
+    np.testing.assert_array_equal(pelvis.pose({"pelvis_ty_mm": 500})[:3, 3], pelvis.pose({"pelvis_ty_m": 0.5})[:3, 3])
+    with pytest.warns(condyle.JointWarning, match="pelvis_ty is in metres"):
+        pelvis.pose({"pelvis_ty": 0.5})
+    with pytest.raises(condyle.UsageError, match="knee_angle_r_deg and knee_angle_r_rad are one coordinate"):
+        knee.pose({"knee_angle_r_deg": 1, "knee_angle_r_rad": 1})
 
 
 def test_refuses_what_is_not_there(gait: condyle.Model) -> None:
@@ -57,7 +72,7 @@ def test_refuses_what_is_not_there(gait: condyle.Model) -> None:
     with pytest.raises(condyle.UsageError, match="has 1 coordinates"):
         gait.joint("knee_r").pose([0.1, 0.2])
     with pytest.raises(condyle.UsageError, match="one length"):
-        gait.joint("hip_r").pose({"hip_flexion_r": [0, 1], "hip_adduction_r": [0, 1, 2]})
+        gait.joint("hip_r").pose({"hip_flexion_r_deg": [0, 1], "hip_adduction_r_deg": [0, 1, 2]})
     with pytest.raises(condyle.FileError, match="none.osim"):
         condyle.read_model("none.osim")
     with pytest.raises(condyle.FileError, match="no mesh of body"):
@@ -87,7 +102,7 @@ def test_a_motion_is_posed_by_the_model(gait: condyle.Model) -> None:
     joint, knee = condyle.Joint.from_model(gait, "knee_r"), gait.joint("knee_r")
     motion = joint.motion(walk)
     angles = np.radians(condyle.read_motion_table(walk)["knee_angle_r"])
-    poses, at_zero = knee.pose({"knee_angle_r": angles}), knee.pose({"knee_angle_r": 0})
+    poses, at_zero = knee.pose({"knee_angle_r_rad": angles}), knee.pose({"knee_angle_r_deg": 0})
     for poses_mm in (poses, at_zero):
         poses_mm[..., :3, 3] *= 1000
     X_WF = np.eye(4)

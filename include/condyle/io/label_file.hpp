@@ -40,6 +40,7 @@ enum class LabelNoteCode {
   cut_by_view,         ///< It reaches the border of its image.
   touching,            ///< Two bones touch or overlap.
   label_tables,        ///< A number was asked for: the names that published tables and the file give it.
+  axes_not_used,       ///< Axes were stated, and the file has its own, which count.
 };
 
 /// As in files: "two_affines".
@@ -74,7 +75,7 @@ struct LabelFileOptions {
   AffineChoice affine = AffineChoice::sform_first;
   /// One volume among several of a NIfTI file, counted from 0; such a file is refused without it.
   std::optional<std::int64_t> volume = {};
-  /// Counts only for a file without orientation, which is refused without it.
+  /// Counts only for a file without orientation, which is refused without it; of others a note.
   std::optional<StatedAxes> axes = {};
   /// Data may lie outside the folder of the header that names them.
   bool outside_folder = false;

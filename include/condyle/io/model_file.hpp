@@ -43,7 +43,7 @@ struct ModelCoordinate {
 
 /// A joint of a model: X_parent_child(q) = X_PF X_FM(q) X_CM^-1.
 struct ModelJoint {
-  std::string name = {}, type = {};  ///< "knee_r", "CustomJoint"
+  std::string name = {}, type = {};  ///< "knee_r", "CustomJoint"; the name may be empty
   std::string parent_body = {}, child_body = {};
   Pose X_PF = Pose::Identity(), X_CM = Pose::Identity();
   std::vector<ModelCoordinate> coordinates = {};
@@ -68,6 +68,8 @@ struct ModelMesh {
   std::optional<std::filesystem::path> path = {};     ///< where it was found
   std::vector<std::filesystem::path> looked_in = {};  ///< where it was looked for, if it was not
   std::size_t line = 0;
+  std::string why_not =
+      {};  ///< one line if its scale or place cannot be read: joints of its body are refused
 };
 
 /// A surface in contact of OpenSim-JAM (Smith2018ContactMesh), its layer behind the surface.
@@ -109,7 +111,7 @@ enum class ModelNoteCode : std::uint8_t {
   not_used,             ///< Kinds of components, and how many of each.
   welded,               ///< Bodies that are one.
   oblique_axis,         ///< A hinge does not turn about an axis to the side.
-  turned_frame,         ///< The joint's frame is far from its body's: angles may not be what they are called.
+  turned_frame,         ///< The joint's frame, or its body, is turned: which axes its angles are about.
   given_otherwise,      ///< The side or the joint is given, and names say another.
   contact_left_out,     ///< It is not applied, or lacks a surface.
   several_contacts,     ///< Between the two bodies; one is taken.
@@ -117,6 +119,9 @@ enum class ModelNoteCode : std::uint8_t {
   reverse_passed_over,  ///< A joint of a later version has it, and no meaning.
   exchanged_bodies,     ///< The child is the proximal bone: angles have the other sense.
   coupled_coordinate,   ///< It follows others where a motion has no column of it.
+  no_length_unit,       ///< length_units says that nobody set one; lengths are metres.
+  no_name,              ///< A body or joint without a name, for which nobody can ask.
+  left_out,             ///< A component that cannot be read, and why; nothing that was asked for needs it.
 };
 /// As written: "missing_mesh".
 std::string_view name_of(ModelNoteCode code) noexcept;
@@ -144,8 +149,9 @@ struct Model {
 };
 
 /// Reads a model, and finds its meshes: in the model's folder, its folder Geometry, and the folders given, in this order. No
-/// mesh is opened. A joint that cannot be read says so and leaves the others as they are. Throws FileError, one line with
-/// the line of the file, for everything else that is not as it must be, and for a folder that there is not.
+/// mesh is opened. A joint, mesh or frame that cannot be read is refused where it is needed and leaves the rest as it is. Throws
+/// FileError, one line with the line of the file, for what is no model, for two bodies of one name, and for a folder that
+/// there is not.
 Model read_model(const std::filesystem::path& path,
                  std::span<const std::filesystem::path> geometry_folders = {});
 
@@ -176,10 +182,12 @@ struct ModelJointProposal {
   std::vector<ModelNote> notes = {};  ///< what the model has and the file has not
   /// One line if none of a body's meshes was found: the file names them as the model does.
   std::string missing_body = {};
+  /// One line if the file cannot be loaded as it stands: a mesh that it names is empty or unreadable.
+  std::string unreadable = {};
 };
 
-/// Centre, axes, signs, kind, meshes, contact and the columns of a recorded motion as the model has them. Throws UsageError
-/// if the joint or the contact is not there, or names do not determine joint or side; FileError if the joint cannot be read.
+/// Centre, axes, signs, kind, meshes, contact and the columns of a recorded motion as the model has them. Reads the meshes that it
+/// names. Throws UsageError if the joint or the contact is not there, or names do not determine joint or side; FileError if the joint cannot be read.
 ModelJointProposal propose_joint(const Model& model, const ModelJointRequest& request);
 
 /// The joint itself, as read_joint() would read the proposed file, with the notes among its processing. Throws as both do;

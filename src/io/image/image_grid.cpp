@@ -27,6 +27,13 @@ Eigen::Vector3d signs_to_lps(StatedAxes world) {
 
 }  // namespace
 
+void note_own_axes(const LabelFileOptions& options, std::vector<LabelNote>& notes) {
+  if (options.axes)
+    notes.push_back({LabelNoteCode::axes_not_used,
+                     "The file says how its axes lie in the body, and that counts: the axes that were stated "
+                     "are not used."});
+}
+
 Eigen::Vector3d corner_voxel(const std::array<std::int64_t, 3>& size, int corner) {
   Eigen::Vector3d voxel;
   for (int axis = 0; axis < 3; ++axis)

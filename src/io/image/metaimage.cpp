@@ -115,11 +115,16 @@ double element_mm_per_unit(const HeaderFields& fields) {
   fields.fail("DistanceUnits", fmt::format("{} is no unit of length that is read", in_quotes(*unit)));
 }
 
+/// The key of the matrix of directions; empty if there is none.
+auto matrix_key(const HeaderFields& fields) {
+  return given(fields, std::array{"TransformMatrix", "Rotation", "Orientation"});
+}
+
 /// Rows of the matrix are the directions of the axes; without one the axes are those of the world that is stated, and so is the
 /// place of the first voxel. CenterOfRotation and AnatomicalOrientation change nothing.
 VoxelGrid grid_of(const HeaderFields& fields, const VoxelData& data, const std::optional<StatedAxes>& axes) {
   Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
-  const auto matrix = given(fields, std::array{"TransformMatrix", "Rotation", "Orientation"});
+  const auto matrix = matrix_key(fields);
   if (matrix) {
     const auto numbers = fields.numbers(*matrix, 9);
     directions = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(numbers.data()).transpose();
@@ -171,6 +176,7 @@ LabelMap read_metaimage(const LabelInput& input) {
   const VoxelData data = voxel_data(fields);
   LabelMap map;
   map.grid = grid_of(fields, data, input.options.axes);
+  if (matrix_key(fields)) note_own_axes(input.options, map.notes);
   const bool is_compressed = flag(fields, "CompressedData", false);
   const auto read = [&](const ByteSource& source, std::uint64_t at) {
     ByteStream stream(source, data_offset(fields, source, at, data, is_compressed),

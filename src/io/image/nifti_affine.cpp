@@ -143,6 +143,7 @@ VoxelGrid nifti_grid(const NiftiHeader& header, const std::array<std::int64_t, 3
                      const LabelFileOptions& options, const ByteSource& source,
                      std::vector<LabelNote>& notes) {
   auto [X_WI, world, element] = chosen_affine(header, options, source);
+  if (header.sform_code > 0 || header.qform_code > 0) note_own_axes(options, notes);
   const double mm = nifti_mm_per_unit(header, source, notes);
   const auto grid =
       checked_grid(size, affine_of(X_WI.linear() * mm, X_WI.translation() * mm), world, source, element);

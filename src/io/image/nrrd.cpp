@@ -216,6 +216,7 @@ LabelMap read_nrrd(const LabelInput& input) {
   const VoxelData data = voxel_data(fields, axes);
   LabelMap map;
   map.grid = grid_of(fields, axes, data, input.options);
+  if (axes.are_stated && world_of(fields)) note_own_axes(input.options, map.notes);
   map.segments = slicer_segments(header, data.layers);
   const auto file = fields.find("data file");
   if (!file) {

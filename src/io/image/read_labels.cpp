@@ -83,9 +83,11 @@ std::string_view name_of(LabelNoteCode code) noexcept {
     case LabelNoteCode::touching:
       return "touching";
     case LabelNoteCode::label_tables:
+      return "label_tables";
+    case LabelNoteCode::axes_not_used:
       break;
   }
-  return "label_tables";
+  return "axes_not_used";
 }
 
 }  // namespace condyle::io

@@ -15,16 +15,39 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
-/// The file beside it whose name differs in case only; the first of several in the order of their names.
-std::optional<fs::path> in_any_case(const fs::path& path) {
+/// What lies in a folder under a name, its own before the same in other cases of letters, these in their order.
+std::vector<fs::path> named_in(const fs::path& folder, const std::string& name) {
   std::error_code failed;
-  const std::string wanted = io::lower_case(path.filename().string());
+  const std::string wanted = io::lower_case(name);
   std::vector<fs::path> found;
-  for (fs::directory_iterator at(path.parent_path(), failed), end; !failed && at != end; at.increment(failed))
-    if (io::lower_case(at->path().filename().string()) == wanted && is_file(at->path()))
-      found.push_back(at->path());
-  if (found.empty()) return std::nullopt;
-  return *std::min_element(found.begin(), found.end());
+  for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
+    const std::string own = at->path().filename().string();
+    if (own != name && io::lower_case(own) == wanted) found.push_back(folder / own);
+  }
+  std::sort(found.begin(), found.end());
+  if (fs::exists(folder / name, failed)) found.insert(found.begin(), folder / name);
+  return found;
+}
+
+/// The first file at that path from the folder, its names in any case of letters.
+std::optional<fs::path> in_any_case(const fs::path& folder, const fs::path& file) {
+  if (file.empty()) return std::nullopt;
+  fs::path rest;
+  for (auto part = std::next(file.begin()); part != file.end(); ++part) rest /= *part;
+  for (const fs::path& found : named_in(folder, file.begin()->string())) {
+    if (rest.empty() && is_file(found)) return found;
+    if (rest.empty()) continue;
+    if (auto deeper = in_any_case(found, rest)) return deeper;
+  }
+  return std::nullopt;
+}
+
+/// The model's folder Geometry, as Windows would find it.
+fs::path geometry_in(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::path usual = folder / "Geometry"; fs::is_directory(usual, ignored)) return usual;
+  const std::vector<fs::path> found = named_in(folder, "Geometry");
+  return found.empty() ? folder / "Geometry" : found.front();
 }
 
 }  // namespace
@@ -32,17 +55,21 @@ std::optional<fs::path> in_any_case(const fs::path& path) {
 MeshLocation find_mesh(std::string name, const fs::path& folder, std::span<const fs::path> others) {
   std::replace(name.begin(), name.end(), '\\', '/');
   const fs::path file(name);
-  MeshLocation found;
   if (file.is_absolute()) {
-    found.looked_in = {file};
-  } else {
-    found.looked_in = {folder / file, folder / "Geometry" / file};
-    for (const fs::path& other : others) found.looked_in.push_back(other / file);
+    if (is_file(file)) return {file, {}, false};
+    if (auto other = in_any_case(file.parent_path(), file.filename())) return {std::move(other), {}, true};
+    return {{}, {file}, false};
   }
+  std::vector<fs::path> places{folder, geometry_in(folder)};
+  places.insert(places.end(), others.begin(), others.end());
+  MeshLocation found;
+  for (const fs::path& place : places) found.looked_in.push_back(place / file);
   for (const fs::path& path : found.looked_in)
     if (is_file(path)) return {path, {}, false};
-  for (const fs::path& path : found.looked_in)
-    if (auto other = in_any_case(path)) return {std::move(other), {}, true};
+  places[1] = folder;  // Geometry too in any case
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (auto other = in_any_case(places[i], i == 1 ? "Geometry" / file : file))
+      return {std::move(other), {}, true};
   return found;
 }
 

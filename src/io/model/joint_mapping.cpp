@@ -8,7 +8,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "io/file/in_quotes.hpp"
 #include "io/mesh/parse.hpp"
+#include "io/model/joint_axes.hpp"
 #include "io/model/spatial_transform.hpp"
 
 namespace condyle::io {
@@ -34,6 +36,13 @@ std::optional<Drive> drive_of(const ModelJoint& joint, std::size_t i, Coordinate
 bool is_constant(const TransformAxis& axis) {
   const auto line = straight_line(axis.function);
   return line && (line->slope == 0 || axis.coordinates.empty());
+}
+
+/// Its axes in the frame by which its angles are named.
+SpatialTransform named_axes(const ModelJoint& joint, const JointAxes& names) {
+  SpatialTransform axes = joint.transform->axes;
+  for (TransformAxis& axis : axes) axis.axis = names.R_FA.transpose() * axis.axis;
+  return axes;
 }
 
 /// 1 or -1 for an axis along that unit vector; 0 for every other one.
@@ -64,10 +73,10 @@ ColumnOfCoordinate column(const std::string& joint, const ModelCoordinate& coord
 }
 
 /// Columns of the three angles, where the rotations are about Z, X and Y by three coordinates.
-std::optional<std::vector<ColumnOfCoordinate>> angle_columns(const ModelJoint& joint, Anatomy anatomy,
+std::optional<std::vector<ColumnOfCoordinate>> angle_columns(const ModelJoint& joint,
+                                                             const SpatialTransform& axes, Anatomy anatomy,
                                                              Side side) {
   if (anatomy == Anatomy::shoulder) return std::nullopt;
-  const SpatialTransform& axes = joint.transform->axes;
   const Vec3 units[] = {Vec3::UnitZ(), Vec3::UnitX(), Vec3::UnitY()};
   const auto senses = senses_of(anatomy, side);
   const auto& names = coordinate_names(anatomy);
@@ -83,15 +92,21 @@ std::optional<std::vector<ColumnOfCoordinate>> angle_columns(const ModelJoint& j
   return columns;
 }
 
-std::optional<std::vector<ColumnOfCoordinate>> length_columns(const ModelJoint& joint) {
-  const SpatialTransform& axes = joint.transform->axes;
+/// Columns of the translation, where it is along X, Y and Z by three coordinates, in whatever order.
+std::optional<std::vector<ColumnOfCoordinate>> length_columns(const ModelJoint& joint,
+                                                              const SpatialTransform& axes) {
   const Vec3 units[] = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
   constexpr std::string_view names[] = {"x", "y", "z"};
   std::vector<ColumnOfCoordinate> columns;
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto drive = drive_of(joint, 3 + i, CoordinateMotion::translational);
-    const double direction = along(axes[3 + i].axis, units[i]);
-    if (!drive || direction == 0) return std::nullopt;
+    const auto axis = std::find_if(axes.begin() + 3, axes.end(), [&](const TransformAxis& each) {
+      return along(each.axis, units[i]) != 0;
+    });
+    if (axis == axes.end()) return std::nullopt;
+    const auto drive =
+        drive_of(joint, static_cast<std::size_t>(axis - axes.begin()), CoordinateMotion::translational);
+    const double direction = along(axis->axis, units[i]);
+    if (!drive) return std::nullopt;
     columns.push_back(column(joint.name, joint.coordinates[drive->coordinate], names[i],
                              CoordinateKind::length, drive->slope * direction, drive->offset * direction));
   }
@@ -105,50 +120,94 @@ bool are_different(const std::vector<ColumnOfCoordinate>& columns) {
   return true;
 }
 
-/// Maps a joint with one rotation about an axis at rest: Z along the axis, to the right, X as near to the model's as can be.
-JointMapping hinge(const ModelJoint& joint, std::size_t turning, JointMapping mapping,
-                   std::optional<Anatomy> anatomy, Side side) {
-  const SpatialTransform& axes = joint.transform->axes;
+/// What each coordinate that turns the joint by its own value is called here, where its axis is one of the joint's.
+std::vector<std::string> meanings_of(const ModelJoint& joint, const SpatialTransform& axes,
+                                     std::optional<Anatomy> anatomy, Side side) {
+  std::vector<std::string> meanings;
+  if (!anatomy || anatomy == Anatomy::shoulder) return meanings;
+  constexpr double near = 0.7;  // cosine: one axis at most
+  const auto senses = senses_of(*anatomy, side);
+  constexpr int turns_about[] = {2, 0, 1};  // Z, X and Y
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto drive = drive_of(joint, i, CoordinateMotion::rotational);
+    if (!drive) continue;
+    for (std::size_t angle = 0; angle < 3; ++angle) {
+      const double cosine = drive->slope * axes[i].axis[turns_about[angle]] * senses[angle];
+      const AngleNames& names = coordinate_names(*anatomy)[angle];
+      if (std::abs(cosine) > near)
+        meanings.push_back(fmt::format("{} grows with {}", joint.coordinates[drive->coordinate].name,
+                                       cosine > 0 ? names.positive : names.negative));
+    }
+  }
+  return meanings;
+}
+
+/// 1 or -1: the sense in which a hinge's Z lies along its axis, given by X forwards, Y up and Z to the right. It lies to the
+/// right. Across that, the angle grows with adduction or internal rotation, so that both sides are alike.
+double direction_of(const Vec3& axis, double positive, Side side) {
+  constexpr double right_angle = 1e-6;  // cosine
+  if (std::abs(axis.z()) > right_angle) return axis.z() < 0 ? -1 : 1;
+  const double across = std::abs(axis.x()) >= std::abs(axis.y()) ? axis.x() : axis.y();
+  return (across < 0 ? -1 : 1) * positive * (side == Side::right ? 1 : -1);
+}
+
+/// Maps a joint with one rotation about an axis at rest: Z along the axis, to the right, X as near to the body's as can be.
+JointMapping hinge(const ModelJoint& joint, const SpatialTransform& axes, const JointAxes& names,
+                   std::size_t turning, JointMapping mapping, std::optional<Anatomy> anatomy, Side side) {
   Eigen::Matrix3d before = Eigen::Matrix3d::Identity();
   for (std::size_t i = 0; i < turning; ++i)
     before = before * rotation_about(axes[i].axis, straight_line(axes[i].function)->offset);
   const Vec3 axis = before * axes[turning].axis;
-  const double direction = axis.z() < 0 ? -1 : 1;
+  const Anatomy named = anatomy.value_or(Anatomy::hip);
+  const double positive = senses_of(named, side)[0];
+  const Vec3 in_parent = mapping.X_WF.linear() * axis, upright = names.R_PB.transpose() * in_parent;
+  const double direction = direction_of(upright, positive, side);
   const Vec3 z = direction * axis;
-  // Where the model's X lies along the axis its Y takes its place.
-  const Vec3 near = std::abs(z.x()) < 0.9 ? Vec3::UnitX() : Vec3(-Vec3::UnitY());
-  const Vec3 x = (near - near.dot(z) * z).normalized();
+  const auto across = [&](const Vec3& near) { return Vec3((near - near.dot(z) * z).normalized()); };
+  // An axis along X leaves Y where it is.
+  const Vec3 x = std::abs(z.x()) < 0.9 ? across(Vec3::UnitX()) : Vec3(across(Vec3::UnitY()).cross(z));
   Eigen::Matrix3d R;
   R << x, z.cross(x), z;
   mapping.X_WF.linear() = mapping.X_WF.linear() * R;
-  const Anatomy named = anatomy.value_or(Anatomy::hip);
-  const std::string_view angle = coordinate_names(named)[0].positive;
+  const AngleNames& angle = coordinate_names(named)[0];
   mapping.kind = JointKind::hinge;
   mapping.why = "one rotation about an axis at rest";
+  if (names.R_PB.isIdentity(0)) mapping.turned.clear();  // whatever its frame is, the axis lies where it lies
+  mapping.meanings.clear();
   if (const auto drive = drive_of(joint, turning, CoordinateMotion::rotational)) {
-    const double sense = direction * senses_of(named, side)[0];
-    mapping.columns = {column(joint.name, joint.coordinates[drive->coordinate], angle, CoordinateKind::angle,
+    const double sense = direction * positive;
+    const ModelCoordinate& coordinate = joint.coordinates[drive->coordinate];
+    mapping.columns = {column(joint.name, coordinate, angle.positive, CoordinateKind::angle,
                               drive->slope * sense, drive->offset * sense)};
+    mapping.meanings = {fmt::format("{} grows with {}", coordinate.name,
+                                    drive->slope * sense > 0 ? angle.positive : angle.negative)};
   } else {
     mapping.why += ", by a function of its coordinates";
   }
-  const double off = std::acos(std::clamp(z.z(), -1.0, 1.0)) * degrees_per_radian;
-  if (off > 45)
-    mapping.caveat = fmt::format(
-        "the axis is {:.0f} degrees from the way to the right: the angle is called {} "
-        "nevertheless, positive about the axis",
-        off, angle);
+  const double off = std::acos(std::clamp(direction * upright.z(), -1.0, 1.0)) * degrees_per_radian;
+  if (off > 45) {
+    const Vec3 positive_about =
+        ((1000 * direction * positive * in_parent).array().round() / 1000 + 0.0).matrix();  // no -0
+    mapping.oblique = fmt::format(
+        "the axis is {:.0f} degrees from the direction to the right, nearest to {}: the angle is called {} "
+        "nevertheless, positive about ({:.3f}, {:.3f}, {:.3f}) of body {}",
+        off, nearest_axis(direction * positive * upright), angle.positive, positive_about.x(),
+        positive_about.y(), positive_about.z(), in_quotes(joint.parent_body));
+  }
   return mapping;
 }
 
 }  // namespace
 
-JointMapping mapping_of(const ModelJoint& joint, std::optional<Anatomy> anatomy, Side side) {
-  const SpatialTransform& axes = joint.transform->axes;
+JointMapping mapping_of(const Model& model, const ModelJoint& joint, std::optional<Anatomy> anatomy,
+                        Side side) {
+  const JointAxes names = axes_of(model, joint);
+  const SpatialTransform axes = io::named_axes(joint, names);
   const std::vector<double> zeros(joint.coordinates.size());
-  JointMapping mapping{.kind = JointKind::free};
-  mapping.X_WF.linear() = joint.X_PF.linear();
-  mapping.X_WF.translation() = joint.X_PF * pose_of(axes, zeros).translation();
+  JointMapping mapping{.kind = JointKind::free, .turned = names.turned};
+  mapping.X_WF.linear() = names.R_PA;
+  mapping.X_WF.translation() = joint.X_PF * pose_of(joint.transform->axes, zeros).translation();
+  mapping.meanings = io::meanings_of(joint, axes, anatomy, side);
 
   const bool stays = std::all_of(axes.begin() + 3, axes.end(), is_constant);
   std::vector<std::size_t> turning;
@@ -156,9 +215,10 @@ JointMapping mapping_of(const ModelJoint& joint, std::optional<Anatomy> anatomy,
     if (!is_constant(axes[i])) turning.push_back(i);
 
   const bool may_be_hinge = anatomy != Anatomy::hip && anatomy != Anatomy::shoulder;
-  if (stays && turning.size() == 1 && may_be_hinge) return hinge(joint, turning[0], mapping, anatomy, side);
+  if (stays && turning.size() == 1 && may_be_hinge)
+    return hinge(joint, axes, names, turning[0], mapping, anatomy, side);
 
-  if (auto angles = anatomy ? angle_columns(joint, *anatomy, side) : std::nullopt;
+  if (auto angles = anatomy ? angle_columns(joint, axes, *anatomy, side) : std::nullopt;
       angles && are_different(*angles)) {
     if (stays) {
       mapping.kind = JointKind::ball;
@@ -166,7 +226,7 @@ JointMapping mapping_of(const ModelJoint& joint, std::optional<Anatomy> anatomy,
       mapping.why = "three rotations about Z, X and Y, and a centre at rest";
       return mapping;
     }
-    if (auto lengths = length_columns(joint); lengths && are_different(*lengths)) {
+    if (auto lengths = length_columns(joint, axes); lengths && are_different(*lengths)) {
       mapping.columns = std::move(*angles);
       mapping.columns.insert(mapping.columns.end(), lengths->begin(), lengths->end());
       mapping.X_WF.translation() = joint.X_PF.translation();  // offsets of x, y and z are in the columns

@@ -15,12 +15,17 @@ struct JointMapping {
   Pose X_WF = Pose::Identity();  ///< the joint frame in the parent's body, its centre in metres
   /// Columns of the coordinates; empty for a joint that the model itself must pose.
   std::vector<ColumnOfCoordinate> columns = {};
-  std::string why = {};     ///< how the kind follows from the axes, or why the model must pose it
-  std::string caveat = {};  ///< one line, or nothing
+  std::string why = {};  ///< how the kind follows from the axes, or why the model must pose it
+  std::string oblique =
+      {};  ///< one line on a hinge whose axis is far from the direction to the right, else empty
+  std::string turned = {};  ///< one line on a joint frame that is turned in its body, else empty
+  /// "knee_angle_r grows with extension": for each rotational coordinate that turns the joint about one of its axes.
+  std::vector<std::string> meanings = {};
 };
 
 /// Without an anatomy only a hinge can be mapped: it flexes forwards.
-JointMapping mapping_of(const ModelJoint& joint, std::optional<Anatomy> anatomy, Side side);
+JointMapping mapping_of(const Model& model, const ModelJoint& joint, std::optional<Anatomy> anatomy,
+                        Side side);
 
 /// The joint that names of a model's joint and bodies speak of; nothing if they speak of none.
 std::optional<Anatomy> anatomy_of(const ModelJoint& joint);

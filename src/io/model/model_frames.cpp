@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "core/one_line.hpp"
 #include "io/file/in_quotes.hpp"
+#include "io/mesh/parse.hpp"
 #include "io/model/spatial_transform.hpp"
 
 namespace condyle::io {
@@ -35,10 +37,28 @@ std::size_t steps_up(std::string_view path) {
   return path.empty() ? steps : 0;
 }
 
+/// 0, 1 and 2 are x, y and z.
+struct SignedAxis {
+  int axis;
+  double sign;
+};
+
+/// An axis as "+x", "-z", "y".
+SignedAxis signed_axis(const ModelElement& of, std::string_view child, std::string_view otherwise) {
+  const std::string given = of.text(child);
+  std::string word = lower_case(given.empty() ? otherwise : std::string_view(given));
+  const double sign = word.starts_with('-') ? -1 : 1;
+  if (word.starts_with('-') || word.starts_with('+')) word.erase(0, 1);
+  if (word != "x" && word != "y" && word != "z")
+    of.fail(fmt::format("{}: {} is no axis", child, in_quotes(given)));
+  return {word[0] - 'x', sign};
+}
+
 }  // namespace
 
-std::string place_of_joint(std::string_view joint) {
-  return std::string(joint_mark) + std::string(joint);
+std::string place_of_joint(const XmlElement& joint) {
+  const std::string name = joint.label();
+  return std::string(joint_mark) + (name.empty() ? fmt::format("line {}", joint.line) : name);
 }
 
 Pose offset_of(const ModelElement& element, std::initializer_list<std::string_view> translation,
@@ -51,19 +71,11 @@ Pose offset_of(const ModelElement& element, std::initializer_list<std::string_vi
 
 void ModelFrames::add_frame(const XmlElement& frame, const std::string& owner) {
   const std::string name = frame.label();
-  const ModelElement element(*source_, frame, fmt::format("frame {}", in_quotes(name)));
-  const XmlElement* parent =
-      element.first_of({"socket_parent", "connector_parent_connectee_name", "connectors"});
-  std::string socket;
-  if (parent && parent->children.empty())
-    socket = parent->text();
-  else if (parent)
-    for (const XmlElement& connector : parent->children)
-      if (const XmlElement* connectee = connector.child("connectee_name")) socket = connectee->text();
-  if (socket.empty()) element.fail("socket_parent is missing");
-  if (frame_at(owner, name)) element.fail("stands twice in one place");
-  const auto added = frames_.emplace(
-      name, Frame{owner, std::move(socket), offset_of(element, {"translation"}, {"orientation"})});
+  if (const auto known = at_.find({owner, name}); known != at_.end()) {
+    ++known->second->count;
+    return;
+  }
+  const auto added = frames_.emplace(name, Frame{owner, &frame});
   at_.emplace(std::pair(owner, name), &added->second);
 }
 
@@ -110,14 +122,98 @@ ModelFrames::Target ModelFrames::target_of(std::string path, const std::string& 
 }
 
 BodyPlace ModelFrames::place_of(const Target& target, std::size_t depth, const ModelElement& of) const {
-  if (!target.frame) return {target.body};
+  if (!target.frame) {
+    if (twice_.contains(target.body)) of.fail(fmt::format("body {} is given twice", in_quotes(target.body)));
+    return {target.body};
+  }
   if (const auto known = places_.find(target.frame); known != places_.end()) return known->second;
   if (depth > longest_chain_of_frames)
     of.fail(fmt::format("its frame goes round in a circle, or hangs on more than {} others",
                         longest_chain_of_frames));
-  BodyPlace place = place_of(target_of(target.frame->parent, target.frame->owner, of), depth + 1, of);
-  place.X = place.X * target.frame->X;
-  places_.emplace(target.frame, place);
+  const Frame& frame = *target.frame;
+  const ModelElement element(*source_, *frame.element,
+                             fmt::format("frame {}", in_quotes(frame.element->label())));
+  if (frame.count > 1) element.fail("stands twice in one place");
+  const std::string_view type = frame.element->name;
+  if (type != "PhysicalOffsetFrame" && type != "StationDefinedFrame")
+    element.fail(fmt::format("a frame of type {} is not read", core::one_line(type, 60)));
+  const BodyPlace place = type == "StationDefinedFrame" ? place_of_stations(frame, depth + 1, element)
+                                                        : place_of_offset(frame, depth + 1, element);
+  places_.emplace(&frame, place);
+  return place;
+}
+
+BodyPlace ModelFrames::place_of_offset(const Frame& frame, std::size_t depth, const ModelElement& of) const {
+  const XmlElement* parent = of.first_of({"socket_parent", "connector_parent_connectee_name", "connectors"});
+  std::string socket;
+  if (parent && parent->children.empty())
+    socket = parent->text();
+  else if (parent)
+    for (const XmlElement& connector : parent->children)
+      if (const XmlElement* connectee = connector.child("connectee_name")) socket = connectee->text();
+  if (socket.empty()) of.fail("socket_parent is missing");
+  BodyPlace place = place_of(target_of(socket, frame.owner, of), depth, of);
+  place.X = place.X * offset_of(of, {"translation"}, {"orientation"});
+  return place;
+}
+
+const ModelFrames::Point& ModelFrames::point_named(const std::string& path, const std::string& owner,
+                                                   const ModelElement& of) const {
+  const auto [before, name] = split_last(path);
+  const std::string in = split_last(before).second;
+  const std::string_view wanted = in.empty() || in == ".." ? name_at_end(owner) : std::string_view(in);
+  const auto [first, last] = points_.equal_range(name);
+  const Point *only = nullptr, *named = nullptr;
+  for (auto at = first; at != last; ++at) {
+    only = &at->second;
+    if (name_at_end(at->second.owner) != wanted) continue;
+    if (named) of.fail(fmt::format("{} could be one of several points", in_quotes(path)));
+    named = &at->second;
+  }
+  if (named) return *named;
+  if (!only) of.fail(fmt::format("there is no point {}", in_quotes(path)));
+  if (std::next(first) != last) of.fail(fmt::format("{} could be one of several points", in_quotes(path)));
+  return *only;
+}
+
+BodyPlace ModelFrames::place_of_point(const std::string& path, const std::string& owner, std::size_t depth,
+                                      const ModelElement& of) const {
+  const Point& point = point_named(path, owner, of);
+  const ModelElement element(*source_, *point.element,
+                             fmt::format("point {}", in_quotes(point.element->label())));
+  const XmlElement* socket = element.first_of({"socket_parent_frame", "socket_parent_frame_connectee_name"});
+  if (!socket) element.fail("socket_parent_frame is missing");
+  BodyPlace place = place_of(target_of(socket->text(), point.owner, element), depth, element);
+  place.X.translation() = place.X * element.triple({"location"}, Vec3::Zero());
+  return place;
+}
+
+BodyPlace ModelFrames::place_of_stations(const Frame& frame, std::size_t depth,
+                                         const ModelElement& of) const {
+  std::vector<BodyPlace> points;
+  for (const char* socket : {"socket_point_a", "socket_point_b", "socket_point_c", "socket_origin_point"}) {
+    const std::string path = of.text(socket);
+    if (path.empty()) of.fail(fmt::format("{} is missing", socket));
+    points.push_back(place_of_point(path, frame.owner, depth, of));
+    if (points.back().body != points.front().body)
+      of.fail(fmt::format("{} is of body {}, and socket_point_a of {}", socket, in_quotes(points.back().body),
+                          in_quotes(points.front().body)));
+  }
+  const Vec3 a = points[0].X.translation(), ab = points[1].X.translation() - a,
+             normal = ab.cross(points[2].X.translation() - a);
+  constexpr double in_line = 1e-12;  // sine
+  if (!(normal.norm() > in_line * ab.norm() * (points[2].X.translation() - a).norm()))
+    of.fail("its points a, b and c lie on a line");
+  const SignedAxis along_ab = signed_axis(of, "ab_axis", "+x"),
+                   across = signed_axis(of, "ab_x_ac_axis", "+y");
+  if (along_ab.axis == across.axis) of.fail("ab_axis and ab_x_ac_axis are one axis");
+  BodyPlace place = points[3];
+  Eigen::Matrix3d R;
+  R.col(along_ab.axis) = along_ab.sign * ab.normalized();
+  R.col(across.axis) = across.sign * normal.normalized();
+  const int third = 3 - along_ab.axis - across.axis;
+  R.col(third) = R.col((third + 1) % 3).cross(R.col((third + 2) % 3));
+  place.X.linear() = R;
   return place;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_set>
@@ -18,8 +20,8 @@ struct BodyPlace {
   Pose X = Pose::Identity();
 };
 
-/// Scope of a joint's frames, which may have a body's name.
-std::string place_of_joint(std::string_view joint);
+/// Scope of a joint's frames, which may have a body's name. A joint without a name has one by its line.
+std::string place_of_joint(const XmlElement& joint);
 
 /// Bodies of a model and the frames that are attached to them, one to another. A path gives the place of a component: a body's
 /// name, place_of_joint(), and the names of frames after it.
@@ -27,12 +29,20 @@ class ModelFrames {
  public:
   explicit ModelFrames(const Source& source) : source_(&source) {}
 
+  /// A second body of one name fails for what refers to either.
   void add_body(const std::string& name) {
-    bodies_.push_back(name);
-    known_.insert(name);
+    if (known_.insert(name).second)
+      bodies_.push_back(name);
+    else
+      twice_.insert(name);
   }
-  /// A PhysicalOffsetFrame that stands in `owner`.
+  /// A frame that stands in `owner`: a PhysicalOffsetFrame or a StationDefinedFrame. What is wrong with it fails for those
+  /// that hang on it only. The element is borrowed.
   void add_frame(const XmlElement& frame, const std::string& owner);
+  /// A Station or a Marker that stands in `owner`, borrowed: points of a StationDefinedFrame.
+  void add_point(const XmlElement& point, const std::string& owner) {
+    points_.emplace(point.label(), Point{owner, &point});
+  }
 
   const std::vector<std::string>& bodies() const noexcept { return bodies_; }
   bool is_body(const std::string& name) const { return known_.contains(name); }
@@ -47,8 +57,13 @@ class ModelFrames {
 
  private:
   struct Frame {
-    std::string owner, parent;
-    Pose X;
+    std::string owner;
+    const XmlElement* element;
+    std::size_t count = 1;  ///< frames of this name in this place
+  };
+  struct Point {
+    std::string owner;
+    const XmlElement* element;
   };
   /// A body's name, or a frame.
   struct Target {
@@ -60,13 +75,19 @@ class ModelFrames {
   Target target_at(const std::string& path, const ModelElement& of) const;
   Target target_of(std::string path, const std::string& owner, const ModelElement& of) const;
   BodyPlace place_of(const Target& target, std::size_t depth, const ModelElement& of) const;
+  BodyPlace place_of_offset(const Frame& frame, std::size_t depth, const ModelElement& of) const;
+  BodyPlace place_of_stations(const Frame& frame, std::size_t depth, const ModelElement& of) const;
+  const Point& point_named(const std::string& path, const std::string& owner, const ModelElement& of) const;
+  BodyPlace place_of_point(const std::string& path, const std::string& owner, std::size_t depth,
+                           const ModelElement& of) const;
 
   const Source* source_;
   std::vector<std::string> bodies_;
-  std::unordered_set<std::string> known_;
-  std::multimap<std::string, Frame> frames_;                        ///< by their names
-  std::map<std::pair<std::string, std::string>, const Frame*> at_;  ///< by owner and name
-  mutable std::map<const Frame*, BodyPlace> places_;                ///< of frames that were asked for
+  std::unordered_set<std::string> known_, twice_;
+  std::multimap<std::string, Frame> frames_;                  ///< by their names
+  std::map<std::pair<std::string, std::string>, Frame*> at_;  ///< by owner and name
+  std::multimap<std::string, Point> points_;                  ///< by their names
+  mutable std::map<const Frame*, BodyPlace> places_;          ///< of frames that were asked for
 };
 
 /// X from a translation and body-fixed X-Y-Z angles, elements of these names.

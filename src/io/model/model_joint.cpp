@@ -56,9 +56,15 @@ std::string_view name_of(ModelNoteCode code) noexcept {
     case ModelNoteCode::exchanged_bodies:
       return "exchanged_bodies";
     case ModelNoteCode::coupled_coordinate:
+      return "coupled_coordinate";
+    case ModelNoteCode::no_length_unit:
+      return "no_length_unit";
+    case ModelNoteCode::no_name:
+      return "no_name";
+    case ModelNoteCode::left_out:
       break;
   }
-  return "coupled_coordinate";
+  return "left_out";
 }
 
 std::string to_text(const ModelNote& note) {
@@ -82,6 +88,7 @@ Pose pose_of(const ModelJoint& joint, std::span<const double> q) {
 const ModelJoint& joint_named(const Model& model, std::string_view name) {
   std::vector<std::string> names;
   for (const ModelJoint& joint : model.joints) {
+    if (joint.name.empty()) continue;  // nobody can ask for it
     if (joint.name == name) {
       if (!joint.transform) throw FileError(joint.why_not);
       return joint;
@@ -110,9 +117,10 @@ std::vector<WeldedBody> welded_bodies(const Model& model, const ModelJoint& join
   };
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (const ModelJoint& weld : model.joints) {
-      if (weld.type != "WeldJoint" || weld.name == joint.name) continue;
-      const Pose X_parent_child = pose_of(weld, {});
+      if (weld.type != "WeldJoint" || (weld.line == joint.line && weld.name == joint.name)) continue;
       const WeldedBody body = bodies[i];
+      if (weld.parent_body != body.name && weld.child_body != body.name) continue;
+      const Pose X_parent_child = pose_of(weld, {});
       if (weld.parent_body == body.name) add(weld, weld.child_body, body.X * X_parent_child);
       if (weld.child_body == body.name) add(weld, weld.parent_body, body.X * inverted(X_parent_child));
     }
@@ -125,6 +133,7 @@ std::vector<ModelMesh> meshes_of(const Model& model, const ModelJoint& joint, Bo
   for (const WeldedBody& body : io::welded_bodies(model, joint, role)) {
     for (ModelMesh mesh : model.meshes) {
       if (mesh.body != body.name) continue;
+      if (!mesh.why_not.empty()) throw FileError(mesh.why_not);
       mesh.X_BG = body.X * mesh.X_BG;
       meshes.push_back(std::move(mesh));
     }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "condyle/error.hpp"
 #include "condyle/io/model_file.hpp"
@@ -42,13 +41,6 @@ std::string toml_pose(const Pose& X) {
 /// Bones of people of other sizes are scaled by 0.7 to 1.3 along each axis.
 constexpr double most_uneven_scale = 2;
 
-/// Frames of joints are turned against their bodies by less, subtalar axes by more.
-constexpr double most_turned_deg = 45;
-
-double farthest_axis_deg(const Eigen::Matrix3d& R) {
-  return std::acos(std::clamp(R.diagonal().minCoeff(), -1.0, 1.0)) * 180 / std::numbers::pi;
-}
-
 /// The names, or the first of very many.
 std::string some_of(std::vector<std::string> names) {
   constexpr std::size_t most_named = 20;
@@ -82,7 +74,7 @@ class ModelJointFile {
           "{}: joint {}: its name and its bodies' names do not agree on one side, _r or _l: give its side",
           model.path.string(), in_quotes(joint_.name)));
     side_ = *side;
-    mapping_ = mapping_of(joint_, anatomy_, side_);
+    mapping_ = mapping_of(model_, joint_, anatomy_, side_);
     if (const ModelCoupler* coupler = coupler_of_joint(); coupler && !mapping_.columns.empty()) {
       mapping_.columns.clear();
       mapping_.why += fmt::format("; constraint {} moves it too", in_quotes(coupler->name));
@@ -230,22 +222,14 @@ class ModelJointFile {
     add(fmt::format("side = \"{}\"  # {}", name_of(side_),
                     request_.side ? "given" : "by the ending of its name"));
     add("units = \"m\"");
-    if (!mapping_.caveat.empty()) note(ModelNoteCode::oblique_axis, mapping_.caveat);
-    note_turned_frame();
+    if (!mapping_.oblique.empty()) note(ModelNoteCode::oblique_axis, mapping_.oblique);
+    if (!mapping_.turned.empty())
+      note(ModelNoteCode::turned_frame,
+           mapping_.turned + (mapping_.meanings.empty() ? "" : "; " + meanings()));
     note_given_otherwise();
   }
 
-  /// Angles are named by the joint's frame. Bodies of OpenSim have X anterior, Y superior and Z to the right.
-  void note_turned_frame() {
-    const double degrees = farthest_axis_deg(mapping_.X_WF.linear());
-    if (degrees > most_turned_deg && mapping_.caveat.empty())
-      note(
-          ModelNoteCode::turned_frame,
-          fmt::format("an axis of the joint's frame is {:.0f} degrees from that of body {}, whose X, Y and Z "
-                      "should be anterior, superior and to the right: if they are, the names and the signs "
-                      "of the angles are not those of the anatomy",
-                      degrees, in_quotes(joint_.parent_body)));
-  }
+  std::string meanings() const { return fmt::format("{}", fmt::join(mapping_.meanings, ", ")); }
 
   void note_given_otherwise() {
     const auto by_names = io::side_of(joint_);
@@ -333,6 +317,7 @@ class ModelJointFile {
 
   void write_recorded_motion() {
     add("\n[recorded_motion]");
+    if (!mapping_.meanings.empty()) add("# " + meanings());
     if (mapping_.columns.empty()) {
       add("model = " + toml_text(path_of(model_.path)) + "  # poses the joint by its functions");
       add("joint = " + toml_text(joint_.name));
@@ -359,6 +344,15 @@ class ModelJointFile {
     return nullptr;
   }
 
+  /// Contacts name their meshes: two of one name on a body of this joint leave open which is meant.
+  void refuse_second_contact_mesh(const ModelContact& contact) const {
+    for (const ModelContactMesh& mesh : model_.contact_meshes)
+      if ((mesh.name == contact.casting || mesh.name == contact.target) &&
+          &mesh != find_contact_mesh(mesh.name) && (role_of(mesh) || role_of(*find_contact_mesh(mesh.name))))
+        throw FileError(fmt::format("{}: line {}: contact mesh {} is given twice", model_.path.string(),
+                                    mesh.mesh.line, in_quotes(mesh.name)));
+  }
+
   const ModelContactMesh& contact_mesh(const std::string& name) const { return *find_contact_mesh(name); }
 
   /// The role of the body that a contact mesh is attached to, and where it lies there.
@@ -372,6 +366,7 @@ class ModelJointFile {
   void choose_contact() {
     std::vector<std::string> names, others;
     for (const ModelContact& contact : model_.contacts) {
+      refuse_second_contact_mesh(contact);
       const ModelContactMesh *of_casting = find_contact_mesh(contact.casting),
                              *of_target = find_contact_mesh(contact.target);
       if (!of_casting || !of_target) {
@@ -487,12 +482,20 @@ class ModelJointFile {
 
 }  // namespace
 ModelJointProposal propose_joint(const Model& model, const ModelJointRequest& request) {
-  return ModelJointFile(model, request).proposal();
+  ModelJointProposal proposed = ModelJointFile(model, request).proposal();
+  if (!proposed.missing_body.empty() || !proposed.proposal.to_fill_in.empty()) return proposed;
+  const fs::path path = request.joint_file.empty() ? fs::path("joint.toml") : request.joint_file;
+  try {
+    io::load_joint(io::joint_file_of(proposed.proposal.toml, path));
+  } catch (const std::runtime_error& error) {  // FileError or MeshError
+    proposed.unreadable = error.what();
+  }
+  return proposed;
 }
 
 JointFileOfModel joint_file_of(const Model& model, ModelJointRequest request) {
   request.joint_file = model.path;
-  ModelJointProposal proposed = propose_joint(model, request);
+  ModelJointProposal proposed = ModelJointFile(model, request).proposal();
   if (!proposed.missing_body.empty()) throw FileError(proposed.missing_body);
   if (!proposed.proposal.to_fill_in.empty())
     throw FileError(fmt::format("{}: {}", model.path.string(), proposed.proposal.to_fill_in.front()));

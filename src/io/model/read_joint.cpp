@@ -8,6 +8,7 @@
 #include "condyle/error.hpp"
 #include "core/one_line.hpp"
 #include "io/file/in_quotes.hpp"
+#include "io/file/plain_text.hpp"
 #include "io/file/words.hpp"
 #include "io/model/spatial_transform.hpp"
 
@@ -204,11 +205,14 @@ void read(ModelJoint& out, const ModelElement& joint, const std::string& of,
   if (parent.empty()) joint.fail("the parent body is missing");
   if (child.empty()) child = enclosing_body;
   if (child.empty()) joint.fail("the child body is missing");
-  const std::string here = place_of_joint(out.name);
-  const BodyPlace of_parent = frames.place_of(parent, here, joint);
+  const std::string here = place_of_joint(joint.xml());
+  // The body that can be found stands in a joint that is refused too: a weld of it matters to that body's joints.
   const BodyPlace of_child = frames.place_of(child, here, joint);
-  out.parent_body = of_parent.body;
   out.child_body = of_child.body;
+  const BodyPlace of_parent = frames.place_of(parent, here, joint);
+  out.parent_body = of_parent.body;
+  joint.require_plain(out.child_body, "the name of its child body");
+  joint.require_plain(out.parent_body, "the name of its parent body");
   out.X_PF = of_parent.X * offset_of(joint, {"location_in_parent"}, {"orientation_in_parent"});
   out.X_CM = of_child.X *
              offset_of(joint, {"location_in_child", "location"}, {"orientation_in_child", "orientation"});
@@ -234,9 +238,10 @@ ModelJoint joint_of(const Source& source, const XmlElement& element, const std::
                     const ModelFrames& frames, int version) {
   const std::string of = fmt::format("joint {}", in_quotes(element.label()));
   const ModelElement joint(source, element, of);
-  ModelJoint out{.name = joint.name(), .type = core::one_line(element.name, 60), .line = element.line};
-  if (out.name.empty()) joint.fail("has no name");
+  ModelJoint out{
+      .name = plain_text(element.label()), .type = core::one_line(element.name, 60), .line = element.line};
   try {
+    joint.name();  // fails for one that is not plain
     read(out, joint, of, enclosing_body, frames, version);
   } catch (const FileError& error) {
     out.why_not = error.what();

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "condyle/error.hpp"
 #include "condyle/io/model_file.hpp"
@@ -35,14 +34,18 @@ class ModelReader {
     frames_.add_body("ground");
     collect_frames(model, "");
     read_components(model, "");
-    model_.bodies = frames_.bodies();
+    for (const std::string& body : frames_.bodies()) model_.bodies.push_back(plain_text(body));
     for (const auto& [kind, count] : shapes_) model_.ignored[kind] += count;
-    refuse_twice();
+    refuse_joints_of_one_name();
   }
 
  private:
   static bool is_body(const XmlElement& element) {
     return element.name == "Body" || element.name == "Ground";
+  }
+
+  static std::string name_of_body(const XmlElement& element) {
+    return element.name == "Ground" ? "ground" : element.label();
   }
 
   static bool is_list(std::string_view name) { return name == "objects" || name == "components"; }
@@ -53,6 +56,8 @@ class ModelReader {
             name != "GeometrySet" && name != "PathPointSet");
   }
 
+  static bool is_frame(const XmlElement& element) { return element.name.ends_with("Frame"); }
+
   static std::string path_in(const std::string& owner, const XmlElement& frame) {
     return owner + "/" + frame.label();
   }
@@ -61,20 +66,43 @@ class ModelReader {
   void collect_frames(const XmlElement& element, const std::string& owner) {
     for (const XmlElement& child : element.children) {
       if (is_body(child)) {
-        const std::string name = child.name == "Ground" ? "ground" : ModelElement(source_, child).name();
-        if (name != "ground" && !bodies_.insert(name).second)
-          ModelElement(source_, child).fail(fmt::format("body {} is given twice", in_quotes(name)));
-        if (name != "ground") frames_.add_body(name);
-        collect_frames(child, name);
-      } else if (child.name == "PhysicalOffsetFrame") {
+        const std::string name = name_of_body(child);
+        if (name.empty())
+          model_.notes.push_back({ModelNoteCode::no_name,
+                                  fmt::format("line {}: a body has no name and is left out", child.line)});
+        if (name != "ground" && !name.empty()) frames_.add_body(name);
+        if (!name.empty()) collect_frames(child, name);
+      } else if (is_frame(child)) {
         frames_.add_frame(child, owner);
         collect_frames(child, path_in(owner, child));
+      } else if (child.name == "Station" || child.name == "Marker") {
+        frames_.add_point(child, owner);
       } else if (is_joint(child.name)) {
-        collect_frames(child, place_of_joint(child.label()));
+        collect_frames(child, place_of_joint(child));
       } else if (is_container(child.name)) {
         collect_frames(child, owner);
       }
     }
+  }
+
+  /// Reads a component. One that cannot be read is left out with a note, for the joints do not need it.
+  template <class Read>
+  void or_leave_out(const Read& read) {
+    try {
+      read();
+    } catch (const FileError& error) {
+      const std::string_view line = error.what();
+      model_.notes.push_back({ModelNoteCode::left_out,
+                              std::string(line.substr(source_.name.size() + std::string_view(": ").size()))});
+    }
+  }
+
+  void note_nameless(const ModelJoint& joint) {
+    if (joint.name.empty())
+      model_.notes.push_back(
+          {ModelNoteCode::no_name,
+           fmt::format("line {}: a {} of {} has no name, and nobody can ask for it", joint.line, joint.type,
+                       joint.child_body.empty() ? "no body" : in_quotes(joint.child_body))});
   }
 
   void note_reverse(const ModelJoint& joint) {
@@ -89,25 +117,26 @@ class ModelReader {
     for (const XmlElement& child : element.children) {
       const std::string_view name = child.name;
       if (is_body(child)) {
-        read_body(child, name == "Ground" ? "ground" : child.label());
-      } else if (name == "PhysicalOffsetFrame") {
+        if (const std::string body = name_of_body(child); !body.empty()) read_body(child, body);
+      } else if (is_frame(child)) {
         read_geometry(child, path_in(owner, child));
         read_components(child, path_in(owner, child));
       } else if (is_joint(name)) {
         model_.joints.push_back(joint_of(source_, child, owner, frames_, model_.version));
         note_reverse(model_.joints.back());
-        read_components(child, place_of_joint(child.label()));
+        note_nameless(model_.joints.back());
+        read_components(child, place_of_joint(child));
       } else if (name == "Mesh" && owner.empty()) {
-        read_mesh_element(child, "");
+        or_leave_out([&] { read_mesh_element(child, ""); });
       } else if (name == "CoordinateCouplerConstraint") {
-        read_coupler(child);
+        or_leave_out([&] { read_coupler(child); });
       } else if (name == "Smith2018ContactMesh") {
-        read_contact_mesh(child);
+        or_leave_out([&] { read_contact_mesh(child); });
       } else if (name == "Smith2018ArticularContactForce") {
-        read_contact(child);
+        or_leave_out([&] { read_contact(child); });
       } else if (is_container(name)) {
         read_components(child, owner);
-      } else if (is_list(element.name) && name != "Mesh" && name != "FrameGeometry") {
+      } else if (is_list(element.name) && name != "Mesh" && name != "FrameGeometry" && name != "Station") {
         ++model_.ignored[core::one_line(name, 60)];  // muscles, ligaments, controllers, markers
       }
     }
@@ -115,7 +144,11 @@ class ModelReader {
 
   void read_body(const XmlElement& body, const std::string& name) {
     read_geometry(body, name);
-    read_visible_object(body, name);
+    try {
+      read_visible_object(body, name);
+    } catch (const FileError& error) {
+      add_unreadable_mesh(body, name, error);
+    }
     if (const XmlElement* wraps = body.at({"WrapObjectSet", "objects"}))
       for (const XmlElement& wrap : wraps->children) ++model_.ignored[core::one_line(wrap.name, 60)];
     read_components(body, name);
@@ -128,7 +161,7 @@ class ModelReader {
       if (!geometry) continue;
       for (const XmlElement& shape : geometry->children) {
         if (shape.name == "Mesh") {
-          read_mesh_element(shape, path);
+          or_leave_out([&] { read_mesh_element(shape, path); });
         } else if (place == "attached_geometry" && shape.name != "FrameGeometry") {
           ++shapes_[core::one_line(shape.name, 60)];
         }
@@ -146,12 +179,23 @@ class ModelReader {
       ++model_.ignored["Mesh of no frame"];
       return;
     }
-    const BodyPlace place =
-        stands_here ? frames_.place_at(owner, values) : frames_.place_of(socket, owner, values);
-    mesh.body = place.body;
-    mesh.X_BG = place.X;
-    mesh.scale = values.triple({"scale_factors"}, Vec3::Ones());
-    add_mesh(std::move(mesh), values.text("mesh_file"), values);
+    try {
+      const BodyPlace place =
+          stands_here ? frames_.place_at(owner, values) : frames_.place_of(socket, owner, values);
+      mesh.body = place.body;
+      mesh.X_BG = place.X;
+      mesh.scale = values.triple({"scale_factors"}, Vec3::Ones());
+      add_mesh(std::move(mesh), values.text("mesh_file"), values);
+    } catch (const FileError& error) {
+      const std::string body = mesh.body.empty() ? owner.substr(0, owner.find('/')) : mesh.body;
+      if (!frames_.is_body(body)) throw;
+      add_unreadable_mesh(element, body, error);
+    }
+  }
+
+  /// Joints of this body are refused for it, others are not.
+  void add_unreadable_mesh(const XmlElement& element, const std::string& body, const FileError& error) {
+    model_.meshes.push_back({.body = body, .line = element.line, .why_not = error.what()});
   }
 
   /// Meshes before 3.2: each in the frame of its shape in that of the body's shapes.
@@ -195,10 +239,13 @@ class ModelReader {
 
   MeshLocation found_mesh(const std::string& file) {
     MeshLocation found = find_mesh(file, folder_, folders_);
-    if (found.in_another_case)
-      model_.notes.push_back(
-          {ModelNoteCode::other_case, fmt::format("mesh {} was found as {}", in_quotes(file),
-                                                  in_quotes(found.path->filename().string()))});
+    if (found.in_another_case) {
+      const std::string own = found.path->filename().string();
+      const bool differs = own != std::filesystem::path(file).filename();  // else a folder does
+      model_.notes.push_back({ModelNoteCode::other_case,
+                              fmt::format("mesh {} was found as {}", in_quotes(file),
+                                          differs ? in_quotes(own) : plain_text(found.path->string()))});
+    }
     return found;
   }
 
@@ -299,16 +346,18 @@ class ModelReader {
     return std::string(name.substr(name.rfind('/') + 1));
   }
 
-  void refuse_twice() const {
-    std::set<std::string> names;
-    for (const ModelJoint& joint : model_.joints)
-      if (!names.insert(joint.name).second)
-        source_.fail(fmt::format("line {}: joint {} is given twice", joint.line, in_quotes(joint.name)));
-    std::set<std::string> meshes;  // contacts name them
-    for (const ModelContactMesh& mesh : model_.contact_meshes)
-      if (!meshes.insert(mesh.name).second && !model_.contacts.empty())
-        source_.fail(
-            fmt::format("line {}: contact mesh {} is given twice", mesh.mesh.line, in_quotes(mesh.name)));
+  void refuse_joints_of_one_name() {
+    std::map<std::string, ModelJoint*> first;
+    for (ModelJoint& joint : model_.joints) {
+      if (joint.name.empty()) continue;
+      const auto [known, is_new] = first.emplace(joint.name, &joint);
+      if (is_new) continue;
+      for (ModelJoint* each : {known->second, &joint}) {
+        each->transform = nullptr;
+        each->why_not = fmt::format("{}: line {}: joint {} is given twice", source_.name, joint.line,
+                                    in_quotes(joint.name));
+      }
+    }
   }
 
   const Source& source_;
@@ -316,7 +365,6 @@ class ModelReader {
   std::span<const std::filesystem::path> folders_;
   std::filesystem::path folder_;
   ModelFrames frames_;
-  std::set<std::string> bodies_;
   std::map<std::string, std::size_t> shapes_;  ///< spheres, bricks and the like among the meshes
 };
 
@@ -342,12 +390,18 @@ int version_of(const XmlElement& root, const Source& source) {
   return version;
 }
 
-void check_length_units(const XmlElement& model, const Source& source) {
-  const XmlElement* element = model.child("length_units");
-  const std::string units = element ? element->text() : std::string();
-  if (units.empty() || units == "m" || units == "meters" || units == "metres") return;
-  ModelElement(source, *element)
-      .fail(fmt::format("length_units {}: OpenSim takes all lengths for metres", in_quotes(units)));
+/// OpenSim takes all lengths for metres and never looks here. Where nobody set a unit it writes "Unassigned".
+void check_length_units(const XmlElement& of_model, const Source& source, Model& model) {
+  const XmlElement* element = of_model.child("length_units");
+  const std::string written = element ? element->text() : std::string(), units = lower_case(written);
+  for (const char* metres : {"", "m", "meter", "meters", "metre", "metres"})
+    if (units == metres) return;
+  if (units != "unassigned" && units != "unknown" && units != "unknownunits")
+    ModelElement(source, *element)
+        .fail(fmt::format("length_units {}: OpenSim takes all lengths for metres", in_quotes(written)));
+  model.notes.push_back(
+      {ModelNoteCode::no_length_unit,
+       fmt::format("length_units is {}: lengths are metres, as OpenSim takes them", in_quotes(written))});
 }
 
 }  // namespace
@@ -376,7 +430,7 @@ Model read_model(std::string_view bytes, const std::filesystem::path& path,
   const XmlElement* of_model = root.child("Model");
   if (!of_model) source.fail(fmt::format("line {}: there is no Model in it", root.line));
   model.name = io::plain_text(of_model->label());
-  io::check_length_units(*of_model, source);
+  io::check_length_units(*of_model, source, model);
   ModelReader(source, model, geometry_folders).read(root);
   return model;
 }

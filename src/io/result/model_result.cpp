@@ -17,9 +17,20 @@ namespace condyle::io {
 namespace {
 
 /// A joint's kind as a joint file would state it; empty for a joint that cannot be read.
-std::optional<JointMapping> mapping_of_names(const ModelJoint& joint) {
+std::optional<JointMapping> mapping_of_names(const Model& model, const ModelJoint& joint) {
   if (!joint.transform || joint.coordinates.empty()) return std::nullopt;
-  return mapping_of(joint, io::anatomy_of(joint), io::side_of(joint).value_or(Side::right));
+  return mapping_of(model, joint, io::anatomy_of(joint), io::side_of(joint).value_or(Side::right));
+}
+
+/// One line if nothing can be made of the joint: itself, a weld or a mesh of its bodies cannot be read.
+std::string why_refused(const Model& model, const ModelJoint& joint) {
+  if (!joint.transform) return joint.why_not;
+  try {
+    for (const BodyRole role : {BodyRole::fixed, BodyRole::mobile}) meshes_of(model, joint, role);
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return {};
 }
 
 std::pair<std::size_t, std::size_t> meshes_found(const Model& model, const ModelJoint& joint, BodyRole role) {
@@ -30,15 +41,17 @@ std::pair<std::size_t, std::size_t> meshes_found(const Model& model, const Model
 }
 
 std::string model_joint_text(const Model& model, const ModelJoint& joint) {
-  if (!joint.transform) return fmt::format("  {}: {}\n", joint.name, joint.why_not);
+  const std::string label = joint.name.empty() ? "(no name)" : joint.name;
+  if (const std::string why = io::why_refused(model, joint); !why.empty())
+    return fmt::format("  {}: {}\n", label, why);
   std::string coordinates;
   for (const ModelCoordinate& coordinate : joint.coordinates)
     coordinates += (coordinates.empty() ? "" : ", ") + coordinate.name;
-  const auto mapping = mapping_of_names(joint);
+  const auto mapping = mapping_of_names(model, joint);
   const auto fixed = meshes_found(model, joint, BodyRole::fixed),
              mobile = meshes_found(model, joint, BodyRole::mobile);
   return fmt::format(
-      "  {}: {} in {}, {}{}; meshes found {} of {} and {} of {}{}\n", joint.name, joint.child_body,
+      "  {}: {} in {}, {}{}; meshes found {} of {} and {} of {}{}\n", label, joint.child_body,
       joint.parent_body, mapping ? fmt::format("{} ({})", name_of(mapping->kind), joint.type) : joint.type,
       mapping && mapping->columns.empty() ? ", posed by the model" : "", fixed.first, fixed.second,
       mobile.first, mobile.second, coordinates.empty() ? "" : "; coordinates " + coordinates);
@@ -55,7 +68,8 @@ std::string model_text(const Model& model) {
     text += fmt::format("  constraint {}: {} follows {}\n", coupler.name, coupler.dependent,
                         fmt::join(coupler.independent, ", "));
   for (const ModelMesh& mesh : model.meshes)
-    if (!mesh.path) text += fmt::format("  missing: {} of {}\n", mesh.file, mesh.body);
+    if (!mesh.path && mesh.why_not.empty())
+      text += fmt::format("  missing: {} of {}\n", mesh.file, mesh.body);
   for (const auto& [kind, count] : model.ignored) text += fmt::format("  not used: {} {}\n", count, kind);
   for (const ModelNote& note : model.notes) text += fmt::format("  note: {}\n", to_text(note));
   return text;
@@ -79,7 +93,7 @@ Json model_mesh_json(const ModelMesh& mesh) {
   return json;
 }
 
-Json model_joint_json(const ModelJoint& joint) {
+Json model_joint_json(const Model& model, const ModelJoint& joint) {
   Json json{{"name", joint.name},
             {"type", joint.type},
             {"line", joint.line},
@@ -93,10 +107,10 @@ Json model_joint_json(const ModelJoint& joint) {
             {"refused", nullptr}};
   for (const ModelCoordinate& coordinate : joint.coordinates)
     json["coordinates"].push_back(model_coordinate_json(coordinate));
-  if (!joint.transform) json["refused"] = joint.why_not;
+  if (std::string why = io::why_refused(model, joint); !why.empty()) json["refused"] = std::move(why);
   if (const auto anatomy = io::anatomy_of(joint)) json["anatomy"] = name_of(*anatomy);
   if (const auto side = io::side_of(joint)) json["side"] = name_of(*side);
-  if (const auto mapping = mapping_of_names(joint)) {
+  if (const auto mapping = mapping_of_names(model, joint)) {
     json["kind"] = name_of(mapping->kind);
     json["posed_by_model"] = mapping->columns.empty();
   }
@@ -107,7 +121,7 @@ Json model_json(const Model& model) {
   Json json{{"file", model.path.string()}, {"name", model.name}, {"version", model.version}};
   json["bodies"] = model.bodies;
   for (const char* list : {"joints", "meshes", "contacts", "couplers"}) json[list] = Json::array();
-  for (const ModelJoint& joint : model.joints) json["joints"].push_back(model_joint_json(joint));
+  for (const ModelJoint& joint : model.joints) json["joints"].push_back(model_joint_json(model, joint));
   for (const ModelMesh& mesh : model.meshes) json["meshes"].push_back(model_mesh_json(mesh));
   for (const ModelContact& contact : model.contacts)
     json["contacts"].push_back({{"name", contact.name},

@@ -343,6 +343,25 @@ TEST(NiftiAffine, WithoutOrientationNeedsStatedAxes) {
   EXPECT_EQ(ras.grid.X_WI.linear(), Matrix3d(Vector3d(-0.75, -0.8125, 2.5).asDiagonal()));
 }
 
+TEST(StatedAxes, AreNotedWhereTheFileHasItsOwn) {
+  const auto image = test::label_image(placements()[3].X_WI);
+  const std::pair<io::LabelFormat, std::string> files[] = {{io::LabelFormat::nifti, test::nifti(image)},
+                                                           {io::LabelFormat::nrrd, test::nrrd(image, {})}};
+  for (const auto& [format, bytes] : files) {
+    EXPECT_FALSE(has_note(read(bytes, format), io::LabelNoteCode::axes_not_used));
+    const auto map = read(bytes, format, {.axes = io::StatedAxes::las});
+    expect_same(map, image);
+    EXPECT_TRUE(has_note(map, io::LabelNoteCode::axes_not_used));
+  }
+  const auto upright = test::label_image(Affine3d(Eigen::Scaling(spacing)));
+  EXPECT_FALSE(has_note(
+      read(test::nifti(upright, {.sform = false}), io::LabelFormat::nifti, {.axes = io::StatedAxes::lps}),
+      io::LabelNoteCode::axes_not_used));
+  EXPECT_FALSE(
+      has_note(read(test::nrrd(image, {.space = ""}), io::LabelFormat::nrrd, {.axes = io::StatedAxes::lps}),
+               io::LabelNoteCode::axes_not_used));
+}
+
 TEST(NiftiUnits, AreConverted) {
   const auto image = test::label_image(placements()[2].X_WI);
   for (const auto& [code, mm] : {std::pair{1, 1000.0}, {2, 1.0}, {3, 1e-3}})

@@ -481,9 +481,9 @@ TEST_F(SmallModel, SaysThatItsFrameIsTurnedInItsBody) {
       return note.code == io::ModelNoteCode::turned_frame;
     });
   };
-  for (const char* orientation : {"0 0 0", "0.7 0 0", "0 0.7 0", "0 0 -0.7"})
+  for (const char* orientation : {"0 0 0", "0.5 0 0", "0 0.5 0", "0 0 -0.5"})
     EXPECT_FALSE(says(orientation)) << orientation;
-  for (const char* orientation : {"0.9 0 0", "0 0.9 0", "0 3.14159 0", "0 0 -1.5708"})
+  for (const char* orientation : {"0.55 0 0", "0 0.9 0", "0 3.14159 0", "0 0 -1.5708"})
     EXPECT_TRUE(says(orientation)) << orientation;
 }
 

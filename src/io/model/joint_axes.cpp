@@ -1,0 +1,110 @@
+#include "io/model/joint_axes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "io/file/in_quotes.hpp"
+#include "io/model/spatial_transform.hpp"
+
+namespace condyle::io {
+namespace {
+
+/// Axes that a modeller lays along a bone's function are within 10 degrees of the body's in knees (Rajagopal et al. 2016).
+constexpr double most_off_deg = 30;
+
+/// A body of the standing model is turned if an axis of it is farther from the ground's.
+constexpr double most_leaning_deg = 45;
+
+/// The angle between an axis of a frame and its namesake of another, for the axis that is farthest off.
+double farthest_axis_deg(const Eigen::Matrix3d& R) {
+  return std::acos(std::clamp(R.diagonal().minCoeff(), -1.0, 1.0)) * 180 / std::numbers::pi;
+}
+
+/// R_GB with all coordinates at 0; empty if no joints that are read lead from the ground to the body.
+std::optional<Eigen::Matrix3d> standing_rotation(const Model& model, std::string body) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  for (std::size_t steps = 0; steps <= model.joints.size(); ++steps) {
+    if (body == "ground") return R;
+    const auto above = std::find_if(model.joints.begin(), model.joints.end(), [&](const ModelJoint& joint) {
+      return joint.child_body == body && joint.transform;
+    });
+    if (above == model.joints.end()) return std::nullopt;
+    R = pose_of(*above, std::vector<double>(above->coordinates.size())).linear() * R;
+    body = above->parent_body;
+  }
+  return std::nullopt;
+}
+
+/// S with columns along axes of a frame, right-handed, for which R S is nearest to the identity. The identity itself before
+/// others as near.
+Eigen::Matrix3d nearest_renaming(const Eigen::Matrix3d& R) {
+  constexpr double as_near = 1e-9;
+  Eigen::Matrix3d nearest = Eigen::Matrix3d::Identity();
+  for (int x = 0; x < 6; ++x)
+    for (int y = 0; y < 6; ++y) {
+      if (x % 3 == y % 3) continue;
+      Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
+      S(x % 3, 0) = x < 3 ? 1 : -1;
+      S(y % 3, 1) = y < 3 ? 1 : -1;
+      S.col(2) = S.col(0).cross(S.col(1));
+      if ((R * S).trace() > (R * nearest).trace() + as_near) nearest = S;
+    }
+  return nearest;
+}
+
+bool turns_about_own_axes(const SpatialTransform& axes) {
+  constexpr double along = 1 - 1e-6;  // cosine: 0.1 degrees
+  return std::all_of(axes.begin(), axes.begin() + 3, [](const TransformAxis& axis) {
+    return axis.coordinates.empty() || axis.axis.cwiseAbs().maxCoeff() > along;
+  });
+}
+
+}  // namespace
+
+std::string_view nearest_axis(const Vec3& direction) {
+  constexpr std::string_view names[2][3] = {{"X, forwards", "Y, up", "Z, to the right"},
+                                            {"-X, backwards", "-Y, down", "-Z, to the left"}};
+  int axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  return names[direction[axis] < 0][axis];
+}
+
+JointAxes axes_of(const Model& model, const ModelJoint& joint) {
+  const Eigen::Matrix3d& R_PF = joint.X_PF.linear();
+  const std::string body = in_quotes(joint.parent_body);
+  const auto R_GP = io::standing_rotation(model, joint.parent_body);
+  if (R_GP && farthest_axis_deg(*R_GP) > most_leaning_deg && farthest_axis_deg(R_PF) > most_off_deg &&
+      farthest_axis_deg(*R_GP * R_PF) <= most_off_deg)
+    return {.R_PA = R_PF,
+            .R_PB = R_GP->transpose(),
+            .turned = fmt::format(
+                "an axis of body {} is {:.0f} degrees from the ground's in the standing model, and "
+                "the joint's frame is not turned there: angles are about the frame's axes",
+                body, farthest_axis_deg(*R_GP))};
+
+  const Eigen::Matrix3d S = io::nearest_renaming(R_PF);
+  const double off = farthest_axis_deg(R_PF * S);
+  constexpr double same = 1e-6;
+  if (off > same && (off > most_off_deg || !io::turns_about_own_axes(joint.transform->axes)))
+    return {
+        .R_FA = R_PF.transpose(),
+        .turned = off > most_off_deg
+                      ? fmt::format(
+                            "an axis of the joint's frame is {:.0f} degrees from any of body {}: angles are "
+                            "about the body's axes, X anterior, Y superior and Z to the right",
+                            off, body)
+                      : std::string()};
+  JointAxes axes{.R_PA = R_PF * S, .R_FA = S};
+  if (!S.isIdentity(0))
+    axes.turned = fmt::format(
+        "the joint's frame is turned in body {}, its X along {}, its Y along {} and its Z along "
+        "{}: angles are named by the body's axes",
+        body, nearest_axis(R_PF.col(0)), nearest_axis(R_PF.col(1)), nearest_axis(R_PF.col(2)));
+  return axes;
+}
+
+}  // namespace condyle::io

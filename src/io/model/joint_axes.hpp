@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "condyle/io/model_file.hpp"
+
+namespace condyle::io {
+
+/// The axes by which the angles of a model's joint are named: X anterior, Y superior, Z to the right. In OpenSim every body of the
+/// standing model has them as its own. A joint's frame F may be turned in its body, for a Pin turns about Z and nothing else.
+struct JointAxes {
+  Eigen::Matrix3d R_PA = Eigen::Matrix3d::Identity();  ///< in the parent's body P
+  Eigen::Matrix3d R_FA =
+      Eigen::Matrix3d::Identity();  ///< in F; entries of 0, 1 and -1 if they are F's own, renamed or not
+  Eigen::Matrix3d R_PB =
+      Eigen::Matrix3d::Identity();  ///< what they are held against: P's own, but for a turned body
+  std::string turned = {};          ///< one line if F or the body is turned, else empty
+};
+
+/// F's own axes, each under the name of the body's axis that it is nearest to, if the joint turns about them and none is more than
+/// 30 degrees off; else the body's. A body that lies turned in the standing model beside a frame that does not has those of F.
+JointAxes axes_of(const Model& model, const ModelJoint& joint);
+
+/// "X, forwards", "-Z, to the left": the axis of a body nearest to a direction in it.
+std::string_view nearest_axis(const Vec3& direction);
+
+}  // namespace condyle::io
