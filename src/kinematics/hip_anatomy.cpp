@@ -4,6 +4,7 @@
 
 #include "condyle/error.hpp"
 #include "kinematics/socket_rim.hpp"
+#include "kinematics/surface_points.hpp"
 
 namespace condyle::kinematics {
 namespace {
@@ -67,10 +68,11 @@ bool fits_into(const Sphere& head, const SphericalPatch& socket) {
 
 std::optional<SphericalPatch> sphere_around(const TriMesh& fixed, const Sphere& head) {
   try {
-    return find_sphere(fixed, {.part = SphericalPart::socket,
-                               .smallest_radius = 0.9 * head.radius,
-                               .largest_radius = largest_socket * head.radius,
-                               .within = Sphere{head.centre, socket_reach * head.radius}});
+    return find_socket_round(fixed, head,
+                             {.part = SphericalPart::socket,
+                              .smallest_radius = 0.9 * head.radius,
+                              .largest_radius = largest_socket * head.radius,
+                              .within = Sphere{head.centre, socket_reach * head.radius}});
   } catch (const MeshError&) {
     return std::nullopt;
   }
