@@ -17,6 +17,7 @@ enum class JointNoteCode : std::uint8_t {
   open_mesh,          ///< It has no inside.
   inverted_mesh,      ///< Its volume is negative.
   self_crossings,     ///< Over more than a sliver of its surface.
+  doubled_triangles,  ///< Closed, with triangles that lie on others: what they enclose counts twice.
   cut_by_view,        ///< It ends where its image ends: what is missing may end a motion earlier.
   same_mesh,          ///< Both bodies are one mesh.
   swapped_bodies,     ///< The head is on the fixed body.
