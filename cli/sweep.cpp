@@ -76,6 +76,11 @@ std::string add_quantities(const SweepArguments& options, const io::LoadedJoint&
 
 void sweep_command(const SweepArguments& options, const CLI::App& command) {
   const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
+  if (options.range->sigma.centre_mm || options.range->sigma.axes_deg || options.range->sigma.surface_mm)
+    throw UsageError(
+        "--sigma-centre, --sigma-axes and --sigma-surface: a sweep displaces parameters of parts only, by "
+        "their "
+        "sigma in the joint file");
   const std::string targets = io::read_whole_file(options.targets);
   RangeRequest range = range_request_of(*options.range, loaded, {});
   SweepQuery query{.parameters = plan::parse_sweep(options.vary),

@@ -269,6 +269,7 @@ enum class RangeNoteCode : std::uint8_t {
   sliding_surfaces,   ///< Surfaces slide on each other by nature, and where they first touch a motion ends.
   translation_ends,   ///< The record or load of the translation ends before the motion's range.
   differs_from_closed_form,  ///< Meshes of an implant end a motion elsewhere than bodies of its sizes do.
+  last_value_left_out,  ///< No whole number of steps leads to the last value of a map's axis: it ends before.
 };
 
 /// As in files: "centre_moves_limits".
@@ -549,7 +550,14 @@ enum class SweepNoteCode : std::uint8_t {
   everything_is_safe,  ///< All designs are safe.
   zone_leaves_window,  ///< Designs at the border of what was swept are safe: the zone goes on beyond.
   separate_intervals,  ///< Along some line the safe designs are not side by side.
+  last_value_left_out,  ///< No whole number of steps leads to the last value of a parameter: the sweep ends before it.
+  value_is_swept,  ///< A swept parameter has another value than the joint's description: it is that of the joint as it is only.
 };
+
+/// Those that are known before any design is: all shares of a sweep have them.
+inline constexpr SweepNoteCode all_request_notes[] = {SweepNoteCode::differs_from_closed_form,
+                                                      SweepNoteCode::last_value_left_out,
+                                                      SweepNoteCode::value_is_swept};
 
 /// As in files: "nothing_is_safe".
 std::string_view name_of(SweepNoteCode code) noexcept;

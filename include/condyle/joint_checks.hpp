@@ -20,6 +20,7 @@ enum class JointNoteCode : std::uint8_t {
   self_crossings,     ///< Over more than a sliver of its surface.
   nested_surfaces,    ///< A piece lies inside another: a wall, a nucleus or a wide cavity.
   separate_pieces,    ///< A body is more than one piece.
+  doubled_triangles,  ///< Closed, with triangles that lie on others: what they enclose counts twice.
   cut_by_view,        ///< It ends where its image ends: what is missing may end a motion earlier.
   same_mesh,          ///< Both bodies are one mesh.
   swapped_bodies,     ///< The head is on the fixed body.

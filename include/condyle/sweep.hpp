@@ -23,6 +23,8 @@ struct SweptParameter {
 
   /// Values on the axis; the last one counts if it is a whole number of steps away to a millionth of one.
   std::size_t count() const;
+  /// Whether the last one is none of the values.
+  bool ends_early() const;
   double value(std::size_t i) const noexcept { return first + static_cast<double>(i) * step; }
 };
 

@@ -21,6 +21,18 @@ void add_depth_limits(RangeAnswer& answer, const RangeRequest& request) {
     answer.caveats.emplace_back("allowed: depths include all meshes, soft ones too");
 }
 
+/// Which axes of a map end before what was asked for.
+void note_axes(const motion::MapGrid& grid, Anatomy anatomy, std::vector<RangeNote>& notes) {
+  for (const motion::GridAxis* axis : {&grid.column, &grid.row})
+    if (axis->ends_early())
+      notes.push_back(
+          {RangeNoteCode::last_value_left_out,
+           core::formatted("the map goes up to %s %.10g, not %.10g: the step of %.10g degrees leads "
+                           "to no point there",
+                           std::string(name_of(axis->angle, anatomy)).c_str(),
+                           axis->value_deg(axis->count() - 1), axis->last_deg, axis->step_deg)});
+}
+
 /// Zones, map and bands, as far as they are requested; false if stopped.
 bool add_beyond_limits(RangeAnswer& answer, const RangeRequest& request, const motion::RangeOfMotion& range,
                        const motion::RangeOptions& again, const AnswerControl& control) {
@@ -32,6 +44,7 @@ bool add_beyond_limits(RangeAnswer& answer, const RangeRequest& request, const m
   if (request.map) {
     answer.map = motion::motion_map(*request.map, range, answer::staged(control, "map points"));
     if (!answer.map) return false;
+    note_axes(*request.map, answer.joint.anatomy, answer.notes);
   }
   if (request.bands) {
     auto bands = motion::limit_bands(answer.joint, request.motions, again, *request.bands,

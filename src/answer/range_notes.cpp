@@ -208,6 +208,8 @@ std::string_view name_of(RangeNoteCode code) noexcept {
       return "translation_ends";
     case RangeNoteCode::differs_from_closed_form:
       return "differs_from_closed_form";
+    case RangeNoteCode::last_value_left_out:
+      return "last_value_left_out";
   }
   return "";
 }

@@ -57,8 +57,9 @@ void check_target(const plan::SweepTarget& target, const Joint& joint) {
   if (!(target.reach > Angle()) || !(target.reach <= target.motion.range))
     throw UsageError(named + formatted("%.10g degrees, must be above 0 and up to the motion's range, %.10g",
                                        reach, range));
-  if (!std::isfinite(target.pelvic_tilt.radians()))
-    throw UsageError(named + "the tilt must be a finite number");
+  if (!(std::abs(target.pelvic_tilt.degrees()) <= measure::largest_pelvic_tilt_deg))
+    throw UsageError(named + formatted("the tilt must be between %g and %g degrees",
+                                       -measure::largest_pelvic_tilt_deg, measure::largest_pelvic_tilt_deg));
   if (target.pelvic_tilt.radians() != 0 && !joint.is_hip())
     throw UsageError(named + "a pelvic tilt is of a hip");
 }
@@ -243,6 +244,26 @@ class Sweeping {
   Lines lines_;
 };
 
+/// What the request itself leaves out, of each swept parameter.
+void note_request(const Joint& joint, SweepAnswer& sweep) {
+  for (const plan::SweptParameter& swept : sweep.parameters) {
+    if (const double last = swept.value(swept.count() - 1); swept.ends_early())
+      sweep.notes.push_back(
+          {SweepNoteCode::last_value_left_out,
+           swept.name + formatted(" is swept up to %.10g, not %.10g: the step of %.10g leads "
+                                  "to no design there",
+                                  last, swept.last, swept.step)});
+    const PartParameter& parameter = parameter_named(joint, swept.name);
+    if (parameter.value != parameter.described)
+      sweep.notes.push_back(
+          {SweepNoteCode::value_is_swept,
+           swept.name +
+               formatted(" was set to %.10g and is swept: only the joint as it is has that value, and "
+                         "no design changes by it",
+                         parameter.value)});
+  }
+}
+
 /// Limits of liner and neck by themselves at the joint's own values and in the corners of the sweep: bone that ends a motion before would hide
 /// meshes that are not those of the implant's sizes.
 std::string difference_from_closed_form(const plan::DesignLimits& limits, const SweepAnswer& sweep) {
@@ -346,6 +367,7 @@ std::optional<SweepAnswer> answer_sweep(const Joint& joint, const JointPlacement
   SweepAnswer answer{query.parameters, query.targets, {}, query.share};
   const std::vector<std::string> names = names_of(query.parameters);
   for (const std::string& name : names) answer.here.push_back(parameter_named(joint, name).value);
+  note_request(joint, answer);
   std::optional<plan::DesignLimits> made(std::in_place, joint, range, query.targets, names);
   if (const std::string difference = difference_from_closed_form(*made, answer); !difference.empty()) {
     answer.notes.push_back(

@@ -102,6 +102,11 @@ void note(SweepAnswer& sweep) {
             formatted(" are not side by side everywhere: %zu gaps between them", gaps));
 }
 
+bool is_of_request(SweepNoteCode code) noexcept {
+  return std::find(std::begin(all_request_notes), std::end(all_request_notes), code) !=
+         std::end(all_request_notes);
+}
+
 }  // namespace
 
 double least_margin(std::span<const plan::SweepTarget> targets, std::span<const plan::DesignLimit> limits) {
@@ -126,8 +131,7 @@ std::size_t least_target(std::span<const plan::SweepTarget> targets,
 void summarise_sweep(SweepAnswer& sweep) {
   measure(sweep);
   find_best(sweep);
-  std::erase_if(sweep.notes,
-                [](const SweepNote& each) { return each.code != SweepNoteCode::differs_from_closed_form; });
+  std::erase_if(sweep.notes, [](const SweepNote& each) { return !is_of_request(each.code); });
   note(sweep);
 }
 
@@ -144,9 +148,13 @@ std::string_view name_of(SweepNoteCode code) noexcept {
     case SweepNoteCode::zone_leaves_window:
       return "zone_leaves_window";
     case SweepNoteCode::separate_intervals:
+      return "separate_intervals";
+    case SweepNoteCode::last_value_left_out:
+      return "last_value_left_out";
+    case SweepNoteCode::value_is_swept:
       break;
   }
-  return "separate_intervals";
+  return "value_is_swept";
 }
 
 SweepAnswer merged_sweep(std::span<const SweepAnswer> shares) {

@@ -91,6 +91,11 @@ class OverlapSampler::Part {
   }
   std::size_t size() const noexcept { return count_; }
   const PartCorner& operator[](std::size_t i) const noexcept { return corners_[i]; }
+  /// Whether the ray of a corner is taken to run on up to another.
+  bool runs_on() const noexcept {
+    return std::any_of(corners_.begin(), corners_.begin() + static_cast<std::ptrdiff_t>(count_),
+                       [](const PartCorner& corner) { return corner.of_ray != no_index; });
+  }
   const PartCorner& on_edge(std::size_t edge) const noexcept { return corners_[on_edge_[edge]]; }
 
  private:
@@ -98,6 +103,29 @@ class OverlapSampler::Part {
   std::size_t count_ = 0;
   std::array<std::size_t, 3> on_edge_{};  ///< of edges that leave the target
 };
+
+namespace {
+
+/// Three corners of a part, by their numbers, and how much of the triangle counts.
+struct PartTriangle {
+  std::array<std::size_t, 3> corners;
+  double counts;
+};
+
+constexpr PartTriangle one_triangle[] = {{{0, 1, 2}, 1}};
+constexpr PartTriangle two_halves[] = {{{0, 1, 2}, 1}, {{0, 2, 3}, 1}};
+constexpr PartTriangle halved_both_ways[] = {
+    {{0, 1, 2}, 0.5}, {{0, 2, 3}, 0.5}, {{1, 2, 3}, 0.5}, {{1, 3, 0}, 0.5}};
+
+/// Triangles that a part of so many corners consists of.
+std::span<const PartTriangle> triangles_of(std::size_t corners, bool is_linear) noexcept {
+  if (corners < 3) return {};
+  if (corners == 3) return one_triangle;
+  if (is_linear) return two_halves;
+  return halved_both_ways;
+}
+
+}  // namespace
 
 void OverlapSampler::sample_faces(const Pose& X_CT, Quadrature quadrature,
                                   const LayerThicknesses& thicknesses, Scratch& scratch, Results& out) const {
@@ -300,8 +328,7 @@ OverlapSampler::Part OverlapSampler::part_of(Index face, const RimFace* rim,
       corner.target_thickness =
           target_thickness(end, corner.point, -rays_.normal(rays[k]), X_TC, thicknesses.target);
   }
-  // From the corner behind the one outside, or else the one inside: a part of four corners is halved the same wherever the
-  // triangle's corners are counted from.
+  // From the corner behind the one outside, or else the one inside: a part has the same corners wherever the triangle's are counted from.
   std::size_t first = 0;
   for (std::size_t k = 0; k < 3; ++k)
     if (is_inside(ends, rays[k]) && !is_inside(ends, rays[(k + 2) % 3])) first = k;
@@ -352,11 +379,14 @@ void OverlapSampler::sample_part(Index face, const Part& part, Quadrature quadra
     for (std::size_t k = 0; k < part.size(); ++k) deepest = std::max(deepest, part[k].depth);
     out.corners.push_back({face, deepest, 0, 0});
   }
-  for (std::size_t k = 2; k < part.size(); ++k) {
-    const PartCorner &a = part[0], &b = part[k - 1], &c = part[k];
+  // A depth that is linear over four corners has the same integrals whichever way these are halved. Where it is not, or what is integrated
+  // is no polynomial, one way would give another answer than its mirror image.
+  const bool is_linear = quadrature == Quadrature::of_degree_2 && !part.runs_on();
+  for (const auto& [of, counts] : triangles_of(part.size(), is_linear)) {
+    const PartCorner &a = part[of[0]], &b = part[of[1]], &c = part[of[2]];
     // Areas of barycentric triangles are shares of the face's.
-    const double share =
-        std::abs((b.at[0] - a.at[0]) * (c.at[1] - a.at[1]) - (b.at[1] - a.at[1]) * (c.at[0] - a.at[0]));
+    const double share = counts * std::abs((b.at[0] - a.at[0]) * (c.at[1] - a.at[1]) -
+                                           (b.at[1] - a.at[1]) * (c.at[0] - a.at[0]));
     if (!(share > 0)) continue;
     const bool runs_on = a.of_ray != no_index || b.of_ray != no_index || c.of_ray != no_index;
     for (const auto& [at, weight] : nodes) {

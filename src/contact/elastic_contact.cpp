@@ -305,6 +305,7 @@ std::optional<Vec3> ElasticContact::refined_force_n(const Pose& X_FM) const {
 }
 
 std::size_t ElasticContact::cut_off_by_reach(const Pose& X_FM) const {
+  core::require_in_range(X_FM);
   std::size_t rays = 0;
   if (parts_->from_fixed) rays += parts_->from_fixed->sampler().cut_off_by_reach(X_FM);
   if (parts_->from_mobile) rays += parts_->from_mobile->sampler().cut_off_by_reach(inverted(X_FM));

@@ -55,6 +55,7 @@ void NormalDepth::at(const Pose& X_CT, SurfaceContact& out) const {
 }
 
 std::size_t NormalDepth::cut_off_by_reach(const Pose& X_CT) const {
+  core::require_in_range(X_CT);
   return sampler_->cut_off_by_reach(X_CT);
 }
 

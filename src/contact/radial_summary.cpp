@@ -4,6 +4,7 @@
 
 #include "condyle/contact_measures.hpp"
 #include "contact/body_pair.hpp"
+#include "core/coordinate_range.hpp"
 #include "mesh/surface_distance.hpp"
 
 namespace condyle::contact {
@@ -53,6 +54,7 @@ RadialBodySummary summarise(const radial::RadialResults& results, PointsView poi
 }
 
 RadialSummary summarise(const JointContact& joint, const Pose& X_FM, const RadialContact& contact) {
+  core::require_in_range(X_FM);
   const BodyPair& bodies = contact::body_pair_of(joint);
   RadialSummary summary;
   if (contact.mobile_in_fixed)

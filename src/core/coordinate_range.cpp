@@ -4,6 +4,7 @@
 #include <string>
 
 #include "condyle/error.hpp"
+#include "core/formatted.hpp"
 
 namespace condyle::core {
 
@@ -28,6 +29,13 @@ void require_in_range(const Pose& X_FM) {
   if (!std::isfinite((X_FM.matrix() * 0).sum())) throw UsageError("pose: an entry is not finite");
   if (X_FM.translation().cwiseAbs().maxCoeff() > largest_coordinate)
     throw UsageError("pose: its translation is beyond 1e30 mm");
+  const Eigen::Matrix3d R = X_FM.linear();
+  const double skew = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (skew > largest_skew)
+    throw UsageError(
+        formatted("pose: its matrix is no rotation: off by %.2g, more than %g", skew, largest_skew));
+  if (Vec3(R.col(0)).cross(Vec3(R.col(1))).dot(R.col(2)) < 0)
+    throw UsageError("pose: its matrix mirrors: the determinant is -1");
 }
 
 }  // namespace condyle::core

@@ -74,12 +74,24 @@ constexpr double smallest_coverage = 0.10;
 constexpr double smallest_head_spread = 0.15, smallest_socket_spread = 0.13;
 constexpr std::size_t fewest_ball_vertices = 12;
 
-/// The normals of a socket are means over cells of this side, mm: wider than the voxels of most label maps, whose steps turn
-/// normals by 30 degrees and more. At 3 mm the wall of a fossa 2 mm deep is no longer seen.
-constexpr double normals_cell = 2;
+/// The normals of a socket are means over this distance, mm for a head of the usual size, and of the root of the surface's area if there is
+/// none: more than the voxels of most label maps, whose steps turn normals by
+/// 30 degrees and more. At twice that the wall of a fossa 2 mm deep is no longer seen.
+constexpr double normals_reach = 1.2, normals_share = 0.005;
+
+/// A socket is no larger than its head and its cartilages: radii that it is looked for with about the head's centre, in those of the head.
+constexpr double socket_ratios[] = {1.02, 1.08, 1.15, 1.25};
+/// Of an uneven socket several spheres hold nearly the same area, and which holds most is left to the grid of a label map. Centres of head and socket
+/// are 1 mm apart: half of what a part supports counts if it is so many radii of the head away, 4 mm of a man's.
+constexpr double half_worth_off = 0.15;
 
 /// Candidates with less than this share of the votes of the fullest grow into parts that others grow into, or into none.
 constexpr double smallest_vote_share = 0.25;
+
+/// Surfaces of this flatness or less are stairs: those of voxels have 0.7 to 0.8, bones with edges of a sixth of a head's radius 0.95. Their normals
+/// are means over more than a step, here over so many of their longest edges.
+constexpr double flatness_of_stairs = 0.9;
+constexpr double steps_reach = 1.2;
 
 struct BallCandidate {
   Sphere sphere;
@@ -288,6 +300,27 @@ BallPart measured(const std::vector<kinematics::SurfacePoint>& points, const std
   return {{std::move(fit), coverage}, spread[0], support};
 }
 
+bool are_stairs(const std::vector<SurfacePoint>& points) noexcept {
+  double flat = 0, area = 0;
+  for (const SurfacePoint& point : points) flat += point.area * point.flatness, area += point.area;
+  return flat <= flatness_of_stairs * area;
+}
+
+/// Normals as the search needs them: of a socket, and of any surface of stairs, means. The area of stairs becomes that of the slope.
+void smooth_normals(const kinematics::PointNeighbours& neighbours, SphericalPart part, double socket_reach,
+                    std::vector<SurfacePoint>& points) {
+  const bool is_socket = part == SphericalPart::socket;
+  if (!are_stairs(points)) {
+    if (is_socket) neighbours.average_normals(points, socket_reach);
+    return;
+  }
+  const std::vector<SurfacePoint> stairs = points;
+  const double reach = steps_reach * neighbours.longest_usual_edge(points);
+  neighbours.average_normals(points, is_socket ? std::max(reach, socket_reach) : reach);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i].area *= points[i].flatness * std::max(0.0, points[i].normal.dot(stairs[i].normal));
+}
+
 bool near(const Sphere& a, const Sphere& b, double in_radii) noexcept {
   return (a.centre - b.centre).norm() < in_radii * b.radius &&
          std::abs(a.radius - b.radius) < in_radii * b.radius;
@@ -434,7 +467,8 @@ double centre_bound(const TriMesh& mesh, const SphereFit& fit, std::size_t resam
 }  // namespace
 
 SphericalPatch kinematics::patch_of(const TriMesh& mesh, const std::vector<Index>& vertices) {
-  const auto points = surface_points(mesh, std::nullopt);
+  auto points = surface_points(mesh, std::nullopt);
+  if (are_stairs(points)) smooth_normals(PointNeighbours(mesh, points), SphericalPart::head, 0, points);
   std::vector<Index> part;
   part.reserve(vertices.size());
   for (std::size_t i = 0; i < points.size() && part.size() < vertices.size(); ++i)
@@ -447,8 +481,8 @@ std::optional<SphericalPatch> kinematics::patch_on(const TriMesh& mesh, const Sp
   const bool is_head = of == SphericalPart::head;
   auto points = is_head ? surface_points(mesh, std::nullopt)
                         : surface_points(mesh, Sphere{sphere.centre, (1 + widest_band) * sphere.radius});
-  if (!is_head) average_normals(points, normals_cell);
   const SearchedPoints searched(mesh, points);
+  smooth_normals(searched.neighbours, of, by_head(normals_reach, sphere), points);
   const auto distance = [&](Index i) {
     return std::abs((points[i].position - sphere.centre).norm() - sphere.radius);
   };
@@ -474,27 +508,37 @@ std::optional<SphericalPatch> kinematics::patch_on(const TriMesh& mesh, const Sp
   return measured(points, part, std::move(fit)).patch;
 }
 
-SphericalPatch find_sphere(const Mesh& mesh, const SphereSearch& search) {
-  return kinematics::find_sphere_on(mesh::outer_surface(mesh), search);
+SphericalPatch kinematics::stated_patch(const TriMesh& mesh, const Sphere& sphere, SphericalPart of) {
+  return patch_on(mesh, sphere, of).value_or(SphericalPatch{{sphere, 0, 0, {}}, 0});
 }
 
-SphericalPatch kinematics::find_sphere_on(const TriMesh& mesh, const SphereSearch& search) {
+namespace {
+
+/// The sphere of a part. Of a socket round a head, spheres about its centre are grown too, and a part counts less the farther its centre is from
+/// that.
+SphericalPatch found_sphere(const TriMesh& mesh, const SphereSearch& search, const Sphere* head) {
   const Radii radii = radii_of(mesh, search);
+  const double reach =
+      head ? by_head(normals_reach, *head) : normals_share * kinematics::root_of_area(mesh);
   const bool is_head = search.part == SphericalPart::head;
   auto points = kinematics::surface_points(mesh, search.within);
-  if (!is_head) kinematics::average_normals(points, normals_cell);
   std::vector<BallPart> parts;
   if (points.size() >= fewest_ball_vertices) {
     const SearchedPoints searched(mesh, points);
+    smooth_normals(searched.neighbours, search.part, reach, points);
     const double inwards = is_head ? 1.0 : -1.0;
-    const auto all = candidates(points, inwards, radii);
+    auto all = candidates(points, inwards, radii);
+    if (head)
+      for (const double ratio : socket_ratios)
+        all.insert(all.begin(), {{head->centre, ratio * head->radius}, all.empty() ? 1 : all.front().votes});
     const std::vector<BallPart> none;
     for (const BallCandidate& candidate : all) {
       if (candidate.votes < smallest_vote_share * all.front().votes) break;
       const auto known = [&](const BallPart& part) {
         return near(candidate.sphere, part.patch.fit.sphere, same_ball);
       };
-      if (std::any_of(parts.begin(), parts.end(), known)) continue;
+      const bool is_about_head = head && candidate.sphere.centre == head->centre;
+      if (!is_about_head && std::any_of(parts.begin(), parts.end(), known)) continue;
       // Sockets lie close to each other, the fossa beside the rest: none of them stands for another.
       auto part = grown(searched, candidate.sphere, inwards, radii, is_head ? parts : none);
       // Most candidates of a socket grow into the same part.
@@ -520,12 +564,32 @@ SphericalPatch kinematics::find_sphere_on(const TriMesh& mesh, const SphereSearc
   // of a smaller one.
   if (!is_head)
     for (BallPart& part : parts) part = without_floor(mesh, points, std::move(part));
-  const auto best = std::max_element(parts.begin(), parts.end(), [&](const BallPart& a, const BallPart& b) {
-    return is_head ? a.patch.coverage < b.patch.coverage : a.support < b.support;
-  });
+  const auto worth = [&](const BallPart& part) {
+    if (is_head) return part.patch.coverage;
+    if (!head) return part.support;
+    const double off = (part.patch.fit.sphere.centre - head->centre).norm() / (half_worth_off * head->radius);
+    return part.support / (1 + off * off);
+  };
+  const auto best = std::max_element(
+      parts.begin(), parts.end(), [&](const BallPart& a, const BallPart& b) { return worth(a) < worth(b); });
   if (search.resamples > 0)
     best->patch.centre_bound_mm = centre_bound(mesh, best->patch.fit, search.resamples);
   return std::move(best->patch);
+}
+
+}  // namespace
+
+SphericalPatch find_sphere(const Mesh& mesh, const SphereSearch& search) {
+  return found_sphere(mesh::outer_surface(mesh), search, nullptr);
+}
+
+SphericalPatch kinematics::find_sphere_on(const TriMesh& mesh, const SphereSearch& search) {
+  return found_sphere(mesh, search, nullptr);
+}
+
+SphericalPatch kinematics::find_socket_round(const TriMesh& mesh, const Sphere& head,
+                                             const SphereSearch& search) {
+  return found_sphere(mesh, search, &head);
 }
 
 }  // namespace condyle

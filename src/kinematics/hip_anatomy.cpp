@@ -69,11 +69,12 @@ bool fits_into(const Sphere& head, const SphericalPatch& socket) {
 
 std::optional<SphericalPatch> sphere_around(const TriMesh& fixed, const Sphere& head, std::size_t resamples) {
   try {
-    return find_sphere_on(fixed, {.part = SphericalPart::socket,
-                                  .smallest_radius = 0.9 * head.radius,
-                                  .largest_radius = largest_socket * head.radius,
-                                  .within = Sphere{head.centre, socket_reach * head.radius},
-                                  .resamples = resamples});
+    return find_socket_round(fixed, head,
+                             {.part = SphericalPart::socket,
+                              .smallest_radius = 0.9 * head.radius,
+                              .largest_radius = largest_socket * head.radius,
+                              .within = Sphere{head.centre, socket_reach * head.radius},
+                              .resamples = resamples});
   } catch (const MeshError&) {
     return std::nullopt;
   }

@@ -21,6 +21,9 @@ const std::array known_axes{KnownAxes{"RAS (x right, y anterior, z superior)", r
 /// degrees against each other and by up to 30 against their axes, half are inferred and none is wrong; with a lead of 0.15
 /// three are.
 constexpr double least_mean = 0.75, least_vote = 0.35, least_lead = 0.25;
+/// A smaller lead does if both bones are long and their ends vote so many margins: legs that lie turned or flexed take the lead from what their ends
+/// show all the same.
+constexpr double lead_of_long_bones = 0.1, votes_of_long_bones = 3;
 constexpr std::size_t fewest_directions = 3;
 /// Axes that are not in use may get this much more, as they do by bones that are cut; axes that are a quarter of a turn
 /// from those in use get more than that.
@@ -270,8 +273,7 @@ std::vector<std::string> votes_text(const std::vector<Direction>& directions, co
   return lines;
 }
 
-std::string why_none(const std::vector<AgreeingAxes>& agreeing) {
-  if (agreeing.empty()) return "the bones agree with none of the axes in use";
+std::string why_several(const std::vector<AgreeingAxes>& agreeing) {
   std::string why = "the bones agree with more than one of the axes in use";
   for (const AgreeingAxes& reading : agreeing) why += "; " + text_of(reading);
   return why;
@@ -301,16 +303,40 @@ HipAxes hip_axes(const TriMesh& hip_bone, const HipAnatomy& hip, const std::opti
   const auto ends = end_votes(hip, best.axes);
   const auto sides = side_votes(hip_bone, hip, best.axes.superior());
 
+  const bool are_long = ends.size() > 1 && std::all_of(ends.begin(), ends.end(), [](const Evidence& end) {
+                          return end.vote >= votes_of_long_bones;
+                        });
+  const double lead = best.votes.mean - next.votes.mean;
   HipAxes answer;
   answer.evidence = votes_text(directions, best, next, of_all);
   for (const auto* votes : {&ends, &sides})
     for (const Evidence& vote : *votes) answer.evidence.push_back(vote.line);
-  if (directions.size() >= fewest_directions && supported(ends) &&
-      best.votes.mean >= std::max(least_mean, of_all - most_in_other_axes) &&
-      best.votes.least >= least_vote && best.votes.mean - next.votes.mean >= least_lead)
-    answer.agreeing = chosen(sharing_front(readings, best.axes, given), sides);
-  if (answer.agreeing.size() != 1) answer.why_none = why_none(answer.agreeing);
+  const std::string likeliest = "the bones lie most nearly as in " + text_of(best.axes);
+  if (directions.size() < fewest_directions)
+    answer.why_none = "neck and socket of the bones were not found";
+  else if (best.votes.mean < std::max(least_mean, of_all - most_in_other_axes))
+    answer.why_none = "the bones agree with none of the axes in use";
+  else if (best.votes.least < least_vote)
+    answer.why_none = likeliest + ", and one direction of theirs contradicts it";
+  else if (!supported(ends))
+    answer.why_none = likeliest + ", but no far end of theirs shows up apart from outwards";
+  else if (lead < (are_long ? lead_of_long_bones : least_lead))
+    answer.why_none = likeliest + ", and nearly as much as in " + text_of(next.axes);
+  if (!answer.why_none.empty()) return answer;
+  answer.agreeing = chosen(sharing_front(readings, best.axes, given), sides);
+  if (answer.agreeing.empty())
+    answer.why_none =
+        formatted("the bones agree with none of the axes in use as a %s hip: their shape is the other side's",
+                  given.value_or(best.axes.side) == Side::right ? "right" : "left");
+  else if (answer.agreeing.size() > 1)
+    answer.why_none = why_several(answer.agreeing);
   return answer;
+}
+
+double shape_vote(Side side, const TriMesh& hip_bone, const HipAnatomy& hip, const Vec3& up) {
+  double sum = 0;
+  for (const Evidence& vote : as_for(side, side_votes(hip_bone, hip, up))) sum += vote.vote;
+  return sum;
 }
 
 SideInAxes side_in(const FrameDirections& axes, const HipAnatomy& hip) {

@@ -48,6 +48,9 @@ struct HipAxes {
 /// On the given side only if one is. Without enough evidence several or none agree. Linear in the hip bone.
 HipAxes hip_axes(const TriMesh& hip_bone, const HipAnatomy& hip, const std::optional<Side>& given);
 
+/// Votes of neck, socket and hip bone for this side, in their margins, without axes but for up: of a mirrored hip the other side's.
+double shape_vote(Side side, const TriMesh& hip_bone, const HipAnatomy& hip, const Vec3& up);
+
 /// The side of a hip whose axes are known, as those of an image are, and the evidence.
 struct SideInAxes {
   std::optional<Side> side;  ///< empty if the bones do not speak for one

@@ -6,6 +6,7 @@
 #include "condyle/error.hpp"
 #include "core/latest_few.hpp"
 #include "core/lazy.hpp"
+#include "kinematics/cut_parts.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/surface_points.hpp"
 #include "mesh/findings.hpp"
@@ -29,7 +30,7 @@ HeadKey key_of(const Sphere& head) noexcept {
 
 struct KeptParts {
   core::Lazy<std::optional<SphericalPatch>> fitted_head, head_near_centre, head_anywhere;
-  core::LatestFew<HeadKey, std::optional<SphericalPatch>, heads_kept> sockets;
+  core::LatestFew<HeadKey, std::optional<SphericalPatch>, heads_kept> sockets, stated_sockets;
   core::LatestFew<HeadKey, std::optional<SocketRim>, heads_kept> rims;
   core::LatestFew<HeadKey, std::optional<ShallowSocket>, heads_kept> shallow_sockets;
 };
@@ -81,6 +82,15 @@ std::shared_ptr<const std::optional<SphericalPatch>> socket_around(const Mesh& f
   return kept_with(fixed).sockets.get(key_of(head), [&](std::optional<SphericalPatch>& socket) {
     socket = sphere_around(mesh::outer_surface(fixed), head);
   });
+}
+
+std::shared_ptr<const std::optional<SphericalPatch>> socket_of(const Body& fixed, const Sphere& head) {
+  const Mesh& surface = uncut_surface(fixed);
+  if (!fixed.head) return socket_around(surface, head);
+  return kept_with(surface).stated_sockets.get(
+      key_of(*fixed.head), [&](std::optional<SphericalPatch>& socket) {
+        socket = stated_patch(surface, *fixed.head, SphericalPart::socket);
+      });
 }
 
 std::shared_ptr<const std::optional<SocketRim>> rim_around(const Mesh& fixed, const Sphere& head) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "condyle/fit.hpp"
+#include "condyle/joint.hpp"
 #include "kinematics/shallow_socket.hpp"
 #include "kinematics/socket_rim.hpp"
 
@@ -28,6 +29,9 @@ const std::optional<SphericalPatch>& fitted_head(const Mesh& mobile);
 
 /// sphere_around(), into which the head may not fit, and socket_rim(); for the latest few heads.
 std::shared_ptr<const std::optional<SphericalPatch>> socket_around(const Mesh& fixed, const Sphere& head);
+/// The socket of a body: the one that is stated, with what lies on it, or socket_around() the head. A stated one on which nothing lies has
+/// no vertices.
+std::shared_ptr<const std::optional<SphericalPatch>> socket_of(const Body& fixed, const Sphere& head);
 std::shared_ptr<const std::optional<SocketRim>> rim_around(const Mesh& fixed, const Sphere& head);
 /// find_shallow_socket(), likewise.
 std::shared_ptr<const std::optional<ShallowSocket>> shallow_socket_around(const Mesh& fixed,

@@ -13,9 +13,11 @@
 #include "kinematics/bone_sizes.hpp"
 #include "kinematics/cut_parts.hpp"
 #include "kinematics/hip_anatomy.hpp"
+#include "kinematics/hip_axes.hpp"
 #include "kinematics/hip_parts.hpp"
 #include "kinematics/long_bone_checks.hpp"
 #include "kinematics/shoulder_checks.hpp"
+#include "mesh/doubled_triangles.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
 #include "mesh/surface_pieces.hpp"
@@ -51,6 +53,8 @@ constexpr double least_lever = 1;
 
 /// Cosines. Right hips show 0.25 to 0.65 forwards and outwards, wrong ones as much the other way; and 0.75 to 1 upwards.
 constexpr double opposed_cosine = -0.1, upright = 0.3;
+/// A hip bone that shows less forwards than right ones do may be turned about superior: its shape decides, by so many margins of its votes.
+constexpr double usual_forwards = 0.25, least_shape_vote = 1;
 
 class Notes {
  public:
@@ -121,6 +125,16 @@ void check_surface(const Body& body, Notes& notes) {
         JointNoteCode::inverted_mesh,
         body.name +
             " has inverted orientation, its volume is negative: it is mirrored, or needs flip_inverted");
+  // Of an open mesh that says enough.
+  if (body.mesh.is_closed())
+    if (const mesh::DoubledTriangles doubled = mesh::doubled_triangles(body.mesh); doubled.count > 0)
+      notes.add(
+          JointNoteCode::doubled_triangles,
+          body.name +
+              formatted(" has %zu of its %zu triangles on others, the first %u on %u: its volume counts "
+                        "twice there",
+                        doubled.count, body.mesh.triangles().size(), (*doubled.first)[1],
+                        (*doubled.first)[0]));
   const mesh::SelfCrossings& crossings = mesh::self_crossings_of(body.mesh);
   if (crossings.pairs == 0) return;
   double crossing = 0, area = 0;
@@ -188,10 +202,11 @@ void check_centres(const Joint& joint, const Sphere& head, const std::optional<S
   if (!socket) return;
   const Sphere& cup = socket->fit.sphere;
   if (!kinematics::fits_into(head, *socket)) {
-    notes.add(JointNoteCode::socket_smaller_than_head,
-              formatted("no socket was found that the head fits into: the sphere round it has a radius of "
-                        "%.2f mm, the head one of %.2f mm",
-                        cup.radius, head.radius));
+    notes.add(
+        JointNoteCode::socket_smaller_than_head,
+        std::string(joint.fixed.head ? "the head does not fit into the socket that is stated, which"
+                                     : "no socket was found that the head fits into: the sphere round it") +
+            formatted(" has a radius of %.2f mm, the head one of %.2f mm", cup.radius, head.radius));
     return;
   }
   if (const double apart = (cup.centre - head.centre).norm();
@@ -237,12 +252,18 @@ void check_hip(const Joint& joint, const SphericalPatch& head, const SphericalPa
   const double neck_outwards = rightwards * open_side(joint.mobile.mesh, head).z();
   const std::string side = joint.side == Side::right ? "right" : "left";
   const bool lateral = bone.medial < opposed_cosine, backwards = bone.anterior < opposed_cosine;
-  if (lateral && backwards)
+  const auto has_shape_of_side = [&] {
+    const auto hip = kinematics::hip_anatomy(joint.fixed.mesh, joint.mobile.mesh);
+    return hip &&
+           kinematics::shape_vote(joint.side, joint.fixed.mesh, *hip, Vec3::UnitY()) >= least_shape_vote;
+  };
+  if (lateral && (backwards || (bone.anterior < usual_forwards && has_shape_of_side())))
     notes.add(
         JointNoteCode::axes_turned,
         fixed +
-            " lies lateral of its socket, which opens backwards: the axes are turned by 180 degrees about "
-            "superior, as where LPS coordinates are read as RAS");
+            (backwards ? " lies lateral of its socket, which opens backwards"
+                       : " lies lateral of its socket, and both bones have the shape of the side stated") +
+            ": the axes are turned by 180 degrees about superior, as where LPS coordinates are read as RAS");
   else if (lateral ? neck_outwards > -opposed_cosine : neck_outwards < opposed_cosine)
     notes.add(JointNoteCode::bodies_disagree, fixed + (lateral ? " lies lateral" : " lies medial") +
                                                   " of its socket and the neck of " + mobile +
@@ -289,7 +310,7 @@ void check_ball(const Joint& joint, const JointPlacement& placement, Notes& note
     check_side_without_socket(joint, notes);
     return;
   }
-  const auto socket = kinematics::socket_around(kinematics::uncut_surface(joint.fixed), head->fit.sphere);
+  const auto socket = kinematics::socket_of(joint.fixed, head->fit.sphere);
   check_centres(joint, head->fit.sphere, *socket, notes);
   if (*socket) {
     check_hip(joint, *head, **socket, notes);
@@ -322,7 +343,7 @@ void check_stated_joint(const Joint& joint, Notes& notes) {
   if (!head || head->coverage < least_femoral_coverage || head->fit.sphere.radius < least_femoral_radius_mm ||
       head->fit.sphere.centre.norm() > farthest_stray_sphere)
     return;
-  const auto socket = kinematics::socket_around(kinematics::uncut_surface(joint.fixed), head->fit.sphere);
+  const auto socket = kinematics::socket_of(joint.fixed, head->fit.sphere);
   if (!*socket || !kinematics::fits_into(head->fit.sphere, **socket)) return;
   notes.add(JointNoteCode::unlikely_joint,
             std::string(joint.kind == JointKind::hinge ? "the joint is declared a hinge"
@@ -350,6 +371,8 @@ std::string_view name_of(JointNoteCode code) noexcept {
       return "inverted_mesh";
     case JointNoteCode::self_crossings:
       return "self_crossings";
+    case JointNoteCode::doubled_triangles:
+      return "doubled_triangles";
     case JointNoteCode::cut_by_view:
       return "cut_by_view";
     case JointNoteCode::same_mesh:

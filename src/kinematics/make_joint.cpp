@@ -204,7 +204,11 @@ Pose fitted_frame(const JointDescription& description, const CentreFit& fit, con
              &X_WO = is_fixed ? description.mobile_in_W : description.fixed_in_W;
   const Mesh mesh = placed(Pose::Identity(), X_WB, mm_per(description.units), body);
   try {
-    if (has_head(description)) {
+    if (has_head(description) && body.head) {
+      placement.sphere =
+          kinematics::stated_patch(mesh, {posed(X_WB, body.head->centre), body.head->radius},
+                                   fit.body == BodyRole::fixed ? SphericalPart::socket : SphericalPart::head);
+    } else if (has_head(description)) {
       SphereSearch search;
       search.part = fit.body == BodyRole::fixed ? SphericalPart::socket : SphericalPart::head;
       search.within = fit.within;
@@ -248,11 +252,14 @@ std::vector<std::string> processing_of(const JointPlacement& placement) {
                     core::rounded(pose.internal_rotation.degrees(), 2) + " degrees");
   if (placement.sphere) {
     const SphereFit& fit = placement.sphere->fit;
-    notes.push_back(
-        formatted("centre fitted: sphere of radius %.3f mm over %zu vertices, %.0f %% of the sphere, rms "
-                  "residual %.3f mm, largest %.3f mm; centre within %.2f mm by resampling",
-                  fit.sphere.radius, fit.vertices.size(), 100 * placement.sphere->coverage, fit.rms_residual,
-                  fit.largest_residual, placement.sphere->centre_bound_mm.value_or(0)));
+    const auto& bound = placement.sphere->centre_bound_mm;  // only a fit has one
+    std::string text = formatted(
+        "%s: sphere of radius %.3f mm over %zu vertices, %.0f %% of the sphere, rms residual %.3f mm, "
+        "largest %.3f mm",
+        bound ? "centre fitted" : "centre of the sphere that is stated", fit.sphere.radius,
+        fit.vertices.size(), 100 * placement.sphere->coverage, fit.rms_residual, fit.largest_residual);
+    if (bound) text += formatted("; centre within %.2f mm by resampling", *bound);
+    notes.push_back(std::move(text));
   }
   if (placement.cylinder) {
     const CylinderFit& fit = *placement.cylinder;
@@ -342,7 +349,7 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
   if (mobile.head) kinematics::keep_head(mobile.mesh, *mobile.head);
   // A search about the joint centre finds the head that a search of the whole body found.
   const auto* fit = std::get_if<CentreFit>(&description.frame.centre);
-  if (placement.sphere && fit && fit->body == BodyRole::mobile && !fit->within)
+  if (placement.sphere && fit && fit->body == BodyRole::mobile && !fit->within && !mobile.head)
     kinematics::keep_head(mobile.mesh,
                           numbers_after(cut.mobile_vertex_before, placement.sphere->fit.vertices));
   Joint joint{description.name,

@@ -33,7 +33,7 @@ std::vector<SurfacePoint> surface_points(const TriMesh& mesh, const std::optiona
     const double length = doubled_area[v].norm();
     if (!(length > 0 && std::isfinite(length))) continue;
     if (within && (p - within->centre).norm() > within->radius) continue;
-    points.push_back({static_cast<Index>(v), p, doubled_area[v] / length, area[v]});
+    points.push_back({static_cast<Index>(v), p, doubled_area[v] / length, area[v], length / (6 * area[v])});
   }
   return points;
 }
@@ -138,6 +138,54 @@ std::vector<Index> PointNeighbours::largest_connected_part(const std::vector<Sur
   for (Index p = 0; p < chosen.size(); ++p)
     if (parent[p] == largest || root(p) == largest) part.push_back(chosen[p]);
   return part;
+}
+
+void PointNeighbours::average_normals(std::vector<SurfacePoint>& points, double reach) const {
+  // All neighbours of each point, the later ones too.
+  std::vector<Index> end(points.size() + 1, 0);
+  const auto each_side = [&](const auto& visit) {
+    for (Index i = 0; i < points.size(); ++i)
+      for (Index k = end_[i]; k < end_[i + 1]; ++k) visit(i, earlier_[k]), visit(earlier_[k], i);
+  };
+  each_side([&](Index of, Index) { ++end[of + 1]; });
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<Index> next(end.begin(), end.end() - 1), beside(end.back());
+  each_side([&](Index of, Index other) { beside[next[of]++] = other; });
+
+  std::vector<Vec3> mean(points.size());
+  std::vector<Index> seen_from(points.size(), no_index), near;
+  for (Index i = 0; i < points.size(); ++i) {
+    near.assign(1, i);
+    seen_from[i] = i;
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t at = 0; at < near.size(); ++at) {
+      const SurfacePoint& point = points[near[at]];
+      sum += point.area * point.normal;
+      for (Index k = end[near[at]]; k < end[near[at] + 1]; ++k) {
+        const Index other = beside[k];
+        if (seen_from[other] == i) continue;
+        seen_from[other] = i;
+        // What faces the other way is beyond an edge: a wall is thin.
+        if ((points[other].position - points[i].position).squaredNorm() <= reach * reach &&
+            points[other].normal.dot(points[i].normal) > 0)
+          near.push_back(other);
+      }
+    }
+    mean[i] = near.size() > 1 && sum.norm() > 0 ? sum.normalized() : points[i].normal;
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].normal = mean[i];
+}
+
+double PointNeighbours::longest_usual_edge(const std::vector<SurfacePoint>& points) const {
+  std::vector<double> lengths;
+  lengths.reserve(earlier_.size());
+  for (Index i = 0; i < points.size(); ++i)
+    for (Index k = end_[i]; k < end_[i + 1]; ++k)
+      lengths.push_back((points[earlier_[k]].position - points[i].position).norm());
+  if (lengths.empty()) return 0;
+  const auto at = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() * 9 / 10);
+  std::nth_element(lengths.begin(), at, lengths.end());
+  return *at;
 }
 
 std::vector<Index> vertices_of(const std::vector<SurfacePoint>& points, const std::vector<Index>& chosen) {

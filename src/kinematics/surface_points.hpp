@@ -15,6 +15,8 @@ struct SurfacePoint {
   Vec3 position;
   Vec3 normal;  ///< unit; mean of the triangles around it, weighted by area
   double area;  ///< a third of the triangles around it
+  double flatness =
+      1;  ///< length of the mean of the normals around it: 0.7 at the edge of a cube, 0.58 at its corner
 };
 
 /// The vertices of a mesh that lie inside `within` and belong to triangles with an area (and not so large a
@@ -36,6 +38,13 @@ class PointNeighbours {
   std::vector<Index> largest_connected_part(const std::vector<SurfacePoint>& points,
                                             const std::vector<Index>& chosen) const;
 
+  /// Each normal becomes the mean, by area, of those that face the same way and are joined to it within this distance, mm: what fine meshes have
+  /// of noise goes, and the vertices of coarse ones stay as they are. It does not depend on the order of the points, nor on where they lie.
+  /// Linear in the points, and in how many are that near each other.
+  void average_normals(std::vector<SurfacePoint>& points, double reach) const;
+  /// Nine of ten edges between points are shorter; 0 if there is none.
+  double longest_usual_edge(const std::vector<SurfacePoint>& points) const;
+
  private:
   /// Point i is joined to the earlier points from earlier_[end_[i]] to earlier_[end_[i + 1]], each of them once.
   std::vector<Index> end_, earlier_;
@@ -55,9 +64,14 @@ std::vector<Index> vertices_of(const std::vector<SurfacePoint>& points, const st
 /// if no sphere fits them.
 SphericalPatch patch_of(const TriMesh& mesh, const std::vector<Index>& vertices);
 
+/// find_sphere() of the socket round a head: a sphere about the head's centre is preferred to one farther off that holds little more area.
+SphericalPatch find_socket_round(const TriMesh& mesh, const Sphere& head, const SphereSearch& search);
+
 /// The part of a surface that lies on this head or in this socket, whose sphere stays as it is: what find_sphere() would take for it
 /// without fitting anew. Empty if nothing does.
 std::optional<SphericalPatch> patch_on(const TriMesh& mesh, const Sphere& sphere, SphericalPart of);
+/// The same of a sphere that somebody states: without vertices and of no coverage if nothing lies on it.
+SphericalPatch stated_patch(const TriMesh& mesh, const Sphere& sphere, SphericalPart of);
 
 /// 1.4826 times the median magnitude: the standard deviation of a normal distribution, given by the better
 /// half of the residuals and deaf to the rest.

@@ -10,6 +10,9 @@
 namespace condyle::plan {
 namespace {
 
+/// A number of steps is whole within this.
+constexpr double whole = 1e-6;
+
 /// A number at the front of the text, which is taken off it; NaN if there is none.
 double number_of(std::string_view& text) {
   double value = 0;
@@ -52,8 +55,11 @@ SweptParameter swept_of(std::string_view item) {
 }  // namespace
 
 std::size_t SweptParameter::count() const {
-  constexpr double whole = 1e-6;
   return static_cast<std::size_t>(std::floor((last - first) / step + whole)) + 1;
+}
+
+bool SweptParameter::ends_early() const {
+  return (last - first) / step - static_cast<double>(count() - 1) > whole;
 }
 
 std::vector<SweptParameter> parse_sweep(std::string_view text) {

@@ -204,6 +204,15 @@ TEST(AnswerRange, GivesWhatItsPartsGive) {
   for (std::size_t m = 0; m < bands.size(); ++m) EXPECT_EQ(answer.bands[m].median, bands[m].median);
 }
 
+TEST(AnswerRange, SaysThatAMapEndsBeforeItsLastValue) {
+  RangeRequest request;
+  request.map = {.row = {JointAngle::adduction, -10, 10, 10}, .column = {JointAngle::flexion, 0, 25, 20}};
+  const RangeAnswer answer = answered(bumpy_joint(Side::left), request);
+  ASSERT_EQ(answer.notes.size(), 1u);
+  EXPECT_EQ(answer.notes[0].code, RangeNoteCode::last_value_left_out);
+  EXPECT_NE(answer.notes[0].text.find("flexion 20, not 25"), std::string::npos) << answer.notes[0].text;
+}
+
 TEST(AnswerRange, IsEmptyIfStopped) {
   RangeRequest request{.motions = motion::hip_motions()};
   request.bands.emplace();

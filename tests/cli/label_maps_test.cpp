@@ -72,6 +72,20 @@ TEST_F(LabelMaps, AreListedWithWhatReachesTheBorder) {
   EXPECT_NE(text.out.find("76 (no name): "), std::string::npos) << text.out;
 }
 
+TEST_F(LabelMaps, SayIfASimplificationMovesASurfaceByMoreThanAVoxel) {
+  const auto noted = [&](const std::string& triangles) {
+    const Ran made =
+        run("surface labels.nii.gz --label 76 --triangles " + triangles + " -o simple/femur.ply --json");
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    const Json surface = Json::parse(made.out);
+    const bool is_noted = made.err.find("simplified_away") != std::string::npos;
+    EXPECT_EQ(is_noted, surface["simplification"]["largest_error_mm"].get<double>() > 1.5);
+    return is_noted;
+  };
+  EXPECT_TRUE(noted("100"));
+  EXPECT_FALSE(noted("4000"));
+}
+
 TEST_F(LabelMaps, GiveSurfacesThatAreFreeOfFindings) {
   const Ran made = run("surface labels.nii.gz --label 76 -o surface/femur.ply --json");
   ASSERT_EQ(made.exit_code, 0) << made.err;

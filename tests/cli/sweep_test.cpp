@@ -193,6 +193,18 @@ TEST_F(SweepCommand, RefusesWrongWordsInOneLineAndWritesNothing) {
   EXPECT_FALSE(fs::exists(folder / "zone"));
 }
 
+TEST_F(SweepCommand, RefusesStandardDeviationsThatItDoesNotUse) {
+  for (const char* option : {"--sigma-centre 1", "--sigma-axes 1", "--sigma-surface 1"})
+    expect_refusal(sweep(std::string("--band=20 ") + option), 2, "a sweep displaces parameters of parts only",
+                   option);
+}
+
+TEST_F(SweepCommand, NotesTheValueOfAParameterThatItVaries) {
+  const Ran ran = sweep("--set cup.inclination=42");
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_NE(ran.err.find("value_is_swept: cup.inclination was set to 42"), std::string::npos) << ran.err;
+}
+
 TEST_F(SweepCommand, RefusesABandOfPartsWithoutStandardDeviations) {
   std::string text = bytes("hip.toml");
   for (std::size_t at; (at = text.find("\nsigma = ")) != text.npos;)

@@ -28,6 +28,17 @@ motion::MotionMap whole_map() {
   return motion::motion_map(small_grid(), motion::RangeOfMotion(arm_and_post()));
 }
 
+TEST(MapAxis, EndsEarlyIfItsStepLeadsPastItsLastValue) {
+  const auto ends_early = [](double first, double last, double step) {
+    return motion::GridAxis{JointAngle::flexion, first, last, step}.ends_early();
+  };
+  EXPECT_FALSE(ends_early(0, 120, 5));
+  EXPECT_FALSE(ends_early(-0.3, 0.6, 0.1));
+  EXPECT_FALSE(ends_early(10, 10, 5)) << "one value";
+  EXPECT_TRUE(ends_early(0, 119.9, 5));
+  EXPECT_TRUE(ends_early(0, 120.1, 5));
+}
+
 TEST(MapCsv, HasALinePerPointWithBothLimitsToTheLastBit) {
   const motion::MotionMap map = whole_map();
   std::istringstream in(io::map_csv(map));

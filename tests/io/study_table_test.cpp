@@ -48,6 +48,10 @@ TEST(StudyTable, IsRefusedWithTheLineThatIsWrong) {
          "line 1: column 'haed_radius_mm': did you mean 'head_radius_mm'?");
   expect("id,sample,Head_Radius_MM\na,1,25\n", "did you mean 'head_radius_mm'?");
   expect("id,sample,sdie\na,1,left\n", "did you mean 'side'?");
+  expect("id,sample,alpha_angle\na,1,60\n", "column 'alpha_angle': did you mean 'alpha_angle_deg'?");
+  expect("id,sample,Alpha_Angle_degrees\na,1,60\n", "did you mean 'alpha_angle_deg'?");
+  expect("id,sample,neck_length_cm\na,1,5\n", "did you mean 'neck_length_mm'?");
+  expect("id,joint,pelvic_tilt\na,b,5\n", "did you mean 'pelvic_tilt_deg'?");
   expect("id,fixed,mobile,side,unit\na,b,c,left,m\n", "did you mean 'units'?");
   expect("id,fixed,mobile,side,axis\na,b,c,left,LPS\n", "did you mean 'axes'?");
   expect("id,fixed,moblie,side\na,b,c,left\n", "did you mean 'mobile'?");

@@ -88,6 +88,25 @@ TEST(HipAxes, AgainstWhichTheNeckVotesByHalfItsMarginAreNotInferred) {
   EXPECT_TRUE(inferred(ras_axes, Side::right, {15.1}, Side::left).agreeing.empty());
 }
 
+/// A hip that lies between two pairs of axes, as with a leg that hangs forwards in LPS: where both bones are long their far ends say which is up.
+TEST(HipAxes, OfALegThatHangsForwardsAreInferredIfBothBonesAreLong) {
+  for (const Side side : {Side::right, Side::left})
+    for (const bool in_lps : {true, false})
+      for (const bool whole : {true, false}) {
+        const Frame in = frame_of(in_lps ? lps_axes : ras_axes, side);
+        const double forwards = in_lps ? 1 : -1;  // Y of both is taken for down
+        HipAnatomy hip = drawn(in, {});
+        hip.towards_femur = in(0.5 * forwards, -0.8, 0.3).normalized();
+        hip.towards_pelvis = in(-0.35 * forwards, 0.8, -0.5).normalized();
+        hip.towards_neck = in(0.4 * forwards, -0.65, 0.65).normalized();
+        hip.opening = in(0.5 * forwards, -0.61, 0.61).normalized();
+        if (!whole) hip.femur_end = in(0, -60, 0);
+        const HipAxes found = hip_axes(TriMesh{}, hip, side);
+        EXPECT_EQ(found.agreeing.size(), whole ? 1u : 0u) << found.why_none;
+        EXPECT_EQ(found.why_none.find("nearly as much") != std::string::npos, !whole) << found.why_none;
+      }
+}
+
 /// Down and outwards cannot be distinguished where both bones are cut short.
 TEST(HipAxes, OfTwoShortPiecesAreNotInferred) {
   EXPECT_TRUE(inferred(joint_axes, Side::right, {40, false}).agreeing.empty());

@@ -230,6 +230,57 @@ TEST(RightSetUp, IsAnsweredWithoutANote) {
   expect_none(other, "mirrored to the left and called left");
 }
 
+/// Turned by a little less or more than half a turn, the socket seems to open straight to the side, or forwards.
+TEST(JointChecks, AxesThatAreTurnedByMoreOrLessThanHalfATurnAreTurned) {
+  if (!test::shared_data()) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  for (const Hip* hip : {&vhf(), &coarse_libhip()})
+    for (const double deg : {150.0, 165.0, 180.0, 195.0, 210.0}) {
+      HipSetUp set_up = right_set_up(*hip);
+      const Eigen::Matrix3d turn =
+          Eigen::AngleAxisd(deg * std::numbers::pi / 180, Vec3::UnitY()).toRotationMatrix();
+      set_up.fixed = turned(set_up.fixed, turn), set_up.mobile = turned(set_up.mobile, turn);
+      const auto notes = notes_on(set_up);
+      ASSERT_EQ(notes.size(), 1u) << deg;
+      EXPECT_EQ(notes[0].code, Code::axes_turned) << deg << ": " << notes[0].text;
+    }
+}
+
+/// The socket that the sample of a hip states is where it is stated, whatever the surface has.
+TEST(JointChecks, ASocketThatIsStatedIsNotFittedAgain) {
+  const TriMesh head =
+      test::joined(test::sphere({0, 0, 0}, 24, 4), test::box({-10, -400, -10}, {10, -40, 10}));
+  const TriMesh bone = test::socket({0, 0, 0}, 26, 60, 4);
+  const auto notes_with = [&](const std::optional<Sphere>& socket) {
+    JointDescription description{.name = "joint"};
+    description.frame.centre.emplace<Vec3>(Vec3::Zero());
+    Body fixed{"hip bone", bone};
+    fixed.head = socket;
+    const auto [joint, placement] = make_joint(description, fixed, {"femur", head});
+    std::vector<Code> codes;
+    for (const JointNote& note : check_joint(joint, placement)) codes.push_back(note.code);
+    return codes;
+  };
+  EXPECT_EQ(notes_with({}), std::vector<Code>{});
+  EXPECT_EQ(notes_with(Sphere{{0, 1.4, 0}, 26}), std::vector<Code>{});
+  EXPECT_EQ(notes_with(Sphere{{0, 1.6, 0}, 26}), std::vector<Code>{Code::head_socket_apart});
+  EXPECT_EQ(notes_with(Sphere{{0, 0, 0}, 23.4}), std::vector<Code>{Code::socket_smaller_than_head});
+}
+
+TEST(JointChecks, ACentreFittedToAStatedSphereIsThatSpheres) {
+  const TriMesh bone = test::socket({0, 0, 0}, 26, 60, 4), head = test::sphere({0, 0, 0}, 24, 4);
+  for (const BodyRole body : {BodyRole::fixed, BodyRole::mobile}) {
+    JointDescription description{.name = "joint"};
+    description.frame.centre = CentreFit{.body = body};
+    Body fixed{"hip bone", bone}, mobile{"femur", head};
+    (body == BodyRole::fixed ? fixed : mobile).head = Sphere{{0.25, -0.5, 0.75}, 25};
+    const PlacedJoint placed = make_joint(description, fixed, mobile);
+    EXPECT_EQ(Vec3(placed.placement.X_WF.translation()), Vec3(0.25, -0.5, 0.75));
+    ASSERT_TRUE(placed.placement.sphere);
+    EXPECT_EQ(placed.placement.sphere->fit.sphere.radius, 25);
+    EXPECT_NE(placed.placement.processing.back().find("stated"), std::string::npos);
+  }
+}
+
 TEST(JointChecks, ThatDoNotApplyAreSilent) {
   // No head, no socket, a hinge, and a head in a socket without anatomy.
   const auto notes_of = [](JointKind kind, TriMesh fixed, TriMesh mobile) {
@@ -245,6 +296,21 @@ TEST(JointChecks, ThatDoNotApplyAreSilent) {
   const auto notes = notes_of(JointKind::ball, test::socket({0, 0, 0}, 26, 60, 3), head);
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_EQ(notes[0].code, Code::separate_pieces) << "ball and shaft do not touch";
+}
+
+TEST(JointChecks, ASurfaceThatIsThereTwiceIsNoted) {
+  const TriMesh ball = test::sphere({0, -50, 0}, 20, 3);
+  Joint joint{"joint",
+              JointKind::hinge,
+              Side::right,
+              {"fixed", test::box({40, -120, -50}, {60, -80, 50})},
+              {"mobile", test::joined(ball, ball)}};
+  const auto notes = check_joint(joint, {});
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0].code, Code::doubled_triangles);
+  EXPECT_NE(notes[0].text.find("512 of its 1024"), std::string::npos) << notes[0].text;
+  joint.mobile.mesh = Mesh(ball);
+  EXPECT_TRUE(check_joint(joint, {}).empty());
 }
 
 TEST(JointChecks, MeshesOfOneBodyMayLieInEachOther) {

@@ -485,6 +485,14 @@ TEST(Sweep, RefusesWhatItCannotAnswerInOneLine) {
             "target flexion: 200 degrees, must be above 0 and up to the motion's range, 180");
   EXPECT_EQ(line("cup.inclination=30:50:1", {turn_to("flexion", 20), turn_to("flexion", 30)}),
             "target flexion is given twice");
+  const auto tilted = [](double deg) {
+    plan::SweepTarget target = turn_to("flexion", 20);
+    target.pelvic_tilt = Angle::degrees(deg);
+    return std::vector{target};
+  };
+  EXPECT_EQ(line("cup.inclination=30:50:1", tilted(-60)), "accepted");
+  EXPECT_EQ(line("cup.inclination=30:50:1", tilted(-100)),
+            "target flexion: the tilt must be between -60 and 60 degrees");
   EXPECT_EQ(line("cup.inclination=0:90:0.001 cup.anteversion=0:60:0.01", one),
             "540096001 designs are too many: up to 10000000");
 }
@@ -504,6 +512,25 @@ TEST(Sweep, SaysWhereItsZoneEnds) {
   EXPECT_EQ(codes("cup.anteversion=10:45:5", seven_targets()), "zone_leaves_window ");
   EXPECT_EQ(codes("cup.anteversion=10:20:5", seven_targets()), "everything_is_safe ");
   EXPECT_EQ(codes("cup.anteversion=-20:0:5", seven_targets()), "nothing_is_safe ");
+  EXPECT_EQ(codes("cup.anteversion=-20:44.9:5", seven_targets()), "last_value_left_out ") << "it ends at 40";
+  EXPECT_EQ(codes("cup.anteversion=-20:45.1:5", seven_targets()), "last_value_left_out ") << "it ends at 45";
+}
+
+TEST(Sweep, SaysThatAParameterThatItVariesWasSet) {
+  const PlacedJoint placed = implant_alone({});
+  const Joint set = with_parameters(placed.joint, std::vector<ParameterValue>{{"cup.anteversion", 20}});
+  const auto codes = [&](const std::string& vary) {
+    std::vector<SweepNoteCode> found;
+    for (const SweepNote& note :
+         answer_sweep(set, placed.placement,
+                      {.parameters = plan::parse_sweep(vary), .targets = seven_targets()})
+             .notes)
+      found.push_back(note.code);
+    return found;
+  };
+  EXPECT_EQ(codes("cup.anteversion=-20:45:5"), std::vector{SweepNoteCode::value_is_swept});
+  const std::vector<SweepNoteCode> of_other = codes("cup.inclination=30:50:5");
+  EXPECT_EQ(std::count(of_other.begin(), of_other.end(), SweepNoteCode::value_is_swept), 0);
 }
 
 }  // namespace

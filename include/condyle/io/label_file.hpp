@@ -38,6 +38,7 @@ enum class LabelNoteCode {
   pieces,              ///< A bone is in several pieces.
   cavities,            ///< It has closed cavities, such as marrow.
   cut_by_view,         ///< It reaches the border of its image.
+  simplified_away,     ///< Its simplification moved the surface by more than a voxel.
   touching,            ///< Two bones touch or overlap.
   label_tables,        ///< A number was asked for: the names that published tables and the file give it.
   axes_not_used,       ///< Axes were stated, and the file has its own, which count.

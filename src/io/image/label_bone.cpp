@@ -92,6 +92,17 @@ void note_cuts(const LabelBone& bone, std::vector<LabelNote>& notes) {
                      bone.name, cap.high ? "last" : "first", "ijk"[cap.axis], cap.area)});
 }
 
+void note_simplification(const LabelBone& bone, std::vector<LabelNote>& notes) {
+  const auto& simplified = bone.surface.simplification;
+  if (!simplified || !(simplified->largest_error > bone.surface.spacing.maxCoeff())) return;
+  notes.push_back({LabelNoteCode::simplified_away,
+                   fmt::format("{} was simplified from {} to {} triangles, which moved its surface by up to "
+                               "{:.3g} mm, more than a "
+                               "voxel: ask for more triangles",
+                               bone.name, simplified->triangles_before, bone.surface.mesh.triangles.size(),
+                               simplified->largest_error)});
+}
+
 }  // namespace
 
 BodyImage image_of(const VoxelGrid& grid, const LabelSurface& surface) {
@@ -121,6 +132,7 @@ std::optional<LabelBone> bone_of(const LabelMap& map, std::string_view file, con
   note_pieces(bone, bone.notes);
   note_cavities(bone, request.surface.keep_cavities, bone.notes);
   note_cuts(bone, bone.notes);
+  note_simplification(bone, bone.notes);
   return bone;
 }
 

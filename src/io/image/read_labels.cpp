@@ -80,6 +80,8 @@ std::string_view name_of(LabelNoteCode code) noexcept {
       return "cavities";
     case LabelNoteCode::cut_by_view:
       return "cut_by_view";
+    case LabelNoteCode::simplified_away:
+      return "simplified_away";
     case LabelNoteCode::touching:
       return "touching";
     case LabelNoteCode::label_tables:

@@ -3,11 +3,12 @@
 #include <array>
 
 #include "condyle/pose.hpp"
+#include "core/coordinate_range.hpp"
 
 namespace condyle::io {
 
 /// A rotation off by more than this is refused as none; what tables with seven digits have is accepted.
-inline constexpr double largest_skew = 1e-6;
+using core::largest_skew;
 
 struct PoseOfRows {
   Pose X;

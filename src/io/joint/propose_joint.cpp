@@ -112,10 +112,9 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
                   fmt::format("{} it is {}, and the bones lie as those of a {} hip", facts.side->by,
                               name_of(*given), name_of(*side)));
   else
-    add_side(lines, facts.side, side,
-             facts.axes_by           ? axes.why_none
-             : axes.agreeing.empty() ? "no usual axes agree with the bones"
-                                     : "more than one pair of axes and side agrees with the bones");
+    add_side(
+        lines, facts.side, side,
+        axes.agreeing.empty() ? axes.why_none : "more than one pair of axes and side agrees with the bones");
   add_units(lines, inferred);
 
   add_body(lines, "fixed", fixed, facts.joint_file);

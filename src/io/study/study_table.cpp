@@ -51,18 +51,37 @@ std::vector<std::string> missing_columns(const StudyTable& table) {
     for (const sample::HipMeasure& measure : sample::hip_measures()) add({measure.name});
   if (!of_samples && !of_meshes && !of_labels && !of_models)
     add({"joint", "fixed", "mobile", "labels", "opensim_model", "sample"});
+  add({"pelvic_tilt_deg"});
   return names;
+}
+
+/// "alpha_angle" of "alpha_angle_deg", "alpha_angle_degrees" and "alpha_angle": the name without the unit at its end.
+std::string without_unit(std::string name) {
+  constexpr std::string_view units[] = {"_deg",     "_degree", "_degrees", "_rad",
+                                        "_radians", "_mm",     "_cm",      "_m"};
+  for (const std::string_view unit : units)
+    if (name.ends_with(unit)) return name.substr(0, name.size() - unit.size());
+  return name;
+}
+
+/// The column that a name is meant for: a letter or two beside it, or with another unit or none. Empty if there is none.
+std::string meant_for(const std::string& lower, const std::vector<std::string>& missing) {
+  if (std::string near = core::near_name(lower, missing); !near.empty()) return near;
+  const auto same = std::find_if(missing.begin(), missing.end(), [&](const std::string& name) {
+    return without_unit(name) != name && without_unit(name) == without_unit(lower);
+  });
+  return same == missing.end() ? std::string() : *same;
 }
 
 /// A misspelt column would be carried into the results, and what it says of the joints left out of the answer.
 void check_spelling(const StudyTable& table, std::size_t line, const Source& source) {
   const std::vector<std::string> missing = missing_columns(table);
   for (const std::string& name : table.columns) {
-    if (is_source(name) || sample::hip_measure_named(name)) continue;
+    if (is_source(name) || sample::hip_measure_named(name) || name == "pelvic_tilt_deg") continue;
     std::string lower = name;
     std::transform(lower.begin(), lower.end(), lower.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (const std::string near = core::near_name(lower, missing); !near.empty())
+    if (const std::string near = meant_for(lower, missing); !near.empty())
       source.fail(fmt::format("line {}: column {}: did you mean '{}'? A covariate needs a name less like it",
                               line, in_quotes(name), near));
   }

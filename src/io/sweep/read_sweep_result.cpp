@@ -119,8 +119,9 @@ void read_document(const Json& json, SweepResult& result) {
              : pair_in(sweep, by.at("fixed").get<std::string>(), by.at("mobile").get<std::string>())});
   }
   for (const Json& each : json.at("sweep_notes"))
-    if (each.at("code").get<std::string>() == name_of(SweepNoteCode::differs_from_closed_form))
-      sweep.notes.push_back({SweepNoteCode::differs_from_closed_form, each.at("text").get<std::string>()});
+    for (const SweepNoteCode code : all_request_notes)
+      if (each.at("code").get<std::string>() == name_of(code))
+        sweep.notes.push_back({code, each.at("text").get<std::string>()});
   for (const Json& each : json.at("quantities")) {
     sweep.quantity_names.push_back(each.get<std::string>());
     const Json& here = json.at("here").at("quantities").at(sweep.quantity_names.back());

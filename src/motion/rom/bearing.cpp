@@ -38,11 +38,12 @@ void find_socket(const Joint& joint, BearingSurface& surface) {
   const Sphere& head = surface.head;
   const Mesh& fixed = kinematics::uncut_surface(joint.fixed);
   if (joint.is_hip()) {
-    if (const auto socket = kinematics::socket_around(fixed, head);
-        *socket && kinematics::fits_into(head, **socket))
+    if (joint.fixed.head)
+      surface.socket = joint.fixed.head;
+    else if (const auto socket = kinematics::socket_around(fixed, head);
+             *socket && kinematics::fits_into(head, **socket))
       surface.socket = (*socket)->fit.sphere;
     if (const auto rim = kinematics::rim_around(fixed, head); *rim) surface.rim_gap_mm = (*rim)->gap_mm;
-    if (joint.fixed.head) surface.socket = joint.fixed.head;
     return;
   }
   const auto socket = kinematics::shallow_socket_around(fixed, head);

@@ -81,6 +81,10 @@ std::size_t GridAxis::count() const {
   return static_cast<std::size_t>(count_of(*this));
 }
 
+bool GridAxis::ends_early() const {
+  return (last_deg - first_deg) / step_deg - (count_of(*this) - 1) > count_slack;
+}
+
 JointAngles MapGrid::start_of(std::size_t point) const {
   JointAngles angles = turned_by({}, vary, start);
   angles = turned_by(angles, row.angle, Angle::degrees(row.value_deg(point / column.count())));
