@@ -267,6 +267,8 @@ enum class RangeNoteCode : std::uint8_t {
   limit_on_part_cut,  ///< A motion ends on a face in which a part was cut from its body.
   sliding_surfaces,   ///< Surfaces slide on each other by nature, and where they first touch a motion ends.
   translation_ends,   ///< The record or load of the translation ends before the motion's range.
+  bones_touch,  ///< Head and socket are in contact over much of the bearing surface before anything turns.
+  coarse_mesh,  ///< Triangles are so long that they cut off of head, neck or rim what moves limits by degrees.
   differs_from_closed_form,  ///< Meshes of an implant end a motion elsewhere than bodies of its sizes do.
 };
 
