@@ -114,9 +114,17 @@ bool reaches_knee(const FarEnd& end, const Sphere& head) noexcept {
   return end.reach_mm >= shortest_femur * head.radius;
 }
 
+bool may_reach_knee(const TriMesh& femur, const Sphere& head) noexcept {
+  const double reach = shortest_femur * head.radius;
+  for (std::size_t v = 0; v < femur.vertices.size(); ++v)
+    if ((femur.vertices[v] - head.centre).squaredNorm() >= reach * reach) return true;
+  return false;
+}
+
 std::optional<CondylarLine> condylar_line(const TriMesh& femur, const Sphere& head, const Vec3& anterior,
                                           const Vec3& along) {
   const FarEnd end = far_end(femur, head);
+  if (!reaches_knee(end, head)) return std::nullopt;
   const std::vector<ViewFromBelow> points = seen_from_below(femur, head, end, anterior);
   const std::vector<ViewFromBelow> outline = convex_outline(points);
   std::optional<std::array<ViewFromBelow, 2>> found;

@@ -19,6 +19,9 @@ FarEnd far_end(const TriMesh& femur, const Sphere& head);
 /// Whether it is farther from the head than the shaft goes: there may be condyles.
 bool reaches_knee(const FarEnd& end, const Sphere& head) noexcept;
 
+/// Whether any vertex is: one look at each.
+bool may_reach_knee(const TriMesh& femur, const Sphere& head) noexcept;
+
 /// The line that touches both condyles from behind, seen along the line from the head's centre to the middle of the far end.
 ///
 ///         anterior
@@ -32,7 +35,7 @@ struct CondylarLine {
   double notch_mm;   ///< how far in front of the line vertices lie in its middle fifth; infinite if none does
 };
 
-/// Directions are unit. Empty if nothing faces back over some width. Linear in the femur, and n log n in its far end.
+/// Directions are unit. Empty if the bone ends above the knee or nothing faces back over some width. Linear in the femur, and n log n in its far end.
 std::optional<CondylarLine> condylar_line(const TriMesh& femur, const Sphere& head, const Vec3& anterior,
                                           const Vec3& along);
 

@@ -19,7 +19,7 @@ std::optional<Eigen::Matrix3d> axes_of(const Mesh& femur) {
   const std::optional<SphericalPatch>& patch = head_near_centre(femur);
   if (!patch) return std::nullopt;
   const Sphere& head = patch->fit.sphere;
-  if (!reaches_knee(far_end(femur, head), head)) return std::nullopt;
+  if (!may_reach_knee(femur, head)) return std::nullopt;
   const auto line = condylar_line(femur, head, Vec3::UnitX(), Vec3::UnitZ());
   if (!line || !touches_condyles(*line, head)) return std::nullopt;
   const Vec3 y = (head.centre - line->middle).normalized();

@@ -5,11 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include "core/lazy.hpp"
 #include "kinematics/hip_parts.hpp"
 #include "mesh/disjoint_sets.hpp"
-#include "mesh/edge_table.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/findings.hpp"
 #include "mesh/triangle_distance.hpp"
@@ -37,22 +38,73 @@ struct Face {
   Vec3 area = Vec3::Zero(), point = Vec3::Zero();
 };
 
-/// Connected triangles that face one way, those with an area that counts.
-std::vector<Face> flat_faces(const Mesh& bone, const std::vector<Vec3>& areas, double least) {
-  const mesh::EdgeTable& edges = mesh::edges_of(bone);
-  mesh::DisjointSets sets(areas.size());
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const auto sides = edges.half_edges(e);
-    for (std::size_t k = 1; k < sides.size(); ++k) {
-      const Index a = sides[0] / 3, b = sides[k] / 3;
-      if (areas[a].dot(areas[b]) > one_plane * areas[a].norm() * areas[b].norm()) sets.join(a, b);
-    }
-  }
-  std::vector<Face> faces(areas.size());
+/// The farthest vertices along the sides, edges and corners of a cube.
+std::vector<Vec3> farthest_vertices(const TriMesh& bone) {
+  std::vector<Vec3> directions, farthest;
+  for (int i = -1; i <= 1; ++i)
+    for (int j = -1; j <= 1; ++j)
+      for (int k = -1; k <= 1; ++k)
+        if (i != 0 || j != 0 || k != 0) directions.emplace_back(i, j, k);
+  farthest.assign(directions.size(), bone.vertices[bone.triangles.front()[0]]);
+  for (const Triangle& t : bone.triangles)
+    for (const Index v : t)
+      for (std::size_t d = 0; d < directions.size(); ++d)
+        if (const Vec3 p = bone.vertices[v]; directions[d].dot(p) > directions[d].dot(farthest[d]))
+          farthest[d] = p;
+  return farthest;
+}
+
+/// Triangles that may lie in a plane with all of the bone behind it, which few of them do: theirs may be tilted against it as above.
+std::vector<Index> outermost(const TriMesh& bone, const std::vector<Vec3>& areas, double size) {
+  constexpr double tilt = 0.006;
+  const std::vector<Vec3> farthest = farthest_vertices(bone);
+  std::vector<Index> found;
   for (std::size_t t = 0; t < areas.size(); ++t) {
-    Face& face = faces[sets.find(static_cast<Index>(t))];
-    face.area += areas[t] / 2;
-    face.point = bone.corner(t, 0);
+    const double slack = areas[t].norm() * (on_cut_mm + tilt * size),
+                 offset = areas[t].dot(bone.corner(t, 0));
+    if (areas[t].squaredNorm() > 0 && std::all_of(farthest.begin(), farthest.end(), [&](const Vec3& p) {
+          return areas[t].dot(p) - offset <= slack;
+        }))
+      found.push_back(static_cast<Index>(t));
+  }
+  return found;
+}
+
+/// Those of them around one vertex that face one way are of one face. More ways than these are no flat face's.
+void join_around(std::span<const std::pair<Index, Index>> around, const std::vector<Index>& outer,
+                 const std::vector<Vec3>& areas, mesh::DisjointSets& sets) {
+  constexpr std::size_t most_ways = 8;
+  std::vector<Index> ways;
+  for (const auto& [vertex, number] : around) {
+    const Vec3& area = areas[outer[number]];
+    const auto way = std::find_if(ways.begin(), ways.end(), [&](Index other) {
+      const Vec3& of_other = areas[outer[other]];
+      return area.dot(of_other) > one_plane * area.norm() * of_other.norm();
+    });
+    if (way != ways.end())
+      sets.join(*way, number);
+    else if (ways.size() < most_ways)
+      ways.push_back(number);
+  }
+}
+
+/// Outermost triangles that hang together and face one way, those with an area that counts.
+std::vector<Face> flat_faces(const TriMesh& bone, const std::vector<Vec3>& areas, double size, double least) {
+  const std::vector<Index> outer = outermost(bone, areas, size);
+  std::vector<std::pair<Index, Index>> corners;  // a vertex, and the number of a triangle there
+  for (std::size_t n = 0; n < outer.size(); ++n)
+    for (const Index v : bone.triangles[outer[n]]) corners.emplace_back(v, static_cast<Index>(n));
+  std::sort(corners.begin(), corners.end());
+  mesh::DisjointSets sets(outer.size());
+  for (std::size_t first = 0, last = 0; first < corners.size(); first = last) {
+    while (last < corners.size() && corners[last].first == corners[first].first) ++last;
+    join_around(std::span(corners).subspan(first, last - first), outer, areas, sets);
+  }
+  std::vector<Face> faces(outer.size());
+  for (std::size_t n = 0; n < outer.size(); ++n) {
+    Face& face = faces[sets.find(static_cast<Index>(n))];
+    face.area += areas[outer[n]] / 2;
+    face.point = bone.corner(outer[n], 0);
   }
   std::erase_if(faces, [&](const Face& face) { return face.area.norm() < least; });
   return faces;
@@ -113,11 +165,12 @@ bool is_cut_off(const TriMesh& bone, const std::vector<Vec3>& areas, const Image
 
 std::vector<ImageCut> found_ends(const Mesh& bone) {
   if (bone.triangles().empty()) return {};
-  const double size = mesh::bounds_of_surface(bone).diagonal() / usual_size, square = size * size;
+  const double diagonal = mesh::bounds_of_surface(bone).diagonal(), size = diagonal / usual_size,
+               square = size * size;
   std::vector<Vec3> areas(bone.triangles().size());
   for (std::size_t t = 0; t < areas.size(); ++t) areas[t] = twice_area(bone, t);
   std::vector<ImageCut> ends;
-  for (const Face& face : flat_faces(bone, areas, square * least_face)) {
+  for (const Face& face : flat_faces(bone, areas, diagonal, square * least_face)) {
     const Vec3 normal = face.area.normalized();
     const ImageCut plane{normal, normal.dot(face.point)};
     const bool is_known = std::any_of(
