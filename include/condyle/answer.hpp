@@ -268,6 +268,8 @@ enum class RangeNoteCode : std::uint8_t {
   limit_on_piece,     ///< Motions end on a piece of a body that holds neither head nor socket nor most of it.
   sliding_surfaces,   ///< Surfaces slide on each other by nature, and where they first touch a motion ends.
   translation_ends,   ///< The record or load of the translation ends before the motion's range.
+  bones_touch,  ///< Head and socket are in contact over much of the bearing surface before anything turns.
+  coarse_mesh,  ///< Triangles are so long that they cut off of head, neck or rim what moves limits by degrees.
   differs_from_closed_form,  ///< Meshes of an implant end a motion elsewhere than bodies of its sizes do.
   last_value_left_out,  ///< No whole number of steps leads to the last value of a map's axis: it ends before.
 };

@@ -20,7 +20,8 @@ namespace condyle::motion {
 inline constexpr double usual_bearing_margin_mm = 2;
 /// Kept between the bearing surface and the rim, so that nothing that can meet the rim is called bearing.
 inline constexpr double rim_reserve_mm = 0.5;
-/// Segmented surfaces are as rough as this: with a narrower margin contact inside the socket may be called impingement.
+/// Segmented surfaces are as rough as this, those of label maps as a voxel's diagonal if that is more: with a narrower margin contact inside
+/// the socket may be called impingement.
 inline constexpr double narrow_bearing_margin_mm = 1;
 /// If the head's centre is farther than this from the joint centre, no bearing surface is inferred from the head.
 inline constexpr double farthest_head_centre_mm = 5;
@@ -105,10 +106,10 @@ struct BearingFinding {
   std::optional<BearingSurface> surface = {};
   ContactRoles roles = {};
   std::string why_none = {};
-  /// If a gap makes the usual margin smaller than narrow_bearing_margin_mm.
+  /// If a gap makes the usual margin smaller than narrow_bearing_margin_mm, or than the diagonal of a body's voxels.
   std::optional<NarrowMargin> narrow_margin = {};
 
-  /// Faces that close the bones where their images end: contact on them is not contact of bones.
+  /// Faces that close the bones where their images end, or where they were cut near the joint: contact on them is not contact of bones.
   std::vector<ImageCut> fixed_cuts = {}, mobile_cuts = {};
 
   bool is_on_cut(const ContactWitness& contact) const noexcept;

@@ -31,7 +31,10 @@ struct Measure {
 /// Between these values lie the measures of other people.
 struct NormalRange {
   double low, high;
-  std::string_view meaning;  ///< "interquartile range of 1070 femora, 3D CT"
+  std::string_view people;   ///< whose: "skeletally mature femora, by CT"
+  int count;                 ///< of these; 0 if the source at hand does not say
+  bool are_patients;         ///< They were examined because of their hips: their range is not called normal.
+  std::string_view meaning;  ///< "interquartile range, median 122.2"
   std::string_view source;
 };
 

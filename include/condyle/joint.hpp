@@ -215,6 +215,14 @@ struct JointImplant {
   std::string why_no_pair = {};           ///< what is no body of revolution
 };
 
+/// What the zero of a joint's angles is known by.
+enum class ZeroFrom : std::uint8_t {
+  as_given,  ///< It is the pose in which the mobile mesh is given, as that of a scan: nothing says how the body lay.
+  stated,     ///< A reference pose was stated, zero or not.
+  landmarks,  ///< Landmarks of both bodies give it.
+  anatomy,    ///< The mobile body's anatomy does: of a hip the condyles of its femur.
+};
+
 /// Two bodies and how one rotates in the other. Both meshes are in the joint frame of joint_coordinates.hpp:
 /// millimetres, origin at the joint centre, X anterior, Y superior, Z to the subject's right. The mobile mesh
 /// is the one of zero angles: pose_at(coordinates(), angles) brings it to any other.
@@ -228,6 +236,7 @@ struct Joint {
   TranslationFrame translation_frame = TranslationFrame::fixed;  ///< of a free joint
   std::optional<PosedParts> posed = {};  ///< parts with a pose of their own; the bodies above have them moved
   std::optional<JointImplant> implant = {};
+  ZeroFrom zero_from = ZeroFrom::as_given;
 
   CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
   /// False of a hinge that flexes forwards and is no joint in particular.

@@ -22,6 +22,7 @@ enum class JointNoteCode : std::uint8_t {
   separate_pieces,    ///< A body is more than one piece.
   doubled_triangles,  ///< Closed, with triangles that lie on others: what they enclose counts twice.
   cut_by_view,        ///< It ends where its image ends: what is missing may end a motion earlier.
+  flat_end,           ///< It ends in a plane near the joint, as a bone that was cut for export: likewise.
   same_mesh,          ///< Both bodies are one mesh.
   swapped_bodies,     ///< The head is on the fixed body.
   unlikely_joint,     ///< A head in a socket, and another joint or a hinge stated.
@@ -31,11 +32,13 @@ enum class JointNoteCode : std::uint8_t {
   centre_off_head,    ///< The joint centre is not that of the head.
   head_socket_apart,  ///< Head and socket have different centres, or a humeral head is beside its glenoid.
   socket_smaller_than_head,  ///< By their fitted radii.
+  socket_larger_than_head,   ///< So much that the head is none of a bone: an implant's ball without its cup.
   axes_not_upright,          ///< Superior does not point up the bones.
   axes_turned,      ///< About superior: by 180 degrees, as where LPS is read as RAS, or a knee's by others.
   wrong_side,       ///< The hip bone lies lateral of its socket, or a femur is shaped as the other side's.
   mirrored,         ///< Only front and back are exchanged.
   bodies_disagree,  ///< The two bodies are of different sides.
+  turned_leg,       ///< The femur of a hip does not lie in neutral where its angles are zero.
 };
 
 /// As in files: "wrong_side".

@@ -130,8 +130,11 @@ struct JointDescription {
   Side side = Side::right;
   LengthUnit units = LengthUnit::millimetres;  ///< of both meshes
   FrameDescription frame = {};
-  /// The pose in which the mobile mesh is given; zero if the frame has mobile_axes.
+  /// The pose in which the mobile mesh is given; its angles are zero if the frame has mobile_axes, or if they are from the anatomy.
   JointCoordinates reference_pose = {};
+  /// What these angles are known by: `stated` says that they are, zero or not, and other angles than zero say so by themselves; with
+  /// `anatomy` those of a hip follow from the condyles of its femur (zero_pose()). Landmarks need no word.
+  ZeroFrom zero_from = ZeroFrom::as_given;
   Anatomy anatomy = Anatomy::hip;  ///< of a hinge: the hip stands for any joint that flexes forwards
   TranslationFrame translation_frame = TranslationFrame::fixed;  ///< of a free joint
   /// X_WB of each body, in mm: where the frame B in which its mesh is given lies in W, in the reference pose.
@@ -156,8 +159,8 @@ struct JointPlacement {
   BodyRole fitted_body = BodyRole::mobile;  ///< that either was fitted to
   Angle axis_rotation;                      ///< from the Z axis of the description to the fitted one
   AxisErrors axis_errors{0, 0, 0};          ///< of the directions as given; removed
-  JointCoordinates reference_pose = {};  ///< as described, or as it follows from the landmarks of both bodies
-  bool pose_from_landmarks = false;      ///< of both bodies
+  JointCoordinates reference_pose = {};     ///< as described, or as it follows from landmarks or anatomy
+  ZeroFrom zero_from = ZeroFrom::as_given;
   BodyPlacement fixed, mobile;
   std::vector<std::string> processing;  ///< one line each: which axes were corrected, what was fitted
 };
@@ -170,14 +173,14 @@ struct PlacedJoint {
 /// Places both bodies in the joint frame, from the poses of their meshes in W, p_W = X_WB p_B:
 ///
 ///     p_F = X_WF^-1 p_W                        fixed vertices
-///     p_M = X_FM(reference pose)^-1 X_WF^-1 p_W   mobile vertices; with mobile_axes X_WM^-1 p_W
+///     p_M = X_FM(reference pose)^-1 X_WF^-1 p_W   mobile vertices; with mobile_axes or anatomy X_WM^-1 p_W
 ///
 /// Each coordinate, conversion from metres included, is computed in extended precision and rounded once. With
 /// millimetres, the centre 0, the standard axes and a reference pose of zero, vertices keep every bit.
 ///
 /// Throws UsageError if the description is inconsistent (axes that are not orthonormal, landmarks that coincide,
 /// meshes whose sizes suggest two units, coordinates too large), MeshError if a fit finds nothing or an axis more
-/// than 45 degrees from the one described. One line that begins with the part of the description it is about
+/// than 45 degrees from the one described, and for a reference pose from the anatomy if the femur shows no condyles. One line that begins with the part of the description it is about
 /// ("frame", "frame.centre", "units") or the name of the body.
 ///
 /// Linear in the meshes, but for a fit, which searches the surface.

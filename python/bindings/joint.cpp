@@ -3,12 +3,18 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <array>
+#include <optional>
+#include <string>
+#include <tuple>
+
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/joint_checks.hpp"
+#include "condyle/zero_pose.hpp"
 #include "io/mesh/polygon_rule.hpp"
 #include "io/result/caveats.hpp"
 #include "joint_description.hpp"
@@ -184,6 +190,19 @@ void bind_joint(py::module_& module) {
                                                  translation.y(),
                                                  translation.z()};
                              })
+      .def("zero",
+           [](const JointHandle& h) {
+             const ZeroPose zero = [&] {
+               const py::gil_scoped_release released;
+               return zero_pose(h.joint());
+             }();
+             std::optional<std::array<double, 3>> femur;
+             if (zero.femur)
+               femur = {zero.femur->flexion.degrees(), zero.femur->adduction.degrees(),
+                        zero.femur->internal_rotation.degrees()};
+             return std::tuple(std::string(name_of(zero.from)), zero.is_neutral(), femur,
+                               zero_text(h.joint(), zero));
+           })
       .def("part",
            [](const JointHandle& h, bool of_fixed, const std::string& part) {
              const py::gil_scoped_release released;

@@ -5,6 +5,7 @@
 #include "arrays.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "condyle/zero_pose.hpp"
 
 namespace condyle::python {
 namespace {
@@ -91,6 +92,8 @@ JointDescription description_in(const py::dict& given) {
   joint.reference_pose = {
       {Angle::degrees(degrees[0]), Angle::degrees(degrees[1]), Angle::degrees(degrees[2])},
       vector_in(at("reference_translation_mm"), "reference_pose")};
+  for (const ZeroFrom from : {ZeroFrom::stated, ZeroFrom::anatomy})
+    if (word(given, "zero_from") == name_of(from)) joint.zero_from = from;
   return joint;
 }
 

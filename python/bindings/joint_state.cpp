@@ -51,8 +51,8 @@ void members(T& value, const Each& each) {
     auto& [normal, offset] = value;
     each(normal, offset);
   } else if constexpr (std::is_same_v<Struct, Joint>) {
-    auto& [name, kind, side, fixed, mobile, anatomy, frame, posed, implant] = value;
-    each(name, kind, side, fixed, mobile, anatomy, frame, posed, implant);
+    auto& [name, kind, side, fixed, mobile, anatomy, frame, posed, implant, zero_from] = value;
+    each(name, kind, side, fixed, mobile, anatomy, frame, posed, implant, zero_from);
   } else if constexpr (std::is_same_v<Struct, JointImplant>) {
     auto& [fixed_mesh, mobile_mesh, cup_axis, pair, why_no_pair] = value;
     each(fixed_mesh, mobile_mesh, cup_axis, pair, why_no_pair);
@@ -124,9 +124,10 @@ void members(T& value, const Each& each) {
     auto& [flexion, adduction, internal_rotation, translation] = value;
     each(flexion, adduction, internal_rotation, translation);
   } else if constexpr (std::is_same_v<Struct, JointDescription>) {
-    auto& [name, kind, side, units, frame, pose, anatomy, translation_frame, fixed_in_W, mobile_in_W, parts] =
-        value;
-    each(name, kind, side, units, frame, pose, anatomy, translation_frame, fixed_in_W, mobile_in_W, parts);
+    auto& [name, kind, side, units, frame, pose, zero_from, anatomy, translation_frame, fixed_in_W,
+           mobile_in_W, parts] = value;
+    each(name, kind, side, units, frame, pose, zero_from, anatomy, translation_frame, fixed_in_W, mobile_in_W,
+         parts);
   } else if constexpr (std::is_same_v<Struct, LikelyUnit>) {
     auto& [unit, reason] = value;
     each(unit, reason);
@@ -137,9 +138,8 @@ void members(T& value, const Each& each) {
     auto& [unit, bounds] = value;
     each(unit, bounds);
   } else if constexpr (std::is_same_v<Struct, JointPlacement>) {
-    auto& [X_WF, sphere, cylinder, body, rotation, errors, pose, from_landmarks, fixed, mobile, notes] =
-        value;
-    each(X_WF, sphere, cylinder, body, rotation, errors, pose, from_landmarks, fixed, mobile, notes);
+    auto& [X_WF, sphere, cylinder, body, rotation, errors, pose, zero_from, fixed, mobile, notes] = value;
+    each(X_WF, sphere, cylinder, body, rotation, errors, pose, zero_from, fixed, mobile, notes);
   } else if constexpr (std::is_same_v<Struct, io::MeshEntry>) {
     auto& [part, mesh, repairs, contact, polygons, scale, X_BG] = value;
     each(part, mesh, repairs, contact, polygons, scale, X_BG);

@@ -18,12 +18,16 @@ py::tuple measure_tuple(const measure::MeasureDefinition& each, const measure::H
   const measure::Measure& measure = each.of(measures);
   const auto text = [](std::string_view view) { return py::str(view.data(), view.size()); };
   const py::object normal =
-      each.normal ? py::object(py::make_tuple(each.normal->low, each.normal->high, text(each.normal->meaning),
-                                              text(each.normal->source)))
-                  : py::none();
+      each.normal
+          ? py::object(py::make_tuple(
+                each.normal->low, each.normal->high, text(each.normal->people),
+                each.normal->count > 0 ? py::object(py::int_(each.normal->count)) : py::object(py::none()),
+                text(each.normal->meaning), text(each.normal->source)))
+          : py::none();
   return py::make_tuple(text(each.key), text(name_of(each.part)), text(each.unit),
                         optional_number(measure.value), measure.why_none, measure.note, text(each.definition),
-                        text(each.measured_by), text(each.source), each.in_pelvis_frame, normal);
+                        text(each.measured_by), text(each.source), each.in_pelvis_frame, normal,
+                        each.normal && each.normal->are_patients);
 }
 
 /// A column of one number per direction, NaN where there is none.

@@ -12,7 +12,7 @@ from ._clock_face import ClockFace, clock_face, find_neck_axis, find_rim_clock, 
 from ._contact_checks import ContactNote
 from ._contact_forces import ContactForces, ForcePatch, VertexForces, VertexStiffness
 from ._depth_range import DeepestPlace, DepthLimit, DepthRange
-from ._described_joint import BodyPart, JointNote, PartParameter
+from ._described_joint import BodyPart, JointNote, PartParameter, ZeroPose
 from ._errors import CondyleError, FileError, JointWarning, MeshError, OutOfRangeError, ReferenceContactError
 from ._errors import UnknownNameError, UsageError
 from ._first_contact import FirstContact, RotationLimits
@@ -55,7 +55,7 @@ __all__ = [
     "ContactEnd", "ContactForces", "ContactFrames", "ContactInterval", "ContactMeasures", "ContactNote", "ContactPatch", "ContactRamp",
     "ContactTotals", "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit", "DepthRange", "Depths", "Design",
     "ElasticContact", "ElasticContactResults", "ElasticLayer", "EndingPair", "FileError", "Finding", "FirstContact", "FrameContact",
-    "FollowedRange", "HipMeasure", "HipMeasures", "MeasureBand", "NormalRange", "ForcePatch", "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointContact", "JointMotion", "JointNote", "PartParameter",
+    "FollowedRange", "HipMeasure", "HipMeasures", "MeasureBand", "NormalRange", "ForcePatch", "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointContact", "JointMotion", "JointNote", "PartParameter", "ZeroPose",
     "JointProposal", "JointWarning", "KINDS", "KNOWN_BY", "Label", "LabelMap", "LabelNote", "LabelPiece", "LabelSurface", "Limit",
     "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Model", "ModelCoordinate", "ModelJoint", "ModelMesh", "ModelNote", "Motion", "MotionLimit",
     "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",

@@ -14,7 +14,7 @@ from ._errors import UsageError, unknown, warn
 from ._mesh import TriMesh
 from ._native import Joint as NativeJoint
 from ._poses import ManyNumbers, ManyPosesLike, OnePoseLike, Pose, PoseLike, Poses
-from ._words import Anatomy, Body, JointKind, ParameterKind, PartContact, Side, TranslationFrame, text_of, word
+from ._words import Anatomy, Body, JointKind, ParameterKind, PartContact, Side, TranslationFrame, ZeroFrom, text_of, word
 
 
 @dataclass(frozen=True)
@@ -51,6 +51,21 @@ class PartParameter:
     as_given: float
     range: tuple[float, float]
     sigma: float
+
+
+@dataclass(frozen=True)
+class ZeroPose:
+    """The pose at which a joint's angles are zero.
+
+    `known_by`: "as_given", the pose in which the meshes are given; "stated", "landmarks" of both bodies, or "anatomy", the condyles of
+    the femur. `femur_deg` are the angles at which the femur of a hip lies there by its condyles, None where it shows none;
+    `is_neutral` is False if these are more than 5 degrees off, or nothing is known. `text` is one sentence.
+    """
+
+    known_by: ZeroFrom
+    is_neutral: bool
+    femur_deg: Optional[tuple[float, float, float]]
+    text: str
 
 
 @dataclass(frozen=True)
@@ -164,6 +179,15 @@ class DescribedJoint:
         six = self._native.reference_pose
         pose: Pose = self._native.poses_at(np.array([six[:3]]), np.array([six[3:]]))[0]
         return pose
+
+    @property
+    def zero(self) -> ZeroPose:
+        """What zero angles are known by, and how the femur of a hip lies there.
+
+        C++: `condyle::zero_pose` in condyle/zero_pose.hpp.
+        """
+        known_by, is_neutral, femur_deg, text = self._native.zero()
+        return ZeroPose(known_by, is_neutral, None if femur_deg is None else (femur_deg[0], femur_deg[1], femur_deg[2]), text)
 
     @property
     def scope(self) -> str:

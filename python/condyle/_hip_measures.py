@@ -17,10 +17,12 @@ from ._words import Progress, count, number, progress_of
 
 
 class NormalRange(NamedTuple):
-    """Between `low` and `high` lie the measures of other people: `meaning` says which, `source` where from."""
+    """Between `low` and `high` lie the measures of `people`, `count` of them if it is known: `meaning` says which measures, `source` where from."""
 
     low: float
     high: float
+    people: str
+    count: Optional[int]
     meaning: str
     source: str
 
@@ -39,7 +41,8 @@ class HipMeasure:
     """One measure: `value` in `unit` ("mm", "deg", "h" or "1"), None where the meshes do not show it, and then `why_none`.
 
     `note` is to be read with the value; `measured_by` names the planes, axes and points in :attr:`HipMeasures.geometry` that it is
-    measured by; `in_pelvis_frame`: the value turns with the frame of the pelvis, and with its tilt.
+    measured by; `in_pelvis_frame`: the value turns with the frame of the pelvis, and with its tilt. `normal` is a range of people with
+    usual hips, `patients` one of patients, which is not called normal.
     """
 
     key: str
@@ -54,6 +57,7 @@ class HipMeasure:
     in_pelvis_frame: bool
     normal: Optional[NormalRange]
     band: Optional[MeasureBand] = None
+    patients: Optional[NormalRange] = None
 
 
 class HipMeasures(Mapping[str, HipMeasure]):
@@ -104,9 +108,11 @@ class HipMeasures(Mapping[str, HipMeasure]):
             progress_of(progress))
         self._by_key: dict[str, HipMeasure] = {}
         for each in found.pop("measures"):
-            (key, part, unit, value, why_none, note, definition, by, source, in_pelvis_frame, normal), band = each
+            (key, part, unit, value, why_none, note, definition, by, source, in_pelvis_frame, others, are_patients), band = each
+            of_others = others and NormalRange(*others)
             self._by_key[key] = HipMeasure(key, part, unit, value, why_none, note, definition, tuple(by.split(", ")), source,
-                                           in_pelvis_frame, normal and NormalRange(*normal), band and MeasureBand(*band))
+                                           in_pelvis_frame, None if are_patients else of_others, band and MeasureBand(*band),
+                                           of_others if are_patients else None)
         found["geometry"] = json.loads(found["geometry"])
         for name, values in found.items():
             setattr(self, name, values)

@@ -62,7 +62,8 @@ class Joint(DescribedJoint):
     axes : "RAS" or "LPS", optional
         Or `anterior` and `superior`, unit vectors; or `landmarks`, points by their names. None of them: X and Y.
     reference_pose : mapping, optional
-        In which the mobile mesh is given: angles in degrees by their names, x, y and z in `units`.
+        In which the mobile mesh is given: angles in degrees by their names, x, y and z in `units`. One that is given, `{}` too, says
+        where neutral is; with `{"from": "anatomy"}` the angles of a hip follow from the condyles of its femur.
     fixed_in_W, mobile_in_W : (4, 4) numbers, optional
         Where the frame of each mesh lies in the frame of the lengths given here, translation in `units`.
 
@@ -95,7 +96,7 @@ class Joint(DescribedJoint):
                  fit_within: Optional[Ball] = None, axes: Optional[Axes] = None,
                  anterior: Optional[ArrayLike] = None, superior: Optional[ArrayLike] = None,
                  landmarks: Optional[Mapping[str, ArrayLike]] = None,
-                 reference_pose: Optional[Mapping[str, float]] = None, fixed_in_W: Optional[ArrayLike] = None,
+                 reference_pose: Optional[Mapping[str, Union[float, str]]] = None, fixed_in_W: Optional[ArrayLike] = None,
                  mobile_in_W: Optional[ArrayLike] = None, fixed_name: str = "fixed",
                  mobile_name: str = "mobile") -> None:
         images = [body._image if isinstance(body, LabelSurface) else None for body in (fixed, mobile)]

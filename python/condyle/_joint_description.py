@@ -31,8 +31,9 @@ def description_of(*, name: Any, kind: Any, joint: Any, side: Any, units: Any, t
         raise UsageError(f"landmarks: points by their names are needed, not {type(landmarks).__name__}")
     anterior, superior = _directions(axes, anterior, superior, landmarks)
     word(kind, "kind", JointKind)
-    angles, translation = position_in({} if reference_pose is None else reference_pose,
-                                      _native.angle_names_of(anatomy), "reference_pose", is_free=kind == "free")
+    zero_from, coordinates = _zero(reference_pose)
+    angles, translation = position_in(coordinates, _native.angle_names_of(anatomy), "reference_pose",
+                                      is_free=kind == "free")
     frame = word(translation_frame, "translation_frame", TranslationFrame)
     _refuse_what_files_refuse(kind, anatomy, frame, angles)
     return {
@@ -48,8 +49,18 @@ def description_of(*, name: Any, kind: Any, joint: Any, side: Any, units: Any, t
             for point, place in landmarks.items()},
         "fixed_in_W": _pose_in_mm(fixed_in_W, to_mm, "fixed_in_W"),
         "mobile_in_W": _pose_in_mm(mobile_in_W, to_mm, "mobile_in_W"),
-        "reference_angles_deg": angles, "reference_translation_mm": translation * to_mm,
+        "zero_from": zero_from, "reference_angles_deg": angles, "reference_translation_mm": translation * to_mm,
     }
+
+
+def _zero(reference_pose: Any) -> tuple[str, Any]:
+    """What zero angles are known by, and the coordinates given."""
+    if reference_pose is None:
+        return "as_given", {}
+    if not isinstance(reference_pose, Mapping) or "from" not in reference_pose:
+        return "stated", reference_pose
+    return (word(reference_pose["from"], "reference_pose: from", ("anatomy",)),
+            {name: value for name, value in reference_pose.items() if name != "from"})
 
 
 def _refuse_what_files_refuse(kind: str, anatomy: str, frame: str, angles: NDArray[np.float64]) -> None:

@@ -2,8 +2,10 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 #include <vector>
 
+#include "answer/surface_notes.hpp"
 #include "condyle/answer.hpp"
 #include "core/formatted.hpp"
 #include "kinematics/body_pieces.hpp"
@@ -56,23 +58,26 @@ void note_centres(const Joint& joint, std::span<const motion::Motion> motions,
 
 /// The body on whose cut a motion ends; null if it ends elsewhere. The missing bone goes on beyond the cut, and would have met the other bone
 /// no later.
-const Body* cut_body_of(const Joint& joint, const motion::MotionLimit& limit) {
+const Body* cut_body_of(const Joint& joint, const motion::BearingFinding& bearing,
+                        const motion::MotionLimit& limit) {
   const std::optional<motion::ContactWitness>& contact = limit.end.contact;
   if (!contact) return nullptr;
-  if (is_on_cut(joint.fixed, contact->fixed_point)) return &joint.fixed;
-  return is_on_cut(joint.mobile, contact->mobile_point) ? &joint.mobile : nullptr;
+  if (is_on_cut(bearing.fixed_cuts, contact->fixed_point)) return &joint.fixed;
+  return is_on_cut(bearing.mobile_cuts, contact->mobile_point) ? &joint.mobile : nullptr;
 }
 
 void note_cuts(const Joint& joint, std::span<const motion::MotionLimit> limits,
-               std::vector<RangeNote>& notes) {
+               const motion::BearingFinding& bearing, std::vector<RangeNote>& notes) {
   for (const Body* body : {&joint.fixed, &joint.mobile}) {
     std::string motions;
     for (const motion::MotionLimit& limit : limits)
-      if (cut_body_of(joint, limit) == body) motions += (motions.empty() ? "" : ", ") + limit.motion.name;
+      if (cut_body_of(joint, bearing, limit) == body)
+        motions += (motions.empty() ? "" : ", ") + limit.motion.name;
     if (!motions.empty())
-      notes.push_back(
-          {RangeNoteCode::limit_on_cut, "no limits: " + motions + " on the face that closes " + body->name +
-                                            " where its image ends; the joint stops there at the latest"});
+      notes.push_back({RangeNoteCode::limit_on_cut,
+                       "no limits: " + motions + " on the face that closes " + body->name +
+                           " where its image, or the bone, was cut off; the joint stops there at "
+                           "the latest"});
   }
 }
 
@@ -206,6 +211,10 @@ std::string_view name_of(RangeNoteCode code) noexcept {
       return "sliding_surfaces";
     case RangeNoteCode::translation_ends:
       return "translation_ends";
+    case RangeNoteCode::bones_touch:
+      return "bones_touch";
+    case RangeNoteCode::coarse_mesh:
+      return "coarse_mesh";
     case RangeNoteCode::differs_from_closed_form:
       return "differs_from_closed_form";
     case RangeNoteCode::last_value_left_out:
@@ -217,7 +226,7 @@ std::string_view name_of(RangeNoteCode code) noexcept {
 std::vector<RangeNote> range_notes(const Joint& joint, std::span<const motion::MotionLimit> limits,
                                    const motion::RangeOptions& range, const motion::BearingFinding& bearing) {
   std::vector<RangeNote> notes;
-  note_cuts(joint, limits, notes);
+  note_cuts(joint, limits, bearing, notes);
   note_part_cuts(joint, limits, notes);
   std::vector<motion::Motion> motions;
   for (const motion::MotionLimit& limit : limits) motions.push_back(limit.motion);
@@ -226,6 +235,7 @@ std::vector<RangeNote> range_notes(const Joint& joint, std::span<const motion::M
   if (range.bearing.rule == motion::BearingRule::leave_out && bearing.narrow_margin)
     note_narrow_margin(joint, *bearing.narrow_margin, notes);
   note_sliding(joint, limits, bearing, notes);
+  for (RangeNote& note : answer::surface_notes(joint, range, bearing)) notes.push_back(std::move(note));
   note_pieces(joint, limits, bearing, notes);
   return notes;
 }

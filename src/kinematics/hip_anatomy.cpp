@@ -10,7 +10,7 @@ namespace condyle::kinematics {
 namespace {
 
 /// The socket is looked for within this many head radii of the head's centre, with a radius up to the other.
-constexpr double socket_reach = 1.5, largest_socket = 1.4;
+constexpr double socket_reach = 1.5;
 
 /// The neck begins where the head's sphere ends, and is over before the trochanters spread; in head radii.
 constexpr double neck_begins = 1.2, neck_ends = 1.7;
@@ -72,7 +72,7 @@ std::optional<SphericalPatch> sphere_around(const TriMesh& fixed, const Sphere& 
     return find_socket_round(fixed, head,
                              {.part = SphericalPart::socket,
                               .smallest_radius = 0.9 * head.radius,
-                              .largest_radius = largest_socket * head.radius,
+                              .largest_radius = largest_socket_in_heads * head.radius,
                               .within = Sphere{head.centre, socket_reach * head.radius},
                               .resamples = resamples});
   } catch (const MeshError&) {

@@ -21,6 +21,9 @@ struct HipAnatomy {
 /// Centroid of a surface, by area; the origin if it has none.
 Vec3 area_centroid(const TriMesh& mesh);
 
+/// The radius that a socket may have, in that of its head.
+inline constexpr double largest_socket_in_heads = 1.4;
+
 /// The sphere with most supporting area on the fixed body near a head; empty if there is none.
 std::optional<SphericalPatch> sphere_around(const TriMesh& fixed, const Sphere& head,
                                             std::size_t resamples = 0);

@@ -12,11 +12,14 @@
 #include "kinematics/body_pieces.hpp"
 #include "kinematics/bone_sizes.hpp"
 #include "kinematics/cut_parts.hpp"
+#include "kinematics/flat_end_notes.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_axes.hpp"
 #include "kinematics/hip_parts.hpp"
 #include "kinematics/long_bone_checks.hpp"
+#include "kinematics/loose_head.hpp"
 #include "kinematics/shoulder_checks.hpp"
+#include "kinematics/turned_leg.hpp"
 #include "mesh/doubled_triangles.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
@@ -62,6 +65,7 @@ class Notes {
   void add(std::vector<JointNote> others) {
     std::move(others.begin(), others.end(), std::back_inserter(notes_));
   }
+  const std::vector<JointNote>& so_far() const noexcept { return notes_; }
   std::vector<JointNote> take() { return std::move(notes_); }
 
  private:
@@ -315,6 +319,7 @@ void check_ball(const Joint& joint, const JointPlacement& placement, Notes& note
   if (*socket) {
     check_hip(joint, *head, **socket, notes);
   } else {
+    if (auto note = kinematics::loose_head_note(joint, head->fit.sphere)) notes.add({std::move(*note)});
     check_side_without_socket(joint, notes);
     check_distance(joint, head->fit.sphere, notes);
   }
@@ -375,6 +380,8 @@ std::string_view name_of(JointNoteCode code) noexcept {
       return "doubled_triangles";
     case JointNoteCode::cut_by_view:
       return "cut_by_view";
+    case JointNoteCode::flat_end:
+      return "flat_end";
     case JointNoteCode::same_mesh:
       return "same_mesh";
     case JointNoteCode::unlikely_joint:
@@ -393,6 +400,8 @@ std::string_view name_of(JointNoteCode code) noexcept {
       return "head_socket_apart";
     case JointNoteCode::socket_smaller_than_head:
       return "socket_smaller_than_head";
+    case JointNoteCode::socket_larger_than_head:
+      return "socket_larger_than_head";
     case JointNoteCode::axes_not_upright:
       return "axes_not_upright";
     case JointNoteCode::axes_turned:
@@ -403,6 +412,8 @@ std::string_view name_of(JointNoteCode code) noexcept {
       return "mirrored";
     case JointNoteCode::bodies_disagree:
       return "bodies_disagree";
+    case JointNoteCode::turned_leg:
+      return "turned_leg";
   }
   return "";
 }
@@ -417,6 +428,7 @@ std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& pla
     check_surface(*body, notes);
     check_cuts(*body, notes);
   }
+  notes.add(kinematics::flat_end_notes(joint));
   check_fit(joint, placement, notes);
   const bool is_same = are_one_mesh(joint.fixed.mesh, joint.mobile.mesh);
   if (is_same)
@@ -425,6 +437,7 @@ std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& pla
   if (is_same || !sizes.are_bones) return notes.take();
   if (joint.is_hip()) {
     check_ball(joint, placement, notes);
+    if (auto note = kinematics::turned_leg_note(joint, notes.so_far())) notes.add({std::move(*note)});
     return notes.take();
   }
   check_stated_joint(joint, notes);

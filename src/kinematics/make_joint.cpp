@@ -15,6 +15,7 @@
 #include "core/rounded.hpp"
 #include "kinematics/body_pieces.hpp"
 #include "kinematics/cut_parts.hpp"
+#include "kinematics/femoral_axes.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_parts.hpp"
 #include "kinematics/posed_parts.hpp"
@@ -245,10 +246,13 @@ std::vector<std::string> processing_of(const JointPlacement& placement) {
     notes.push_back(
         formatted("axes made orthonormal: lengths were off by %.1e and %.1e, the right angle by %.1e",
                   errors.anterior_length, errors.superior_length, errors.right_angle));
-  if (const JointAngles& pose = placement.reference_pose.angles; placement.pose_from_landmarks)
-    notes.push_back("the landmarks of both bodies give the reference pose: flexion " +
-                    core::rounded(pose.flexion.degrees(), 2) + ", adduction " +
-                    core::rounded(pose.adduction.degrees(), 2) + ", internal rotation " +
+  if (const JointAngles& pose = placement.reference_pose.angles;
+      placement.zero_from == ZeroFrom::landmarks || placement.zero_from == ZeroFrom::anatomy)
+    notes.push_back(std::string(placement.zero_from == ZeroFrom::landmarks
+                                    ? "the landmarks of both bodies give"
+                                    : "the condyles of the femur give") +
+                    " the reference pose: flexion " + core::rounded(pose.flexion.degrees(), 2) +
+                    ", adduction " + core::rounded(pose.adduction.degrees(), 2) + ", internal rotation " +
                     core::rounded(pose.internal_rotation.degrees(), 2) + " degrees");
   if (placement.sphere) {
     const SphereFit& fit = placement.sphere->fit;
@@ -274,25 +278,52 @@ std::vector<std::string> processing_of(const JointPlacement& placement) {
   return notes;
 }
 
+/// Angles at which the femur of a hip lies in the pose of its mesh, by its condyles.
+JointAngles angles_by_condyles(const JointDescription& description, const Pose& X_FW, const Body& mobile,
+                               const JointPlacement& placement) {
+  if (description.anatomy != Anatomy::hip || description.kind == JointKind::hinge)
+    throw UsageError("reference_pose: anatomy gives that of a hip only");
+  if (description.reference_pose.angles != JointAngles{})
+    throw UsageError("reference_pose: angles follow from the anatomy: leave them out");
+  const Mesh femur = placed(X_FW, description.mobile_in_W, mm_per(description.units), mobile);
+  if (mobile.head)
+    kinematics::keep_head(femur, *placed_head(core::composed(X_FW, description.mobile_in_W), mobile.head));
+  else if (placement.sphere && placement.fitted_body == BodyRole::mobile)
+    kinematics::keep_head(femur, placement.sphere->fit.vertices);
+  const std::optional<Eigen::Matrix3d>& axes = kinematics::femoral_axes(femur);
+  if (!axes)
+    throw MeshError("reference_pose: " + mobile.name +
+                    " shows no condyles: its anatomy does not say how it lies");
+  Pose X_FN = Pose::Identity();
+  X_FN.linear() = *axes;
+  return angles_at(description.coordinates(), X_FN);
+}
+
 /// X_MW at zero angles, and the reference pose that goes with it.
-Pose mobile_frame(const JointDescription& description, const Pose& X_FW, JointPlacement& placement) {
+Pose mobile_frame(const JointDescription& description, const Pose& X_FW, const Body& mobile,
+                  JointPlacement& placement) {
   if (!description.frame.mobile_axes) {
     placement.reference_pose = description.reference_pose;
-    return core::composed(inverted(pose_at(description.coordinates(), description.reference_pose,
-                                           description.translation_frame)),
-                          X_FW);
+    placement.zero_from = description.zero_from;
+    if (description.zero_from == ZeroFrom::anatomy)
+      placement.reference_pose.angles = angles_by_condyles(description, X_FW, mobile, placement);
+    else if (description.reference_pose.angles != JointAngles{})
+      placement.zero_from = ZeroFrom::stated;
+    return core::composed(
+        inverted(pose_at(description.coordinates(), placement.reference_pose, description.translation_frame)),
+        X_FW);
   }
   if (description.kind == JointKind::hinge)
     throw UsageError("frame: a hinge takes the landmarks of one body");
   if (description.anatomy != Anatomy::hip)
     throw UsageError("frame: landmarks of pelvis and femur are those of a hip");
-  if (description.reference_pose != JointCoordinates{})
+  if (description.reference_pose != JointCoordinates{} || description.zero_from == ZeroFrom::anatomy)
     throw UsageError("reference_pose: follows from the landmarks of both bodies: leave it out");
   try {
     const Pose X_WM =
         frame_from_landmarks(placement.X_WF.translation(), description.side, *description.frame.mobile_axes);
     placement.reference_pose.angles = angles_at(description.coordinates(), core::composed(X_FW, X_WM));
-    placement.pose_from_landmarks = true;
+    placement.zero_from = ZeroFrom::landmarks;
     return inverted(X_WM);
   } catch (const UsageError& error) {
     throw UsageError(std::string("frame: ") + error.what());
@@ -335,7 +366,7 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
   check_rounding(description, placement.X_WF);
 
   const Pose X_FW = inverted(placement.X_WF);
-  const Pose X_MW = mobile_frame(description, X_FW, placement);
+  const Pose X_MW = mobile_frame(description, X_FW, mobile, placement);
   const double scale = mm_per(description.units);
   fixed.mesh = placed(X_FW, description.fixed_in_W, scale, fixed);
   mobile.mesh = placed(X_MW, description.mobile_in_W, scale, mobile);
@@ -359,6 +390,7 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
               std::move(mobile),
               description.anatomy,
               description.translation_frame};
+  joint.zero_from = placement.zero_from;
   if (!parts.empty())
     joint.posed = PosedParts{std::move(parts),
                              {joint.fixed.mesh, joint.fixed.image, joint.fixed.head},

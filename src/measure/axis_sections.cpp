@@ -7,13 +7,19 @@
 namespace condyle::measure {
 namespace {
 
+/// Whether all of it lies in a face that closes the mesh where it ends: then any part of it ends there.
+bool is_in_end(const ContourPiece& piece) {
+  return piece.from_end && piece.to_end;
+}
+
 /// Keeps the part of a piece between two of its parameters.
 bool keep_between(ContourPiece& piece, double low, double high) {
   low = std::max(low, 0.0), high = std::min(high, 1.0);
   if (!(low < high)) return false;
   const Vec2 from = piece.from, along = piece.to - piece.from;
-  if (low > 0) piece.from = from + low * along, piece.from_end = false;
-  if (high < 1) piece.to = from + high * along, piece.to_end = false;
+  const bool ends = is_in_end(piece);
+  if (low > 0) piece.from = from + low * along, piece.from_end = ends;
+  if (high < 1) piece.to = from + high * along, piece.to_end = ends;
   return true;
 }
 
@@ -31,7 +37,7 @@ Contour half(const Contour& contour, double sign) {
       Vec2 on_axis = piece.from + a / (a - b) * (piece.to - piece.from);
       on_axis.y() = 0;
       (a < 0 ? piece.from : piece.to) = on_axis;
-      (a < 0 ? piece.from_end : piece.to_end) = false;
+      (a < 0 ? piece.from_end : piece.to_end) = is_in_end(piece);
     }
     if (sign < 0) piece = reversed(piece);
     out.push_back(piece);

@@ -9,13 +9,7 @@ namespace condyle::measure {
 /// Why a femur shows no condyles; empty if it does: a search of some tens of milliseconds.
 std::string why_no_condyles(const TriMesh& femur, const Sphere& head);
 
-/// The line that touches both condyles from behind, seen along the line from the head's centre to their middle: the centroid, by
-/// area, of the last 45 mm of the bone along that line.
-///
-///         anterior
-///       .--.    .--.        What is seen is the convex outline of those 45 mm; the line is its longest edge
-///      (    `--'    )       that faces back to within 60 degrees.
-///       `--'----`--'
+/// kinematics::condylar_line(), from medial to lateral.
 std::optional<CondyleGeometry> condyle_geometry(const TriMesh& femur, const Sphere& head,
                                                 const BodyAxes& axes);
 

@@ -1,9 +1,12 @@
 #include "measure/measure_acetabulum.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
+#include "core/formatted.hpp"
 #include "measure/centre_edge.hpp"
 #include "measure/degree.hpp"
 #include "measure/rim.hpp"
@@ -60,6 +63,15 @@ std::vector<Measure*> plane_measures(AcetabulumMeasures& out) {
           &out.rim_radius,           &out.rim_height};
 }
 
+/// That the rim goes on where the mesh of the hip bone ends; empty if it does not.
+std::string cut_rim_note(const SocketWall& wall, const std::vector<RimHour>& rim) {
+  const auto missing = std::count_if(rim.begin(), rim.end(), [](const RimHour& hour) { return !hour.point; });
+  if (missing == 0 || std::find(wall.ends.begin(), wall.ends.end(), 1) == wall.ends.end()) return {};
+  return core::formatted(
+      "the hip bone ends in the rim: it is in the mesh over %.0f of 360 degrees",
+      360.0 * static_cast<double>(rim_steps - static_cast<std::size_t>(missing)) / rim_steps);
+}
+
 void set_edges(const SocketWall& wall, const Sphere& head, const BodyAxes& axes, AcetabulumMeasures& out) {
   const auto set = [&](const Vec3& direction, Measure& measure, std::optional<Vec3>& edge) {
     const auto [found, why_none] = centre_edge(wall, head, axes.superior, direction);
@@ -89,7 +101,10 @@ AcetabulumMeasures measure_acetabulum(const TriMesh& hip_bone, const Sphere& hea
   set_opening(*found.plane, head, axes, out);
   set_chords(wall, out.rim, head, axes, out);
   out.coverage = measured(coverage_of(out.rim));
-  for (Measure* measure : plane_measures(out)) add_note(*measure, parts.socket_note);
+  for (Measure* measure : plane_measures(out)) {
+    add_note(*measure, parts.socket_note);
+    add_note(*measure, cut_rim_note(wall, out.rim));
+  }
   out.plane = std::move(found.plane);
   return out;
 }

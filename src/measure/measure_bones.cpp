@@ -8,12 +8,12 @@
 #include "core/formatted.hpp"
 #include "core/lazy.hpp"
 #include "kinematics/cut_parts.hpp"
+#include "kinematics/flat_ends.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_parts.hpp"
 #include "kinematics/surface_points.hpp"
 #include "measure/bone_pieces.hpp"
 #include "measure/femoral_version.hpp"
-#include "measure/flat_ends.hpp"
 #include "measure/ischiofemoral.hpp"
 #include "measure/joint_space.hpp"
 #include "measure/measure_acetabulum.hpp"
@@ -64,7 +64,7 @@ std::vector<char> ends_of(const Body& body, const Mesh& bone) {
   }
   if (body.image && !body.image->cuts.empty())
     for (std::size_t v = 0; v < ends.size(); ++v) ends[v] |= is_on_cut(body, bone.vertices()[v]);
-  if (const std::vector<ImageCut> flat = flat_ends(bone); !flat.empty())
+  if (const std::vector<ImageCut>& flat = kinematics::flat_ends(bone); !flat.empty())
     for (std::size_t v = 0; v < ends.size(); ++v) ends[v] |= is_on_cut(flat, bone.vertices()[v]);
   return ends;
 }

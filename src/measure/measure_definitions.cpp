@@ -18,19 +18,47 @@ constexpr std::string_view murray = "Murray 1993";
 constexpr std::string_view section = "Wiberg 1939, in a section: mathematics 11";
 
 // Normal ranges, only of a definition like ours.
-constexpr NormalRange alpha_normal{30, 66, "anatomic range", "Acta Orthop 2014 85:147"};
-constexpr NormalRange neck_shaft_normal{118, 126, "interquartile range of 1070 femora by 3D CT, median 122.2",
-                                        "PMC4775021"};
+constexpr bool patients = true, not_patients = false;
+constexpr std::string_view mature_femora = "data sets of skeletally mature femora, by 3D CT";
+constexpr NormalRange alpha_normal{30,
+                                   66,
+                                   "people whom the source at hand does not describe",
+                                   0,
+                                   not_patients,
+                                   "anatomic range",
+                                   "Acta Orthop 2014 85:147"};
+constexpr NormalRange neck_shaft_normal{
+    118, 126, mature_femora, 1070, not_patients, "interquartile range, median 122.2", "PMC4775021"};
 constexpr NormalRange femoral_version_normal{
-    7, 20,
-    "interquartile range of 1070 femora by 3D CT, median 14.2; other methods have means from 3.4 to 23.2",
+    7,
+    20,
+    mature_femora,
+    1070,
+    not_patients,
+    "interquartile range, median 14.2; other methods have means from 3.4 to 23.2",
     "PMC4775021; Orthoglobe 42116605"};
-constexpr NormalRange version_normal{8.8, 22.6, "mean 15.7, one standard deviation either way, by 3D CT",
+constexpr NormalRange version_normal{8.8,
+                                     22.6,
+                                     "patients who were investigated for impingement, by 3D CT",
+                                     17,
+                                     patients,
+                                     "mean 15.7, one standard deviation either way",
                                      "PubMed 21181403"};
-constexpr NormalRange lateral_edge_normal{23, 33, "controls, on radiographs: the silhouette, not a section",
-                                          "PMC4353515"};
+constexpr NormalRange lateral_edge_normal{
+    23,
+    33,
+    "patients whose hip was dislocated in surgery and needed no trimming of its rim, on radiographs",
+    21,
+    patients,
+    "reference values; of the silhouette, not a section",
+    "PMC4353515"};
 constexpr NormalRange ischiofemoral_normal{
-    21, 34, "mean 27.5, one standard deviation either way; 17 or less is narrow",
+    21,
+    34,
+    "patients with a painful hip and without ischiofemoral impingement, by MRI",
+    44,
+    patients,
+    "mean 27.5, one standard deviation either way; 17 or less is narrow",
     "rb.org.br 3162; PMC7901394"};
 
 // A row for each part: key, unit, definition, what it is measured by, source, normal range.

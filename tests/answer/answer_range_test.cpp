@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <tuple>
@@ -7,6 +9,7 @@
 
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
+#include "mesh/cut_mesh.hpp"
 #include "motion/joint_scenes.hpp"
 #include "support/parametric_shoulder.hpp"
 #include "support/test_meshes.hpp"
@@ -110,6 +113,40 @@ TEST(RangeNotes, SayThatANarrowGapLeavesLittleMargin) {
   EXPECT_EQ(notes_at(22.7), narrow);  // no margin at all
   EXPECT_EQ(notes_at(21.7, {.margin_mm = 1.0}), none) << "the margin is stated";
   EXPECT_EQ(notes_at(21.7, {.rule = motion::BearingRule::count}), none) << "any contact counts";
+}
+
+/// A head of 24 mm in a half shell with a rim at 26, whose roof above 15 mm is of a shell of this inner radius.
+Joint hip_with_roof(double inner) {
+  const std::array planes{mesh::CuttingPlane{{0, 15, 0}, -Vec3::UnitY()}};
+  const TriMesh roof = mesh::cut_by_planes(Mesh(socket({0, 0, 0}, inner, 27, 5)), "roof", planes).inner.mesh;
+  return {"hip",
+          JointKind::ball,
+          Side::right,
+          {"hip bone", joined(socket({0, 0, 0}, 26, 60, 4), roof)},
+          {"femur", joined(sphere({0, 0, 0}, 24, 5), box({-8, -200, -8}, {8, -22, 8}))}};
+}
+
+TEST(RangeNotes, SayThatBonesTouchOverTheirBearingSurface) {
+  const auto touch = [](const Joint& joint) {
+    const auto found = codes(answered(joint, {.motions = {motion::hip_motions().front()}}).notes);
+    return std::count(found.begin(), found.end(), "bones_touch") == 1;
+  };
+  // Above 15 mm lie (1 - 15 / 24) / 2 of the head, 19 %, and 25 % of what its margin leaves of it.
+  EXPECT_TRUE(touch(hip_with_roof(23.5)));
+  EXPECT_FALSE(touch(hip_with_roof(23.85))) << "0.15 mm deep";
+  EXPECT_FALSE(touch(hip_with_roof(24.5))) << "apart";
+}
+
+TEST(RangeNotes, SayThatTrianglesAreTooLong) {
+  const auto coarse = [](int head_levels) {
+    Joint joint = hip_with_roof(25);
+    joint.mobile = {"femur", joined(sphere({0, 0, 0}, 24, head_levels), box({-8, -200, -8}, {8, -22, 8}))};
+    const auto found = codes(answered(joint, {.motions = {motion::hip_motions().front()}}).notes);
+    return std::count(found.begin(), found.end(), "coarse_mesh") == 1;
+  };
+  // Edges of a quarter of a circle in 4 parts sag by R (1 - cos(11.25 deg)) = 0.46 mm, 1.1 degrees; in 2 by 1.8 mm, 4.4 degrees.
+  EXPECT_FALSE(coarse(4));
+  EXPECT_TRUE(coarse(1));
 }
 
 TEST(RangeNotes, SayThatSurfacesSlideByNatureWhereNoHeadTellsContactApart) {

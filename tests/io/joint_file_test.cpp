@@ -302,7 +302,8 @@ TEST_F(ReadJoint, AUnitThatDoesNotFitTheMeshesIsNotedButFollowed) {
   EXPECT_EQ(joint.mobile.mesh, scaled(femur_like(), 0.001));
   const auto notes = check_joint(joint, report.placement);
   ASSERT_EQ(notes.size(), 3u);
-  for (const std::size_t body : {0u, 1u}) EXPECT_EQ(notes[body].code, JointNoteCode::unlikely_size) << notes[body].text;
+  for (const std::size_t body : {0u, 1u})
+    EXPECT_EQ(notes[body].code, JointNoteCode::unlikely_size) << notes[body].text;
   EXPECT_EQ(notes[2].code, JointNoteCode::separate_pieces) << "ball and shaft";
   EXPECT_NE(notes[1].text.find("is it in metres?"), std::string::npos) << notes[1].text;
 }
@@ -417,6 +418,48 @@ TEST_F(ReadJoint, UnknownKeysAreRefusedEverywhere) {
   for (const char* other : {"rest", "reference", "rest_pose"})
     EXPECT_EQ(refusal(plain + std::string("[") + other + "]\nflexion = 5\n"),
               "line 16: " + std::string(other) + ": unknown key (did you mean \"reference_pose\"?)");
+}
+
+TEST_F(ReadJoint, TheReferencePoseSaysWhatZeroIsKnownBy) {
+  const auto zero_of = [&](const std::string& table) {
+    const io::LoadedJoint loaded = read(plain + table);
+    EXPECT_EQ(loaded.joint.zero_from, loaded.report.placement.zero_from);
+    return loaded.joint.zero_from;
+  };
+  EXPECT_EQ(zero_of(""), ZeroFrom::as_given);
+  EXPECT_EQ(zero_of("[reference_pose]\n"), ZeroFrom::stated);
+  EXPECT_EQ(zero_of("[reference_pose]\nflexion = 0\n"), ZeroFrom::stated);
+  EXPECT_EQ(zero_of("[reference_pose]\nadduction = -10\n"), ZeroFrom::stated);
+}
+
+TEST_F(ReadJoint, AReferencePoseFromTheAnatomyNeedsCondylesAndAHip) {
+  const TriMesh condyles =
+      test::joined(test::sphere({0, -390, 25}, 20, 4), test::sphere({0, -390, -25}, 20, 4));
+  const TriMesh whole = test::joined(
+      test::joined(test::sphere({0, 0, 0}, 24, 5), test::box({-8, -375, -8}, {8, -20, 8})), condyles);
+  const std::string from = "[reference_pose]\nfrom = \"anatomy\"\n";
+  io::write_mesh(folder / "femur.ply",
+                 posed(pose_at({.side = Side::right}, {{}, {}, Angle::degrees(-25)}), whole));
+  const auto [joint, report] = read(plain + from);
+  EXPECT_EQ(joint.zero_from, ZeroFrom::anatomy);
+  EXPECT_NEAR(report.placement.reference_pose.angles.internal_rotation.degrees(), -25, 1e-3);
+  EXPECT_NE(report.processing.back().find("the condyles of the femur give the reference pose"),
+            std::string::npos)
+      << report.processing.back();
+  // A head and a shaft.
+  io::write_mesh(folder / "femur.ply", femur_like());
+  try {
+    read(plain + from);
+    ADD_FAILURE() << "accepted";
+  } catch (const MeshError& error) {
+    EXPECT_NE(std::string(error.what()).find("shows no condyles"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(refusal(plain + std::string("[reference_pose]\nfrom = \"scan\"\n")).substr(0, 29),
+            "line 17: reference_pose.from:");
+  EXPECT_EQ(refusal(plain + from + "flexion = 3\n"),
+            "line 18: reference_pose.flexion: the angles follow from the anatomy: leave them out");
+  EXPECT_EQ(refusal(replaced(plain, "\"ball\"", "\"ball\"\njoint = \"knee\"") + from),
+            "line 18: reference_pose.from: anatomy gives the reference pose of a hip only");
 }
 
 TEST_F(ReadJoint, UncertaintyIsReadWithItsSeed) {

@@ -344,6 +344,58 @@ TEST(NormalHipRange, IsGivenWhereTheSourceHasAValue) {
     EXPECT_FALSE(io::normal_hip_range(none)) << none;
 }
 
+/// Two limits that turn one angle to either side, and a third that ends nowhere.
+std::vector<motion::MotionLimit> opposite_limits() {
+  std::vector<motion::MotionLimit> limits;
+  for (const auto& [name, sense, turned] :
+       {std::tuple("external_rotation", RotationSense::negative, 20.25),
+        std::tuple("internal_rotation", RotationSense::positive, 41.5),
+        std::tuple("internal_rotation_farther", RotationSense::positive, 120.0)}) {
+    motion::MotionLimit limit;
+    limit.motion = {name, JointAngle::internal_rotation, sense, {}, Angle::degrees(120)};
+    limit.end.turned = Angle::degrees(turned);
+    limit.end.reason = turned < 120 ? motion::LimitReason::contact : motion::LimitReason::end_of_range;
+    limits.push_back(limit);
+  }
+  return limits;
+}
+
+TEST(RomResult, SaysWhereAnglesCountFrom) {
+  Joint joint = arm_and_post();
+  const std::vector<motion::MotionLimit> limits = opposite_limits();
+  for (const auto& [from, word, is_neutral] : {std::tuple(ZeroFrom::as_given, "as_given", false),
+                                               {ZeroFrom::stated, "stated", true},
+                                               {ZeroFrom::landmarks, "landmarks", true},
+                                               {ZeroFrom::anatomy, "anatomy", true}}) {
+    joint.zero_from = from;
+    const Json json = Json::parse(io::rom_json({joint, limits}));
+    EXPECT_EQ(json["zero"]["from"], word);
+    EXPECT_EQ(json["zero"]["is_neutral"], is_neutral);
+    EXPECT_TRUE(json["zero"]["femur_deg"].is_null()) << "an arm has no condyles";
+    EXPECT_EQ(json["motions"][0]["zero_from"], word);
+    // A range of other people counts from neutral.
+    EXPECT_EQ(json["motions"][0]["normal_range_deg"], is_neutral ? Json(45.0) : Json(nullptr)) << word;
+    const std::string text = io::rom_text({joint, limits});
+    EXPECT_NE(text.find("  zero: "), text.npos) << text;
+    EXPECT_EQ(text.find("not compared with normal ranges") == text.npos, is_neutral) << text;
+  }
+}
+
+TEST(RomResult, HasTheTotalArcOfOppositeMotionsThatBothEndInContact) {
+  const Joint joint = arm_and_post();
+  std::vector<motion::MotionLimit> limits = opposite_limits();
+  const Json arcs = Json::parse(io::rom_json({joint, limits}))["arcs"];
+  ASSERT_EQ(arcs.size(), 1u);
+  EXPECT_EQ(arcs[0]["motions"], Json({"external_rotation", "internal_rotation"}));
+  EXPECT_NEAR(arcs[0]["arc_deg"].get<double>(), 61.75, 1e-12);
+  EXPECT_NE(
+      io::rom_text({joint, limits}).find("total arcs (deg): external_rotation to internal_rotation 61.75"),
+      std::string::npos);
+  // From another start it is another arc.
+  limits[1].motion.start.flexion = Angle::degrees(90);
+  EXPECT_TRUE(Json::parse(io::rom_json({joint, limits}))["arcs"].empty());
+}
+
 TEST(ClockHour, IsNamedAsAClockNamesIt) {
   EXPECT_EQ(io::clock_text(0), "12:00");
   EXPECT_EQ(io::clock_text(1.5), "1:30");

@@ -5,13 +5,15 @@
 
 namespace condyle::test {
 
-/// An arm hanging from the joint centre, and a post in front of it that flexion ends at.
+/// An arm hanging from the joint centre, in neutral as stated, and a post in front of it that flexion ends at.
 inline Joint arm_and_post() {
-  return {"arm and post",
-          JointKind::ball,
-          Side::right,
-          {"post", box({40, -120, -50}, {60, -80, 50})},
-          {"arm", box({-1, -100, -2}, {1, -10, 2})}};
+  Joint joint{"arm and post",
+              JointKind::ball,
+              Side::right,
+              {"post", box({40, -120, -50}, {60, -80, 50})},
+              {"arm", box({-1, -100, -2}, {1, -10, 2})}};
+  joint.zero_from = ZeroFrom::stated;
+  return joint;
 }
 
 }  // namespace condyle::test

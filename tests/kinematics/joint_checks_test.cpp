@@ -313,6 +313,20 @@ TEST(JointChecks, ASurfaceThatIsThereTwiceIsNoted) {
   EXPECT_TRUE(check_joint(joint, {}).empty());
 }
 
+TEST(JointChecks, AnImplantsBallInABonySocketIsNoted) {
+  const auto noted = [](double radius) {
+    const TriMesh stem =
+        test::joined(test::sphere({0, 0, 0}, radius, 5), test::box({-8, -150, -8}, {8, -12, 8}));
+    for (const JointNote& note : notes_on({{.name = "hip"}, test::socket({0, 0, 0}, 26, 60, 4), stem}))
+      if (note.code == Code::socket_larger_than_head) return true;
+    return false;
+  };
+  EXPECT_TRUE(noted(14));
+  EXPECT_TRUE(noted(18));   // 1.44 times
+  EXPECT_FALSE(noted(19));  // 1.37 times: a wide socket
+  EXPECT_FALSE(noted(24));
+}
+
 TEST(JointChecks, MeshesOfOneBodyMayLieInEachOther) {
   const TriMesh bone = test::box({-20, -100, -20}, {20, 0, 20}), cartilage = test::sphere({0, -5, 0}, 15, 3);
   Joint joint{"joint",

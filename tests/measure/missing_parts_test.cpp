@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -10,6 +11,7 @@
 #include "condyle/hip_measures.hpp"
 #include "condyle/sample/hip.hpp"
 #include "measure/analytic_hip.hpp"
+#include "mesh/cut_mesh.hpp"
 #include "support/real_hip.hpp"
 #include "support/test_meshes.hpp"
 
@@ -127,6 +129,25 @@ TEST(MissingParts, WithoutAHeadNothingIsMeasured) {
   const HipMeasures m = measure_hip(hip_of(sample().hip_bone, box({-20, -20, -20}, {20, 20, 20})));
   for (const MeasureDefinition& definition : measure_definitions())
     expect_why(definition.of(m), "no spherical head");
+}
+
+TEST(MissingParts, ASocketThatASagittalPlaneCutsIsMeasuredAsItIsOrNotAtAll) {
+  const HipMeasures whole = measure_hip(hip_of(sample().hip_bone, sample().femur));
+  for (const double at : {-12.0, -6.0, 0.0, 6.0, 12.0}) {
+    const std::array planes{mesh::CuttingPlane{{0, 0, at}, Vec3::UnitZ()}};
+    const TriMesh cut = mesh::cut_by_planes(Mesh(sample().hip_bone), "hip bone", planes).inner.mesh;
+    const AcetabulumMeasures m = measure_hip(hip_of(cut, sample().femur)).acetabulum;
+    // The roof goes on beyond the plane: 28 degrees out of the head's 24 mm and 4 of joint space is 13 mm.
+    expect_why(m.centre_edge_lateral, "the mesh ends where the roof goes on");
+    if (m.inclination.value) {
+      EXPECT_NEAR(*m.inclination.value, *whole.acetabulum.inclination.value, 5) << at;
+      EXPECT_NE(m.inclination.note.find("the hip bone ends in the rim"), std::string::npos)
+          << m.inclination.note;
+    } else {
+      EXPECT_NE(m.inclination.why_none.find("the rim is in the mesh over"), std::string::npos)
+          << m.inclination.why_none;
+    }
+  }
 }
 
 TEST(MissingParts, OnlyBonesAreMeasured) {

@@ -124,6 +124,40 @@ TEST(BearingSurface, LeavesAReserveWhereTheRimIsNear) {
   EXPECT_EQ(find_bearing_surface(narrow, {.margin_mm = 1.75}).surface->margin_mm, 1.75) << "as stated";
 }
 
+TEST(BearingSurface, WhoseMarginIsNarrowerThanSurfacesAreRoughSaysSo) {
+  Joint joint = head_and_post_joint(Vec3::Zero());
+  const auto margin_of = [&](double radius) {
+    joint.mobile.mesh = joined(sphere({0, 0, 0}, radius, 4), box({-1, -100, -1}, {1, -50, 1}));
+    return find_bearing_surface(joint).narrow_margin;
+  };
+  const double radius_of_margin_1 = socket_radius - rim_reserve_mm - narrow_bearing_margin_mm;
+  EXPECT_FALSE(margin_of(radius_of_margin_1 - 0.01));
+  ASSERT_TRUE(margin_of(radius_of_margin_1 + 0.01));
+  EXPECT_NEAR(margin_of(radius_of_margin_1 + 0.01)->margin_mm, 0.99, 1e-9);
+  // A staircase of voxels is as rough as their diagonal, where that is more: 1.73 mm of cubes of 1 mm, 0.87 of 0.5.
+  joint.fixed.image = BodyImage{0.5 * Eigen::Matrix3d::Identity(), {}};
+  EXPECT_FALSE(margin_of(radius_of_margin_1 - 0.01));
+  joint.fixed.image->voxel = Eigen::Matrix3d::Identity();
+  EXPECT_TRUE(margin_of(radius_of_margin_1 - 0.01));
+  EXPECT_TRUE(margin_of(radius_of_margin_1 - (std::sqrt(3.0) - 1) + 0.01));
+  EXPECT_FALSE(margin_of(radius_of_margin_1 - (std::sqrt(3.0) - 1) - 0.01));
+}
+
+TEST(BearingSurface, OfACartilageThatHasNoRoomSaysSoToo) {
+  Joint joint = head_and_post_joint(Vec3::Zero());
+  const auto margin_of = [&](double radius) {
+    joint.mobile = with_cartilage("femur", box({-1, -100, -1}, {1, -50, 1}), sphere({0, 0, 0}, radius, 4),
+                                  PartContact::bearing);
+    return find_bearing_surface(joint).narrow_margin;
+  };
+  // No reserve is kept at the rim of a cartilage.
+  const double radius_of_margin_1 = socket_radius - narrow_bearing_margin_mm;
+  EXPECT_FALSE(margin_of(radius_of_margin_1 - 0.01));
+  ASSERT_TRUE(margin_of(radius_of_margin_1 + 0.01));
+  ASSERT_TRUE(margin_of(socket_radius + 0.2)) << "pressed into its socket";
+  EXPECT_NEAR(margin_of(socket_radius + 0.2)->gap_mm, -0.2, 1e-9);
+}
+
 TEST(BearingSurface, IsNotInvented) {
   const auto why_none = [](const Joint& joint) {
     const BearingFinding finding = find_bearing_surface(joint);

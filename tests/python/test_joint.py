@@ -254,3 +254,59 @@ def test_resections_are_those_of_the_command(tmp_path, command):
         joint.resection(reach, share=0.5)
     with pytest.raises(condyle.UsageError, match="keep"):
         joint.resection(reach, keep=[True])
+
+
+def balls_on_a_shaft(turned_deg=0.0):
+    """A femur of balls, a head and two condyles 50 mm apart, turned about the vertical: outwards of a right hip below zero."""
+    steps = np.linspace(0, np.pi, 25)
+    around = np.linspace(0, 2 * np.pi, 49)[:-1]
+
+    def ball(centre, radius):
+        rings = [centre + radius * np.array([np.sin(s) * np.cos(a), np.cos(s), np.sin(s) * np.sin(a)])
+                 for s in steps[1:-1] for a in around]
+        points = np.array([centre + [0, radius, 0], *rings, centre - [0, radius, 0]])
+        n, last = len(around), len(points) - 1
+        faces = [(0, 1 + (k + 1) % n, 1 + k) for k in range(n)]
+        for i in range(len(steps) - 3):
+            for k in range(n):
+                a, b = 1 + i * n + k, 1 + i * n + (k + 1) % n
+                faces += [(a, b, a + n), (b, b + n, a + n)]
+        faces += [(last, last - n + k, last - n + (k + 1) % n) for k in range(n)]
+        return points, np.array(faces)
+
+    points, faces, offset = [], [], 0
+    for centre, radius in (((0, 0, 0), 24), ((0, -380, 25), 20), ((0, -380, -25), 20)):
+        p, f = ball(np.array(centre, float), radius)
+        points.append(p)
+        faces.append(f + offset)
+        offset += len(p)
+    c, s = np.cos(np.radians(turned_deg)), np.sin(np.radians(turned_deg))
+    return np.concatenate(points) @ np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]]).T, np.concatenate(faces)
+
+
+def test_where_angles_count_from_is_said_stated_and_taken_from_the_anatomy():
+    bone = condyle.sample_hip(scenario=1).hip_bone
+    scanned = condyle.Joint(bone, balls_on_a_shaft(-25))
+    assert scanned.zero.known_by == "as_given" and not scanned.zero.is_neutral
+    np.testing.assert_allclose(scanned.zero.femur_deg, (0, 0, -25), atol=1e-3)
+    assert "turned_leg" in [note.code for note in scanned.notes]
+    neutral = condyle.Joint(bone, balls_on_a_shaft(-25), reference_pose={"from": "anatomy"})
+    assert neutral.zero.known_by == "anatomy" and neutral.zero.is_neutral
+    np.testing.assert_allclose(neutral.zero.femur_deg, (0, 0, 0), atol=1e-3)
+    np.testing.assert_allclose(np.asarray(neutral.reference_pose)[0, 2], -np.sin(np.radians(25)), atol=1e-4)
+    assert "turned_leg" not in [note.code for note in neutral.notes]
+    assert pickle.loads(pickle.dumps(neutral)).zero == neutral.zero
+
+
+def test_a_femur_without_condyles_does_not_say_how_the_leg_lay():
+    bones = condyle.sample_hip(scenario=1)
+    assert condyle.Joint(bones.hip_bone, bones.femur).zero.femur_deg is None
+    assert not condyle.Joint(bones.hip_bone, bones.femur).zero.is_neutral
+    stated = condyle.Joint(bones.hip_bone, bones.femur, reference_pose={})
+    assert stated.zero.known_by == "stated" and stated.zero.is_neutral
+    with pytest.raises(condyle.MeshError, match="shows no condyles"):
+        condyle.Joint(bones.hip_bone, bones.femur, reference_pose={"from": "anatomy"})
+    with pytest.raises(condyle.UsageError, match="reference_pose: from"):
+        condyle.Joint(bones.hip_bone, bones.femur, reference_pose={"from": "guess"})
+    with pytest.raises(condyle.UsageError, match="leave them out"):
+        condyle.Joint(bones.hip_bone, bones.femur, reference_pose={"from": "anatomy", "flexion": 3})

@@ -91,7 +91,7 @@ Json motion_json(const Joint& joint, const motion::MotionLimit& limit,
   const auto& contact = limit.end.contact;
   const auto& bearing = limit.end.bearing_contact;
   const auto vary = static_cast<std::size_t>(limit.motion.vary);
-  const auto normal = io::normal_hip_range(limit.motion.name);
+  const auto normal = io::normal_range(joint, limit);
   return {{"name", limit.motion.name},
           {"limit_deg", limit.end.turned.degrees()},
           {"reason", io::name_of(limit.end.reason)},
@@ -250,6 +250,7 @@ const char* condyle_description(CondyleJoint* joint) {
                    {"motions", std::move(motions)},
                    {"notes", notes_json(proposal, range_notes(joint->joint, limits, {}, range.bearing()))},
                    {"caveats", proposal.inferred},
+                   {"zero", io::zero_json(named)},
                    {"normal_range_source", io::normal_hip_range_source},
                    {"scope", io::scope_text(named)},
                    {"bearing", bearing_json(range.bearing())},

@@ -105,7 +105,7 @@ export interface TurnedParts {
 /// `X_FM` of the reference pose, row by row. Of a joint whose bones a brush changed, or with parts that were turned.
 export function jointFileOf(text: ReportText, X_FM: readonly number[], version: string, turned: TurnedParts | null = null): string {
   const { joint, reference_deg, coordinates, parts } = text, became = turned ? "given" : "brushed";
-  const isPosed = reference_deg.some((deg) => deg !== 0);
+  const isPosed = reference_deg.some((deg) => deg !== 0), isStated = (text.rom?.zero?.from ?? "as_given") !== "as_given";
   const body = (name: BodyName) => ["", `[${name}]`, `name = ${quoted(joint[name])}`,
     ...(name === "mobile" && isPosed ? [`pose = [${X_FM.join(", ")}]`] : []), ...meshLines(name, parts[name], became)];
   return [
@@ -114,7 +114,7 @@ export function jointFileOf(text: ReportText, X_FM: readonly number[], version: 
     `kind = "${joint.kind}"`, ...(joint.kind === "hinge" && joint.anatomy === "hip" ? [] : [`joint = "${joint.anatomy}"`]),
     `side = "${joint.side}"`, `units = "mm"`, ...bodyNames.flatMap(body), ...(turned ? givenSphereLines(turned.posed) : sphereLines(text)), "",
     "[frame]  # the meshes are in the joint frame", "centre = [0, 0, 0]", "anterior = [1, 0, 0]", "superior = [0, 1, 0]",
-    ...(isPosed ? ["", "[reference_pose]", ...coordinates.flatMap(({ name }, i) => (reference_deg[i] ? [`${name} = ${reference_deg[i]}`] : []))] : []),
+    ...(isPosed || isStated ? ["", "[reference_pose]", ...coordinates.flatMap(({ name }, i) => (reference_deg[i] ? [`${name} = ${reference_deg[i]}`] : []))] : []),
     ...(turned?.posed.parts ?? []).flatMap((part) => partLines(part, turned!.values, X_FM)), "",
   ].join("\n");
 }

@@ -81,6 +81,7 @@ export interface RomAnswer {
   motions: MotionAnswer[];
   notes: { code: string; text: string }[];
   caveats: string[];
+  zero?: { from: string; text: string };
   normal_range_source?: string | null;
   scope: string;
   provenance?: {
@@ -185,7 +186,7 @@ export interface StoredMeasure {
   note: string | null;
   definition: string;
   source: string;
-  normal: { low: number; high: number; meaning: string; source: string } | null;
+  normal: { low: number; high: number; people?: string; meaning: string; source: string } | null;
   band: { p5: number | null; p95: number | null } | null;
 }
 

@@ -54,7 +54,7 @@ const sphere = object({ radius_mm: number, centre_mm: ifThere(three) });
 const rom = object({
   exact: ifThere(flag), clock_plane: ifThere(orNull(oneOf("sagittal", "rim"))),
   held_translation_mm: ifThere(orNull(three)), motions: list(motion), notes: list(object({ code: text, text })), caveats: list(text),
-  normal_range_source: ifThere(orNull(text)), scope: text, bearing: ifThere(object({
+  zero: ifThere(object({ from: text, text })), normal_range_source: ifThere(orNull(text)), scope: text, bearing: ifThere(object({
     rule: oneOf("count", "leave_out"), why_none: ifThere(text), head: ifThere(orNull(sphere)), socket: ifThere(orNull(sphere)),
     margin_mm: ifThere(orNull(number)),
   })),
@@ -78,7 +78,7 @@ const measures = object({
   pelvis_frame: text, left_out: list(text),
   measures: list(object({
     key: text, part: oneOf("femur", "acetabulum", "both"), unit: text, value: orNull(number), why_none: orNull(text), note: orNull(text),
-    definition: text, source: text, normal: orNull(object({ low: number, high: number, meaning: text, source: text })),
+    definition: text, source: text, normal: orNull(object({ low: number, high: number, people: ifThere(text), meaning: text, source: text })),
     band: orNull(object({ p5: orNull(number), p95: orNull(number) })),
   })),
   around_neck: list(object({ hour: number, alpha_deg: orNull(number), alpha_at_1mm_deg: orNull(number), alpha_point_mm: orNull(three) })),

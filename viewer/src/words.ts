@@ -467,6 +467,7 @@ export const words = {
   bearingSocket: (mm: string) => `Sphere fitted to the socket: radius ${mm} mm.`,
   bearingMargin: (mm: string) => `The bearing surface reaches ${mm} mm outside the head's sphere.`,
   normalFrom: (source: string) => `Normal ranges: ${source}.`,
+  zeroAt: (where: string) => `Angles count from: ${where}.`,
   vertices: "vertices",
   triangles: "triangles",
   notes: "Notes from the checks",

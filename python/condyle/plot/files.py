@@ -209,9 +209,10 @@ def read_measures(folder: PathLike) -> Dict[str, Any]:
         where = f"{path}: measure '{each['key']}'"
         if each.get("value") is not None:
             _check_number(where, each, "value")
-        if each.get("normal") is not None:
-            for end in ("low", "high"):
-                _check_number(f"{where}: normal", each["normal"], end)
+        for span in ("normal", "patients"):
+            if each.get(span) is not None:
+                for end in ("low", "high"):
+                    _check_number(f"{where}: {span}", each[span], end)
     result: Dict[str, Any] = {"measures": {each["key"]: each for each in measures},
                               "pelvis_frame": answer.get("pelvis_frame", "")}
     for around, names in _AROUND.items():

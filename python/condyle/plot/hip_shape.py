@@ -26,18 +26,21 @@ _SECTIONS = (("lateral", -1.5, 1.5), ("anterior", 0.0, 6.0), ("posterior", -6.0,
 
 
 class _Named(NamedTuple):
-    """A measure of the hip: its value, and the range of other people's."""
+    """A measure of the hip: its value, and the range of other people's, or that of patients."""
 
     value: Optional[float]
     normal: Optional[Tuple[float, float]]
+    patients: Optional[Tuple[float, float]]
 
 
 def _named(shape: ShapeLike, key: str) -> _Named:
     found: Any = shape[key] if isinstance(shape, HipMeasures) else of(shape, "measures")[key]
-    normal = of(found, "normal")
-    if normal is None:
-        return _Named(of(found, "value"), None)
-    return _Named(of(found, "value"), (float(of(normal, "low")), float(of(normal, "high"))))
+    patients = found.get("patients") if isinstance(found, Mapping) else found.patients
+    return _Named(of(found, "value"), _ends(of(found, "normal")), _ends(patients))
+
+
+def _ends(span: Any) -> Optional[Tuple[float, float]]:
+    return None if span is None else (float(of(span, "low")), float(of(span, "high")))
 
 
 def _along_axis(hours: Array) -> Array:
@@ -63,12 +66,13 @@ def _clock_axis(ax: Axes) -> None:
     ax.grid(axis="y")
 
 
-def _range(ax: Axes, left: float, right: float, normal: Optional[Tuple[float, float]], label: str) -> None:
-    if normal is None:
+def _range(ax: Axes, left: float, right: float, ends: Optional[Tuple[float, float]], label: str,
+           gid: str) -> None:
+    if ends is None:
         return
-    low, high = normal
+    low, high = ends
     ax.add_patch(Rectangle((left, low), right - left, high - low, facecolor=style.LIGHT_GREY, edgecolor="none",
-                           zorder=0, label=label, gid="normal_range"))
+                           zorder=0, label=label, gid=gid))
 
 
 def _nearest(x: Array, values: Array, value: float, first: float, last: float) -> float:
@@ -109,7 +113,7 @@ def alpha_by_clock(shape: ShapeLike, *, ax: Optional[Axes] = None, legend: bool 
     at_half, at_one = (np.asarray(of(shape, name), dtype=np.float64) for name in ("alpha_deg", "alpha_at_1mm_deg"))
     with style.drawing(ax, style.SINGLE_COLUMN_MM, 62) as ax:
         normal = _named(shape, "alpha_1_30_deg").normal
-        _range(ax, _NAMED_ALPHAS[0][1], _NAMED_ALPHAS[-1][1], normal, "range of others")
+        _range(ax, _NAMED_ALPHAS[0][1], _NAMED_ALPHAS[-1][1], normal, "range of others", "normal_range")
         doubtful = np.abs(at_half - at_one) > 5
         if doubtful.any():
             ax.bar(_along_axis(hours)[doubtful], (at_half - at_one)[doubtful], width=12 / len(hours),
@@ -146,8 +150,7 @@ def centre_edge_by_clock(shape: ShapeLike, *, ax: Optional[Axes] = None, legend:
     hours = _hours(shape, "rim_hour", "rim")
     with style.drawing(ax, style.SINGLE_COLUMN_MM, 62) as ax:
         angles = np.asarray(of(shape, "centre_edge_deg"), dtype=np.float64)
-        normal = _named(shape, "centre_edge_lateral_section_deg").normal
-        _range(ax, *_SECTIONS[0][1:], normal, "range of others, lateral")
+        _range(ax, *_SECTIONS[0][1:], _named(shape, "centre_edge_lateral_section_deg").patients, "patients, lateral", "patients_range")
         _curve(ax, hours, angles, color=style.BLUE, label="rim", gid="centre_edge")
         for name, first, last in _SECTIONS:
             value = _named(shape, f"centre_edge_{name}_section_deg").value

@@ -373,9 +373,24 @@ TranslationFrame translation_frame_of(TomlTable& file, const JointDescription& j
   return TranslationFrame::joint_axes;
 }
 
-PoseDegrees reference_pose(TomlTable& file, const JointDescription& joint, const Lengths& lengths) {
+/// A table that is there states the pose, zero or not; one that has a word takes its angles from elsewhere.
+ZeroFrom zero_from(TomlTable& pose, const JointDescription& joint) {
+  if (!pose.has("from")) return ZeroFrom::stated;
+  pose.required_word("from", {"anatomy"});
+  if (joint.anatomy != Anatomy::hip || joint.kind == JointKind::hinge)
+    pose.fail("from", "anatomy gives the reference pose of a hip only");
+  if (joint.frame.mobile_axes)
+    pose.fail("from", "the landmarks of both bodies give the reference pose already: leave it out");
+  for (const JointAngle angle : all_joint_angles)
+    if (const std::string_view name = name_of(angle, joint.anatomy); pose.has(name))
+      pose.fail(name, "the angles follow from the anatomy: leave them out");
+  return ZeroFrom::anatomy;
+}
+
+PoseDegrees reference_pose(TomlTable& file, JointDescription& joint, const Lengths& lengths) {
   auto table = file.table("reference_pose");
   if (!table) return {};
+  joint.zero_from = zero_from(*table, joint);
   const auto degrees = [&](JointAngle name) {
     return table->number(name_of(name, joint.anatomy)).value_or(0);
   };

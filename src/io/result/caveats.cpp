@@ -90,6 +90,18 @@ constexpr MotionCaveat bone_in_flexion{MotionCaveatCode::bone_may_end,
                                        "contact: bone may be what ends this motion, and soft tissue "
                                        "may still end it earlier.",
                                        turley};
+constexpr MotionCaveat bone_in_adduction{
+    MotionCaveatCode::bone_may_end, "bone contact may end them in normal hips, by one reading of the source",
+    "The source counts \"flexion, flexion combined with abduction and adduction\" as at risk of bone contact "
+    "in native "
+    "hips, and soft tissue as what limits flexion with adduction: adduction from neutral may be one of the "
+    "three.",
+    turley};
+constexpr MotionCaveat bone_in_abduction_at_90{MotionCaveatCode::bone_may_end,
+                                               "bone contact may end them in normal hips",
+                                               "In eight cadaver hips bone met bone in high abduction with "
+                                               "flexion too: bone may be what ends this motion.",
+                                               han};
 constexpr MotionCaveat bone_in_fadir{MotionCaveatCode::bone_may_end,
                                      "bone contact may end them in normal hips",
                                      "In eight cadaver hips bone met bone in high flexion with adduction and "
@@ -141,7 +153,8 @@ constexpr std::array caveat_rows{
     Row{"extension", flexion, minus, {&soft_tissue, nullptr}},
     Row{"internal_rotation", internal, plus, {&capsule, nullptr}},
     Row{"external_rotation", internal, minus, {&capsule, nullptr}},
-    Row{"abduction_at_90_flexion", adduction, minus, {&bone_in_flexion, nullptr}},
+    Row{"adduction", adduction, plus, {&bone_in_adduction, nullptr}},
+    Row{"abduction_at_90_flexion", adduction, minus, {&bone_in_flexion, &bone_in_abduction_at_90}},
     Row{"adduction_at_90_flexion", adduction, plus, {&soft_tissue, nullptr}},
     Row{"internal_rotation_at_90_flexion", internal, plus, {&close, &labrum}},
     Row{"external_rotation_at_90_flexion", internal, minus, {&capsule, nullptr}},

@@ -49,9 +49,10 @@ struct MotionCaveat {
 ///
 ///     flexion                            bone may end it         Turley et al. 2013
 ///     extension                          soft tissue ends it     Turley et al. 2013
-///     abduction, adduction               not known
+///     abduction                          not known
+///     adduction                          bone may end it         Turley et al. 2013, by one reading
 ///     internal_rotation, external_       the capsule restrains   van Arkel et al. 2015
-///     abduction_at_90_flexion            bone may end it         Turley et al. 2013
+///     abduction_at_90_flexion            bone may end it         Turley et al. 2013; Han et al. 2020
 ///     adduction_at_90_flexion            soft tissue ends it     Turley et al. 2013
 ///     internal_rotation_at_90_flexion    soft tissue ends it a few degrees earlier, Han et al. 2020; no labrum, PMC7754612
 ///     external_rotation_at_90_flexion    the capsule restrains   van Arkel et al. 2015

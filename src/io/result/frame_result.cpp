@@ -112,9 +112,10 @@ std::string words_of_anatomy(const Joint& joint) {
   return joint.names_its_joint() ? fmt::format(", {}", name_of(joint.anatomy)) : std::string();
 }
 
-/// As it was given, or as the landmarks of both bodies give it.
+/// As it was given, or as landmarks or anatomy give it.
 PoseDegrees reference_pose_of(const JointReport& report) {
-  if (!report.placement.pose_from_landmarks) return report.file.reference_pose;
+  const ZeroFrom from = report.placement.zero_from;
+  if (from != ZeroFrom::landmarks && from != ZeroFrom::anatomy) return report.file.reference_pose;
   const auto& [angles, translation] = report.placement.reference_pose;
   return {angles.flexion.degrees(), angles.adduction.degrees(), angles.internal_rotation.degrees(),
           translation};

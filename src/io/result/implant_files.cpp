@@ -97,6 +97,7 @@ std::string implant_joint_file(const ImplantResult& result) {
   add_body(lines, "mobile", joint.mobile);
   lines.add("\n[frame]  # the meshes are in the joint frame, about the centre of cup and head");
   lines.add("centre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n");
+  if (joint.zero_from != ZeroFrom::as_given) lines.add("[reference_pose]  # as the bones were given\n");
   lines.add(io::implant_text(implant) + io::parts_text(io::implant_parts(implant, BonesAround::some)));
   if (result.file) io::add_motions(lines, result.file->motions, Anatomy::hip);
   add_uncertainty(lines, result.file);
@@ -111,6 +112,7 @@ LoadedJoint joint_with_implant(const ImplantResult& result) {
   file.joint.name = name_with_implant(result.joint);
   file.joint.side = result.joint.side;
   file.joint.frame.centre = Vec3(Vec3::Zero());
+  if (answer.joint.zero_from != ZeroFrom::as_given) file.joint.zero_from = ZeroFrom::stated;
   for (PosedPart& part : io::implant_parts(answer.hip, BonesAround::some))
     file.joint.parts.push_back({std::move(part)});
   if (result.file) file.motions = result.file->motions, file.band_seed = result.file->band_seed;

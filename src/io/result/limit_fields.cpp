@@ -6,6 +6,7 @@
 #include <array>
 
 #include "condyle/io/pose_text.hpp"
+#include "condyle/zero_pose.hpp"
 #include "io/joint/given_degrees.hpp"
 #include "io/result/caveats.hpp"
 #include "io/result/clock_hour.hpp"
@@ -217,8 +218,11 @@ Json band_without_contact(const LimitOf& of) {
 }
 
 Json normal_range_deg(const LimitOf& of) {
-  const auto angle = normal_range(of.result, of.limit());
+  const auto angle = normal_range(of.joint(), of.limit());
   return angle ? Json(given_degrees(*angle)) : Json(nullptr);
+}
+Json zero_from(const LimitOf& of) {
+  return name_of(of.joint().zero_from);
 }
 Json caveats(const LimitOf& of) {
   return caveats_json(motion_caveats(of.joint(), of.limit().motion));
@@ -265,8 +269,9 @@ constexpr LimitField every_field[] = {
     {"reason", "`\"contact\"`, `\"end_of_range\"` (no contact), `\"contact_at_start\"` (`limit_deg` is 0)",
      &reason, one, "reason", "", text_column, "contact, end_of_range or contact_at_start", studies},
     {"contact_kind",
-     "`\"impingement\"`, `\"bearing\"`, `\"cut\"` on a face that closes a bone where its image ends, or "
-     "`\"unknown\"` if no bearing surface is known; null "
+     "`\"impingement\"`, `\"bearing\"`, `\"cut\"` on a face that closes a bone where its image ends or it "
+     "was cut "
+     "off, or `\"unknown\"` if no bearing surface is known; null "
      "at the end of the range",
      &contact_kind, one, "contact_kind", "", text_column,
      "impingement, bearing, cut or unknown; empty without contact", studies},
@@ -306,6 +311,11 @@ constexpr LimitField every_field[] = {
     {"start_deg", "all three angles at the start, digit by digit as given (15 digits and fewer)", &start_deg,
      angles, "start", "deg", number_column, "at the start", rom},
     {"held_deg", "the two that were held", &held_deg},
+    {"zero_from",
+     "what zero angles are known by, as in `zero`: `\"as_given\"`, `\"stated\"`, `\"landmarks\"` or "
+     "`\"anatomy\"`",
+     &zero_from, one, "zero_from", "", text_column,
+     "what zero is known by: as_given, stated, landmarks or anatomy", rom},
     {"definition",
      "of `fadir` and `faber`: `\"as defined here; no angles are agreed on\"`, their angles are "
      "`start_deg` and `vary`; null for other motions",
@@ -378,10 +388,11 @@ constexpr LimitField every_field[] = {
     {"", "", &band_without_contact, one, "band_share_without_contact", "", number_column,
      "share that reaches the end of the range, 0 to 1", with_bands},
     {"normal_range_deg",
-     "how far a healthy hip turns in this motion by the source, below; null if the source has no "
-     "value, and for other joints",
+     "how far a healthy hip turns from neutral in this motion by the source, below; null if the source has "
+     "no "
+     "value, if zero angles are not known to be neutral (`zero`), and for other joints",
      &normal_range_deg, one, "normal_range_deg", "deg", number_column,
-     "how far a healthy hip turns by the source", rom},
+     "how far a healthy hip turns by the source; empty if zero is not known to be neutral", rom},
     {"caveats",
      "list of `code`, `text` and `source` each: [what usually ends such a motion](caveats.md#caveats); "
      "empty for joints other than hips",

@@ -31,8 +31,9 @@ std::string pelvis_text(const measure::HipMeasures& measures) {
   return measure::stated_frame(measures) + warning;
 }
 
-/// "    alpha_12_deg, alpha_3_deg: ...", a line for each sentence, in the order of the measures.
-std::string by_sentence(const measure::HipMeasures& measures, std::string measure::Measure::*sentence) {
+/// Each sentence with the keys of its measures, in their order: "alpha_12_deg, alpha_3_deg".
+std::vector<std::pair<std::string, std::string>> keys_by_sentence(const measure::HipMeasures& measures,
+                                                                  std::string measure::Measure::*sentence) {
   std::vector<std::pair<std::string, std::string>> keys_of;
   for (const measure::MeasureDefinition& each : measure::measure_definitions()) {
     const std::string& said = each.of(measures).*sentence;
@@ -44,9 +45,20 @@ std::string by_sentence(const measure::HipMeasures& measures, std::string measur
     else
       known->second += fmt::format(", {}", each.key);
   }
+  return keys_of;
+}
+
+/// "    alpha_12_deg, alpha_3_deg: ...", a line for each sentence.
+std::string by_sentence(const measure::HipMeasures& measures, std::string measure::Measure::*sentence) {
   std::string text;
-  for (const auto& [said, keys] : keys_of) text += fmt::format("    {}: {}\n", keys, said);
+  for (const auto& [said, keys] : keys_by_sentence(measures, sentence))
+    text += fmt::format("    {}: {}\n", keys, said);
   return text;
+}
+
+/// "1070 data sets of skeletally mature femora".
+std::string people_of(const measure::NormalRange& range) {
+  return range.count > 0 ? fmt::format("{} {}", range.count, range.people) : std::string(range.people);
 }
 
 /// Definition of each measure, its planes and axes, and the source of its normal range.
@@ -57,8 +69,10 @@ std::string definitions_text(const measure::HipMeasures& measures) {
                         each.in_pelvis_frame ? fmt::format(" ({})", measure::stated_frame(measures)) : "",
                         each.source);
     if (each.normal)
-      text += fmt::format("      normal {:g} to {:g}: {}; {}\n", each.normal->low, each.normal->high,
-                          each.normal->meaning, each.normal->source);
+      text +=
+          fmt::format("      {} {:g} to {:g} of {}: {}; {}\n",
+                      each.normal->are_patients ? "patients" : "normal", each.normal->low, each.normal->high,
+                      people_of(*each.normal), each.normal->meaning, each.normal->source);
   }
   return text;
 }
@@ -82,8 +96,8 @@ std::string measure_band_text(const measure::MeasureDefinition& definition,
 }
 
 std::string normal_text(const measure::MeasureDefinition& definition) {
-  return definition.normal ? fmt::format("{:g} to {:g}", definition.normal->low, definition.normal->high)
-                           : "";
+  const std::optional<measure::NormalRange>& range = definition.normal;
+  return range && !range->are_patients ? fmt::format("{:g} to {:g}", range->low, range->high) : "";
 }
 
 std::string_view heading_of(measure::MeasuredPart part) {
@@ -120,6 +134,23 @@ Json names_in(std::string_view names) {
   return list;
 }
 
+/// The range of people with usual hips, or that of patients.
+Json range_json(const measure::MeasureDefinition& definition, bool of_patients) {
+  const std::optional<measure::NormalRange>& range = definition.normal;
+  if (!range || range->are_patients != of_patients) return nullptr;
+  return {{"low", range->low},         {"high", range->high},
+          {"people", range->people},   {"count", range->count > 0 ? Json(range->count) : Json(nullptr)},
+          {"meaning", range->meaning}, {"source", range->source}};
+}
+
+/// Why measures have no value, as notes: a sentence with the keys that it is the reason of.
+Json notes_on_none(const measure::HipMeasures& measures) {
+  Json notes = Json::array();
+  for (const auto& [why, keys] : keys_by_sentence(measures, &measure::Measure::why_none))
+    notes.push_back({{"code", "not_measured"}, {"text", keys + ": " + why}});
+  return notes;
+}
+
 Json measure_entry(const measure::MeasureDefinition& definition, const measure::HipMeasures& measures) {
   const measure::Measure& measure = definition.of(measures);
   Json json{{"key", definition.key},
@@ -132,11 +163,8 @@ Json measure_entry(const measure::MeasureDefinition& definition, const measure::
             {"measured_by", names_in(definition.measured_by)},
             {"source", definition.source}};
   json["frame"] = definition.in_pelvis_frame ? Json(measure::stated_frame(measures)) : Json(nullptr);
-  json["normal"] = definition.normal ? Json{{"low", definition.normal->low},
-                                            {"high", definition.normal->high},
-                                            {"meaning", definition.normal->meaning},
-                                            {"source", definition.normal->source}}
-                                     : Json(nullptr);
+  json["normal"] = range_json(definition, false);
+  json["patients"] = range_json(definition, true);
   return json;
 }
 
@@ -172,6 +200,13 @@ Json rim_json(const measure::AcetabulumMeasures& acetabulum) {
 bool is_of_measure(std::string_view name) {
   static constexpr std::string_view names[] = {"measures.json", "measures.csv", "neck.csv", "rim.csv"};
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+std::optional<double> end_of_range(const measure::MeasureDefinition& definition, bool of_patients,
+                                   double measure::NormalRange::*end) {
+  const std::optional<measure::NormalRange>& range = definition.normal;
+  if (!range || range->are_patients != of_patients) return std::nullopt;
+  return (*range).*end;
 }
 
 std::string csv_number(const std::optional<double>& value) {
@@ -217,8 +252,9 @@ std::string measure_text(const MeasureResult& result) {
     text += fmt::format("  5 to 95 % of {} joints with centre, axes and surfaces displaced, seed {}\n",
                         result.answer.band_options.samples, result.answer.band_options.seed);
   text +=
-      "  normal ranges are of other people, each by a method of its own: --definitions has whose, and what "
-      "each measure is\n";
+      "  normal ranges are of other people, each by a method of its own; those of patients are not called "
+      "normal: "
+      "--definitions has whose, and what each measure is\n";
   if (result.with_definitions) text += definitions_text(result.answer.measures);
   return text + fmt::format("  {}\n", scope_text(joint));
 }
@@ -246,6 +282,7 @@ Json measure_object(const MeasureResult& result) {
             {"notes", io::notes_json(result.notes)},
             {"scope", scope_text(result.joint)},
             {"provenance", io::provenance_json(result.provenance)}};
+  for (Json& note : notes_on_none(measures)) json["notes"].push_back(std::move(note));
   io::drop_negative_zeros(json);
   return json;
 }
@@ -265,8 +302,9 @@ std::string measures_csv(const MeasureResult& result) {
   for (const std::string& sentence : result.answer.measures.left_out)
     text += fmt::format("# left_out: {}\n", sentence);
   text +=
-      "key,part,value,unit,p5,median,p95,samples_without_value,normal_low,normal_high,normal_meaning,"
-      "normal_source,frame,measured_by,why_none,note,definition,source\n";
+      "key,part,value,unit,p5,median,p95,samples_without_value,normal_low,normal_high,normal_people,"
+      "normal_meaning,normal_source,patients_low,patients_high,frame,measured_by,why_none,note,definition,"
+      "source\n";
   for (std::size_t i = 0; i < measure::measure_definitions().size(); ++i) {
     const measure::MeasureDefinition& each = measure::measure_definitions()[i];
     const measure::MeasureBand band =
@@ -281,10 +319,13 @@ std::string measures_csv(const MeasureResult& result) {
         csv_number(band.median),
         csv_number(band.p95),
         result.answer.bands.empty() ? "" : fmt::format("{}", band.samples_without_value),
-        each.normal ? fmt::format("{}", each.normal->low) : "",
-        each.normal ? fmt::format("{}", each.normal->high) : "",
+        csv_number(end_of_range(each, false, &measure::NormalRange::low)),
+        csv_number(end_of_range(each, false, &measure::NormalRange::high)),
+        each.normal ? io::csv_field(people_of(*each.normal)) : "",
         each.normal ? io::csv_field(each.normal->meaning) : "",
         each.normal ? io::csv_field(each.normal->source) : "",
+        csv_number(end_of_range(each, true, &measure::NormalRange::low)),
+        csv_number(end_of_range(each, true, &measure::NormalRange::high)),
         each.in_pelvis_frame ? io::csv_field(measure::stated_frame(result.answer.measures)) : "",
         io::csv_field(each.measured_by),
         io::csv_field(measure.why_none),

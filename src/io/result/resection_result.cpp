@@ -369,7 +369,7 @@ std::string resected_joint_file(const ResectionResult& result) {
   if (const auto margin = joint.mobile.bearing_margin_mm) lines.add(fmt::format("margin = {}", *margin));
   lines.add("\n[frame]  # the meshes are in the joint frame");
   lines.add("centre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]");
-  if (!pose.empty()) {
+  if (!pose.empty() || joint.zero_from != ZeroFrom::as_given) {
     lines.add("\n[reference_pose]");
     for (const JointAngle angle : all_joint_angles)
       if (reference[angle] != 0)

@@ -128,6 +128,14 @@ Json bearing_json(const RomResult& result) {
   return json;
 }
 
+Json arcs_json(const RomResult& result) {
+  Json list = Json::array();
+  for (const OppositeLimits& pair : opposite_limits(result.limits))
+    list.push_back(
+        {{"motions", {pair.one->motion.name, pair.other->motion.name}}, {"arc_deg", pair.arc().degrees()}});
+  return list;
+}
+
 /// Closed forms of the joint's implant.
 Json implant_json(const Joint& joint) {
   const plan::ClosedForm form = plan::closed_form(joint);
@@ -154,6 +162,7 @@ Json rom_object(const RomResult& result) {
             {"clock_plane", !result.joint.is_hip()                          ? Json(nullptr)
                             : result.clock_plane == motion::ClockPlane::rim ? Json("rim")
                                                                             : Json("sagittal")},
+            {"zero", zero_json(result.joint)},
             {"normal_range_source", result.joint.is_hip() ? Json(normal_hip_range_source) : Json(nullptr)},
             {"held_translation_mm",
              result.held_translation_mm ? io::numbers(*result.held_translation_mm) : Json(nullptr)},
@@ -164,6 +173,7 @@ Json rom_object(const RomResult& result) {
   if (result.joint.implant) json["implant"] = implant_json(result.joint);
   json["motions"] = Json::array();
   for (std::size_t i = 0; i < result.limits.size(); ++i) json["motions"].push_back(motion_json(result, i));
+  json["arcs"] = arcs_json(result);
   if (result.map) json["map"] = json_of(*result.map);
   json["scope"] = scope_text(result.joint);
   json["provenance"] = io::provenance_json(result.provenance);

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/result/json.hpp"
 #include "io/result/normal_range.hpp"
@@ -30,10 +32,23 @@ inline bool is_as_defined_here(const motion::Motion& motion) noexcept {
   return motion.name == "fadir" || motion.name == "faber";
 }
 
-/// Range in the living, behind the limit of a hip's motion; none if no source has a value.
-inline std::optional<Angle> normal_range(const RomResult& result, const motion::MotionLimit& limit) noexcept {
-  return result.joint.is_hip() ? normal_hip_range(limit.motion.name) : std::nullopt;
-}
+/// Range in the living, behind the limit of a hip's motion; none if no source has a value, and if zero angles are not known to be neutral:
+/// ranges count from there.
+std::optional<Angle> normal_range(const Joint& joint, const motion::MotionLimit& limit);
+
+/// Where the angles of a joint count from, and how its femur lies there: zero_pose().
+Json zero_json(const Joint& joint);
+
+/// Two motions that turn one angle from one start, to either side.
+struct OppositeLimits {
+  const motion::MotionLimit *one, *other;
+
+  /// From one limit to the other, wherever zero is.
+  Angle arc() const noexcept { return one->end.turned + other->end.turned; }
+};
+
+/// Those of which both end in contact, in the order of their first ones.
+std::vector<OppositeLimits> opposite_limits(std::span<const motion::MotionLimit> limits);
 
 /// rom_json() before it is text.
 Json rom_object(const RomResult& result);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "condyle/io/pose_text.hpp"
+#include "condyle/zero_pose.hpp"
 #include "core/rounded.hpp"
 #include "io/file/format_version.hpp"
 #include "io/result/caveats.hpp"
@@ -283,6 +284,23 @@ std::string caveat_text(const RomResult& result) {
   return wrapped(text);
 }
 
+/// Where angles count from, and whether limits may be held against normal ranges.
+std::string zero_words(const RomResult& result) {
+  const ZeroPose zero = zero_pose(result.joint);
+  return wrapped(fmt::format(
+      "  zero: {}{}\n", zero_text(result.joint, zero),
+      result.joint.is_hip() && !zero.is_neutral() ? "; limits are not compared with normal ranges" : ""));
+}
+
+/// From contact to contact of opposite motions, wherever zero is; nothing if none have it.
+std::string arcs_text(const RomResult& result) {
+  std::vector<std::string> arcs;
+  for (const io::OppositeLimits& pair : io::opposite_limits(result.limits))
+    arcs.push_back(
+        fmt::format("{} to {} {:.2f}", pair.one->motion.name, pair.other->motion.name, pair.arc().degrees()));
+  return arcs.empty() ? "" : wrapped(fmt::format("  total arcs (deg): {}\n", fmt::join(arcs, ", ")));
+}
+
 /// The plane in which hours are read; nothing where there are none.
 std::string clock_words(const RomResult& result) {
   if (!result.joint.is_hip()) return "";
@@ -372,7 +390,7 @@ std::string rom_text(const RomResult& result) {
   text += wrapped(io::parameters_text(joint));
   text += wrapped(bearing_text(result) + meshes_text(result));
   for (const std::string& caveat : result.caveats) text += wrapped(fmt::format("  {}\n", caveat));
-  text += clock_words(result);
+  text += zero_words(result) + clock_words(result);
   // The figures that people quote, within a terminal's width; the rest is in JSON and CSV.
   std::vector<Column> shown{std::move(name), std::move(turned), std::move(reason)};
   shown.push_back(std::move(joint.is_hip() ? clock : point));
@@ -384,6 +402,7 @@ std::string rom_text(const RomResult& result) {
     shown.push_back(std::move(soft));
   if (!result.closed.empty()) shown.push_back(std::move(closed));
   text += table_text(shown);
+  text += arcs_text(result);
   text += closed_text(result);
   text += met_text(result, "ended by", end_of);
   text += met_text(result, "soft meshes touched on the way", soft_contact_of);

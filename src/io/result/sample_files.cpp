@@ -41,6 +41,8 @@ units = "mm"
 {}
 [mobile]
 {}
+[reference_pose]  # as given: the bones are in neutral
+
 [frame]
 centre = [0.0, 0.0, 0.0]
 anterior = [1.0, 0.0, 0.0]
@@ -124,6 +126,7 @@ LoadedJoint sample_implant_joint(const plan::ImplantMeshes& meshes, const plan::
   report.file.joint.anatomy =
       std::holds_alternative<plan::TotalHip>(implant) ? Anatomy::hip : Anatomy::shoulder;
   report.file.joint.frame.centre = Vec3(Vec3::Zero());
+  report.file.joint.zero_from = ZeroFrom::stated;
   for (PosedPart& part : io::implant_parts(implant, bones_around(meshes)))
     report.file.joint.parts.push_back({std::move(part)});
   report.file.uncertainty = {.centre_mm = 0, .surface_mm = 0, .surface_voxels = 0};

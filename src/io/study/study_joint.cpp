@@ -112,6 +112,7 @@ LoadedJoint made(const StudyTable& table, const StudyRow& row) {
   JointFile file{.path = table.path, .joint = {}, .fixed = {}, .mobile = {}, .motions = {}};
   file.joint.name = table.id(row);
   file.joint.side = side_of(table, row);
+  file.joint.zero_from = ZeroFrom::stated;  // sample bones are in neutral
   try {
     sample::SampleHip hip = sample::sample_hip(measures, scenario);
     if (file.joint.side == Side::left) hip = sample::mirrored(hip);

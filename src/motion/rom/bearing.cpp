@@ -8,6 +8,7 @@
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
 #include "kinematics/cut_parts.hpp"
+#include "kinematics/flat_ends.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_parts.hpp"
 #include "motion/rom/contact_roles.hpp"
@@ -81,6 +82,14 @@ std::string no_margin(const Joint& joint, double gap_mm, MarginLimit by) {
              std::max(gap_mm, 0.0));
 }
 
+/// The corners of a staircase stand out of the surface that it shows by up to a voxel's diagonal.
+double narrow_bound(const Joint& joint, const Sphere& head) {
+  double bound = by_head(narrow_bearing_margin_mm, head);
+  for (const Body* body : {&joint.fixed, &joint.mobile})
+    if (body->image) bound = std::max(bound, body->image->voxel.rowwise().sum().norm());
+  return bound;
+}
+
 /// The surface alone, or why there is none.
 BearingFinding surface_of(const Joint& joint, const BearingOptions& options) {
   BearingFinding found;
@@ -120,7 +129,7 @@ BearingFinding surface_of(const Joint& joint, const BearingOptions& options) {
   const double room = gap - (has_parts ? 0 : by_head(rim_reserve_mm, surface.head));
   const std::optional<double> stated = options.margin_mm ? options.margin_mm : joint.mobile.bearing_margin_mm;
   surface.margin_mm = stated.value_or(std::min(by_head(usual_bearing_margin_mm, surface.head), room));
-  if (!stated && !has_parts && surface.margin_mm < by_head(narrow_bearing_margin_mm, surface.head))
+  if (!stated && surface.margin_mm < narrow_bound(joint, surface.head))
     found.narrow_margin = {gap, surface.margin_mm, by};
   // Bone under a bearing cartilage is within its sphere, with a margin or without; but what meets an acromion is not bearing.
   if (has_parts && by == MarginLimit::rim) surface.margin_mm = std::max(surface.margin_mm, 0.0);
@@ -140,6 +149,16 @@ BearingFinding surface_of(const Joint& joint, const BearingOptions& options) {
   return found;
 }
 
+/// Where its image ends, and where it ends in a plane; what was found before of another mesh has the first only.
+std::vector<ImageCut> ends_of_bone(const Joint& joint, BodyRole body, const BearingOptions& options) {
+  const std::optional<BodyImage>& image = (body == BodyRole::fixed ? joint.fixed : joint.mobile).image;
+  std::vector<ImageCut> ends = image ? image->cuts : std::vector<ImageCut>{};
+  if (options.surface || options.roles) return ends;
+  const std::vector<ImageCut> flat = kinematics::flat_ends_near_joint(joint, body);
+  ends.insert(ends.end(), flat.begin(), flat.end());
+  return ends;
+}
+
 }  // namespace
 
 std::size_t BearingSurface::count() const noexcept {
@@ -152,8 +171,8 @@ BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& op
   // Roles that are given say what counts, with a surface or without.
   BearingFinding found = options.roles && !options.surface ? BearingFinding{} : surface_of(joint, options);
   found.roles = options.roles ? *options.roles : motion::contact_roles(joint, found.surface);
-  if (joint.fixed.image) found.fixed_cuts = joint.fixed.image->cuts;
-  if (joint.mobile.image) found.mobile_cuts = joint.mobile.image->cuts;
+  found.fixed_cuts = ends_of_bone(joint, BodyRole::fixed, options);
+  found.mobile_cuts = ends_of_bone(joint, BodyRole::mobile, options);
   return found;
 }
 

@@ -98,7 +98,7 @@ function changedParameter({ name, value, unit, in_joint_file }: PartParameter): 
 }
 
 /// The rules and the uncertainty of the limits, a line each.
-function howFound({ exact, band, bearing, normal_range_source, provenance }: RomAnswer): string[] {
+function howFound({ exact, band, bearing, zero, normal_range_source, provenance }: RomAnswer): string[] {
   const mm = (value: number) => value.toFixed(2);
   const changed = (provenance?.parameters ?? []).filter(({ value, in_joint_file }) => value !== in_joint_file);
   return [
@@ -110,6 +110,7 @@ function howFound({ exact, band, bearing, normal_range_source, provenance }: Rom
     ...(bearing?.head ? [words.bearingHead(mm(bearing.head.radius_mm))] : []),
     ...(bearing?.socket ? [words.bearingSocket(mm(bearing.socket.radius_mm))] : []),
     ...(typeof bearing?.margin_mm === "number" ? [words.bearingMargin(mm(bearing.margin_mm))] : []),
+    ...(zero ? [words.zeroAt(zero.text)] : []),
     ...(normal_range_source ? [words.normalFrom(normal_range_source)] : []),
   ];
 }

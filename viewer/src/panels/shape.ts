@@ -63,6 +63,6 @@ export function shapePanel(shape: StoredMeasures, scene: JointScene | null): { e
   folded(words.definitions, measures.map(({ key, unit, definition, source }) =>
     words.ofMeasure(measureName(key, unit), words.definedBy(definition, source))));
   folded(words.normalSources, measures.flatMap(({ key, unit, normal }) =>
-    (normal ? [words.ofMeasure(measureName(key, unit), words.definedBy(normal.meaning, normal.source))] : [])));
+    (normal ? [words.ofMeasure(measureName(key, unit), words.definedBy(normal.people ? `${normal.people}: ${normal.meaning}` : normal.meaning, normal.source))] : [])));
   return { element: section(words.shape, ...parts), details: fold(words.measures, false, ...more) };
 }
