@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
@@ -20,9 +21,11 @@
 #include "io/result/caveats.hpp"
 #include "io/result/json.hpp"
 #include "io/result/rom_parts.hpp"
+#include "kinematics/bone_sizes.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_axes.hpp"
 #include "mesh/scale.hpp"
+#include "mesh/surface_pieces.hpp"
 #include "motion/rom/socket_hour.hpp"
 #include "page_proposal.hpp"
 
@@ -37,17 +40,23 @@ namespace {
 
 using io::Json;
 
-/// In mm, by what their sizes say.
+/// The unit in which the head has an adult's size; if it has none, that of the bones' sizes.
 LengthUnit inferred_unit(const TriMesh& fixed, const TriMesh& mobile) {
+  try {
+    if (const auto unit = kinematics::unit_of_head(find_sphere(Mesh(mobile)).fit.sphere.radius)) return *unit;
+  } catch (const MeshError&) {
+    // Without a head sizes have to do.
+  }
   const LikelyUnit of_fixed = likely_unit(fixed), of_mobile = likely_unit(mobile);
   if (!of_mobile.unit || of_fixed.unit != of_mobile.unit)
     throw UsageError("units: the sizes of the meshes do not speak for one unit");
   return *of_mobile.unit;
 }
 
-TriMesh in_mm(TriMesh mesh, LengthUnit unit) {
+/// Without surfaces that lie inside others.
+TriMesh surface_in_mm(TriMesh mesh, LengthUnit unit) {
   mesh::scale(mesh, mm_per(unit));
-  return mesh;
+  return mesh::outer_surface(Mesh(std::move(mesh)));
 }
 
 /// Refuses with the votes, one line in all.
@@ -59,8 +68,8 @@ kinematics::AgreeingAxes inferred_axes(const kinematics::HipAxes& axes) {
 CondyleJoint* proposed_joint(const CondyleMesh& fixed, const CondyleMesh& mobile,
                              const std::optional<Side>& side) {
   const LengthUnit unit = inferred_unit(fixed.mesh, mobile.mesh);
-  const TriMesh hip_bone = in_mm(fixed.mesh, unit);
-  const auto hip = hip_of(hip_bone, in_mm(mobile.mesh, unit));
+  const TriMesh hip_bone = surface_in_mm(fixed.mesh, unit);
+  const auto hip = hip_of(hip_bone, surface_in_mm(mobile.mesh, unit));
   const auto hip_axes = kinematics::hip_axes(hip_bone, hip, side);
   const auto [axes, inferred_side] = inferred_axes(hip_axes);
   JointDescription description{.name = "dropped joint", .side = inferred_side, .units = unit};
