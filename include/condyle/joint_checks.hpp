@@ -26,6 +26,7 @@ enum class JointNoteCode : std::uint8_t {
   same_mesh,          ///< Both bodies are one mesh.
   swapped_bodies,     ///< The head is on the fixed body.
   unlikely_joint,     ///< A head in a socket, and another joint or a hinge stated.
+  no_head,            ///< A hip without one: every contact ends a motion.
   low_coverage,       ///< Little of a sphere or of a turn was there to fit.
   uncertain_fit,      ///< Parts of the surface give different centres or axes.
   far_centre,         ///< The bones of a knee, ankle or elbow are nearest each other far from it.

@@ -18,8 +18,8 @@ using mesh::SurfacePieces;
 /// The share of a mesh's outer surface that is most of a bone: the other one of two legs has half.
 constexpr double most_of_bone = 0.6;
 
-/// A cavity of this share of a bone's width is no pore.
-constexpr double least_hollow = 0.25;
+/// A cavity wider than this share of what is around it is no pore.
+constexpr double widest_pore = 0.25;
 
 std::string text_of(const SurfacePiece& piece) {
   return formatted("%zu triangle%s, %.3g mm across, near ", piece.triangles, piece.triangles == 1 ? "" : "s",
@@ -67,7 +67,7 @@ std::vector<JointNote> piece_notes(const std::string& name, const Mesh& mesh) {
   }
   const auto is_hollow = [&](const SurfacePiece& piece) {
     return piece.is_inner() && is_cavity(pieces, piece) &&
-           piece.width() > least_hollow * pieces.all[piece.around].width();
+           piece.width() > widest_pore * pieces.all[piece.around].width();
   };
   if (const SurfacePiece* cavity = largest_of(pieces, is_hollow))
     notes.push_back({JointNoteCode::nested_surfaces, name + " is hollow, with a cavity of " +

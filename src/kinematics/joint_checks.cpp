@@ -311,6 +311,10 @@ void check_ball(const Joint& joint, const JointPlacement& placement, Notes& note
       notes.add(JointNoteCode::low_coverage,
                 formatted("the sphere about the joint centre is %.0f %% of one on ", 100 * head->coverage) +
                     joint.mobile.name + ": too little for a head, and bearing contact is inferred from it");
+    else if (!placement.sphere && !has_part(joint.mobile, PartContact::bearing))
+      notes.add(JointNoteCode::no_head,
+                "no head was found on " + joint.mobile.name +
+                    ": contact in the socket is not distinguished from impingement, and ends motions");
     check_side_without_socket(joint, notes);
     return;
   }
@@ -388,6 +392,8 @@ std::string_view name_of(JointNoteCode code) noexcept {
       return "unlikely_joint";
     case JointNoteCode::swapped_bodies:
       return "swapped_bodies";
+    case JointNoteCode::no_head:
+      return "no_head";
     case JointNoteCode::low_coverage:
       return "low_coverage";
     case JointNoteCode::uncertain_fit:
