@@ -4,9 +4,11 @@
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "kinematics/bone_sizes.hpp"
 #include "kinematics/condylar_line.hpp"
 #include "kinematics/find_condyles.hpp"
 #include "measure/degree.hpp"
+#include "mesh/scale.hpp"
 
 namespace condyle::measure {
 namespace {
@@ -26,8 +28,13 @@ std::string why_no_condyles(const TriMesh& femur, const Sphere& head) {
   const kinematics::FarEnd end = kinematics::far_end(femur, head);
   if (!kinematics::reaches_knee(end, head))
     return core::formatted("the mesh ends above the knee, %.0f mm from the head", end.reach_mm);
+  // Condyles are looked for in the sizes of adults: other femora are scaled to one.
+  const bool is_adult = kinematics::unit_of_head(head.radius) == LengthUnit::millimetres;
+  const double to_adult = is_adult ? 1 : usual_head_radius_mm / head.radius;
+  TriMesh adult = femur;
+  mesh::scale(adult, to_adult);
   try {
-    kinematics::find_condyles(femur, end.middle, (head.centre - end.middle).normalized());
+    kinematics::find_condyles(adult, to_adult * end.middle, (head.centre - end.middle).normalized());
     return {};
   } catch (const MeshError& error) {
     return std::string("the mesh shows no condyles: ") + error.what();
