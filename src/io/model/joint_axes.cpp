@@ -16,8 +16,8 @@ namespace {
 /// Axes that a modeller lays along a bone's function are within 10 degrees of the body's in knees (Rajagopal et al. 2016).
 constexpr double most_off_deg = 30;
 
-/// A body of the standing model is turned if an axis of it is farther from the ground's.
-constexpr double most_leaning_deg = 45;
+/// Frames that stand upright are nearer to it than to any other.
+constexpr double upright_deg = 45;
 
 /// The angle between an axis of a frame and its namesake of another, for the axis that is farthest off.
 double farthest_axis_deg(const Eigen::Matrix3d& R) {
@@ -63,6 +63,22 @@ bool turns_about_own_axes(const SpatialTransform& axes) {
   });
 }
 
+/// Whether more frames of joints stand upright in the ground and lie turned in their bodies than the other way round, as in models
+/// made from images, whose bodies are in the axes of the scanner. Frames on the ground are one or the other by definition.
+bool has_bodies_of_a_scanner(const Model& model) {
+  int turned_bodies = 0;
+  for (const ModelJoint& joint : model.joints) {
+    if (!joint.transform || joint.parent_body == "ground") continue;
+    const auto R_GP = io::standing_rotation(model, joint.parent_body);
+    if (!R_GP) continue;
+    const Eigen::Matrix3d& R_PF = joint.X_PF.linear();
+    const bool in_body = farthest_axis_deg(R_PF) <= upright_deg,
+               in_ground = farthest_axis_deg(*R_GP * R_PF) <= upright_deg;
+    turned_bodies += (in_ground && !in_body) - (in_body && !in_ground);
+  }
+  return turned_bodies > 0;
+}
+
 }  // namespace
 
 std::string_view nearest_axis(const Vec3& direction) {
@@ -76,34 +92,34 @@ std::string_view nearest_axis(const Vec3& direction) {
 JointAxes axes_of(const Model& model, const ModelJoint& joint) {
   const Eigen::Matrix3d& R_PF = joint.X_PF.linear();
   const std::string body = in_quotes(joint.parent_body);
+  JointAxes axes;
   const auto R_GP = io::standing_rotation(model, joint.parent_body);
-  if (R_GP && farthest_axis_deg(*R_GP) > most_leaning_deg && farthest_axis_deg(R_PF) > most_off_deg &&
-      farthest_axis_deg(*R_GP * R_PF) <= most_off_deg)
-    return {.R_PA = R_PF,
-            .R_PB = R_GP->transpose(),
-            .turned = fmt::format(
-                "an axis of body {} is {:.0f} degrees from the ground's in the standing model, and "
-                "the joint's frame is not turned there: angles are about the frame's axes",
-                body, farthest_axis_deg(*R_GP))};
-
-  const Eigen::Matrix3d S = io::nearest_renaming(R_PF);
-  const double off = farthest_axis_deg(R_PF * S);
-  constexpr double same = 1e-6;
-  if (off > same && (off > most_off_deg || !io::turns_about_own_axes(joint.transform->axes)))
-    return {
-        .R_FA = R_PF.transpose(),
-        .turned = off > most_off_deg
-                      ? fmt::format(
-                            "an axis of the joint's frame is {:.0f} degrees from any of body {}: angles are "
-                            "about the body's axes, X anterior, Y superior and Z to the right",
-                            off, body)
-                      : std::string()};
-  JointAxes axes{.R_PA = R_PF * S, .R_FA = S};
-  if (!S.isIdentity(0))
+  if (R_GP && farthest_axis_deg(*R_GP) > upright_deg && io::has_bodies_of_a_scanner(model)) {
+    axes.R_PB = R_GP->transpose();
     axes.turned = fmt::format(
-        "the joint's frame is turned in body {}, its X along {}, its Y along {} and its Z along "
-        "{}: angles are named by the body's axes",
-        body, nearest_axis(R_PF.col(0)), nearest_axis(R_PF.col(1)), nearest_axis(R_PF.col(2)));
+        "an axis of body {} is {:.0f} degrees from the ground's in the standing model, and frames of joints "
+        "are not: angles are named by the ground's axes",
+        body, farthest_axis_deg(*R_GP));
+  }
+  const Eigen::Matrix3d R_BF = axes.R_PB.transpose() * R_PF, S = io::nearest_renaming(R_BF);
+  const double off = farthest_axis_deg(R_BF * S);
+  constexpr double same = 1e-6;
+  const bool is_far = off > most_off_deg;
+  if (off <= same || (!is_far && io::turns_about_own_axes(joint.transform->axes))) {
+    axes.R_PA = R_PF * S, axes.R_FA = S;
+    if (axes.turned.empty() && !S.isIdentity(0))
+      axes.turned = fmt::format(
+          "the joint's frame is turned in body {}, its X along {}, its Y along {} and its Z along "
+          "{}: angles are named by the body's axes",
+          body, nearest_axis(R_PF.col(0)), nearest_axis(R_PF.col(1)), nearest_axis(R_PF.col(2)));
+    return axes;
+  }
+  axes.R_PA = axes.R_PB, axes.R_FA = R_PF.transpose() * axes.R_PB;
+  if (axes.turned.empty() && is_far)
+    axes.turned = fmt::format(
+        "an axis of the joint's frame is {:.0f} degrees from any of body {}: angles are about the "
+        "body's axes, X anterior, Y superior and Z to the right",
+        off, body);
   return axes;
 }
 

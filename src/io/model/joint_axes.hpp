@@ -19,7 +19,8 @@ struct JointAxes {
 };
 
 /// F's own axes, each under the name of the body's axis that it is nearest to, if the joint turns about them and none is more than
-/// 30 degrees off; else the body's. A body that lies turned in the standing model beside a frame that does not has those of F.
+/// 30 degrees off; else the body's. Bodies in the axes of a scanner lie turned in the standing model, and the ground's axes stand in
+/// for theirs.
 JointAxes axes_of(const Model& model, const ModelJoint& joint);
 
 /// "X, forwards", "-Z, to the left": the axis of a body nearest to a direction in it.

@@ -390,6 +390,10 @@ TEST_F(TurnedFrames, InABodyThatLiesTurnedItselfStandUpright) {
   const Answer hinge = answer(model, {0.4});
   expect_angles(hinge.angles, {-0.4, 0, 0});
   EXPECT_LE((hinge.R_PA - R_GP.transpose()).cwiseAbs().maxCoeff(), 1e-12);
+  // An axis 40 degrees from the ground's, as an ankle's: still of the ground, and not of the body.
+  TurnedModel ankle = model;
+  ankle.R_PF = R_GP.transpose() * about(Vec3::UnitY(), 40 * pi / 180);
+  expect_angles(answer(ankle, {0.4}).angles, {-0.4, 0, 0});
   ASSERT_EQ(notes(model).size(), 1u);
   EXPECT_NE(notes(model)[0].find("body 'femur_r' is 90 degrees from the ground's in the standing model"),
             std::string::npos)
