@@ -18,6 +18,7 @@ enum class JointNoteCode : std::uint8_t {
   inverted_mesh,      ///< Its volume is negative.
   self_crossings,     ///< Over more than a sliver of its surface.
   doubled_triangles,  ///< Closed, with triangles that lie on others: what they enclose counts twice.
+  part_is_most,  ///< A part that is cut off the fixed body is more of it than the rest: normals that point inwards.
   cut_by_view,        ///< It ends where its image ends: what is missing may end a motion earlier.
   same_mesh,          ///< Both bodies are one mesh.
   swapped_bodies,     ///< The head is on the fixed body.
