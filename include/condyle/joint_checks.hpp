@@ -21,6 +21,7 @@ enum class JointNoteCode : std::uint8_t {
   nested_surfaces,    ///< A piece lies inside another: a wall, a nucleus or a wide cavity.
   separate_pieces,    ///< A body is more than one piece.
   doubled_triangles,  ///< Closed, with triangles that lie on others: what they enclose counts twice.
+  part_is_most,  ///< A part that is cut off the fixed body is more of it than the rest: normals that point inwards.
   cut_by_view,        ///< It ends where its image ends: what is missing may end a motion earlier.
   flat_end,           ///< It ends in a plane near the joint, as a bone that was cut for export: likewise.
   same_mesh,          ///< Both bodies are one mesh.

@@ -69,14 +69,14 @@ NearestDistances distances_at(const BodyPair& bodies, const JointContact& joint,
 
 NearestDistances nearest_distances(const JointContact& joint, const Pose& X_FM,
                                    const MeasuredContact& meeting, DistancesOf which) {
-  core::require_in_range(X_FM);
+  core::require_rotation(X_FM);
   return distances_at(contact::body_pair_of(joint), joint, X_FM, posed(X_FM, joint.mobile().vertices()),
                       meeting, which);
 }
 
 ContactMeasures measure_contact(const JointContact& joint, const Pose& X_FM, const MeasuredContact& meeting,
                                 DistancesOf which) {
-  core::require_in_range(X_FM);
+  core::require_rotation(X_FM);
   const BodyPair& bodies = contact::body_pair_of(joint);
   const Pose X_MF = inverted(X_FM);
   const auto to_fixed = [&](const Vec3& p_F) { return mesh::distance_to_surface(bodies.fixed_tree(), p_F); };

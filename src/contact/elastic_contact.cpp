@@ -241,7 +241,7 @@ void ElasticContact::Parts::update(BodyRole body, const MovedVertices& moved) {
 }
 
 ElasticContactResults ElasticContact::at(const Pose& X_FM) const {
-  core::require_in_range(X_FM);
+  core::require_rotation(X_FM);
   auto answers = parts_->pool.take();
   parts_->answer(X_FM, *answers);
   ElasticContactResults results = parts_->results_of(*answers, parts_->load_of(*answers, X_FM));
@@ -289,7 +289,7 @@ ElasticContactResults ElasticContact::Parts::results_of(const Answers& answers,
 }
 
 std::optional<Vec3> ElasticContact::refined_force_n(const Pose& X_FM) const {
-  core::require_in_range(X_FM);
+  core::require_rotation(X_FM);
   const Parts& p = *parts_;
   if (p.options.rays.rule == FaceRule::face_centre) return std::nullopt;
   auto answers = p.pool.take();
@@ -305,7 +305,7 @@ std::optional<Vec3> ElasticContact::refined_force_n(const Pose& X_FM) const {
 }
 
 std::size_t ElasticContact::cut_off_by_reach(const Pose& X_FM) const {
-  core::require_in_range(X_FM);
+  core::require_rotation(X_FM);
   std::size_t rays = 0;
   if (parts_->from_fixed) rays += parts_->from_fixed->sampler().cut_off_by_reach(X_FM);
   if (parts_->from_mobile) rays += parts_->from_mobile->sampler().cut_off_by_reach(inverted(X_FM));

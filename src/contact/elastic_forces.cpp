@@ -405,7 +405,7 @@ ContactForces ElasticContact::forces(const Pose& X_FM, const ForceOptions& optio
 }
 
 void ElasticContact::forces(const Pose& X_FM, const ForceOptions& options, ContactForces& out) const {
-  core::require_in_range(X_FM);
+  core::require_rotation(X_FM);
   check_force_options(options);
   out.on_mobile_body = {};
   out.energy_nmm = out.friction_power = out.damping_power = out.max_strain = 0;

@@ -234,15 +234,17 @@ Contact JointContact::at(const Pose& X_FM) const {
 }
 
 void JointContact::mobile_in_fixed(const Pose& X_FM, radial::Penetrations& out) const {
+  core::require_rotation(X_FM);
   parts_->fixed->table().penetrations(parts_->mobile->sorted_vertices(), X_FM, out);
 }
 
 void JointContact::fixed_in_mobile(const Pose& X_FM, radial::Penetrations& out) const {
+  core::require_rotation(X_FM);
   parts_->mobile->table().penetrations(parts_->fixed->sorted_vertices(), inverted(X_FM), out);
 }
 
 RadialContact JointContact::radial(const Pose& X_FM) const {
-  core::require_in_range(X_FM);
+  core::require_rotation(X_FM);
   RadialContact contact;
   if (fixed().is_closed()) contact.mobile_in_fixed = fixed_table().query(posed(X_FM, mobile().vertices()));
   if (mobile().is_closed())
@@ -254,7 +256,7 @@ RadialContact JointContact::radial(const Pose& X_FM) const {
 
 TangentialContact JointContact::tangential(const Pose& X_FM, const Vec3& axis_F,
                                            tangential::TangentialRule rule) const {
-  core::require_in_range(X_FM);
+  core::require_rotation(X_FM);
   TangentialContact contact;
   if (fixed().is_closed())
     contact.mobile_in_fixed = parts_->fixed_rings(axis_F)->query(posed(X_FM, mobile().vertices()), rule);
@@ -270,7 +272,7 @@ TangentialContact JointContact::tangential(const Pose& X_FM, const Vec3& axis_F,
 
 ChosenArcs arcs_of(const JointContact& joint, const Pose& X_FM, const Vec3& axis_F,
                    const ChosenVertices& vertices) {
-  core::require_in_range(X_FM);
+  core::require_rotation(X_FM);
   const auto chosen = [](const Mesh& mesh, const std::vector<Index>& of) {
     Points points;
     points.reserve(of.size());
@@ -290,12 +292,12 @@ ChosenArcs arcs_of(const JointContact& joint, const Pose& X_FM, const Vec3& axis
 }
 
 std::vector<TrianglePair> JointContact::pairs(const Pose& X_FM) const {
-  core::require_in_range(X_FM);
+  core::require_rotation(X_FM);
   return parts_->bodies().pairs(X_FM);
 }
 
 bool JointContact::in_contact(const Pose& X_FM) const {
-  core::require_in_range(X_FM);
+  core::require_rotation(X_FM);
   return parts_->bodies().touch(X_FM);
 }
 

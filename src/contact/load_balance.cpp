@@ -87,7 +87,7 @@ class Search {
  public:
   Search(const ElasticContact& contact, const Pose& start, const Load& load, const BalanceOptions& options)
       : contact_(contact), options_(options), load_(load), start_(start), free_(free_motions(options)) {
-    core::require_in_range(start);
+    core::require_rotation(start);
     if (!load.on_mobile.force_n.allFinite() || !load.on_mobile.moment_nmm.allFinite())
       throw UsageError("the load is not finite");
     if (!(options.most_left_at_jump >= 0 && options.most_left_at_jump <= 1))

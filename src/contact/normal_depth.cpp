@@ -47,7 +47,7 @@ SurfaceContact NormalDepth::at(const Pose& X_CT) const {
 }
 
 void NormalDepth::at(const Pose& X_CT, SurfaceContact& out) const {
-  core::require_in_range(X_CT);
+  core::require_rotation(X_CT);
   auto found = sampler_->found_pool().take();
   sampler_->sample(X_CT, Quadrature::of_degree_2, {}, *found);
   contact::add_up(*sampler_, *found, std::nullopt, out);
@@ -55,7 +55,7 @@ void NormalDepth::at(const Pose& X_CT, SurfaceContact& out) const {
 }
 
 std::size_t NormalDepth::cut_off_by_reach(const Pose& X_CT) const {
-  core::require_in_range(X_CT);
+  core::require_rotation(X_CT);
   return sampler_->cut_off_by_reach(X_CT);
 }
 

@@ -54,7 +54,7 @@ RadialBodySummary summarise(const radial::RadialResults& results, PointsView poi
 }
 
 RadialSummary summarise(const JointContact& joint, const Pose& X_FM, const RadialContact& contact) {
-  core::require_in_range(X_FM);
+  core::require_rotation(X_FM);
   const BodyPair& bodies = contact::body_pair_of(joint);
   RadialSummary summary;
   if (contact.mobile_in_fixed)

@@ -29,6 +29,10 @@ void require_in_range(const Pose& X_FM) {
   if (!std::isfinite((X_FM.matrix() * 0).sum())) throw UsageError("pose: an entry is not finite");
   if (X_FM.translation().cwiseAbs().maxCoeff() > largest_coordinate)
     throw UsageError("pose: its translation is beyond 1e30 mm");
+}
+
+void require_rotation(const Pose& X_FM) {
+  require_in_range(X_FM);
   const Eigen::Matrix3d R = X_FM.linear();
   const double skew = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (skew > largest_skew)

@@ -24,7 +24,10 @@ std::optional<std::size_t> first_out_of_range(PointsView points) noexcept;
 
 /// Throws UsageError for a point that is out of range, naming it.
 void require_in_range(PointsView points);
-/// Throws UsageError for entries that are not finite, a translation out of range, and a matrix that is no rotation within largest_skew.
+/// Throws UsageError for entries that are not finite and for a translation out of range. Whether it is a rotation is not
+/// checked.
 void require_in_range(const Pose& X_FM);
+/// And for a matrix that is no rotation within largest_skew.
+void require_rotation(const Pose& X_FM);
 
 }  // namespace condyle::core

@@ -167,6 +167,20 @@ void check_cuts(const Body& body, Notes& notes) {
                             cut_area_mm2(body)));
 }
 
+/// A fragment that is moved is less than what it is cut from; of the mobile body either part may move.
+void check_parts_cut_off(const Joint& joint, Notes& notes) {
+  if (!joint.posed) return;
+  for (const PosedPart& part : joint.posed->parts) {
+    if (part.cut_from.empty() || part.body != BodyRole::fixed) continue;
+    const double cut_off = mesh::enclosed_volume(mesh_of_part(joint.fixed, part.name)),
+                 rest = mesh::enclosed_volume(mesh_of_part(joint.fixed, part.cut_from));
+    if (cut_off > rest)
+      notes.add(JointNoteCode::part_is_most,
+                "part " + part.name + formatted(" is %.0f %% of ", 100 * cut_off / (cut_off + rest)) +
+                    part.cut_from + ", from which it is cut: do the normals of its planes point inwards?");
+  }
+}
+
 void check_fit(const Joint& joint, const JointPlacement& placement, Notes& notes) {
   const std::string& fixed = joint.fixed.name;
   const std::string& name = placement.fitted_body == BodyRole::fixed ? fixed : joint.mobile.name;
@@ -382,6 +396,8 @@ std::string_view name_of(JointNoteCode code) noexcept {
       return "self_crossings";
     case JointNoteCode::doubled_triangles:
       return "doubled_triangles";
+    case JointNoteCode::part_is_most:
+      return "part_is_most";
     case JointNoteCode::cut_by_view:
       return "cut_by_view";
     case JointNoteCode::flat_end:
@@ -435,6 +451,7 @@ std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& pla
     check_cuts(*body, notes);
   }
   notes.add(kinematics::flat_end_notes(joint));
+  check_parts_cut_off(joint, notes);
   check_fit(joint, placement, notes);
   const bool is_same = are_one_mesh(joint.fixed.mesh, joint.mobile.mesh);
   if (is_same)

@@ -95,7 +95,6 @@ void RadialTable::penetrations(const SortedPoints& points, std::span<const Pose>
 }
 
 void RadialTable::add_ray_to_normal(PointsView points, const Pose& X_FM, Penetrations& out) const {
-  core::require_in_range(X_FM);
   table_->add_ray_to_normal(points, X_FM, out);
 }
 

@@ -96,10 +96,12 @@ TEST(HipAxes, OfALegThatHangsForwardsAreInferredIfBothBonesAreLong) {
         const Frame in = frame_of(in_lps ? lps_axes : ras_axes, side);
         const double forwards = in_lps ? 1 : -1;  // Y of both is taken for down
         HipAnatomy hip = drawn(in, {});
-        hip.towards_femur = in(0.5 * forwards, -0.8, 0.3).normalized();
-        hip.towards_pelvis = in(-0.35 * forwards, 0.8, -0.5).normalized();
-        hip.towards_neck = in(0.4 * forwards, -0.65, 0.65).normalized();
-        hip.opening = in(0.5 * forwards, -0.61, 0.61).normalized();
+        hip.towards_femur = in(0.3 * forwards, -0.85, 0.3).normalized();
+        hip.towards_pelvis = in(-0.3 * forwards, 0.8, -0.5).normalized();
+        const Vec3 far = in(0.4 * forwards, -0.65, 0.65).normalized(),
+                   near = in(0.1 * forwards, -0.7, 0.7).normalized();
+        hip.towards_neck = in_lps ? near : far;  // the socket opens in front of it
+        hip.opening = in_lps ? far : near;
         if (!whole) hip.femur_end = in(0, -60, 0);
         const HipAxes found = hip_axes(TriMesh{}, hip, side);
         EXPECT_EQ(found.agreeing.size(), whole ? 1u : 0u) << found.why_none;

@@ -329,6 +329,30 @@ TEST(JointChecks, AnImplantsBallInABonySocketIsNoted) {
   EXPECT_FALSE(noted(24));
 }
 
+/// Cut at a height of a block of 100 mm: what lies behind the plane is the part.
+TEST(JointChecks, APartThatIsMostOfItsFixedBodyIsNoted) {
+  const auto codes_with = [](BodyRole body, const Vec3& normal, double height) {
+    PosedPart fragment{.name = "fragment", .body = body};
+    fragment.parameters = {{.name = "frontal", .kind = ParameterKind::frontal, .low = -10, .high = 10}};
+    fragment.cut = {{{0, height, 0}, normal}};
+    JointDescription description{.name = "joint", .kind = JointKind::hinge};
+    description.frame.centre.emplace<Vec3>(Vec3::Zero());
+    description.parts = {{fragment}};
+    const TriMesh block = test::box({40, -100, -30}, {90, 0, 30}),
+                  other = test::box({-90, -100, -30}, {-40, 0, 30});
+    const PlacedJoint placed = make_joint(description, {"hip bone", block}, {"femur", other});
+    std::vector<Code> codes;
+    for (const JointNote& note : check_joint(placed.joint, placed.placement))
+      if (note.code == Code::part_is_most) codes.push_back(note.code);
+    return codes;
+  };
+  const std::vector<Code> noted{Code::part_is_most};
+  EXPECT_TRUE(codes_with(BodyRole::fixed, Vec3::UnitY(), -51).empty()) << "49 of 100 mm lie below";
+  EXPECT_EQ(codes_with(BodyRole::fixed, Vec3::UnitY(), -49), noted);
+  EXPECT_EQ(codes_with(BodyRole::fixed, -Vec3::UnitY(), -51), noted) << "the same plane, its normal turned";
+  EXPECT_TRUE(codes_with(BodyRole::mobile, -Vec3::UnitY(), -51).empty());
+}
+
 TEST(JointChecks, MeshesOfOneBodyMayLieInEachOther) {
   const TriMesh bone = test::box({-20, -100, -20}, {20, 0, 20}), cartilage = test::sphere({0, -5, 0}, 15, 3);
   Joint joint{"joint",

@@ -342,7 +342,7 @@ FirstContact::FirstContact(FirstContact&&) noexcept = default;
 FirstContact& FirstContact::operator=(FirstContact&&) noexcept = default;
 
 RotationLimits FirstContact::limits(const Pose& X_FM, const RotationRange& range) const {
-  core::require_in_range(X_FM);
+  core::require_rotation(X_FM);
   const double low = range.negative.radians(), high = range.positive.radians();
   if (!(low <= 0 && low >= -two_pi && high >= 0 && high <= two_pi))
     throw UsageError("first contact: a range goes from at most a full turn back over 0 to a full turn on");
