@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "condyle/contact.hpp"
-#include "condyle/radial.hpp"
+#include "condyle/error.hpp"
 #include "core/formatted.hpp"
 #include "kinematics/surface_sag.hpp"
 
@@ -27,20 +28,29 @@ std::vector<char> bearing_vertices(const TriMesh& mobile, const motion::BearingS
   return marks;
 }
 
+/// Of the mobile body; empty if the fixed one has no inside, or the joint centre lies on a surface.
+auto penetrations(const contact::JointContact& bodies, const Pose& X_FM)
+    -> decltype(contact::Contact::mobile_in_fixed) {
+  try {
+    return bodies.at(X_FM).mobile_in_fixed;
+  } catch (const MeshError&) {
+    return std::nullopt;
+  }
+}
+
 void note_touching(const Joint& joint, const motion::RangeOptions& range,
                    const motion::BearingSurface& surface, std::vector<RangeNote>& notes) {
-  if (!joint.fixed.mesh.is_closed()) return;
   const contact::JointContact bodies(joint.fixed.mesh, joint.mobile.mesh);
   const Pose X_FM = pose_at(joint.coordinates(), range.overlap.reference_pose);
   if (!bodies.in_contact(X_FM)) return;
-  radial::Penetrations found;
-  bodies.mobile_in_fixed(X_FM, found);
+  const auto found = penetrations(bodies, X_FM);
+  if (!found) return;
   const std::vector<char> on_head = bearing_vertices(joint.mobile.mesh, surface);
   double inside = 0, deepest = 0;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (!on_head[found.point[i]]) continue;
-    deepest = std::max(deepest, found.depth_mm[i]);
-    inside += found.depth_mm[i] > least_depth_mm ? 1 : 0;
+  for (std::size_t i = 0; i < found->size(); ++i) {
+    if (!on_head[found->point[i]]) continue;
+    deepest = std::max(deepest, found->depth_mm[i]);
+    inside += found->depth_mm[i] > least_depth_mm ? 1 : 0;
   }
   const double share = inside / static_cast<double>(std::count(on_head.begin(), on_head.end(), 1));
   if (!(share >= least_touching_share)) return;

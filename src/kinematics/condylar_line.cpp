@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "kinematics/corners.hpp"
 #include "kinematics/hip_anatomy.hpp"
 
 namespace condyle::kinematics {
@@ -58,6 +57,14 @@ std::vector<ViewFromBelow> convex_outline(std::vector<ViewFromBelow> points) {
   return outline;
 }
 
+/// A mark for each vertex that a triangle uses.
+std::vector<char> used_vertices(const TriMesh& mesh) {
+  std::vector<char> marks(mesh.vertices.size());
+  for (const Triangle& t : mesh.triangles)
+    for (const Index v : t) marks[v] = 1;
+  return marks;
+}
+
 /// The corners of the far end, each as often as triangles have it.
 std::vector<ViewFromBelow> seen_from_below(const TriMesh& femur, const Sphere& head, const FarEnd& end,
                                            const Vec3& anterior) {
@@ -84,19 +91,41 @@ double notch_behind(const std::vector<ViewFromBelow>& points, const ViewFromBelo
   return least;
 }
 
+/// Triangles whose middle lies beyond a height along a direction.
+std::vector<Index> triangles_beyond(const TriMesh& mesh, const Vec3& from, const Vec3& direction,
+                                    double height) {
+  std::vector<Index> found;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (((mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3 - from).dot(direction) > height)
+      found.push_back(static_cast<Index>(t));
+  return found;
+}
+
 }  // namespace
 
 FarEnd far_end(const TriMesh& femur, const Sphere& head) {
   constexpr int rounds = 5;  // the line moves by less than 0.01 degrees in the last
+  std::vector<Vec3> corners;
+  for (std::size_t v = 0; const char is_used : used_vertices(femur)) {
+    if (is_used) corners.push_back(femur.vertices[v]);
+    ++v;
+  }
   FarEnd end{area_centroid(femur), 0, end_height * head.radius};
+  // The end's triangles, and as many again above it: the line turns little once it goes there.
+  constexpr double least_cosine_of_list = 0.995;
+  Vec3 listed_along = Vec3::Zero();
+  std::vector<Index> listed;
   for (int round = 0; round < rounds; ++round) {
     const Vec3 down = (end.middle - head.centre).normalized();
     end.reach_mm = 0;
-    for_each_corner(
-        femur, [&](const Vec3& p) { end.reach_mm = std::max(end.reach_mm, (p - head.centre).dot(down)); });
+    for (const Vec3& p : corners) end.reach_mm = std::max(end.reach_mm, (p - head.centre).dot(down));
+    if (listed_along.dot(down) < least_cosine_of_list) {
+      listed_along = down;
+      listed = triangles_beyond(femur, head.centre, down, end.reach_mm - 3 * end.height_mm);
+    }
     Vec3 moment = Vec3::Zero();
     double area = 0;
-    for (std::size_t t = 0; t < femur.triangles.size(); ++t) {
+    for (const Index t : listed) {
       const Vec3 a = femur.corner(t, 0), b = femur.corner(t, 1), c = femur.corner(t, 2);
       const Vec3 middle = (a + b + c) / 3;
       if (!((middle - head.centre).dot(down) > end.reach_mm - end.height_mm)) continue;

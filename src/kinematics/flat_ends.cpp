@@ -11,7 +11,6 @@
 #include "core/lazy.hpp"
 #include "kinematics/hip_parts.hpp"
 #include "mesh/disjoint_sets.hpp"
-#include "mesh/enclosed_volume.hpp"
 #include "mesh/findings.hpp"
 #include "mesh/triangle_distance.hpp"
 
@@ -38,47 +37,63 @@ struct Face {
   Vec3 area = Vec3::Zero(), point = Vec3::Zero();
 };
 
-/// The farthest vertices along the sides, edges and corners of a cube.
-std::vector<Vec3> farthest_vertices(const TriMesh& bone) {
-  std::vector<Vec3> directions, farthest;
-  for (int i = -1; i <= 1; ++i)
-    for (int j = -1; j <= 1; ++j)
-      for (int k = -1; k <= 1; ++k)
-        if (i != 0 || j != 0 || k != 0) directions.emplace_back(i, j, k);
-  farthest.assign(directions.size(), bone.vertices[bone.triangles.front()[0]]);
+/// The farthest corners of triangles along the diagonals of a cube, numbered by the signs of x, y and z; and those along its sides.
+struct Farthest {
+  std::array<Vec3, 8> diagonal;
+  std::vector<char> is_used = {};  ///< vertices that are corners
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+};
+
+std::size_t octant(const Vec3& direction) noexcept {
+  return (direction.x() < 0 ? 1U : 0U) + (direction.y() < 0 ? 2U : 0U) + (direction.z() < 0 ? 4U : 0U);
+}
+
+Farthest farthest_corners(const TriMesh& bone) {
+  Farthest farthest;
+  std::vector<char>& is_used = farthest.is_used;
+  is_used.resize(bone.vertices.size());
   for (const Triangle& t : bone.triangles)
-    for (const Index v : t)
-      for (std::size_t d = 0; d < directions.size(); ++d)
-        if (const Vec3 p = bone.vertices[v]; directions[d].dot(p) > directions[d].dot(farthest[d]))
-          farthest[d] = p;
+    for (const Index v : t) is_used[v] = 1;
+  std::array<double, 8> reach;
+  reach.fill(-std::numeric_limits<double>::infinity());
+  for (std::size_t v = 0; v < is_used.size(); ++v) {
+    if (!is_used[v]) continue;
+    const Vec3 p = bone.vertices[v];
+    farthest.low = farthest.low.cwiseMin(p), farthest.high = farthest.high.cwiseMax(p);
+    for (std::size_t d = 0; d < reach.size(); ++d) {
+      const double at = (d & 1U ? -p.x() : p.x()) + (d & 2U ? -p.y() : p.y()) + (d & 4U ? -p.z() : p.z());
+      if (at > reach[d]) reach[d] = at, farthest.diagonal[d] = p;
+    }
+  }
   return farthest;
 }
 
 /// Triangles that may lie in a plane with all of the bone behind it, which few of them do: theirs may be tilted against it as above.
-std::vector<Index> outermost(const TriMesh& bone, const std::vector<Vec3>& areas, double size) {
+std::vector<Index> outermost(const TriMesh& bone, const Farthest& farthest) {
   constexpr double tilt = 0.006;
-  const std::vector<Vec3> farthest = farthest_vertices(bone);
+  const double rise = on_cut_mm + tilt * (farthest.high - farthest.low).norm();
   std::vector<Index> found;
-  for (std::size_t t = 0; t < areas.size(); ++t) {
-    const double slack = areas[t].norm() * (on_cut_mm + tilt * size),
-                 offset = areas[t].dot(bone.corner(t, 0));
-    if (areas[t].squaredNorm() > 0 && std::all_of(farthest.begin(), farthest.end(), [&](const Vec3& p) {
-          return areas[t].dot(p) - offset <= slack;
-        }))
+  for (std::size_t t = 0; t < bone.triangles.size(); ++t) {
+    const Vec3 area = twice_area(bone, t);
+    const double offset = area.dot(bone.corner(t, 0)) + area.norm() * rise;
+    // Most are ruled out by the corner that is farthest along the diagonal next to their normal.
+    if (area.dot(farthest.diagonal[octant(area)]) > offset) continue;
+    if (area.squaredNorm() > 0 && std::all_of(farthest.diagonal.begin(), farthest.diagonal.end(),
+                                              [&](const Vec3& p) { return area.dot(p) <= offset; }))
       found.push_back(static_cast<Index>(t));
   }
   return found;
 }
 
 /// Those of them around one vertex that face one way are of one face. More ways than these are no flat face's.
-void join_around(std::span<const std::pair<Index, Index>> around, const std::vector<Index>& outer,
-                 const std::vector<Vec3>& areas, mesh::DisjointSets& sets) {
+void join_around(std::span<const std::pair<Index, Index>> around, const std::vector<Vec3>& areas,
+                 mesh::DisjointSets& sets) {
   constexpr std::size_t most_ways = 8;
   std::vector<Index> ways;
   for (const auto& [vertex, number] : around) {
-    const Vec3& area = areas[outer[number]];
+    const Vec3& area = areas[number];
     const auto way = std::find_if(ways.begin(), ways.end(), [&](Index other) {
-      const Vec3& of_other = areas[outer[other]];
+      const Vec3& of_other = areas[other];
       return area.dot(of_other) > one_plane * area.norm() * of_other.norm();
     });
     if (way != ways.end())
@@ -89,33 +104,35 @@ void join_around(std::span<const std::pair<Index, Index>> around, const std::vec
 }
 
 /// Outermost triangles that hang together and face one way, those with an area that counts.
-std::vector<Face> flat_faces(const TriMesh& bone, const std::vector<Vec3>& areas, double size, double least) {
-  const std::vector<Index> outer = outermost(bone, areas, size);
+std::vector<Face> flat_faces(const TriMesh& bone, const Farthest& farthest, double least) {
+  const std::vector<Index> outer = outermost(bone, farthest);
+  std::vector<Vec3> areas;
   std::vector<std::pair<Index, Index>> corners;  // a vertex, and the number of a triangle there
-  for (std::size_t n = 0; n < outer.size(); ++n)
+  for (std::size_t n = 0; n < outer.size(); ++n) {
+    areas.push_back(twice_area(bone, outer[n]));
     for (const Index v : bone.triangles[outer[n]]) corners.emplace_back(v, static_cast<Index>(n));
+  }
   std::sort(corners.begin(), corners.end());
   mesh::DisjointSets sets(outer.size());
   for (std::size_t first = 0, last = 0; first < corners.size(); first = last) {
     while (last < corners.size() && corners[last].first == corners[first].first) ++last;
-    join_around(std::span(corners).subspan(first, last - first), outer, areas, sets);
+    join_around(std::span(corners).subspan(first, last - first), areas, sets);
   }
   std::vector<Face> faces(outer.size());
   for (std::size_t n = 0; n < outer.size(); ++n) {
     Face& face = faces[sets.find(static_cast<Index>(n))];
-    face.area += areas[outer[n]] / 2;
+    face.area += areas[n] / 2;
     face.point = bone.corner(outer[n], 0);
   }
   std::erase_if(faces, [&](const Face& face) { return face.area.norm() < least; });
   return faces;
 }
 
-bool lies_behind(const TriMesh& bone, const ImageCut& plane) {
-  return std::all_of(bone.triangles.begin(), bone.triangles.end(), [&](const Triangle& t) {
-    return std::all_of(t.begin(), t.end(), [&](Index v) {
-      return plane.normal.dot(bone.vertices[v]) - plane.offset_mm < on_cut_mm;
-    });
-  });
+bool lies_behind(const Farthest& farthest, const TriMesh& bone, const ImageCut& plane) {
+  for (std::size_t v = 0; v < farthest.is_used.size(); ++v)
+    if (farthest.is_used[v] && !(plane.normal.dot(bone.vertices[v]) - plane.offset_mm < on_cut_mm))
+      return false;
+  return true;
 }
 
 /// Area of the section at a depth behind the plane, of a closed surface.
@@ -146,16 +163,16 @@ bool goes_on_behind(const TriMesh& bone, const ImageCut& plane, double face_area
 }
 
 /// Whether the face is one of some size that the bone was cut off in.
-bool is_cut_off(const TriMesh& bone, const std::vector<Vec3>& areas, const ImageCut& plane, double least) {
+bool is_cut_off(const TriMesh& bone, const ImageCut& plane, double least) {
   const std::vector<ImageCut> cut{plane};
+  std::vector<char> is_on(bone.vertices.size());
+  for (std::size_t v = 0; v < is_on.size(); ++v) is_on[v] = is_on_cut(cut, bone.vertices[v]);
   double area = 0;
   std::vector<Index> corners;
-  for (std::size_t t = 0; t < areas.size(); ++t) {
+  for (std::size_t t = 0; t < bone.triangles.size(); ++t) {
     const Triangle& triangle = bone.triangles[t];
-    if (!std::all_of(triangle.begin(), triangle.end(),
-                     [&](Index v) { return is_on_cut(cut, bone.vertices[v]); }))
-      continue;
-    area += areas[t].norm() / 2;
+    if (!is_on[triangle[0]] || !is_on[triangle[1]] || !is_on[triangle[2]]) continue;
+    area += twice_area(bone, t).norm() / 2;
     corners.insert(corners.end(), triangle.begin(), triangle.end());
   }
   std::sort(corners.begin(), corners.end());
@@ -163,19 +180,17 @@ bool is_cut_off(const TriMesh& bone, const std::vector<Vec3>& areas, const Image
   return area >= least && corners.size() >= fewest_corners && goes_on_behind(bone, plane, area);
 }
 
-std::vector<ImageCut> found_ends(const Mesh& bone) {
-  if (bone.triangles().empty()) return {};
-  const double diagonal = mesh::bounds_of_surface(bone).diagonal(), size = diagonal / usual_size,
-               square = size * size;
-  std::vector<Vec3> areas(bone.triangles().size());
-  for (std::size_t t = 0; t < areas.size(); ++t) areas[t] = twice_area(bone, t);
+std::vector<ImageCut> found_ends(const TriMesh& bone) {
+  if (bone.triangles.empty()) return {};
+  const Farthest farthest = farthest_corners(bone);
+  const double size = (farthest.high - farthest.low).norm() / usual_size, square = size * size;
   std::vector<ImageCut> ends;
-  for (const Face& face : flat_faces(bone, areas, diagonal, square * least_face)) {
+  for (const Face& face : flat_faces(bone, farthest, square * least_face)) {
     const Vec3 normal = face.area.normalized();
     const ImageCut plane{normal, normal.dot(face.point)};
     const bool is_known = std::any_of(
         ends.begin(), ends.end(), [&](const ImageCut& end) { return end.normal.dot(normal) > one_plane; });
-    if (!is_known && lies_behind(bone, plane) && is_cut_off(bone, areas, plane, square * least_end_area))
+    if (!is_known && lies_behind(farthest, bone, plane) && is_cut_off(bone, plane, square * least_end_area))
       ends.push_back(plane);
   }
   return ends;

@@ -172,19 +172,20 @@ TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
                                             .bearing = {some_bearing(), {}},
                                             .bearing_rule = motion::BearingRule::leave_out,
                                             .caveats = {"left out: nothing"}}));
-  ASSERT_EQ(lines.size(), 15u);
+  ASSERT_EQ(lines.size(), 16u);
   EXPECT_EQ(lines[0], "arm and post: arm in post, right side");
   EXPECT_NE(lines[1].find("bearing surface: 2 of 3 triangles of arm"), std::string::npos) << lines[1];
   EXPECT_EQ(lines[3], "  left out: nothing");
+  EXPECT_EQ(lines[4], "  zero: given by the reference pose stated");
   // Column of the first letter of the reasons; an umlaut is two bytes and one letter.
-  EXPECT_NE(lines[4].find("clock: hours in the sagittal plane"), std::string::npos) << lines[4];
-  const std::size_t column = lines[5].find("ended by");
-  EXPECT_EQ(lines[6].find("impingement"), column);
-  EXPECT_EQ(lines[7].find("no contact in range"), column);
-  EXPECT_EQ(lines[8].find("in contact at start"), column + 1);
-  EXPECT_NE(lines[6].find(" 70.74 "), std::string::npos);  // 1.2345678901 rad
-  EXPECT_TRUE(lines[6].ends_with(" 63.03")) << "bearing contact at 1.1 rad: " << lines[6];
-  EXPECT_NE(lines[7].find(" >40 "), std::string::npos) << lines[7];
+  EXPECT_NE(lines[5].find("clock: hours in the sagittal plane"), std::string::npos) << lines[5];
+  const std::size_t column = lines[6].find("ended by");
+  EXPECT_EQ(lines[7].find("impingement"), column);
+  EXPECT_EQ(lines[8].find("no contact in range"), column);
+  EXPECT_EQ(lines[9].find("in contact at start"), column + 1);
+  EXPECT_NE(lines[7].find(" 70.74 "), std::string::npos);  // 1.2345678901 rad
+  EXPECT_TRUE(lines[7].ends_with(" 63.03")) << "bearing contact at 1.1 rad: " << lines[7];
+  EXPECT_NE(lines[8].find(" >40 "), std::string::npos) << lines[8];
 }
 
 TEST(RomText, SaysWhereNoRimWasFoundAndNoMinusBeforeZero) {
