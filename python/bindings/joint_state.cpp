@@ -141,8 +141,8 @@ void members(T& value, const Each& each) {
     auto& [X_WF, sphere, cylinder, body, rotation, errors, pose, zero_from, fixed, mobile, notes] = value;
     each(X_WF, sphere, cylinder, body, rotation, errors, pose, zero_from, fixed, mobile, notes);
   } else if constexpr (std::is_same_v<Struct, io::MeshEntry>) {
-    auto& [part, mesh, repairs, contact, polygons, scale, X_BG] = value;
-    each(part, mesh, repairs, contact, polygons, scale, X_BG);
+    auto& [part, mesh, repairs, contact, polygons, pieces, scale, X_BG] = value;
+    each(part, mesh, repairs, contact, polygons, pieces, scale, X_BG);
   } else if constexpr (std::is_same_v<Struct, io::BodyEntry>) {
     auto& [name, meshes, image, head, bearing_margin_mm] = value;
     each(name, meshes, image, head, bearing_margin_mm);
@@ -201,8 +201,10 @@ void members(T& value, const Each& each) {
     auto& [repair, count] = value;
     each(repair, count);
   } else if constexpr (std::is_same_v<Struct, io::BodyMeshReport>) {
-    auto& [part, mesh, vertices, triangles, welded, repairs, digest, body_from_file, split] = value;
-    each(part, mesh, vertices, triangles, welded, repairs, digest, body_from_file, split);
+    auto& [part, mesh, vertices, triangles, welded, repairs, digest, body_from_file, left_out, split, guessed,
+           guessed_within] = value;
+    each(part, mesh, vertices, triangles, welded, repairs, digest, body_from_file, left_out, split, guessed,
+         guessed_within);
   } else if constexpr (std::is_same_v<Struct, io::JointReport>) {
     auto& [file, fixed, mobile, placement, notes] = value;
     each(file, fixed, mobile, placement, notes);

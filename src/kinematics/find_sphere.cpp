@@ -518,8 +518,7 @@ namespace {
 /// that.
 SphericalPatch found_sphere(const TriMesh& mesh, const SphereSearch& search, const Sphere* head) {
   const Radii radii = radii_of(mesh, search);
-  const double reach =
-      head ? by_head(normals_reach, *head) : normals_share * kinematics::root_of_area(mesh);
+  const double reach = head ? by_head(normals_reach, *head) : normals_share * kinematics::root_of_area(mesh);
   const bool is_head = search.part == SphericalPart::head;
   auto points = kinematics::surface_points(mesh, search.within);
   std::vector<BallPart> parts;

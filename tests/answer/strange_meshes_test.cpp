@@ -46,7 +46,8 @@ Answered answered(TriMesh fixed, TriMesh mobile, const JointDescription& describ
   Answered out;
   for (const motion::MotionLimit& limit : range.limits)
     (limit.motion.name == "abduction" ? out.abduction_deg : out.adduction_deg) = limit.end.turned.degrees();
-  if (range.limits[0].end.bearing_contact) out.bearing_deg = range.limits[0].end.bearing_contact->turned.degrees();
+  if (range.limits[0].end.bearing_contact)
+    out.bearing_deg = range.limits[0].end.bearing_contact->turned.degrees();
   if (range.limits[0].end.contact) out.kind = range.limits[0].end.contact->kind;
   out.centre = placement.X_WF.translation();
   for (const JointNote& note : check_joint(joint, placement)) out.codes.emplace_back(name_of(note.code));

@@ -15,7 +15,7 @@
 namespace condyle::contact {
 namespace {
 
-std::string refusal(const auto& call) {
+std::string usage_error_of(const auto& call) {
   try {
     call();
   } catch (const UsageError& error) {
@@ -36,16 +36,16 @@ TEST(Pose, ThatIsNoRotationIsRefusedByAllThatTakesOne) {
   const Load load{.on_mobile = {Vec3(0, -1, 0), Vec3::Zero()}};
   for (const Pose& X : {zero, doubled, mirrored}) {
     const std::vector<std::string> refusals = {
-        refusal([&] { elastic.at(X); }),
-        refusal([&] { elastic.forces(X); }),
-        refusal([&] { elastic.refined_force_n(X); }),
-        refusal([&] { elastic.cut_off_by_reach(X); }),
-        refusal([&] { balance(elastic, X, load); }),
-        refusal([&] { normal.at(X); }),
-        refusal([&] { normal.cut_off_by_reach(X); }),
-        refusal([&] { joint.at(X); }),
-        refusal([&] { joint.radial(X); }),
-        refusal([&] { joint.in_contact(X); }),
+        usage_error_of([&] { elastic.at(X); }),
+        usage_error_of([&] { elastic.forces(X); }),
+        usage_error_of([&] { elastic.refined_force_n(X); }),
+        usage_error_of([&] { elastic.cut_off_by_reach(X); }),
+        usage_error_of([&] { balance(elastic, X, load); }),
+        usage_error_of([&] { normal.at(X); }),
+        usage_error_of([&] { normal.cut_off_by_reach(X); }),
+        usage_error_of([&] { joint.at(X); }),
+        usage_error_of([&] { joint.radial(X); }),
+        usage_error_of([&] { joint.in_contact(X); }),
     };
     for (std::size_t i = 0; i < refusals.size(); ++i)
       EXPECT_TRUE(refusals[i].starts_with("pose: its matrix ")) << i << ": " << refusals[i];
@@ -60,8 +60,8 @@ TEST(Pose, IsARotationWithinAMillionth) {
     X.linear()(1, 1) += by;
     return X;
   };
-  EXPECT_EQ(refusal([&] { normal.at(stretched(0.49e-6)); }), "");
-  EXPECT_NE(refusal([&] { normal.at(stretched(0.51e-6)); }), "");
+  EXPECT_EQ(usage_error_of([&] { normal.at(stretched(0.49e-6)); }), "");
+  EXPECT_NE(usage_error_of([&] { normal.at(stretched(0.51e-6)); }), "");
 }
 
 }  // namespace

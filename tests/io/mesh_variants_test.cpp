@@ -57,7 +57,7 @@ std::string refusal(std::string_view bytes, MeshFormat format) {
   return "read";
 }
 
-std::string with(std::string text, std::string_view from, std::string_view to) {
+std::string replaced_in(std::string text, std::string_view from, std::string_view to) {
   const auto at = text.find(from);
   EXPECT_NE(at, text.npos) << from;
   return text.replace(at, from.size(), to);
@@ -130,8 +130,9 @@ std::string ply_of_strips(std::string_view type, std::string_view lists, std::si
 TEST(MeshStrips, OfPlyBeginAnewAtMinusOne) {
   const std::string one = "20 4 0 5 1 6 2 7 3 4 0 -1 0 3 1 2 -1 4 5 7 6\n";
   expect_box(io::read_mesh(ply_of_strips("int", one, 1), MeshFormat::ply, "box").mesh, "one list");
-  expect_box(io::read_mesh(ply_of_strips("int", with(with(one, "20 ", "22 "), " 6\n", " 6 -1 -1\n"), 1),
-                           MeshFormat::ply, "box")
+  expect_box(io::read_mesh(
+                 ply_of_strips("int", replaced_in(replaced_in(one, "20 ", "22 "), " 6\n", " 6 -1 -1\n"), 1),
+                 MeshFormat::ply, "box")
                  .mesh,
              "ends that begin nothing");
   const std::string two = "10 4 0 5 1 6 2 7 3 4 0\n9 0 3 1 2 -1 4 5 7 6\n";
@@ -158,9 +159,9 @@ TEST(MeshStrips, ThatAreTooShortOrLeaveTheMeshAreRefused) {
   EXPECT_EQ(refusal(ply_of_strips("float", "3 0 1 2\n", 1), MeshFormat::ply),
             "bone: header: property 'vertex_indices' of strips should be a list of integers");
   const std::string vtk = legacy(box_for_vtk(strips), VTK_ASCII, versions[0]);
-  EXPECT_EQ(
-      refusal(with(vtk, "TRIANGLE_STRIPS 3 21", "TRIANGLE_STRIPS 1 3\n2 0 1\nMETADATA"), MeshFormat::vtk),
-      "bone: triangle strip 0 has 2 corners: it needs 3");
+  EXPECT_EQ(refusal(replaced_in(vtk, "TRIANGLE_STRIPS 3 21", "TRIANGLE_STRIPS 1 3\n2 0 1\nMETADATA"),
+                    MeshFormat::vtk),
+            "bone: triangle strip 0 has 2 corners: it needs 3");
 }
 
 TEST(LegacyVtk, PassesOverTextsAndBitsInItsFieldData) {
@@ -201,12 +202,12 @@ TEST(LegacyVtk, RefusesTextsThatTheFileIsTooShortFor) {
   data->GetFieldData()->AddArray(space);
   const std::string text = legacy(data, VTK_ASCII, versions[1]),
                     binary = legacy(data, VTK_BINARY, versions[1]);
-  EXPECT_EQ(refusal(with(text, "SPACE 1 1 string", "SPACE 1 99999999 string"), MeshFormat::vtk),
+  EXPECT_EQ(refusal(replaced_in(text, "SPACE 1 1 string", "SPACE 1 99999999 string"), MeshFormat::vtk),
             "bone: field: 99999999 texts announced, the file ends before");
-  EXPECT_EQ(
-      refusal(with(binary, "\xC3LPS", std::string("\0\xFF\xFF\xFF\xFF\xFF\xFF\xFF", 8)), MeshFormat::vtk),
-      "bone: field: the file ends within text 0");
-  EXPECT_EQ(refusal(with(text, " string", " variant"), MeshFormat::vtk),
+  EXPECT_EQ(refusal(replaced_in(binary, "\xC3LPS", std::string("\0\xFF\xFF\xFF\xFF\xFF\xFF\xFF", 8)),
+                    MeshFormat::vtk),
+            "bone: field: the file ends within text 0");
+  EXPECT_EQ(refusal(replaced_in(text, " string", " variant"), MeshFormat::vtk),
             "bone: line 6: 'variant' is no type of numbers that is read");
 }
 
