@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -90,9 +91,12 @@ TEST(AnswerFollowedRange, SaysWhereNothingCarriesTheLoad) {
   EXPECT_EQ(answer.limits.front().motion.range, Angle());
   EXPECT_TRUE(answer.limits.front().translation_ends);
   EXPECT_FALSE(answer.limits.front().translation_mm);
-  ASSERT_EQ(answer.notes.size(), 1u);
-  EXPECT_EQ(answer.notes.front().code, RangeNoteCode::translation_ends);
-  EXPECT_NE(answer.notes.front().text.find("no contact carries the load"), std::string::npos);
+  // The meshes of the scene are coarse, which is another note.
+  const auto ends = std::find_if(answer.notes.begin(), answer.notes.end(), [](const RangeNote& note) {
+    return note.code == RangeNoteCode::translation_ends;
+  });
+  ASSERT_NE(ends, answer.notes.end());
+  EXPECT_NE(ends->text.find("no contact carries the load"), std::string::npos);
 }
 
 /// Frames of flexion from `first` to `last` degrees that move forwards by `mm_per_degree`, a second kept still at either end.
