@@ -16,7 +16,8 @@ from ._limit_band import FEWEST_SAMPLES, MOST_SAMPLES
 from ._words import Progress, count, number, progress_of
 
 
-class NormalRange(NamedTuple):
+@dataclass(frozen=True)
+class NormalRange:
     """Between `low` and `high` lie the measures of `people`, `count` of them if it is known: `meaning` says which measures, `source` where from."""
 
     low: float

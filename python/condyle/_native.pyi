@@ -5,7 +5,8 @@ from typing import Any, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._words import Anatomy, Body, ContactSide, JointKind, ParameterKind, PartContact, Progress, Side, TranslationFrame
+from ._words import (Anatomy, Body, ContactSide, JointKind, ParameterKind, PartContact, Progress, Side, TranslationFrame,
+                     ZeroFrom)
 
 version: str
 

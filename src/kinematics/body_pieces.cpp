@@ -48,7 +48,7 @@ std::string piece_text(const Mesh& mesh, std::size_t piece) {
   return text_of(mesh::pieces_of(mesh).all[piece]);
 }
 
-std::vector<JointNote> piece_notes(const std::string& name, const Mesh& mesh) {
+std::vector<JointNote> piece_notes(const std::string& name, const Mesh& mesh, bool is_cut) {
   const SurfacePieces& pieces = mesh::pieces_of(mesh);
   std::vector<JointNote> notes;
   if (pieces.all.size() < 2) return notes;
@@ -74,6 +74,7 @@ std::vector<JointNote> piece_notes(const std::string& name, const Mesh& mesh) {
                                                          text_of(*cavity) +
                                                          "; what reaches through the wall around it is not "
                                                          "inside: depths and volumes count the wall only"});
+  if (is_cut) return notes;
   const auto is_outer = [](const SurfacePiece& piece) { return !piece.is_inner(); };
   const SurfacePiece* main = largest_of(pieces, is_outer);
   const auto is_beside = [&](const SurfacePiece& piece) { return is_outer(piece) && &piece != main; };
@@ -119,6 +120,10 @@ std::optional<std::size_t> stray_piece(const Body& body, Index vertex, const std
   if (piece == SurfacePiece::no_piece) return std::nullopt;
   if (std::any_of(own.begin(), own.end(), [&](Index v) { return pieces.of_vertex[v] == piece; }))
     return std::nullopt;
+  // Parts that were cut from each other are one bone.
+  const std::vector<char> cut = cut_vertices(body);
+  for (std::size_t v = 0; v < cut.size(); ++v)
+    if (cut[v] && pieces.of_vertex[v] == piece) return std::nullopt;
   // Meshes of one body may be as small as they like.
   const BodyPart* part = part_of_vertex(body, vertex);
   double all = 0, largest = 0;

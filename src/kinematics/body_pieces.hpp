@@ -12,9 +12,9 @@
 
 namespace condyle::kinematics {
 
-/// Notes on the pieces of one mesh, which is called `name`: those inside others that are not wound as cavities are, and those beside the
-/// largest.
-std::vector<JointNote> piece_notes(const std::string& name, const Mesh& mesh);
+/// Notes on the pieces of one mesh, which is called `name`: those inside others, unless they are small cavities, and those beside the largest, unless
+/// planes cut the mesh in parts.
+std::vector<JointNote> piece_notes(const std::string& name, const Mesh& mesh, bool is_cut);
 
 /// A piece in words: "4 triangles, 0.6 mm across, near (1.0, 2.0, 3.0)". `piece` is its number among those of the mesh.
 std::string piece_text(const Mesh& mesh, std::size_t piece);

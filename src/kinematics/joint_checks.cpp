@@ -113,14 +113,15 @@ std::optional<SphericalPatch> head_of(const Joint& joint, const JointPlacement& 
   return head;
 }
 
-void check_surface(const Body& body, Notes& notes) {
+void check_surface(const Body& body, Notes& notes, bool is_cut = false) {
   // Meshes of one body may lie in each other, as a cartilage does in its bone: what is inside one is inside the body.
   if (!body.parts.empty()) {
     for (const BodyPart& part : body.parts)
-      check_surface({body.name + "'s " + part.name, mesh_of_part(body, part.name)}, notes);
+      check_surface({body.name + "'s " + part.name, mesh_of_part(body, part.name)}, notes,
+                    part.cut_triangles > 0);
     return;
   }
-  notes.add(kinematics::piece_notes(body.name, body.mesh));
+  notes.add(kinematics::piece_notes(body.name, body.mesh, is_cut));
   if (!body.mesh.is_closed())
     notes.add(JointNoteCode::open_mesh,
               body.name + " is open: one body inside the other would not be detected");
@@ -314,6 +315,17 @@ void check_distance(const Joint& joint, const Sphere& head, Notes& notes) {
         joint.fixed.name + formatted(" has nothing within %.0f mm of the head of ", off) + joint.mobile.name);
 }
 
+/// Whether there is a socket about the joint centre, of whatever size.
+bool has_socket(const Body& fixed) {
+  try {
+    const Sphere socket =
+        find_sphere(kinematics::uncut_surface(fixed), {.part = SphericalPart::socket}).fit.sphere;
+    return socket.centre.norm() < socket.radius;
+  } catch (const MeshError&) {
+    return false;
+  }
+}
+
 void check_ball(const Joint& joint, const JointPlacement& placement, Notes& notes) {
   const auto head = head_of(joint, placement);
   if (!head || head->coverage < fullest_stray_sphere) {
@@ -325,7 +337,7 @@ void check_ball(const Joint& joint, const JointPlacement& placement, Notes& note
       notes.add(JointNoteCode::low_coverage,
                 formatted("the sphere about the joint centre is %.0f %% of one on ", 100 * head->coverage) +
                     joint.mobile.name + ": too little for a head, and bearing contact is inferred from it");
-    else if (!placement.sphere && !has_part(joint.mobile, PartContact::bearing))
+    else if (!placement.sphere && !has_part(joint.mobile, PartContact::bearing) && has_socket(joint.fixed))
       notes.add(JointNoteCode::no_head,
                 "no head was found on " + joint.mobile.name +
                     ": contact in the socket is not distinguished from impingement, and ends motions");
@@ -450,7 +462,6 @@ std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& pla
     check_surface(*body, notes);
     check_cuts(*body, notes);
   }
-  notes.add(kinematics::flat_end_notes(joint));
   check_parts_cut_off(joint, notes);
   check_fit(joint, placement, notes);
   const bool is_same = are_one_mesh(joint.fixed.mesh, joint.mobile.mesh);
@@ -458,6 +469,7 @@ std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& pla
     notes.add(JointNoteCode::same_mesh, joint.fixed.name + " and " + joint.mobile.name +
                                             " are one mesh: is one file given for both bodies?");
   if (is_same || !sizes.are_bones) return notes.take();
+  notes.add(kinematics::flat_end_notes(joint));
   if (joint.is_hip()) {
     check_ball(joint, placement, notes);
     if (auto note = kinematics::turned_leg_note(joint, notes.so_far())) notes.add({std::move(*note)});

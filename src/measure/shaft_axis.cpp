@@ -17,10 +17,10 @@ namespace {
 // Lengths in mm are those of a head of the usual size, and grow with it.
 
 /// The shaft begins below the lesser trochanter, in radii of the head below its centre, and curves beyond this length, mm.
-constexpr double shaft_begins = 2.6, longest_mm = 90;
+constexpr double shaft_begins = 2.6, longest_mm = 83;
 /// Between sections, and before the end of the bone, where the face that closes it is rounded off, mm.
-constexpr double step_mm = 5, end_mm = 6;
-constexpr double shortest_mm = 25, largest_bound_deg = 8;
+constexpr double step_mm = 4.6, end_mm = 5.5;
+constexpr double shortest_mm = 23, largest_bound_deg = 8;
 /// A contour whose ends miss each other by more, mm, is open.
 constexpr double closed_mm = 1e-6;
 /// A section with less of the usual area than this is one that a cut goes through.

@@ -142,9 +142,14 @@ TEST_F(CutParts, AsGivenHaveTheLimitsOfTheWholeBone) {
   EXPECT_NEAR(*a.both.ischiofemoral.value, *b.both.ischiofemoral.value, 1e-9);
   EXPECT_NEAR(*a.both.joint_space_least.value, *b.both.joint_space_least.value, 1e-9);
   EXPECT_TRUE(a.left_out.empty());
-  EXPECT_EQ(
-      answer_range(cut.joint, cut.report.placement, {.motions = motion::hip_motions()}).notes.size(),
-      answer_range(whole.joint, whole.report.placement, {.motions = motion::hip_motions()}).notes.size());
+  const auto codes_of = [](const io::LoadedJoint& loaded) {
+    std::vector<std::string> codes;
+    for (const RangeNote& note :
+         answer_range(loaded.joint, loaded.report.placement, {.motions = motion::hip_motions()}).notes)
+      codes.push_back(note.text);
+    return codes;
+  };
+  EXPECT_EQ(codes_of(cut), codes_of(whole));
 }
 
 TEST_F(CutParts, TurnedHaveTheLimitsOfMeshesTurnedByHand) {

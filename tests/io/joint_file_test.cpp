@@ -389,7 +389,7 @@ TEST_F(ReadJoint, WrongTypesAndWordsAreNamedWithTheirLine) {
   EXPECT_EQ(refusal_of("\"right\"", "\"Right\""),
             "line 4: side: must be \"right\" or \"left\", not \"Right\"");
   EXPECT_EQ(refusal_of("\"mm\"", "\"ft\""),
-            "line 5: units: must be \"mm\", \"cm\", \"in\" or \"m\", not \"ft\"");
+            "line 5: units: must be \"mm\" or \"cm\" or \"in\" or \"m\", not \"ft\"");
   EXPECT_EQ(refusal_of("[0.0, 0.0, 0.0]", "\"fitted\""),
             "line 13: frame.centre: must be [x, y, z] or \"fit\"");
   EXPECT_EQ(refusal_of("[0.0, 0.0, 0.0]", "[0, 0]"),

@@ -129,7 +129,7 @@ TEST_P(ProposedHip, InCentimetresOrInchesNamesThatUnit) {
   const auto in_mm = limits(read(proposed(Axes::joint, 1).toml).joint);
   for (const auto& [word, mm] : {std::pair{"cm", 10.0}, std::pair{"in", 25.4}}) {
     const io::JointProposal proposal = proposed(Axes::joint, 1 / mm);
-    EXPECT_NE(proposal.toml.find(std::string("units = '") + word), std::string::npos) << proposal.toml;
+    EXPECT_NE(proposal.toml.find(std::string("units = \"") + word), std::string::npos) << proposal.toml;
     const auto found = limits(read(proposal.toml).joint);
     // Vertices are floats, a tenth of a micrometre off; a micrometre moves no limit of these hips by a hundredth of a degree.
     for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], in_mm[i], 0.01) << word;

@@ -101,7 +101,7 @@ TEST(StudyOfMeshes, TakesSideUnitsAndAxesFromTheTable) {
               "a,hip/hip.toml,,,,,\n"
               "b,,bone_ras.ply,femur_ras.ply,right,m,RAS\n"
               "c,,bone_ras.ply,femur_ras.ply,,m,RAS\n"
-              "d,,bone_ras.ply,femur_ras.ply,right,cm,RAS\n"
+              "d,,bone_ras.ply,femur_ras.ply,right,ft,RAS\n"
               "e,hip/hip.toml,bone_ras.ply,femur_ras.ply,right,m,RAS\n"
               "f,,bone_ras.ply,femur_ras.ply,right,m,ras\n"
               "g,,bone_ras.ply,femur_ras.ply,R,m,RAS\n");
@@ -117,7 +117,7 @@ TEST(StudyOfMeshes, TakesSideUnitsAndAxesFromTheTable) {
   ASSERT_EQ(failures.size(), 5u);
   EXPECT_NE(failures[0].at("message").find("line 4: column 'side': right or left is needed"),
             std::string::npos);
-  EXPECT_NE(failures[1].at("message").find("line 5: column 'units': 'cm' is none of mm, m"),
+  EXPECT_NE(failures[1].at("message").find("line 5: column 'units': 'ft' is none of mm, cm, in, m"),
             std::string::npos);
   EXPECT_NE(failures[2].at("message").find("line 6: a row needs"), std::string::npos);
   // Words are spelt as in joint files.

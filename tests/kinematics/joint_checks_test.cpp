@@ -289,9 +289,10 @@ TEST(JointChecks, ThatDoNotApplyAreSilent) {
   };
   const TriMesh post = test::box({40, -120, -50}, {60, -80, 50}),
                 arm = test::box({-1, -100, -2}, {1, -10, 2});
-  const auto headless = notes_of(JointKind::ball, post, arm);
+  EXPECT_TRUE(notes_of(JointKind::ball, post, arm).empty());
+  const auto headless = notes_of(JointKind::ball, test::socket({0, 0, 0}, 26, 60, 3), arm);
   ASSERT_EQ(headless.size(), 1u);
-  EXPECT_EQ(headless[0].code, Code::no_head);
+  EXPECT_EQ(headless[0].code, Code::no_head) << "a socket, and nothing spherical in it";
   EXPECT_TRUE(notes_of(JointKind::hinge, post, test::sphere({7, 0, 0}, 20, 4)).empty());
   const TriMesh head =
       test::joined(test::sphere({0, 0, 0}, 24, 4), test::box({-10, -400, -10}, {10, -40, 10}));

@@ -200,7 +200,7 @@ SETUPS: dict[str, Setup] = {
     "inverted mesh": Setup(0, "inverted_mesh", mesh("femur", flip=True)),
     "head larger than its socket": Setup(0, "socket_smaller_than_head", mesh("femur", scale=1.2)),
     # Joint files.
-    "cm": Setup(3, '"mm" or "m", not "cm"', line("units", 'units = "cm"')),
+    "feet": Setup(3, '"mm" or "cm" or "in" or "m", not "ft"', line("units", 'units = "ft"')),
     "Right": Setup(3, '"right" or "left", not "Right"', line("side", 'side = "Right"')),
     "R": Setup(3, '"right" or "left", not "R"', line("side", 'side = "R"')),
     "ras": Setup(3, '"LPS" or "RAS", not "ras"', axes_named("ras")),
@@ -302,7 +302,7 @@ SETUPS: dict[str, Setup] = {
     "hinge on a hip": Setup(0, "unlikely_joint", line("kind", 'kind = "hinge"')),
     "knee on a hip": Setup(0, "unlikely_joint", line("kind", 'kind = "ball"\njoint = "knee"')),
     "same file twice": Setup(0, "same_mesh", changed(("femur.ply", "hip_bone.ply"))),
-    "fit with the wrong unit": Setup(4, "are the units right?", changed(('units = "mm"', 'units = "m"'),
+    "fit with the wrong unit": Setup(0, "unlikely_size", changed(('units = "mm"', 'units = "m"'),
                                                         ("centre = .*", 'centre = "fit"'))),
     "whole number beyond 2^53": Setup(3, "beyond 2^53", centre("9007199254740993")),
     "centre of 1e17 mm": Setup(3, "rounds the vertices", centre("1e17")),

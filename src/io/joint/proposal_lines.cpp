@@ -47,7 +47,7 @@ void add_head(ProposalLines& lines, const ProposedBody& fixed, const ProposedBod
 
 void add_units(ProposalLines& lines, const std::optional<Stated<LengthUnit>>& units) {
   if (units)
-    lines.key("units", toml_text(name_of(units->value)), units->by);
+    lines.key("units", fmt::format("\"{}\"", name_of(units->value)), units->by);
   else
     lines.missing("units", "\"mm\", \"cm\", \"in\" or \"m\"",
                   "the sizes of the meshes do not speak for one unit");

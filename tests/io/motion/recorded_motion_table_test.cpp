@@ -70,8 +70,9 @@ TEST(RecordedMotionTable, RefusesByLineAndKey) {
             "knee.toml: line 1: recorded_motion.units: is missing");
   EXPECT_EQ(refusal("fixed_body = \"femur\"\nmobile_body = \"femur\"\nunits = \"m\"\n"),
             "knee.toml: line 3: recorded_motion.mobile_body: must be another body than fixed_body");
-  EXPECT_EQ(refusal("fixed_body = \"femur\"\nmobile_body = \"tibia\"\nunits = \"cm\"\n"),
-            "knee.toml: line 4: recorded_motion.units: must be \"mm\" or \"m\", not \"cm\"");
+  EXPECT_EQ(
+      refusal("fixed_body = \"femur\"\nmobile_body = \"tibia\"\nunits = \"ft\"\n"),
+      "knee.toml: line 4: recorded_motion.units: must be \"mm\" or \"cm\" or \"in\" or \"m\", not \"ft\"");
   EXPECT_EQ(refusal(poses + "flexion = \"a\"\n"),
             "knee.toml: line 5: recorded_motion.flexion: fixed_body and mobile_body give the poses already: "
             "leave one "
