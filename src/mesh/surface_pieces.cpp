@@ -172,7 +172,7 @@ class InnerVertices {
 
   /// Vertices of other pieces.
   std::vector<Index> within_bounds(std::size_t piece) const {
-    const auto& [low, high] = pieces_.all[piece].bounds;
+    const Vec3 &low = pieces_.all[piece].bounds.low, &high = pieces_.all[piece].bounds.high;
     std::vector<Index> found;
     const auto first =
         std::partition_point(by_x_.begin(), by_x_.end(), [&](Index v) { return x_of(v) < low.x(); });

@@ -32,7 +32,7 @@ void refuse_unread_image(const std::filesystem::path& path) {
   const auto refuse = [&](std::string_view why) {
     throw FileError(fmt::format("{}: {}", path.string(), why));
   };
-  const std::string name = lower_case(path.filename().string());
+  const std::string name = io::lower_case(path.filename().string());
   if (name.ends_with(".mgz") || name.ends_with(".mgh"))
     refuse(
         "FreeSurfer's images are not read: its mri_convert makes .nii.gz of a label map, which condyle init "
