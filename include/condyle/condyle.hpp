@@ -24,7 +24,6 @@
 #include "condyle/fit.hpp"
 #include "condyle/make_joint.hpp"
 #include "condyle/joint_checks.hpp"
-#include "condyle/zero_pose.hpp"
 
 // One pose.
 #include "condyle/radial.hpp"

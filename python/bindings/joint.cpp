@@ -14,7 +14,6 @@
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/joint_checks.hpp"
-#include "condyle/zero_pose.hpp"
 #include "io/mesh/polygon_rule.hpp"
 #include "io/result/caveats.hpp"
 #include "joint_description.hpp"

@@ -5,7 +5,7 @@
 #include "arrays.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
-#include "condyle/zero_pose.hpp"
+#include "condyle/joint_checks.hpp"
 
 namespace condyle::python {
 namespace {

@@ -184,7 +184,7 @@ class DescribedJoint:
     def zero(self) -> ZeroPose:
         """What zero angles are known by, and how the femur of a hip lies there.
 
-        C++: `condyle::zero_pose` in condyle/zero_pose.hpp.
+        C++: `condyle::zero_pose` in condyle/joint_checks.hpp.
         """
         known_by, is_neutral, femur_deg, text = self._native.zero()
         return ZeroPose(known_by, is_neutral, None if femur_deg is None else (femur_deg[0], femur_deg[1], femur_deg[2]), text)

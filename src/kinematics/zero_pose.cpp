@@ -1,4 +1,4 @@
-#include "condyle/zero_pose.hpp"
+#include "condyle/joint_checks.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -156,7 +156,10 @@ const std::vector<Case> wrong_set_ups{
      coarse_libhip,
      [](HipSetUp& s) { s.fixed = mirrored(s.fixed, 2); },
      {Code::bodies_disagree}},
-    {"ReversedFemur", vhf, [](HipSetUp& s) { s.mobile = test::flipped(s.mobile); }, {Code::inverted_mesh}},
+    {"ReversedFemur",
+     vhf,
+     [](HipSetUp& s) { s.mobile = test::flipped(s.mobile); },
+     {Code::inverted_mesh, Code::no_head}},
     {"ReversedHipBone", vhf, [](HipSetUp& s) { s.fixed = test::flipped(s.fixed); }, {Code::inverted_mesh}},
     {"OpenFemur", vhf, [](HipSetUp& s) { s.mobile = without_some_triangles(s.mobile); }, {Code::open_mesh}},
     {"OpenHipBone", vhf, [](HipSetUp& s) { s.fixed = without_some_triangles(s.fixed); }, {Code::open_mesh}},
@@ -257,7 +260,9 @@ TEST(JointChecks, ASocketThatIsStatedIsNotFittedAgain) {
     fixed.head = socket;
     const auto [joint, placement] = make_joint(description, fixed, {"femur", head});
     std::vector<Code> codes;
-    for (const JointNote& note : check_joint(joint, placement)) codes.push_back(note.code);
+    // Ball and shaft do not touch.
+    for (const JointNote& note : check_joint(joint, placement))
+      if (note.code != Code::separate_pieces) codes.push_back(note.code);
     return codes;
   };
   EXPECT_EQ(notes_with({}), std::vector<Code>{});
@@ -309,9 +314,10 @@ TEST(JointChecks, ASurfaceThatIsThereTwiceIsNoted) {
               {"fixed", test::box({40, -120, -50}, {60, -80, 50})},
               {"mobile", test::joined(ball, ball)}};
   const auto notes = check_joint(joint, {});
-  ASSERT_EQ(notes.size(), 1u);
-  EXPECT_EQ(notes[0].code, Code::doubled_triangles);
-  EXPECT_NE(notes[0].text.find("512 of its 1024"), std::string::npos) << notes[0].text;
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_EQ(notes[0].code, Code::separate_pieces);
+  EXPECT_EQ(notes[1].code, Code::doubled_triangles);
+  EXPECT_NE(notes[1].text.find("512 of its 1024"), std::string::npos) << notes[1].text;
   joint.mobile.mesh = Mesh(ball);
   EXPECT_TRUE(check_joint(joint, {}).empty());
 }

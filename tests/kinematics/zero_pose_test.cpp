@@ -1,4 +1,3 @@
-#include "condyle/zero_pose.hpp"
 
 #include <gtest/gtest.h>
 

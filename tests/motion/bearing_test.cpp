@@ -130,17 +130,20 @@ TEST(BearingSurface, WhoseMarginIsNarrowerThanSurfacesAreRoughSaysSo) {
     joint.mobile.mesh = joined(sphere({0, 0, 0}, radius, 4), box({-1, -100, -1}, {1, -50, 1}));
     return find_bearing_surface(joint).narrow_margin;
   };
-  const double radius_of_margin_1 = socket_radius - rim_reserve_mm - narrow_bearing_margin_mm;
-  EXPECT_FALSE(margin_of(radius_of_margin_1 - 0.01));
-  ASSERT_TRUE(margin_of(radius_of_margin_1 + 0.01));
-  EXPECT_NEAR(margin_of(radius_of_margin_1 + 0.01)->margin_mm, 0.99, 1e-9);
+  // Reserve and bound grow with the head: 23 - r - r / 48 = r / 24.
+  const double narrow_radius = socket_radius / (1 + (rim_reserve_mm + narrow_bearing_margin_mm) / 24);
+  EXPECT_FALSE(margin_of(narrow_radius - 0.01));
+  ASSERT_TRUE(margin_of(narrow_radius + 0.01));
+  EXPECT_NEAR(margin_of(narrow_radius + 0.01)->margin_mm,
+              socket_radius - (narrow_radius + 0.01) * (1 + rim_reserve_mm / 24), 1e-9);
   // A staircase of voxels is as rough as their diagonal, where that is more: 1.73 mm of cubes of 1 mm, 0.87 of 0.5.
   joint.fixed.image = BodyImage{0.5 * Eigen::Matrix3d::Identity(), {}};
-  EXPECT_FALSE(margin_of(radius_of_margin_1 - 0.01));
+  EXPECT_FALSE(margin_of(narrow_radius - 0.01));
   joint.fixed.image->voxel = Eigen::Matrix3d::Identity();
-  EXPECT_TRUE(margin_of(radius_of_margin_1 - 0.01));
-  EXPECT_TRUE(margin_of(radius_of_margin_1 - (std::sqrt(3.0) - 1) + 0.01));
-  EXPECT_FALSE(margin_of(radius_of_margin_1 - (std::sqrt(3.0) - 1) - 0.01));
+  EXPECT_TRUE(margin_of(narrow_radius - 0.01));
+  const double radius_of_diagonal = (socket_radius - std::sqrt(3.0)) / (1 + rim_reserve_mm / 24);
+  EXPECT_TRUE(margin_of(radius_of_diagonal + 0.01));
+  EXPECT_FALSE(margin_of(radius_of_diagonal - 0.01));
 }
 
 TEST(BearingSurface, OfACartilageThatHasNoRoomSaysSoToo) {
@@ -151,9 +154,9 @@ TEST(BearingSurface, OfACartilageThatHasNoRoomSaysSoToo) {
     return find_bearing_surface(joint).narrow_margin;
   };
   // No reserve is kept at the rim of a cartilage.
-  const double radius_of_margin_1 = socket_radius - narrow_bearing_margin_mm;
-  EXPECT_FALSE(margin_of(radius_of_margin_1 - 0.01));
-  ASSERT_TRUE(margin_of(radius_of_margin_1 + 0.01));
+  const double narrow_radius = socket_radius / (1 + narrow_bearing_margin_mm / 24);
+  EXPECT_FALSE(margin_of(narrow_radius - 0.01));
+  ASSERT_TRUE(margin_of(narrow_radius + 0.01));
   ASSERT_TRUE(margin_of(socket_radius + 0.2)) << "pressed into its socket";
   EXPECT_NEAR(margin_of(socket_radius + 0.2)->gap_mm, -0.2, 1e-9);
 }

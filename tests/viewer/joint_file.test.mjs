@@ -34,7 +34,7 @@ function common({ text, array }) {
 
 /// Numbers beside the limits whose last bits are those of the C library's functions: points, distances, hours, fitted spheres and closed forms, of lengths and
 /// coordinates below 64 mm and angles below 1 rad.
-const nearly = /^(clock_hour|joint_space_mm|rim_gap_mm|centre_distance_mm|(bearing_|soft_)?contact_point(_mobile)?_mm|closed_form|bearing)$/, rounding = 8 * 64 * Number.EPSILON;
+const nearly = /^(clock_hour|joint_space_mm|rim_gap_mm|centre_distance_mm|(bearing_|soft_)?contact_point(_mobile)?_mm|closed_form|between_axes_deg|femur_deg|bearing)$/, rounding = 8 * 64 * Number.EPSILON;
 
 /// The paths at which two JSON values differ.
 function differences(here, of, path = "", isNear = false) {

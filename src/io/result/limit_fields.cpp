@@ -6,7 +6,7 @@
 #include <array>
 
 #include "condyle/io/pose_text.hpp"
-#include "condyle/zero_pose.hpp"
+#include "condyle/joint_checks.hpp"
 #include "io/joint/given_degrees.hpp"
 #include "io/result/caveats.hpp"
 #include "io/result/clock_hour.hpp"

@@ -1,7 +1,7 @@
 #include "io/result/rom_parts.hpp"
 
 #include "condyle/io/pose_text.hpp"
-#include "condyle/zero_pose.hpp"
+#include "condyle/joint_checks.hpp"
 
 namespace condyle::io {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "condyle/io/pose_text.hpp"
-#include "condyle/zero_pose.hpp"
+#include "condyle/joint_checks.hpp"
 #include "core/rounded.hpp"
 #include "io/file/format_version.hpp"
 #include "io/result/caveats.hpp"

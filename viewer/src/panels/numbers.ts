@@ -103,14 +103,13 @@ function howFound({ exact, band, bearing, zero, normal_range_source, provenance 
   const changed = (provenance?.parameters ?? []).filter(({ value, in_joint_file }) => value !== in_joint_file);
   return [
     ...(changed.length ? [words.notAsInFile(changed.map(changedParameter).join(", "))] : []),
-    exact === false ? words.bounded : words.guarantee,
+    (exact === false ? words.bounded : words.guarantee) + (zero ? ` ${words.zeroAt(zero.text)}` : ""),
     band ? words.bandsFrom({ samples: band.samples, seed: band.seed, ...band.sigma }) : words.noBand,
     ...(bearing ? [words.bearingRules[bearing.rule]] : []),
     ...(bearing?.why_none ? [words.bearingWhy(bearing.why_none)] : []),
     ...(bearing?.head ? [words.bearingHead(mm(bearing.head.radius_mm))] : []),
     ...(bearing?.socket ? [words.bearingSocket(mm(bearing.socket.radius_mm))] : []),
     ...(typeof bearing?.margin_mm === "number" ? [words.bearingMargin(mm(bearing.margin_mm))] : []),
-    ...(zero ? [words.zeroAt(zero.text)] : []),
     ...(normal_range_source ? [words.normalFrom(normal_range_source)] : []),
   ];
 }
