@@ -154,7 +154,7 @@ std::size_t flip_inverted(TriMesh& mesh);
 // A mesh may hold more than one bone means: specks, another bone, another leg, walls within. These leave all but one piece out, and the
 // vertices of the others; a mesh of one piece stays as it is. The cavities of the piece that stays, wound as such, stay with it.
 
-/// Of the pieces that lie in no other the one of most volume; of most area if the mesh is open. n log n.
+/// The piece of most volume among those that lie in no other; of most area if the mesh is open. n log n.
 TriMesh largest_piece(const Mesh& mesh);
 
 /// The piece whose surface is nearest a point, such as a joint centre: of two legs the one at this hip. n log n.

@@ -28,7 +28,7 @@ std::vector<char> bearing_vertices(const TriMesh& mobile, const motion::BearingS
   return marks;
 }
 
-/// Of the mobile body; empty if the fixed one has no inside, or the joint centre lies on a surface.
+/// Those of the mobile body; empty if the fixed one has no inside, or the joint centre lies on a surface.
 auto penetrations(const contact::JointContact& bodies, const Pose& X_FM)
     -> decltype(contact::Contact::mobile_in_fixed) {
   try {

@@ -24,7 +24,7 @@ constexpr double least_back_facing = 0.5;
 constexpr double least_edge = 0.8;
 /// Between the backs of two condyles: 2.1 on the Visible Human's femur.
 constexpr double least_apart = 1.4, largest_apart = 3;
-/// Of that width: 0.26 on the Visible Human's femur, 0.1 and less behind the flare above condyles.
+/// As a share of that width: 0.26 on the Visible Human's femur, 0.1 and less behind the flare above condyles.
 constexpr double least_hollow = 0.15;
 /// Half of the part of the line in which the notch is looked for.
 constexpr double half_of_middle = 0.1;

@@ -8,7 +8,7 @@
 namespace condyle::kinematics {
 namespace {
 
-/// Of the 60 degrees within which a leg lies.
+/// The cosine of the 60 degrees within which a leg lies.
 constexpr double least_cosine = 0.5;
 
 struct KeptAxes {

@@ -81,7 +81,7 @@ constexpr double normals_reach = 1.2, normals_share = 0.005;
 
 /// A socket is no larger than its head and its cartilages: radii that it is looked for with about the head's centre, in those of the head.
 constexpr double socket_ratios[] = {1.02, 1.08, 1.15, 1.25};
-/// Of an uneven socket several spheres hold nearly the same area, and which holds most is left to the grid of a label map. Centres of head and socket
+/// Several spheres of an uneven socket hold nearly the same area, and which holds most is left to the grid of a label map. Centres of head and socket
 /// are 1 mm apart: half of what a part supports counts if it is so many radii of the head away, 4 mm of a man's.
 constexpr double half_worth_off = 0.15;
 

@@ -130,7 +130,7 @@ void check_surface(const Body& body, Notes& notes, bool is_cut = false) {
         JointNoteCode::inverted_mesh,
         body.name +
             " has inverted orientation, its volume is negative: it is mirrored, or needs flip_inverted");
-  // Of an open mesh that says enough.
+  // An open mesh has its own note.
   if (body.mesh.is_closed())
     if (const mesh::DoubledTriangles doubled = mesh::doubled_triangles(body.mesh); doubled.count > 0)
       notes.add(

@@ -65,7 +65,7 @@ std::vector<Box> boxes_of_nodes(const TriangleTree& tree, const std::vector<Box>
 /// Vertices that all triangles of a node have in common, by their places; no_index for none.
 using CommonVertices = std::array<Index, 3>;
 
-/// Of each node. Vertices that lie at one place are one.
+/// One for each node. Vertices that lie at one place are one.
 std::vector<CommonVertices> common_vertices(const TriangleTree& tree) {
   const auto kept_in = [&](CommonVertices common, const CommonVertices& other) {
     for (Index& v : common)
