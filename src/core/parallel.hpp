@@ -5,6 +5,10 @@
 #ifndef CONDYLE_SERIAL
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
+
+#include <exception>
 
 #include "core/sanitizer_order.hpp"
 #endif
@@ -28,6 +32,35 @@ void parallel_chunks(std::size_t count, [[maybe_unused]] std::size_t grain, cons
                       done.before();
                     });
   done.after();
+#endif
+}
+
+/// Calls both, at the same time if there are threads. A thread that waits for what one of them computes in parallel itself never
+/// takes up the other, which may want a part of a mesh (core::Lazy) that the thread is making. If both throw, the first one's
+/// exception is thrown.
+template <class First, class Second>
+void parallel_pair(const First& first, const Second& second) {
+#ifdef CONDYLE_SERIAL
+  first();
+  second();
+#else
+  std::exception_ptr first_error, second_error;
+  SanitizerOrder begun, done;
+  const auto run = [&](const auto& body, std::exception_ptr& error) {
+    begun.after();
+    try {
+      tbb::this_task_arena::isolate(body);
+    } catch (...) {
+      error = std::current_exception();
+    }
+    done.before();
+  };
+  begun.before();
+  tbb::this_task_arena::isolate(
+      [&] { tbb::parallel_invoke([&] { run(first, first_error); }, [&] { run(second, second_error); }); });
+  done.after();
+  for (const std::exception_ptr& error : {first_error, second_error})
+    if (error) std::rethrow_exception(error);
 #endif
 }
 

@@ -176,13 +176,13 @@ struct Radii {
   double smallest, largest;
 };
 
-/// By the root of the surface's area unless they are given.
-Radii radii_of(const TriMesh& surface, const SphereSearch& search) {
+/// By the root of the surface's area unless they are given. `is_open`: whether the surface is, if that is known.
+Radii radii_of(const TriMesh& surface, const SphereSearch& search, std::optional<bool> is_open = {}) {
   if (search.smallest_radius && search.largest_radius)
     return {*search.smallest_radius, *search.largest_radius};
   const double size = kinematics::root_of_area(surface);
-  const bool is_open = mesh::first_unbalanced_edge(surface).has_value();
-  const double largest = is_open ? largest_radius_share_of_sheet : largest_radius_share;
+  if (!is_open) is_open = mesh::first_unbalanced_edge(surface).has_value();
+  const double largest = *is_open ? largest_radius_share_of_sheet : largest_radius_share;
   return {search.smallest_radius.value_or(smallest_radius_share * size),
           search.largest_radius.value_or(largest * size)};
 }
@@ -516,8 +516,8 @@ namespace {
 
 /// The sphere of a part. Of a socket round a head, spheres about its centre are grown too, and a part counts less the farther its centre is from
 /// that.
-SphericalPatch found_sphere(const TriMesh& mesh, const SphereSearch& search, const Sphere* head) {
-  const Radii radii = radii_of(mesh, search);
+SphericalPatch found_sphere(const TriMesh& mesh, const Radii& radii, const SphereSearch& search,
+                            const Sphere* head) {
   const double reach = head ? by_head(normals_reach, *head) : normals_share * kinematics::root_of_area(mesh);
   const bool is_head = search.part == SphericalPart::head;
   auto points = kinematics::surface_points(mesh, search.within);
@@ -579,16 +579,17 @@ SphericalPatch found_sphere(const TriMesh& mesh, const SphereSearch& search, con
 }  // namespace
 
 SphericalPatch find_sphere(const Mesh& mesh, const SphereSearch& search) {
-  return found_sphere(mesh::outer_surface(mesh), search, nullptr);
+  const Mesh& outer = mesh::outer_surface(mesh);
+  return found_sphere(outer, radii_of(outer, search, !outer.is_closed()), search, nullptr);
 }
 
 SphericalPatch kinematics::find_sphere_on(const TriMesh& mesh, const SphereSearch& search) {
-  return found_sphere(mesh, search, nullptr);
+  return found_sphere(mesh, radii_of(mesh, search), search, nullptr);
 }
 
 SphericalPatch kinematics::find_socket_round(const TriMesh& mesh, const Sphere& head,
                                              const SphereSearch& search) {
-  return found_sphere(mesh, search, &head);
+  return found_sphere(mesh, radii_of(mesh, search), search, &head);
 }
 
 }  // namespace condyle

@@ -70,16 +70,17 @@ Farthest farthest_corners(const TriMesh& bone) {
 
 /// Triangles that may lie in a plane with all of the bone behind it, which few of them do: theirs may be tilted against it as above.
 std::vector<Index> outermost(const TriMesh& bone, const Farthest& farthest) {
-  constexpr double tilt = 0.006;
+  constexpr double tilt = 0.006, slack = 1 + 1e-9;
   const double rise = on_cut_mm + tilt * (farthest.high - farthest.low).norm();
   std::vector<Index> found;
   for (std::size_t t = 0; t < bone.triangles.size(); ++t) {
-    const Vec3 area = twice_area(bone, t);
-    const double offset = area.dot(bone.corner(t, 0)) + area.norm() * rise;
-    // Most are ruled out by the corner that is farthest along the diagonal next to their normal.
-    if (area.dot(farthest.diagonal[octant(area)]) > offset) continue;
+    const Vec3 p = bone.corner(t, 0), area = (bone.corner(t, 1) - p).cross(bone.corner(t, 2) - p);
+    // Most are ruled out, without a root, by the corner that is farthest along the diagonal next to their normal.
+    const double ahead = area.dot(farthest.diagonal[octant(area)] - p);
+    if (ahead > 0 && ahead * ahead > slack * area.squaredNorm() * rise * rise) continue;
+    const double offset = area.dot(p) + area.norm() * rise;
     if (area.squaredNorm() > 0 && std::all_of(farthest.diagonal.begin(), farthest.diagonal.end(),
-                                              [&](const Vec3& p) { return area.dot(p) <= offset; }))
+                                              [&](const Vec3& q) { return area.dot(q) <= offset; }))
       found.push_back(static_cast<Index>(t));
   }
   return found;

@@ -8,11 +8,13 @@
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "core/parallel.hpp"
 #include "core/rounded.hpp"
 #include "kinematics/body_pieces.hpp"
 #include "kinematics/bone_sizes.hpp"
 #include "kinematics/cut_parts.hpp"
 #include "kinematics/flat_end_notes.hpp"
+#include "kinematics/flat_ends.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_axes.hpp"
 #include "kinematics/hip_parts.hpp"
@@ -453,15 +455,22 @@ std::string_view name_of(JointNoteCode code) noexcept {
 }
 
 std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& placement) {
+  // What is found on a surface is kept with its mesh, and takes the longest: one body beside the other.
+  Notes of_fixed, of_mobile;
+  const auto check_body = [&](const Body& body, Notes& own) {
+    check_surface(body, own);
+    check_cuts(body, own);
+    if (joint.is_hip()) kinematics::flat_ends(body.mesh);
+  };
+  core::parallel_pair([&] { check_body(joint.fixed, of_fixed); },
+                      [&] { check_body(joint.mobile, of_mobile); });
   Notes notes;
   const auto head = joint.has_head() ? head_of(joint, placement) : std::nullopt;
   kinematics::SizeNotes sizes =
       kinematics::size_notes(joint, head && head->coverage >= fullest_stray_sphere ? head : std::nullopt);
   notes.add(std::move(sizes.notes));
-  for (const Body* body : {&joint.fixed, &joint.mobile}) {
-    check_surface(*body, notes);
-    check_cuts(*body, notes);
-  }
+  notes.add(of_fixed.take());
+  notes.add(of_mobile.take());
   check_parts_cut_off(joint, notes);
   check_fit(joint, placement, notes);
   const bool is_same = are_one_mesh(joint.fixed.mesh, joint.mobile.mesh);

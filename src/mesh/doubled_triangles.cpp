@@ -1,13 +1,50 @@
 #include "mesh/doubled_triangles.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <vector>
 
 #include "condyle/inspect.hpp"
 
 namespace condyle::mesh {
+namespace {
+
+/// The last step of splitmix64: close values come far apart.
+constexpr std::uint64_t mixed(std::uint64_t x) noexcept {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+  return x ^ (x >> 31);
+}
+
+/// Equal for equal places: 0 and -0 are one.
+std::uint64_t digest_of_place(const Vec3& p) noexcept {
+  std::uint64_t digest = 1;
+  for (int k = 0; k < 3; ++k) digest = mixed(digest + std::bit_cast<std::uint64_t>(p[k] + 0.0));
+  return digest;
+}
+
+/// Whether two triangles may have their corners at the same three places. Of most meshes none do, and that costs a look at each.
+bool may_hold_doubles(const TriMesh& mesh) {
+  std::vector<std::uint64_t> of_vertex(mesh.vertices.size());
+  for (std::size_t v = 0; v < of_vertex.size(); ++v) of_vertex[v] = digest_of_place(mesh.vertices[v]);
+  // Open addressing, at most half full; 0 is an empty place.
+  const std::size_t size = std::bit_ceil(2 * mesh.triangles.size() + 1);
+  std::vector<std::uint64_t> seen(size);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const std::uint64_t digest = mixed(of_vertex[a] + of_vertex[b] + of_vertex[c]) | 1;
+    std::size_t at = static_cast<std::size_t>(digest >> 1) & (size - 1);
+    for (; seen[at] != 0; at = (at + 1) & (size - 1))
+      if (seen[at] == digest) return true;
+    seen[at] = digest;
+  }
+  return false;
+}
+
+}  // namespace
 
 DoubledTriangles doubled_triangles(const TriMesh& mesh) {
+  if (!may_hold_doubles(mesh)) return {};
   const std::vector<Index> first = first_of_same_coordinates(mesh.vertices);
   struct Entry {
     Triangle corners;

@@ -14,7 +14,7 @@ struct DoubledTriangles {
   std::optional<std::array<Index, 2>> first = {};  ///< the earlier one and the first of them
 };
 
-/// n log n in the mesh.
+/// Linear in a mesh without any, else n log n.
 DoubledTriangles doubled_triangles(const TriMesh& mesh);
 
 }  // namespace condyle::mesh

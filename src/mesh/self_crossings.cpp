@@ -3,12 +3,17 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/float_bounds.hpp"
 #include "core/lazy.hpp"
+#include "core/parallel.hpp"
 #include "core/predicates.hpp"
 #include "mesh/findings.hpp"
 #include "mesh/triangle_intersection.hpp"
@@ -162,29 +167,71 @@ class CrossingSearch {
 
   SelfCrossings run() {
     if (tree_.empty()) return std::move(found_);
-    std::vector<std::pair<Index, Index>> open{{0, 0}};
-    const auto add = [&](Index i, Index j) {
-      if (i != j && (apart(node_boxes_[i], node_boxes_[j]) || are_apart(slabs_.nodes, i, j))) return;
-      if (!all_share_a_vertex(i, j)) open.emplace_back(i, j);
-    };
-    while (!open.empty()) {
-      const auto [i, j] = open.back();
-      open.pop_back();
-      const Node &a = tree_.nodes()[i], &b = tree_.nodes()[j];
-      if (a.is_leaf() && b.is_leaf()) {
-        test_leaves(a, b, node_boxes_[j]);
-      } else if (i == j) {
-        add(a.child, a.child), add(a.child, a.child + 1), add(a.child + 1, a.child + 1);
-      } else if (b.is_leaf() || (!a.is_leaf() && a.size() > b.size())) {
-        add(a.child, j), add(a.child + 1, j);
-      } else {
-        add(i, b.child), add(i, b.child + 1);
-      }
+    // From the top down to as many pairs of nodes as keep all threads at work; below each, one goes on by itself.
+    constexpr std::size_t enough = 512, grain = 8;
+    std::vector<NodePair> open{{0, 0}};
+    for (std::size_t before = 0; open.size() < enough && open.size() != before;) {
+      before = open.size();
+      std::vector<NodePair> below;
+      for (const NodePair& pair : open)
+        if (are_leaves(pair))
+          below.push_back(pair);
+        else
+          go_down(pair, below);
+      open = std::move(below);
     }
+    std::mutex mutex;
+    core::parallel_chunks(open.size(), grain, [&](std::size_t begin, std::size_t end) {
+      std::vector<NodePair> own(open.begin() + static_cast<std::ptrdiff_t>(begin),
+                                open.begin() + static_cast<std::ptrdiff_t>(end));
+      Noted noted;
+      while (!own.empty()) {
+        const NodePair pair = own.back();
+        own.pop_back();
+        if (are_leaves(pair))
+          test_leaves(pair, noted);
+        else
+          go_down(pair, own);
+      }
+      const std::lock_guard lock(mutex);
+      found_.pairs += noted.pairs;
+      if (noted.first) found_.first = std::min(found_.first.value_or(*noted.first), *noted.first);
+    });
     return std::move(found_);
   }
 
  private:
+  struct NodePair {
+    Index i, j;
+  };
+  /// What one task found; which triangles cross it writes down at once.
+  struct Noted {
+    std::size_t pairs = 0;
+    std::optional<std::array<Index, 2>> first;
+  };
+
+  bool are_leaves(const NodePair& pair) const noexcept {
+    return tree_.nodes()[pair.i].is_leaf() && tree_.nodes()[pair.j].is_leaf();
+  }
+
+  /// Adds the pairs of children that may hold crossings.
+  void go_down(const NodePair& pair, std::vector<NodePair>& below) const {
+    const auto [i, j] = pair;
+    const Node &a = tree_.nodes()[i], &b = tree_.nodes()[j];
+    if (i == j) {
+      add(a.child, a.child, below), add(a.child, a.child + 1, below), add(a.child + 1, a.child + 1, below);
+    } else if (b.is_leaf() || (!a.is_leaf() && a.size() > b.size())) {
+      add(a.child, j, below), add(a.child + 1, j, below);
+    } else {
+      add(i, b.child, below), add(i, b.child + 1, below);
+    }
+  }
+
+  void add(Index i, Index j, std::vector<NodePair>& below) const {
+    if (i != j && (apart(node_boxes_[i], node_boxes_[j]) || are_apart(slabs_.nodes, i, j))) return;
+    if (!all_share_a_vertex(i, j)) below.push_back({i, j});
+  }
+
   static bool are_apart(const std::vector<Slabs>& slabs, std::size_t i, std::size_t j) noexcept {
     return !slabs.empty() && apart(slabs[i], slabs[j]);
   }
@@ -198,7 +245,9 @@ class CrossingSearch {
     return false;
   }
 
-  void test_leaves(const Node& a, const Node& b, const Box& box_of_b) {
+  void test_leaves(const NodePair& pair, Noted& noted) {
+    const Node &a = tree_.nodes()[pair.i], &b = tree_.nodes()[pair.j];
+    const Box& box_of_b = node_boxes_[pair.j];
     std::array<Index, TriangleTree::leaf_triangles> near;
     for (Index s = a.first; s < a.last; ++s) {
       const Box& box = triangle_boxes_[s];
@@ -211,7 +260,7 @@ class CrossingSearch {
       for (std::size_t k = 0; k < kept; ++k)
         if (!share_a_vertex(s, near[k]) && !are_apart(slabs_.triangles, s, near[k]) &&
             cross(tree_.corners(s), tree_.corners(near[k])))
-          note(tree_.mesh_triangles()[s], tree_.mesh_triangles()[near[k]]);
+          note(tree_.mesh_triangles()[s], tree_.mesh_triangles()[near[k]], noted);
     }
   }
 
@@ -231,11 +280,12 @@ class CrossingSearch {
     return triangles_intersect(a, b);
   }
 
-  void note(Index s, Index t) {
-    ++found_.pairs;
+  void note(Index s, Index t, Noted& noted) {
+    ++noted.pairs;
     const std::array<Index, 2> pair{std::min(s, t), std::max(s, t)};
-    found_.first = std::min(found_.first.value_or(pair), pair);
-    found_.crosses[s] = found_.crosses[t] = 1;
+    noted.first = std::min(noted.first.value_or(pair), pair);
+    for (const Index triangle : pair)
+      std::atomic_ref(found_.crosses[triangle]).store(1, std::memory_order_relaxed);
   }
 
   const TriangleTree& tree_;

@@ -49,6 +49,11 @@ ConnectedComponents connected(const Mesh& mesh) {
 /// Fills in everything but what is inner; false if there is one piece only.
 bool measure_pieces(const Mesh& mesh, SurfacePieces& out) {
   const ConnectedComponents components = connected(mesh);
+  // Nobody asks for the size of a piece that is alone.
+  if (components.first_triangle.size() == 1) {
+    out.all.push_back({.triangles = mesh.triangles().size(), .is_closed = mesh.is_closed()});
+    return false;
+  }
   std::vector<std::size_t> number(components.first_triangle.size(), no_piece);
   const BoundingBox bounds = bounds_of_surface(mesh);
   const Vec3 centre = (bounds.low + bounds.high) / 2;

@@ -36,7 +36,8 @@ struct SurfacePiece {
 };
 
 struct SurfacePieces {
-  std::vector<SurfacePiece> all;  ///< by first triangle; triangles that name a vertex twice alone are none
+  /// By first triangle; triangles that name a vertex twice alone are none. One that is alone is not measured.
+  std::vector<SurfacePiece> all;
   /// Their numbers by triangle, no_piece for those, and by vertex; empty if there is one piece.
   std::vector<std::size_t> of_triangle = {}, of_vertex = {};
   std::vector<char> is_inner = {};  ///< by vertex; empty if none is
