@@ -128,12 +128,17 @@ void note_pieces(const Joint& joint, std::span<const motion::MotionLimit> limits
       kinematics::own_vertices(joint, bearing.surface ? std::optional(bearing.surface->head) : std::nullopt);
   for (const Body* body : {&joint.fixed, &joint.mobile}) {
     const bool is_fixed = body == &joint.fixed;
+    const std::vector<Index>& own_here = is_fixed ? own.fixed : own.mobile;
+    const std::string which =
+        own_here.empty()
+            ? " that is not most of it: "
+            : " that holds neither its " + std::string(is_fixed ? "socket" : "head") + " nor most of it: ";
     std::map<std::size_t, std::string> motions;
     for (const motion::MotionLimit& limit : limits) {
       const std::optional<motion::ContactWitness>& contact = limit.end.contact;
       if (!contact) continue;
       const Index v = vertex_of(*body, is_fixed ? contact->fixed_feature : contact->mobile_feature);
-      const auto piece = kinematics::stray_piece(*body, v, is_fixed ? own.fixed : own.mobile);
+      const auto piece = kinematics::stray_piece(*body, v, own_here);
       if (!piece) continue;
       std::string& names = motions[*piece];
       names += (names.empty() ? "" : ", ") + limit.motion.name;
@@ -141,8 +146,7 @@ void note_pieces(const Joint& joint, std::span<const motion::MotionLimit> limits
     for (const auto& [piece, names] : motions)
       notes.push_back({RangeNoteCode::limit_on_piece,
                        names + (names.find(',') == names.npos ? " ends" : " end") + " on a piece of " +
-                           body->name + " that holds neither its " + (is_fixed ? "socket" : "head") +
-                           " nor most of it: " + kinematics::piece_text(body->mesh, piece)});
+                           body->name + which + kinematics::piece_text(body->mesh, piece)});
   }
 }
 

@@ -224,8 +224,13 @@ HipMeasures measure_bones(const Bones& bones, const BoneParts& parts, Coordinate
 HipMeasures measure_hip(const Joint& joint, const MeasureRequest& request) {
   measure::check_measures(joint, request);
   const BoneMeshes bones = measure::bones_of(joint);
-  return measure::measure_bones({bones.hip_bone, bones.femur}, measure::find_parts(joint, bones),
-                                joint.coordinates(), request);
+  HipMeasures measures = measure::measure_bones(
+      {bones.hip_bone, bones.femur}, measure::find_parts(joint, bones), joint.coordinates(), request);
+  // What is found about the centre of such a joint is a ball in a liner.
+  if (joint.implant)
+    for (const MeasureDefinition& each : measure::measure_definitions())
+      measure::add_note(const_cast<Measure&>(each.of(measures)), "of the implant's parts, not of bone");
+  return measures;
 }
 
 }  // namespace condyle::measure

@@ -70,6 +70,20 @@ TEST_F(ImplantCommand, WritesAJointThatHasTheClosedFormAndTurnsItsParts) {
   }
 }
 
+TEST_F(ImplantCommand, MeasuresOfTheJointSayThatTheyAreOfItsParts) {
+  ASSERT_EQ(run("implant hip.toml --out thr").exit_code, 0);
+  const Json measured = answer("measure thr/hip.toml");
+  std::size_t with_value = 0;
+  for (const Json& measure : measured["measures"]) {
+    const std::string note = measure["note"].is_null() ? "" : measure["note"].get<std::string>();
+    EXPECT_EQ(note.find("of the implant's parts") != std::string::npos, !measure["value"].is_null())
+        << measure["key"];
+    with_value += !measure["value"].is_null();
+  }
+  EXPECT_GT(with_value, 0u);
+  EXPECT_EQ(answer("measure hip.toml").dump().find("of the implant"), std::string::npos);
+}
+
 TEST_F(ImplantCommand, KeepsTheMotionsOfTheJointFile) {
   ASSERT_EQ(run("implant hip.toml --out thr").exit_code, 0);
   const io::JointFile file = io::read_joint_file(folder / "thr/hip.toml");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -99,6 +100,13 @@ TEST_F(ReadJoint, StandardPlacementKeepsEveryBit) {
   EXPECT_EQ(joint.fixed.name, "hip bone");
   EXPECT_EQ(joint.mobile.name, "femur");
   EXPECT_TRUE(report.processing.empty()) << report.processing.front();
+}
+
+TEST_F(ReadJoint, LinesMayEndWithACarriageReturnAlone) {
+  std::string text = plain;
+  std::replace(text.begin(), text.end(), '\n', '\r');
+  EXPECT_EQ(read(text).joint.name, "right hip");
+  EXPECT_TRUE(refusal(text + "no key\r").starts_with("line 16: not TOML")) << refusal(text + "no key\r");
 }
 
 TEST_F(ReadJoint, AJointMadeByHandIsTheSameBitForBit) {

@@ -65,7 +65,7 @@ for (const [name, { joint, band }] of Object.entries(hips))
   test(`five questions are answered from what is read on the page of ${name}`, { skip: !has(name) && "not made" }, async (t) => {
     const { page, complaints } = await openPage(browser, pathOf(name), { width: 1440, height: 900, reducedMotion: "reduce" });
     await settled(page);
-    const { motions } = JSON.parse(execFileSync(condyle, ["rom", join(reports, joint), "--json", ...(band ? ["--band=20"] : [])], { stdio: ["ignore", "pipe", "ignore"] }));
+    const { motions, zero } = JSON.parse(execFileSync(condyle, ["rom", join(reports, joint), "--json", ...(band ? ["--band=20"] : [])], { stdio: ["ignore", "pipe", "ignore"] }));
     const first = limiting(motions), seen = await seenText(page);
     const sentence = seen.find((line) => / ends at /.test(line));
     assert.ok(sentence, seen.join("\n"));
@@ -77,7 +77,7 @@ for (const [name, { joint, band }] of Object.entries(hips))
     assert.match(rest, /, (neck on rim|femur on hip bone)\b/);
     // By how much, against normal.
     assert.equal(limit, first.limit_deg.toFixed(1));
-    const against = first.normal_range_deg === null ? "no normal range known" : `${(first.normal_range_deg - first.limit_deg).toFixed(0)}° short of normal (${first.normal_range_deg}°)`;
+    const against = !zero.is_neutral ? "not compared with normal, as zero is not known to be neutral" : first.normal_range_deg === null ? "no normal range known" : `${(first.normal_range_deg - first.limit_deg).toFixed(0)}° short of normal (${first.normal_range_deg}°)`;
     assert.ok(rest.includes(against), rest);
     // Of a motion that is pressed it says how far beyond normal it goes.
     const beyond = motions.find(({ name: each, normal_range_deg, limit_deg, reason }) => each === "flexion" && reason === "contact" && limit_deg > normal_range_deg);

@@ -81,7 +81,7 @@ export interface RomAnswer {
   motions: MotionAnswer[];
   notes: { code: string; text: string }[];
   caveats: string[];
-  zero?: { from: string; text: string };
+  zero?: { from: string; is_neutral?: boolean | null; text: string };  // is_neutral: null for joints other than hips
   normal_range_source?: string | null;
   scope: string;
   provenance?: {

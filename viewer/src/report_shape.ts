@@ -54,7 +54,7 @@ const sphere = object({ radius_mm: number, centre_mm: ifThere(three) });
 const rom = object({
   exact: ifThere(flag), clock_plane: ifThere(orNull(oneOf("sagittal", "rim"))),
   held_translation_mm: ifThere(orNull(three)), motions: list(motion), notes: list(object({ code: text, text })), caveats: list(text),
-  zero: ifThere(object({ from: text, text })), normal_range_source: ifThere(orNull(text)), scope: text, bearing: ifThere(object({
+  zero: ifThere(object({ from: text, is_neutral: ifThere(orNull(flag)), text })), normal_range_source: ifThere(orNull(text)), scope: text, bearing: ifThere(object({
     rule: oneOf("count", "leave_out"), why_none: ifThere(text), head: ifThere(orNull(sphere)), socket: ifThere(orNull(sphere)),
     margin_mm: ifThere(orNull(number)),
   })),

@@ -73,6 +73,7 @@ export const words = {
   lacks: (lacks: string, normal: string) => `${lacks}° short of normal (${normal}°)`,
   beyond: (more: string, normal: string) => `${more}° beyond normal (${normal}°)`,
   noNormal: "no normal range known",
+  notFromNeutral: "not compared with normal, as zero is not known to be neutral",
   neckOnRim: "neck on rim",
   atHour: (meets: string, hour: string) => `${meets} at ${hour}`,
   awayFromRim: "away from the rim",

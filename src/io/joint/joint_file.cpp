@@ -34,6 +34,13 @@ bool is_xml(std::string_view text) {
   return first != text.npos && text[first] == '<';
 }
 
+/// TOML knows no line that ends with a carriage return alone, as some editors write.
+std::string with_line_feeds(std::string_view text) {
+  std::string lines(text);
+  if (lines.find('\n') == lines.npos) std::replace(lines.begin(), lines.end(), '\r', '\n');
+  return lines;
+}
+
 toml::table parsed(std::string_view text, const std::filesystem::path& path) {
   if (is_xml(text))
     throw FileError(
@@ -44,7 +51,7 @@ toml::table parsed(std::string_view text, const std::filesystem::path& path) {
     throw FileError(fmt::format("{}: line {}: keys, lists and tables may be nested {} deep, not deeper",
                                 path.string(), *line, io::most_toml_levels));
   try {
-    return toml::parse(text, path.string());
+    return toml::parse(with_line_feeds(text), path.string());
   } catch (const toml::parse_error& error) {
     throw FileError(fmt::format("{}: line {}: not TOML: {}", path.string(), error.source().begin.line,
                                 core::one_line(error.description(), 300)));

@@ -315,7 +315,7 @@ constexpr LimitField every_field[] = {
      "what zero angles are known by, as in `zero`: `\"as_given\"`, `\"stated\"`, `\"landmarks\"` or "
      "`\"anatomy\"`",
      &zero_from, one, "zero_from", "", text_column,
-     "what zero is known by: as_given, stated, landmarks or anatomy", rom},
+     "what zero is known by: as_given, stated, landmarks or anatomy", studies},
     {"definition",
      "of `fadir` and `faber`: `\"as defined here; no angles are agreed on\"`, their angles are "
      "`start_deg` and `vary`; null for other motions",

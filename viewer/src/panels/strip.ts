@@ -42,6 +42,7 @@ export function sentenceOf(motion: MotionAnswer, report: ReportText): string {
 /// How far a limit is short of the normal range or beyond it; null for joints without normal ranges.
 function againstNormal(motion: MotionAnswer, { rom }: ReportText): string | null {
   const { normal_range_deg: normal, limit_deg } = motion, lacks = deficitOf(motion);
+  if (normal === null && rom?.zero?.is_neutral === false) return words.notFromNeutral;
   if (normal === null) return rom?.motions.some(({ normal_range_deg }) => normal_range_deg !== null) ? words.noNormal : null;
   return lacks === null ? words.beyond(fixed(limit_deg - normal, 0), fixed(normal, 0)) : words.lacks(fixed(lacks, 0), fixed(normal, 0));
 }
