@@ -25,6 +25,9 @@ condyle_status failed(condyle_status status, const char* text) noexcept {
 /// Rotations written with six decimals pass, as they do in joint files.
 constexpr double rotation_tolerance = 1e-6;
 
+/// Vertices and triangles have numbers of 32 bits, of which one is needed elsewhere.
+constexpr std::size_t most_counted = std::size_t{1} << 31;
+
 }  // namespace
 
 condyle_status status_of_exception() noexcept {
@@ -75,6 +78,10 @@ BodyRole role_of(condyle_body body) {
   return body == CONDYLE_FIXED ? BodyRole::fixed : BodyRole::mobile;
 }
 
+void check_countable(std::size_t count) {
+  if (count > most_counted) throw std::length_error("more than can be numbered");
+}
+
 Points points_of(const double* xyz_mm, std::size_t count, const char* name) {
   if (count > 0) require(xyz_mm, name);
   Points points(count);
@@ -83,9 +90,20 @@ Points points_of(const double* xyz_mm, std::size_t count, const char* name) {
   return points;
 }
 
-std::span<const Index> numbers_of(const std::uint32_t* vertices, std::size_t count) {
+Points all_points_of(const Mesh& body, const double* xyz_mm, std::size_t count) {
+  if (count > 0) require(xyz_mm, "xyz_mm");
+  if (const std::size_t vertices = body.vertices().size(); count != vertices)
+    throw UsageError("an update of " + std::to_string(vertices) + " vertices gives " + std::to_string(count));
+  return points_of(xyz_mm, count, "xyz_mm");
+}
+
+SomePoints some_points_of(const Mesh& body, const std::uint32_t* vertices, std::size_t count,
+                          const double* xyz_mm) {
   if (count > 0) require(vertices, "vertices");
-  return {vertices, count};
+  if (count > 0) require(xyz_mm, "xyz_mm");
+  if (const std::size_t all = body.vertices().size(); count > all)
+    throw UsageError("an update moves " + std::to_string(count) + " vertices of " + std::to_string(all));
+  return {{vertices, count}, points_of(xyz_mm, count, "xyz_mm")};
 }
 
 Vec3 vector_of(const double* xyz, const char* name) {
@@ -109,6 +127,8 @@ condyle_status condyle_mesh_create(const double* xyz_mm, size_t vertex_count, co
                                    size_t triangle_count, condyle_mesh** mesh) {
   return c::guarded([&] {
     condyle_mesh*& out = c::required(mesh, "mesh");
+    c::check_countable(vertex_count);
+    c::check_countable(triangle_count);
     TriMesh arrays{c::points_of(xyz_mm, vertex_count, "xyz_mm"), {}};
     if (triangle_count > 0) c::require(triangles, "triangles");
     arrays.triangles.resize(triangle_count);

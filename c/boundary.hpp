@@ -64,11 +64,29 @@ const T& answered(const T* results) {
 Pose pose_of(const condyle_pose* pose, const char* name);
 BodyRole role_of(condyle_body body);
 
+/// std::length_error for more than any mesh has, before anything is read.
+void check_countable(std::size_t count);
+
 /// `count` points given x, y, z one after the other.
 Points points_of(const double* xyz_mm, std::size_t count, const char* name);
 
-/// Numbers of vertices, borrowed.
-std::span<const Index> numbers_of(const std::uint32_t* vertices, std::size_t count);
+/// The body of a contact that has both.
+template <class Contact>
+const Mesh& mesh_of(const Contact& contact, BodyRole body) {
+  return body == BodyRole::fixed ? contact.fixed() : contact.mobile();
+}
+
+/// New positions of all vertices of a body. UsageError for another count, before anything is read.
+Points all_points_of(const Mesh& body, const double* xyz_mm, std::size_t count);
+
+/// New positions of some vertices of a body: numbers, borrowed, and points. UsageError for more than the body has, before anything is
+/// read.
+struct SomePoints {
+  std::span<const Index> vertices;
+  Points points;
+};
+SomePoints some_points_of(const Mesh& body, const std::uint32_t* vertices, std::size_t count,
+                          const double* xyz_mm);
 
 Vec3 vector_of(const double* xyz, const char* name);
 

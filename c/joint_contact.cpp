@@ -69,7 +69,8 @@ condyle_status condyle_joint_contact_update(condyle_joint_contact* contact, cond
                                             const double* xyz_mm, size_t vertex_count) {
   return c::guarded([&] {
     contact::JointContact& joint = c::required(contact, "contact").joint;
-    joint.update(c::role_of(body), c::points_of(xyz_mm, vertex_count, "xyz_mm"));
+    const BodyRole role = c::role_of(body);
+    joint.update(role, c::all_points_of(c::mesh_of(joint, role), xyz_mm, vertex_count));
   });
 }
 
@@ -78,7 +79,9 @@ condyle_status condyle_joint_contact_update_some(condyle_joint_contact* contact,
                                                  const double* xyz_mm) {
   return c::guarded([&] {
     contact::JointContact& joint = c::required(contact, "contact").joint;
-    joint.update(c::role_of(body), c::numbers_of(vertices, count), c::points_of(xyz_mm, count, "xyz_mm"));
+    const BodyRole role = c::role_of(body);
+    const c::SomePoints some = c::some_points_of(c::mesh_of(joint, role), vertices, count, xyz_mm);
+    joint.update(role, some.vertices, some.points);
   });
 }
 

@@ -137,7 +137,7 @@ condyle_status condyle_normal_depth_update_casting(condyle_normal_depth* depth, 
                                                    size_t vertex_count) {
   return c::guarded([&] {
     contact::NormalDepth& out = c::required(depth, "depth").depth;
-    out.update_casting(c::points_of(xyz_mm, vertex_count, "xyz_mm"));
+    out.update_casting(c::all_points_of(out.casting(), xyz_mm, vertex_count));
   });
 }
 
@@ -145,7 +145,8 @@ condyle_status condyle_normal_depth_update_casting_some(condyle_normal_depth* de
                                                         size_t count, const double* xyz_mm) {
   return c::guarded([&] {
     contact::NormalDepth& out = c::required(depth, "depth").depth;
-    out.update_casting(c::numbers_of(vertices, count), c::points_of(xyz_mm, count, "xyz_mm"));
+    const c::SomePoints some = c::some_points_of(out.casting(), vertices, count, xyz_mm);
+    out.update_casting(some.vertices, some.points);
   });
 }
 
@@ -153,7 +154,7 @@ condyle_status condyle_normal_depth_update_target(condyle_normal_depth* depth, c
                                                   size_t vertex_count) {
   return c::guarded([&] {
     contact::NormalDepth& out = c::required(depth, "depth").depth;
-    out.update_target(c::points_of(xyz_mm, vertex_count, "xyz_mm"));
+    out.update_target(c::all_points_of(out.target(), xyz_mm, vertex_count));
   });
 }
 
@@ -161,7 +162,8 @@ condyle_status condyle_normal_depth_update_target_some(condyle_normal_depth* dep
                                                        size_t count, const double* xyz_mm) {
   return c::guarded([&] {
     contact::NormalDepth& out = c::required(depth, "depth").depth;
-    out.update_target(c::numbers_of(vertices, count), c::points_of(xyz_mm, count, "xyz_mm"));
+    const c::SomePoints some = c::some_points_of(out.target(), vertices, count, xyz_mm);
+    out.update_target(some.vertices, some.points);
   });
 }
 
@@ -226,6 +228,7 @@ condyle_status condyle_elastic_options_set_layer(condyle_elastic_options* option
     const BodyRole role = c::role_of(body);
     c::require(thickness_mm, "thickness_mm");
     if (thickness_count == 0) throw UsageError("thickness_count is 0: a layer has a thickness");
+    c::check_countable(thickness_count);
     contact::ElasticLayer layer{youngs_modulus_mpa, poisson_ratio, *thickness_mm};
     if (thickness_count > 1)
       layer.thickness_mm = std::vector<double>(thickness_mm, thickness_mm + thickness_count);
@@ -252,7 +255,8 @@ condyle_status condyle_elastic_contact_update(condyle_elastic_contact* contact, 
                                               const double* xyz_mm, size_t vertex_count) {
   return c::guarded([&] {
     contact::ElasticContact& out = c::required(contact, "contact").contact;
-    out.update(c::role_of(body), c::points_of(xyz_mm, vertex_count, "xyz_mm"));
+    const BodyRole role = c::role_of(body);
+    out.update(role, c::all_points_of(c::mesh_of(out, role), xyz_mm, vertex_count));
   });
 }
 
@@ -261,7 +265,9 @@ condyle_status condyle_elastic_contact_update_some(condyle_elastic_contact* cont
                                                    const double* xyz_mm) {
   return c::guarded([&] {
     contact::ElasticContact& out = c::required(contact, "contact").contact;
-    out.update(c::role_of(body), c::numbers_of(vertices, count), c::points_of(xyz_mm, count, "xyz_mm"));
+    const BodyRole role = c::role_of(body);
+    const c::SomePoints some = c::some_points_of(c::mesh_of(out, role), vertices, count, xyz_mm);
+    out.update(role, some.vertices, some.points);
   });
 }
 

@@ -1,4 +1,5 @@
 #include "implant_options.hpp"
+#include "whole_number.hpp"
 
 #include <fmt/format.h>
 
@@ -51,6 +52,7 @@ void add_facets(CLI::App& command, const std::shared_ptr<ImplantSizeArguments>& 
           [given](int facets) { std::visit([&](auto& design) { design.facets = facets; }, given->implant); },
           "Facets around liner and neck: with 360 limits are within 0.01 degrees of the closed form; the "
           "error goes with the square")
+      ->check(whole_number(1))
       ->option_text(fmt::format("N ({})", plan::default_facets));
 }
 

@@ -5,6 +5,7 @@
 
 #include "answer.hpp"
 #include "condyle/error.hpp"
+#include "whole_number.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -25,6 +26,7 @@ void add_label_file(CLI::App& command, const std::shared_ptr<LabelOptions>& opti
       .add_option_function<std::int64_t>(
           "--volume", [options](std::int64_t volume) { options->file.volume = volume; },
           "Which volume of a NIfTI file with several, from 0")
+      ->check(whole_number(0))
       ->option_text("N");
   command
       .add_option_function<std::string>(
@@ -63,6 +65,7 @@ void add_label_surface(CLI::App& command, const std::shared_ptr<LabelOptions>& o
       .add_option_function<std::size_t>(
           "--triangles", [options](std::size_t count) { options->surface.triangles = count; },
           "Simplify each surface to about this many triangles")
+      ->check(whole_number(1))
       ->option_text("N (as extracted)");
 }
 

@@ -24,6 +24,7 @@
 #include "interrupt.hpp"
 #include "io/file/failure.hpp"
 #include "io/file/temporary_folder.hpp"
+#include "whole_number.hpp"
 
 namespace {
 
@@ -170,7 +171,7 @@ int run(int argc, char** argv) {
                                            static_cast<std::size_t>(count));
          },
          "Use at most this many threads. Results are the same for any number")
-      ->check(CLI::Range(1, 4096))
+      ->check(cli::whole_number(1, 4096))
       ->option_text("N (all cores)");
 
   cli::add_init(app);

@@ -7,6 +7,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/joint/grid_text.hpp"
+#include "whole_number.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -87,15 +88,17 @@ CLI::Option* add_accept(CLI::App& command, const std::shared_ptr<RangeArguments>
 }
 
 CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeArguments>& given) {
-  auto* band = command
-                   .add_flag("--band{200}", given->band_samples,
-                             "Compute how far each limit moves within its uncertainty: from 5 to 95 % of N "
-                             "displaced joints")
+  const std::string band_help =
+      "Compute how far each limit moves within its uncertainty: from 5 to 95 % of N displaced joints";
+  auto* band = command.add_flag("--band{200}", band_help)
+                   ->check(whole_number(1))
+                   ->each([given](const std::string& text) { given->band_samples = std::stoull(text); })
                    ->option_text("[=N] (200)");
   const auto for_band = [&](CLI::Option* option) { option->needs(band); };
   for_band(command
                .add_option("--seed", given->seed,
                            "With --band: the seed of the displacements, instead of that of the joint file")
+               ->check(seed_number())
                ->option_text("N (1)"));
   for_band(command
                .add_option("--sigma-centre", given->sigma.centre_mm,

@@ -33,6 +33,7 @@
 #include "range_options.hpp"
 #include "resection_options.hpp"
 #include "set_option.hpp"
+#include "whole_number.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -367,7 +368,7 @@ void add_report(CLI::App& app) {
       ->add_option("--curve", options->curve_points,
                    "Points on the curve of degrees against mm3 for each target; 0 for none, each costs a cut")
       ->option_text("N (10)")
-      ->check(CLI::Range(0, 1000))
+      ->check(whole_number(0, 1000))
       ->needs(resect);
   auto* map = add_map(*command, options->range);
   auto* translation = add_translation(*command, options->range);

@@ -24,6 +24,7 @@
 #include "range_options.hpp"
 #include "resection_options.hpp"
 #include "set_option.hpp"
+#include "whole_number.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -105,7 +106,7 @@ void add_resect(CLI::App& app) {
       ->add_option("--curve", options->curve_points,
                    "Points on the curve of degrees against mm3 for each target; 0 for none, each costs a cut")
       ->option_text("N (10)")
-      ->check(CLI::Range(0, 1000));
+      ->check(whole_number(0, 1000));
   add_band(*command, options->range);
   add_bearing(*command, options->range);
   add_accept(*command, options->range);

@@ -14,6 +14,7 @@
 #include "help_formatter.hpp"
 #include "io/result/sample_files.hpp"
 #include "sample_implants.hpp"
+#include "whole_number.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -96,11 +97,13 @@ void add_resolution(CLI::App& command, int& scenario, int first, const char* hel
                     const Count& mobile) {
   scenario = first;
   const int last = first + 3;
-  auto* by_scenario = command.add_option("--scenario", scenario, help)
-                          ->check(CLI::Range(first, last))
-                          ->option_text(fmt::format("{}..{} ({})", first, last, first));
+  auto* by_scenario =
+      command.add_option("--scenario", scenario, help)
+          ->check(whole_number(static_cast<std::uint64_t>(first), static_cast<std::uint64_t>(last)))
+          ->option_text(fmt::format("{}..{} ({})", first, last, first));
   const auto add_count = [&](const Count& count) {
     return command.add_option(count.option, count.triangles, "Make exactly this many triangles instead")
+        ->check(whole_number(1))
         ->excludes(by_scenario)
         ->option_text("N");
   };
@@ -235,10 +238,15 @@ void add_cohort(CLI::App& sample) {
   command->add_option("--out", options->out, "Write cohort.csv and cohort.json into this folder")
       ->required()
       ->option_text("FOLDER");
-  command->add_option("--n", options->cohort.n, "Draw this many hips")->required()->option_text("N");
-  command->add_option("--seed", options->cohort.seed, "The seed of the draws")->option_text("N (1)");
+  command->add_option("--n", options->cohort.n, "Draw this many hips")
+      ->required()
+      ->check(whole_number(1))
+      ->option_text("N");
+  command->add_option("--seed", options->cohort.seed, "The seed of the draws")
+      ->check(seed_number())
+      ->option_text("N (1)");
   command->add_option("--scenario", options->scenario, "How fine the meshes are, as in condyle sample hip")
-      ->check(CLI::Range(1, 4))
+      ->check(whole_number(1, 4))
       ->option_text("1..4 (1)");
   command->add_flag_callback(
       "--meshes", [options] { options->cohort.meshes = io::CohortMeshes::in_files; },

@@ -17,6 +17,7 @@
 #include "implant_options.hpp"
 #include "io/result/implant_result.hpp"
 #include "io/result/sample_files.hpp"
+#include "whole_number.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -90,7 +91,7 @@ void add_replacement(CLI::App& sample) {
       ->check(CLI::IsMember({"sample", "none"}))
       ->option_text("sample|none (sample)");
   command->add_option("--scenario", options->scenario, "How fine the bones are, as in condyle sample hip")
-      ->check(CLI::Range(1, 4))
+      ->check(whole_number(1, 4))
       ->option_text("1..4 (1)");
   const std::vector<std::string> sizes = add_sizes(*command, options->given);
   group_help(*command, {{"Most used", {"--out", "--side", "--bones", "--definition"}},

@@ -25,6 +25,32 @@ function(condyle_settings_for target)
   endif()
 endfunction()
 
+# What a release has against faults that tests did not find, in all that meets a stranger's bytes: files, arguments, arrays of other
+# languages. A stack that is written over ends the process, calls of the C library with a size that the compiler knows are checked,
+# and jumps go where functions begin. The kernels between have neither buffers of bytes nor sizes from outside, and are measured
+# without. docs/reliability.md
+include(CheckCXXCompilerFlag)
+function(condyle_harden target)
+  if(CONDYLE_SANITIZE OR EMSCRIPTEN)
+    return()
+  endif()
+  foreach(flag -fstack-protector-strong -fstack-clash-protection -fcf-protection)
+    string(MAKE_C_IDENTIFIER ${flag} known)
+    check_cxx_compiler_flag(${flag} CONDYLE_HAS${known})
+    if(CONDYLE_HAS${known})
+      target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${flag}>)
+    endif()
+  endforeach()
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-U_FORTIFY_SOURCE> $<$<CONFIG:Release>:-D_FORTIFY_SOURCE=2>)
+endfunction()
+
+# Of programs and shared libraries: addresses of functions are found before the first instruction, and cannot be written afterwards.
+function(condyle_bind_at_start target)
+  if(NOT CONDYLE_SANITIZE AND NOT EMSCRIPTEN)
+    target_link_options(${target} PRIVATE LINKER:-z,relro LINKER:-z,now)
+  endif()
+endfunction()
+
 # Has the headers that most files of a target include compiled once for all of them: condyle_precompile(target [FEW_UNITS]
 # header...). With FEW_UNITS not where sources compile several at a time: to precompile then takes longer than it spares.
 # What keeps forgotten includes from passing unseen: docs/decisions/0006-faster-builds.md.

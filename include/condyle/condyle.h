@@ -24,8 +24,8 @@
 /// belong to one thread at a time.
 ///
 /// Updates: a body of a contact that has deformed gets new positions of all vertices, x, y, z one after the other in its own frame, as
-/// many as there were; or of some, each named once. Answers are those of an object made anew. CONDYLE_BAD_ARGUMENT if numbers differ, a
-/// number is no vertex's or is there twice; CONDYLE_BAD_MESH if a coordinate is not finite or beyond 1e30 mm. A refused update changes
+/// many as there were; or of some, each named once. Answers are those of an object made anew. CONDYLE_BAD_ARGUMENT if numbers differ, before
+/// anything is read, and if a number is no vertex's or is there twice; CONDYLE_BAD_MESH if a coordinate is not finite or beyond 1e30 mm. A refused update changes
 /// nothing. Not while another thread queries. Objects made from the same meshes, and results, stay as they are.
 ///
 /// Growth: names and structs of this header stay as they are as long as the library is libcondyle_c.so.1. What is
@@ -261,7 +261,7 @@ CONDYLE_API condyle_status condyle_elastic_options_set_law(condyle_elastic_optio
                                                            condyle_pressure_law law);
 CONDYLE_API condyle_status condyle_elastic_options_set_rays(condyle_elastic_options* options,
                                                             condyle_face_rule rule, double reach_mm);
-/// The layer of a body: `thickness_count` is 1 for one thickness, or the number of the body's vertices, each with its own. A body
+/// The layer of a body: `thickness_count`, of which so many are read, is 1 for one thickness, or the number of the body's vertices, each with its own. A body
 /// without a layer is rigid, and one of the two needs one. Values are checked by condyle_elastic_contact_create(): modulus > 0,
 /// Poisson's ratio > -1 and < 0.5, thicknesses > 0.
 CONDYLE_API condyle_status condyle_elastic_options_set_layer(condyle_elastic_options* options,

@@ -3,6 +3,7 @@
 #include <limits>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -345,11 +346,11 @@ void check_sweep(const Joint& joint, const SweepQuery& query) {
     if (parameter_named(joint, swept.name).kind == ParameterKind::size)
       throw UsageError(swept.name + ": sizes are not swept: rotations and translations of parts are");
   designs_of(query.parameters);
-  for (std::size_t t = 0; t < query.targets.size(); ++t) {
-    check_target(query.targets[t], joint);
-    for (std::size_t k = 0; k < t; ++k)
-      if (query.targets[k].name == query.targets[t].name)
-        throw UsageError("target " + core::one_line(query.targets[t].name) + " is given twice");
+  std::set<std::string_view> names;
+  for (const plan::SweepTarget& target : query.targets) {
+    check_target(target, joint);
+    if (!names.insert(target.name).second)
+      throw UsageError("target " + core::one_line(target.name) + " is given twice");
   }
   if (!query.bands) return;
   motion::check_band(*query.bands);

@@ -23,6 +23,9 @@ MovedVertices moved_vertices(const Mesh& before, std::span<const Index> moved, P
   if (moved.size() != positions.size())
     throw UsageError("an update moves " + std::to_string(moved.size()) + " vertices and gives " +
                      std::to_string(positions.size()) + " positions");
+  if (moved.size() > count)
+    throw UsageError("an update moves " + std::to_string(moved.size()) + " vertices of " +
+                     std::to_string(count));
   Points points = before.vertices();
   std::vector<char> is_moved(count);
   for (std::size_t i = 0; i < moved.size(); ++i) {

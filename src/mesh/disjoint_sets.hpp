@@ -19,9 +19,12 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  void join(Index a, Index b) {
+  /// Whether they were in two sets.
+  bool join(Index a, Index b) {
     a = find(a), b = find(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+    if (a == b) return false;
+    parent_[std::max(a, b)] = std::min(a, b);
+    return true;
   }
 
  private:

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string_view>
 #include <tuple>
 
 #include "condyle/error.hpp"
@@ -50,13 +52,12 @@ void check_resection(const Joint& joint, const ResectionRequest& request) {
   if (request.targets.empty()) throw UsageError("resection: no motion has a target to reach");
   if (joint.implant)
     throw UsageError("resection: the joint has an implant, and a cut does not know it from bone");
-  for (auto target = request.targets.begin(); target != request.targets.end(); ++target) {
-    const motion::Motion& motion = target->motion;
-    const Angle reach = target->reach;
+  std::set<std::string_view> names;
+  for (const ReachTarget& target : request.targets) {
+    const motion::Motion& motion = target.motion;
+    const Angle reach = target.reach;
     motion::check_motion(motion, joint.kind);
-    if (std::any_of(request.targets.begin(), target,
-                    [&](const ReachTarget& other) { return other.motion.name == motion.name; }))
-      throw UsageError("resection: " + motion.name + " has two targets");
+    if (!names.insert(motion.name).second) throw UsageError("resection: " + motion.name + " has two targets");
     if (!(reach > Angle() && reach <= motion.range))
       throw UsageError("resection: " + motion.name + " cannot reach " + degrees(reach) +
                        " degrees: its range is above 0 and at most " + degrees(motion.range));

@@ -1,4 +1,6 @@
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -213,6 +215,76 @@ TEST(CUpdate, WhatIsRefusedHasTheLineOfCppAndChangesNothing) {
   expect_unchanged();
   EXPECT_EQ(condyle_joint_contact_update_some(c_joint.get(), CONDYLE_FIXED, nullptr, 0, nullptr), CONDYLE_OK);
   expect_unchanged();
+}
+
+/// The last bytes of a page behind which nothing can be read.
+class LastOfAPage {
+ public:
+  LastOfAPage() : size_(static_cast<std::size_t>(::sysconf(_SC_PAGESIZE))) {
+    pages_ = static_cast<char*>(
+        ::mmap(nullptr, 2 * size_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
+    ::mprotect(pages_ + size_, size_, PROT_NONE);
+  }
+  ~LastOfAPage() { ::munmap(pages_, 2 * size_); }
+  LastOfAPage(const LastOfAPage&) = delete;
+  LastOfAPage& operator=(const LastOfAPage&) = delete;
+
+  /// So many zeros at the end.
+  template <class T>
+  const T* last(std::size_t count) const {
+    return reinterpret_cast<const T*>(pages_ + size_ - count * sizeof(T));
+  }
+
+ private:
+  std::size_t size_;
+  char* pages_;
+};
+
+TEST(CUpdate, AWrongCountIsRefusedBeforeAnythingIsRead) {
+  const TriMesh fixed = socket(Vec3::Zero(), 10, 13, 2), mobile = sphere({0, 0.2, 0}, 9.9, 2);
+  const HeldMesh F = c_mesh(fixed), M = c_mesh(mobile);
+  const auto joint = made<HeldContact>(condyle_joint_contact_create, F.get(), M.get());
+  const auto options = made<HeldOptions>(condyle_elastic_options_create);
+  const double thickness = 2;
+  ASSERT_EQ(condyle_elastic_options_set_layer(options.get(), CONDYLE_FIXED, 10, 0.4, &thickness, 1),
+            CONDYLE_OK);
+  const auto elastic = made<HeldElastic>(condyle_elastic_contact_create, F.get(), M.get(), options.get());
+  const auto depth = made<HeldDepth>(condyle_normal_depth_create, F.get(), M.get(), CONDYLE_CUT_FACES, 20.0);
+  const LastOfAPage page;
+  const auto* xyz = page.last<double>(3);
+  const auto* numbers = page.last<std::uint32_t>(1);
+  const std::size_t all = mobile.vertices.size(), of_fixed = fixed.vertices.size();
+  for (const std::size_t more :
+       {all + 1, 2 * all, std::size_t{1} << 40, std::numeric_limits<std::size_t>::max()}) {
+    const std::string gives =
+                          "an update of " + std::to_string(all) + " vertices gives " + std::to_string(more),
+                      moves =
+                          "an update moves " + std::to_string(more) + " vertices of " + std::to_string(all);
+    const auto expect_line = [](condyle_status status, const std::string& line) {
+      EXPECT_EQ(status, CONDYLE_BAD_ARGUMENT);
+      EXPECT_EQ(condyle_last_error(), line);
+    };
+    expect_line(condyle_joint_contact_update(joint.get(), CONDYLE_MOBILE, xyz, more), gives);
+    expect_line(condyle_joint_contact_update_some(joint.get(), CONDYLE_MOBILE, numbers, more, xyz), moves);
+    expect_line(condyle_elastic_contact_update(elastic.get(), CONDYLE_MOBILE, xyz, more), gives);
+    expect_line(condyle_elastic_contact_update_some(elastic.get(), CONDYLE_MOBILE, numbers, more, xyz),
+                moves);
+    expect_line(condyle_normal_depth_update_target(depth.get(), xyz, more), gives);
+    expect_line(condyle_normal_depth_update_target_some(depth.get(), numbers, more, xyz), moves);
+    EXPECT_EQ(condyle_normal_depth_update_casting(depth.get(), xyz, more + (more == of_fixed)),
+              CONDYLE_BAD_ARGUMENT);
+  }
+  // One fewer is read no further than its neighbours would be: it is refused, too.
+  EXPECT_EQ(condyle_joint_contact_update(joint.get(), CONDYLE_MOBILE, xyz, all - 1), CONDYLE_BAD_ARGUMENT);
+  // Counts that no mesh has.
+  condyle_mesh* mesh = nullptr;
+  for (const std::size_t count :
+       {(std::size_t{1} << 31) + 1, std::size_t{1} << 40, std::numeric_limits<std::size_t>::max()}) {
+    EXPECT_EQ(condyle_mesh_create(xyz, count, numbers, 0, &mesh), CONDYLE_OUT_OF_MEMORY);
+    EXPECT_EQ(condyle_mesh_create(xyz, 1, numbers, count, &mesh), CONDYLE_OUT_OF_MEMORY);
+    EXPECT_EQ(condyle_elastic_options_set_layer(options.get(), CONDYLE_FIXED, 10, 0.4, xyz, count),
+              CONDYLE_OUT_OF_MEMORY);
+  }
 }
 
 TEST(CUpdate, AnglesOfRaysAreThoseOfCpp) {

@@ -2,9 +2,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
+#include "condyle/range_of_motion.hpp"
 
 /// [[motion]] tables of joint files.
 
@@ -43,6 +46,18 @@ class JointFileMotions : public testing::Test {
 
   std::filesystem::path path_;
 };
+
+TEST_F(JointFileMotions, OfVeryManyNamesAreComparedWithoutTheSquareOfTheirNumber) {
+  constexpr int many = 100'000;
+  std::string text;
+  for (int i = 0; i < many; ++i)
+    text += "[[motion]]\nname = \"k" + std::to_string(i) + "\"\nvary = \"flexion\"\nrange = [0, 1]\n";
+  const std::vector<motion::Motion> own = read(text).motions;
+  ASSERT_EQ(own.size(), static_cast<std::size_t>(many));
+  const std::vector<motion::Motion> all = motion::with_own_motions(motion::hip_motions(), own);
+  EXPECT_EQ(all.size(), motion::hip_motions().size() + own.size());
+  EXPECT_EQ(all.back().name, "k99999");
+}
 
 TEST_F(JointFileMotions, AreReadInTheirOrder) {
   const io::JointFile file = read(

@@ -164,6 +164,14 @@ TEST(MeshStrips, ThatAreTooShortOrLeaveTheMeshAreRefused) {
             "bone: triangle strip 0 has 2 corners: it needs 3");
 }
 
+TEST(LegacyVtk, OfVeryManySectionsOfPolygonsIsRead) {
+  constexpr std::size_t many = 300'000;
+  std::string text =
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n";
+  for (std::size_t i = 0; i < many; ++i) text += "POLYGONS 1 4\n3 0 1 2\n";
+  EXPECT_EQ(io::read_mesh(text, MeshFormat::vtk, "m").mesh.triangles.size(), many);
+}
+
 TEST(LegacyVtk, PassesOverTextsAndBitsInItsFieldData) {
   const auto data = box_for_vtk({});
   // One whose length takes one byte, two and four; names and texts with blanks, per cent and lines.
@@ -294,6 +302,43 @@ TEST(MeshLineEnds, LinesOfMixedEndsAreLines) {
   EXPECT_EQ(file.mesh.vertices.size(), 3u);
   EXPECT_EQ(refusal("# made\rv 0 0 0\rv 1 zero 0\r", MeshFormat::obj),
             "bone: line 3: 'zero' should be a coordinate");
+}
+
+TEST(MeshLineEnds, AMillionReturnsInARowAreLinesOfTheirOwn) {
+  // Behind a first line that ends with both, each return might be one of several before a line feed.
+  std::string text = "v 0 0 0\r\nv 2 0 0\r\nv 0 3 0\r\nf 1 2 3" + std::string(2'000'000, '\r') + "what 1";
+  try {
+    io::read_mesh(text, MeshFormat::obj, "m");
+    ADD_FAILURE() << "accepted";
+  } catch (const FileError& error) {
+    EXPECT_STREQ(error.what(), "m: line 2000004: 'what' is no OBJ statement that is read");
+  }
+  text.resize(text.size() - 6);
+  EXPECT_EQ(io::read_mesh(text + "\nf 1 3 2", MeshFormat::obj, "m").mesh.triangles.size(), 2u);
+}
+
+TEST(Vtp, RefusesACommentWithinNumbers) {
+  const auto vtp = [](std::string_view points) {
+    return fmt::format(
+        R"(<VTKFile type="PolyData"><PolyData><Piece NumberOfPoints="3" NumberOfPolys="1"><Points>
+<DataArray type="Float64" NumberOfComponents="3">{}</DataArray></Points><Polys><DataArray type="Int32" Name="connectivity">0 1 2</DataArray>
+<DataArray type="Int32" Name="offsets">3</DataArray></Polys></Piece></PolyData></VTKFile>)",
+        points);
+  };
+  EXPECT_EQ(io::read_mesh(vtp("0 0 0 1 0 0 0 1 0"), MeshFormat::vtp, "m").mesh.vertices[1].x(), 1);
+  // XML joins the two to 01, then 10; the first part by itself is a whole mesh.
+  for (const char* points :
+       {"0 0 0 1 0 0 0 1 0<!-- -->1", "0 0 0 1<!-- -->0 0 0 0 1 0", "<!-- -->0 0 0 1 0 0 0 1 0",
+        "0 0 0 1 0 0 0 1 0 <?x?> 7", "0 0 0 1 0 0 0 1 0<![CDATA[1]]>"}) {
+    try {
+      io::read_mesh(vtp(points), MeshFormat::vtp, "m");
+      ADD_FAILURE() << points;
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string(error.what()).find("m: line 2: "), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("stands inside a text or number"), std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 TEST(MeshText, InUtf16IsRefusedByName) {

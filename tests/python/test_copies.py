@@ -70,7 +70,7 @@ def joint_path(hip_file, tmp_path):
     return path
 
 
-@pytest.mark.parametrize("protocol", range(2, pickle.HIGHEST_PROTOCOL + 1))
+@pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
 def test_a_joint_of_a_file_comes_back_without_its_files(joint_path, protocol):
     joint = condyle.read_joint(joint_path)
     (joint_path.parent / "walk.csv").write_text("time,flexion\n0,0\n1,30\n")
@@ -129,3 +129,22 @@ def test_what_is_cut_off_or_of_another_version_is_refused(hip):
                         (state.replace(condyle.__version__.encode(), b"9.9.9"[:len(condyle.__version__)], 1), "9.9.9")):
         with pytest.raises(condyle.UsageError, match=says):
             remade.__setstate__(wrong)
+
+
+@pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
+def test_what_is_pickled_comes_back_or_raises_by_every_protocol(hip, protocol):
+    """Protocols 0 and 1 ended the process for everything that holds a compiled object."""
+    assert limit_of(pickle.loads(pickle.dumps(hip, protocol))) == limit_of(hip)
+    assert limit_of(condyle.Joint._of_native(pickle.loads(pickle.dumps(hip._native, protocol)))) == limit_of(hip)
+    rom = hip.range_of_motion(["flexion"])
+    holders = [rom, hip.fixed, condyle.RadialTable(hip.fixed), condyle.JointContact(hip.fixed, hip.mobile),
+               condyle.FirstContact(hip.fixed, hip.mobile, (0, 0, 0), (0, 0, 1)), condyle.DepthRange(hip, 1),
+               condyle.RingTable(hip.fixed, (0, 0, 0), (0, 0, 1))]
+    compiled = [getattr(holder, name) for holder in holders for name in dir(holder)
+                if not name.startswith("__") and type(getattr(holder, name)).__module__ == "condyle._native"]
+    assert len(compiled) >= 5
+    for each in [*holders, *compiled]:
+        try:
+            pickle.loads(pickle.dumps(each, protocol))
+        except TypeError as error:
+            assert "pickle" in str(error)

@@ -2,12 +2,24 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdlib>
+#include <new>
 
 namespace condyle::io {
 namespace {
 
 void require(bool done) {
   if (!done) throw FileError("HDF5 failed");
+}
+
+/// HDF5 does not survive an allocation that fails: it frees twice and reads through null pointers. So the memory that it may need for
+/// this many bytes of values is taken and given back before.
+void require_memory(std::size_t values) {
+  constexpr std::size_t beside = std::size_t{8} << 20;  // caches, heaps and the step by which the image grows
+  // The image may move as it grows, and a text has a length and a place beside it. Volatile: a compiler leaves out what nothing uses.
+  void* volatile const block = std::malloc(beside + 3 * values);
+  if (!block) throw std::bad_alloc();
+  std::free(block);
 }
 
 hid_t created_in_memory() {
@@ -48,6 +60,7 @@ H5Handle text_type(std::size_t longest) {
 }  // namespace
 
 H5Silence::H5Silence() {
+  require_memory(0);  // the first call makes what HDF5 has of its own
   H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
@@ -59,6 +72,7 @@ H5Silence::~H5Silence() {
 H5Image::H5Image() : file_(created_in_memory(), H5Fclose) {}
 
 void H5Image::group(const std::string& path) {
+  require_memory(size_);
   const H5Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
   leave_out_times(properties);
   const H5Handle made(H5Gcreate2(file_.id(), path.c_str(), H5P_DEFAULT, properties.id(), H5P_DEFAULT),
@@ -68,6 +82,8 @@ void H5Image::group(const std::string& path) {
 void H5Image::numbers(const std::string& path, const std::vector<double>& values, std::size_t rows,
                       std::size_t columns) {
   assert(values.size() == rows * std::max<std::size_t>(columns, 1));
+  size_ += sizeof(double) * values.size();
+  require_memory(size_);
   const hsize_t lengths[2] = {rows, columns};
   const H5Handle space(H5Screate_simple(columns == 0 ? 1 : 2, lengths, nullptr), H5Sclose);
   write_array(file_.id(), path, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, space, values.data());
@@ -75,7 +91,11 @@ void H5Image::numbers(const std::string& path, const std::vector<double>& values
 
 void H5Image::texts(const std::string& path, std::span<const std::string> values) {
   std::vector<const char*> texts;
-  for (const std::string& value : values) texts.push_back(value.c_str());
+  for (const std::string& value : values) {
+    texts.push_back(value.c_str());
+    size_ += value.size() + 64;
+  }
+  require_memory(size_);
   const hsize_t length = values.size();
   const H5Handle space(H5Screate_simple(1, &length, nullptr), H5Sclose);
   const H5Handle type = text_type(H5T_VARIABLE);
@@ -83,6 +103,8 @@ void H5Image::texts(const std::string& path, std::span<const std::string> values
 }
 
 void H5Image::attribute(const std::string& path, const std::string& name, const std::string& text) {
+  size_ += text.size();
+  require_memory(size_);
   const H5Handle set(H5Dopen2(file_.id(), path.c_str(), H5P_DEFAULT), H5Dclose);
   const H5Handle type = text_type(std::max<std::size_t>(text.size(), 1)),
                  space(H5Screate(H5S_SCALAR), H5Sclose);
@@ -92,6 +114,7 @@ void H5Image::attribute(const std::string& path, const std::string& name, const 
 }
 
 std::string H5Image::bytes() const {
+  require_memory(size_);
   require(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) >= 0);
   const ssize_t size = H5Fget_file_image(file_.id(), nullptr, 0);
   require(size >= 0);

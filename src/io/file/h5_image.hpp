@@ -3,6 +3,7 @@
 #include <hdf5.h>
 
 #include <cstddef>
+#include <exception>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,13 +25,16 @@ class H5Silence {
   void* data_ = nullptr;
 };
 
-/// Something of HDF5's that has to be closed.
+/// Something of HDF5's that has to be closed, unless a call of HDF5's has failed: it then frees twice what it closes.
 class H5Handle {
  public:
-  H5Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
+  H5Handle(hid_t id, herr_t (*close)(hid_t))
+      : id_(id), close_(close), exceptions_(std::uncaught_exceptions()) {
     if (id < 0) throw FileError("HDF5 failed");
   }
-  ~H5Handle() { close_(id_); }
+  ~H5Handle() {
+    if (std::uncaught_exceptions() == exceptions_) close_(id_);
+  }
   H5Handle(const H5Handle&) = delete;
   H5Handle& operator=(const H5Handle&) = delete;
   hid_t id() const noexcept { return id_; }
@@ -38,10 +42,12 @@ class H5Handle {
  private:
   hid_t id_;
   herr_t (*close_)(hid_t);
+  int exceptions_;
 };
 
 /// An HDF5 file in memory, since one that fills the disk halfway must not keep the name. Without times of writing: two files
-/// of one answer are the same bytes. HDF5's library takes one thread at a time. Raises FileError.
+/// of one answer are the same bytes. HDF5's library takes one thread at a time. Raises FileError, and std::bad_alloc before HDF5
+/// is asked for more than there is memory for.
 class H5Image {
  public:
   H5Image();
@@ -63,6 +69,7 @@ class H5Image {
  private:
   H5Silence silence_;
   H5Handle file_;
+  std::size_t size_ = 0;  ///< bytes of values so far, about
 };
 
 }  // namespace condyle::io

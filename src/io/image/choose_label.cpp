@@ -4,7 +4,9 @@
 #include <array>
 #include <cassert>
 #include <functional>
+#include <set>
 #include <span>
+#include <utility>
 
 #include "condyle/error.hpp"
 #include "condyle/io/label_file.hpp"
@@ -154,13 +156,10 @@ ChosenLabel choose_number(const LabelMap& map, const NumberedLabel& number) {
 template <class Same>
 std::vector<const LabelSegment*> segments_called(const LabelMap& map, Same&& same) {
   std::vector<const LabelSegment*> found;
-  for (const auto& segment : map.segments) {
-    if (!same(segment.name) && !same(segment.id)) continue;
-    const auto is_same = [&](const LabelSegment* other) {
-      return other->layer == segment.layer && other->label == segment.label;
-    };
-    if (std::none_of(found.begin(), found.end(), is_same)) found.push_back(&segment);
-  }
+  std::set<std::pair<std::size_t, std::uint32_t>> known;
+  for (const auto& segment : map.segments)
+    if ((same(segment.name) || same(segment.id)) && known.emplace(segment.layer, segment.label).second)
+      found.push_back(&segment);
   return found;
 }
 

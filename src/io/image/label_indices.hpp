@@ -2,7 +2,7 @@
 
 #include <cstdint>
 #include <limits>
-#include <unordered_map>
+#include <map>
 #include <vector>
 
 namespace condyle::io {
@@ -37,7 +37,8 @@ class LabelIndices {
   }
 
   std::vector<std::uint16_t> small_ = std::vector<std::uint16_t>(std::size_t{1} << 16, none);
-  std::unordered_map<std::uint32_t, std::uint16_t> large_;
+  /// In order: a hash of labels takes the square of their number where a file chooses them for it.
+  std::map<std::uint32_t, std::uint16_t> large_;
   std::vector<std::uint32_t> labels_;
 };
 

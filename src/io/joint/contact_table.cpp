@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <set>
 
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
@@ -82,11 +83,11 @@ ContactEntry contact_entry(TomlTable& table, double mm_per_unit, const std::file
     entry.law = *word == 0 ? contact::PressureLaw::linear : contact::PressureLaw::logarithmic;
   if (const auto word = table.word("moment_on", {"casting", "target"}))
     entry.moment_on = *word == 0 ? MomentOn::casting : MomentOn::target;
+  std::set<std::string> names;
   for (TomlTable& region : table.tables("region")) {
     entry.regions.push_back(region_entry(region, mm_per_unit));
-    for (std::size_t i = 0; i + 1 < entry.regions.size(); ++i)
-      if (entry.regions[i].name == entry.regions.back().name)
-        region.fail("name", fmt::format("\"{}\" is given twice", entry.regions[i].name));
+    const std::string& name = entry.regions.back().name;
+    if (!names.insert(name).second) region.fail("name", fmt::format("\"{}\" is given twice", name));
   }
   if (auto layer = table.table("fixed")) entry.fixed = layer_entry(*layer, mm_per_unit, folder);
   if (auto layer = table.table("mobile")) entry.mobile = layer_entry(*layer, mm_per_unit, folder);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
@@ -165,14 +166,15 @@ std::vector<MeshEntry> mesh_entries(TomlTable& body, std::string_view key, std::
   for (const auto of_one : {"mesh", "repair", "scale", "polygons", "pieces"})
     if (body.has(of_one)) body.fail(of_one, "with meshes each of them has its own");
   std::vector<MeshEntry> entries;
+  std::set<std::string> names;
   for (TomlTable& table : body.tables("meshes")) {
     MeshEntry entry = mesh_entry(table);
     entry.X_BG = mesh_pose(table, notes);
     entry.part = table.required("name", table.text("name"));
     if (entry.part.empty()) table.fail("name", "must not be empty");
     entry.contact = part_contact(table);
-    for (const MeshEntry& other : entries)
-      if (other.part == entry.part) table.fail("name", fmt::format("\"{}\" is given twice", entry.part));
+    if (!names.insert(entry.part).second)
+      table.fail("name", fmt::format("\"{}\" is given twice", entry.part));
     table.finish();
     entries.push_back(std::move(entry));
   }
@@ -478,10 +480,11 @@ motion::Motion own_motion(TomlTable& table, const JointDescription& joint) {
 
 std::vector<motion::Motion> own_motions(TomlTable& file, const JointDescription& joint) {
   std::vector<motion::Motion> motions;
+  std::set<std::string> names;
   for (TomlTable& table : file.tables("motion")) {
     motion::Motion motion = own_motion(table, joint);
-    for (const motion::Motion& other : motions)
-      if (other.name == motion.name) table.fail("name", fmt::format("\"{}\" is given twice", motion.name));
+    if (!names.insert(motion.name).second)
+      table.fail("name", fmt::format("\"{}\" is given twice", motion.name));
     motions.push_back(std::move(motion));
   }
   return motions;

@@ -72,10 +72,17 @@ std::string_view TextCursor::rest_of_line() {
   at_ += text.size();
   if (at_ == bytes.size()) return text;
   ++line_;
-  // A file that was converted twice has several carriage returns before a line feed.
+  // A file that was converted twice has several carriage returns before a line feed. Those before something else end a line each,
+  // and are looked at once.
   std::size_t last = at_;
-  while (!ends_with_single_return_ && last < bytes.size() && bytes[last] == '\r') ++last;
-  at_ = last < bytes.size() && bytes[last] == '\n' ? last + 1 : at_ + 1;
+  while (!ends_with_single_return_ && at_ >= single_returns_ && last < bytes.size() && bytes[last] == '\r')
+    ++last;
+  if (last < bytes.size() && bytes[last] == '\n') {
+    at_ = last + 1;
+  } else {
+    single_returns_ = std::max(single_returns_, last);
+    ++at_;
+  }
   return text;
 }
 
@@ -169,7 +176,6 @@ void append_cells(RawMesh& raw, std::span<const std::int64_t> corners, std::span
                   const Source& source) {
   if (!ends.empty() && std::cmp_not_equal(ends.back(), corners.size()))
     source.fail(fmt::format("polygons: {} corners, and {} are used", corners.size(), ends.back()));
-  raw.triangles.reserve(raw.triangles.size() + ends.size());
   std::size_t first = 0;
   for (const std::int64_t end : ends) {
     append_face(raw, corners.subspan(first, static_cast<std::size_t>(end) - first), source.polygons);

@@ -106,6 +106,8 @@ class TextCursor {
   Source source_;
   std::size_t at_, line_, word_line_;
   std::size_t feed_;  ///< the next line feed, if it is not behind
+  std::size_t single_returns_ =
+      0;  ///< carriage returns before here that are not behind have no line feed after them
   /// How the first line ends says how a line before binary data ends, whose first byte may look like a line feed.
   bool ends_with_single_return_ = false;
 };

@@ -66,7 +66,11 @@ std::optional<XmlTag> XmlCursor::next() {
 }
 
 std::string_view XmlCursor::text() const {
-  return source_.bytes.substr(at_, source_.bytes.find('<', at_) - at_);
+  const std::size_t end = std::min(source_.bytes.find('<', at_), source_.bytes.size());
+  for (const std::string_view remark : {"<!", "<?"})
+    if (source_.bytes.substr(end).starts_with(remark))
+      fail(fmt::format("{} stands inside a text or number", in_quotes(source_.bytes.substr(end, 4))));
+  return source_.bytes.substr(at_, end - at_);
 }
 
 /// Passes over <!-- ... --> and its like, where one begins here.

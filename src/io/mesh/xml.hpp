@@ -32,7 +32,7 @@ class XmlCursor {
 
   /// The next tag; nothing once the outermost one has closed.
   std::optional<XmlTag> next();
-  /// The text up to the next tag.
+  /// The text up to the next tag. Fails for one with a comment or a section in it, of which it would be the first part.
   std::string_view text() const;
   /// Where the last tag began and ended.
   std::size_t begin() const noexcept { return begin_; }

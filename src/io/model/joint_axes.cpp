@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
+#include <vector>
 
 #include "io/file/in_quotes.hpp"
 #include "io/model/spatial_transform.hpp"
@@ -19,24 +19,12 @@ constexpr double most_off_deg = 30;
 /// Frames that stand upright are nearer to it than to any other.
 constexpr double upright_deg = 45;
 
+/// Joints from the ground to a body: more than any model of a person has, so that a long chain costs no square.
+constexpr int most_joints_above = 200;
+
 /// The angle between an axis of a frame and its namesake of another, for the axis that is farthest off.
 double farthest_axis_deg(const Eigen::Matrix3d& R) {
   return std::acos(std::clamp(R.diagonal().minCoeff(), -1.0, 1.0)) * 180 / std::numbers::pi;
-}
-
-/// R_GB with all coordinates at 0; empty if no joints that are read lead from the ground to the body.
-std::optional<Eigen::Matrix3d> standing_rotation(const Model& model, std::string body) {
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  for (std::size_t steps = 0; steps <= model.joints.size(); ++steps) {
-    if (body == "ground") return R;
-    const auto above = std::find_if(model.joints.begin(), model.joints.end(), [&](const ModelJoint& joint) {
-      return joint.child_body == body && joint.transform;
-    });
-    if (above == model.joints.end()) return std::nullopt;
-    R = pose_of(*above, std::vector<double>(above->coordinates.size())).linear() * R;
-    body = above->parent_body;
-  }
-  return std::nullopt;
 }
 
 /// S with columns along axes of a frame, right-handed, for which R S is nearest to the identity. The identity itself before
@@ -63,23 +51,43 @@ bool turns_about_own_axes(const SpatialTransform& axes) {
   });
 }
 
-/// Whether more frames of joints stand upright in the ground and lie turned in their bodies than the other way round, as in models
-/// made from images, whose bodies are in the axes of the scanner. Frames on the ground are one or the other by definition.
-bool has_bodies_of_a_scanner(const Model& model) {
+}  // namespace
+
+StandingModel::StandingModel(const Model& model) : model_(model) {
+  for (const ModelJoint& joint : model.joints)
+    if (joint.transform && !above_.contains(joint.child_body))
+      above_.emplace(
+          joint.child_body,
+          Above{joint.parent_body, pose_of(joint, std::vector<double>(joint.coordinates.size())).linear()});
+}
+
+std::optional<Eigen::Matrix3d> StandingModel::rotation(std::string_view body) const {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  for (int joints = 0; joints <= most_joints_above; ++joints) {
+    if (body == "ground") return R;
+    const auto above = above_.find(body);
+    if (above == above_.end()) return std::nullopt;
+    R = above->second.R_PB * R;
+    body = above->second.parent;
+  }
+  return std::nullopt;
+}
+
+bool StandingModel::has_bodies_of_a_scanner() const {
+  if (of_a_scanner_) return *of_a_scanner_;
   int turned_bodies = 0;
-  for (const ModelJoint& joint : model.joints) {
+  for (const ModelJoint& joint : model_.joints) {
     if (!joint.transform || joint.parent_body == "ground") continue;
-    const auto R_GP = io::standing_rotation(model, joint.parent_body);
+    const auto R_GP = rotation(joint.parent_body);
     if (!R_GP) continue;
     const Eigen::Matrix3d& R_PF = joint.X_PF.linear();
     const bool in_body = farthest_axis_deg(R_PF) <= upright_deg,
                in_ground = farthest_axis_deg(*R_GP * R_PF) <= upright_deg;
     turned_bodies += (in_ground && !in_body) - (in_body && !in_ground);
   }
-  return turned_bodies > 0;
+  of_a_scanner_ = turned_bodies > 0;
+  return *of_a_scanner_;
 }
-
-}  // namespace
 
 std::string_view nearest_axis(const Vec3& direction) {
   constexpr std::string_view names[2][3] = {{"X, forwards", "Y, up", "Z, to the right"},
@@ -89,12 +97,12 @@ std::string_view nearest_axis(const Vec3& direction) {
   return names[direction[axis] < 0][axis];
 }
 
-JointAxes axes_of(const Model& model, const ModelJoint& joint) {
+JointAxes axes_of(const StandingModel& model, const ModelJoint& joint) {
   const Eigen::Matrix3d& R_PF = joint.X_PF.linear();
   const std::string body = in_quotes(joint.parent_body);
   JointAxes axes;
-  const auto R_GP = io::standing_rotation(model, joint.parent_body);
-  if (R_GP && farthest_axis_deg(*R_GP) > upright_deg && io::has_bodies_of_a_scanner(model)) {
+  const auto R_GP = model.rotation(joint.parent_body);
+  if (R_GP && farthest_axis_deg(*R_GP) > upright_deg && model.has_bodies_of_a_scanner()) {
     axes.R_PB = R_GP->transpose();
     axes.turned = fmt::format(
         "an axis of body {} is {:.0f} degrees from the ground's in the standing model, and frames of joints "

@@ -199,7 +199,7 @@ JointMapping hinge(const ModelJoint& joint, const SpatialTransform& axes, const 
 
 }  // namespace
 
-JointMapping mapping_of(const Model& model, const ModelJoint& joint, std::optional<Anatomy> anatomy,
+JointMapping mapping_of(const StandingModel& model, const ModelJoint& joint, std::optional<Anatomy> anatomy,
                         Side side) {
   const JointAxes names = axes_of(model, joint);
   const SpatialTransform axes = io::named_axes(joint, names);

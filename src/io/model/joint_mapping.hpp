@@ -6,6 +6,7 @@
 
 #include "condyle/io/model_file.hpp"
 #include "condyle/io/recorded_motion.hpp"
+#include "io/model/joint_axes.hpp"
 
 namespace condyle::io {
 
@@ -24,7 +25,7 @@ struct JointMapping {
 };
 
 /// Without an anatomy only a hinge can be mapped: it flexes forwards.
-JointMapping mapping_of(const Model& model, const ModelJoint& joint, std::optional<Anatomy> anatomy,
+JointMapping mapping_of(const StandingModel& model, const ModelJoint& joint, std::optional<Anatomy> anatomy,
                         Side side);
 
 /// The joint that names of a model's joint and bodies speak of; nothing if they speak of none.

@@ -58,6 +58,9 @@ std::string ModelElement::text(std::string_view child) const {
 
 std::vector<double> ModelElement::numbers(const XmlElement& element) const {
   std::vector<double> values;
+  // XML joins what is before and after it, and OpenSim does not.
+  if (element.has_comment_in_word())
+    fail_at(element, fmt::format("{}: a comment stands inside a number", element.name));
   const std::string text = element.text();
   for (const std::string_view word : io::words_of(text)) {
     double value = 0;

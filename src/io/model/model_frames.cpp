@@ -77,6 +77,13 @@ void ModelFrames::add_frame(const XmlElement& frame, const std::string& owner) {
   }
   const auto added = frames_.emplace(name, Frame{owner, &frame});
   at_.emplace(std::pair(owner, name), &added->second);
+  of_place_[{name, std::string(name_at_end(owner))}].push_back(&added->second);
+}
+
+void ModelFrames::add_point(const XmlElement& point, const std::string& owner) {
+  const std::string name = point.label();
+  points_[name].push_back({owner, &point});
+  points_of_place_[{name, std::string(name_at_end(owner))}].push_back({owner, &point});
 }
 
 const ModelFrames::Frame* ModelFrames::frame_at(const std::string& owner, const std::string& name) const {
@@ -104,13 +111,11 @@ ModelFrames::Target ModelFrames::target_of(std::string path, const std::string& 
   if (in == "bodyset" && is_body(name)) return {name, nullptr};
   const auto [first, last] = frames_.equal_range(name);
   if (!in.empty() && in != "..") {
-    const Frame* named = nullptr;
-    for (auto at = first; at != last; ++at) {
-      if (name_at_end(at->second.owner) != in) continue;
-      if (named) of.fail(fmt::format("{} could be one of several frames", in_quotes(path)));
-      named = &at->second;
+    if (const auto named = of_place_.find({name, in}); named != of_place_.end()) {
+      if (named->second.size() > 1)
+        of.fail(fmt::format("{} could be one of several frames", in_quotes(path)));
+      return {"", named->second.front()};
     }
-    if (named) return {"", named};
     if (is_body(in) && !is_body(name))
       of.fail(fmt::format("there is no frame {} in body {}", in_quotes(name), in_quotes(in)));
   }
@@ -162,18 +167,13 @@ const ModelFrames::Point& ModelFrames::point_named(const std::string& path, cons
   const auto [before, name] = split_last(path);
   const std::string in = split_last(before).second;
   const std::string_view wanted = in.empty() || in == ".." ? name_at_end(owner) : std::string_view(in);
-  const auto [first, last] = points_.equal_range(name);
-  const Point *only = nullptr, *named = nullptr;
-  for (auto at = first; at != last; ++at) {
-    only = &at->second;
-    if (name_at_end(at->second.owner) != wanted) continue;
-    if (named) of.fail(fmt::format("{} could be one of several points", in_quotes(path)));
-    named = &at->second;
-  }
-  if (named) return *named;
-  if (!only) of.fail(fmt::format("there is no point {}", in_quotes(path)));
-  if (std::next(first) != last) of.fail(fmt::format("{} could be one of several points", in_quotes(path)));
-  return *only;
+  const auto named = points_of_place_.find({name, std::string(wanted)});
+  const bool is_named = named != points_of_place_.end();
+  const auto all = points_.find(name);
+  if (!is_named && all == points_.end()) of.fail(fmt::format("there is no point {}", in_quotes(path)));
+  const std::vector<Point>& points = is_named ? named->second : all->second;
+  if (points.size() > 1) of.fail(fmt::format("{} could be one of several points", in_quotes(path)));
+  return points.front();
 }
 
 BodyPlace ModelFrames::place_of_point(const std::string& path, const std::string& owner, std::size_t depth,

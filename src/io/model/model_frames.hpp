@@ -3,9 +3,9 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -40,9 +40,7 @@ class ModelFrames {
   /// that hang on it only. The element is borrowed.
   void add_frame(const XmlElement& frame, const std::string& owner);
   /// A Station or a Marker that stands in `owner`, borrowed: points of a StationDefinedFrame.
-  void add_point(const XmlElement& point, const std::string& owner) {
-    points_.emplace(point.label(), Point{owner, &point});
-  }
+  void add_point(const XmlElement& point, const std::string& owner);
 
   const std::vector<std::string>& bodies() const noexcept { return bodies_; }
   bool is_body(const std::string& name) const { return known_.contains(name); }
@@ -83,11 +81,15 @@ class ModelFrames {
 
   const Source* source_;
   std::vector<std::string> bodies_;
-  std::unordered_set<std::string> known_, twice_;
-  std::multimap<std::string, Frame> frames_;                  ///< by their names
-  std::map<std::pair<std::string, std::string>, Frame*> at_;  ///< by owner and name
-  std::multimap<std::string, Point> points_;                  ///< by their names
-  mutable std::map<const Frame*, BodyPlace> places_;          ///< of frames that were asked for
+  std::set<std::string> known_, twice_;
+  using Names = std::pair<std::string, std::string>;
+
+  std::multimap<std::string, Frame> frames_;             ///< by their names
+  std::map<Names, Frame*> at_;                           ///< by owner and name
+  std::map<Names, std::vector<const Frame*>> of_place_;  ///< by name and the last name of the owner
+  std::map<std::string, std::vector<Point>> points_;     ///< by their names
+  std::map<Names, std::vector<Point>> points_of_place_;  ///< by name and the last name of the owner
+  mutable std::map<const Frame*, BodyPlace> places_;     ///< of frames that were asked for
 };
 
 /// X from a translation and body-fixed X-Y-Z angles, elements of these names.

@@ -1,13 +1,10 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "condyle/error.hpp"
 #include "condyle/io/model_file.hpp"
 #include "core/near_name.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/model/spatial_transform.hpp"
-#include "io/model/welded_bodies.hpp"
 
 namespace condyle::io {
 
@@ -99,46 +96,6 @@ const ModelJoint& joint_named(const Model& model, std::string_view name) {
   for (const std::string& known : names) list += (list.empty() ? "" : ", ") + known;
   throw UsageError(fmt::format("{}: no joint {}{}; there are {}", model.path.string(), io::in_quotes(name),
                                core::did_you_mean(name, names), list.empty() ? "none" : list));
-}
-
-/// Relative: welds in a circle come back to where they began but for rounding.
-constexpr double same_place = 1e-9;
-
-std::vector<WeldedBody> welded_bodies(const Model& model, const ModelJoint& joint, BodyRole role) {
-  std::vector<WeldedBody> bodies{{role == BodyRole::fixed ? joint.parent_body : joint.child_body}};
-  const auto add = [&](const ModelJoint& weld, const std::string& body, const Pose& X) {
-    const auto known = std::find_if(bodies.begin(), bodies.end(),
-                                    [&](const WeldedBody& other) { return other.name == body; });
-    if (known == bodies.end())
-      bodies.push_back({body, X});
-    else if (!known->X.isApprox(X, same_place))
-      throw FileError(fmt::format("{}: line {}: joint {}: welds body {} where other welds do not have it",
-                                  model.path.string(), weld.line, in_quotes(weld.name), in_quotes(body)));
-  };
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    for (const ModelJoint& weld : model.joints) {
-      if (weld.type != "WeldJoint" || (weld.line == joint.line && weld.name == joint.name)) continue;
-      const WeldedBody body = bodies[i];
-      if (weld.parent_body != body.name && weld.child_body != body.name) continue;
-      const Pose X_parent_child = pose_of(weld, {});
-      if (weld.parent_body == body.name) add(weld, weld.child_body, body.X * X_parent_child);
-      if (weld.child_body == body.name) add(weld, weld.parent_body, body.X * inverted(X_parent_child));
-    }
-  }
-  return bodies;
-}
-
-std::vector<ModelMesh> meshes_of(const Model& model, const ModelJoint& joint, BodyRole role) {
-  std::vector<ModelMesh> meshes;
-  for (const WeldedBody& body : io::welded_bodies(model, joint, role)) {
-    for (ModelMesh mesh : model.meshes) {
-      if (mesh.body != body.name) continue;
-      if (!mesh.why_not.empty()) throw FileError(mesh.why_not);
-      mesh.X_BG = body.X * mesh.X_BG;
-      meshes.push_back(std::move(mesh));
-    }
-  }
-  return meshes;
 }
 
 }  // namespace condyle::io

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
 
 #include "condyle/error.hpp"
 #include "condyle/io/model_file.hpp"
@@ -55,9 +58,53 @@ struct NamedMesh {
   ModelMesh mesh;
 };
 
-bool is_same(const ModelMesh& a, const ModelMesh& b) {
-  return a.file == b.file && a.scale == b.scale && a.X_BG.isApprox(b.X_BG, 1e-12);
-}
+/// The meshes of a body, found by what they are and by name.
+class BodyMeshes {
+ public:
+  /// One of the same file in the same place, to rounding; null if there is none.
+  const NamedMesh* find(const ModelMesh& mesh) const {
+    const auto alike = places_.find(kind_of(mesh));
+    if (alike == places_.end()) return nullptr;
+    // Matrices that are the same have sums that differ by no more than this.
+    const double sum = sum_of(mesh), off = 1e-10 * mesh.X_BG.matrix().norm();
+    for (auto at = alike->second.lower_bound(sum - off); at != alike->second.end() && at->first <= sum + off;
+         ++at)
+      if (meshes_[at->second].mesh.X_BG.isApprox(mesh.X_BG, 1e-12)) return &meshes_[at->second];
+    return nullptr;
+  }
+
+  /// Under that name, or with a number behind it if it is taken.
+  const NamedMesh& add(const ModelMesh& mesh, const std::string& name) {
+    std::string free = name;
+    for (int& n = last_number_.try_emplace(name, 1).first->second; !names_.insert(free).second;)
+      free = fmt::format("{}_{}", name, ++n);
+    if (const double sum = sum_of(mesh); std::isfinite(sum))
+      places_[kind_of(mesh)].emplace(sum, meshes_.size());
+    return meshes_.emplace_back(NamedMesh{std::move(free), mesh});
+  }
+
+  std::vector<NamedMesh>& all() noexcept { return meshes_; }
+  const std::vector<NamedMesh>& all() const noexcept { return meshes_; }
+
+ private:
+  using Kind = std::tuple<std::string, double, double, double>;
+
+  static Kind kind_of(const ModelMesh& mesh) {
+    return {mesh.file, mesh.scale.x(), mesh.scale.y(), mesh.scale.z()};
+  }
+
+  /// Of the matrix, with weights that tell places apart.
+  static double sum_of(const ModelMesh& mesh) {
+    double sum = 0;
+    for (int i = 0; i < 12; ++i) sum += std::sqrt(i + 2.0) * mesh.X_BG.matrix()(i / 4, i % 4);
+    return sum;
+  }
+
+  std::vector<NamedMesh> meshes_;
+  std::map<Kind, std::multimap<double, std::size_t>> places_;
+  std::set<std::string> names_;
+  std::map<std::string, int> last_number_;
+};
 
 /// Writes the joint file of a model's joint.
 class ModelJointFile {
@@ -74,7 +121,7 @@ class ModelJointFile {
           "{}: joint {}: its name and its bodies' names do not agree on one side, _r or _l: give its side",
           model.path.string(), in_quotes(joint_.name)));
     side_ = *side;
-    mapping_ = mapping_of(model_, joint_, anatomy_, side_);
+    mapping_ = mapping_of(StandingModel(model_), joint_, anatomy_, side_);
     if (const ModelCoupler* coupler = coupler_of_joint(); coupler && !mapping_.columns.empty()) {
       mapping_.columns.clear();
       mapping_.why += fmt::format("; constraint {} moves it too", in_quotes(coupler->name));
@@ -84,11 +131,16 @@ class ModelJointFile {
           fmt::format("{}: joint {}: its names are of no joint known here: say whether it is a hip, "
                       "knee, ankle, elbow or shoulder",
                       model.path.string(), in_quotes(joint_.name)));
-    fixed_bodies_ = welded_bodies(model_, joint_, BodyRole::fixed);
-    mobile_bodies_ = welded_bodies(model_, joint_, BodyRole::mobile);
+    const WeldedBodies welded(model_);
+    fixed_bodies_ = welded.of(joint_, BodyRole::fixed);
+    mobile_bodies_ = welded.of(joint_, BodyRole::mobile);
     require_two_bodies();
-    for (const BodyRole role : {BodyRole::fixed, BodyRole::mobile})
-      for (const ModelMesh& mesh : meshes_of(model_, joint_, role)) add_once(meshes_of_role(role), mesh);
+    for (const BodyRole role : {BodyRole::fixed, BodyRole::mobile}) {
+      for (const WeldedBody& body : bodies_of_role(role))
+        role_of_body_.emplace(body.name, std::pair(role, body.X));
+      for (const ModelMesh& mesh : welded.meshes_of(joint_, role)) add_once(meshes_of_role(role), mesh);
+    }
+    for (const ModelContactMesh& mesh : model_.contact_meshes) contact_meshes_[mesh.name].push_back(&mesh);
     choose_contact();
     leave_out_missing();
   }
@@ -96,8 +148,8 @@ class ModelJointFile {
   ModelJointProposal proposal() {
     require_finite();
     write_head();
-    write_body("fixed", joint_.parent_body, fixed_, std::nullopt);
-    write_body("mobile", joint_.child_body, mobile_,
+    write_body("fixed", joint_.parent_body, fixed_.all(), std::nullopt);
+    write_body("mobile", joint_.child_body, mobile_.all(),
                pose_of(joint_, std::vector<double>(joint_.coordinates.size())));
     write_frame();
     write_reference_pose();
@@ -117,7 +169,7 @@ class ModelJointFile {
     return path_from(request_.joint_file.empty() ? fs::path("joint.toml") : request_.joint_file, file);
   }
 
-  std::vector<NamedMesh>& meshes_of_role(BodyRole role) { return role == BodyRole::fixed ? fixed_ : mobile_; }
+  BodyMeshes& meshes_of_role(BodyRole role) { return role == BodyRole::fixed ? fixed_ : mobile_; }
   const std::vector<WeldedBody>& bodies_of_role(BodyRole role) const {
     return role == BodyRole::fixed ? fixed_bodies_ : mobile_bodies_;
   }
@@ -130,10 +182,9 @@ class ModelJointFile {
   }
 
   void require_two_bodies() const {
-    const auto is_fixed_too = [&](const WeldedBody& body) {
-      return std::any_of(fixed_bodies_.begin(), fixed_bodies_.end(),
-                         [&](const WeldedBody& other) { return other.name == body.name; });
-    };
+    std::set<std::string_view> fixed;
+    for (const WeldedBody& body : fixed_bodies_) fixed.insert(body.name);
+    const auto is_fixed_too = [&](const WeldedBody& body) { return fixed.contains(body.name); };
     const auto both = std::find_if(mobile_bodies_.begin(), mobile_bodies_.end(), is_fixed_too);
     if (both != mobile_bodies_.end())
       throw FileError(fmt::format("{}: line {}: joint {}: body {} is on both sides of it",
@@ -143,7 +194,7 @@ class ModelJointFile {
 
   /// Missing meshes, unless all of a body's are missing.
   void leave_out_missing() {
-    for (std::vector<NamedMesh>* meshes : {&fixed_, &mobile_}) {
+    for (std::vector<NamedMesh>* meshes : {&fixed_.all(), &mobile_.all()}) {
       const auto is_missing = [](const NamedMesh& named) { return !named.mesh.path; };
       if (std::all_of(meshes->begin(), meshes->end(), is_missing)) continue;
       for (const NamedMesh& named : *meshes)
@@ -162,10 +213,8 @@ class ModelJointFile {
     return names;
   }
 
-  void add_once(std::vector<NamedMesh>& meshes, const ModelMesh& mesh) {
-    const bool is_there = std::any_of(meshes.begin(), meshes.end(),
-                                      [&](const NamedMesh& other) { return is_same(other.mesh, mesh); });
-    if (!is_there) {
+  void add_once(BodyMeshes& meshes, const ModelMesh& mesh) {
+    if (!meshes.find(mesh)) {
       add_mesh(meshes, mesh, fs::path(mesh.file).stem().string());
       return;
     }
@@ -174,18 +223,11 @@ class ModelJointFile {
                      in_quotes(mesh.file), in_quotes(mesh.body)));
   }
 
-  const NamedMesh& add_mesh(std::vector<NamedMesh>& meshes, const ModelMesh& mesh, std::string name) const {
+  const NamedMesh& add_mesh(BodyMeshes& meshes, const ModelMesh& mesh, const std::string& name) const {
     if (mesh.scale.cwiseAbs().minCoeff() == 0)
       throw FileError(fmt::format("{}: line {}: mesh {}: scale_factors: a factor of 0 leaves no solid",
                                   model_.path.string(), mesh.line, in_quotes(mesh.file)));
-    if (name.empty()) name = "mesh";
-    const std::string base = name;
-    const auto is_taken = [&] {
-      return std::any_of(meshes.begin(), meshes.end(),
-                         [&](const NamedMesh& other) { return other.name == name; });
-    };
-    for (int n = 2; is_taken(); ++n) name = fmt::format("{}_{}", base, n);
-    return meshes.emplace_back(NamedMesh{name, mesh});
+    return meshes.add(mesh, name.empty() ? "mesh" : name);
   }
 
   /// A joint file holds finite numbers only, and lengths of it are computed in mm.
@@ -197,7 +239,7 @@ class ModelJointFile {
     for (const ColumnOfCoordinate& column : mapping_.columns)
       holds &= std::abs(column.offset) < 1000 * largest && std::abs(*column.otherwise) < 1000 * largest;
     for (const auto* meshes : {&fixed_, &mobile_})
-      for (const NamedMesh& named : *meshes)
+      for (const NamedMesh& named : meshes->all())
         holds &= named.mesh.X_BG.matrix().cwiseAbs().maxCoeff() < largest &&
                  named.mesh.scale.cwiseAbs().maxCoeff() < largest;
     if (!holds)
@@ -275,7 +317,8 @@ class ModelJointFile {
       if (has_names) add(fmt::format("\n[[{}.meshes]]", role));
       write_mesh(mesh, has_names);
       // With bone beside the cartilage of the mobile body, bone ends motions.
-      if (has_names && mobile_.size() > 1 && mesh.name == (role == "fixed" ? fixed_part_ : mobile_part_))
+      if (has_names && mobile_.all().size() > 1 &&
+          mesh.name == (role == "fixed" ? fixed_part_ : mobile_part_))
         add("contact = \"bearing\"");
     }
     if (meshes.empty()) {
@@ -293,7 +336,7 @@ class ModelJointFile {
     for (const NamedMesh& named : meshes)
       for (const fs::path& place : named.mesh.looked_in) places.push_back(place.string());
     return fmt::format("no mesh of body {} was found; looked for {}", in_quotes(body),
-                       fmt::join(places, ", "));
+                       some_of(std::move(places)));
   }
 
   void write_frame() {
@@ -339,34 +382,39 @@ class ModelJointFile {
   // The contact that the model has between the two bodies.
 
   const ModelContactMesh* find_contact_mesh(const std::string& name) const {
-    for (const ModelContactMesh& mesh : model_.contact_meshes)
-      if (mesh.name == name) return &mesh;
-    return nullptr;
+    const auto found = contact_meshes_.find(name);
+    return found == contact_meshes_.end() ? nullptr : found->second.front();
   }
 
   /// Contacts name their meshes: two of one name on a body of this joint leave open which is meant.
-  void refuse_second_contact_mesh(const ModelContact& contact) const {
-    for (const ModelContactMesh& mesh : model_.contact_meshes)
-      if ((mesh.name == contact.casting || mesh.name == contact.target) &&
-          &mesh != find_contact_mesh(mesh.name) && (role_of(mesh) || role_of(*find_contact_mesh(mesh.name))))
+  void refuse_second_contact_meshes() const {
+    std::set<std::string_view> used;
+    for (const ModelContact& contact : model_.contacts) used.insert({contact.casting, contact.target});
+    for (const auto& [name, meshes] : contact_meshes_) {
+      if (meshes.size() == 1 || !used.contains(name)) continue;
+      const auto on_a_body = [&](const ModelContactMesh* mesh) { return role_of(*mesh).has_value(); };
+      const auto second = on_a_body(meshes.front())
+                              ? meshes.begin() + 1
+                              : std::find_if(meshes.begin() + 1, meshes.end(), on_a_body);
+      if (second != meshes.end())
         throw FileError(fmt::format("{}: line {}: contact mesh {} is given twice", model_.path.string(),
-                                    mesh.mesh.line, in_quotes(mesh.name)));
+                                    (*second)->mesh.line, in_quotes(name)));
+    }
   }
 
   const ModelContactMesh& contact_mesh(const std::string& name) const { return *find_contact_mesh(name); }
 
   /// The role of the body that a contact mesh is attached to, and where it lies there.
   std::optional<std::pair<BodyRole, Pose>> role_of(const ModelContactMesh& mesh) const {
-    for (const BodyRole role : {BodyRole::fixed, BodyRole::mobile})
-      for (const WeldedBody& body : bodies_of_role(role))
-        if (body.name == mesh.mesh.body) return std::pair(role, Pose(body.X * mesh.mesh.X_BG));
-    return std::nullopt;
+    const auto found = role_of_body_.find(mesh.mesh.body);
+    if (found == role_of_body_.end()) return std::nullopt;
+    return std::pair(found->second.first, Pose(found->second.second * mesh.mesh.X_BG));
   }
 
   void choose_contact() {
+    refuse_second_contact_meshes();
     std::vector<std::string> names, others;
     for (const ModelContact& contact : model_.contacts) {
-      refuse_second_contact_mesh(contact);
       const ModelContactMesh *of_casting = find_contact_mesh(contact.casting),
                              *of_target = find_contact_mesh(contact.target);
       if (!of_casting || !of_target) {
@@ -418,10 +466,9 @@ class ModelJointFile {
       const auto [role, X] = *role_of(mesh);
       ModelMesh placed = mesh.mesh;
       placed.X_BG = X;
-      std::vector<NamedMesh>& meshes = meshes_of_role(role);
-      const auto same = std::find_if(meshes.begin(), meshes.end(),
-                                     [&](const NamedMesh& other) { return is_same(other.mesh, placed); });
-      const std::string part = same != meshes.end() ? same->name : add_mesh(meshes, placed, *name).name;
+      BodyMeshes& meshes = meshes_of_role(role);
+      const NamedMesh* same = meshes.find(placed);
+      const std::string part = same ? same->name : add_mesh(meshes, placed, *name).name;
       (role == BodyRole::fixed ? fixed_part_ : mobile_part_) = part;
     }
   }
@@ -437,8 +484,8 @@ class ModelJointFile {
          {casting, X_casting},
          {target, role_of(target)->second},
          casting_role,
-         fixed_.size() > 1 ? fixed_part_ : "",
-         mobile_.size() > 1 ? mobile_part_ : ""},
+         fixed_.all().size() > 1 ? fixed_part_ : "",
+         mobile_.all().size() > 1 ? mobile_part_ : ""},
         [&](const fs::path& file) { return path_of(file); }, out_.notes));
   }
 
@@ -473,7 +520,10 @@ class ModelJointFile {
   Side side_ = Side::right;
   JointMapping mapping_{.kind = JointKind::free};
   std::vector<WeldedBody> fixed_bodies_, mobile_bodies_;
-  std::vector<NamedMesh> fixed_, mobile_;
+  BodyMeshes fixed_, mobile_;
+  /// By the body's name: which role it has and where it lies in that one. The fixed body's first.
+  std::map<std::string_view, std::pair<BodyRole, Pose>> role_of_body_;
+  std::map<std::string_view, std::vector<const ModelContactMesh*>> contact_meshes_;
   const ModelContact* contact_ = nullptr;
   std::string fixed_part_, mobile_part_;
   std::string text_;

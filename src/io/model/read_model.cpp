@@ -36,6 +36,7 @@ class ModelReader {
     read_components(model, "");
     for (const std::string& body : frames_.bodies()) model_.bodies.push_back(plain_text(body));
     for (const auto& [kind, count] : shapes_) model_.ignored[kind] += count;
+    refuse_couplers_of_one_coordinate();
     refuse_joints_of_one_name();
   }
 
@@ -330,20 +331,28 @@ class ModelReader {
     } catch (const FileError& error) {
       coupler.why_not = error.what();
     }
-    for (ModelCoupler& other : model_.couplers) {
-      if (other.dependent != coupler.dependent) continue;
-      // OpenSim holds both at once, which a column of poses cannot.
-      coupler.why_not = other.why_not =
-          fmt::format("{}: constraints {} and {} both give coordinate {}", model_.path.string(),
-                      in_quotes(other.name), in_quotes(coupler.name), in_quotes(coupler.dependent));
-      coupler.function = other.function = nullptr;
-    }
     model_.couplers.push_back(std::move(coupler));
   }
 
   /// Names of coordinates may be paths to them.
   static std::string last_of_path(std::string_view name) {
     return std::string(name.substr(name.rfind('/') + 1));
+  }
+
+  /// OpenSim holds all of them at once, which a column of poses cannot. Each names the last one, which names the one before it.
+  void refuse_couplers_of_one_coordinate() {
+    std::map<std::string_view, std::vector<ModelCoupler*>> of_coordinate;
+    for (ModelCoupler& coupler : model_.couplers) of_coordinate[coupler.dependent].push_back(&coupler);
+    for (const auto& [coordinate, couplers] : of_coordinate) {
+      if (couplers.size() == 1) continue;
+      for (std::size_t i = 0; i < couplers.size(); ++i) {
+        const std::size_t first = std::min(i, couplers.size() - 2);
+        couplers[i]->function = nullptr;
+        couplers[i]->why_not = fmt::format("{}: constraints {} and {} both give coordinate {}",
+                                           model_.path.string(), in_quotes(couplers[first]->name),
+                                           in_quotes(couplers.back()->name), in_quotes(coordinate));
+      }
+    }
   }
 
   void refuse_joints_of_one_name() {

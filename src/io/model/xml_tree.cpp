@@ -6,6 +6,7 @@
 
 #include "io/file/words.hpp"
 #include "io/file/xml_entity.hpp"
+#include "io/mesh/parse.hpp"
 #include "io/mesh/xml.hpp"
 
 namespace condyle::io {
@@ -50,6 +51,17 @@ const XmlElement* XmlElement::at(std::initializer_list<std::string_view> path) c
 
 std::string XmlElement::text() const {
   return decoded(trimmed(without_comments(inside)));
+}
+
+bool XmlElement::has_comment_in_word() const {
+  bool was_in_word = false;
+  std::string_view text = inside;
+  for (std::size_t begin = text.find("<!--"); begin != text.npos; begin = text.find("<!--")) {
+    if (begin > 0) was_in_word = !is_space(text[begin - 1]);
+    text.remove_prefix(text.find("-->", begin) + 3);
+    if (was_in_word && !text.empty() && !is_space(text.front()) && !text.starts_with("<!--")) return true;
+  }
+  return false;
 }
 
 std::string XmlElement::label() const {

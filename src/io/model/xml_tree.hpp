@@ -27,6 +27,8 @@ struct XmlElement {
 
   /// Its text: without comments and blanks at both ends, entities decoded. A lone & stands for itself.
   std::string text() const;
+  /// Whether a comment stands in it with other than blanks on both sides.
+  bool has_comment_in_word() const;
   /// The same of the attribute.
   std::string label() const;
 };

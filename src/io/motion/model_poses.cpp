@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <set>
 
 #include "condyle/error.hpp"
 #include "condyle/io/model_file.hpp"
@@ -17,8 +19,9 @@
 namespace condyle::io {
 namespace {
 
-/// Couplers that follow one another are followed this far.
+/// Couplers that follow one another are followed this far, and through this many coordinates in all.
 constexpr int longest_chain = 20;
+constexpr std::size_t most_coordinates = 1000;
 
 /// The column of a joint's coordinate: of its name, or of a path that ends in joint, coordinate and "value".
 std::optional<std::size_t> column_of(const MotionTable& table, const std::string& joint,
@@ -31,6 +34,10 @@ class ModelMotion {
   ModelMotion(const MotionTable& table, const PosesOfModel& mapping)
       : table_(table), mapping_(mapping), model_(read_model(mapping.model)) {
     joint_ = &named();
+    // The first of each name counts.
+    for (const ModelCoupler& coupler : model_.couplers) couplers_.emplace(coupler.dependent, &coupler);
+    for (const ModelJoint& joint : model_.joints)
+      for (const ModelCoordinate& own : joint.coordinates) owners_.emplace(own.name, Owner{&joint, &own});
   }
 
   RecordedPoses poses() {
@@ -83,34 +90,37 @@ class ModelMotion {
     if (joint_->coordinates.empty())
       throw FileError(
           fmt::format("{}: joint {} does not move", mapping_.model.string(), in_quotes(joint_->name)));
+    std::set<std::string_view> looked_at;
     for (const ModelCoordinate& coordinate : joint_->coordinates)
-      if (has_source(coordinate.name, longest_chain)) return;
+      if (has_source(coordinate.name, looked_at)) return;
     throw FileError(fmt::format("{}: has no column of joint {}: {} or the like", table_.path.string(),
                                 in_quotes(joint_->name), in_quotes(joint_->coordinates.front().name)));
   }
 
-  /// Whether a column gives this coordinate, or couplers do by columns of others.
-  bool has_source(const std::string& coordinate, int chain) const {
-    const ModelJoint* joint = owner_of(coordinate).first;
+  /// Whether a column gives this coordinate, or couplers do by columns of others. Each coordinate is looked at once.
+  bool has_source(const std::string& coordinate, std::set<std::string_view>& looked_at) const {
+    if (!looked_at.insert(coordinate).second) return false;
+    const ModelJoint* joint = owner_of(coordinate).joint;
     if (joint && column_of(table_, joint->name, coordinate)) return true;
     const ModelCoupler* coupler = coupler_of(coordinate);
-    return coupler && chain > 0 &&
+    return coupler && looked_at.size() <= most_coordinates &&
            std::any_of(coupler->independent.begin(), coupler->independent.end(),
-                       [&](const std::string& name) { return has_source(name, chain - 1); });
+                       [&](const std::string& name) { return has_source(name, looked_at); });
   }
 
   const ModelCoupler* coupler_of(const std::string& dependent) const {
-    for (const ModelCoupler& coupler : model_.couplers)
-      if (coupler.dependent == dependent) return &coupler;
-    return nullptr;
+    const auto found = couplers_.find(dependent);
+    return found == couplers_.end() ? nullptr : found->second;
   }
 
-  /// The joint that has a coordinate of this name, and the coordinate.
-  std::pair<const ModelJoint*, const ModelCoordinate*> owner_of(const std::string& coordinate) const {
-    for (const ModelJoint& joint : model_.joints)
-      for (const ModelCoordinate& own : joint.coordinates)
-        if (own.name == coordinate) return {&joint, &own};
-    return {nullptr, nullptr};
+  /// The joint that has a coordinate, and the coordinate.
+  struct Owner {
+    const ModelJoint* joint = nullptr;
+    const ModelCoordinate* coordinate = nullptr;
+  };
+  Owner owner_of(const std::string& coordinate) const {
+    const auto found = owners_.find(coordinate);
+    return found == owners_.end() ? Owner() : found->second;
   }
 
   /// Whether the file's angles are degrees; nothing if neither it nor the joint file says so.
@@ -141,8 +151,18 @@ class ModelMotion {
     return *degrees;
   }
 
-  /// In radians and metres, NaN for gaps.
-  std::vector<double> values_of(const ModelJoint& joint, const ModelCoordinate& coordinate, int steps) {
+  /// In radians and metres, NaN for gaps. Several couplers may need one coordinate: it is computed once.
+  const std::vector<double>& values_of(const ModelJoint& joint, const ModelCoordinate& coordinate,
+                                       int steps) {
+    if (const auto known = values_.find(&coordinate); known != values_.end()) return known->second;
+    std::vector<double> values = computed_values(joint, coordinate, steps);
+    if (values_.size() == most_coordinates)
+      throw FileError(fmt::format("{}: joint {}: hangs by constraints on more than {} coordinates",
+                                  mapping_.model.string(), in_quotes(joint_->name), most_coordinates));
+    return values_.emplace(&coordinate, std::move(values)).first->second;
+  }
+
+  std::vector<double> computed_values(const ModelJoint& joint, const ModelCoordinate& coordinate, int steps) {
     if (const auto column = column_of(table_, joint.name, coordinate.name)) {
       std::vector<double> values = table_.values[*column];
       if (in_degrees(coordinate))
@@ -161,21 +181,21 @@ class ModelMotion {
     if (steps == longest_chain)
       throw FileError(fmt::format("{}: constraint {}: couplers follow one another in a circle",
                                   mapping_.model.string(), in_quotes(coupler.name)));
-    std::vector<std::vector<double>> of;
+    std::vector<const std::vector<double>*> of;  // which the map keeps where they are
     for (const std::string& name : coupler.independent) {
       const auto [joint, coordinate] = owner_of(name);
       if (!coordinate)
         throw FileError(fmt::format("{}: constraint {}: there is no coordinate {}", mapping_.model.string(),
                                     in_quotes(coupler.name), in_quotes(name)));
       if (!joint->transform) throw FileError(joint->why_not);
-      of.push_back(values_of(*joint, *coordinate, steps + 1));
+      of.push_back(&values_of(*joint, *coordinate, steps + 1));
     }
     processing_->push_back(fmt::format("{}: has no column of coordinate {}: constraint {} gives it",
                                        table_.path.string(), in_quotes(coupler.dependent),
                                        in_quotes(coupler.name)));
     std::vector<double> values(table_.rows), q(of.size());
     for (std::size_t row = 0; row < table_.rows; ++row) {
-      for (std::size_t i = 0; i < q.size(); ++i) q[i] = of[i][row];
+      for (std::size_t i = 0; i < q.size(); ++i) q[i] = (*of[i])[row];
       values[row] = coupler.function->scale * value_of(coupler.function->function, q);
     }
     return values;
@@ -208,6 +228,9 @@ class ModelMotion {
   const MotionTable& table_;
   const PosesOfModel& mapping_;
   Model model_;
+  std::map<std::string_view, const ModelCoupler*> couplers_;  ///< by the coordinate that follows
+  std::map<std::string_view, Owner> owners_;                  ///< by their coordinates
+  std::map<const ModelCoordinate*, std::vector<double>> values_;
   const ModelJoint* joint_ = nullptr;
   std::vector<std::string>* processing_ = nullptr;
 };

@@ -4,7 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iterator>
+#include <map>
+#include <utility>
 
 #include "condyle/version.hpp"
 #include "io/file/plain_text.hpp"
@@ -16,12 +17,23 @@ namespace {
 
 constexpr const char* side_names[] = {"first i", "last i", "first j", "last j", "first k", "last k"};
 
-std::vector<std::string> names_of(const LabelInspection& image, const LabelSummary& summary) {
-  std::vector<std::string> names;
-  for (const LabelSegment& segment : image.segments)
-    if (segment.layer == summary.layer && segment.label == summary.label) names.push_back(segment.name);
-  return names;
-}
+/// The names of a layer's label, in the order of the file.
+class SegmentNames {
+ public:
+  explicit SegmentNames(const LabelInspection& image) {
+    for (const LabelSegment& segment : image.segments)
+      names_[{segment.layer, segment.label}].push_back(segment.name);
+  }
+
+  const std::vector<std::string>& of(const LabelSummary& summary) const {
+    static const std::vector<std::string> none;
+    const auto found = names_.find({summary.layer, summary.label});
+    return found == names_.end() ? none : found->second;
+  }
+
+ private:
+  std::map<std::pair<std::size_t, std::uint32_t>, std::vector<std::string>> names_;
+};
 
 std::string touched(const LabelSummary& summary) {
   std::string sides;
@@ -54,9 +66,10 @@ void append(std::string& text, const LabelInspection& image) {
                       image.layers > 1 ? fmt::format(", {} layers", image.layers) : "");
   for (const LabelNote& note : image.notes)
     text += fmt::format("  note: {}: {}\n", name_of(note.code), plain_text(note.text));
+  const SegmentNames segment_names(image);
   for (std::size_t i = 0; i < image.labels.size(); ++i) {
     const LabelSummary& summary = image.labels[i];
-    const std::string names = plain_text(fmt::format("{}", fmt::join(names_of(image, summary), ", ")));
+    const std::string names = plain_text(fmt::format("{}", fmt::join(segment_names.of(summary), ", ")));
     const std::string label = image.layers > 1 ? fmt::format("{}:{}", summary.layer, summary.label)
                                                : fmt::format("{}", summary.label);
     text += fmt::format("  {:>5} {}: {} voxels in {} piece{}, box of {} x {} x {}{}\n", label,
@@ -69,6 +82,7 @@ void append(std::string& text, const LabelInspection& image) {
 
 Json inspection_json(const LabelInspection& image) {
   Json labels = Json::array();
+  const SegmentNames segment_names(image);
   for (std::size_t l = 0; l < image.labels.size(); ++l) {
     const LabelSummary& summary = image.labels[l];
     Json touches = Json::array();
@@ -76,7 +90,7 @@ Json inspection_json(const LabelInspection& image) {
       if (summary.touches[i]) touches.push_back(side_names[i]);
     labels.push_back({{"label", summary.label},
                       {"layer", summary.layer},
-                      {"names", names_of(image, summary)},
+                      {"names", segment_names.of(summary)},
                       {"voxels", summary.voxels},
                       {"pieces", image.pieces[l]},
                       {"first", summary.first},
@@ -86,22 +100,6 @@ Json inspection_json(const LabelInspection& image) {
   return {{"file", image.image.string()}, {"size", image.grid.size},
           {"layers", image.layers},       {"lps_from_index", rows_json(image.grid.X_WI)},
           {"labels", std::move(labels)},  {"notes", notes_json(image.notes)}};
-}
-
-/// How many pieces a label is in, looked for in its box only.
-std::size_t pieces_of(const LabelMap& map, const LabelSummary& summary) {
-  const auto index = static_cast<std::uint16_t>(
-      std::lower_bound(map.labels.begin(), map.labels.end(), summary.label) - map.labels.begin());
-  const std::vector<std::uint16_t>& voxels = map.layers[summary.layer];
-  mesh::VoxelBox box{summary.size, {}};
-  for (std::int64_t k = 0; k < summary.size[2]; ++k)
-    for (std::int64_t j = 0; j < summary.size[1]; ++j) {
-      const std::int64_t row = (k + summary.first[2]) * map.grid.size[1] + j + summary.first[1];
-      const auto first = voxels.begin() + row * map.grid.size[0] + summary.first[0];
-      std::transform(first, first + summary.size[0], std::back_inserter(box.inside),
-                     [&](std::uint16_t voxel) { return static_cast<std::uint8_t>(voxel == index); });
-    }
-  return mesh::keep_pieces(box, true).size();
 }
 
 }  // namespace
@@ -162,8 +160,14 @@ LabelInspection inspect_labels(const std::filesystem::path& image, const LabelFi
   const LabelMap map = read_labels(image, options);
   std::vector<LabelSummary> labels = summaries_of(map);
   std::erase_if(labels, [](const LabelSummary& summary) { return summary.label == 0; });
+  std::vector<std::vector<std::size_t>> of_layer;
+  for (const std::vector<std::uint16_t>& layer : map.layers)
+    of_layer.push_back(mesh::count_pieces(layer, map.grid.size, map.labels.size()));
   std::vector<std::size_t> pieces;
-  for (const LabelSummary& summary : labels) pieces.push_back(pieces_of(map, summary));
+  for (const LabelSummary& summary : labels) {
+    const auto label = std::lower_bound(map.labels.begin(), map.labels.end(), summary.label);
+    pieces.push_back(of_layer[summary.layer][static_cast<std::size_t>(label - map.labels.begin())]);
+  }
   return {image, map.grid, map.layers.size(), std::move(labels), std::move(pieces), map.segments, map.notes};
 }
 

@@ -198,8 +198,8 @@ Shard Shard::parse(std::string_view text) {
   if (slash == text.npos || !io::parse_number(text.substr(0, slash), shard.number) ||
       !io::parse_number(text.substr(slash + 1), shard.of) || shard.number < 1 || shard.number > shard.of ||
       shard.of > 1'000'000)
-    throw UsageError(
-        fmt::format("shard: {} is not a number and how many there are, such as 3/7", io::in_quotes(text)));
+    throw UsageError(fmt::format(
+        "shard: {} is not a number and how many there are, up to 1000000, such as 3/7", io::in_quotes(text)));
   return shard;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "condyle/error.hpp"
@@ -147,6 +148,7 @@ std::vector<plan::SweepTarget> parse_targets(std::string_view text, std::string_
   TextCursor cursor(source);
   std::vector<std::string> columns;
   std::vector<plan::SweepTarget> targets;
+  std::set<std::string> names;
   while (!cursor.at_end()) {
     const std::size_t line = cursor.line();
     const std::string_view row = cursor.rest_of_line();
@@ -158,9 +160,8 @@ std::vector<plan::SweepTarget> parse_targets(std::string_view text, std::string_
       continue;
     }
     targets.push_back(target_of({columns, std::move(fields), line, source}, motions, kind, joint));
-    for (std::size_t i = 0; i + 1 < targets.size(); ++i)
-      if (targets[i].name == targets.back().name)
-        source.fail(fmt::format("line {}: name: {} is given twice", line, in_quotes(targets.back().name)));
+    if (!names.insert(targets.back().name).second)
+      source.fail(fmt::format("line {}: name: {} is given twice", line, in_quotes(targets.back().name)));
   }
   if (targets.empty()) source.fail(columns.empty() ? "has no names of columns" : "has no target");
   return targets;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace condyle::mesh {
@@ -16,6 +17,11 @@ struct VoxelBox {
 /// Voxels of each 26-connected piece, most first, and of equals the one whose first voxel comes first.
 /// Unless `all`, only the first piece stays in the box.
 std::vector<std::int64_t> keep_pieces(VoxelBox& box, bool all);
+
+/// How many 26-connected pieces each value below `values` is in, in one pass over voxels of the size, i fastest. Memory:
+/// two slices.
+std::vector<std::size_t> count_pieces(std::span<const std::uint16_t> voxels,
+                                      const std::array<std::int64_t, 3>& size, std::size_t values);
 
 struct Cavities {
   std::size_t count = 0;

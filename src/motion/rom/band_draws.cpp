@@ -11,7 +11,8 @@
 namespace condyle::motion {
 namespace {
 
-constexpr std::size_t fewest_samples = 20;
+/// At some milliseconds each the most are an hour, and percentiles have long settled.
+constexpr std::size_t fewest_samples = 20, most_samples = 100'000;
 
 /// Three for the centre, three for the axes, one for each surface.
 constexpr std::size_t dimensions = 8;
@@ -65,8 +66,9 @@ double quantile(const std::vector<double>& sorted, double q) {
 }
 
 void check_band(const BandOptions& options) {
-  if (options.samples < fewest_samples)
-    throw UsageError("band: " + std::to_string(fewest_samples) + " samples or more are needed");
+  if (options.samples < fewest_samples || options.samples > most_samples)
+    throw UsageError("band: " + std::to_string(fewest_samples) + " samples or more are needed, up to " +
+                     std::to_string(most_samples) + ", not " + std::to_string(options.samples));
   const auto bad = [](double sigma) { return !(sigma >= 0) || !std::isfinite(sigma); };
   const Uncertainty& sigma = options.sigma;
   if (bad(sigma.centre_mm) || bad(sigma.axes.radians()) || bad(sigma.surface_mm) || bad(sigma.surface_voxels))

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -29,17 +31,18 @@ struct Group {
 /// Groups about one axis follow each other.
 std::vector<Group> grouped(std::span<const Motion> motions) {
   std::vector<Group> groups;
+  std::map<std::tuple<JointAngle, Angle, Angle, Angle>, std::size_t> places;
   for (std::size_t i = 0; i < motions.size(); ++i) {
     const Motion& motion = motions[i];
-    auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) {
-      return g.vary == motion.vary && g.start == motion.start;
-    });
-    if (group == groups.end())
-      group = groups.insert(group, {motion.vary, motion.start, {Angle(), Angle()}, {}});
-    Angle& end = motion.sense == RotationSense::positive ? group->range.positive : group->range.negative;
+    const JointAngles& start = motion.start;
+    const auto [known, is_new] = places.try_emplace(
+        {motion.vary, start.flexion, start.adduction, start.internal_rotation}, groups.size());
+    if (is_new) groups.push_back({motion.vary, start, {Angle(), Angle()}, {}});
+    Group& group = groups[known->second];
+    Angle& end = motion.sense == RotationSense::positive ? group.range.positive : group.range.negative;
     const Angle asked = motion.range * sign_of(motion.sense);
     if (std::abs(asked.radians()) > std::abs(end.radians())) end = asked;
-    group->motions.push_back(i);
+    group.motions.push_back(i);
   }
   std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
     return std::pair(a.vary, a.start.flexion) < std::pair(b.vary, b.start.flexion);

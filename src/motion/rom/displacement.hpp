@@ -21,7 +21,7 @@ struct Displacement {
       {};  ///< of each uncertain parameter of a part, in standard deviations; empty: none moves
 };
 
-/// Throws UsageError for fewer than 20 samples, and a standard deviation that is negative or not finite.
+/// Throws UsageError for fewer than 20 samples or more than 100,000, and a standard deviation that is negative or not finite.
 void check_band(const BandOptions& options);
 
 /// A Latin hypercube: of every coordinate one value in each of as many strata of equal probability as there are samples. Those

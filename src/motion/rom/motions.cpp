@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "condyle/error.hpp"
 #include "condyle/range_of_motion.hpp"
@@ -120,13 +122,14 @@ std::vector<Motion> built_in_motions(JointKind kind, Anatomy joint) {
 }
 
 std::vector<Motion> with_own_motions(std::vector<Motion> built_in, std::span<const Motion> own) {
+  std::map<std::string, std::size_t> places;
+  for (std::size_t i = 0; i < built_in.size(); ++i) places.emplace(built_in[i].name, i);
   for (const Motion& motion : own) {
-    const auto known = std::find_if(built_in.begin(), built_in.end(),
-                                    [&](const Motion& other) { return other.name == motion.name; });
-    if (known == built_in.end())
+    const auto [known, is_new] = places.emplace(motion.name, built_in.size());
+    if (is_new)
       built_in.push_back(motion);
     else
-      *known = motion;
+      built_in[known->second] = motion;
   }
   return built_in;
 }

@@ -516,6 +516,23 @@ TEST_F(SmallModel, NeedsTwoBodiesThatMove) {
   EXPECT_NE(refusal(weld).find("does not move"), std::string::npos) << refusal(weld);
 }
 
+TEST_F(SmallModel, ReadsNumbersBesideACommentAndRefusesOnesWithACommentInThem) {
+  const auto with = [](std::string_view translation) {
+    std::string text = Hip{}.text();
+    const std::size_t begin = text.find("<translation>") + std::string_view("<translation>").size();
+    return text.replace(begin, text.find("</translation>") - begin, translation);
+  };
+  for (const char* translation :
+       {"9 <!-- x -->1 2", "9<!-- x --> 1 2", "<!-- x -->9 1 2<!-- y --><!-- z -->"}) {
+    const io::Model model = io::read_model(written(with(translation)));
+    EXPECT_EQ(io::joint_named(model, "hip_r").X_PF.translation(), Vec3(9, 1, 2)) << translation;
+  }
+  for (const char* translation : {"9<!-- x -->1 1 2", "9<!-- x --><!-- y -->1 1 2", "9 1 2<!---->5"})
+    EXPECT_NE(refusal(with(translation)).find("translation: a comment stands inside a number"),
+              std::string::npos)
+        << refusal(with(translation));
+}
+
 TEST_F(SmallModel, HasWeldsThatAgreeWhereBodiesAre) {
   const auto weld = [](const char* name, const char* parent, const char* child, const char* along) {
     return fmt::format(R"(<WeldJoint name="{0}"><socket_parent_frame>{0}_p</socket_parent_frame>
