@@ -1,5 +1,4 @@
 #include "implant_options.hpp"
-#include "whole_number.hpp"
 
 #include <fmt/format.h>
 
@@ -7,6 +6,8 @@
 #include <CLI/Formatter.hpp>
 #include <CLI/Validators.hpp>
 #include <algorithm>
+
+#include "whole_number.hpp"
 
 namespace condyle::cli {
 namespace {

@@ -240,7 +240,7 @@ void add_cohort(CLI::App& sample) {
       ->option_text("FOLDER");
   command->add_option("--n", options->cohort.n, "Draw this many hips")
       ->required()
-      ->check(whole_number(1))
+      ->check(whole_number(0))
       ->option_text("N");
   command->add_option("--seed", options->cohort.seed, "The seed of the draws")
       ->check(seed_number())

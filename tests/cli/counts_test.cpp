@@ -35,7 +35,7 @@ constexpr CountOption count_options[] = {
     {"sample hip --out out", "--scenario"},
     {"sample hip --out out --hip-bone-triangles 2000", "--femur-triangles"},
     {"sample hip --out out --femur-triangles 2000", "--hip-bone-triangles"},
-    {"sample cohort --out out", "--n"},
+    {"sample cohort --out out", "--n", true},
     {"sample cohort --n 2 --out out", "--seed", true},
     {"sample cohort --n 2 --out out", "--scenario"},
     {"sample replacement --out out", "--scenario"},

@@ -37,7 +37,7 @@ class LabelIndices {
   }
 
   std::vector<std::uint16_t> small_ = std::vector<std::uint16_t>(std::size_t{1} << 16, none);
-  /// In order: a hash of labels takes the square of their number where a file chooses them for it.
+  /// In order: a hash of labels takes the square of their number if a file chooses them for it.
   std::map<std::uint32_t, std::uint16_t> large_;
   std::vector<std::uint32_t> labels_;
 };
