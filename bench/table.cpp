@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "io/result/csv_field.hpp"
+#include "io/file/csv_fields.hpp"
 
 namespace bench {
 namespace {

@@ -19,10 +19,12 @@
 #include "condyle/io/pose_text.hpp"
 #include "contact_options.hpp"
 #include "help_formatter.hpp"
+#include "io/file/input_recorder.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/mesh/parse.hpp"
 #include "io/result/depth_result.hpp"
+#include "io/result/provenance_forms.hpp"
 #include "mesh/require_solid.hpp"
 #include "notes.hpp"
 #include "set_option.hpp"
@@ -104,6 +106,7 @@ void depth_command(const DepthArguments& options, const CLI::App& command) {
   const bool by_normals = options.method == DepthMethod::normal;
   if (options.rays->any_of_rays() && !by_normals)
     throw UsageError("--casting, --rule, --reach: are for --method normal");
+  const io::InputRecorder read;
   const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
   const io::ContactEntry entry = contact_of(*options.rays, loaded.report.file, false);
   const Joint joint = by_normals ? joint_of_surfaces(entry, loaded.joint) : loaded.joint;
@@ -120,6 +123,7 @@ void depth_command(const DepthArguments& options, const CLI::App& command) {
                                    .X_FM = given.X_FM,
                                    .notes = noted(loaded, options.strictness),
                                    .provenance = &from};
+  io::add_other_files(from, read);
   const DepthAnswer answer = io::name_joint_file(options.joint, [&] { return answer_depth(joint, request); });
   const io::DepthResult result = io::depth_result(question, answer);
   if (!options.out.empty())

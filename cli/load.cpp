@@ -14,8 +14,10 @@
 #include "condyle/io/joint_file.hpp"
 #include "contact_options.hpp"
 #include "help_formatter.hpp"
+#include "io/file/input_recorder.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/result/load_result.hpp"
+#include "io/result/provenance_forms.hpp"
 #include "notes.hpp"
 #include "set_option.hpp"
 
@@ -33,11 +35,12 @@ struct LoadArguments {
 };
 
 void load_command(const LoadArguments& options, const CLI::App& command) {
+  const io::InputRecorder read;
   const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
   const Joint& joint = loaded.joint;
   const io::PoseArgument given = io::given_pose(options.pose, joint);
   for (const std::string& remark : given.notes) note(remark);
-  const io::Provenance from = io::provenance_of(loaded, words_of(command), options.where->frame);
+  io::Provenance from = io::provenance_of(loaded, words_of(command), options.where->frame);
   if (!options.out.empty()) io::check_load_folder(options.out, &from);
   const io::ContactEntry contact = contact_of(*options.contact, loaded.report.file, true);
   const io::ContactSurfaces surfaces = io::surfaces_of(contact, joint);
@@ -49,6 +52,7 @@ void load_command(const LoadArguments& options, const CLI::App& command) {
       &from};
   const contact::ElasticContact layers(surfaces.fixed.mesh, surfaces.mobile.mesh,
                                        io::elastic_options(contact, surfaces, loaded));
+  io::add_other_files(from, read);
   const LoadAnswer answer = io::name_joint_file(options.joint, [&] { return answer_load(layers, request); });
   note_contact(answer.notes, loaded, options.strictness);
   if (!answer.carries_load()) throw UsageError("--force: " + contact::reason_of(*answer.balanced));

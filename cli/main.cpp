@@ -23,6 +23,7 @@
 #include "help_formatter.hpp"
 #include "interrupt.hpp"
 #include "io/file/failure.hpp"
+#include "io/file/input_recorder.hpp"
 #include "io/file/temporary_folder.hpp"
 #include "whole_number.hpp"
 
@@ -212,6 +213,8 @@ int main(int argc, char** argv) {
   cli::say_when_interrupted();
   std::set_terminate(end_without_answer);
   try {
+    // Nothing that the command reads is written over.
+    const condyle::io::InputRecorder read(condyle::io::InputRecorder::Digests::left_out);
     return run(argc, argv);
   } catch (const cli::Interrupted& stopped) {
     std::fprintf(stderr, "condyle: %s\n", stopped.what());

@@ -17,10 +17,12 @@
 #include "condyle/io/joint_file.hpp"
 #include "contact_options.hpp"
 #include "help_formatter.hpp"
+#include "io/file/input_recorder.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/motion/gaps.hpp"
 #include "io/motion/load_table.hpp"
 #include "io/result/motion_result.hpp"
+#include "io/result/provenance_forms.hpp"
 #include "model_options.hpp"
 #include "notes.hpp"
 #include "set_option.hpp"
@@ -83,6 +85,7 @@ io::LoadedJoint joint_of(const MotionArguments& options) {
 }
 
 void motion_command(const MotionArguments& options, const CLI::App& command) {
+  const io::InputRecorder read;
   const io::LoadedJoint loaded = joint_at(joint_of(options), options.parameters);
   io::JointMotion motion = io::motion_of(loaded, io::read_motion_table(options.motion));
   MotionRequest request = request_of(options, motion);
@@ -99,6 +102,7 @@ void motion_command(const MotionArguments& options, const CLI::App& command) {
       loaded, motion, surfaces, contact, with_pressure, noted(loaded, options.strictness), &from};
   const MotionAnswer answer = io::name_joint_file(
       options.joint, [&] { return answered_motion(question, std::move(request), options.strictness); });
+  io::add_other_files(from, read);
   note_contact(answer.notes, loaded, options.strictness);
   if (!options.out.empty()) {
     io::MotionFiles files = options.files;

@@ -16,8 +16,10 @@
 #include "condyle/io/picture.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "help_formatter.hpp"
+#include "io/file/input_recorder.hpp"
 #include "io/file/output_file.hpp"
 #include "io/joint/name_joint_file.hpp"
+#include "io/result/provenance_forms.hpp"
 #include "notes.hpp"
 #include "set_option.hpp"
 
@@ -61,6 +63,7 @@ std::vector<io::PictureMark> marks_of(const Joint& joint, const Pose& X_FM) {
 }
 
 void picture_command(const PictureArguments& options, const CLI::App& command) {
+  const io::InputRecorder read;
   const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
   const Joint& joint = loaded.joint;
   const io::PoseArgument given = io::given_pose(options.pose, joint);
@@ -72,12 +75,13 @@ void picture_command(const PictureArguments& options, const CLI::App& command) {
   picture.mobile = style_of(BodyRole::mobile, options);
   if (!options.out.ends_with(".png")) throw UsageError("--out: " + options.out + " does not end in .png");
   noted(loaded, options.strictness);
-  const io::Provenance from = io::provenance_of(loaded, words_of(command));
+  io::Provenance from = io::provenance_of(loaded, words_of(command));
   io::check_output_file(options.out, from.read);
   if (options.measures)
     picture.marks = io::name_joint_file(options.joint, [&] { return marks_of(joint, given.X_FM); });
   const io::Picture drawn = io::name_joint_file(
       options.joint, [&] { return io::draw_joint(joint, given.pose.angles(), given.X_FM, picture); });
+  io::add_other_files(from, read);
   io::write_png(options.out, drawn, &from);
   say_written({options.out});
 }

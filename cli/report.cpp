@@ -22,10 +22,12 @@
 #include "follow_options.hpp"
 #include "followed.hpp"
 #include "help_formatter.hpp"
+#include "io/file/input_recorder.hpp"
 #include "io/joint/known_motions.hpp"
 #include "io/joint/measure_request.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/report/report.hpp"
+#include "io/result/provenance_forms.hpp"
 #include "io/sweep/sweep_result.hpp"
 #include "io/sweep/target_table.hpp"
 #include "notes.hpp"
@@ -211,6 +213,7 @@ io::SweepResult answered_sweep(const io::LoadedJoint& loaded, const SweepQuery& 
 void report_command(const ReportArguments& options, const CLI::App& command) {
   if (options.content == Content::nothing) return write_empty(options, command);
   if (options.joint().empty()) throw UsageError("report: JOINT is required, or --empty");
+  const io::InputRecorder read;
   const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint()), options.parameters);
   check_plan(options, loaded.joint);
   check_comparison(options);
@@ -290,6 +293,7 @@ void report_command(const ReportArguments& options, const CLI::App& command) {
   std::optional<io::ResectionResult> cut;
   if (plan)
     report.plan = &cut.emplace(io::ResectionResult{loaded.joint, *plan, notes, &from, &loaded.report.file});
+  io::add_other_files(from, read);
   io::write_report(options.out, report);
   say_written({options.out});
 }

@@ -14,10 +14,12 @@
 #include "condyle/answer.hpp"
 #include "followed.hpp"
 #include "help_formatter.hpp"
+#include "io/file/input_recorder.hpp"
 #include "io/joint/known_motions.hpp"
 #include "io/joint/measure_request.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/mesh/vertex_marks.hpp"
+#include "io/result/provenance_forms.hpp"
 #include "io/result/resection_result.hpp"
 #include "notes.hpp"
 #include "range.hpp"
@@ -45,6 +47,7 @@ std::vector<std::uint8_t> marks_in(const std::string& file, const Body& body) {
 }
 
 void resect_command(const ResectArguments& options, const CLI::App& command) {
+  const io::InputRecorder read;
   const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   io::Provenance from = io::provenance_of(loaded, words_of(command));
@@ -68,6 +71,7 @@ void resect_command(const ResectArguments& options, const CLI::App& command) {
       return answer_resection(loaded.joint, loaded.report.placement, query, control);
     });
   });
+  io::add_other_files(from, read);
   const io::ResectionResult result{loaded.joint, answer, notes, &from, &loaded.report.file};
   if (!options.out.empty()) say_written(io::write_resection(options.out, result));
   print(options.form == AnswerForm::json ? io::resection_json(result) : io::resection_text(result));

@@ -18,8 +18,10 @@
 #include "condyle/io/pose_text.hpp"
 #include "follow_options.hpp"
 #include "help_formatter.hpp"
+#include "io/file/input_recorder.hpp"
 #include "io/joint/known_motions.hpp"
 #include "io/joint/name_joint_file.hpp"
+#include "io/result/provenance_forms.hpp"
 #include "io/result/rom_files.hpp"
 #include "io/result/rom_result.hpp"
 #include "notes.hpp"
@@ -102,6 +104,7 @@ RangeAnswer answer_of(const io::LoadedJoint& loaded, const RangeRequest& request
 }
 
 void rom_command(const RomArguments& options, const CLI::App& command) {
+  const io::InputRecorder read;
   const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
   std::vector<motion::Motion> motions = chosen_motions(io::known_motions(loaded), options.motions);
   if (options.task == Task::list_motions) return print(list_of(motions, loaded.joint.anatomy));
@@ -119,6 +122,7 @@ void rom_command(const RomArguments& options, const CLI::App& command) {
   // A folder that cannot be written to is reported before the work, not after it.
   if (!options.out.empty()) io::check_rom_folder(options.out, &from);
 
+  io::add_other_files(from, read);
   const RangeAnswer answer = answer_of(loaded, request);
   io::RomResult result = io::rom_result_of(answer, notes, &from);
   result.vtp_encoding = options.where->vtp_encoding;

@@ -18,10 +18,12 @@
 #include "contact_options.hpp"
 #include "followed.hpp"
 #include "help_formatter.hpp"
-#include "io/file/whole_file.hpp"
+#include "io/file/input_file.hpp"
+#include "io/file/input_recorder.hpp"
 #include "io/joint/known_motions.hpp"
 #include "io/joint/measure_request.hpp"
 #include "io/joint/name_joint_file.hpp"
+#include "io/result/provenance_forms.hpp"
 #include "io/sweep/load_quantities.hpp"
 #include "io/sweep/sweep_files.hpp"
 #include "io/sweep/target_table.hpp"
@@ -55,26 +57,24 @@ void note_sweep(const SweepAnswer& answer) {
   for (const SweepNote& each : answer.notes) note(fmt::format("{}: {}", name_of(each.code), each.text));
 }
 
-/// Further quantities of each design, and everything that they depend on beside the joint.
-std::string add_quantities(const SweepArguments& options, const io::LoadedJoint& loaded, SweepQuery& query) {
-  std::string text;
+/// Further quantities of each design.
+void add_quantities(const SweepArguments& options, const io::LoadedJoint& loaded, SweepQuery& query) {
   std::vector<std::string> keys;
   for (const std::string& list : options.measures)
-    for (const std::string& key : CLI::detail::split(list, ',')) keys.push_back(key), text += key + " ";
+    for (const std::string& key : CLI::detail::split(list, ',')) keys.push_back(key);
   if (!keys.empty()) query.quantities.push_back(measured_quantities(keys, io::measure_request_of(loaded)));
   if (options.load) {
     const io::StudyLoad load =
         study_load_of(*options.load, options.force, options.along, *options.contact, loaded.joint.anatomy);
     query.quantities.push_back(io::load_quantities(loaded, load));
-    text += io::load_text(load, loaded.joint.anatomy);
   } else if (!options.force.empty() || !options.along.empty() || options.contact->any_of_rays() ||
              options.contact->any_of_layers() || options.contact->law) {
     throw UsageError("--force, --e and all else on a load: needs --load");
   }
-  return text;
 }
 
 void sweep_command(const SweepArguments& options, const CLI::App& command) {
+  const io::InputRecorder read;
   const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
   if (options.range->sigma.centre_mm || options.range->sigma.axes_deg || options.range->sigma.surface_mm)
     throw UsageError(
@@ -89,19 +89,19 @@ void sweep_command(const SweepArguments& options, const CLI::App& command) {
                    .range = range.range,
                    .bands = range.bands,
                    .share = share_of(options.shard)};
-  const std::string quantities = add_quantities(options, loaded, query);
+  add_quantities(options, loaded, query);
   if (query.share.of > 1 && options.out.empty())
     throw UsageError("--shard: needs --out, where its results lie");
   io::name_joint_file(options.joint, [&] { check_sweep(loaded.joint, query); });
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   io::Provenance from = io::provenance_of(loaded, words_of(command));
   from.read.emplace_back(options.targets);
-  const std::string key = io::sweep_key(from, query, targets, quantities);
+  const std::string asked = io::sweep_options(from.command, read.inputs());
   const std::filesystem::path folder = io::sweep_folder(options.out, query.share);
   std::optional<io::SweepResult> result;
   if (!options.out.empty()) {
     io::check_sweep_folder(folder, &from);
-    result = io::sweep_there(folder, key);
+    result = io::sweep_there(folder, asked, query.share);
   }
   if (result) {
     note("is there already, of the same inputs, options and version");
@@ -111,7 +111,10 @@ void sweep_command(const SweepArguments& options, const CLI::App& command) {
         return answer_sweep(loaded.joint, loaded.report.placement, query, control);
       });
     });
+    if (const auto why = read.passing_failure()) throw FileError(*why);
+    io::add_other_files(from, read);
     result = io::sweep_result_of(loaded, std::move(answer), query, notes, &from);
+    const io::SweepKey key = io::sweep_key(asked, io::sweep_inputs(read));
     if (!options.out.empty()) say_written(io::write_sweep(folder, *result, key, &from));
   }
   note_sweep(result->answer);

@@ -118,6 +118,17 @@ foreach(file ${files})
   endforeach()
 endforeach()
 
+# What is read is opened by io/file/input_file.hpp, which records it for keys. Shards are a study's own files.
+file(GLOB_RECURSE readers RELATIVE ${SOURCE} ${SOURCE}/src/*.hpp ${SOURCE}/src/*.cpp ${SOURCE}/cli/*.cpp ${SOURCE}/cli/*.hpp
+     ${SOURCE}/python/bindings/*.cpp)
+list(FILTER readers EXCLUDE REGEX "^src/io/(file/|study/merge_study|sweep/sweep_files)")
+foreach(file ${readers})
+  file(STRINGS ${SOURCE}/${file} lines REGEX "fopen\\(|fstream|opendir\\(|directory_iterator|getenv\\(|is_regular_file\\(|[^a-z_]file_size\\(|mmap\\(")
+  foreach(line IN LISTS lines)
+    message(SEND_ERROR "${file}: files and the environment are read by io/file/input_file.hpp: ${line}")
+  endforeach()
+endforeach()
+
 foreach(layer ${layers})
   foreach(used ${${layer}_uses})
     if(NOT ${layer}_does_use_${used})

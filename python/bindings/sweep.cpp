@@ -141,7 +141,7 @@ std::vector<std::string> write(const SweepHandle& handle, const std::string& fol
   const py::gil_scoped_release released;
   const io::SweepResult result = io::sweep_result_of(handle.loaded, handle.answer, handle.query, {}, nullptr);
   std::vector<std::string> written;
-  for (const auto& path : io::write_sweep(folder, result, "", nullptr)) written.push_back(path.string());
+  for (const auto& path : io::write_sweep(folder, result, {}, nullptr)) written.push_back(path.string());
   return written;
 }
 

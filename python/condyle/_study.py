@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._answer import html_of
+from ._csv_text import plain_field
 from ._errors import FileError, UsageError, unknown, warn
 from ._pressure import ElasticLayer
 from ._resection import cut_options
@@ -214,7 +215,7 @@ def _rows_of(text: str) -> list[list[str]]:
 def _fields_of(line: str) -> list[str]:
     """As the tables are written, RFC 4180 without line ends in fields; of any length, where Python's csv has a bound."""
     if '"' not in line:
-        return line.split(",")
+        return [plain_field(each) for each in line.split(",")]
     fields: list[str] = []
     is_open = False
     for part in line.split(","):
@@ -223,7 +224,7 @@ def _fields_of(line: str) -> list[str]:
         else:
             fields.append(part)
         is_open ^= part.count('"') % 2 == 1
-    return [each[1:-1].replace('""', '"') if each.startswith('"') else each for each in fields]
+    return [plain_field(each[1:-1].replace('""', '"') if each.startswith('"') else each) for each in fields]
 
 
 def _table_of(texts: Mapping[str, str], name: str, folder: FilePath) -> StudyTable:

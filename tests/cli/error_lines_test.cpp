@@ -4,6 +4,7 @@
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "command.hpp"
 #include "condyle/io/mesh_file.hpp"
@@ -76,6 +77,27 @@ TEST_F(ErrorLines, ShowLettersOfEveryScriptAsTheyAre) {
         "v 0 0 m\xFC"
         "de\n");
   expect_begins("inspect latin.obj", 3, "latin.obj: line 1: 'm?de' should be a coordinate");
+}
+
+/// Whatever is quoted: a name of a file, of a motion, of a part, of a column, a word on the command line.
+TEST_F(ErrorLines, HaveABoundWhateverTheyQuote) {
+  const std::string name(60'000, 'x'), umlauts = [] {
+    std::string text;
+    for (int i = 0; i < 30'000; ++i) text += "\xc3\xbc";
+    return text;
+  }();
+  for (const std::string& word : {name, umlauts, "a" + umlauts})
+    for (const std::string& arguments : std::vector<std::string>{
+             "rom " + word + ".toml", "rom arm.toml --motion " + word, "rom arm.toml --" + word, word,
+             "depth arm.toml --pose " + word + "=1", "depth arm.toml --set " + word + "=1",
+             "rom arm.toml --out " + word, "rom arm.toml --bearing " + word, "merge " + word}) {
+      const Ran ran = run_condyle(folder.path(), arguments);
+      EXPECT_NE(ran.exit_code, 0) << arguments.substr(0, 40);
+      const std::string line = without_notes(ran.err);
+      EXPECT_TRUE(is_one_error_line(line)) << line;
+      EXPECT_LE(line.size(), 2'020u) << line;
+      EXPECT_EQ(line.find("??"), line.npos) << line;
+    }
 }
 
 TEST_F(ErrorLines, OfImagesThatAreNotReadNameWhatConvertsThem) {

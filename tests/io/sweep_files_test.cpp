@@ -90,16 +90,16 @@ TEST(SweepFiles, SayAgainWhatWasWritten) {
 TEST(SweepFiles, AreFoundAgainByTheirKeyOnly) {
   const TemporaryFolder folder;
   const io::SweepResult written = made_sweep();
-  io::write_sweep(folder / "zone", written, "a key", nullptr);
-  const auto read = io::sweep_there(folder / "zone", "a key");
+  io::write_sweep(folder / "zone", written, io::sweep_key("options", {}), nullptr);
+  const auto read = io::sweep_there(folder / "zone", "options");
   ASSERT_TRUE(read);
   EXPECT_EQ(io::designs_csv(*read), io::designs_csv(written));
   ASSERT_TRUE(read->answer.best);
   EXPECT_EQ(read->answer.best, written.answer.best);
   EXPECT_EQ(io::sweep_text(*read), io::sweep_text(written));
   EXPECT_EQ(io::sweep_json(*read), io::sweep_json(written));
-  EXPECT_FALSE(io::sweep_there(folder / "zone", "another key"));
-  EXPECT_FALSE(io::sweep_there(folder / "elsewhere", "a key"));
+  EXPECT_FALSE(io::sweep_there(folder / "zone", "other options"));
+  EXPECT_FALSE(io::sweep_there(folder / "elsewhere", "options"));
 }
 
 TEST(SweepFiles, ThatDoNotFitTogetherAreRefused) {

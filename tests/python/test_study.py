@@ -150,6 +150,20 @@ def test_one_long_text_is_read_in_its_own_room(tmp_path: Path):
     assert (tmp_path / "out/study.h5").stat().st_size < 3_000_000
 
 
+def test_names_that_a_spreadsheet_would_compute_come_back_as_they_were(tmp_path: Path):
+    names = ["=1+1", "-x", "@a", "+b", "'=c", "a\x1b[2J"]
+    with open(tmp_path / "table.csv", "w", encoding="utf-8", newline="") as file:
+        csv.writer(file).writerows([["id", "joint", "group"]] + [[f"j{n}", "nothere.toml", name]
+                                                                  for n, name in enumerate(names)])
+    with pytest.raises(condyle.FileError):
+        condyle.run_study(tmp_path / "table.csv", tmp_path / "out")
+    written = (tmp_path / "out/failures.csv").read_text()
+    assert "\x1b" not in written and ",=" not in written and '"=' not in written
+    read = condyle.read_study(tmp_path / "out").failures["group"]
+    # A table's own apostrophe marks a text too.
+    assert list(read) == ["=1+1", "-x", "@a", "+b", "=c", "a\x1b[2J"]
+
+
 def test_a_load_is_that_of_elastic_contact(table: Path, hip: condyle.Joint, command: str, tmp_path: Path):
     layer = condyle.ElasticLayer(12, 0.42, 1.5)
     study = condyle.run_study(table, tmp_path / "a", motions=["flexion"],

@@ -16,7 +16,7 @@
 #include "condyle/joint_checks.hpp"
 #include "core/one_line.hpp"
 #include "io/file/environment.hpp"
-#include "io/file/whole_file.hpp"
+#include "io/file/input_file.hpp"
 #include "io/joint/known_motions.hpp"
 #include "io/joint/load_joint.hpp"
 #include "io/report/joint_object.hpp"
@@ -124,9 +124,26 @@ void check_is_file(const std::filesystem::path& path) {
   if (!drop().files.contains(path.string())) throw FileError(path.string() + ": no such file");
 }
 
-std::string read_whole_file(const std::filesystem::path& path) {
+std::string read_whole_file(const std::filesystem::path& path, FileDigest* digest) {
   check_is_file(path);
-  return drop().files.find(path.string())->second;
+  const std::string& bytes = drop().files.find(path.string())->second;
+  if (digest != nullptr) *digest = digest_of(bytes);
+  return bytes;
+}
+
+// Label maps come as bytes.
+EntryKind entry_at(const std::filesystem::path&) {
+  return EntryKind::none;
+}
+
+InputFile::InputFile(const std::filesystem::path& path) {
+  throw FileError(path.string() + ": no such file");
+}
+InputFile::~InputFile() = default;
+InputFile::InputFile(InputFile&&) noexcept = default;
+InputFile& InputFile::operator=(InputFile&&) noexcept = default;
+std::size_t InputFile::read(std::uint64_t, std::span<char>) const {
+  return 0;
 }
 
 }  // namespace condyle::io

@@ -72,6 +72,12 @@ struct MeshOrigin {
   Eigen::Affine3d joint_from_source, source_from_joint;
 };
 
+/// A file that is neither the joint file nor a mesh of a body: thicknesses, a recorded motion, targets.
+struct OtherFile {
+  std::filesystem::path path;
+  std::string sha256;
+};
+
 /// All that an answer depends on, and nothing that changes from run to run: no date, no number of threads.
 struct Provenance {
   std::vector<std::string> command;  ///< the command line word by word, without the program
@@ -84,6 +90,8 @@ struct Provenance {
   std::vector<std::filesystem::path> read = {};
   std::vector<PosedPart> parts = {};      ///< with the values that the answer is of
   std::vector<plan::CupAngles> cup = {};  ///< of a total hip, by each definition
+  std::vector<OtherFile> other_files =
+      {};  ///< read beside joint file and meshes, in the order of their paths
 };
 Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> command,
                          AnswerFrameName frame = AnswerFrameName::joint);

@@ -13,6 +13,7 @@ from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple, Union
 import numpy as np
 from numpy.typing import NDArray
 
+from .._csv_text import plain_field
 from .._errors import FileError
 from .motion_grid import MotionGrid
 
@@ -51,16 +52,20 @@ def read_json(path: PathLike) -> Dict[str, Any]:
     return value
 
 
+def _fields(line: str) -> List[str]:
+    return [plain_field(field) for field in next(csv.reader([line]))]
+
+
 def _rows(path: Path, fewest: int = 1) -> Tuple[List[str], List[Tuple[int, List[str]]]]:
     """Names of columns, and the rows with the numbers of their lines; comments are passed over."""
     lines = [(i, line) for i, line in enumerate(_text(path).splitlines(), 1) if line.strip()
              and not line.startswith("#")]
     if len(lines) < 1 + fewest:
         raise ReadError(f"{path}: no rows")
-    names = next(csv.reader([lines[0][1]]))
+    names = _fields(lines[0][1])
     rows = []
     for i, line in lines[1:]:
-        fields = next(csv.reader([line]))
+        fields = _fields(line)
         if len(fields) != len(names):
             raise ReadError(f"{path}: line {i}: {len(fields)} fields, not {len(names)}")
         rows.append((i, fields))

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace condyle::io {
@@ -21,10 +22,14 @@ struct Failure {
   std::string message;  ///< one line, whatever a file or its name holds
 };
 
+/// Bytes of a line on standard error or in failures.csv: twenty lines of a terminal.
+inline constexpr std::size_t longest_message = 2000;
+
 /// Failure for the exception that is being handled.
 Failure failure_of_current_exception();
 
-/// With a blank in the place of what a terminal would obey: plain_text().
+/// With a blank in the place of what a terminal would obey, as plain_text(), and at most longest_message bytes: of a longer one, which
+/// names something that is longer still, start and end.
 std::string one_line(std::string text);
 
 }  // namespace condyle::io

@@ -1,6 +1,6 @@
-#include "condyle/io/mesh_file.hpp"
+#include "io/file/file_digest.hpp"
 
-#include <array>
+#include <algorithm>
 #include <bit>
 
 namespace condyle::io {
@@ -49,28 +49,47 @@ void add_block(HashWords& H, const char* block) noexcept {
   H = {H[0] + a, H[1] + b, H[2] + c, H[3] + d, H[4] + e, H[5] + f, H[6] + g, H[7] + h};
 }
 
-/// Section 5.1.1: what follows the last whole block is a bit 1, noughts, and the number of bits in eight bytes.
-std::string padded_end(std::string_view contents) {
-  std::string end(contents.substr(contents.size() / block_bytes * block_bytes));
-  end += '\x80';
-  while (end.size() % block_bytes != block_bytes - 8) end += '\0';
-  const std::uint64_t bits = 8 * static_cast<std::uint64_t>(contents.size());
-  for (int shift = 56; shift >= 0; shift -= 8) end += static_cast<char>(bits >> shift & 0xff);
-  return end;
+/// Whole blocks.
+void add_blocks(HashWords& H, std::string_view blocks) noexcept {
+  for (std::size_t at = 0; at < blocks.size(); at += block_bytes) add_block(H, blocks.data() + at);
 }
 
 }  // namespace
 
-FileDigest digest_of(std::string_view contents) {
-  HashWords H = first_hash;
-  const std::string end = padded_end(contents);
-  for (std::size_t at = 0; at + block_bytes <= contents.size(); at += block_bytes)
-    add_block(H, contents.data() + at);
-  for (std::size_t at = 0; at < end.size(); at += block_bytes) add_block(H, end.data() + at);
-  FileDigest digest{contents.size(), {}};
+Digester::Digester() noexcept : H_(first_hash) {}
+
+void Digester::add(std::string_view part) {
+  bytes_ += part.size();
+  if (!rest_.empty()) {
+    const std::size_t more = std::min(part.size(), block_bytes - rest_.size());
+    rest_ += part.substr(0, more);
+    part.remove_prefix(more);
+    if (rest_.size() < block_bytes) return;
+    add_blocks(H_, rest_);
+    rest_.clear();
+  }
+  const std::size_t whole = part.size() / block_bytes * block_bytes;
+  add_blocks(H_, part.substr(0, whole));
+  rest_ += part.substr(whole);
+}
+
+/// Section 5.1.1: what follows the last whole block is a bit 1, noughts, and the number of bits in eight bytes.
+FileDigest Digester::digest() const {
+  std::string end = rest_ + '\x80';
+  while (end.size() % block_bytes != block_bytes - 8) end += '\0';
+  for (int shift = 56; shift >= 0; shift -= 8) end += static_cast<char>(8 * bytes_ >> shift & 0xff);
+  HashWords H = H_;
+  add_blocks(H, end);
+  FileDigest digest{bytes_, {}};
   for (const std::uint32_t word : H)
     for (int shift = 28; shift >= 0; shift -= 4) digest.sha256 += "0123456789abcdef"[word >> shift & 0xf];
   return digest;
+}
+
+FileDigest digest_of(std::string_view contents) {
+  Digester digester;
+  digester.add(contents);
+  return digester.digest();
 }
 
 }  // namespace condyle::io

@@ -49,6 +49,7 @@ void check_output_file(const fs::path& path, std::span<const fs::path> read) {
 }
 
 void write_output_file(const fs::path& path, std::string_view bytes) {
+  check_replaces_none({&path, 1}, {});
   if (checked(path) == NameTaken::written_into) return write_whole_file(path, bytes);
   const fs::path file = end_of_links(path);
   OutputFolder out(folder_of(file));

@@ -95,6 +95,9 @@ std::vector<fs::path> OutputFolder::commit() {
     check_is_replaceable(to.back());
   }
   const std::vector<fs::path> left = left_by_earlier_runs();
+  // What was read since the folder was made.
+  io::check_replaces_none(to, {});
+  io::check_replaces_none(left, {});
   for (std::size_t i = 0; i < from.size(); ++i)
     if (std::rename(from[i].c_str(), to[i].c_str()) != 0)
       throw FileError(fmt::format("{}: cannot be written: {}", to[i].string(), reason_of(errno)));

@@ -51,6 +51,20 @@ bool has_control_character(std::string_view text) noexcept {
   return false;
 }
 
+void append_utf8(std::string& text, std::uint32_t character) {
+  const auto byte = [&](std::uint32_t value) { text += static_cast<char>(value); };
+  if (character < 0x80) {
+    byte(character);
+  } else if (character < 0x800) {
+    byte(0xc0 | character >> 6), byte(0x80 | (character & 0x3f));
+  } else if (character < 0x10000) {
+    byte(0xe0 | character >> 12), byte(0x80 | (character >> 6 & 0x3f)), byte(0x80 | (character & 0x3f));
+  } else {
+    byte(0xf0 | character >> 18), byte(0x80 | (character >> 12 & 0x3f)), byte(0x80 | (character >> 6 & 0x3f)),
+        byte(0x80 | (character & 0x3f));
+  }
+}
+
 std::size_t end_of_utf8(std::string_view text) noexcept {
   std::size_t at = 0;
   while (at < text.size()) {

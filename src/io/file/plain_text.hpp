@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,9 @@ std::string escaped_json(std::string_view json);
 
 /// C0, DEL, or C1 in UTF-8.
 bool has_control_character(std::string_view text) noexcept;
+
+/// Appends the bytes of UTF-8 of a character.
+void append_utf8(std::string& text, std::uint32_t character);
 
 /// Where the first byte lies that is not part of UTF-8 (RFC 3629); the size where there is none.
 std::size_t end_of_utf8(std::string_view text) noexcept;

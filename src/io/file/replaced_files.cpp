@@ -8,14 +8,12 @@
 #include <vector>
 
 #include "condyle/error.hpp"
+#include "io/file/input_recorder.hpp"
 
 namespace condyle::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Identity of the file that a name leads to, whatever its other names.
-using FileId = std::pair<dev_t, ino_t>;
 
 std::optional<FileId> id_of(const fs::path& path) noexcept {
   struct stat status {};
@@ -32,7 +30,7 @@ void check_replaces_none(std::span<const fs::path> written, std::span<const fs::
   std::sort(known.begin(), known.end());
   for (const fs::path& path : written) {
     const auto id = id_of(path);
-    if (id && std::binary_search(known.begin(), known.end(), *id))
+    if (id && (std::binary_search(known.begin(), known.end(), *id) || InputRecorder::has_read(*id)))
       throw FileError(path.string() + ": is read for this answer, which would be written over it");
   }
 }

@@ -5,8 +5,8 @@
 
 namespace condyle::io {
 
-/// Raises FileError, naming the file, where one of those that are to be written is one of those that were read: by another
-/// name, a hard or a symbolic link too.
+/// Raises FileError, naming the file, where one of those that are to be written is one of those that were read, or that this
+/// thread's InputRecorder has: by another name, a hard or a symbolic link too.
 void check_replaces_none(std::span<const std::filesystem::path> written,
                          std::span<const std::filesystem::path> read);
 

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "condyle/error.hpp"
-#include "core/one_line.hpp"
 #include "io/file/replaced_files.hpp"
 
 namespace condyle::io {
@@ -36,34 +35,6 @@ std::filesystem::path temporary_name_beside(const std::filesystem::path& path) {
 }
 
 }  // namespace
-
-std::string why_no_file(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (std::filesystem::exists(path, ignored)) return {};
-  return "there is no file " + core::one_line(path.string(), 300);
-}
-
-void check_is_file(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw FileError(path.string() + ": no such file");
-  if (std::filesystem::is_directory(status)) throw FileError(path.string() + ": is a folder, not a file");
-  if (!std::filesystem::is_regular_file(status)) throw FileError(path.string() + ": is not a regular file");
-}
-
-std::string read_whole_file(const std::filesystem::path& path) {
-  check_is_file(path);
-
-  const File file(std::fopen(path.c_str(), "rb"));
-  if (!file) throw FileError(fmt::format("{}: cannot be read: {}", path.string(), reason(errno)));
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  if (error) throw FileError(fmt::format("{}: cannot be read: {}", path.string(), error.message()));
-  std::string bytes(size, '\0');
-  bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file.get()));
-  if (std::ferror(file.get())) throw FileError(path.string() + ": cannot be read to its end");
-  return bytes;
-}
 
 std::filesystem::path end_of_links(const std::filesystem::path& path) {
   std::error_code error;

@@ -1,19 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <string_view>
 
+#include "io/file/input_file.hpp"
+
 namespace condyle::io {
-
-/// "there is no file PATH", on one line; empty if there is something of that name.
-std::string why_no_file(const std::filesystem::path& path);
-
-/// Raises FileError for a file that is missing, a folder, or something else that is not a regular file.
-void check_is_file(const std::filesystem::path& path);
-
-/// The bytes of a regular file. Raises FileError for a file that is missing, a folder, or cannot be read.
-std::string read_whole_file(const std::filesystem::path& path);
 
 /// The file that a name leads to, the name itself if it is no link or leads to nothing. Raises FileError for a link
 /// that cannot be resolved.

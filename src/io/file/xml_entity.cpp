@@ -4,24 +4,9 @@
 #include <cstdint>
 #include <utility>
 
+#include "io/file/plain_text.hpp"
+
 namespace condyle::io {
-namespace {
-
-void append_utf8(std::string& out, std::uint32_t code) {
-  const auto byte = [&](std::uint32_t value) { out += static_cast<char>(value); };
-  if (code < 0x80) {
-    byte(code);
-  } else if (code < 0x800) {
-    byte(0xc0 | code >> 6), byte(0x80 | (code & 0x3f));
-  } else if (code < 0x10000) {
-    byte(0xe0 | code >> 12), byte(0x80 | (code >> 6 & 0x3f)), byte(0x80 | (code & 0x3f));
-  } else {
-    byte(0xf0 | code >> 18), byte(0x80 | (code >> 12 & 0x3f)), byte(0x80 | (code >> 6 & 0x3f)),
-        byte(0x80 | (code & 0x3f));
-  }
-}
-
-}  // namespace
 
 std::size_t append_entity(std::string& out, std::string_view text) {
   static constexpr std::pair<std::string_view, char> named[] = {

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+
+#include "io/file/input_file.hpp"
 
 namespace condyle::io {
 
@@ -27,12 +28,8 @@ class ByteSource {
   [[noreturn]] void fail(std::string_view what) const;
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
-  };
-
   std::string_view memory_;
-  std::unique_ptr<std::FILE, Close> file_;
+  std::optional<InputFile> file_;
   std::string name_;
   std::uint64_t size_ = 0;
 };

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cstdio>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include "condyle/error.hpp"
+#include "io/image/byte_source.hpp"
 #include "io/mesh/parse.hpp"
 
 namespace condyle::io {
@@ -16,14 +15,9 @@ namespace {
 
 /// A preamble of 128 bytes, then the mark.
 bool has_mark_of_dicom(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return false;
-  std::FILE* const file = std::fopen(path.c_str(), "rb");
-  if (!file) return false;
+  if (entry_at(path) != EntryKind::file) return false;
   std::array<char, 132> start{};
-  const std::size_t got = std::fread(start.data(), 1, start.size(), file);
-  std::fclose(file);
-  return got == start.size() && std::string_view(start.data() + 128, 4) == "DICM";
+  return ByteSource(path).read(0, start) == start.size() && std::string_view(start.data() + 128, 4) == "DICM";
 }
 
 }  // namespace

@@ -74,9 +74,10 @@ LoadedMesh load(const MeshEntry& entry, const std::string& key, const JointFile&
   check_mesh_exists(entry, key, joint_file);
   io::check_is_file(entry.mesh);
   const MeshFormat format = mesh_format_of(entry.mesh);
-  const std::string bytes = io::read_whole_file(entry.mesh);
+  FileDigest digest;
+  const std::string bytes = io::read_whole_file(entry.mesh, &digest);
   MeshFile file = read_mesh(bytes, format, entry.mesh.string(), entry.polygons);
-  BodyMeshReport report{entry.part, entry.mesh, 0, 0, file.welded_vertices, {}, digest_of(bytes)};
+  BodyMeshReport report{entry.part, entry.mesh, 0, 0, file.welded_vertices, {}, std::move(digest)};
   report.split_polygons = file.split_polygons;
   report.guessed_polygons = file.guessed_polygons;
   report.guessed_within = file.guessed_within;

@@ -1,9 +1,8 @@
 #include "io/model/find_mesh.hpp"
 
 #include <algorithm>
-#include <system_error>
 
-#include "io/mesh/parse.hpp"
+#include "io/file/input_file.hpp"
 
 namespace condyle::io {
 namespace {
@@ -11,21 +10,15 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_file(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_regular_file(path, ignored);
+  return entry_at(path) == EntryKind::file;
 }
 
 /// What lies in a folder under a name, its own before the same in other cases of letters, these in their order.
 std::vector<fs::path> named_in(const fs::path& folder, const std::string& name) {
-  std::error_code failed;
-  const std::string wanted = io::lower_case(name);
   std::vector<fs::path> found;
-  for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
-    const std::string own = at->path().filename().string();
-    if (own != name && io::lower_case(own) == wanted) found.push_back(folder / own);
-  }
-  std::sort(found.begin(), found.end());
-  if (fs::exists(folder / name, failed)) found.insert(found.begin(), folder / name);
+  for (const std::string& own : names_like(folder, name))
+    if (own != name) found.push_back(folder / own);
+  if (entry_at(folder / name) != EntryKind::none) found.insert(found.begin(), folder / name);
   return found;
 }
 
@@ -44,8 +37,7 @@ std::optional<fs::path> in_any_case(const fs::path& folder, const fs::path& file
 
 /// The model's folder Geometry, as Windows would find it.
 fs::path geometry_in(const fs::path& folder) {
-  std::error_code ignored;
-  if (fs::path usual = folder / "Geometry"; fs::is_directory(usual, ignored)) return usual;
+  if (fs::path usual = folder / "Geometry"; entry_at(usual) == EntryKind::folder) return usual;
   const std::vector<fs::path> found = named_in(folder, "Geometry");
   return found.empty() ? folder / "Geometry" : found.front();
 }

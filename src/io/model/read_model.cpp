@@ -378,9 +378,8 @@ class ModelReader {
 };
 
 void check_folders(std::span<const std::filesystem::path> folders) {
-  std::error_code ignored;
   for (const std::filesystem::path& folder : folders)
-    if (!std::filesystem::is_directory(folder, ignored))
+    if (entry_at(folder) != EntryKind::folder)
       throw FileError(folder.string() + ": is no folder that meshes can be looked for in");
 }
 
@@ -415,9 +414,7 @@ void check_length_units(const XmlElement& of_model, const Source& source, Model&
 
 }  // namespace
 Model read_model(const std::filesystem::path& path, std::span<const std::filesystem::path> geometry_folders) {
-  io::check_is_file(path);
-  std::error_code ignored;
-  if (std::filesystem::file_size(path, ignored) > io::largest_file)
+  if (io::size_of_file(path) > io::largest_file)
     throw FileError(fmt::format("{}: larger than {} MB", path.string(), io::largest_file / 1'000'000));
   return read_model(io::read_whole_file(path), path, geometry_folders);
 }

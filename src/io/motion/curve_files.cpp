@@ -8,9 +8,9 @@
 #include <set>
 
 #include "condyle/error.hpp"
+#include "io/file/csv_fields.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/file/whole_file.hpp"
-#include "io/result/csv_field.hpp"
 
 namespace condyle::io {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "io/file/csv_fields.hpp"
 #include "io/file/format_version.hpp"
-#include "io/result/csv_field.hpp"
 #include "io/result/movement_words.hpp"
 #include "io/result/parameters.hpp"
 

@@ -7,10 +7,10 @@
 
 #include "condyle/io/pose_text.hpp"
 #include "condyle/joint_checks.hpp"
+#include "io/file/csv_fields.hpp"
 #include "io/joint/given_degrees.hpp"
 #include "io/result/caveats.hpp"
 #include "io/result/clock_hour.hpp"
-#include "io/result/csv_field.hpp"
 #include "io/result/rom_parts.hpp"
 #include "io/result/zone_json.hpp"
 

@@ -7,11 +7,11 @@
 #include <string_view>
 
 #include "condyle/io/pose_text.hpp"
+#include "io/file/csv_fields.hpp"
 #include "io/file/format_version.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/result/caveats.hpp"
-#include "io/result/csv_field.hpp"
 #include "io/result/json.hpp"
 #include "io/result/measure_geometry.hpp"
 #include "io/result/measure_object.hpp"

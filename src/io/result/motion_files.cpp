@@ -5,10 +5,10 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/jam_file.hpp"
+#include "io/file/csv_fields.hpp"
 #include "io/file/figure_ending.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/file/whole_file.hpp"
-#include "io/result/csv_field.hpp"
 #include "io/result/jam_contact.hpp"
 #include "io/result/motion_result.hpp"
 #include "io/result/pressure_map.hpp"

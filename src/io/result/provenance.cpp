@@ -8,6 +8,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/version.hpp"
+#include "core/one_line.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/result/parameters.hpp"
 #include "io/result/provenance_forms.hpp"
@@ -55,11 +56,11 @@ std::string shell_word(std::string_view word) {
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./%@";
   if (!word.empty() && word.find_first_not_of(plain) == word.npos) return std::string(word);
   std::string out = "'";
-  for (const char c : word) {
+  for (const char c : core::one_line(word, word.size())) {
     if (c == '\'')
       out += "'\\''";
     else
-      out += static_cast<unsigned char>(c) < ' ' ? '?' : c;
+      out += c;
   }
   return out + "'";
 }
@@ -67,12 +68,6 @@ std::string shell_word(std::string_view word) {
 std::string command_text(const Provenance& from) {
   std::string text = "condyle";
   for (const std::string& word : from.command) text += " " + shell_word(word);
-  return text;
-}
-
-std::string one_line(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ') c = '?';
   return text;
 }
 
@@ -114,7 +109,9 @@ Json mesh_json(const MeshOrigin& mesh) {
 }
 
 std::string file_text(const std::filesystem::path& path, const FileDigest& digest) {
-  return one_line(fmt::format("{}, {} bytes, sha256 {}", path.string(), digest.bytes, digest.sha256));
+  const std::string name = path.string();
+  return fmt::format("{}, {} bytes, sha256 {}", core::one_line(name, name.size()), digest.bytes,
+                     digest.sha256);
 }
 
 std::string values_text(const std::vector<PosedPart>& parts) {
@@ -129,6 +126,16 @@ std::string files_text(const MeshOrigin& mesh) {
   std::string text;
   for (const MeshSource& file : mesh.files)
     text += (text.empty() ? "" : "; ") + file_text(file.path, file.digest);
+  return text;
+}
+
+std::string files_text(const std::vector<OtherFile>& files) {
+  std::string text;
+  for (const OtherFile& file : files) {
+    const std::string name = file.path.string();
+    text += fmt::format("{}{}, sha256 {}", text.empty() ? "" : "; ", core::one_line(name, name.size()),
+                        file.sha256);
+  }
   return text;
 }
 
@@ -207,6 +214,8 @@ Json provenance_json(const Provenance* from) {
   if (!from->parts.empty()) json["parameters"] = parameters_json(from->parts);
   if (Json cuts = cuts_json(from->parts); !cuts.empty()) json["cuts"] = std::move(cuts);
   if (!from->cup.empty()) json["cup"] = cup_json(from->cup);
+  for (const OtherFile& file : from->other_files)
+    json["other_files"].push_back({{"path", file.path.string()}, {"sha256", file.sha256}});
   return json;
 }
 
@@ -225,6 +234,7 @@ std::vector<VtpField> provenance_fields(const Provenance* from) {
   add("side", std::string(name_of(from->side)));
   add("frame", std::string(name_of(from->frame.name())));
   if (!from->parts.empty()) add("parameters", values_text(from->parts));
+  if (!from->other_files.empty()) add("other_files", files_text(from->other_files));
   add("fixed_joint_from_source", row_by_row(from->fixed.joint_from_source));
   add("fixed_source_from_joint", row_by_row(from->fixed.source_from_joint));
   add("mobile_joint_from_source", row_by_row(from->mobile.joint_from_source));

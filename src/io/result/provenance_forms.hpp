@@ -14,6 +14,8 @@
 
 namespace condyle::io {
 
+class InputRecorder;
+
 /// A file that an answer comes from.
 Json file_json(const std::filesystem::path& path, const FileDigest& digest);
 
@@ -24,6 +26,8 @@ inline std::span<const std::filesystem::path> files_read(const Provenance* from)
 }
 
 Json provenance_json(const Provenance* from);
+/// Adds the files that were read beside the joint file and its meshes: once all is read, before anything is written.
+void add_other_files(Provenance& from, const InputRecorder& read);
 std::vector<VtpField> provenance_fields(const Provenance* from);
 /// Lines "# name: value" before a CSV's header line.
 std::string provenance_comments(const Provenance* from);

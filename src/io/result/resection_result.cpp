@@ -9,12 +9,12 @@
 #include <string_view>
 
 #include "condyle/version.hpp"
+#include "io/file/csv_fields.hpp"
 #include "io/file/format_version.hpp"
 #include "io/joint/motion_lines.hpp"
 #include "io/joint/proposal_lines.hpp"
 #include "io/result/caveats.hpp"
 #include "io/result/clock_hour.hpp"
-#include "io/result/csv_field.hpp"
 #include "io/result/json.hpp"
 #include "io/result/parameters.hpp"
 #include "io/result/provenance_forms.hpp"

@@ -6,10 +6,12 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/study.hpp"
+#include "condyle/version.hpp"
 #include "io/file/replaced_files.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/mesh/parse.hpp"
 #include "io/study/study_files.hpp"
+#include "io/study/study_inputs.hpp"
 
 namespace condyle::io {
 namespace {
@@ -48,6 +50,31 @@ void check_all_there(const fs::path& folder, std::size_t of) {
                               missing.size() > most_named ? ", ..." : ""));
 }
 
+/// A shard whose number is not that of its folder was copied or renamed, and its rows are those of another.
+void check_is_of_folder(const StudyRecord& shard, const Shard& named, const fs::path& folder) {
+  const std::string file = (folder / "study.json").string();
+  if (shard.is_merged || shard.shard.number != named.number || shard.shard.of != named.of)
+    throw FileError(
+        fmt::format("{}: is of shard {} of {}, in the folder of shard {} of {}: run that shard again", file,
+                    shard.shard.number, shard.shard.of, named.number, named.of));
+  if (shard.version != version)
+    throw FileError(fmt::format("{}: is of version {}, and this is {}: run the shard again", file,
+                                shard.version, version));
+  const auto before = [&](std::size_t number) { return number * shard.table_rows / named.of; };
+  const std::size_t rows = before(named.number) - before(named.number - 1);
+  if (shard.joints + shard.failures != rows)
+    throw FileError(fmt::format("{}: has {} rows, and shard {} of {} has {} of the table's {}", file,
+                                shard.joints + shard.failures, named.number, named.of, rows,
+                                shard.table_rows));
+}
+
+/// Throws FileError if the table or a file that a shard read is another now; the table if it lies where it did.
+void check_inputs(const StudyRecord& shard, const fs::path& folder) {
+  const Input table{Input::Kind::file, shard.table, shard.table_digest.sha256};
+  check_unchanged({&table, 1}, {}, folder.string());
+  check_unchanged(shard.inputs.all, fs::path(shard.table).parent_path(), folder.string());
+}
+
 /// Rows of a table without its header line.
 std::string_view rows_of(const std::string& text) {
   return std::string_view(text).substr(text.find('\n') + 1);
@@ -60,12 +87,14 @@ void append(StudyResults& whole, const StudyResults& shard, const fs::path& fold
   whole.texts.limits += rows_of(shard.texts.limits);
   whole.texts.hips += rows_of(shard.texts.hips);
   whole.texts.failures += rows_of(shard.texts.failures);
+  check_inputs(shard.record, folder);
   whole.record.joints += shard.record.joints;
   whole.record.failures += shard.record.failures;
 }
 
 /// The table of the study may lie in its folder under a name that the results have.
 void check_keeps_the_table(const fs::path& folder, const StudyRecord& record) {
+  const Recording none(nullptr);  // earlier results are no inputs
   for (const fs::path& file : io::study_result_files(folder)) {
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) continue;
@@ -89,13 +118,19 @@ void check_keeps_the_shards(const fs::path& folder, std::size_t of) {
 StudyDone merge_study(const fs::path& folder) {
   const std::size_t of = shards_in(folder);
   check_all_there(folder, of);
-  StudyResults whole = io::read_study(io::shard_folder(folder, {1, of}));
+  const fs::path first = io::shard_folder(folder, {1, of});
+  StudyResults whole = io::read_study(first);
+  check_is_of_folder(whole.record, {1, of}, first);
   check_keeps_the_table(folder, whole.record);
   check_keeps_the_shards(folder, of);
   for (std::size_t number = 2; number <= of; ++number) {
     const fs::path shard = io::shard_folder(folder, {number, of});
-    append(whole, io::read_study(shard), shard);
+    StudyResults results = io::read_study(shard);
+    check_is_of_folder(results.record, {number, of}, shard);
+    append(whole, results, shard);
   }
+  check_inputs(whole.record, first);
+  whole.record.inputs = {};
   if (whole.record.joints + whole.record.failures != whole.record.table_rows)
     throw FileError(fmt::format("{}: {} rows in the shards where the table has {}", folder.string(),
                                 whole.record.joints + whole.record.failures, whole.record.table_rows));

@@ -17,6 +17,7 @@
 #include "io/study/json_digest.hpp"
 #include "io/study/study_answer.hpp"
 #include "io/study/study_files.hpp"
+#include "io/study/study_inputs.hpp"
 #include "io/study/study_joint.hpp"
 #include "io/study/study_options.hpp"
 
@@ -47,18 +48,15 @@ StudyRecord record_of(const Study& study, const StudyTable& table) {
   return record;
 }
 
-/// `inputs` of each row in their order. Where rows stand counts too: results have their numbers, messages their lines.
+/// Where rows stand counts too: results have their numbers, messages their lines.
 std::string key_of(const StudyRecord& record, const std::string& columns, Rows rows,
-                   const std::vector<std::string>& inputs) {
-  std::vector<std::size_t> places;
-  for (const StudyRow& row : rows) places.insert(places.end(), {row.number, row.line});
-  return io::sha256_of({record.version, record.options, columns, places, inputs});
-}
-
-std::vector<std::string> inputs_of(const StudyTable& table, Rows rows) {
-  std::vector<std::string> inputs(rows.size());
-  core::parallel_tasks(rows.size(), [&](std::size_t i) { inputs[i] = io::inputs_sha256(table, rows[i]); });
-  return inputs;
+                   const StudyInputs& inputs) {
+  nlohmann::json of_rows = nlohmann::json::array();
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    of_rows.push_back({rows[i].number, rows[i].line, rows[i].fields, inputs.of_rows[i]});
+  std::vector<std::string> read;
+  for (const Input& input : inputs.all) read.push_back(text_of(input));
+  return io::sha256_of({record.version, record.options, columns, of_rows, read});
 }
 
 /// The answers of all rows, as they come about.
@@ -88,38 +86,43 @@ class Answers {
       was_stopped_ = true;
       return;
     }
+    const InputRecorder read;
     try {
-      auto answer = io::answer_of(table_, rows_[i], study_, control_.stop);
+      auto answer = io::answer_of(table_, rows_[i], study_, read, control_.stop);
       if (answer)
         answers_[i] = std::move(*answer);
       else
         was_stopped_ = true;
     } catch (...) {
-      fail(i);
+      fail(i, read);
     }
+    // Even if an answer came about: it may be that of a file which seemed not to be there.
+    if (const auto why = read.passing_failure()) end_with(i, std::make_exception_ptr(FileError(*why)));
     const std::lock_guard lock(mutex_);
     if (control_.progress) control_.progress(++done_, rows_.size());
   }
 
   /// The row is a failure, unless what is wrong is not its joint.
-  void fail(std::size_t i) {
+  void fail(std::size_t i, const InputRecorder& read) {
     try {
       throw;
     } catch (const UsageError&) {  // the options do not fit this joint
-      end_with(i);
+      end_with(i, std::current_exception());
     } catch (const std::bad_alloc&) {  // another machine may answer
-      end_with(i);
+      end_with(i, std::current_exception());
+    } catch (const std::system_error&) {  // likewise
+      end_with(i, std::current_exception());
     } catch (...) {
       if (study_.bad_joint == BadJoint::ends_run)
-        end_with(i);
+        end_with(i, std::current_exception());
       else
-        answers_[i] = io::failure_of(table_, rows_[i]);
+        answers_[i] = io::failure_of(table_, rows_[i], read);
     }
   }
 
   /// Rows before this one are answered all the same, so that the lowest such row is the same on any number of threads.
-  void end_with(std::size_t i) {
-    errors_[i] = std::current_exception();
+  void end_with(std::size_t i, std::exception_ptr error) {
+    errors_[i] = std::move(error);
     std::size_t last = last_;
     while (i < last && !last_.compare_exchange_weak(last, i)) {
     }
@@ -149,27 +152,48 @@ StudyTexts texts_of(const std::vector<StudyAnswer>& answers, const StudyColumns&
 }
 
 /// Files that were read are never overwritten: a shard does not overwrite those that merge_study() will write either.
-/// Throws FileError.
-void check_replaces_none(const Study& study, const std::filesystem::path& folder, const StudyTable& table) {
-  std::vector<std::filesystem::path> written = io::study_result_files(study.folder);
-  if (folder != study.folder)
-    for (std::filesystem::path& file : io::study_result_files(folder)) written.push_back(std::move(file));
-  std::erase_if(written, [](const auto& file) {
-    std::error_code ignored;
-    return !std::filesystem::exists(file, ignored);
-  });
-  if (written.empty()) return;
-  std::vector<std::filesystem::path> read = {table.path};
-  for (const StudyRow& row : table.rows)
-    for (std::filesystem::path& file : io::files_of(table, row)) read.push_back(std::move(file));
-  io::check_replaces_none(written, read);
-}
+class ResultsThere {
+ public:
+  ResultsThere(const Study& study, const std::filesystem::path& folder)
+      : files_(io::study_result_files(study.folder)) {
+    if (folder != study.folder)
+      for (std::filesystem::path& file : io::study_result_files(folder)) files_.push_back(std::move(file));
+    std::erase_if(files_, [](const auto& file) {
+      std::error_code ignored;
+      return !std::filesystem::exists(file, ignored);
+    });
+  }
+
+  /// What rows name, before they are answered. Throws FileError.
+  void check_before(const StudyTable& table) const {
+    if (files_.empty()) return;
+    std::vector<std::filesystem::path> read = {table.path};
+    for (const StudyRow& row : table.rows)
+      for (std::filesystem::path& file : io::files_of(table, row)) read.push_back(std::move(file));
+    io::check_replaces_none(files_, read);
+  }
+
+  /// What was read: headers and joint files may name more. Throws FileError.
+  void check_after(const std::vector<std::vector<Input>>& inputs) const {
+    if (files_.empty()) return;
+    std::vector<std::filesystem::path> read;
+    for (const std::vector<Input>& of_row : inputs)
+      for (const Input& input : of_row)
+        if (input.kind == Input::Kind::file) read.push_back(input.path);
+    io::check_replaces_none(files_, read);
+  }
+
+ private:
+  std::vector<std::filesystem::path> files_;  ///< those that are there now
+};
 
 /// The study in the folder, if it is the one that this run would write.
 std::optional<StudyDone> done_before(const std::filesystem::path& folder, const StudyRecord& asked,
                                      const std::string& columns, const StudyTable& table, Rows rows) {
   const auto there = io::read_study_record(folder);
-  if (!there || there->key != key_of(asked, columns, rows, inputs_of(table, rows))) return std::nullopt;
+  if (!there || there->inputs.of_rows.size() != rows.size() ||
+      there->key != key_of(asked, columns, rows, there->inputs.now(table.path.parent_path())))
+    return std::nullopt;
   StudyResults results = io::read_study(folder);
   // Other rows of the table may have changed: then the shard belongs to the new table as it is.
   if (there->family != asked.family) {
@@ -177,6 +201,7 @@ std::optional<StudyDone> done_before(const std::filesystem::path& folder, const 
     results.record.key = there->key;
     results.record.joints = there->joints;
     results.record.failures = there->failures;
+    results.record.inputs = there->inputs;
     io::write_study(folder, results);
   }
   return StudyDone{
@@ -212,7 +237,8 @@ std::optional<StudyDone> run_study(const Study& study, const Control& control) {
   const auto folder = study.shard ? io::shard_folder(study.folder, *study.shard) : study.folder;
   const StudyColumns columns = io::study_columns(table, study.options);
   StudyResults results{record_of(study, table), io::columns_csv(columns), {}};
-  check_replaces_none(study, folder, table);
+  const ResultsThere before(study, folder);
+  before.check_before(table);
   // A folder that cannot be written to is reported before the work, not after it.
   io::prepare_study_folder(folder);
   const auto done = done_before(folder, results.record, results.columns, table, rows);
@@ -220,15 +246,17 @@ std::optional<StudyDone> run_study(const Study& study, const Control& control) {
   const bool all_well = done && done->failures == 0 && done->noted.empty();
   if (all_well || (done && study.bad_joint == BadJoint::is_a_row)) return done;
 
-  const auto answers = Answers(study, table, rows, control).all();
+  auto answers = Answers(study, table, rows, control).all();
   if (!answers) return std::nullopt;
-  std::vector<std::string> inputs;
-  for (const StudyAnswer& answer : *answers) {
-    inputs.push_back(answer.inputs_sha256);
+  std::vector<std::vector<Input>> inputs;
+  for (StudyAnswer& answer : *answers) {
+    inputs.push_back(std::move(answer.inputs));
     results.record.failures += !answer.failure.empty();
   }
+  before.check_after(inputs);
+  results.record.inputs = study_inputs(table.path.parent_path(), inputs);
   results.record.joints = rows.size() - results.record.failures;
-  results.record.key = key_of(results.record, results.columns, rows, inputs);
+  results.record.key = key_of(results.record, results.columns, rows, results.record.inputs);
   results.texts = texts_of(*answers, columns);
   return StudyDone{results.record.joints,
                    results.record.failures,

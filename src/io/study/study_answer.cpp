@@ -7,16 +7,17 @@
 
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
+#include "io/file/csv_fields.hpp"
 #include "io/file/failure.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/joint/known_motions.hpp"
 #include "io/joint/name_joint_file.hpp"
-#include "io/result/csv_field.hpp"
 #include "io/result/depth_parts.hpp"
 #include "io/result/map_summary.hpp"
 #include "io/result/rom_result.hpp"
 #include "io/study/study_columns.hpp"
 #include "io/study/study_follow.hpp"
+#include "io/study/study_inputs.hpp"
 #include "io/study/study_joint.hpp"
 #include "io/study/study_load.hpp"
 #include "io/study/study_measures.hpp"
@@ -176,7 +177,7 @@ std::string notes_on(const StudyTable& table, const StudyRow& row, const LoadedJ
 }  // namespace
 
 std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& row, const Study& study,
-                                     std::stop_token stop) {
+                                     const InputRecorder& read, std::stop_token stop) {
   const StudyOptions& options = study.options;
   const StudyJoint of_joint = load_joint(table, row);
   const LoadedJoint& loaded = of_joint.loaded;
@@ -218,8 +219,8 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
   for (const std::string& code : of_joint.codes) notes += (notes.empty() ? "" : " ") + code;
   for (const RangeNote& note : answer->notes) add_code(note);
   const Cells of_row = row_fields(table, row);
-  const std::string inputs = inputs_sha256(table, row, loaded);
-  Cells of_hip = hip_fields(loaded, answer->bearing, notes, inputs);
+  std::vector<Input> inputs = read.inputs();
+  Cells of_hip = hip_fields(loaded, answer->bearing, notes, inputs_sha256(row, inputs));
   if (may_follow(table, options)) of_hip.emplace_back(answer->follows ? "0" : "1");
   if (answer->map) add_map(of_hip, *answer->map);
   if (depth_at) name_joint_file(place, [&] { add_depth(of_hip, joint, *depth_at); });
@@ -230,15 +231,15 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
                                  resection ? std::move(resection->of_limits) : std::vector<Cells>()),
                      line_of(of_row, of_hip),
                      {},
-                     inputs};
+                     std::move(inputs)};
 }
 
-StudyAnswer failure_of(const StudyTable& table, const StudyRow& row) {
+StudyAnswer failure_of(const StudyTable& table, const StudyRow& row, const InputRecorder& read) {
   const Failure failure = failure_of_current_exception();
-  const std::string inputs = inputs_sha256(table, row);
+  std::vector<Input> inputs = read.inputs();
   const Cells why = {fmt::format("{}", static_cast<int>(failure.exit_code)), csv_field(failure.message),
-                     inputs};
-  return {{}, {}, line_of(row_fields(table, row), why), inputs};
+                     inputs_sha256(row, inputs)};
+  return {{}, {}, line_of(row_fields(table, row), why), std::move(inputs)};
 }
 
 }  // namespace condyle::io

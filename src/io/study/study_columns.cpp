@@ -6,7 +6,6 @@
 
 #include "condyle/sample/hip.hpp"
 #include "io/file/csv_fields.hpp"
-#include "io/result/csv_field.hpp"
 #include "io/study/study_follow.hpp"
 #include "io/study/study_load.hpp"
 #include "io/study/study_measures.hpp"
@@ -59,7 +58,8 @@ ColumnList hip_columns() {
           {"bearing_margin_mm", "mm", number_column, "how far outside it contact is bearing contact"},
           {"notes", "", text_column,
            "codes of the notes on the joint, its load and its limits, with blanks between"},
-          {"inputs_sha256", "", text_column, "of the row and of the contents of the files it names"}};
+          {"inputs_sha256", "", text_column,
+           "of the row and of the contents of the files that were read for it"}};
 }
 
 void append(ColumnList& columns, const ColumnList& more) {
@@ -108,7 +108,8 @@ ColumnList carried_columns(const StudyTable& table) {
 ColumnList failure_columns() {
   return {{"exit_code", "", number_column, "of condyle rom for this joint"},
           {"message", "", text_column, "one line: file, element, what is wrong"},
-          {"inputs_sha256", "", text_column, "of the row and of the contents of the files it names"}};
+          {"inputs_sha256", "", text_column,
+           "of the row and of the contents of the files that were read for it"}};
 }
 
 }  // namespace

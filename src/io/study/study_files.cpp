@@ -7,6 +7,7 @@
 #include "condyle/error.hpp"
 #include "io/file/format_version.hpp"
 #include "io/file/output_folder.hpp"
+#include "io/file/plain_text.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/result/caveats.hpp"
 #include "io/result/json.hpp"
@@ -30,10 +31,12 @@ struct NamedFile {
 /// Provenance of a table, as far as all shards of a study have it in common, so that merged tables are those of one
 /// run.
 std::string comments_of(const StudyRecord& record) {
-  return fmt::format("# condyle_version: {}\n# options: {}\n", record.version, record.options);
+  return fmt::format("# condyle_version: {}\n# options: {}\n", record.version, escaped_json(record.options));
 }
 
+/// A study's results are no inputs: the next run writes over them.
 std::string read_table(const fs::path& path) {
+  const Recording none(nullptr);
   std::string text = read_whole_file(path);
   std::size_t header = 0;
   while (header < text.size() && text[header] == '#')
@@ -53,6 +56,7 @@ Json record_json(const StudyRecord& record, const std::vector<NamedFile>& files)
   json["merged"] = record.is_merged;
   json["joints"] = record.joints;
   json["failures"] = record.failures;
+  json["inputs"] = record.is_merged ? Json(nullptr) : inputs_json(record.inputs);
   for (const NamedFile& file : files) json["files"][file.name] = digest_json(digest_of(file.contents));
   json["scope"] = scope_text();
   return json;
@@ -71,6 +75,7 @@ StudyRecord record_of(const Json& json) {
   record.is_merged = json.at("merged");
   record.joints = json.at("joints");
   record.failures = json.at("failures");
+  if (!record.is_merged) record.inputs = inputs_in(json.at("inputs"));
   return record;
 }
 
@@ -116,6 +121,7 @@ std::vector<fs::path> write_study(const fs::path& folder, const StudyResults& re
 }
 
 std::optional<StudyRecord> read_study_record(const fs::path& folder) {
+  const Recording none(nullptr);
   try {
     const Json json = parsed_json(read_whole_file(folder / record_name));
     if (json.at("format") != format_version) return std::nullopt;

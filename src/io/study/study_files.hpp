@@ -7,6 +7,7 @@
 
 #include "condyle/io/study.hpp"
 #include "io/study/study_h5.hpp"
+#include "io/study/study_inputs.hpp"
 #include "io/study/study_table.hpp"
 
 namespace condyle::io {
@@ -14,7 +15,7 @@ namespace condyle::io {
 /// Entries of study.json for the tables beside it.
 struct StudyRecord {
   std::string version;
-  /// SHA-256 of what the tables depend on: rows, contents of the files they name, options, version. Empty of merged tables.
+  /// SHA-256 of what the tables depend on: rows, what was read for them, options, version. Empty of merged tables.
   std::string key;
   /// The same in all shards of one table: SHA-256 of the table, options, version and number of shards.
   std::string family;
@@ -24,6 +25,7 @@ struct StudyRecord {
   std::size_t table_rows = 0;
   Shard shard;
   bool is_merged = false;
+  StudyInputs inputs;  ///< none of merged tables
   std::size_t joints = 0, failures = 0;
 };
 

@@ -10,11 +10,10 @@
 #include "condyle/sample/hip.hpp"
 #include "core/one_line.hpp"
 #include "io/file/in_quotes.hpp"
-#include "io/file/whole_file.hpp"
+#include "io/file/input_file.hpp"
 #include "io/joint/load_joint.hpp"
 #include "io/mesh/parse.hpp"
 #include "io/model/model_joint_file.hpp"
-#include "io/study/json_digest.hpp"
 
 namespace condyle::io {
 namespace {
@@ -44,8 +43,7 @@ std::filesystem::path path_in(const StudyTable& table, const StudyRow& row, std:
 /// Line and column are named if the file is not there: the table may be what is wrong.
 std::filesystem::path file_in(const StudyTable& table, const StudyRow& row, std::string_view column) {
   std::filesystem::path path = path_in(table, row, column);
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored))
+  if (!why_no_file(path).empty())
     throw FileError(
         fmt::format("{}: {}: no such file", table.place(row, column), core::one_line(path.string(), 300)));
   return path;
@@ -153,10 +151,9 @@ StudyJoint segmented(const StudyTable& table, const StudyRow& row) {
     file.joint.frame.centre = CentreFit{};
     file.joint.frame.axes = lps_axes;
     const auto body = [](LabelBone& of) { return Body{of.name, std::move(of.surface.mesh), {}, of.image}; };
-    const FileDigest digest = digest_of(read_whole_file(labels));
     const auto report = [&](const LabelBone& of) {
-      return BodyMeshReport{"", labels, of.surface.mesh.vertices.size(), of.surface.mesh.triangles.size(), 0,
-                            {}, digest};
+      return BodyMeshReport{"", labels, of.surface.mesh.vertices.size(), of.surface.mesh.triangles.size(),
+                            0,  {}};
     };
     JointReport joint_report{std::move(file), {report(found.fixed)}, {report(found.mobile)}, {}, {}};
     PlacedJoint placed = make_joint(joint_report.file.joint, body(found.fixed), body(found.mobile));
@@ -195,45 +192,6 @@ StudyJoint joint_of_model(const StudyTable& table, const StudyRow& row) {
       codes.emplace_back(name_of(note.code));
   codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
   return {load_joint(std::move(proposed.file)), std::move(codes)};
-}
-
-std::string sha256_of(const StudyRow& row, const std::vector<std::string>& files) {
-  return io::sha256_of(nlohmann::json{row.fields, files});
-}
-
-std::string sha256_of_file(const std::filesystem::path& path) {
-  try {
-    return digest_of(read_whole_file(path)).sha256;
-  } catch (const FileError&) {
-    return "";
-  }
-}
-
-/// Adds the files that the layers of the surfaces in contact are measured by.
-void add_layer_files(const JointFile& file, std::vector<std::string>& files) {
-  if (!file.contact) return;
-  for (const auto* layer : {&file.contact->fixed, &file.contact->mobile}) {
-    if (!*layer) continue;
-    for (const auto* path : {&(*layer)->behind, &(*layer)->thickness_file})
-      if (*path) files.push_back(sha256_of_file(**path));
-  }
-}
-
-void add_files(const JointFile& file, std::vector<std::string>& files) {
-  for (const BodyEntry* body : {&file.fixed, &file.mobile})
-    for (const MeshEntry& mesh : body->meshes) files.push_back(sha256_of_file(mesh.mesh));
-  add_layer_files(file, files);
-}
-
-/// Adds the recorded motion that is followed, and the model that reads it.
-void add_followed_files(const StudyTable& table, const StudyRow& row, const JointFile& file,
-                        std::vector<std::string>& files) {
-  const std::filesystem::path followed = followed_file(table, row);
-  if (followed.empty()) return;
-  files.push_back(sha256_of_file(followed));
-  if (!file.recorded_motion) return;
-  if (const auto* poses = std::get_if<PosesOfModel>(&*file.recorded_motion))
-    files.push_back(sha256_of_file(poses->model));
 }
 
 StudyJoint joint_as_described(const StudyTable& table, const StudyRow& row) {
@@ -294,40 +252,6 @@ std::vector<std::filesystem::path> files_of(const StudyTable& table, const Study
     // the row will be a failure
   }
   return files;
-}
-
-std::string inputs_sha256(const StudyTable& table, const StudyRow& row, const LoadedJoint& joint) {
-  std::vector<std::string> files;
-  if (!joint.report.file.digest.sha256.empty()) files.push_back(joint.report.file.digest.sha256);
-  for (const auto* meshes : {&joint.report.fixed, &joint.report.mobile})
-    for (const BodyMeshReport& mesh : *meshes) files.push_back(mesh.digest.sha256);
-  add_layer_files(joint.report.file, files);
-  add_followed_files(table, row, joint.report.file, files);
-  return sha256_of(row, files);
-}
-
-std::string inputs_sha256(const StudyTable& table, const StudyRow& row) {
-  std::vector<std::string> files;
-  const auto add_all = [&](const JointFile& file) {
-    add_files(file, files);
-    add_followed_files(table, row, file, files);
-  };
-  try {
-    const JointSource source = source_of(table, row);
-    if (source == JointSource::meshes) add_all(described(table, row));
-    if (source == JointSource::labels) files.assign(2, sha256_of_file(path_in(table, row, "labels")));
-    if (source == JointSource::model) {
-      files.push_back(sha256_of_file(path_in(table, row, "opensim_model")));
-      add_all(of_model(table, row).file);
-    }
-    if (source == JointSource::joint_file) {
-      files.push_back(sha256_of_file(path_in(table, row, "joint")));
-      add_all(read_joint_file(path_in(table, row, "joint")));
-    }
-  } catch (const FileError&) {
-    // The row's failure depends on everything up to here.
-  }
-  return sha256_of(row, files);
 }
 
 }  // namespace condyle::io

@@ -32,9 +32,4 @@ std::vector<std::filesystem::path> files_of(const StudyTable& table, const Study
 /// The recorded motion that the row's translation is to follow: column `follow`. Empty: none.
 std::filesystem::path followed_file(const StudyTable& table, const StudyRow& row);
 
-/// SHA-256 of the row and of the contents of the files it names, those that the joint was made of.
-std::string inputs_sha256(const StudyTable& table, const StudyRow& row, const LoadedJoint& joint);
-/// The same of the files as they are now, which need not be there.
-std::string inputs_sha256(const StudyTable& table, const StudyRow& row);
-
 }  // namespace condyle::io

@@ -6,10 +6,10 @@
 
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
+#include "io/file/csv_fields.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/joint/measure_request.hpp"
 #include "io/mesh/parse.hpp"
-#include "io/result/csv_field.hpp"
 
 namespace condyle::io {
 namespace {

@@ -24,6 +24,14 @@ void add_contact(Json& json, const ContactChanges& given) {
   json["thickness_mm"] = given.thickness_mm;
 }
 
+Json load_json(const StudyLoad& load, Anatomy joint) {
+  Json json;
+  json["pose"] = pose_json(load.at, joint);
+  add_forces(json, load.force_n, load.free_directions);
+  add_contact(json, load.contact);
+  return json;
+}
+
 Json follow_load_json(const StudyFollowLoad& load) {
   Json json;
   add_forces(json, load.force_n, load.free_directions);
@@ -46,14 +54,6 @@ Json resection_json(const StudyResection& resection) {
 }
 
 }  // namespace
-
-Json load_json(const StudyLoad& load, Anatomy joint) {
-  Json json;
-  json["pose"] = pose_json(load.at, joint);
-  add_forces(json, load.force_n, load.free_directions);
-  add_contact(json, load.contact);
-  return json;
-}
 
 std::string options_json(const StudyOptions& options) {
   Json json;

@@ -6,9 +6,9 @@
 #include <string_view>
 
 #include "condyle/error.hpp"
+#include "io/file/csv_fields.hpp"
 #include "io/joint/known_motions.hpp"
 #include "io/joint/measure_request.hpp"
-#include "io/result/csv_field.hpp"
 #include "io/result/limit_fields.hpp"
 
 namespace condyle::io {

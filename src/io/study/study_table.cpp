@@ -16,7 +16,6 @@
 #include "io/file/plain_text.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/motion/table_builder.hpp"
-#include "io/result/csv_field.hpp"
 #include "io/study/study_columns.hpp"
 
 namespace condyle::io {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "condyle/answer.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/study.hpp"
@@ -11,8 +9,5 @@ namespace condyle::io {
 /// Pressure of each design at a pose, or at the pose that balances a force: the largest and the mean one, the area that carries it, of the
 /// surface that is cast; of the mobile body's if both are. FileError if the joint has no layers.
 SweepQuantities load_quantities(const LoadedJoint& loaded, const StudyLoad& load);
-
-/// All that these depend on beside the joint.
-std::string load_text(const StudyLoad& load, Anatomy joint);
 
 }  // namespace condyle::io

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
@@ -15,6 +16,7 @@
 #include "io/mesh/parse.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/study/json_digest.hpp"
+#include "io/study/study_inputs.hpp"
 
 namespace condyle::io {
 namespace {
@@ -79,14 +81,16 @@ struct SweepTexts {
   std::string designs, safe;
 };
 
-/// The files of a sweep, if they are those that sweep.json was written with.
+/// The files of a sweep, if they are those that sweep.json was written with. They are no inputs: the next run writes over them.
 std::optional<SweepTexts> texts_in(const fs::path& folder) {
+  const Recording none(nullptr);
   try {
     SweepTexts texts{Json::parse(read_whole_file(folder / "sweep.json")),
                      read_whole_file(folder / "designs.csv"), read_whole_file(folder / "safe.csv")};
     if (texts.json.at("files").at("designs.csv").get<std::string>() != digest_text(texts.designs) ||
         texts.json.at("files").at("safe.csv").get<std::string>() != digest_text(texts.safe))
       return std::nullopt;
+    for (const char* named : {"family", "provenance", "read", "share"}) texts.json.at(named);
     return texts;
   } catch (const FileError&) {
     return std::nullopt;
@@ -112,23 +116,52 @@ std::set<std::size_t> counts_in(const fs::path& folder) {
 }
 
 /// The words of the command without its share.
-void leave_out_shard(Json& provenance) {
-  if (provenance.is_null()) return;
-  Json words = Json::array();
-  const Json& given = provenance.at("command");
-  for (std::size_t i = 0; i < given.size(); ++i) {
-    if (given[i] == "--shard")
+std::vector<std::string> without_shard(std::span<const std::string> command) {
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    if (command[i] == "--shard")
       ++i;
     else
-      words.push_back(given[i]);
+      words.push_back(command[i]);
   }
-  provenance["command"] = std::move(words);
+  return words;
+}
+
+void leave_out_shard(Json& provenance) {
+  if (provenance.is_null()) return;
+  provenance["command"] = without_shard(provenance.at("command").get<std::vector<std::string>>());
+}
+
+std::vector<Input> inputs_of(const Json& json) {
+  std::vector<Input> inputs;
+  for (const Json& text : json.at("read"))
+    if (auto input = input_in(text.get_ref<const std::string&>())) inputs.push_back(*std::move(input));
+  return inputs;
+}
+
+bool is_share(const Json& json, const SweepShare& share) {
+  return json.at("share").at("number") == share.number && json.at("share").at("of") == share.of;
+}
+
+/// Throws FileError for a share that was copied or renamed, or is of another version.
+void check_is_of_folder(const Json& json, const SweepShare& named, const fs::path& folder) {
+  const std::string file = (folder / "sweep.json").string();
+  const Json& share = json.at("share");
+  if (!is_share(json, named))
+    throw FileError(
+        fmt::format("{}: is of shard {} of {}, in the folder of shard {} of {}: run that shard again", file,
+                    share.at("number").dump(), share.at("of").dump(), named.number, named.of));
+  const Json& from = json.at("provenance");
+  if (!from.is_null() && from.at("version") != version)
+    throw FileError(fmt::format("{}: is of version {}, and this is {}: run the shard again", file,
+                                from.at("version").get<std::string>(), version));
 }
 
 /// Data common to all shares of one sweep.
 Json common_to_shares(const Json& json) {
   Json common;
-  for (const char* key : {"condyle", "joint", "parameters", "targets", "ending_pairs", "band", "family"})
+  for (const char* key :
+       {"condyle", "joint", "parameters", "targets", "ending_pairs", "band", "family", "read"})
     common[key] = json.at(key);
   return common;
 }
@@ -143,31 +176,40 @@ void check_sweep_folder(const fs::path& folder, const Provenance* from) {
   OutputFolder{folder, is_of_sweep, files_read(from)};
 }
 
-std::string sweep_key(const Provenance& from, const SweepQuery& query, std::string_view targets,
-                      std::string_view quantities) {
-  nlohmann::json all{std::string(version), digest_text(targets), from.joint_digest.sha256,
-                     std::string(quantities)};
-  for (const MeshOrigin* body : {&from.fixed, &from.mobile})
-    for (const MeshSource& mesh : body->files) all.push_back(mesh.digest.sha256);
-  for (const PosedPart& part : from.parts)
-    for (const PartParameter& parameter : part.parameters) all.push_back(parameter.value);
-  for (const plan::SweptParameter& each : query.parameters)
-    all.push_back({each.name, each.first, each.last, each.step});
-  all.push_back(
-      {static_cast<int>(query.range.bearing.rule),
-       query.range.bearing.margin_mm ? nlohmann::json(*query.range.bearing.margin_mm) : nlohmann::json(),
-       static_cast<int>(query.range.overlap.reference_contact)});
-  if (query.bands) all.push_back({query.bands->samples, query.bands->seed});
-  return sha256_of(all);
+SweepKey sweep_key(std::string_view options, std::vector<Input> inputs) {
+  std::vector<std::string> read;
+  for (const Input& input : inputs) read.push_back(text_of(input));
+  return {sha256_of({std::string(options), read}), std::move(inputs)};
 }
 
-std::optional<SweepResult> sweep_there(const fs::path& folder, std::string_view key) {
+std::string sweep_options(std::span<const std::string> command, std::span<const Input> inputs) {
+  std::vector<std::string> words = without_shard(command);
+  for (std::string& word : words)
+    for (const Input& input : inputs)
+      if (input.kind == Input::Kind::file && input.path == word) word = input.state;
+  std::erase(words, "--strict");  // decides whether there is an answer, and not which
+  return sha256_of({std::string(version), words});
+}
+
+std::vector<Input> sweep_inputs(const InputRecorder& read) {
+  std::vector<Input> inputs = read.inputs();
+  std::sort(inputs.begin(), inputs.end(), [](const Input& a, const Input& b) {
+    return std::tie(a.path, a.kind) < std::tie(b.path, b.kind);
+  });
+  return inputs;
+}
+
+std::optional<SweepResult> sweep_there(const fs::path& folder, std::string_view options,
+                                       const SweepShare& share) {
   const auto texts = texts_in(folder);
-  if (!texts || texts->json.value("family", "") != key) return std::nullopt;
+  if (!texts || !is_share(texts->json, share)) return std::nullopt;
+  std::vector<Input> inputs = inputs_of(texts->json);
+  for (Input& input : inputs) input.state = state_now(input.kind, input.path);
+  if (texts->json.at("family") != sweep_key(options, std::move(inputs)).family) return std::nullopt;
   return read_sweep_result(texts->json, texts->designs, texts->safe, folder.string());
 }
 
-std::vector<fs::path> write_sweep(const fs::path& folder, const SweepResult& result, std::string_view key,
+std::vector<fs::path> write_sweep(const fs::path& folder, const SweepResult& result, const SweepKey& key,
                                   const Provenance* from) {
   OutputFolder out(folder, is_of_sweep, files_read(from), "sweep.json");
   const std::string designs = designs_csv(result), safe = safe_csv(result);
@@ -177,7 +219,9 @@ std::vector<fs::path> write_sweep(const fs::path& folder, const SweepResult& res
   if (axes.size() == 2 && result.answer.designs() / result.answer.parameters[axes[1]].count() > 1)
     write_zone(out.file("zone.vtp"), result);
   Json json = sweep_object(result);
-  json["family"] = key;
+  json["family"] = key.family;
+  json["read"] = Json::array();
+  for (const Input& input : key.inputs) json["read"].push_back(text_of(input));
   json["files"] = {{"designs.csv", digest_text(designs)}, {"safe.csv", digest_text(safe)}};
   // Last: what a run finds there says that the others are whole.
   write_whole_file(out.file("sweep.json"), document(json));
@@ -211,6 +255,7 @@ MergedSweep merge_sweep(const fs::path& folder) {
       continue;
     }
     if (!missing.empty()) continue;
+    check_is_of_folder(texts->json, {number, of}, shard);
     SweepResult result = read_sweep_result(texts->json, texts->designs, texts->safe, shard.string());
     if (!first)
       common = common_to_shares(texts->json);
@@ -226,7 +271,8 @@ MergedSweep merge_sweep(const fs::path& folder) {
                                 fmt::join(missing, ", ")));
   first->answer = merged_sweep(shares);
   leave_out_shard(first->provenance);
-  const std::string key = common.at("family").get<std::string>();
+  const SweepKey key{common.at("family").get<std::string>(), inputs_of(common)};
+  check_unchanged(key.inputs, {}, sweep_folder(folder, {1, of}).string());
   std::vector<fs::path> written = write_sweep(folder, *first, key, nullptr);
   return {std::move(*first), std::move(written)};
 }

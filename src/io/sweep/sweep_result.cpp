@@ -9,10 +9,10 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "io/file/csv_fields.hpp"
 #include "io/file/format_version.hpp"
 #include "io/joint/given_degrees.hpp"
 #include "io/result/caveats.hpp"
-#include "io/result/csv_field.hpp"
 #include "io/result/map_result.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/rom_result.hpp"
