@@ -91,7 +91,7 @@ class Keys : public ::testing::Test {
 TEST_F(Keys, OfAStudyHaveEveryOption) {
   const SmallCohort cohort(here, 1);
   const std::string layers = "--load '' --e 10 --nu 0.3 --thickness 2", cut = "--resect flexion=40 --edge 10",
-                    map = "--map 'flexion=0:20:20 adduction=0:10:10'";
+                    map = "--map flexion=0:20:20 adduction=0:10:10";
   expect_anew("study", "table.csv", {"--out", "--shard", "--help", "--strict", "--within"},
               {{"--motion", {"--motion flexion", "--motion extension"}},
                {"--band", {"--band=20", "--band=21"}},
@@ -99,8 +99,8 @@ TEST_F(Keys, OfAStudyHaveEveryOption) {
                {"--sigma-centre", {"--band=20", "--band=20 --sigma-centre 0.4"}},
                {"--sigma-axes", {"--band=20", "--band=20 --sigma-axes 0.9"}},
                {"--sigma-surface", {"--band=20", "--band=20 --sigma-surface 0.2"}},
-               {"--map", {map, "--map 'flexion=0:20:20 adduction=0:20:20'"}},
-               {"--vary", {map, "--map 'flexion=0:20:20 internal_rotation=0:10:10' --vary adduction"}},
+               {"--map", {map, "--map flexion=0:20:20 adduction=0:20:20"}},
+               {"--vary", {map, "--map flexion=0:20:20 internal_rotation=0:10:10 --vary adduction"}},
                {"--anatomy", {"", "--anatomy elbow"}},
                {"--depth", {"--depth flexion=10", "--depth flexion=20"}},
                {"--measures", {"", "--measures"}},
