@@ -70,7 +70,7 @@ enum class EdgeReason : std::uint8_t {
   turned_over,  ///< With longer ones the cut turns triangles over or runs through itself.
 };
 
-/// Smaller triangles around a cut add no more than so many to those of a bone: some 2 GB, and minutes. Slender triangles in which a cut
+/// Smaller triangles around a cut add no more than so many to those of a bone: a fifth of a GB, and minutes. Slender triangles in which a cut
 /// lies are split along their length only, and still count one by one.
 inline constexpr std::size_t most_triangles_added = 150'000;
 
