@@ -393,6 +393,7 @@ enum class ResectionNoteCode : std::uint8_t {
   neck_is_narrowed,  ///< More than 30 % of the neck's width goes.
   no_gain,           ///< A limit is unchanged.
   alpha_stays,  ///< The alpha angle is no smaller after a cut at the neck: what it is read from stands in no way.
+  edge_changed,     ///< Triangles around the cut are larger or smaller than requested: EdgeReason.
   burr_meets_kept,  ///< The burr's ball would have to enter bone that stays.
   sliding_surfaces,  ///< The bodies slide on each other by nature, and no bearing surface is known: removed bone may belong to it.
   more_than_must,  ///< Much bone goes that no target needs: a depth, or counting whole triangles, cannot spare it.

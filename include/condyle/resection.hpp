@@ -57,9 +57,22 @@ struct ResectionRequest {
   /// Diameter of a burr's ball, mm: the surface left is one that a ball of this size can make, and no groove is narrower. Without it the
   /// cut has any shape.
   std::optional<double> burr_mm = {};
-  double edge_mm = 0.5;  ///< Triangles around the cut become so small.
+  /// Triangles around the cut become so small. CutBone has the edge that was used: a larger one if there would be too many, a smaller one if
+  /// the cut would turn triangles over.
+  double edge_mm = 0.5;
   motion::RangeOptions range = {};
 };
+
+/// Why the triangles around a cut have the edges that they have.
+enum class EdgeReason : std::uint8_t {
+  requested,
+  too_many,     ///< With shorter ones more than most_triangles_added would be made.
+  turned_over,  ///< With longer ones the cut turns triangles over or runs through itself.
+};
+
+/// Smaller triangles around a cut add no more than so many to those of a bone: a fifth of a GB, and minutes. Slender triangles in which a cut
+/// lies are split along their length only, and still count one by one.
+inline constexpr std::size_t most_triangles_added = 150'000;
 
 /// A bone after its cut.
 struct CutBone {
@@ -79,6 +92,8 @@ struct CutBone {
   double area_mm2 = 0;
   double deepest_mm = 0;
   Vec3 deepest_at = Vec3::Zero();  ///< on the surface before
+  double edge_mm = 0;              ///< that triangles around the cut have at the most
+  EdgeReason edge_reason = EdgeReason::requested;
 };
 
 /// Kept bone that stops a motion short of its target.

@@ -146,6 +146,14 @@ void note_bones(ResectionAnswer& answer, const Joint& joint, const motion::Range
                formatted(": %.1f mm3 go that no target needs: bone above an overhang, or triangles that lie "
                          "partly in the bearing ball and are met as a whole",
                          unasked)});
+    if ((*cut)->edge_reason != plan::EdgeReason::requested)
+      answer.notes.push_back(
+          {ResectionNoteCode::edge_changed,
+           (*cut)->body.name +
+               formatted(": triangles around the cut have edges up to %g mm, ", (*cut)->edge_mm) +
+               ((*cut)->edge_reason == plan::EdgeReason::too_many
+                    ? "as smaller ones would be more than " + std::to_string(plan::most_triangles_added)
+                    : "as with longer ones the cut turns triangles over or runs through itself")});
     if ((*cut)->burr_in_kept_mm > 0)
       answer.notes.push_back(
           {ResectionNoteCode::burr_meets_kept,
@@ -307,6 +315,8 @@ std::string_view name_of(ResectionNoteCode code) noexcept {
       return "no_gain";
     case ResectionNoteCode::alpha_stays:
       return "alpha_stays";
+    case ResectionNoteCode::edge_changed:
+      return "edge_changed";
     case ResectionNoteCode::burr_meets_kept:
       return "burr_meets_kept";
     case ResectionNoteCode::sliding_surfaces:

@@ -6,6 +6,13 @@
 #include <numeric>
 
 namespace condyle::kinematics {
+namespace {
+
+/// Of so many neighbours there is a mean: those joined to them are not looked for. Nor those joined to a point that is joined to so many, the
+/// hub of a fan. A hip's fine meshes have some tens; without bounds the work would be the square of a hub's degree.
+constexpr std::size_t most_near = 1000, most_joined = 1000;
+
+}  // namespace
 
 double root_of_area(const TriMesh& surface) {
   double area = 0;
@@ -158,9 +165,13 @@ void PointNeighbours::average_normals(std::vector<SurfacePoint>& points, double 
     near.assign(1, i);
     seen_from[i] = i;
     Vec3 sum = Vec3::Zero();
-    for (std::size_t at = 0; at < near.size(); ++at) {
+    // In whole rings around the point, so that no order of the points decides.
+    bool looks_on = true;
+    for (std::size_t at = 0, ring_end = 1; at < near.size(); ++at) {
+      if (at == ring_end) looks_on = near.size() <= most_near, ring_end = near.size();
       const SurfacePoint& point = points[near[at]];
       sum += point.area * point.normal;
+      if (!looks_on || (at > 0 && end[near[at] + 1] - end[near[at]] > most_joined)) continue;
       for (Index k = end[near[at]]; k < end[near[at] + 1]; ++k) {
         const Index other = beside[k];
         if (seen_from[other] == i) continue;

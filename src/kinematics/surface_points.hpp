@@ -40,7 +40,7 @@ class PointNeighbours {
 
   /// Each normal becomes the mean, by area, of those that face the same way and are joined to it within this distance, mm: what fine meshes have
   /// of noise goes, and the vertices of coarse ones stay as they are. It does not depend on the order of the points, nor on where they lie.
-  /// Linear in the points, and in how many are that near each other.
+  /// Linear in the points, and in how many are that near each other, up to a thousand: of more, the nearest by edges.
   void average_normals(std::vector<SurfacePoint>& points, double reach) const;
   /// Nine of ten edges between points are shorter; 0 if there is none.
   double longest_usual_edge(const std::vector<SurfacePoint>& points) const;

@@ -34,6 +34,18 @@ double squared_distance_to_box(const Vec3& p, const TriangleTree::Node& node) no
   return squared * (1 - 0x1p-40);
 }
 
+/// Whether no point q of the triangle is as near to p as this. Of weights w of the corners at q, |p - q|^2 = sum w_i |p - v_i|^2 -
+/// sum w_i w_j |v_i - v_j|^2, the last at most a third of the longest edge squared; half of it, and the factor, are more than all rounding. Boxes
+/// of small triangles that lie obliquely are much nearer than these, and a distant point would measure a thousand.
+bool is_farther(const Vec3& p, const TriangleCorners& t, double squared) noexcept {
+  const double least =
+      std::min({(p - t[0]).squaredNorm(), (p - t[1]).squaredNorm(), (p - t[2]).squaredNorm()});
+  if (least <= squared) return false;
+  const double longest =
+      std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()});
+  return least - longest / 2 > squared * (1 + 0x1p-40);
+}
+
 }  // namespace
 
 double distance_to_triangle(const Vec3& p, const TriangleCorners& t) noexcept {
@@ -58,7 +70,8 @@ double distance_to_surface(const TriangleTree& surface, const Vec3& p) noexcept 
     if (squared_distance_to_box(p, node) > best * best) continue;
     if (node.is_leaf()) {
       for (Index i = node.first; i < node.last; ++i)
-        best = std::min(best, distance_to_triangle(p, surface.corners(i)));
+        if (const TriangleCorners corners = surface.corners(i); !is_farther(p, corners, best * best))
+          best = std::min(best, distance_to_triangle(p, corners));
       continue;
     }
     Index near = node.child, far = node.child + 1;

@@ -57,6 +57,11 @@ Probe probe_at(const LoweredEdge& edge, double s) {
           std::min(edge.room, deeper + more_than_ends_mm), deeper > step_mm ? deeper + step_mm : 0};
 }
 
+/// A line that misses depths by no more than this does not show a bend: their own error may be as large.
+double missed_at_least(const LoweredEdge& edge, double missed_mm) {
+  return std::max(missed_mm, depth_error_mm(probe_at(edge, 0)));
+}
+
 /// A place along an edge where the depth jumps: shares of the way just before and past it, and the depths there.
 struct Wall {
   double before, past, depth_before, depth_past;
@@ -122,7 +127,8 @@ std::vector<double> shares_at_bends(const std::vector<LoweredEdge>& edges, const
   for (std::size_t e = 0; e < all.size(); ++e) all[e] = e;
   const std::vector<double> coarse = ask(all, 1);
   for (const std::size_t e : all)
-    if (std::abs(coarse[3 * e + 1] - (coarse[3 * e] + coarse[3 * e + 2]) / 2) > options.missed_mm / 4)
+    if (std::abs(coarse[3 * e + 1] - (coarse[3 * e] + coarse[3 * e + 2]) / 2) >
+        missed_at_least(edges[e], options.missed_mm / 4))
       bent.push_back(e);
   const std::vector<double> fine = ask(bent, along_edge);
 
@@ -133,7 +139,7 @@ std::vector<double> shares_at_bends(const std::vector<LoweredEdge>& edges, const
   for (std::size_t c = 0; c < bent.size(); ++c) {
     Profile depth{};
     std::copy_n(fine.begin() + static_cast<std::ptrdiff_t>(c * depth.size()), depth.size(), depth.begin());
-    if (missed_by_line(depth) <= options.missed_mm) continue;
+    if (missed_by_line(depth) <= missed_at_least(edges[bent[c]], options.missed_mm)) continue;
     const double length = edges[bent[c]].length();
     shares[bent[c]] = share_at_bend(depth, length, options.shortest_mm);
     const Wall wall = steepest(depth);

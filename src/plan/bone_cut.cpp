@@ -31,6 +31,11 @@ constexpr int most_corrections = 60;
 /// many passes.
 constexpr double missed_at_bends = 0.04;
 constexpr int passes_at_bends = 5;
+/// A cut that folds is tried with edges half as long, so often, if that makes no more small triangles than this.
+constexpr int most_shorter_edges = 2;
+constexpr std::size_t most_triangles_of_shorter = 60'000;
+/// So many points of triangles are looked at at a time.
+constexpr std::size_t points_at_once = 200'000;
 /// A burr's cut is unfolded and made again so often.
 constexpr int most_burrs = 3;
 /// Kept bone is found anew so often: each time the motions go less far.
@@ -82,7 +87,8 @@ BoneCut::BoneCut(const Joint& joint, BodyRole cut_role, const ResectionRequest& 
       request_(request),
       targets_(std::move(targets)),
       share_(share),
-      stopped_(targets_.size()) {
+      stopped_(targets_.size()),
+      edge_mm_(request.edge_mm) {
   bearing_ = motion::find_bearing_surface(joint, request.range.bearing).surface;
   if (!bearing_ && kept().within_mm)
     throw UsageError("resection: bone is to stay by its distance from the bearing surface, and " +
@@ -130,8 +136,18 @@ std::vector<std::uint8_t> BoneCut::to_cut(const TriMesh& pieces, const std::vect
     return role_ == BodyRole::mobile && ball_ && ball_->holds(corners[0]) && ball_->holds(corners[1]) &&
            ball_->holds(corners[2]);
   };
+  std::vector<std::uint8_t> marks(pieces.triangles.size(), 0);
+  const std::vector<SweepTo> sweeps = sweeps_to_reach();
   Points points;
   std::vector<Index> of;
+  const auto mark_swept = [&] {
+    for (const SweepTo& sweep : sweeps) {
+      const std::vector<double> first = sweep.sweep->first_inside(points, sweep.reach);
+      for (std::size_t i = 0; i < first.size(); ++i)
+        if (std::isfinite(first[i])) marks[of[i]] = 1;
+    }
+    points = {}, of.clear();
+  };
   for (Index t = 0; t < pieces.triangles.size(); ++t) {
     if (!asked[t] || !counts(bone_, before[t])) continue;
     const std::array<Vec3, 3> corners{pieces.corner(t, 0), pieces.corner(t, 1), pieces.corner(t, 2)};
@@ -142,13 +158,9 @@ std::vector<std::uint8_t> BoneCut::to_cut(const TriMesh& pieces, const std::vect
         points.push_back(p + off * outwards);
         of.push_back(t);
       }
+    if (of.size() >= points_at_once) mark_swept();
   }
-  std::vector<std::uint8_t> marks(pieces.triangles.size(), 0);
-  for (const SweepTo& sweep : sweeps_to_reach()) {
-    const std::vector<double> first = sweep.sweep->first_inside(points, sweep.reach);
-    for (std::size_t i = 0; i < first.size(); ++i)
-      if (std::isfinite(first[i])) marks[of[i]] = 1;
-  }
+  mark_swept();
   for (const Place& place : met_)
     for (Index t = 0; t < pieces.triangles.size(); ++t) {
       const std::array<Vec3, 3> corners{pieces.corner(t, 0), pieces.corner(t, 1), pieces.corner(t, 2)};
@@ -192,33 +204,42 @@ std::vector<std::optional<KeptBy>> BoneCut::kept_vertices(const Body& body) cons
   return kept;
 }
 
-/// The surface to be lowered, its triangles small around what goes, and with edges along the bends of its bottom.
+/// The surface to be lowered, its triangles small around what goes, and with edges along the bends of its bottom. Edges are longer than
+/// requested if there would be too many.
 void BoneCut::refine() {
+  while (!refine_to_edge()) edge_mm_ *= 2, edge_reason_ = EdgeReason::too_many;
+}
+
+/// False if that would make too many triangles.
+bool BoneCut::refine_to_edge() {
   std::vector<std::uint8_t> near;
-  RefinedBody fine = refined(
+  std::optional<RefinedBody> small = refined(
       bone_,
       [&](const TriMesh& pieces, const std::vector<Index>& before, const std::vector<std::uint8_t>& asked) {
         return near = with_neighbours(pieces, to_cut(pieces, before, asked));
       },
-      request_.edge_mm);
+      edge_mm_, most_triangles_added);
+  if (!small) return false;
+  RefinedBody& fine = *small;
   triangle_before_ = std::move(fine.triangle_before);
   const auto put_surface = [&] {
     // This body is cut for a share of the depth only.
     std::optional<double> deepest = kept().deepest_mm;
     if (deepest) *deepest /= share_;
-    surface_.emplace(fine.body, near, kept_vertices(fine.body), deepest, request_.edge_mm);
+    surface_.emplace(fine.body, near, kept_vertices(fine.body), deepest, edge_mm_);
   };
   put_surface();
   surface_->smooth_directions(smoothing_mm_);
   const std::vector<SweepTo> sweeps = sweeps_to_reach();
   for (int pass = 0; pass < passes_at_bends; ++pass) {
-    const std::vector<double> bends =
-        surface_->bends(sweeps, missed_at_bends * request_.edge_mm * request_.edge_mm);
+    const std::vector<double> bends = surface_->bends(sweeps, missed_at_bends * edge_mm_ * edge_mm_);
     // Smaller triangles reach no deeper.
     if (pass == 0) refuse_too_deep(surface_->left_at_room(sweeps));
-    if (std::all_of(bends.begin(), bends.end(), [](double share) { return share == 0; })) return;
-    SplitBody split = split_at(fine.body, bends);
-    fine = std::move(split.refined);
+    if (std::all_of(bends.begin(), bends.end(), [](double share) { return share == 0; })) break;
+    std::optional<SplitBody> split =
+        split_at(fine.body, bends, bone_.mesh.triangles().size() + most_triangles_added);
+    if (!split) return false;
+    fine = std::move(split->refined);
     std::vector<std::uint8_t> near_pieces;
     for (Index& before : fine.triangle_before) {
       near_pieces.push_back(near[before]);
@@ -228,8 +249,9 @@ void BoneCut::refine() {
     triangle_before_ = std::move(fine.triangle_before);
     const CutSurface whole = std::move(*surface_);
     put_surface();
-    surface_->go_on_from(whole, split.vertices);
+    surface_->go_on_from(whole, split->vertices);
   }
+  return true;
 }
 
 /// Bone that no vertex reaches from its place may be reached from elsewhere: no bone stops that motion, but no depth can follow it.
@@ -364,9 +386,10 @@ std::string BoneCut::fault() const {
   return {};
 }
 
-void BoneCut::cut() {
-  std::string why;
-  for (const double smoothing_mm : {3., 6., 12., 24., 48.}) {
+/// Why there is no cut with edges so long; empty if there is one.
+std::optional<BoneCut::Failure> BoneCut::cut_at_edge() {
+  Failure failure;
+  for (const double smoothing_mm : {first_smoothing_mm, 6., 12., 24., 48.}) {
     for (std::size_t t = 0; t < targets_.size(); ++t) reach_[t] = targets_[t].reach, stopped_[t].reset();
     if (smoothing_mm != smoothing_mm_) {
       smoothing_mm_ = smoothing_mm;
@@ -375,10 +398,36 @@ void BoneCut::cut() {
     bool finished = false;
     for (int i = 0; i < most_stops && !finished; ++i)
       finished = lower_for_reach() && (surface_->unfold(), correct()) && finish();
-    why = finished ? fault() : "meets kept bone anew each time";
-    if (why.empty()) return;
+    failure = finished ? Failure{fault(), true} : Failure{"meets kept bone anew each time", false};
+    if (failure.why.empty()) return std::nullopt;
   }
-  throw MeshError(bone_.name + ": a cut so deep " + why + ", whichever way it goes inwards");
+  return failure;
+}
+
+/// Shorter edges follow a narrow cut without turning triangles over.
+bool BoneCut::cut_with_shorter_edges() {
+  for (int i = 0; i < most_shorter_edges && edge_reason_ != EdgeReason::too_many; ++i) {
+    if (4 * surface_->near().size() > most_triangles_of_shorter) return false;
+    edge_mm_ /= 2, edge_reason_ = EdgeReason::turned_over;
+    smoothing_mm_ = first_smoothing_mm;
+    refine();
+    if (!cut_at_edge()) return true;
+  }
+  return false;
+}
+
+void BoneCut::cut() {
+  const auto failure = cut_at_edge();
+  if (!failure) return;
+  std::string with_shorter;
+  if (failure->folds) {
+    const double tried_mm = edge_mm_;
+    if (cut_with_shorter_edges()) return;
+    if (edge_mm_ < tried_mm)
+      with_shorter = core::formatted(", with edges of %g mm and of %g mm", tried_mm, edge_mm_);
+  }
+  throw MeshError(bone_.name + ": a cut so deep " + failure->why + ", whichever way it goes inwards" +
+                  with_shorter);
 }
 
 Joint BoneCut::joint() const {
@@ -414,7 +463,7 @@ bool BoneCut::reaches_by_smaller_triangles() const {
 }
 
 CutBone BoneCut::cut_bone() const {
-  CutBone cut{surface_->body(), surface_->body().mesh, {}, {}, {}, 0, 0, 0, 0, 0, 0, Vec3::Zero()};
+  CutBone cut{surface_->body(), surface_->body().mesh, {}, {}, {}};
   cut.body.mesh = surface_->mesh();
   // Along a wall the distance inwards is longer than the wall is deep.
   const mesh::SurfaceDistance from_before(cut.before);
@@ -427,6 +476,8 @@ CutBone BoneCut::cut_bone() const {
     cut.needed_from_deg.push_back(goes ? Angle::radians(vertex.need->from_rad).degrees() : 0);
     if (depth > cut.deepest_mm) cut.deepest_mm = depth, cut.deepest_at = vertex.before;
   }
+  cut.edge_mm = edge_mm_;
+  cut.edge_reason = edge_reason_;
   cut.area_mm2 = removed_mm2(*surface_);
   cut.volume_mm3 = removed_mm3(*surface_);
   if (request_.burr_mm) cut.burr_volume_mm3 = cut.volume_mm3 - before_burr_mm3_;

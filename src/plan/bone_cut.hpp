@@ -62,8 +62,15 @@ class BoneCut {
   std::vector<std::optional<KeptBy>> kept_vertices(const Body& body) const;
   const KeptBone& kept() const;
   void refine();
+  bool refine_to_edge();
   void want_too(const std::vector<Place>& places);
+  struct Failure {
+    std::string why;
+    bool folds = false;
+  };
   void cut();
+  std::optional<Failure> cut_at_edge();
+  bool cut_with_shorter_edges();
   std::string fault() const;
   std::string asked(std::size_t target) const;
   bool lower_for_reach();
@@ -88,7 +95,10 @@ class BoneCut {
   std::vector<std::optional<StoppedAt>> stopped_;
   std::vector<Place> met_;              ///< where bone has to go that no search for it found
   std::vector<Index> triangle_before_;  ///< of the refined triangles
-  double smoothing_mm_ = 3;
+  double edge_mm_;                      ///< as requested, or larger or smaller
+  EdgeReason edge_reason_ = EdgeReason::requested;
+  static constexpr double first_smoothing_mm = 3;
+  double smoothing_mm_ = first_smoothing_mm;
   std::optional<CutSurface> surface_;
   double before_burr_mm3_ = 0;  ///< what goes for the targets alone
   double burr_in_kept_mm_ = 0;

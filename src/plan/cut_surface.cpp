@@ -17,6 +17,8 @@ namespace {
 constexpr double farthest_mm = 40;
 /// A triangle is sampled at the points of a lattice with this many to a side: 45 points.
 constexpr int lattice = 8;
+/// So many triangles are sampled at a time: some 100 MB for each motion.
+constexpr std::size_t triangles_at_once = 4096;
 /// Remaining protrusions between vertices are lowered this often; less than this is none, mm.
 constexpr int rounds = 20;
 constexpr double none_mm = 1e-3;
@@ -258,16 +260,18 @@ std::vector<CutSurface::Swept> CutSurface::swept_between(const std::vector<Index
   for (int i = 0; i <= lattice; ++i)
     for (int j = 0; i + j <= lattice; ++j)
       weights.push_back({double(i) / lattice, double(j) / lattice, double(lattice - i - j) / lattice});
-  std::vector<SurfacePoint> points;
-  for (const Index t : triangles)
-    for (const auto& w : weights) points.push_back({body_.mesh.triangles()[t], w});
-  std::vector<Probe> probes;
-  for (const SurfacePoint& point : points) probes.push_back(probe_below(point));
-  const std::vector<SweptInterval> found = swept_intervals(probes, sweeps);
   std::vector<Swept> swept;
-  for (std::size_t i = 0; i < found.size(); ++i)
-    if (found[i].need)
-      swept.push_back({points[i], found[i].length, *found[i].need, probes[i].from, probes[i].at(left_mm)});
+  for (std::size_t first = 0; first < triangles.size(); first += triangles_at_once) {
+    std::vector<SurfacePoint> points;
+    for (std::size_t i = first; i < std::min(first + triangles_at_once, triangles.size()); ++i)
+      for (const auto& w : weights) points.push_back({body_.mesh.triangles()[triangles[i]], w});
+    std::vector<Probe> probes;
+    for (const SurfacePoint& point : points) probes.push_back(probe_below(point));
+    const std::vector<SweptInterval> found = swept_intervals(probes, sweeps);
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if (found[i].need)
+        swept.push_back({points[i], found[i].length, *found[i].need, probes[i].from, probes[i].at(left_mm)});
+  }
   return swept;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "condyle/error.hpp"
@@ -27,8 +28,12 @@ constexpr Angle closed_form_slack = Angle::degrees(1e-3);
 /// Distances from the centre that are no farther apart may meet.
 constexpr double shell_gap_mm = 1e-6;
 
-/// Results kept of one pair and one motion, some 10 MB: displaced designs hardly ever have the same values again.
-constexpr std::size_t most_kept = 100'000;
+/// Results kept of one pair and one motion, some 10 MB, and of all: displaced designs hardly ever have the same values again.
+constexpr std::size_t most_kept = 100'000, most_kept_in_all = 2'000'000;
+
+/// Tables of motions are kept as long as they take about so much memory, those of meshes that designs move for each thread: a table takes so
+/// much for each triangle. Motions beyond have theirs made when they are searched.
+constexpr std::size_t most_table_bytes = 256 << 20, table_bytes_per_triangle = 256;
 
 /// One mesh of a body, or what of it counts.
 struct SweptMesh {
@@ -142,9 +147,11 @@ struct DesignLimits::Parts {
     std::vector<double> values;
     std::unique_ptr<motion::RotationTable> table;
   };
+  using MeshAndTurn = std::pair<std::size_t, std::size_t>;
   struct Worker {
     std::vector<motion::RotatingBody> rotating;
-    std::map<std::pair<std::size_t, std::size_t>, TableAt> tables;  ///< by mesh and turn, of meshes that move
+    std::map<MeshAndTurn, TableAt> tables;  ///< of meshes that move
+    std::pair<MeshAndTurn, TableAt> last;   ///< of a turn whose tables are not kept
 
     explicit Worker(const Parts& parts) {
       for (const auto& mesh : parts.meshes) rotating.emplace_back(mesh->tree);
@@ -159,6 +166,8 @@ struct DesignLimits::Parts {
   std::vector<PairOfMeshes> pairs;
   std::vector<EndingPair> names;
   std::vector<Turn> turns;
+  std::vector<std::size_t> turn_of;  ///< of each target: targets of one motion share it
+  std::size_t turns_with_tables = 0;
   std::vector<core::Lazy<Table>> tables;  ///< by mesh and turn, of meshes that do not move
   mutable std::vector<Kept> kept;         ///< by pair and turn
   mutable core::PerThread<Worker> workers;
@@ -178,11 +187,25 @@ struct DesignLimits::Parts {
   }
 
   void add_turns(const JointAngles& reference_pose) {
+    using Key = std::tuple<JointAngle, RotationSense, double, double, double, double>;
+    std::map<Key, std::size_t> known;
     const auto add = [&](const motion::Motion& motion) {
       turns.push_back({motion, pose_at(joint.coordinates(), motion.start),
                        axis_of(motion.vary, joint.coordinates(), motion.start) * sign_of(motion.sense)});
     };
-    for (const SweepTarget& target : targets) add(target.without_tilt());
+    for (const SweepTarget& target : targets) {
+      const motion::Motion motion = target.without_tilt();
+      const JointAngles& start = motion.start;
+      const Key key{motion.vary,
+                    motion.sense,
+                    start.flexion.radians(),
+                    start.adduction.radians(),
+                    start.internal_rotation.radians(),
+                    motion.range.radians()};
+      const auto [at, is_new] = known.emplace(key, turns.size());
+      if (is_new) add(motion);
+      turn_of.push_back(at->second);
+    }
     add({.name = "reference pose", .start = reference_pose});
   }
 
@@ -209,6 +232,9 @@ struct DesignLimits::Parts {
     for (const motion::PairOfParts& pair : counted.impinging)
       for (const std::size_t f : of_fixed[pair.fixed])
         for (const std::size_t m : of_mobile[pair.mobile]) add_pair(f, m);
+    std::size_t triangles = 1;
+    for (const auto& mesh : meshes) triangles += mesh->mesh.triangles().size();
+    turns_with_tables = std::min(turns.size(), most_table_bytes / (table_bytes_per_triangle * triangles) + 1);
     tables = std::vector<core::Lazy<Table>>(meshes.size() * turns.size());
     kept = std::vector<Kept>(pairs.size() * turns.size());
     for (PairOfMeshes& pair : pairs) judge_shells(pair);
@@ -300,10 +326,14 @@ struct DesignLimits::Parts {
   const motion::RotationTable& table_of(Worker& worker, std::size_t stationary, std::size_t turn,
                                         const AxisFrame& frame, std::span<const double> values) const {
     const SweptMesh& mesh = *meshes[stationary];
-    if (mesh.moved_by.empty())
+    // The reference pose, the last one, is looked at for each design.
+    const bool is_kept = turn < turns_with_tables || turn + 1 == turns.size();
+    if (is_kept && mesh.moved_by.empty())
       return *tables[stationary * turns.size() + turn].get(
           [&](Table& table) { table.emplace(mesh.tree, frame); });
-    TableAt& at = worker.tables[{stationary, turn}];
+    const MeshAndTurn of{stationary, turn};
+    if (!is_kept && worker.last.first != of) worker.last = std::pair(of, TableAt());
+    TableAt& at = is_kept ? worker.tables[of] : worker.last.second;
     std::vector<double> of_mesh;
     if (!values.empty())
       for (const std::size_t s : mesh.moved_by) of_mesh.push_back(values[s]);
@@ -328,7 +358,8 @@ struct DesignLimits::Parts {
     }
     const Ended found = search(pair, turn, parts, values, turns[turn].motion.range);
     const std::lock_guard lock(at.mutex);
-    if (at.by_values.size() < most_kept) at.by_values.emplace(std::move(key), found);
+    if (at.by_values.size() < std::min(most_kept, most_kept_in_all / kept.size()))
+      at.by_values.emplace(std::move(key), found);
     return found;
   }
 
@@ -436,7 +467,8 @@ void DesignLimits::limits(std::span<const double> values, std::span<DesignLimit>
   }
   for (std::size_t t = 0; t < out.size(); ++t) {
     const Parts::Best end =
-        parts_->first_end(t, parts_->turns[t].motion.range, parts_->targets[t].reach, form, parts, values);
+        parts_->first_end(parts_->turn_of[t], parts_->turns[parts_->turn_of[t]].motion.range,
+                          parts_->targets[t].reach, form, parts, values);
     out[t] = {Angle::radians(end.ended.turned).degrees(), end.ended.reason, end.by, end.pair};
   }
 }
@@ -447,7 +479,7 @@ bool DesignLimits::reaches_all(std::span<const double> values) const {
   if (parts_->reference_end(form, parts, values)) return false;
   for (std::size_t t = 0; t < parts_->targets.size(); ++t) {
     const Angle reach = parts_->targets[t].reach;
-    const Parts::Best end = parts_->first_end(t, reach, reach, form, parts, values);
+    const Parts::Best end = parts_->first_end(parts_->turn_of[t], reach, reach, form, parts, values);
     if (end.ended.reason != motion::LimitReason::end_of_range && end.ended.turned < reach.radians())
       return false;
   }
@@ -462,8 +494,9 @@ std::string DesignLimits::difference_from_form(std::span<const double> values) c
   for (const Parts::PairOfMeshes& pair : parts_->pairs) {
     if (pair.known != Parts::PairOfMeshes::Known::by_form) continue;
     for (std::size_t t = 0; t < parts_->targets.size(); ++t) {
-      const motion::Motion& motion = parts_->turns[t].motion;
-      const Angle turned = Angle::radians(parts_->search(pair, t, parts, values, motion.range).turned);
+      const std::size_t turn = parts_->turn_of[t];
+      const motion::Motion& motion = parts_->turns[turn].motion;
+      const Angle turned = Angle::radians(parts_->search(pair, turn, parts, values, motion.range).turned);
       const ClosedLimit closed = closed_limit(*form.pair, parts_->joint.coordinates(), motion);
       if (turned > closed.of_facets_low - closed_form_slack &&
           turned < closed.of_facets_high + closed_form_slack)

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <numeric>
 
 #include "mesh/edge_table.hpp"
@@ -31,25 +33,36 @@ std::vector<double> edges_to_halve(const Pieces& pieces, const mesh::EdgeTable& 
     for (int k = 0; k < 3; ++k)
       if (wanted[t] && edge(t, k) != no_index && length(pieces.mesh, edges.ends(edge(t, k))) > longest)
         halve[edge(t, k)] = 0.5;
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (std::size_t t = 0; t < triangles; ++t) {
+  std::vector<Index> open;  // halved, and the triangles around not yet looked at
+  for (Index e = 0; e < halve.size(); ++e)
+    if (halve[e] > 0) open.push_back(e);
+  while (!open.empty()) {
+    const Index halved = open.back();
+    open.pop_back();
+    for (const mesh::HalfEdge h : edges.half_edges(halved)) {
       Index longest_side = no_index;
       double most = 0;
-      bool any = false;
       for (int k = 0; k < 3; ++k) {
-        const Index e = edge(t, k);
+        const Index e = edge(h / 3, k);
         if (e == no_index) continue;
-        any = any || halve[e] > 0;
         const double l = length(pieces.mesh, edges.ends(e));
         // If two are as long, both neighbours choose the same one.
         if (l > most || (l == most && e < longest_side)) most = l, longest_side = e;
       }
-      if (any && longest_side != no_index && halve[longest_side] == 0)
-        halve[longest_side] = 0.5, changed = true;
+      if (longest_side == no_index || halve[longest_side] > 0) continue;
+      halve[longest_side] = 0.5;
+      open.push_back(longest_side);
     }
   }
   return halve;
+}
+
+/// How many triangles a split makes beyond those that there are: one for each side of each that is split.
+std::size_t added_by_split(const mesh::EdgeTable& edges, const std::vector<double>& shares) {
+  std::size_t added = 0;
+  for (std::size_t e = 0; e < shares.size(); ++e)
+    if (shares[e] > 0) added += edges.half_edges(e).size();
+  return added;
 }
 
 /// Splits edges at a share of the way along them; 0 where they stay whole.
@@ -107,14 +120,17 @@ void split(Pieces& pieces, const mesh::EdgeTable& edges, const std::vector<doubl
   pieces.asked = std::move(asked);
 }
 
-/// False if there was nothing to halve.
-bool halve_once(Pieces& pieces, const ToRefine& to_refine, double longest) {
+enum class Halved : std::uint8_t { some, nothing, too_many };
+
+Halved halve_once(Pieces& pieces, const ToRefine& to_refine, double longest, std::size_t most) {
   pieces.asked = to_refine(pieces.mesh, pieces.before, pieces.asked);
   const mesh::EdgeTable edges(pieces.mesh);
   const std::vector<double> halves = edges_to_halve(pieces, edges, pieces.asked, longest);
-  if (std::all_of(halves.begin(), halves.end(), [](double share) { return share == 0; })) return false;
+  if (std::all_of(halves.begin(), halves.end(), [](double share) { return share == 0; }))
+    return Halved::nothing;
+  if (pieces.mesh.triangles.size() + added_by_split(edges, halves) > most) return Halved::too_many;
   split(pieces, edges, halves);
-  return true;
+  return Halved::some;
 }
 
 /// A body as one piece each.
@@ -175,23 +191,27 @@ RefinedBody in_order_of_parts(Pieces pieces, const Body& body, std::vector<Betwe
 
 }  // namespace
 
-RefinedBody refined(const Body& body, const ToRefine& to_refine, double longest_edge_mm) {
+std::optional<RefinedBody> refined(const Body& body, const ToRefine& to_refine, double longest_edge_mm,
+                                   std::size_t most_added) {
   Pieces pieces = pieces_of(body);
-  while (halve_once(pieces, to_refine, longest_edge_mm)) {
-  }
+  const std::size_t most = pieces.mesh.triangles.size() + most_added;
+  Halved halved = Halved::some;
+  while (halved == Halved::some) halved = halve_once(pieces, to_refine, longest_edge_mm, most);
+  if (halved == Halved::too_many) return std::nullopt;
   return in_order_of_parts(std::move(pieces), body);
 }
 
-SplitBody split_at(const Body& body, const std::vector<double>& shares) {
+std::optional<SplitBody> split_at(const Body& body, const std::vector<double>& shares, std::size_t most) {
+  const mesh::EdgeTable edges(body.mesh);
+  if (body.mesh.triangles().size() + added_by_split(edges, shares) > most) return std::nullopt;
   Pieces pieces = pieces_of(body);
-  const mesh::EdgeTable edges(pieces.mesh);
   std::vector<Between> vertices;
   for (Index v = 0; v < pieces.mesh.vertices.size(); ++v) vertices.push_back({v, v, 0});
   for (std::size_t e = 0; e < shares.size(); ++e)
     if (shares[e] > 0) vertices.push_back({edges.ends(e)[0], edges.ends(e)[1], shares[e]});
   split(pieces, edges, shares);
   RefinedBody refined = in_order_of_parts(std::move(pieces), body, &vertices);
-  return {std::move(refined), std::move(vertices)};
+  return SplitBody{std::move(refined), std::move(vertices)};
 }
 
 }  // namespace condyle::plan

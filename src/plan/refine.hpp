@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "condyle/joint.hpp"
@@ -22,8 +24,10 @@ using ToRefine =
 
 /// Halves edges until none of a triangle that shall be small is longer. Pieces of those that shall be are asked for again after each
 /// halving, so that of a large triangle only what is meant becomes small. A triangle with a side halved also has its longest one halved, so
-/// that triangles around do not become narrow; edges shared by any number of triangles stay shared. Parts of the body stay apart.
-RefinedBody refined(const Body& body, const ToRefine& to_refine, double longest_edge_mm);
+/// that triangles around do not become narrow; edges shared by any number of triangles stay shared. Parts of the body stay apart. Empty if that would make more than `most_added`
+/// triangles beyond those of the body: they are counted before they are made.
+std::optional<RefinedBody> refined(const Body& body, const ToRefine& to_refine, double longest_edge_mm,
+                                   std::size_t most_added);
 
 /// A vertex on an edge of the body before: a share of the way from one end to the other. One that was there already is both ends.
 struct Between {
@@ -37,7 +41,7 @@ struct SplitBody {
 };
 
 /// Splits edges where it is said: the share of the way from the first end of each edge of `mesh::EdgeTable(body.mesh)`; 0 where it stays
-/// whole. What is split off a triangle with two such edges lies between the places.
-SplitBody split_at(const Body& body, const std::vector<double>& shares);
+/// whole. What is split off a triangle with two such edges lies between the places. Empty if that would make more than `most` triangles.
+std::optional<SplitBody> split_at(const Body& body, const std::vector<double>& shares, std::size_t most);
 
 }  // namespace condyle::plan

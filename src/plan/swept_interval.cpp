@@ -95,6 +95,10 @@ std::vector<SweptInterval> swept_intervals(const std::vector<Probe>& probes,
   return found;
 }
 
+double depth_error_mm(const Probe& probe) noexcept {
+  return std::ldexp(probe.room, -depth_halvings);
+}
+
 std::vector<double> depths(const std::vector<Probe>& probes, const std::vector<SweepTo>& sweeps) {
   std::vector<double> depth(probes.size(), 0), width(probes.size(), 0);
   std::vector<std::size_t> all(probes.size()), going, scanned;

@@ -48,7 +48,9 @@ std::vector<SweptInterval> swept_intervals(const std::vector<Probe>& probes,
                                            const std::vector<SweepTo>& sweeps);
 
 /// For each probe the depth to which bone goes: to the end of the swept interval that begins at it, if it has no other one; of one that is not
-/// swept itself to the end of the deepest there is under an overhang. By halving, to 1/2000 of the room.
+/// swept itself to the end of the deepest there is under an overhang. By halving, to within depth_error_mm().
 std::vector<double> depths(const std::vector<Probe>& probes, const std::vector<SweepTo>& sweeps);
+/// By so much a depth may fall short of where the bone goes to, mm: 1/2048 of the room.
+double depth_error_mm(const Probe& probe) noexcept;
 
 }  // namespace condyle::plan

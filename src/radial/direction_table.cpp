@@ -36,6 +36,17 @@ DirectionMap make_map(const RadialOptions& options, std::size_t triangles) {
   return CubeMap(side);
 }
 
+void refuse_centre_on(std::size_t triangle) {
+  throw MeshError("the joint centre lies on the surface, in triangle " + std::to_string(triangle));
+}
+
+/// Before a table is made: triangles round a centre that is a vertex have directions without end.
+void require_no_corner_at_centre(const TriMesh& mesh) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (mesh.corner(t, k) == Vec3::Zero()) refuse_centre_on(t);
+}
+
 }  // namespace
 
 // ---- Build
@@ -55,6 +66,7 @@ DirectionTable::DirectionTable(const DirectionTable& other)
       rejection_(other.rejection_) {}
 
 void DirectionTable::build_parts() {
+  require_no_corner_at_centre(mesh());
   if (cube()) {
     build(mesh(), *cube(), table_);
   } else {
@@ -100,9 +112,8 @@ void DirectionTable::require_centre_off_triangle(Index t) const {
   if (!functions.empty() && !std::isnan(functions[t].x[3])) return;
   const Cone cone = cone_of(mesh(), t);
   if (core::orientation(cone.a, cone.b, cone.c) == core::Sign::zero &&
-      mesh::contains_coplanar({cone.a, cone.b, cone.c}, Vec3::Zero())) {
-    throw MeshError("the joint centre lies on the surface, in triangle " + std::to_string(t));
-  }
+      mesh::contains_coplanar({cone.a, cone.b, cone.c}, Vec3::Zero()))
+    refuse_centre_on(t);
 }
 
 // ---- Query

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -322,6 +326,45 @@ TEST(Sweep, OfSharesIsThatOfTheWhole) {
   std::swap(shares[1], shares[2]);
   EXPECT_THROW(merged_sweep(shares), UsageError);
 }
+
+#ifdef __GLIBC__
+/// What the limits of one design take beside what is there, bytes, without a closed form.
+std::size_t taken_by_limits(const std::vector<plan::SweepTarget>& targets) {
+  const plan::TotalHip hip;
+  const PlacedJoint placed = implant_alone(hip);
+  const std::vector<std::string> swept{"cup.inclination", "cup.anteversion"};
+  const auto in_use = [] {
+    const auto use = mallinfo2();
+    return use.uordblks + use.hblkhd;
+  };
+  const std::size_t before = in_use();
+  const plan::DesignLimits limits(placed.joint, {}, targets, swept, false);
+  std::vector<plan::DesignLimit> found(targets.size());
+  limits.limits(std::vector<double>{40, 15}, found);
+  return in_use() - before;
+}
+
+TEST(Sweep, TakesTheMemoryOfOneMotionForAllTargetsOfIt) {
+  const std::vector<plan::SweepTarget> one{turn_to("flexion", 100)};
+  std::vector<plan::SweepTarget> many;
+  for (int i = 0; i < 300; ++i) {
+    many.push_back(turn_to("flexion", 60 + 0.05 * i));
+    many.back().name += std::to_string(i);
+  }
+  // A name, a motion and a limit each.
+  EXPECT_LE(taken_by_limits(many), taken_by_limits(one) + many.size() * 2048);
+}
+
+TEST(Sweep, TakesNoMoreMemoryThanSomeMotionsForAnyNumberOfThem) {
+  std::vector<plan::SweepTarget> many;
+  for (int i = 0; i < 1000; ++i) {
+    many.push_back(turn_to("flexion", 60));
+    many.back().name += std::to_string(i);
+    many.back().motion.start.internal_rotation = Angle::degrees(0.01 * i);
+  }
+  EXPECT_LE(taken_by_limits(many), std::size_t{400} << 20);
+}
+#endif
 
 TEST(Sweep, GivesTheProbabilityOfANormalDistributionOverTheSafeInterval) {
   // Only the anteversion matters if the inclination has no deviation.
