@@ -9,7 +9,7 @@
 #include "support/temporary_folder.hpp"
 
 /// Every option that counts something: what is no whole number, or beyond its bound, is refused before anything is made of it.
-/// docs/reliability.md lists the bounds.
+/// docs/bounds.md lists the bounds.
 
 namespace condyle::test {
 namespace {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "support/test_meshes.hpp"
@@ -43,6 +45,23 @@ TEST(SurfaceDistance, TheTreeFindsWhatAllTrianglesGive) {
     }
     EXPECT_EQ(distance(p), least);
   }
+}
+
+// Triangles that cannot be nearer are not measured, by their corners: the same bits as all of them give, from near and far.
+TEST(SurfaceDistance, LeavesOutNoTriangleThatIsNearest) {
+  const TriMesh mesh = test::torus(5, 1, 96, 48);
+  const mesh::SurfaceDistance distance(mesh);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (const double scale : {1.0, 5.0, 7.0, 1e3, 1e9})
+    for (int i = 0; i < 40; ++i) {
+      const Vec3 p = scale * Vec3(uniform(random), uniform(random), uniform(random));
+      double least = std::numeric_limits<double>::infinity();
+      for (Index t = 0; t < mesh.triangles.size(); ++t)
+        least = std::min(
+            least, mesh::distance_to_triangle(p, {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}));
+      EXPECT_EQ(distance(p), least);
+    }
 }
 
 }  // namespace
