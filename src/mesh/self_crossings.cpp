@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -161,9 +162,8 @@ class CrossingSearch {
         triangle_boxes_(boxes_of_triangles(tree)),
         node_boxes_(boxes_of_nodes(tree, triangle_boxes_)),
         common_(common_vertices(tree)),
-        slabs_(tree, common_) {
-    found_.crosses.resize(tree.triangles().size());
-  }
+        slabs_(tree, common_),
+        crosses_(tree.triangles().size()) {}
 
   SelfCrossings run() {
     if (tree_.empty()) return std::move(found_);
@@ -197,6 +197,7 @@ class CrossingSearch {
       found_.pairs += noted.pairs;
       if (noted.first) found_.first = std::min(found_.first.value_or(*noted.first), *noted.first);
     });
+    found_.crosses.assign(crosses_.begin(), crosses_.end());
     return std::move(found_);
   }
 
@@ -284,14 +285,14 @@ class CrossingSearch {
     ++noted.pairs;
     const std::array<Index, 2> pair{std::min(s, t), std::max(s, t)};
     noted.first = std::min(noted.first.value_or(pair), pair);
-    for (const Index triangle : pair)
-      std::atomic_ref(found_.crosses[triangle]).store(1, std::memory_order_relaxed);
+    for (const Index triangle : pair) crosses_[triangle].store(1, std::memory_order_relaxed);
   }
 
   const TriangleTree& tree_;
   std::vector<Box> triangle_boxes_, node_boxes_;
   std::vector<CommonVertices> common_;
   AllSlabs slabs_;
+  std::vector<std::atomic<std::uint8_t>> crosses_;  ///< of the triangles, by whichever task
   SelfCrossings found_;
 };
 

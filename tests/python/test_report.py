@@ -72,6 +72,9 @@ def test_a_report_compares_joints_as_the_command_does(command, hip, hip_file, tm
     theirs, ours = text_of(tmp_path / "theirs.html"), text_of(tmp_path / "ours.html")
     for text in (theirs, ours):
         del text["rom"]["provenance"]["command"], text["before"]["rom"]["provenance"]["command"]
+    # The command read the files of the joint before, too; Python is given joints.
+    read = theirs["rom"]["provenance"].pop("other_files")
+    assert {file["path"] for file in read} == {"hip.toml", "hip_bone.ply", "femur.ply"}
     assert ours == theirs
     limits = before.range_of_motion().limits
     assert [motion["limit_deg"] for motion in ours["before"]["rom"]["motions"]] == [limit.turned_deg for limit in limits]
