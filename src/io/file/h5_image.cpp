@@ -15,7 +15,8 @@ void require(bool done) {
 /// HDF5 does not survive an allocation that fails: it frees twice and reads through null pointers. So the memory that it may need for
 /// this many bytes of values is taken and given back before.
 void require_memory(std::size_t values) {
-  constexpr std::size_t beside = std::size_t{8} << 20;  // caches, heaps and the step by which the image grows
+  // Caches, the step by which the image grows, and heaps: where one cannot grow, each further one takes a megabyte at least.
+  constexpr std::size_t beside = std::size_t{32} << 20;
   // The image may move as it grows, and a text has a length and a place beside it. Volatile: a compiler leaves out what nothing uses.
   void* volatile const block = std::malloc(beside + 3 * values);
   if (!block) throw std::bad_alloc();
