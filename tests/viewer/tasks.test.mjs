@@ -80,7 +80,7 @@ for (const [name, { joint, band }] of Object.entries(hips))
     const against = !zero.is_neutral ? "not compared with normal, as zero is not known to be neutral" : first.normal_range_deg === null ? "no normal range known" : `${(first.normal_range_deg - first.limit_deg).toFixed(0)}° short of normal (${first.normal_range_deg}°)`;
     assert.ok(rest.includes(against), rest);
     // Of a motion that is pressed it says how far beyond normal it goes.
-    const beyond = motions.find(({ name: each, normal_range_deg, limit_deg, reason }) => each === "flexion" && reason === "contact" && limit_deg > normal_range_deg);
+    const beyond = motions.find(({ name: each, normal_range_deg, limit_deg, reason }) => each === "flexion" && reason === "contact" && normal_range_deg !== null && limit_deg > normal_range_deg);
     // Where: the hour.
     if (first.clock_hour !== null) assert.ok(rest.endsWith(`neck on rim at ${clock(first.clock_hour)}`), rest);
     else assert.match(rest, /away from the rim$/);
