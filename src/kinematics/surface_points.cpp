@@ -8,8 +8,8 @@
 namespace condyle::kinematics {
 namespace {
 
-/// Of so many neighbours there is a mean: those joined to them are not looked for. Nor those joined to a point that is joined to so many, the
-/// hub of a fan. A hip's fine meshes have some tens; without bounds the work would be the square of a hub's degree.
+/// So many neighbours give a mean, and no further ones are looked for; nor are those beyond a point that is joined to so many, the hub of a
+/// fan. A hip's fine meshes have some tens; without bounds the work would be the square of a hub's degree.
 constexpr std::size_t most_near = 1000, most_joined = 1000;
 
 }  // namespace

@@ -24,8 +24,8 @@ using ToRefine =
 
 /// Halves edges until none of a triangle that shall be small is longer. Pieces of those that shall be are asked for again after each
 /// halving, so that of a large triangle only what is meant becomes small. A triangle with a side halved also has its longest one halved, so
-/// that triangles around do not become narrow; edges shared by any number of triangles stay shared. Parts of the body stay apart. Empty if that would make more than `most_added`
-/// triangles beyond those of the body: they are counted before they are made.
+/// that triangles around do not become narrow; edges shared by any number of triangles stay shared. Parts of the body stay apart.
+/// Empty if that would make more than `most_added` triangles beyond those of the body: they are counted before they are made.
 std::optional<RefinedBody> refined(const Body& body, const ToRefine& to_refine, double longest_edge_mm,
                                    std::size_t most_added);
 

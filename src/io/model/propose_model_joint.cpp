@@ -93,7 +93,7 @@ class BodyMeshes {
     return {mesh.file, mesh.scale.x(), mesh.scale.y(), mesh.scale.z()};
   }
 
-  /// Of the matrix, with weights that tell places apart.
+  /// Sums the elements of the matrix with weights that tell places apart.
   static double sum_of(const ModelMesh& mesh) {
     double sum = 0;
     for (int i = 0; i < 12; ++i) sum += std::sqrt(i + 2.0) * mesh.X_BG.matrix()(i / 4, i % 4);

@@ -17,8 +17,8 @@ struct StudyAnswer {
   std::vector<Input> inputs;  ///< what it read
 };
 
-/// The lines of an answer whose reading `read` records. Throws if there is none, and where a joint looks wrong and bad ones end the run; empty if it
-/// was stopped.
+/// The lines of an answer whose reading `read` records. Throws if there is none, and where a joint looks wrong and bad ones end
+/// the run; empty if it was stopped.
 std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& row, const Study& study,
                                      const InputRecorder& read, std::stop_token stop);
 

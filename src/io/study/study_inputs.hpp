@@ -22,7 +22,7 @@ struct StudyInputs {
   StudyInputs now(const std::filesystem::path& folder) const;
 };
 
-/// Of the inputs that each row recorded.
+/// Gathers what each row recorded.
 StudyInputs study_inputs(const std::filesystem::path& folder, std::span<const std::vector<Input>> of_rows);
 
 /// SHA-256 of the row and of the contents of the files that it read.
