@@ -6,13 +6,13 @@
 #include <limits>
 #include <numbers>
 #include <span>
-#include <utility>
 
 #include "core/lazy.hpp"
 #include "kinematics/hip_parts.hpp"
 #include "mesh/disjoint_sets.hpp"
 #include "mesh/findings.hpp"
 #include "mesh/triangle_distance.hpp"
+#include "mesh/vertex_triangles.hpp"
 
 namespace condyle::kinematics {
 namespace {
@@ -87,38 +87,37 @@ std::vector<Index> outermost(const TriMesh& bone, const Farthest& farthest) {
 }
 
 /// Those of them around one vertex that face one way are of one face. More ways than these are no flat face's.
-void join_around(std::span<const std::pair<Index, Index>> around, const std::vector<Vec3>& areas,
-                 mesh::DisjointSets& sets) {
+void join_around(std::span<const Index> around, const std::vector<Vec3>& areas,
+                 const std::vector<double>& sizes, mesh::DisjointSets& sets) {
   constexpr std::size_t most_ways = 8;
-  std::vector<Index> ways;
-  for (const auto& [vertex, number] : around) {
-    const Vec3& area = areas[number];
-    const auto way = std::find_if(ways.begin(), ways.end(), [&](Index other) {
-      const Vec3& of_other = areas[other];
-      return area.dot(of_other) > one_plane * area.norm() * of_other.norm();
+  std::array<Index, most_ways> ways;
+  std::size_t known = 0;
+  for (const Index number : around) {
+    const auto end = ways.begin() + known;
+    const auto way = std::find_if(ways.begin(), end, [&](Index other) {
+      return areas[number].dot(areas[other]) > one_plane * sizes[number] * sizes[other];
     });
-    if (way != ways.end())
+    if (way != end)
       sets.join(*way, number);
-    else if (ways.size() < most_ways)
-      ways.push_back(number);
+    else if (known < most_ways)
+      ways[known++] = number;
   }
 }
 
 /// Outermost triangles that hang together and face one way, those with an area that counts.
 std::vector<Face> flat_faces(const TriMesh& bone, const Farthest& farthest, double least) {
   const std::vector<Index> outer = outermost(bone, farthest);
+  std::vector<Triangle> triangles;
   std::vector<Vec3> areas;
-  std::vector<std::pair<Index, Index>> corners;  // a vertex, and the number of a triangle there
-  for (std::size_t n = 0; n < outer.size(); ++n) {
-    areas.push_back(twice_area(bone, outer[n]));
-    for (const Index v : bone.triangles[outer[n]]) corners.emplace_back(v, static_cast<Index>(n));
+  std::vector<double> sizes;
+  for (const Index t : outer) {
+    triangles.push_back(bone.triangles[t]);
+    areas.push_back(twice_area(bone, t));
+    sizes.push_back(areas.back().norm());
   }
-  std::sort(corners.begin(), corners.end());
+  const mesh::VertexTriangles at_vertices(triangles, bone.vertices.size());
   mesh::DisjointSets sets(outer.size());
-  for (std::size_t first = 0, last = 0; first < corners.size(); first = last) {
-    while (last < corners.size() && corners[last].first == corners[first].first) ++last;
-    join_around(std::span(corners).subspan(first, last - first), areas, sets);
-  }
+  for (Index v = 0; v < bone.vertices.size(); ++v) join_around(at_vertices.of(v), areas, sizes, sets);
   std::vector<Face> faces(outer.size());
   for (std::size_t n = 0; n < outer.size(); ++n) {
     Face& face = faces[sets.find(static_cast<Index>(n))];

@@ -5,14 +5,14 @@
 
 namespace condyle::mesh {
 
-VertexTriangles::VertexTriangles(const TriMesh& mesh)
-    : first_(mesh.vertices.size() + 1, 0), triangle_(3 * mesh.triangles.size()) {
-  for (const Triangle& triangle : mesh.triangles)
+VertexTriangles::VertexTriangles(std::span<const Triangle> triangles, std::size_t vertices)
+    : first_(vertices + 1, 0), triangle_(3 * triangles.size()) {
+  for (const Triangle& triangle : triangles)
     for (const Index v : triangle) ++first_[v + 1];
   for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
   std::vector<Index> next = first_;
-  for (Index t = 0; t < mesh.triangles.size(); ++t)
-    for (const Index v : mesh.triangles[t]) triangle_[next[v]++] = t;
+  for (Index t = 0; t < triangles.size(); ++t)
+    for (const Index v : triangles[t]) triangle_[next[v]++] = t;
 }
 
 std::vector<Index> VertexTriangles::of(std::span<const Index> vertices) const {

@@ -15,7 +15,9 @@ class VertexTriangles {
  public:
   VertexTriangles() = default;
   /// Linear. Vertices and triangles of the mesh may move afterwards, not change.
-  explicit VertexTriangles(const TriMesh& mesh);
+  explicit VertexTriangles(const TriMesh& mesh) : VertexTriangles(mesh.triangles, mesh.vertices.size()) {}
+  /// Of some triangles, by their places among them.
+  VertexTriangles(std::span<const Triangle> triangles, std::size_t vertices);
 
   bool empty() const noexcept { return first_.empty(); }
   std::span<const Index> of(Index vertex) const noexcept {
