@@ -3,6 +3,8 @@
 #include <atomic>
 #include <mutex>
 
+#include "core/parallel.hpp"
+
 namespace condyle::core {
 
 /// A part of a value that is made when it is first read, by whichever thread comes first, and may be made
@@ -15,13 +17,13 @@ class Lazy {
   Lazy& operator=(const Lazy&) = delete;
 
   /// make(T&) where it is not current, once for all threads; the rest wait. Where it throws, the part stays as
-  /// out of date as it was.
+  /// out of date as it was. What it computes in parallel takes up no work from outside, which may want this part.
   template <class Make>
   const T& get(const Make& make) const {
     if (is_current_.load(std::memory_order_acquire)) return value_;
     const std::lock_guard lock(mutex_);
     if (!is_current_.load(std::memory_order_relaxed)) {
-      make(value_);
+      isolated([&] { make(value_); });
       is_current_.store(true, std::memory_order_release);
     }
     return value_;

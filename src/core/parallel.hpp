@@ -35,6 +35,16 @@ void parallel_chunks(std::size_t count, [[maybe_unused]] std::size_t grain, cons
 #endif
 }
 
+/// Calls it so that a thread that waits for what it computes in parallel takes up nothing from outside.
+template <class Body>
+void isolated(const Body& body) {
+#ifdef CONDYLE_SERIAL
+  body();
+#else
+  tbb::this_task_arena::isolate(body);
+#endif
+}
+
 /// Calls both, at the same time if there are threads. A thread that waits for what one of them computes in parallel itself never
 /// takes up the other, which may want a part of a mesh (core::Lazy) that the thread is making. If both throw, the first one's
 /// exception is thrown.
@@ -49,14 +59,14 @@ void parallel_pair(const First& first, const Second& second) {
   const auto run = [&](const auto& body, std::exception_ptr& error) {
     begun.after();
     try {
-      tbb::this_task_arena::isolate(body);
+      isolated(body);
     } catch (...) {
       error = std::current_exception();
     }
     done.before();
   };
   begun.before();
-  tbb::this_task_arena::isolate(
+  isolated(
       [&] { tbb::parallel_invoke([&] { run(first, first_error); }, [&] { run(second, second_error); }); });
   done.after();
   for (const std::exception_ptr& error : {first_error, second_error})

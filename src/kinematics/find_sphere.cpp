@@ -13,6 +13,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/fit.hpp"
+#include "core/parallel.hpp"
 #include "kinematics/resampling.hpp"
 #include "kinematics/surface_points.hpp"
 #include "mesh/edge_balance.hpp"
@@ -189,13 +190,20 @@ Radii radii_of(const TriMesh& surface, const SphereSearch& search, std::optional
 
 std::vector<BallCandidate> candidates(const std::vector<kinematics::SurfacePoint>& points, double inwards,
                                       const Radii& radii) {
+  std::vector<double> tried;
+  for (double radius = radii.smallest; radius <= radii.largest * radius_ratio; radius *= radius_ratio)
+    tried.push_back(radius);
+  std::vector<std::vector<BallCandidate>> of_radius(tried.size());
+  core::parallel_chunks(tried.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      auto here = votes(points, inwards, tried[i]);
+      const auto kept = static_cast<std::ptrdiff_t>(std::min(here.size(), kept_per_radius));
+      std::partial_sort(here.begin(), here.begin() + kept, here.end(), fuller);
+      of_radius[i].assign(here.begin(), here.begin() + kept);
+    }
+  });
   std::vector<BallCandidate> found;
-  for (double radius = radii.smallest; radius <= radii.largest * radius_ratio; radius *= radius_ratio) {
-    auto here = votes(points, inwards, radius);
-    const auto kept = static_cast<std::ptrdiff_t>(std::min(here.size(), kept_per_radius));
-    std::partial_sort(here.begin(), here.begin() + kept, here.end(), fuller);
-    found.insert(found.end(), here.begin(), here.begin() + kept);
-  }
+  for (const auto& here : of_radius) found.insert(found.end(), here.begin(), here.end());
   std::sort(found.begin(), found.end(), fuller);
   return found;
 }
@@ -453,14 +461,16 @@ double centre_bound(const TriMesh& mesh, const SphereFit& fit, std::size_t resam
   };
   constexpr std::size_t unknowns = 4;
   const auto drawn_parts = kinematics::resampled(fit.vertices, resamples, unknowns, block_of);
-  std::vector<double> moves;
-  for (const std::vector<Index>& drawn : drawn_parts.draws) {
-    try {
-      moves.push_back((fit_sphere(mesh.vertices, drawn).sphere.centre - centre).norm());
-    } catch (const MeshError&) {  // no centre at all
-      moves.push_back(fit.sphere.radius);
+  std::vector<double> moves(drawn_parts.draws.size());
+  core::parallel_chunks(moves.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      try {
+        moves[i] = (fit_sphere(mesh.vertices, drawn_parts.draws[i]).sphere.centre - centre).norm();
+      } catch (const MeshError&) {  // no centre at all
+        moves[i] = fit.sphere.radius;
+      }
     }
-  }
+  });
   return kinematics::upper_bound_of(std::move(moves)) * drawn_parts.widening;
 }
 

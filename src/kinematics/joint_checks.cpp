@@ -455,19 +455,22 @@ std::string_view name_of(JointNoteCode code) noexcept {
 }
 
 std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& placement) {
-  // What is found on a surface is kept with its mesh, and takes the longest: one body beside the other.
-  Notes of_fixed, of_mobile;
+  // What is found on a surface is kept with its mesh, and takes the longest: bodies and socket at the same time.
+  Notes of_fixed, of_mobile, notes;
+  kinematics::SizeNotes sizes;
   const auto check_body = [&](const Body& body, Notes& own) {
     check_surface(body, own);
     check_cuts(body, own);
     if (joint.is_hip()) kinematics::flat_ends(body.mesh);
   };
-  core::parallel_pair([&] { check_body(joint.fixed, of_fixed); },
-                      [&] { check_body(joint.mobile, of_mobile); });
-  Notes notes;
-  const auto head = joint.has_head() ? head_of(joint, placement) : std::nullopt;
-  kinematics::SizeNotes sizes =
-      kinematics::size_notes(joint, head && head->coverage >= fullest_stray_sphere ? head : std::nullopt);
+  const auto check_sizes = [&] {
+    const auto head = joint.has_head() ? head_of(joint, placement) : std::nullopt;
+    sizes =
+        kinematics::size_notes(joint, head && head->coverage >= fullest_stray_sphere ? head : std::nullopt);
+  };
+  core::parallel_pair(
+      [&] { check_body(joint.fixed, of_fixed); },
+      [&] { core::parallel_pair(check_sizes, [&] { check_body(joint.mobile, of_mobile); }); });
   notes.add(std::move(sizes.notes));
   notes.add(of_fixed.take());
   notes.add(of_mobile.take());

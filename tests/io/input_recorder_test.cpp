@@ -1,10 +1,13 @@
 #include "io/file/input_recorder.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <thread>
 
 #include "condyle/error.hpp"
@@ -12,6 +15,7 @@
 #include "io/file/environment.hpp"
 #include "io/file/input_file.hpp"
 #include "io/file/output_file.hpp"
+#include "io/file/read_pair.hpp"
 #include "io/image/byte_source.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -55,6 +59,42 @@ TEST_F(Recorded, IsEveryFileWithItsContentsOnceAndInOrder) {
   write("none", "");
   EXPECT_EQ(io::state_now(Input::Kind::file, none), digest(""));
   EXPECT_FALSE(read.passing_failure());
+}
+
+TEST_F(Recorded, OfTwoReadAtTheSameTimeIsAsOfOneAfterTheOther) {
+  const fs::path a = write("a", "one"), b = write("b", "two"), none = folder / "none";
+  const auto names = [](const InputRecorder& read) {
+    std::vector<fs::path> paths;
+    for (const Input& input : read.inputs()) paths.push_back(input.path);
+    return paths;
+  };
+  const InputRecorder around;
+  // The first waits for the second.
+  std::promise<void> second_read;
+  {
+    const InputRecorder read;
+    io::read_pair(
+        [&] {
+          if (tbb::this_task_arena::max_concurrency() > 1)
+            second_read.get_future().wait_for(std::chrono::seconds(5));
+          io::read_whole_file(a);
+        },
+        [&] { io::read_whole_file(b), second_read.set_value(); });
+    EXPECT_EQ(names(read), (std::vector<fs::path>{a, b}));
+  }
+  EXPECT_EQ(names(around), (std::vector<fs::path>{a, b}));
+  {
+    const InputRecorder read;
+    EXPECT_THROW(io::read_pair([&] { io::read_whole_file(none); }, [&] { io::read_whole_file(b); }),
+                 FileError);
+    EXPECT_EQ(names(read), (std::vector<fs::path>{none}));
+  }
+  {
+    const InputRecorder read;
+    EXPECT_THROW(io::read_pair([&] { io::read_whole_file(b); }, [&] { io::read_whole_file(none); }),
+                 FileError);
+    EXPECT_EQ(names(read), (std::vector<fs::path>{b, none}));
+  }
 }
 
 TEST_F(Recorded, IsWhatWasLookedForAndTheEnvironment) {

@@ -43,7 +43,7 @@ InputRecorder::~InputRecorder() {
 
 std::vector<Input> InputRecorder::inputs() const {
   const std::lock_guard lock(mutex_);
-  std::vector<Input> all = inputs_;
+  std::vector<Input> all = recorded_.inputs;
   // That a file is there goes without saying if it was read.
   std::erase_if(all, [&](const Input& input) {
     return input.kind == Input::Kind::entry && place_of_.contains({Input::Kind::file, input.path});
@@ -53,7 +53,12 @@ std::vector<Input> InputRecorder::inputs() const {
 
 std::optional<std::string> InputRecorder::passing_failure() const {
   const std::lock_guard lock(mutex_);
-  return failure_;
+  return recorded_.passing_failure;
+}
+
+Recorded InputRecorder::recorded() const {
+  const std::lock_guard lock(mutex_);
+  return recorded_;
 }
 
 InputRecorder* InputRecorder::current() noexcept {
@@ -71,10 +76,10 @@ void InputRecorder::add(Input input) {
     if (each->digests_ == Digests::left_out) continue;
     const std::lock_guard lock(each->mutex_);
     const auto [place, is_new] =
-        each->place_of_.emplace(std::pair(input.kind, input.path), each->inputs_.size());
+        each->place_of_.emplace(std::pair(input.kind, input.path), each->recorded_.inputs.size());
     if (is_new)
-      each->inputs_.push_back(input);
-    else if (Input& before = each->inputs_[place->second]; before.state != input.state)
+      each->recorded_.inputs.push_back(input);
+    else if (Input& before = each->recorded_.inputs[place->second]; before.state != input.state)
       before.state = changing_state;
   }
 }
@@ -82,21 +87,27 @@ void InputRecorder::add(Input input) {
 void InputRecorder::add_read(FileId file) {
   for (InputRecorder* each = current_recorder; each != nullptr; each = each->outer_) {
     const std::lock_guard lock(each->mutex_);
-    each->read_.insert(file);
+    each->recorded_.read.insert(file);
   }
 }
 
 void InputRecorder::add_passing_failure(const std::string& message) {
   for (InputRecorder* each = current_recorder; each != nullptr; each = each->outer_) {
     const std::lock_guard lock(each->mutex_);
-    if (!each->failure_) each->failure_ = message;
+    if (auto& failure = each->recorded_.passing_failure; !failure) failure = message;
   }
+}
+
+void InputRecorder::add(const Recorded& elsewhere) {
+  for (const Input& input : elsewhere.inputs) add(input);
+  for (const FileId& file : elsewhere.read) add_read(file);
+  if (elsewhere.passing_failure) add_passing_failure(*elsewhere.passing_failure);
 }
 
 bool InputRecorder::has_read(FileId file) {
   for (const InputRecorder* each = current_recorder; each != nullptr; each = each->outer_) {
     const std::lock_guard lock(each->mutex_);
-    if (each->read_.contains(file)) return true;
+    if (each->recorded_.read.contains(file)) return true;
   }
   return false;
 }

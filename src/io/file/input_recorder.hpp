@@ -51,6 +51,13 @@ std::string state_now(Input::Kind kind, const std::filesystem::path& path);
 /// Identity of a file, whatever its names.
 using FileId = std::pair<dev_t, ino_t>;
 
+/// What a recorder holds, to be entered in another one.
+struct Recorded {
+  std::vector<Input> inputs;
+  std::set<FileId> read;
+  std::optional<std::string> passing_failure;
+};
+
 /// Records what this thread reads, while it lives; other threads that work for the same answer enter it by Recording. One within
 /// another passes on what it records.
 class InputRecorder {
@@ -66,6 +73,9 @@ class InputRecorder {
   /// Why something could not be read that might be read the next time, with the same files: the disk, too many open files.
   std::optional<std::string> passing_failure() const;
 
+  /// All of it.
+  Recorded recorded() const;
+
   /// The one that this thread enters its reading in; null if there is none.
   static InputRecorder* current() noexcept;
 
@@ -74,6 +84,7 @@ class InputRecorder {
   static void add(Input input);
   static void add_read(FileId file);
   static void add_passing_failure(const std::string& message);
+  static void add(const Recorded& elsewhere);
   /// Whether the current one, or one around it, has read this file.
   static bool has_read(FileId file);
 
@@ -81,10 +92,8 @@ class InputRecorder {
   Digests digests_;
   InputRecorder* outer_;
   mutable std::mutex mutex_;
-  std::vector<Input> inputs_;
+  Recorded recorded_;
   std::map<std::pair<Input::Kind, std::filesystem::path>, std::size_t> place_of_;
-  std::set<FileId> read_;
-  std::optional<std::string> failure_;
 };
 
 /// While it lives, this thread enters what it reads in that recorder; in none if it is null, as for a command's own results.

@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "condyle/error.hpp"
 #include "condyle/implant.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "io/file/read_pair.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/joint/append_mesh.hpp"
 #include "io/joint/load_joint.hpp"
@@ -179,11 +181,12 @@ LoadedJoint load_joint(JointFile file) {
       return part.part.body == body && !part.part.cut.empty();
     });
   };
-  LoadedBody fixed = load(file.fixed, BodyRole::fixed, is_cut(BodyRole::fixed), file),
-             mobile = load(file.mobile, BodyRole::mobile, is_cut(BodyRole::mobile), file);
-  PlacedJoint made = placed(file, std::move(fixed.body), std::move(mobile.body));
+  std::optional<LoadedBody> fixed, mobile;
+  io::read_pair([&] { fixed = load(file.fixed, BodyRole::fixed, is_cut(BodyRole::fixed), file); },
+                [&] { mobile = load(file.mobile, BodyRole::mobile, is_cut(BodyRole::mobile), file); });
+  PlacedJoint made = placed(file, std::move(fixed->body), std::move(mobile->body));
   JointReport report{
-      std::move(file), std::move(fixed.reports), std::move(mobile.reports), std::move(made.placement), {}};
+      std::move(file), std::move(fixed->reports), std::move(mobile->reports), std::move(made.placement), {}};
   report.processing = processing_of(report);
   return {std::move(made.joint), std::move(report)};
 }
