@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/lazy.hpp"
@@ -14,6 +16,7 @@
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/findings.hpp"
 #include "mesh/triangle_distance.hpp"
+#include "mesh/triangle_tree.hpp"
 #include "mesh/winding_number.hpp"
 
 namespace condyle::mesh {
@@ -109,7 +112,8 @@ double winding_share(const TriMesh& mesh, const Vec3& p) {
 /// The vertices of all pieces, and which of them lie where.
 class InnerVertices {
  public:
-  InnerVertices(const Mesh& mesh, SurfacePieces& pieces) : mesh_(mesh), pieces_(pieces) {
+  InnerVertices(const Mesh& mesh, SurfacePieces& pieces)
+      : mesh_(mesh), pieces_(pieces), tree_(tree_of(mesh)) {
     pieces.of_vertex.assign(mesh.vertices().size(), no_piece);
     const auto& piece_ = pieces.of_vertex;
     for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
@@ -121,9 +125,6 @@ class InnerVertices {
         pieces.of_vertex[v] = piece;
       }
     }
-    for (Index v = 0; v < piece_.size(); ++v)
-      if (piece_[v] != no_piece) by_x_.push_back(v);
-    std::sort(by_x_.begin(), by_x_.end(), [&](Index a, Index b) { return x_of(a) < x_of(b); });
     for (std::size_t i = 0; i < pieces.all.size(); ++i) by_volume_.push_back(i);
     for (const SurfacePiece& piece : pieces.all) first_.push_back(first_.back() + piece.triangles);
     triangles_.resize(first_.back());
@@ -145,12 +146,11 @@ class InnerVertices {
       if (pieces_.all[piece].is_closed)
         find_in_closed(piece, alone, candidates);
       else
-        find_in_open(piece, alone);
+        find_in_open(piece, alone, candidates);
     }
   }
 
  private:
-  double x_of(Index v) const { return mesh_.vertices().x[v]; }
   static double box_volume(const SurfacePiece& piece) {
     return (piece.bounds.high - piece.bounds.low).prod();
   }
@@ -175,18 +175,36 @@ class InnerVertices {
     return alone;
   }
 
-  /// Vertices of other pieces.
+  /// Vertices of other pieces, ascending.
   std::vector<Index> within_bounds(std::size_t piece) const {
     const Vec3 &low = pieces_.all[piece].bounds.low, &high = pieces_.all[piece].bounds.high;
-    std::vector<Index> found;
-    const auto first =
-        std::partition_point(by_x_.begin(), by_x_.end(), [&](Index v) { return x_of(v) < low.x(); });
-    for (auto at = first; at != by_x_.end() && x_of(*at) <= high.x(); ++at) {
-      const Vec3 p = mesh_.vertices()[*at];
-      if (pieces_.of_vertex[*at] != piece && (p.array() >= low.array()).all() &&
-          (p.array() <= high.array()).all())
-        found.push_back(*at);
+    const auto may_hold_any = [&](const TriangleTree::Node& node) {
+      for (int k = 0; k < 3; ++k)
+        if (double{node.centre[k]} - double{node.half[k]} > high[k] ||
+            double{node.centre[k]} + double{node.half[k]} < low[k])
+          return false;
+      return true;
+    };
+    std::vector<Index> found, waiting{0};
+    while (!waiting.empty()) {
+      const TriangleTree::Node& node = tree_->nodes()[waiting.back()];
+      waiting.pop_back();
+      if (!may_hold_any(node)) continue;
+      if (!node.is_leaf()) {
+        waiting.insert(waiting.end(), {node.child, node.child + 1});
+        continue;
+      }
+      for (Index i = node.first; i < node.last; ++i)
+        for (const Index place : tree_->triangles()[i]) {
+          const Index v = tree_->mesh_vertices()[place];
+          const Vec3& p = tree_->vertices()[place];
+          if (pieces_.of_vertex[v] != piece && pieces_.of_vertex[v] != no_piece &&
+              (p.array() >= low.array()).all() && (p.array() <= high.array()).all())
+            found.push_back(v);
+        }
     }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;
   }
 
@@ -206,12 +224,15 @@ class InnerVertices {
       if (found[i].winding != 0) mark(candidates[i], piece);
   }
 
-  void find_in_open(std::size_t piece, const TriMesh& alone) {
+  void find_in_open(std::size_t piece, const TriMesh& alone, std::vector<Index> candidates) {
     const SurfacePiece& around = pieces_.all[piece];
-    std::vector<std::vector<Index>> vertices(pieces_.all.size());
-    for (const Index v : within_bounds(piece)) vertices[pieces_.of_vertex[v]].push_back(v);
-    for (std::size_t other = 0; other < vertices.size(); ++other) {
-      const std::vector<Index>& own = vertices[other];
+    const auto piece_of = [&](Index v) { return pieces_.of_vertex[v]; };
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [&](Index a, Index b) { return piece_of(a) < piece_of(b); });
+    for (std::size_t first = 0, last = 0; first < candidates.size(); first = last) {
+      const std::size_t other = piece_of(candidates[first]);
+      while (last < candidates.size() && piece_of(candidates[last]) == other) ++last;
+      const std::span own = std::span(candidates).subspan(first, last - first);
       const SurfacePiece& inside = pieces_.all[other];
       if (own.size() < inside.vertices || !(inside.area >= least_judged_share * around.area) ||
           !(inside.area <= around.area))
@@ -228,8 +249,8 @@ class InnerVertices {
 
   const Mesh& mesh_;
   SurfacePieces& pieces_;
+  std::shared_ptr<const TriangleTree> tree_;
   std::vector<std::size_t> by_volume_;
-  std::vector<Index> by_x_;
   /// Piece i has the triangles [first_[i], first_[i + 1]) of `triangles_`.
   std::vector<std::size_t> first_{0};
   std::vector<Index> triangles_, number_;
