@@ -74,6 +74,7 @@ int status_of(pid_t child) {
 struct Writing {
   const char* name;
   std::vector<std::string> before, after;
+  const char* bones = "sample";  ///< the folder of the joint
 };
 
 void PrintTo(const Writing& writing, std::ostream* out) {
@@ -91,6 +92,18 @@ const std::vector<Writing> writings = {
     {"motion",
      {"motion", "sample/hip.toml", "--motion", "squat.csv", "--out", "result"},
      {"motion", "sample/hip.toml", "--motion", "stride.csv", "--out", "result"}},
+    {"sweep",
+     {"sweep", "thr/hip.toml", "--vary", "cup.inclination=40:50:10", "--targets", "targets.csv", "--out",
+      "result"},
+     {"sweep", "thr/hip.toml", "--vary", "cup.inclination=30:50:10 cup.anteversion=0:10:10", "--targets",
+      "targets.csv", "--out", "result"},
+     "thr"},
+    {"shard_of_sweep",
+     {"sweep", "thr/hip.toml", "--vary", "cup.inclination=40:50:10 cup.anteversion=0:10:10", "--targets",
+      "targets.csv", "--out", "result", "--shard", "2/2"},
+     {"sweep", "thr/hip.toml", "--vary", "cup.inclination=30:50:10 cup.anteversion=0:10:10", "--targets",
+      "targets.csv", "--out", "result", "--shard", "2/2"},
+     "thr"},
 };
 
 class BrokenOff : public testing::TestWithParam<Writing> {
@@ -98,6 +111,8 @@ class BrokenOff : public testing::TestWithParam<Writing> {
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
     ASSERT_EQ(run_condyle(folder_->path(), "sample hip --out sample").exit_code, 0);
+    ASSERT_EQ(run_condyle(folder_->path(), "sample replacement --out thr").exit_code, 0);
+    folder_->file("targets.csv", "name,motion,reach_deg\nbend,flexion,110\nstep,extension,30\n");
     folder_->file("squat.csv", "time,flexion_deg\n0,0\n0.5,40\n1,80\n");
     folder_->file("stride.csv", "time,flexion_deg,adduction_deg\n0,30,0\n0.5,0,-5\n1,-10,3\n");
   }
@@ -225,9 +240,10 @@ TEST_P(BrokenOff, InAFolderThatMayNotBeWrittenToLeavesItAsItWas) {
 
 TEST_P(BrokenOff, WithAnInputThatVanishedSaysWhichInOneLine) {
   restore();
-  fs::rename(here() / "sample/femur.ply", here() / "sample/gone.ply");
+  const fs::path bones = here() / GetParam().bones;
+  fs::rename(bones / "femur.ply", bones / "gone.ply");
   const int status = status_of(start(here(), GetParam().after, err()));
-  fs::rename(here() / "sample/gone.ply", here() / "sample/femur.ply");
+  fs::rename(bones / "gone.ply", bones / "femur.ply");
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 3);
   const std::string said = without_notes(io::read_whole_file(err()));
   EXPECT_TRUE(is_one_error_line(said)) << said;
