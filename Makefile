@@ -1,5 +1,5 @@
 # Thin front door; CMakePresets.json has the details.
-.PHONY: demo command test build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
+.PHONY: demo command test test-all nightly build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
   package package-test wheel page-core page page-template sanitize-thread sanitize-some release label-limits
 
 dependencies:
@@ -17,8 +17,10 @@ docs_dependencies:
 bench_dependencies:
 	@scripts/install_dependencies.sh bench
 
-# The release build with all that can be built: a folder that `make demo` has begun knows the command alone.
-configure_all = cmake --preset release -DCONDYLE_TESTS=ON -DCONDYLE_BENCH=ON -DCONDYLE_PYTHON=ON >/dev/null
+# The release build with all that is tested: a folder that `make demo` has begun knows the command alone. The bench and the libraries that it
+# runs beside are a third of the time to compile it, and nothing that a user runs.
+configure_all = cmake --preset release -DCONDYLE_TESTS=ON -DCONDYLE_BENCH=OFF -DCONDYLE_PYTHON=ON >/dev/null
+configure_bench = cmake --preset release -DCONDYLE_TESTS=ON -DCONDYLE_BENCH=ON -DCONDYLE_PYTHON=ON >/dev/null
 
 # Release build of the library, the command line and the Python module only.
 build: dependencies
@@ -35,27 +37,42 @@ command: command_dependencies build/release/build.ninja
 demo: command
 	@scripts/demo.sh
 
-# Runs the tests of a preset on two cores and says last, in one line, how many of them were skipped and why. Three at a time, since some
-# wait for signals, jobs and processes.
+# Runs the tests of a preset on two cores, without those that have one of these labels, and says last which cases were slow and, in one
+# line, how many were skipped and why. Three at a time, since some wait for signals, jobs and processes.
 run_tests = rm -rf build/$(1)/test_results; status=0; \
-  ctest --preset $(1) --parallel 3 --output-junit test_results/ctest.junit || status=$$?; \
+  ctest --preset $(1) --parallel 3 --output-junit test_results/ctest.junit -LE '^($(2))$$' || status=$$?; \
+  $(if $(filter release,$(1)),scripts/slow_cases.py check build/$(1)/test_results || status=$$?;) \
   scripts/count_skipped.sh build/$(1)/test_results; exit $$status
 
+# What a change is tried with: every suite, without the cases of tests/slow_cases.txt. All of them: test-all.
 test: dependencies
 	@$(configure_all)
 	@cmake --build --preset release
-	@$(call run_tests,release)
+	@$(call run_tests,release,slow|nightly)
+
+test-all: dependencies
+	@$(configure_all)
+	@cmake --build --preset release
+	@$(call run_tests,release,nightly)
+
+# All that takes hours: the longer forms of tests, valgrind, shards under Snakemake and Slurm, wheel and packages, the bench, clang, sanitizers.
+nightly: bench_dependencies clang_dependencies
+	@scripts/install_dependencies.sh wheel workflow docs
+	@$(configure_bench)
+	@cmake --build --preset release
+	@export CONDYLE_LONG_TESTS=1; $(call run_tests,release,none)
+	@$(MAKE) verify label-limits package clang sanitize sanitize-thread
 
 clang: clang_dependencies
 	@cmake --preset $@ -DCONDYLE_TESTS=ON -DCONDYLE_PYTHON=ON >/dev/null
 	@cmake --build --preset $@
-	@$(call run_tests,$@)
+	@$(call run_tests,$@,nightly)
 
 # Every test under sanitizers: address and undefined behaviour, then threads. An hour each.
 sanitize sanitize-thread: clang_dependencies
 	@cmake --preset $@ >/dev/null
 	@cmake --build --preset $@
-	@$(call run_tests,$@)
+	@$(call run_tests,$@,nightly)
 
 # Some of it: the library and the command built, and the tests of predicates and of every fuzz target on its corpus.
 SOME_SANITIZED = core fuzz
@@ -75,7 +92,7 @@ fuzz: clang_dependencies
 
 # Condyle beside other libraries; bench/tables gets the figures of this run, and ratios worse than the stored ones are reported.
 bench: bench_dependencies
-	@$(configure_all)
+	@$(configure_bench)
 	@cmake --build --preset release --target condyle_bench condyle_python
 	@mkdir -p out/bench docs/images/bench
 	@build/release/condyle-bench --json out/bench/run.json --csv out/bench/experiment.csv --save-baseline out/bench/baseline.json
@@ -84,7 +101,7 @@ bench: bench_dependencies
 
 # Limits from label maps against those of the meshes that were made into voxels; bench/tables/label-maps.md gets the figures.
 label-limits: bench_dependencies
-	@$(configure_all)
+	@$(configure_bench)
 	@cmake --build --preset release --target condyle_label_limits
 	@mkdir -p out/bench
 	@build/release/condyle-label-limits --json out/bench/label_limits.json
@@ -92,7 +109,7 @@ label-limits: bench_dependencies
 
 # The fast paths against the plain ones: a hundred million vertices, on each instruction set in turn.
 verify: bench_dependencies
-	@$(configure_all)
+	@$(configure_bench)
 	@cmake --build --preset release --target condyle_verify
 	@build/release/condyle-verify
 
@@ -118,6 +135,7 @@ page: page-core
 	  { echo "viewer/report_template.html is not what its sources make: make page-template" >&2; exit 1; }
 	@cmake --build --preset release --target condyle_cli
 	@scripts/test_page.sh
+	@scripts/page_inputs.sh >tests/viewer/passed.txt
 
 # After a change of the page or of the core: the template that condyle report fills in.
 page-template: page-core

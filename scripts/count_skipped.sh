@@ -20,3 +20,6 @@ fi
 count=$(awk '{ n += $1 } END { print n }' <<<"$lines")
 why=$(awk '{ n = $1; $1 = ""; printf "%s%d x%s", (NR > 1 ? "; " : ""), n, $0 }' <<<"$lines")
 echo "******** $count of $tests tests were SKIPPED: $why ********"
+if grep -qiE 'not installed|no module|could not import' <<<"$lines"; then
+  echo "scripts/install_dependencies.sh clang bench docs page wheel workflow installs what they need; real joints: CONDYLE_DATA"
+fi

@@ -9,6 +9,26 @@ import pytest
 import condyle
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--cases", choices=("all", "quick", "slow"), default="all", help="those of tests/slow_cases.txt, or the others")
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leaves out the slow cases, or all others; refuses a list that names a case there is not."""
+    cases = config.getoption("--cases")
+    if cases == "all":
+        return
+    lines = (Path(__file__).parents[1] / "slow_cases.txt").read_text().splitlines()
+    listed = {line.removeprefix("+ ").removeprefix("python ") for line in lines if line.removeprefix("+ ").startswith("python ")}
+    kept = {line.removeprefix("+ python ") for line in lines if line.startswith("+ ")}
+    if missing := sorted(listed - {item.nodeid for item in items}):
+        raise pytest.UsageError(f"tests/slow_cases.txt: no case is called {missing[0]}")
+    slow = listed - kept
+    chosen = [item for item in items if (item.nodeid in slow) == (cases == "slow")]
+    config.hook.pytest_deselected(items=[item for item in items if item not in set(chosen)])
+    items[:] = chosen
+
+
 @pytest.fixture(scope="session")
 def command() -> str:
     """The command line, which has the same answers."""
