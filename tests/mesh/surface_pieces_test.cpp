@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 #include <utility>
+#include <vector>
 
 #include "support/test_meshes.hpp"
 
@@ -81,6 +83,45 @@ TEST(SurfacePieces, InnermostOnesNameTheSmallestAround) {
   EXPECT_EQ(kept_pieces(pieces, {}), (Kept{true, true, false}));
   EXPECT_EQ(kept_pieces(pieces, {.keep_cavities = false}), (Kept{true, false, false}));
   EXPECT_EQ(kept_pieces(pieces, {.all_solids = true}), (Kept{true, true, true}));
+}
+
+TEST(SurfacePieces, HaveAsInnerVerticesThoseThatLieInOtherBoxes) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> place(0, 100), size(1, 30);
+  std::vector<std::pair<Vec3, Vec3>> corners;
+  TriMesh all;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 low(place(random), place(random), place(random));
+    const Vec3 high = low + Vec3(size(random), size(random), size(random));
+    corners.emplace_back(low, high);
+    const TriMesh one = box(low, high);
+    all = joined(all, i % 2 ? flipped(one) : one);
+  }
+  const Mesh mesh(all);
+  const SurfacePieces& pieces = pieces_of(mesh);
+  ASSERT_EQ(pieces.all.size(), corners.size());
+  const auto volume_of = [&](std::size_t piece) {
+    return (corners[piece].second - corners[piece].first).prod();
+  };
+  std::vector<std::size_t> around(corners.size(), SurfacePiece::no_piece), inner(corners.size());
+  for (std::size_t v = 0; v < mesh.vertices().size(); ++v) {
+    const Vec3 p = mesh.vertices()[v];
+    const std::size_t own = pieces.of_vertex[v];
+    bool is_inner = false;
+    for (std::size_t other = 0; other < corners.size(); ++other) {
+      const auto& [low, high] = corners[other];
+      if (other == own || !(p.array() > low.array()).all() || !(p.array() < high.array()).all()) continue;
+      is_inner = true;
+      if (around[own] == SurfacePiece::no_piece || volume_of(other) < volume_of(around[own]))
+        around[own] = other;
+    }
+    EXPECT_EQ(pieces.is_inner[v] != 0, is_inner) << v;
+    inner[own] += is_inner;
+  }
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    EXPECT_EQ(pieces.all[i].inner_vertices, inner[i]) << i;
+    EXPECT_EQ(pieces.all[i].around, around[i]) << i;
+  }
 }
 
 TEST(LargestPiece, IsTheSolidOfMostVolumeWithItsCavities) {
