@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stop_token>
@@ -307,6 +308,8 @@ struct RangeAnswer {
   std::vector<motion::LimitBand> bands = {};            ///< one per motion if requested
   motion::BandOptions band_options = {};                ///< as requested
   std::vector<motion::ContactNote> contact_notes = {};  ///< range_request_notes()
+  /// The tables of the exact limits, for further questions about the joint; null with an allowed depth, and if the centre is not held.
+  std::shared_ptr<const motion::RangeOfMotion> range = {};
 };
 
 /// The translation that all motions of a free joint keep: the one requested, else that of its reference pose. Empty for joints
@@ -330,6 +333,11 @@ std::vector<motion::ContactNote> range_request_notes(const RangeRequest& request
 std::optional<RangeAnswer> answer_range(const Joint& joint, const JointPlacement& placement,
                                         const RangeRequest& request, const AnswerControl& control);
 RangeAnswer answer_range(const Joint& joint, const JointPlacement& placement, const RangeRequest& request);
+
+/// Exact limits of further motions of a joint, with their closed forms, by the tables that its answer keeps: no notes, maps, bands or
+/// zones. Empty if it was stopped. Throws UsageError as check_motion().
+std::optional<RangeAnswer> further_limits(const RangeAnswer& kept, std::span<const motion::Motion> motions,
+                                          const std::stop_token& stop = {});
 
 /// The notes of answer_range(), for callers who have the limits and their bearing surface already. Two searches of all motions if
 /// head and socket are more than centres_apart_mm apart.

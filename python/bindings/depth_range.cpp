@@ -5,6 +5,7 @@
 #include "condyle/range_of_motion.hpp"
 #include "interrupts.hpp"
 #include "motion.hpp"
+#include "range_answer.hpp"
 
 namespace condyle::python {
 namespace {
@@ -32,7 +33,8 @@ py::dict deepest(const motion::DepthRange& range, const py::object& angles_deg) 
   }());
 }
 
-py::list limits_by_depth(const motion::DepthRange& range, const py::list& given, const py::object& progress) {
+py::list limits_by_depth(const motion::DepthRange& range, const JointHandle& handle, const py::list& given,
+                         const py::object& progress) {
   const std::vector<motion::Motion> motions = motions_in(given);
   const auto found = followed(progress, [&](const auto& report, const std::stop_token& stop) {
     std::vector<motion::DepthLimit> done;
@@ -43,10 +45,13 @@ py::list limits_by_depth(const motion::DepthRange& range, const py::list& given,
     }
     return done;
   });
+  std::vector<motion::MotionLimit> ends;
+  for (const motion::DepthLimit& limit : found) ends.push_back(limit.limit);
+  const py::list limits = limits_of({.joint = handle.joint(), .limits = ends, .depths = found});
   py::list list;
   for (const motion::DepthLimit& limit : found) {
     py::dict dict;
-    dict["limit"] = dict_of(limit.limit);
+    dict["limit"] = limits[list.size()];
     dict["at_limit"] = place_dict(limit.at_limit);
     dict["start_depth_mm"] = limit.start_depth_mm;
     dict["depth_grows"] = limit.depth_grows;

@@ -1,14 +1,11 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <functional>
-
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "condyle/answer.hpp"
-#include "interrupts.hpp"
 #include "io/report/report.hpp"
 #include "motion.hpp"
+#include "range_answer.hpp"
 #include "report_labels.hpp"
 
 namespace condyle::python {
@@ -36,10 +33,7 @@ FollowLoad load_in(const contact::ElasticContact& layers, const py::dict& given)
 /// follow are left out.
 RangeRequest followed_request_in(const JointHandle& handle, const py::list& motions, const py::object& poses,
                                  const contact::ElasticContact* layers, const py::dict& given) {
-  RangeRequest request;
-  request.motions = motions_in(motions);
-  if (given["count_bearing"].cast<bool>()) request.range.bearing.rule = motion::BearingRule::count;
-  request.range.bearing.margin_mm = given["bearing_margin_mm"].cast<std::optional<double>>();
+  RangeRequest request{.motions = motions_in(motions), .range = {.bearing = bearing_in(given)}};
   if (layers) {
     request.follow = load_in(*layers, given);
     return request;
@@ -53,32 +47,12 @@ RangeRequest followed_request_in(const JointHandle& handle, const py::list& moti
   return request;
 }
 
-RangeAnswer followed_answer(const JointHandle& handle, const RangeRequest& request,
-                            const py::object& progress, const std::function<void(const RangeAnswer&)>& use) {
-  return followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    auto found = answer_range(
-        handle.joint(), handle.loaded.report.placement, request,
-        {[&](std::string_view, std::size_t done, std::size_t total) { report(done, total); }, stop});
-    if (found) use(*found);
-    return found ? *found : RangeAnswer{.joint = handle.joint()};
-  });
-}
-
-/// Limits, (code, text) of notes, caveats.
-py::tuple followed_limits(const JointHandle& handle, const py::list& motions, const py::object& poses,
-                          const contact::ElasticContact* layers, const py::dict& given,
-                          const py::object& progress) {
+py::dict followed_limits(const JointHandle& handle, const py::list& motions, const py::object& poses,
+                         const contact::ElasticContact* layers, const py::dict& given,
+                         const py::object& progress) {
   const RangeAnswer answer =
-      followed_answer(handle, followed_request_in(handle, motions, poses, layers, given), progress,
-                      [](const RangeAnswer&) {});
-  py::list limits, notes;
-  for (const motion::MotionLimit& limit : answer.limits) limits.append(dict_of(limit));
-  const auto add = [&](const auto& note) {
-    notes.append(py::make_tuple(std::string(name_of(note.code)), note.text));
-  };
-  for (const motion::ContactNote& note : answer.contact_notes) add(note);
-  for (const RangeNote& note : answer.notes) add(note);
-  return py::make_tuple(limits, notes, answer.caveats);
+      answered_range(handle, followed_request_in(handle, motions, poses, layers, given), progress);
+  return answer_dict(io::rom_result_of(answer, {}, nullptr));
 }
 
 void write_followed_report(const JointHandle& handle, const std::filesystem::path& path,
@@ -90,16 +64,16 @@ void write_followed_report(const JointHandle& handle, const std::filesystem::pat
   if (!loaded.report.file.path.empty())
     from = io::provenance_of(loaded, {"condyle.FollowedRange.write_report"});
   io::check_report_file(path, from ? &*from : nullptr);
-  followed_answer(handle, followed_request_in(handle, motions, poses, layers, given), progress,
-                  [&](const RangeAnswer& answer) {
-                    const std::vector<JointNote> notes = check_joint(loaded.joint, loaded.report.placement);
-                    const io::RomResult rom = io::rom_result_of(answer, notes, from ? &*from : nullptr);
-                    io::write_report(path, {.title = title.value_or(loaded.joint.name),
-                                            .joint = loaded.joint,
-                                            .reference_pose = loaded.report.placement.reference_pose,
-                                            .rom = &rom,
-                                            .labels = report_labels_of(labels)});
-                  });
+  const RangeAnswer answer =
+      answered_range(handle, followed_request_in(handle, motions, poses, layers, given), progress);
+  const py::gil_scoped_release released;
+  const std::vector<JointNote> notes = check_joint(loaded.joint, loaded.report.placement);
+  const io::RomResult rom = io::rom_result_of(answer, notes, from ? &*from : nullptr);
+  io::write_report(path, {.title = title.value_or(loaded.joint.name),
+                          .joint = loaded.joint,
+                          .reference_pose = loaded.report.placement.reference_pose,
+                          .rom = &rom,
+                          .labels = report_labels_of(labels)});
 }
 
 }  // namespace

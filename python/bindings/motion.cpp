@@ -2,8 +2,6 @@
 
 #include <pybind11/stl.h>
 
-#include <algorithm>
-
 #include "arrays.hpp"
 #include "io/result/rom_result.hpp"
 
@@ -47,34 +45,34 @@ std::vector<motion::Motion> motions_in(const py::list& given) {
   return motions;
 }
 
-py::object dict_of(const std::optional<motion::ContactWitness>& contact) {
+py::object dict_of(const std::optional<motion::ContactWitness>& contact, const io::AnswerFrame& frame) {
   if (!contact) return py::none();
   py::dict dict;
   dict["fixed_feature"] = feature_tuple(contact->fixed_feature);
   dict["mobile_feature"] = feature_tuple(contact->mobile_feature);
-  dict["fixed_point"] = array_of(contact->fixed_point);
-  dict["mobile_point"] = array_of(contact->mobile_point);
+  dict["fixed_point"] = array_of(frame.fixed_point(contact->fixed_point));
+  dict["mobile_point"] = array_of(frame.mobile_point(contact->mobile_point));
   dict["kind"] = io::name_of(contact->kind);
   return dict;
 }
 
-py::dict dict_of(const motion::Limit& limit) {
+py::dict dict_of(const motion::Limit& limit, const io::AnswerFrame& frame) {
   py::dict dict;
   dict["turned_deg"] = limit.turned.degrees();
   dict["reason"] = io::name_of(limit.reason);
-  dict["contact"] = dict_of(limit.contact);
+  dict["contact"] = dict_of(limit.contact, frame);
   dict["error_bound_deg"] = limit.error_bound.degrees();
   const auto degrees = [](const std::optional<motion::EarlierContact>& contact) {
     return contact ? py::object(py::float_(contact->turned.degrees())) : py::none();
   };
   dict["bearing_contact_deg"] = degrees(limit.bearing_contact);
   dict["soft_contact_deg"] = degrees(limit.soft_contact);
-  dict["soft_contact"] = limit.soft_contact ? dict_of(limit.soft_contact->contact) : py::none();
+  dict["soft_contact"] = limit.soft_contact ? dict_of(limit.soft_contact->contact, frame) : py::none();
   return dict;
 }
 
-py::dict dict_of(const motion::MotionLimit& limit) {
-  py::dict dict = dict_of(limit.end);
+py::dict dict_of(const motion::MotionLimit& limit, const io::AnswerFrame& frame) {
+  py::dict dict = dict_of(limit.end, frame);
   dict["motion"] = tuple_of(limit.motion);
   dict["angles_deg"] = degrees_of_angles(limit.angles_at_limit());
   dict["centre_distance_mm"] = limit.head ? optional_number(limit.head->centre_distance_mm) : py::none();
@@ -82,18 +80,6 @@ py::dict dict_of(const motion::MotionLimit& limit) {
   dict["translation_mm"] = optional_array(limit.translation_mm);
   dict["translation_ends"] = limit.translation_ends;
   return dict;
-}
-
-void each_limit(const motion::RangeOfMotion& range, std::span<const motion::Motion> motions,
-                const std::stop_token& stop, const std::function<void(motion::MotionLimit&&)>& use) {
-  for (const motion::Motion& motion : motions) motion::check_motion(motion, range.kind());
-  for (std::size_t done = 0; done < motions.size(); done += motions_at_once) {
-    for (motion::MotionLimit& limit :
-         range.limits(motions.subspan(done, std::min(motions_at_once, motions.size() - done)))) {
-      if (stop.stop_requested()) return;
-      use(std::move(limit));
-    }
-  }
 }
 
 }  // namespace condyle::python

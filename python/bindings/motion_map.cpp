@@ -6,6 +6,7 @@
 #include "bindings.hpp"
 #include "interrupts.hpp"
 #include "motion.hpp"
+#include "range_answer.hpp"
 
 namespace condyle::python {
 namespace {
@@ -27,14 +28,15 @@ struct Ends {
   std::vector<std::int8_t> reason, kind;
   Points fixed_point;
 
-  void add(const motion::Limit& limit) {
+  void add(const motion::Limit& limit, const io::AnswerFrame& frame) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     turned_deg.push_back(limit.turned.degrees());
     error_bound_deg.push_back(limit.error_bound.degrees());
     bearing_contact_deg.push_back(limit.bearing_contact ? limit.bearing_contact->turned.degrees() : none);
     reason.push_back(static_cast<std::int8_t>(limit.reason));
     kind.push_back(static_cast<std::int8_t>(limit.kind()));
-    fixed_point.push_back(limit.contact ? limit.contact->fixed_point : Vec3::Constant(none));
+    fixed_point.push_back(limit.contact ? frame.fixed_point(limit.contact->fixed_point)
+                                        : Vec3::Constant(none));
   }
 
   py::dict dict() && {
@@ -49,13 +51,13 @@ struct Ends {
   }
 };
 
-py::dict dict_of_map(const motion::MotionMap& map) {
+py::dict dict_of_map(const motion::MotionMap& map, const io::AnswerFrame& frame) {
   Ends negative, positive;
   std::vector<std::int64_t> offset{0};
   std::vector<double> low_deg, high_deg;
   for (const motion::FreeAngles& point : map.points) {
-    negative.add(point.from_start.negative);
-    positive.add(point.from_start.positive);
+    negative.add(point.from_start.negative, frame);
+    positive.add(point.from_start.positive, frame);
     for (const motion::FreeInterval& interval : point.intervals) {
       low_deg.push_back(interval.low.degrees());
       high_deg.push_back(interval.high.degrees());
@@ -84,11 +86,11 @@ py::dict map_of(const RangeHandle& handle, const py::tuple& row, const py::tuple
                              .vary = angle_numbered(vary),
                              .start = Angle::degrees(start_deg),
                              .range = {Angle::degrees(negative_deg), Angle::degrees(positive_deg)}};
-  motion::check_grid(grid, handle.range.kind());
+  motion::check_grid(grid, handle.answer.joint.kind);
   const auto map = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return motion::motion_map(grid, handle.range, {.progress = report, .stop = stop});
+    return motion::motion_map(grid, *handle.answer.range, {.progress = report, .stop = stop});
   });
-  return dict_of_map(*map);
+  return dict_of_map(*map, io::frame_of(handle.result()));
 }
 
 py::list bands_of(const RangeHandle& handle, const py::list& given, std::size_t samples, std::uint64_t seed,
@@ -100,7 +102,7 @@ py::list bands_of(const RangeHandle& handle, const py::list& given, std::size_t 
       .samples = samples,
       .seed = seed};
   const auto bands = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return motion::limit_bands(handle.joint, motions, handle.options, options,
+    return motion::limit_bands(handle.answer.joint, motions, handle.options(), options,
                                {.progress = report, .stop = stop});
   });
   py::list list;

@@ -5,12 +5,11 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "condyle/answer.hpp"
 #include "condyle/hip_measures.hpp"
 #include "condyle/io/picture.hpp"
 #include "interrupts.hpp"
 #include "io/joint/measure_request.hpp"
-#include "motion.hpp"
+#include "range_answer.hpp"
 #include "report_labels.hpp"
 #include "resection.hpp"
 #include "sweep.hpp"
@@ -22,14 +21,6 @@ namespace {
 std::optional<io::Provenance> files_of(const io::LoadedJoint& loaded) {
   if (loaded.report.file.path.empty()) return std::nullopt;
   return io::provenance_of(loaded, {"condyle.RangeOfMotion.write_report"});
-}
-
-/// Request of the limits of `range`, with the additions of a report.
-RangeRequest request_of(const RangeHandle& range, std::vector<motion::Motion> motions) {
-  RangeRequest request{.motions = std::move(motions), .range = range.options};
-  request.range.bearing.surface.reset();  // found again with its notes
-  request.translation_mm = range.held_translation_mm;
-  return request;
 }
 
 /// The same question for the joint before: without a map and zones, and a free joint is held where its own reference pose has it if
@@ -85,7 +76,7 @@ io::SweepResult shown_sweep(const SweepHandle& sweep, const io::LoadedJoint& of_
 }
 
 void report(const RangeHandle& range, const JointHandle& handle, const std::filesystem::path& path,
-            const std::optional<std::string>& title, const py::list& given, std::size_t band_samples,
+            const std::optional<std::string>& title, std::size_t band_samples,
             std::optional<std::uint64_t> seed, const std::optional<double>& past_deg, bool with_measures,
             const PlanHandle* plan, const JointHandle* with, const SweepHandle* sweep,
             const LabelArguments& labels, const py::object& progress) {
@@ -95,7 +86,7 @@ void report(const RangeHandle& range, const JointHandle& handle, const std::file
   if (with)
     io::check_comparable(with->loaded.joint, with->loaded.joint.name, loaded.joint, loaded.joint.name);
   const io::JointFile& file = loaded.report.file;
-  RangeRequest request = request_of(range, motions_in(given));
+  RangeRequest request = range.request;
   if (band_samples > 0)
     request.bands = {
         .sigma = file.uncertainty, .samples = band_samples, .seed = seed.value_or(file.band_seed)};

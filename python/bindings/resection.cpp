@@ -4,11 +4,11 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "condyle/answer.hpp"
 #include "condyle/brush.hpp"
 #include "interrupts.hpp"
 #include "io/joint/measure_request.hpp"
 #include "motion.hpp"
+#include "range_answer.hpp"
 
 namespace condyle::python {
 namespace {
@@ -30,8 +30,7 @@ ResectionQuery query_in(const JointHandle& handle, const py::list& motions, cons
   }
   query.resection.mobile.vertices = given["keep_mobile"].cast<std::vector<std::uint8_t>>();
   query.resection.fixed.vertices = given["keep_fixed"].cast<std::vector<std::uint8_t>>();
-  if (given["count_bearing"].cast<bool>()) query.resection.range.bearing.rule = motion::BearingRule::count;
-  query.resection.range.bearing.margin_mm = given["bearing_margin_mm"].cast<std::optional<double>>();
+  query.resection.range.bearing = bearing_in(given);
   query.curve_points = given["curve_points"].cast<std::size_t>();
   if (const auto samples = given["samples"].cast<std::size_t>(); samples > 0) {
     const auto sigma = given["sigma"].cast<std::array<double, 4>>();
@@ -61,15 +60,17 @@ py::object dict_of_cut(const std::optional<plan::CutBone>& cut) {
   return dict;
 }
 
-py::tuple tuple_of_target(const plan::ReachOutcome& outcome) {
+py::tuple tuple_of_target(const JointHandle& handle, const plan::Resection& without,
+                          const plan::ReachOutcome& outcome) {
   py::object blocked = py::none();
   if (outcome.blocked)
     blocked = py::make_tuple(std::string(name_of(outcome.blocked->by)),
                              outcome.blocked->body == BodyRole::mobile ? "mobile" : "fixed",
                              array_of(outcome.blocked->point_mm));
   return py::make_tuple(outcome.target.motion.name, plan::asked_degrees(outcome.target.reach),
-                        plan::asked_degrees(outcome.planned), dict_of(outcome.before), dict_of(outcome.after),
-                        blocked);
+                        plan::asked_degrees(outcome.planned),
+                        limits_of(handle.joint(), {&outcome.before, 1})[0],
+                        limits_of(without.joint, {&outcome.after, 1})[0], blocked);
 }
 
 /// Keys and (before, after), None where the meshes do not show a measure; None for joints other than hips.
@@ -91,10 +92,9 @@ py::dict resection(const JointHandle& handle, const py::list& motions, const py:
         handle.joint(), handle.loaded.report.placement, query,
         {[&](std::string_view, std::size_t done, std::size_t total) { report(done, total); }, stop});
   });
-  py::list targets, before, after, bands, curve, notes;
-  for (const plan::ReachOutcome& outcome : answer.resection.targets) targets.append(tuple_of_target(outcome));
-  for (const motion::MotionLimit& limit : answer.before) before.append(dict_of(limit));
-  for (const motion::MotionLimit& limit : answer.after) after.append(dict_of(limit));
+  py::list targets, bands, curve, notes;
+  for (const plan::ReachOutcome& outcome : answer.resection.targets)
+    targets.append(tuple_of_target(handle, answer.resection, outcome));
   for (const motion::LimitBand& band : answer.bands)
     bands.append(py::make_tuple(band.p5.degrees(), band.median.degrees(), band.p95.degrees()));
   for (const ResectionCurvePoint& point : answer.curve)
@@ -106,8 +106,8 @@ py::dict resection(const JointHandle& handle, const py::list& motions, const py:
   dict["mobile"] = dict_of_cut(answer.resection.mobile);
   dict["fixed"] = dict_of_cut(answer.resection.fixed);
   dict["targets"] = targets;
-  dict["before"] = before;
-  dict["after"] = after;
+  dict["before"] = limits_of(handle.joint(), answer.before);
+  dict["after"] = limits_of(answer.resection.joint, answer.after);
   dict["shapes"] = shapes_of(answer);
   dict["bands"] = bands;
   dict["curve"] = curve;
@@ -129,8 +129,7 @@ plan::BrushRequest strokes_in(const py::list& strokes, const py::dict& given) {
          .radius_mm = stroke[2].cast<double>(),
          .depth_mm = stroke[3].cast<double>()});
   }
-  if (given["count_bearing"].cast<bool>()) request.range.bearing.rule = motion::BearingRule::count;
-  request.range.bearing.margin_mm = given["bearing_margin_mm"].cast<std::optional<double>>();
+  request.range.bearing = bearing_in(given);
   return request;
 }
 
@@ -142,18 +141,17 @@ py::dict brushed(const JointHandle& handle, const py::list& motions, const py::l
     const py::gil_scoped_release released;
     return plan::brush_joint(handle.joint(), request, known);
   }();
-  py::list outcomes, before, after;
+  py::list outcomes;
   for (const plan::StrokeOutcome& each : done.strokes)
     outcomes.append(py::make_tuple(each.moved, each.kept, each.limited));
-  for (const motion::MotionLimit& limit : done.before) before.append(dict_of(limit));
-  for (const motion::MotionLimit& limit : done.after) after.append(dict_of(limit));
+  const py::list after = limits_of(done.joint, done.after);
   py::dict dict;
   dict["joint"] = handle_of(handle, std::move(done.joint));
   dict["strokes"] = outcomes;
   dict["volume_mm3"] = done.removed.volume_mm3;
   dict["deepest_mm"] = done.removed.deepest_mm;
   dict["depth_mm"] = array_of(std::move(done.depth_mm));
-  dict["before"] = before;
+  dict["before"] = limits_of(handle.joint(), done.before);
   dict["after"] = after;
   return dict;
 }

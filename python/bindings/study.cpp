@@ -8,6 +8,7 @@
 #include "interrupts.hpp"
 #include "io/joint/grid_text.hpp"
 #include "io/result/sample_files.hpp"
+#include "range_answer.hpp"
 #include "resection.hpp"
 #include "surface_contact.hpp"
 
@@ -74,8 +75,7 @@ io::StudyOptions study_options_in(const py::dict& given) {
   for (const Anatomy anatomy : all_anatomies)
     if (given["anatomy"].cast<std::string>() == name_of(anatomy)) options.anatomy = anatomy;
   options.motions = given["motions"].cast<std::vector<std::string>>();
-  if (given["count_bearing"].cast<bool>()) options.bearing.rule = motion::BearingRule::count;
-  options.bearing.margin_mm = given["bearing_margin_mm"].cast<std::optional<double>>();
+  options.bearing = bearing_in(given);
   if (given["accept_reference_contact"].cast<bool>())
     options.reference_contact = motion::ReferenceContact::accept;
   if (given["exclude_reference_contacts"].cast<bool>()) options.leave_out_reference_contacts.emplace();

@@ -20,6 +20,7 @@
 #include "io/sweep/sweep_files.hpp"
 #include "io/sweep/target_table.hpp"
 #include "motion.hpp"
+#include "range_answer.hpp"
 
 namespace condyle::python {
 namespace {
@@ -81,8 +82,7 @@ py::list list_of(const std::vector<plan::SafeInterval>& safe) {
 py::dict sweep(const JointHandle& handle, const py::list& vary, const py::object& targets,
                const py::dict& given, const py::object& progress) {
   SweepQuery query{.parameters = parameters_in(vary), .targets = sweep_targets_in(handle, targets)};
-  if (given["count_bearing"].cast<bool>()) query.range.bearing.rule = motion::BearingRule::count;
-  query.range.bearing.margin_mm = given["bearing_margin_mm"].cast<std::optional<double>>();
+  query.range.bearing = bearing_in(given);
   if (given["accept_reference_contact"].cast<bool>())
     query.range.overlap.reference_contact = motion::ReferenceContact::accept;
   if (const auto samples = given["samples"].cast<std::size_t>(); samples > 0) {

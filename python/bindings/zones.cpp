@@ -5,11 +5,12 @@
 #include "condyle/impingement_zone.hpp"
 #include "interrupts.hpp"
 #include "motion.hpp"
+#include "range_answer.hpp"
 
 namespace condyle::python {
 namespace {
 
-py::dict zone_dict(motion::BodyZone&& zone) {
+py::dict zone_dict(motion::BodyZone&& zone, const std::optional<Vec3>& centroid) {
   py::dict dict;
   dict["radial_depth_mm"] = array_of(std::move(zone.radial_depth_mm));
   dict["ray_to_normal_deg"] = array_of(std::move(zone.ray_to_normal_deg));
@@ -17,7 +18,7 @@ py::dict zone_dict(motion::BodyZone&& zone) {
   dict["tangential_depth_mm"] = array_of(std::move(zone.tangential_depth_mm));
   dict["triangles"] = array_of(std::move(zone.triangles));
   dict["area_mm2"] = zone.area_mm2;
-  dict["centroid"] = optional_array(zone.centroid_mm);
+  dict["centroid"] = optional_array(centroid);
   return dict;
 }
 
@@ -28,27 +29,35 @@ py::object degrees(const std::optional<Angle>& angle) {
 py::list zones_of(const RangeHandle& handle, const py::list& given, double past_deg,
                   const py::object& progress) {
   const std::vector<motion::Motion> motions = motions_in(given);
-  auto zones = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    const motion::ZoneFinder finder(handle.joint, motion::ZoneOptions{.bearing = handle.options.bearing,
-                                                                      .past = Angle::degrees(past_deg)});
-    std::vector<std::optional<motion::ImpingementZone>> found;
-    each_limit(handle.range, motions, stop, [&](motion::MotionLimit&& limit) {
-      found.push_back(finder.zone(limit));
-      report(found.size(), motions.size());
-    });
+  std::vector<std::optional<motion::ImpingementZone>> zones;
+  const auto limits = followed(progress, [&](const auto& report, const std::stop_token& stop) {
+    const motion::ZoneFinder finder(
+        handle.answer.joint,
+        motion::ZoneOptions{.bearing = handle.options().bearing, .past = Angle::degrees(past_deg)});
+    std::optional<RangeAnswer> found = further_limits(handle.answer, motions, stop);
+    for (std::size_t i = 0; found && i < motions.size() && !stop.stop_requested(); ++i) {
+      zones.push_back(finder.zone(found->limits[i]));
+      report(zones.size(), motions.size());
+    }
     return found;
   });
+  const py::list limit_dicts = limits_of(io::rom_result_of(*limits, {}, nullptr));
+  const io::AnswerFrame frame = io::frame_of(handle.result());
   py::list list;
-  for (std::optional<motion::ImpingementZone>& zone : zones) {
+  for (std::size_t i = 0; i < zones.size(); ++i) {
+    std::optional<motion::ImpingementZone>& zone = zones[i];
     if (!zone) {
       list.append(py::none());
       continue;
     }
     py::dict dict;
-    dict["limit"] = dict_of(zone->limit);
+    dict["limit"] = limit_dicts[i];
     dict["past_deg"] = zone->past.degrees();
-    dict["fixed"] = zone_dict(std::move(zone->fixed));
-    dict["mobile"] = zone_dict(std::move(zone->mobile));
+    const std::optional<Vec3> mobile = zone->mobile.centroid_mm;
+    std::optional<Vec3> fixed = zone->fixed.centroid_mm;
+    if (fixed) fixed = frame.fixed_point(*fixed);
+    dict["fixed"] = zone_dict(std::move(zone->fixed), fixed);
+    dict["mobile"] = zone_dict(std::move(zone->mobile), mobile);
     dict["contact_hour"] = zone->contact_hour;
     dict["zone_hour"] = zone->zone_hour;
     dict["contact_neck_angle_deg"] = degrees(zone->contact_neck_angle);

@@ -28,7 +28,7 @@ from ._labels import Label, LabelMap, LabelNote, LabelPiece, LabelSurface, Surfa
 from ._limit_band import LimitBand
 from ._followed_range import FollowedRange
 from ._hip_measures import HipMeasure, HipMeasures, MeasureBand, NormalRange
-from ._limits import KINDS, REASONS, Caveat, ContactWitness, FreeAngles, Limit, MotionLimit, PathLimit
+from ._limits import KINDS, REASONS, Caveat, ClosedForm, ContactWitness, FreeAngles, Limit, MotionLimit, PathLimit
 from ._mesh import MeshLike, TriMesh, read_mesh, write_mesh
 from ._model import Model, ModelCoordinate, ModelJoint, ModelMesh, ModelNote, read_model
 from ._motion import Motion
@@ -40,7 +40,7 @@ from ._placed_implant import REPLACEMENT_SIZES, PlacedImplant
 from ._poses import Pose, Poses
 from ._pressure import BalancedPose, BalanceOptions, ContactRamp, ElasticContact, ElasticContactResults, ElasticLayer
 from ._propose_joint import JointProposal, propose_joint
-from ._range_of_motion import Bearing, RangeOfMotion
+from ._range_of_motion import Bearing, FittedSphere, ImplantPair, MotionArc, RangeOfMotion
 from ._recorded_motion import ContactEnd, ContactInterval, JointMotion, MotionTable, RecordedContact
 from ._recorded_motion import read_motion_table
 from ._resection import Blocked, CurvePoint, CutBone, ReachedTarget, Resection
@@ -51,13 +51,13 @@ from ._sweep import KNOWN_BY, Design, EndingPair, SafeInterval, Sweep, Target
 from ._tables import OccupiedArcs, RadialTable, RingTable
 
 __all__ = [
-    "BalanceOptions", "BalancedPose", "Bearing", "Blocked", "BrushStroke", "Brushed", "CurvePoint", "CutBone", "ReachedTarget", "Resection", "BodyPart", "BodyZone", "Caveat", "ClockFace", "CondyleError",
+    "BalanceOptions", "BalancedPose", "Bearing", "Blocked", "BrushStroke", "Brushed", "CurvePoint", "CutBone", "ReachedTarget", "Resection", "BodyPart", "BodyZone", "Caveat", "ClockFace", "ClosedForm", "CondyleError",
     "ContactEnd", "ContactForces", "ContactFrames", "ContactInterval", "ContactMeasures", "ContactNote", "ContactPatch", "ContactRamp",
     "ContactTotals", "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit", "DepthRange", "Depths", "Design",
     "ElasticContact", "ElasticContactResults", "ElasticLayer", "EndingPair", "FileError", "Finding", "FirstContact", "FrameContact",
-    "FollowedRange", "HipMeasure", "HipMeasures", "MeasureBand", "NormalRange", "ForcePatch", "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointContact", "JointMotion", "JointNote", "PartParameter", "ZeroPose",
+    "FittedSphere", "FollowedRange", "HipMeasure", "HipMeasures", "MeasureBand", "NormalRange", "ForcePatch", "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "ImplantPair", "Joint", "JointContact", "JointMotion", "JointNote", "PartParameter", "ZeroPose",
     "JointProposal", "JointWarning", "KINDS", "KNOWN_BY", "Label", "LabelMap", "LabelNote", "LabelPiece", "LabelSurface", "Limit",
-    "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Model", "ModelCoordinate", "ModelJoint", "ModelMesh", "ModelNote", "Motion", "MotionLimit",
+    "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Model", "ModelCoordinate", "ModelJoint", "ModelMesh", "ModelNote", "Motion", "MotionArc", "MotionLimit",
     "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",
     "OutOfRangeError", "PathLimit", "Penetration", "Penetrations", "PlacedImplant", "Pose", "Poses", "REASONS", "REPLACEMENT_SIZES", "REVERSE_SHOULDER_SIZES", "RadialTable",
     "RangeOfMotion", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits", "SampleCartilages",

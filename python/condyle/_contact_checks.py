@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Iterable
+from typing import Iterable, Mapping
 
 from ._errors import warn
 
@@ -34,3 +34,8 @@ def reported(found: Iterable[tuple[str, str]]) -> tuple[ContactNote, ...]:
     notes = contact_notes(found)
     warn_of(notes)
     return notes
+
+
+def notes_said(said: Iterable[Mapping[str, str]]) -> tuple[ContactNote, ...]:
+    """The same of notes as files have them."""
+    return reported((each["code"], each["text"]) for each in said)

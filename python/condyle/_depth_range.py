@@ -75,7 +75,8 @@ class DepthRange:
                ) -> tuple[DepthLimit, ...]:
         """Where these motions end, all known ones if not given. Ctrl-C ends it after the motion begun."""
         asked = self._motions.known if motions is None else self._motions.asked(motions)
-        found = self._native.limits([self._motions.tuple_of(each) for each in asked], progress_of(progress))
+        found = self._native.limits(self._joint._native, [self._motions.tuple_of(each) for each in asked],
+                                    progress_of(progress))
         return tuple(self._limit_of(each) for each in found)
 
     def _limit_of(self, found: dict[str, Any]) -> DepthLimit:

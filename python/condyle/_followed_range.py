@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from ._contact_checks import ContactNote, reported
+from ._contact_checks import ContactNote, notes_said
 from ._described_joint import DescribedJoint
 from ._errors import UsageError
 from ._limits import MotionLimit, end_text, motion_limit_of
@@ -99,5 +99,6 @@ def followed_range(joint: DescribedJoint, motions: Optional[Sequence[MotionLike]
                "step_deg": number(step_deg, "step_deg")}
     question = _Question(joint, [known.tuple_of(each) for each in asked], poses, contact, options)
     with used(contact):
-        limits, notes, caveats = _native.followed_limits(joint._asked, *question.arguments(), progress_of(progress))
-    return FollowedRange(tuple(motion_limit_of(each, known, joint) for each in limits), reported(notes), caveats, question)
+        found = _native.followed_limits(joint._asked, *question.arguments(), progress_of(progress))
+    return FollowedRange(tuple(motion_limit_of(each, known, joint) for each in found["limits"]), notes_said(found["notes"]), found["caveats"],
+                         question)

@@ -21,7 +21,7 @@ from ._hip_measures import HipMeasures
 from ._limits import PathLimit, path_limit
 from ._mesh import MeshLike, TriMesh
 from ._model import Model, read_model
-from ._motion import MotionLike
+from ._motion import MotionLike, Motions
 from ._motion_contact import ContactFrames, contact_along
 from ._native import Joint as NativeJoint
 from ._penetration import Penetration, Penetrations, vertices_inside
@@ -33,7 +33,7 @@ from ._resection import Resection, resection
 from ._recorded_motion import JointMotion, RecordedContact, recorded_contact
 from ._surface_contact import NormalContact, normal_contact
 from ._sweep import Sweep, TargetLike, sweep
-from ._words import Anatomy, Axes, Ball, BearingRule, Bodies, Body, BodyStyle, Cavities, Colour, CupDefinition, CutFrom, DepthMethod, FaceRule, GapMethod
+from ._words import Anatomy, Axes, Ball, BearingRule, Bodies, Body, BodyStyle, Cavities, ClockPlane, Colour, CupDefinition, CutFrom, DepthMethod, FaceRule, GapMethod
 from ._words import ImplantCentre, JointKind, LabelTask, LengthUnit, Path, Pieces, PolygonRule, Progress, Side, TranslationFrame
 from ._words import count, number, path_of, progress_of, text_of, word
 
@@ -431,7 +431,7 @@ class Joint(DescribedJoint):
     def range_of_motion(self, motions: Optional[Sequence[MotionLike]] = None, *, bearing: BearingRule = "leave_out",
                         bearing_margin_mm: Optional[float] = None, accept_reference_contact: bool = False,
                         exclude_reference_contacts: Union[bool, int] = False,
-                        translation_mm: Optional[ArrayLike] = None) -> RangeOfMotion:
+                        translation_mm: Optional[ArrayLike] = None, clock: ClockPlane = "sagittal") -> RangeOfMotion:
         """How far the joint turns before bone meets bone: exact limits of these motions, of all known ones if not
         given.
 
@@ -449,8 +449,11 @@ class Joint(DescribedJoint):
             Leave out what is in contact in the reference pose, with so many rings of neighbours (True: 2).
         translation_mm : (3,), optional
             For a free joint: the translation that all motions keep; default: that of the reference pose.
+        clock : "sagittal" or "rim"
+            Plane of the clock on which contacts are read: the sagittal one, or that of the rim with 6 at the notch.
 
-        ReferenceContactError, a MeshError, where the bodies are in contact in the reference pose and nothing was said.
+        ReferenceContactError, a MeshError, where the bodies are in contact in the reference pose and nothing was said; MeshError for the
+        clock of a rim where none was found.
 
         >>> import condyle
         >>> bones = condyle.sample_hip()
@@ -467,7 +470,10 @@ class Joint(DescribedJoint):
             "count_bearing": word(bearing, "bearing", BearingRule) == "count",
             "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm"),
             "accept_reference_contact": bool(accept_reference_contact), "leave_out_rings": rings}
-        return RangeOfMotion(self, _native.range_of_motion(self._asked, translation_mm, options), motions)
+        known = Motions(self._native)
+        asked = known.known if motions is None else known.asked(motions)
+        return RangeOfMotion(self, _native.range_of_motion(self._asked, [known.tuple_of(each) for each in asked], translation_mm,
+                                                           word(clock, "clock", ClockPlane) == "rim", options), known)
 
     def measures(self, *, pelvic_tilt_deg: float = 0, band_samples: int = 0, seed: Optional[int] = None,
                  progress: Progress = None) -> HipMeasures:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal, Mapping, Optional, Sequence, Union, get_args
+from typing import Any, Literal, Mapping, Optional, Sequence, TypedDict, Union, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
 from ._coordinates import position_in
-from ._described_joint import BodyPart, DescribedJoint
+from ._described_joint import DescribedJoint
 from ._errors import UsageError
 from ._mesh import TriMesh
 from ._motion import Angles, Motion, Motions
@@ -92,6 +92,14 @@ class Caveat:
     source: Optional[str]
 
 
+class ClosedForm(TypedDict):
+    """Where liner and neck of an implant end a motion, as bodies of revolution: see :attr:`MotionLimit.closed_form`."""
+
+    limit_deg: float
+    reason: LimitReason
+    of_facets_deg: list[float]
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class MotionLimit(Limit):
     """Where one motion ends.
@@ -103,6 +111,11 @@ class MotionLimit(Limit):
     `translation_ends`, True if what it follows ends there, so that nothing is known past the limit; `contact_side`, of a shoulder the side of its centre on which the scapula is met:
     "superior" (acromion), "anterior" (coracoid process), "inferior" or "posterior", else None; `caveats`, a list of
     :class:`Caveat`: whether bone usually ends such a motion of a hip, and what is not modelled; empty for other joints.
+
+    By the keys of rom.json (docs/formats-limits.md): `clock_hour` of the contact on the socket, in [0, 12); `closed_form` of an implant
+    whose liner and neck are bodies of revolution, `limit_deg`, `reason` and `of_facets_deg`, between which their meshes end the motion;
+    `normal_range_deg` of a healthy hip; `definition` of motions without agreed angles; each None where there is none. `guarantee`
+    is what is guaranteed of the limit, in words.
     """
 
     motion: Motion
@@ -117,6 +130,12 @@ class MotionLimit(Limit):
     translation_ends: bool
     contact_side: Optional[ContactSide]
     caveats: list[Caveat]
+    # Limits that were pickled before there were these have none of them.
+    clock_hour: Optional[float] = None
+    closed_form: Optional[ClosedForm] = None
+    normal_range_deg: Optional[float] = None
+    definition: Optional[str] = None
+    guarantee: str = ""
 
     def __repr__(self) -> str:
         return f"MotionLimit({self.motion.name}: {self.turned_deg:.6g} deg, {self.reason})"
@@ -192,25 +211,19 @@ def limit_of(found: dict[str, Any], fixed: TriMesh, mobile: TriMesh) -> Limit:
     return Limit(**found)
 
 
-def part_named(parts: Sequence[BodyPart], feature: Sequence[Any]) -> Optional[str]:
-    """Which of several meshes a feature of the compiled part's numbers is of."""
-    kind, number = feature[:2]
-    for part in parts:
-        first, count = ((part.first_triangle, part.triangles) if kind == "face" else (part.first_vertex, part.vertices))
-        if 0 <= number - first < count:
-            return part.name
-    return None
-
-
 def motion_limit_of(found: dict[str, Any], motions: Motions, joint: DescribedJoint) -> MotionLimit:
-    contact, soft = found["contact"], found["soft_contact"]
-    for body, parts in (("fixed", joint.fixed_parts), ("mobile", joint.mobile_parts)):
-        found[f"{body}_part"] = contact and part_named(parts, contact[f"{body}_feature"])
-        found[f"soft_{body}_part"] = soft and part_named(parts, soft[f"{body}_feature"])
-    found["contact_side"] = contact and _native.contact_side(joint._native, contact, found["translation_mm"])
-    found["contact"] = witness_of(contact, joint.fixed, joint.mobile)
-    found["soft_contact"] = witness_of(soft, joint.fixed, joint.mobile)
-    found["caveats"] = [Caveat(*each) for each in motions.caveats(found["motion"])]
+    """The compiled part's limit, with what rom.json says of it."""
+    said = found.pop("said")
+    features, soft_parts = said["features"] or {}, said["soft_contact_parts"] or {}
+    for body in ("fixed", "mobile"):
+        found[f"{body}_part"] = features.get(body, {}).get("part")
+        found[f"soft_{body}_part"] = soft_parts.get(body)
+    for key in ("contact", "soft_contact"):
+        found[key] = witness_of(found[key], joint.fixed, joint.mobile)
+    for key in ("contact_side", "clock_hour", "normal_range_deg", "definition", "guarantee"):
+        found[key] = said[key]
+    found["closed_form"] = said.get("closed_form")
+    found["caveats"] = [Caveat(**each) for each in said["caveats"]]
     found["motion"] = motions.motion_of(found["motion"])
     found["angles_deg"] = motions.named(found["angles_deg"])
     return MotionLimit(**found)

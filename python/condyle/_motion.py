@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Mapping, Optional, Sequence, Union
+from typing import Any, Mapping, Sequence, Union
 
 from . import _native
 from ._answer import ByName
@@ -41,7 +41,6 @@ class Motions:
     """The motions that a joint knows, and its angles between words and the compiled part."""
 
     def __init__(self, joint: NativeJoint) -> None:
-        self._joint = joint
         self.angles = tuple(joint.angle_names)
         self.is_hinge = joint.kind == "hinge"
         self.known = tuple(self.motion_of(found) for found in _native.motions(joint))
@@ -49,10 +48,6 @@ class Motions:
     def motion_of(self, found: tuple[Any, ...]) -> Motion:
         name, vary, sense, start, range_deg = found
         return Motion(name, self.angles[vary][0 if sense > 0 else 1], range_deg, self.named(start))
-
-    def caveats(self, motion: tuple[Any, ...]) -> list[tuple[str, str, Optional[str]]]:
-        """Code, text and source of each caveat of a motion as the compiled part has it."""
-        return _native.motion_caveats(self._joint, motion)
 
     def named(self, degrees: Sequence[float]) -> Angles:
         """The three angles by their positive names."""

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from . import _native
 from ._answer import html_of
-from ._contact_checks import ContactNote, reported
+from ._contact_checks import notes_said
 from ._described_joint import DescribedJoint
 from ._errors import UsageError, unknown
 from ._impingement_zone import ImpingementZone, body_zone_of
@@ -20,10 +20,34 @@ from ._motion import Motion, MotionLike, Motions
 from ._motion_map import MotionMap, map_of
 from ._resection import OfJoint, Resection
 from ._sweep import Sweep
-from ._words import Path, Progress, count, number, path_of, progress_of, report_labels, text_of
+from ._words import BearingRule, ClockPlane, Path, Progress, count, number, path_of, progress_of, report_labels, text_of
 
 if TYPE_CHECKING:
     import pandas
+
+
+class FittedSphere(TypedDict):
+    """The sphere of a socket: see :attr:`RangeOfMotion.bearing`."""
+
+    centre_mm: list[float]
+    radius_mm: float
+
+
+class MotionArc(TypedDict):
+    """From one limit to the other of two motions: see :attr:`RangeOfMotion.arcs`."""
+
+    motions: list[str]
+    arc_deg: float
+
+
+class ImplantPair(TypedDict, total=False):
+    """Liner and neck of an implant: see :attr:`RangeOfMotion.implant`."""
+
+    fixed_part: str
+    mobile_part: str
+    half_angle_deg: Optional[float]
+    between_axes_deg: Optional[float]
+    why_no_closed_form: str
 
 
 class Bearing(TypedDict):
@@ -35,6 +59,8 @@ class Bearing(TypedDict):
     parts: Sequence[str]
     rim_gap_mm: Optional[float]
     beside_gap_mm: Optional[float]
+    head_coverage: float
+    socket: Optional[FittedSphere]
     triangles: NDArray[np.uint8]
 
 
@@ -65,30 +91,25 @@ class RangeOfMotion:
 
     `limits` is a tuple of :class:`MotionLimit`; `rom["flexion"]` is one of them. Limits are exact: never past a
     contact, short of one by at most `error_bound_deg`. `notes` is what they must be read with because of the joint's shape, each
-    with a :class:`JointWarning`. Any number of threads may ask.
+    with a :class:`JointWarning`. What `condyle rom --json` says beside them has its keys: :attr:`caveats`, :attr:`implant` and so on.
+    Any number of threads may ask.
 
-    C++: `condyle::RangeOfMotion` in condyle/range_of_motion.hpp; `condyle rom`.
+    C++: `condyle::answer_range` in condyle/answer.hpp; `condyle rom`.
     """
 
-    __slots__ = ("_native", "_joint", "_motions", "limits", "notes", "__weakref__")
+    __slots__ = ("_native", "_joint", "_motions", "_said", "limits", "notes", "__weakref__")
 
-    def __init__(self, joint: DescribedJoint, native: _native.RangeOfMotion, asked: Optional[Sequence[MotionLike]]
-                 ) -> None:
-        self._native, self._joint = native, joint
-        self._motions = Motions(joint._native)
-        motions = self._motions.known if asked is None else self._motions.asked(asked)
-        self.limits = self._limits(motions)
-        self.notes = reported(native.notes([self._motions.tuple_of(each) for each in motions]))
+    def __init__(self, joint: DescribedJoint, native: _native.RangeOfMotion, motions: Motions) -> None:
+        self._native, self._joint, self._motions = native, joint, motions
+        self._said = native.answer()
+        self.limits = tuple(map(self._motion_limit_of, self._said.pop("limits")))
+        self.notes = notes_said(self._said["notes"])
 
     def _limit_of(self, found: dict[str, Any]) -> Limit:
         return limit_of(found, self._joint.fixed, self._joint.mobile)
 
     def _motion_limit_of(self, found: dict[str, Any]) -> MotionLimit:
         return motion_limit_of(found, self._motions, self._joint)
-
-    def _limits(self, motions: Sequence[Motion]) -> tuple[MotionLimit, ...]:
-        found = self._native.limits([self._motions.tuple_of(each) for each in motions])
-        return tuple(map(self._motion_limit_of, found))
 
     @property
     def known_motions(self) -> tuple[Motion, ...]:
@@ -103,7 +124,8 @@ class RangeOfMotion:
 
     def limit(self, motion: MotionLike) -> MotionLimit:
         """Where one motion ends: one of the known ones by its name, or a :class:`Motion` of one's own."""
-        return self._limits([self.motion(motion)])[0]
+        found, = self._native.limits([self._motions.tuple_of(self.motion(motion))])
+        return self._motion_limit_of(found)
 
     def __getitem__(self, name: str) -> MotionLimit:
         for limit in self.limits:
@@ -245,7 +267,7 @@ class RangeOfMotion:
         samples = 0 if band_samples == 0 else count(band_samples, "band_samples", FEWEST_SAMPLES, MOST_SAMPLES)
         _native.write_report(
             self._native, self._joint._native, path_of(path), None if title is None else text_of(title, "title"),
-            [self._motions.tuple_of(limit.motion) for limit in self.limits], samples,
+            samples,
             None if seed is None else count(seed, "seed", high=2**64 - 1),
             None if past_deg is None else number(past_deg, "past_deg"), bool(measures),
             None if plan is None else plan._shown_by(self._joint), _native_before(before, plan),
@@ -262,15 +284,62 @@ class RangeOfMotion:
 
     @property
     def bearing(self) -> Optional[Bearing]:
-        """The bearing surface: `head_centre` (3,) in M, `head_radius_mm`, `rim_gap_mm`, of a shoulder `beside_gap_mm` (what
-        an acromion leaves of the head's way), `triangles` (T,) uint8.
+        """The bearing surface: `head_centre` (3,) in M, `head_radius_mm`, `head_coverage` of its sphere, `socket` with `centre_mm` and
+        `radius_mm`, `rim_gap_mm`, of a shoulder `beside_gap_mm` (what an acromion leaves of the head's way), `triangles` (T,) uint8.
 
         It lies within `margin_mm` of the head; or it is `parts`, names of meshes that are called bearing, and then the margin
         is None.
         """
-        found: Any = self._native.bearing
-        bearing: Optional[Bearing] = found
-        return bearing
+        said = self._said["bearing"]
+        if "head" not in said:
+            return None
+        return {"head_centre": np.array(said["head"]["centre_mm"]), "head_radius_mm": said["head"]["radius_mm"],
+                "margin_mm": said["margin_mm"], "parts": said["parts"], "rim_gap_mm": said["rim_gap_mm"],
+                "beside_gap_mm": said.get("beside_gap_mm"), "head_coverage": said["head_coverage"], "socket": said["socket"],
+                "triangles": self._native.bearing_triangles}
+
+    @property
+    def bearing_rule(self) -> BearingRule:
+        """Whether bearing contact ends a motion: "count", as it does where no bearing surface is known, or "leave_out"."""
+        rule: BearingRule = self._said["bearing"]["rule"]
+        return rule
+
+    @property
+    def caveats(self) -> list[str]:
+        """What was left out, accepted or held, a sentence each."""
+        caveats: list[str] = self._said["caveats"]
+        return caveats
+
+    @property
+    def clock_plane(self) -> Optional[ClockPlane]:
+        """The plane of the clock of :attr:`MotionLimit.clock_hour`; None for joints other than hips."""
+        plane: Optional[ClockPlane] = self._said["clock_plane"]
+        return plane
+
+    @property
+    def held_translation_mm(self) -> Optional[list[float]]:
+        """The translation that all motions of a free joint keep, x, y and z."""
+        held: Optional[list[float]] = self._said["held_translation_mm"]
+        return held
+
+    @property
+    def implant(self) -> Optional[ImplantPair]:
+        """Of an implant `fixed_part`, `mobile_part`, `half_angle_deg`, `between_axes_deg`, and `why_no_closed_form` where
+        :attr:`MotionLimit.closed_form` is None."""
+        pair: Optional[ImplantPair] = self._said.get("implant")
+        return pair
+
+    @property
+    def arcs(self) -> list[MotionArc]:
+        """Pairs of `motions` that turn one angle to either side, both ending in contact, and the `arc_deg` between their limits."""
+        arcs: list[MotionArc] = self._said["arcs"]
+        return arcs
+
+    @property
+    def normal_range_source(self) -> Optional[str]:
+        """Where :attr:`MotionLimit.normal_range_deg` is from; None for joints other than hips."""
+        source: Optional[str] = self._said["normal_range_source"]
+        return source
 
     @property
     def scope(self) -> str:
@@ -280,7 +349,8 @@ class RangeOfMotion:
     @property
     def why_no_bearing(self) -> str:
         """Why no bearing surface was found and every contact counts that no mesh's word leaves out; empty where there is one."""
-        return self._native.why_no_bearing
+        why: str = self._said["bearing"].get("why_none", "")
+        return why
 
     @property
     def left_out(self) -> tuple[int, int]:

@@ -13,17 +13,16 @@ namespace {
 /// Motions between two looks whether to stop: some ten milliseconds.
 constexpr std::size_t motions_at_once = 16;
 
-/// The limits of all motions; fewer if stopped.
-std::vector<motion::MotionLimit> limits_of(const motion::RangeOfMotion& range,
-                                           std::span<const motion::Motion> motions,
-                                           const std::stop_token& stop) {
-  std::vector<motion::MotionLimit> limits;
-  while (limits.size() < motions.size() && !stop.stop_requested()) {
+/// Adds the limits of all motions; false if stopped.
+bool add_limits(RangeAnswer& answer, std::span<const motion::Motion> motions, const std::stop_token& stop) {
+  std::vector<motion::MotionLimit>& limits = answer.limits;
+  while (limits.size() < motions.size()) {
+    if (stop.stop_requested()) return false;
     const auto next =
         motions.subspan(limits.size(), std::min(motions_at_once, motions.size() - limits.size()));
-    for (motion::MotionLimit& limit : range.limits(next)) limits.push_back(std::move(limit));
+    for (motion::MotionLimit& limit : answer.range->limits(next)) limits.push_back(std::move(limit));
   }
-  return limits;
+  return true;
 }
 
 }  // namespace
@@ -58,6 +57,23 @@ std::vector<std::string> range_caveats(const motion::RangeOptions& options,
   return caveats;
 }
 
+std::optional<RangeAnswer> further_limits(const RangeAnswer& kept, std::span<const motion::Motion> motions,
+                                          const std::stop_token& stop) {
+  for (const motion::Motion& motion : motions) motion::check_motion(motion, kept.joint.kind);
+  RangeAnswer answer{.joint = kept.joint,
+                     .held_translation_mm = kept.held_translation_mm,
+                     .bearing = kept.bearing,
+                     .bearing_rule = kept.bearing_rule,
+                     .clock = kept.clock,
+                     .clock_plane = kept.clock_plane,
+                     .caveats = kept.caveats,
+                     .range = kept.range};
+  if (!add_limits(answer, motions, stop)) return std::nullopt;
+  answer::add_closed_limits(answer);
+  answer.notes.clear();
+  return answer;
+}
+
 namespace answer {
 
 motion::ClockFace clock_of(const Joint& joint, motion::ClockPlane plane,
@@ -89,19 +105,18 @@ std::optional<RangeAnswer> held_answer(const Joint& joint, const JointPlacement&
 
 bool add_exact_limits(RangeAnswer& answer, const RangeRequest& request, const motion::RangeOptions& options,
                       const std::stop_token& stop, const AddBeyondLimits& beyond) {
-  const motion::RangeOfMotion range(answer.joint, options);
-  answer.bearing = range.bearing();
-  answer.bearing_rule = range.bearing_rule();
+  answer.range = std::make_shared<const motion::RangeOfMotion>(answer.joint, options);
+  answer.bearing = answer.range->bearing();
+  answer.bearing_rule = answer.range->bearing_rule();
   answer.clock = clock_of(answer.joint, request.clock, answer.bearing);
-  answer.caveats = range_caveats(options, range);
-  answer.limits = limits_of(range, request.motions, stop);
-  if (answer.limits.size() < request.motions.size()) return false;
+  answer.caveats = range_caveats(options, *answer.range);
+  if (!add_limits(answer, request.motions, stop)) return false;
 
   motion::RangeOptions again = options;
   again.bearing.surface = answer.bearing.surface;
   answer.notes = range_notes(answer.joint, answer.limits, again, answer.bearing);
   add_closed_limits(answer);
-  return !beyond || beyond(answer, range, again);
+  return !beyond || beyond(answer, again);
 }
 
 RangeAnswer exact_limits(const Joint& joint, const JointPlacement& placement, const RangeRequest& request) {

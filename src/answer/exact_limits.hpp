@@ -22,8 +22,7 @@ std::optional<RangeAnswer> held_answer(const Joint& joint, const JointPlacement&
                                        const RangeRequest& request, const AddLimits& add);
 
 /// Adds to an answer that has its limits, by options that have their bearing surface; false if stopped.
-using AddBeyondLimits = std::function<bool(RangeAnswer& answer, const motion::RangeOfMotion& range,
-                                           const motion::RangeOptions& again)>;
+using AddBeyondLimits = std::function<bool(RangeAnswer& answer, const motion::RangeOptions& again)>;
 
 /// Limits, bearing surface, clock, notes and closed forms, then what `beyond` adds; false if stopped.
 bool add_exact_limits(RangeAnswer& answer, const RangeRequest& request, const motion::RangeOptions& options,

@@ -34,15 +34,15 @@ void note_axes(const motion::MapGrid& grid, Anatomy anatomy, std::vector<RangeNo
 }
 
 /// Zones, map and bands, as far as they are requested; false if stopped.
-bool add_beyond_limits(RangeAnswer& answer, const RangeRequest& request, const motion::RangeOfMotion& range,
-                       const motion::RangeOptions& again, const AnswerControl& control) {
+bool add_beyond_limits(RangeAnswer& answer, const RangeRequest& request, const motion::RangeOptions& again,
+                       const AnswerControl& control) {
   if (request.zones_past) {
     const motion::ZoneFinder finder(
         answer.joint, {.bearing = again.bearing, .past = *request.zones_past, .socket_clock = answer.clock});
     for (const motion::MotionLimit& limit : answer.limits) answer.zones.push_back(finder.zone(limit));
   }
   if (request.map) {
-    answer.map = motion::motion_map(*request.map, range, answer::staged(control, "map points"));
+    answer.map = motion::motion_map(*request.map, *answer.range, answer::staged(control, "map points"));
     if (!answer.map) return false;
     note_axes(*request.map, answer.joint.anatomy, answer.notes);
   }
@@ -86,9 +86,8 @@ std::optional<RangeAnswer> answer_range(const Joint& joint, const JointPlacement
                                         const RangeRequest& request, const AnswerControl& control) {
   check_range_request(joint, placement, request);
   if (request.follow) return answer::followed_range(joint, placement, request, control);
-  const auto beyond = [&](RangeAnswer& answer, const motion::RangeOfMotion& range,
-                          const motion::RangeOptions& again) {
-    return add_beyond_limits(answer, request, range, again, control);
+  const auto beyond = [&](RangeAnswer& answer, const motion::RangeOptions& again) {
+    return add_beyond_limits(answer, request, again, control);
   };
   return answer::held_answer(
       joint, placement, request, [&](RangeAnswer& answer, const motion::RangeOptions& options) {

@@ -292,5 +292,20 @@ TEST(AnswerRange, HoldsTheTranslationOfAFreeJoint) {
   EXPECT_THROW(answer_range(joint, {}, request), UsageError) << "it would turn with the axes";
 }
 
+TEST(FurtherLimits, AreThoseOfTheAnswerThatKeptItsTables) {
+  const std::vector<motion::Motion> motions = motion::hip_motions();
+  const RangeAnswer all = answered(bumpy_joint(Side::right), {.motions = motions});
+  const RangeAnswer kept = answered(bumpy_joint(Side::right), {});
+  const auto further = further_limits(kept, motions);
+  ASSERT_EQ(further->limits.size(), motions.size());
+  for (std::size_t i = 0; i < motions.size(); ++i)
+    EXPECT_EQ(further->limits[i].end.turned, all.limits[i].end.turned) << motions[i].name;
+  EXPECT_EQ(further->range, kept.range);
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_FALSE(further_limits(kept, motions, stop.get_token()));
+  EXPECT_THROW(further_limits(kept, std::vector{motion::Motion{.name = "still"}}), UsageError);
+}
+
 }  // namespace
 }  // namespace condyle

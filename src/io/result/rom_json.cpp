@@ -20,16 +20,6 @@ namespace {
 
 using io::Json;
 
-/// JSON of the i-th motion.
-Json motion_json(const RomResult& result, std::size_t i) {
-  Json json;
-  for (const LimitField& field : io::limit_fields()) {
-    if (*field.key == 0) continue;
-    if (Json value = field.json({result, i}); !value.is_discarded()) json[field.key] = std::move(value);
-  }
-  return json;
-}
-
 Json json_of(const motion::BandOptions& options, const Joint& joint) {
   Json sigma{{"centre_mm", options.sigma.centre_mm},
              {"axes_deg", options.sigma.axes.degrees()},
@@ -150,6 +140,15 @@ Json implant_json(const Joint& joint) {
 }
 
 }  // namespace
+
+Json motion_json(const RomResult& result, std::size_t i) {
+  Json json;
+  for (const LimitField& field : io::limit_fields()) {
+    if (*field.key == 0) continue;
+    if (Json value = field.json({result, i}); !value.is_discarded()) json[field.key] = std::move(value);
+  }
+  return json;
+}
 
 Json rom_object(const RomResult& result) {
   Json json{{"condyle", io::format_version},

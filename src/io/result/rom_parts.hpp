@@ -50,6 +50,9 @@ struct OppositeLimits {
 /// Those of which both end in contact, in the order of their first ones.
 std::vector<OppositeLimits> opposite_limits(std::span<const motion::MotionLimit> limits);
 
+/// One limit of it, the i-th.
+Json motion_json(const RomResult& result, std::size_t i);
+
 /// rom_json() before it is text.
 Json rom_object(const RomResult& result);
 

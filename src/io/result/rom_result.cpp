@@ -94,7 +94,8 @@ RomResult rom_result_of(const RangeAnswer& answer, std::span<const JointNote> no
 }
 
 AnswerFrame frame_of(const RomResult& result) {
-  return result.provenance ? result.provenance->frame : AnswerFrame{};
+  if (result.provenance) return result.provenance->frame;
+  return AnswerFrame{}.of_held(result.held_translation_mm.value_or(Vec3::Zero()));
 }
 
 }  // namespace condyle::io

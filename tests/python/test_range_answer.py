@@ -1,0 +1,172 @@
+"""A range of motion says what `condyle rom --json` says: every key that both have, bit for bit."""
+
+import json
+import pickle
+import subprocess
+
+import numpy as np
+import pytest
+
+import condyle
+from report_data import text_of
+from test_parts import PARTS, written_joint
+
+#: Keys that Python has under the same name.
+KEYS = ("reason", "bearing_contact_deg", "soft_contact_deg", "centre_distance_mm", "joint_space_mm", "error_bound_deg",
+        "contact_side", "clock_hour", "normal_range_deg", "definition", "guarantee")
+
+#: Keys of what else Python has: the motion, zero of the joint, features as the meshes were given, zones and bands.
+ELSEWHERE = {"vary", "sense", "range_deg", "start_deg", "held_deg", "zero_from", "features", "zone", "band", "bearing_contact_point_mm"}
+
+
+def said_of(limit, follows):
+    """A limit by the keys of rom.json."""
+    contact, soft = limit.contact, limit.soft_contact
+    said = {key: getattr(limit, key) for key in KEYS}
+    said["name"], said["limit_deg"], said["at_limit_deg"] = limit.motion.name, limit.turned_deg, dict(limit.angles_deg)
+    said["caveats"] = [vars(each) for each in limit.caveats]
+    said["contact_kind"] = None if limit.reason == "end_of_range" else contact.kind if contact else "unknown"
+    said["contact_point_mm"] = contact and contact.fixed_point.tolist()
+    said["contact_point_mobile_mm"] = contact and contact.mobile_point.tolist()
+    said["soft_contact_point_mm"] = soft and soft.fixed_point.tolist()
+    said["soft_contact_parts"] = soft and {"fixed": limit.soft_fixed_part, "mobile": limit.soft_mobile_part}
+    said["translation_mm"] = None if limit.translation_mm is None else limit.translation_mm.tolist()
+    said["translation_ends"] = limit.translation_ends if follows else None
+    if limit.closed_form:
+        said["closed_form"] = limit.closed_form
+    return said
+
+
+def said_by(command, file, *options):
+    ran = subprocess.run([command, "rom", file, "--json", *options], check=True, capture_output=True, text=True)
+    return json.loads(ran.stdout)
+
+
+def require_same_limits(joint, rom, said, follows=False):
+    assert len(rom.limits) == len(said["motions"]) > 0
+    for limit, theirs in zip(rom.limits, said["motions"]):
+        ours = said_of(limit, follows)
+        assert ours == {key: theirs[key] for key in ours}
+        assert set(theirs) - set(ours) <= ELSEWHERE
+        parts = [(theirs["features"] or {}).get(body, {}).get("part") for body in ("fixed", "mobile")]
+        assert [limit.fixed_part, limit.mobile_part] == parts
+    assert rom.caveats == said["caveats"]
+    assert [vars(note) for note in (*joint.notes, *rom.notes)] == said["notes"]
+
+
+def require_same(joint, command, file, *options, **asked):
+    """Python's answer and the command's."""
+    rom, said = joint.range_of_motion(**asked), said_by(command, file, *options)
+    require_same_limits(joint, rom, said)
+    for key in ("clock_plane", "held_translation_mm", "arcs", "normal_range_source", "scope"):
+        assert getattr(rom, key) == said[key], key
+    assert rom.implant == said.get("implant")
+    bearing = said["bearing"]
+    assert (rom.bearing_rule, rom.why_no_bearing) == (bearing["rule"], bearing.get("why_none", ""))
+    if rom.bearing is not None:
+        ours = dict(rom.bearing)
+        assert {"centre_mm": ours.pop("head_centre").tolist(), "radius_mm": ours.pop("head_radius_mm")} == bearing["head"]
+        assert ours.pop("triangles").sum() == bearing["triangles"]
+        assert ours == {key: bearing.get(key) for key in ours}
+    for limit in rom.limits:  # asked again by the tables that were kept
+        assert said_of(rom.limit(limit.motion), False) == said_of(limit, False)
+    return rom
+
+
+def sample(command, folder, *what):
+    subprocess.run([command, "sample", *what, "--out", folder], check=True, capture_output=True)
+    file, = folder.glob("*.toml")
+    return condyle.read_joint(file), file
+
+
+def test_the_sample_hip(hip, command, hip_file):
+    rom = require_same(hip, command, hip_file)
+    assert rom.clock_plane == "sagittal" and any(limit.clock_hour for limit in rom)
+    rim = require_same(hip, command, hip_file, "--clock", "rim", clock="rim")
+    assert rim.clock_plane == "rim" and [limit.clock_hour for limit in rim] != [limit.clock_hour for limit in rom]
+    accepted = require_same(hip, command, hip_file, "--bearing", "count", "--accept-reference-contact", bearing="count",
+                            accept_reference_contact=True)
+    assert len(accepted.caveats) == 1 and not rom.caveats
+    left = require_same(hip, command, hip_file, "--exclude-reference-contacts", exclude_reference_contacts=True)
+    assert left.caveats[0].startswith("left out:")
+    again = pickle.loads(pickle.dumps(rom.limits))
+    assert [said_of(limit, False) for limit in again] == [said_of(limit, False) for limit in rom]
+    for key in ("clock_hour", "guarantee"):  # pickled before there were such members
+        del vars(again[0])[key]
+    assert again[0].clock_hour is None and again[0].guarantee == ""
+
+
+@pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+def test_a_label_map_that_its_image_cuts(command, tmp_path):
+    subprocess.run([command, "sample", "hip", "--scenario", "2", "--voxel", "1.5", "--out", tmp_path], check=True, capture_output=True)
+    labels = condyle.read_labels(tmp_path / "labels.nii.gz")
+    to_lps = labels.lps_from_index
+    first = round(-to_lps[2, 3] / 1.5) - 30
+    voxels = labels.voxels()[:, :, first:first + 60].astype(np.uint8)
+    directions = " ".join(str(tuple(column)) for column in to_lps[:3, :3].T.tolist())
+    origin = tuple((to_lps @ [0, 0, first, 1])[:3].tolist())
+    header = (f"NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: {' '.join(map(str, voxels.shape))}\n"
+              f"space directions: {directions}\nspace origin: {origin}\nencoding: raw\n\n")
+    (tmp_path / "cut.nrrd").write_bytes(header.encode() + voxels.tobytes(order="F"))
+    subprocess.run([command, "init", tmp_path / "cut.nrrd", "--fixed", "78", "--mobile", "76", "--side", "right", "-o",
+                    tmp_path / "cut.toml"], check=True, capture_output=True)
+    joint = condyle.read_joint(tmp_path / "cut.toml")
+    assert [note.code for note in joint.notes].count("cut_by_view") == 2
+    require_same(joint, command, tmp_path / "cut.toml")
+
+
+@pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+def test_an_implant(command, tmp_path):
+    joint, file = sample(command, tmp_path, "replacement", "--bones", "none")
+    rom = require_same(joint, command, file)
+    assert rom.implant["why_no_closed_form"] if rom["flexion"].closed_form is None else rom.implant["half_angle_deg"] > 0
+    assert all(limit.closed_form for limit in rom)
+
+
+def test_an_implant_whose_meshes_are_not_those_of_its_sizes(command, tmp_path):
+    _, file = sample(command, tmp_path, "replacement", "--bones", "none")
+    file.write_text(file.read_text().replace("neck_radius = 6", "neck_radius = 7"))
+    with pytest.warns(condyle.JointWarning, match="differs_from_closed_form"):
+        rom = require_same(condyle.read_joint(file), command, file)
+    assert "differs_from_closed_form" in [note.code for note in rom.notes]
+
+
+@pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+def test_parts_at_moved_values(command, tmp_path):
+    moved = written_joint(tmp_path, PARTS).with_parameters({"pelvis.tilt": 10, "femur.version": -8})
+    require_same(moved, command, tmp_path / "hip.toml", "--set", "pelvis.tilt=10", "--set", "femur.version=-8")
+
+
+@pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+def test_a_shoulder(command, tmp_path):
+    rom = require_same(*sample(command, tmp_path, "reverse-shoulder")[:1], command, tmp_path / "shoulder.toml")
+    assert rom.clock_plane is None and {limit.clock_hour for limit in rom} == {None}
+
+
+def test_a_translation_that_is_held_and_one_that_follows(command, tmp_path):
+    bones = condyle.sample_hip(scenario=1)
+    condyle.write_mesh(tmp_path / "pelvis.ply", bones.hip_bone)
+    condyle.write_mesh(tmp_path / "femur.ply", bones.femur)
+    (tmp_path / "hip.toml").write_text(
+        'condyle = 1\nname = "hip"\nkind = "free"\njoint = "hip"\nside = "right"\nunits = "mm"\n[fixed]\nmesh = "pelvis.ply"\n[mobile]\n'
+        'mesh = "femur.ply"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n')
+    (tmp_path / "record.csv").write_text("time,flexion_deg,x_mm,y_mm\n" + "".join(
+        f"{i * 0.1},{2 * i},{0.02 * i},{-0.01 * i}\n" for i in range(40)))
+    joint = condyle.read_joint(tmp_path / "hip.toml")
+    held = require_same(joint, command, tmp_path / "hip.toml", "--translation", "x=0.5 y=-0.25", translation_mm=[0.5, -0.25, 0])
+    assert held.held_translation_mm == [0.5, -0.25, 0] and held.caveats[0].startswith("translation held at x 0.5")
+    at = held["flexion"].contact.fixed_point
+    assert held.free_angles("flexion").positive.contact.fixed_point.tolist() == at.tolist()
+    assert held.zones(["flexion"])[0].limit.contact.fixed_point.tolist() == at.tolist()
+    found = held.map({"adduction": (0, 1, 1)}, {"internal_rotation": (0, 1, 1)}, vary="flexion")
+    assert found.positive.fixed_point[0, 0].tolist() == at.tolist()
+    X_FM = joint.pose(flexion_deg=held["flexion"].turned_deg, x_mm=0.5, y_mm=-0.25)
+    np.testing.assert_allclose((X_FM @ [*held["flexion"].contact.mobile_point, 1])[:3], at, atol=1e-9)
+    free = condyle.Joint(bones.hip_bone, bones.femur, kind="free", reference_pose={"x": 0.5, "y": -0.25})
+    of_arrays = free.range_of_motion(["flexion"])
+    of_arrays.write_report(tmp_path / "hip.html")
+    shown, = text_of(tmp_path / "hip.html")["rom"]["motions"]
+    assert shown["contact_point_mm"] == of_arrays["flexion"].contact.fixed_point.tolist()
+    with pytest.warns(condyle.JointWarning, match="translation_ends"):
+        found = joint.range_following(poses=joint.motion(tmp_path / "record.csv").X_FM)
+    require_same_limits(joint, found, said_by(command, tmp_path / "hip.toml", "--follow", tmp_path / "record.csv"), follows=True)
