@@ -28,7 +28,7 @@ struct RangeHandle {
   io::RomResult result() const { return io::rom_result_of(answer, {}, nullptr); }
 };
 
-/// Of what Python has checked: `count_bearing` and `bearing_margin_mm`.
+/// Reads `count_bearing` and `bearing_margin_mm`, which Python has checked.
 motion::BearingOptions bearing_in(const py::dict& given);
 
 /// answer_range() of a joint, which Ctrl-C ends.
