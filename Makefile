@@ -130,16 +130,16 @@ page-core: dependencies
 
 # The page of condyle report, made anew: its committed template has to be what its sources make. Then in a real browser.
 page: page-core
-	@scripts/make_page_template.sh build/page/report_template.html
-	@cmp build/page/report_template.html viewer/report_template.html || \
-	  { echo "viewer/report_template.html is not what its sources make: make page-template" >&2; exit 1; }
+	@scripts/make_page_template.sh build/page/template
+	@for file in report_template.html page_core.base64; do cmp build/page/template/$$file viewer/$$file || \
+	  { echo "viewer/$$file is not what its sources make: make page-template" >&2; exit 1; }; done
 	@cmake --build --preset release --target condyle_cli
 	@scripts/test_page.sh
 	@scripts/page_inputs.sh >tests/viewer/passed.txt
 
 # After a change of the page or of the core: the template that condyle report fills in.
 page-template: page-core
-	@scripts/make_page_template.sh viewer/report_template.html
+	@scripts/make_page_template.sh viewer
 
 # The API page and every other page: out/api/index.html.
 docs: docs_dependencies

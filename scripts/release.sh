@@ -27,7 +27,7 @@ cmake --build --preset release --target docs >"$work/docs.txt" 2>&1 || fail "$(t
 cpack --config build/release/CPackConfig.cmake >"$work/package.txt" || fail "$(tail "$work/package.txt")"
 scripts/make_sbom.py build/release "$out/$name.spdx.json"
 cp out/packages/*.deb "$out/"
-cp viewer/report_template.html "$out/$name-report_template.html"
+cp build/release/report_template.html "$out/$name-report_template.html"
 python=$(sed -n 's/^Python_EXECUTABLE:[A-Z]*=//p' build/release/CMakeCache.txt)
 
 # The packages' own files, run from a folder: their dependencies are those of this machine.

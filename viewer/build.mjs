@@ -1,6 +1,6 @@
-// Makes the page's template of what is in src/ and of the core compiled to WebAssembly: one file, the same bytes from the same
-// sources wherever it is made.
-//   node build.mjs FOLDER_OF_PAGE_CORE TEMPLATE
+// Makes the page's template of what is in src/, and beside it the core compiled to WebAssembly, which goes where the template has @core@: the same
+// bytes from the same sources wherever they are made. Two files, so that the history keeps the core once for all changes of the page.
+//   node build.mjs FOLDER_OF_PAGE_CORE FOLDER
 import { createHash } from "node:crypto";
 import { readFileSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
@@ -9,7 +9,7 @@ import { build, transform } from "esbuild";
 import { gzipSync } from "fflate";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const [coreFolder, template] = process.argv.slice(2).map((path) => resolve(path));
+const [coreFolder, folder] = process.argv.slice(2).map((path) => resolve(path));
 const source = (path) => readFileSync(join(here, path), "utf8");
 
 /// Names of packages that the bundles were made of.
@@ -60,7 +60,8 @@ const texts = [
 const { outputFiles: [table] } = await build({ entryPoints: [join(here, "src/words.ts")], write: false, format: "esm" });
 const { words } = await import(`data:text/javascript;base64,${Buffer.from(table.contents).toString("base64")}`);
 
-const parts = { policy, style, licenceList, licences: packed(Buffer.from(texts)), core, script: packed(Buffer.from(script)), loader, noScripts: words.noScripts, unfinished: words.unfinished };
+const parts = { policy, style, licenceList, licences: packed(Buffer.from(texts)), core: "@core@", script: packed(Buffer.from(script)), loader, noScripts: words.noScripts, unfinished: words.unfinished };
 const page = source("src/page.html").replaceAll(/@(\w+)@/g, (_, part) => parts[part]);
-writeFileSync(template, page);
-console.log(`${template}: ${(page.length / 1e6).toFixed(2)} MB, of it script ${(parts.script.length / 1e6).toFixed(2)}, core ${(core.length / 1e6).toFixed(2)}`);
+writeFileSync(join(folder, "report_template.html"), page);
+writeFileSync(join(folder, "page_core.base64"), core);
+console.log(`${folder}: template ${(page.length / 1e6).toFixed(2)} MB, of it script ${(parts.script.length / 1e6).toFixed(2)}, and core ${(core.length / 1e6).toFixed(2)} MB`);

@@ -22,7 +22,7 @@ function readPly(path) {
   return { vertices, triangles };
 }
 
-const empty = join(root, "viewer/report_template.html");
+const empty = join(root, "build/release/report_template.html");
 
 test("two meshes dropped on the empty page answer as the same files do on the command line", async () => {
   const { page, complaints, requests } = await openPage(browser, empty, { answers: false });

@@ -10,7 +10,7 @@ import { assertCommandLimits } from "./command_limits.mjs";
 
 const condyle = join(root, "build/release/condyle");
 const browser = await sharedBrowser();
-const empty = join(root, "viewer/report_template.html"), folder = join(reports, "joint_drops");
+const empty = join(root, "build/release/report_template.html"), folder = join(reports, "joint_drops");
 mkdirSync(folder, { recursive: true });
 const data = process.env.CONDYLE_DATA ?? join(root, "../shared/data");
 const sample = (name) => join(reports, "sample", name), meshes = [sample("hip_bone.ply"), sample("femur.ply")];

@@ -28,7 +28,7 @@ for (const [name, path] of Object.entries(opened))
   });
 
 test("the template and a report of scenario 3 are as small as was promised", () => {
-  assert.ok(statSync(join(root, "viewer/report_template.html")).size <= 1.8e6);
+  assert.ok(statSync(join(root, "build/release/report_template.html")).size <= 1.8e6);
   assert.ok(statSync(pathOf("scenario_3")).size <= 6e6);
 });
 
