@@ -39,7 +39,6 @@ Followed::Followed(const FollowArguments& given, const io::LoadedJoint& loaded, 
     if (given.balance->force.empty()) throw UsageError("--follow-load: needs --force");
     layers_.emplace(loaded, contact_of({}, loaded.report.file, true));
     request.follow = layers_->carrying(load_of(*given.balance), balance_options_of(*given.balance));
-    check_range_request(loaded.joint, loaded.report.placement, request);
   }
   if (given.record.empty()) return;
   const io::JointMotion recorded = io::motion_of(loaded, io::read_motion_table(given.record));

@@ -14,7 +14,6 @@
 #include "condyle/answer.hpp"
 #include "help_formatter.hpp"
 #include "implant_options.hpp"
-#include "io/joint/measure_request.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/result/implant_result.hpp"
 #include "notes.hpp"
@@ -38,7 +37,7 @@ struct ImplantArguments {
 constexpr std::array<std::string_view, 4> sizes_of_bones{"neck_shaft", "stem_version", "offset",
                                                          "cup_radius"};
 
-ImplantQuery query_of(const ImplantArguments& options, const io::LoadedJoint& loaded) {
+ImplantRequest request_of(const ImplantArguments& options) {
   const auto is_left = [&](std::string_view size) { return !options.given->sizes.contains(size); };
   return {.hip = std::get<plan::TotalHip>(options.given->implant),
           .of_bones = {.neck_shaft = is_left("neck_shaft"),
@@ -46,8 +45,7 @@ ImplantQuery query_of(const ImplantArguments& options, const io::LoadedJoint& lo
                        .offset = is_left("offset"),
                        .cup_radius = is_left("cup_radius"),
                        .cup = options.as_rim},
-          .centre = options.centre,
-          .measures = io::measure_request_of(loaded)};
+          .centre = options.centre};
 }
 
 void implant_command(const ImplantArguments& options, const CLI::App& command) {
@@ -55,9 +53,8 @@ void implant_command(const ImplantArguments& options, const CLI::App& command) {
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   const io::Provenance from = io::provenance_of(loaded, words_of(command));
   if (!options.out.empty()) io::check_implant_folder(options.out, &from);
-  const ImplantAnswer answer = io::name_joint_file(options.joint, [&] {
-    return answer_implant(loaded.joint, loaded.report.placement, query_of(options, loaded));
-  });
+  const ImplantAnswer answer =
+      io::name_joint_file(options.joint, [&] { return answer_implant(loaded, request_of(options)); });
   const io::ImplantResult result{loaded.joint, answer, notes, &from, &loaded.report.file};
   if (!options.out.empty()) say_written(io::write_implant(options.out, result));
   print(options.form == AnswerForm::json ? io::implant_json(result) : io::implant_text(result));

@@ -15,13 +15,14 @@
 #include "condyle/io/label_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/pose_text.hpp"
-#include "followed.hpp"
 #include "help_formatter.hpp"
 #include "io/file/output_file.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/image/unread_image.hpp"
 #include "label_options.hpp"
 #include "model_options.hpp"
+#include "notes.hpp"
+#include "with_progress.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -107,12 +108,10 @@ void propose_from_labels(const InitArguments& options) {
                                 .side = options.side};
   if (!options.mobile.empty()) request.mobile_labels = options.mobile;
   const io::LabelJoint joint =
-      followed("steps of surfaces", [&](const auto& progress, const std::stop_token& stop) {
-        return io::propose_joint(request, {.progress = progress, .stop = stop});
-      });
+      with_progress([&](const Control& control) { return io::propose_joint(request, control); });
   for (const fs::path& mesh : {joint.fixed_mesh, joint.mobile_mesh})
     refuse_existing(mesh, "a mesh of a joint is not replaced");
-  note_labels(joint.notes);
+  note_all(joint.notes);
   note_to_fill_in(joint.proposal);
   const fs::path folder = request.joint_file.parent_path();
   io::OutputFolder out(folder.empty() ? fs::path(".") : folder);

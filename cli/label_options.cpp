@@ -84,8 +84,4 @@ void refuse_label_options(const CLI::App& command, const std::string& file) {
         throw UsageError(name + ": is for label maps, and " + file + " is none");
 }
 
-void note_labels(const std::vector<io::LabelNote>& notes) {
-  for (const io::LabelNote& each : notes) note(std::string(name_of(each.code)) + ": " + each.text);
-}
-
 }  // namespace condyle::cli

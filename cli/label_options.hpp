@@ -32,7 +32,4 @@ std::vector<std::string> label_surface_names();
 /// Throws UsageError for the first of these options that was given: the file is no label map.
 void refuse_label_options(const CLI::App& command, const std::string& file);
 
-/// Notes on standard error.
-void note_labels(const std::vector<io::LabelNote>& notes);
-
 }  // namespace condyle::cli

@@ -9,14 +9,13 @@
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/answer.hpp"
-#include "followed.hpp"
 #include "help_formatter.hpp"
-#include "io/joint/measure_request.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/result/measure_result.hpp"
 #include "notes.hpp"
 #include "range_options.hpp"
 #include "set_option.hpp"
+#include "with_progress.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -36,15 +35,14 @@ void measure_command(const MeasureArguments& options, const CLI::App& command) {
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   const io::Provenance from = io::provenance_of(loaded, words_of(command));
   if (!options.out.empty()) io::check_measure_folder(options.out, &from);
-  const MeasureQuery query{io::measure_request_of(loaded, Angle::degrees(options.tilt_deg)),
-                           range_request_of(*options.range, loaded, {}).bands};
+  const MeasureRequest request{Angle::degrees(options.tilt_deg), band_of(*options.range)};
   const MeasureAnswer answer = io::name_joint_file(options.joint, [&] {
-    return followed_by_stage(
-        [&](const AnswerControl& control) { return answer_measures(loaded.joint, query, control); });
+    return with_progress([&](const Control& control) { return answer_measures(loaded, request, control); });
   });
-  const io::MeasureResult result{loaded.joint, answer, notes, &from, options.definitions};
+  const io::MeasureResult result{loaded.joint, answer, notes, &from};
   if (!options.out.empty()) say_written(io::write_measures(options.out, result));
-  print(options.form == AnswerForm::json ? io::measure_json(result) : io::measure_text(result));
+  print(options.form == AnswerForm::json ? io::measure_json(result)
+                                         : io::measure_text(result, options.definitions));
 }
 
 }  // namespace

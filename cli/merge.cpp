@@ -10,14 +10,14 @@
 #include "commands.hpp"
 #include "condyle/io/study.hpp"
 #include "io/sweep/sweep_files.hpp"
+#include "notes.hpp"
 
 namespace condyle::cli {
 namespace {
 
 void merge_shares(const std::string& folder) {
   const io::MergedSweep merged = io::merge_sweep(folder);
-  for (const SweepNote& each : merged.result.answer.notes)
-    note(fmt::format("{}: {}", name_of(each.code), each.text));
+  note_all(merged.result.answer.notes);
   say_written(merged.written);
   print(io::sweep_text(merged.result));
 }

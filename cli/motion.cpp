@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "answer.hpp"
-#include "answered_motion.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/answer.hpp"
@@ -21,11 +20,12 @@
 #include "io/joint/name_joint_file.hpp"
 #include "io/motion/gaps.hpp"
 #include "io/motion/load_table.hpp"
-#include "io/result/motion_result.hpp"
+#include "io/motion/motion_of_joint.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "model_options.hpp"
 #include "notes.hpp"
 #include "set_option.hpp"
+#include "with_progress.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -96,12 +96,17 @@ void motion_command(const MotionArguments& options, const CLI::App& command) {
   for (const std::string* file : {&options.motion, &options.loads})
     if (!file->empty()) from.read.emplace_back(*file);
   if (!options.out.empty()) io::check_motion_folder(options.out, &from);
-  const io::ContactEntry contact = motion_contact_of(*options.contact, loaded.report.file, with_pressure);
+  const io::ContactEntry contact =
+      io::motion_contact(contact_of(*options.contact, loaded.report.file, with_pressure), with_pressure);
   const io::ContactSurfaces surfaces = io::surfaces_of(contact, loaded.joint);
   const io::MotionQuestion question{
       loaded, motion, surfaces, contact, with_pressure, noted(loaded, options.strictness), &from};
-  const MotionAnswer answer = io::name_joint_file(
-      options.joint, [&] { return answered_motion(question, std::move(request), options.strictness); });
+  const MotionAnswer answer = io::name_joint_file(options.joint, [&] {
+    const io::MotionOfJoint of_joint(question, std::move(request));
+    // Frames take long: notes that are errors end the command before them.
+    if (options.strictness == Strictness::errors) note_contact(of_joint.notes(), loaded, options.strictness);
+    return with_progress([&](const Control& control) { return of_joint.answer(control); });
+  });
   io::add_other_files(from, read);
   note_contact(answer.notes, loaded, options.strictness);
   if (!options.out.empty()) {

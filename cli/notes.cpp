@@ -30,7 +30,7 @@ void say(const std::vector<Note>& notes, const io::LoadedJoint& joint, Strictnes
       all += fmt::format("{}{}: {}", all.empty() ? "" : "; ", name_of(each.code), each.text);
     throw MeshError(fmt::format("{}: {} (--strict)", joint.report.file.path.string(), all));
   }
-  for (const Note& each : notes) note(fmt::format("{}{}: {}", whose, name_of(each.code), each.text));
+  note_all(notes, whose);
 }
 
 }  // namespace

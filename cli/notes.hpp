@@ -1,8 +1,10 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "answer.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/motion_contact.hpp"
@@ -24,6 +26,13 @@ void add_strict(CLI::App& command, Strictness& strictness);
 /// a command has two joints.
 std::vector<JointNote> noted(const io::LoadedJoint& joint, Strictness strictness,
                              std::string_view whose = {});
+
+/// Says notes of an answer, each after `whose` joint it is of if a command has two.
+template <class Note>
+void note_all(const std::vector<Note>& notes, std::string_view whose = {}) {
+  for (const Note& each : notes)
+    note(std::string(whose) + std::string(name_of(each.code)) + ": " + each.text);
+}
 
 /// The same of notes on layers, loads and motions, once there is an answer.
 void note_contact(const std::vector<motion::ContactNote>& notes, const io::LoadedJoint& joint,

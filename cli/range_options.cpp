@@ -92,26 +92,26 @@ CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeArguments>& 
       "Compute how far each limit moves within its uncertainty: from 5 to 95 % of N displaced joints";
   auto* band = command.add_flag("--band{200}", band_help)
                    ->check(whole_number(1))
-                   ->each([given](const std::string& text) { given->band_samples = std::stoull(text); })
+                   ->each([given](const std::string& text) { given->band.samples = std::stoull(text); })
                    ->option_text("[=N] (200)");
   const auto for_band = [&](CLI::Option* option) { option->needs(band); };
   for_band(command
-               .add_option("--seed", given->seed,
+               .add_option("--seed", given->band.seed,
                            "With --band: the seed of the displacements, instead of that of the joint file")
                ->check(seed_number())
                ->option_text("N (1)"));
   for_band(command
-               .add_option("--sigma-centre", given->sigma.centre_mm,
+               .add_option("--sigma-centre", given->band.centre_mm,
                            "With --band: the standard deviation of each coordinate of the centre, instead of "
                            "that of the joint "
                            "file")
                ->option_text("MM (0.5)"));
   for_band(command
-               .add_option("--sigma-axes", given->sigma.axes_deg,
+               .add_option("--sigma-axes", given->band.axes_deg,
                            "With --band: the same of the rotation about each axis")
                ->option_text("DEG (1)"));
   for_band(command
-               .add_option("--sigma-surface", given->sigma.surface_mm,
+               .add_option("--sigma-surface", given->band.surface_mm,
                            "With --band: the same of each surface along its normals")
                ->option_text("MM (0.25, of a label map 0.25 voxels)"));
   return band;
@@ -137,21 +137,20 @@ std::optional<motion::MapGrid> grid_of(const RangeArguments& given, JointKind ki
   return grid;
 }
 
+std::optional<BandRequest> band_of(const RangeArguments& given) {
+  return given.band.samples > 0 ? std::optional(given.band) : std::nullopt;
+}
+
 RangeRequest range_request_of(const RangeArguments& given, const io::LoadedJoint& loaded,
                               std::vector<motion::Motion> motions) {
   const Joint& joint = loaded.joint;
-  const io::JointFile& file = loaded.report.file;
   RangeRequest request{.motions = std::move(motions)};
   request.range.bearing = given.bearing;
   request.range.overlap.reference_contact = given.reference_contact;
   request.translation_mm = translation_of(given.translation, joint);
   request.map = grid_of(given, joint.kind, joint.anatomy);
   if (given.past_deg) request.zones_past = Angle::degrees(*given.past_deg);
-  if (given.band_samples > 0)
-    request.bands = {.sigma = given.sigma.over(file.uncertainty),
-                     .samples = given.band_samples,
-                     .seed = given.seed.value_or(file.band_seed)};
-  check_range_request(joint, loaded.report.placement, request);
+  request.bands = band_of(given);
   return request;
 }
 

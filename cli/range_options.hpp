@@ -8,7 +8,6 @@
 
 #include "condyle/answer.hpp"
 #include "condyle/io/joint_file.hpp"
-#include "condyle/io/study.hpp"
 
 namespace CLI {
 class App;
@@ -24,10 +23,8 @@ struct RangeArguments {
   std::string vary, translation;
   motion::BearingOptions bearing;
   motion::ReferenceContact reference_contact = motion::ReferenceContact::refuse;
-  std::size_t band_samples = 0;  ///< 0: no bands
-  std::optional<std::uint64_t> seed;
   std::optional<double> past_deg;  ///< nothing: no impingement zones
-  io::StudyUncertainty sigma;
+  BandRequest band{.samples = 0};  ///< of no samples: no bands
 };
 
 /// Each adds the options of one question and returns the first of them. `given` is written while arguments are read.
@@ -40,8 +37,9 @@ CLI::Option* add_past(CLI::App& command, const std::shared_ptr<RangeArguments>& 
 
 /// Nothing if no map is requested. Throws UsageError.
 std::optional<motion::MapGrid> grid_of(const RangeArguments& given, JointKind kind, Anatomy anatomy);
-/// The request, checked against the joint; bands by what was given, else what the joint file says, else what is usual. Throws
-/// UsageError.
+/// Nothing if no bands are requested.
+std::optional<BandRequest> band_of(const RangeArguments& given);
+/// The request; check_range_request() is for the command, once it is whole. Throws UsageError for what is no request.
 RangeRequest range_request_of(const RangeArguments& given, const io::LoadedJoint& loaded,
                               std::vector<motion::Motion> motions);
 

@@ -13,29 +13,25 @@
 #include <vector>
 
 #include "answer.hpp"
-#include "answered_motion.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/joint.hpp"
+#include "contact_options.hpp"
 #include "follow_options.hpp"
-#include "followed.hpp"
 #include "help_formatter.hpp"
 #include "io/file/input_recorder.hpp"
-#include "io/joint/known_motions.hpp"
-#include "io/joint/measure_request.hpp"
 #include "io/joint/name_joint_file.hpp"
-#include "io/report/report.hpp"
+#include "io/report/answer_report.hpp"
 #include "io/result/provenance_forms.hpp"
-#include "io/sweep/sweep_result.hpp"
 #include "io/sweep/target_table.hpp"
 #include "notes.hpp"
-#include "range.hpp"
 #include "range_options.hpp"
 #include "resection_options.hpp"
 #include "set_option.hpp"
 #include "whole_number.hpp"
+#include "with_progress.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -49,7 +45,7 @@ struct ReportArguments {
   std::optional<std::string> title;
   io::ReportLabels labels;
   bool with_pressure = false, measures = false;
-  std::size_t curve_points = ResectionQuery{}.curve_points;
+  std::size_t curve_points = ResectionRequest{}.curve_points;
   std::shared_ptr<ResectionArguments> cut = std::make_shared<ResectionArguments>();
   std::shared_ptr<RangeArguments> range = std::make_shared<RangeArguments>();
   std::shared_ptr<FollowArguments> follow = std::make_shared<FollowArguments>();
@@ -61,75 +57,21 @@ struct ReportArguments {
   const std::string& joint() const noexcept { return compares() ? second : first; }
 };
 
-/// The limits, or in one line why there are none: the page shows the joint all the same.
-struct RangeOrError {
-  std::optional<RangeAnswer> answer;
-  std::string error;
-};
-
-RangeOrError range_of(const io::LoadedJoint& loaded, const RangeRequest& request, std::string_view whose) {
-  try {
-    return {answered_range(loaded, request, whose), {}};
-  } catch (const MeshError& error) {
-    note(fmt::format("{}no limits: {}", whose, error.what()));
-    return {{}, error.what()};
-  }
-}
-
-/// The joint before, and its answer to what the joint of the page is asked. What a report takes of it refers to its members.
-class JointBefore {
- public:
+/// The joint before, which is compared with that of the page.
+struct JointBefore {
   /// Reads it; throws UsageError if it cannot be compared with the joint of the page.
   JointBefore(const ReportArguments& options, const Joint& of_page, std::vector<std::string> words)
-      : whose_(options.first + ": "),
-        loaded_(io::read_joint(options.first)),
-        from_(io::provenance_of(loaded_, std::move(words))) {
-    io::check_comparable(loaded_.joint, options.first, of_page, options.second);
-    notes_ = noted(loaded_, options.strictness, whose_);
-  }
-  JointBefore(const JointBefore&) = delete;
-  JointBefore& operator=(const JointBefore&) = delete;
-
-  const std::vector<std::filesystem::path>& files() const noexcept { return from_.read; }
-
-  /// Its limits for the same motions, with bands of the same seed and standard deviations.
-  io::ReportedBefore answered(RangeRequest request) {
-    request.map.reset();
-    request.zones_past.reset();
-    found_ = range_of(loaded_, request, whose_);
-    if (found_.answer) rom_.emplace(io::rom_result_of(*found_.answer, notes_, &from_));
-    return {.joint = loaded_.joint,
-            .file = loaded_.report.file.path,
-            .rom = rom_ ? &*rom_ : nullptr,
-            .rom_error = found_.error};
+      : whose(options.first + ": "),
+        loaded(io::read_joint(options.first)),
+        from(io::provenance_of(loaded, std::move(words))) {
+    io::check_comparable(loaded.joint, options.first, of_page, options.second);
+    notes = noted(loaded, options.strictness, whose);
   }
 
- private:
-  std::string whose_;
-  io::LoadedJoint loaded_;
-  io::Provenance from_;
-  std::vector<JointNote> notes_;
-  RangeOrError found_;
-  std::optional<io::RomResult> rom_;
-};
-
-/// The frames of a recorded motion. What it consists of refers to the parts before it.
-struct Recorded {
-  Recorded(const ReportArguments& options, const io::LoadedJoint& loaded, const io::MotionTable& table)
-      : motion(io::motion_of(loaded, table)),
-        contact(motion_contact_of({}, loaded.report.file, options.with_pressure)),
-        surfaces(io::surfaces_of(contact, loaded.joint)),
-        question{loaded, motion, surfaces, contact, options.with_pressure} {
-    for (const std::string& remark : motion.processing) note(remark);
-  }
-  Recorded(const Recorded&) = delete;
-  Recorded& operator=(const Recorded&) = delete;
-
-  io::JointMotion motion;
-  io::ContactEntry contact;
-  io::ContactSurfaces surfaces;
-  io::MotionQuestion question;
-  MotionAnswer answer;
+  std::string whose;
+  io::LoadedJoint loaded;
+  io::Provenance from;
+  std::vector<JointNote> notes;
 };
 
 /// The page without a joint; every option but --out is for one with a joint.
@@ -161,53 +103,47 @@ void check_comparison(const ReportArguments& options) {
                                  options.follow->load ? "--follow-load" : "--follow"));
 }
 
-/// As `condyle resect` answers.
-ResectionAnswer planned(const ReportArguments& options, const io::LoadedJoint& loaded,
-                        const RangeRequest& range) {
-  ResectionQuery query{.resection = resection_request_of(*options.cut), .motions = range.motions};
-  query.resection.targets = reach_targets(range.motions, options.cut->targets);
-  query.resection.range = range.range;
-  query.curve_points = options.curve_points;
-  query.measures = io::measure_request_of(loaded);
-  return io::name_joint_file(options.joint(), [&] {
-    return followed_by_stage([&](const AnswerControl& control) {
-      return answer_resection(loaded.joint, loaded.report.placement, query, control);
-    });
-  });
-}
-
-MeasureAnswer measured(const ReportArguments& options, const io::LoadedJoint& loaded,
-                       const RangeRequest& range) {
-  const MeasureQuery query{io::measure_request_of(loaded), range.bands};
-  return io::name_joint_file(options.joint(), [&] {
-    return followed_by_stage(
-        [&](const AnswerControl& control) { return answer_measures(loaded.joint, query, control); });
-  });
+/// As `condyle resect` asks; nothing without --resect.
+std::optional<ResectionRequest> planned(const ReportArguments& options, const RangeRequest& range) {
+  if (!options.has_plan()) return std::nullopt;
+  ResectionRequest request{.resection = resection_request_of(*options.cut),
+                           .curve_points = options.curve_points};
+  request.resection.targets = reach_targets(range.motions, options.cut->targets);
+  return request;
 }
 
 /// As `condyle sweep` asks; nothing without --sweep.
-std::optional<SweepQuery> swept(const ReportArguments& options, const io::LoadedJoint& loaded,
-                                const RangeRequest& range) {
+std::optional<SweepRequest> swept(const ReportArguments& options, const io::LoadedJoint& loaded,
+                                  const RangeRequest& range) {
   if (options.sweep.empty()) return std::nullopt;
   if (options.has_plan())
     throw UsageError("--sweep: not with --resect, whose bone is cut where its parts are");
   if (options.with_pressure)
     throw UsageError("--sweep: not with --load, whose layers lie on the joint as it is");
-  SweepQuery query{.parameters = plan::parse_sweep(options.sweep),
-                   .targets = io::read_targets(options.targets, io::known_motions(loaded), loaded.joint.kind,
-                                               loaded.joint.anatomy),
-                   .range = range.range};
-  io::check_shown_sweep(query.parameters, query.targets.size());
-  io::name_joint_file(options.joint(), [&] { check_sweep(loaded.joint, query); });
-  return query;
+  SweepRequest request{.parameters = plan::parse_sweep(options.sweep),
+                       .targets = io::read_targets(options.targets, Case(loaded).motions(), loaded.joint.kind,
+                                                   loaded.joint.anatomy),
+                       .range = range.range};
+  io::check_shown_sweep(request.parameters, request.targets.size());
+  io::name_joint_file(options.joint(), [&] { check_sweep(loaded, request); });
+  return request;
 }
 
-io::SweepResult answered_sweep(const io::LoadedJoint& loaded, const SweepQuery& query) {
-  SweepAnswer answer = followed_by_stage([&](const AnswerControl& control) {
-    return answer_sweep(loaded.joint, loaded.report.placement, query, control);
-  });
-  for (const SweepNote& each : answer.notes) note(fmt::format("{}: {}", name_of(each.code), each.text));
-  return io::sweep_result_of(loaded, std::move(answer), query, {}, nullptr);
+/// What is said beside the answers, in the order in which they were found.
+void note_answers(const ReportArguments& options, const io::LoadedJoint& loaded,
+                  const std::optional<JointBefore>& before, const io::ReportRequest& request,
+                  const io::ReportAnswer& answer) {
+  if (answer.plan) note_all(answer.plan->notes);
+  const auto of_limits = [](const io::RangeOrReason& range, std::string_view whose) {
+    if (range.answer) return note_all(range.answer->notes, whose);
+    note(fmt::format("{}no limits: {}", whose, range.why_none));
+  };
+  note_contact(answer.contact_notes, loaded, options.strictness);
+  of_limits(answer.range, before ? options.joint() + ": " : "");
+  if (before) of_limits(answer.before, before->whose);
+  if (answer.sweep) note_all(answer.sweep->notes);
+  if (request.sweep && !answer.sweep)
+    note("no safe zone: without limits the page shows none, and --sweep is not computed");
 }
 
 void report_command(const ReportArguments& options, const CLI::App& command) {
@@ -219,82 +155,39 @@ void report_command(const ReportArguments& options, const CLI::App& command) {
   check_comparison(options);
   std::optional<JointBefore> before;
   if (options.compares()) before.emplace(options, loaded.joint, words_of(command));
-  std::optional<io::MotionTable> table;
-  if (!options.motion.empty()) table = io::read_motion_table(options.motion);
-  RangeRequest request = range_request_of(*options.range, loaded, io::known_motions(loaded));
+  io::ReportRequest request{.with_pressure = options.with_pressure, .with_measures = options.measures};
+  if (!options.motion.empty()) request.motion = io::read_motion_table(options.motion);
+  request.range = range_request_of(*options.range, loaded, Case(loaded).motions());
   std::optional<Followed> follows;
-  io::name_joint_file(options.joint(),
-                      [&] { follows.emplace(*options.follow, loaded, io::MotionsAre::all, request); });
-  const std::optional<SweepQuery> sweep_query = swept(options, loaded, request);
-  const std::string whose = before ? options.joint() + ": " : "";
-  const std::vector<JointNote> notes = noted(loaded, options.strictness, whose);
+  io::name_joint_file(options.joint(), [&] {
+    follows.emplace(*options.follow, loaded, io::MotionsAre::all, request.range);
+    check_range_request(loaded, request.range);
+  });
+  request.plan = planned(options, request.range);
+  request.sweep = swept(options, loaded, request.range);
+  if (before) request.before = &before->loaded;
+  if (options.with_pressure) contact_of({}, loaded.report.file, true);
+  request.look_at_notes = [&](const std::vector<std::string>& processing,
+                              const std::vector<motion::ContactNote>& notes) {
+    for (const std::string& remark : processing) note(remark);
+    if (options.strictness == Strictness::errors) note_contact(notes, loaded, options.strictness);
+  };
+  const std::vector<JointNote> notes =
+      noted(loaded, options.strictness, before ? options.joint() + ": " : "");
   io::Provenance from = io::provenance_of(loaded, words_of(command));
   for (const std::string& file : {options.motion, options.follow->record, options.targets})
     if (!file.empty()) from.read.emplace_back(file);
-  if (before) from.read.insert(from.read.end(), before->files().begin(), before->files().end());
+  if (before) from.read.insert(from.read.end(), before->from.read.begin(), before->from.read.end());
   // Where the file cannot be written is reported before the work, not after it.
   io::check_report_file(options.out, &from);
 
-  std::optional<ResectionAnswer> plan;
-  std::optional<io::LoadedJoint> without_bone;
-  if (options.has_plan()) {
-    plan = planned(options, loaded, request);
-    without_bone.emplace(io::LoadedJoint{plan->resection.joint, loaded.report});
-    for (const ResectionNote& each : plan->notes) note(fmt::format("{}: {}", name_of(each.code), each.text));
-  }
-  const io::LoadedJoint& shown = without_bone ? *without_bone : loaded;
-  std::optional<Recorded> recorded;
-  std::vector<motion::ContactNote> contact_notes = range_request_notes(request);
-  if (table) {
-    recorded.emplace(options, shown, *table);
-    recorded->answer =
-        answered_motion(recorded->question, {.X_FM = recorded->motion.X_FM, .between = BetweenFrames::never},
-                        options.strictness);
-    motion::add_new(contact_notes, recorded->answer.notes);
-  }
-  io::ContactEntry contact;
-  std::optional<io::ReportedLayers> layers;
-  if (options.with_pressure) {
-    contact = contact_of({}, loaded.report.file, true);
-    const io::ContactSurfaces surfaces = io::surfaces_of(contact, loaded.joint);
-    layers.emplace(io::ReportedLayers{contact, io::elastic_options(contact, surfaces, loaded)});
-    motion::add_new(contact_notes,
-                    motion::check_layers(surfaces.fixed.mesh, surfaces.mobile.mesh, layers->options,
-                                         {surfaces.fixed.name, surfaces.mobile.name}));
-  }
-  note_contact(contact_notes, loaded, options.strictness);
-  const auto [answer, error] = range_of(shown, request, whose);
-  std::optional<io::RomResult> rom;
-  if (answer) {
-    rom.emplace(io::rom_result_of(*answer, notes, &from));
-    rom->contact_notes = contact_notes;
-  }
-  io::Report report{.title = options.title.value_or(loaded.joint.name),
-                    .joint = shown.joint,
-                    .reference_pose = loaded.report.placement.reference_pose,
-                    .rom = rom ? &*rom : nullptr,
-                    .rom_error = error,
-                    .bearing_margin_mm = request.range.bearing.margin_mm,
-                    .labels = options.labels};
-  if (loaded.report.file.recorded_motion) report.recorded_motion = &*loaded.report.file.recorded_motion;
-  if (before) report.before.emplace(before->answered(request));
-  std::optional<io::SweepResult> sweep;
-  if (sweep_query && answer) report.sweep = &sweep.emplace(answered_sweep(loaded, *sweep_query));
-  if (sweep_query && !answer)
-    note("no safe zone: without limits the page shows none, and --sweep is not computed");
-  if (layers) report.layers.emplace(std::move(*layers));
-  if (recorded)
-    report.recorded.emplace(io::ReportedMotion{std::filesystem::path(options.motion).filename().string(),
-                                               recorded->question, recorded->answer});
-  std::optional<MeasureAnswer> measures;
-  if (options.measures) measures = measured(options, shown, request);
-  std::optional<io::MeasureResult> shape;
-  if (measures) report.measures = &shape.emplace(io::MeasureResult{shown.joint, *measures, notes, &from});
-  std::optional<io::ResectionResult> cut;
-  if (plan)
-    report.plan = &cut.emplace(io::ResectionResult{loaded.joint, *plan, notes, &from, &loaded.report.file});
+  const io::ReportAnswer answer =
+      with_progress([&](const Control& control) { return io::answer_report(loaded, request, control); });
+  note_answers(options, loaded, before, request, answer);
   io::add_other_files(from, read);
-  io::write_report(options.out, report);
+  io::ReportWords words{.title = options.title, .labels = options.labels, .notes = notes, .from = &from};
+  if (before) words.notes_before = before->notes, words.from_before = &before->from;
+  io::write_report(options.out, loaded, request, answer, words);
   say_written({options.out});
 }
 

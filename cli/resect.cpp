@@ -12,21 +12,18 @@
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/answer.hpp"
-#include "followed.hpp"
 #include "help_formatter.hpp"
 #include "io/file/input_recorder.hpp"
-#include "io/joint/known_motions.hpp"
-#include "io/joint/measure_request.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/mesh/vertex_marks.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/resection_result.hpp"
 #include "notes.hpp"
-#include "range.hpp"
 #include "range_options.hpp"
 #include "resection_options.hpp"
 #include "set_option.hpp"
 #include "whole_number.hpp"
+#include "with_progress.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -34,7 +31,7 @@ namespace {
 struct ResectArguments {
   ParameterArguments parameters;
   std::string joint, out, protect_mobile, protect_fixed;
-  std::size_t curve_points = ResectionQuery{}.curve_points;
+  std::size_t curve_points = ResectionRequest{}.curve_points;
   std::shared_ptr<ResectionArguments> cut = std::make_shared<ResectionArguments>();
   std::shared_ptr<RangeArguments> range = std::make_shared<RangeArguments>();
   Strictness strictness = Strictness::notes;
@@ -54,22 +51,19 @@ void resect_command(const ResectArguments& options, const CLI::App& command) {
   for (const std::string& marks : {options.protect_mobile, options.protect_fixed})
     if (!marks.empty()) from.read.emplace_back(marks);
   if (!options.out.empty()) io::check_resection_folder(options.out, &from);
-  const std::vector<motion::Motion> motions = io::known_motions(loaded);
+  const std::vector<motion::Motion> motions = Case(loaded).motions();
   const RangeRequest range = range_request_of(*options.range, loaded, motions);
-  ResectionQuery query;
-  query.resection = resection_request_of(*options.cut);
-  query.resection.targets = reach_targets(motions, options.cut->targets);
-  query.resection.mobile.vertices = marks_in(options.protect_mobile, loaded.joint.mobile);
-  query.resection.fixed.vertices = marks_in(options.protect_fixed, loaded.joint.fixed);
-  query.resection.range = range.range;
-  query.motions = motions;
-  query.bands = range.bands;
-  query.curve_points = options.curve_points;
-  query.measures = io::measure_request_of(loaded);
+  ResectionRequest request;
+  request.resection = resection_request_of(*options.cut);
+  request.resection.targets = reach_targets(motions, options.cut->targets);
+  request.resection.mobile.vertices = marks_in(options.protect_mobile, loaded.joint.mobile);
+  request.resection.fixed.vertices = marks_in(options.protect_fixed, loaded.joint.fixed);
+  request.resection.range = range.range;
+  request.motions = motions;
+  request.bands = range.bands;
+  request.curve_points = options.curve_points;
   const ResectionAnswer answer = io::name_joint_file(options.joint, [&] {
-    return followed_by_stage([&](const AnswerControl& control) {
-      return answer_resection(loaded.joint, loaded.report.placement, query, control);
-    });
+    return with_progress([&](const Control& control) { return answer_resection(loaded, request, control); });
   });
   io::add_other_files(from, read);
   const io::ResectionResult result{loaded.joint, answer, notes, &from, &loaded.report.file};

@@ -54,9 +54,9 @@ HelpGroup resection_group() {
           {"--from", "--share", "--margin", "--burr", "--deepest", "--within", "--edge"}};
 }
 
-plan::ResectionRequest resection_request_of(const ResectionArguments& given) {
+plan::ResectionOptions resection_request_of(const ResectionArguments& given) {
   const plan::KeptBone kept{given.deepest_mm, given.within_mm, {}};
-  plan::ResectionRequest request;
+  plan::ResectionOptions request;
   request.fixed_share = fixed_share(given);
   request.mobile = kept;
   request.fixed = kept;

@@ -21,7 +21,7 @@ struct ResectionArguments {
   std::string targets;  ///< "flexion=115 fadir=30"; empty: nothing is planned
   std::string from = "mobile";
   std::optional<double> share, deepest_mm, within_mm, burr_mm;
-  double margin_mm = 0, edge_mm = plan::ResectionRequest{}.edge_mm;
+  double margin_mm = 0, edge_mm = plan::ResectionOptions{}.edge_mm;
 };
 
 /// Adds the options of a cut. `targets` is the option that asks for one, which these need. `given` is written while arguments are
@@ -31,6 +31,6 @@ void add_cut(CLI::App& command, const std::shared_ptr<ResectionArguments>& given
 HelpGroup resection_group();
 
 /// The given options, without the targets, marked vertices and the rules of the limits. Throws UsageError.
-plan::ResectionRequest resection_request_of(const ResectionArguments& given);
+plan::ResectionOptions resection_request_of(const ResectionArguments& given);
 
 }  // namespace condyle::cli

@@ -19,13 +19,11 @@
 #include "follow_options.hpp"
 #include "help_formatter.hpp"
 #include "io/file/input_recorder.hpp"
-#include "io/joint/known_motions.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/rom_files.hpp"
 #include "io/result/rom_result.hpp"
 #include "notes.hpp"
-#include "range.hpp"
 #include "range_options.hpp"
 #include "set_option.hpp"
 
@@ -50,15 +48,12 @@ struct RomArguments {
   AnswerForm form = AnswerForm::text;
 };
 
-/// The motions named, all where none is. A name may be a list parted by commas.
-std::vector<motion::Motion> chosen_motions(const std::vector<motion::Motion>& known,
-                                           const std::vector<std::string>& names) {
-  if (names.empty()) return known;
-  std::vector<motion::Motion> chosen;
-  for (const std::string& list : names)
-    for (const std::string& name : CLI::detail::split(list, ','))
-      chosen.push_back(motion::motion_named(known, name));
-  return chosen;
+/// Each may be a list parted by commas.
+std::vector<std::string> names_in(const std::vector<std::string>& lists) {
+  std::vector<std::string> names;
+  for (const std::string& list : lists)
+    for (std::string& name : CLI::detail::split(list, ',')) names.push_back(std::move(name));
+  return names;
 }
 
 /// One line per motion: its name, what varies and how far, and what is held.
@@ -94,7 +89,7 @@ RangeRequest request_of(const RomArguments& options, const io::LoadedJoint& load
 RangeAnswer answer_of(const io::LoadedJoint& loaded, const RangeRequest& request) {
   return io::name_joint_file(loaded.report.file.path.string(), [&] {
     try {
-      return answered_range(loaded, request);
+      return with_progress([&](const Control& control) { return answer_range(loaded, request, control); });
     } catch (const motion::ReferenceContactError& error) {
       throw motion::ReferenceContactError(std::string(error.what()) +
                                           " (--allow-depth, --exclude-reference-contacts, "
@@ -106,14 +101,14 @@ RangeAnswer answer_of(const io::LoadedJoint& loaded, const RangeRequest& request
 void rom_command(const RomArguments& options, const CLI::App& command) {
   const io::InputRecorder read;
   const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
-  std::vector<motion::Motion> motions = chosen_motions(io::known_motions(loaded), options.motions);
+  std::vector<motion::Motion> motions = Case(loaded).motions(names_in(options.motions));
   if (options.task == Task::list_motions) return print(list_of(motions, loaded.joint.anatomy));
   RangeRequest request = request_of(options, loaded, std::move(motions));
   std::optional<Followed> followed;
   io::name_joint_file(options.joint, [&] {
     followed.emplace(*options.follow, loaded,
                      options.motions.empty() ? io::MotionsAre::all : io::MotionsAre::chosen, request);
-    check_range_request(loaded.joint, loaded.report.placement, request);
+    check_range_request(loaded, request);
   });
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   note_contact(range_request_notes(request), loaded, options.strictness);
@@ -124,9 +119,9 @@ void rom_command(const RomArguments& options, const CLI::App& command) {
 
   io::add_other_files(from, read);
   const RangeAnswer answer = answer_of(loaded, request);
-  io::RomResult result = io::rom_result_of(answer, notes, &from);
-  result.vtp_encoding = options.where->vtp_encoding;
-  if (!options.out.empty()) say_written(io::write_rom(options.out, result));
+  note_all(answer.notes);
+  const io::RomResult result = io::rom_result_of(answer, notes, &from);
+  if (!options.out.empty()) say_written(io::write_rom(options.out, result, options.where->vtp_encoding));
   print(options.form == AnswerForm::json ? io::rom_json(result) : io::rom_text(result));
 }
 

@@ -10,11 +10,11 @@
 
 #include "answer.hpp"
 #include "commands.hpp"
-#include "followed.hpp"
 #include "help_formatter.hpp"
 #include "io/result/sample_files.hpp"
 #include "sample_implants.hpp"
 #include "whole_number.hpp"
+#include "with_progress.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -220,9 +220,8 @@ struct CohortOptions {
 void sample_command(const CohortOptions& options) {
   io::SampleCohort cohort = options.cohort;
   cohort.scenario = static_cast<sample::Scenario>(options.scenario);
-  const auto written = followed("hips", [&](const auto& follow, std::stop_token stop) {
-    return io::write_sample_cohort(options.out, cohort, {follow, stop});
-  });
+  const auto written = with_progress(
+      [&](const Control& control) { return io::write_sample_cohort(options.out, cohort, control); });
   say_written(written);
   print(fmt::format("{} hips, for condyle study {}\n", cohort.n, written.front().string()));
 }

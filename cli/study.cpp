@@ -12,7 +12,6 @@
 #include "condyle/io/study.hpp"
 #include "contact_options.hpp"
 #include "help_formatter.hpp"
-#include "prompt_stop.hpp"
 #include "range_options.hpp"
 #include "resection_options.hpp"
 
@@ -55,7 +54,7 @@ io::StudyOptions study_options(const StudyArguments& given) {
   options.reference_contact = range.reference_contact;
   if (given.leaves_out_reference_contacts) options.leave_out_reference_contacts.emplace();
   options.map = grid_of(range, JointKind::ball, options.anatomy);
-  if (range.band_samples > 0) options.bands = {range.band_samples, range.seed, range.sigma};
+  options.bands = band_of(range);
   if (!given.depth.empty()) options.depth_at = io::study_pose(given.depth, options.anatomy);
   options.measures = given.measures;
   if (!given.cut->targets.empty())
@@ -73,9 +72,8 @@ io::StudyOptions study_options(const StudyArguments& given) {
 void study_command(const StudyArguments& given) {
   io::Study study{given.table, given.out, study_options(given), {}, given.bad_joint};
   if (!given.shard.empty()) study.shard = io::Shard::parse(given.shard);
-  const io::StudyDone done = stopped_promptly("joints", [&](const auto& follow, std::stop_token stop) {
-    return io::run_study(study, {follow, stop});
-  });
+  const io::StudyDone done =
+      with_progress([&](const Control& control) { return io::run_study(study, control); });
   for (const io::NotedJoint& joint : done.noted) note(joint.id + ": " + joint.codes);
   if (done.was_there)
     note("is there already, of the same inputs, options and version");

@@ -9,12 +9,13 @@
 #include "commands.hpp"
 #include "condyle/io/label_file.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "followed.hpp"
 #include "help_formatter.hpp"
 #include "io/file/output_file.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/result/label_result.hpp"
 #include "label_options.hpp"
+#include "notes.hpp"
+#include "with_progress.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -31,12 +32,10 @@ void surface_command(const SurfaceArguments& options, const CLI::App& command) {
   io::check_output_file(options.out, read);
   const io::LabelMap map = io::read_labels(options.image, options.labels->file);
   const io::LabelBoneRequest request{options.label, options.labels->task, options.labels->surface};
-  const io::LabelBone bone =
-      followed("steps of the surface", [&](const auto& progress, const std::stop_token& stop) {
-        return io::bone_of(map, options.image, request, {.progress = progress, .stop = stop});
-      });
-  note_labels(map.notes);
-  note_labels(bone.notes);
+  const io::LabelBone bone = with_progress(
+      [&](const Control& control) { return io::bone_of(map, options.image, request, control); });
+  note_all(map.notes);
+  note_all(bone.notes);
   const std::filesystem::path out(options.out);
   io::OutputFolder folder(out.has_parent_path() ? out.parent_path() : ".");
   io::write_mesh(folder.file(out.filename().string()), bone.surface.mesh);

@@ -16,21 +16,18 @@
 #include "condyle/error.hpp"
 #include "condyle/io/study.hpp"
 #include "contact_options.hpp"
-#include "followed.hpp"
 #include "help_formatter.hpp"
 #include "io/file/input_file.hpp"
 #include "io/file/input_recorder.hpp"
-#include "io/joint/known_motions.hpp"
-#include "io/joint/measure_request.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/sweep/load_quantities.hpp"
 #include "io/sweep/sweep_files.hpp"
 #include "io/sweep/target_table.hpp"
 #include "notes.hpp"
-#include "range.hpp"
 #include "range_options.hpp"
 #include "set_option.hpp"
+#include "with_progress.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -53,20 +50,16 @@ SweepShare share_of(const std::string& text) {
   return {shard.number, shard.of};
 }
 
-void note_sweep(const SweepAnswer& answer) {
-  for (const SweepNote& each : answer.notes) note(fmt::format("{}: {}", name_of(each.code), each.text));
-}
-
 /// Further quantities of each design.
-void add_quantities(const SweepArguments& options, const io::LoadedJoint& loaded, SweepQuery& query) {
+void add_quantities(const SweepArguments& options, const io::LoadedJoint& loaded, SweepRequest& request) {
   std::vector<std::string> keys;
   for (const std::string& list : options.measures)
     for (const std::string& key : CLI::detail::split(list, ',')) keys.push_back(key);
-  if (!keys.empty()) query.quantities.push_back(measured_quantities(keys, io::measure_request_of(loaded)));
+  if (!keys.empty()) request.quantities.push_back(measured_quantities(keys, Case(loaded).measure_options()));
   if (options.load) {
     const io::StudyLoad load =
         study_load_of(*options.load, options.force, options.along, *options.contact, loaded.joint.anatomy);
-    query.quantities.push_back(io::load_quantities(loaded, load));
+    request.quantities.push_back(io::load_quantities(loaded, load));
   } else if (!options.force.empty() || !options.along.empty() || options.contact->any_of_rays() ||
              options.contact->any_of_layers() || options.contact->law) {
     throw UsageError("--force, --e and all else on a load: needs --load");
@@ -76,48 +69,46 @@ void add_quantities(const SweepArguments& options, const io::LoadedJoint& loaded
 void sweep_command(const SweepArguments& options, const CLI::App& command) {
   const io::InputRecorder read;
   const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
-  if (options.range->sigma.centre_mm || options.range->sigma.axes_deg || options.range->sigma.surface_mm)
+  if (options.range->band.any_sigma())
     throw UsageError(
         "--sigma-centre, --sigma-axes and --sigma-surface: a sweep displaces parameters of parts only, by "
         "their "
         "sigma in the joint file");
   const std::string targets = io::read_whole_file(options.targets);
   RangeRequest range = range_request_of(*options.range, loaded, {});
-  SweepQuery query{.parameters = plan::parse_sweep(options.vary),
-                   .targets = io::parse_targets(targets, options.targets, io::known_motions(loaded),
-                                                loaded.joint.kind, loaded.joint.anatomy),
-                   .range = range.range,
-                   .bands = range.bands,
-                   .share = share_of(options.shard)};
-  add_quantities(options, loaded, query);
-  if (query.share.of > 1 && options.out.empty())
+  SweepRequest request{.parameters = plan::parse_sweep(options.vary),
+                       .targets = io::parse_targets(targets, options.targets, Case(loaded).motions(),
+                                                    loaded.joint.kind, loaded.joint.anatomy),
+                       .range = range.range,
+                       .bands = range.bands,
+                       .share = share_of(options.shard)};
+  add_quantities(options, loaded, request);
+  if (request.share.of > 1 && options.out.empty())
     throw UsageError("--shard: needs --out, where its results lie");
-  io::name_joint_file(options.joint, [&] { check_sweep(loaded.joint, query); });
+  io::name_joint_file(options.joint, [&] { check_sweep(loaded, request); });
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   io::Provenance from = io::provenance_of(loaded, words_of(command));
   from.read.emplace_back(options.targets);
   const std::string asked = io::sweep_options(from.command, read.inputs());
-  const std::filesystem::path folder = io::sweep_folder(options.out, query.share);
+  const std::filesystem::path folder = io::sweep_folder(options.out, request.share);
   std::optional<io::SweepResult> result;
   if (!options.out.empty()) {
     io::check_sweep_folder(folder, &from);
-    result = io::sweep_there(folder, asked, query.share);
+    result = io::sweep_there(folder, asked, request.share);
   }
   if (result) {
     note("is there already, of the same inputs, options and version");
   } else {
     SweepAnswer answer = io::name_joint_file(options.joint, [&] {
-      return followed_by_stage([&](const AnswerControl& control) {
-        return answer_sweep(loaded.joint, loaded.report.placement, query, control);
-      });
+      return with_progress([&](const Control& control) { return answer_sweep(loaded, request, control); });
     });
     if (const auto why = read.passing_failure()) throw FileError(*why);
     io::add_other_files(from, read);
-    result = io::sweep_result_of(loaded, std::move(answer), query, notes, &from);
+    result = io::sweep_result_of(loaded, std::move(answer), notes, &from);
     const io::SweepKey key = io::sweep_key(asked, io::sweep_inputs(read));
     if (!options.out.empty()) say_written(io::write_sweep(folder, *result, key, &from));
   }
-  note_sweep(result->answer);
+  note_all(result->answer.notes);
   print(options.form == AnswerForm::json ? io::sweep_json(*result) : io::sweep_text(*result));
 }
 

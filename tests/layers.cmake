@@ -47,7 +47,7 @@ foreach(layer ${layers})
 endforeach()
 
 function(layer_of_public_header header result)  # header: what follows condyle/, without .hpp
-  if(header MATCHES "^(io|sample)/")
+  if(header MATCHES "^(answer|io|sample)/")
     set(${result} ${CMAKE_MATCH_1} PARENT_SCOPE)
   elseif(DEFINED layer_of_${header})
     set(${result} ${layer_of_${header}} PARENT_SCOPE)
@@ -71,7 +71,7 @@ endfunction()
 
 string(REPLACE ";" "|" any_layer "${layers}")
 file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/src/*.hpp ${SOURCE}/src/*.cpp ${SOURCE}/include/condyle/*.hpp)
-list(REMOVE_ITEM files include/condyle/condyle.hpp)
+list(REMOVE_ITEM files include/condyle/condyle.hpp include/condyle/answer.hpp)  # umbrellas
 foreach(file ${files})
   if(file MATCHES "^src/([a-z]+)/")
     set(layer ${CMAKE_MATCH_1})
@@ -127,6 +127,30 @@ foreach(file ${readers})
   foreach(line IN LISTS lines)
     message(SEND_ERROR "${file}: files and the environment are read by io/file/input_file.hpp: ${line}")
   endforeach()
+endforeach()
+
+# What is answered is decided in answer/: shells ask it, and not the kernels below. Each exception with its reason.
+set(kernels "motion::(motion_map|limit_bands|contact_along|balance_along|contact_between|RangeOfMotion|ZoneFinder|DepthRange)"
+            "measure::measure_(hip|bands)" "plan::(resect|place_total_hip|DesignLimits)" "contact::balance")
+list(JOIN kernels "|" kernels)
+set(exceptions
+    cli/picture.cpp                      # marks of measures: nothing of them is said
+    python/bindings/report.cpp           # likewise, of Joint.picture()
+    python/bindings/motion_contact.cpp   # one step of a loop that a caller writes: answer_load() looks at 16 places of each triangle more
+    python/bindings/depth_range.cpp      # keeps its tables between poses that a caller chooses
+    python/bindings/recorded_motion.cpp  # between samples only, whose times need no frames
+    viewer/core/page_core.cpp            # a slider: one limit in milliseconds, by tables that exact_limits() made
+    viewer/core/page_edit.cpp            # a brushed bone: the same tables with moved vertices
+    viewer/core/page_joint.hpp)          # holds them
+file(GLOB_RECURSE shells RELATIVE ${SOURCE} ${SOURCE}/cli/*.?pp ${SOURCE}/python/bindings/*.?pp ${SOURCE}/viewer/core/*.?pp
+     ${SOURCE}/src/io/study/*.?pp ${SOURCE}/src/io/report/*.?pp ${SOURCE}/src/io/sweep/*.?pp)
+foreach(file ${shells})
+  file(STRINGS ${SOURCE}/${file} lines REGEX "(${kernels})[ ({&>]")
+  if(lines AND NOT file IN_LIST exceptions)
+    message(SEND_ERROR "${file}: answer/ answers this: ${lines}")
+  elseif(NOT lines AND file IN_LIST exceptions)
+    message(SEND_ERROR "${file}: asks answer/ only: take it from the exceptions")
+  endif()
 endforeach()
 
 foreach(layer ${layers})

@@ -126,9 +126,6 @@ class JointContact {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Depths are only comparable within their kind: along the ray, or along the arc about an axis.
-enum class DepthKind { radial, tangential };
-
 /// A radial depth is a depth where the surface faces the ray: then the exit along the ray is about the
 /// shortest exit. Through a flat wall at 60 degrees from the ray it is twice as long; beyond that, or where the
 /// ray leaves through the far end of a neck, the radial depth is a length along the bone and the tangential
@@ -143,11 +140,9 @@ struct DeepestVertex {
   double shortest_exit_mm;  ///< to the nearest point of the other body's surface
   Angle ray_to_normal;      ///< between the ray and the normal of the surface that it leaves through
 
-  /// The kind of depth that means something here.
-  DepthKind applies() const noexcept {
-    return ray_to_normal > radial::oblique_ray || depth_mm > longest_meaningful_ratio * shortest_exit_mm
-               ? DepthKind::tangential
-               : DepthKind::radial;
+  /// Whether its radial depth means something; else the tangential one does.
+  bool radial_is_depth() const noexcept {
+    return !(ray_to_normal > radial::oblique_ray || depth_mm > longest_meaningful_ratio * shortest_exit_mm);
   }
 };
 

@@ -85,8 +85,8 @@ RadialSummary summarise(const RadialContact& contact, const NearestDistances& di
 
 // The depth to read of each vertex: of several ways out the one that means a depth there. docs/depths.md.
 
-/// Kind of a depth: the line or arc along which it is measured.
-enum class DepthWay : std::uint8_t {
+/// Kind of a depth: the line or arc along which it is measured. Depths are comparable within their kind only.
+enum class DepthKind : std::uint8_t {
   none,               ///< not inside: 0
   radial,             ///< along the ray from the joint centre
   flexion,            ///< along the arc about the axis of this angle
@@ -104,7 +104,7 @@ struct ExitRotation {
 /// The vertex of one body that is deepest by the depth to read.
 struct DeepestReliable {
   Index vertex;
-  DepthWay way;
+  DepthKind kind;
   double depth_mm;
   double nearest_distance_mm;
   double radial_depth_mm;  ///< whether or not it is a depth
@@ -115,7 +115,7 @@ struct DeepestReliable {
 
 /// Reliable depths of one body's vertices.
 struct ReliableDepths {
-  std::vector<DepthWay> way;
+  std::vector<DepthKind> kind;
   std::vector<double> depth_mm;  ///< 0 for vertices that are not inside; always finite
   /// Deepest of the vertices inside whose kind is other than nearest.
   std::optional<DeepestReliable> deepest;
@@ -127,7 +127,7 @@ struct ReliableContact {
   std::optional<ReliableDepths> mobile, fixed;
 };
 
-/// A vertex's radial depth if that is a depth (DeepestVertex::applies); else the shortest arc about one of the
+/// A vertex's radial depth if that is a depth (DeepestVertex::radial_is_depth); else the shortest arc about one of the
 /// joint's axes at this pose, of those that set it free; else its nearest distance. `contact` and `distances` are those
 /// of the same pose. Builds ring tables only if a vertex needs them.
 ReliableContact reliable_depths(const JointContact& joint, JointKind kind, CoordinateSystem system,

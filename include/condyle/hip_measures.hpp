@@ -66,7 +66,7 @@ const MeasureDefinition* measure_definition(std::string_view key) noexcept;
 /// Forwards or backwards.
 inline constexpr double largest_pelvic_tilt_deg = 60;
 
-struct MeasureRequest {
+struct MeasureOptions {
   /// By which the pelvis is tilted forwards from how its frame shows it: acetabular angles are those of the tilted pelvis.
   Angle pelvic_tilt = {};
   /// Source of the hip bone's axes: pelvis_frame_of(); empty: not stated, taken as scanned.
@@ -201,7 +201,7 @@ std::string stated_frame(const HipMeasures& measures);
 /// bearing or soft are left out. Throws UsageError for another joint than a hip, a hinge, and a request outside its ranges.
 ///
 /// Some tens of milliseconds for 50,000 triangles, after the searches for head, socket and condyles, which are kept with the meshes.
-HipMeasures measure_hip(const Joint& joint, const MeasureRequest& request = {});
+HipMeasures measure_hip(const Joint& joint, const MeasureOptions& request = {});
 
 /// The spread of one measure.
 struct MeasureBand {
@@ -214,10 +214,10 @@ struct MeasureBand {
 /// the head's centre moves with the joint's. The same bits whatever the threads; empty if it was stopped before all samples were done.
 ///
 /// Throws UsageError as measure_hip() and limit_bands() do.
-std::optional<std::vector<MeasureBand>> measure_bands(const Joint& joint, const MeasureRequest& request,
+std::optional<std::vector<MeasureBand>> measure_bands(const Joint& joint, const MeasureOptions& request,
                                                       const motion::BandOptions& options,
                                                       const Control& control);
-std::vector<MeasureBand> measure_bands(const Joint& joint, const MeasureRequest& request = {},
+std::vector<MeasureBand> measure_bands(const Joint& joint, const MeasureOptions& request = {},
                                        const motion::BandOptions& options = {});
 
 }  // namespace condyle::measure

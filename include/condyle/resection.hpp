@@ -47,7 +47,7 @@ struct KeptBone {
   std::vector<std::uint8_t> vertices = {};  ///< 1 for those that stay, one per vertex of the mesh; or none
 };
 
-struct ResectionRequest {
+struct ResectionOptions {
   std::vector<ReachTarget> targets = {};
   /// Share of the depth for which the fixed body is cut in place of the mobile one: 0 cuts the mobile body only, 1 the fixed body only.
   double fixed_share = 0;
@@ -128,15 +128,15 @@ Joint with_mobile_mesh(const Joint& joint, Mesh mesh);
 
 /// Throws UsageError for a request without targets, two of one motion, reaches that are not within the motion's range, and values outside
 /// theirs.
-void check_resection(const Joint& joint, const ResectionRequest& request);
+void check_resection(const Joint& joint, const ResectionOptions& request);
 
 /// The bone that must go so that each motion reaches its target, and the joint without it. What is removed holds everything that
 /// the other bone sweeps over, and little more; the limits are exact ones of the joint with the cut bones.
 ///
 /// Throws UsageError as check_resection(), MeshError if a body is not closed or a cut surface would run through itself, and
 /// ReferenceContactError. A second or so for a hip of 20,000 triangles and one motion.
-Resection resect(const Joint& joint, const ResectionRequest& request);
+Resection resect(const Joint& joint, const ResectionOptions& request);
 /// The same; empty if it was stopped.
-std::optional<Resection> resect(const Joint& joint, const ResectionRequest& request, const Control& control);
+std::optional<Resection> resect(const Joint& joint, const ResectionOptions& request, const Control& control);
 
 }  // namespace condyle::plan

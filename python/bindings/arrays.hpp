@@ -58,6 +58,14 @@ py::array array_of(const Pose& pose);
 py::object optional_array(const std::optional<Vec3>& vector);
 py::object optional_number(const std::optional<double>& number);
 
+/// Code and text of each note of an answer.
+template <class Note>
+py::list notes_of(const std::vector<Note>& notes) {
+  py::list list;
+  for (const Note& note : notes) list.append(py::make_tuple(std::string(name_of(note.code)), note.text));
+  return list;
+}
+
 /// UsageError for a masked array of numpy: its masked elements hold numbers that mean nothing.
 void refuse_masked(const py::object& given, std::string_view name);
 

@@ -86,7 +86,7 @@ py::dict forces_at(const contact::ElasticContact& contact, const py::object& pos
   dict["damping_power"] = forces.damping_power;
   dict["max_strain"] = forces.max_strain;
   dict["factor"] = forces.factor;
-  dict["notes"] = list_of(motion::check_contact(forces));
+  dict["notes"] = notes_of(motion::check_contact(forces));
   dict["stiffness"] = py::none();
   if (options.stiffness) {
     std::vector<double> values;

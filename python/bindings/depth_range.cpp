@@ -36,20 +36,19 @@ py::dict deepest(const motion::DepthRange& range, const py::object& angles_deg) 
 py::list limits_by_depth(const motion::DepthRange& range, const JointHandle& handle, const py::list& given,
                          const py::object& progress) {
   const std::vector<motion::Motion> motions = motions_in(given);
-  const auto found = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    std::vector<motion::DepthLimit> done;
+  RangeAnswer found{.joint = handle.joint()};
+  with_progress(progress, [&](const Control& control) {
     for (const motion::Motion& motion : motions) {
-      if (stop.stop_requested()) break;
-      done.push_back(range.limit(motion));
-      report(done.size(), motions.size());
+      if (control.stop.stop_requested()) break;
+      found.depths.push_back(range.limit(motion));
+      found.limits.push_back(found.depths.back().limit);
+      control.progress("motions", found.depths.size(), motions.size());
     }
-    return done;
+    return true;
   });
-  std::vector<motion::MotionLimit> ends;
-  for (const motion::DepthLimit& limit : found) ends.push_back(limit.limit);
-  const py::list limits = limits_of({.joint = handle.joint(), .limits = ends, .depths = found});
+  const py::list limits = limits_of(io::rom_result_of(found, {}, nullptr));
   py::list list;
-  for (const motion::DepthLimit& limit : found) {
+  for (const motion::DepthLimit& limit : found.depths) {
     py::dict dict;
     dict["limit"] = limits[list.size()];
     dict["at_limit"] = place_dict(limit.at_limit);

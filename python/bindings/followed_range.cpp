@@ -1,12 +1,9 @@
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "io/report/report.hpp"
 #include "motion.hpp"
 #include "range_answer.hpp"
-#include "report_labels.hpp"
 
 namespace condyle::python {
 namespace {
@@ -47,40 +44,16 @@ RangeRequest followed_request_in(const JointHandle& handle, const py::list& moti
   return request;
 }
 
-py::dict followed_limits(const JointHandle& handle, const py::list& motions, const py::object& poses,
-                         const contact::ElasticContact* layers, const py::dict& given,
-                         const py::object& progress) {
-  const RangeAnswer answer =
-      answered_range(handle, followed_request_in(handle, motions, poses, layers, given), progress);
-  return answer_dict(io::rom_result_of(answer, {}, nullptr));
-}
-
-void write_followed_report(const JointHandle& handle, const std::filesystem::path& path,
-                           const std::optional<std::string>& title, const py::list& motions,
-                           const py::object& poses, const contact::ElasticContact* layers,
-                           const py::dict& given, const LabelArguments& labels, const py::object& progress) {
-  const io::LoadedJoint& loaded = handle.loaded;
-  std::optional<io::Provenance> from;
-  if (!loaded.report.file.path.empty())
-    from = io::provenance_of(loaded, {"condyle.FollowedRange.write_report"});
-  io::check_report_file(path, from ? &*from : nullptr);
-  const RangeAnswer answer =
-      answered_range(handle, followed_request_in(handle, motions, poses, layers, given), progress);
-  const py::gil_scoped_release released;
-  const std::vector<JointNote> notes = check_joint(loaded.joint, loaded.report.placement);
-  const io::RomResult rom = io::rom_result_of(answer, notes, from ? &*from : nullptr);
-  io::write_report(path, {.title = title.value_or(loaded.joint.name),
-                          .joint = loaded.joint,
-                          .reference_pose = loaded.report.placement.reference_pose,
-                          .rom = &rom,
-                          .labels = report_labels_of(labels)});
+std::unique_ptr<RangeHandle> followed_range(const JointHandle& handle, const py::list& motions,
+                                            const py::object& poses, const contact::ElasticContact* layers,
+                                            const py::dict& given, const py::object& progress) {
+  return answered_range(handle, followed_request_in(handle, motions, poses, layers, given), progress);
 }
 
 }  // namespace
 
 void bind_followed_range(py::module_& module) {
-  module.def("followed_limits", &followed_limits);
-  module.def("write_followed_report", &write_followed_report);
+  module.def("followed_range", &followed_range);
 }
 
 }  // namespace condyle::python

@@ -10,7 +10,6 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "condyle/answer.hpp"
-#include "io/joint/measure_request.hpp"
 #include "io/result/implant_result.hpp"
 #include "joint.hpp"
 
@@ -25,9 +24,8 @@ struct PlacedImplantHandle {
   io::ImplantResult result() const { return {loaded.joint, answer, {}, nullptr, &loaded.report.file}; }
 };
 
-ImplantQuery implant_query_in(const JointHandle& handle, const std::map<std::string, double>& sizes,
-                              const std::string& definition, int facets, const std::string& centre,
-                              bool as_rim) {
+ImplantRequest implant_request_in(const std::map<std::string, double>& sizes, const std::string& definition,
+                                  int facets, const std::string& centre, bool as_rim) {
   plan::Implant implant = plan::TotalHip{};
   set_sizes(implant, sizes);
   plan::TotalHip& hip = std::get<plan::TotalHip>(implant);
@@ -40,8 +38,7 @@ ImplantQuery implant_query_in(const JointHandle& handle, const std::map<std::str
                        .offset = is_left("offset_mm"),
                        .cup_radius = is_left("cup_radius_mm"),
                        .cup = as_rim},
-          .centre = implant_centre_named(centre),
-          .measures = io::measure_request_of(handle.loaded)};
+          .centre = implant_centre_named(centre)};
 }
 
 /// (name, mesh) of each part.
@@ -54,21 +51,18 @@ py::list meshes_by_part(const Body& body) {
 
 py::dict placed_implant(const JointHandle& handle, const std::map<std::string, double>& sizes,
                         const std::string& definition, int facets, const std::string& centre, bool as_rim) {
-  const ImplantQuery query = implant_query_in(handle, sizes, definition, facets, centre, as_rim);
+  const ImplantRequest request = implant_request_in(sizes, definition, facets, centre, as_rim);
   std::unique_ptr<PlacedImplantHandle> placed;
   std::unique_ptr<JointHandle> joint;
   std::string json;
   {
     const py::gil_scoped_release released;
-    placed = std::make_unique<PlacedImplantHandle>(PlacedImplantHandle{
-        handle.loaded, answer_implant(handle.joint(), handle.loaded.report.placement, query)});
+    placed = std::make_unique<PlacedImplantHandle>(
+        PlacedImplantHandle{handle.loaded, answer_implant(handle.loaded, request)});
     joint = std::make_unique<JointHandle>(io::joint_with_implant(placed->result()));
     json = io::implant_json(placed->result());
   }
   const ImplantAnswer& answer = placed->answer;
-  py::list notes;
-  for (const ImplantNote& note : answer.notes)
-    notes.append(py::make_tuple(std::string(name_of(note.code)), note.text));
   py::dict dict;
   dict["joint"] = std::move(joint);
   dict["fixed"] = meshes_by_part(answer.joint.fixed);
@@ -76,7 +70,7 @@ py::dict placed_implant(const JointHandle& handle, const std::map<std::string, d
   dict["centre_mm"] = array_of(answer.centre_mm);
   dict["femur_shift_mm"] = array_of(answer.femur_shift_mm);
   dict["cut_normal"] = array_of(answer.cut.normal);
-  dict["notes"] = notes;
+  dict["notes"] = notes_of(answer.notes);
   dict["caveats"] = answer.caveats;
   dict["json"] = json;
   dict["placed"] = std::move(placed);

@@ -6,11 +6,14 @@
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
-#include <functional>
 #include <mutex>
 #include <optional>
 #include <stop_token>
+#include <string_view>
 #include <thread>
+#include <type_traits>
+
+#include "condyle/control.hpp"
 
 /// Ctrl-C and progress while the library works without the interpreter's lock.
 
@@ -44,13 +47,12 @@ class Follower {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Result of `compute(report, stop_token)`, computed on a thread of its own while this one watches for Ctrl-C and passes
-/// on progress; `report(done, total)` may be called from any thread. Called with the lock held. An answer that was stopped is
-/// never seen: the exception that stopped it is raised, once the computation has ended.
+/// Result of `compute(control)`, computed on a thread of its own while this one watches for Ctrl-C and passes on progress, whatever the
+/// stage. Called with the lock held. An answer that was stopped is never seen: the exception that stopped it is raised, once the
+/// computation has ended.
 template <class Compute>
-auto followed(const py::object& progress, const Compute& compute) {
-  using Answer =
-      std::invoke_result_t<Compute, std::function<void(std::size_t, std::size_t)>, std::stop_token>;
+auto with_progress(const py::object& progress, const Compute& compute) {
+  using Answer = std::invoke_result_t<Compute, const Control&>;
   struct State {
     std::mutex mutex;
     std::condition_variable changed;
@@ -62,12 +64,11 @@ auto followed(const py::object& progress, const Compute& compute) {
 
   std::jthread worker([&](const std::stop_token& stop) {
     try {
-      state.answer.emplace(compute(
-          [&](std::size_t done, std::size_t total) {
-            const std::scoped_lock lock(state.mutex);
-            state.done = done, state.total = total;
-          },
-          stop));
+      state.answer.emplace(compute(Control{[&](std::string_view, std::size_t done, std::size_t total) {
+                                             const std::scoped_lock lock(state.mutex);
+                                             state.done = done, state.total = total;
+                                           },
+                                           stop}));
     } catch (...) {
       state.error = std::current_exception();
     }

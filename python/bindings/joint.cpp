@@ -82,9 +82,7 @@ py::list checks_of(const JointHandle& handle) {
     const py::gil_scoped_release released;
     return check_joint(handle.joint(), handle.loaded.report.placement);
   }();
-  py::list list;
-  for (const JointNote& note : notes) list.append(py::make_tuple(std::string(name_of(note.code)), note.text));
-  return list;
+  return notes_of(notes);
 }
 
 using AngleNamesList = std::vector<std::pair<std::string, std::string>>;

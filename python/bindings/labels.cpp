@@ -24,13 +24,6 @@ io::LabelMap read_label_map(const std::filesystem::path& path, const std::string
   return io::read_labels(path, options);
 }
 
-py::list label_notes(const std::vector<io::LabelNote>& notes) {
-  py::list list;
-  for (const io::LabelNote& note : notes)
-    list.append(py::make_tuple(std::string(name_of(note.code)), note.text));
-  return list;
-}
-
 py::array affine_array(const Eigen::Affine3d& X) {
   py::array_t<double> array({4, 4});
   auto values = array.mutable_unchecked<2>();
@@ -101,7 +94,7 @@ py::dict bone_dict(io::LabelBone&& bone) {
   dict["name"] = bone.name;
   dict["label"] = bone.label.label;
   dict["voxels"] = bone.voxels;
-  dict["notes"] = label_notes(bone.notes);
+  dict["notes"] = notes_of(bone.notes);
   return dict;
 }
 
@@ -122,9 +115,8 @@ io::LabelBoneRequest bone_request_in(const std::string& label, const std::string
 py::dict label_bone(const io::LabelMap& map, const std::string& file, const std::string& label,
                     const std::string& task, const py::dict& surface, const py::object& progress) {
   const io::LabelBoneRequest request = bone_request_in(label, task, surface);
-  auto bone = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return io::bone_of(map, file, request, {.progress = report, .stop = stop});
-  });
+  auto bone = with_progress(progress,
+                            [&](const Control& control) { return io::bone_of(map, file, request, control); });
   return bone_dict(std::move(*bone));
 }
 
@@ -142,9 +134,8 @@ py::dict mask_surface(const py::array_t<std::uint8_t, py::array::f_style>& insid
   }
   mask.inside.assign(inside.data(), inside.data() + inside.size());
   const LabelSurfaceOptions surface_options = surface_options_in(options);
-  auto surface = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return surface_of(mask, surface_options, {.progress = report, .stop = stop});
-  });
+  auto surface = with_progress(
+      progress, [&](const Control& control) { return surface_of(mask, surface_options, control); });
   const BodyImage image = io::image_of(mask.image, *surface);
   return surface_dict(std::move(*surface), image);
 }
@@ -160,13 +151,12 @@ py::tuple label_joint(const io::LabelMap& map, const io::LabelMap* mobile_map, c
                                 .joint_file = "joint.toml"};
   if (mobile_file) request.mobile_labels = *mobile_file;
   if (!side.empty()) request.side = side == "right" ? Side::right : Side::left;
-  auto joint = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return io::propose_joint(map, mobile_map, request, {.progress = report, .stop = stop});
-  });
+  auto joint = with_progress(
+      progress, [&](const Control& control) { return io::propose_joint(map, mobile_map, request, control); });
   const auto& found = joint->proposal.side;
   return py::make_tuple(bone_dict(std::move(joint->fixed)), bone_dict(std::move(joint->mobile)),
                         found ? py::object(py::str(std::string(name_of(*found)))) : py::none(),
-                        joint->proposal.to_fill_in, label_notes(joint->notes));
+                        joint->proposal.to_fill_in, notes_of(joint->notes));
 }
 
 }  // namespace
@@ -179,7 +169,7 @@ void bind_labels(py::module_& module) {
       .def_property_readonly("lps_from_index",
                              [](const io::LabelMap& map) { return affine_array(map.grid.X_WI); })
       .def_property_readonly("layers", [](const io::LabelMap& map) { return map.layers.size(); })
-      .def_property_readonly("notes", [](const io::LabelMap& map) { return label_notes(map.notes); })
+      .def_property_readonly("notes", [](const io::LabelMap& map) { return notes_of(map.notes); })
       .def("labels", &labels_of)
       .def("voxels", &voxels_of);
   module.def("read_labels", &read_label_map);

@@ -5,8 +5,8 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "interrupts.hpp"
-#include "io/joint/measure_request.hpp"
 #include "io/result/measure_result.hpp"
+#include "range_answer.hpp"
 
 namespace condyle::python {
 namespace {
@@ -58,20 +58,11 @@ py::object band_tuple(const std::vector<measure::MeasureBand>& bands, std::size_
                         band.samples_without_value);
 }
 
-/// Without bands if `samples` is 0.
-py::dict measures_of(const JointHandle& handle, double pelvic_tilt_deg, std::size_t samples,
-                     std::uint64_t seed, double centre_mm, double axes_deg, double surface_mm,
-                     double surface_voxels, const py::object& progress) {
-  MeasureQuery query{io::measure_request_of(handle.loaded, Angle::degrees(pelvic_tilt_deg))};
-  if (samples > 0)
-    query.bands = {.sigma = {centre_mm, Angle::degrees(axes_deg), surface_mm, surface_voxels},
-                   .samples = samples,
-                   .seed = seed};
-  const MeasureAnswer answer = *followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return answer_measures(
-        handle.joint(), query,
-        {[&](std::string_view, std::size_t done, std::size_t total) { report(done, total); }, stop});
-  });
+py::dict measures_of(const JointHandle& handle, double pelvic_tilt_deg, const py::object& band,
+                     const py::object& progress) {
+  const MeasureRequest request{Angle::degrees(pelvic_tilt_deg), band_in(band)};
+  const MeasureAnswer answer = *with_progress(
+      progress, [&](const Control& control) { return answer_measures(handle.loaded, request, control); });
   const measure::HipMeasures& measures = answer.measures;
   py::list list;
   for (std::size_t i = 0; i < measure::measure_definitions().size(); ++i)

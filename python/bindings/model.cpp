@@ -30,13 +30,6 @@ io::ModelJointRequest request_in(const std::string& joint, const std::string& jo
   return request;
 }
 
-py::list notes_of_model(const std::vector<io::ModelNote>& notes) {
-  py::list list;
-  for (const io::ModelNote& note : notes)
-    list.append(py::make_tuple(std::string(name_of(note.code)), note.text));
-  return list;
-}
-
 /// Names and types, and why some cannot be read.
 py::list model_joints(const io::Model& model) {
   py::list joints;
@@ -90,7 +83,7 @@ py::tuple proposed_of_model(const io::Model& model, const std::string& joint, co
       io::propose_joint(model, request_in(joint, joint_file, anatomy, side, contact, polygons));
   for (std::string* missing : {&proposed.missing_body, &proposed.unreadable})
     if (!missing->empty()) proposed.proposal.to_fill_in.push_back(std::move(*missing));
-  return py::make_tuple(proposed.proposal.toml, proposed.proposal.to_fill_in, notes_of_model(proposed.notes));
+  return py::make_tuple(proposed.proposal.toml, proposed.proposal.to_fill_in, notes_of(proposed.notes));
 }
 
 std::unique_ptr<JointHandle> joint_of_model(const io::Model& model, const std::string& joint,
@@ -109,7 +102,7 @@ void bind_model(py::module_& module) {
       .def_readonly("version", &io::Model::version)
       .def_readonly("bodies", &io::Model::bodies)
       .def_readonly("ignored", &io::Model::ignored)
-      .def_property_readonly("notes", [](const io::Model& model) { return notes_of_model(model.notes); })
+      .def_property_readonly("notes", [](const io::Model& model) { return notes_of(model.notes); })
       .def_property_readonly("contacts",
                              [](const io::Model& model) {
                                std::vector<std::string> names;

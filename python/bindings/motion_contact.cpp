@@ -23,7 +23,7 @@ py::dict balance_dict(contact::BalancedPose&& found, const contact::ElasticConta
   dict["steps"] = found.steps;
   std::vector<motion::ContactNote> notes = motion::check_load(load);
   motion::add_new(notes, motion::check_contact(found.contact));
-  dict["notes"] = list_of(notes);
+  dict["notes"] = notes_of(notes);
   dict["contact"] = dict_of(std::move(found.contact), surfaces);
   return dict;
 }
@@ -67,8 +67,8 @@ py::list balanced_along(const contact::ElasticContact& surfaces, const py::objec
   for (std::size_t i = 0; i < forces.size(); ++i)
     loads.push_back({{forces.view()[i], moments.view()[i]}, frame_in(given)});
   const contact::BalanceOptions options = options_in(given);
-  auto found = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return motion::balance_along(surfaces, X_FM, loads, options, {.progress = report, .stop = stop});
+  auto found = with_progress(progress, [&](const Control& control) {
+    return motion::balance_along(surfaces, X_FM, loads, options, control);
   });
   py::list answers;
   for (std::size_t i = 0; i < found->size(); ++i) {
@@ -96,9 +96,8 @@ py::tuple along(const JointHandle& handle, const py::object& poses, const contac
                               .between = BetweenFrames::never,
                               .casting = fixed_casts ? BodyRole::fixed : BodyRole::mobile,
                               .rays = rays};
-  const auto found = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    const auto follow = [&](std::string_view, std::size_t done, std::size_t total) { report(done, total); };
-    return answer_motion(handle.contact, elastic, request, {follow, stop});
+  const auto found = with_progress(progress, [&](const Control& control) {
+    return answer_motion(handle.contact, elastic, request, control);
   });
   const bool casts_fixed = elastic ? elastic->options().casting == contact::Casting::fixed : fixed_casts;
   const Mesh& caster =
@@ -120,7 +119,7 @@ py::tuple along(const JointHandle& handle, const py::object& poses, const contac
     dict["cut_off_by_reach"] = frame->cut_off_by_reach;
     answers.append(dict);
   }
-  return py::make_tuple(answers, list_of(found->notes));
+  return py::make_tuple(answers, notes_of(found->notes));
 }
 
 }  // namespace

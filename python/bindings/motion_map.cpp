@@ -4,7 +4,6 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "interrupts.hpp"
 #include "motion.hpp"
 #include "range_answer.hpp"
 
@@ -86,37 +85,28 @@ py::dict map_of(const RangeHandle& handle, const py::tuple& row, const py::tuple
                              .vary = angle_numbered(vary),
                              .start = Angle::degrees(start_deg),
                              .range = {Angle::degrees(negative_deg), Angle::degrees(positive_deg)}};
-  motion::check_grid(grid, handle.answer.joint.kind);
-  const auto map = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return motion::motion_map(grid, *handle.answer.range, {.progress = report, .stop = stop});
-  });
-  return dict_of_map(*map, io::frame_of(handle.result()));
+  const RangeAnswer found = further_answered(handle, {.map = grid}, progress);
+  py::dict dict = dict_of_map(*found.map, io::frame_of(handle.result()));
+  dict["notes"] = notes_of(found.notes);
+  return dict;
 }
 
-py::list bands_of(const RangeHandle& handle, const py::list& given, std::size_t samples, std::uint64_t seed,
-                  double centre_mm, double axes_deg, double surface_mm, double surface_voxels,
+py::list bands_of(const RangeHandle& handle, const py::list& motions, const py::object& band,
                   const py::object& progress) {
-  const std::vector<motion::Motion> motions = motions_in(given);
-  const motion::BandOptions options{
-      .sigma = {centre_mm, Angle::degrees(axes_deg), surface_mm, surface_voxels},
-      .samples = samples,
-      .seed = seed};
-  const auto bands = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return motion::limit_bands(handle.answer.joint, motions, handle.options(), options,
-                               {.progress = report, .stop = stop});
-  });
+  const RangeAnswer found =
+      further_answered(handle, {.motions = motions_in(motions), .bands = band_in(band)}, progress);
   py::list list;
-  for (const motion::LimitBand& band : *bands) {
+  for (const motion::LimitBand& of_limit : found.bands) {
     py::dict dict;
-    dict["p5_deg"] = band.p5.degrees();
-    dict["median_deg"] = band.median.degrees();
-    dict["p95_deg"] = band.p95.degrees();
-    dict["width_from_centre_deg"] = band.width_from.centre.degrees();
-    dict["width_from_axes_deg"] = band.width_from.axes.degrees();
-    dict["width_from_surface_deg"] = band.width_from.surface.degrees();
-    dict["width_from_parameters_deg"] = band.width_from.parameters.degrees();
-    dict["share_without_contact"] = band.share_without_contact;
-    dict["share_in_contact_at_start"] = band.share_in_contact_at_start;
+    dict["p5_deg"] = of_limit.p5.degrees();
+    dict["median_deg"] = of_limit.median.degrees();
+    dict["p95_deg"] = of_limit.p95.degrees();
+    dict["width_from_centre_deg"] = of_limit.width_from.centre.degrees();
+    dict["width_from_axes_deg"] = of_limit.width_from.axes.degrees();
+    dict["width_from_surface_deg"] = of_limit.width_from.surface.degrees();
+    dict["width_from_parameters_deg"] = of_limit.width_from.parameters.degrees();
+    dict["share_without_contact"] = of_limit.share_without_contact;
+    dict["share_in_contact_at_start"] = of_limit.share_in_contact_at_start;
     list.append(dict);
   }
   return list;
@@ -127,12 +117,6 @@ py::list bands_of(const RangeHandle& handle, const py::list& given, std::size_t 
 void bind_motion_map(py::module_& module) {
   module.def("motion_map", &map_of);
   module.def("limit_bands", &bands_of);
-  module.def("uncertainty", [](const JointHandle& handle) {
-    const io::JointFile& file = handle.loaded.report.file;
-    const motion::Uncertainty& sigma = file.uncertainty;
-    return py::make_tuple(sigma.centre_mm, sigma.axes.degrees(), sigma.surface_mm, file.band_seed,
-                          sigma.surface_voxels);
-  });
 }
 
 }  // namespace condyle::python

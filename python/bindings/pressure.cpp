@@ -88,7 +88,7 @@ void bind_pressure(py::module_& module) {
              return force ? py::object(array_of(*force)) : py::none();
            })
       .def("notes",
-           [](const contact::ElasticContact& contact) { return list_of(motion::check_layers(contact)); })
+           [](const contact::ElasticContact& contact) { return notes_of(motion::check_layers(contact)); })
       .def("update",
            [](contact::ElasticContact& contact, bool is_fixed, const py::object& given) {
              const PointsIn vertices(given, "vertices");

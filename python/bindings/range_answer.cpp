@@ -2,6 +2,9 @@
 
 #include <pybind11/stl.h>
 
+#include <memory>
+#include <utility>
+
 #include "interrupts.hpp"
 #include "io/result/rom_parts.hpp"
 #include "motion.hpp"
@@ -23,19 +26,37 @@ motion::BearingOptions bearing_in(const py::dict& given) {
   return bearing;
 }
 
-RangeAnswer answered_range(const JointHandle& handle, const RangeRequest& request,
-                           const py::object& progress) {
-  return *followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return answer_range(
-        handle.joint(), handle.loaded.report.placement, request,
-        {[&](std::string_view, std::size_t done, std::size_t total) { report(done, total); }, stop});
+std::optional<BandRequest> band_in(const py::object& given) {
+  if (given.is_none()) return std::nullopt;
+  const auto band = given.cast<py::tuple>();
+  const auto sigma = [&](std::size_t i) { return band[i].cast<std::optional<double>>(); };
+  return BandRequest{.samples = band[0].cast<std::size_t>(),
+                     .seed = band[1].cast<std::optional<std::uint64_t>>(),
+                     .centre_mm = sigma(2),
+                     .axes_deg = sigma(3),
+                     .surface_mm = sigma(4)};
+}
+
+std::unique_ptr<RangeHandle> answered_range(const JointHandle& handle, RangeRequest request,
+                                            const py::object& progress) {
+  Case asked = handle.loaded;
+  RangeAnswer answer =
+      *with_progress(progress, [&](const Control& control) { return answer_range(asked, request, control); });
+  request.follow.reset();
+  return std::make_unique<RangeHandle>(RangeHandle{std::move(asked), std::move(request), std::move(answer)});
+}
+
+RangeAnswer further_answered(const RangeHandle& handle, RangeRequest beside, const py::object& progress) {
+  beside.range = handle.request.range;
+  return *with_progress(progress, [&](const Control& control) {
+    return further_answer(handle.asked, handle.answer, beside, control);
   });
 }
 
 py::list limits_of(const io::RomResult& result) {
   py::list list;
-  for (std::size_t i = 0; i < result.limits.size(); ++i) {
-    py::dict dict = dict_of(result.limits[i], io::frame_of(result));
+  for (std::size_t i = 0; i < result.answer.limits.size(); ++i) {
+    py::dict dict = dict_of(result.answer.limits[i], io::frame_of(result));
     dict["said"] = object_of(io::motion_json(result, i));
     list.append(dict);
   }
@@ -43,7 +64,8 @@ py::list limits_of(const io::RomResult& result) {
 }
 
 py::list limits_of(const Joint& joint, std::span<const motion::MotionLimit> limits) {
-  return limits_of({.joint = joint, .limits = limits});
+  const RangeAnswer answer{.joint = joint, .limits = {limits.begin(), limits.end()}};
+  return limits_of(io::rom_result_of(answer, {}, nullptr));
 }
 
 py::dict answer_dict(const io::RomResult& result) {

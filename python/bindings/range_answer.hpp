@@ -2,9 +2,11 @@
 
 #include <pybind11/pybind11.h>
 
+#include <memory>
+#include <optional>
 #include <span>
 
-#include "condyle/answer.hpp"
+#include "condyle/answer/range.hpp"
 #include "io/result/rom_result.hpp"
 #include "joint.hpp"
 
@@ -14,26 +16,27 @@ namespace condyle::python {
 
 namespace py = pybind11;
 
-/// A range of motion as Python holds it: what was asked, and the answer, whose tables answer further questions.
+/// A range of motion as Python holds it: what was asked, and the answer, whose tables answer further questions. What a translation follows
+/// is not kept.
 struct RangeHandle {
+  Case asked;
   RangeRequest request;
   RangeAnswer answer;
 
-  /// The options with the bearing surface that was found, for what is asked beyond the limits.
-  motion::RangeOptions options() const {
-    motion::RangeOptions options = request.range;
-    options.bearing.surface = answer.bearing.surface;
-    return options;
-  }
   io::RomResult result() const { return io::rom_result_of(answer, {}, nullptr); }
 };
 
 /// Reads `count_bearing` and `bearing_margin_mm`, which Python has checked.
 motion::BearingOptions bearing_in(const py::dict& given);
 
+/// Of band_of() in Python: None, or samples, seed and three standard deviations, each None if it is left open.
+std::optional<BandRequest> band_in(const py::object& given);
+
 /// answer_range() of a joint, which Ctrl-C ends.
-RangeAnswer answered_range(const JointHandle& handle, const RangeRequest& request,
-                           const py::object& progress);
+std::unique_ptr<RangeHandle> answered_range(const JointHandle& handle, RangeRequest request,
+                                            const py::object& progress);
+/// further_answer() of what `beside` requests, with the options of the range; likewise.
+RangeAnswer further_answered(const RangeHandle& handle, RangeRequest beside, const py::object& progress);
 
 /// What rom_json() says, its motions as limits_of() has them, under `limits`.
 py::dict answer_dict(const io::RomResult& result);

@@ -5,7 +5,6 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "interrupts.hpp"
-#include "io/joint/known_motions.hpp"
 #include "motion.hpp"
 #include "range_answer.hpp"
 
@@ -28,16 +27,12 @@ std::unique_ptr<RangeHandle> range_of_motion(const JointHandle& handle, const py
   RangeRequest request{.motions = motions_in(motions), .range = options_in(handle, given)};
   if (!translation_mm.is_none()) request.translation_mm = vector_in(translation_mm, "translation_mm");
   if (is_by_rim) request.clock = motion::ClockPlane::rim;
-  RangeAnswer answer = answered_range(handle, request, py::none());
-  return std::make_unique<RangeHandle>(RangeHandle{std::move(request), std::move(answer)});
+  return answered_range(handle, std::move(request), py::none());
 }
 
-py::list limits(const RangeHandle& handle, const py::list& given) {
-  const std::vector<motion::Motion> motions = motions_in(given);
-  const std::optional<RangeAnswer> found = followed(
-      py::none(),
-      [&](const auto&, const std::stop_token& stop) { return further_limits(handle.answer, motions, stop); });
-  return limits_of(io::rom_result_of(*found, {}, nullptr));
+py::list limits(const RangeHandle& handle, const py::list& motions) {
+  const RangeAnswer found = further_answered(handle, {.motions = motions_in(motions)}, py::none());
+  return limits_of(io::rom_result_of(found, {}, nullptr));
 }
 
 py::dict free_angles(const RangeHandle& handle, std::size_t vary, const py::object& start,
@@ -62,7 +57,7 @@ py::dict free_angles(const RangeHandle& handle, std::size_t vary, const py::obje
 
 py::list built_in(const JointHandle& handle) {
   py::list list;
-  for (const motion::Motion& motion : io::known_motions(handle.loaded)) list.append(tuple_of(motion));
+  for (const motion::Motion& motion : Case(handle.loaded).motions()) list.append(tuple_of(motion));
   return list;
 }
 
@@ -75,7 +70,7 @@ py::dict path_limit(const JointHandle& handle, const py::object& given, double t
     waypoints.push_back({Angle::degrees(at[0]), Angle::degrees(at[1]), Angle::degrees(at[2])});
   }
   const motion::RangeOptions range = options_in(handle, options);
-  const motion::PathLimit limit = followed(py::none(), [&](const auto&, const std::stop_token&) {
+  const motion::PathLimit limit = with_progress(py::none(), [&](const Control&) {
     return motion::PathFinder(handle.joint(), range).limit(waypoints, Angle::degrees(tolerance_deg));
   });
   py::dict dict;

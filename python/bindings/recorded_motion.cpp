@@ -51,7 +51,7 @@ py::dict motion_of_file(const JointHandle& handle, const std::filesystem::path& 
   dict["time"] = array_of(std::move(motion.times.values));
   dict["X_FM"] = poses;
   dict["processing"] = motion.processing;
-  dict["notes"] = list_of(motion.notes);
+  dict["notes"] = notes_of(motion.notes);
   return dict;
 }
 
@@ -72,10 +72,9 @@ py::dict recorded(const JointHandle& handle, const py::object& time_s, const py:
                   double resolution_s, const py::object& progress) {
   const std::vector<double> times = doubles_in(time_s, "time_s");
   const PosesIn in = poses_in(given, "poses");
-  const auto found = followed(progress, [&](const auto& report, const std::stop_token& stop) {
+  const auto found = with_progress(progress, [&](const Control& control) {
     return motion::contact_between(handle.contact, times, in.poses,
-                                   motion::RecordedContactOptions{resolution_s},
-                                   {.progress = report, .stop = stop});
+                                   motion::RecordedContactOptions{resolution_s}, control);
   });
   py::list contacts;
   for (const motion::ContactInterval& interval : found->contacts) {

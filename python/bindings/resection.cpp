@@ -6,7 +6,6 @@
 #include "bindings.hpp"
 #include "condyle/brush.hpp"
 #include "interrupts.hpp"
-#include "io/joint/measure_request.hpp"
 #include "motion.hpp"
 #include "range_answer.hpp"
 
@@ -20,26 +19,19 @@ std::unique_ptr<JointHandle> handle_of(const JointHandle& handle, Joint joint) {
   return std::make_unique<JointHandle>(std::move(loaded));
 }
 
-ResectionQuery query_in(const JointHandle& handle, const py::list& motions, const py::list& reach,
-                        const py::dict& given) {
-  ResectionQuery query{.resection = cut_in(given), .motions = motions_in(motions)};
+ResectionRequest request_in(const py::list& motions, const py::list& reach, const py::dict& given) {
+  ResectionRequest request{.resection = cut_in(given), .motions = motions_in(motions)};
   for (const py::handle each : reach) {
     const auto target = each.cast<py::tuple>();
-    query.resection.targets.push_back(
+    request.resection.targets.push_back(
         {motion_in(target[0].cast<py::tuple>()), Angle::degrees(target[1].cast<double>())});
   }
-  query.resection.mobile.vertices = given["keep_mobile"].cast<std::vector<std::uint8_t>>();
-  query.resection.fixed.vertices = given["keep_fixed"].cast<std::vector<std::uint8_t>>();
-  query.resection.range.bearing = bearing_in(given);
-  query.curve_points = given["curve_points"].cast<std::size_t>();
-  if (const auto samples = given["samples"].cast<std::size_t>(); samples > 0) {
-    const auto sigma = given["sigma"].cast<std::array<double, 4>>();
-    query.bands = motion::BandOptions{.sigma = {sigma[0], Angle::degrees(sigma[1]), sigma[2], sigma[3]},
-                                      .samples = samples,
-                                      .seed = given["seed"].cast<std::uint64_t>()};
-  }
-  query.measures = io::measure_request_of(handle.loaded);
-  return query;
+  request.resection.mobile.vertices = given["keep_mobile"].cast<std::vector<std::uint8_t>>();
+  request.resection.fixed.vertices = given["keep_fixed"].cast<std::vector<std::uint8_t>>();
+  request.resection.range.bearing = bearing_in(given);
+  request.curve_points = given["curve_points"].cast<std::size_t>();
+  request.bands = band_in(given["band"]);
+  return request;
 }
 
 py::object dict_of_cut(const std::optional<plan::CutBone>& cut) {
@@ -86,21 +78,16 @@ py::object shapes_of(const ResectionAnswer& answer) {
 
 py::dict resection(const JointHandle& handle, const py::list& motions, const py::list& reach,
                    const py::dict& given, const py::object& progress) {
-  const ResectionQuery query = query_in(handle, motions, reach, given);
-  ResectionAnswer answer = *followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return answer_resection(
-        handle.joint(), handle.loaded.report.placement, query,
-        {[&](std::string_view, std::size_t done, std::size_t total) { report(done, total); }, stop});
-  });
-  py::list targets, bands, curve, notes;
+  const ResectionRequest request = request_in(motions, reach, given);
+  ResectionAnswer answer = *with_progress(
+      progress, [&](const Control& control) { return answer_resection(handle.loaded, request, control); });
+  py::list targets, bands, curve;
   for (const plan::ReachOutcome& outcome : answer.resection.targets)
     targets.append(tuple_of_target(handle, answer.resection, outcome));
   for (const motion::LimitBand& band : answer.bands)
     bands.append(py::make_tuple(band.p5.degrees(), band.median.degrees(), band.p95.degrees()));
   for (const ResectionCurvePoint& point : answer.curve)
     curve.append(py::make_tuple(point.target, point.reached.degrees(), point.volume_mm3, point.deepest_mm));
-  for (const ResectionNote& note : answer.notes)
-    notes.append(py::make_tuple(std::string(name_of(note.code)), note.text));
   py::dict dict;
   dict["joint"] = handle_of(handle, answer.resection.joint);
   dict["mobile"] = dict_of_cut(answer.resection.mobile);
@@ -111,7 +98,7 @@ py::dict resection(const JointHandle& handle, const py::list& motions, const py:
   dict["shapes"] = shapes_of(answer);
   dict["bands"] = bands;
   dict["curve"] = curve;
-  dict["notes"] = notes;
+  dict["notes"] = notes_of(answer.notes);
   dict["margin_mm"] = answer.margin_mm;
   dict["caveats"] = answer.caveats;
   dict["plan"] = std::make_unique<PlanHandle>(PlanHandle{handle.loaded, std::move(answer)});
@@ -164,10 +151,10 @@ std::unique_ptr<JointHandle> with_mobile(const JointHandle& handle, const Mesh& 
 
 }  // namespace
 
-plan::ResectionRequest cut_in(const py::dict& given) {
+plan::ResectionOptions cut_in(const py::dict& given) {
   const auto optional = [&](const char* name) { return given[name].cast<std::optional<double>>(); };
   const plan::KeptBone kept{optional("deepest_mm"), optional("within_mm"), {}};
-  plan::ResectionRequest request;
+  plan::ResectionOptions request;
   request.fixed_share = given["fixed_share"].cast<double>();
   request.mobile = kept;
   request.fixed = kept;

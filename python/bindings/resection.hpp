@@ -16,6 +16,6 @@ struct PlanHandle {
 };
 
 /// How bone is cut, of what cut_options() of Python has checked; without targets, marked vertices and range.
-plan::ResectionRequest cut_in(const py::dict& given);
+plan::ResectionOptions cut_in(const py::dict& given);
 
 }  // namespace condyle::python

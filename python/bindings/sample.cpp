@@ -41,8 +41,8 @@ py::tuple hip(const std::map<std::string, double>& parameters, std::optional<int
   sample::Resolution resolution = static_cast<sample::Scenario>(scenario.value_or(2));
   if (triangles) resolution = sample::TriangleCounts{triangles->first, triangles->second};
   if (edge_mm) resolution = sample::EdgeLength{*edge_mm};
-  return pair_of(followed(py::none(), [&](const auto&, const std::stop_token& stop) -> Meshes {
-    std::optional<sample::SampleHip> made = sample::sample_hip(measures, resolution, stop);
+  return pair_of(with_progress(py::none(), [&](const Control& control) -> Meshes {
+    std::optional<sample::SampleHip> made = sample::sample_hip(measures, resolution, control.stop);
     if (!made) return std::nullopt;
     if (is_left) made = sample::mirrored(*made);
     return std::pair(Mesh(std::move(made->hip_bone)), Mesh(std::move(made->femur)));
@@ -56,9 +56,9 @@ py::tuple cartilages(const std::map<std::string, double>& parameters, double cle
   sample::CartilageResolution resolution = static_cast<sample::CartilageScenario>(scenario.value_or(5));
   if (triangles) resolution = sample::CartilageCounts{triangles->first, triangles->second};
   if (edge_mm) resolution = sample::EdgeLength{*edge_mm};
-  return pair_of(followed(py::none(), [&](const auto&, const std::stop_token& stop) -> Meshes {
+  return pair_of(with_progress(py::none(), [&](const Control& control) -> Meshes {
     std::optional<sample::SampleCartilages> made =
-        sample::sample_cartilages(measures, {clearance_mm, thickness_mm}, resolution, stop);
+        sample::sample_cartilages(measures, {clearance_mm, thickness_mm}, resolution, control.stop);
     if (!made) return std::nullopt;
     if (is_left) made = sample::mirrored(*made);
     return std::pair(Mesh(std::move(made->acetabular)), Mesh(std::move(made->femoral)));
@@ -83,10 +83,10 @@ py::tuple implant(bool is_hip, const std::map<std::string, double>& sizes, const
   if (is_hip) std::get<plan::TotalHip>(design).cup.definition = cup_definition_named(definition);
   const Side side = is_left ? Side::left : Side::right;
   using Made = std::optional<std::pair<plan::ImplantMeshes, std::unique_ptr<JointHandle>>>;
-  Made made = followed(py::none(), [&](const auto&, const std::stop_token& stop) -> Made {
+  Made made = with_progress(py::none(), [&](const Control& control) -> Made {
     std::optional<plan::ImplantMeshes> meshes =
         scenario ? sample::sample_replacement(std::get<plan::TotalHip>(design), {},
-                                              static_cast<sample::Scenario>(*scenario), side, stop)
+                                              static_cast<sample::Scenario>(*scenario), side, control.stop)
                  : plan::implant_meshes(design, side);
     if (!meshes) return std::nullopt;
     auto joint = std::make_unique<JointHandle>(io::sample_implant_joint(*meshes, design, side));

@@ -69,7 +69,7 @@ motion::MapGrid grid_in(const py::tuple& given, Anatomy anatomy) {
   return grid;
 }
 
-/// Options that run_study() of Python has checked; no bands without samples.
+/// Options that run_study() of Python has checked.
 io::StudyOptions study_options_in(const py::dict& given) {
   io::StudyOptions options;
   for (const Anatomy anatomy : all_anatomies)
@@ -81,11 +81,7 @@ io::StudyOptions study_options_in(const py::dict& given) {
   if (given["exclude_reference_contacts"].cast<bool>()) options.leave_out_reference_contacts.emplace();
   if (const py::object map = given["map"]; !map.is_none())
     options.map = grid_in(map.cast<py::tuple>(), options.anatomy);
-  const auto sigma = [&](const char* name) { return given[name].cast<std::optional<double>>(); };
-  if (const auto samples = given["band_samples"].cast<std::size_t>(); samples > 0)
-    options.bands = {samples,
-                     given["seed"].cast<std::optional<std::uint64_t>>(),
-                     {sigma("sigma_centre_mm"), sigma("sigma_axes_deg"), sigma("sigma_surface_mm")}};
+  options.bands = band_in(given["band"]);
   if (const auto pose = given["depth_at"].cast<std::string>(); !pose.empty())
     options.depth_at = io::study_pose(pose, options.anatomy);
   options.measures = given["measures"].cast<bool>();
@@ -116,9 +112,8 @@ std::vector<std::pair<std::string, std::string>> study(
   io::Study one{table, folder, study_options_in(options), {}, {}};
   if (shard) one.shard = {shard->first, shard->second};
   if (is_strict) one.bad_joint = io::BadJoint::ends_run;
-  const auto done = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return io::run_study(one, {report, stop});
-  });
+  const auto done =
+      with_progress(progress, [&](const Control& control) { return io::run_study(one, control); });
   if (!shard) io::require_answered(*done, one.table);
   return noted(*done);
 }
@@ -136,9 +131,8 @@ void cohort(const std::string& folder, std::size_t n, std::uint64_t seed, int sc
             const py::object& progress) {
   const io::SampleCohort drawn{n, seed, static_cast<sample::Scenario>(scenario),
                                with_meshes ? io::CohortMeshes::in_files : io::CohortMeshes::of_measures};
-  followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return io::write_sample_cohort(folder, drawn, {report, stop});
-  });
+  with_progress(progress,
+                [&](const Control& control) { return io::write_sample_cohort(folder, drawn, control); });
 }
 
 }  // namespace

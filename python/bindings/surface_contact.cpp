@@ -64,15 +64,8 @@ py::dict dict_of(contact::SurfaceContact&& contact, const Mesh& casting, contact
   return dict;
 }
 
-py::list list_of(const std::vector<motion::ContactNote>& notes) {
-  py::list list;
-  for (const motion::ContactNote& note : notes)
-    list.append(py::make_tuple(std::string(name_of(note.code)), note.text));
-  return list;
-}
-
 py::dict dict_of(contact::ElasticContactResults&& results, const contact::ElasticContact& surfaces) {
-  const py::list notes = list_of(motion::check_contact(results));
+  const py::list notes = notes_of(motion::check_contact(results));
   const auto of = [&](std::optional<contact::SurfaceContact>& surface, const Mesh& casting) -> py::object {
     if (!surface) return py::none();
     return dict_of(std::move(*surface), casting, surfaces.options().rays.rule);

@@ -26,9 +26,6 @@ py::dict dict_of(const contact::ContactTotals& totals);
 /// Results of what each body casts.
 py::dict dict_of(contact::ElasticContactResults&& results, const contact::ElasticContact& surfaces);
 py::tuple tuple_of(const contact::Wrench& wrench);
-/// (code, text) of each.
-py::list list_of(const std::vector<motion::ContactNote>& notes);
-
 /// By words that were checked in Python.
 contact::Casting casting_in(const std::string& word);
 contact::NormalDepthOptions rays_in(const std::string& rule, double reach_mm);

@@ -14,8 +14,6 @@
 #include "condyle/answer.hpp"
 #include "interrupts.hpp"
 #include "io/joint/given_degrees.hpp"
-#include "io/joint/known_motions.hpp"
-#include "io/joint/measure_request.hpp"
 #include "io/sweep/load_quantities.hpp"
 #include "io/sweep/sweep_files.hpp"
 #include "io/sweep/target_table.hpp"
@@ -42,7 +40,7 @@ std::vector<plan::SweptParameter> parameters_in(const py::list& given) {
 std::vector<plan::SweepTarget> sweep_targets_in(const JointHandle& handle, const py::object& given) {
   const Joint& joint = handle.joint();
   if (py::isinstance<py::str>(given))
-    return io::read_targets(given.cast<std::string>(), io::known_motions(handle.loaded), joint.kind,
+    return io::read_targets(given.cast<std::string>(), Case(handle.loaded).motions(), joint.kind,
                             joint.anatomy);
   std::vector<plan::SweepTarget> targets;
   for (const py::handle each : given) {
@@ -81,29 +79,22 @@ py::list list_of(const std::vector<plan::SafeInterval>& safe) {
 
 py::dict sweep(const JointHandle& handle, const py::list& vary, const py::object& targets,
                const py::dict& given, const py::object& progress) {
-  SweepQuery query{.parameters = parameters_in(vary), .targets = sweep_targets_in(handle, targets)};
-  query.range.bearing = bearing_in(given);
+  SweepRequest request{.parameters = parameters_in(vary), .targets = sweep_targets_in(handle, targets)};
+  request.range.bearing = bearing_in(given);
   if (given["accept_reference_contact"].cast<bool>())
-    query.range.overlap.reference_contact = motion::ReferenceContact::accept;
-  if (const auto samples = given["samples"].cast<std::size_t>(); samples > 0) {
-    query.bands.emplace();
-    query.bands->samples = samples;
-    query.bands->seed = given["seed"].cast<std::uint64_t>();
-  }
+    request.range.overlap.reference_contact = motion::ReferenceContact::accept;
+  request.bands = band_in(given["band"]);
   if (const auto keys = given["measures"].cast<std::vector<std::string>>(); !keys.empty())
-    query.quantities.push_back(measured_quantities(keys, io::measure_request_of(handle.loaded)));
+    request.quantities.push_back(measured_quantities(keys, Case(handle.loaded).measure_options()));
   if (const auto pose = given["load"].cast<std::optional<std::string>>()) {
     io::StudyLoad load{io::study_pose(*pose, handle.joint().anatomy), {}, {}};
     if (const auto force = given["force_n"].cast<std::optional<std::array<double, 3>>>())
       load.force_n = Vec3((*force)[0], (*force)[1], (*force)[2]);
-    query.quantities.push_back(io::load_quantities(handle.loaded, load));
+    request.quantities.push_back(io::load_quantities(handle.loaded, load));
   }
-  SweepAnswer answer = *followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return answer_sweep(
-        handle.joint(), handle.loaded.report.placement, query,
-        {[&](std::string_view, std::size_t done, std::size_t total) { report(done, total); }, stop});
-  });
-  py::list axes, described, pairs, notes;
+  SweepAnswer answer = *with_progress(
+      progress, [&](const Control& control) { return answer_sweep(handle.loaded, request, control); });
+  py::list axes, described, pairs;
   for (const plan::SweptParameter& each : answer.parameters) {
     std::vector<double> values(each.count());
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = each.value(i);
@@ -113,15 +104,13 @@ py::dict sweep(const JointHandle& handle, const py::list& vary, const py::object
     described.append(py::make_tuple(each.name, tuple_of(each.motion), io::given_degrees(each.reach),
                                     io::given_degrees(each.pelvic_tilt), each.source));
   for (const plan::EndingPair& each : answer.pairs) pairs.append(py::make_tuple(each.fixed, each.mobile));
-  for (const SweepNote& note : answer.notes)
-    notes.append(py::make_tuple(std::string(name_of(note.code)), note.text));
   py::dict dict = dict_of_limits(answer.limits);
   dict["axes"] = axes;
   dict["targets"] = described;
   dict["pairs"] = pairs;
   dict["margin_deg"] = array_of(std::vector<double>(answer.margin_deg));
   dict["probability"] =
-      query.bands ? py::object(array_of(std::vector<double>(answer.probability))) : py::none();
+      request.bands ? py::object(array_of(std::vector<double>(answer.probability))) : py::none();
   dict["quantity_names"] = answer.quantity_names;
   dict["quantities"] = array_of(std::vector<double>(answer.quantities));
   dict["quantities_here"] = answer.quantities_here;
@@ -130,16 +119,16 @@ py::dict sweep(const JointHandle& handle, const py::list& vary, const py::object
   dict["window_measure"] = answer.window_measure;
   dict["best"] = answer.best;
   dict["here"] = py::make_tuple(answer.here, dict_of_limits(answer.limits_here));
-  dict["notes"] = notes;
+  dict["notes"] = notes_of(answer.notes);
   dict["caveats"] = answer.caveats;
   dict["sweep"] =
-      std::make_unique<SweepHandle>(SweepHandle{handle.loaded, std::move(query), std::move(answer)});
+      std::make_unique<SweepHandle>(SweepHandle{handle.loaded, std::move(request), std::move(answer)});
   return dict;
 }
 
 std::vector<std::string> write(const SweepHandle& handle, const std::string& folder) {
   const py::gil_scoped_release released;
-  const io::SweepResult result = io::sweep_result_of(handle.loaded, handle.answer, handle.query, {}, nullptr);
+  const io::SweepResult result = io::sweep_result_of(handle.loaded, handle.answer, {}, nullptr);
   std::vector<std::string> written;
   for (const auto& path : io::write_sweep(folder, result, {}, nullptr)) written.push_back(path.string());
   return written;

@@ -8,7 +8,7 @@ namespace condyle::python {
 /// A sweep as Python holds it, for its files and for a report.
 struct SweepHandle {
   io::LoadedJoint loaded;
-  SweepQuery query;
+  SweepRequest request;
   SweepAnswer answer;
 };
 

@@ -3,7 +3,6 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "condyle/impingement_zone.hpp"
-#include "interrupts.hpp"
 #include "motion.hpp"
 #include "range_answer.hpp"
 
@@ -28,24 +27,13 @@ py::object degrees(const std::optional<Angle>& angle) {
 
 py::list zones_of(const RangeHandle& handle, const py::list& given, double past_deg,
                   const py::object& progress) {
-  const std::vector<motion::Motion> motions = motions_in(given);
-  std::vector<std::optional<motion::ImpingementZone>> zones;
-  const auto limits = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    const motion::ZoneFinder finder(
-        handle.answer.joint,
-        motion::ZoneOptions{.bearing = handle.options().bearing, .past = Angle::degrees(past_deg)});
-    std::optional<RangeAnswer> found = further_limits(handle.answer, motions, stop);
-    for (std::size_t i = 0; found && i < motions.size() && !stop.stop_requested(); ++i) {
-      zones.push_back(finder.zone(found->limits[i]));
-      report(zones.size(), motions.size());
-    }
-    return found;
-  });
-  const py::list limit_dicts = limits_of(io::rom_result_of(*limits, {}, nullptr));
+  RangeAnswer found = further_answered(
+      handle, {.motions = motions_in(given), .zones_past = Angle::degrees(past_deg)}, progress);
+  const py::list limit_dicts = limits_of(io::rom_result_of(found, {}, nullptr));
   const io::AnswerFrame frame = io::frame_of(handle.result());
   py::list list;
-  for (std::size_t i = 0; i < zones.size(); ++i) {
-    std::optional<motion::ImpingementZone>& zone = zones[i];
+  for (std::size_t i = 0; i < found.zones.size(); ++i) {
+    std::optional<motion::ImpingementZone>& zone = found.zones[i];
     if (!zone) {
       list.append(py::none());
       continue;

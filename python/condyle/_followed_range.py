@@ -18,20 +18,6 @@ from ._pressure import ElasticContact, used
 from ._words import BearingRule, Body, Path, Progress, number, path_of, progress_of, report_labels, text_of, word
 
 
-@dataclass(frozen=True, eq=False)
-class _Question:
-    """The request of the limits, so that a report can repeat it."""
-
-    joint: DescribedJoint
-    motions: list[Any]
-    poses: Optional[ArrayLike]
-    contact: Optional[ElasticContact]
-    options: dict[str, Any]
-
-    def arguments(self) -> tuple[list[Any], Any, Any, dict[str, Any]]:
-        return self.motions, self.poses, None if self.contact is None else self.contact._native, self.options
-
-
 @dataclass(frozen=True, eq=False, repr=False)
 class FollowedRange:
     """Limits of motions on which a free joint's translation follows a recorded motion or a load.
@@ -50,7 +36,11 @@ class FollowedRange:
     limits: tuple[MotionLimit, ...]
     notes: tuple[ContactNote, ...]
     caveats: list[str]
-    _question: _Question
+    _joint: DescribedJoint
+    _kept: Optional[_native.RangeOfMotion]
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_kept": None}
 
     def write_report(self, path: Path, *, title: Optional[str] = None, case: Optional[str] = None, note: Optional[str] = None,
                      date: Optional[str] = None, whole_paths: bool = False, progress: Progress = None) -> None:
@@ -61,11 +51,11 @@ class FollowedRange:
 
         C++: `condyle::answer_range` in condyle/answer.hpp.
         """
-        question = self._question
-        with used(question.contact):
-            _native.write_followed_report(
-                question.joint._asked, path_of(path), None if title is None else text_of(title, "title"),
-                *question.arguments(), report_labels(case, note, date, whole_paths), progress_of(progress))
+        if self._kept is None:
+            raise UsageError("limits: were pickled, which leaves out what a report shows: ask for them again")
+        _native.write_report(
+            self._kept, self._joint._asked, path_of(path), None if title is None else text_of(title, "title"), None, None, False, None,
+            None, None, None, False, report_labels(case, note, date, whole_paths), progress_of(progress))
 
     def __getitem__(self, name: str) -> MotionLimit:
         for limit in self.limits:
@@ -97,8 +87,9 @@ def followed_range(joint: DescribedJoint, motions: Optional[Sequence[MotionLike]
                "only_recorded": motions is None, "force_n": np.zeros(3) if force_n is None else force_n,
                "frame": word(frame, "frame", Body), "free_directions": np.reshape(free_directions, (-1, 3)),
                "step_deg": number(step_deg, "step_deg")}
-    question = _Question(joint, [known.tuple_of(each) for each in asked], poses, contact, options)
     with used(contact):
-        found = _native.followed_limits(joint._asked, *question.arguments(), progress_of(progress))
+        native = _native.followed_range(joint._asked, [known.tuple_of(each) for each in asked], poses,
+                                        None if contact is None else contact._native, options, progress_of(progress))
+    found = native.answer()
     return FollowedRange(tuple(motion_limit_of(each, known, joint) for each in found["limits"]), notes_said(found["notes"]), found["caveats"],
-                         question)
+                         joint, native)

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from . import _native
 from ._described_joint import DescribedJoint
 from ._errors import unknown
-from ._limit_band import FEWEST_SAMPLES, MOST_SAMPLES
-from ._words import Progress, count, number, progress_of
+from ._words import Progress, band_of, number, progress_of
 
 
 @dataclass(frozen=True)
@@ -101,12 +100,8 @@ class HipMeasures(Mapping[str, HipMeasure]):
 
     def __init__(self, joint: DescribedJoint, pelvic_tilt_deg: float, band_samples: int, seed: Optional[int],
                  progress: Progress) -> None:
-        centre_mm, axes_deg, surface_mm, usual_seed, voxels = _native.uncertainty(joint._native)
-        found = _native.hip_measures_of(
-            joint._asked, number(pelvic_tilt_deg, "pelvic_tilt_deg"),
-            band_samples and count(band_samples, "band_samples", FEWEST_SAMPLES, MOST_SAMPLES),
-            usual_seed if seed is None else count(seed, "seed", high=2**64 - 1), centre_mm, axes_deg, surface_mm, voxels,
-            progress_of(progress))
+        found = _native.hip_measures_of(joint._asked, number(pelvic_tilt_deg, "pelvic_tilt_deg"), band_of(band_samples, seed),
+                                        progress_of(progress))
         self._by_key: dict[str, HipMeasure] = {}
         for each in found.pop("measures"):
             (key, part, unit, value, why_none, note, definition, by, source, in_pelvis_frame, others, are_patients), band = each

@@ -6,11 +6,6 @@ from dataclasses import dataclass
 
 from ._motion import Motion
 
-#: Of a band: fewer leave nothing below 5 and above 95 % of them.
-FEWEST_SAMPLES = 20
-#: At some milliseconds each these are an hour, and percentiles have long settled.
-MOST_SAMPLES = 100_000
-
 
 @dataclass(frozen=True)
 class LimitBand:

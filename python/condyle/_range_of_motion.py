@@ -10,17 +10,17 @@ from numpy.typing import NDArray
 
 from . import _native
 from ._answer import html_of
-from ._contact_checks import notes_said
+from ._contact_checks import notes_said, reported
 from ._described_joint import DescribedJoint
 from ._errors import UsageError, unknown
 from ._impingement_zone import ImpingementZone, body_zone_of
-from ._limit_band import FEWEST_SAMPLES, MOST_SAMPLES, LimitBand
+from ._limit_band import LimitBand
 from ._limits import FreeAngles, Limit, MotionLimit, end_text, limit_of, motion_limit_of
 from ._motion import Motion, MotionLike, Motions
 from ._motion_map import MotionMap, map_of
 from ._resection import OfJoint, Resection
 from ._sweep import Sweep
-from ._words import BearingRule, ClockPlane, Path, Progress, count, number, path_of, progress_of, report_labels, text_of
+from ._words import BearingRule, ClockPlane, Path, Progress, band_of, number, path_of, progress_of, report_labels, text_of
 
 if TYPE_CHECKING:
     import pandas
@@ -189,6 +189,7 @@ class RangeOfMotion:
             which = self._motions.positive_angle(vary, "vary")
         start = number(start_deg, "start_deg")
         found = _native.motion_map(self._native, axes[1], axes[0], which, start, -180.0, 180.0, progress_of(progress))
+        reported(found.pop("notes"))
         row_name, column_name, vary_name = (self._motions.angles[i][0] for i in (axes[1][0], axes[0][0], which))
         return map_of(found, row_name, column_name, vary_name, start)
 
@@ -215,15 +216,8 @@ class RangeOfMotion:
         C++: `condyle::limit_bands` in condyle/limit_band.hpp.
         """
         asked = [limit.motion for limit in self.limits] if motions is None else self._motions.asked(motions)
-        usual = _native.uncertainty(self._joint._native)
-        sigma = [number(value if given is None else given, what) for given, value, what in (
-            (sigma_centre_mm, usual[0], "sigma_centre_mm"), (sigma_axes_deg, usual[1], "sigma_axes_deg"),
-            (sigma_surface_mm, usual[2], "sigma_surface_mm"))]
-        voxels = usual[4] if sigma_surface_mm is None else 0.0
-        found = _native.limit_bands(self._native, [self._motions.tuple_of(each) for each in asked],
-                                    count(samples, "samples", FEWEST_SAMPLES, MOST_SAMPLES),
-                                    usual[3] if seed is None else count(seed, "seed", high=2**64 - 1),
-                                    sigma[0], sigma[1], sigma[2], voxels, progress_of(progress))
+        band = band_of(samples, seed, sigma_centre_mm, sigma_axes_deg, sigma_surface_mm, "samples")
+        found = _native.limit_bands(self._native, [self._motions.tuple_of(each) for each in asked], band, progress_of(progress))
         return tuple(LimitBand(motion, **band) for motion, band in zip(asked, found))
 
     def zones(self, motions: Optional[Sequence[MotionLike]] = None, *, past_deg: float = 5,
@@ -240,7 +234,7 @@ class RangeOfMotion:
     def write_report(self, path: Path, *, title: Optional[str] = None, band_samples: int = 0,
                      seed: Optional[int] = None, past_deg: Optional[float] = None, measures: bool = False,
                      plan: Optional[Resection[OfJoint]] = None, before: Optional[DescribedJoint] = None,
-                     sweep: Optional[Sweep] = None,
+                     sweep: Optional[Sweep] = None, motion: Optional[Path] = None, load: bool = False,
                      case: Optional[str] = None, note: Optional[str] = None, date: Optional[str] = None,
                      whole_paths: bool = False, progress: Progress = None) -> None:
         """Writes one HTML file that shows the joint with these limits in any browser and computes with it there.
@@ -250,7 +244,9 @@ class RangeOfMotion:
         shows the bone that must go: write it by the range of motion of `plan.joint`, whose limits the page has. `before`: another
         joint of the same kind, anatomy and side, with which the page compares this one: its bodies are seen through in the same
         scene, and its limits of the same motions, with bands of the same seed and standard deviations, stand beside these. `sweep`, of
-        the same joint over one parameter or two, shows its safe zone with a point that turns the parts. `case`
+        the same joint over one parameter or two, shows its safe zone with a point that turns the parts. `motion` is the file of a recorded
+        motion, which the page plays with its curves; `load`: with pressure, by the layers of the joint file. What looks wrong with
+        them is warned of, :class:`JointWarning`. `case`
         and `date` stand in the heading and `note` under the result, as given: nothing is taken from the clock. Files are named
         without their folders unless `whole_paths`. Whole or not at all; FileError where it cannot be written.
 
@@ -264,15 +260,15 @@ class RangeOfMotion:
         ...     os.listdir(folder)
         ['hip.html']
         """
-        samples = 0 if band_samples == 0 else count(band_samples, "band_samples", FEWEST_SAMPLES, MOST_SAMPLES)
-        _native.write_report(
+        if plan is not None and load:
+            raise UsageError("load: not with a plan, whose layers are of the joint with the bone")
+        reported(_native.write_report(
             self._native, self._joint._native, path_of(path), None if title is None else text_of(title, "title"),
-            samples,
-            None if seed is None else count(seed, "seed", high=2**64 - 1),
+            band_of(band_samples, seed),
             None if past_deg is None else number(past_deg, "past_deg"), bool(measures),
             None if plan is None else plan._shown_by(self._joint), _native_before(before, plan),
-            _native_sweep(sweep, plan),
-            report_labels(case, note, date, whole_paths), progress_of(progress))
+            _native_sweep(sweep, plan), None if motion is None else path_of(motion, "motion"), bool(load),
+            report_labels(case, note, date, whole_paths), progress_of(progress)))
 
     def _zone_of(self, found: Optional[dict[str, Any]]) -> Optional[ImpingementZone]:
         if found is None:

@@ -12,12 +12,11 @@ from . import _native
 from ._contact_checks import ContactNote, reported
 from ._described_joint import DescribedJoint
 from ._errors import UsageError
-from ._limit_band import FEWEST_SAMPLES, MOST_SAMPLES
 from ._limits import MotionLimit, motion_limit_of
 from ._mesh import TriMesh
 from ._motion import Motions
 from ._native import Joint as NativeJoint
-from ._words import BearingRule, Body, CutFrom, KeptBy, Progress, count, number, progress_of, word
+from ._words import BearingRule, Body, CutFrom, KeptBy, Progress, band_of, count, number, progress_of, word
 
 OfJoint = TypeVar("OfJoint", bound=DescribedJoint)
 
@@ -193,14 +192,11 @@ def resection(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], reach
               keep_fixed: Optional[ArrayLike], edge_mm: float, curve_points: int, band_samples: int, seed: Optional[int],
               bearing: BearingRule, bearing_margin_mm: Optional[float], progress: Progress) -> Resection[OfJoint]:
     known = Motions(joint._native)
-    centre_mm, axes_deg, surface_mm, usual_seed, voxels = _native.uncertainty(joint._native)
     options = {
         **cut_options(cut, share, margin_mm, deepest_mm, within_mm, burr_mm, edge_mm),
         "keep_mobile": kept_vertices(keep, joint.mobile, "keep"), "keep_fixed": kept_vertices(keep_fixed, joint.fixed, "keep_fixed"),
         "curve_points": count(curve_points, "curve_points", 0, 1000),
-        "samples": band_samples and count(band_samples, "band_samples", FEWEST_SAMPLES, MOST_SAMPLES),
-        "seed": usual_seed if seed is None else count(seed, "seed", high=2**64 - 1),
-        "sigma": (centre_mm, axes_deg, surface_mm, voxels),
+        "band": band_of(band_samples, seed),
         "count_bearing": word(bearing, "bearing", BearingRule) == "count",
         "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm")}
     found = _native.resection(

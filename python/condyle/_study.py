@@ -20,7 +20,7 @@ from ._csv_text import plain_field
 from ._errors import FileError, UsageError, unknown, warn
 from ._pressure import ElasticLayer
 from ._resection import cut_options
-from ._words import Anatomy, BearingRule, Bodies, CutFrom, FaceRule, Path, PressureLaw, Progress, count, number, number_array
+from ._words import Anatomy, BearingRule, Bodies, CutFrom, FaceRule, Path, PressureLaw, Progress, band_of, count, number, number_array
 from ._words import path_of, progress_of, text_of, word
 
 if TYPE_CHECKING:
@@ -276,7 +276,6 @@ def read_study(folder: Path) -> Study:
                  _table_of(texts, "failures", place), options)
 
 
-_SIGMAS = ("sigma_centre_mm", "sigma_axes_deg", "sigma_surface_mm")
 Axis = Mapping[str, Sequence[float]]
 
 
@@ -373,10 +372,9 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
         raise UsageError(f"follow_load: a StudyLoad is needed, not {type(follow_load).__name__}")
     if follow_load is not None and (follow_load.force_n is None or follow_load.at):
         raise UsageError("follow_load: needs force_n, and no pose: the motions have them")
-    samples = count(band_samples, "band_samples", high=100_000)
-    sigmas = dict(zip(_SIGMAS, (sigma_centre_mm, sigma_axes_deg, sigma_surface_mm)))
-    for name, given in (("seed", seed), *sigmas.items()):
-        if given is not None and samples == 0:
+    for name, given in (("seed", seed), ("sigma_centre_mm", sigma_centre_mm), ("sigma_axes_deg", sigma_axes_deg),
+                        ("sigma_surface_mm", sigma_surface_mm)):
+        if given is not None and not band_samples:
             raise UsageError(f"{name}: is for band_samples")
     options = {
         "anatomy": word(anatomy, "anatomy", Anatomy), "motions": names,
@@ -384,8 +382,7 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
         "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm"),
         "accept_reference_contact": bool(accept_reference_contact),
         "exclude_reference_contacts": bool(exclude_reference_contacts), "map": _grid(map, vary),
-        "band_samples": samples, "seed": None if seed is None else count(seed, "seed", high=2**64 - 1),
-        **{name: None if given is None else number(given, name) for name, given in sigmas.items()},
+        "band": band_of(band_samples, seed, sigma_centre_mm, sigma_axes_deg, sigma_surface_mm),
         "depth_at": depth_at, "load": None if load is None else load._checked(),
         "follow_load": None if follow_load is None else follow_load._checked(),
         "measures": bool(measures), "resection": None if resection is None else resection._checked()}

@@ -14,10 +14,9 @@ from ._answer import html_of
 from ._contact_checks import ContactNote, reported
 from ._described_joint import DescribedJoint
 from ._errors import UsageError
-from ._limit_band import FEWEST_SAMPLES, MOST_SAMPLES
 from ._limits import REASONS
 from ._motion import Motion, MotionLike, Motions
-from ._words import BearingRule, LimitKnownBy, Path, Progress, count, number, path_of, progress_of, text_of, word
+from ._words import BearingRule, LimitKnownBy, Path, Progress, band_of, number, path_of, progress_of, text_of, word
 
 if TYPE_CHECKING:
     import xarray
@@ -247,8 +246,7 @@ def sweep(joint: DescribedJoint, vary: Mapping[str, Sequence[float]], targets: U
         "measures": [text_of(key, "measures") for key in ([measures] if isinstance(measures, str) else measures)],
         "load": None if load is None else text_of(load, "load"),
         "force_n": None if force_n is None else _force_of(force_n),
-        "samples": band_samples and count(band_samples, "band_samples", FEWEST_SAMPLES, MOST_SAMPLES),
-        "seed": _native.uncertainty(joint._native)[3] if seed is None else count(seed, "seed", high=2**64 - 1),
+        "band": band_of(band_samples, seed),
         "count_bearing": word(bearing, "bearing", BearingRule) == "count",
         "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm"),
         "accept_reference_contact": bool(accept_reference_contact)}

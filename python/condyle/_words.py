@@ -112,6 +112,24 @@ def count(given: Any, name: str, low: int = 0, high: int = 2**31 - 1) -> int:
     return int(value)
 
 
+#: Of a band: fewer leave nothing below 5 and above 95 % of them.
+FEWEST_SAMPLES = 20
+#: At some milliseconds each these are an hour, and percentiles have long settled.
+MOST_SAMPLES = 100_000
+Band = Optional[tuple[int, Optional[int], Optional[float], Optional[float], Optional[float]]]
+
+
+def band_of(samples: int, seed: Optional[int] = None, sigma_centre_mm: Optional[float] = None, sigma_axes_deg: Optional[float] = None,
+            sigma_surface_mm: Optional[float] = None, what: str = "band_samples") -> Band:
+    """A band as the module is asked for it; None for no samples. What is None is as the joint's file says."""
+    seed = None if seed is None else count(seed, "seed", high=2**64 - 1)
+    centre, axes, surface = (None if given is None else number(given, name) for given, name in (
+        (sigma_centre_mm, "sigma_centre_mm"), (sigma_axes_deg, "sigma_axes_deg"), (sigma_surface_mm, "sigma_surface_mm")))
+    if not samples and what == "band_samples":
+        return None
+    return count(samples, what, FEWEST_SAMPLES, MOST_SAMPLES), seed, centre, axes, surface
+
+
 def text_of(given: Any, name: str) -> str:
     if not isinstance(given, str):
         raise UsageError(f"{name}: a text is needed, not {type(given).__name__}")

@@ -13,27 +13,15 @@ namespace {
 /// Motions between two looks whether to stop: some ten milliseconds.
 constexpr std::size_t motions_at_once = 16;
 
-/// Adds the limits of all motions; false if stopped.
-bool add_limits(RangeAnswer& answer, std::span<const motion::Motion> motions, const std::stop_token& stop) {
-  std::vector<motion::MotionLimit>& limits = answer.limits;
-  while (limits.size() < motions.size()) {
-    if (stop.stop_requested()) return false;
-    const auto next =
-        motions.subspan(limits.size(), std::min(motions_at_once, motions.size() - limits.size()));
-    for (motion::MotionLimit& limit : answer.range->limits(next)) limits.push_back(std::move(limit));
-  }
-  return true;
-}
-
 }  // namespace
 
-std::optional<Vec3> held_translation(const Joint& joint, const JointPlacement& placement,
-                                     const std::optional<Vec3>& requested) {
+std::optional<Vec3> held_translation(const Case& of, const std::optional<Vec3>& requested) {
+  const Joint& joint = of.joint;
   if (joint.kind != JointKind::free) {
     if (requested) throw UsageError("translation: only a free joint translates");
     return std::nullopt;
   }
-  const Vec3 held = requested.value_or(placement.reference_pose.translation_mm);
+  const Vec3 held = requested.value_or(of.placement.reference_pose.translation_mm);
   if (joint.translation_frame == TranslationFrame::joint_axes && held != Vec3::Zero())
     throw UsageError(
         "translation: held along the joint's axes it would turn with them: motions need zero or "
@@ -57,23 +45,6 @@ std::vector<std::string> range_caveats(const motion::RangeOptions& options,
   return caveats;
 }
 
-std::optional<RangeAnswer> further_limits(const RangeAnswer& kept, std::span<const motion::Motion> motions,
-                                          const std::stop_token& stop) {
-  for (const motion::Motion& motion : motions) motion::check_motion(motion, kept.joint.kind);
-  RangeAnswer answer{.joint = kept.joint,
-                     .held_translation_mm = kept.held_translation_mm,
-                     .bearing = kept.bearing,
-                     .bearing_rule = kept.bearing_rule,
-                     .clock = kept.clock,
-                     .clock_plane = kept.clock_plane,
-                     .caveats = kept.caveats,
-                     .range = kept.range};
-  if (!add_limits(answer, motions, stop)) return std::nullopt;
-  answer::add_closed_limits(answer);
-  answer.notes.clear();
-  return answer;
-}
-
 namespace answer {
 
 motion::ClockFace clock_of(const Joint& joint, motion::ClockPlane plane,
@@ -87,14 +58,24 @@ motion::ClockFace clock_of(const Joint& joint, motion::ClockPlane plane,
   return *clock;
 }
 
-std::optional<RangeAnswer> held_answer(const Joint& joint, const JointPlacement& placement,
-                                       const RangeRequest& request, const AddLimits& add) {
-  const std::optional<Vec3> held = held_translation(joint, placement, request.translation_mm);
-  RangeAnswer answer{.joint = held_at(joint, held.value_or(Vec3::Zero())), .held_translation_mm = held};
+bool add_limits(RangeAnswer& answer, std::span<const motion::Motion> motions, const std::stop_token& stop) {
+  std::vector<motion::MotionLimit>& limits = answer.limits;
+  while (limits.size() < motions.size()) {
+    if (stop.stop_requested()) return false;
+    const auto next =
+        motions.subspan(limits.size(), std::min(motions_at_once, motions.size() - limits.size()));
+    for (motion::MotionLimit& limit : answer.range->limits(next)) limits.push_back(std::move(limit));
+  }
+  return true;
+}
+
+std::optional<RangeAnswer> held_answer(const Case& of, const RangeRequest& request, const AddLimits& add) {
+  const std::optional<Vec3> held = held_translation(of, request.translation_mm);
+  RangeAnswer answer{.joint = held_at(of.joint, held.value_or(Vec3::Zero())), .held_translation_mm = held};
   answer.clock_plane = request.clock;
-  if (request.bands) answer.band_options = *request.bands;
+  if (request.bands) answer.band_options = band_options(of, *request.bands);
   motion::RangeOptions options = request.range;
-  options.overlap.reference_pose = placement.reference_pose.angles;
+  options.overlap.reference_pose = of.placement.reference_pose.angles;
   if (!add(answer, options)) return std::nullopt;
   if (held)
     answer.caveats.push_back(
@@ -119,11 +100,11 @@ bool add_exact_limits(RangeAnswer& answer, const RangeRequest& request, const mo
   return !beyond || beyond(answer, again);
 }
 
-RangeAnswer exact_limits(const Joint& joint, const JointPlacement& placement, const RangeRequest& request) {
+RangeAnswer exact_limits(const Case& of, const RangeRequest& request) {
   const auto add = [&](RangeAnswer& answer, const motion::RangeOptions& options) {
     return add_exact_limits(answer, request, options, {});
   };
-  return *held_answer(joint, placement, request, add);
+  return *held_answer(of, request, add);
 }
 
 }  // namespace answer

@@ -2,9 +2,10 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <stop_token>
 
-#include "condyle/answer.hpp"
+#include "condyle/answer/range.hpp"
 
 /// The part of answer_range() that a page asks too, which links nothing of maps, bands and zones.
 
@@ -14,12 +15,14 @@ namespace condyle::answer {
 motion::ClockFace clock_of(const Joint& joint, motion::ClockPlane plane,
                            const motion::BearingFinding& bearing);
 
+/// Adds the limits of all motions to an answer that has its tables; false if stopped.
+bool add_limits(RangeAnswer& answer, std::span<const motion::Motion> motions, const std::stop_token& stop);
+
 /// Adds limits to an answer whose joint is held; false if stopped.
 using AddLimits = std::function<bool(RangeAnswer& answer, const motion::RangeOptions& options)>;
 
 /// The answer for a joint at the translation at which it is held. Empty if `add` was stopped.
-std::optional<RangeAnswer> held_answer(const Joint& joint, const JointPlacement& placement,
-                                       const RangeRequest& request, const AddLimits& add);
+std::optional<RangeAnswer> held_answer(const Case& of, const RangeRequest& request, const AddLimits& add);
 
 /// Adds to an answer that has its limits, by options that have their bearing surface; false if stopped.
 using AddBeyondLimits = std::function<bool(RangeAnswer& answer, const motion::RangeOptions& again)>;
@@ -29,6 +32,6 @@ bool add_exact_limits(RangeAnswer& answer, const RangeRequest& request, const mo
                       const std::stop_token& stop, const AddBeyondLimits& beyond = {});
 
 /// answer_range() of a request for exact limits and nothing else.
-RangeAnswer exact_limits(const Joint& joint, const JointPlacement& placement, const RangeRequest& request);
+RangeAnswer exact_limits(const Case& of, const RangeRequest& request);
 
 }  // namespace condyle::answer

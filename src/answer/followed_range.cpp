@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "answer/staged.hpp"
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
 
@@ -143,14 +142,14 @@ double most_apart_deg(const motion::Motion& motion, const FollowRecord& record) 
 }
 
 /// Answers one motion after another.
-class Followed {
+class FollowingLimits {
  public:
-  Followed(const Joint& joint, const JointPlacement& placement, const RangeRequest& request, Control control)
-      : joint_(joint),
-        reference_mm_(placement.reference_pose.translation_mm),
+  FollowingLimits(const Case& of, const RangeRequest& request, const Control& control)
+      : joint_(of.joint),
+        reference_mm_(of.placement.reference_pose.translation_mm),
         request_(request),
-        control_(std::move(control)),
-        range_(joint, request.range.bearing) {}
+        control_(control),
+        range_(joint_, request.range.bearing) {}
 
   /// Empty if stopped.
   std::optional<motion::MotionLimit> limit(const motion::Motion& motion) {
@@ -197,7 +196,7 @@ class Followed {
     constexpr std::size_t whole = 1000;
     if (!control_.progress) return;
     const double share = std::min(turned.radians() / motion.range.radians(), 1.0);
-    control_.progress(whole * done_ + static_cast<std::size_t>(share * whole),
+    control_.progress("thousandths of motions", whole * done_ + static_cast<std::size_t>(share * whole),
                       whole * request_.motions.size());
   }
 
@@ -212,7 +211,7 @@ class Followed {
   const Joint& joint_;
   Vec3 reference_mm_;
   const RangeRequest& request_;
-  Control control_;
+  const Control& control_;
   std::size_t done_ = 0;
   motion::FollowedRange range_;
   std::vector<RangeNote> notes_;
@@ -271,24 +270,24 @@ void answer::check_follow(const RangeRequest& request) {
     throw UsageError("a translation that follows a load: its step must be above 0 and at most 30 degrees");
 }
 
-std::optional<RangeAnswer> answer::followed_range(const Joint& joint, const JointPlacement& placement,
-                                                  const RangeRequest& request, const AnswerControl& control) {
-  RangeAnswer answer{.joint = joint, .follows = true, .contact_notes = range_request_notes(request)};
+std::optional<RangeAnswer> answer::followed_range(const Case& of, const RangeRequest& request,
+                                                  const Control& control) {
+  RangeAnswer answer{.joint = of.joint, .follows = true, .contact_notes = range_request_notes(request)};
   answer.clock_plane = request.clock;
-  Followed followed(joint, placement, request, staged(control, "thousandths of motions"));
-  answer.bearing = followed.range().bearing();
-  answer.bearing_rule = followed.range().bearing_rule();
+  FollowingLimits following(of, request, control);
+  answer.bearing = following.range().bearing();
+  answer.bearing_rule = following.range().bearing_rule();
   for (const motion::Motion& motion : request.motions) {
-    auto limit = followed.limit(motion);
+    auto limit = following.limit(motion);
     if (!limit) return std::nullopt;
     answer.limits.push_back(std::move(*limit));
   }
   // Limits about other centres say nothing where the centre moves.
   motion::BearingFinding without_socket = answer.bearing;
   if (without_socket.surface) without_socket.surface->socket.reset();
-  answer.notes = range_notes(joint, answer.limits, request.range, without_socket);
-  answer.notes.insert(answer.notes.end(), followed.notes().begin(), followed.notes().end());
-  answer.caveats = caveats_of(request, followed.bend_mm());
+  answer.notes = range_notes(of.joint, answer.limits, request.range, without_socket);
+  answer.notes.insert(answer.notes.end(), following.notes().begin(), following.notes().end());
+  answer.caveats = caveats_of(request, following.bend_mm());
   return answer;
 }
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "condyle/answer.hpp"
+#include "condyle/answer/range.hpp"
 
 /// The range of motion of a joint whose translation follows a recorded motion or a load.
 
@@ -12,7 +12,7 @@ namespace condyle::answer {
 void check_follow(const RangeRequest& request);
 
 /// answer_range() of a request that follows; empty if it was stopped.
-std::optional<RangeAnswer> followed_range(const Joint& joint, const JointPlacement& placement,
-                                          const RangeRequest& request, const AnswerControl& control);
+std::optional<RangeAnswer> followed_range(const Case& of, const RangeRequest& request,
+                                          const Control& control);
 
 }  // namespace condyle::answer

@@ -269,24 +269,25 @@ std::string_view name_of(ImplantNoteCode code) noexcept {
   return "meshes_left_out";
 }
 
-ImplantAnswer answer_implant(const Joint& joint, const JointPlacement& placement, const ImplantQuery& query) {
+ImplantAnswer answer_implant(const Case& of, const ImplantRequest& request) {
+  const Joint& joint = of.joint;
   require_native_hip(joint);
-  const auto held = held_translation(joint, placement, {});
+  const auto held = held_translation(of, {});
   const Joint at = held && *held != Vec3::Zero() ? held_at(joint, *held) : joint;
-  ImplantAnswer answer{.hip = query.hip,
-                       .of_bones = query.of_bones,
-                       .centre_of = query.centre,
+  ImplantAnswer answer{.hip = request.hip,
+                       .of_bones = request.of_bones,
+                       .centre_of = request.centre,
                        .centre_mm = Vec3::Zero(),
-                       .bones = measure::measure_hip(at, query.measures),
+                       .bones = measure::measure_hip(at, of.measure_options()),
                        .cut = {},
                        .femur_shift_mm = Vec3::Zero(),
                        .joint = at};
   const Sphere head = head_of(answer.bones);
   const auto shaft = shaft_of(answer.bones);
   answer.socket = socket_of(at, head);
-  answer.centre_mm = centre_of(query.centre, head, answer.socket);
-  if (placement.sphere && placement.fitted_body == BodyRole::mobile)
-    answer.centre_bound_mm = placement.sphere->centre_bound_mm;
+  answer.centre_mm = centre_of(request.centre, head, answer.socket);
+  if (of.placement.sphere && of.placement.fitted_body == BodyRole::mobile)
+    answer.centre_bound_mm = of.placement.sphere->centre_bound_mm;
   answer.room_mm = plan::distance_to_bone(at, answer.centre_mm);
   require_room(answer, at.fixed.name);
   take_sizes(answer, shaft, at.side);

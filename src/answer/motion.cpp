@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "answer/foundation_caveat.hpp"
-#include "answer/staged.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
@@ -41,10 +40,9 @@ std::vector<contact::Load> loads_of(const MotionRequest& request, Frames& X_FM,
 
 /// Moves each frame to where the contact carries its load; frames that carry none become gaps. False if stopped.
 bool balance_frames(const contact::ElasticContact& elastic, const MotionRequest& request, Frames& X_FM,
-                    MotionAnswer& answer, const AnswerControl& control) {
+                    MotionAnswer& answer, const Control& control) {
   const std::vector<contact::Load> loads = loads_of(request, X_FM, answer.without_load);
-  auto balanced = motion::balance_along(elastic, X_FM, loads, request.balance,
-                                        answer::staged(control, "balanced frames"));
+  auto balanced = motion::balance_along(elastic, X_FM, loads, request.balance, control);
   if (!balanced) return false;
   answer.balanced = std::move(*balanced);
   for (std::size_t i = 0; i < X_FM.size(); ++i) {
@@ -135,7 +133,7 @@ std::vector<motion::ContactNote> motion_request_notes(const contact::ElasticCont
 
 std::optional<MotionAnswer> answer_motion(const contact::JointContact& bodies,
                                           const contact::ElasticContact* layers, const MotionRequest& request,
-                                          const AnswerControl& control) {
+                                          const Control& control) {
   check_motion_request(request);
   MotionAnswer answer{.notes = motion_request_notes(layers, request)};
   if (layers) answer.caveats.emplace_back(answer::foundation_caveat);
@@ -146,8 +144,7 @@ std::optional<MotionAnswer> answer_motion(const contact::JointContact& bodies,
     if (!balance_frames(*layers, request, X_FM, answer, control)) return std::nullopt;
   }
   if (is_between_searched(request, X_FM)) {
-    answer.between =
-        contact_between_frames(bodies, X_FM, request.time_s, answer::staged(control, "ways between samples"));
+    answer.between = contact_between_frames(bodies, X_FM, request.time_s, control);
     if (!answer.between) return std::nullopt;
   }
   std::optional<contact::NormalDepth> depths;
@@ -158,7 +155,7 @@ std::optional<MotionAnswer> answer_motion(const contact::JointContact& bodies,
   }
   auto frames = motion::contact_along(
       bodies, layers ? motion::SurfaceQuestion(layers) : motion::SurfaceQuestion(&*depths), X_FM,
-      request.casting, answer::staged(control, "frames"));
+      request.casting, control);
   if (!frames) return std::nullopt;
   answer.frames = std::move(*frames);
   motion::add_new(answer.notes, motion::check_motion(answer.frames, request.names));

@@ -1,6 +1,6 @@
+#include "answer/closed_limits.hpp"
 #include "answer/exact_limits.hpp"
 #include "answer/followed_range.hpp"
-#include "answer/staged.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
@@ -35,23 +35,26 @@ void note_axes(const motion::MapGrid& grid, Anatomy anatomy, std::vector<RangeNo
 
 /// Zones, map and bands, as far as they are requested; false if stopped.
 bool add_beyond_limits(RangeAnswer& answer, const RangeRequest& request, const motion::RangeOptions& again,
-                       const AnswerControl& control) {
+                       const Control& control) {
   if (request.zones_past) {
     const motion::ZoneFinder finder(
         answer.joint, {.bearing = again.bearing, .past = *request.zones_past, .socket_clock = answer.clock});
-    for (const motion::MotionLimit& limit : answer.limits) answer.zones.push_back(finder.zone(limit));
+    for (const motion::MotionLimit& limit : answer.limits) {
+      if (control.stop.stop_requested()) return false;
+      answer.zones.push_back(finder.zone(limit));
+      if (control.progress) control.progress("zones", answer.zones.size(), answer.limits.size());
+    }
   }
   if (request.map) {
-    answer.map = motion::motion_map(*request.map, *answer.range, answer::staged(control, "map points"));
+    answer.map = motion::motion_map(*request.map, *answer.range, control);
     if (!answer.map) return false;
     note_axes(*request.map, answer.joint.anatomy, answer.notes);
   }
   if (request.bands) {
-    auto bands = motion::limit_bands(answer.joint, request.motions, again, *request.bands,
-                                     answer::staged(control, "joints of the band"));
+    auto bands = motion::limit_bands(answer.joint, request.motions, again, answer.band_options, control);
     if (!bands) return false;
     answer.bands = std::move(*bands);
-    const motion::Uncertainty& sigma = request.bands->sigma;
+    const motion::Uncertainty& sigma = answer.band_options.sigma;
     if (sigma.is_by_voxels(answer.joint.fixed) || sigma.is_by_voxels(answer.joint.mobile))
       answer.caveats.push_back(core::formatted(
           "the band takes %g voxels along the normal as the standard deviation of surfaces from label "
@@ -63,8 +66,9 @@ bool add_beyond_limits(RangeAnswer& answer, const RangeRequest& request, const m
 
 }  // namespace
 
-void check_range_request(const Joint& joint, const JointPlacement& placement, const RangeRequest& request) {
-  if (!request.follow) held_translation(joint, placement, request.translation_mm);
+void check_range_request(const Case& of, const RangeRequest& request) {
+  const Joint& joint = of.joint;
+  if (!request.follow) held_translation(of, request.translation_mm);
   for (const motion::Motion& motion : request.motions) motion::check_motion(motion, joint.kind);
   if (request.map) motion::check_grid(*request.map, joint.kind);
   if (request.allowed_depth && (request.map || request.bands || request.zones_past))
@@ -82,24 +86,45 @@ void check_range_request(const Joint& joint, const JointPlacement& placement, co
   answer::check_follow(request);
 }
 
-std::optional<RangeAnswer> answer_range(const Joint& joint, const JointPlacement& placement,
-                                        const RangeRequest& request, const AnswerControl& control) {
-  check_range_request(joint, placement, request);
-  if (request.follow) return answer::followed_range(joint, placement, request, control);
+std::optional<RangeAnswer> answer_range(const Case& of, const RangeRequest& request, const Control& control) {
+  check_range_request(of, request);
+  if (request.follow) return answer::followed_range(of, request, control);
   const auto beyond = [&](RangeAnswer& answer, const motion::RangeOptions& again) {
     return add_beyond_limits(answer, request, again, control);
   };
-  return answer::held_answer(
-      joint, placement, request, [&](RangeAnswer& answer, const motion::RangeOptions& options) {
-        if (!request.allowed_depth)
-          return answer::add_exact_limits(answer, request, options, control.stop, beyond);
-        add_depth_limits(answer, request);
-        return true;
-      });
+  return answer::held_answer(of, request, [&](RangeAnswer& answer, const motion::RangeOptions& options) {
+    if (!request.allowed_depth)
+      return answer::add_exact_limits(answer, request, options, control.stop, beyond);
+    add_depth_limits(answer, request);
+    return true;
+  });
 }
 
-RangeAnswer answer_range(const Joint& joint, const JointPlacement& placement, const RangeRequest& request) {
-  return *answer_range(joint, placement, request, {});
+std::optional<RangeAnswer> further_answer(const Case& of, const RangeAnswer& kept,
+                                          const RangeRequest& request, const Control& control) {
+  for (const motion::Motion& motion : request.motions) motion::check_motion(motion, of.joint.kind);
+  if (request.map) motion::check_grid(*request.map, of.joint.kind);
+  RangeAnswer answer{.joint = kept.joint,
+                     .held_translation_mm = kept.held_translation_mm,
+                     .bearing = kept.bearing,
+                     .bearing_rule = kept.bearing_rule,
+                     .clock = kept.clock,
+                     .clock_plane = kept.clock_plane,
+                     .caveats = kept.caveats,
+                     .range = kept.range};
+  if (!answer::add_limits(answer, request.motions, control.stop)) return std::nullopt;
+  answer::add_closed_limits(answer);
+  answer.notes.clear();
+  if (request.bands) answer.band_options = band_options(of, *request.bands);
+  motion::RangeOptions again = request.range;
+  again.overlap.reference_pose = of.placement.reference_pose.angles;
+  again.bearing.surface = answer.bearing.surface;
+  if (!add_beyond_limits(answer, request, again, control)) return std::nullopt;
+  return answer;
+}
+
+RangeAnswer answer_range(const Case& joint, const RangeRequest& request) {
+  return *answer_range(joint, request, {});
 }
 
 }  // namespace condyle

@@ -2,7 +2,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "answer/staged.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
@@ -28,11 +27,11 @@ constexpr double no_change_deg = 0.05;
 /// Counts the cuts that are done, of as many as there may be.
 class Cuts {
  public:
-  Cuts(const Joint& joint, const AnswerControl& control, std::size_t total)
+  Cuts(const Joint& joint, const Control& control, std::size_t total)
       : joint_(joint), control_(control), total_(total) {}
 
   /// Empty if it was stopped.
-  std::optional<plan::Resection> operator()(const plan::ResectionRequest& request) {
+  std::optional<plan::Resection> operator()(const plan::ResectionOptions& request) {
     auto cut = plan::resect(joint_, request, {.stop = control_.stop});
     done_ = std::min(done_ + 1, total_);
     if (cut && control_.progress) control_.progress("cuts", done_, total_);
@@ -41,7 +40,7 @@ class Cuts {
 
  private:
   const Joint& joint_;
-  const AnswerControl& control_;
+  const Control& control_;
   std::size_t done_ = 0, total_;
 };
 
@@ -212,25 +211,25 @@ struct Banded {
 };
 
 /// Empty if it was stopped, or if so much cannot be cut.
-std::optional<Banded> banded(const ResectionQuery& query, double margin_mm, const AnswerControl& control,
-                             Cuts& cuts, std::optional<plan::Resection> cut = {}) {
-  plan::ResectionRequest request = query.resection;
-  request.margin_mm = margin_mm;
+std::optional<Banded> banded(const ResectionRequest& request, const motion::BandOptions& displaced,
+                             double margin_mm, const Control& control, Cuts& cuts,
+                             std::optional<plan::Resection> cut = {}) {
+  plan::ResectionOptions options = request.resection;
+  options.margin_mm = margin_mm;
   try {
-    if (!cut) cut = cuts(request);
+    if (!cut) cut = cuts(options);
   } catch (const MeshError&) {
-    if (margin_mm == query.resection.margin_mm) throw;
+    if (margin_mm == request.resection.margin_mm) throw;
   }
   if (!cut) return std::nullopt;
   std::vector<motion::Motion> motions;
-  for (const plan::ReachTarget& target : request.targets) motions.push_back(target.motion);
-  auto bands = motion::limit_bands(cut->joint, motions, request.range, *query.bands,
-                                   answer::staged(control, "joints of the band"));
+  for (const plan::ReachTarget& target : options.targets) motions.push_back(target.motion);
+  auto bands = motion::limit_bands(cut->joint, motions, options.range, displaced, control);
   if (!bands) return std::nullopt;
   Banded plan{std::move(*cut), std::move(*bands), true};
   for (std::size_t i = 0; i < motions.size(); ++i) {
     const bool blocked = plan.resection.targets[i].blocked.has_value();
-    if (!blocked && plan.bands[i].p5 < request.targets[i].reach) plan.reaches = false;
+    if (!blocked && plan.bands[i].p5 < options.targets[i].reach) plan.reaches = false;
     plan.blocked.push_back(blocked);
   }
   return plan;
@@ -238,13 +237,13 @@ std::optional<Banded> banded(const ResectionQuery& query, double margin_mm, cons
 
 /// Plans with larger margins until the lower end of each band is at its target: what displaces a joint moves its surfaces towards each
 /// other from any side, which a plan for more degrees would not meet. False if it was stopped.
-bool reach_bands(const ResectionQuery& query, const AnswerControl& control, Cuts& cuts,
-                 ResectionAnswer& answer) {
-  double low = query.resection.margin_mm, high = low;
-  auto plan = banded(query, low, control, cuts, std::move(answer.resection));
+bool reach_bands(const ResectionRequest& request, const motion::BandOptions& displaced,
+                 const Control& control, Cuts& cuts, ResectionAnswer& answer) {
+  double low = request.resection.margin_mm, high = low;
+  auto plan = banded(request, displaced, low, control, cuts, std::move(answer.resection));
   if (!plan) return false;
   while (!plan->reaches && high < largest_band_margin_mm) {
-    auto wider = banded(query, high + band_margin_step_mm, control, cuts);
+    auto wider = banded(request, displaced, high + band_margin_step_mm, control, cuts);
     if (control.stop.stop_requested()) return false;
     // A margin that kept bone has no room for is none.
     if (!wider || wider->blocked != plan->blocked) break;
@@ -253,7 +252,7 @@ bool reach_bands(const ResectionQuery& query, const AnswerControl& control, Cuts
   }
   while (plan->reaches && high - low > band_margin_within_mm) {
     const double middle = (low + high) / 2;
-    auto between = banded(query, middle, control, cuts);
+    auto between = banded(request, displaced, middle, control, cuts);
     if (control.stop.stop_requested()) return false;
     if (!between || between->blocked != plan->blocked) break;
     if (between->reaches)
@@ -265,7 +264,7 @@ bool reach_bands(const ResectionQuery& query, const AnswerControl& control, Cuts
   answer.bands = std::move(plan->bands);
   answer.margin_mm = high;
   for (std::size_t i = 0; i < answer.bands.size(); ++i) {
-    const plan::ReachTarget& target = query.resection.targets[i];
+    const plan::ReachTarget& target = request.resection.targets[i];
     if (answer.bands[i].p5 < target.reach)
       answer.notes.push_back({ResectionNoteCode::band_not_reached,
                               target.motion.name + ": in 5 % of displaced joints it ends at " +
@@ -276,14 +275,14 @@ bool reach_bands(const ResectionQuery& query, const AnswerControl& control, Cuts
 }
 
 /// False if it was stopped.
-bool add_curve(const ResectionQuery& query, Cuts& cuts, ResectionAnswer& answer) {
+bool add_curve(const ResectionRequest& request, Cuts& cuts, ResectionAnswer& answer) {
   for (std::size_t i = 0; i < answer.resection.targets.size(); ++i) {
     const plan::ReachOutcome& outcome = answer.resection.targets[i];
     const Angle from = outcome.before.end.turned;
     if (!(outcome.planned > from)) continue;
-    const auto points = static_cast<double>(query.curve_points);
-    for (std::size_t k = 1; k <= query.curve_points; ++k) {
-      plan::ResectionRequest one = query.resection;
+    const auto points = static_cast<double>(request.curve_points);
+    for (std::size_t k = 1; k <= request.curve_points; ++k) {
+      plan::ResectionOptions one = request.resection;
       one.margin_mm = answer.margin_mm;
       const Angle reach = from + (outcome.planned - from) * (static_cast<double>(k) / points);
       one.targets = {{outcome.target.motion, reach}};
@@ -363,13 +362,13 @@ std::vector<plan::ReachTarget> reach_targets(std::span<const motion::Motion> mot
   return reach_targets(motions, parse_reach(text));
 }
 
-std::optional<ResectionAnswer> answer_resection(const Joint& joint, const JointPlacement& placement,
-                                                const ResectionQuery& query, const AnswerControl& control) {
-  ResectionQuery asked = query;
-  asked.resection.range.overlap.reference_pose = placement.reference_pose.angles;
-  if (asked.motions.empty()) asked.motions = motion::built_in_motions(joint.kind, joint.anatomy);
-  const auto held = held_translation(joint, placement, {});
-  const Joint at = held && *held != Vec3::Zero() ? held_at(joint, *held) : joint;
+std::optional<ResectionAnswer> answer_resection(const Case& of, const ResectionRequest& request,
+                                                const Control& control) {
+  ResectionRequest asked = request;
+  asked.resection.range.overlap.reference_pose = of.placement.reference_pose.angles;
+  if (asked.motions.empty()) asked.motions = of.motions();
+  const auto held = held_translation(of, {});
+  const Joint at = held && *held != Vec3::Zero() ? held_at(of.joint, *held) : of.joint;
   Cuts cuts(at, control,
             1 + asked.resection.targets.size() * asked.curve_points + (asked.bands ? most_band_plans : 0));
   auto first = cuts(asked.resection);
@@ -377,15 +376,15 @@ std::optional<ResectionAnswer> answer_resection(const Joint& joint, const JointP
   ResectionAnswer answer{.resection = std::move(*first)};
   answer.margin_mm = asked.resection.margin_mm;
   if (asked.bands)
-    if (!reach_bands(asked, control, cuts, answer)) return std::nullopt;
+    if (!reach_bands(asked, band_options(of, *asked.bands), control, cuts, answer)) return std::nullopt;
   const motion::RangeOfMotion range(at, asked.resection.range);
   answer.before = range.limits(asked.motions);
   answer.after = motion::RangeOfMotion(answer.resection.joint, asked.resection.range).limits(asked.motions);
   // Compared on the same triangles: what a measure takes of a surface depends a little on them.
   const Joint finer = with_finer_triangles(answer.resection);
   if (at.is_hip() && at.kind != JointKind::hinge) {
-    answer.shape_before = measure::measure_hip(finer, asked.measures);
-    answer.shape_after = measure::measure_hip(answer.resection.joint, asked.measures);
+    answer.shape_before = measure::measure_hip(finer, of.measure_options());
+    answer.shape_after = measure::measure_hip(answer.resection.joint, of.measure_options());
   }
   if (asked.curve_points > 0 && !add_curve(asked, cuts, answer)) return std::nullopt;
   note_targets(answer);
@@ -398,9 +397,8 @@ std::optional<ResectionAnswer> answer_resection(const Joint& joint, const JointP
   return answer;
 }
 
-ResectionAnswer answer_resection(const Joint& joint, const JointPlacement& placement,
-                                 const ResectionQuery& query) {
-  return *answer_resection(joint, placement, query, {});
+ResectionAnswer answer_resection(const Case& joint, const ResectionRequest& request) {
+  return *answer_resection(joint, request, {});
 }
 
 }  // namespace condyle

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "answer/staged.hpp"
 #include "answer/sweep_summary.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
@@ -69,41 +68,41 @@ void check_target(const plan::SweepTarget& target, const Joint& joint) {
 struct Lines {
   std::size_t first, count, length;
 
-  Lines(const SweepQuery& query) : length(query.parameters.back().count()) {
-    const std::size_t all = designs_of(query.parameters) / length;
-    first = (query.share.number - 1) * all / query.share.of;
-    count = query.share.number * all / query.share.of - first;
+  Lines(const SweepRequest& request) : length(request.parameters.back().count()) {
+    const std::size_t all = designs_of(request.parameters) / length;
+    first = (request.share.number - 1) * all / request.share.of;
+    count = request.share.number * all / request.share.of - first;
   }
 };
 
 /// The sweep of a share, line by line.
 class Sweeping {
  public:
-  Sweeping(const SweepQuery& query, const plan::DesignLimits& limits, SweepAnswer& answer)
-      : query_(query), limits_(limits), answer_(answer), lines_(query) {
+  Sweeping(const SweepRequest& request, const plan::DesignLimits& limits, SweepAnswer& answer)
+      : request_(request), limits_(limits), answer_(answer), lines_(request) {
     answer.first_design = lines_.first * lines_.length;
-    answer.limits.resize(lines_.count * lines_.length * query.targets.size());
+    answer.limits.resize(lines_.count * lines_.length * request.targets.size());
     answer.margin_deg.resize(lines_.count * lines_.length);
   }
 
   /// False if it was stopped.
   bool designs(const Control& control) {
-    return each(answer_.designs(), control, [&](std::size_t i) {
+    return each("designs", answer_.designs(), control, [&](std::size_t i) {
       limits_.limits(answer_.values_of(answer_.first_design + i), limits_of(i));
-      answer_.margin_deg[i] = answer::least_margin(query_.targets, limits_of(i));
+      answer_.margin_deg[i] = answer::least_margin(request_.targets, limits_of(i));
     });
   }
 
   bool borders(const Control& control) {
     std::vector<std::vector<plan::SafeInterval>> of_line(lines_.count);
-    if (!each(lines_.count, control, [&](std::size_t line) { of_line[line] = intervals(line); }))
+    if (!each("borders", lines_.count, control, [&](std::size_t line) { of_line[line] = intervals(line); }))
       return false;
     for (const auto& safe : of_line) answer_.safe.insert(answer_.safe.end(), safe.begin(), safe.end());
     return true;
   }
 
   bool probabilities(const Joint& joint, const motion::BandOptions& options, const Control& control) {
-    std::vector<std::string> names = names_of(query_.parameters);
+    std::vector<std::string> names = names_of(request_.parameters);
     const std::vector<std::string> uncertain = uncertain_names(joint);
     // Where each uncertain parameter stands among the values of a design.
     std::vector<std::size_t> place;
@@ -112,10 +111,10 @@ class Sweeping {
       place.push_back(static_cast<std::size_t>(known - names.begin()));
       if (known == names.end()) names.push_back(name);
     }
-    const plan::DesignLimits displaced(joint, query_.range, query_.targets, names, uses_closed_forms());
+    const plan::DesignLimits displaced(joint, request_.range, request_.targets, names, uses_closed_forms());
     const auto draws = motion::displacements(options, uncertain.size());
     answer_.probability.resize(answer_.designs());
-    return each(answer_.designs(), control, [&](std::size_t i) {
+    return each("displaced designs", answer_.designs(), control, [&](std::size_t i) {
       std::vector<double> given = answer_.values_of(answer_.first_design + i);
       for (std::size_t k = given.size(); k < names.size(); ++k)
         given.push_back(parameter_named(joint, names[k]).value);
@@ -131,8 +130,8 @@ class Sweeping {
   }
 
   bool quantities(const Joint& joint, const Control& control) {
-    const std::vector<std::string> names = names_of(query_.parameters);
-    for (const SweepQuantities& each : query_.quantities)
+    const std::vector<std::string> names = names_of(request_.parameters);
+    for (const SweepQuantities& each : request_.quantities)
       answer_.quantity_names.insert(answer_.quantity_names.end(), each.names.begin(), each.names.end());
     const std::size_t width = answer_.quantity_names.size();
     const auto of_values = [&](std::span<const double> values) {
@@ -140,7 +139,7 @@ class Sweeping {
       for (std::size_t p = 0; p < names.size(); ++p) named.push_back({names[p], values[p]});
       const Joint design = with_parameters(joint, named);
       std::vector<double> found;
-      for (const SweepQuantities& quantities : query_.quantities) {
+      for (const SweepQuantities& quantities : request_.quantities) {
         const std::vector<double> of = quantities.of(design);
         found.insert(found.end(), of.begin(), of.end());
       }
@@ -148,7 +147,7 @@ class Sweeping {
     };
     answer_.quantities_here = of_values(answer_.here);
     answer_.quantities.resize(answer_.designs() * width);
-    return each(answer_.designs(), control, [&](std::size_t i) {
+    return each("joints of designs", answer_.designs(), control, [&](std::size_t i) {
       const std::vector<double> found = of_values(answer_.values_of(answer_.first_design + i));
       std::copy(found.begin(), found.end(),
                 answer_.quantities.begin() + static_cast<std::ptrdiff_t>(i * width));
@@ -163,11 +162,11 @@ class Sweeping {
   }
 
   std::span<plan::DesignLimit> limits_of(std::size_t i) {
-    return std::span(answer_.limits).subspan(i * query_.targets.size(), query_.targets.size());
+    return std::span(answer_.limits).subspan(i * request_.targets.size(), request_.targets.size());
   }
 
   /// False if it was stopped.
-  bool each(std::size_t count, const Control& control, const auto& body) {
+  bool each(std::string_view stage, std::size_t count, const Control& control, const auto& body) {
     std::mutex mutex;
     std::size_t done = 0;
     // So many at a time: reports cost a lock.
@@ -177,7 +176,7 @@ class Sweeping {
       if (!control.progress) return;
       const std::lock_guard lock(mutex);
       done += last - first;
-      control.progress(done, count);
+      control.progress(stage, done, count);
     });
     return !control.stop.stop_requested();
   }
@@ -192,13 +191,13 @@ class Sweeping {
   End border(std::vector<double> values, double safe, double safe_margin, double unsafe,
              std::span<const plan::DesignLimit> beyond) {
     std::vector<plan::DesignLimit> limits(beyond.begin(), beyond.end()), tried(beyond.size());
-    double unsafe_margin = answer::least_margin(query_.targets, limits);
-    const double near = plan::border_share * query_.parameters.back().step;
+    double unsafe_margin = answer::least_margin(request_.targets, limits);
+    const double near = plan::border_share * request_.parameters.back().step;
     while (std::abs(unsafe - safe) > near) {
       const double middle = safe + (unsafe - safe) / 2;
       values.back() = middle;
       limits_.limits(values, tried);
-      const double margin = answer::least_margin(query_.targets, tried);
+      const double margin = answer::least_margin(request_.targets, tried);
       if (margin >= 0) {
         safe = middle, safe_margin = margin;
       } else {
@@ -209,7 +208,7 @@ class Sweeping {
     // No target has a limit with a design that is in contact in its reference pose.
     if (std::isnan(unsafe_margin)) return {safe, std::nullopt};
     const double share = safe_margin / (safe_margin - unsafe_margin);
-    return {safe + share * (unsafe - safe), answer::least_target(query_.targets, limits)};
+    return {safe + share * (unsafe - safe), answer::least_target(request_.targets, limits)};
   }
 
   std::vector<plan::SafeInterval> intervals(std::size_t line) {
@@ -239,7 +238,7 @@ class Sweeping {
     return found;
   }
 
-  const SweepQuery& query_;
+  const SweepRequest& request_;
   const plan::DesignLimits& limits_;
   SweepAnswer& answer_;
   Lines lines_;
@@ -284,7 +283,7 @@ std::string difference_from_closed_form(const plan::DesignLimits& limits, const 
 }  // namespace
 
 SweepQuantities measured_quantities(std::span<const std::string> keys,
-                                    const measure::MeasureRequest& request) {
+                                    const measure::MeasureOptions& request) {
   SweepQuantities quantities;
   std::vector<const measure::MeasureDefinition*> definitions;
   for (const std::string& key : keys) {
@@ -325,75 +324,74 @@ std::size_t designs_of(std::span<const plan::SweptParameter> parameters) {
   return static_cast<std::size_t>(all);
 }
 
-void check_sweep(const Joint& joint, const SweepQuery& query) {
+void check_sweep(const Case& of, const SweepRequest& request) {
+  const Joint& joint = of.joint;
   if (joint.kind == JointKind::free) throw UsageError("a sweep needs a joint whose centre is held");
-  if (query.targets.empty()) throw UsageError("a sweep needs one target or more");
-  if (query.parameters.empty() || query.parameters.size() > most_parameters)
+  if (request.targets.empty()) throw UsageError("a sweep needs one target or more");
+  if (request.parameters.empty() || request.parameters.size() > most_parameters)
     throw UsageError("a sweep is over one to four parameters");
-  if (query.share.of < 1 || query.share.number < 1 || query.share.number > query.share.of)
+  if (request.share.of < 1 || request.share.number < 1 || request.share.number > request.share.of)
     throw UsageError("the share of a sweep is a number from 1 to the number of shares");
-  if (query.range.overlap.leave_out_reference_contacts)
+  if (request.range.overlap.leave_out_reference_contacts)
     throw UsageError(
         "a sweep leaves no contacts of the reference pose out: they differ from design to design");
   std::vector<ParameterValue> low, high;
-  for (const plan::SweptParameter& swept : query.parameters) {
+  for (const plan::SweptParameter& swept : request.parameters) {
     low.push_back({swept.name, swept.first});
     high.push_back({swept.name, swept.value(swept.count() - 1)});
   }
   with_parameters(joint, low);  // throws for names and values that there are not
   with_parameters(joint, high);
-  for (const plan::SweptParameter& swept : query.parameters)
+  for (const plan::SweptParameter& swept : request.parameters)
     if (parameter_named(joint, swept.name).kind == ParameterKind::size)
       throw UsageError(swept.name + ": sizes are not swept: rotations and translations of parts are");
-  designs_of(query.parameters);
+  designs_of(request.parameters);
   std::set<std::string_view> names;
-  for (const plan::SweepTarget& target : query.targets) {
+  for (const plan::SweepTarget& target : request.targets) {
     check_target(target, joint);
     if (!names.insert(target.name).second)
       throw UsageError("target " + core::one_line(target.name) + " is given twice");
   }
-  if (!query.bands) return;
-  motion::check_band(*query.bands);
+  if (!request.bands) return;
+  motion::check_band(band_options(of, *request.bands));
   if (!has_uncertain_parameters(joint))
     throw UsageError("a band needs a parameter with a standard deviation: sigma of [[part.parameter]]");
 }
 
-std::optional<SweepAnswer> answer_sweep(const Joint& joint, const JointPlacement& placement,
-                                        const SweepQuery& query, const AnswerControl& control) {
-  check_sweep(joint, query);
-  motion::RangeOptions range = query.range;
-  range.overlap.reference_pose = placement.reference_pose.angles;
-  SweepQuery asked = query;
-  asked.range = range;
-  SweepAnswer answer{query.parameters, query.targets, {}, query.share};
-  const std::vector<std::string> names = names_of(query.parameters);
+std::optional<SweepAnswer> answer_sweep(const Case& of, const SweepRequest& as_given,
+                                        const Control& control) {
+  check_sweep(of, as_given);
+  const Joint& joint = of.joint;
+  SweepRequest request = as_given;
+  motion::RangeOptions& range = request.range;
+  range.overlap.reference_pose = of.placement.reference_pose.angles;
+  SweepAnswer answer{request.parameters, request.targets, {}, request.share};
+  const std::vector<std::string> names = names_of(request.parameters);
   for (const std::string& name : names) answer.here.push_back(parameter_named(joint, name).value);
   note_request(joint, answer);
-  std::optional<plan::DesignLimits> made(std::in_place, joint, range, query.targets, names);
+  std::optional<plan::DesignLimits> made(std::in_place, joint, range, request.targets, names);
   if (const std::string difference = difference_from_closed_form(*made, answer); !difference.empty()) {
     answer.notes.push_back(
         {SweepNoteCode::differs_from_closed_form,
          "the meshes of the implant end motions elsewhere than bodies of the sizes in the joint "
          "file, so that every limit is searched for: " +
              difference});
-    made.emplace(joint, range, query.targets, names, false);
+    made.emplace(joint, range, request.targets, names, false);
   }
   const plan::DesignLimits& limits = *made;
   answer.pairs = limits.pairs();
-  answer.limits_here.resize(query.targets.size());
+  answer.limits_here.resize(request.targets.size());
   limits.limits(answer.here, answer.limits_here);
 
-  Sweeping sweeping(asked, limits, answer);
-  if (!sweeping.designs(answer::staged(control, "designs")) ||
-      !sweeping.borders(answer::staged(control, "borders")))
-    return std::nullopt;
-  if (query.bands &&
-      !sweeping.probabilities(joint, *query.bands, answer::staged(control, "displaced designs")))
-    return std::nullopt;
-  if (!query.quantities.empty() && !sweeping.quantities(joint, answer::staged(control, "joints of designs")))
-    return std::nullopt;
+  Sweeping sweeping(request, limits, answer);
+  if (!sweeping.designs(control) || !sweeping.borders(control)) return std::nullopt;
+  if (request.bands) {
+    answer.band_options = band_options(of, *request.bands);
+    if (!sweeping.probabilities(joint, *answer.band_options, control)) return std::nullopt;
+  }
+  if (!request.quantities.empty() && !sweeping.quantities(joint, control)) return std::nullopt;
   answer::summarise_sweep(answer);
-  if (query.bands)
+  if (request.bands)
     answer.caveats.emplace_back(
         "probabilities are over the standard deviations of the parts' parameters only: not of the joint's "
         "centre, axes and surfaces");
@@ -401,8 +399,8 @@ std::optional<SweepAnswer> answer_sweep(const Joint& joint, const JointPlacement
   return answer;
 }
 
-SweepAnswer answer_sweep(const Joint& joint, const JointPlacement& placement, const SweepQuery& query) {
-  return *answer_sweep(joint, placement, query, {});
+SweepAnswer answer_sweep(const Case& joint, const SweepRequest& request) {
+  return *answer_sweep(joint, request, {});
 }
 
 }  // namespace condyle

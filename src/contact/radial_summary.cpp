@@ -23,11 +23,10 @@ RadialBodySummary summary_of(const radial::RadialResults& results, const auto& d
         ++summary.vertices_inside;
         const DeepestVertex vertex{i, -gap, distance_of(i), results.ray_to_normal[i]};
         deepen(summary.deepest, vertex);
-        if (vertex.applies() == DepthKind::tangential) {
-          ++summary.oblique_inside;
-        } else {
+        if (vertex.radial_is_depth())
           deepen(summary.deepest_facing, vertex);
-        }
+        else
+          ++summary.oblique_inside;
         break;
       }
       case PointState::on_surface:

@@ -10,14 +10,14 @@
 namespace condyle::contact {
 namespace {
 
-DepthWay kind_about(std::size_t axis) noexcept {
-  constexpr std::array kinds{DepthWay::flexion, DepthWay::adduction, DepthWay::internal_rotation};
+DepthKind kind_about(std::size_t axis) noexcept {
+  constexpr std::array kinds{DepthKind::flexion, DepthKind::adduction, DepthKind::internal_rotation};
   return kinds[axis];
 }
 
 bool radial_is_depth(const radial::RadialResults& radial, std::span<const double> nearest, Index v) noexcept {
   const DeepestVertex vertex{v, -radial.radial_gap_mm[v], nearest[v], radial.ray_to_normal[v]};
-  return vertex.applies() == DepthKind::radial;
+  return vertex.radial_is_depth();
 }
 
 /// Vertices of one body whose arcs are read: those inside of which the radial depth is none, and of the others the deepest.
@@ -67,29 +67,29 @@ std::array<std::optional<ExitRotation>, 3> exit_rotations(const Rotations& rotat
 ReliableDepths depths_of(const radial::RadialResults& radial, std::span<const double> nearest,
                          const Rotations& rotations) {
   ReliableDepths out;
-  out.way.assign(radial.size(), DepthWay::none);
+  out.kind.assign(radial.size(), DepthKind::none);
   out.depth_mm.assign(radial.size(), 0);
   for (Index v = 0; v < radial.size(); ++v) {
     if (radial.state[v] != PointState::inside) continue;
     DeepestReliable vertex{v,
-                           DepthWay::nearest,
+                           DepthKind::nearest,
                            nearest[v],
                            nearest[v],
                            -radial.radial_gap_mm[v],
                            radial.ray_to_normal[v],
                            exit_rotations(rotations, v)};
     if (radial_is_depth(radial, nearest, v)) {
-      vertex.way = DepthWay::radial, vertex.depth_mm = vertex.radial_depth_mm;
+      vertex.kind = DepthKind::radial, vertex.depth_mm = vertex.radial_depth_mm;
     } else {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto& rotation = vertex.rotations[axis];
-        if (!rotation || (vertex.way != DepthWay::nearest && rotation->arc_mm >= vertex.depth_mm)) continue;
-        vertex.way = kind_about(axis), vertex.depth_mm = rotation->arc_mm;
+        if (!rotation || (vertex.kind != DepthKind::nearest && rotation->arc_mm >= vertex.depth_mm)) continue;
+        vertex.kind = kind_about(axis), vertex.depth_mm = rotation->arc_mm;
       }
     }
-    out.way[v] = vertex.way;
+    out.kind[v] = vertex.kind;
     out.depth_mm[v] = vertex.depth_mm;
-    if (vertex.way == DepthWay::nearest)
+    if (vertex.kind == DepthKind::nearest)
       ++out.without;
     else if (!out.deepest || vertex.depth_mm > out.deepest->depth_mm)
       out.deepest = vertex;

@@ -2,7 +2,7 @@
 
 namespace condyle::measure {
 
-DisplacedBones::DisplacedBones(const Joint& joint, const MeasureRequest& request,
+DisplacedBones::DisplacedBones(const Joint& joint, const MeasureOptions& request,
                                const motion::Uncertainty& sigma)
     : system_(joint.coordinates()),
       request_(request),

@@ -9,7 +9,7 @@ namespace condyle::measure {
 class DisplacedBones {
  public:
   /// The request must outlive it.
-  DisplacedBones(const Joint& joint, const MeasureRequest& request, const motion::Uncertainty& sigma);
+  DisplacedBones(const Joint& joint, const MeasureOptions& request, const motion::Uncertainty& sigma);
 
   /// In the frame G of the displaced joint, to which both bones are brought: p_G = X_FG^-1 p. From any thread.
   HipMeasures measured(const motion::Displacement& by) const;
@@ -19,7 +19,7 @@ class DisplacedBones {
                          std::span<const double> parameters) const;
 
   CoordinateSystem system_;
-  const MeasureRequest& request_;
+  const MeasureOptions& request_;
   BoneMeshes meshes_;
   BoneParts parts_;
   motion::MovableSurface hip_bone_, femur_;

@@ -30,7 +30,7 @@ MeasureBand band_of(const MeasureDefinition& definition, std::span<const std::op
 }
 
 }  // namespace
-std::optional<std::vector<MeasureBand>> measure_bands(const Joint& joint, const MeasureRequest& request,
+std::optional<std::vector<MeasureBand>> measure_bands(const Joint& joint, const MeasureOptions& request,
                                                       const motion::BandOptions& options,
                                                       const Control& control) {
   measure::check_measures(joint, request);
@@ -51,7 +51,7 @@ std::optional<std::vector<MeasureBand>> measure_bands(const Joint& joint, const 
         outcomes[m * count + i] = definitions[m].of(measured).value;
       const std::lock_guard lock(reporting);
       ++done;
-      if (control.progress) control.progress(done, count);
+      if (control.progress) control.progress("joints of the band", done, count);
     }
   });
   if (done < count) return std::nullopt;
@@ -61,7 +61,7 @@ std::optional<std::vector<MeasureBand>> measure_bands(const Joint& joint, const 
   return bands;
 }
 
-std::vector<MeasureBand> measure_bands(const Joint& joint, const MeasureRequest& request,
+std::vector<MeasureBand> measure_bands(const Joint& joint, const MeasureOptions& request,
                                        const motion::BandOptions& options) {
   return *measure_bands(joint, request, options, {});
 }

@@ -139,7 +139,7 @@ struct KeptSearch {
 };
 
 void set_both(const Bones& bones, const Sphere& head, const BoneParts& parts, CoordinateSystem system,
-              const MeasureRequest& request, BothMeasures& out) {
+              const MeasureOptions& request, BothMeasures& out) {
   const JointSpaceFinding space = joint_space(bones, head, parts.socket);
   out.joint_space_least = space.space ? measured(space.space->least_mm) : not_measured(space.why_none);
   out.joint_space_median = space.space ? measured(space.space->median_mm) : not_measured(space.why_none);
@@ -151,7 +151,7 @@ void set_both(const Bones& bones, const Sphere& head, const BoneParts& parts, Co
 
 }  // namespace
 
-void check_measures(const Joint& joint, const MeasureRequest& request) {
+void check_measures(const Joint& joint, const MeasureOptions& request) {
   if (!joint.is_hip() || joint.kind == JointKind::hinge) throw UsageError("measures: the joint is no hip");
   if (!(std::abs(request.pelvic_tilt.degrees()) <= largest_pelvic_tilt_deg))
     throw UsageError("measures: the pelvic tilt must be between -60 and 60 degrees");
@@ -199,7 +199,7 @@ BoneParts find_parts(const Joint& joint, const BoneMeshes& bones) {
 }
 
 HipMeasures measure_bones(const Bones& bones, const BoneParts& parts, CoordinateSystem system,
-                          const MeasureRequest& request) {
+                          const MeasureOptions& request) {
   const BodyAxes femur_axes = body_axes(system.side),
                  pelvis_axes = body_axes(system.side, request.pelvic_tilt);
   HipMeasures out;
@@ -221,7 +221,7 @@ HipMeasures measure_bones(const Bones& bones, const BoneParts& parts, Coordinate
   return out;
 }
 
-HipMeasures measure_hip(const Joint& joint, const MeasureRequest& request) {
+HipMeasures measure_hip(const Joint& joint, const MeasureOptions& request) {
   measure::check_measures(joint, request);
   const BoneMeshes bones = measure::bones_of(joint);
   HipMeasures measures = measure::measure_bones(

@@ -5,7 +5,7 @@
 namespace condyle::measure {
 
 /// Throws UsageError for what measure_hip() refuses.
-void check_measures(const Joint& joint, const MeasureRequest& request);
+void check_measures(const Joint& joint, const MeasureOptions& request);
 
 /// Both bodies without their meshes that are called bearing or soft, and without pieces near the head that are not theirs, each a mesh
 /// with its findings.
@@ -20,6 +20,6 @@ BoneParts find_parts(const Joint& joint, const BoneMeshes& bones);
 
 /// All measures of bones on which these parts were found.
 HipMeasures measure_bones(const Bones& bones, const BoneParts& parts, CoordinateSystem system,
-                          const MeasureRequest& request);
+                          const MeasureOptions& request);
 
 }  // namespace condyle::measure

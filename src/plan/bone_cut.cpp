@@ -79,7 +79,7 @@ bool Included::operator()(const Body& body, std::size_t triangle) const {
          (part->contact == PartContact::bearing && !leaves_out_bearing);
 }
 
-BoneCut::BoneCut(const Joint& joint, BodyRole cut_role, const ResectionRequest& request,
+BoneCut::BoneCut(const Joint& joint, BodyRole cut_role, const ResectionOptions& request,
                  std::vector<CutTarget> targets, double share)
     : joint_(joint),
       role_(cut_role),

@@ -39,7 +39,7 @@ class BoneCut {
  public:
   /// The targets must be free at their start. Of the depths that they take `share` is cut. Throws MeshError if the other body is not
   /// closed.
-  BoneCut(const Joint& joint, BodyRole cut, const ResectionRequest& request, std::vector<CutTarget> targets,
+  BoneCut(const Joint& joint, BodyRole cut, const ResectionOptions& request, std::vector<CutTarget> targets,
           double share);
 
   /// The joint with this bone as it is cut now.
@@ -84,7 +84,7 @@ class BoneCut {
   const Joint& joint_;
   BodyRole role_;
   const Body& bone_;
-  const ResectionRequest& request_;
+  const ResectionOptions& request_;
   std::vector<CutTarget> targets_;
   double share_;
   std::optional<motion::BearingSurface> bearing_;

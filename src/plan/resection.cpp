@@ -48,7 +48,7 @@ std::string_view name_of(KeptBy by) noexcept {
   return "marked";
 }
 
-void check_resection(const Joint& joint, const ResectionRequest& request) {
+void check_resection(const Joint& joint, const ResectionOptions& request) {
   if (request.targets.empty()) throw UsageError("resection: no motion has a target to reach");
   if (joint.implant)
     throw UsageError("resection: the joint has an implant, and a cut does not know it from bone");
@@ -101,11 +101,11 @@ Joint with_mobile_mesh(const Joint& joint, Mesh mesh) {
   return other;
 }
 
-Resection resect(const Joint& joint, const ResectionRequest& request) {
+Resection resect(const Joint& joint, const ResectionOptions& request) {
   return *resect(joint, request, {});
 }
 
-std::optional<Resection> resect(const Joint& joint, const ResectionRequest& request, const Control& control) {
+std::optional<Resection> resect(const Joint& joint, const ResectionOptions& request, const Control& control) {
   check_resection(joint, request);
   Resection done{joint, {}, {}, {}, false};
   const motion::RangeOfMotion before(joint, request.range);
@@ -133,7 +133,7 @@ std::optional<Resection> resect(const Joint& joint, const ResectionRequest& requ
   const std::size_t bones = (request.fixed_share < 1) + (request.fixed_share > 0);
   std::size_t cut_bones = 0;
   const auto report = [&] {
-    if (control.progress) control.progress(cut_bones++, bones);
+    if (control.progress) control.progress("bones", cut_bones++, bones);
     return !control.stop.stop_requested();
   };
   if (!report()) return std::nullopt;

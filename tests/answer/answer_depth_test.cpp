@@ -40,7 +40,7 @@ TEST_F(DepthAnswers, AreThoseOfTheirOwnFunctions) {
   const auto& rays = std::get<RayDepths>(answer.depths);
   EXPECT_TRUE(answer.in_contact());
   EXPECT_EQ(rays.reliable.mobile->depth_mm, expected.mobile->depth_mm);
-  EXPECT_EQ(rays.reliable.mobile->way, expected.mobile->way);
+  EXPECT_EQ(rays.reliable.mobile->kind, expected.mobile->kind);
   EXPECT_EQ(answer.measures.volume_mm3, measures.volume_mm3);
   EXPECT_TRUE(answer.caveats.empty());
 

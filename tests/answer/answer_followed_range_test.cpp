@@ -52,7 +52,7 @@ RangeRequest request_of(const motion::Motion& motion, Follow follow) {
 }
 
 RangeAnswer answered_following(const Joint& joint, const RangeRequest& request) {
-  return answer_range(joint, {}, request);
+  return answer_range({joint}, request);
 }
 
 TEST(AnswerFollowedRange, PutsTheBodyWhereTheLoadIsCarried) {
@@ -174,7 +174,7 @@ TEST(AnswerFollowedRange, IsRefusedWhereItMeansNothing) {
   EXPECT_NE(refusal(post.joint, follows).find("only the translation of a free joint"), std::string::npos);
   post.joint.kind = JointKind::free;
   RangeRequest with_bands = follows;
-  with_bands.bands = motion::BandOptions{};
+  with_bands.bands = BandRequest{};
   EXPECT_NE(refusal(post.joint, with_bands).find("limits only"), std::string::npos);
   RangeRequest held = follows;
   held.translation_mm = Vec3::Zero();

@@ -182,11 +182,11 @@ TEST_F(MotionAnswers, NumberSamplesBehindAGapAsTheFrames) {
 TEST_F(MotionAnswers, AreEmptyOnceStopped) {
   std::stop_source stop;
   std::vector<std::string> stages;
-  const AnswerControl control{[&](std::string_view stage, std::size_t, std::size_t) {
-                                if (stages.empty() || stages.back() != stage) stages.emplace_back(stage);
-                                stop.request_stop();
-                              },
-                              stop.get_token()};
+  const Control control{[&](std::string_view stage, std::size_t, std::size_t) {
+                          if (stages.empty() || stages.back() != stage) stages.emplace_back(stage);
+                          stop.request_stop();
+                        },
+                        stop.get_token()};
   EXPECT_FALSE(answer_motion(bodies, &layers,
                              {.X_FM = std::vector<std::optional<Pose>>(200, translated({0, -0.2, 0})),
                               .load = down,

@@ -43,7 +43,7 @@ std::vector<std::string> codes(const std::vector<RangeNote>& notes) {
 }
 
 RangeAnswer answered(const Joint& joint, const RangeRequest& request) {
-  return answer_range(joint, JointPlacement{}, request);
+  return answer_range({joint}, request);
 }
 
 TEST(LimitsAbout, AreThoseOfTheJointWithItsCentreThere) {
@@ -227,7 +227,7 @@ TEST(AnswerRange, GivesWhatItsPartsGive) {
   const Joint joint = bumpy_joint(Side::left);
   RangeRequest request{.motions = motion::hip_motions(), .zones_past = Angle::degrees(4)};
   request.map = {.row = {JointAngle::adduction, -10, 10, 10}, .column = {JointAngle::flexion, 0, 20, 20}};
-  request.bands = {.samples = 20, .seed = 5};
+  request.bands = BandRequest{.samples = 20, .seed = 5};
   const RangeAnswer answer = answered(joint, request);
   const motion::RangeOfMotion range(joint);
   ASSERT_EQ(answer.limits.size(), request.motions.size());
@@ -236,7 +236,7 @@ TEST(AnswerRange, GivesWhatItsPartsGive) {
   EXPECT_EQ(answer.zones.size(), request.motions.size());
   ASSERT_TRUE(answer.map);
   EXPECT_EQ(answer.map->points.size(), 6u);
-  const auto bands = motion::limit_bands(joint, request.motions, {}, *request.bands);
+  const auto bands = motion::limit_bands(joint, request.motions, {}, {.samples = 20, .seed = 5});
   ASSERT_EQ(answer.bands.size(), bands.size());
   for (std::size_t m = 0; m < bands.size(); ++m) EXPECT_EQ(answer.bands[m].median, bands[m].median);
 }
@@ -258,7 +258,7 @@ TEST(AnswerRange, IsEmptyIfStopped) {
     EXPECT_EQ(stage, "joints of the band");
     stop.request_stop();
   };
-  EXPECT_FALSE(answer_range(bumpy_joint(Side::right), {}, request, {at_first, stop.get_token()}));
+  EXPECT_FALSE(answer_range({bumpy_joint(Side::right)}, request, {at_first, stop.get_token()}));
 }
 
 TEST(AnswerRange, RefusesWhatContradictsItself) {
@@ -283,28 +283,29 @@ TEST(AnswerRange, HoldsTheTranslationOfAFreeJoint) {
   JointPlacement placement{};
   placement.reference_pose.translation_mm = held;
   RangeRequest request{.motions = {motion::hip_motions().front()}};
-  const RangeAnswer by_reference = answer_range(joint, placement, request);
+  const RangeAnswer by_reference = answer_range({joint, placement}, request);
   request.translation_mm = held;
-  const RangeAnswer by_request = answer_range(joint, {}, request);
+  const RangeAnswer by_request = answer_range({joint}, request);
   EXPECT_EQ(by_reference.held_translation_mm, held);
   EXPECT_EQ(by_reference.limits[0].end.turned, by_request.limits[0].end.turned);
   joint.translation_frame = TranslationFrame::joint_axes;
-  EXPECT_THROW(answer_range(joint, {}, request), UsageError) << "it would turn with the axes";
+  EXPECT_THROW(answer_range({joint}, request), UsageError) << "it would turn with the axes";
 }
 
 TEST(FurtherLimits, AreThoseOfTheAnswerThatKeptItsTables) {
   const std::vector<motion::Motion> motions = motion::hip_motions();
   const RangeAnswer all = answered(bumpy_joint(Side::right), {.motions = motions});
   const RangeAnswer kept = answered(bumpy_joint(Side::right), {});
-  const auto further = further_limits(kept, motions);
+  const Case joint{bumpy_joint(Side::right)};
+  const auto further = further_answer(joint, kept, {.motions = motions});
   ASSERT_EQ(further->limits.size(), motions.size());
   for (std::size_t i = 0; i < motions.size(); ++i)
     EXPECT_EQ(further->limits[i].end.turned, all.limits[i].end.turned) << motions[i].name;
   EXPECT_EQ(further->range, kept.range);
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_FALSE(further_limits(kept, motions, stop.get_token()));
-  EXPECT_THROW(further_limits(kept, std::vector{motion::Motion{.name = "still"}}), UsageError);
+  EXPECT_FALSE(further_answer(joint, kept, {.motions = motions}, {.stop = stop.get_token()}));
+  EXPECT_THROW(further_answer(joint, kept, {.motions = {motion::Motion{.name = "still"}}}), UsageError);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ Answered answered(TriMesh fixed, TriMesh mobile, const JointDescription& describ
   RangeRequest request;
   for (const motion::Motion& motion : motion::hip_motions())
     if (motion.name == "abduction" || motion.name == "adduction") request.motions.push_back(motion);
-  const RangeAnswer range = answer_range(joint, placement, request);
+  const RangeAnswer range = answer_range({joint, placement}, request);
   Answered out;
   for (const motion::MotionLimit& limit : range.limits)
     (limit.motion.name == "abduction" ? out.abduction_deg : out.adduction_deg) = limit.end.turned.degrees();

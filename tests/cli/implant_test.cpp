@@ -34,10 +34,10 @@ class ImplantCommand : public ::testing::Test {
 TEST_F(ImplantCommand, SaysWhatTheLibraryAnswers) {
   const Json json = answer("implant hip.toml --inclination 45 --definition anatomic --offset 42");
   const io::LoadedJoint loaded = io::read_joint(folder / "hip.toml");
-  ImplantQuery query;
-  query.hip.cup = {Angle::degrees(45), Angle::degrees(15), CupDefinition::anatomic};
-  query.hip.offset_mm = 42, query.of_bones.offset = false;
-  const ImplantAnswer expected = answer_implant(loaded.joint, loaded.report.placement, query);
+  ImplantRequest request;
+  request.hip.cup = {Angle::degrees(45), Angle::degrees(15), CupDefinition::anatomic};
+  request.hip.offset_mm = 42, request.of_bones.offset = false;
+  const ImplantAnswer expected = answer_implant(loaded, request);
   EXPECT_EQ(json["implant"]["neck_shaft_deg"].get<double>(),
             std::round(expected.hip.neck_shaft.degrees() * 100) / 100);
   EXPECT_EQ(json["implant"]["cup_radius_mm"], expected.hip.cup_radius_mm);

@@ -32,12 +32,11 @@ class ResectCommand : public ::testing::Test {
 TEST_F(ResectCommand, SaysWhatTheLibraryAnswers) {
   const Json json = answer("--reach 'internal_rotation_at_90_flexion=45 fadir=30' --curve 2");
   const io::LoadedJoint loaded = io::read_joint(folder / "hip.toml");
-  ResectionQuery query;
-  query.resection.targets =
+  ResectionRequest request;
+  request.resection.targets =
       reach_targets(motion::hip_motions(), "internal_rotation_at_90_flexion=45 fadir=30");
-  query.curve_points = 2;
-  query.measures.ischiofemoral_pose = loaded.report.placement.reference_pose.angles;
-  const ResectionAnswer expected = answer_resection(loaded.joint, loaded.report.placement, query);
+  request.curve_points = 2;
+  const ResectionAnswer expected = answer_resection(loaded, request);
   ASSERT_EQ(json["cuts"].size(), 1u);
   EXPECT_EQ(json["cuts"][0]["volume_mm3"], expected.resection.mobile->volume_mm3);
   EXPECT_EQ(json["cuts"][0]["deepest_mm"], expected.resection.mobile->deepest_mm);

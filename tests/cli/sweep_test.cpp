@@ -61,10 +61,9 @@ TEST_F(SweepCommand, SaysWhatTheLibraryAnswers) {
       pivoting{"pivoting", motion::motion_named(motion::hip_motions(), "external_rotation"),
                Angle::degrees(40)};
   const SweepAnswer expected =
-      answer_sweep(loaded.joint, loaded.report.placement,
-                   {.parameters = plan::parse_sweep("cup.inclination=30:50:5 cup.anteversion=0:30:5"),
-                    .targets = {sitting, pivoting},
-                    .bands = motion::BandOptions{.samples = 20}});
+      answer_sweep(loaded, {.parameters = plan::parse_sweep("cup.inclination=30:50:5 cup.anteversion=0:30:5"),
+                            .targets = {sitting, pivoting},
+                            .bands = BandRequest{.samples = 20}});
   const Json json = Json::parse(ran.out);
   EXPECT_EQ(json["designs"], 35);
   EXPECT_EQ(json["safe_measure"], expected.safe_measure);

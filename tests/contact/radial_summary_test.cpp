@@ -24,7 +24,7 @@ TEST(RadialSummary, CountsStatesAndFindsTheDeepestVertexAndTheSmallestGap) {
   EXPECT_EQ(summary.deepest->vertex, 3u);
   // The error that RadialTable guarantees: 1e-12 of the radius.
   EXPECT_NEAR(summary.deepest->depth_mm, 0.5, 5.5e-12);
-  EXPECT_EQ(summary.deepest->applies(), DepthKind::radial);
+  EXPECT_TRUE(summary.deepest->radial_is_depth());
   EXPECT_NEAR(summary.deepest->shortest_exit_mm, 0.5, 1e-15);
   EXPECT_EQ(summary.min_gap_mm, 0);
   EXPECT_EQ(summary.oblique_inside, 0u);
@@ -35,7 +35,7 @@ TEST(RadialSummary, AnObliqueDepthDoesNotHideTheDeepestOneThatMeansSomething) {
   const auto summary = of_points({{0, 0, 5.05}, {9.4, 0, 5.1}});
   ASSERT_TRUE(summary.deepest && summary.deepest_facing);
   EXPECT_EQ(summary.deepest->vertex, 1u);
-  EXPECT_EQ(summary.deepest->applies(), DepthKind::tangential);
+  EXPECT_FALSE(summary.deepest->radial_is_depth());
   EXPECT_EQ(summary.oblique_inside, 1u);
   EXPECT_EQ(summary.deepest_facing->vertex, 0u);
   EXPECT_NEAR(summary.deepest_facing->depth_mm, 0.05, 1e-14);
@@ -57,7 +57,7 @@ TEST(RadialSummary, ADepthThroughTheFarEndOfANeckIsNotADepth) {
   ASSERT_TRUE(summary.deepest);
   EXPECT_GT(summary.deepest->depth_mm, 0.6);
   EXPECT_NEAR(summary.deepest->shortest_exit_mm, 0.1, 1e-14);
-  EXPECT_EQ(summary.deepest->applies(), DepthKind::tangential);
+  EXPECT_FALSE(summary.deepest->radial_is_depth());
   EXPECT_FALSE(summary.deepest_facing);
 }
 

@@ -29,7 +29,7 @@ TEST_F(ArmIntoWall, IsAsDeepAsTheRotationThatFreesItSoonest) {
   ASSERT_TRUE(found.mobile && found.mobile->deepest);
   const contact::DeepestReliable& deepest = *found.mobile->deepest;
   EXPECT_GT(deepest.ray_to_normal.degrees(), 60);
-  EXPECT_EQ(deepest.way, contact::DepthWay::flexion);
+  EXPECT_EQ(deepest.kind, contact::DepthKind::flexion);
   // The front edge of the arm's end, (1, -100), meets x = 40 where flexion is asin(40 / r) - atan2(1, 100).
   const double r = std::hypot(1, 100);
   const double back = Angle::degrees(25).radians() - (std::asin(40 / r) - std::atan2(1, 100));
@@ -61,12 +61,12 @@ TEST_F(ArmIntoWall, WithoutRotationsOnlyTheNearestDistanceIsLeft) {
   std::size_t inside = 0;
   for (std::size_t v = 0; v < radial.size(); ++v) {
     if (radial.state[v] != PointState::inside) {
-      EXPECT_EQ(found.mobile->way[v], contact::DepthWay::none);
+      EXPECT_EQ(found.mobile->kind[v], contact::DepthKind::none);
       EXPECT_EQ(found.mobile->depth_mm[v], 0);
       continue;
     }
     ++inside;
-    EXPECT_EQ(found.mobile->way[v], contact::DepthWay::nearest);
+    EXPECT_EQ(found.mobile->kind[v], contact::DepthKind::nearest);
     EXPECT_EQ(found.mobile->depth_mm[v], measures.distances.mobile[v]);
   }
   EXPECT_GT(inside, 0u);
@@ -85,7 +85,7 @@ TEST(ReliableDepths, WhereTheSurfaceFacesTheRayTheRadialDepthIsIt) {
   const radial::RadialResults& radial = *contact.mobile_in_fixed;
   std::size_t along_rays = 0;
   for (std::size_t v = 0; v < radial.size(); ++v) {
-    if (found.mobile->way[v] != contact::DepthWay::radial) continue;
+    if (found.mobile->kind[v] != contact::DepthKind::radial) continue;
     ++along_rays;
     EXPECT_EQ(found.mobile->depth_mm[v], -radial.radial_gap_mm[v]);
     EXPECT_LE(radial.ray_to_normal[v].degrees(), 60);

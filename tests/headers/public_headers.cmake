@@ -1,5 +1,5 @@
 # What the public headers include, directly or not, is themselves, Eigen and the standard library; and condyle.hpp has
-# all of the core's. They are at most 45, and at most 150 types are directly in namespace condyle. Run as cmake -DSOURCE=... -DCOMPILER=... -DPUBLIC=... -P public_headers.cmake.
+# all of the core's. They are at most 54, and at most 150 types are directly in namespace condyle. Run as cmake -DSOURCE=... -DCOMPILER=... -DPUBLIC=... -P public_headers.cmake.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -9,7 +9,7 @@ file(STRINGS ${include}/condyle/condyle.hpp umbrella REGEX "#include")
 
 # A type counts if its definition, or an alias of one, begins a line within `namespace condyle {`.
 list(LENGTH headers header_count)
-if(header_count GREATER 45)
+if(header_count GREATER 54)
   message(SEND_ERROR "${header_count} public headers: merge two that are one idea, or keep one in src/")
 endif()
 set(types 0)

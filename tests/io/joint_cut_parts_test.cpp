@@ -48,7 +48,7 @@ constexpr const char* around_socket =
     "{ point = [0, 0, -44], normal = [0, 0, -1] }, { point = [0, -45, 0], normal = [0, -1, 0] }";
 
 std::vector<motion::MotionLimit> limits_of(const io::LoadedJoint& joint) {
-  return answer_range(joint.joint, joint.report.placement, {.motions = motion::hip_motions()}).limits;
+  return answer_range(joint, {.motions = motion::hip_motions()}).limits;
 }
 
 void expect_same(const std::vector<motion::MotionLimit>& limits,
@@ -136,7 +136,7 @@ TEST_F(CutParts, AreClosedAndTogetherTheBone) {
 TEST_F(CutParts, AsGivenHaveTheLimitsOfTheWholeBone) {
   const io::LoadedJoint cut = read(cut_parts::fragment_text(cut_parts::around_socket)), whole = read("");
   cut_parts::expect_same(cut_parts::limits_of(cut), cut_parts::limits_of(whole), 1e-9);
-  const auto a = answer_measures(cut.joint).measures, b = answer_measures(whole.joint).measures;
+  const auto a = answer_measures(cut).measures, b = answer_measures(whole).measures;
   EXPECT_NEAR(*a.acetabulum.centre_edge_lateral.value, *b.acetabulum.centre_edge_lateral.value, 1e-9);
   EXPECT_NEAR(*a.acetabulum.inclination.value, *b.acetabulum.inclination.value, 1e-9);
   EXPECT_NEAR(*a.both.ischiofemoral.value, *b.both.ischiofemoral.value, 1e-9);
@@ -144,8 +144,7 @@ TEST_F(CutParts, AsGivenHaveTheLimitsOfTheWholeBone) {
   EXPECT_TRUE(a.left_out.empty());
   const auto codes_of = [](const io::LoadedJoint& loaded) {
     std::vector<std::string> codes;
-    for (const RangeNote& note :
-         answer_range(loaded.joint, loaded.report.placement, {.motions = motion::hip_motions()}).notes)
+    for (const RangeNote& note : answer_range(loaded, {.motions = motion::hip_motions()}).notes)
       codes.push_back(note.text);
     return codes;
   };
@@ -168,7 +167,7 @@ TEST_F(CutParts, TurnedHaveTheLimitsOfMeshesTurnedByHand) {
             cut_parts::limits_of(cut)[0].end.turned.degrees());
   // The angle of a socket about the head's centre grows by the turn; the centre is fitted.
   const auto lateral = [](const io::LoadedJoint& of) {
-    return *answer_measures(of.joint).measures.acetabulum.centre_edge_lateral.value;
+    return *answer_measures(of).measures.acetabulum.centre_edge_lateral.value;
   };
   constexpr double off_centre_deg = 2 * 2e-7 / 20 * 180 / std::numbers::pi;
   EXPECT_NEAR(lateral(there), lateral(cut) + 10, off_centre_deg);
@@ -189,7 +188,7 @@ TEST_F(CutParts, OfAFemurLeaveItsHeadAndLimitsAsTheyAre) {
                             "cut.toml");
   ASSERT_TRUE(is_cut(cut.joint.mobile));
   cut_parts::expect_same(cut_parts::limits_of(cut), cut_parts::limits_of(whole), 1e-9);
-  const auto a = answer_measures(cut.joint).measures, b = answer_measures(whole.joint).measures;
+  const auto a = answer_measures(cut).measures, b = answer_measures(whole).measures;
   EXPECT_NEAR(*a.femur.head_radius.value, *b.femur.head_radius.value, 1e-12);
   EXPECT_NEAR(*a.femur.neck_shaft.value, *b.femur.neck_shaft.value, 1e-9);
   EXPECT_NEAR(*a.femur.alpha_1_30.value, *b.femur.alpha_1_30.value, 1e-9);
@@ -302,7 +301,7 @@ TEST_F(CutParts, SayWhichMotionsEndOnTheirFaces) {
   const io::LoadedJoint joint = read(cut_parts::fragment_text("{ point = [12, 0, 0], normal = [-1, 0, 0] }"));
   const ParameterValue away{"fragment.lateral", -60};
   const io::LoadedJoint there = with_parameters(joint, {&away, 1});
-  const auto answer = answer_range(there.joint, there.report.placement, {.motions = motion::hip_motions()});
+  const auto answer = answer_range(there, {.motions = motion::hip_motions()});
   // Both faces stay in the plane; nothing else that the femur meets lies in it.
   std::string in_plane;
   for (const motion::MotionLimit& limit : answer.limits)
@@ -340,7 +339,7 @@ TEST_F(CutParts, LeaveResectionTheOtherBone) {
   const motion::Motion motion =
       motion::motion_named(motion::hip_motions(), "internal_rotation_at_90_flexion");
   const double limit = motion::RangeOfMotion(joint.joint).limit(motion).end.turned.degrees();
-  plan::ResectionRequest request;
+  plan::ResectionOptions request;
   request.targets = {{motion, Angle::degrees(limit + 2)}};
   EXPECT_GE(
       motion::RangeOfMotion(plan::resect(joint.joint, request).joint).limit(motion).end.turned.degrees(),

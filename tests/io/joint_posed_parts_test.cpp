@@ -132,9 +132,9 @@ TEST_P(PosedParts, HaveTheLimitsOfMeshesTurnedByHand) {
                  moved_by_hand(fragment, about(Vec3::Zero(), turned_by_hand(sense() * 10, 0, 0))));
   const io::LoadedJoint by_hand = io::read_joint(write(""));
   const auto motions = motion::hip_motions();
-  const auto limits = answer_range(turned.joint, turned.report.placement, {.motions = motions}).limits,
-             expected = answer_range(by_hand.joint, by_hand.report.placement, {.motions = motions}).limits,
-             before = answer_range(joint.joint, joint.report.placement, {.motions = motions}).limits;
+  const auto limits = answer_range(turned, {.motions = motions}).limits,
+             expected = answer_range(by_hand, {.motions = motions}).limits,
+             before = answer_range(joint, {.motions = motions}).limits;
   double largest = 0;
   for (std::size_t i = 0; i < motions.size(); ++i) {
     EXPECT_EQ(limits[i].end.reason, expected[i].end.reason) << motions[i].name;
@@ -147,7 +147,7 @@ TEST_P(PosedParts, HaveTheLimitsOfMeshesTurnedByHand) {
 TEST_P(PosedParts, AddTheirFrontalTurnToTheLateralCentreEdgeAngle) {
   const Joint joint = io::read_joint(write(three)).joint;
   const auto lateral = [](const Joint& at) {
-    return *answer_measures(at).measures.acetabulum.centre_edge_lateral.value;
+    return *answer_measures({at}).measures.acetabulum.centre_edge_lateral.value;
   };
   // The angle is measured about the head's centre, which a fit has 2e-7 mm from the joint's: over 20 mm or more to the edge.
   constexpr double off_centre_deg = 2 * 2e-7 / 20 * 180 / std::numbers::pi;
@@ -272,7 +272,7 @@ TEST_P(PosedParts, StayWithoutTheBoneThatWasCut) {
   const auto limit = [&](const Joint& of) {
     return motion::RangeOfMotion(of).limit(motion).end.turned.degrees();
   };
-  plan::ResectionRequest request;
+  plan::ResectionOptions request;
   request.targets = {{motion, Angle::degrees(limit(turned) + 3)}};
   const Joint cut = plan::resect(turned, request).joint;
   const Joint again = with_parameters(cut, {&eight, 1});
@@ -328,7 +328,7 @@ TEST(PosedBones, OfARealHipTurnItsLimitsExactly) {
   const io::LoadedJoint joint = io::read_joint(path);
   const auto limits = [&](std::string_view values) {
     const io::LoadedJoint at = values.empty() ? joint : with_parameters(joint, parse_parameters(values));
-    return answer_range(at.joint, at.report.placement, {.motions = motion::hip_motions()}).limits;
+    return answer_range(at, {.motions = motion::hip_motions()}).limits;
   };
   const auto degrees = [](const std::vector<motion::MotionLimit>& of, std::string_view motion) {
     for (const motion::MotionLimit& limit : of)

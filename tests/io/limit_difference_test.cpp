@@ -106,7 +106,7 @@ TEST(LimitDifference, OfAMotionOfTheSameJointIsZeroInEveryDisplacedOne) {
   const std::vector<motion::MotionLimit> limits = motion::RangeOfMotion(joint).limits(motions);
   const motion::BandOptions options{.samples = 20};
   const std::vector<motion::LimitBand> bands = motion::limit_bands(joint, motions, {}, options);
-  const io::RomResult rom{.joint = joint, .limits = limits, .bands = bands, .band_options = options};
+  const RangeAnswer rom{.joint = joint, .limits = limits, .bands = bands, .band_options = options};
   for (const LimitDifference& each : limit_differences(rom, rom)) {
     if (!each.by_deg) continue;
     EXPECT_EQ(*each.by_deg, 0);

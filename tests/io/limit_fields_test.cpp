@@ -59,7 +59,8 @@ TEST(LimitFields, HaveAsManyTextsAsColumnsForAnyLimit) {
                          {4, 5, 6},
                          motion::ContactKind::bearing};
   const std::vector<motion::MotionLimit> limits = {free, contact};
-  const io::RomResult result{.joint = joint, .limits = limits};
+  const RangeAnswer answer{.joint = joint, .limits = limits};
+  const io::RomResult result{joint, answer};
   for (std::size_t i = 0; i < limits.size(); ++i) {
     for (const io::LimitField& field : io::limit_fields()) {
       std::vector<std::string> texts;

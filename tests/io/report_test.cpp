@@ -88,15 +88,17 @@ struct Answered {
         map(motion::motion_map({.row = {JointAngle::adduction, -10, 10, 5},
                                 .column = {JointAngle::internal_rotation, -20, 20, 10},
                                 .vary = JointAngle::flexion},
-                               range)) {}
-  io::RomResult rom() const {
-    return {.joint = joint, .limits = limits, .bearing = range.bearing(), .caveats = {"a term"}, .map = &map};
+                               range)),
+        answer{
+            .joint = joint, .limits = limits, .bearing = range.bearing(), .caveats = {"a term"}, .map = map} {
   }
+  io::RomResult rom() const { return {joint, answer}; }
 
   Joint joint;
   motion::RangeOfMotion range;
   std::vector<motion::MotionLimit> limits;
   motion::MotionMap map;
+  RangeAnswer answer;
 };
 
 TEST(Report, SaysOfLimitsWhatRomSays) {
@@ -117,7 +119,8 @@ TEST(Report, HasWhatContactOfEachTriangleMeans) {
   roles.mobile.assign(12, motion::ContactRole::ends);
   roles.mobile[2] = motion::ContactRole::bearing, roles.mobile[5] = motion::ContactRole::bearing_on_bearing;
   roles.fixed.assign(12, motion::ContactRole::soft);
-  const io::RomResult rom{.joint = joint, .limits = {}, .bearing = {.roles = roles}};
+  const RangeAnswer without{.joint = joint, .bearing = {.roles = roles}};
+  const io::RomResult rom{joint, without};
   const ReportBlock block = report_block(io::report_html({.title = "", .joint = joint, .rom = &rom}));
   EXPECT_EQ(block.array<std::uint8_t>("mobile_roles", "u8"),
             (std::vector<std::uint8_t>{0, 0, 1, 0, 0, 3, 0, 0, 0, 0, 0, 0}));

@@ -62,7 +62,7 @@ TEST(MapCsv, HasALinePerPointWithBothLimitsToTheLastBit) {
 TEST(MapSummary, CountsEveryPointOnceAtEitherEnd) {
   const motion::MotionMap map = whole_map();
   const Joint joint = arm_and_post();
-  const Json json = Json::parse(io::rom_json({.joint = joint, .limits = {}, .map = &map}))["map"];
+  const Json json = Json::parse(io::rom_json(shown({.joint = joint, .limits = {}, .map = map})))["map"];
   EXPECT_EQ(json["vary"], "flexion");
   EXPECT_EQ(json["vary_opposite"], "extension");
   EXPECT_EQ(json["columns"], (Json{{"angle", "adduction"},
@@ -99,7 +99,7 @@ TEST(MapIntervals, AreThoseOfEveryPointInItsOrder) {
   const motion::MotionMap map = map_with_islands();
   const Joint joint = arm_and_post();
   const Json json =
-      Json::parse(io::rom_json({.joint = joint, .limits = {}, .map = &map}))["map"]["intervals"];
+      Json::parse(io::rom_json(shown({.joint = joint, .limits = {}, .map = map})))["map"]["intervals"];
   ASSERT_EQ(json["offset"].size(), map.points.size() + 1);
   std::size_t k = 0, with_several = 0;
   for (std::size_t i = 0; i < map.points.size(); ++i) {
@@ -134,8 +134,7 @@ TEST(MapVtp, HasTheEndsOfTheIntervalDrawnAndAllIntervalsAsFieldData) {
   const motion::MotionMap map = map_with_islands();
   const TemporaryFolder folder;
   const Joint joint = arm_and_post();
-  io::write_rom(folder / "out",
-                {.joint = joint, .limits = {}, .map = &map, .vtp_encoding = io::VtpEncoding::text});
+  io::write_rom(folder / "out", shown({.joint = joint, .limits = {}, .map = map}), io::VtpEncoding::text);
   const std::string vtp = io::read_whole_file(folder / "out/map.vtp");
   const auto lower = numbers_of(vtp, "lower_deg"), upper = numbers_of(vtp, "upper_deg");
   const auto lower_reason = numbers_of(vtp, "lower_reason"), upper_reason = numbers_of(vtp, "upper_reason");

@@ -66,11 +66,11 @@ std::vector<std::string> lines_of(const std::string& text) {
 TEST(RomJson, HasEveryKeyAndEveryBitOfTheNumbers) {
   const Joint joint = arm_and_post();
   const std::vector<motion::MotionLimit> limits = some_limits();
-  const Json json = Json::parse(io::rom_json({.joint = joint,
-                                              .limits = limits,
-                                              .bearing = {some_bearing(), {}},
-                                              .bearing_rule = motion::BearingRule::leave_out,
-                                              .caveats = {"a term"}}));
+  const Json json = Json::parse(io::rom_json(shown({.joint = joint,
+                                                    .limits = limits,
+                                                    .bearing = {some_bearing(), {}},
+                                                    .bearing_rule = motion::BearingRule::leave_out,
+                                                    .caveats = {"a term"}})));
   EXPECT_EQ(json["condyle"], 1);
   EXPECT_EQ(json["joint"], "arm and post");
   EXPECT_EQ(json["fixed"], "post");
@@ -133,13 +133,13 @@ TEST(RomJson, IsValidWhateverBytesTheNamesHold) {
   joint.name = "\xff\"\n";
   std::vector<motion::MotionLimit> limits = some_limits();
   limits[0].motion.name = "\xc3";
-  EXPECT_TRUE(Json::accept(io::rom_json({joint, limits})));
+  EXPECT_TRUE(Json::accept(io::rom_json(shown({.joint = joint, .limits = limits}))));
 }
 
 TEST(RomCsv, HasAsManyFieldsInEveryLineAndEveryBitOfTheNumbers) {
   const Joint joint = arm_and_post();
   const std::vector<motion::MotionLimit> limits = some_limits();
-  const auto lines = lines_of(io::rom_csv({joint, limits}));
+  const auto lines = lines_of(io::rom_csv(shown({.joint = joint, .limits = limits})));
   ASSERT_EQ(lines.size(), 4u);
   const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
   EXPECT_EQ(commas(lines[1]), commas(lines[0]));
@@ -159,7 +159,7 @@ TEST(RomCsv, NamesTheMeshesThatMeet) {
   Joint joint = arm_and_post();
   joint.mobile.parts = {{"shaft", 0, joint.mobile.mesh.vertices().size(), 0, 40},
                         {"tip", joint.mobile.mesh.vertices().size(), 0, 40, 1000}};
-  const auto lines = lines_of(io::rom_csv({joint, some_limits()}));
+  const auto lines = lines_of(io::rom_csv(shown({.joint = joint, .limits = some_limits()})));
   EXPECT_NE(lines[0].find(",fixed_feature,mobile_feature,fixed_part,mobile_part,"), std::string::npos);
   EXPECT_NE(lines[1].find(",edge 3-17,face 40,,tip,"), std::string::npos) << lines[1];
 }
@@ -167,11 +167,11 @@ TEST(RomCsv, NamesTheMeshesThatMeet) {
 TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
   const Joint joint = arm_and_post();
   const std::vector<motion::MotionLimit> limits = some_limits();
-  const auto lines = lines_of(io::rom_text({.joint = joint,
-                                            .limits = limits,
-                                            .bearing = {some_bearing(), {}},
-                                            .bearing_rule = motion::BearingRule::leave_out,
-                                            .caveats = {"left out: nothing"}}));
+  const auto lines = lines_of(io::rom_text(shown({.joint = joint,
+                                                  .limits = limits,
+                                                  .bearing = {some_bearing(), {}},
+                                                  .bearing_rule = motion::BearingRule::leave_out,
+                                                  .caveats = {"left out: nothing"}})));
   ASSERT_EQ(lines.size(), 16u);
   EXPECT_EQ(lines[0], "arm and post: arm in post, right side");
   EXPECT_NE(lines[1].find("bearing surface: 2 of 3 triangles of arm"), std::string::npos) << lines[1];
@@ -193,7 +193,7 @@ TEST(RomText, SaysWhereNoRimWasFoundAndNoMinusBeforeZero) {
   const std::vector<motion::MotionLimit> limits = some_limits();
   motion::BearingSurface bearing = some_bearing();
   const auto text = [&] {
-    return io::rom_text({.joint = joint, .limits = limits, .bearing = {bearing, {}}});
+    return io::rom_text(shown({.joint = joint, .limits = limits, .bearing = {bearing, {}}}));
   };
   EXPECT_NE(text().find("(radius 24.50 mm, rim 2.25 mm from it)"), std::string::npos) << text();
   bearing.rim_gap_mm.reset();
@@ -215,7 +215,7 @@ TEST(RomJson, SaysThatTheTwoBedsideTestsAreAsDefinedHere) {
   const Joint joint = arm_and_post();
   std::vector<motion::MotionLimit> limits(3);
   for (std::size_t i = 0; i < 3; ++i) limits[i].motion.name = (std::array{"fadir", "flexion", "faber"})[i];
-  const Json motions = Json::parse(io::rom_json({joint, limits}))["motions"];
+  const Json motions = Json::parse(io::rom_json(shown({.joint = joint, .limits = limits})))["motions"];
   for (const std::size_t i : {0, 2})
     EXPECT_EQ(motions[i]["definition"], "as defined here; no angles are agreed on");
   EXPECT_TRUE(motions[1]["definition"].is_null());
@@ -322,12 +322,12 @@ TEST(RomText, HasALineForEachCaveatWithItsMotions) {
   for (std::size_t i = 0; i < 3; ++i)
     limits[i].motion = motion::motion_named(
         motion::hip_motions(), (std::array{"extension", "flexion", "adduction_at_90_flexion"})[i]);
-  const std::string text = io::rom_text({joint, limits});
+  const std::string text = io::rom_text(shown({.joint = joint, .limits = limits}));
   EXPECT_NE(text.find("soft tissue usually ends them before bone does (Turley 2013, PMC3589629): extension,\n"
                       "      adduction_at_90_flexion\n"),
             std::string::npos)
       << text;
-  const Json extension = Json::parse(io::rom_json({joint, limits}))["motions"][0];
+  const Json extension = Json::parse(io::rom_json(shown({.joint = joint, .limits = limits})))["motions"][0];
   ASSERT_EQ(extension["caveats"].size(), 1u);
   EXPECT_EQ(extension["caveats"][0]["code"], "soft_tissue_ends");
   EXPECT_EQ(extension["caveats"][0]["source"], "Turley 2013, PMC3589629");
@@ -369,14 +369,14 @@ TEST(RomResult, SaysWhereAnglesCountFrom) {
                                                {ZeroFrom::landmarks, "landmarks", true},
                                                {ZeroFrom::anatomy, "anatomy", true}}) {
     joint.zero_from = from;
-    const Json json = Json::parse(io::rom_json({joint, limits}));
+    const Json json = Json::parse(io::rom_json(shown({.joint = joint, .limits = limits})));
     EXPECT_EQ(json["zero"]["from"], word);
     EXPECT_EQ(json["zero"]["is_neutral"], is_neutral);
     EXPECT_TRUE(json["zero"]["femur_deg"].is_null()) << "an arm has no condyles";
     EXPECT_EQ(json["motions"][0]["zero_from"], word);
     // A range of other people counts from neutral.
     EXPECT_EQ(json["motions"][0]["normal_range_deg"], is_neutral ? Json(45.0) : Json(nullptr)) << word;
-    const std::string text = io::rom_text({joint, limits});
+    const std::string text = io::rom_text(shown({.joint = joint, .limits = limits}));
     EXPECT_NE(text.find("  zero: "), text.npos) << text;
     EXPECT_EQ(text.find("not compared with normal ranges") == text.npos, is_neutral) << text;
   }
@@ -385,16 +385,16 @@ TEST(RomResult, SaysWhereAnglesCountFrom) {
 TEST(RomResult, HasTheTotalArcOfOppositeMotionsThatBothEndInContact) {
   const Joint joint = arm_and_post();
   std::vector<motion::MotionLimit> limits = opposite_limits();
-  const Json arcs = Json::parse(io::rom_json({joint, limits}))["arcs"];
+  const Json arcs = Json::parse(io::rom_json(shown({.joint = joint, .limits = limits})))["arcs"];
   ASSERT_EQ(arcs.size(), 1u);
   EXPECT_EQ(arcs[0]["motions"], Json({"external_rotation", "internal_rotation"}));
   EXPECT_NEAR(arcs[0]["arc_deg"].get<double>(), 61.75, 1e-12);
-  EXPECT_NE(
-      io::rom_text({joint, limits}).find("total arcs (deg): external_rotation to internal_rotation 61.75"),
-      std::string::npos);
+  EXPECT_NE(io::rom_text(shown({.joint = joint, .limits = limits}))
+                .find("total arcs (deg): external_rotation to internal_rotation 61.75"),
+            std::string::npos);
   // From another start it is another arc.
   limits[1].motion.start.flexion = Angle::degrees(90);
-  EXPECT_TRUE(Json::parse(io::rom_json({joint, limits}))["arcs"].empty());
+  EXPECT_TRUE(Json::parse(io::rom_json(shown({.joint = joint, .limits = limits})))["arcs"].empty());
 }
 
 TEST(ClockHour, IsNamedAsAClockNamesIt) {
@@ -422,7 +422,8 @@ TEST(ClockHour, HasTwelveSuperiorAndThreeAnteriorOnEitherSideOfTheBody) {
     const std::vector limits{contact_towards({0, 20, lateral}), contact_towards({20, 0, lateral}),
                              contact_towards({14, 14, lateral}), contact_towards({0, -20, lateral}),
                              contact_towards({-20, 0, lateral})};
-    const io::RomResult result{joint, limits};
+    const RangeAnswer answer{.joint = joint, .limits = limits};
+    const io::RomResult result{joint, answer};
     const std::array hours{0.0, 3.0, 1.5, 6.0, 9.0};
     // Four roundings of an arctangent, in hours.
     for (std::size_t i = 0; i < 5; ++i)
@@ -438,13 +439,14 @@ TEST(ClockHour, LeavesOutWhatDidNotTouchAndHinges) {
   const std::vector<motion::MotionLimit> limits = some_limits();
   const auto with_hour = [&] {
     return std::count_if(limits.begin(), limits.end(), [&](const motion::MotionLimit& limit) {
-      return io::clock_hour({joint, limits}, limit).has_value();
+      return io::clock_hour(shown({.joint = joint, .limits = limits}), limit).has_value();
     });
   };
   EXPECT_EQ(with_hour(), 1);
   joint.kind = JointKind::hinge;
   EXPECT_EQ(with_hour(), 0);
-  EXPECT_TRUE(Json::parse(io::rom_json({joint, limits}))["motions"][0]["clock_hour"].is_null());
+  EXPECT_TRUE(Json::parse(io::rom_json(shown({.joint = joint, .limits = limits})))["motions"][0]["clock_hour"]
+                  .is_null());
 }
 
 TEST(ClockHour, EndsWhereNoRimCanBe) {
@@ -452,7 +454,8 @@ TEST(ClockHour, EndsWhereNoRimCanBe) {
   motion::BearingFinding bearing;
   bearing.surface.emplace().head = {Vec3::Zero(), 20};
   const std::vector limits{contact_towards({0, 31.999, 0}), contact_towards({0, 32.001, 0})};
-  const io::RomResult result{.joint = joint, .limits = limits, .bearing = bearing};
+  const RangeAnswer answer{.joint = joint, .limits = limits, .bearing = bearing};
+  const io::RomResult result{joint, answer};
   EXPECT_EQ(io::clock_hour(result, limits[0]), 0.0);
   EXPECT_FALSE(io::clock_hour(result, limits[1]));
 }
@@ -465,7 +468,7 @@ TEST(RomJson, SaysThatLimitsWithADepthAllowedAreSearchedFor) {
   depth.start_depth_mm = 0.125;
   depth.depth_grows = false;
   const Json motion = Json::parse(
-      io::rom_json({.joint = joint, .limits = {&depth.limit, 1}, .depths = {&depth, 1}}))["motions"][0];
+      io::rom_json(shown({.joint = joint, .limits = {depth.limit}, .depths = {depth}})))["motions"][0];
   EXPECT_EQ(motion["depth"]["at_limit_mm"], 0.4375);
   EXPECT_EQ(motion["depth"]["at_start_mm"], 0.125);
   EXPECT_EQ(motion["depth"]["grows"], false);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "condyle/joint.hpp"
+#include "io/result/rom_result.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle::test {
@@ -14,6 +15,11 @@ inline Joint arm_and_post() {
               {"arm", box({-1, -100, -2}, {1, -10, 2})}};
   joint.zero_from = ZeroFrom::stated;
   return joint;
+}
+
+/// What is shown of an answer, which outlives it.
+inline io::RomResult shown(const RangeAnswer& answer) {
+  return {answer.joint, answer};
 }
 
 }  // namespace condyle::test

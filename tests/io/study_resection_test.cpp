@@ -37,12 +37,12 @@ TEST_F(StudyOfCams, HasWhatTheLibraryAnswers) {
   ASSERT_EQ(io::run_study(study("cam,1,70\n", std::string(motion) + "=45"))->failures, 0u);
   const auto hip = rows_of(folder / "out/hips.csv")[0];
   const auto limits = rows_of(folder / "out/limits.csv");
-  ResectionQuery query{
+  ResectionRequest request{
       .resection = {.targets = reach_targets(motion::hip_motions(), std::string(motion) + "=45")},
       .motions = {motion::motion_named(motion::hip_motions(), motion),
                   motion::motion_named(motion::hip_motions(), "flexion")},
       .curve_points = 0};
-  const ResectionAnswer expected = answer_resection(with_cam(), {}, query);
+  const ResectionAnswer expected = answer_resection({with_cam()}, request);
   const plan::CutBone& femur = *expected.resection.mobile;
   EXPECT_GT(femur.volume_mm3, 1);
   EXPECT_EQ(hip.at("resect_volume_mm3"), fmt::format("{}", femur.volume_mm3));

@@ -207,7 +207,7 @@ TEST_F(StudyOfArms, WritesNothingWhereItIsStopped) {
   std::stop_source stop;
   Control control;
   control.stop = stop.get_token();
-  control.progress = [&](std::size_t, std::size_t) { stop.request_stop(); };
+  control.progress = [&](std::string_view, std::size_t, std::size_t) { stop.request_stop(); };
   EXPECT_FALSE(io::run_study(study("out"), control));
   EXPECT_EQ(count_entries(folder / "out"), 0u);
 }
@@ -368,7 +368,7 @@ TEST_F(StudyOfArms, NamesEveryColumnInItsDictionary) {
 
 TEST_F(StudyOfArms, SaysInEveryTableWhichVersionAndOptionsItIsOf) {
   io::Study asked = study("out");
-  asked.options.bands = {20, 7, {}};
+  asked.options.bands = BandRequest{.samples = 20, .seed = 7};
   run(asked);
   const auto options = nlohmann::json::parse(read_whole_file(folder / "out/study.json"))["options"];
   for (const char* table : {"limits", "hips", "failures", "columns"}) {

@@ -50,9 +50,9 @@ io::SweepResult made_sweep() {
   sweep.notes = {{SweepNoteCode::differs_from_closed_form, "meshes differ"}};
   sweep.caveats = {"one", "two"};
   result.units = {"deg", "mm"};
-  result.bands.emplace();
-  result.bands->samples = 77;
-  result.bands->seed = 5;
+  result.answer.band_options.emplace();
+  result.answer.band_options->samples = 77;
+  result.answer.band_options->seed = 5;
   answer::summarise_sweep(sweep);
   return result;
 }
@@ -82,7 +82,7 @@ TEST(SweepFiles, SayAgainWhatWasWritten) {
   EXPECT_EQ(a.here, b.here);
   EXPECT_EQ(a.targets[1].motion.sense, RotationSense::negative);
   EXPECT_EQ(a.caveats, b.caveats);
-  EXPECT_EQ(read.bands->samples, 77u);
+  EXPECT_EQ(read.answer.band_options->samples, 77u);
   EXPECT_EQ(read.joint, written.joint);
   EXPECT_EQ(read.units, written.units);
 }

@@ -104,7 +104,7 @@ TEST(MeasureBands, AStoppedBandIsEmptyAndProgressCounts) {
   std::stop_source stop;
   std::size_t last = 0;
   Control control;
-  control.progress = [&](std::size_t done, std::size_t total) {
+  control.progress = [&](std::string_view, std::size_t done, std::size_t total) {
     EXPECT_EQ(done, last + 1);
     EXPECT_EQ(total, 20u);
     last = done;

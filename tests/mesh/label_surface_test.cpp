@@ -371,7 +371,7 @@ TEST(LabelSurface, DoesNotDependOnTheBoxNorOnThreads) {
 TEST(LabelSurface, CountsItsStepsAndStops) {
   const VoxelMask mask = ball_mask({11, 11, 11}, {5, 5, 5}, 4);
   std::vector<std::size_t> steps;
-  const auto note = [&](std::size_t done, std::size_t total) {
+  const auto note = [&](std::string_view, std::size_t done, std::size_t total) {
     steps.push_back(done);
     EXPECT_LE(done, total);
     if (done == total) steps.push_back(total);

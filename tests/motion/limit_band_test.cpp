@@ -145,7 +145,7 @@ TEST(LimitBand, EndsWhereItIsStopped) {
   const std::vector<Motion> motions{flexion()};
   const auto bands = limit_bands(post_joint(JointAngle::flexion, Side::right).joint, motions, {}, {},
                                  {.progress =
-                                      [&](std::size_t done, std::size_t total) {
+                                      [&](std::string_view, std::size_t done, std::size_t total) {
                                         EXPECT_EQ(done, ++seen);
                                         EXPECT_EQ(total, 800u);
                                         if (done == 3) stop.request_stop();

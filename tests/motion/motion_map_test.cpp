@@ -148,7 +148,7 @@ TEST(MotionMap, GivesTheSameBytesOnOneThreadAndOnMany) {
 TEST(MotionMap, ReportsEveryPointOnceInGrowingCounts) {
   std::size_t last_done = 0;
   const auto map = motion_map(small_grid(), RangeOfMotion(bumpy_joint(Side::right)),
-                              {.progress = [&](std::size_t done, std::size_t total) {
+                              {.progress = [&](std::string_view, std::size_t done, std::size_t total) {
                                 EXPECT_EQ(done, ++last_done);
                                 EXPECT_EQ(total, 20u);
                               }});
@@ -165,7 +165,7 @@ TEST(MotionMap, StoppedBeforeItsLastPointIsNone) {
     const auto map = single.execute([&] {
       return motion_map(small_grid(), joint,
                         {.progress =
-                             [&](std::size_t done, std::size_t) {
+                             [&](std::string_view, std::size_t done, std::size_t) {
                                last_done = done;
                                if (done == stop_at) stop.request_stop();
                              },

@@ -396,7 +396,7 @@ TEST(RecordedContact, ReportsItsProgressAndEndsWhereItIsStopped) {
   std::size_t seen = 0;
   const auto found = contact_between(motion.bodies, motion.time_s, motion.X_FM, {},
                                      {.progress =
-                                          [&](std::size_t done, std::size_t total) {
+                                          [&](std::string_view, std::size_t done, std::size_t total) {
                                             EXPECT_EQ(done, ++seen);
                                             EXPECT_EQ(total, 4u);
                                             stop.request_stop();

@@ -57,8 +57,8 @@ plan::ReachTarget target(const char* motion, double degrees) {
   return {motion::motion_named(motion::hip_motions(), motion), Angle::degrees(degrees)};
 }
 
-plan::ResectionRequest reaching(std::vector<plan::ReachTarget> targets) {
-  plan::ResectionRequest request;
+plan::ResectionOptions reaching(std::vector<plan::ReachTarget> targets) {
+  plan::ResectionOptions request;
   request.targets = std::move(targets);
   return request;
 }
@@ -136,7 +136,7 @@ TEST(LongResection, DeepCutsUnderAWallAreReached) {
   for (const auto& [R, a, outer, reach, volume, most] :
        {std::array{25., 15., 30., 65., 287.130333, 306.}, std::array{24., 12., 27., 75., 261.302985, 353.}}) {
     const Joint joint = hip_of(socket(R, outer), neck(a));
-    plan::ResectionRequest request = reaching({target("flexion", reach)});
+    plan::ResectionOptions request = reaching({target("flexion", reach)});
     request.range.bearing.rule = motion::BearingRule::count;
     const plan::Resection done = plan::resect(joint, request);
     expect_reached(joint, done, request.range);
@@ -156,7 +156,7 @@ TEST(Resection, ANeckInACupLosesWhatQuadratureSays) {
   const Vec3 along =
       Eigen::AngleAxisd(-15 * degree, Vec3::UnitY()) * Vec3(0, -std::cos(shaft), std::sin(shaft));
   const Joint joint = hip_of(socket(16, 20, opening), neck(6, along));
-  plan::ResectionRequest request = reaching({target("flexion", 135)});
+  plan::ResectionOptions request = reaching({target("flexion", 135)});
   request.range.bearing.rule = motion::BearingRule::count;
   const plan::Resection one = plan::resect(joint, request);
   expect_reached(joint, one, request.range);
@@ -202,7 +202,7 @@ TEST(Resection, ABallThatTouchesNoVertexLeavesItsGroove) {
     const Vec3 centre = distance * Vec3(std::cos(before_face * degree), std::sin(before_face * degree), 0);
     const Joint joint =
         hip_of(ball_at(centre, radius), block({distance - 9.3, -20, -9.7}, {distance + 9.1, 0, 9.9}));
-    plan::ResectionRequest request = reaching({target("flexion", reach)});
+    plan::ResectionOptions request = reaching({target("flexion", reach)});
     request.range.bearing.rule = motion::BearingRule::count;
     const plan::Resection done = plan::resect(joint, request);
     expect_reached(joint, done, request.range);
@@ -248,7 +248,7 @@ double not_touched_mm(const plan::CutBone& cut, double radius, double spacing) {
 /// The groove of a ball of 3 mm, and a burr.
 struct GrooveAndBurr {
   Joint joint;
-  plan::ResectionRequest request;
+  plan::ResectionOptions request;
 
   explicit GrooveAndBurr(double burr_mm)
       : joint(hip_of(ball_at(40 * Vec3(std::cos(20 * degree), std::sin(20 * degree), 0), 3),
@@ -275,7 +275,7 @@ TEST(Resection, ABurrThatIsWiderThanAGrooveMakesItsOwnCap) {
     EXPECT_LT(not_touched_mm(*done.mobile, radius, 0.2), 0.15);
   }
   const GrooveAndBurr groove(11);
-  plan::ResectionRequest any_shape = groove.request;
+  plan::ResectionOptions any_shape = groove.request;
   any_shape.burr_mm.reset();
   EXPECT_GT(not_touched_mm(*plan::resect(groove.joint, any_shape).mobile, 5.5, 0.2), 0.3);
 }
@@ -290,7 +290,7 @@ TEST(Resection, ABurrThatIsNarrowerThanAGrooveTakesNoMore) {
 
 TEST(Resection, ABurrThatWouldEnterKeptBoneIsSaidTo) {
   const Joint joint = hip_of(socket(25, endless), neck(15));
-  plan::ResectionRequest request = reaching({target("flexion", 56)});
+  plan::ResectionOptions request = reaching({target("flexion", 56)});
   request.edge_mm = 1;
   const plan::Resection any_shape = plan::resect(joint, request);
   request.burr_mm = 30;
@@ -378,7 +378,7 @@ TEST(Resection, WhatASweepFindsIsWhatSampledPosesFind) {
 // The depth that stays is that of the cut, not of what the other bone's share takes away from it.
 TEST(Resection, ADepthThatIsSharedIsHeldByEachBone) {
   const Joint joint = hip_of(socket(25, 30), neck(15));
-  plan::ResectionRequest request = reaching({target("flexion", 56)});
+  plan::ResectionOptions request = reaching({target("flexion", 56)});
   request.fixed_share = 0.5;
   request.edge_mm = 1;
   const plan::Resection free = plan::resect(joint, request);
@@ -403,7 +403,7 @@ double lost_mm3(const plan::CutBone& cut) {
 TEST(Resection, RimOrBothBonesReachTheSameTarget) {
   const Joint joint = hip_of(socket(25, 30), neck(15));
   for (const double share : {1.0, 0.5}) {
-    plan::ResectionRequest request = reaching({target("flexion", 60)});
+    plan::ResectionOptions request = reaching({target("flexion", 60)});
     request.fixed_share = share;
     const plan::Resection done = plan::resect(joint, request);
     ASSERT_TRUE(done.fixed);
@@ -462,7 +462,7 @@ TEST(Resection, OfACamNothingGoesThatTheHipWithoutOneHas) {
 
 TEST(Resection, AMarginKeepsTheFixedBoneMovedOutwardsClear) {
   const Joint joint = hip_of(socket(25, endless), neck(15));
-  plan::ResectionRequest request = reaching({target("flexion", 60)});
+  plan::ResectionOptions request = reaching({target("flexion", 60)});
   const double without = plan::resect(joint, request).volume_mm3();
   request.margin_mm = 1;
   const plan::Resection done = plan::resect(joint, request);
@@ -481,7 +481,7 @@ TEST(Resection, AMarginKeepsTheFixedBoneMovedOutwardsClear) {
 
 TEST(Resection, KeptBoneStopsAMotionAndIsNamed) {
   const Joint joint = hip_of(socket(25, endless), neck(15));
-  plan::ResectionRequest request = reaching({target("flexion", 57.5)});
+  plan::ResectionOptions request = reaching({target("flexion", 57.5)});
   request.mobile.deepest_mm = 1;
   const plan::Resection shallow = plan::resect(joint, request);
   ASSERT_TRUE(shallow.targets[0].blocked);
@@ -506,7 +506,7 @@ TEST(Resection, RequestsThatSayNothingAreRefused) {
   EXPECT_THROW(plan::resect(joint, {}), UsageError);
   EXPECT_THROW(plan::resect(joint, reaching({target("flexion", 0)})), UsageError);
   EXPECT_THROW(plan::resect(joint, reaching({target("flexion", 181)})), UsageError);
-  plan::ResectionRequest request = reaching({target("flexion", 70)});
+  plan::ResectionOptions request = reaching({target("flexion", 70)});
   request.mobile.vertices = {1, 0};
   EXPECT_THROW(plan::resect(joint, request), UsageError);
   const auto motions = motion::hip_motions();
@@ -544,7 +544,7 @@ TEST(Resection, MeasuresAreThoseOfTheBoneUnderACartilage) {
                          cartilage.triangles.size(), PartContact::bearing}};
   const auto radius = [](const measure::HipMeasures& shape) { return *shape.femur.head_radius.value; };
   const ResectionAnswer answer = answer_resection(
-      joint, {}, {.resection = reaching({target("internal_rotation_at_90_flexion", 45)}), .curve_points = 0});
+      {joint}, {.resection = reaching({target("internal_rotation_at_90_flexion", 45)}), .curve_points = 0});
   ASSERT_TRUE(answer.resection.mobile);
   expect_reached(joint, answer.resection);
   EXPECT_NEAR(motion::find_bearing_surface(answer.resection.joint).surface->head.radius,
@@ -602,14 +602,14 @@ TEST(Resection, TheVisibleHumansHipLosesLittleMoreThanTheLeast) {
     EXPECT_EQ(placed[i].end.turned, planned[i].end.turned) << motions[i].name;
   // From the rim, and from both: what poses 0.2 degrees apart sweep over, in voxels of 0.25 mm.
   for (const auto& [share, of_rim] : {std::pair(1.0, 149.6), {0.5, 73.1}}) {
-    plan::ResectionRequest request = reaching({target("internal_rotation_at_90_flexion", 42.686)});
+    plan::ResectionOptions request = reaching({target("internal_rotation_at_90_flexion", 42.686)});
     request.fixed_share = share;
     const plan::Resection rim = plan::resect(*hip, request);
     expect_reached(*hip, rim);
     expect_sound(*rim.fixed);
     EXPECT_NEAR(rim.fixed->volume_mm3 / of_rim, 1, 0.01);
   }
-  plan::ResectionRequest burr = reaching({target("internal_rotation_at_90_flexion", 42.686)});
+  plan::ResectionOptions burr = reaching({target("internal_rotation_at_90_flexion", 42.686)});
   burr.burr_mm = 5.5;
   const plan::Resection made = plan::resect(*hip, burr);
   expect_reached(*hip, made);

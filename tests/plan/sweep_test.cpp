@@ -100,7 +100,7 @@ TEST(SafeZone, HasTheAreaAndTheBorderOfTheClosedForm) {
     hip.head_radius_mm = zone.head, hip.neck_radius_mm = zone.neck;
     const PlacedJoint placed = implant_alone(hip);
     const SweepAnswer sweep =
-        answer_sweep(placed.joint, placed.placement,
+        answer_sweep({placed.joint, placed.placement},
                      {.parameters = plan::parse_sweep("cup.inclination=30:55:1 cup.anteversion=-25:45:1"),
                       .targets = seven_targets()});
     EXPECT_NEAR(sweep.safe_measure, zone.area, 0.01 * zone.area) << zone.neck_shaft << " " << zone.head;
@@ -121,7 +121,7 @@ TEST(SafeZone, HasTheAreaAndTheBorderOfTheClosedForm) {
 TEST(SafeZone, CountsDesignsAsTheGridDoes) {
   const PlacedJoint placed = implant_alone({});
   const SweepAnswer sweep =
-      answer_sweep(placed.joint, placed.placement,
+      answer_sweep({placed.joint, placed.placement},
                    {.parameters = plan::parse_sweep("cup.inclination=30:55:1 cup.anteversion=-25:45:1"),
                     .targets = seven_targets()});
   std::size_t safe = 0, by_form = 0;
@@ -301,14 +301,14 @@ TEST(Sweep, TiltsThePelvisByTurningItBackInFlexion) {
 
 TEST(Sweep, OfSharesIsThatOfTheWhole) {
   const PlacedJoint placed = implant_alone({}, 4);
-  SweepQuery query{.parameters = plan::parse_sweep("cup.inclination=30:50:4 cup.anteversion=-20:40:5"),
-                   .targets = seven_targets(),
-                   .bands = motion::BandOptions{.samples = 40}};
-  const SweepAnswer whole = answer_sweep(placed.joint, placed.placement, query);
+  SweepRequest request{.parameters = plan::parse_sweep("cup.inclination=30:50:4 cup.anteversion=-20:40:5"),
+                       .targets = seven_targets(),
+                       .bands = BandRequest{.samples = 40}};
+  const SweepAnswer whole = answer_sweep({placed.joint, placed.placement}, request);
   std::vector<SweepAnswer> shares;
   for (std::size_t number = 1; number <= 4; ++number) {
-    query.share = {number, 4};
-    shares.push_back(answer_sweep(placed.joint, placed.placement, query));
+    request.share = {number, 4};
+    shares.push_back(answer_sweep({placed.joint, placed.placement}, request));
   }
   const SweepAnswer merged = merged_sweep(shares);
   EXPECT_EQ(merged.margin_deg, whole.margin_deg);
@@ -372,10 +372,10 @@ TEST(Sweep, GivesTheProbabilityOfANormalDistributionOverTheSafeInterval) {
   placed.joint.posed->parts[0].parameters[0].sigma = 0;
   constexpr std::size_t samples = 400;
   const SweepAnswer sweep =
-      answer_sweep(placed.joint, placed.placement,
+      answer_sweep({placed.joint, placed.placement},
                    {.parameters = plan::parse_sweep("cup.inclination=40:40:1 cup.anteversion=-10:45:5"),
                     .targets = seven_targets(),
-                    .bands = motion::BandOptions{.samples = samples}});
+                    .bands = BandRequest{.samples = samples}});
   ASSERT_EQ(sweep.safe.size(), 1u);
   const auto below = [](double z) { return 0.5 * std::erfc(-z / std::sqrt(2)); };
   for (std::size_t i = 0; i < sweep.designs(); ++i) {
@@ -390,7 +390,7 @@ TEST(Sweep, SaysWhichDesignsAreInContactInTheReferencePose) {
   const PlacedJoint placed = implant_alone({});
   // At an inclination of 0 the opening points down and the neck, 45 degrees up from it and more, is inside the liner's angle no longer.
   const SweepAnswer sweep =
-      answer_sweep(placed.joint, placed.placement,
+      answer_sweep({placed.joint, placed.placement},
                    {.parameters = plan::parse_sweep("cup.inclination=40:40:1 cup.anteversion=-60:75:5"),
                     .targets = {turn_to("flexion", 20)}});
   for (std::size_t i = 0; i < sweep.designs(); ++i) {
@@ -408,13 +408,14 @@ TEST(Sweep, NotesAnImplantWhoseMeshesAreNotThoseOfItsSizes) {
   plan::TotalHip said = made;
   said.neck_radius_mm = 7;
   placed.joint.implant = plan::implant_in_joint(said, placed.joint);
-  const SweepQuery query{.parameters = plan::parse_sweep("cup.anteversion=10:20:10"),
-                         .targets = {turn_to("flexion", 110)}};
-  const SweepAnswer sweep = answer_sweep(placed.joint, placed.placement, query);
+  const SweepRequest request{.parameters = plan::parse_sweep("cup.anteversion=10:20:10"),
+                             .targets = {turn_to("flexion", 110)}};
+  const SweepAnswer sweep = answer_sweep({placed.joint, placed.placement}, request);
   ASSERT_FALSE(sweep.notes.empty());
   EXPECT_EQ(sweep.notes[0].code, SweepNoteCode::differs_from_closed_form);
   for (const plan::DesignLimit& limit : sweep.limits) EXPECT_EQ(limit.by, plan::LimitKnownBy::meshes);
-  const RangeAnswer range = answer_range(placed.joint, placed.placement, {.motions = motion::hip_motions()});
+  const RangeAnswer range =
+      answer_range({placed.joint, placed.placement}, {.motions = motion::hip_motions()});
   EXPECT_TRUE(std::any_of(range.notes.begin(), range.notes.end(), [](const RangeNote& note) {
     return note.code == RangeNoteCode::differs_from_closed_form;
   }));
@@ -428,7 +429,7 @@ TEST(Sweep, NotesThatAlsoWhereBoneEndsTheMotionsBefore) {
   said.neck_radius_mm = 7;
   placed.joint.implant = plan::implant_in_joint(said, placed.joint);
   const SweepAnswer sweep = answer_sweep(
-      placed.joint, placed.placement,
+      {placed.joint, placed.placement},
       {.parameters = plan::parse_sweep("cup.anteversion=10:20:10"), .targets = {turn_to("adduction", 20)}});
   ASSERT_LT(sweep.limits_here[0].turned_deg, 40);  // femur on hip bone; the neck would meet the liner at 67.6
   ASSERT_FALSE(sweep.notes.empty());
@@ -449,7 +450,7 @@ TEST(ClosedForm, StandsBesideTheLimitsOfMeshesAndAgrees) {
                        pair = *plan::revolved_pair(made, Side::right);
     EXPECT_LT((turned.fixed_axis - pair.fixed_axis).norm(), 1e-14);
     EXPECT_LT((turned.mobile_axis - pair.mobile_axis).norm(), 1e-14);
-    const RangeAnswer range = answer_range(joint, placed.placement, {.motions = motion::hip_motions()});
+    const RangeAnswer range = answer_range({joint, placed.placement}, {.motions = motion::hip_motions()});
     ASSERT_EQ(range.closed.size(), range.limits.size());
     EXPECT_TRUE(std::none_of(range.notes.begin(), range.notes.end(), [](const RangeNote& note) {
       return note.code == RangeNoteCode::differs_from_closed_form;
@@ -504,7 +505,8 @@ TEST(Sweep, RefusesWhatItCannotAnswerInOneLine) {
   const PlacedJoint placed = implant_alone({});
   const auto line = [&](const std::string& vary, std::vector<plan::SweepTarget> targets) {
     try {
-      check_sweep(placed.joint, {.parameters = plan::parse_sweep(vary), .targets = std::move(targets)});
+      check_sweep({placed.joint, placed.placement},
+                  {.parameters = plan::parse_sweep(vary), .targets = std::move(targets)});
     } catch (const UsageError& error) {
       return std::string(error.what());
     }
@@ -545,7 +547,7 @@ TEST(Sweep, SaysWhereItsZoneEnds) {
   const auto codes = [&](const std::string& vary, std::vector<plan::SweepTarget> targets) {
     std::string text;
     for (const SweepNote& note :
-         answer_sweep(placed.joint, placed.placement,
+         answer_sweep({placed.joint, placed.placement},
                       {.parameters = plan::parse_sweep(vary), .targets = std::move(targets)})
              .notes)
       text += std::string(name_of(note.code)) + " ";
@@ -564,10 +566,9 @@ TEST(Sweep, SaysThatAParameterThatItVariesWasSet) {
   const Joint set = with_parameters(placed.joint, std::vector<ParameterValue>{{"cup.anteversion", 20}});
   const auto codes = [&](const std::string& vary) {
     std::vector<SweepNoteCode> found;
-    for (const SweepNote& note :
-         answer_sweep(set, placed.placement,
-                      {.parameters = plan::parse_sweep(vary), .targets = seven_targets()})
-             .notes)
+    for (const SweepNote& note : answer_sweep({set, placed.placement}, {.parameters = plan::parse_sweep(vary),
+                                                                       .targets = seven_targets()})
+                                     .notes)
       found.push_back(note.code);
     return found;
   };

@@ -96,6 +96,26 @@ def test_a_report_has_the_motions_asked_for_and_the_title_given(hip, tmp_path):
     assert text["zones"] == []
 
 
+def test_a_report_plays_a_motion_and_has_pressure_as_the_command_does(command, tmp_path):
+    subprocess.run([command, "sample", "hip", "--scenario", "1", "--out", tmp_path], check=True, capture_output=True)
+    joint_file, swing = tmp_path / "hip.toml", tmp_path / "swing.csv"
+    joint_file.write_text(joint_file.read_text() + '[contact]\ncasting = "fixed"\n[contact.fixed]\nyoungs_modulus_mpa = 12\n'
+                          "poisson_ratio = 0.45\nthickness = 2\n")
+    swing.write_text("time,flexion_deg\n0,0\n0.1,10\n0.2,\n0.3,30\n")
+    subprocess.run([command, "report", joint_file, "--motion", swing, "--load", "--out", tmp_path / "theirs.html"], check=True,
+                   capture_output=True)
+    rom = condyle.read_joint(joint_file).range_of_motion()
+    with pytest.warns(condyle.JointWarning):
+        rom.write_report(tmp_path / "ours.html", motion=swing, load=True)
+    theirs, ours = text_of(tmp_path / "theirs.html"), text_of(tmp_path / "ours.html")
+    for text in (theirs, ours):
+        del text["rom"]["provenance"]["command"]
+    assert ours == theirs and ours["recorded"]["name"] == "swing.csv" and ours["layers"]["fixed"]["poisson_ratio"] == 0.45
+    with pytest.raises(condyle.FileError, match="none.csv"):
+        rom.write_report(tmp_path / "other.html", motion=tmp_path / "none.csv")
+    assert not (tmp_path / "other.html").exists()
+
+
 def test_a_joint_of_arrays_has_a_report_without_files(tmp_path):
     bones = condyle.sample_hip(scenario=1)
     rom = condyle.Joint(bones.hip_bone, bones.femur, name="made of arrays").range_of_motion(["flexion"])
@@ -103,6 +123,11 @@ def test_a_joint_of_arrays_has_a_report_without_files(tmp_path):
     text = text_of(tmp_path / "hip.html")
     assert text["title"] == "made of arrays"
     assert text["rom"]["provenance"] is None
+
+
+def test_pressure_needs_layers(hip, tmp_path):
+    with pytest.raises(condyle.UsageError, match="no layers"):
+        hip.range_of_motion(["flexion"]).write_report(tmp_path / "hip.html", load=True)
 
 
 def test_a_report_that_cannot_be_written_leaves_nothing(hip, tmp_path):

@@ -31,8 +31,8 @@ Joint joint_of(const sample::SampleHip& hip, Side side = Side::right) {
           .mobile = {"femur", hip.femur}};
 }
 
-ImplantAnswer placed(const ImplantQuery& query = {}, const Joint& joint = joint_of(bones())) {
-  return answer_implant(joint, JointPlacement{}, query);
+ImplantAnswer placed(const ImplantRequest& request = {}, const Joint& joint = joint_of(bones())) {
+  return answer_implant({joint}, request);
 }
 
 /// The design A of docs/mathematics/13-implants.md, whose sizes are the defaults.
@@ -124,13 +124,13 @@ TEST(PlacedImplant, LeavesTheFemurWhereItIsByTheBonesOwnSizes) {
 }
 
 TEST(PlacedImplant, MovesTheFemurByOffsetAndLegLength) {
-  ImplantQuery query;
-  query.hip.leg_length_mm = 7;
-  EXPECT_NEAR(placed(query).femur_shift_mm.y(), -7, 1e-9);
-  query.hip.leg_length_mm = 0;
-  const double native = placed(query).hip.offset_mm;
-  query.of_bones.offset = false, query.hip.offset_mm = native + 5;
-  const Vec3 shift = placed(query).femur_shift_mm;
+  ImplantRequest request;
+  request.hip.leg_length_mm = 7;
+  EXPECT_NEAR(placed(request).femur_shift_mm.y(), -7, 1e-9);
+  request.hip.leg_length_mm = 0;
+  const double native = placed(request).hip.offset_mm;
+  request.of_bones.offset = false, request.hip.offset_mm = native + 5;
+  const Vec3 shift = placed(request).femur_shift_mm;
   EXPECT_NEAR(shift.y(), 0, 1e-9);
   // 5 mm along the neck, and as much as the shaft leans over the 5 / tan(neck_shaft) by which the neck is longer: below 1 mm.
   EXPECT_NEAR(std::hypot(shift.x(), shift.z()), 5, 1);
@@ -138,11 +138,11 @@ TEST(PlacedImplant, MovesTheFemurByOffsetAndLegLength) {
 }
 
 TEST(PlacedImplant, TurnsTheCupAsTheRimIs) {
-  ImplantQuery query;
-  query.of_bones.cup = true;
+  ImplantRequest request;
+  request.of_bones.cup = true;
   for (const CupDefinition definition : all_cup_definitions) {
-    query.hip.cup.definition = definition;
-    const ImplantAnswer answer = placed(query);
+    request.hip.cup.definition = definition;
+    const ImplantAnswer answer = placed(request);
     const Vec3 cup = plan::cup_axis(answer.hip.cup, Side::right);
     EXPECT_LT(cup.cross(answer.bones.acetabulum.plane->normal).norm(), 0.01 * std::acos(-1.0) / 180);
   }
@@ -190,9 +190,9 @@ TEST(PlacedImplant, OfARealHipLeavesItsFemurAndKeepsItClosed) {
 }
 
 TEST(PlacedImplant, NotesACupInBoneAndACentreThatMoved) {
-  ImplantQuery query;
-  query.of_bones.cup_radius = false, query.hip.cup_radius_mm = 29;
-  EXPECT_TRUE(has_note(placed(query), ImplantNoteCode::cup_in_bone));
+  ImplantRequest request;
+  request.of_bones.cup_radius = false, request.hip.cup_radius_mm = 29;
+  EXPECT_TRUE(has_note(placed(request), ImplantNoteCode::cup_in_bone));
   EXPECT_FALSE(has_note(placed(), ImplantNoteCode::cup_in_bone));
   sample::SampleHip moved = bones();
   for (TriMesh* mesh : {&moved.hip_bone, &moved.femur})
@@ -204,16 +204,16 @@ TEST(PlacedImplant, NotesACupInBoneAndACentreThatMoved) {
 }
 
 TEST(PlacedImplant, RefusesInOneLine) {
-  const auto says = [](const ImplantQuery& query, const Joint& joint) {
+  const auto says = [](const ImplantRequest& request, const Joint& joint) {
     try {
-      placed(query, joint);
+      placed(request, joint);
     } catch (const std::exception& error) {
       return std::string(error.what());
     }
     return std::string("no refusal");
   };
   const Joint hip = joint_of(bones());
-  ImplantQuery large, as_rim;
+  ImplantRequest large, as_rim;
   large.of_bones.cup_radius = false, large.hip.head_radius_mm = 28, large.hip.cup_radius_mm = 30;
   as_rim.of_bones.cup = true;
   Joint shoulder = hip, far = hip, open = hip;
@@ -222,15 +222,15 @@ TEST(PlacedImplant, RefusesInOneLine) {
   TriMesh holed = bones().femur;
   holed.triangles.pop_back();
   open.mobile = {"femur", holed};
-  for (const auto& [query, joint, text] :
+  for (const auto& [request, joint, text] :
        {std::tuple(large, hip,
                    "implant: a head of radius 28 mm does not fit: hip bone begins 27.2 mm from its centre"),
-        std::tuple(ImplantQuery{}, shoulder, "implant: the joint is no hip"),
-        std::tuple(ImplantQuery{}, placed().joint, "implant: the joint has an implant already"),
+        std::tuple(ImplantRequest{}, shoulder, "implant: the joint is no hip"),
+        std::tuple(ImplantRequest{}, placed().joint, "implant: the joint has an implant already"),
         std::tuple(as_rim, far, "; give inclination and anteversion"),
-        std::tuple(ImplantQuery{}, far, "implant: cup_radius is 59.5, must be 12 to 45 mm"),
-        std::tuple(ImplantQuery{}, open, "femur")}) {
-    const std::string line = says(query, joint);
+        std::tuple(ImplantRequest{}, far, "implant: cup_radius is 59.5, must be 12 to 45 mm"),
+        std::tuple(ImplantRequest{}, open, "femur")}) {
+    const std::string line = says(request, joint);
     EXPECT_NE(line.find(text), line.npos) << line;
     EXPECT_EQ(line.find('\n'), line.npos) << line;
   }

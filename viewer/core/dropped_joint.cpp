@@ -8,9 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "condyle/answer.hpp"
+#include "answer/exact_limits.hpp"
 #include "condyle/error.hpp"
-#include "condyle/impingement_zone.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/make_joint.hpp"
@@ -18,7 +17,6 @@
 #include "core/rounded.hpp"
 #include "io/image/byte_stream.hpp"
 #include "io/mesh/uncompress.hpp"
-#include "io/result/caveats.hpp"
 #include "io/result/json.hpp"
 #include "io/result/rom_parts.hpp"
 #include "kinematics/bone_sizes.hpp"
@@ -26,7 +24,6 @@
 #include "kinematics/hip_axes.hpp"
 #include "mesh/scale.hpp"
 #include "mesh/surface_pieces.hpp"
-#include "motion/rom/socket_hour.hpp"
 #include "page_proposal.hpp"
 
 using namespace condyle;
@@ -86,69 +83,12 @@ CondyleJoint* proposed_joint(const CondyleMesh& fixed, const CondyleMesh& mobile
                   std::move(proposal));
 }
 
-Json angles_json(const JointAngles& angles) {
-  Json json;
-  for (const JointAngle angle : all_joint_angles)
-    json[coordinate_names(Anatomy::hip)[static_cast<std::size_t>(angle)].positive] =
-        angle_of(angles, angle).degrees();
-  return json;
-}
-
-/// The keys of rom.json that the page reads.
-Json motion_json(const Joint& joint, const motion::MotionLimit& limit,
-                 const std::optional<motion::BearingSurface>& surface) {
-  const auto& contact = limit.end.contact;
-  const auto& bearing = limit.end.bearing_contact;
-  const auto vary = static_cast<std::size_t>(limit.motion.vary);
-  const auto normal = io::normal_range(joint, limit);
-  return {{"name", limit.motion.name},
-          {"limit_deg", limit.end.turned.degrees()},
-          {"reason", io::name_of(limit.end.reason)},
-          {"contact_kind", io::ends_in_contact(limit) ? Json(io::name_of(limit.end.kind())) : Json(nullptr)},
-          {"bearing_contact_deg", bearing ? Json(bearing->turned.degrees()) : Json(nullptr)},
-          {"contact_point_mm", contact ? io::numbers(contact->fixed_point) : Json(nullptr)},
-          {"clock_hour", contact ? io::nullable(motion::socket_hour(motion::sagittal_clock(), surface,
-                                                                    contact->fixed_point))
-                                 : Json(nullptr)},
-          {"error_bound_deg", limit.end.error_bound.degrees()},
-          {"vary", coordinate_names(Anatomy::hip)[vary].positive},
-          {"sense", limit.motion.sense == RotationSense::positive ? "positive" : "negative"},
-          {"range_deg", limit.motion.range.degrees()},
-          {"start_deg", angles_json(limit.motion.start)},
-          {"at_limit_deg", angles_json(limit.angles_at_limit())},
-          {"normal_range_deg", normal ? Json(normal->degrees()) : Json(nullptr)},
-          {"caveats", io::caveats_json(io::motion_caveats(joint, limit.motion))},
-          {"band", nullptr}};
-}
-
-Json sphere_json(const Sphere& sphere) {
-  return {{"centre_mm", io::numbers(sphere.centre)}, {"radius_mm", sphere.radius}};
-}
-
-Json bearing_json(const motion::BearingFinding& found) {
-  if (!found.surface) return {{"rule", "count"}, {"why_none", found.why_none}};
-  const auto& surface = *found.surface;
-  return {{"rule", "leave_out"},
-          {"head", sphere_json(surface.head)},
-          {"socket", surface.socket ? sphere_json(*surface.socket) : Json(nullptr)},
-          {"margin_mm", surface.margin_mm}};
-}
-
 /// Its bodies by the names that say what tissue a mesh is of.
 Joint named_by_tissue(const CondyleJoint& joint) {
   Joint named = joint.joint;
   named.fixed.name = joint.proposal.fixed_name;
   named.mobile.name = joint.proposal.mobile_name;
   return named;
-}
-
-/// Notes of the images first.
-Json notes_json(const PageProposal& proposal, const std::vector<RangeNote>& of_range) {
-  Json list = Json::array();
-  for (const io::LabelNote& note : proposal.of_images)
-    list.push_back({{"code", name_of(note.code)}, {"text", note.text}});
-  for (Json& note : io::notes_json(proposal.notes, {}, of_range)) list.push_back(std::move(note));
-  return list;
 }
 
 Json file_json(const PageFile& file) {
@@ -248,25 +188,20 @@ void condyle_mesh(const CondyleJoint* joint, int of_fixed, double* vertices, std
 
 const char* condyle_description(CondyleJoint* joint) {
   return guarded(static_cast<const char*>(nullptr), [&] {
-    const motion::RangeOfMotion& range = range_of(*joint);
     const PageProposal& proposal = joint->proposal;
-    const Joint named = named_by_tissue(*joint);
-    Json motions = Json::array();
-    const std::vector<motion::MotionLimit> limits = range.limits(motion::hip_motions());
-    for (const motion::MotionLimit& limit : limits)
-      motions.push_back(motion_json(named, limit, range.bearing().surface));
-    const Json rom{{"clock_plane", "sagittal"},
-                   {"motions", std::move(motions)},
-                   {"notes", notes_json(proposal, range_notes(joint->joint, limits, {}, range.bearing()))},
-                   {"caveats", proposal.inferred},
-                   {"zero", io::zero_json(named)},
-                   {"normal_range_source", io::normal_hip_range_source},
-                   {"scope", io::scope_text(named)},
-                   {"bearing", bearing_json(range.bearing())},
-                   {"provenance",
-                    {{"version", version},
-                     {"fixed_mesh", file_json(proposal.fixed)},
-                     {"mobile_mesh", file_json(proposal.mobile)}}}};
+    RangeRequest request{.motions = motion::hip_motions(), .range = {.bearing = joint->bearing}};
+    request.range.overlap.reference_contact = motion::ReferenceContact::accept;
+    const RangeAnswer answer = answer::exact_limits({.joint = named_by_tissue(*joint)}, request);
+    joint->range = answer.range, joint->range_held_at = Vec3::Zero();
+    Json rom = io::rom_object(io::rom_result_of(answer, proposal.notes, nullptr));
+    Json notes = Json::array();
+    for (const io::LabelNote& note : proposal.of_images)
+      notes.push_back({{"code", name_of(note.code)}, {"text", note.text}});
+    rom["notes"].insert(rom["notes"].begin(), notes.begin(), notes.end());
+    rom["caveats"] = proposal.inferred;
+    rom["provenance"] = {{"version", version},
+                         {"fixed_mesh", file_json(proposal.fixed)},
+                         {"mobile_mesh", file_json(proposal.mobile)}};
     joint->description = rom.dump(-1, ' ', false, Json::error_handler_t::replace);
     return joint->description.c_str();
   });

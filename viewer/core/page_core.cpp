@@ -67,8 +67,8 @@ void visit_inside(CondyleJoint& joint, const Pose& X, bool of_fixed, radial::Pen
 }
 
 /// About the axes in their order.
-constexpr std::array ways_about{contact::DepthWay::flexion, contact::DepthWay::adduction,
-                                contact::DepthWay::internal_rotation};
+constexpr std::array ways_about{contact::DepthKind::flexion, contact::DepthKind::adduction,
+                                contact::DepthKind::internal_rotation};
 
 /// Values shown at each vertex of a body.
 struct ShownValues {
@@ -215,14 +215,14 @@ int condyle_depth(CondyleJoint* joint, const double* pose, const double* angles_
       const contact::DeepestReliable& vertex = deepest->vertex;
       const Vec3 own = vertices_of(*joint, !deepest->is_mobile)[vertex.vertex];
       const Vec3 point = deepest->is_mobile ? posed(X_FM, own) : own;
-      answer[1] = static_cast<double>(vertex.way);
+      answer[1] = static_cast<double>(vertex.kind);
       answer[2] = vertex.depth_mm;
       answer[3] = deepest->is_mobile ? 0 : 1;
       answer[4] = vertex.vertex;
       for (int i = 0; i < 3; ++i) answer[5 + i] = point[i];
       answer[8] = vertex.nearest_distance_mm;
       for (std::size_t axis = 0; axis < 3; ++axis)
-        if (vertex.way == ways_about[axis]) answer[9] = vertex.rotations[axis]->angle.degrees();
+        if (vertex.kind == ways_about[axis]) answer[9] = vertex.rotations[axis]->angle.degrees();
     }
     answer[10] = static_cast<double>(contact::without_depth(reliable));
     if (measures.mobile) answer[11] = measures.mobile->area_mm2;
@@ -259,7 +259,7 @@ int condyle_shown(CondyleJoint* joint, const double* pose, int quantity, int of_
       case Shown::depth:
         if (!has_inside) break;
         visit_inside(*joint, X, of_fixed, inside, [&](const contact::DeepestVertex& vertex) {
-          if (vertex.applies() == contact::DepthKind::radial)
+          if (vertex.radial_is_depth())
             shown.set(vertex.vertex, vertex.depth_mm);
           else
             shown.set(vertex.vertex, vertex.shortest_exit_mm, Mark::bound);

@@ -17,7 +17,6 @@
 #include "core/one_line.hpp"
 #include "io/file/environment.hpp"
 #include "io/file/input_file.hpp"
-#include "io/joint/known_motions.hpp"
 #include "io/joint/load_joint.hpp"
 #include "io/report/joint_object.hpp"
 #include "io/result/rom_result.hpp"
@@ -75,13 +74,13 @@ io::Json only_in_reports(const io::JointFile& file) {
 
 /// As `condyle report` without options asks for them; a joint without limits has the reason.
 std::string block_of_joint(const io::LoadedJoint& loaded) {
-  const std::vector<JointNote> notes = check_joint(loaded.joint, loaded.report.placement);
+  const Case joint = loaded;
+  const std::vector<JointNote> notes = check_joint(joint.joint, joint.placement);
   io::Provenance from = io::provenance_of(loaded, {});
   std::optional<RangeAnswer> answer;
   std::string error;
   try {
-    answer =
-        answer::exact_limits(loaded.joint, loaded.report.placement, {.motions = io::known_motions(loaded)});
+    answer = answer::exact_limits(joint, {.motions = joint.motions()});
   } catch (const MeshError& why) {
     error = why.what();
   }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "condyle/answer/case.hpp"
 #include "condyle/implant.hpp"
 #include "condyle/inspect.hpp"
 #include "condyle/io/mesh_file.hpp"
@@ -173,6 +174,9 @@ struct JointReport {
 struct LoadedJoint {
   Joint joint;
   JointReport report;
+
+  /// With its motions and its uncertainty, for answer_range() and the other questions.
+  operator Case() const;
 };
 
 /// Reads a joint file and its meshes, and makes the joint: docs/joint-frame.md, "Placement", and make_joint().

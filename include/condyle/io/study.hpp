@@ -21,20 +21,6 @@
 
 namespace condyle::io {
 
-/// Standard deviations that hold for all joints; those left empty are as the joint's file says, else as is usual.
-struct StudyUncertainty {
-  std::optional<double> centre_mm = {}, axes_deg = {}, surface_mm = {};
-
-  /// Values that are set; the others are those of `of_file`.
-  motion::Uncertainty over(const motion::Uncertainty& of_file) const noexcept;
-};
-
-struct StudyBands {
-  std::size_t samples = 200;
-  std::optional<std::uint64_t> seed = {};  ///< where empty as the joint's file says, else 1
-  StudyUncertainty sigma = {};
-};
-
 /// A pose at which every joint is queried, read as parse_pose() reads it. Whether a joint reaches it is decided joint
 /// by joint, as `condyle depth` decides it: a pose that a hinge cannot reach ends the study. Throws UsageError; a
 /// matrix is refused too.
@@ -62,7 +48,7 @@ struct StudyFollowLoad {
 struct StudyResection {
   std::vector<NamedReach> targets = {};
   /// How; its targets and its range are those of each joint. No vertex is marked to stay.
-  plan::ResectionRequest cut = {};
+  plan::ResectionOptions cut = {};
 };
 
 /// Queries for every joint of a study: its limits, and other options.
@@ -73,7 +59,7 @@ struct StudyOptions {
   motion::ReferenceContact reference_contact = motion::ReferenceContact::refuse;
   std::optional<motion::LeaveOutReferenceContacts> leave_out_reference_contacts = {};
   std::optional<motion::MapGrid> map = {};
-  std::optional<StudyBands> bands = {};
+  std::optional<BandRequest> bands = {};  ///< of every joint; what is left open is as its own file says
   /// How deep the bodies are in each other in this pose: study_pose().
   std::optional<PoseDegrees> depth_at = {};
   std::optional<StudyLoad> load = {};

@@ -195,6 +195,15 @@ LoadedJoint read_joint(const std::filesystem::path& path) {
   return io::load_joint(read_joint_file(path));
 }
 
+LoadedJoint::operator Case() const {
+  return {.joint = joint,
+          .placement = report.placement,
+          .own_motions = report.file.motions,
+          .uncertainty = report.file.uncertainty,
+          .band_seed = report.file.band_seed,
+          .pelvis_frame = measure::pelvis_frame_of(report.file.joint.frame)};
+}
+
 LoadedJoint with_parameters(const LoadedJoint& loaded, std::span<const ParameterValue> values) {
   LoadedJoint moved{with_parameters(loaded.joint, values), loaded.report};
   moved.report.placement.fixed.bounds = mesh::bounds_of_vertices(moved.joint.fixed.mesh);

@@ -17,7 +17,7 @@ void follow(RangeRequest& request, const LoadedJoint& joint, const JointMotion& 
       request.motions = std::move(led);
   request.follow = std::move(record);
   try {
-    check_range_request(joint.joint, joint.report.placement, request);
+    check_range_request(joint, request);
   } catch (const UsageError& error) {
     throw UsageError(fmt::format("{}: {}", recorded.path.string(), error.what()));
   }

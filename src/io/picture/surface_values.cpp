@@ -20,8 +20,8 @@ std::vector<double> signed_distances(std::vector<double> distances,
 SurfaceValues depths_of(std::optional<contact::ReliableDepths> depths, std::vector<double> outside) {
   SurfaceValues values{.mm = std::move(depths->depth_mm), .outside = std::move(outside), .is_bound = {}};
   values.is_bound.reserve(values.mm.size());
-  for (const contact::DepthWay way : depths->way)
-    values.is_bound.push_back(way == contact::DepthWay::nearest ? 1 : 0);
+  for (const contact::DepthKind kind : depths->kind)
+    values.is_bound.push_back(kind == contact::DepthKind::nearest ? 1 : 0);
   return values;
 }
 

@@ -28,7 +28,7 @@ std::string file_shown(const std::filesystem::path& file, const ReportLabels& la
 Json reported_rom(const RomResult* rom, const ReportLabels& labels) {
   if (rom == nullptr) return nullptr;
   Json json = rom_object(*rom);
-  if (rom->map) json["map"].erase("intervals");
+  if (rom->answer.map) json["map"].erase("intervals");
   if (!labels.whole_paths) name_files_only(json["provenance"]);
   return json;
 }
@@ -41,7 +41,7 @@ Json before_json(const Report& report, BlockArrays& arrays) {
             {"rom", reported_rom(before.rom, report.labels)}};
   if (!before.rom) json["rom_error"] = before.rom_error;
   json["differences"] = before.rom && report.rom
-                            ? differences_json(limit_differences(*before.rom, *report.rom))
+                            ? differences_json(limit_differences(before.rom->answer, report.rom->answer))
                             : Json::array();
   json["surfaces"] = {{"fixed", body_before(joint.fixed.mesh, of_page.fixed.mesh, "fixed", arrays)},
                       {"mobile", body_before(joint.mobile.mesh, of_page.mobile.mesh, "mobile", arrays)}};

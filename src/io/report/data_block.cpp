@@ -120,10 +120,10 @@ Json poses_json(const Report& report, BlockArrays& arrays) {
   poses.add("reference", report.reference_pose, std::nullopt);
   if (!report.rom) return std::move(poses).json();
   const AnswerFrame frame = frame_of(*report.rom);
-  for (const motion::MotionLimit& limit : report.rom->limits) {
+  for (const motion::MotionLimit& limit : report.rom->answer.limits) {
     std::optional<Vec3> point;
     if (limit.end.contact) point = frame.fixed_point(limit.end.contact->fixed_point);
-    const Vec3 held = report.rom->held_translation_mm.value_or(Vec3::Zero());
+    const Vec3 held = report.rom->answer.held_translation_mm.value_or(Vec3::Zero());
     poses.add(limit.motion.name, {limit.angles_at_limit(), limit.translation_mm.value_or(held)}, point);
   }
   return std::move(poses).json();
@@ -171,7 +171,7 @@ std::string data_block(const Report& report) {
   BlockArrays arrays;
   Json json = joint_object(report, arrays);
   if (report.rom) {
-    if (report.rom->map) json["map"] = map_json(*report.rom->map);
+    if (report.rom->answer.map) json["map"] = map_json(*report.rom->answer.map);
     json["zones"] = zones_json(*report.rom, arrays);
   }
   if (report.layers) json["layers"] = layers_json(*report.layers, joint, arrays);

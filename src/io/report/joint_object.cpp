@@ -85,7 +85,7 @@ Json joint_object(const Report& report, BlockArrays& arrays) {
   add_body(arrays, "fixed", joint.fixed.mesh);
   add_body(arrays, "mobile", joint.mobile.mesh);
   if (report.rom) {
-    const motion::ContactRoles& roles = report.rom->bearing.roles;
+    const motion::ContactRoles& roles = report.rom->answer.bearing.roles;
     if (!roles.fixed.empty()) arrays.add("fixed_roles", roles_of(roles.fixed));
     if (!roles.mobile.empty()) arrays.add("mobile_roles", roles_of(roles.mobile));
   }

@@ -28,7 +28,7 @@ struct ReportedMotion {
 
 /// Layers that carry load, in a report: the page computes pressures with them.
 struct ReportedLayers {
-  const ContactEntry& contact;
+  ContactEntry contact;
   contact::ElasticContactOptions options;  ///< elastic_options() of the entry
 };
 

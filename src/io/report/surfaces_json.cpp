@@ -35,7 +35,7 @@ Json layer_json(const Body& body, const std::string& part, const std::optional<c
 
 Json zones_json(const RomResult& rom, BlockArrays& arrays) {
   Json zones = Json::array();
-  for (const std::optional<motion::ImpingementZone>& zone : rom.zones) {
+  for (const std::optional<motion::ImpingementZone>& zone : rom.answer.zones) {
     if (!zone) continue;
     const std::string name = "zone_" + std::to_string(zones.size());
     zones.push_back({{"motion", zone->limit.motion.name},

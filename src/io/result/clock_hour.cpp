@@ -10,7 +10,8 @@ namespace condyle::io {
 
 std::optional<double> clock_hour(const RomResult& result, const motion::MotionLimit& limit) {
   if (!result.joint.is_hip() || !limit.end.contact) return std::nullopt;
-  return motion::socket_hour(result.clock, result.bearing.surface, limit.end.contact->fixed_point);
+  return motion::socket_hour(result.answer.clock, result.answer.bearing.surface,
+                             limit.end.contact->fixed_point);
 }
 
 std::string clock_text(double hour) {

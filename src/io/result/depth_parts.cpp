@@ -179,17 +179,17 @@ std::string pairs_csv(const Joint& joint, const std::vector<contact::TrianglePai
   return text;
 }
 
-std::optional<JointAngle> angle_of(contact::DepthWay way) noexcept {
-  switch (way) {
-    case contact::DepthWay::flexion:
+std::optional<JointAngle> angle_of(contact::DepthKind kind) noexcept {
+  switch (kind) {
+    case contact::DepthKind::flexion:
       return JointAngle::flexion;
-    case contact::DepthWay::adduction:
+    case contact::DepthKind::adduction:
       return JointAngle::adduction;
-    case contact::DepthWay::internal_rotation:
+    case contact::DepthKind::internal_rotation:
       return JointAngle::internal_rotation;
-    case contact::DepthWay::none:
-    case contact::DepthWay::radial:
-    case contact::DepthWay::nearest:
+    case contact::DepthKind::none:
+    case contact::DepthKind::radial:
+    case contact::DepthKind::nearest:
       break;
   }
   return std::nullopt;

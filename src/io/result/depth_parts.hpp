@@ -125,8 +125,8 @@ std::string pairs_csv(const Joint& joint, const std::vector<contact::TrianglePai
 /// Why a body has no figures; one line.
 std::string open_line(const Body& body);
 
-/// The angle whose axis a way turns about; nothing for those that turn about none.
-std::optional<JointAngle> angle_of(contact::DepthWay way) noexcept;
+/// The angle about whose axis a depth of this kind goes; empty for those along a line.
+std::optional<JointAngle> angle_of(contact::DepthKind kind) noexcept;
 
 /// depth_result() of each method.
 DepthResult ray_result(const DepthQuestion& question, const DepthAnswer& answer, const RayDepths& depths);

@@ -1,27 +1,17 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "condyle/answer.hpp"
-#include "condyle/io/joint_file.hpp"
-#include "condyle/io/provenance.hpp"
-#include "condyle/joint_checks.hpp"
+#include "condyle/answer/implant.hpp"
+#include "io/result/result_of.hpp"
 
 /// Results of `condyle implant`: text, JSON, and the joint with the implant. docs/implants.md.
 
 namespace condyle::io {
 
-struct ImplantResult {
-  const Joint& joint;  ///< before
-  const ImplantAnswer& answer;
-  std::span<const JointNote> notes = {};
-  const Provenance* provenance = nullptr;
-  const JointFile* file =
-      nullptr;  ///< what the new joint file has of the old one: its motions and the uncertainty of its axes
-};
+using ImplantResult = ResultOf<ImplantAnswer>;
 
 /// The angles of a cup by each definition, and where liner and neck first touch in closed form, or why there is none: a line each.
 std::string implant_lines(const plan::Implant& implant, Side side);

@@ -47,7 +47,7 @@ Json band_json_of(const std::optional<DifferenceBand>& band) {
 
 }  // namespace
 
-std::vector<LimitDifference> limit_differences(const RomResult& before, const RomResult& after) {
+std::vector<LimitDifference> limit_differences(const RangeAnswer& before, const RangeAnswer& after) {
   assert(before.limits.size() == after.limits.size());
   const bool have_bands =
       !before.bands.empty() && !after.bands.empty() && are_paired(before.band_options, after.band_options);

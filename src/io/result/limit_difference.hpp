@@ -38,7 +38,7 @@ struct LimitDifference {
 };
 
 /// One per motion. Both results are of the same motions in the same order.
-std::vector<LimitDifference> limit_differences(const RomResult& before, const RomResult& after);
+std::vector<LimitDifference> limit_differences(const RangeAnswer& before, const RangeAnswer& after);
 
 /// A list, in which what is not known is null.
 Json differences_json(const std::vector<LimitDifference>& differences);

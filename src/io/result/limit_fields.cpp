@@ -121,10 +121,10 @@ Json translation_mm(const LimitOf& of) {
 }
 
 Json translation_ends(const LimitOf& of) {
-  return of.result.follows ? Json(of.limit().translation_ends) : Json(nullptr);
+  return of.result.answer.follows ? Json(of.limit().translation_ends) : Json(nullptr);
 }
 Json translation_ends_word(const LimitOf& of) {
-  return of.result.follows ? Json(of.limit().translation_ends ? "true" : "false") : Json(nullptr);
+  return of.result.answer.follows ? Json(of.limit().translation_ends ? "true" : "false") : Json(nullptr);
 }
 
 Json contact_point_mm(const LimitOf& of) {
@@ -176,7 +176,7 @@ Json hour(const LimitOf& of) {
 
 /// A number of the band, null without bands.
 Json of_band(const LimitOf& of, const auto& read) {
-  const auto& bands = of.result.bands;
+  const auto& bands = of.result.answer.bands;
   return bands.empty() ? Json(nullptr) : Json(read(bands[of.index]));
 }
 Json band(const LimitOf& of) {
@@ -234,27 +234,27 @@ Json caveat_codes(const LimitOf& of) {
   return codes;
 }
 Json guarantee(const LimitOf& of) {
-  const auto& depths = of.result.depths;
+  const auto& depths = of.result.answer.depths;
   return depths.empty() ? guarantee_text(of.limit()) : guarantee_text(depths[of.index]);
 }
 Json depth(const LimitOf& of) {
-  if (of.result.depths.empty()) return left_out();
-  const motion::DepthLimit& depth = of.result.depths[of.index];
+  if (of.result.answer.depths.empty()) return left_out();
+  const motion::DepthLimit& depth = of.result.answer.depths[of.index];
   return {{"at_start_mm", depth.start_depth_mm},
           {"at_limit_mm", depth.at_limit.depth_mm},
           {"ray_to_normal_deg", depth.at_limit.ray_to_normal.degrees()},
           {"grows", depth.depth_grows}};
 }
 Json closed_form(const LimitOf& of) {
-  if (of.result.closed.empty()) return left_out();
-  const plan::ClosedLimit& closed = of.result.closed[of.index];
+  if (of.result.answer.closed.empty()) return left_out();
+  const plan::ClosedLimit& closed = of.result.answer.closed[of.index];
   return {{"limit_deg", closed.turned.degrees()},
           {"reason", name_of(closed.reason)},
           {"of_facets_deg", {closed.of_facets_low.degrees(), closed.of_facets_high.degrees()}}};
 }
 Json zone(const LimitOf& of) {
-  if (of.result.zones.empty()) return left_out();
-  return zone_json(of.result.zones[of.index], frame_of(of.result));
+  if (of.result.answer.zones.empty()) return left_out();
+  return zone_json(of.result.answer.zones[of.index], frame_of(of.result));
 }
 
 constexpr auto one = LimitColumns::one, point = LimitColumns::point, angles = LimitColumns::angles;

@@ -20,7 +20,7 @@ struct LimitOf {
   const RomResult& result;
   std::size_t index;
 
-  const motion::MotionLimit& limit() const { return result.limits[index]; }
+  const motion::MotionLimit& limit() const { return result.answer.limits[index]; }
   const Joint& joint() const { return result.joint; }
 };
 

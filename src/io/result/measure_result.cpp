@@ -215,7 +215,7 @@ std::string csv_number(const std::optional<double>& value) {
 
 }  // namespace
 
-std::string measure_text(const MeasureResult& result) {
+std::string measure_text(const MeasureResult& result, bool with_definitions) {
   const Joint& joint = result.joint;
   std::string text = fmt::format("{}: measures of {} and {}, {} side\n", joint.name, joint.mobile.name,
                                  joint.fixed.name, name_of(joint.side));
@@ -255,7 +255,7 @@ std::string measure_text(const MeasureResult& result) {
       "  normal ranges are of other people, each by a method of its own; those of patients are not called "
       "normal: "
       "--definitions has whose, and what each measure is\n";
-  if (result.with_definitions) text += definitions_text(result.answer.measures);
+  if (with_definitions) text += definitions_text(result.answer.measures);
   return text + fmt::format("  {}\n", scope_text(joint));
 }
 

@@ -1,27 +1,20 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "condyle/answer.hpp"
-#include "condyle/io/provenance.hpp"
-#include "condyle/joint_checks.hpp"
+#include "condyle/answer/measures.hpp"
+#include "io/result/result_of.hpp"
 
 /// Results of `condyle measure`: text, JSON, tables. Rows and keys are those of measure_definitions(); docs/measures.md.
 
 namespace condyle::io {
 
-struct MeasureResult {
-  const Joint& joint;
-  const MeasureAnswer& answer;
-  std::span<const JointNote> notes = {};
-  const Provenance* provenance = nullptr;
-  bool with_definitions = false;  ///< In text; other forms have them always.
-};
+using MeasureResult = ResultOf<MeasureAnswer>;
 
-std::string measure_text(const MeasureResult& result);
+/// Of each measure its definition too, if these are wanted.
+std::string measure_text(const MeasureResult& result, bool with_definitions = false);
 std::string measure_json(const MeasureResult& result);
 /// A row for each measure.
 std::string measures_csv(const MeasureResult& result);

@@ -13,10 +13,6 @@ namespace {
 
 using RadialViews = BodyViews<contact::RadialBodySummary>;
 
-const char* kind_name(contact::DepthKind kind) {
-  return kind == contact::DepthKind::radial ? "radial" : "tangential";
-}
-
 RadialViews views(const DepthQuestion& question, const contact::RadialSummary& summary) {
   return {question, summary.mobile, summary.fixed};
 }
@@ -56,14 +52,14 @@ std::optional<DeepestOf> deepest_of(const RadialViews& bodies, const contact::Re
 }
 
 const contact::ExitRotation* rotation_of(const contact::DeepestReliable& vertex) noexcept {
-  const auto angle = io::angle_of(vertex.way);
+  const auto angle = io::angle_of(vertex.kind);
   return angle ? &*vertex.rotations[static_cast<std::size_t>(*angle)] : nullptr;
 }
 
 Json reliable_json(const std::optional<DeepestOf>& deepest, Anatomy joint) {
   if (!deepest) return nullptr;
   const auto& [view, vertex] = *deepest;
-  const auto angle = io::angle_of(vertex.way);
+  const auto angle = io::angle_of(vertex.kind);
   const contact::ExitRotation* rotation = rotation_of(vertex);
   Json json{{"depth_mm", vertex.depth_mm},
             {"kind", angle ? "tangential" : "radial"},
@@ -77,9 +73,9 @@ Json reliable_json(const std::optional<DeepestOf>& deepest, Anatomy joint) {
             {"ray_to_normal_deg", vertex.ray_to_normal.degrees()}};
   io::add_part(json, "part", view->body, vertex.vertex);
   for (const JointAngle about : all_joint_angles) {
-    const auto& way = vertex.rotations[static_cast<std::size_t>(about)];
+    const auto& exit = vertex.rotations[static_cast<std::size_t>(about)];
     json["rotations"][name_of(about, joint)] =
-        way ? Json{{"depth_deg", way->angle.degrees()}, {"depth_mm", way->arc_mm}} : Json(nullptr);
+        exit ? Json{{"depth_deg", exit->angle.degrees()}, {"depth_mm", exit->arc_mm}} : Json(nullptr);
   }
   return json;
 }
@@ -101,7 +97,8 @@ std::string rays_json(const DepthQuestion& question, const DepthAnswer& answer, 
   io::add_deepest(json, deepest);
   json["deepest_ray_to_normal_deg"] = deepest ? Json(deepest->vertex.ray_to_normal.degrees()) : Json(nullptr);
   json["deepest_shortest_exit_mm"] = deepest ? Json(deepest->vertex.shortest_exit_mm) : Json(nullptr);
-  json["depth_to_read"] = deepest ? Json(kind_name(deepest->vertex.applies())) : Json(nullptr);
+  json["depth_to_read"] =
+      deepest ? Json(deepest->vertex.radial_is_depth() ? "radial" : "tangential") : Json(nullptr);
   json["min_gap_mm"] = io::nullable(bodies.least(&contact::RadialBodySummary::min_gap_mm));
   for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(*view);
   json["scope"] = scope_text(question.joint);
@@ -112,12 +109,12 @@ std::string rays_json(const DepthQuestion& question, const DepthAnswer& answer, 
 std::string reliable_text(const DeepestOf& deepest, Anatomy joint) {
   const auto& [view, vertex] = deepest;
   const contact::ExitRotation* rotation = rotation_of(vertex);
-  const std::string way =
-      rotation ? fmt::format("along the arc of {}, {:.3f} deg", name_of(*io::angle_of(vertex.way), joint),
+  const std::string along =
+      rotation ? fmt::format("along the arc of {}, {:.3f} deg", name_of(*io::angle_of(vertex.kind), joint),
                              rotation->angle.degrees())
                : "along the ray";
   return fmt::format("  depth: {:.3f} mm {}, {}, {}\n    its nearest surface is {:.3f} mm away\n",
-                     vertex.depth_mm, way, io::vertex_text(view->body, vertex.vertex),
+                     vertex.depth_mm, along, io::vertex_text(view->body, vertex.vertex),
                      io::place_text(view->place_of(vertex.vertex)), vertex.nearest_distance_mm);
 }
 
@@ -151,15 +148,15 @@ std::vector<MeshArray> arrays_of(const std::optional<radial::RadialResults>& res
   if (!results) return {io::nearest_array(nearest)};
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const std::size_t count = results->size();
-  std::vector<std::uint8_t> inside(count), way(count), is_reliable(count);
+  std::vector<std::uint8_t> inside(count), kind(count), is_reliable(count);
   std::vector<std::int32_t> winding(count), triangle(count);
   std::vector<double> gap(count), depth(count), angle(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double radial_gap =
         std::isfinite(results->radial_gap_mm[i]) ? results->radial_gap_mm[i] + 0.0 : none;
     inside[i] = results->state[i] == PointState::inside;
-    way[i] = static_cast<std::uint8_t>(reliable->way[i]);
-    is_reliable[i] = reliable->way[i] != contact::DepthWay::nearest;
+    kind[i] = static_cast<std::uint8_t>(reliable->kind[i]);
+    is_reliable[i] = reliable->kind[i] != contact::DepthKind::nearest;
     gap[i] = radial_gap;
     depth[i] = inside[i] != 0 ? -radial_gap : 0;
     angle[i] = results->ray_to_normal[i].degrees();
@@ -167,7 +164,7 @@ std::vector<MeshArray> arrays_of(const std::optional<radial::RadialResults>& res
     winding[i] = results->winding[i];
   }
   return {{"depth_mm", reliable->depth_mm},        {"depth_is_reliable", std::move(is_reliable)},
-          {"depth_way", std::move(way)},           io::nearest_array(nearest),
+          {"depth_way", std::move(kind)},          io::nearest_array(nearest),
           {"radial_depth_mm", std::move(depth)},   {"radial_gap_mm", std::move(gap)},
           {"ray_to_normal_deg", std::move(angle)}, {"inside", std::move(inside)},
           {"triangle", std::move(triangle)},       {"winding", std::move(winding)}};

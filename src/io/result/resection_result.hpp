@@ -1,28 +1,18 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "condyle/answer.hpp"
-#include "condyle/io/joint_file.hpp"
-#include "condyle/io/provenance.hpp"
-#include "condyle/joint_checks.hpp"
+#include "condyle/answer/resection.hpp"
+#include "io/result/result_of.hpp"
 
 /// Results of `condyle resect`: text, JSON, tables, the depth on the surface, and the joint without the bone.
 /// docs/planning.md.
 
 namespace condyle::io {
 
-struct ResectionResult {
-  const Joint& joint;  ///< before
-  const ResectionAnswer& answer;
-  std::span<const JointNote> notes = {};
-  const Provenance* provenance = nullptr;
-  const JointFile* file =
-      nullptr;  ///< what the new joint file has of the old one: its motions and its uncertainty
-};
+using ResectionResult = ResultOf<ResectionAnswer>;
 
 std::string resection_text(const ResectionResult& result);
 std::string resection_json(const ResectionResult& result);

@@ -29,7 +29,7 @@ std::string rom_csv(const RomResult& result) {
     for (ResultColumn& column : io::columns_of(*field, result.joint.anatomy))
       line.push_back(std::move(column.name));
   std::string text = io::provenance_comments(result.provenance) + io::csv_line(line);
-  for (std::size_t i = 0; i < result.limits.size(); ++i) {
+  for (std::size_t i = 0; i < result.answer.limits.size(); ++i) {
     line.clear();
     for (const auto* field : fields) io::append_texts(line, *field, {result, i});
     text += io::csv_line(line);

@@ -44,19 +44,15 @@ bool is_of_rom(std::string_view name) {
   return std::find(std::begin(names), std::end(names), name) != std::end(names) || is_drawn_of_rom(name);
 }
 
-VtpOptions vtp_options(const RomResult& result) {
-  return {result.vtp_encoding, io::provenance_fields(result.provenance)};
-}
-
-void write_zones(OutputFolder& out, const RomResult& result) {
-  for (std::size_t i = 0; i < result.zones.size(); ++i) {
-    if (!result.zones[i]) continue;
-    const motion::ImpingementZone& zone = *result.zones[i];
+void write_zones(OutputFolder& out, const RomResult& result, const VtpOptions& vtp) {
+  for (std::size_t i = 0; i < result.answer.zones.size(); ++i) {
+    if (!result.answer.zones[i]) continue;
+    const motion::ImpingementZone& zone = *result.answer.zones[i];
     const auto write = [&](std::string_view role, const TriMesh& mesh, const motion::BodyZone& body) {
       const MeshArray in_zone = zone_cell_array(body, mesh.triangles.size());
       const std::string motion = file_name_part(zone.limit.motion.name);
       write_vtp(out.file(fmt::format("zone_{:02}_{}_{}.vtp", i + 1, motion, role)), mesh,
-                zone_point_arrays(body), {&in_zone, 1}, vtp_options(result));
+                zone_point_arrays(body), {&in_zone, 1}, vtp);
     };
     const AnswerFrame frame = frame_of(result);
     const Pose X_FM = zone_pose(zone, result.joint.coordinates());
@@ -128,22 +124,22 @@ void write_map_surface(const std::filesystem::path& path, const motion::MotionMa
   write_vtp(path, surface, arrays, {}, options);
 }
 
-void write_map(OutputFolder& out, const RomResult& result) {
-  const motion::MotionMap& map = *result.map;
+void write_map(OutputFolder& out, const RomResult& result, const VtpOptions& vtp) {
+  const motion::MotionMap& map = *result.answer.map;
   const std::string comments = io::provenance_comments(result.provenance);
   io::write_whole_file(out.file("map.csv"), comments + map_csv(map, frame_of(result)));
   io::write_whole_file(out.file("map_intervals.csv"), comments + map_intervals_csv(map, frame_of(result)));
   if (map.grid.row.count() > 1 && map.grid.column.count() > 1)
-    write_map_surface(out.file("map.vtp"), map, vtp_options(result));
+    write_map_surface(out.file("map.vtp"), map, vtp);
 }
 
 /// The mobile body at zero angles, triangles of the bearing surface marked.
-void write_bearing(OutputFolder& out, const RomResult& result) {
-  if (!result.bearing.surface) return;
-  const auto& marks = result.bearing.surface->triangles;
+void write_bearing(OutputFolder& out, const RomResult& result, const VtpOptions& vtp) {
+  if (!result.answer.bearing.surface) return;
+  const auto& marks = result.answer.bearing.surface->triangles;
   const MeshArray bearing{"bearing", marks};
   write_vtp(out.file("bearing.vtp"), frame_of(result).mobile_mesh(result.joint.mobile.mesh), {},
-            {&bearing, 1}, vtp_options(result));
+            {&bearing, 1}, vtp);
 }
 
 }  // namespace
@@ -152,13 +148,15 @@ void check_rom_folder(const std::filesystem::path& folder, const Provenance* fro
   OutputFolder{folder, is_of_rom, io::files_read(from)};
 }
 
-std::vector<std::filesystem::path> write_rom(const std::filesystem::path& folder, const RomResult& result) {
+std::vector<std::filesystem::path> write_rom(const std::filesystem::path& folder, const RomResult& result,
+                                             VtpEncoding encoding) {
   OutputFolder out(folder, is_of_rom, io::files_read(result.provenance), "rom.json");
   io::write_whole_file(out.file("rom.json"), rom_json(result));
   io::write_whole_file(out.file("limits.csv"), rom_csv(result));
-  write_bearing(out, result);
-  write_zones(out, result);
-  if (result.map) write_map(out, result);
+  const VtpOptions vtp{encoding, io::provenance_fields(result.provenance)};
+  write_bearing(out, result, vtp);
+  write_zones(out, result, vtp);
+  if (result.answer.map) write_map(out, result, vtp);
   return out.commit();
 }
 

@@ -14,6 +14,7 @@ void check_rom_folder(const std::filesystem::path& folder, const Provenance* fro
 /// Writes everything a result has into a folder: rom.json, limits.csv, bearing.vtp where a bearing surface is known, map.csv,
 /// map_intervals.csv and map.vtp of a map, zone_*.vtp of zones, both bodies in the fixed one's frame. All files
 /// appear or none, and files of an earlier result go. Returns what was written. Throws FileError.
-std::vector<std::filesystem::path> write_rom(const std::filesystem::path& folder, const RomResult& result);
+std::vector<std::filesystem::path> write_rom(const std::filesystem::path& folder, const RomResult& result,
+                                             VtpEncoding encoding = VtpEncoding::binary);
 
 }  // namespace condyle::io

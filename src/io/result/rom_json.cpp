@@ -96,12 +96,12 @@ Json contact_of_meshes(const Body& body) {
 }
 
 Json bearing_json(const RomResult& result) {
-  Json json{{"rule", result.bearing_rule == motion::BearingRule::count ? "count" : "leave_out"}};
+  Json json{{"rule", result.answer.bearing_rule == motion::BearingRule::count ? "count" : "leave_out"}};
   if (const Joint& joint = result.joint; !joint.fixed.parts.empty() || !joint.mobile.parts.empty())
     json["meshes"] = {{"fixed", contact_of_meshes(joint.fixed)}, {"mobile", contact_of_meshes(joint.mobile)}};
-  const auto& surface = result.bearing.surface;
+  const auto& surface = result.answer.bearing.surface;
   if (!surface) {
-    json["why_none"] = result.bearing.why_none;
+    json["why_none"] = result.answer.bearing.why_none;
     return json;
   }
   const AnswerFrame frame = frame_of(result);
@@ -120,7 +120,7 @@ Json bearing_json(const RomResult& result) {
 
 Json arcs_json(const RomResult& result) {
   Json list = Json::array();
-  for (const OppositeLimits& pair : opposite_limits(result.limits))
+  for (const OppositeLimits& pair : opposite_limits(result.answer.limits))
     list.push_back(
         {{"motions", {pair.one->motion.name, pair.other->motion.name}}, {"arc_deg", pair.arc().degrees()}});
   return list;
@@ -151,29 +151,32 @@ Json motion_json(const RomResult& result, std::size_t i) {
 }
 
 Json rom_object(const RomResult& result) {
-  Json json{{"condyle", io::format_version},
-            {"joint", result.joint.name},
-            {"fixed", result.joint.fixed.name},
-            {"mobile", result.joint.mobile.name},
-            {"anatomy", io::anatomy_json(result.joint)},
-            {"side", name_of(result.joint.side)},
-            {"bearing", bearing_json(result)},
-            {"clock_plane", !result.joint.is_hip()                          ? Json(nullptr)
-                            : result.clock_plane == motion::ClockPlane::rim ? Json("rim")
-                                                                            : Json("sagittal")},
-            {"zero", zero_json(result.joint)},
-            {"normal_range_source", result.joint.is_hip() ? Json(normal_hip_range_source) : Json(nullptr)},
-            {"held_translation_mm",
-             result.held_translation_mm ? io::numbers(*result.held_translation_mm) : Json(nullptr)},
-            {"exact", !result.follows && result.depths.empty()},
-            {"caveats", result.caveats},
-            {"notes", io::notes_json(result.notes, result.contact_notes, result.range_notes)},
-            {"band", result.bands.empty() ? Json(nullptr) : json_of(result.band_options, result.joint)}};
+  Json json{
+      {"condyle", io::format_version},
+      {"joint", result.joint.name},
+      {"fixed", result.joint.fixed.name},
+      {"mobile", result.joint.mobile.name},
+      {"anatomy", io::anatomy_json(result.joint)},
+      {"side", name_of(result.joint.side)},
+      {"bearing", bearing_json(result)},
+      {"clock_plane", !result.joint.is_hip()                                 ? Json(nullptr)
+                      : result.answer.clock_plane == motion::ClockPlane::rim ? Json("rim")
+                                                                             : Json("sagittal")},
+      {"zero", zero_json(result.joint)},
+      {"normal_range_source", result.joint.is_hip() ? Json(normal_hip_range_source) : Json(nullptr)},
+      {"held_translation_mm",
+       result.answer.held_translation_mm ? io::numbers(*result.answer.held_translation_mm) : Json(nullptr)},
+      {"exact", !result.answer.follows && result.answer.depths.empty()},
+      {"caveats", result.answer.caveats},
+      {"notes", io::notes_json(result.notes, result.answer.contact_notes, result.answer.notes)},
+      {"band",
+       result.answer.bands.empty() ? Json(nullptr) : json_of(result.answer.band_options, result.joint)}};
   if (result.joint.implant) json["implant"] = implant_json(result.joint);
   json["motions"] = Json::array();
-  for (std::size_t i = 0; i < result.limits.size(); ++i) json["motions"].push_back(motion_json(result, i));
+  for (std::size_t i = 0; i < result.answer.limits.size(); ++i)
+    json["motions"].push_back(motion_json(result, i));
   json["arcs"] = arcs_json(result);
-  if (result.map) json["map"] = json_of(*result.map);
+  if (result.answer.map) json["map"] = json_of(*result.answer.map);
   json["scope"] = scope_text(result.joint);
   json["provenance"] = io::provenance_json(result.provenance);
   return json;

@@ -72,30 +72,12 @@ std::string guarantee_text(const motion::DepthLimit& depth) {
 
 RomResult rom_result_of(const RangeAnswer& answer, std::span<const JointNote> notes, Provenance* from) {
   if (from && answer.held_translation_mm) from->frame = from->frame.of_held(*answer.held_translation_mm);
-  return {.joint = answer.joint,
-          .limits = answer.limits,
-          .bearing = answer.bearing,
-          .bearing_rule = answer.bearing_rule,
-          .clock = answer.clock,
-          .clock_plane = answer.clock_plane,
-          .caveats = answer.caveats,
-          .held_translation_mm = answer.held_translation_mm,
-          .follows = answer.follows,
-          .notes = notes,
-          .range_notes = answer.notes,
-          .contact_notes = answer.contact_notes,
-          .depths = answer.depths,
-          .closed = answer.closed,
-          .zones = answer.zones,
-          .map = answer.map ? &*answer.map : nullptr,
-          .bands = answer.bands,
-          .band_options = answer.band_options,
-          .provenance = from};
+  return {answer.joint, answer, notes, from};
 }
 
 AnswerFrame frame_of(const RomResult& result) {
   if (result.provenance) return result.provenance->frame;
-  return AnswerFrame{}.of_held(result.held_translation_mm.value_or(Vec3::Zero()));
+  return AnswerFrame{}.of_held(result.answer.held_translation_mm.value_or(Vec3::Zero()));
 }
 
 }  // namespace condyle::io

@@ -61,10 +61,10 @@ std::string wrapped(std::string_view lines) {
 
 /// One line or two: what does not count and by which numbers.
 std::string bearing_text(const RomResult& result) {
-  const auto& surface = result.bearing.surface;
+  const auto& surface = result.answer.bearing.surface;
   if (!surface)
-    return result.bearing.roles.mobile.empty()
-               ? fmt::format("  every contact counts: {}\n", result.bearing.why_none)
+    return result.answer.bearing.roles.mobile.empty()
+               ? fmt::format("  every contact counts: {}\n", result.answer.bearing.why_none)
                : "";
   const std::string rim = surface->rim_gap_mm ? fmt::format(", rim {:.2f} mm from it", *surface->rim_gap_mm)
                           : !surface->parts.empty() ? ""
@@ -87,7 +87,7 @@ std::string bearing_text(const RomResult& result) {
       "    ({} {:.2f} mm{}{}); contact on it {}\n",
       surface->count(), surface->triangles.size(), result.joint.mobile.name, extent,
       surface->parts.empty() ? "radius" : "its sphere has radius", surface->head.radius, rim, beside,
-      result.bearing_rule == motion::BearingRule::count ? "counts" : "does not end a motion");
+      result.answer.bearing_rule == motion::BearingRule::count ? "counts" : "does not end a motion");
 }
 
 /// A line for each word that the joint file has for meshes other than bone.
@@ -101,14 +101,14 @@ std::string meshes_text(const RomResult& result) {
   const Body &fixed = result.joint.fixed, &mobile = result.joint.mobile;
   std::string text;
   // The bearing surface names its meshes itself.
-  if (!result.bearing.surface || has_part(fixed, PartContact::bearing)) {
+  if (!result.answer.bearing.surface || has_part(fixed, PartContact::bearing)) {
     const auto of_mobile = meshes_of(mobile, PartContact::bearing),
                of_fixed = meshes_of(fixed, PartContact::bearing);
     const std::string on = of_fixed.empty() ? fixed.name : fmt::format("{}", fmt::join(of_fixed, " and "));
     if (!of_mobile.empty())
       text += fmt::format(
           "  bearing: {} slides on {}; contact of the two {}\n", fmt::join(of_mobile, " and "), on,
-          result.bearing_rule == motion::BearingRule::count ? "counts" : "does not end a motion");
+          result.answer.bearing_rule == motion::BearingRule::count ? "counts" : "does not end a motion");
   }
   std::vector<std::string_view> soft = meshes_of(fixed, PartContact::soft);
   for (const std::string_view name : meshes_of(mobile, PartContact::soft)) soft.push_back(name);
@@ -158,7 +158,7 @@ const motion::ContactWitness* soft_contact_of(const motion::MotionLimit& limit) 
 std::string met_text(const RomResult& result, std::string_view heading, ContactOf contact_of) {
   const Joint& joint = result.joint;
   std::vector<std::pair<std::string, std::vector<std::string_view>>> lines;
-  for (const motion::MotionLimit& limit : result.limits) {
+  for (const motion::MotionLimit& limit : result.answer.limits) {
     const motion::ContactWitness* contact = contact_of(limit);
     if (!contact) continue;
     const BodyPart *fixed = io::part_of(joint.fixed, contact->fixed_feature),
@@ -181,7 +181,7 @@ std::string met_text(const RomResult& result, std::string_view heading, ContactO
 /// Source of the column of closed forms, or the reason why an implant has none.
 std::string closed_text(const RomResult& result) {
   const Joint& joint = result.joint;
-  if (!joint.implant || !result.depths.empty()) return "";
+  if (!joint.implant || !result.answer.depths.empty()) return "";
   const plan::ClosedForm form = plan::closed_form(joint);
   if (!form.pair) return wrapped(fmt::format("  no closed form: {}\n", form.why_none));
   return wrapped(fmt::format(
@@ -226,11 +226,11 @@ std::string surface_text(const motion::Uncertainty& sigma, const Joint& joint) {
 
 /// The bands and where they come from; without bands a line that says how to get them.
 std::string band_text(const RomResult& result) {
-  if (result.bands.empty())
-    return result.depths.empty() && !result.follows
+  if (result.answer.bands.empty())
+    return result.answer.depths.empty() && !result.answer.follows
                ? "  band unknown: --band computes how far these limits move with what is uncertain\n"
                : "";
-  const motion::BandOptions& options = result.band_options;
+  const motion::BandOptions& options = result.answer.band_options;
   std::string text = fmt::format(
       "  band: 5 to 95 % of {} joints with the centre moved by {:g} mm, the axes by {:g} deg and the "
       "surfaces by {}{}\n"
@@ -241,9 +241,9 @@ std::string band_text(const RomResult& result) {
       high{Align::right, {"95 %"}}, centre{Align::right, {"centre"}}, axes{Align::right, {"axes"}},
       surface{Align::right, {"surface"}}, parameters{Align::right, {"parameters"}},
       free{Align::right, {"no contact"}};
-  for (std::size_t i = 0; i < result.bands.size(); ++i) {
-    const motion::LimitBand& band = result.bands[i];
-    name.cells.push_back(result.limits[i].motion.name);
+  for (std::size_t i = 0; i < result.answer.bands.size(); ++i) {
+    const motion::LimitBand& band = result.answer.bands[i];
+    name.cells.push_back(result.answer.limits[i].motion.name);
     const auto add = [](Column& column, Angle angle) {
       column.cells.push_back(fmt::format("{:.1f}", angle.degrees()));
     };
@@ -266,7 +266,7 @@ std::string caveat_text(const RomResult& result) {
     std::vector<std::string_view> motions;
   };
   std::vector<Line> lines;
-  for (const motion::MotionLimit& limit : result.limits)
+  for (const motion::MotionLimit& limit : result.answer.limits)
     for (const MotionCaveat& caveat : motion_caveats(result.joint, limit.motion)) {
       const auto same = std::find_if(lines.begin(), lines.end(), [&](const Line& line) {
         return line.caveat.summary == caveat.summary && line.caveat.source == caveat.source;
@@ -295,7 +295,7 @@ std::string zero_words(const RomResult& result) {
 /// From contact to contact of opposite motions, wherever zero is; nothing if none have it.
 std::string arcs_text(const RomResult& result) {
   std::vector<std::string> arcs;
-  for (const io::OppositeLimits& pair : io::opposite_limits(result.limits))
+  for (const io::OppositeLimits& pair : io::opposite_limits(result.answer.limits))
     arcs.push_back(
         fmt::format("{} to {} {:.2f}", pair.one->motion.name, pair.other->motion.name, pair.arc().degrees()));
   return arcs.empty() ? "" : wrapped(fmt::format("  total arcs (deg): {}\n", fmt::join(arcs, ", ")));
@@ -304,14 +304,14 @@ std::string arcs_text(const RomResult& result) {
 /// The plane in which hours are read; nothing where there are none.
 std::string clock_words(const RomResult& result) {
   if (!result.joint.is_hip()) return "";
-  return result.clock_plane == motion::ClockPlane::rim
+  return result.answer.clock_plane == motion::ClockPlane::rim
              ? "  clock: hours in the plane of the rim, 6 at the notch and 3 anterior\n"
              : "  clock: hours in the sagittal plane, 12 superior and 3 anterior\n";
 }
 
 /// The features that meet past each limit; nothing without zones.
 std::string zones_text(const RomResult& result) {
-  if (std::none_of(result.zones.begin(), result.zones.end(),
+  if (std::none_of(result.answer.zones.begin(), result.answer.zones.end(),
                    [](const auto& zone) { return zone.has_value(); }))
     return "";
   Column name{Align::left, {"motion"}},
@@ -319,7 +319,7 @@ std::string zones_text(const RomResult& result) {
       of_mobile{Align::right, {"of " + result.joint.mobile.name}}, depth{Align::right, {"depth (mm)"}},
       clock{Align::right, {"clock"}}, place{Align::left, {"centre (mm)"}};
   double past_deg = 0;
-  for (const auto& zone : result.zones) {
+  for (const auto& zone : result.answer.zones) {
     if (!zone) continue;
     past_deg = zone->past.degrees();
     name.cells.push_back(zone->limit.motion.name);
@@ -350,14 +350,14 @@ std::string zones_text(const RomResult& result) {
 
 std::string rom_text(const RomResult& result) {
   const auto limit_text = [&](std::size_t i) -> std::string {
-    if (result.limits[i].translation_ends && !result.limits[i].translation_mm) return "-";
-    const Angle turned = result.limits[i].end.turned;
+    if (result.answer.limits[i].translation_ends && !result.answer.limits[i].translation_mm) return "-";
+    const Angle turned = result.answer.limits[i].end.turned;
     // Where what a translation follows ends, the motion is known to there, not free beyond.
-    if (result.limits[i].end.reason == motion::LimitReason::end_of_range &&
-        !result.limits[i].translation_ends)
-      return io::beyond_range(turned, result.bands.empty() ? nullptr : &result.bands[i]);
-    return result.bands.empty() ? fmt::format("{:.2f}", turned.degrees())
-                                : io::quoted_limit(turned, result.bands[i]);
+    if (result.answer.limits[i].end.reason == motion::LimitReason::end_of_range &&
+        !result.answer.limits[i].translation_ends)
+      return io::beyond_range(turned, result.answer.bands.empty() ? nullptr : &result.answer.bands[i]);
+    return result.answer.bands.empty() ? fmt::format("{:.2f}", turned.degrees())
+                                       : io::quoted_limit(turned, result.answer.bands[i]);
   };
   Column name{Align::left, {"motion"}}, turned{Align::right, {"limit (deg)"}},
       reason{Align::left, {"ended by"}}, point{Align::left, {"contact point (mm)"}},
@@ -366,8 +366,8 @@ std::string rom_text(const RomResult& result) {
   const auto earlier_text = [](const std::optional<motion::EarlierContact>& contact) {
     return contact ? fmt::format("{:.2f}", contact->turned.degrees()) : "-";
   };
-  for (std::size_t i = 0; i < result.limits.size(); ++i) {
-    const motion::MotionLimit& limit = result.limits[i];
+  for (std::size_t i = 0; i < result.answer.limits.size(); ++i) {
+    const motion::MotionLimit& limit = result.answer.limits[i];
     name.cells.push_back(limit.motion.name);
     turned.cells.push_back(limit_text(i));
     const auto side = motion::contact_side(result.joint, limit);
@@ -377,10 +377,10 @@ std::string rom_text(const RomResult& result) {
                               : "-");
     bearing.cells.push_back(earlier_text(limit.end.bearing_contact));
     soft.cells.push_back(earlier_text(limit.end.soft_contact));
-    if (!result.closed.empty())
-      closed.cells.push_back(result.closed[i].reason == motion::LimitReason::end_of_range
+    if (!result.answer.closed.empty())
+      closed.cells.push_back(result.answer.closed[i].reason == motion::LimitReason::end_of_range
                                  ? "-"
-                                 : fmt::format("{:.2f}", result.closed[i].turned.degrees()));
+                                 : fmt::format("{:.2f}", result.answer.closed[i].turned.degrees()));
     const auto hour = io::clock_hour(result, limit);
     clock.cells.push_back(hour ? io::clock_text(*hour) : "-");
   }
@@ -389,18 +389,18 @@ std::string rom_text(const RomResult& result) {
                                          joint.fixed.name, name_of(joint.side)));
   text += wrapped(io::parameters_text(joint));
   text += wrapped(bearing_text(result) + meshes_text(result));
-  for (const std::string& caveat : result.caveats) text += wrapped(fmt::format("  {}\n", caveat));
+  for (const std::string& caveat : result.answer.caveats) text += wrapped(fmt::format("  {}\n", caveat));
   text += zero_words(result) + clock_words(result);
   // The figures that people quote, within a terminal's width; the rest is in JSON and CSV.
   std::vector<Column> shown{std::move(name), std::move(turned), std::move(reason)};
   shown.push_back(std::move(joint.is_hip() ? clock : point));
-  if (std::any_of(result.limits.begin(), result.limits.end(),
+  if (std::any_of(result.answer.limits.begin(), result.answer.limits.end(),
                   [](const motion::MotionLimit& limit) { return limit.end.bearing_contact.has_value(); }))
     shown.push_back(std::move(bearing));
-  if (std::any_of(result.limits.begin(), result.limits.end(),
+  if (std::any_of(result.answer.limits.begin(), result.answer.limits.end(),
                   [](const motion::MotionLimit& limit) { return limit.end.soft_contact.has_value(); }))
     shown.push_back(std::move(soft));
-  if (!result.closed.empty()) shown.push_back(std::move(closed));
+  if (!result.answer.closed.empty()) shown.push_back(std::move(closed));
   text += table_text(shown);
   text += arcs_text(result);
   text += closed_text(result);
@@ -408,11 +408,11 @@ std::string rom_text(const RomResult& result) {
   text += met_text(result, "soft meshes touched on the way", soft_contact_of);
   text += zones_text(result);
   text += band_text(result);
-  if (std::any_of(result.limits.begin(), result.limits.end(),
+  if (std::any_of(result.answer.limits.begin(), result.answer.limits.end(),
                   [](const motion::MotionLimit& limit) { return io::is_as_defined_here(limit.motion); }))
     text += "  fadir and faber: as defined here (--list-motions); no angles are agreed on\n";
   text += caveat_text(result);
-  if (result.map) text += wrapped(map_text(*result.map));
+  if (result.answer.map) text += wrapped(map_text(*result.answer.map));
   return text + wrapped(fmt::format("  {}\n", scope_text(result.joint)));
 }
 

@@ -108,7 +108,7 @@ bool write_hips(const fs::path& folder, const SampleCohort& cohort, const Contro
       was_stopped = true;
     }
     const std::lock_guard lock(mutex);
-    if (control.progress) control.progress(++done, cohort.n);
+    if (control.progress) control.progress("hips", ++done, cohort.n);
   });
   if (error) std::rethrow_exception(error);
   return !was_stopped;

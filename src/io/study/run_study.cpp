@@ -99,7 +99,7 @@ class Answers {
     // Even if an answer came about: it may be that of a file which seemed not to be there.
     if (const auto why = read.passing_failure()) end_with(i, std::make_exception_ptr(FileError(*why)));
     const std::lock_guard lock(mutex_);
-    if (control_.progress) control_.progress(++done_, rows_.size());
+    if (control_.progress) control_.progress("joints", ++done_, rows_.size());
   }
 
   /// The row is a failure, unless what is wrong is not its joint.

@@ -10,7 +10,6 @@
 #include "io/file/csv_fields.hpp"
 #include "io/file/failure.hpp"
 #include "io/file/in_quotes.hpp"
-#include "io/joint/known_motions.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/result/depth_parts.hpp"
 #include "io/result/map_summary.hpp"
@@ -69,24 +68,13 @@ void check_kind(const StudyTable& table, const StudyRow& row, const LoadedJoint&
         file));
 }
 
-std::vector<motion::Motion> motions_of(const LoadedJoint& loaded, const StudyOptions& options) {
-  std::vector<motion::Motion> known = known_motions(loaded);
-  if (options.motions.empty()) return known;
-  std::vector<motion::Motion> chosen;
-  for (const std::string& name : options.motions) chosen.push_back(motion::motion_named(known, name));
-  return chosen;
-}
-
-RangeRequest range_request_of(const LoadedJoint& loaded, const StudyOptions& options) {
-  RangeRequest request{.motions = motions_of(loaded, options)};
+RangeRequest range_request_of(const Case& joint, const StudyOptions& options) {
+  RangeRequest request{.motions = joint.motions(options.motions)};
   request.range.bearing = options.bearing;
   request.range.overlap.reference_contact = options.reference_contact;
   request.range.overlap.leave_out_reference_contacts = options.leave_out_reference_contacts;
   request.map = options.map;
-  const JointFile& file = loaded.report.file;
-  if (const auto& bands = options.bands)
-    request.bands = {bands->sigma.over(file.uncertainty), bands->samples,
-                     bands->seed.value_or(file.band_seed)};
+  request.bands = options.bands;
   return request;
 }
 
@@ -94,7 +82,7 @@ RangeRequest range_request_of(const LoadedJoint& loaded, const StudyOptions& opt
 std::string limit_lines(const Cells& row, const RomResult& result,
                         const std::vector<const LimitField*>& limit_fields, const std::vector<Cells>& more) {
   std::string lines;
-  for (std::size_t i = 0; i < result.limits.size(); ++i) {
+  for (std::size_t i = 0; i < result.answer.limits.size(); ++i) {
     Cells fields = row;
     for (const LimitField* field : limit_fields) append_texts(fields, *field, {result, i});
     lines += more.empty() ? csv_line(fields) : line_of(std::move(fields), more[i]);
@@ -117,9 +105,9 @@ void add_map(Cells& fields, const motion::MotionMap& map) {
 }
 
 /// Empty if nothing is a depth.
-std::string name_of_kind(contact::DepthWay way, Anatomy joint) {
-  if (const auto angle = angle_of(way)) return std::string(name_of(*angle, joint));
-  return way == contact::DepthWay::radial ? "radial" : "";
+std::string name_of_kind(contact::DepthKind kind, Anatomy joint) {
+  if (const auto angle = angle_of(kind)) return std::string(name_of(*angle, joint));
+  return kind == contact::DepthKind::radial ? "radial" : "";
 }
 
 /// The pose as `condyle depth` reads it for this joint, which refuses one that a hinge does not turn to.
@@ -140,7 +128,7 @@ void add_depth(Cells& fields, const Joint& joint, const PoseDegrees& at) {
   const auto deepest = deepest_of(std::get<RayDepths>(answer.depths).reliable);
   fields.push_back(answer.in_contact() ? "1" : "0");
   fields.push_back(deepest ? fmt::format("{}", deepest->vertex.depth_mm) : "");
-  fields.push_back(deepest ? name_of_kind(deepest->vertex.way, joint.anatomy) : "");
+  fields.push_back(deepest ? name_of_kind(deepest->vertex.kind, joint.anatomy) : "");
   fields.push_back(text_of(measures.volume_mm3));
   fields.push_back(measures.volume_mm3 ? fmt::format("{}", measures.volume_error_mm3) : "");
   fields.push_back(measures.volume_mm3 ? fmt::format("{}", measures.mobile_covered_again_mm3 +
@@ -203,9 +191,7 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
         name_joint_file(place, [&] { return measure_fields(table, row, loaded, request.bands, stop); });
     if (!measures) return std::nullopt;
   }
-  const auto answer = name_joint_file(place, [&] {
-    return answer_range(joint, loaded.report.placement, request, {{}, stop});
-  });
+  const auto answer = name_joint_file(place, [&] { return answer_range(loaded, request, {.stop = stop}); });
   if (!answer) return std::nullopt;
   std::optional<ResectionFields> resection;
   if (options.resection) {

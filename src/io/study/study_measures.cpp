@@ -8,7 +8,6 @@
 #include "condyle/error.hpp"
 #include "io/file/csv_fields.hpp"
 #include "io/file/in_quotes.hpp"
-#include "io/joint/measure_request.hpp"
 #include "io/mesh/parse.hpp"
 
 namespace condyle::io {
@@ -81,12 +80,11 @@ std::vector<ResultColumn> measure_columns(bool with_bands) {
 
 std::optional<std::vector<std::string>> measure_fields(const StudyTable& table, const StudyRow& row,
                                                        const LoadedJoint& loaded,
-                                                       const std::optional<motion::BandOptions>& band_options,
+                                                       const std::optional<BandRequest>& of_bands,
                                                        std::stop_token stop) {
-  const auto answer = answer_measures(
-      loaded.joint, {measure_request_of(loaded, tilt_in(table, row)), band_options}, {{}, stop});
+  const auto answer = answer_measures(loaded, {tilt_in(table, row), of_bands}, {.stop = stop});
   if (!answer) return std::nullopt;
-  const auto& [measures, bands, as_requested] = *answer;
+  const auto& [measures, bands, band_options] = *answer;
   std::vector<std::string> fields;
   for (std::size_t i = 0; i < measure::measure_definitions().size(); ++i) {
     fields.push_back(number_or_empty(measure::measure_definitions()[i].of(measures).value));

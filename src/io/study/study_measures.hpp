@@ -20,7 +20,7 @@ std::vector<ResultColumn> measure_columns(bool with_bands);
 /// what is no hip.
 std::optional<std::vector<std::string>> measure_fields(const StudyTable& table, const StudyRow& row,
                                                        const LoadedJoint& loaded,
-                                                       const std::optional<motion::BandOptions>& bands,
+                                                       const std::optional<BandRequest>& bands,
                                                        std::stop_token stop);
 
 }  // namespace condyle::io

@@ -40,7 +40,7 @@ Json follow_load_json(const StudyFollowLoad& load) {
 }
 
 Json resection_json(const StudyResection& resection) {
-  const plan::ResectionRequest& cut = resection.cut;
+  const plan::ResectionOptions& cut = resection.cut;
   Json json;
   for (const auto& [motion, reach] : resection.targets)
     json["reach_deg"][motion] = plan::asked_degrees(reach);
@@ -71,23 +71,15 @@ std::string options_json(const StudyOptions& options) {
   if (const auto& bands = options.bands)
     json["bands"] = {{"samples", bands->samples},
                      {"seed", nullable(bands->seed)},
-                     {"sigma_centre_mm", nullable(bands->sigma.centre_mm)},
-                     {"sigma_axes_deg", nullable(bands->sigma.axes_deg)},
-                     {"sigma_surface_mm", nullable(bands->sigma.surface_mm)}};
+                     {"sigma_centre_mm", nullable(bands->centre_mm)},
+                     {"sigma_axes_deg", nullable(bands->axes_deg)},
+                     {"sigma_surface_mm", nullable(bands->surface_mm)}};
   if (options.depth_at) json["depth_at"] = pose_json(*options.depth_at, options.anatomy);
   if (options.measures) json["measures"] = true;
   if (options.resection) json["resection"] = resection_json(*options.resection);
   if (options.load) json["load"] = load_json(*options.load, options.anatomy);
   if (options.follow_load) json["follow_load"] = follow_load_json(*options.follow_load);
   return json.dump();
-}
-
-motion::Uncertainty StudyUncertainty::over(const motion::Uncertainty& of_file) const noexcept {
-  motion::Uncertainty sigma = of_file;
-  if (centre_mm) sigma.centre_mm = *centre_mm;
-  if (axes_deg) sigma.axes = Angle::degrees(*axes_deg);
-  if (surface_mm) sigma.surface_mm = *surface_mm, sigma.surface_voxels = 0;
-  return sigma;
 }
 
 }  // namespace condyle::io

@@ -7,8 +7,6 @@
 
 #include "condyle/error.hpp"
 #include "io/file/csv_fields.hpp"
-#include "io/joint/known_motions.hpp"
-#include "io/joint/measure_request.hpp"
 #include "io/result/limit_fields.hpp"
 
 namespace condyle::io {
@@ -97,15 +95,13 @@ std::vector<ResultColumn> resected_limit_columns() {
 
 std::optional<ResectionFields> resection_fields(const LoadedJoint& loaded, const StudyResection& resection,
                                                 const RangeRequest& range, std::stop_token stop) {
-  ResectionQuery query{.resection = resection.cut, .motions = range.motions};
-  const Joint& joint = loaded.joint;
-  query.resection.targets = reach_targets(known_motions(loaded), resection.targets);
-  query.resection.range = range.range;
-  query.curve_points = 0;
-  query.measures = measure_request_of(loaded);
+  const Case joint = loaded;
+  ResectionRequest request{.resection = resection.cut, .motions = range.motions, .curve_points = 0};
+  request.resection.targets = reach_targets(joint.motions(), resection.targets);
+  request.resection.range = range.range;
   ResectionFields fields;
   try {
-    const auto answer = answer_resection(joint, loaded.report.placement, query, {{}, stop});
+    const auto answer = answer_resection(joint, request, {.stop = stop});
     if (!answer) return std::nullopt;
     fields.of_hip = fields_of(*answer);
     for (const motion::MotionLimit& limit : answer->after)

@@ -130,9 +130,9 @@ void read_document(const Json& json, SweepResult& result) {
   }
   for (const Json& each : json.at("caveats")) sweep.caveats.push_back(each.get<std::string>());
   if (const Json& band = json.at("band"); !band.is_null()) {
-    result.bands.emplace();
-    result.bands->samples = band.at("samples").get<std::size_t>();
-    result.bands->seed = band.at("seed").get<std::uint64_t>();
+    result.answer.band_options.emplace();
+    result.answer.band_options->samples = band.at("samples").get<std::size_t>();
+    result.answer.band_options->seed = band.at("seed").get<std::uint64_t>();
   }
 }
 
@@ -147,7 +147,7 @@ SweepResult read_sweep_result(const Json& json, std::string_view designs, std::s
   } catch (const nlohmann::json::exception& error) {
     throw FileError(fmt::format("{}: sweep.json: is not whole: {}", name, error.what()));
   }
-  const bool has_probability = result.bands.has_value();
+  const bool has_probability = result.answer.band_options.has_value();
   const std::size_t first_quantity = sweep.parameters.size() + 2 + (has_probability ? 1 : 0);
   const std::size_t first_target = first_quantity + sweep.quantity_names.size();
   const std::string designs_name = fmt::format("{}/designs.csv", name),

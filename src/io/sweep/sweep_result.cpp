@@ -189,8 +189,8 @@ std::string target_name(const SweepAnswer& sweep, const std::optional<std::size_
 
 }  // namespace
 
-SweepResult sweep_result_of(const LoadedJoint& loaded, SweepAnswer answer, const SweepQuery& query,
-                            std::span<const JointNote> notes, const Provenance* from) {
+SweepResult sweep_result_of(const LoadedJoint& loaded, SweepAnswer answer, std::span<const JointNote> notes,
+                            const Provenance* from) {
   SweepResult result{.joint = loaded.joint.name,
                      .anatomy = loaded.joint.anatomy,
                      .side = loaded.joint.side,
@@ -198,7 +198,6 @@ SweepResult sweep_result_of(const LoadedJoint& loaded, SweepAnswer answer, const
                      .answer = std::move(answer)};
   for (const plan::SweptParameter& swept : result.answer.parameters)
     result.units.emplace_back(unit_of(swept_kind(loaded.joint, swept.name)));
-  result.bands = query.bands;
   result.notes = io::notes_json(notes);
   result.provenance = io::provenance_json(from);
   return result;
@@ -229,7 +228,7 @@ std::string sweep_text(const SweepResult& result) {
         "  most likely safe: {}: {:.1f} % of {} displaced designs\n",
         values_text(sweep, sweep.values_of(sweep.first_design +
                                            static_cast<std::size_t>(most - sweep.probability.begin()))),
-        100 * *most, result.bands->samples);
+        100 * *most, result.answer.band_options->samples);
   }
   text += table_of_targets(sweep) + quantities_text(sweep);
   if (const std::size_t forms = known_by_form(sweep); forms > 0)
@@ -284,8 +283,9 @@ Json sweep_object(const SweepResult& result) {
             {"ending_pairs", std::move(pairs)},
             {"quantities", sweep.quantity_names},
             {"limits_in_closed_form", known_by_form(sweep)},
-            {"band", result.bands ? Json{{"samples", result.bands->samples}, {"seed", result.bands->seed}}
-                                  : Json(nullptr)},
+            {"band", result.answer.band_options ? Json{{"samples", result.answer.band_options->samples},
+                                                       {"seed", result.answer.band_options->seed}}
+                                                : Json(nullptr)},
             {"sweep_notes", std::move(notes)},
             {"caveats", sweep.caveats},
             {"notes", result.notes},
@@ -303,7 +303,7 @@ std::string designs_csv(const SweepResult& result) {
   std::string text;
   for (const plan::SweptParameter& parameter : sweep.parameters) text += io::csv_field(parameter.name) + ",";
   text += "margin_deg,safe";
-  if (result.bands) text += ",probability";
+  if (result.answer.band_options) text += ",probability";
   for (const std::string& name : sweep.quantity_names) text += "," + io::csv_field(name);
   for (const plan::SweepTarget& target : sweep.targets)
     for (const char* column : {"limit_deg", "reason", "ended_by", "known_by"})
@@ -313,7 +313,7 @@ std::string designs_csv(const SweepResult& result) {
     for (const double value : sweep.values_of(sweep.first_design + i)) text += fmt::format("{},", value);
     const double margin = sweep.margin_deg[i];
     text += std::isnan(margin) ? ",0" : fmt::format("{},{}", margin, margin >= 0 ? 1 : 0);
-    if (result.bands) text += fmt::format(",{}", sweep.probability[i]);
+    if (result.answer.band_options) text += fmt::format(",{}", sweep.probability[i]);
     for (const double value : quantities_of(sweep, sweep.first_design + i))
       text += std::isnan(value) ? "," : fmt::format(",{}", value);
     for (const plan::DesignLimit& limit : limits_of(sweep, sweep.first_design + i)) {

@@ -23,13 +23,12 @@ struct SweepResult {
   std::string scope;
   SweepAnswer answer;
   std::vector<std::string> units = {};  ///< of each parameter: "deg" or "mm"
-  std::optional<motion::BandOptions> bands = {};
-  Json notes = Json::array();  ///< on the joint's set-up
+  Json notes = Json::array();           ///< on the joint's set-up
   Json provenance = nullptr;
 };
 
-SweepResult sweep_result_of(const LoadedJoint& loaded, SweepAnswer answer, const SweepQuery& query,
-                            std::span<const JointNote> notes, const Provenance* from);
+SweepResult sweep_result_of(const LoadedJoint& loaded, SweepAnswer answer, std::span<const JointNote> notes,
+                            const Provenance* from);
 
 std::string sweep_text(const SweepResult& result);
 std::string sweep_json(const SweepResult& result);

@@ -32,7 +32,7 @@ class Steps {
   bool stopped() const { return control_.stop.stop_requested(); }
   /// False if the work is to stop.
   bool next() {
-    if (control_.progress) control_.progress(++done_, count);
+    if (control_.progress) control_.progress("steps of the surface", ++done_, count);
     return !stopped();
   }
 

@@ -16,17 +16,19 @@ namespace {
 /// Counts frames done and reports them, one thread at a time.
 class ProgressCount {
  public:
-  ProgressCount(const Control& control, std::size_t total) : control_(control), total_(total) {}
+  ProgressCount(const Control& control, std::string_view stage, std::size_t total)
+      : control_(control), stage_(stage), total_(total) {}
 
   bool stopped() const { return control_.stop.stop_requested(); }
   void one_done() {
     if (!control_.progress) return;
     const std::lock_guard lock(mutex_);
-    control_.progress(++done_, total_);
+    control_.progress(stage_, ++done_, total_);
   }
 
  private:
   const Control& control_;
+  std::string_view stage_;
   std::size_t total_, done_ = 0;
   std::mutex mutex_;
 };
@@ -103,7 +105,7 @@ std::optional<std::vector<std::optional<FrameContact>>> contact_along(
     std::span<const std::optional<Pose>> X_FM, BodyRole casting, const Control& control) {
   const mesh::TriangleTree fixed(joint.fixed()), mobile(joint.mobile());
   std::vector<std::optional<FrameContact>> frames(X_FM.size());
-  ProgressCount progress(control, frames.size());
+  ProgressCount progress(control, "frames", frames.size());
   core::PerThread<SmallestGap> gaps([&] { return SmallestGap(fixed, mobile); });
   core::parallel_chunks(frames.size(), 1, [&](std::size_t first, std::size_t last) {
     SmallestGap& gap = gaps.local();
@@ -129,7 +131,7 @@ std::optional<std::vector<std::optional<contact::BalancedPose>>> balance_along(
   if (loads.size() != 1 && loads.size() != X_FM.size())
     throw UsageError(std::to_string(loads.size()) + " loads for " + std::to_string(X_FM.size()) + " frames");
   std::vector<std::optional<contact::BalancedPose>> frames(X_FM.size());
-  ProgressCount progress(control, frames.size());
+  ProgressCount progress(control, "balanced frames", frames.size());
   // How the load moved the body at the last frame, and how that changes from frame to frame where it does so smoothly.
   Vec3 moved = Vec3::Zero(), change = Vec3::Zero();
   bool was_balanced = false;

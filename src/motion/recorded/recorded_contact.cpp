@@ -206,7 +206,7 @@ std::optional<RecordedContact> contact_between(const contact::JointContact& bodi
       segments[i] = search.search(motions[i], options.resolution_s / (time_s[i + 1] - time_s[i]));
       const std::scoped_lock lock(reporting);
       ++done;
-      if (control.progress) control.progress(done, segments.size());
+      if (control.progress) control.progress("segments between samples", done, segments.size());
     }
   });
   if (done < segments.size()) return std::nullopt;

@@ -75,7 +75,7 @@ std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<
                        std::span(outcomes).subspan(i * width, width));
       const std::scoped_lock lock(reporting);
       ++done;
-      if (control.progress) control.progress(done, total);
+      if (control.progress) control.progress("joints of the band", done, total);
     }
   });
   if (done < total) return std::nullopt;

@@ -131,7 +131,7 @@ std::optional<MotionMap> motion_map(const MapGrid& grid, const RangeOfMotion& jo
   const auto report = [&] {
     const std::scoped_lock lock(reporting);
     ++done;
-    if (control.progress) control.progress(done, map.points.size());
+    if (control.progress) control.progress("map points", done, map.points.size());
   };
   core::parallel_chunks(map.points.size(), points_per_chunk, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last && !control.stop.stop_requested(); ++i) {

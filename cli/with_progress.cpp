@@ -1,0 +1,82 @@
+#include "with_progress.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
+#include <cstdlib>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "interrupt.hpp"
+#include "io/file/failure.hpp"
+#include "io/file/temporary_folder.hpp"
+#include "progress.hpp"
+
+namespace condyle::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto between_polls = 20ms;
+/// Long enough for most steps to end by themselves, short enough for somebody who waits.
+constexpr auto patience = 500ms;
+
+/// The stage that work is in, and how far it is. The work's threads write it, and the one that watches for signals reads it.
+class Stage {
+ public:
+  void update(std::string_view name, std::size_t done, std::size_t total) {
+    const std::scoped_lock lock(mutex_);
+    if (!progress_ || name_ != name) progress_.emplace(name_ = name);
+    done_ = done, total_ = total;
+    progress_->update(done, total);
+  }
+
+  std::string interrupted() const {
+    const std::scoped_lock lock(mutex_);
+    if (name_.empty()) return "interrupted; nothing is written";
+    return fmt::format("interrupted after {} of {} {}; nothing is written", done_, total_, name_);
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::optional<Progress> progress_;
+  std::string name_;
+  std::size_t done_ = 0, total_ = 0;
+};
+
+}  // namespace
+
+void run_with_progress(const std::function<bool(const Control&)>& work) {
+  const InterruptWatch watch;
+  std::stop_source stop;
+  Stage stage;
+  const std::jthread watcher([&](const std::stop_token& ended) {
+    std::mutex mutex;
+    std::condition_variable_any polls;
+    /// False as soon as the work has ended: nobody waits for a poll.
+    const auto next_poll = [&] {
+      std::unique_lock lock(mutex);
+      polls.wait_for(lock, ended, between_polls, [] { return false; });
+      return !ended.stop_requested();
+    };
+    while (!watch.interrupted())
+      if (!next_poll()) return;
+    stop.request_stop();
+    // A file that is being written is complete within moments.
+    for (auto waited = 0ms; waited < patience || io::temporary_folders_live(); waited += between_polls)
+      if (!next_poll()) return;
+    io::end_temporary_folders();
+    std::fprintf(stderr, "condyle: %s\n", stage.interrupted().c_str());
+    std::_Exit(io::interrupted);
+  });
+  const auto report = [&](std::string_view name, std::size_t done, std::size_t total) {
+    stage.update(name, done, total);
+  };
+  if (!work({report, stop.get_token()})) throw Interrupted(stage.interrupted());
+}
+
+}  // namespace condyle::cli

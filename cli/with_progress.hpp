@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+#include <type_traits>
+#include <utility>
+
+#include "condyle/control.hpp"
+
+/// Long work of a command: its progress on standard error, and how SIGINT or SIGTERM stops it.
+
+namespace condyle::cli {
+
+/// Runs `work`, which answers whether it was completed, with a control that shows progress. SIGINT or SIGTERM stops it, and throws
+/// Interrupted; work whose steps take longer than anybody waits is left: a second after the signal the process has ended with exit code
+/// 130. For work that writes only at its end, and whole or not at all.
+void run_with_progress(const std::function<bool(const Control&)>& work);
+
+/// The answer of `compute`, an optional that is empty if it was stopped; as run_with_progress().
+template <class Compute>
+auto with_progress(const Compute& compute) {
+  std::invoke_result_t<Compute, const Control&> answer;
+  run_with_progress([&](const Control& control) {
+    answer = compute(control);
+    return answer.has_value();
+  });
+  return *std::move(answer);
+}
+
+}  // namespace condyle::cli

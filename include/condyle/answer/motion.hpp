@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "condyle/control.hpp"
+#include "condyle/motion_contact.hpp"
+#include "condyle/normal_depth.hpp"
+#include "condyle/pressure.hpp"
+
+/// Contact along a recorded motion.
+
+namespace condyle {
+
+/// Which contact between the samples of a motion is searched for.
+enum class BetweenFrames : std::uint8_t {
+  never,
+  if_exact,  ///< If the mobile body's origin stays in one place, times are known and poses are as recorded: exact and cheap.
+  always,    ///< Also if the origin moves: bounded. Needs times, and poses as recorded.
+};
+
+/// Options of a request about a recorded motion, with their defaults.
+struct MotionRequest {
+  std::vector<std::optional<Pose>> X_FM = {};  ///< one per frame, empty for gaps
+  std::vector<double> time_s = {};             ///< one per frame, or none if times are not known
+  /// The mobile body is moved to the pose in which the contact carries this, the same in all frames; default: poses
+  /// are as recorded.
+  std::optional<contact::Load> load = {};
+  /// The same with a load for each frame; an empty one makes its frame a gap, and a frame whose load is zero has no answer.
+  std::vector<std::optional<contact::Load>> loads = {};
+  contact::BalanceOptions balance = {};
+  BetweenFrames between = BetweenFrames::if_exact;
+  /// Without layers: which body's triangles cast, and how. An ElasticContact has its own.
+  BodyRole casting = BodyRole::mobile;
+  contact::NormalDepthOptions rays = {};
+  motion::BodyNames names = {};  ///< as notes call the bodies
+
+  bool has_load() const noexcept { return load || !loads.empty(); }
+};
+
+/// Contact in every frame, and how a load was balanced.
+struct MotionAnswer {
+  std::vector<std::optional<motion::FrameContact>> frames = {};
+  std::vector<std::optional<contact::BalancedPose>> balanced = {};  ///< none if no load was requested
+  /// Frames whose own load is zero along what is free, ascending: no pose was searched for, and they have no answer.
+  std::vector<std::size_t> without_load = {};
+  /// Contact between the samples too; samples are numbered as the frames.
+  std::optional<motion::RecordedContact> between = {};
+  /// The force of the frame with the largest one, computed from the depth at 16 places of each face:
+  /// ElasticContact::refined_force_n(). Empty without pressure.
+  std::optional<double> refined_largest_force_n = {};
+  std::vector<motion::ContactNote> notes = {};  ///< what looks wrong with layers, loads and the motion
+  std::vector<std::string> caveats = {};        ///< with pressure: what an elastic foundation leaves out
+};
+
+/// Throws UsageError for times or loads that are not as many as frames, loads of both kinds, a moment without free rotations, or
+/// BetweenFrames::always without times or with a load.
+void check_motion_request(const MotionRequest& request);
+
+/// Contact along a motion, with pressure if there are layers; empty if it was stopped. Stages: "balanced frames", "ways between samples", "frames".
+///
+/// Throws UsageError as check_motion_request(), balance_along() and contact_between(), MeshError as contact_along().
+std::optional<MotionAnswer> answer_motion(const contact::JointContact& bodies,
+                                          const contact::ElasticContact* layers, const MotionRequest& request,
+                                          const Control& control);
+MotionAnswer answer_motion(const contact::JointContact& bodies, const contact::ElasticContact* layers,
+                           const MotionRequest& request);
+
+/// The notes of answer_motion() on layers and loads, which are known before its work is done.
+std::vector<motion::ContactNote> motion_request_notes(const contact::ElasticContact* layers,
+                                                      const MotionRequest& request);
+
+/// The frame with the largest force on the mobile body; empty if none is above 0.
+std::optional<std::size_t> frame_of_largest_force(const MotionAnswer& answer);
+
+}  // namespace condyle

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "condyle/answer/case.hpp"
+#include "condyle/hip_measures.hpp"
+#include "condyle/limit_band.hpp"
+#include "condyle/resection.hpp"
+
+/// The bone that must go for motions to reach their targets.
+
+namespace condyle {
+
+/// Options of a request for a resection, with their defaults.
+struct ResectionRequest {
+  plan::ResectionOptions resection = {};
+  /// Motions whose limits are given before and after; if empty, all that the case has.
+  std::vector<motion::Motion> motions = {};
+  /// The margin is as much larger as it takes that each target is reached in 95 % of displaced joints.
+  std::optional<BandRequest> bands = {};
+  /// Points of each target's curve of degrees against removed volume; 0 for none.
+  std::size_t curve_points = 10;
+};
+
+/// The cost of a target if it were the only one, at nearer angles.
+struct ResectionCurvePoint {
+  std::size_t target;
+  Angle reached;
+  double volume_mm3, deepest_mm;
+};
+
+enum class ResectionNoteCode : std::uint8_t {
+  nothing_to_do,   ///< The joint reaches all targets uncut.
+  target_blocked,  ///< Kept bone stops a motion short of its target.
+  band_not_reached,  ///< Not reached in 95 % of displaced joints: the range of the motion or kept bone ends before.
+  bearing_is_swept,  ///< The other bone sweeps over bearing surface, whose contact counts for nothing.
+  neck_is_narrowed,  ///< More than 30 % of the neck's width goes.
+  no_gain,           ///< A limit is unchanged.
+  alpha_stays,  ///< The alpha angle is no smaller after a cut at the neck: what it is read from stands in no way.
+  edge_changed,     ///< Triangles around the cut are larger or smaller than requested: EdgeReason.
+  burr_meets_kept,  ///< The burr's ball would have to enter bone that stays.
+  sliding_surfaces,  ///< The bodies slide on each other by nature, and no bearing surface is known: removed bone may belong to it.
+  more_than_must,  ///< Much bone goes that no target needs: a depth, or counting whole triangles, cannot spare it.
+  finer_triangles,  ///< A limit grows by the smaller triangles around a cut alone: fewer of them lie partly in the bearing ball.
+};
+
+/// As in files: "nothing_to_do".
+std::string_view name_of(ResectionNoteCode code) noexcept;
+
+struct ResectionNote {
+  ResectionNoteCode code;
+  std::string text;  ///< one sentence
+};
+
+/// Share of the neck's width that may go without a note.
+inline constexpr double neck_width_share = 0.3;
+
+struct ResectionAnswer {
+  plan::Resection resection;
+  double margin_mm = 0;  ///< as planned: larger than requested where a band is to be reached
+  std::vector<motion::MotionLimit> before = {}, after = {};                 ///< one per motion
+  std::optional<measure::HipMeasures> shape_before = {}, shape_after = {};  ///< of a hip
+  std::vector<motion::LimitBand> bands = {};    ///< one per target if requested: after
+  std::vector<ResectionCurvePoint> curve = {};  ///< by target, ascending
+  std::vector<ResectionNote> notes = {};
+  std::vector<std::string> caveats = {};  ///< what the plan leaves out, a sentence each
+};
+
+/// How far a motion shall go, by its name.
+struct NamedReach {
+  std::string motion;
+  Angle reach;
+};
+
+/// Targets from "flexion=115 internal_rotation_at_90_flexion=30", separated by blanks or commas. Throws UsageError for other text.
+std::vector<NamedReach> parse_reach(std::string_view text);
+
+/// Targets of these motions, each by its name as motion_named() finds it. Throws UsageError for an unknown name.
+std::vector<plan::ReachTarget> reach_targets(std::span<const motion::Motion> motions,
+                                             std::span<const NamedReach> named);
+/// The targets in a text, as parse_reach() reads it.
+std::vector<plan::ReachTarget> reach_targets(std::span<const motion::Motion> motions, std::string_view text);
+
+/// The bone that must go, the limits and the shape before and after, and what each degree costs. Empty if it was stopped. Stages:
+/// "cuts", "joints of the band".
+///
+/// Throws as resect(), measure_hip() and limit_bands() do. A second for each cut of a hip of 20,000 triangles: one, one for each
+/// point of a curve, and some for a band.
+std::optional<ResectionAnswer> answer_resection(const Case& joint, const ResectionRequest& request,
+                                                const Control& control);
+ResectionAnswer answer_resection(const Case& joint, const ResectionRequest& request);
+
+}  // namespace condyle

@@ -1,0 +1,33 @@
+#include "io/motion/motion_of_joint.hpp"
+
+#include <utility>
+
+namespace condyle::io {
+
+ContactEntry motion_contact(ContactEntry entry, bool with_pressure) {
+  if (!with_pressure && entry.casting == contact::Casting::both) entry.casting = contact::Casting::mobile;
+  return entry;
+}
+
+MotionOfJoint::MotionOfJoint(const MotionQuestion& question, MotionRequest request)
+    : surfaces_(question.surfaces), request_(std::move(request)), notes_(question.motion.notes) {
+  request_.names = {surfaces_.fixed.name, surfaces_.mobile.name};
+  request_.casting = question.contact.casting == contact::Casting::fixed ? BodyRole::fixed : BodyRole::mobile;
+  request_.rays = question.contact.rays;
+  if (question.with_pressure)
+    layers_.emplace(surfaces_.fixed.mesh, surfaces_.mobile.mesh,
+                    elastic_options(question.contact, surfaces_, question.joint));
+  motion::add_new(notes_, motion_request_notes(layers(), request_));
+}
+
+std::optional<MotionAnswer> MotionOfJoint::answer(const Control& control) const {
+  const contact::JointContact bodies(surfaces_.fixed.mesh, surfaces_.mobile.mesh);
+  auto answer = answer_motion(bodies, layers(), request_, control);
+  if (!answer) return std::nullopt;
+  std::vector<motion::ContactNote> notes = notes_;
+  motion::add_new(notes, std::move(answer->notes));
+  answer->notes = std::move(notes);
+  return answer;
+}
+
+}  // namespace condyle::io
