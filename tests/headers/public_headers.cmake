@@ -1,5 +1,5 @@
 # What the public headers include, directly or not, is themselves, Eigen and the standard library; and condyle.hpp has
-# all of the core's. They are at most 54, and at most 150 types are directly in namespace condyle. Run as cmake -DSOURCE=... -DCOMPILER=... -DPUBLIC=... -P public_headers.cmake.
+# all of the core's. They are at most 54, and at most 150 types are directly in namespace condyle. Run as cmake -DSOURCE=... -DCOMPILER=... -DPUBLIC=... -DWARNINGS=... -P public_headers.cmake.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -45,7 +45,7 @@ foreach(folder ${PUBLIC})
   list(APPEND public_flags -isystem ${folder})
 endforeach()
 file(WRITE all_public_headers.cpp "${lines}")
-execute_process(COMMAND ${COMPILER} -std=c++20 -H -fsyntax-only -I ${include} ${public_flags} all_public_headers.cpp
+execute_process(COMMAND ${COMPILER} -std=c++20 ${WARNINGS} -H -fsyntax-only -I ${include} ${public_flags} all_public_headers.cpp
                 ERROR_VARIABLE opened RESULT_VARIABLE failed)
 if(failed)
   message(FATAL_ERROR "the public headers do not compile: ${opened}")
