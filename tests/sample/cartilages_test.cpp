@@ -74,6 +74,10 @@ TEST(SampleCartilages, AreAClosedCapAndAClosedRingWoundOutwardsThatDoNotRunIntoT
   for (const CartilageScenario scenario : scenarios) expect_sound(made(scenario));
 }
 
+TEST(SampleCartilages, OfTheCoarsestScenarioAreSound) {
+  expect_sound(made(CartilageScenario::five));
+}
+
 TEST(SampleCartilages, TrianglesAreNoSlivers) {
   // As for bones at the ends of their parameters' ranges: the borders turn round within a triangle or two.
   constexpr double least_deg = 15;
