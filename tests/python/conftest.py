@@ -1,7 +1,10 @@
 """Sample joints that tests share."""
 
+import functools
 import os
+import shutil
 import subprocess
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -41,10 +44,33 @@ def source() -> Path:
 
 
 @pytest.fixture(scope="session")
-def hip_file(command: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("hip")
-    subprocess.run([command, "sample", "hip", "--scenario", "2", "--out", folder], check=True, capture_output=True)
-    return folder / "hip.toml"
+def sampled(command: str, tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
+    """sampled(folder, words...) has in a folder what `condyle sample WORDS` makes, once for all tests that ask for the same."""
+
+    @functools.cache
+    def made(*words: str) -> Path:
+        folder = tmp_path_factory.mktemp("sample")
+        subprocess.run([command, "sample", *words, "--out", folder], check=True, capture_output=True)
+        return folder
+
+    return lambda folder, *words: shutil.copytree(made(*words), folder, dirs_exist_ok=True)
+
+
+@pytest.fixture(scope="session")
+def hip_file(sampled: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return sampled(tmp_path_factory.mktemp("hip"), "hip", "--scenario", "2") / "hip.toml"
+
+
+@pytest.fixture(scope="session")
+def coarse_hip_file(sampled: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """For what is the same of bones of any size."""
+    return sampled(tmp_path_factory.mktemp("coarse_hip"), "hip") / "hip.toml"
+
+
+@pytest.fixture(scope="session")
+def coarse_bones() -> condyle.SampleHip:
+    """Nothing can change a mesh."""
+    return condyle.sample_hip(scenario=1)
 
 
 @pytest.fixture(scope="session")

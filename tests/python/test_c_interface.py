@@ -62,9 +62,8 @@ def library() -> Any:
 
 
 @pytest.fixture(scope="module")
-def bones() -> condyle.Joint:
-    hip = condyle.sample_hip(scenario=1)
-    return condyle.Joint(hip.hip_bone, hip.femur)
+def bones(coarse_bones: condyle.SampleHip) -> condyle.Joint:
+    return condyle.Joint(coarse_bones.hip_bone, coarse_bones.femur)
 
 
 def made(library: Any, kind: str, *arguments: Any) -> c_void_p:

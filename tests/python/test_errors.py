@@ -50,14 +50,13 @@ def test_a_name_that_there_is_not_is_a_key_error_that_says_which_there_are(case,
     assert str(raised.value).startswith(says)
 
 
-def test_a_pose_beyond_the_last_is_an_index_error(hip):
+def test_a_pose_beyond_the_last_is_an_index_error(hip, coarse_bones):
     many = hip.penetration(hip.pose(flexion_deg=[0, 140]))
     assert len(many[-1].mobile) == 41
     for n in (2, -3):
         with pytest.raises(IndexError, match=f"pose: there are 2, counted from 0, and no {n}"):
             many[n]
-    bones = condyle.sample_hip(scenario=1)
-    arcs = condyle.RingTable(bones.femur, [0, 0, 0], [0, 0, 1]).occupied_arcs([[1, 0, 0]])
+    arcs = condyle.RingTable(coarse_bones.femur, [0, 0, 0], [0, 0, 1]).occupied_arcs([[1, 0, 0]])
     with pytest.raises(condyle.OutOfRangeError, match="point: there are 1, counted from 0, and no 1"):
         arcs.of(1)
 

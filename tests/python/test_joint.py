@@ -26,10 +26,10 @@ def test_slices_of_many_poses_are_what_their_poses_show(hip):
 
 
 @pytest.fixture(scope="module")
-def layered(tmp_path_factory):
+def layered(coarse_bones, tmp_path_factory):
     """A hip whose femur is of its bone and its cartilage, which is called bearing."""
     folder = tmp_path_factory.mktemp("layered")
-    bones, layers = condyle.sample_hip(scenario=1), condyle.sample_cartilages()
+    bones, layers = coarse_bones, condyle.sample_cartilages()
     meshes = {"hip_bone": bones.hip_bone, "femur": bones.femur, "cartilage": layers.femoral}
     for name, mesh in meshes.items():
         condyle.write_mesh(folder / f"{name}.vtp", mesh)
@@ -196,8 +196,8 @@ def test_what_contact_of_each_mesh_means(tmp_path, command):
     assert limit.soft_fixed_part == "labrum"
 
 
-def test_measures_are_those_of_the_command(tmp_path, command):
-    subprocess.run([command, "sample", "hip", "--out", tmp_path], check=True, capture_output=True)
+def test_measures_are_those_of_the_command(tmp_path, sampled, command):
+    sampled(tmp_path, "hip")
     joint = condyle.read_joint(tmp_path / "hip.toml")
     said = json.loads(subprocess.run([command, "measure", tmp_path / "hip.toml", "--tilt", "5", "--band=20", "--json"], check=True,
                                      capture_output=True, text=True).stdout)
@@ -216,9 +216,8 @@ def test_measures_are_those_of_the_command(tmp_path, command):
         joint.measures(pelvic_tilt_deg=90)
 
 
-def test_resections_are_those_of_the_command(tmp_path, command):
-    subprocess.run([command, "sample", "hip", "--scenario", "1", "--alpha-angle", "70", "--out", tmp_path], check=True,
-                   capture_output=True)
+def test_resections_are_those_of_the_command(tmp_path, sampled, command):
+    sampled(tmp_path, "hip", "--alpha-angle", "70")
     joint = condyle.read_joint(tmp_path / "hip.toml")
     reach = {"internal_rotation_at_90_flexion": 45}
     said = json.loads(subprocess.run(
@@ -284,8 +283,8 @@ def balls_on_a_shaft(turned_deg=0.0):
     return np.concatenate(points) @ np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]]).T, np.concatenate(faces)
 
 
-def test_where_angles_count_from_is_said_stated_and_taken_from_the_anatomy():
-    bone = condyle.sample_hip(scenario=1).hip_bone
+def test_where_angles_count_from_is_said_stated_and_taken_from_the_anatomy(coarse_bones):
+    bone = coarse_bones.hip_bone
     scanned = condyle.Joint(bone, balls_on_a_shaft(-25))
     assert scanned.zero.known_by == "as_given" and not scanned.zero.is_neutral
     np.testing.assert_allclose(scanned.zero.femur_deg, (0, 0, -25), atol=1e-3)
@@ -298,8 +297,8 @@ def test_where_angles_count_from_is_said_stated_and_taken_from_the_anatomy():
     assert pickle.loads(pickle.dumps(neutral)).zero == neutral.zero
 
 
-def test_a_femur_without_condyles_does_not_say_how_the_leg_lay():
-    bones = condyle.sample_hip(scenario=1)
+def test_a_femur_without_condyles_does_not_say_how_the_leg_lay(coarse_bones):
+    bones = coarse_bones
     assert condyle.Joint(bones.hip_bone, bones.femur).zero.femur_deg is None
     assert not condyle.Joint(bones.hip_bone, bones.femur).zero.is_neutral
     stated = condyle.Joint(bones.hip_bone, bones.femur, reference_pose={})

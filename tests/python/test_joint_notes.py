@@ -13,10 +13,9 @@ import condyle
 
 
 @pytest.fixture
-def left():
+def left(coarse_bones):
     """A right hip that is said to be a left one."""
-    bones = condyle.sample_hip(scenario=1)
-    return condyle.Joint(bones.hip_bone, bones.femur, side="left", name="sample")
+    return condyle.Joint(coarse_bones.hip_bone, coarse_bones.femur, side="left", name="sample")
 
 
 def warnings_of(act):
@@ -97,9 +96,8 @@ def test_whoever_shows_a_warning_may_ask_the_joint(left):
     assert len(seen) == 1
 
 
-def test_a_name_is_printed_in_one_line():
-    bones = condyle.sample_hip(scenario=1)
-    joint = condyle.Joint(bones.hip_bone, bones.femur, side="left", name="a\n\x1b[31mb")
+def test_a_name_is_printed_in_one_line(coarse_bones):
+    joint = condyle.Joint(coarse_bones.hip_bone, coarse_bones.femur, side="left", name="a\n\x1b[31mb")
     said, = warnings_of(lambda: joint.in_contact(np.eye(4)))
     assert str(said.message).isprintable()
 

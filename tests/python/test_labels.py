@@ -10,11 +10,8 @@ import condyle
 
 
 @pytest.fixture(scope="module")
-def scan(tmp_path_factory, command):
-    folder = tmp_path_factory.mktemp("scan")
-    subprocess.run([command, "sample", "hip", "--scenario", "2", "--voxel", "1.5", "--out", folder], check=True,
-                   capture_output=True)
-    return folder
+def scan(tmp_path_factory, sampled):
+    return sampled(tmp_path_factory.mktemp("scan"), "hip", "--scenario", "2", "--voxel", "1.5")
 
 
 @pytest.fixture(scope="module")

@@ -77,8 +77,8 @@ def test_a_soup_is_merged_and_vertex_k_stays_vertex_k():
         np.testing.assert_array_equal(mesh.vertex_map == mesh.vertex_map[k], same)
 
 
-def test_a_soup_gives_each_of_its_vertices_what_the_joined_mesh_gives():
-    bones = condyle.sample_hip(scenario=1)
+def test_a_soup_gives_each_of_its_vertices_what_the_joined_mesh_gives(coarse_bones):
+    bones = coarse_bones
     joined = condyle.Joint(bones.hip_bone, bones.femur)
     hip_bone = condyle.TriMesh(*soup(bones.hip_bone.vertices, bones.hip_bone.triangles))
     femur = condyle.TriMesh(*soup(bones.femur.vertices, bones.femur.triangles))

@@ -1,5 +1,6 @@
 """Parts with a pose of their own, as the command has them."""
 
+import functools
 import json
 import pickle
 import subprocess
@@ -42,8 +43,11 @@ def joint(tmp_path):
     return written_joint(tmp_path, PARTS)
 
 
+made_hip = functools.cache(condyle.sample_hip)
+
+
 def written_joint(tmp_path, parts):
-    bones = condyle.sample_hip()
+    bones = made_hip()
     for name, mesh in (("hip_bone", bones.hip_bone), ("femur", bones.femur)):
         condyle.write_mesh(tmp_path / f"{name}.ply", mesh)
     (tmp_path / "hip.toml").write_text(

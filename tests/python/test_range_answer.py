@@ -73,12 +73,6 @@ def require_same(joint, command, file, *options, **asked):
     return rom
 
 
-def sample(command, folder, *what):
-    subprocess.run([command, "sample", *what, "--out", folder], check=True, capture_output=True)
-    file, = folder.glob("*.toml")
-    return condyle.read_joint(file), file
-
-
 def test_the_sample_hip(hip, command, hip_file):
     rom = require_same(hip, command, hip_file)
     assert rom.clock_plane == "sagittal" and any(limit.clock_hour for limit in rom)
@@ -97,8 +91,8 @@ def test_the_sample_hip(hip, command, hip_file):
 
 
 @pytest.mark.filterwarnings("ignore::condyle.JointWarning")
-def test_a_label_map_that_its_image_cuts(command, tmp_path):
-    subprocess.run([command, "sample", "hip", "--scenario", "2", "--voxel", "1.5", "--out", tmp_path], check=True, capture_output=True)
+def test_a_label_map_that_its_image_cuts(command, sampled, tmp_path):
+    sampled(tmp_path, "hip", "--scenario", "2", "--voxel", "1.5")
     labels = condyle.read_labels(tmp_path / "labels.nii.gz")
     to_lps = labels.lps_from_index
     first = round(-to_lps[2, 3] / 1.5) - 30
@@ -116,15 +110,15 @@ def test_a_label_map_that_its_image_cuts(command, tmp_path):
 
 
 @pytest.mark.filterwarnings("ignore::condyle.JointWarning")
-def test_an_implant(command, tmp_path):
-    joint, file = sample(command, tmp_path, "replacement", "--bones", "none")
-    rom = require_same(joint, command, file)
+def test_an_implant(command, sampled, tmp_path):
+    file = sampled(tmp_path, "replacement", "--bones", "none") / "hip.toml"
+    rom = require_same(condyle.read_joint(file), command, file)
     assert rom.implant["why_no_closed_form"] if rom["flexion"].closed_form is None else rom.implant["half_angle_deg"] > 0
     assert all(limit.closed_form for limit in rom)
 
 
-def test_an_implant_whose_meshes_are_not_those_of_its_sizes(command, tmp_path):
-    _, file = sample(command, tmp_path, "replacement", "--bones", "none")
+def test_an_implant_whose_meshes_are_not_those_of_its_sizes(command, sampled, tmp_path):
+    file = sampled(tmp_path, "replacement", "--bones", "none") / "hip.toml"
     file.write_text(file.read_text().replace("neck_radius = 6", "neck_radius = 7"))
     with pytest.warns(condyle.JointWarning, match="differs_from_closed_form"):
         rom = require_same(condyle.read_joint(file), command, file)
@@ -138,13 +132,14 @@ def test_parts_at_moved_values(command, tmp_path):
 
 
 @pytest.mark.filterwarnings("ignore::condyle.JointWarning")
-def test_a_shoulder(command, tmp_path):
-    rom = require_same(*sample(command, tmp_path, "reverse-shoulder")[:1], command, tmp_path / "shoulder.toml")
+def test_a_shoulder(command, sampled, tmp_path):
+    file = sampled(tmp_path, "reverse-shoulder") / "shoulder.toml"
+    rom = require_same(condyle.read_joint(file), command, file)
     assert rom.clock_plane is None and {limit.clock_hour for limit in rom} == {None}
 
 
-def test_a_translation_that_is_held_and_one_that_follows(command, tmp_path):
-    bones = condyle.sample_hip(scenario=1)
+def test_a_translation_that_is_held_and_one_that_follows(command, coarse_bones, tmp_path):
+    bones = coarse_bones
     condyle.write_mesh(tmp_path / "pelvis.ply", bones.hip_bone)
     condyle.write_mesh(tmp_path / "femur.ply", bones.femur)
     (tmp_path / "hip.toml").write_text(

@@ -254,13 +254,12 @@ def test_first_contact_about_the_axis_of_flexion_is_the_limit_of_flexion(hip):
             found.limits(pose, positive_deg=degrees)
 
 
-def test_the_centre_follows_a_recorded_motion_or_a_load(tmp_path, command):
+def test_the_centre_follows_a_recorded_motion_or_a_load(tmp_path, coarse_bones, command):
     layers = condyle.sample_cartilages(scenario=7)
     for name, mesh in (("socket", layers.acetabular), ("head", layers.femoral)):
         condyle.write_mesh(tmp_path / f"{name}.ply", mesh)
-    bones = condyle.sample_hip(scenario=1)
-    condyle.write_mesh(tmp_path / "pelvis.ply", bones.hip_bone)
-    condyle.write_mesh(tmp_path / "femur.ply", bones.femur)
+    condyle.write_mesh(tmp_path / "pelvis.ply", coarse_bones.hip_bone)
+    condyle.write_mesh(tmp_path / "femur.ply", coarse_bones.femur)
     (tmp_path / "hip.toml").write_text("""
         condyle = 1
         name = "hip"
@@ -315,8 +314,8 @@ def test_the_centre_follows_a_recorded_motion_or_a_load(tmp_path, command):
         condyle.run_study(tmp_path / "loads.csv", tmp_path / "loads", follow_load=condyle.StudyLoad())
 
 
-def test_contact_of_a_shoulder_has_the_side_that_the_command_says(tmp_path, command):
-    subprocess.run([command, "sample", "reverse-shoulder", "--out", tmp_path], check=True, capture_output=True)
+def test_contact_of_a_shoulder_has_the_side_that_the_command_says(tmp_path, sampled, command):
+    sampled(tmp_path, "reverse-shoulder")
     by_command = json.loads(subprocess.run([command, "rom", tmp_path / "shoulder.toml", "--json"], check=True,
                                            capture_output=True, text=True).stdout)["motions"]
     limits = condyle.read_joint(tmp_path / "shoulder.toml").range_of_motion().limits

@@ -20,9 +20,8 @@ def test_a_report_is_that_of_the_command_but_for_its_name(command, hip, hip_file
     assert ours == theirs
 
 
-def test_a_report_shows_shape_and_plan_as_the_command_does(tmp_path, command):
-    subprocess.run([command, "sample", "hip", "--scenario", "1", "--alpha-angle", "70", "--out", tmp_path], check=True,
-                   capture_output=True)
+def test_a_report_shows_shape_and_plan_as_the_command_does(tmp_path, sampled, command):
+    sampled(tmp_path, "hip", "--alpha-angle", "70")
     joint = condyle.read_joint(tmp_path / "hip.toml")
     with pytest.warns(condyle.JointWarning):
         plan = joint.resection({"internal_rotation_at_90_flexion": 45}, curve_points=1)
@@ -41,8 +40,8 @@ def test_a_report_shows_shape_and_plan_as_the_command_does(tmp_path, command):
         again.joint.range_of_motion(["flexion"]).write_report(tmp_path / "other.html", plan=again)
 
 
-def test_a_report_shows_the_safe_zone_of_a_sweep_as_the_command_does(tmp_path, command):
-    subprocess.run([command, "sample", "replacement", "--out", tmp_path], check=True, capture_output=True)
+def test_a_report_shows_the_safe_zone_of_a_sweep_as_the_command_does(tmp_path, sampled, command):
+    sampled(tmp_path, "replacement")
     targets = tmp_path / "targets.csv"
     targets.write_text("name,motion,reach_deg\nsitting,flexion,110\npivoting,external_rotation,40\n")
     joint = condyle.read_joint(tmp_path / "hip.toml")
@@ -61,9 +60,9 @@ def test_a_report_shows_the_safe_zone_of_a_sweep_as_the_command_does(tmp_path, c
         other.write_report(tmp_path / "other.html", sweep=1)
 
 
-def test_a_report_compares_joints_as_the_command_does(command, hip, hip_file, tmp_path):
+def test_a_report_compares_joints_as_the_command_does(command, sampled, hip, hip_file, tmp_path):
     for folder, cam in (("before", []), ("left", ["--side", "left"])):
-        subprocess.run([command, "sample", "hip", "--scenario", "1", *cam, "--out", tmp_path / folder], check=True, capture_output=True)
+        sampled(tmp_path / folder, "hip", *cam)
     before_file = tmp_path / "before" / "hip.toml"
     subprocess.run([command, "report", before_file, hip_file, "--band=20", "--out", tmp_path / "theirs.html"], check=True,
                    capture_output=True)
@@ -116,9 +115,8 @@ def test_a_report_plays_a_motion_and_has_pressure_as_the_command_does(command, t
     assert not (tmp_path / "other.html").exists()
 
 
-def test_a_joint_of_arrays_has_a_report_without_files(tmp_path):
-    bones = condyle.sample_hip(scenario=1)
-    rom = condyle.Joint(bones.hip_bone, bones.femur, name="made of arrays").range_of_motion(["flexion"])
+def test_a_joint_of_arrays_has_a_report_without_files(tmp_path, coarse_bones):
+    rom = condyle.Joint(coarse_bones.hip_bone, coarse_bones.femur, name="made of arrays").range_of_motion(["flexion"])
     rom.write_report(tmp_path / "hip.html")
     text = text_of(tmp_path / "hip.html")
     assert text["title"] == "made of arrays"

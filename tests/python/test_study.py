@@ -65,9 +65,9 @@ def same_files(a: Path, b: Path) -> None:
         assert (a / name).read_bytes() == (b / name).read_bytes(), name
 
 
-def test_every_option_of_the_command_is_one_of_python(hip_file: Path, command: str, tmp_path: Path):
+def test_every_option_of_the_command_is_one_of_python(coarse_hip_file: Path, command: str, tmp_path: Path):
     table = tmp_path / "hip.csv"
-    table.write_text(f"id,joint\na,{hip_file}\n", encoding="utf-8")
+    table.write_text(f"id,joint\na,{coarse_hip_file}\n", encoding="utf-8")
     subprocess.run([command, "study", table, "--out", tmp_path / "a", "--motion", "flexion", "--bearing", "1.5",
                     "--accept-reference-contact", "--exclude-reference-contacts", "--map", "flexion=0:20:10",
                     "internal_rotation=-10:10:10", "--vary", "adduction", "--band=20", "--seed", "3", "--sigma-centre",
@@ -81,10 +81,10 @@ def test_every_option_of_the_command_is_one_of_python(hip_file: Path, command: s
     same_files(tmp_path / "a", tmp_path / "b")
     subprocess.run([command, "study", table, "--out", tmp_path / "c", "--motion", "flexion", "--bearing", "count", "--resect",
                     "internal_rotation_at_90_flexion=60 flexion=130", "--from", "both", "--share", "0.25", "--margin", "0.2",
-                    "--burr", "3", "--deepest", "5", "--within", "30", "--edge", "1"],
+                    "--burr", "3", "--deepest", "5", "--within", "30", "--edge", "2"],
                    check=True, capture_output=True)
     resection = condyle.StudyResection({"internal_rotation_at_90_flexion": 60, "flexion": 130}, cut="both", share=0.25,
-                                       margin_mm=0.2, burr_mm=3, deepest_mm=5, within_mm=30, edge_mm=1)
+                                       margin_mm=0.2, burr_mm=3, deepest_mm=5, within_mm=30, edge_mm=2)
     condyle.run_study(table, tmp_path / "d", motions=["flexion"], bearing="count", resection=resection)
     same_files(tmp_path / "c", tmp_path / "d")
 

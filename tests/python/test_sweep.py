@@ -32,14 +32,20 @@ def rows_of(path):
         return list(csv.DictReader(file))
 
 
-def test_it_is_that_of_the_command(zone, command, tmp_path):
-    (tmp_path / "daily.csv").write_text(TABLE)
-    subprocess.run([command, "sample", "replacement", "--facets", "120", "--out", tmp_path], check=True, capture_output=True)
-    subprocess.run([command, "sweep", tmp_path / "hip.toml", "--vary", "cup.inclination=30:50:10 cup.anteversion=-20:40:10",
-                    "--targets", tmp_path / "daily.csv", "--band=20", "--seed", "3", "--out", tmp_path / "zone"], check=True,
+@pytest.fixture(scope="module")
+def by_command(command, sampled, tmp_path_factory):
+    """What the command writes of the same sweep."""
+    folder = sampled(tmp_path_factory.mktemp("swept"), "replacement", "--facets", "120")
+    (folder / "daily.csv").write_text(TABLE)
+    subprocess.run([command, "sweep", folder / "hip.toml", "--vary", "cup.inclination=30:50:10 cup.anteversion=-20:40:10",
+                    "--targets", folder / "daily.csv", "--band=20", "--seed", "3", "--out", folder / "zone"], check=True,
                    capture_output=True)
-    said = json.loads((tmp_path / "zone/sweep.json").read_text())
-    rows = rows_of(tmp_path / "zone/designs.csv")
+    return folder / "zone"
+
+
+def test_it_is_that_of_the_command(zone, by_command):
+    said = json.loads((by_command / "sweep.json").read_text())
+    rows = rows_of(by_command / "designs.csv")
     assert list(zone.axes) == [each["name"] for each in said["parameters"]]
     inclination, anteversion = (axis.ravel() for axis in np.meshgrid(*zone.axes.values(), indexing="ij"))
     for i, row in enumerate(rows):
@@ -81,15 +87,10 @@ def test_a_table_is_read_as_the_command_reads_it(hip, zone, tmp_path):
     assert read.probability is None
 
 
-def test_its_files_are_those_of_the_command_but_where_it_comes_from(zone, command, tmp_path):
-    zone.write(tmp_path / "python")
-    (tmp_path / "daily.csv").write_text(TABLE)
-    subprocess.run([command, "sample", "replacement", "--facets", "120", "--out", tmp_path], check=True, capture_output=True)
-    subprocess.run([command, "sweep", tmp_path / "hip.toml", "--vary", "cup.inclination=30:50:10 cup.anteversion=-20:40:10",
-                    "--targets", tmp_path / "daily.csv", "--band=20", "--seed", "3", "--out", tmp_path / "command"], check=True,
-                   capture_output=True)
+def test_its_files_are_those_of_the_command_but_where_it_comes_from(zone, by_command, tmp_path):
+    zone.write(tmp_path)
     for name in ("designs.csv", "safe.csv", "zone.vtp"):
-        assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "command" / name).read_bytes(), name
+        assert (tmp_path / name).read_bytes() == (by_command / name).read_bytes(), name
 
 
 def test_limits_are_those_of_joints_with_these_parameters(hip, zone):
@@ -168,15 +169,14 @@ def test_a_wrong_table_is_refused_with_its_line(hip, tmp_path):
         hip.sweep(VARY, tmp_path / "daily.csv")
 
 
-def test_a_joint_without_parts_is_refused():
-    bones = condyle.sample_hip()
-    joint = condyle.Joint(bones.hip_bone, bones.femur)
+def test_a_joint_without_parts_is_refused(coarse_bones):
+    joint = condyle.Joint(coarse_bones.hip_bone, coarse_bones.femur)
     with pytest.raises(condyle.UsageError, match="no part with parameters"):
         joint.sweep(VARY, TARGETS)
 
 
-def test_it_measures_and_loads_each_design_as_the_joint_at_its_values(command, tmp_path):
-    subprocess.run([command, "sample", "hip", "--out", tmp_path], check=True, capture_output=True)
+def test_it_measures_and_loads_each_design_as_the_joint_at_its_values(sampled, tmp_path):
+    sampled(tmp_path, "hip")
     with open(tmp_path / "hip.toml", "a") as file:
         file.write('[contact]\nfixed = { youngs_modulus_mpa = 10.0, poisson_ratio = 0.45, thickness = 2.0 }\n'
                    '[[part]]\nname = "pelvis"\nbody = "fixed"\n[[part.parameter]]\nname = "frontal"\nrange = [-20, 20]\n')

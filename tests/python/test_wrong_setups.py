@@ -17,21 +17,9 @@ NOTE, ERROR = "condyle: note: ", "condyle: "
 LONGEST = 400
 
 
-@pytest.fixture(scope="module")
-def bones() -> condyle.SampleHip:
-    return condyle.sample_hip(scenario=1)
-
-
-@pytest.fixture(scope="module")
-def joint_file(command: str, tmp_path_factory: pytest.TempPathFactory) -> str:
-    folder = tmp_path_factory.mktemp("sample")
-    subprocess.run([command, "sample", "hip", "--out", folder], check=True, capture_output=True)
-    return (folder / "hip.toml").read_text(encoding="utf-8")
-
-
 @pytest.fixture
-def scene(bones: condyle.SampleHip, joint_file: str, tmp_path: Path) -> Scene:
-    return Scene(tmp_path, bones, joint_file)
+def scene(coarse_bones: condyle.SampleHip, coarse_hip_file: Path, tmp_path: Path) -> Scene:
+    return Scene(tmp_path, coarse_bones, coarse_hip_file.read_text(encoding="utf-8"))
 
 
 def require_one_line(text: str) -> None:
