@@ -7,7 +7,9 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <sstream>
+#include <stdexcept>
 
 #include "support/temporary_folder.hpp"
 
@@ -29,6 +31,17 @@ Ran run_condyle(const std::filesystem::path& folder, const std::string& argument
                               redirections;
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(caught / "out"), contents(caught / "err")};
+}
+
+void sample_into(const std::filesystem::path& folder, const std::string& arguments) {
+  static std::map<std::string, TemporaryFolder> made;
+  const auto [at, is_new] = made.try_emplace(arguments);
+  const std::filesystem::path& once = at->second.path();
+  if (is_new && run_condyle(once, "sample " + arguments + " --out .").exit_code != 0) {
+    made.erase(at);
+    throw std::runtime_error("condyle sample " + arguments + " failed");
+  }
+  std::filesystem::copy(once, folder, std::filesystem::copy_options::recursive);
 }
 
 std::string without_notes(const std::string& text) {

@@ -17,6 +17,9 @@ struct Ran {
 Ran run_condyle(const std::filesystem::path& folder, const std::string& arguments,
                 const std::string& redirections = "");
 
+/// What `condyle sample ARGUMENTS` makes, in this folder; made once per process for all tests that ask for the same.
+void sample_into(const std::filesystem::path& folder, const std::string& arguments);
+
 /// Standard error without notes on a joint, which may come before an error.
 std::string without_notes(const std::string& text);
 

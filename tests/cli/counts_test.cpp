@@ -58,7 +58,7 @@ TEST(Counts, ThatAreNoWholeNumbersAreRefusedInOneLine) {
 
 TEST(Counts, BeyondTheirBoundsAreRefusedInOneLine) {
   const TemporaryFolder folder;
-  ASSERT_EQ(run_condyle(folder.path(), "sample hip --out .").exit_code, 0);
+  sample_into(folder.path(), "hip");
   const auto expect_refused = [&](const std::string& arguments, std::string_view saying) {
     expect_refusal(run_condyle(folder.path(), arguments), 2, saying, arguments);
   };

@@ -21,7 +21,7 @@ using Json = nlohmann::json;
 
 class MeasureCommand : public ::testing::Test {
  protected:
-  void SetUp() override { ASSERT_EQ(run("sample hip --out .").exit_code, 0); }
+  void SetUp() override { sample_into(folder.path(), "hip"); }
   Ran run(const std::string& arguments) const { return run_condyle(folder.path(), arguments); }
   Json answer(const std::string& arguments) const {
     const Ran ran = run("measure hip.toml --json " + arguments);

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 class PictureCommand : public ::testing::Test {
  protected:
-  void SetUp() override { ASSERT_EQ(run("sample hip --out .").exit_code, 0); }
+  void SetUp() override { sample_into(folder.path(), "hip"); }
   Ran run(const std::string& arguments) const { return run_condyle(folder.path(), arguments); }
   void expect_refused(int exit_code, const std::string& arguments, std::string_view saying) const {
     expect_refusal(run(arguments), exit_code, saying, arguments);

@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 /// Answers of `condyle rom` for a hip with a head: its bearing surface, bands and maps.
 class RomOfSampleHip : public ::testing::Test {
  protected:
-  void SetUp() override { ASSERT_EQ(run("sample hip --out .").exit_code, 0); }
+  void SetUp() override { sample_into(folder.path(), "hip"); }
   Ran run(const std::string& arguments) const { return run_condyle(folder.path(), arguments); }
   Json answer(const std::string& arguments) const {
     const Ran ran = run("rom hip.toml --json " + arguments);

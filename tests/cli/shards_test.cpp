@@ -47,7 +47,7 @@ constexpr int shard_count = 4;
 class Shards : public ::testing::TestWithParam<Sharded> {
  protected:
   void SetUp() override {
-    ASSERT_EQ(run("sample replacement --facets 60 --out .").exit_code, 0);
+    sample_into(here, "replacement --facets 24");
     std::ofstream(here / "daily.csv") << "name,motion,reach_deg\nsitting,flexion,110\n";
     ASSERT_EQ(answer("--out whole").exit_code, 0);
     for (int i = 1; i <= shard_count; ++i) ASSERT_EQ(answer_shard(i).exit_code, 0);
