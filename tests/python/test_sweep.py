@@ -64,7 +64,7 @@ def test_it_is_that_of_the_command(zone, by_command):
             pair = zone.ended_by[at][t]
             by = "" if pair < 0 else f"{zone.pairs[pair].mobile} on {zone.pairs[pair].fixed}"
             assert row[f"{target.name}_ended_by"] == by
-    safe = rows_of(tmp_path / "zone/safe.csv")
+    safe = rows_of(by_command / "safe.csv")
     assert len(safe) == len(zone.safe_intervals) > 1
     for row, interval in zip(safe, zone.safe_intervals):
         assert float(row["cup.inclination"]) == interval.values["cup.inclination"]
