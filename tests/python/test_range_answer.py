@@ -111,14 +111,14 @@ def test_a_label_map_that_its_image_cuts(command, sampled, tmp_path):
 
 @pytest.mark.filterwarnings("ignore::condyle.JointWarning")
 def test_an_implant(command, sampled, tmp_path):
-    file = sampled(tmp_path, "replacement", "--bones", "none") / "hip.toml"
+    file = sampled(tmp_path, "replacement", "--bones", "none", "--facets", "60") / "hip.toml"
     rom = require_same(condyle.read_joint(file), command, file)
     assert rom.implant["why_no_closed_form"] if rom["flexion"].closed_form is None else rom.implant["half_angle_deg"] > 0
     assert all(limit.closed_form for limit in rom)
 
 
 def test_an_implant_whose_meshes_are_not_those_of_its_sizes(command, sampled, tmp_path):
-    file = sampled(tmp_path, "replacement", "--bones", "none") / "hip.toml"
+    file = sampled(tmp_path, "replacement", "--bones", "none", "--facets", "60") / "hip.toml"
     file.write_text(file.read_text().replace("neck_radius = 6", "neck_radius = 7"))
     with pytest.warns(condyle.JointWarning, match="differs_from_closed_form"):
         rom = require_same(condyle.read_joint(file), command, file)
