@@ -6,6 +6,8 @@ cmake_minimum_required(VERSION 3.25)
 set(include ${SOURCE}/include)
 file(GLOB_RECURSE headers RELATIVE ${include} ${include}/condyle/*.hpp)
 file(STRINGS ${include}/condyle/condyle.hpp umbrella REGEX "#include")
+file(STRINGS ${include}/condyle/answer.hpp answers REGEX "#include")
+list(APPEND umbrella ${answers})
 
 # A type counts if its definition, or an alias of one, begins a line within `namespace condyle {`.
 list(LENGTH headers header_count)
