@@ -46,6 +46,44 @@ bool is_farther(const Vec3& p, const TriangleCorners& t, double squared) noexcep
   return least - longest / 2 > squared * (1 + 0x1p-40);
 }
 
+/// `squared_bound` of a node and of what is as near as the best so far: no triangle of the node is nearer to p. `nearest` is a triangle to begin
+/// with or no_index, and becomes one that is nearest: the distance is the same.
+double nearest_distance(const TriangleTree& surface, const Vec3& p, Index& nearest,
+                        const auto& squared_bound) noexcept {
+  struct Waiting {
+    double squared;
+    Index node;
+  };
+  // A split halves the key's bits that differ, at most 32 times, and then the triangles of one key.
+  constexpr std::size_t most_levels = 72;
+  std::array<Waiting, most_levels> waiting;
+  double best = std::numeric_limits<double>::infinity();
+  if (nearest != no_index) best = std::min(best, distance_to_triangle(p, surface.corners(nearest)));
+  std::size_t count = 0;
+  waiting[count++] = {0, 0};
+  while (count > 0) {
+    const auto [squared, at] = waiting[--count];
+    if (squared > best * best) continue;
+    const TriangleTree::Node& node = surface.nodes()[at];
+    if (node.is_leaf()) {
+      for (Index i = node.first; i < node.last; ++i) {
+        const TriangleCorners corners = surface.corners(i);
+        if (is_farther(p, corners, best * best)) continue;
+        const double distance = distance_to_triangle(p, corners);
+        if (distance < best) best = distance, nearest = i;
+      }
+      continue;
+    }
+    Waiting near{squared_bound(node.child, best * best), node.child},
+        far{squared_bound(node.child + 1, best * best), node.child + 1};
+    if (far.squared < near.squared) std::swap(near, far);
+    assert(count + 2 <= most_levels);
+    if (far.squared <= best * best) waiting[count++] = far;
+    if (near.squared <= best * best) waiting[count++] = near;
+  }
+  return best;
+}
+
 }  // namespace
 
 double distance_to_triangle(const Vec3& p, const TriangleCorners& t) noexcept {
@@ -59,29 +97,17 @@ double distance_to_triangle(const Vec3& p, const TriangleCorners& t) noexcept {
 }
 
 double distance_to_surface(const TriangleTree& surface, const Vec3& p) noexcept {
-  // A split halves the key's bits that differ, at most 32 times, and then the triangles of one key.
-  constexpr std::size_t most_levels = 72;
-  std::array<Index, most_levels> waiting;
-  double best = std::numeric_limits<double>::infinity();
-  std::size_t count = 0;
-  waiting[count++] = 0;
-  while (count > 0) {
-    const TriangleTree::Node& node = surface.nodes()[waiting[--count]];
-    if (squared_distance_to_box(p, node) > best * best) continue;
-    if (node.is_leaf()) {
-      for (Index i = node.first; i < node.last; ++i)
-        if (const TriangleCorners corners = surface.corners(i); !is_farther(p, corners, best * best))
-          best = std::min(best, distance_to_triangle(p, corners));
-      continue;
-    }
-    Index near = node.child, far = node.child + 1;
-    if (squared_distance_to_box(p, surface.nodes()[far]) < squared_distance_to_box(p, surface.nodes()[near]))
-      std::swap(near, far);
-    assert(count + 2 <= most_levels);
-    waiting[count++] = far;
-    waiting[count++] = near;
-  }
-  return best;
+  Index nearest = no_index;
+  return nearest_distance(surface, p, nearest, [&](Index node, double) {
+    return squared_distance_to_box(p, surface.nodes()[node]);
+  });
+}
+
+double DistancesToSurface::operator()(const Vec3& p, Index& nearest) const noexcept {
+  return nearest_distance(surface_, p, nearest, [&](Index node, double enough) {
+    const double squared = squared_distance_to_box(p, surface_.nodes()[node]);
+    return squared > enough ? squared : std::max(squared, discs_.squared_distance(p, node));
+  });
 }
 
 }  // namespace condyle::mesh

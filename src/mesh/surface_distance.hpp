@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "condyle/mesh.hpp"
+#include "mesh/node_discs.hpp"
 #include "mesh/triangle_intersection.hpp"
 #include "mesh/triangle_tree.hpp"
 
@@ -13,10 +14,25 @@ namespace condyle::mesh {
 double distance_to_triangle(const Vec3& p, const TriangleCorners& t) noexcept;
 
 /// Distance from any point to the nearest point of a mesh, over a tree of its triangles, of which there is one: the shortest exit by
-/// translation, in any direction. A query tests a few leaves.
+/// translation, in any direction. A query tests a few leaves if the point is near; from a distance, more of a finer mesh.
 double distance_to_surface(const TriangleTree& surface, const Vec3& p) noexcept;
 
-/// The same with a tree of its own, built once.
+/// The same for many points, wherever they are: a query tests a few leaves however distant the point and fine the mesh. Linear to make.
+class DistancesToSurface {
+ public:
+  /// The tree must have a triangle, outlive this and keep its vertices.
+  explicit DistancesToSurface(const TriangleTree& surface) : surface_(surface), discs_(surface) {}
+
+  /// `nearest` is no_index, or the place of a triangle that is near p, as the one nearest to the point before: it makes this faster
+  /// and changes no distance. It becomes the place of a triangle that is nearest.
+  double operator()(const Vec3& p, Index& nearest) const noexcept;
+
+ private:
+  const TriangleTree& surface_;
+  NodeDiscs discs_;
+};
+
+/// distance_to_surface() with a tree of its own, built once.
 class SurfaceDistance {
  public:
   /// The mesh must have a triangle.

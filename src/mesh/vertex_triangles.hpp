@@ -16,7 +16,7 @@ class VertexTriangles {
   VertexTriangles() = default;
   /// Linear. Vertices and triangles of the mesh may move afterwards, not change.
   explicit VertexTriangles(const TriMesh& mesh) : VertexTriangles(mesh.triangles, mesh.vertices.size()) {}
-  /// Of some triangles, by their places among them.
+  /// The same for triangles without a mesh: their numbers are their places in `triangles`.
   VertexTriangles(std::span<const Triangle> triangles, std::size_t vertices);
 
   bool empty() const noexcept { return first_.empty(); }

@@ -1,19 +1,47 @@
 #include "io/picture/surface_values.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "condyle/answer.hpp"
+#include "core/parallel.hpp"
 #include "mesh/require_solid.hpp"
+#include "mesh/surface_distance.hpp"
 
 namespace condyle::io {
 namespace {
 
-/// The distance, below zero inside.
-std::vector<double> signed_distances(std::vector<double> distances,
-                                     const std::optional<radial::RadialResults>& results) {
-  if (results)
-    for (std::size_t v = 0; v < distances.size(); ++v)
-      if (results->state[v] == PointState::inside) distances[v] = -distances[v];
+/// Between the corners of a triangle a colour depends on how far outside they are only if not all are outside: those of such triangles.
+std::vector<char> beside_the_inside(const TriMesh& mesh, const std::vector<PointState>& states) {
+  std::vector<char> is_beside(states.size());
+  for (const Triangle& triangle : mesh.triangles)
+    if (std::any_of(triangle.begin(), triangle.end(),
+                    [&](Index v) { return states[v] != PointState::outside; }))
+      for (const Index v : triangle) is_beside[v] = 1;
+  return is_beside;
+}
+
+/// Of a vertex that is outside and whose distance changes no colour.
+constexpr double somewhere_outside_mm = 1;
+
+/// The distance of each vertex to the other body's surface, below zero inside. `distances` has those of vertices inside, `X` takes vertices
+/// into the other body's frame.
+std::vector<double> signed_distances(const Mesh& mesh, const Mesh& other, const Pose& X,
+                                     const std::optional<radial::RadialResults>& results,
+                                     PictureColour colour, std::vector<double> distances) {
+  const std::vector<char> is_beside = colour == PictureColour::depth
+                                          ? beside_the_inside(mesh.arrays(), results->state)
+                                          : std::vector<char>(distances.size(), 1);
+  const auto tree = mesh::tree_of(other);
+  const mesh::DistancesToSurface distance(*tree);
+  core::parallel_chunks(distances.size(), 256, [&](std::size_t first, std::size_t last) {
+    Index nearest = no_index;
+    for (std::size_t v = first; v < last; ++v)
+      if (results && results->state[v] == PointState::inside)
+        distances[v] = -distances[v];
+      else
+        distances[v] = is_beside[v] ? distance(posed(X, mesh.vertices()[v]), nearest) : somewhere_outside_mm;
+  });
   return distances;
 }
 
@@ -41,16 +69,14 @@ BothValues surface_values(PictureColour colour, const Joint& joint, const JointA
         .mobile = {.mm = std::move(contact.mobile_in_fixed->radial_gap_mm), .outside = {}, .is_bound = {}}};
   }
   const DepthMethod method = colour == PictureColour::nearest ? DepthMethod::radial : DepthMethod::reliable;
-  DepthAnswer answer = answer_depth(bodies, joint,
-                                    {.X_FM = X_FM,
-                                     .pose = at,
-                                     .method = method,
-                                     .distances = contact::DistancesOf::all_vertices,
-                                     .measures = MeasuresOf::distances_only});
+  DepthAnswer answer = answer_depth(
+      bodies, joint, {.X_FM = X_FM, .pose = at, .method = method, .measures = MeasuresOf::distances_only});
   auto& [contact, reliable] = std::get<RayDepths>(answer.depths);
   contact::NearestDistances& distances = answer.measures.distances;
-  auto of_fixed = signed_distances(std::move(distances.fixed), contact.fixed_in_mobile);
-  auto of_mobile = signed_distances(std::move(distances.mobile), contact.mobile_in_fixed);
+  auto of_fixed = signed_distances(joint.fixed.mesh, joint.mobile.mesh, inverted(X_FM),
+                                   contact.fixed_in_mobile, colour, std::move(distances.fixed));
+  auto of_mobile = signed_distances(joint.mobile.mesh, joint.fixed.mesh, X_FM, contact.mobile_in_fixed,
+                                    colour, std::move(distances.mobile));
   if (colour == PictureColour::nearest)
     return {.fixed = {.mm = std::move(of_fixed), .outside = {}, .is_bound = {}},
             .mobile = {.mm = std::move(of_mobile), .outside = {}, .is_bound = {}}};
