@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
@@ -15,8 +14,8 @@
 #include "core/float_bounds.hpp"
 #include "core/lazy.hpp"
 #include "core/parallel.hpp"
-#include "core/predicates.hpp"
 #include "mesh/findings.hpp"
+#include "mesh/oriented_boxes.hpp"
 #include "mesh/triangle_intersection.hpp"
 #include "mesh/triangle_tree.hpp"
 
@@ -98,62 +97,13 @@ bool has_any(const CommonVertices& common) noexcept {
   return std::any_of(common.begin(), common.end(), [](Index v) { return v != no_index; });
 }
 
-/// Bounds along the diagonals of a cube: the boxes of triangles that run to one vertex from all sides overlap, these tell most of
-/// them apart. Wider than what they hold by the rounding of the sums.
-struct Slabs {
-  static constexpr int directions = 10;
-  std::array<double, directions> low, high;
-
-  explicit Slabs(const Vec3& p) {
-    const double x = p.x(), y = p.y(), z = p.z();
-    const double rounding = 8 * core::rounding_unit * (std::abs(x) + std::abs(y) + std::abs(z));
-    low = {x + y, x - y, x + z, x - z, y + z, y - z, x + y + z, x + y - z, x - y + z, x - y - z};
-    high = low;
-    for (double& value : low) value -= rounding;
-    for (double& value : high) value += rounding;
-  }
-
-  void extend(const Slabs& other) noexcept {
-    for (std::size_t k = 0; k < directions; ++k) {
-      low[k] = std::min(low[k], other.low[k]);
-      high[k] = std::max(high[k], other.high[k]);
-    }
-  }
-};
-
-bool apart(const Slabs& a, const Slabs& b) noexcept {
-  for (std::size_t k = 0; k < Slabs::directions; ++k)
-    if (a.low[k] > b.high[k] || b.low[k] > a.high[k]) return true;
+/// Whether so many triangles meet in one vertex that upright boxes of many of them overlap.
+bool is_fan(const TriangleTree& tree, const std::vector<CommonVertices>& common) {
+  constexpr Index many = 64;
+  for (std::size_t i = 0; i < common.size(); ++i)
+    if (tree.nodes()[i].last - tree.nodes()[i].first >= many && has_any(common[i])) return true;
   return false;
 }
-
-/// Bounds of all triangles and nodes of a mesh in which many triangles meet in one vertex; of any other they cost more than they
-/// save, and there are none.
-struct AllSlabs {
-  std::vector<Slabs> triangles, nodes;
-
-  AllSlabs(const TriangleTree& tree, const std::vector<CommonVertices>& common) {
-    constexpr Index many = 64;
-    bool has_many = false;
-    for (std::size_t i = 0; i < common.size() && !has_many; ++i)
-      has_many = tree.nodes()[i].last - tree.nodes()[i].first >= many && has_any(common[i]);
-    if (!has_many) return;
-    for (Index t = 0; t < tree.triangles().size(); ++t) {
-      const TriangleCorners c = tree.corners(t);
-      triangles.emplace_back(c[0]).extend(Slabs(c[1]));
-      triangles.back().extend(Slabs(c[2]));
-    }
-    nodes.assign(common.size(), Slabs(Vec3::Zero()));
-    for (std::size_t i = nodes.size(); i-- > 0;) {
-      const Node& node = tree.nodes()[i];
-      nodes[i] = node.is_leaf() ? triangles[node.first] : nodes[node.child];
-      if (node.is_leaf())
-        for (Index t = node.first + 1; t < node.last; ++t) nodes[i].extend(triangles[t]);
-      else
-        nodes[i].extend(nodes[node.child + 1]);
-    }
-  }
-};
 
 class CrossingSearch {
  public:
@@ -162,7 +112,7 @@ class CrossingSearch {
         triangle_boxes_(boxes_of_triangles(tree)),
         node_boxes_(boxes_of_nodes(tree, triangle_boxes_)),
         common_(common_vertices(tree)),
-        slabs_(tree, common_),
+        oriented_(is_fan(tree, common_) || are_often_slender(tree) ? OrientedBoxes(tree) : OrientedBoxes()),
         crosses_(tree.triangles().size()) {}
 
   SelfCrossings run() {
@@ -188,13 +138,14 @@ class CrossingSearch {
       while (!own.empty()) {
         const NodePair pair = own.back();
         own.pop_back();
+        ++noted.steps;
         if (are_leaves(pair))
           test_leaves(pair, noted);
         else
           go_down(pair, own);
       }
       const std::lock_guard lock(mutex);
-      found_.pairs += noted.pairs;
+      found_.pairs += noted.pairs, found_.steps += noted.steps;
       if (noted.first) found_.first = std::min(found_.first.value_or(*noted.first), *noted.first);
     });
     found_.crosses.assign(crosses_.begin(), crosses_.end());
@@ -207,7 +158,7 @@ class CrossingSearch {
   };
   /// What one task found; which triangles cross it writes down at once.
   struct Noted {
-    std::size_t pairs = 0;
+    std::size_t pairs = 0, steps = 0;
     std::optional<std::array<Index, 2>> first;
   };
 
@@ -229,12 +180,9 @@ class CrossingSearch {
   }
 
   void add(Index i, Index j, std::vector<NodePair>& below) const {
-    if (i != j && (apart(node_boxes_[i], node_boxes_[j]) || are_apart(slabs_.nodes, i, j))) return;
+    if (i != j && (apart(node_boxes_[i], node_boxes_[j]) || (!oriented_.empty() && oriented_.apart(i, j))))
+      return;
     if (!all_share_a_vertex(i, j)) below.push_back({i, j});
-  }
-
-  static bool are_apart(const std::vector<Slabs>& slabs, std::size_t i, std::size_t j) noexcept {
-    return !slabs.empty() && apart(slabs[i], slabs[j]);
   }
 
   /// Whether every triangle of one node has a vertex that every triangle of the other has too: then none of them cross.
@@ -258,10 +206,15 @@ class CrossingSearch {
         near[kept] = t;
         kept += static_cast<std::size_t>(!apart(box, triangle_boxes_[t]));
       }
-      for (std::size_t k = 0; k < kept; ++k)
-        if (!share_a_vertex(s, near[k]) && !are_apart(slabs_.triangles, s, near[k]) &&
-            cross(tree_.corners(s), tree_.corners(near[k])))
+      noted.steps += kept;
+      const TriangleCorners corners = tree_.corners(s);
+      const auto strip = oriented_.empty() ? std::nullopt : std::optional<TriangleStrip>(corners);
+      for (std::size_t k = 0; k < kept; ++k) {
+        if (share_a_vertex(s, near[k])) continue;
+        const TriangleCorners others = tree_.corners(near[k]);
+        if (!(strip && strip->apart(others)) && cross(corners, others))
           note(tree_.mesh_triangles()[s], tree_.mesh_triangles()[near[k]], noted);
+      }
     }
   }
 
@@ -291,7 +244,7 @@ class CrossingSearch {
   const TriangleTree& tree_;
   std::vector<Box> triangle_boxes_, node_boxes_;
   std::vector<CommonVertices> common_;
-  AllSlabs slabs_;
+  OrientedBoxes oriented_;                          ///< none for most surfaces
   std::vector<std::atomic<std::uint8_t>> crosses_;  ///< of the triangles, by whichever task
   SelfCrossings found_;
 };

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <numbers>
 #include <random>
 
@@ -94,18 +93,63 @@ TEST(SelfCrossings, OfManyTrianglesRoundAVertexAreThoseOfExactBruteForce) {
   }
 }
 
-TEST(SelfCrossings, TakeLittleLongerForManyTrianglesRoundAVertex) {
-  // Quadratic, 160,000 triangles take 64 times as long as 20,000; n log n, less than 10 times.
+/// A globe of so many meridians, `height` times as tall as it is wide: all triangles are slender, and those of the first and of the last
+/// row run to a pole.
+TriMesh globe(Index meridians, Index rows, double height, const Eigen::Quaterniond& turn) {
+  TriMesh mesh;
+  for (Index r = 1; r < rows; ++r)
+    for (Index k = 0; k < meridians; ++k) {
+      const double down = std::numbers::pi * r / rows, along = 2 * std::numbers::pi * k / meridians;
+      mesh.vertices.push_back(turn * Vec3(24 * std::sin(down) * std::cos(along),
+                                          24 * std::sin(down) * std::sin(along),
+                                          24 * height * std::cos(down)));
+    }
+  const Index top = (rows - 1) * meridians, bottom = top + 1;
+  mesh.vertices.push_back(turn * Vec3(0, 0, 24 * height));
+  mesh.vertices.push_back(turn * Vec3(0, 0, -24 * height));
+  for (Index k = 0; k < meridians; ++k) {
+    const Index next = (k + 1) % meridians, last = top - meridians;
+    mesh.triangles.push_back({k, next, top});
+    for (Index first = 0; first < last; first += meridians) {
+      const Index below = first + meridians;
+      mesh.triangles.push_back({first + k, below + k, first + next});
+      mesh.triangles.push_back({first + next, below + k, below + next});
+    }
+    mesh.triangles.push_back({last + next, last + k, bottom});
+  }
+  return mesh;
+}
+
+TEST(SelfCrossings, OfSlenderTrianglesAreThoseOfExactBruteForce) {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (int round = 0; round < 2; ++round) {
+    const auto turn = [&] {
+      return Eigen::Quaterniond(number(random), number(random), number(random), number(random)).normalized();
+    };
+    const TriMesh needle = globe(24, 4, 20, turn()), other = globe(20, 3, 30, turn());
+    EXPECT_EQ(self_crossings_of(needle).pairs, 0u);
+    const TriMesh both = test::joined(needle, other);
+    const SelfCrossings expected = by_brute_force(both), found = self_crossings_of(both);
+    EXPECT_GT(expected.pairs, 20u);
+    EXPECT_EQ(found.pairs, expected.pairs);
+    EXPECT_EQ(found.first, expected.first);
+    EXPECT_EQ(found.crosses, expected.crosses);
+  }
+}
+
+TEST(SelfCrossings, TakeStepsInProportionToSlenderTrianglesAndToThoseRoundAVertex) {
+  // Four times the triangles: n log n it is about five times the steps, quadratic sixteen.
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
-  const auto seconds = [&](Index sides) {
-    const Mesh mesh(two_cones(sides, turn));
-    const std::clock_t begin = std::clock();
-    EXPECT_EQ(self_crossings_of(mesh).pairs, 0u);
-    return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  const auto steps_of = [](const TriMesh& mesh) {
+    const SelfCrossings found = self_crossings_of(mesh);
+    EXPECT_EQ(found.pairs, 0u);
+    return found.steps;
   };
-  double few = seconds(10000);
-  few = std::min(few, seconds(10000));
-  EXPECT_LT(seconds(80000), 30 * few);
+  for (const Index count : {1000u, 4000u}) {
+    EXPECT_LE(steps_of(two_cones(4 * count, turn)), 6 * steps_of(two_cones(count, turn)));
+    EXPECT_LE(steps_of(globe(4 * count, 8, 1, turn)), 6 * steps_of(globe(count, 8, 1, turn)));
+  }
 }
 
 TEST(SelfCrossings, AreThoseOfExactBruteForce) {
