@@ -7,6 +7,7 @@
 
 #include "core/float_bounds.hpp"
 #include "core/parallel.hpp"
+#include "mesh/triangle_intersection.hpp"
 
 namespace condyle::mesh {
 namespace {

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "io/picture/surface_values.hpp"
 #include "mesh/surface_distance.hpp"
