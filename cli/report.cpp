@@ -129,16 +129,14 @@ std::optional<SweepRequest> swept(const ReportArguments& options, const io::Load
   return request;
 }
 
-/// What is said beside the answers, in the order in which they were found.
-void note_answers(const ReportArguments& options, const io::LoadedJoint& loaded,
-                  const std::optional<JointBefore>& before, const io::ReportRequest& request,
-                  const io::ReportAnswer& answer) {
+/// What is said beside the answers; notes on contact have been said.
+void note_answers(const ReportArguments& options, const std::optional<JointBefore>& before,
+                  const io::ReportRequest& request, const io::ReportAnswer& answer) {
   if (answer.plan) note_all(answer.plan->notes);
   const auto of_limits = [](const io::RangeOrReason& range, std::string_view whose) {
     if (range.answer) return note_all(range.answer->notes, whose);
     note(fmt::format("{}no limits: {}", whose, range.why_none));
   };
-  note_contact(answer.contact_notes, loaded, options.strictness);
   of_limits(answer.range, before ? options.joint() + ": " : "");
   if (before) of_limits(answer.before, before->whose);
   if (answer.sweep) note_all(answer.sweep->notes);
@@ -166,11 +164,13 @@ void report_command(const ReportArguments& options, const CLI::App& command) {
   request.plan = planned(options, request.range);
   request.sweep = swept(options, loaded, request.range);
   if (before) request.before = &before->loaded;
-  if (options.with_pressure) contact_of({}, loaded.report.file, true);
+  std::vector<motion::ContactNote> said;
   request.look_at_notes = [&](const std::vector<std::string>& processing,
-                              const std::vector<motion::ContactNote>& notes) {
+                              const std::vector<motion::ContactNote>& contact) {
     for (const std::string& remark : processing) note(remark);
-    if (options.strictness == Strictness::errors) note_contact(notes, loaded, options.strictness);
+    const auto before_these = static_cast<std::ptrdiff_t>(said.size());
+    motion::add_new(said, contact);
+    note_contact({said.begin() + before_these, said.end()}, loaded, options.strictness);
   };
   const std::vector<JointNote> notes =
       noted(loaded, options.strictness, before ? options.joint() + ": " : "");
@@ -183,7 +183,7 @@ void report_command(const ReportArguments& options, const CLI::App& command) {
 
   const io::ReportAnswer answer =
       with_progress([&](const Control& control) { return io::answer_report(loaded, request, control); });
-  note_answers(options, loaded, before, request, answer);
+  note_answers(options, before, request, answer);
   io::add_other_files(from, read);
   io::ReportWords words{.title = options.title, .labels = options.labels, .notes = notes, .from = &from};
   if (before) words.notes_before = before->notes, words.from_before = &before->from;

@@ -26,6 +26,7 @@
 #include "notes.hpp"
 #include "range_options.hpp"
 #include "set_option.hpp"
+#include "with_progress.hpp"
 
 namespace condyle::cli {
 namespace {

@@ -221,7 +221,8 @@ void sample_command(const CohortOptions& options) {
   io::SampleCohort cohort = options.cohort;
   cohort.scenario = static_cast<sample::Scenario>(options.scenario);
   const auto written = with_progress(
-      [&](const Control& control) { return io::write_sample_cohort(options.out, cohort, control); });
+      [&](const Control& control) { return io::write_sample_cohort(options.out, cohort, control); },
+      Writes::files);
   say_written(written);
   print(fmt::format("{} hips, for condyle study {}\n", cohort.n, written.front().string()));
 }

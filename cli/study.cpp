@@ -14,6 +14,7 @@
 #include "help_formatter.hpp"
 #include "range_options.hpp"
 #include "resection_options.hpp"
+#include "with_progress.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -73,7 +74,7 @@ void study_command(const StudyArguments& given) {
   io::Study study{given.table, given.out, study_options(given), {}, given.bad_joint};
   if (!given.shard.empty()) study.shard = io::Shard::parse(given.shard);
   const io::StudyDone done =
-      with_progress([&](const Control& control) { return io::run_study(study, control); });
+      with_progress([&](const Control& control) { return io::run_study(study, control); }, Writes::files);
   for (const io::NotedJoint& joint : done.noted) note(joint.id + ": " + joint.codes);
   if (done.was_there)
     note("is there already, of the same inputs, options and version");

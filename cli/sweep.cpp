@@ -69,11 +69,6 @@ void add_quantities(const SweepArguments& options, const io::LoadedJoint& loaded
 void sweep_command(const SweepArguments& options, const CLI::App& command) {
   const io::InputRecorder read;
   const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
-  if (options.range->band.any_sigma())
-    throw UsageError(
-        "--sigma-centre, --sigma-axes and --sigma-surface: a sweep displaces parameters of parts only, by "
-        "their "
-        "sigma in the joint file");
   const std::string targets = io::read_whole_file(options.targets);
   RangeRequest range = range_request_of(*options.range, loaded, {});
   SweepRequest request{.parameters = plan::parse_sweep(options.vary),

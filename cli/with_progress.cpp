@@ -35,14 +35,16 @@ class Stage {
     progress_->update(done, total);
   }
 
-  std::string interrupted() const {
+  /// Ends it, and says where.
+  std::string interrupted() {
     const std::scoped_lock lock(mutex_);
+    progress_.reset();
     if (name_.empty()) return "interrupted; nothing is written";
     return fmt::format("interrupted after {} of {} {}; nothing is written", done_, total_, name_);
   }
 
  private:
-  mutable std::mutex mutex_;
+  std::mutex mutex_;
   std::optional<Progress> progress_;
   std::string name_;
   std::size_t done_ = 0, total_ = 0;
@@ -50,7 +52,7 @@ class Stage {
 
 }  // namespace
 
-void run_with_progress(const std::function<bool(const Control&)>& work) {
+void run_with_progress(const std::function<bool(const Control&)>& work, Writes writes) {
   const InterruptWatch watch;
   std::stop_source stop;
   Stage stage;
@@ -76,7 +78,10 @@ void run_with_progress(const std::function<bool(const Control&)>& work) {
   const auto report = [&](std::string_view name, std::size_t done, std::size_t total) {
     stage.update(name, done, total);
   };
-  if (!work({report, stop.get_token()})) throw Interrupted(stage.interrupted());
+  const bool completed = work({report, stop.get_token()});
+  // Work may end before it sees that it is to stop.
+  if (!completed || (writes == Writes::nothing && watch.interrupted()))
+    throw Interrupted(stage.interrupted());
 }
 
 }  // namespace condyle::cli

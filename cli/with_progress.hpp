@@ -10,19 +10,24 @@
 
 namespace condyle::cli {
 
+/// Whether work writes its own files, at its end and whole or not at all: once they are there, a signal comes too late.
+enum class Writes { nothing, files };
+
 /// Runs `work`, which answers whether it was completed, with a control that shows progress. SIGINT or SIGTERM stops it, and throws
 /// Interrupted; work whose steps take longer than anybody waits is left: a second after the signal the process has ended with exit code
-/// 130. For work that writes only at its end, and whole or not at all.
-void run_with_progress(const std::function<bool(const Control&)>& work);
+/// 130.
+void run_with_progress(const std::function<bool(const Control&)>& work, Writes writes);
 
 /// The answer of `compute`, an optional that is empty if it was stopped; as run_with_progress().
 template <class Compute>
-auto with_progress(const Compute& compute) {
+auto with_progress(const Compute& compute, Writes writes = Writes::nothing) {
   std::invoke_result_t<Compute, const Control&> answer;
-  run_with_progress([&](const Control& control) {
-    answer = compute(control);
-    return answer.has_value();
-  });
+  run_with_progress(
+      [&](const Control& control) {
+        answer = compute(control);
+        return answer.has_value();
+      },
+      writes);
   return *std::move(answer);
 }
 

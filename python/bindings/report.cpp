@@ -5,6 +5,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "condyle/error.hpp"
 #include "condyle/hip_measures.hpp"
 #include "condyle/io/picture.hpp"
 #include "interrupts.hpp"
@@ -43,13 +44,19 @@ io::ReportAnswer known_of(const RangeHandle& range, const io::ReportRequest& req
   return known;
 }
 
-/// The notes on motion and layers.
-py::list report(const RangeHandle& range, const JointHandle& handle, const std::filesystem::path& path,
-                const std::optional<std::string>& title, const py::object& band,
-                const std::optional<double>& past_deg, bool with_measures, const PlanHandle* plan,
-                const JointHandle* with, const SweepHandle* sweep,
-                const std::optional<std::filesystem::path>& recorded, bool with_pressure,
-                const LabelArguments& labels, const py::object& progress) {
+/// What is said beside a page.
+struct Said {
+  std::vector<motion::ContactNote> notes = {};
+  std::vector<std::string> remarks = {};
+};
+
+/// Notes on motion and layers, and remarks: how the motion was read, and why the joint before has no limits.
+py::tuple report(const RangeHandle& range, const JointHandle& handle, const std::filesystem::path& path,
+                 const std::optional<std::string>& title, const py::object& band,
+                 const std::optional<double>& past_deg, bool with_measures, const PlanHandle* plan,
+                 const JointHandle* with, const SweepHandle* sweep,
+                 const std::optional<std::filesystem::path>& recorded, bool with_pressure,
+                 const LabelArguments& labels, const py::object& progress) {
   const io::LoadedJoint& loaded = plan ? plan->loaded : handle.loaded;
   if (sweep) check_sweep_of(*sweep, loaded);
   if (with)
@@ -67,11 +74,12 @@ py::list report(const RangeHandle& range, const JointHandle& handle, const std::
   if (from && recorded) from->read.push_back(*recorded);
   io::check_report_file(path, pointer(from));
   if (with) io::check_report_file(path, pointer(from_before));
-  return notes_of(with_progress(progress, [&](const Control& control) {
+  const Said said = with_progress(progress, [&](const Control& control) {
     const io::InputRecorder read;
     if (recorded) request.motion = io::read_motion_table(*recorded);
     const auto answer = io::answer_report(loaded, request, control, known_of(range, request, plan, sweep));
-    if (!answer) return std::vector<motion::ContactNote>();
+    if (!answer) return Said{};
+    if (!answer->range.answer) throw MeshError(answer->range.why_none);
     const auto notes_on = [](const io::LoadedJoint& of) {
       return check_joint(of.joint, of.report.placement);
     };
@@ -85,8 +93,13 @@ py::list report(const RangeHandle& range, const JointHandle& handle, const std::
                       .notes_before = before,
                       .from = pointer(from),
                       .from_before = pointer(from_before)});
-    return answer->contact_notes;
-  }));
+    Said beside{answer->contact_notes};
+    if (answer->recorded) beside.remarks = answer->recorded->motion.processing;
+    if (with && !answer->before.answer)
+      beside.remarks.push_back(with->loaded.joint.name + ": no limits: " + answer->before.why_none);
+    return beside;
+  });
+  return py::make_tuple(notes_of(said.notes), said.remarks);
 }
 
 io::BodyStyle style_named(const std::string& name) {

@@ -42,12 +42,18 @@ class FollowedRange:
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_kept": None}
 
+    def __copy__(self) -> FollowedRange:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> FollowedRange:
+        return self
+
     def write_report(self, path: Path, *, title: Optional[str] = None, case: Optional[str] = None, note: Optional[str] = None,
                      date: Optional[str] = None, whole_paths: bool = False, progress: Progress = None) -> None:
         """Writes one HTML file that shows the joint with these limits in any browser, as `condyle report --follow` does.
 
         `case`, `note`, `date`, `whole_paths` as of :meth:`RangeOfMotion.write_report`. Whole or not at all; FileError where it
-        cannot be written.
+        cannot be written, UsageError for limits that were pickled, which leaves out what a report shows.
 
         C++: `condyle::answer_range` in condyle/answer.hpp.
         """

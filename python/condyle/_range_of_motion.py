@@ -12,7 +12,7 @@ from . import _native
 from ._answer import html_of
 from ._contact_checks import notes_said, reported
 from ._described_joint import DescribedJoint
-from ._errors import UsageError, unknown
+from ._errors import UsageError, unknown, warn
 from ._impingement_zone import ImpingementZone, body_zone_of
 from ._limit_band import LimitBand
 from ._limits import FreeAngles, Limit, MotionLimit, end_text, limit_of, motion_limit_of
@@ -20,7 +20,7 @@ from ._motion import Motion, MotionLike, Motions
 from ._motion_map import MotionMap, map_of
 from ._resection import OfJoint, Resection
 from ._sweep import Sweep
-from ._words import BearingRule, ClockPlane, Path, Progress, band_of, number, path_of, progress_of, report_labels, text_of
+from ._words import BearingRule, FEWEST_SAMPLES, MOST_SAMPLES, ClockPlane, Path, Progress, band_of, count, number, path_of, progress_of, report_labels, text_of
 
 if TYPE_CHECKING:
     import pandas
@@ -171,7 +171,7 @@ class RangeOfMotion:
         """Free values of the third angle over a grid of the two others, on all threads.
 
         `column` and `row` are each one angle with first, last and step in degrees: `{"flexion": (0, 120, 10)}`. Exact
-        at every point. Ctrl-C ends it within points begun; `progress` is called with (done, total).
+        at every point; where no whole number of steps leads to a last value, a :class:`JointWarning` says so. Ctrl-C ends it within points begun; `progress` is called with (done, total).
 
         C++: `condyle::motion_map` in condyle/motion_map.hpp.
 
@@ -216,7 +216,7 @@ class RangeOfMotion:
         C++: `condyle::limit_bands` in condyle/limit_band.hpp.
         """
         asked = [limit.motion for limit in self.limits] if motions is None else self._motions.asked(motions)
-        band = band_of(samples, seed, sigma_centre_mm, sigma_axes_deg, sigma_surface_mm, "samples")
+        band = band_of(count(samples, "samples", FEWEST_SAMPLES, MOST_SAMPLES), seed, sigma_centre_mm, sigma_axes_deg, sigma_surface_mm)
         found = _native.limit_bands(self._native, [self._motions.tuple_of(each) for each in asked], band, progress_of(progress))
         return tuple(LimitBand(motion, **band) for motion, band in zip(asked, found))
 
@@ -262,13 +262,16 @@ class RangeOfMotion:
         """
         if plan is not None and load:
             raise UsageError("load: not with a plan, whose layers are of the joint with the bone")
-        reported(_native.write_report(
+        notes, remarks = _native.write_report(
             self._native, self._joint._native, path_of(path), None if title is None else text_of(title, "title"),
             band_of(band_samples, seed),
             None if past_deg is None else number(past_deg, "past_deg"), bool(measures),
             None if plan is None else plan._shown_by(self._joint), _native_before(before, plan),
             _native_sweep(sweep, plan), None if motion is None else path_of(motion, "motion"), bool(load),
-            report_labels(case, note, date, whole_paths), progress_of(progress)))
+            report_labels(case, note, date, whole_paths), progress_of(progress))
+        reported(notes)
+        for remark in remarks:
+            warn(remark)
 
     def _zone_of(self, found: Optional[dict[str, Any]]) -> Optional[ImpingementZone]:
         if found is None:

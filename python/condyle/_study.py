@@ -372,9 +372,10 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
         raise UsageError(f"follow_load: a StudyLoad is needed, not {type(follow_load).__name__}")
     if follow_load is not None and (follow_load.force_n is None or follow_load.at):
         raise UsageError("follow_load: needs force_n, and no pose: the motions have them")
+    band = band_of(band_samples, seed, sigma_centre_mm, sigma_axes_deg, sigma_surface_mm)
     for name, given in (("seed", seed), ("sigma_centre_mm", sigma_centre_mm), ("sigma_axes_deg", sigma_axes_deg),
                         ("sigma_surface_mm", sigma_surface_mm)):
-        if given is not None and not band_samples:
+        if given is not None and band is None:
             raise UsageError(f"{name}: is for band_samples")
     options = {
         "anatomy": word(anatomy, "anatomy", Anatomy), "motions": names,
@@ -382,7 +383,7 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
         "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm"),
         "accept_reference_contact": bool(accept_reference_contact),
         "exclude_reference_contacts": bool(exclude_reference_contacts), "map": _grid(map, vary),
-        "band": band_of(band_samples, seed, sigma_centre_mm, sigma_axes_deg, sigma_surface_mm),
+        "band": band,
         "depth_at": depth_at, "load": None if load is None else load._checked(),
         "follow_load": None if follow_load is None else follow_load._checked(),
         "measures": bool(measures), "resection": None if resection is None else resection._checked()}

@@ -120,14 +120,13 @@ Band = Optional[tuple[int, Optional[int], Optional[float], Optional[float], Opti
 
 
 def band_of(samples: int, seed: Optional[int] = None, sigma_centre_mm: Optional[float] = None, sigma_axes_deg: Optional[float] = None,
-            sigma_surface_mm: Optional[float] = None, what: str = "band_samples") -> Band:
+            sigma_surface_mm: Optional[float] = None) -> Band:
     """A band as the module is asked for it; None for no samples. What is None is as the joint's file says."""
+    samples = count(samples, "band_samples") and count(samples, "band_samples", FEWEST_SAMPLES, MOST_SAMPLES)
     seed = None if seed is None else count(seed, "seed", high=2**64 - 1)
     centre, axes, surface = (None if given is None else number(given, name) for given, name in (
         (sigma_centre_mm, "sigma_centre_mm"), (sigma_axes_deg, "sigma_axes_deg"), (sigma_surface_mm, "sigma_surface_mm")))
-    if not samples and what == "band_samples":
-        return None
-    return count(samples, what, FEWEST_SAMPLES, MOST_SAMPLES), seed, centre, axes, surface
+    return (samples, seed, centre, axes, surface) if samples else None
 
 
 def text_of(given: Any, name: str) -> str:

@@ -353,6 +353,11 @@ void check_sweep(const Case& of, const SweepRequest& request) {
       throw UsageError("target " + core::one_line(target.name) + " is given twice");
   }
   if (!request.bands) return;
+  if (request.bands->any_sigma())
+    throw UsageError(
+        "standard deviations of centre, axes and surfaces: a sweep displaces parameters of parts only, by "
+        "their "
+        "sigma in the joint file");
   motion::check_band(band_options(of, *request.bands));
   if (!has_uncertain_parameters(joint))
     throw UsageError("a band needs a parameter with a standard deviation: sigma of [[part.parameter]]");

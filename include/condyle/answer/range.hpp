@@ -34,7 +34,7 @@ struct FollowRecord {
 /// The translation of a free joint follows a load: at each step it is where the contact of the layers carries the load, linear in
 /// between.
 struct FollowLoad {
-  const contact::ElasticContact* layers = nullptr;  ///< outlives the query
+  const contact::ElasticContact* layers = nullptr;  ///< outlives the request
   contact::Load load = {};
   contact::BalanceOptions balance = {};  ///< rotations are held
   Angle step = Angle::degrees(1);

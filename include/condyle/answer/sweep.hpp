@@ -39,7 +39,7 @@ struct SweepRequest {
   std::vector<plan::SweptParameter> parameters = {};  ///< one to four; the last one changes fastest
   std::vector<plan::SweepTarget> targets = {};        ///< one or more
   motion::RangeOptions range = {};
-  /// The probability that a design leaves all targets free, over the standard deviations of parameters; the others of `sigma` are not used.
+  /// The probability that a design leaves all targets free, over the standard deviations of parameters, and no others.
   std::optional<BandRequest> bands = {};
   /// A joint is made anew for each design that has any: up to a second each.
   std::vector<SweepQuantities> quantities = {};

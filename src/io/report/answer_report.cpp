@@ -1,5 +1,7 @@
 #include "io/report/answer_report.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "condyle/error.hpp"
@@ -12,6 +14,15 @@ namespace {
 /// As the joint file describes it.
 ContactEntry entry_of(const LoadedJoint& loaded) {
   return loaded.report.file.contact.value_or(ContactEntry{});
+}
+
+void require_layers(const LoadedJoint& loaded) {
+  const ContactEntry entry = entry_of(loaded);
+  if (entry.fixed || entry.mobile) return;
+  const std::string file = loaded.report.file.path.string();
+  throw UsageError(
+      fmt::format("{}load: no layers: [contact.fixed] and [contact.mobile] of the joint file have them",
+                  file.empty() ? "" : file + ": "));
 }
 
 /// False if it was stopped.
@@ -49,8 +60,6 @@ std::optional<RecordedAnswer> recorded_of(const LoadedJoint& shown, const Report
 
 ReportedLayers layers_of(const LoadedJoint& shown, std::vector<motion::ContactNote>& notes) {
   const ContactEntry entry = entry_of(shown);
-  if (!entry.fixed && !entry.mobile)
-    throw UsageError("pressure: the joint has no layers: [contact.fixed] and [contact.mobile] of its file");
   const ContactSurfaces surfaces = surfaces_of(entry, shown.joint);
   ReportedLayers layers{entry, elastic_options(entry, surfaces, shown)};
   motion::add_new(notes, motion::check_layers(surfaces.fixed.mesh, surfaces.mobile.mesh, layers.options,
@@ -67,6 +76,7 @@ LoadedJoint shown_joint(const LoadedJoint& loaded, const ReportAnswer& answer) {
 
 std::optional<ReportAnswer> answer_report(const LoadedJoint& loaded, const ReportRequest& request,
                                           const Control& control, ReportAnswer known) {
+  if (request.with_pressure) require_layers(loaded);
   ReportAnswer answer = std::move(known);
   const auto named = [&](const auto& question) {
     const std::string file = loaded.report.file.path.string();
@@ -80,7 +90,8 @@ std::optional<ReportAnswer> answer_report(const LoadedJoint& loaded, const Repor
     if (!answer.plan) return std::nullopt;
   }
   const LoadedJoint shown = shown_joint(loaded, answer);
-  std::vector<motion::ContactNote>& notes = answer.contact_notes = range_request_notes(request.range);
+  std::vector<motion::ContactNote>& notes = answer.contact_notes =
+      answer.range.answer ? answer.range.answer->contact_notes : range_request_notes(request.range);
   if (request.motion) {
     answer.recorded = recorded_of(shown, request, control);
     if (!answer.recorded) return std::nullopt;

@@ -27,8 +27,8 @@ struct ReportRequest {
   bool with_measures = false;              ///< of a hip, with bands if the limits have them
   /// The joint with which the page compares its own, by check_comparable(): it has limits of the same motions, without a map and zones.
   const LoadedJoint* before = nullptr;
-  /// Called before the frames of a motion, which take long, and before the limits, with how the motion was read and with the notes known by
-  /// then; what it throws ends the work.
+  /// Called before the frames of a motion, which take long, with how it was read, and before the limits; each time with the notes on contact
+  /// that are known by then. What it throws ends the work.
   std::function<void(const std::vector<std::string>& processing, const std::vector<motion::ContactNote>&)>
       look_at_notes = {};
 };
@@ -61,8 +61,8 @@ struct ReportAnswer {
 
 /// Answers what is requested and not `known` already. Empty if it was stopped.
 ///
-/// Throws UsageError as check_range_request() and the other checks do, MeshError if a plan, a motion or a shape has no answer, with the
-/// joint file's name before it.
+/// Throws UsageError as check_range_request() and the other checks do, and for pressure without layers; MeshError as MotionOfJoint and
+/// answer_sweep() do, and if a plan or a shape has no answer, with the joint file's name before it.
 std::optional<ReportAnswer> answer_report(const LoadedJoint& loaded, const ReportRequest& request,
                                           const Control& control, ReportAnswer known = {});
 

@@ -12,7 +12,7 @@
 
 namespace condyle::io {
 
-/// The limits of a joint, that is held at its translation, and what they must be read with.
+/// The limits of a joint and what they must be read with. Its joint is that of the answer, which may be held at a translation.
 using RomResult = ResultOf<RangeAnswer>;
 
 /// Shows an answer, with what looks wrong with its joint. `from`, which may be null, gets the frame of a joint that is held at a translation.
