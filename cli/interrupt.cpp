@@ -49,19 +49,6 @@ void say_when_interrupted() noexcept {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define CONDYLE_SANITIZER_STARTS_FIRST
-#endif
-#endif
-#ifndef CONDYLE_SANITIZER_STARTS_FIRST
-/// Libraries take some milliseconds to start: their constructors come after this.
-[[gnu::used,
-  gnu::section(".preinit_array")]] static void (*const before_libraries_start)() = say_when_interrupted;
-#endif
-#endif
-
 InterruptWatch::InterruptWatch() {
   signalled = false;
   for (std::size_t i = 0; i < signals.size(); ++i) handle(signals[i], note_signal, &before_[i]);
