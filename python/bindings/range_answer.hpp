@@ -29,7 +29,7 @@ struct RangeHandle {
 /// Reads `count_bearing` and `bearing_margin_mm`, which Python has checked.
 motion::BearingOptions bearing_in(const py::dict& given);
 
-/// Of band_of() in Python: None, or samples, seed and three standard deviations, each None if it is left open.
+/// Reads what band_of() of Python gives: None, or samples, seed and three standard deviations, each None if it is left open.
 std::optional<BandRequest> band_in(const py::object& given);
 
 /// answer_range() of a joint, which Ctrl-C ends.

@@ -20,7 +20,8 @@ from ._motion import Motion, MotionLike, Motions
 from ._motion_map import MotionMap, map_of
 from ._resection import OfJoint, Resection
 from ._sweep import Sweep
-from ._words import BearingRule, FEWEST_SAMPLES, MOST_SAMPLES, ClockPlane, Path, Progress, band_of, count, number, path_of, progress_of, report_labels, text_of
+from ._words import FEWEST_SAMPLES, MOST_SAMPLES, BearingRule, ClockPlane, Path, Progress, band_of, count, number, path_of
+from ._words import progress_of, report_labels, text_of
 
 if TYPE_CHECKING:
     import pandas
@@ -171,9 +172,10 @@ class RangeOfMotion:
         """Free values of the third angle over a grid of the two others, on all threads.
 
         `column` and `row` are each one angle with first, last and step in degrees: `{"flexion": (0, 120, 10)}`. Exact
-        at every point; where no whole number of steps leads to a last value, a :class:`JointWarning` says so. Ctrl-C ends it within points begun; `progress` is called with (done, total).
+        at every point; a :class:`JointWarning` names an axis that ends before its last value. Ctrl-C ends it within points
+        begun; `progress` is called with (done, total).
 
-        C++: `condyle::motion_map` in condyle/motion_map.hpp.
+        C++: `condyle::further_answer` with `RangeRequest::map` in condyle/answer.hpp.
 
         >>> import condyle
         >>> bones = condyle.sample_hip(scenario=1)
@@ -213,7 +215,7 @@ class RangeOfMotion:
         a label map has 0.25 voxels along its normal, which is the grid's part and not the segmentation's. The same seed gives the
         same bands. Without `motions` those of `limits`.
 
-        C++: `condyle::limit_bands` in condyle/limit_band.hpp.
+        C++: `condyle::further_answer` with `RangeRequest::bands` in condyle/answer.hpp.
         """
         asked = [limit.motion for limit in self.limits] if motions is None else self._motions.asked(motions)
         band = band_of(count(samples, "samples", FEWEST_SAMPLES, MOST_SAMPLES), seed, sigma_centre_mm, sigma_axes_deg, sigma_surface_mm)
@@ -224,7 +226,7 @@ class RangeOfMotion:
               progress: Progress = None) -> tuple[Optional[ImpingementZone], ...]:
         """The overlap `past_deg` past each limit; None for motions that did not end by contact.
 
-        C++: `condyle::ZoneFinder` in condyle/impingement_zone.hpp.
+        C++: `condyle::further_answer` with `RangeRequest::zones_past` in condyle/answer.hpp.
         """
         asked = [limit.motion for limit in self.limits] if motions is None else self._motions.asked(motions)
         found = _native.impingement_zones(self._native, [self._motions.tuple_of(each) for each in asked],

@@ -1,7 +1,9 @@
 """Limits, maps, bands and zones are those of the command line, double by double."""
 
+import copy
 import csv
 import json
+import pickle
 import subprocess
 
 import numpy as np
@@ -303,6 +305,13 @@ def test_the_centre_follows_a_recorded_motion_or_a_load(tmp_path, coarse_bones, 
     contact = condyle.ElasticContact(layers.acetabular, layers.femoral, mobile_layer=condyle.ElasticLayer(12, 0.42, 1.5))
     loaded = joint.range_following(["flexion"], contact=contact, force_n=[0, 800, 0], step_deg=20)
     assert loaded["flexion"].reason in ("contact", "end_of_range") and "carries the load" in loaded.caveats[0]
+    stiff = condyle.ElasticContact(layers.acetabular, layers.femoral, mobile_layer=condyle.ElasticLayer(1.2e7, 0.42, 1.5))
+    with pytest.warns(condyle.JointWarning, match="unlikely_modulus"):
+        noted = joint.range_following(["flexion"], contact=stiff, force_n=[0, 800, 0], step_deg=20)
+    copy.copy(noted).write_report(tmp_path / "stiff.html")
+    assert {note.code for note in noted.notes} <= {note["code"] for note in text_of(tmp_path / "stiff.html")["rom"]["notes"]}
+    with pytest.raises(condyle.UsageError, match="pickled"):
+        pickle.loads(pickle.dumps(noted)).write_report(tmp_path / "again.html")
     with pytest.raises(condyle.UsageError, match="one of the two"):
         joint.range_following()
     with pytest.raises(condyle.UsageError, match="turns back"):

@@ -2,6 +2,7 @@
 
 import pickle
 import subprocess
+import warnings
 
 import numpy as np
 import pytest
@@ -121,6 +122,21 @@ def test_a_joint_of_arrays_has_a_report_without_files(tmp_path, coarse_bones):
     text = text_of(tmp_path / "hip.html")
     assert text["title"] == "made of arrays"
     assert text["rom"]["provenance"] is None
+
+
+def test_a_report_without_what_was_asked_for_is_none(tmp_path):
+    # A face of the mobile body runs through the joint centre: it has limits, and no zones.
+    corners = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
+    triangles = [[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4], [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6],
+                 [1, 3, 5], [3, 7, 5]]
+    arm, post = (condyle.TriMesh(low + corners * size, triangles) for low, size in (([-3, -100, -5], [7, 100, 11]),
+                                                                                    ([40, -80, -10], [20, 20, 20])))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", condyle.JointWarning)
+        rom = condyle.Joint(post, arm).range_of_motion(["flexion"])
+    with pytest.raises(condyle.MeshError, match="joint centre lies on the surface"):
+        rom.write_report(tmp_path / "arm.html", past_deg=5)
+    assert not (tmp_path / "arm.html").exists()
 
 
 def test_pressure_needs_layers(hip, tmp_path):

@@ -59,7 +59,8 @@ struct MotionAnswer {
 /// BetweenFrames::always without times or with a load.
 void check_motion_request(const MotionRequest& request);
 
-/// Contact along a motion, with pressure if there are layers; empty if it was stopped. Stages: "balanced frames", "ways between samples", "frames".
+/// Contact along a motion, with pressure if there are layers; empty if it was stopped. Stages: "balanced frames", "segments between
+/// samples", "frames".
 ///
 /// Throws UsageError as check_motion_request(), balance_along() and contact_between(), MeshError as contact_along().
 std::optional<MotionAnswer> answer_motion(const contact::JointContact& bodies,

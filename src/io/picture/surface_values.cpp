@@ -21,7 +21,7 @@ std::vector<char> beside_the_inside(const TriMesh& mesh, const std::vector<Point
   return is_beside;
 }
 
-/// Of a vertex that is outside and whose distance changes no colour.
+/// Stands for the distance of a vertex outside that changes no colour.
 constexpr double somewhere_outside_mm = 1;
 
 /// The distance of each vertex to the other body's surface, below zero inside. `distances` has those of vertices inside, `X` takes vertices

@@ -13,7 +13,7 @@ namespace condyle::io {
 
 using MeasureResult = ResultOf<MeasureAnswer>;
 
-/// Of each measure its definition too, if these are wanted.
+/// Adds the definition of each measure if these are wanted.
 std::string measure_text(const MeasureResult& result, bool with_definitions = false);
 std::string measure_json(const MeasureResult& result);
 /// A row for each measure.
