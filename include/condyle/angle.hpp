@@ -2,6 +2,7 @@
 
 #include <compare>
 #include <numbers>
+#include <string_view>
 
 namespace condyle {
 
@@ -36,6 +37,13 @@ enum class RotationSense : signed char { negative = -1, none = 0, positive = 1 }
 /// -1, 0 or +1.
 constexpr double sign_of(RotationSense sense) noexcept {
   return static_cast<double>(sense);
+}
+
+/// As in files: "positive".
+constexpr std::string_view name_of(RotationSense sense) noexcept {
+  return sense == RotationSense::positive   ? "positive"
+         : sense == RotationSense::negative ? "negative"
+                                            : "none";
 }
 
 }  // namespace condyle

@@ -14,6 +14,8 @@
 namespace condyle::motion {
 
 enum class FeatureKind : std::uint8_t { vertex, edge, face };
+/// As in files: "vertex".
+std::string_view name_of(FeatureKind kind) noexcept;
 
 /// A vertex by its number, an edge by its two vertices (ascending), a face by its triangle's number: numbers
 /// of the mesh.
@@ -33,6 +35,8 @@ enum class ContactKind : std::uint8_t {
   cut,          ///< A face that closes a bone where its image ends meets something: no contact of bones.
   soft,         ///< A mesh called soft touches: PartContact.
 };
+/// As in files: "bearing".
+std::string_view name_of(ContactKind kind) noexcept;
 
 /// A pair of features in contact, and the point on each body in its own frame. If several pairs are in contact at the
 /// same reported angle, the first in the order of Feature, the rotating body's feature compared first.
@@ -47,6 +51,8 @@ enum class LimitReason : std::uint8_t {
   end_of_range,      ///< Nothing meets in the whole range.
   contact_at_start,  ///< The surfaces meet at the start already, or one body is inside the other.
 };
+/// As in files: "end_of_range".
+std::string_view name_of(LimitReason reason) noexcept;
 
 /// Contact before a limit that does not end the motion: of bearing surfaces, or of a mesh called soft.
 struct EarlierContact {

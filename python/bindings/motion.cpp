@@ -52,14 +52,14 @@ py::object dict_of(const std::optional<motion::ContactWitness>& contact, const i
   dict["mobile_feature"] = feature_tuple(contact->mobile_feature);
   dict["fixed_point"] = array_of(frame.fixed_point(contact->fixed_point));
   dict["mobile_point"] = array_of(frame.mobile_point(contact->mobile_point));
-  dict["kind"] = io::name_of(contact->kind);
+  dict["kind"] = name_of(contact->kind);
   return dict;
 }
 
 py::dict dict_of(const motion::Limit& limit, const io::AnswerFrame& frame) {
   py::dict dict;
   dict["turned_deg"] = limit.turned.degrees();
-  dict["reason"] = io::name_of(limit.reason);
+  dict["reason"] = name_of(limit.reason);
   dict["contact"] = dict_of(limit.contact, frame);
   dict["error_bound_deg"] = limit.error_bound.degrees();
   const auto degrees = [](const std::optional<motion::EarlierContact>& contact) {

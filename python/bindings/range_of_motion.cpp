@@ -78,7 +78,7 @@ py::dict path_limit(const JointHandle& handle, const py::object& given, double t
   dict["fraction"] = limit.fraction;
   dict["angles_deg"] = std::array{limit.at.flexion.degrees(), limit.at.adduction.degrees(),
                                   limit.at.internal_rotation.degrees()};
-  dict["reason"] = io::name_of(limit.reason);
+  dict["reason"] = name_of(limit.reason);
   dict["contact"] = dict_of(limit.contact);
   dict["distance_mm"] = limit.distance_mm;
   return dict;

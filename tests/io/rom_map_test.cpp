@@ -108,8 +108,8 @@ TEST(MapIntervals, AreThoseOfEveryPointInItsOrder) {
     for (const motion::FreeInterval& free : map.points[i].intervals) {
       EXPECT_EQ(json["low_deg"][k], (map.grid.start + free.low).degrees());
       EXPECT_EQ(json["high_deg"][k], (map.grid.start + free.high).degrees());
-      EXPECT_EQ(json["low_reason"][k], io::name_of(free.at_low.reason));
-      EXPECT_EQ(json["high_reason"][k], io::name_of(free.at_high.reason));
+      EXPECT_EQ(json["low_reason"][k], name_of(free.at_low.reason));
+      EXPECT_EQ(json["high_reason"][k], name_of(free.at_high.reason));
       ++k;
     }
   }

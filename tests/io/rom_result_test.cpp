@@ -9,9 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "io/result/caveats.hpp"
-#include "io/result/clock_hour.hpp"
-#include "io/result/normal_range.hpp"
+#include "answer/limit_facts.hpp"
+#include "answer/motion_caveats.hpp"
+#include "io/result/clock_text.hpp"
+#include "io/result/scope_text.hpp"
 #include "rom_scene.hpp"
 
 namespace condyle::test {
@@ -111,7 +112,7 @@ TEST(RomJson, HasEveryKeyAndEveryBitOfTheNumbers) {
   EXPECT_EQ(flexion["held_deg"]["internal_rotation"].get<double>(),
             limits[0].motion.start.internal_rotation.degrees());
   EXPECT_EQ(flexion["at_limit_deg"]["flexion"].get<double>(), limits[0].angles_at_limit().flexion.degrees());
-  EXPECT_EQ(flexion["guarantee"], io::guarantee_text(limits[0]));
+  EXPECT_EQ(flexion["guarantee"], guarantee_text(limits[0]));
 
   EXPECT_EQ(json["normal_range_source"], "AAOS 1965");
 
@@ -223,8 +224,7 @@ TEST(RomJson, SaysThatTheTwoBedsideTestsAreAsDefinedHere) {
 
 std::vector<std::string> codes_of(const Joint& joint, const motion::Motion& motion) {
   std::vector<std::string> codes;
-  for (const io::MotionCaveat& caveat : io::motion_caveats(joint, motion))
-    codes.emplace_back(name_of(caveat.code));
+  for (const MotionCaveat& caveat : motion_caveats(joint, motion)) codes.emplace_back(name_of(caveat.code));
   return codes;
 }
 
@@ -249,9 +249,9 @@ TEST(MotionCaveats, SayOfEachMotionOfAHipWhetherBoneUsuallyEndsIt) {
   for (const motion::Motion& motion : motion::hip_motions()) {
     EXPECT_EQ(codes_of(joint, motion), expected.at(motion.name)) << motion.name;
     ++known;
-    for (const io::MotionCaveat& caveat : io::motion_caveats(joint, motion)) {
+    for (const MotionCaveat& caveat : motion_caveats(joint, motion)) {
       EXPECT_TRUE(caveat.text.ends_with(".")) << caveat.text;
-      EXPECT_EQ(caveat.source.empty(), caveat.code == io::MotionCaveatCode::end_unknown) << motion.name;
+      EXPECT_EQ(caveat.source.empty(), caveat.code == MotionCaveatCode::end_unknown) << motion.name;
     }
   }
   EXPECT_EQ(known, expected.size());
@@ -335,14 +335,14 @@ TEST(RomText, HasALineForEachCaveatWithItsMotions) {
 }
 
 TEST(NormalHipRange, IsGivenWhereTheSourceHasAValue) {
-  EXPECT_EQ(io::normal_hip_range("flexion"), Angle::degrees(120));
-  EXPECT_EQ(io::normal_hip_range("extension"), Angle::degrees(30));
-  EXPECT_EQ(io::normal_hip_range("abduction"), Angle::degrees(45));
-  EXPECT_EQ(io::normal_hip_range("adduction"), Angle::degrees(30));
-  EXPECT_EQ(io::normal_hip_range("internal_rotation"), Angle::degrees(45));
-  EXPECT_EQ(io::normal_hip_range("external_rotation"), Angle::degrees(45));
+  EXPECT_EQ(normal_hip_range("flexion"), Angle::degrees(120));
+  EXPECT_EQ(normal_hip_range("extension"), Angle::degrees(30));
+  EXPECT_EQ(normal_hip_range("abduction"), Angle::degrees(45));
+  EXPECT_EQ(normal_hip_range("adduction"), Angle::degrees(30));
+  EXPECT_EQ(normal_hip_range("internal_rotation"), Angle::degrees(45));
+  EXPECT_EQ(normal_hip_range("external_rotation"), Angle::degrees(45));
   for (const char* none : {"fadir", "faber", "internal_rotation_at_90_flexion", "my_motion", ""})
-    EXPECT_FALSE(io::normal_hip_range(none)) << none;
+    EXPECT_FALSE(normal_hip_range(none)) << none;
 }
 
 /// Two limits that turn one angle to either side, and a third that ends nowhere.
@@ -427,7 +427,7 @@ TEST(ClockHour, HasTwelveSuperiorAndThreeAnteriorOnEitherSideOfTheBody) {
     const std::array hours{0.0, 3.0, 1.5, 6.0, 9.0};
     // Four roundings of an arctangent, in hours.
     for (std::size_t i = 0; i < 5; ++i)
-      EXPECT_NEAR(io::clock_hour(result, limits[i]).value(), hours[i], 1e-14);
+      EXPECT_NEAR(clock_hour(result.answer, limits[i]).value(), hours[i], 1e-14);
     EXPECT_NEAR(Json::parse(io::rom_json(result))["motions"][2]["clock_hour"].get<double>(), 1.5, 1e-14);
     EXPECT_NE(io::rom_text(result).find("  1:30\n"), std::string::npos);
     EXPECT_NE(io::rom_csv(result).find(",1.5,,,,,,,,120,bone_may_end\n"), std::string::npos);
@@ -439,7 +439,7 @@ TEST(ClockHour, LeavesOutWhatDidNotTouchAndHinges) {
   const std::vector<motion::MotionLimit> limits = some_limits();
   const auto with_hour = [&] {
     return std::count_if(limits.begin(), limits.end(), [&](const motion::MotionLimit& limit) {
-      return io::clock_hour(shown({.joint = joint, .limits = limits}), limit).has_value();
+      return clock_hour({.joint = joint, .limits = limits}, limit).has_value();
     });
   };
   EXPECT_EQ(with_hour(), 1);
@@ -456,8 +456,8 @@ TEST(ClockHour, EndsWhereNoRimCanBe) {
   const std::vector limits{contact_towards({0, 31.999, 0}), contact_towards({0, 32.001, 0})};
   const RangeAnswer answer{.joint = joint, .limits = limits, .bearing = bearing};
   const io::RomResult result{joint, answer};
-  EXPECT_EQ(io::clock_hour(result, limits[0]), 0.0);
-  EXPECT_FALSE(io::clock_hour(result, limits[1]));
+  EXPECT_EQ(clock_hour(result.answer, limits[0]), 0.0);
+  EXPECT_FALSE(clock_hour(result.answer, limits[1]));
 }
 
 TEST(RomJson, SaysThatLimitsWithADepthAllowedAreSearchedFor) {
@@ -478,10 +478,10 @@ TEST(RomJson, SaysThatLimitsWithADepthAllowedAreSearchedFor) {
 
 TEST(Guarantee, SaysWhatHoldsForEachReason) {
   const auto limits = some_limits();
-  EXPECT_EQ(io::guarantee_text(limits[0]),
+  EXPECT_EQ(guarantee_text(limits[0]),
             "free before the limit; in contact at it or past it by at most 8.6e-11 deg");
-  EXPECT_EQ(io::guarantee_text(limits[1]), "free over the whole range of 40 deg");
-  EXPECT_EQ(io::guarantee_text(limits[2]), "in contact before any rotation");
+  EXPECT_EQ(guarantee_text(limits[1]), "free over the whole range of 40 deg");
+  EXPECT_EQ(guarantee_text(limits[2]), "in contact before any rotation");
 }
 
 }  // namespace

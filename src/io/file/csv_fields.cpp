@@ -1,6 +1,7 @@
 #include "io/file/csv_fields.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -73,6 +74,10 @@ std::string csv_field(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : field) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
+}
+
+std::string csv_line(const std::vector<std::string>& fields) {
+  return fmt::format("{}\n", fmt::join(fields, ","));
 }
 
 std::vector<std::string> csv_fields(std::string_view line, std::size_t number, const Source& source) {

@@ -13,8 +13,8 @@
 #include "io/report/body_arrays.hpp"
 #include "io/report/posed_json.hpp"
 #include "io/report/recorded_columns.hpp"
-#include "io/result/caveats.hpp"
 #include "io/result/json.hpp"
+#include "io/result/scope_text.hpp"
 
 static_assert(std::endian::native == std::endian::little,
               "arrays are written as the machine has the numbers");

@@ -5,10 +5,10 @@
 #include <string_view>
 
 #include "io/file/format_version.hpp"
-#include "io/result/caveats.hpp"
 #include "io/result/json.hpp"
 #include "io/result/parameters.hpp"
 #include "io/result/provenance_forms.hpp"
+#include "io/result/scope_text.hpp"
 
 namespace condyle::io {
 namespace {

@@ -22,14 +22,6 @@ Json notes_json(std::span<const JointNote> notes, std::span<const motion::Contac
   return list;
 }
 
-Json caveats_json(std::span<const MotionCaveat> caveats) {
-  Json list = Json::array();
-  for (const auto& [code, summary, text, source] : caveats)
-    list.push_back(
-        {{"code", name_of(code)}, {"text", text}, {"source", source.empty() ? Json(nullptr) : Json(source)}});
-  return list;
-}
-
 Json anatomy_json(const Joint& joint) {
   return joint.names_its_joint() ? Json(name_of(joint.anatomy)) : Json(nullptr);
 }

@@ -16,7 +16,6 @@
 #include "condyle/joint_checks.hpp"
 #include "condyle/motion_contact.hpp"
 #include "condyle/pose.hpp"
-#include "io/result/caveats.hpp"
 
 /// Common parts of all JSON answers.
 
@@ -53,9 +52,6 @@ Json numbers(const Vec3& p);
 /// materials, loads and motion.
 Json notes_json(std::span<const JointNote> notes, std::span<const motion::ContactNote> of_contact = {},
                 std::span<const RangeNote> of_range = {});
-
-/// Caveats of a motion's limit, under `caveats`: code, text, and source or null.
-Json caveats_json(std::span<const MotionCaveat> caveats);
 
 /// Which joint it is; null for a hinge that is none in particular.
 Json anatomy_json(const Joint& joint);

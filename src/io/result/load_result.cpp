@@ -9,12 +9,12 @@
 #include "io/file/format_version.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/file/whole_file.hpp"
-#include "io/result/caveats.hpp"
 #include "io/result/contact_terms.hpp"
 #include "io/result/json.hpp"
 #include "io/result/parameters.hpp"
 #include "io/result/pressure_map.hpp"
 #include "io/result/provenance_forms.hpp"
+#include "io/result/scope_text.hpp"
 
 namespace condyle::io {
 namespace {

@@ -35,7 +35,7 @@ std::string meeting_fields(const MotionQuestion& question, const motion::Contact
   if (!end.contact) return ",,,,,";
   const auto& [fixed, mobile] = question.surfaces;
   const auto part = [](const Body& body, const motion::Feature& feature) {
-    const BodyPart* of = io::part_of(body, feature);
+    const BodyPart* of = part_of(body, feature);
     return of ? io::csv_field(of->name) : std::string();
   };
   const AnswerFrame frame = question.provenance ? question.provenance->frame : AnswerFrame{};

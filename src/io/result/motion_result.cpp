@@ -8,12 +8,12 @@
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/file/format_version.hpp"
-#include "io/result/caveats.hpp"
 #include "io/result/contact_terms.hpp"
 #include "io/result/json.hpp"
 #include "io/result/parameters.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/rom_parts.hpp"
+#include "io/result/scope_text.hpp"
 
 namespace condyle::io {
 namespace {
@@ -103,9 +103,8 @@ Json end_json(const MotionQuestion& question, const motion::ContactEnd& end, Con
   const AnswerFrame frame = question.provenance ? question.provenance->frame : AnswerFrame{};
   json["point_mm"] = io::numbers(frame.fixed_point(end.contact->fixed_point));
   const auto& [fixed, mobile] = question.surfaces;
-  if (const BodyPart* part = io::part_of(fixed, end.contact->fixed_feature)) json["fixed_part"] = part->name;
-  if (const BodyPart* part = io::part_of(mobile, end.contact->mobile_feature))
-    json["mobile_part"] = part->name;
+  if (const BodyPart* part = part_of(fixed, end.contact->fixed_feature)) json["fixed_part"] = part->name;
+  if (const BodyPart* part = part_of(mobile, end.contact->mobile_feature)) json["mobile_part"] = part->name;
   return json;
 }
 

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include "io/result/caveats.hpp"
 #include "io/result/contact_terms.hpp"
 #include "io/result/depth_parts.hpp"
 #include "io/result/pressure_map.hpp"
 #include "io/result/provenance_forms.hpp"
+#include "io/result/scope_text.hpp"
 
 namespace condyle::io {
 namespace {

@@ -13,14 +13,14 @@
 #include "io/file/format_version.hpp"
 #include "io/joint/motion_lines.hpp"
 #include "io/joint/proposal_lines.hpp"
-#include "io/result/caveats.hpp"
-#include "io/result/clock_hour.hpp"
+#include "io/result/clock_text.hpp"
 #include "io/result/json.hpp"
 #include "io/result/parameters.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/quoted_limit.hpp"
 #include "io/result/resection_object.hpp"
 #include "io/result/rom_result.hpp"
+#include "io/result/scope_text.hpp"
 
 namespace condyle::io {
 namespace {

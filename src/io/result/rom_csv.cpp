@@ -1,38 +1,25 @@
-#include "io/result/limit_fields.hpp"
+#include "answer/records/limit_record.hpp"
+#include "io/record/table_of.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/rom_result.hpp"
 
 namespace condyle::io {
-namespace {
-
-bool has_columns(const LimitField& field, const Joint& joint) {
-  switch (field.joints) {
-    case LimitJoints::all:
-      return true;
-    case LimitJoints::hips:
-      return joint.is_hip();
-    case LimitJoints::shoulders:
-      return joint.anatomy == Anatomy::shoulder;
-  }
-  return false;
-}
-
-}  // namespace
 
 std::string rom_csv(const RomResult& result) {
-  std::vector<const LimitField*> fields;
-  for (const LimitField& field : io::limit_fields())
-    if (has_columns(field, result.joint)) fields.push_back(&field);
-
-  std::vector<std::string> line;
-  for (const auto* field : fields)
-    for (ResultColumn& column : io::columns_of(*field, result.joint.anatomy))
-      line.push_back(std::move(column.name));
-  std::string text = io::provenance_comments(result.provenance) + io::csv_line(line);
+  const Joint& joint = result.joint;
+  const auto shown = [&](const FieldColumn& column) {
+    return column.joints == TablesOf::all || (column.joints == TablesOf::hips && joint.is_hip()) ||
+           (column.joints == TablesOf::shoulders && joint.anatomy == Anatomy::shoulder);
+  };
+  std::vector<std::string> cells;
+  for (ResultColumn& column : columns_of<LimitRecord>(joint.anatomy, shown))
+    cells.push_back(std::move(column.name));
+  std::string text = provenance_comments(result.provenance) + csv_line(cells);
+  const AnswerFrame frame = frame_of(result);
   for (std::size_t i = 0; i < result.answer.limits.size(); ++i) {
-    line.clear();
-    for (const auto* field : fields) io::append_texts(line, *field, {result, i});
-    text += io::csv_line(line);
+    cells.clear();
+    append_cells(cells, limit_record(result.answer, i), {frame, joint.anatomy}, shown);
+    text += csv_line(cells);
   }
   return text;
 }

@@ -3,17 +3,17 @@
 #include <numbers>
 #include <utility>
 
+#include "answer/records/limit_record.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/file/format_version.hpp"
-#include "io/result/caveats.hpp"
+#include "io/record/json_of.hpp"
 #include "io/result/json.hpp"
-#include "io/result/limit_fields.hpp"
 #include "io/result/map_result.hpp"
 #include "io/result/map_summary.hpp"
-#include "io/result/normal_range.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/rom_parts.hpp"
 #include "io/result/rom_result.hpp"
+#include "io/result/scope_text.hpp"
 
 namespace condyle::io {
 namespace {
@@ -142,12 +142,7 @@ Json implant_json(const Joint& joint) {
 }  // namespace
 
 Json motion_json(const RomResult& result, std::size_t i) {
-  Json json;
-  for (const LimitField& field : io::limit_fields()) {
-    if (*field.key == 0) continue;
-    if (Json value = field.json({result, i}); !value.is_discarded()) json[field.key] = std::move(value);
-  }
-  return json;
+  return json_of(limit_record(result.answer, i), {frame_of(result), result.joint.anatomy});
 }
 
 Json rom_object(const RomResult& result) {

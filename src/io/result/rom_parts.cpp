@@ -5,11 +5,6 @@
 
 namespace condyle::io {
 
-std::optional<Angle> normal_range(const Joint& joint, const motion::MotionLimit& limit) {
-  if (!joint.is_hip() || !zero_pose(joint).is_neutral()) return std::nullopt;
-  return normal_hip_range(limit.motion.name);
-}
-
 Json zero_json(const Joint& joint) {
   const ZeroPose zero = zero_pose(joint);
   return {

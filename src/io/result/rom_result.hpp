@@ -18,16 +18,6 @@ using RomResult = ResultOf<RangeAnswer>;
 /// Shows an answer, with what looks wrong with its joint. `from`, which may be null, gets the frame of a joint that is held at a translation.
 RomResult rom_result_of(const RangeAnswer& answer, std::span<const JointNote> notes, Provenance* from);
 
-/// "contact", "end_of_range", "contact_at_start".
-std::string_view name_of(motion::LimitReason reason) noexcept;
-/// "unknown", "bearing", "impingement".
-std::string_view name_of(motion::ContactKind kind) noexcept;
-
-/// Guarantee of the limit, in one sentence.
-std::string guarantee_text(const motion::MotionLimit& limit);
-/// The same of a limit with a depth allowed, which is searched for and not exact.
-std::string guarantee_text(const motion::DepthLimit& limit);
-
 /// The frame in which it gives points and meshes.
 AnswerFrame frame_of(const RomResult& result);
 

@@ -9,18 +9,19 @@
 #include <utility>
 #include <vector>
 
+#include "answer/motion_caveats.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/joint_checks.hpp"
 #include "core/rounded.hpp"
 #include "io/file/format_version.hpp"
-#include "io/result/caveats.hpp"
-#include "io/result/clock_hour.hpp"
+#include "io/result/clock_text.hpp"
 #include "io/result/json.hpp"
 #include "io/result/map_result.hpp"
 #include "io/result/parameters.hpp"
 #include "io/result/quoted_limit.hpp"
 #include "io/result/rom_parts.hpp"
 #include "io/result/rom_result.hpp"
+#include "io/result/scope_text.hpp"
 
 namespace condyle::io {
 namespace {
@@ -161,8 +162,8 @@ std::string met_text(const RomResult& result, std::string_view heading, ContactO
   for (const motion::MotionLimit& limit : result.answer.limits) {
     const motion::ContactWitness* contact = contact_of(limit);
     if (!contact) continue;
-    const BodyPart *fixed = io::part_of(joint.fixed, contact->fixed_feature),
-                   *mobile = io::part_of(joint.mobile, contact->mobile_feature);
+    const BodyPart *fixed = part_of(joint.fixed, contact->fixed_feature),
+                   *mobile = part_of(joint.mobile, contact->mobile_feature);
     if (!fixed && !mobile) continue;
     std::string met = fmt::format("{} on {}", mobile ? mobile->name : joint.mobile.name,
                                   fixed ? fixed->name : joint.fixed.name);
@@ -381,7 +382,7 @@ std::string rom_text(const RomResult& result) {
       closed.cells.push_back(result.answer.closed[i].reason == motion::LimitReason::end_of_range
                                  ? "-"
                                  : fmt::format("{:.2f}", result.answer.closed[i].turned.degrees()));
-    const auto hour = io::clock_hour(result, limit);
+    const auto hour = clock_hour(result.answer, limit);
     clock.cells.push_back(hour ? io::clock_text(*hour) : "-");
   }
   const Joint& joint = result.joint;
@@ -409,7 +410,7 @@ std::string rom_text(const RomResult& result) {
   text += zones_text(result);
   text += band_text(result);
   if (std::any_of(result.answer.limits.begin(), result.answer.limits.end(),
-                  [](const motion::MotionLimit& limit) { return io::is_as_defined_here(limit.motion); }))
+                  [](const motion::MotionLimit& limit) { return is_as_defined_here(limit.motion); }))
     text += "  fadir and faber: as defined here (--list-motions); no angles are agreed on\n";
   text += caveat_text(result);
   if (result.answer.map) text += wrapped(map_text(*result.answer.map));

@@ -10,9 +10,9 @@
 #include "condyle/sample/hip.hpp"
 #include "condyle/version.hpp"
 #include "core/parallel_tasks.hpp"
+#include "io/file/csv_fields.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/result/json.hpp"
-#include "io/result/limit_fields.hpp"
 #include "io/result/sample_files.hpp"
 
 namespace condyle::io {

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "condyle/io/pose_text.hpp"
-#include "io/result/caveats.hpp"
 #include "io/result/depth_parts.hpp"
 #include "io/result/provenance_forms.hpp"
+#include "io/result/scope_text.hpp"
 
 namespace condyle::io {
 namespace {

@@ -5,12 +5,14 @@
 #include <span>
 #include <utility>
 
+#include "answer/records/limit_record.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "io/file/csv_fields.hpp"
 #include "io/file/failure.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/joint/name_joint_file.hpp"
+#include "io/record/table_of.hpp"
 #include "io/result/depth_parts.hpp"
 #include "io/result/map_summary.hpp"
 #include "io/result/rom_result.hpp"
@@ -79,12 +81,13 @@ RangeRequest range_request_of(const Case& joint, const StudyOptions& options) {
 }
 
 /// `more`: the fields behind those of each limit, none or as many as limits.
-std::string limit_lines(const Cells& row, const RomResult& result,
-                        const std::vector<const LimitField*>& limit_fields, const std::vector<Cells>& more) {
+std::string limit_lines(const Cells& row, const RangeAnswer& answer, const LimitColumns& columns,
+                        const std::vector<Cells>& more) {
+  const RecordContext context{frame_of(rom_result_of(answer, {}, nullptr)), answer.joint.anatomy};
   std::string lines;
-  for (std::size_t i = 0; i < result.answer.limits.size(); ++i) {
+  for (std::size_t i = 0; i < answer.limits.size(); ++i) {
     Cells fields = row;
-    for (const LimitField* field : limit_fields) append_texts(fields, *field, {result, i});
+    append_cells(fields, limit_record(answer, i), context, columns);
     lines += more.empty() ? csv_line(fields) : line_of(std::move(fields), more[i]);
   }
   return lines;
@@ -213,7 +216,7 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
   for (std::string& field : load.fields) of_hip.push_back(std::move(field));
   if (measures) of_hip.insert(of_hip.end(), measures->begin(), measures->end());
   if (resection) of_hip.insert(of_hip.end(), resection->of_hip.begin(), resection->of_hip.end());
-  return StudyAnswer{limit_lines(of_row, rom_result_of(*answer, {}, nullptr), limit_fields_of(table, options),
+  return StudyAnswer{limit_lines(of_row, *answer, limit_columns_of(table, options),
                                  resection ? std::move(resection->of_limits) : std::vector<Cells>()),
                      line_of(of_row, of_hip),
                      {},

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 
+#include "answer/records/limit_record.hpp"
 #include "condyle/sample/hip.hpp"
 #include "io/file/csv_fields.hpp"
+#include "io/record/table_of.hpp"
 #include "io/study/study_follow.hpp"
 #include "io/study/study_load.hpp"
 #include "io/study/study_measures.hpp"
@@ -66,28 +68,6 @@ void append(ColumnList& columns, const ColumnList& more) {
   columns.insert(columns.end(), more.begin(), more.end());
 }
 
-/// Which values of limits have columns of a study.
-struct LimitsHave {
-  bool bands, following;
-};
-
-std::vector<const LimitField*> study_limit_fields(LimitsHave have) {
-  std::vector<const LimitField*> fields;
-  for (const LimitField& field : limit_fields())
-    if (field.columns != LimitColumns::none &&
-        (field.tables == LimitTables::studies ||
-         (field.tables == LimitTables::studies_with_bands && have.bands) ||
-         (field.tables == LimitTables::studies_that_follow && have.following)))
-      fields.push_back(&field);
-  return fields;
-}
-
-ColumnList limit_columns(LimitsHave have, Anatomy joint) {
-  ColumnList columns;
-  for (const LimitField* field : study_limit_fields(have)) append(columns, io::columns_of(*field, joint));
-  return columns;
-}
-
 ColumnList following_columns() {
   return {{"exact", "", number_column,
            "1 where limits are exact; 0 where the centre is not held, and they are bounded"}};
@@ -114,19 +94,24 @@ ColumnList failure_columns() {
 
 }  // namespace
 
-std::vector<const LimitField*> limit_fields_of(const StudyTable& table, const StudyOptions& options) {
-  return study_limit_fields({options.bands.has_value(), may_follow(table, options)});
+bool LimitColumns::operator()(const FieldColumn& column) const noexcept {
+  return column.tables == Tables::studies || (column.tables == Tables::studies_with_bands && bands) ||
+         (column.tables == Tables::studies_that_follow && follows);
+}
+
+LimitColumns limit_columns_of(const StudyTable& table, const StudyOptions& options) {
+  return {options.bands.has_value(), may_follow(table, options)};
 }
 
 StudyColumns study_columns(const StudyTable& table, const StudyOptions& options) {
   const ColumnList carried = carried_columns(table);
   StudyColumns columns{id_columns(), id_columns(), id_columns()};
   for (ColumnList* each : {&columns.limits, &columns.hips, &columns.failures}) append(*each, carried);
-  const bool following = may_follow(table, options);
-  append(columns.limits, limit_columns({options.bands.has_value(), following}, options.anatomy));
+  const LimitColumns of_limits = limit_columns_of(table, options);
+  append(columns.limits, columns_of<LimitRecord>(options.anatomy, of_limits));
   if (options.resection) append(columns.limits, resected_limit_columns());
   append(columns.hips, hip_columns());
-  if (following) append(columns.hips, following_columns());
+  if (of_limits.follows) append(columns.hips, following_columns());
   if (options.map) append(columns.hips, map_columns());
   if (options.depth_at) append(columns.hips, depth_columns());
   if (options.load) append(columns.hips, load_columns());
@@ -140,9 +125,10 @@ bool is_result_column(std::string_view name) {
   StudyOptions everything;
   everything.resection.emplace();
   for (const ColumnList& columns :
-       {id_columns(), limit_columns({.bands = true, .following = true}, Anatomy::hip), hip_columns(),
-        following_columns(), map_columns(), depth_columns(), load_columns(), measure_columns(true),
-        resected_limit_columns(), resection_columns(*everything.resection), failure_columns()})
+       {id_columns(), columns_of<LimitRecord>(Anatomy::hip, LimitColumns{.bands = true, .follows = true}),
+        hip_columns(), following_columns(), map_columns(), depth_columns(), load_columns(),
+        measure_columns(true), resected_limit_columns(), resection_columns(*everything.resection),
+        failure_columns()})
     if (std::any_of(columns.begin(), columns.end(), [&](const auto& each) { return each.name == name; }))
       return true;
   return name.starts_with(resection_prefix);  // its other columns are named after motions

@@ -4,8 +4,9 @@
 #include <string_view>
 #include <vector>
 
+#include "answer/records/record.hpp"
 #include "condyle/io/study.hpp"
-#include "io/result/limit_fields.hpp"
+#include "io/result/result_column.hpp"
 
 namespace condyle::io {
 
@@ -19,8 +20,13 @@ struct StudyColumns {
 /// Columns for this table and these options.
 StudyColumns study_columns(const StudyTable& table, const StudyOptions& options);
 
-/// The values of limits.csv that `condyle rom` has too, by these options.
-std::vector<const LimitField*> limit_fields_of(const StudyTable& table, const StudyOptions& options);
+/// Of the columns of limits those that a study has.
+struct LimitColumns {
+  bool bands, follows;
+
+  bool operator()(const FieldColumn& column) const noexcept;
+};
+LimitColumns limit_columns_of(const StudyTable& table, const StudyOptions& options);
 
 /// Whether some study has a column of this name.
 bool is_result_column(std::string_view name);

@@ -9,8 +9,8 @@
 #include "io/file/output_folder.hpp"
 #include "io/file/plain_text.hpp"
 #include "io/file/whole_file.hpp"
-#include "io/result/caveats.hpp"
 #include "io/result/json.hpp"
+#include "io/result/scope_text.hpp"
 
 namespace condyle::io {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "condyle/error.hpp"
 #include "io/file/csv_fields.hpp"
-#include "io/result/limit_fields.hpp"
 
 namespace condyle::io {
 namespace {

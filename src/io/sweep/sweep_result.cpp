@@ -12,10 +12,10 @@
 #include "io/file/csv_fields.hpp"
 #include "io/file/format_version.hpp"
 #include "io/joint/given_degrees.hpp"
-#include "io/result/caveats.hpp"
 #include "io/result/map_result.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/rom_result.hpp"
+#include "io/result/scope_text.hpp"
 
 namespace condyle::io {
 namespace {

@@ -1,28 +1,15 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <vector>
 
-#include "condyle/io/joint_file.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/range_of_motion.hpp"
 
-/// Caveats of the numbers: which tissues an answer covers, and whether bone is what usually ends a motion. Written
-/// once, for every text, file, figure and page.
+/// Whether bone is what usually ends a motion. Written once, for every text, file, figure and page.
 
-namespace condyle::io {
-
-/// The tissues whose contact an answer covers, and those it does not: one line. A mesh is a cartilage, labrum, meniscus,
-/// ligament, capsule, tendon, muscle or implant where its name says so, else a bone; contact is called osseous only where all are bones.
-std::string scope_text(const Joint& joint);
-
-/// The same of the surfaces of an entry; one that carries a layer and is not called a cartilage is an elastic layer.
-std::string scope_text(const ContactEntry& entry, const ContactSurfaces& surfaces);
-
-/// The same of an answer about many joints, which may differ.
-std::string scope_text();
+namespace condyle {
 
 enum class MotionCaveatCode : std::uint8_t {
   bone_may_end,         ///< Bone met bone in normal hips in this motion.
@@ -62,4 +49,4 @@ struct MotionCaveat {
 /// No labrum: not where a mesh is called one.
 std::vector<MotionCaveat> motion_caveats(const Joint& joint, const motion::Motion& motion);
 
-}  // namespace condyle::io
+}  // namespace condyle

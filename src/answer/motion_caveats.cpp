@@ -1,84 +1,11 @@
-#include "io/result/caveats.hpp"
-
-#include <fmt/format.h>
+#include "answer/motion_caveats.hpp"
 
 #include <algorithm>
 #include <array>
-#include <span>
-#include <utility>
+#include <string>
 
-namespace condyle::io {
+namespace condyle {
 namespace {
-
-/// In the order in which a scope names them.
-enum class Tissue : std::uint8_t { bones, cartilages, labrum, menisci, soft, implants, layers };
-constexpr std::array<std::string_view, 7> tissue_names{
-    "bones", "cartilages", "labrum", "menisci", "soft tissue", "implants", "elastic layers"};
-
-struct Tissues {
-  std::array<bool, tissue_names.size()> has = {};
-
-  bool holds(Tissue tissue) const noexcept { return has[static_cast<std::size_t>(tissue)]; }
-  void add(Tissue tissue) noexcept { has[static_cast<std::size_t>(tissue)] = true; }
-  bool only_bones() const noexcept {
-    return has[0] && std::none_of(has.begin() + 1, has.end(), [](bool is_there) { return is_there; });
-  }
-};
-
-std::string lower_case(std::string_view name) {
-  std::string lower(name);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower;
-}
-
-/// All tissues that a name speaks of ("cartilage with labrum"); `otherwise` where it speaks of none.
-void add_named(Tissues& tissues, std::string_view name, Tissue otherwise) {
-  static constexpr std::array words{
-      std::pair{"cartilage", Tissue::cartilages}, std::pair{"labrum", Tissue::labrum},
-      std::pair{"menisc", Tissue::menisci},       std::pair{"ligament", Tissue::soft},
-      std::pair{"capsule", Tissue::soft},         std::pair{"tendon", Tissue::soft},
-      std::pair{"muscle", Tissue::soft},          std::pair{"implant", Tissue::implants},
-      std::pair{"prosthe", Tissue::implants}};
-  const std::string lower = lower_case(name);
-  bool is_known = false;
-  for (const auto& [word, tissue] : words)
-    if (lower.find(word) != lower.npos) {
-      tissues.add(tissue);
-      is_known = true;
-    }
-  if (!is_known) tissues.add(otherwise);
-}
-
-void add(Tissues& tissues, const Body& body) {
-  if (body.parts.empty()) return add_named(tissues, body.name, Tissue::bones);
-  for (const BodyPart& part : body.parts) add_named(tissues, part.name, Tissue::bones);
-}
-
-void add_surface(Tissues& tissues, const Body& surface, const std::optional<LayerEntry>& layer) {
-  if (layer) return add_named(tissues, surface.name, Tissue::layers);
-  add(tissues, surface);
-}
-
-Tissues tissues_of(const Joint& joint) {
-  Tissues tissues;
-  add(tissues, joint.fixed);
-  add(tissues, joint.mobile);
-  return tissues;
-}
-
-std::string scope_of(const Tissues& tissues) {
-  constexpr const char* end = "research software, not a medical device";
-  if (tissues.only_bones())
-    return fmt::format("osseous contact of the meshes given; soft tissue is not modelled; {}", end);
-  std::vector<std::string_view> there;
-  for (std::size_t i = 0; i < tissue_names.size(); ++i)
-    if (tissues.has[i]) there.push_back(tissue_names[i]);
-  std::string list;
-  for (std::size_t i = 0; i < there.size(); ++i)
-    list += fmt::format("{}{}", i == 0 ? "" : i + 1 == there.size() ? " and " : ", ", there[i]);
-  return fmt::format("contact of the {} given; other tissue is not modelled; {}", list, end);
-}
 
 // In full: docs/caveats.md.
 constexpr std::string_view turley = "Turley 2013, PMC3589629", han = "Han 2020, J Orthop Res 38:1779",
@@ -162,27 +89,20 @@ constexpr std::array caveat_rows{
     Row{"faber", internal, minus, {&capsule, nullptr}},
 };
 
-bool has_labrum(const Joint& joint) {
-  return tissues_of(joint).holds(Tissue::labrum);
+bool is_called_labrum(std::string_view name) {
+  std::string lower(name);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower.find("labrum") != lower.npos;
+}
+
+bool has_labrum(const Body& body) {
+  if (body.parts.empty()) return is_called_labrum(body.name);
+  return std::any_of(body.parts.begin(), body.parts.end(),
+                     [](const BodyPart& part) { return is_called_labrum(part.name); });
 }
 
 }  // namespace
-
-std::string scope_text(const Joint& joint) {
-  return scope_of(tissues_of(joint));
-}
-
-std::string scope_text(const ContactEntry& entry, const ContactSurfaces& surfaces) {
-  Tissues tissues;
-  add_surface(tissues, surfaces.fixed, entry.fixed);
-  add_surface(tissues, surfaces.mobile, entry.mobile);
-  return scope_of(tissues);
-}
-
-std::string scope_text() {
-  return "contact of the meshes given; tissue that is not among them is not modelled; research software, not "
-         "a medical device";
-}
 
 std::string_view name_of(MotionCaveatCode code) noexcept {
   switch (code) {
@@ -209,10 +129,11 @@ std::vector<MotionCaveat> motion_caveats(const Joint& joint, const motion::Motio
     if (name != motion.name || vary != motion.vary || sense != motion.sense) continue;
     std::vector<MotionCaveat> found;
     for (const MotionCaveat* caveat : caveats)
-      if (caveat && !(caveat == &labrum && has_labrum(joint))) found.push_back(*caveat);
+      if (caveat && !(caveat == &labrum && (has_labrum(joint.fixed) || has_labrum(joint.mobile))))
+        found.push_back(*caveat);
     return found;
   }
   return {unknown};
 }
 
-}  // namespace condyle::io
+}  // namespace condyle

@@ -1,4 +1,4 @@
-#include "io/result/limit_fields.hpp"
+#include "answer/records/limit_record.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 #include <string>
 
 #include "io/file/whole_file.hpp"
+#include "io/record/table_of.hpp"
 #include "rom_scene.hpp"
 
 /// One description of a limit: what the pages say of its values is what the files hold.
@@ -19,35 +20,36 @@ std::string page() {
   return io::read_whole_file(std::filesystem::path(CONDYLE_SOURCE_DIR) / "docs/formats-limits.md");
 }
 
-TEST(LimitFields, AreNamedOnce) {
+constexpr auto every_column = [](const FieldColumn&) { return true; };
+
+TEST(LimitRecord, NamesEachKeyAndColumnOnce) {
   std::set<std::string> keys, columns;
-  for (const io::LimitField& field : io::limit_fields()) {
-    if (*field.key != 0) {
-      EXPECT_TRUE(keys.insert(field.key).second) << field.key;
-      EXPECT_NE(*field.meaning, 0) << field.key;
-    }
-    for (const io::ResultColumn& column : io::columns_of(field, Anatomy::knee)) {
-      EXPECT_TRUE(columns.insert(column.name).second) << column.name;
-      EXPECT_FALSE(column.meaning.empty()) << column.name;
-    }
+  for_each_field<LimitRecord>([&](const auto& field) {
+    if (*field.key == 0) return;
+    EXPECT_TRUE(keys.insert(field.key).second) << field.key;
+    EXPECT_NE(*field.meaning, 0) << field.key;
+  });
+  for (const io::ResultColumn& column : io::columns_of<LimitRecord>(Anatomy::knee, every_column)) {
+    EXPECT_TRUE(columns.insert(column.name).second) << column.name;
+    EXPECT_FALSE(column.meaning.empty()) << column.name;
   }
   EXPECT_GE(keys.size(), 20u);
   EXPECT_GE(columns.size(), 30u);
 }
 
-TEST(LimitFields, AreInThePageAsTheyAreInTheFiles) {
+TEST(LimitRecord, IsInThePageAsItIsInTheFiles) {
   std::string keys = "| key | value |\n|---|---|\n", columns = "| column | unit | value |\n|---|---|---|\n";
-  for (const io::LimitField& field : io::limit_fields()) {
+  for_each_field<LimitRecord>([&](const auto& field) {
     if (*field.key != 0) keys += "| `" + std::string(field.key) + "` | " + field.meaning + " |\n";
-    for (const io::ResultColumn& column : io::columns_of(field, Anatomy::hip))
-      columns += "| `" + column.name + "` | " + column.unit + " | " + column.meaning + " |\n";
-  }
+  });
+  for (const io::ResultColumn& column : io::columns_of<LimitRecord>(Anatomy::hip, every_column))
+    columns += "| `" + column.name + "` | " + column.unit + " | " + column.meaning + " |\n";
   EXPECT_NE(page().find(keys), std::string::npos) << "docs/formats-limits.md, an element of motions:\n"
                                                   << keys;
   EXPECT_NE(page().find(columns), std::string::npos) << "docs/formats-limits.md, limits.csv:\n" << columns;
 }
 
-TEST(LimitFields, HaveAsManyTextsAsColumnsForAnyLimit) {
+TEST(LimitRecord, HasAsManyCellsAsColumnsForAnyLimit) {
   const Joint joint = arm_and_post();
   motion::MotionLimit free;
   free.motion = {"own", JointAngle::adduction, RotationSense::negative, {}, Angle::degrees(40)};
@@ -58,15 +60,16 @@ TEST(LimitFields, HaveAsManyTextsAsColumnsForAnyLimit) {
                          {1, 2, 3},
                          {4, 5, 6},
                          motion::ContactKind::bearing};
-  const std::vector<motion::MotionLimit> limits = {free, contact};
-  const RangeAnswer answer{.joint = joint, .limits = limits};
-  const io::RomResult result{joint, answer};
-  for (std::size_t i = 0; i < limits.size(); ++i) {
-    for (const io::LimitField& field : io::limit_fields()) {
-      std::vector<std::string> texts;
-      io::append_texts(texts, field, {result, i});
-      EXPECT_EQ(texts.size(), io::columns_of(field, joint.anatomy).size()) << field.key << field.column;
-    }
+  const RangeAnswer answer{.joint = joint, .limits = {free, contact}};
+  const std::vector<io::ResultColumn> columns = io::columns_of<LimitRecord>(joint.anatomy, every_column);
+  for (std::size_t i = 0; i < answer.limits.size(); ++i) {
+    std::vector<std::string> cells;
+    io::append_cells(cells, limit_record(answer, i), {{}, joint.anatomy}, every_column);
+    ASSERT_EQ(cells.size(), columns.size());
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      if (columns[k].name == "fixed_feature") {
+        EXPECT_EQ(cells[k], i == 0 ? "" : "edge 3-17");
+      }
   }
 }
 

@@ -1,0 +1,82 @@
+#include "answer/limit_facts.hpp"
+
+#include <array>
+
+#include "condyle/joint_checks.hpp"
+#include "core/formatted.hpp"
+#include "motion/rom/socket_hour.hpp"
+
+namespace condyle {
+
+const BodyPart* part_of(const Body& body, const motion::Feature& feature) noexcept {
+  return feature.kind == motion::FeatureKind::face ? part_of_triangle(body, feature.id)
+                                                   : part_of_vertex(body, feature.id);
+}
+
+std::optional<Angle> normal_hip_range(std::string_view motion) noexcept {
+  struct Range {
+    std::string_view motion;
+    double degrees;
+  };
+  static constexpr std::array ranges{Range{"flexion", 120},          Range{"extension", 30},
+                                     Range{"abduction", 45},         Range{"adduction", 30},
+                                     Range{"internal_rotation", 45}, Range{"external_rotation", 45}};
+  for (const Range& range : ranges)
+    if (range.motion == motion) return Angle::degrees(range.degrees);
+  return std::nullopt;
+}
+
+std::optional<Angle> normal_range(const Joint& joint, const motion::MotionLimit& limit) {
+  if (!joint.is_hip() || !zero_pose(joint).is_neutral()) return std::nullopt;
+  return normal_hip_range(limit.motion.name);
+}
+
+std::optional<double> clock_hour(const RangeAnswer& answer, const motion::MotionLimit& limit) {
+  if (!answer.joint.is_hip() || !limit.end.contact) return std::nullopt;
+  return motion::socket_hour(answer.clock, answer.bearing.surface, limit.end.contact->fixed_point);
+}
+
+std::string guarantee_text(const motion::MotionLimit& limit) {
+  const bool is_bounded = limit.translation_mm && limit.end.reason == motion::LimitReason::contact;
+  const double error_bound_deg = limit.end.error_bound.degrees();
+  if (is_bounded)
+    return core::formatted(
+        "bounded, not exact: free up to the limit; past it by %.2g deg in contact, or nearer to it than some "
+        "micrometres",
+        error_bound_deg);
+  if (limit.translation_ends && !limit.translation_mm)
+    return "none: no contact carries the load at the start";
+  if (limit.translation_ends)
+    return core::formatted("free over %g deg, as far as what the translation follows goes; unknown past it",
+                           limit.end.turned.degrees());
+  switch (limit.end.reason) {
+    case motion::LimitReason::contact:
+      return core::formatted("free before the limit; in contact at it or past it by at most %.2g deg",
+                             error_bound_deg);
+    case motion::LimitReason::end_of_range:
+      return core::formatted("free over the whole range of %g deg", limit.motion.range.degrees());
+    case motion::LimitReason::contact_at_start:
+      return "in contact before any rotation";
+  }
+  return "";
+}
+
+std::string guarantee_text(const motion::DepthLimit& depth) {
+  switch (depth.limit.end.reason) {
+    case motion::LimitReason::contact:
+      return core::formatted(
+          "searched, not exact: no deeper than allowed at the poses tried before the limit, deeper within "
+          "%.2g deg past it%s",
+          depth.limit.end.error_bound.degrees(),
+          depth.depth_grows ? "" : "; depth does not grow evenly here, a little further on may be as good");
+    case motion::LimitReason::end_of_range:
+      return core::formatted(
+          "searched, not exact: no deeper than allowed at the poses tried over the range of %g deg",
+          depth.limit.motion.range.degrees());
+    case motion::LimitReason::contact_at_start:
+      return "deeper than allowed before any rotation";
+  }
+  return "";
+}
+
+}  // namespace condyle

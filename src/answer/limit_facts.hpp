@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "condyle/answer/range.hpp"
+
+/// What is said of a limit beside its numbers.
+
+namespace condyle {
+
+inline bool ends_in_contact(const motion::MotionLimit& limit) noexcept {
+  return limit.end.reason != motion::LimitReason::end_of_range;
+}
+
+/// The two bedside tests, whose angles nobody has agreed on.
+inline bool is_as_defined_here(const motion::Motion& motion) noexcept {
+  return motion.name == "fadir" || motion.name == "faber";
+}
+
+/// The part of a body that a feature of its mesh is of; null if the body is one mesh.
+const BodyPart* part_of(const Body& body, const motion::Feature& feature) noexcept;
+
+/// How far a healthy adult hip is said to turn in the motion of this name; empty if the source has no value. American Academy
+/// of Orthopaedic Surgeons, "Joint Motion: Method of Measuring and Recording", Chicago 1965: flexion 120, extension 30,
+/// abduction 45, adduction 30, internal and external rotation 45 degrees. Measured on the living, where soft tissue stops
+/// most motions before bone does: a bony limit past the range is usual, one well short of it is not. Of other joints no ranges
+/// with a source are known here.
+std::optional<Angle> normal_hip_range(std::string_view motion) noexcept;
+/// The same for a limit; empty of other joints, and if zero angles are not known to be neutral: ranges count from there.
+std::optional<Angle> normal_range(const Joint& joint, const motion::MotionLimit& limit);
+
+/// The source as results and figures name it.
+inline constexpr std::string_view normal_hip_range_source = "AAOS 1965";
+
+/// Direction of the limit's contact on the answer's clock, in [0, 12): 12 (0) superior and 3 anterior on either side. None for joints
+/// other than hips, without contact, and far from the rim.
+std::optional<double> clock_hour(const RangeAnswer& answer, const motion::MotionLimit& limit);
+
+/// Guarantee of the limit, in one sentence.
+std::string guarantee_text(const motion::MotionLimit& limit);
+/// The same of a limit with a depth allowed, which is searched for and not exact.
+std::string guarantee_text(const motion::DepthLimit& limit);
+
+}  // namespace condyle

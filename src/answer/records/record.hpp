@@ -1,0 +1,138 @@
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <optional>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "condyle/angle.hpp"
+#include "condyle/joint_coordinates.hpp"
+#include "condyle/pose.hpp"
+
+/// Records: what is said of an answer, in the words of the files.
+///
+/// A record is a plain struct whose members have the names and units of the files' keys. One function fills it. Its table, fields<Record>,
+/// says each key once; the walks over the tables (io/record/) make JSON, CSV and the columns of studies of any record, and the pages of docs/
+/// are compared with them. An empty std::optional is a value that is not known.
+
+namespace condyle {
+
+/// A point on the fixed body, in F, or on the mobile one, in M; mm. What writes it brings it into the frame of the answer.
+struct PointF {
+  Vec3 mm;
+};
+struct PointM {
+  Vec3 mm;
+};
+
+/// Degrees that somebody gave: they are written digit by digit as given.
+struct GivenDegrees {
+  Angle angle;
+};
+
+/// A value for each angle of a joint, under the names that the joint has for them; an empty one is left out.
+template <class Value>
+using OfAngles = std::array<std::optional<Value>, all_joint_angles.size()>;
+
+/// The tables in which a value has a column.
+enum class Tables : std::uint8_t {
+  rom,
+  studies,  ///< of `condyle rom` and of studies
+  studies_with_bands,
+  studies_that_follow,  ///< a recorded motion or a load
+};
+
+/// Joints in whose tables of `condyle rom` the column is. Those of studies have it for every joint.
+enum class TablesOf : std::uint8_t { all, hips, shoulders };
+
+/// A value as a column. Its unit is that of its name; a point has three columns, NAME_x_mm and so on, and angles one each, NAME_ANGLE_deg.
+struct FieldColumn {
+  const char* name;  ///< "": that of the key
+  const char* meaning;
+  Tables tables;
+  TablesOf joints = TablesOf::all;
+};
+struct NoColumn {};
+
+/// What JSON has of an empty value.
+enum class IfEmpty : std::uint8_t { null, left_out };
+
+/// An entry of a record's table: a value, by the members that lead to it.
+template <class ColumnOrNone, class... Members>
+struct Field {
+  static constexpr bool has_column = std::same_as<ColumnOrNone, FieldColumn>;
+
+  const char* key;  ///< "": in tables only
+  std::tuple<Members...> path;
+  const char* meaning;  ///< of the key, as the page of docs/ has it
+  ColumnOrNone column;
+  IfEmpty if_empty;
+};
+
+/// A key of a record.
+template <class Record, class Value>
+constexpr Field<NoColumn, Value Record::*> field(const char* key, Value Record::*member,
+                                                 const char* meaning = "", IfEmpty if_empty = IfEmpty::null) {
+  return {key, {member}, meaning, {}, if_empty};
+}
+/// One that tables have too.
+template <class Record, class Value>
+constexpr Field<FieldColumn, Value Record::*> field(const char* key, Value Record::*member,
+                                                    const char* meaning, FieldColumn column) {
+  return {key, {member}, meaning, column, IfEmpty::null};
+}
+/// A key that JSON does not have if its value is empty.
+template <class Record, class Value>
+constexpr auto field_if_any(const char* key, Value Record::*member, const char* meaning = "") {
+  return field(key, member, meaning, IfEmpty::left_out);
+}
+/// A column of a value further down, which JSON has in its own record.
+template <class... Members>
+constexpr Field<FieldColumn, Members...> column_of(FieldColumn column, Members... path) {
+  return {"", {path...}, "", column, IfEmpty::null};
+}
+
+/// The table of a record.
+template <class Record>
+inline constexpr std::nullptr_t fields = nullptr;
+
+template <class Type>
+concept IsRecord = !std::same_as<std::remove_const_t<decltype(fields<Type>)>, std::nullptr_t>;
+
+template <class Record, class Visit>
+constexpr void for_each_field(const Visit& visit) {
+  std::apply([&](const auto&... each) { (visit(each), ...); }, fields<Record>);
+}
+
+template <class Type>
+inline constexpr bool is_optional = false;
+template <class Type>
+inline constexpr bool is_optional<std::optional<Type>> = true;
+template <class Type>
+inline constexpr bool is_list = false;
+template <class Type>
+inline constexpr bool is_list<std::vector<Type>> = true;
+template <class Type, std::size_t n>
+inline constexpr bool is_list<std::array<Type, n>> = true;
+template <class Type>
+inline constexpr bool is_of_angles = false;
+template <class Type>
+inline constexpr bool is_of_angles<OfAngles<Type>> = true;
+
+/// The value to which members lead, without its optionals; null if one of them is empty.
+template <class Value>
+constexpr auto reached(const Value* value) {
+  if constexpr (is_optional<Value>)
+    return reached(value && *value ? &**value : nullptr);
+  else
+    return value;
+}
+template <class Value, class Record, class Member, class... Rest>
+constexpr auto reached(const Value* value, Member Record::*first, Rest... rest) {
+  const Record* record = reached(value);
+  return reached(record ? &(record->*first) : nullptr, rest...);
+}
+
+}  // namespace condyle
