@@ -1,5 +1,5 @@
 # Thin front door; CMakePresets.json has the details.
-.PHONY: demo command test test-all nightly build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
+.PHONY: demo describe command test test-all nightly build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
   package package-test wheel page-core page page-template sanitize-thread sanitize-some release label-limits
 
 dependencies:
@@ -54,6 +54,12 @@ test-all: dependencies
 	@$(configure_all)
 	@cmake --build --preset release
 	@$(call run_tests,release,nightly)
+
+# Writes what is made from the tables of records: classes of Python, tables of docs/.
+describe: dependencies
+	@$(configure_all)
+	@cmake --build --preset release --target condyle_describe
+	@build/release/condyle_describe .
 
 # All that takes hours: the longer forms of tests, valgrind, shards under Snakemake and Slurm, wheel and packages, the bench, clang, sanitizers.
 nightly: bench_dependencies clang_dependencies

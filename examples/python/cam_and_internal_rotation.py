@@ -23,7 +23,7 @@ SHAPES = {"femoral_anteversion_deg": (15, 8), "neck_shaft_angle_deg": (127, 4), 
 def internal_rotation_deg(**measures):
     bones = condyle.sample_hip(**measures)
     joint = condyle.Joint(bones.hip_bone, bones.femur, side="right")
-    return joint.range_of_motion([MOTION])[MOTION].turned_deg
+    return joint.range_of_motion([MOTION])[MOTION].limit_deg
 
 
 def hips(count):

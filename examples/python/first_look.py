@@ -15,4 +15,4 @@ print(joint.contact_measures(pose))
 
 rom = joint.range_of_motion()
 for limit in rom:
-    print(f"{limit.motion.name:32} {limit.turned_deg:6.1f} deg  {limit.reason}")
+    print(f"{limit.motion.name:32} {limit.limit_deg:6.1f} deg  {limit.reason}")

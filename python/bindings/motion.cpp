@@ -3,14 +3,10 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "io/result/rom_result.hpp"
+#include "io/joint/given_degrees.hpp"
 
 namespace condyle::python {
 namespace {
-
-std::array<double, 3> degrees_of_angles(const JointAngles& angles) {
-  return {angles.flexion.degrees(), angles.adduction.degrees(), angles.internal_rotation.degrees()};
-}
 
 py::tuple feature_tuple(const motion::Feature& feature) {
   constexpr const char* kinds[] = {"vertex", "edge", "face"};
@@ -27,8 +23,11 @@ JointAngles angles_in(const py::object& given, std::string_view name) {
 }
 
 py::tuple tuple_of(const motion::Motion& motion) {
+  const auto& [flexion, adduction, internal_rotation] = motion.start;
   return py::make_tuple(motion.name, static_cast<int>(motion.vary), static_cast<int>(motion.sense),
-                        degrees_of_angles(motion.start), motion.range.degrees());
+                        std::array{io::given_degrees(flexion), io::given_degrees(adduction),
+                                   io::given_degrees(internal_rotation)},
+                        io::given_degrees(motion.range));
 }
 
 motion::Motion motion_in(const py::tuple& given) {
@@ -58,7 +57,7 @@ py::object dict_of(const std::optional<motion::ContactWitness>& contact, const i
 
 py::dict dict_of(const motion::Limit& limit, const io::AnswerFrame& frame) {
   py::dict dict;
-  dict["turned_deg"] = limit.turned.degrees();
+  dict["limit_deg"] = limit.turned.degrees();
   dict["reason"] = name_of(limit.reason);
   dict["contact"] = dict_of(limit.contact, frame);
   dict["error_bound_deg"] = limit.error_bound.degrees();
@@ -68,17 +67,6 @@ py::dict dict_of(const motion::Limit& limit, const io::AnswerFrame& frame) {
   dict["bearing_contact_deg"] = degrees(limit.bearing_contact);
   dict["soft_contact_deg"] = degrees(limit.soft_contact);
   dict["soft_contact"] = limit.soft_contact ? dict_of(limit.soft_contact->contact, frame) : py::none();
-  return dict;
-}
-
-py::dict dict_of(const motion::MotionLimit& limit, const io::AnswerFrame& frame) {
-  py::dict dict = dict_of(limit.end, frame);
-  dict["motion"] = tuple_of(limit.motion);
-  dict["angles_deg"] = degrees_of_angles(limit.angles_at_limit());
-  dict["centre_distance_mm"] = limit.head ? optional_number(limit.head->centre_distance_mm) : py::none();
-  dict["joint_space_mm"] = limit.head ? optional_number(limit.head->joint_space_mm) : py::none();
-  dict["translation_mm"] = optional_array(limit.translation_mm);
-  dict["translation_ends"] = limit.translation_ends;
   return dict;
 }
 

@@ -25,7 +25,6 @@ JointAngles angles_in(const py::object& given, std::string_view name);
 
 /// Points in `frame`: that of a joint held at a translation moves them back into its own.
 py::dict dict_of(const motion::Limit& limit, const io::AnswerFrame& frame = {});
-py::dict dict_of(const motion::MotionLimit& limit, const io::AnswerFrame& frame);
 py::object dict_of(const std::optional<motion::ContactWitness>& contact, const io::AnswerFrame& frame = {});
 
 }  // namespace condyle::python

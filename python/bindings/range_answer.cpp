@@ -56,8 +56,10 @@ RangeAnswer further_answered(const RangeHandle& handle, RangeRequest beside, con
 py::list limits_of(const io::RomResult& result) {
   py::list list;
   for (std::size_t i = 0; i < result.answer.limits.size(); ++i) {
-    py::dict dict = dict_of(result.answer.limits[i], io::frame_of(result));
+    const auto& soft = result.answer.limits[i].end.soft_contact;
+    py::dict dict;
     dict["said"] = object_of(io::motion_json(result, i));
+    dict["soft_contact"] = soft ? dict_of(soft->contact, io::frame_of(result)) : py::none();
     list.append(dict);
   }
   return list;

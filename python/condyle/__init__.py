@@ -28,7 +28,7 @@ from ._labels import Label, LabelMap, LabelNote, LabelPiece, LabelSurface, Surfa
 from ._limit_band import LimitBand
 from ._followed_range import FollowedRange
 from ._hip_measures import HipMeasure, HipMeasures, MeasureBand, NormalRange
-from ._limits import KINDS, REASONS, Caveat, ClosedForm, ContactWitness, FreeAngles, Limit, MotionLimit, PathLimit
+from ._limits import KINDS, REASONS, ContactWitness, FreeAngles, Limit, MotionLimit, PathLimit
 from ._mesh import MeshLike, TriMesh, read_mesh, write_mesh
 from ._model import Model, ModelCoordinate, ModelJoint, ModelMesh, ModelNote, read_model
 from ._motion import Motion
@@ -43,6 +43,7 @@ from ._propose_joint import JointProposal, propose_joint
 from ._range_of_motion import Bearing, FittedSphere, ImplantPair, MotionArc, RangeOfMotion
 from ._recorded_motion import ContactEnd, ContactInterval, JointMotion, MotionTable, RecordedContact
 from ._recorded_motion import read_motion_table
+from ._records import Caveat, ClosedForm
 from ._resection import Blocked, CurvePoint, CutBone, ReachedTarget, Resection
 from ._sample import HIP_PARAMETERS, SampleCartilages, SampleHip, sample_cartilages, sample_hip
 from ._study import Study, StudyLoad, StudyResection, StudyTable, merge_study, read_study, run_study, sample_cohort

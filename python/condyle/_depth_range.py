@@ -52,9 +52,9 @@ class DepthRange:
     >>> import condyle
     >>> bones = condyle.sample_hip(scenario=1)
     >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
-    >>> exact = joint.range_of_motion(["flexion"])["flexion"].turned_deg
+    >>> exact = joint.range_of_motion(["flexion"])["flexion"].limit_deg
     >>> deep, = condyle.DepthRange(joint, 1.0).limits(["flexion"])
-    >>> exact < deep.limit.turned_deg < exact + 5
+    >>> exact < deep.limit.limit_deg < exact + 5
     True
     """
 

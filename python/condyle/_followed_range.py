@@ -72,8 +72,8 @@ class FollowedRange:
     def __repr__(self) -> str:
         def end(limit: MotionLimit) -> str:
             if limit.translation_ends:
-                return f"{limit.turned_deg:.1f} translation_ends"
-            return end_text(limit.turned_deg, limit.reason) + (" contact_at_start" if limit.reason == "contact_at_start" else "")
+                return f"{limit.limit_deg:.1f} translation_ends"
+            return end_text(limit.limit_deg, limit.reason) + (" contact_at_start" if limit.reason == "contact_at_start" else "")
 
         return "FollowedRange(" + ", ".join(f"{limit.motion.name} {end(limit)}" for limit in self.limits) + ")"
 

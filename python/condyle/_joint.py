@@ -540,7 +540,7 @@ class Joint(DescribedJoint):
         >>> bones = condyle.sample_hip(alpha_angle_deg=70)
         >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
         >>> plan = joint.resection({"internal_rotation_at_90_flexion": 45}, curve_points=0)
-        >>> plan.after[8].turned_deg >= 45
+        >>> plan.after[8].limit_deg >= 45
         True
         """
         return resection(self, Joint._of_native, reach, cut, share, margin_mm, deepest_mm, within_mm, burr_mm, keep, keep_fixed, edge_mm,
@@ -576,7 +576,7 @@ class Joint(DescribedJoint):
         >>> end = joint.range_of_motion()["internal_rotation_at_90_flexion"]
         >>> there = np.linalg.norm(joint.mobile.vertices - end.contact.mobile_point, axis=1).argmin()
         >>> done = joint.brushed([BrushStroke(there, radius_mm=8, depth_mm=2)])
-        >>> done.after[8].turned_deg > done.before[8].turned_deg
+        >>> done.after[8].limit_deg > done.before[8].limit_deg
         True
         """
         return brushed(self, Joint._of_native, strokes, body, keep, bearing, bearing_margin_mm)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
-from typing import Any, Literal, Mapping, Optional, Sequence, TypedDict, Union, get_args
+from typing import Any, Literal, Mapping, Optional, Sequence, TypeVar, Union, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +15,11 @@ from ._described_joint import DescribedJoint
 from ._errors import UsageError
 from ._mesh import TriMesh
 from ._motion import Angles, Motion, Motions
-from ._words import ContactKind, ContactSide, LimitReason, number
+from ._records import FeatureRecord, LimitRecord
+from ._words import ContactKind, LimitReason, number
 
+
+Value = TypeVar("Value")
 
 #: Values of `reason` in maps, by number.
 REASONS: tuple[LimitReason, ...] = get_args(LimitReason)
@@ -23,9 +27,9 @@ REASONS: tuple[LimitReason, ...] = get_args(LimitReason)
 KINDS: tuple[ContactKind, ...] = get_args(ContactKind)
 
 
-def end_text(turned_deg: float, reason: LimitReason) -> str:
+def end_text(limit_deg: float, reason: LimitReason) -> str:
     """ "134.8", or ">120" where the range ends without contact."""
-    return f">{round(turned_deg, 1):g}" if reason == "end_of_range" else f"{turned_deg:.1f}"
+    return f">{round(limit_deg, 1):g}" if reason == "end_of_range" else f"{limit_deg:.1f}"
 
 
 Feature = Union[tuple[Literal["vertex"], int], tuple[Literal["edge"], int, int], tuple[Literal["face"], int]]
@@ -46,20 +50,36 @@ class ContactWitness:
     kind: ContactKind
 
 
+class OldNames:
+    """Names that limits had before they had those of the files."""
+
+    limit_deg: float
+
+    @property
+    def turned_deg(self) -> float:
+        """Deprecated: `limit_deg`, as the files call it."""
+        return renamed("turned_deg", "limit_deg", self.limit_deg)
+
+
+def renamed(old: str, new: str, value: Value) -> Value:
+    warnings.warn(f"{old} is called {new} now, as in the files", DeprecationWarning, stacklevel=3)
+    return value
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class Limit:
+class Limit(OldNames):
     """One end of a free rotation.
 
     Attributes
     ----------
-    turned_deg : float
+    limit_deg : float
         From the start, at least 0 in either sense.
     reason : str
         "contact", "end_of_range" or "contact_at_start".
     contact : ContactWitness or None
         None where nothing meets, or one body is inside the other.
     error_bound_deg : float
-        First contact is at `turned_deg` or past it by at most this, never before.
+        First contact is at `limit_deg` or past it by at most this, never before.
     bearing_contact_deg : float or None
         Where bearing contact does not count: the first one, if it comes before the limit.
     soft_contact_deg : float or None
@@ -68,7 +88,7 @@ class Limit:
         The features in contact there.
     """
 
-    turned_deg: float
+    limit_deg: float
     reason: LimitReason
     contact: Optional[ContactWitness]
     error_bound_deg: float
@@ -77,68 +97,64 @@ class Limit:
     soft_contact: Optional[ContactWitness]
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({self.turned_deg:.6g} deg, {self.reason})"
+        return f"Limit({self.limit_deg:.6g} deg, {self.reason})"
 
 
-@dataclass(frozen=True)
-class Caveat:
-    """A caveat to read before a limit is compared with a living joint.
-
-    `code` as in rom.json ("soft_tissue_ends"), `text` one sentence, `source` where it is from, None for "end_unknown".
-    """
-
-    code: str
-    text: str
-    source: Optional[str]
+def _feature_of(record: FeatureRecord) -> Feature:
+    if record.kind == "edge":
+        first, last = record.vertices or (0, 0)
+        return "edge", first, last
+    number = record.id or 0
+    return ("vertex", number) if record.kind == "vertex" else ("face", number)
 
 
-class ClosedForm(TypedDict):
-    """Where liner and neck of an implant end a motion, as bodies of revolution: see :attr:`MotionLimit.closed_form`."""
+class MotionLimit(LimitRecord, OldNames):
+    __doc__ = (LimitRecord.__doc__ or "").replace("in the words of rom.json.", """by the keys of rom.json.
 
-    limit_deg: float
-    reason: LimitReason
-    of_facets_deg: list[float]
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class MotionLimit(Limit):
-    """Where one motion ends.
-
-    Besides what a :class:`Limit` has: `motion`; `angles_deg`, the joint's angles there by name; `centre_distance_mm`
-    between head and socket and `joint_space_mm` of the bearing surface, None where not known; `fixed_part` and
-    `mobile_part`, names of the meshes that meet, None without contact and of a body of one mesh; `soft_fixed_part` and
-    `soft_mobile_part`, of those of `soft_contact`; `translation_mm` (3,) at the limit of :meth:`Joint.range_following`, else None;
-    `translation_ends`, True if what it follows ends there, so that nothing is known past the limit; `contact_side`, of a shoulder the side of its centre on which the scapula is met:
-    "superior" (acromion), "anterior" (coracoid process), "inferior" or "posterior", else None; `caveats`, a list of
-    :class:`Caveat`: whether bone usually ends such a motion of a hip, and what is not modelled; empty for other joints.
-
-    By the keys of rom.json (docs/formats-limits.md): `clock_hour` of the contact on the socket, in [0, 12); `closed_form` of an implant
-    whose liner and neck are bodies of revolution, `limit_deg`, `reason` and `of_facets_deg`, between which their meshes end the motion;
-    `normal_range_deg` of a healthy hip; `definition` of motions without agreed angles; each None where there is none. `guarantee`
-    is what is guaranteed of the limit, in words.
-    """
+    And with meshes numbered as they were given: `motion`; `contact`, the features that meet, and `soft_contact`, those of a mesh called
+    soft; `fixed_part` and `mobile_part`, names of the meshes that meet, None without contact and of a body of one mesh;
+    `soft_fixed_part` and `soft_mobile_part`, of those of `soft_contact`.""")
 
     motion: Motion
-    angles_deg: Mapping[str, float]
-    centre_distance_mm: Optional[float]
-    joint_space_mm: Optional[float]
-    fixed_part: Optional[str]
-    mobile_part: Optional[str]
-    soft_fixed_part: Optional[str]
-    soft_mobile_part: Optional[str]
-    translation_mm: Optional[NDArray[np.float64]]
-    translation_ends: bool
-    contact_side: Optional[ContactSide]
-    caveats: list[Caveat]
-    # Limits that were pickled before there were these have none of them.
-    clock_hour: Optional[float] = None
-    closed_form: Optional[ClosedForm] = None
-    normal_range_deg: Optional[float] = None
-    definition: Optional[str] = None
-    guarantee: str = ""
+    soft_contact: Optional[ContactWitness] = None
+    guarantee: str = ""  # of limits that were pickled before there was one
+
+    @property
+    def contact(self) -> Optional[ContactWitness]:
+        if self.features is None or self.contact_point_mm is None or self.contact_point_mobile_mm is None or self.contact_kind is None:
+            return None
+        return ContactWitness(_feature_of(self.features.fixed), _feature_of(self.features.mobile), self.contact_point_mm,
+                              self.contact_point_mobile_mm, self.contact_kind)
+
+    @property
+    def angles_deg(self) -> Angles:
+        """Deprecated: `at_limit_deg`, as the files call it."""
+        return renamed("angles_deg", "at_limit_deg", self.at_limit_deg)
+
+    @property
+    def fixed_part(self) -> Optional[str]:
+        return self.features.fixed.part if self.features else None
+
+    @property
+    def mobile_part(self) -> Optional[str]:
+        return self.features.mobile.part if self.features else None
+
+    @property
+    def soft_fixed_part(self) -> Optional[str]:
+        return self.soft_contact_parts.fixed if self.soft_contact_parts else None
+
+    @property
+    def soft_mobile_part(self) -> Optional[str]:
+        return self.soft_contact_parts.mobile if self.soft_contact_parts else None
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        for old, new in (("turned_deg", "limit_deg"), ("angles_deg", "at_limit_deg")):  # of limits that were pickled by their old names
+            if old in state:
+                state[new] = state.pop(old)
+        vars(self).update(state)
 
     def __repr__(self) -> str:
-        return f"MotionLimit({self.motion.name}: {self.turned_deg:.6g} deg, {self.reason})"
+        return f"MotionLimit({self.motion.name}: {self.limit_deg:.6g} deg, {self.reason})"
 
 
 @dataclass(frozen=True)
@@ -211,22 +227,24 @@ def limit_of(found: dict[str, Any], fixed: TriMesh, mobile: TriMesh) -> Limit:
     return Limit(**found)
 
 
+def _number_as_given(feature: dict[str, Any], mesh: TriMesh) -> None:
+    if "vertices" in feature:
+        feature["vertices"] = [mesh._as_given(vertex) for vertex in feature["vertices"]]
+    elif feature["kind"] == "vertex":
+        feature["id"] = mesh._as_given(feature["id"])
+
+
 def motion_limit_of(found: dict[str, Any], motions: Motions, joint: DescribedJoint) -> MotionLimit:
-    """The compiled part's limit, with what rom.json says of it."""
-    said = found.pop("said")
-    features, soft_parts = said["features"] or {}, said["soft_contact_parts"] or {}
-    for body in ("fixed", "mobile"):
-        found[f"{body}_part"] = features.get(body, {}).get("part")
-        found[f"soft_{body}_part"] = soft_parts.get(body)
-    for key in ("contact", "soft_contact"):
-        found[key] = witness_of(found[key], joint.fixed, joint.mobile)
-    for key in ("contact_side", "clock_hour", "normal_range_deg", "definition", "guarantee"):
-        found[key] = said[key]
-    found["closed_form"] = said.get("closed_form")
-    found["caveats"] = [Caveat(**each) for each in said["caveats"]]
-    found["motion"] = motions.motion_of(found["motion"])
-    found["angles_deg"] = motions.named(found["angles_deg"])
-    return MotionLimit(**found)
+    """The compiled part's limit, with vertices numbered as in the meshes that were given."""
+    said = found["said"]
+    for body, of in (("fixed", joint.fixed), ("mobile", joint.mobile)):
+        if said["features"] is not None:
+            _number_as_given(said["features"][body], of)
+    limit = MotionLimit.of(said)
+    vary = motions.angle(limit.vary, "vary")[0]
+    motion = Motion(limit.name, motions.angles[vary][0 if limit.sense == "positive" else 1], limit.range_deg, limit.start_deg)
+    vars(limit).update(motion=motion, soft_contact=witness_of(found["soft_contact"], joint.fixed, joint.mobile))
+    return limit
 
 
 def path_limit(joint: DescribedJoint, waypoints: Sequence[Mapping[str, float]], tolerance_deg: float) -> PathLimit:

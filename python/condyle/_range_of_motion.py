@@ -150,7 +150,7 @@ class RangeOfMotion:
         >>> bones = condyle.sample_hip(scenario=1)
         >>> rom = condyle.Joint(bones.hip_bone, bones.femur).range_of_motion(["flexion"])
         >>> free = rom.free_angles("flexion")
-        >>> free.contact_set_deg.shape[1], bool(free.positive.turned_deg == rom["flexion"].turned_deg)
+        >>> free.contact_set_deg.shape[1], bool(free.positive.limit_deg == rom["flexion"].limit_deg)
         (2, True)
         """
         which = self._motions.positive_angle(vary, "vary")
@@ -360,11 +360,11 @@ class RangeOfMotion:
 
     def __repr__(self) -> str:
         return "RangeOfMotion(" + ", ".join(
-            f"{limit.motion.name} {end_text(limit.turned_deg, limit.reason)}{' ' + limit.reason if limit.reason == 'contact_at_start' else ''}"
+            f"{limit.motion.name} {end_text(limit.limit_deg, limit.reason)}{' ' + limit.reason if limit.reason == 'contact_at_start' else ''}"
             for limit in self.limits) + ")"
 
     def _repr_html_(self) -> str:
-        return html_of(self._joint.name, [(limit.motion.name, f"{end_text(limit.turned_deg, limit.reason)} deg, {limit.reason}")
+        return html_of(self._joint.name, [(limit.motion.name, f"{end_text(limit.limit_deg, limit.reason)} deg, {limit.reason}")
                                           for limit in self.limits])
 
     def to_dataframe(self) -> pandas.DataFrame:
@@ -372,7 +372,7 @@ class RangeOfMotion:
         import pandas
 
         return pandas.DataFrame([
-            {"motion": limit.motion.name, "limit_deg": limit.turned_deg, "reason": limit.reason,
+            {"motion": limit.motion.name, "limit_deg": limit.limit_deg, "reason": limit.reason,
              "kind": limit.contact.kind if limit.contact else "unknown", "error_bound_deg": limit.error_bound_deg,
              "bearing_contact_deg": math.nan if limit.bearing_contact_deg is None else limit.bearing_contact_deg,
              "soft_contact_deg": math.nan if limit.soft_contact_deg is None else limit.soft_contact_deg,

@@ -144,7 +144,7 @@ class Resection(Generic[OfJoint]):
         return sum(bone.volume_mm3 for bone in (self.mobile, self.fixed) if bone)
 
     def __repr__(self) -> str:
-        reached = ", ".join(f"{each.motion} {each.before.turned_deg:.1f} -> {each.after.turned_deg:.1f}" for each in self.targets)
+        reached = ", ".join(f"{each.motion} {each.before.limit_deg:.1f} -> {each.after.limit_deg:.1f}" for each in self.targets)
         return f"Resection({reached}; {self.volume_mm3:.1f} mm3)"
 
 

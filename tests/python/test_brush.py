@@ -39,7 +39,7 @@ def test_a_stroke_lowers_the_bone_by_no_more_than_its_depth_and_gives_degrees(ca
     assert (done.depth_mm[moved == 0] == 0).all() and (done.depth_mm <= moved + 1e-9).all()
     assert done.deepest_mm == done.depth_mm.max() and done.volume_mm3 > 0
     assert np.array_equal(done.mesh.triangles, before.triangles)
-    assert limit_of(done.after).turned_deg > limit_of(done.before).turned_deg + 0.5
+    assert limit_of(done.after).limit_deg > limit_of(done.before).limit_deg + 0.5
     assert done.strokes[0].moved == (moved > 0).sum()
     assert repr(done).startswith("Brushed(1 strokes; ")
 
@@ -48,7 +48,7 @@ def test_limits_before_are_those_of_the_joint_and_without_strokes_nothing_change
     done = cam.brushed([])
     known = cam.range_of_motion()
     for before, after in zip(done.before, done.after):
-        assert before.turned_deg == after.turned_deg == known[before.motion.name].turned_deg
+        assert before.limit_deg == after.limit_deg == known[before.motion.name].limit_deg
     assert done.volume_mm3 == 0 and done.strokes == ()
 
 
@@ -71,7 +71,7 @@ def test_results_are_kept_by_pickle(cam):
     done = cam.brushed([BrushStroke(there(cam))])
     again = pickle.loads(pickle.dumps(done))
     assert again.volume_mm3 == done.volume_mm3
-    assert again.joint.range_of_motion()[MOTION].turned_deg == done.joint.range_of_motion()[MOTION].turned_deg
+    assert again.joint.range_of_motion()[MOTION].limit_deg == done.joint.range_of_motion()[MOTION].limit_deg
 
 
 @pytest.mark.parametrize("strokes, said", [

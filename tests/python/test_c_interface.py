@@ -131,7 +131,7 @@ def test_a_rotation_ends_where_the_modules_does(library: Any, bones: condyle.Joi
     check(library, library.condyle_first_contact_limits(rotation, byref(Pose.of(np.eye(4))), c_double(-360), c_double(360),
                                                         byref(negative), byref(positive)))
     expected = condyle.FirstContact(bones.fixed, bones.mobile, point, direction).limits()
-    assert [negative.turned_deg, positive.turned_deg] == [expected.negative.turned_deg, expected.positive.turned_deg]
+    assert [negative.turned_deg, positive.turned_deg] == [expected.negative.limit_deg, expected.positive.limit_deg]
     assert 0 < positive.turned_deg < 360 and positive.has_witness == 1
     for handle, kind in ((rotation, "first_contact"), (fixed, "mesh"), (mobile, "mesh")):
         getattr(library, f"condyle_{kind}_destroy")(handle)

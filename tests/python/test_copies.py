@@ -22,7 +22,7 @@ def described(joint):
 def answered(joint):
     depths, rom = joint.depths(POSE), joint.range_of_motion(["flexion", "fadir"])
     return (joint.pairs(POSE).tolist(), depths.mobile.depth_mm.tolist(), depths.fixed.depth_mm.tolist(),
-            [limit.turned_deg for limit in rom.limits], [str(limit.contact) for limit in rom.limits],
+            [limit.limit_deg for limit in rom.limits], [str(limit.contact) for limit in rom.limits],
             [motion.name for motion in rom.known_motions], rom.bands(samples=20)[0].p5_deg)
 
 
@@ -114,7 +114,7 @@ def test_copies_of_a_joint_are_the_joint(hip):
 
 
 def limit_of(joint):
-    return joint.range_of_motion(["flexion"]).limits[0].turned_deg
+    return joint.range_of_motion(["flexion"]).limits[0].limit_deg
 
 
 def test_another_process_answers_the_same(hip):

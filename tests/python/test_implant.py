@@ -30,7 +30,7 @@ def test_limits_name_the_parts_and_are_those_of_the_closed_form():
     hip = condyle.sample_replacement(bones="none").joint
     rom = hip.range_of_motion(bearing="count")
     flexion = rom.limit("flexion")
-    assert flexion.turned_deg == pytest.approx(128.7064, abs=0.002)
+    assert flexion.limit_deg == pytest.approx(128.7064, abs=0.002)
     assert flexion.mobile_part == "neck"
 
 
@@ -91,7 +91,7 @@ def test_an_implant_in_a_joint_is_that_of_the_command(command, hip_file, hip, tm
 def test_an_implant_in_a_joint_is_asked_as_any_joint(hip):
     placed = hip.implant(neck_shaft_deg=135, stem_version_deg=15, offset_mm=40)
     flexion = placed.joint.range_of_motion(bearing="count").limit("flexion")
-    assert flexion.turned_deg == pytest.approx(128.7064, abs=0.002)
+    assert flexion.limit_deg == pytest.approx(128.7064, abs=0.002)
     assert flexion.mobile_part == "neck"
     assert placed.cup["radiographic"] == pytest.approx((40, 15))
     assert hip.implant(as_rim=True).cup["radiographic"] == pytest.approx(placed.rim["radiographic"], abs=0.0051)

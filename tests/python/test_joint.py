@@ -186,9 +186,9 @@ def test_what_contact_of_each_mesh_means(tmp_path, command):
     limit = joint.range_of_motion(["flexion"]).limits[0]
     by_command = json.loads(subprocess.run([command, "rom", tmp_path / "joint.toml", "--motion", "flexion",
                                             "--json"], check=True, capture_output=True, text=True).stdout)["motions"][0]
-    assert limit.turned_deg == by_command["limit_deg"] and limit.contact.kind == "impingement"
+    assert limit.limit_deg == by_command["limit_deg"] and limit.contact.kind == "impingement"
     assert (limit.fixed_part, limit.mobile_part) == ("post", "arm")
-    assert limit.soft_contact_deg == by_command["soft_contact_deg"] < limit.bearing_contact_deg < limit.turned_deg
+    assert limit.soft_contact_deg == by_command["soft_contact_deg"] < limit.bearing_contact_deg < limit.limit_deg
     assert limit.bearing_contact_deg == by_command["bearing_contact_deg"]
     assert limit.soft_contact.kind == "soft"
     assert limit.soft_contact.fixed_point.tolist() == by_command["soft_contact_point_mm"]
@@ -228,18 +228,18 @@ def test_resections_are_those_of_the_command(tmp_path, sampled, command):
     cut, = said["cuts"]
     assert plan.fixed is None and plan.mobile.volume_mm3 == plan.volume_mm3 == cut["volume_mm3"]
     assert plan.mobile.depth_mm.max() == cut["deepest_mm"] and plan.margin_mm == said["margin_mm"]
-    assert [each.turned_deg for each in plan.after] == [each["after"]["limit_deg"] for each in said["limits"]]
+    assert [each.limit_deg for each in plan.after] == [each["after"]["limit_deg"] for each in said["limits"]]
     assert [point._asdict() for point in plan.curve] == said["curve"]
     assert [note.text for note in plan.notes] == [note["text"] for note in said["resection_notes"]]
     assert plan.measures["alpha_3_deg"] == tuple(
         next((each["before"], each["after"]) for each in said["measures"] if each["key"] == "alpha_3_deg"))
     # The joint without the bone composes, survives a pickle, and is the one that the command wrote.
     motion = ["internal_rotation_at_90_flexion"]
-    limit = plan.joint.range_of_motion(motion).limits[0].turned_deg
-    assert limit == plan.targets[0].after.turned_deg >= 45
-    assert pickle.loads(pickle.dumps(plan.joint)).range_of_motion(motion).limits[0].turned_deg == limit
-    assert condyle.read_joint(tmp_path / "plan" / "resected.toml").range_of_motion(motion).limits[0].turned_deg == limit
-    assert joint.with_mobile(plan.mobile.mesh).range_of_motion(motion).limits[0].turned_deg == limit
+    limit = plan.joint.range_of_motion(motion).limits[0].limit_deg
+    assert limit == plan.targets[0].after.limit_deg >= 45
+    assert pickle.loads(pickle.dumps(plan.joint)).range_of_motion(motion).limits[0].limit_deg == limit
+    assert condyle.read_joint(tmp_path / "plan" / "resected.toml").range_of_motion(motion).limits[0].limit_deg == limit
+    assert joint.with_mobile(plan.mobile.mesh).range_of_motion(motion).limits[0].limit_deg == limit
     assert plan.joint.resection(reach, curve_points=0).mobile is None
     said = json.loads(subprocess.run(
         [command, "resect", tmp_path / "hip.toml", "--reach", "internal_rotation_at_90_flexion=45", "--curve", "0", "--burr", "11", "--json"],

@@ -47,7 +47,7 @@ def test_joints_are_those_that_the_command_proposes(scan, hip, command, tmp_path
     assert of_file.name == hip.name and of_file.side == hip.side == "right"
     motions = ["flexion", "fadir"]
     ranges = of_file.range_of_motion(motions), hip.range_of_motion(motions)
-    assert [limit.turned_deg for limit in ranges[0].limits] == [limit.turned_deg for limit in ranges[1].limits]
+    assert [limit.limit_deg for limit in ranges[0].limits] == [limit.limit_deg for limit in ranges[1].limits]
     bands = [each.bands(samples=20) for each in ranges]
     assert bands[0] == bands[1] != ranges[1].bands(samples=20, sigma_surface_mm=0.25)
 
@@ -76,7 +76,7 @@ def test_what_the_image_cuts_is_no_limit(scan):
     with pytest.warns(condyle.JointWarning):
         shorter = joint.range_of_motion()
     for limit, other in zip(shorter.limits, whole.range_of_motion().limits):
-        assert limit.turned_deg > other.turned_deg - 1, limit.motion.name
+        assert limit.limit_deg > other.limit_deg - 1, limit.motion.name
     ends = {limit.motion.name for limit in shorter.limits if limit.contact is not None and limit.contact.kind == "cut"}
     noted = [note.text for note in shorter.notes if note.code == "limit_on_cut"]
     assert all(any(name in text for text in noted) for name in ends) and bool(ends) == bool(noted)

@@ -57,7 +57,7 @@ def written_joint(tmp_path, parts):
 
 
 def limits_of(joint):
-    return {limit.motion.name: limit.turned_deg for limit in joint.range_of_motion().limits}
+    return {limit.motion.name: limit.limit_deg for limit in joint.range_of_motion().limits}
 
 
 def test_parameters_are_those_of_the_file(joint):

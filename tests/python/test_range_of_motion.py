@@ -29,7 +29,7 @@ def test_limits_are_those_of_the_command(rom, said):
     assert len(said["motions"]) == len(rom.limits) == 12
     for theirs, ours in zip(said["motions"], rom.limits):
         assert theirs["name"] == ours.motion.name
-        assert theirs["limit_deg"] == ours.turned_deg
+        assert theirs["limit_deg"] == ours.limit_deg
         assert theirs["reason"] == ours.reason
         assert theirs["error_bound_deg"] == ours.error_bound_deg
 
@@ -112,20 +112,20 @@ def test_a_free_set_and_its_contact_set_fill_the_range(rom):
     assert both[0, 0] == -180 and both[-1, 1] == 180
     np.testing.assert_array_equal(both[1:, 0], both[:-1, 1])
     assert free.intervals_deg[(free.intervals_deg[:, 0] <= 0) & (free.intervals_deg[:, 1] >= 0)][0, 1] == \
-        rom["internal_rotation_at_90_flexion"].turned_deg
+        rom["internal_rotation_at_90_flexion"].limit_deg
     np.testing.assert_array_equal(rom.contact_set("internal_rotation", {"flexion": 90}), free.contact_set_deg)
 
 
 def test_a_limit_touches_just_past_it_and_not_before(hip):
     rom = hip.range_of_motion(["flexion"], bearing="count")
-    at = rom["flexion"].turned_deg
+    at = rom["flexion"].limit_deg
     assert rom["flexion"].reason == "contact"
     np.testing.assert_array_equal(hip.in_contact(hip.pose(flexion_deg=[at - 1e-6, at + 1e-6])), [False, True])
 
 
 def test_the_witness_of_a_limit_lies_on_both_bodies(hip, rom):
     limit = rom["flexion"]
-    X_FM = hip.pose(**{f"{name}_deg": value for name, value in limit.angles_deg.items()})
+    X_FM = hip.pose(**{f"{name}_deg": value for name, value in limit.at_limit_deg.items()})
     np.testing.assert_allclose((X_FM @ [*limit.contact.mobile_point, 1])[:3], limit.contact.fixed_point, atol=1e-9)
     kind, *numbers = limit.contact.fixed_feature
     if kind == "vertex":
@@ -134,9 +134,9 @@ def test_the_witness_of_a_limit_lies_on_both_bodies(hip, rom):
 
 def test_a_motion_of_ones_own_is_the_built_in_one_where_it_says_the_same(rom):
     own = condyle.Motion("mine", "extension", 90, {})
-    assert rom.limit(own).turned_deg == rom["extension"].turned_deg
+    assert rom.limit(own).limit_deg == rom["extension"].limit_deg
     fadir = condyle.Motion("mine", "internal_rotation", 120, {"flexion": 90, "adduction": 15})
-    assert rom.limit(fadir).turned_deg == rom["fadir"].turned_deg
+    assert rom.limit(fadir).limit_deg == rom["fadir"].limit_deg
 
 
 def test_bands_are_those_of_the_command(hip, command, hip_file):
@@ -153,7 +153,7 @@ def test_a_zone_grows_past_its_limit(hip):
     far, = rom.zones(past_deg=6)
     assert 0 < near.fixed.area_mm2 < far.fixed.area_mm2
     assert len(near.fixed.radial_depth_mm) == len(hip.fixed.vertices)
-    assert near.limit.turned_deg == rom["flexion"].turned_deg
+    assert near.limit.limit_deg == rom["flexion"].limit_deg
 
 
 def test_bodies_in_contact_in_the_reference_pose_are_refused_or_accepted(hip):
@@ -162,11 +162,11 @@ def test_bodies_in_contact_in_the_reference_pose_are_refused_or_accepted(hip):
     with pytest.raises(condyle.ReferenceContactError):
         bones.range_of_motion(["flexion"], bearing="count")
     limit, = bones.range_of_motion(["flexion"], bearing="count", accept_reference_contact=True)
-    assert limit.reason == "contact_at_start" and limit.turned_deg == 0
+    assert limit.reason == "contact_at_start" and limit.limit_deg == 0
 
 
 def test_a_path_along_one_angle_ends_short_of_its_exact_limit(hip):
-    exact = hip.range_of_motion(["flexion"])["flexion"].turned_deg
+    exact = hip.range_of_motion(["flexion"])["flexion"].limit_deg
     path = hip.path_limit([{}, {"flexion": 170}], tolerance_deg=0.01)
     assert path.reason == "contact" and path.angles_deg["flexion"] <= exact
 
@@ -178,7 +178,7 @@ def test_soups_give_the_limits_and_features_of_the_joined_mesh(hip):
     souped = condyle.Joint(soup(hip.fixed), soup(hip.mobile))
     ours = souped.range_of_motion(["flexion"])["flexion"]
     theirs = hip.range_of_motion(["flexion"])["flexion"]
-    assert ours.turned_deg == theirs.turned_deg
+    assert ours.limit_deg == theirs.limit_deg
     for body, mesh, whole in (("fixed", souped.fixed, hip.fixed), ("mobile", souped.mobile, hip.mobile)):
         kind, *numbers = getattr(ours.contact, f"{body}_feature")
         _, *expected = getattr(theirs.contact, f"{body}_feature")
@@ -234,10 +234,10 @@ def test_depth_limits_are_those_of_the_command(hip, command, hip_file):
     allowed = condyle.DepthRange(hip, 1.0)
     seen = []
     deep, = allowed.limits(["flexion"], progress=lambda *now: seen.append(now))
-    assert deep.limit.turned_deg == said["motions"][0]["limit_deg"] and seen == [(1, 1)]
+    assert deep.limit.limit_deg == said["motions"][0]["limit_deg"] and seen == [(1, 1)]
     assert 0 < deep.at_limit.depth_mm <= 1 and deep.start_depth_mm == 0
-    at = allowed.deepest({"flexion": deep.limit.turned_deg})
-    assert at.depth_mm == deep.at_limit.depth_mm == hip.penetration({"flexion_deg": deep.limit.turned_deg}).max_depth_mm
+    at = allowed.deepest({"flexion": deep.limit.limit_deg})
+    assert at.depth_mm == deep.at_limit.depth_mm == hip.penetration({"flexion_deg": deep.limit.limit_deg}).max_depth_mm
     for wrong in ({"allowed_depth_mm": -1}, {"allowed_depth_mm": 1, "step_deg": 0}, {"allowed_depth_mm": "deep"}):
         with pytest.raises(condyle.UsageError):
             condyle.DepthRange(hip, **wrong)
@@ -248,7 +248,7 @@ def test_first_contact_about_the_axis_of_flexion_is_the_limit_of_flexion(hip):
     found = condyle.FirstContact(hip.fixed, hip.mobile, [0, 0, 0], [0, 0, 1])
     limits = found.limits()
     assert limits.free_at_start
-    assert limits.positive.turned_deg == counted["flexion"].turned_deg
+    assert limits.positive.limit_deg == counted["flexion"].limit_deg
     assert found.limits(positive_deg=10).positive.reason == "end_of_range"
     assert not found.limits(hip.pose(flexion_deg=145)).free_at_start
     for pose, degrees in ((np.eye(3), 10), (np.eye(4), 400), ([np.eye(4)] * 2, 10)):
@@ -281,7 +281,7 @@ def test_the_centre_follows_a_recorded_motion_or_a_load(tmp_path, coarse_bones, 
     assert [limit.motion.name for limit in found.limits] == ["flexion"]
     by_command = json.loads(subprocess.run([command, "rom", tmp_path / "hip.toml", "--follow", tmp_path / "record.csv", "--json"],
                                            check=True, capture_output=True, text=True).stdout)
-    assert found["flexion"].turned_deg == by_command["motions"][0]["limit_deg"]
+    assert found["flexion"].limit_deg == by_command["motions"][0]["limit_deg"]
     assert found["flexion"].translation_mm.tolist() == by_command["motions"][0]["translation_mm"]
     assert found["flexion"].translation_ends is by_command["motions"][0]["translation_ends"] is False
     (tmp_path / "short.csv").write_text("time,flexion_deg,x_mm,y_mm\n" + "".join(rows.splitlines(True)[:5]))
@@ -289,7 +289,7 @@ def test_the_centre_follows_a_recorded_motion_or_a_load(tmp_path, coarse_bones, 
         led = joint.range_following(poses=joint.motion(tmp_path / "short.csv").X_FM)
     short = led["flexion"]
     assert repr(led) == "FollowedRange(flexion 8.0 translation_ends)"
-    assert short.translation_ends is True and short.turned_deg == pytest.approx(8, abs=1e-9)
+    assert short.translation_ends is True and short.limit_deg == pytest.approx(8, abs=1e-9)
     assert found.caveats == by_command["caveats"]
     found.write_report(tmp_path / "python.html", title="hip")
     subprocess.run([command, "report", tmp_path / "hip.toml", "--follow", tmp_path / "record.csv", "--title", "hip", "--out",
@@ -299,9 +299,9 @@ def test_the_centre_follows_a_recorded_motion_or_a_load(tmp_path, coarse_bones, 
     assert pages[0]["rom"]["exact"] is False and pages[0]["poses"] == pages[1]["poses"]
     (tmp_path / "joints.csv").write_text("id,joint,follow\none,hip.toml,record.csv\n")
     study = condyle.run_study(tmp_path / "joints.csv", tmp_path / "study")
-    assert study.limits["limit_deg"].tolist() == [found["flexion"].turned_deg] and study.hips["exact"].tolist() == [0]
+    assert study.limits["limit_deg"].tolist() == [found["flexion"].limit_deg] and study.hips["exact"].tolist() == [0]
     held = joint.range_of_motion(["flexion"])["flexion"]
-    assert held.translation_mm is None and 0.1 < abs(held.turned_deg - found["flexion"].turned_deg) < 20
+    assert held.translation_mm is None and 0.1 < abs(held.limit_deg - found["flexion"].limit_deg) < 20
     contact = condyle.ElasticContact(layers.acetabular, layers.femoral, mobile_layer=condyle.ElasticLayer(12, 0.42, 1.5))
     loaded = joint.range_following(["flexion"], contact=contact, force_n=[0, 800, 0], step_deg=20)
     assert loaded["flexion"].reason in ("contact", "end_of_range") and "carries the load" in loaded.caveats[0]

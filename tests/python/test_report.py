@@ -77,7 +77,7 @@ def test_a_report_compares_joints_as_the_command_does(command, sampled, hip, hip
     assert {file["path"] for file in read} == {"hip.toml", "hip_bone.ply", "femur.ply"}
     assert ours == theirs
     limits = before.range_of_motion().limits
-    assert [motion["limit_deg"] for motion in ours["before"]["rom"]["motions"]] == [limit.turned_deg for limit in limits]
+    assert [motion["limit_deg"] for motion in ours["before"]["rom"]["motions"]] == [limit.limit_deg for limit in limits]
     with pytest.raises(condyle.UsageError, match="the same kind, anatomy and side"):
         rom.write_report(tmp_path / "other.html", before=condyle.read_joint(tmp_path / "left" / "hip.toml"))
     with pytest.raises(condyle.UsageError, match="before: a joint is needed, not str"):
@@ -92,7 +92,7 @@ def test_a_report_has_the_motions_asked_for_and_the_title_given(hip, tmp_path):
     rom.write_report(tmp_path / "hip.html", title="Hip & <more>")
     text = text_of(tmp_path / "hip.html")
     assert text["title"] == "Hip & <more>"
-    assert [motion["limit_deg"] for motion in text["rom"]["motions"]] == [limit.turned_deg for limit in rom.limits]
+    assert [motion["limit_deg"] for motion in text["rom"]["motions"]] == [limit.limit_deg for limit in rom.limits]
     assert text["zones"] == []
 
 

@@ -30,7 +30,7 @@ def study(table: Path, tmp_path_factory: pytest.TempPathFactory) -> condyle.Stud
 
 def test_limits_are_those_of_the_joint(study: condyle.Study, hip: condyle.Joint):
     assert repr(study) == "Study(2 joints, 1 failures, 2 motions)"
-    limits = [limit.turned_deg for limit in hip.range_of_motion(MOTIONS).limits]
+    limits = [limit.limit_deg for limit in hip.range_of_motion(MOTIONS).limits]
     assert study.limits["limit_deg"].tolist() == limits * 2
     assert study.limits["id"].tolist() == ["a", "a", "c", "c"]
     assert study.limits["group"].tolist() == ["x, y"] * 2 + ["z"] * 2

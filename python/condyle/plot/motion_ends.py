@@ -58,16 +58,10 @@ def _caveats(limit: Any) -> Tuple[str, ...]:
     return tuple(of(caveat, "code") for caveat in of(limit, "caveats") or ())
 
 
-def _of_file(limit: Any) -> MotionEnd:
+def _of_limit(limit: Any) -> MotionEnd:
     return MotionEnd(of(limit, "name"), of(limit, "limit_deg"), _end(of(limit, "reason"), of(limit, "contact_kind")),
                      of(limit, "bearing_contact_deg"), _band(of(limit, "band")), of(limit, "normal_range_deg"),
                      of(limit, "clock_hour"), _caveats(limit))
-
-
-def _of_limit(limit: Any) -> MotionEnd:
-    kind = limit.contact.kind if limit.contact is not None else None
-    return MotionEnd(limit.motion.name, limit.turned_deg, _end(limit.reason, kind), limit.bearing_contact_deg, None,
-                     of(limit, "normal_range_deg"), of(limit, "clock_hour"), _caveats(limit))
 
 
 def motion_ends(result: RomLike, bands: Bands = True) -> List[MotionEnd]:
@@ -76,7 +70,7 @@ def motion_ends(result: RomLike, bands: Bands = True) -> List[MotionEnd]:
     Raises UsageError where there are no motions, or not as many bands.
     """
     limits = of(result, "limits")
-    ends = list(map(_of_file, of(result, "motions") or [])) if limits is None else list(map(_of_limit, limits))
+    ends = list(map(_of_limit, of(result, "motions") or [] if limits is None else limits))
     if not ends:
         raise UsageError("no motions to draw")
     if bands is True:

@@ -112,67 +112,77 @@ struct LimitRecord {
 LimitRecord limit_record(const RangeAnswer& answer, std::size_t i);
 
 template <>
-inline constexpr auto fields<FeatureRecord> =
-    std::tuple{field("kind", &FeatureRecord::kind), field_if_any("vertices", &FeatureRecord::vertices),
-               field_if_any("id", &FeatureRecord::id), field_if_any("part", &FeatureRecord::part)};
+inline constexpr auto table<FeatureRecord> = record("FeatureRecord",
+                                                    "A vertex or a face by its number, or an edge by its two "
+                                                    "vertices, ascending: in numbers of the mesh, from 0.",
+                                                    field("kind", &FeatureRecord::kind),
+                                                    field_if_any("vertices", &FeatureRecord::vertices),
+                                                    field_if_any("id", &FeatureRecord::id),
+                                                    field_if_any("part", &FeatureRecord::part));
 template <>
-inline constexpr auto fields<FeaturesRecord> =
-    std::tuple{field("fixed", &FeaturesRecord::fixed), field("mobile", &FeaturesRecord::mobile)};
+inline constexpr auto table<FeaturesRecord> = record("FeaturesRecord", "What is in contact of either body.",
+                                                     field("fixed", &FeaturesRecord::fixed),
+                                                     field("mobile", &FeaturesRecord::mobile));
 template <>
-inline constexpr auto fields<PartsRecord> =
-    std::tuple{field("fixed", &PartsRecord::fixed), field("mobile", &PartsRecord::mobile)};
+inline constexpr auto table<PartsRecord> =
+    record("PartsRecord", "Names of the meshes that touch, None of a body of one mesh.",
+           field("fixed", &PartsRecord::fixed), field("mobile", &PartsRecord::mobile));
 template <>
-inline constexpr auto fields<AllowedDepthRecord> =
-    std::tuple{field("at_start_mm", &AllowedDepthRecord::at_start_mm),
-               field("at_limit_mm", &AllowedDepthRecord::at_limit_mm),
-               field("ray_to_normal_deg", &AllowedDepthRecord::ray_to_normal_deg),
-               field("grows", &AllowedDepthRecord::grows)};
+inline constexpr auto table<AllowedDepthRecord> =
+    record("AllowedDepthRecord", "Depths of a limit with a depth allowed.",
+           field("at_start_mm", &AllowedDepthRecord::at_start_mm),
+           field("at_limit_mm", &AllowedDepthRecord::at_limit_mm),
+           field("ray_to_normal_deg", &AllowedDepthRecord::ray_to_normal_deg),
+           field("grows", &AllowedDepthRecord::grows));
 template <>
-inline constexpr auto fields<ClosedFormRecord> =
-    std::tuple{field("limit_deg", &ClosedFormRecord::limit_deg), field("reason", &ClosedFormRecord::reason),
-               field("of_facets_deg", &ClosedFormRecord::of_facets_deg)};
+inline constexpr auto table<ClosedFormRecord> =
+    record("ClosedForm", "Where liner and neck of an implant end a motion, as bodies of revolution.",
+           field("limit_deg", &ClosedFormRecord::limit_deg), field("reason", &ClosedFormRecord::reason),
+           field("of_facets_deg", &ClosedFormRecord::of_facets_deg));
 template <>
-inline constexpr auto fields<BandWidthRecord> = std::tuple{
-    field("centre_deg", &BandWidthRecord::centre_deg), field("axes_deg", &BandWidthRecord::axes_deg),
-    field("surface_deg", &BandWidthRecord::surface_deg),
-    field_if_any("parameters_deg", &BandWidthRecord::parameters_deg)};
+inline constexpr auto table<BandWidthRecord> =
+    record("BandWidthRecord", "Width of a band if only one source was uncertain.",
+           field("centre_deg", &BandWidthRecord::centre_deg), field("axes_deg", &BandWidthRecord::axes_deg),
+           field("surface_deg", &BandWidthRecord::surface_deg),
+           field_if_any("parameters_deg", &BandWidthRecord::parameters_deg));
 template <>
-inline constexpr auto fields<BandRecord> =
-    std::tuple{field("p5_deg", &BandRecord::p5_deg),
-               field("median_deg", &BandRecord::median_deg),
-               field("p95_deg", &BandRecord::p95_deg),
-               field("width_from", &BandRecord::width_from),
-               field("share_without_contact", &BandRecord::share_without_contact),
-               field("share_in_contact_at_start", &BandRecord::share_in_contact_at_start)};
+inline constexpr auto table<BandRecord> =
+    record("BandRecord", "The limit over the joints of a band.", field("p5_deg", &BandRecord::p5_deg),
+           field("median_deg", &BandRecord::median_deg), field("p95_deg", &BandRecord::p95_deg),
+           field("width_from", &BandRecord::width_from),
+           field("share_without_contact", &BandRecord::share_without_contact),
+           field("share_in_contact_at_start", &BandRecord::share_in_contact_at_start));
 template <>
-inline constexpr auto fields<CaveatRecord> =
-    std::tuple{field("code", &CaveatRecord::code), field("text", &CaveatRecord::text),
-               field("source", &CaveatRecord::source)};
+inline constexpr auto table<CaveatRecord> =
+    record("Caveat", "A caveat to read before a limit is compared with a living joint.",
+           field("code", &CaveatRecord::code), field("text", &CaveatRecord::text),
+           field("source", &CaveatRecord::source));
 
-template <class Record>
-constexpr auto zone_of_body_fields() {
-  return std::tuple{field("triangles", &Record::triangles),
-                    field("area_mm2", &Record::area_mm2),
-                    field("centroid_mm", &Record::centroid_mm),
-                    field("max_radial_depth_mm", &Record::max_radial_depth_mm),
-                    field("max_tangential_depth_deg", &Record::max_tangential_depth_deg),
-                    field("max_tangential_depth_mm", &Record::max_tangential_depth_mm)};
+template <class Record, class OwnField>
+constexpr auto zone_table(const char* name, const char* meaning, OwnField of_this_body) {
+  return record(name, meaning, field("triangles", &Record::triangles), field("area_mm2", &Record::area_mm2),
+                field("centroid_mm", &Record::centroid_mm),
+                field("max_radial_depth_mm", &Record::max_radial_depth_mm),
+                field("max_tangential_depth_deg", &Record::max_tangential_depth_deg),
+                field("max_tangential_depth_mm", &Record::max_tangential_depth_mm), of_this_body);
 }
 template <>
-inline constexpr auto fields<FixedZoneRecord> = std::tuple_cat(
-    zone_of_body_fields<FixedZoneRecord>(), std::tuple{field("clock_hour", &FixedZoneRecord::clock_hour)});
+inline constexpr auto table<FixedZoneRecord> =
+    zone_table<FixedZoneRecord>("FixedZoneRecord", "The overlap past a limit, on the fixed body.",
+                                field("clock_hour", &FixedZoneRecord::clock_hour));
 template <>
-inline constexpr auto fields<MobileZoneRecord> =
-    std::tuple_cat(zone_of_body_fields<MobileZoneRecord>(),
-                   std::tuple{field("neck_angle_deg", &MobileZoneRecord::neck_angle_deg)});
+inline constexpr auto table<MobileZoneRecord> =
+    zone_table<MobileZoneRecord>("MobileZoneRecord", "The overlap past a limit, on the mobile body.",
+                                 field("neck_angle_deg", &MobileZoneRecord::neck_angle_deg));
 template <>
-inline constexpr auto fields<ZoneRecord> =
-    std::tuple{field("past_deg", &ZoneRecord::past_deg),
-               field("contact_neck_angle_deg", &ZoneRecord::contact_neck_angle_deg),
-               field("fixed", &ZoneRecord::fixed), field("mobile", &ZoneRecord::mobile)};
+inline constexpr auto table<ZoneRecord> =
+    record("ZoneRecord", "The overlap past a limit.", field("past_deg", &ZoneRecord::past_deg),
+           field("contact_neck_angle_deg", &ZoneRecord::contact_neck_angle_deg),
+           field("fixed", &ZoneRecord::fixed), field("mobile", &ZoneRecord::mobile));
 
 template <>
-inline constexpr auto fields<LimitRecord> = std::tuple{
+inline constexpr auto table<LimitRecord> = record(
+    "LimitRecord", "Where one motion ends, in the words of rom.json.",
     field("name", &LimitRecord::name, "of the motion", {"motion", "by its name", Tables::studies}),
     field("limit_deg", &LimitRecord::limit_deg, "how far it turned from its start; ≥ 0 whatever the sense",
           {"", "how far the joint turns from the motion's start", Tables::studies}),
@@ -196,14 +206,14 @@ inline constexpr auto fields<LimitRecord> = std::tuple{
           "where, in the fixed body's joint frame"),
     field("soft_contact_parts", &LimitRecord::soft_contact_parts,
           "`fixed` and `mobile`: names of the meshes that touch there, null of a body of one mesh"),
-    column_of(
-        FieldColumn{"soft_fixed_part", "which mesh of the fixed body is touched there, if it has several",
-                    Tables::studies},
-        &LimitRecord::soft_contact_parts, &PartsRecord::fixed),
-    column_of(
-        FieldColumn{"soft_mobile_part", "which mesh of the mobile body is touched there, if it has several",
-                    Tables::studies},
-        &LimitRecord::soft_contact_parts, &PartsRecord::mobile),
+    column_of(FieldColumn{"soft_fixed_part",
+                          "which mesh of the fixed body is touched there, if it has several",
+                          Tables::studies},
+              &LimitRecord::soft_contact_parts, &PartsRecord::fixed),
+    column_of(FieldColumn{"soft_mobile_part",
+                          "which mesh of the mobile body is touched there, if it has several",
+                          Tables::studies},
+              &LimitRecord::soft_contact_parts, &PartsRecord::mobile),
     field("centre_distance_mm", &LimitRecord::centre_distance_mm,
           "between the centres of head and socket at the limit; null without either",
           {"", "between head and socket at the limit", Tables::studies}),
@@ -254,10 +264,10 @@ inline constexpr auto fields<LimitRecord> = std::tuple{
           "`fixed` and `mobile`, each `{\"kind\": \"vertex\", \"id\": n}`, `{\"kind\": \"face\", \"id\": n}` "
           "or `{\"kind\": \"edge\", \"vertices\": [a, b]}` with a < b, in numbers of the mesh, from 0, and "
           "`part` of a body of several meshes; null without a contact point"),
-    column_of(
-        FieldColumn{"fixed_feature", "what is in contact: vertex 12, edge 3-7 or face 40 of the fixed mesh",
-                    Tables::rom},
-        &LimitRecord::features, &FeaturesRecord::fixed),
+    column_of(FieldColumn{"fixed_feature",
+                          "what is in contact: vertex 12, edge 3-7 or face 40 of the fixed mesh",
+                          Tables::rom},
+              &LimitRecord::features, &FeaturesRecord::fixed),
     column_of(FieldColumn{"mobile_feature", "the same of the mobile mesh", Tables::rom},
               &LimitRecord::features, &FeaturesRecord::mobile),
     column_of(FieldColumn{"fixed_part", "which mesh of the fixed body, if it has several", Tables::studies},
@@ -291,9 +301,9 @@ inline constexpr auto fields<LimitRecord> = std::tuple{
     column_of(FieldColumn{"band_from_centre_deg", "width of the band if only the centre was uncertain",
                           Tables::rom},
               &LimitRecord::band, &BandRecord::width_from, &BandWidthRecord::centre_deg),
-    column_of(
-        FieldColumn{"band_from_axes_deg", "width of the band if only the axes were uncertain", Tables::rom},
-        &LimitRecord::band, &BandRecord::width_from, &BandWidthRecord::axes_deg),
+    column_of(FieldColumn{"band_from_axes_deg", "width of the band if only the axes were uncertain",
+                          Tables::rom},
+              &LimitRecord::band, &BandRecord::width_from, &BandWidthRecord::axes_deg),
     column_of(FieldColumn{"band_from_surface_deg", "width of the band if only the surfaces were uncertain",
                           Tables::rom},
               &LimitRecord::band, &BandRecord::width_from, &BandWidthRecord::surface_deg),
@@ -323,6 +333,6 @@ inline constexpr auto fields<LimitRecord> = std::tuple{
           "the width, 5 to 95 %, would be if only the centre (`centre_deg`), the axes (`axes_deg`), the "
           "surfaces (`surface_deg`) or parameters of parts (`parameters_deg`, if they have standard "
           "deviations) were uncertain; `share_without_contact`, `share_in_contact_at_start` of the joints, 0 "
-          "to 1. Null without `--band`")};
+          "to 1. Null without `--band`"));
 
 }  // namespace condyle

@@ -13,7 +13,7 @@
 
 /// Records: what is said of an answer, in the words of the files.
 ///
-/// A record is a plain struct whose members have the names and units of the files' keys. One function fills it. Its table, fields<Record>,
+/// A record is a plain struct whose members have the names and units of the files' keys. One function fills it. Its table, table<Record>,
 /// says each key once; the walks over the tables (io/record/) make JSON, CSV and the columns of studies of any record, and the pages of docs/
 /// are compared with them. An empty std::optional is a value that is not known.
 
@@ -94,16 +94,28 @@ constexpr Field<FieldColumn, Members...> column_of(FieldColumn column, Members..
   return {"", {path...}, "", column, IfEmpty::null};
 }
 
+/// A record's name outside C++, what it is, and its fields in the order of the files.
+template <class... Fields>
+struct RecordTable {
+  const char* name;
+  const char* meaning;
+  std::tuple<Fields...> fields;
+};
+template <class... Fields>
+constexpr RecordTable<Fields...> record(const char* name, const char* meaning, Fields... fields) {
+  return {name, meaning, {fields...}};
+}
+
 /// The table of a record.
 template <class Record>
-inline constexpr std::nullptr_t fields = nullptr;
+inline constexpr std::nullptr_t table = nullptr;
 
 template <class Type>
-concept IsRecord = !std::same_as<std::remove_const_t<decltype(fields<Type>)>, std::nullptr_t>;
+concept IsRecord = !std::same_as<std::remove_const_t<decltype(table<Type>)>, std::nullptr_t>;
 
 template <class Record, class Visit>
 constexpr void for_each_field(const Visit& visit) {
-  std::apply([&](const auto&... each) { (visit(each), ...); }, fields<Record>);
+  std::apply([&](const auto&... each) { (visit(each), ...); }, table<Record>.fields);
 }
 
 template <class Type>

@@ -13,7 +13,7 @@
 
 namespace condyle::io {
 
-namespace table {
+namespace cells {
 
 template <class Value>
 inline constexpr bool is_point =
@@ -51,7 +51,7 @@ std::string cell_of(const Value& value, const RecordContext& context) {
   }
 }
 
-}  // namespace table
+}  // namespace cells
 
 /// The columns of a record's fields of which `shown(field.column)` is true, by the names of the joint's angles.
 template <class Record, class Shown>
@@ -62,9 +62,9 @@ std::vector<ResultColumn> columns_of(Anatomy joint, const Shown& shown) {
     if constexpr (field.has_column) {
       if (!shown(field.column)) return;
       using Value =
-          std::remove_cvref_t<decltype(*table::value_of(static_cast<const Record*>(nullptr), field))>;
+          std::remove_cvref_t<decltype(*cells::value_of(static_cast<const Record*>(nullptr), field))>;
       const std::string name = *field.column.name ? field.column.name : field.key;
-      if constexpr (table::is_point<Value>) {
+      if constexpr (cells::is_point<Value>) {
         for (std::size_t axis = 0; axis < 3; ++axis)
           columns.push_back({fmt::format("{}_{}_mm", name, "xyz"[axis]), "mm", number_column,
                              fmt::format("{}, {}", field.column.meaning, directions[axis])});
@@ -76,7 +76,7 @@ std::vector<ResultColumn> columns_of(Anatomy joint, const Shown& shown) {
         constexpr bool is_number =
             (std::is_arithmetic_v<Value> && !std::same_as<Value, bool>) || std::same_as<Value, GivenDegrees>;
         columns.push_back(
-            {name, table::unit_of(name), is_number ? number_column : text_column, field.column.meaning});
+            {name, cells::unit_of(name), is_number ? number_column : text_column, field.column.meaning});
       }
     }
   });
@@ -90,15 +90,15 @@ void append_cells(std::vector<std::string>& cells, const Record& record, const R
   for_each_field<Record>([&](const auto& field) {
     if constexpr (field.has_column) {
       if (!shown(field.column)) return;
-      const auto* value = table::value_of(&record, field);
+      const auto* value = cells::value_of(&record, field);
       using Value = std::remove_cvref_t<decltype(*value)>;
-      constexpr bool is_three = table::is_point<Value> || is_of_angles<Value>;
+      constexpr bool is_three = cells::is_point<Value> || is_of_angles<Value>;
       if (!value) return cells.resize(cells.size() + (is_three ? 3 : 1));
       if constexpr (is_three)
         for (const Json& each : json_of(*value, context))
           cells.push_back(fmt::format("{}", each.template get<double>()));
       else
-        cells.push_back(table::cell_of(*value, context));
+        cells.push_back(cells::cell_of(*value, context));
     }
   });
 }

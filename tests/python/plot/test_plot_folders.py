@@ -253,7 +253,7 @@ def test_what_the_module_answers_is_drawn(hip):
     rom = hip.range_of_motion(["flexion", "extension"])
     ax = figures.limits(rom, bands=rom.bands(samples=20))
     drawn = [bar.get_width() for bar in ax.patches if bar.get_gid() == "limit"]
-    assert drawn == [limit.turned_deg for limit in rom.limits]
+    assert drawn == [limit.limit_deg for limit in rom.limits]
     found = rom.map({"flexion": (120, 140, 10)}, {"adduction": (0, 40, 20)})
     ax = figures.motion_map(found)
     marked = {c.get_gid() for c in ax.collections if c.get_hatch()}

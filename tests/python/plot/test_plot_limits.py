@@ -231,8 +231,7 @@ def test_live_results_are_drawn_as_files_are():
     """With the names of condyle.RangeOfMotion."""
 
     def limit(name, turned, reason, kind=None):
-        return SimpleNamespace(motion=SimpleNamespace(name=name), turned_deg=turned, reason=reason,
-                               bearing_contact_deg=None, contact=None if kind is None else SimpleNamespace(kind=kind))
+        return SimpleNamespace(name=name, limit_deg=turned, reason=reason, bearing_contact_deg=None, contact_kind=kind)
 
     live = SimpleNamespace(limits=(limit("flexion", 100.0, "contact", "impingement"),
                                    limit("faber", 90.0, "end_of_range")))

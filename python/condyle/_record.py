@@ -1,0 +1,77 @@
+"""Base of the records of answers: what is said, by the keys of the files."""
+
+from __future__ import annotations
+
+from typing import Any, Iterator, Mapping, NoReturn, TypeVar, get_args, get_type_hints
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._errors import unknown
+from ._motion import Angles
+
+AnyRecord = TypeVar("AnyRecord", bound="Record")
+
+
+def _value_of(hint: Any, said: Any) -> Any:
+    """A value of JSON as the type that its hint names."""
+    if said is None or isinstance(said, (str, bool)):
+        return said
+    if type(None) in get_args(hint):  # Optional
+        return _value_of(get_args(hint)[0], said)
+    if isinstance(hint, type) and issubclass(hint, Record):
+        return hint.of(said)
+    if hint is Angles:
+        return Angles(said)
+    if hint == NDArray[np.float64]:
+        return np.array(said, dtype=np.float64)
+    return [_value_of(get_args(hint)[0], each) for each in said] if isinstance(said, list) else said
+
+
+class Record:
+    """A frozen record, whose values are attributes and, as in its file, have keys: `limit.closed_form["limit_deg"]`."""
+
+    @classmethod
+    def of(cls: type[AnyRecord], said: Mapping[str, Any]) -> AnyRecord:
+        """The record that an object of JSON holds."""
+        record = object.__new__(cls)
+        hints = _hints_of(cls)
+        vars(record).update((key, _value_of(hints[key], value)) for key, value in said.items())
+        return record
+
+    def __getitem__(self, key: str) -> Any:
+        try:
+            return vars(self)[key]
+        except KeyError:
+            raise unknown("key", key, vars(self)) from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(vars(self))
+
+    def keys(self) -> list[str]:
+        return list(vars(self))
+
+    def __setattr__(self, key: str, value: object) -> NoReturn:
+        raise AttributeError(f"{type(self).__name__}.{key} is not assigned to")
+
+    def __delattr__(self, key: str) -> NoReturn:
+        raise AttributeError(f"{type(self).__name__}.{key} is not deleted")
+
+    def __eq__(self, other: object) -> bool:
+        return type(self) is type(other) and repr(self) == repr(other)
+
+    def __hash__(self) -> int:
+        return hash(repr(self))
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(f'{key}={value!r}' for key, value in vars(self).items())})"
+
+
+_hints: dict[type, dict[str, Any]] = {}
+
+
+def _hints_of(cls: type) -> dict[str, Any]:
+    """Type hints of a class, looked up once: a record has many of them."""
+    if cls not in _hints:
+        _hints[cls] = get_type_hints(cls)
+    return _hints[cls]

@@ -1,0 +1,241 @@
+"""Records of answers, by the keys of their files. Made by `make describe` from the tables in src/answer/records/."""
+
+from __future__ import annotations
+
+from typing import Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._motion import Angles
+from ._record import Record
+from ._words import CaveatCode, ContactKind, ContactSide, FeatureKind, LimitReason, RotationSense, ZeroFrom
+
+
+class FeatureRecord(Record):
+    """A vertex or a face by its number, or an edge by its two vertices, ascending: in numbers of the mesh, from 0."""
+
+    kind: FeatureKind
+    vertices: Optional[list[int]] = None
+    id: Optional[int] = None
+    part: Optional[str] = None
+
+
+class FeaturesRecord(Record):
+    """What is in contact of either body."""
+
+    fixed: FeatureRecord
+    mobile: FeatureRecord
+
+
+class PartsRecord(Record):
+    """Names of the meshes that touch, None of a body of one mesh."""
+
+    fixed: Optional[str] = None
+    mobile: Optional[str] = None
+
+
+class AllowedDepthRecord(Record):
+    """Depths of a limit with a depth allowed."""
+
+    at_start_mm: float
+    at_limit_mm: float
+    ray_to_normal_deg: float
+    grows: bool
+
+
+class ClosedForm(Record):
+    """Where liner and neck of an implant end a motion, as bodies of revolution."""
+
+    limit_deg: float
+    reason: LimitReason
+    of_facets_deg: list[float]
+
+
+class BandWidthRecord(Record):
+    """Width of a band if only one source was uncertain."""
+
+    centre_deg: float
+    axes_deg: float
+    surface_deg: float
+    parameters_deg: Optional[float] = None
+
+
+class BandRecord(Record):
+    """The limit over the joints of a band."""
+
+    p5_deg: float
+    median_deg: float
+    p95_deg: float
+    width_from: BandWidthRecord
+    share_without_contact: float
+    share_in_contact_at_start: float
+
+
+class Caveat(Record):
+    """A caveat to read before a limit is compared with a living joint."""
+
+    code: CaveatCode
+    text: str
+    source: Optional[str] = None
+
+
+class FixedZoneRecord(Record):
+    """The overlap past a limit, on the fixed body."""
+
+    triangles: int
+    area_mm2: float
+    centroid_mm: Optional[NDArray[np.float64]] = None
+    max_radial_depth_mm: Optional[float] = None
+    max_tangential_depth_deg: Optional[float] = None
+    max_tangential_depth_mm: Optional[float] = None
+    clock_hour: Optional[float] = None
+
+
+class MobileZoneRecord(Record):
+    """The overlap past a limit, on the mobile body."""
+
+    triangles: int
+    area_mm2: float
+    centroid_mm: Optional[NDArray[np.float64]] = None
+    max_radial_depth_mm: Optional[float] = None
+    max_tangential_depth_deg: Optional[float] = None
+    max_tangential_depth_mm: Optional[float] = None
+    neck_angle_deg: Optional[float] = None
+
+
+class ZoneRecord(Record):
+    """The overlap past a limit."""
+
+    past_deg: float
+    contact_neck_angle_deg: Optional[float] = None
+    fixed: FixedZoneRecord
+    mobile: MobileZoneRecord
+
+
+class LimitRecord(Record):
+    """Where one motion ends, in the words of rom.json.
+
+    Attributes
+    ----------
+    name : str
+        of the motion
+    limit_deg : float
+        how far it turned from its start; ≥ 0 whatever the sense
+    reason : LimitReason
+        `"contact"`, `"end_of_range"` (no contact), `"contact_at_start"` (`limit_deg` is 0)
+    contact_kind : ContactKind or None
+        `"impingement"`, `"bearing"`, `"cut"` on a face that closes a bone where its image ends or it was cut off, or `"unknown"`
+        if no bearing surface is known; null at the end of the range
+    bearing_contact_deg : float or None
+        where bearing surfaces touch first, if before the limit; else null. A flag, not a measure: centre and segmentation are
+        rarely better than it needs
+    bearing_contact_point_mm : NDArray[np.float64] or None
+        where, in the fixed body's joint frame
+    soft_contact_deg : float or None
+        where a mesh called soft touches first, if before the limit; else null
+    soft_contact_point_mm : NDArray[np.float64] or None
+        where, in the fixed body's joint frame
+    soft_contact_parts : PartsRecord or None
+        `fixed` and `mobile`: names of the meshes that touch there, null of a body of one mesh
+    centre_distance_mm : float or None
+        between the centres of head and socket at the limit; null without either
+    joint_space_mm : float or None
+        the smallest distance between bearing surface and fixed body at the limit, 0 where they meet; null if bearing contact
+        counts
+    error_bound_deg : float
+        true contact is at the limit or past it by at most this, and never before
+    vary : str
+        the angle that varies
+    sense : RotationSense
+        `"positive"` or `"negative"`
+    range_deg : float
+        how far it may change
+    start_deg : Angles
+        all three angles at the start, digit by digit as given (15 digits and fewer)
+    held_deg : Angles
+        the two that were held
+    zero_from : ZeroFrom
+        what zero angles are known by, as in `zero`: `"as_given"`, `"stated"`, `"landmarks"` or `"anatomy"`
+    definition : str or None
+        of `fadir` and `faber`: `"as defined here; no angles are agreed on"`, their angles are `start_deg` and `vary`; null for
+        other motions
+    at_limit_deg : Angles
+        all three angles at the limit
+    translation_mm : NDArray[np.float64] or None
+        x, y and z of the mobile body's origin at the limit, if its translation follows a recorded motion or a load; else null
+    translation_ends : bool or None
+        whether what the translation follows ends at the limit, before the motion does: there is no contact up to it, and nothing
+        is known past it. With `translation_mm` null no contact carries the load at the start either, and `limit_deg` is 0; null
+        if nothing is followed
+    contact_point_mm : NDArray[np.float64] or None
+        where the bodies are in contact at the limit, in the fixed body's joint frame; null without contact, and if one body is
+        inside the other and their surfaces do not meet
+    contact_point_mobile_mm : NDArray[np.float64] or None
+        the same point of the mobile body, in the mobile body's frame (the joint frame at zero angles)
+    features : FeaturesRecord or None
+        `fixed` and `mobile`, each `{"kind": "vertex", "id": n}`, `{"kind": "face", "id": n}` or `{"kind": "edge", "vertices": [a,
+        b]}` with a < b, in numbers of the mesh, from 0, and `part` of a body of several meshes; null without a contact point
+    contact_side : ContactSide or None
+        of a shoulder the side of the joint centre on which contact that is not bearing contact ended the motion: `"superior"`,
+        where the acromion is, `"anterior"` (coracoid process), `"inferior"` (lower rim and neck of the scapula) or `"posterior"`;
+        null for other joints, without contact, and within 30 degrees of the joint's Z
+    clock_hour : float or None
+        direction of the contact on the socket's clock face, in [0, 12): 0 superior, 3 anterior on either side of the body, in the
+        plane that `clock_plane` says; null for joints other than hips, without contact, and for contacts farther than 1.6 head
+        radii from the joint centre, which are not at the rim
+    normal_range_deg : float or None
+        how far a healthy hip turns from neutral in this motion by the source, below; null if the source has no value, if zero
+        angles are not known to be neutral (`zero`), and for other joints
+    caveats : list[Caveat]
+        list of `code`, `text` and `source` each: what usually ends such a motion; empty for joints other than hips
+    guarantee : str
+        what is guaranteed of the limit, in words
+    depth : AllowedDepthRecord or None
+        only with `--allow-depth`, below
+    closed_form : ClosedForm or None
+        only of an implant whose liner and neck are bodies of revolution: where these two end the motion, `limit_deg` and
+        `reason`, and `of_facets_deg`, between which their meshes do
+    zone : ZoneRecord or None
+        only with `--past`, below; null for motions that did not end by contact
+    band : BandRecord or None
+        `p5_deg`, `median_deg`, `p95_deg` of the limit over the joints of the band; `width_from`: what the width, 5 to 95 %, would
+        be if only the centre (`centre_deg`), the axes (`axes_deg`), the surfaces (`surface_deg`) or parameters of parts
+        (`parameters_deg`, if they have standard deviations) were uncertain; `share_without_contact`, `share_in_contact_at_start`
+        of the joints, 0 to 1. Null without `--band`
+    """
+
+    name: str
+    limit_deg: float
+    reason: LimitReason
+    contact_kind: Optional[ContactKind] = None
+    bearing_contact_deg: Optional[float] = None
+    bearing_contact_point_mm: Optional[NDArray[np.float64]] = None
+    soft_contact_deg: Optional[float] = None
+    soft_contact_point_mm: Optional[NDArray[np.float64]] = None
+    soft_contact_parts: Optional[PartsRecord] = None
+    centre_distance_mm: Optional[float] = None
+    joint_space_mm: Optional[float] = None
+    error_bound_deg: float
+    vary: str
+    sense: RotationSense
+    range_deg: float
+    start_deg: Angles
+    held_deg: Angles
+    zero_from: ZeroFrom
+    definition: Optional[str] = None
+    at_limit_deg: Angles
+    translation_mm: Optional[NDArray[np.float64]] = None
+    translation_ends: Optional[bool] = None
+    contact_point_mm: Optional[NDArray[np.float64]] = None
+    contact_point_mobile_mm: Optional[NDArray[np.float64]] = None
+    features: Optional[FeaturesRecord] = None
+    contact_side: Optional[ContactSide] = None
+    clock_hour: Optional[float] = None
+    normal_range_deg: Optional[float] = None
+    caveats: list[Caveat]
+    guarantee: str
+    depth: Optional[AllowedDepthRecord] = None
+    closed_form: Optional[ClosedForm] = None
+    zone: Optional[ZoneRecord] = None
+    band: Optional[BandRecord] = None

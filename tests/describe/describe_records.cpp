@@ -1,0 +1,187 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "answer/records/limit_record.hpp"
+#include "io/file/whole_file.hpp"
+#include "io/record/table_of.hpp"
+
+/// condyle_describe ROOT [--check]: writes what is made from the tables of records, the classes of Python and the tables of docs/, into the
+/// repository at ROOT; with --check it names each file that is not what would be written, with exit code 1.
+
+namespace condyle {
+namespace {
+
+// ---- Python
+
+constexpr const char* word_of(motion::FeatureKind) {
+  return "FeatureKind";
+}
+constexpr const char* word_of(motion::ContactKind) {
+  return "ContactKind";
+}
+constexpr const char* word_of(motion::LimitReason) {
+  return "LimitReason";
+}
+constexpr const char* word_of(motion::ContactSide) {
+  return "ContactSide";
+}
+constexpr const char* word_of(ZeroFrom) {
+  return "ZeroFrom";
+}
+constexpr const char* word_of(RotationSense) {
+  return "RotationSense";
+}
+constexpr const char* word_of(MotionCaveatCode) {
+  return "CaveatCode";
+}
+
+/// As a type hint of a value that is not None.
+template <class Value>
+std::string hint_of() {
+  if constexpr (is_optional<Value>)
+    return hint_of<typename Value::value_type>();
+  else if constexpr (IsRecord<Value>)
+    return table<Value>.name;
+  else if constexpr (io::cells::is_point<Value>)
+    return "NDArray[np.float64]";
+  else if constexpr (is_of_angles<Value>)
+    return "Angles";
+  else if constexpr (is_list<Value>)
+    return fmt::format("list[{}]", hint_of<typename Value::value_type>());
+  else if constexpr (std::same_as<Value, JointAngle>)
+    return "str";
+  else if constexpr (std::is_enum_v<Value>)
+    return word_of(Value{});
+  else if constexpr (std::same_as<Value, bool>)
+    return "bool";
+  else if constexpr (std::is_integral_v<Value>)
+    return "int";
+  else if constexpr (std::same_as<Value, GivenDegrees> || std::is_floating_point_v<Value>)
+    return "float";
+  else
+    return "str";
+}
+
+/// The lines of a text of at most so many characters, each behind these blanks.
+std::string wrapped(std::string_view text, std::string_view blanks) {
+  constexpr std::size_t most = 130;
+  std::string lines;
+  while (!text.empty()) {
+    std::size_t end = text.size();
+    if (blanks.size() + end > most) end = text.rfind(' ', most - blanks.size());
+    lines += fmt::format("{}{}\n", blanks, text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+/// "a `key` or `\"word\"`" as a docstring has it.
+std::string plain(std::string_view meaning) {
+  std::string text(meaning);
+  for (std::size_t at = 0; (at = text.find("](", at)) != text.npos;)  // a link is its text
+    text.erase(at, text.find(')', at) + 1 - at), text.erase(text.rfind('[', at), 1);
+  return text;
+}
+
+template <class Record>
+std::string python_class() {
+  std::string meanings, members;
+  for_each_field<Record>([&]<class Field>(const Field& field) {
+    if (*field.key == 0) return;
+    using Value = std::remove_cvref_t<decltype(std::declval<Record>().*std::get<0>(field.path))>;
+    const std::string hint = hint_of<Value>();
+    members += is_optional<Value> ? fmt::format("    {}: Optional[{}] = None\n", field.key, hint)
+                                  : fmt::format("    {}: {}\n", field.key, hint);
+    if (*field.meaning)
+      meanings += fmt::format("    {} : {}{}\n", field.key, hint, is_optional<Value> ? " or None" : "") +
+                  wrapped(plain(field.meaning), "        ");
+  });
+  return fmt::format(
+      "\n\nclass {}(Record):\n    \"\"\"{}{}\"\"\"\n\n{}", table<Record>.name, table<Record>.meaning,
+      meanings.empty() ? "" : "\n\n    Attributes\n    ----------\n" + meanings + "    ", members);
+}
+
+std::string python_records() {
+  return R"("""Records of answers, by the keys of their files. Made by `make describe` from the tables in src/answer/records/."""
+
+from __future__ import annotations
+
+from typing import Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._motion import Angles
+from ._record import Record
+from ._words import CaveatCode, ContactKind, ContactSide, FeatureKind, LimitReason, RotationSense, ZeroFrom
+)" + python_class<FeatureRecord>() +
+         python_class<FeaturesRecord>() + python_class<PartsRecord>() + python_class<AllowedDepthRecord>() +
+         python_class<ClosedFormRecord>() + python_class<BandWidthRecord>() + python_class<BandRecord>() +
+         python_class<CaveatRecord>() + python_class<FixedZoneRecord>() + python_class<MobileZoneRecord>() +
+         python_class<ZoneRecord>() + python_class<LimitRecord>();
+}
+
+// ---- docs/
+
+/// A page with the table below this header replaced.
+std::string with_table(std::string page, std::string_view header, std::string_view rows) {
+  const std::size_t begin = page.find(header);
+  if (begin == page.npos) return page;
+  const std::size_t end = std::min(page.find("\n\n", begin), page.size() - 1);
+  return page.replace(begin, end + 1 - begin, std::string(header) + std::string(rows));
+}
+
+template <class Record>
+std::string key_rows() {
+  std::string rows;
+  for_each_field<Record>([&](const auto& field) {
+    if (*field.key) rows += fmt::format("| `{}` | {} |\n", field.key, field.meaning);
+  });
+  return rows;
+}
+
+template <class Record>
+std::string column_rows() {
+  std::string rows;
+  for (const io::ResultColumn& column :
+       io::columns_of<Record>(Anatomy::hip, [](const FieldColumn&) { return true; }))
+    rows += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.meaning);
+  return rows;
+}
+
+std::string limits_page(std::string page) {
+  page = with_table(std::move(page), "| key | value |\n|---|---|\n", key_rows<LimitRecord>());
+  return with_table(std::move(page), "| column | unit | value |\n|---|---|---|\n",
+                    column_rows<LimitRecord>());
+}
+
+int described(const std::filesystem::path& root, bool only_check) {
+  const std::filesystem::path page = root / "docs/formats-limits.md";
+  const std::pair<std::filesystem::path, std::string> files[] = {
+      {root / "python/condyle/_records.py", python_records()},
+      {page, limits_page(io::read_whole_file(page))}};
+  int stale = 0;
+  for (const auto& [path, text] : files) {
+    if (std::filesystem::exists(path) && io::read_whole_file(path) == text) continue;
+    if (only_check) {
+      std::cerr << path.string() << " is not what the tables of records say: run make describe\n";
+      stale = 1;
+    } else {
+      io::write_whole_file(path, text);
+    }
+  }
+  return stale;
+}
+
+}  // namespace
+}  // namespace condyle
+
+int main(int count, char** words) {
+  if (count < 2) return 2;
+  return condyle::described(words[1], count > 2 && std::string_view(words[2]) == "--check");
+}
