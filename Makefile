@@ -55,7 +55,7 @@ test-all: dependencies
 	@cmake --build --preset release
 	@$(call run_tests,release,nightly)
 
-# Writes what is made from the tables of records: classes of Python, tables of docs/.
+# Writes what is made from the tables of records: classes of Python, types of the page, tables of docs/.
 describe: dependencies
 	@$(configure_all)
 	@cmake --build --preset release --target condyle_describe

@@ -10,7 +10,8 @@
 #include "io/file/whole_file.hpp"
 #include "io/record/table_of.hpp"
 
-/// condyle_describe ROOT [--check]: writes what is made from the tables of records, the classes of Python and the tables of docs/, into the
+/// condyle_describe ROOT [--check]: writes what is made from the tables of records, the classes of Python, the types of the page and the tables of
+/// docs/, into the
 /// repository at ROOT; with --check it names each file that is not what would be written, with exit code 1.
 
 namespace condyle {
@@ -88,6 +89,20 @@ std::string plain(std::string_view meaning) {
   return text;
 }
 
+/// Every record, each behind those that it holds, as `of.operator()<Record>()` has it.
+template <class Of>
+std::string each_record(const Of& of) {
+  const auto all = [&]<class... Records>(std::type_identity<Records>...) {
+    return (std::string() + ... + of.template operator()<Records>());
+  };
+  return all(std::type_identity<FeatureRecord>(), std::type_identity<FeaturesRecord>(),
+             std::type_identity<PartsRecord>(), std::type_identity<AllowedDepthRecord>(),
+             std::type_identity<ClosedFormRecord>(), std::type_identity<BandWidthRecord>(),
+             std::type_identity<BandRecord>(), std::type_identity<CaveatRecord>(),
+             std::type_identity<FixedZoneRecord>(), std::type_identity<MobileZoneRecord>(),
+             std::type_identity<ZoneRecord>(), std::type_identity<LimitRecord>());
+}
+
 template <class Record>
 std::string python_class() {
   std::string meanings, members;
@@ -119,11 +134,100 @@ from numpy.typing import NDArray
 from ._motion import Angles
 from ._record import Record
 from ._words import CaveatCode, ContactKind, ContactSide, FeatureKind, LimitReason, RotationSense, ZeroFrom
-)" + python_class<FeatureRecord>() +
-         python_class<FeaturesRecord>() + python_class<PartsRecord>() + python_class<AllowedDepthRecord>() +
-         python_class<ClosedFormRecord>() + python_class<BandWidthRecord>() + python_class<BandRecord>() +
-         python_class<CaveatRecord>() + python_class<FixedZoneRecord>() + python_class<MobileZoneRecord>() +
-         python_class<ZoneRecord>() + python_class<LimitRecord>();
+)" + each_record([]<class Record>() { return python_class<Record>(); });
+}
+
+// ---- TypeScript
+
+/// Whether an enum has this value: GCC and clang write the others as casts.
+template <auto value>
+constexpr bool is_enumerator() {
+  constexpr std::string_view signature = __PRETTY_FUNCTION__;
+  constexpr std::string_view before = "value = ";
+  return signature[signature.find(before) + before.size()] != '(';
+}
+
+/// The names of an enum in files, each in quotes and behind `separator` but the first.
+template <class Enum>
+std::string names_of(std::string_view separator) {
+  std::string names;
+  const auto add = [&]<int value>() {
+    if constexpr (is_enumerator<static_cast<Enum>(value)>())
+      if (const std::string_view name = name_of(static_cast<Enum>(value)); name != "none")
+        names += fmt::format("{}\"{}\"", names.empty() ? "" : separator, name);
+  };
+  [&]<int... values>(std::integer_sequence<int, values...>) {
+    (add.template operator()<values - std::is_signed_v<std::underlying_type_t<Enum>>>(), ...);
+  }
+  (std::make_integer_sequence<int, 32>());
+  return names;
+}
+
+/// As a type, and as a check of report_shape.ts; of a value that is not null.
+struct InPage {
+  std::string type, check;
+};
+
+/// "limitRecord" of LimitRecord.
+std::string check_name(std::string name) {
+  name[0] = static_cast<char>(name[0] - 'A' + 'a');
+  return name;
+}
+
+template <class Value>
+InPage in_page() {
+  if constexpr (is_optional<Value>) {
+    return in_page<typename Value::value_type>();
+  } else if constexpr (IsRecord<Value>) {
+    return {table<Value>.name, check_name(table<Value>.name)};
+  } else if constexpr (io::cells::is_point<Value>) {
+    return {"[number, number, number]", "three"};
+  } else if constexpr (is_of_angles<Value>) {
+    return {"Record<string, number>", "each(number)"};
+  } else if constexpr (is_list<Value>) {
+    const InPage of = in_page<typename Value::value_type>();
+    return {of.type + "[]", "list(" + of.check + ")"};
+  } else if constexpr (std::is_enum_v<Value> && !std::same_as<Value, JointAngle>) {
+    return {names_of<Value>(" | "), "oneOf(" + names_of<Value>(", ") + ")"};
+  } else {
+    const std::string hint = hint_of<Value>();
+    return hint == "bool"  ? InPage{"boolean", "flag"}
+           : hint == "str" ? InPage{"string", "text"}
+                           : InPage{"number", "number"};
+  }
+}
+
+/// Whether JSON has null of some of a record's values.
+template <class Value>
+constexpr bool can_be_null(IfEmpty if_empty) {
+  if constexpr (!is_optional<Value>)
+    return false;
+  else
+    return if_empty == IfEmpty::null || is_optional<typename Value::value_type>;
+}
+
+template <class Record>
+std::string page_type() {
+  std::string members, checks;
+  for_each_field<Record>([&](const auto& field) {
+    if (*field.key == 0) return;
+    using Value = std::remove_cvref_t<decltype(std::declval<Record>().*std::get<0>(field.path))>;
+    const auto [type, check] = in_page<Value>();
+    const bool null = can_be_null<Value>(field.if_empty), may_lack = field.if_empty == IfEmpty::left_out;
+    members += fmt::format("  {}{}: {}{};\n", field.key, may_lack ? "?" : "", type, null ? " | null" : "");
+    const std::string checked = null ? "orNull(" + check + ")" : check;
+    checks += fmt::format("  {}: {},\n", field.key, may_lack ? "ifThere(" + checked + ")" : checked);
+  });
+  return fmt::format("\n/// {}\nexport interface {} {{\n{}}}\nconst {} = object({{\n{}}});\n",
+                     table<Record>.meaning, table<Record>.name, members, check_name(table<Record>.name),
+                     checks);
+}
+
+std::string page_records() {
+  return R"(// Records of answers, and checks of them. Made by `make describe` from the tables in src/answer/records/.
+import { each, flag, ifThere, list, number, object, oneOf, orNull, text, three } from "./checks";
+)" + each_record([]<class Record>() { return page_type<Record>(); }) +
+         "\nexport { limitRecord };\n";
 }
 
 // ---- docs/
@@ -164,6 +268,7 @@ int described(const std::filesystem::path& root, bool only_check) {
   const std::filesystem::path page = root / "docs/formats-limits.md";
   const std::pair<std::filesystem::path, std::string> files[] = {
       {root / "python/condyle/_records.py", python_records()},
+      {root / "viewer/src/records.ts", page_records()},
       {page, limits_page(io::read_whole_file(page))}};
   int stale = 0;
   for (const auto& [path, text] : files) {

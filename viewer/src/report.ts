@@ -1,6 +1,8 @@
+import { ReportError } from "./checks";
 import { bytesOf, inflated } from "./packed";
+import type { LimitRecord } from "./records";
+import { checkedText } from "./report_shape";
 import type { Part } from "./scene/body";
-import { checkedText, ReportError } from "./report_shape";
 import { words } from "./words";
 
 /// Data that `condyle report` puts into the page; docs/report.md has every key.
@@ -17,42 +19,7 @@ export interface Band {
   p95_deg: number;
 }
 
-export interface MotionAnswer {
-  name: string;
-  limit_deg: number;
-  reason: "contact" | "end_of_range" | "contact_at_start";
-  contact_kind: string | null;
-  /// The side of a shoulder's centre on which contact is.
-  contact_side?: string | null;
-  bearing_contact_deg: number | null;
-  soft_contact_deg?: number | null;
-  /// Names of the meshes in contact there, null for a body of one mesh.
-  soft_contact_parts?: Record<"fixed" | "mobile", string | null> | null;
-  /// The features in contact; `part` for a body of several meshes.
-  features?: Record<"fixed" | "mobile", { part?: string }> | null;
-  contact_point_mm: [number, number, number] | null;
-  /// Where the mobile body is at the limit, for a joint whose centre is not held.
-  translation_mm?: [number, number, number] | null;
-  /// The record or load that the translation follows ends at the limit: nothing is known past it. Without a translation it does not begin.
-  translation_ends?: boolean | null;
-  clock_hour: number | null;
-  vary: string;
-  sense: "positive" | "negative";
-  range_deg: number;
-  start_deg: Record<string, number>;
-  at_limit_deg: Record<string, number>;
-  normal_range_deg: number | null;
-  band: Band | null;
-  error_bound_deg?: number;
-  caveats?: MotionCaveat[];
-}
-
-/// Caveat to read before a limit is compared with a living joint.
-export interface MotionCaveat {
-  code: string;
-  text: string;
-  source: string | null;
-}
+export type MotionAnswer = LimitRecord;
 
 export interface MeshSource {
   path: string;

@@ -1,59 +1,15 @@
+import { count, each, flag, ifThere, isObject, list, number, object, oneOf, orNull, ReportError, text, three, wrong, type Check } from "./checks";
+import { limitRecord } from "./records";
 import type { ArrayPlace, ReportText } from "./report";
 import { words } from "./words";
 
-/// Damage that the page reports in one line.
-export class ReportError extends Error {}
-
-/// Throws ReportError if a value is not of the kind that its key requires.
-type Check = (value: unknown, key: string) => void;
-
-function wrong(key: string): never {
-  throw new ReportError(words.damaged + words.wrongKey(key));
-}
-
-const text: Check = (value, key) => typeof value === "string" || wrong(key);
-const number: Check = (value, key) => typeof value === "number" || wrong(key);
-const count: Check = (value, key) => (Number.isSafeInteger(value) && (value as number) >= 0) || wrong(key);
-const flag: Check = (value, key) => typeof value === "boolean" || wrong(key);
-const oneOf = (...known: readonly string[]): Check => (value, key) => known.includes(value as string) || wrong(key);
-const orNull = (check: Check): Check => (value, key) => value === null || check(value, key);
-const ifThere = (check: Check): Check => (value, key) => value === undefined || check(value, key);
-const list = (check: Check, length?: number): Check => (value, key) => {
-  if (!Array.isArray(value) || (length !== undefined && value.length !== length)) return wrong(key);
-  value.forEach((item, i) => check(item, `${key}[${i}]`));
-};
-function isObject(value: unknown): value is Record<string, unknown> {
-  return typeof value === "object" && value !== null && !Array.isArray(value);
-}
-const object = (keys: Record<string, Check>): Check => (value, key) => {
-  if (!isObject(value)) return wrong(key);
-  for (const [name, check] of Object.entries(keys)) check(value[name], key ? `${key}.${name}` : name);
-};
-const each = (check: Check): Check => (value, key) => {
-  if (!isObject(value)) return wrong(key);
-  for (const [name, item] of Object.entries(value)) check(item, `${key}.${name}`);
-};
-
-const three = list(number, 3);
 const meshFile = object({ path: text, bytes: number, sha256: text });
 const meshFiles: Check = (value, key) => (isObject(value) && "files" in value ? object({ files: list(meshFile) }) : meshFile)(value, key);
-
-const feature = object({ part: ifThere(text) });
-const motion = object({
-  name: text, limit_deg: number, reason: oneOf("contact", "end_of_range", "contact_at_start"), contact_kind: orNull(text),
-  bearing_contact_deg: orNull(number), contact_point_mm: orNull(three), clock_hour: orNull(number), vary: text,
-  sense: oneOf("positive", "negative"), range_deg: number, start_deg: each(number), at_limit_deg: each(number),
-  normal_range_deg: orNull(number), band: orNull(object({ p5_deg: number, median_deg: number, p95_deg: number })),
-  translation_mm: ifThere(orNull(three)), soft_contact_deg: ifThere(orNull(number)), contact_side: ifThere(orNull(text)),
-  soft_contact_parts: ifThere(orNull(object({ fixed: orNull(text), mobile: orNull(text) }))), translation_ends: ifThere(orNull(flag)),
-  features: ifThere(orNull(object({ fixed: feature, mobile: feature }))),
-  error_bound_deg: ifThere(number), caveats: ifThere(list(object({ code: text, text, source: orNull(text) }))),
-});
 
 const sphere = object({ radius_mm: number, centre_mm: ifThere(three) });
 const rom = object({
   exact: ifThere(flag), clock_plane: ifThere(orNull(oneOf("sagittal", "rim"))),
-  held_translation_mm: ifThere(orNull(three)), motions: list(motion), notes: list(object({ code: text, text })), caveats: list(text),
+  held_translation_mm: ifThere(orNull(three)), motions: list(limitRecord), notes: list(object({ code: text, text })), caveats: list(text),
   zero: ifThere(object({ from: text, is_neutral: ifThere(orNull(flag)), text })), normal_range_source: ifThere(orNull(text)), scope: text, bearing: ifThere(object({
     rule: oneOf("count", "leave_out"), why_none: ifThere(text), head: ifThere(orNull(sphere)), socket: ifThere(orNull(sphere)),
     margin_mm: ifThere(orNull(number)),

@@ -1,7 +1,7 @@
 import { scaleLinear } from "d3-scale";
 import { named, spaced, svg } from "../dom";
 import { fixed } from "../numbers";
-import type { MotionAnswer, StoredBefore } from "../report";
+import type { Band, MotionAnswer, StoredBefore } from "../report";
 import { limitText, shownBand } from "../result";
 import { words } from "../words";
 import { pressable, type Drawing } from "./figure";
@@ -28,7 +28,7 @@ export function limitBar(motion: MotionAnswer, most: number): SVGSVGElement {
 }
 
 const bandColumns = (of: string) => [`${of}p5_deg`, `${of}median_deg`, `${of}p95_deg`];
-const bandCells = (band: MotionAnswer["band"] | undefined) => [band?.p5_deg ?? null, band?.median_deg ?? null, band?.p95_deg ?? null];
+const bandCells = (band: Band | null | undefined) => [band?.p5_deg ?? null, band?.median_deg ?? null, band?.p95_deg ?? null];
 
 /// Every limit with all of its digits, beside that of the joint before, if there is one.
 export function limitRows(motions: readonly MotionAnswer[], before: StoredBefore | null = null): (string | number | null)[][] {
