@@ -7,18 +7,10 @@
 
 #include "interrupts.hpp"
 #include "io/result/rom_parts.hpp"
+#include "json_object.hpp"
 #include "motion.hpp"
 
 namespace condyle::python {
-namespace {
-
-/// As Python reads it: numbers to the last bit.
-py::object object_of(io::Json json) {
-  return py::module_::import("json").attr("loads")(io::document(std::move(json)));
-}
-
-}  // namespace
-
 motion::BearingOptions bearing_in(const py::dict& given) {
   motion::BearingOptions bearing;
   if (given["count_bearing"].cast<bool>()) bearing.rule = motion::BearingRule::count;

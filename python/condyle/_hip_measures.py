@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import json
-from dataclasses import dataclass
-from typing import Iterator, Mapping, NamedTuple, Optional
+import math
+from typing import Iterable, Iterator, Mapping, Optional
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,52 +11,23 @@ from numpy.typing import NDArray
 from . import _native
 from ._described_joint import DescribedJoint
 from ._errors import unknown
+from ._record import Record, renamed
+from ._records import MeasureRecord, ShapeRecord
 from ._words import Progress, band_of, number, progress_of
 
 
-@dataclass(frozen=True)
-class NormalRange:
-    """Between `low` and `high` lie the measures of `people`, `count` of them if it is known: `meaning` says which measures, `source` where from."""
+class HipMeasure(MeasureRecord):
+    __doc__ = MeasureRecord.__doc__
 
-    low: float
-    high: float
-    people: str
-    count: Optional[int]
-    meaning: str
-    source: str
+    @property
+    def in_pelvis_frame(self) -> bool:
+        """Deprecated: whether `frame` is not None."""
+        return renamed("in_pelvis_frame", "frame", self.frame is not None)
 
 
-class MeasureBand(NamedTuple):
-    """5 %, median and 95 % of a measure over displaced joints, None where none shows it; and how many do not."""
-
-    p5: Optional[float]
-    median: Optional[float]
-    p95: Optional[float]
-    samples_without_value: int
-
-
-@dataclass(frozen=True)
-class HipMeasure:
-    """One measure: `value` in `unit` ("mm", "deg", "h" or "1"), None where the meshes do not show it, and then `why_none`.
-
-    `note` is to be read with the value; `measured_by` names the planes, axes and points in :attr:`HipMeasures.geometry` that it is
-    measured by; `in_pelvis_frame`: the value turns with the frame of the pelvis, and with its tilt. `normal` is a range of people with
-    usual hips, `patients` one of patients, which is not called normal.
-    """
-
-    key: str
-    part: str
-    unit: str
-    value: Optional[float]
-    why_none: str
-    note: str
-    definition: str
-    measured_by: tuple[str, ...]
-    source: str
-    in_pelvis_frame: bool
-    normal: Optional[NormalRange]
-    band: Optional[MeasureBand] = None
-    patients: Optional[NormalRange] = None
+def _column(of_hours: Iterable[Record], key: str) -> NDArray[np.float64]:
+    """A value of each direction, NaN where there is none."""
+    return np.array([math.nan if at[key] is None else at[key] for at in of_hours], dtype=np.float64)
 
 
 class HipMeasures(Mapping[str, HipMeasure]):
@@ -100,18 +70,20 @@ class HipMeasures(Mapping[str, HipMeasure]):
 
     def __init__(self, joint: DescribedJoint, pelvic_tilt_deg: float, band_samples: int, seed: Optional[int],
                  progress: Progress) -> None:
-        found = _native.hip_measures_of(joint._asked, number(pelvic_tilt_deg, "pelvic_tilt_deg"), band_of(band_samples, seed),
-                                        progress_of(progress))
-        self._by_key: dict[str, HipMeasure] = {}
-        for each in found.pop("measures"):
-            (key, part, unit, value, why_none, note, definition, by, source, in_pelvis_frame, others, are_patients), band = each
-            of_others = others and NormalRange(*others)
-            self._by_key[key] = HipMeasure(key, part, unit, value, why_none, note, definition, tuple(by.split(", ")), source,
-                                           in_pelvis_frame, None if are_patients else of_others, band and MeasureBand(*band),
-                                           of_others if are_patients else None)
-        found["geometry"] = json.loads(found["geometry"])
-        for name, values in found.items():
-            setattr(self, name, values)
+        said = _native.hip_measures_of(joint._asked, number(pelvic_tilt_deg, "pelvic_tilt_deg"), band_of(band_samples, seed),
+                                       progress_of(progress))
+        shape = ShapeRecord.of({key: said[key] for key in ShapeRecord.__annotations__})
+        self._by_key = {each.key: HipMeasure.of(vars(each)) for each in shape.measures}
+        self.pelvis_frame, self.geometry, self.left_out = shape.pelvis_frame, said["geometry"], tuple(shape.left_out)
+        self.neck_hour = _column(shape.around_neck, "hour")
+        self.alpha_deg, self.alpha_at_1mm_deg, self.offset_mm = (
+            _column(shape.around_neck, key) for key in ("alpha_deg", "alpha_at_1mm_deg", "offset_mm"))
+        self.is_doubtful = np.array([at.is_doubtful for at in shape.around_neck], dtype=bool)
+        self.rim_hour, self.cover_deg, self.centre_edge_deg = (
+            _column(shape.rim, key) for key in ("hour", "cover_deg", "centre_edge_deg"))
+        none = np.full(3, math.nan)
+        self.rim_points = np.array([none if at.point_mm is None else at.point_mm for at in shape.rim], dtype=np.float64).reshape(-1, 3)
+        self.is_in_plane = np.array([at.is_in_plane for at in shape.rim], dtype=bool)
 
     def __getitem__(self, key: str) -> HipMeasure:
         try:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
-from typing import Any, Literal, Mapping, Optional, Sequence, TypeVar, Union, get_args
+from typing import Any, Literal, Mapping, Optional, Sequence, Union, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,11 +14,10 @@ from ._described_joint import DescribedJoint
 from ._errors import UsageError
 from ._mesh import TriMesh
 from ._motion import Angles, Motion, Motions
+from ._record import renamed
 from ._records import FeatureRecord, LimitRecord
 from ._words import ContactKind, LimitReason, number
 
-
-Value = TypeVar("Value")
 
 #: Values of `reason` in maps, by number.
 REASONS: tuple[LimitReason, ...] = get_args(LimitReason)
@@ -59,11 +57,6 @@ class OldNames:
     def turned_deg(self) -> float:
         """Deprecated: `limit_deg`, as the files call it."""
         return renamed("turned_deg", "limit_deg", self.limit_deg)
-
-
-def renamed(old: str, new: str, value: Value) -> Value:
-    warnings.warn(f"{old} is called {new} now, as in the files", DeprecationWarning, stacklevel=3)
-    return value
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any, Iterator, Mapping, NoReturn, TypeVar, get_args, get_type_hints
 
 import numpy as np
@@ -11,6 +12,13 @@ from ._errors import unknown
 from ._motion import Angles
 
 AnyRecord = TypeVar("AnyRecord", bound="Record")
+Value = TypeVar("Value")
+
+
+def renamed(old: str, new: str, value: Value) -> Value:
+    """The value of a deprecated property."""
+    warnings.warn(f"{old} is called {new} now, as in the files", DeprecationWarning, stacklevel=3)
+    return value
 
 
 def _value_of(hint: Any, said: Any) -> Any:

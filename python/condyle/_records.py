@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ._motion import Angles
 from ._record import Record
-from ._words import CaveatCode, ContactKind, ContactSide, FeatureKind, LimitReason, RotationSense, ZeroFrom
+from ._words import CaveatCode, ContactKind, ContactSide, FeatureKind, LimitReason, MeasuredPart, RotationSense, ZeroFrom
 
 
 class FeatureRecord(Record):
@@ -239,3 +239,141 @@ class LimitRecord(Record):
     closed_form: Optional[ClosedForm] = None
     zone: Optional[ZoneRecord] = None
     band: Optional[BandRecord] = None
+
+
+class NormalRange(Record):
+    """Between these values lie the measures of other people.
+
+    Attributes
+    ----------
+    people : str
+        whose measures they are
+    count : int or None
+        of these; null if the source does not say
+    meaning : str
+        which measures lie between
+    source : str
+        where they are from
+    """
+
+    low: float
+    high: float
+    people: str
+    count: Optional[int] = None
+    meaning: str
+    source: str
+
+
+class MeasureBand(Record):
+    """A measure over displaced joints.
+
+    Attributes
+    ----------
+    p5 : float or None
+        5 % of them are below; null if none shows the measure
+    samples_without_value : int
+        joints that do not show it
+    """
+
+    p5: Optional[float] = None
+    median: Optional[float] = None
+    p95: Optional[float] = None
+    samples_without_value: int
+
+
+class MeasureRecord(Record):
+    """One measure of a hip.
+
+    Attributes
+    ----------
+    key : str
+        its name
+    part : MeasuredPart
+        `"femur"`, `"acetabulum"` or `"both"`
+    unit : str
+        `"mm"`, `"deg"`, `"h"` or `"1"`
+    value : float or None
+        null if it cannot be computed
+    why_none : str or None
+        the reason then, else null
+    note : str or None
+        its caveat, usually null
+    definition : str
+        in a line
+    measured_by : list[str]
+        the planes, axes and points that it is measured by: names in `geometry`, or of a list here
+    source : str
+        where the definition is from
+    frame : str or None
+        the pelvis frame of an angle that turns with it, else null
+    normal : NormalRange or None
+        a range of people with usual hips: `low`, `high`, `people`, `count`, `meaning` and `source`; null if none is known
+    patients : NormalRange or None
+        likewise of patients, which is not called normal
+    band : MeasureBand or None
+        `p5`, `median`, `p95` over the displaced joints, and `samples_without_value`; null without `--band`
+    """
+
+    key: str
+    part: MeasuredPart
+    unit: str
+    value: Optional[float] = None
+    why_none: Optional[str] = None
+    note: Optional[str] = None
+    definition: str
+    measured_by: list[str]
+    source: str
+    frame: Optional[str] = None
+    normal: Optional[NormalRange] = None
+    patients: Optional[NormalRange] = None
+    band: Optional[MeasureBand] = None
+
+
+class NeckHour(Record):
+    """What is measured in one direction around the neck, 12 superior and 3 anterior."""
+
+    hour: float
+    alpha_deg: Optional[float] = None
+    alpha_at_1mm_deg: Optional[float] = None
+    is_doubtful: bool
+    alpha_point_mm: Optional[NDArray[np.float64]] = None
+    offset_mm: Optional[float] = None
+    offset_point_mm: Optional[NDArray[np.float64]] = None
+
+
+class RimHour(Record):
+    """The rim in one direction around the socket, 12 superior and 3 anterior."""
+
+    hour: float
+    point_mm: Optional[NDArray[np.float64]] = None
+    cover_deg: Optional[float] = None
+    centre_edge_deg: Optional[float] = None
+    is_in_plane: bool
+
+
+class ShapeRecord(Record):
+    """The shape of a hip, in the words of measures.json.
+
+    Attributes
+    ----------
+    pelvis_frame : str
+        the frame of acetabular angles, with the tilt that was given
+    pelvic_tilt_deg : float
+        that tilt
+    left_out : list[str]
+        sentences on pieces of a mesh near the head that are not measured, such as the wall of its marrow or another bone
+    measures : list[MeasureRecord]
+        list of measures in the order of the text, below
+    around_neck : list[NeckHour]
+        list of `hour`, `alpha_deg`, `alpha_at_1mm_deg`, `is_doubtful`, `alpha_point_mm`, `offset_mm`, `offset_point_mm`; points
+        in the mobile body's frame
+    rim : list[RimHour]
+        list of `hour`, `point_mm` in the fixed body's frame, `cover_deg`, `centre_edge_deg`, `is_in_plane`
+    """
+
+    pelvis_frame: str
+    pelvic_tilt_deg: float
+    left_out: list[str]
+    measures: list[MeasureRecord]
+    around_neck: list[NeckHour]
+    rim: list[RimHour]

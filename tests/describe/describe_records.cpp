@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "answer/records/limit_record.hpp"
+#include "answer/records/measure_record.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/record/table_of.hpp"
 
@@ -36,6 +37,9 @@ constexpr const char* word_of(ZeroFrom) {
 }
 constexpr const char* word_of(RotationSense) {
   return "RotationSense";
+}
+constexpr const char* word_of(measure::MeasuredPart) {
+  return "MeasuredPart";
 }
 constexpr const char* word_of(MotionCaveatCode) {
   return "CaveatCode";
@@ -100,7 +104,10 @@ std::string each_record(const Of& of) {
              std::type_identity<ClosedFormRecord>(), std::type_identity<BandWidthRecord>(),
              std::type_identity<BandRecord>(), std::type_identity<CaveatRecord>(),
              std::type_identity<FixedZoneRecord>(), std::type_identity<MobileZoneRecord>(),
-             std::type_identity<ZoneRecord>(), std::type_identity<LimitRecord>());
+             std::type_identity<ZoneRecord>(), std::type_identity<LimitRecord>(),
+             std::type_identity<NormalRangeRecord>(), std::type_identity<MeasureBandRecord>(),
+             std::type_identity<MeasureRecord>(), std::type_identity<NeckHourRecord>(),
+             std::type_identity<RimHourRecord>(), std::type_identity<ShapeRecord>());
 }
 
 template <class Record>
@@ -133,7 +140,7 @@ from numpy.typing import NDArray
 
 from ._motion import Angles
 from ._record import Record
-from ._words import CaveatCode, ContactKind, ContactSide, FeatureKind, LimitReason, RotationSense, ZeroFrom
+from ._words import CaveatCode, ContactKind, ContactSide, FeatureKind, LimitReason, MeasuredPart, RotationSense, ZeroFrom
 )" + each_record([]<class Record>() { return python_class<Record>(); });
 }
 
@@ -227,7 +234,7 @@ std::string page_records() {
   return R"(// Records of answers, and checks of them. Made by `make describe` from the tables in src/answer/records/.
 import { each, flag, ifThere, list, number, object, oneOf, orNull, text, three } from "./checks";
 )" + each_record([]<class Record>() { return page_type<Record>(); }) +
-         "\nexport { limitRecord };\n";
+         "\nexport { limitRecord, shapeRecord };\n";
 }
 
 // ---- docs/
@@ -264,12 +271,19 @@ std::string limits_page(std::string page) {
                     column_rows<LimitRecord>());
 }
 
+std::string measures_page(std::string page) {
+  page =
+      with_table(std::move(page), "| key of `measures.json` | value |\n|---|---|\n", key_rows<ShapeRecord>());
+  return with_table(std::move(page), "| key of a measure | value |\n|---|---|\n", key_rows<MeasureRecord>());
+}
+
 int described(const std::filesystem::path& root, bool only_check) {
-  const std::filesystem::path page = root / "docs/formats-limits.md";
+  const std::filesystem::path limits = root / "docs/formats-limits.md", measures = root / "docs/measures.md";
   const std::pair<std::filesystem::path, std::string> files[] = {
       {root / "python/condyle/_records.py", python_records()},
       {root / "viewer/src/records.ts", page_records()},
-      {page, limits_page(io::read_whole_file(page))}};
+      {limits, limits_page(io::read_whole_file(limits))},
+      {measures, measures_page(io::read_whole_file(measures))}};
   int stale = 0;
   for (const auto& [path, text] : files) {
     if (std::filesystem::exists(path) && io::read_whole_file(path) == text) continue;

@@ -233,4 +233,122 @@ const limitRecord = object({
   band: orNull(bandRecord),
 });
 
-export { limitRecord };
+/// Between these values lie the measures of other people.
+export interface NormalRange {
+  low: number;
+  high: number;
+  people: string;
+  count: number | null;
+  meaning: string;
+  source: string;
+}
+const normalRange = object({
+  low: number,
+  high: number,
+  people: text,
+  count: orNull(number),
+  meaning: text,
+  source: text,
+});
+
+/// A measure over displaced joints.
+export interface MeasureBand {
+  p5: number | null;
+  median: number | null;
+  p95: number | null;
+  samples_without_value: number;
+}
+const measureBand = object({
+  p5: orNull(number),
+  median: orNull(number),
+  p95: orNull(number),
+  samples_without_value: number,
+});
+
+/// One measure of a hip.
+export interface MeasureRecord {
+  key: string;
+  part: "femur" | "acetabulum" | "both";
+  unit: string;
+  value: number | null;
+  why_none: string | null;
+  note: string | null;
+  definition: string;
+  measured_by: string[];
+  source: string;
+  frame: string | null;
+  normal: NormalRange | null;
+  patients: NormalRange | null;
+  band: MeasureBand | null;
+}
+const measureRecord = object({
+  key: text,
+  part: oneOf("femur", "acetabulum", "both"),
+  unit: text,
+  value: orNull(number),
+  why_none: orNull(text),
+  note: orNull(text),
+  definition: text,
+  measured_by: list(text),
+  source: text,
+  frame: orNull(text),
+  normal: orNull(normalRange),
+  patients: orNull(normalRange),
+  band: orNull(measureBand),
+});
+
+/// What is measured in one direction around the neck, 12 superior and 3 anterior.
+export interface NeckHour {
+  hour: number;
+  alpha_deg: number | null;
+  alpha_at_1mm_deg: number | null;
+  is_doubtful: boolean;
+  alpha_point_mm: [number, number, number] | null;
+  offset_mm: number | null;
+  offset_point_mm: [number, number, number] | null;
+}
+const neckHour = object({
+  hour: number,
+  alpha_deg: orNull(number),
+  alpha_at_1mm_deg: orNull(number),
+  is_doubtful: flag,
+  alpha_point_mm: orNull(three),
+  offset_mm: orNull(number),
+  offset_point_mm: orNull(three),
+});
+
+/// The rim in one direction around the socket, 12 superior and 3 anterior.
+export interface RimHour {
+  hour: number;
+  point_mm: [number, number, number] | null;
+  cover_deg: number | null;
+  centre_edge_deg: number | null;
+  is_in_plane: boolean;
+}
+const rimHour = object({
+  hour: number,
+  point_mm: orNull(three),
+  cover_deg: orNull(number),
+  centre_edge_deg: orNull(number),
+  is_in_plane: flag,
+});
+
+/// The shape of a hip, in the words of measures.json.
+export interface ShapeRecord {
+  pelvis_frame: string;
+  pelvic_tilt_deg: number;
+  left_out: string[];
+  measures: MeasureRecord[];
+  around_neck: NeckHour[];
+  rim: RimHour[];
+}
+const shapeRecord = object({
+  pelvis_frame: text,
+  pelvic_tilt_deg: number,
+  left_out: list(text),
+  measures: list(measureRecord),
+  around_neck: list(neckHour),
+  rim: list(rimHour),
+});
+
+export { limitRecord, shapeRecord };

@@ -1,6 +1,6 @@
 import { ReportError } from "./checks";
 import { bytesOf, inflated } from "./packed";
-import type { LimitRecord } from "./records";
+import type { LimitRecord, ShapeRecord } from "./records";
 import { checkedText } from "./report_shape";
 import type { Part } from "./scene/body";
 import { words } from "./words";
@@ -143,30 +143,10 @@ export interface Recorded {
   curves: { name: string; unit: string; values: string }[];
 }
 
-/// One measure of a hip; docs/measures.md.
-export interface StoredMeasure {
-  key: string;
-  part: "femur" | "acetabulum" | "both";
-  unit: string;
-  value: number | null;
-  why_none: string | null;
-  note: string | null;
-  definition: string;
-  source: string;
-  normal: { low: number; high: number; people?: string; meaning: string; source: string } | null;
-  band: { p5: number | null; p95: number | null } | null;
-}
-
 type Three = [number, number, number];
 
-export interface StoredMeasures {
-  pelvis_frame: string;
-  /// Components of the meshes that are not measured, a sentence for each bone.
-  left_out: string[];
-  measures: StoredMeasure[];
-  /// Points of the femur are in M, those of the hip bone in F.
-  around_neck: { hour: number; alpha_deg: number | null; alpha_at_1mm_deg: number | null; alpha_point_mm: Three | null }[];
-  rim: { hour: number; point_mm: Three | null; centre_edge_deg: number | null; is_in_plane: boolean }[];
+/// The shape of a hip; docs/measures.md. Points of the femur are in M, those of the hip bone in F.
+export interface StoredMeasures extends ShapeRecord {
   geometry: {
     neck: { head_centre_mm: Three; direction: Three } | null;
     shaft: { first_mm: Three; last_mm: Three } | null;

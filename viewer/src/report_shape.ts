@@ -1,5 +1,5 @@
 import { count, each, flag, ifThere, isObject, list, number, object, oneOf, orNull, ReportError, text, three, wrong, type Check } from "./checks";
-import { limitRecord } from "./records";
+import { limitRecord, shapeRecord } from "./records";
 import type { ArrayPlace, ReportText } from "./report";
 import { words } from "./words";
 
@@ -30,15 +30,7 @@ const surface = object({
 });
 const part = object({ name: text, first_vertex: count, vertices: count, first_triangle: count, triangles: count, contact: oneOf("ends", "bearing", "soft") });
 
-const measures = object({
-  pelvis_frame: text, left_out: list(text),
-  measures: list(object({
-    key: text, part: oneOf("femur", "acetabulum", "both"), unit: text, value: orNull(number), why_none: orNull(text), note: orNull(text),
-    definition: text, source: text, normal: orNull(object({ low: number, high: number, people: ifThere(text), meaning: text, source: text })),
-    band: orNull(object({ p5: orNull(number), p95: orNull(number) })),
-  })),
-  around_neck: list(object({ hour: number, alpha_deg: orNull(number), alpha_at_1mm_deg: orNull(number), alpha_point_mm: orNull(three) })),
-  rim: list(object({ hour: number, point_mm: orNull(three), centre_edge_deg: orNull(number), is_in_plane: flag })),
+const geometry = object({
   geometry: object({
     neck: orNull(object({ head_centre_mm: three, direction: three })), shaft: orNull(object({ first_mm: three, last_mm: three })),
     condyles: orNull(object({ medial_mm: three, lateral_mm: three })),
@@ -126,7 +118,7 @@ const report = object({
     name: text, axis: oneOf("time_s", "frame"), times_s: text, coordinates_deg: text, coordinates_mm: text, poses: text,
     curves: list(object({ name: text, unit: text, values: text })),
   })),
-  recorded_motion: ifThere(object({ by: oneOf("columns", "poses", "model") })), measures: orNull(measures), plan: orNull(plan),
+  recorded_motion: ifThere(object({ by: oneOf("columns", "poses", "model") })), measures: orNull((value, key) => [shapeRecord, geometry].forEach((check) => check(value, key))), plan: orNull(plan),
   before: ifThere(orNull(before)), posed: ifThere(orNull(posed)), sweep: ifThere(orNull(sweep)), only_in_reports: ifThere(list(oneOf("contact"))),
   taken_by_name: ifThere(list(object({ mesh: text, taken: text }))),
 });

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <string_view>
 
+#include "answer/records/measure_record.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/file/csv_fields.hpp"
 #include "io/file/format_version.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/record/json_of.hpp"
 #include "io/result/json.hpp"
 #include "io/result/measure_geometry.hpp"
 #include "io/result/measure_object.hpp"
@@ -100,49 +102,6 @@ std::string normal_text(const measure::MeasureDefinition& definition) {
   return range && !range->are_patients ? fmt::format("{:g} to {:g}", range->low, range->high) : "";
 }
 
-std::string_view heading_of(measure::MeasuredPart part) {
-  switch (part) {
-    case measure::MeasuredPart::femur:
-      return "femur";
-    case measure::MeasuredPart::acetabulum:
-      return "acetabulum";
-    case measure::MeasuredPart::both:
-      break;
-  }
-  return "both";
-}
-
-Json measure_band_json(const measure::MeasureBand& band) {
-  return {{"p5", io::nullable(band.p5)},
-          {"median", io::nullable(band.median)},
-          {"p95", io::nullable(band.p95)},
-          {"samples_without_value", band.samples_without_value}};
-}
-
-Json text_or_null(const std::string& text) {
-  return text.empty() ? Json(nullptr) : Json(text);
-}
-
-/// "neck, shaft" as a list.
-Json names_in(std::string_view names) {
-  Json list = Json::array();
-  while (!names.empty()) {
-    const std::size_t end = std::min(names.find(", "), names.size());
-    list.push_back(names.substr(0, end));
-    names.remove_prefix(std::min(end + 2, names.size()));
-  }
-  return list;
-}
-
-/// The range of people with usual hips, or that of patients.
-Json range_json(const measure::MeasureDefinition& definition, bool of_patients) {
-  const std::optional<measure::NormalRange>& range = definition.normal;
-  if (!range || range->are_patients != of_patients) return nullptr;
-  return {{"low", range->low},         {"high", range->high},
-          {"people", range->people},   {"count", range->count > 0 ? Json(range->count) : Json(nullptr)},
-          {"meaning", range->meaning}, {"source", range->source}};
-}
-
 /// Why measures have no value, as notes: a sentence with the keys that it is the reason of.
 Json notes_on_none(const measure::HipMeasures& measures) {
   Json notes = Json::array();
@@ -151,62 +110,10 @@ Json notes_on_none(const measure::HipMeasures& measures) {
   return notes;
 }
 
-Json measure_entry(const measure::MeasureDefinition& definition, const measure::HipMeasures& measures) {
-  const measure::Measure& measure = definition.of(measures);
-  Json json{{"key", definition.key},
-            {"part", heading_of(definition.part)},
-            {"unit", definition.unit},
-            {"value", io::nullable(measure.value)},
-            {"why_none", text_or_null(measure.why_none)},
-            {"note", text_or_null(measure.note)},
-            {"definition", definition.definition},
-            {"measured_by", names_in(definition.measured_by)},
-            {"source", definition.source}};
-  json["frame"] = definition.in_pelvis_frame ? Json(measure::stated_frame(measures)) : Json(nullptr);
-  json["normal"] = range_json(definition, false);
-  json["patients"] = range_json(definition, true);
-  return json;
-}
-
-Json numbers_or_null(const std::optional<Vec3>& point) {
-  return point ? io::numbers(*point) : Json(nullptr);
-}
-
-Json neck_json(const measure::FemurMeasures& femur) {
-  Json json = Json::array();
-  for (const measure::NeckHour& at : femur.around_neck)
-    json.push_back({{"hour", at.hour},
-                    {"alpha_deg", io::nullable(at.alpha_deg)},
-                    {"alpha_at_1mm_deg", io::nullable(at.alpha_at_1mm_deg)},
-                    {"is_doubtful", at.is_doubtful},
-                    {"alpha_point_mm", numbers_or_null(at.alpha_point)},
-                    {"offset_mm", io::nullable(at.offset_mm)},
-                    {"offset_point_mm", numbers_or_null(at.offset_point)}});
-  return json;
-}
-
-Json rim_json(const measure::AcetabulumMeasures& acetabulum) {
-  Json json = Json::array();
-  for (const measure::RimHour& at : acetabulum.rim)
-    json.push_back({{"hour", at.hour},
-                    {"point_mm", numbers_or_null(at.point)},
-                    {"cover_deg", at.point ? Json(at.cover_deg) : Json(nullptr)},
-                    {"centre_edge_deg", at.point ? Json(at.centre_edge_deg) : Json(nullptr)},
-                    {"is_in_plane", at.is_in_plane}});
-  return json;
-}
-
 /// Whether some result has a file of this name.
 bool is_of_measure(std::string_view name) {
   static constexpr std::string_view names[] = {"measures.json", "measures.csv", "neck.csv", "rim.csv"};
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
-}
-
-std::optional<double> end_of_range(const measure::MeasureDefinition& definition, bool of_patients,
-                                   double measure::NormalRange::*end) {
-  const std::optional<measure::NormalRange>& range = definition.normal;
-  if (!range || range->are_patients != of_patients) return std::nullopt;
-  return (*range).*end;
 }
 
 std::string csv_number(const std::optional<double>& value) {
@@ -228,8 +135,8 @@ std::string measure_text(const MeasureResult& result, bool with_definitions) {
   const bool has_bands = !result.answer.bands.empty();
   for (std::size_t i = 0; i < measure::measure_definitions().size(); ++i) {
     const measure::MeasureDefinition& each = measure::measure_definitions()[i];
-    if (heading != heading_of(each.part)) {
-      heading = heading_of(each.part);
+    if (heading != name_of(each.part)) {
+      heading = name_of(each.part);
       text += fmt::format("  {:<{}}  {:>10}{}  normal\n", heading, widest + 2, "",
                           has_bands ? fmt::format("  {:<16}", "5 to 95 %") : "");
     }
@@ -260,41 +167,23 @@ std::string measure_text(const MeasureResult& result, bool with_definitions) {
 }
 
 Json measure_object(const MeasureResult& result) {
-  const measure::HipMeasures& measures = result.answer.measures;
-  Json list = Json::array();
-  for (std::size_t i = 0; i < measure::measure_definitions().size(); ++i) {
-    list.push_back(measure_entry(measure::measure_definitions()[i], measures));
-    list.back()["band"] =
-        result.answer.bands.empty() ? Json(nullptr) : measure_band_json(result.answer.bands[i]);
-  }
   Json json{{"condyle", io::format_version},
             {"joint", result.joint.name},
             {"fixed", result.joint.fixed.name},
             {"mobile", result.joint.mobile.name},
-            {"side", name_of(result.joint.side)},
-            {"pelvis_frame", measure::stated_frame(measures)},
-            {"pelvic_tilt_deg", measures.pelvic_tilt.degrees()},
-            {"left_out", measures.left_out},
-            {"measures", std::move(list)},
-            {"around_neck", neck_json(measures.femur)},
-            {"rim", rim_json(measures.acetabulum)},
-            {"geometry", io::measure_geometry(measures)},
-            {"notes", io::notes_json(result.notes)},
-            {"scope", scope_text(result.joint)},
-            {"provenance", io::provenance_json(result.provenance)}};
-  for (Json& note : notes_on_none(measures)) json["notes"].push_back(std::move(note));
+            {"side", name_of(result.joint.side)}};
+  json.update(json_of(shape_record(result.answer), {{}, result.joint.anatomy}));
+  json["geometry"] = io::measure_geometry(result.answer.measures);
+  json["notes"] = io::notes_json(result.notes);
+  json["scope"] = scope_text(result.joint);
+  json["provenance"] = io::provenance_json(result.provenance);
+  for (Json& note : notes_on_none(result.answer.measures)) json["notes"].push_back(std::move(note));
   io::drop_negative_zeros(json);
   return json;
 }
 
 std::string measure_json(const MeasureResult& result) {
   return io::document(io::measure_object(result));
-}
-
-std::string measure_geometry_json(const measure::HipMeasures& measures) {
-  Json json = io::measure_geometry(measures);
-  io::drop_negative_zeros(json);
-  return json.dump();
 }
 
 std::string measures_csv(const MeasureResult& result) {
@@ -305,34 +194,22 @@ std::string measures_csv(const MeasureResult& result) {
       "key,part,value,unit,p5,median,p95,samples_without_value,normal_low,normal_high,normal_people,"
       "normal_meaning,normal_source,patients_low,patients_high,frame,measured_by,why_none,note,definition,"
       "source\n";
-  for (std::size_t i = 0; i < measure::measure_definitions().size(); ++i) {
-    const measure::MeasureDefinition& each = measure::measure_definitions()[i];
-    const measure::MeasureBand band =
-        result.answer.bands.empty() ? measure::MeasureBand{} : result.answer.bands[i];
-    const measure::Measure& measure = each.of(result.answer.measures);
-    const std::string fields[] = {
-        std::string(each.key),
-        std::string(heading_of(each.part)),
-        csv_number(measure.value),
-        std::string(each.unit),
-        csv_number(band.p5),
-        csv_number(band.median),
-        csv_number(band.p95),
-        result.answer.bands.empty() ? "" : fmt::format("{}", band.samples_without_value),
-        csv_number(end_of_range(each, false, &measure::NormalRange::low)),
-        csv_number(end_of_range(each, false, &measure::NormalRange::high)),
-        each.normal ? io::csv_field(people_of(*each.normal)) : "",
-        each.normal ? io::csv_field(each.normal->meaning) : "",
-        each.normal ? io::csv_field(each.normal->source) : "",
-        csv_number(end_of_range(each, true, &measure::NormalRange::low)),
-        csv_number(end_of_range(each, true, &measure::NormalRange::high)),
-        each.in_pelvis_frame ? io::csv_field(measure::stated_frame(result.answer.measures)) : "",
-        io::csv_field(each.measured_by),
-        io::csv_field(measure.why_none),
-        io::csv_field(measure.note),
-        io::csv_field(each.definition),
-        io::csv_field(each.source)};
-    text += fmt::format("{}\n", fmt::join(fields, ","));
+  const ShapeRecord shape = shape_record(result.answer);
+  for (std::size_t i = 0; i < shape.measures.size(); ++i) {
+    const MeasureRecord& each = shape.measures[i];
+    const std::optional<measure::NormalRange>& range = measure::measure_definitions()[i].normal;
+    const auto& [p5, median, p95, samples_without_value] = each.band.value_or(MeasureBandRecord{});
+    const auto ends_of = [](const std::optional<NormalRangeRecord>& people) {
+      return people ? fmt::format("{},{}", people->low, people->high) : ",";
+    };
+    text += csv_line(
+        {std::string(each.key), std::string(name_of(each.part)), csv_number(each.value),
+         std::string(each.unit), csv_number(p5), csv_number(median), csv_number(p95),
+         each.band ? fmt::format("{}", samples_without_value) : "", ends_of(each.normal),
+         range ? csv_field(people_of(*range)) : "", range ? csv_field(range->meaning) : "",
+         range ? csv_field(range->source) : "", ends_of(each.patients), csv_field(each.frame.value_or("")),
+         csv_field(measure::measure_definitions()[i].measured_by), csv_field(each.why_none.value_or("")),
+         csv_field(each.note.value_or("")), csv_field(each.definition), csv_field(each.source)});
   }
   return text;
 }

@@ -23,9 +23,6 @@ std::string neck_csv(const MeasureResult& result);
 /// A row for each direction around the socket: its rim and edge angles.
 std::string rim_csv(const MeasureResult& result);
 
-/// The object `geometry` of the JSON by itself.
-std::string measure_geometry_json(const measure::HipMeasures& measures);
-
 /// FileError if the folder is not to be written to.
 void check_measure_folder(const std::filesystem::path& folder, const Provenance* from);
 /// Writes measures.json, measures.csv, and neck.csv and rim.csv where there are a neck and a socket. FileError.

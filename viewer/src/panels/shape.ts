@@ -2,7 +2,8 @@ import { checkbox, fold, html, section } from "../dom";
 import { fixed } from "../numbers";
 import { figure } from "../plots/figure";
 import { hoursDrawing } from "../plots/hours";
-import type { StoredMeasure, StoredMeasures } from "../report";
+import type { MeasureRecord } from "../records";
+import type { StoredMeasures } from "../report";
 import type { JointScene } from "../scene/scene";
 import { measureMarks } from "../scene/measure_marks";
 import { words } from "../words";
@@ -20,7 +21,7 @@ export function measureName(key: string, unit: string): string {
   return name.replace(/_(\d+)_(\d\d)(?=_|$)/, " $1:$2").replaceAll("_", " ");
 }
 
-function row({ key, unit, value, band, normal }: StoredMeasure, hasBands: boolean): string[] {
+function row({ key, unit, value, band, normal }: MeasureRecord, hasBands: boolean): string[] {
   return [
     measureName(key, unit), value === null || unit === "1" ? shown(value, unit) : `${shown(value, unit)} ${unit}`,
     ...(hasBands ? [band?.p5 == null ? "–" : words.rangeOf(shown(band.p5, unit), shown(band.p95, unit))] : []),
@@ -28,7 +29,7 @@ function row({ key, unit, value, band, normal }: StoredMeasure, hasBands: boolea
   ];
 }
 
-function sentences(measures: readonly StoredMeasure[], said: (measure: StoredMeasure) => string | null): string[] {
+function sentences(measures: readonly MeasureRecord[], said: (measure: MeasureRecord) => string | null): string[] {
   return measures.filter((measure) => said(measure)).map((measure) => words.ofMeasure(measureName(measure.key, measure.unit), said(measure)!));
 }
 

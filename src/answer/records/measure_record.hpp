@@ -1,0 +1,126 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "answer/records/record.hpp"
+#include "condyle/answer/measures.hpp"
+
+namespace condyle {
+
+struct NormalRangeRecord {
+  double low, high;
+  std::string_view people;
+  std::optional<int> count;
+  std::string_view meaning, source;
+};
+struct MeasureBandRecord {
+  std::optional<double> p5, median, p95;
+  std::size_t samples_without_value;
+};
+struct MeasureRecord {
+  std::string_view key;
+  measure::MeasuredPart part;
+  std::string_view unit;
+  std::optional<double> value;
+  std::optional<std::string> why_none, note;
+  std::string_view definition;
+  std::vector<std::string_view> measured_by;
+  std::string_view source;
+  std::optional<std::string> frame;
+  std::optional<NormalRangeRecord> normal, patients;
+  std::optional<MeasureBandRecord> band;
+};
+struct NeckHourRecord {
+  double hour;
+  std::optional<double> alpha_deg, alpha_at_1mm_deg;
+  bool is_doubtful;
+  std::optional<Vec3> alpha_point_mm;
+  std::optional<double> offset_mm;
+  std::optional<Vec3> offset_point_mm;
+};
+struct RimHourRecord {
+  double hour;
+  std::optional<Vec3> point_mm;
+  std::optional<double> cover_deg, centre_edge_deg;
+  bool is_in_plane;
+};
+
+/// The shape of a hip. Points are in the joint frame, whatever the frame of the answer.
+struct ShapeRecord {
+  std::string pelvis_frame;
+  double pelvic_tilt_deg;
+  std::vector<std::string> left_out = {};
+  std::vector<MeasureRecord> measures = {};
+  std::vector<NeckHourRecord> around_neck = {};
+  std::vector<RimHourRecord> rim = {};
+};
+
+ShapeRecord shape_record(const MeasureAnswer& answer);
+
+template <>
+inline constexpr auto table<NormalRangeRecord> =
+    record("NormalRange", "Between these values lie the measures of other people.",
+           field("low", &NormalRangeRecord::low), field("high", &NormalRangeRecord::high),
+           field("people", &NormalRangeRecord::people, "whose measures they are"),
+           field("count", &NormalRangeRecord::count, "of these; null if the source does not say"),
+           field("meaning", &NormalRangeRecord::meaning, "which measures lie between"),
+           field("source", &NormalRangeRecord::source, "where they are from"));
+template <>
+inline constexpr auto table<MeasureBandRecord> = record(
+    "MeasureBand", "A measure over displaced joints.",
+    field("p5", &MeasureBandRecord::p5, "5 % of them are below; null if none shows the measure"),
+    field("median", &MeasureBandRecord::median), field("p95", &MeasureBandRecord::p95),
+    field("samples_without_value", &MeasureBandRecord::samples_without_value, "joints that do not show it"));
+template <>
+inline constexpr auto table<MeasureRecord> = record(
+    "MeasureRecord", "One measure of a hip.", field("key", &MeasureRecord::key, "its name"),
+    field("part", &MeasureRecord::part, "`\"femur\"`, `\"acetabulum\"` or `\"both\"`"),
+    field("unit", &MeasureRecord::unit, "`\"mm\"`, `\"deg\"`, `\"h\"` or `\"1\"`"),
+    field("value", &MeasureRecord::value, "null if it cannot be computed"),
+    field("why_none", &MeasureRecord::why_none, "the reason then, else null"),
+    field("note", &MeasureRecord::note, "its caveat, usually null"),
+    field("definition", &MeasureRecord::definition, "in a line"),
+    field("measured_by", &MeasureRecord::measured_by,
+          "the planes, axes and points that it is measured by: names in `geometry`, or of a list here"),
+    field("source", &MeasureRecord::source, "where the definition is from"),
+    field("frame", &MeasureRecord::frame, "the pelvis frame of an angle that turns with it, else null"),
+    field("normal", &MeasureRecord::normal,
+          "a range of people with usual hips: `low`, `high`, `people`, `count`, `meaning` and `source`; null "
+          "if none is known"),
+    field("patients", &MeasureRecord::patients, "likewise of patients, which is not called normal"),
+    field("band", &MeasureRecord::band,
+          "`p5`, `median`, `p95` over the displaced joints, and `samples_without_value`; null without "
+          "`--band`"));
+template <>
+inline constexpr auto table<NeckHourRecord> = record(
+    "NeckHour", "What is measured in one direction around the neck, 12 superior and 3 anterior.",
+    field("hour", &NeckHourRecord::hour), field("alpha_deg", &NeckHourRecord::alpha_deg),
+    field("alpha_at_1mm_deg", &NeckHourRecord::alpha_at_1mm_deg),
+    field("is_doubtful", &NeckHourRecord::is_doubtful),
+    field("alpha_point_mm", &NeckHourRecord::alpha_point_mm), field("offset_mm", &NeckHourRecord::offset_mm),
+    field("offset_point_mm", &NeckHourRecord::offset_point_mm));
+template <>
+inline constexpr auto table<RimHourRecord> = record(
+    "RimHour", "The rim in one direction around the socket, 12 superior and 3 anterior.",
+    field("hour", &RimHourRecord::hour), field("point_mm", &RimHourRecord::point_mm),
+    field("cover_deg", &RimHourRecord::cover_deg), field("centre_edge_deg", &RimHourRecord::centre_edge_deg),
+    field("is_in_plane", &RimHourRecord::is_in_plane));
+template <>
+inline constexpr auto table<ShapeRecord> = record(
+    "ShapeRecord", "The shape of a hip, in the words of measures.json.",
+    field("pelvis_frame", &ShapeRecord::pelvis_frame,
+          "the frame of acetabular angles, with the tilt that was given"),
+    field("pelvic_tilt_deg", &ShapeRecord::pelvic_tilt_deg, "that tilt"),
+    field("left_out", &ShapeRecord::left_out,
+          "sentences on pieces of a mesh near the head that are not measured, such as the wall of its marrow "
+          "or another bone"),
+    field("measures", &ShapeRecord::measures, "list of measures in the order of the text, below"),
+    field("around_neck", &ShapeRecord::around_neck,
+          "list of `hour`, `alpha_deg`, `alpha_at_1mm_deg`, `is_doubtful`, `alpha_point_mm`, `offset_mm`, "
+          "`offset_point_mm`; points in the mobile body's frame"),
+    field("rim", &ShapeRecord::rim,
+          "list of `hour`, `point_mm` in the fixed body's frame, `cover_deg`, `centre_edge_deg`, "
+          "`is_in_plane`"));
+
+}  // namespace condyle
