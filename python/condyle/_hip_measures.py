@@ -73,7 +73,7 @@ class HipMeasures(Mapping[str, HipMeasure]):
         said = _native.hip_measures_of(joint._asked, number(pelvic_tilt_deg, "pelvic_tilt_deg"), band_of(band_samples, seed),
                                        progress_of(progress))
         shape = ShapeRecord.of({key: said[key] for key in ShapeRecord.__annotations__})
-        self._by_key = {each.key: HipMeasure.of(vars(each)) for each in shape.measures}
+        self._by_key = {each["key"]: HipMeasure.of(each) for each in said["measures"]}
         self.pelvis_frame, self.geometry, self.left_out = shape.pelvis_frame, said["geometry"], tuple(shape.left_out)
         self.neck_hour = _column(shape.around_neck, "hour")
         self.alpha_deg, self.alpha_at_1mm_deg, self.offset_mm = (

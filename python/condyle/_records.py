@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Optional
+from typing import Literal, Optional
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._motion import Angles
 from ._record import Record
-from ._words import CaveatCode, ContactKind, ContactSide, FeatureKind, LimitReason, MeasuredPart, RotationSense, ZeroFrom
 
 
 class FeatureRecord(Record):
     """A vertex or a face by its number, or an edge by its two vertices, ascending: in numbers of the mesh, from 0."""
 
-    kind: FeatureKind
+    kind: Literal["vertex", "edge", "face"]
     vertices: Optional[list[int]] = None
     id: Optional[int] = None
     part: Optional[str] = None
@@ -48,7 +47,7 @@ class ClosedForm(Record):
     """Where liner and neck of an implant end a motion, as bodies of revolution."""
 
     limit_deg: float
-    reason: LimitReason
+    reason: Literal["contact", "end_of_range", "contact_at_start"]
     of_facets_deg: list[float]
 
 
@@ -75,7 +74,7 @@ class BandRecord(Record):
 class Caveat(Record):
     """A caveat to read before a limit is compared with a living joint."""
 
-    code: CaveatCode
+    code: Literal["bone_may_end", "soft_tissue_ends", "soft_tissue_close", "capsule_restrains", "labrum_not_modelled", "end_unknown"]
     text: str
     source: Optional[str] = None
 
@@ -122,9 +121,9 @@ class LimitRecord(Record):
         of the motion
     limit_deg : float
         how far it turned from its start; ≥ 0 whatever the sense
-    reason : LimitReason
+    reason : Literal["contact", "end_of_range", "contact_at_start"]
         `"contact"`, `"end_of_range"` (no contact), `"contact_at_start"` (`limit_deg` is 0)
-    contact_kind : ContactKind or None
+    contact_kind : Literal["unknown", "bearing", "impingement", "cut", "soft"] or None
         `"impingement"`, `"bearing"`, `"cut"` on a face that closes a bone where its image ends or it was cut off, or `"unknown"`
         if no bearing surface is known; null at the end of the range
     bearing_contact_deg : float or None
@@ -147,7 +146,7 @@ class LimitRecord(Record):
         true contact is at the limit or past it by at most this, and never before
     vary : str
         the angle that varies
-    sense : RotationSense
+    sense : Literal["negative", "positive"]
         `"positive"` or `"negative"`
     range_deg : float
         how far it may change
@@ -155,7 +154,7 @@ class LimitRecord(Record):
         all three angles at the start, digit by digit as given (15 digits and fewer)
     held_deg : Angles
         the two that were held
-    zero_from : ZeroFrom
+    zero_from : Literal["as_given", "stated", "landmarks", "anatomy"]
         what zero angles are known by, as in `zero`: `"as_given"`, `"stated"`, `"landmarks"` or `"anatomy"`
     definition : str or None
         of `fadir` and `faber`: `"as defined here; no angles are agreed on"`, their angles are `start_deg` and `vary`; null for
@@ -176,7 +175,7 @@ class LimitRecord(Record):
     features : FeaturesRecord or None
         `fixed` and `mobile`, each `{"kind": "vertex", "id": n}`, `{"kind": "face", "id": n}` or `{"kind": "edge", "vertices": [a,
         b]}` with a < b, in numbers of the mesh, from 0, and `part` of a body of several meshes; null without a contact point
-    contact_side : ContactSide or None
+    contact_side : Literal["superior", "anterior", "inferior", "posterior"] or None
         of a shoulder the side of the joint centre on which contact that is not bearing contact ended the motion: `"superior"`,
         where the acromion is, `"anterior"` (coracoid process), `"inferior"` (lower rim and neck of the scapula) or `"posterior"`;
         null for other joints, without contact, and within 30 degrees of the joint's Z
@@ -207,8 +206,8 @@ class LimitRecord(Record):
 
     name: str
     limit_deg: float
-    reason: LimitReason
-    contact_kind: Optional[ContactKind] = None
+    reason: Literal["contact", "end_of_range", "contact_at_start"]
+    contact_kind: Optional[Literal["unknown", "bearing", "impingement", "cut", "soft"]] = None
     bearing_contact_deg: Optional[float] = None
     bearing_contact_point_mm: Optional[NDArray[np.float64]] = None
     soft_contact_deg: Optional[float] = None
@@ -218,11 +217,11 @@ class LimitRecord(Record):
     joint_space_mm: Optional[float] = None
     error_bound_deg: float
     vary: str
-    sense: RotationSense
+    sense: Literal["negative", "positive"]
     range_deg: float
     start_deg: Angles
     held_deg: Angles
-    zero_from: ZeroFrom
+    zero_from: Literal["as_given", "stated", "landmarks", "anatomy"]
     definition: Optional[str] = None
     at_limit_deg: Angles
     translation_mm: Optional[NDArray[np.float64]] = None
@@ -230,7 +229,7 @@ class LimitRecord(Record):
     contact_point_mm: Optional[NDArray[np.float64]] = None
     contact_point_mobile_mm: Optional[NDArray[np.float64]] = None
     features: Optional[FeaturesRecord] = None
-    contact_side: Optional[ContactSide] = None
+    contact_side: Optional[Literal["superior", "anterior", "inferior", "posterior"]] = None
     clock_hour: Optional[float] = None
     normal_range_deg: Optional[float] = None
     caveats: list[Caveat]
@@ -288,7 +287,7 @@ class MeasureRecord(Record):
     ----------
     key : str
         its name
-    part : MeasuredPart
+    part : Literal["femur", "acetabulum", "both"]
         `"femur"`, `"acetabulum"` or `"both"`
     unit : str
         `"mm"`, `"deg"`, `"h"` or `"1"`
@@ -315,7 +314,7 @@ class MeasureRecord(Record):
     """
 
     key: str
-    part: MeasuredPart
+    part: Literal["femur", "acetabulum", "both"]
     unit: str
     value: Optional[float] = None
     why_none: Optional[str] = None

@@ -18,32 +18,31 @@
 namespace condyle {
 namespace {
 
-// ---- Python
+/// Whether an enum has this value: GCC and clang write the others as casts.
+template <auto value>
+constexpr bool is_enumerator() {
+  constexpr std::string_view signature = __PRETTY_FUNCTION__;
+  constexpr std::string_view before = "value = ";
+  return signature[signature.find(before) + before.size()] != '(';
+}
 
-constexpr const char* word_of(motion::FeatureKind) {
-  return "FeatureKind";
+/// The names of an enum in files, each in quotes and behind `separator` but the first.
+template <class Enum>
+std::string names_of(std::string_view separator) {
+  std::string names;
+  const auto add = [&]<int value>() {
+    if constexpr (is_enumerator<static_cast<Enum>(value)>())
+      if (const std::string_view name = name_of(static_cast<Enum>(value)); name != "none")
+        names += fmt::format("{}\"{}\"", names.empty() ? "" : separator, name);
+  };
+  [&]<int... values>(std::integer_sequence<int, values...>) {
+    (add.template operator()<values - std::is_signed_v<std::underlying_type_t<Enum>>>(), ...);
+  }
+  (std::make_integer_sequence<int, 32>());
+  return names;
 }
-constexpr const char* word_of(motion::ContactKind) {
-  return "ContactKind";
-}
-constexpr const char* word_of(motion::LimitReason) {
-  return "LimitReason";
-}
-constexpr const char* word_of(motion::ContactSide) {
-  return "ContactSide";
-}
-constexpr const char* word_of(ZeroFrom) {
-  return "ZeroFrom";
-}
-constexpr const char* word_of(RotationSense) {
-  return "RotationSense";
-}
-constexpr const char* word_of(measure::MeasuredPart) {
-  return "MeasuredPart";
-}
-constexpr const char* word_of(MotionCaveatCode) {
-  return "CaveatCode";
-}
+
+// ---- Python
 
 /// As a type hint of a value that is not None.
 template <class Value>
@@ -61,7 +60,7 @@ std::string hint_of() {
   else if constexpr (std::same_as<Value, JointAngle>)
     return "str";
   else if constexpr (std::is_enum_v<Value>)
-    return word_of(Value{});
+    return fmt::format("Literal[{}]", names_of<Value>(", "));
   else if constexpr (std::same_as<Value, bool>)
     return "bool";
   else if constexpr (std::is_integral_v<Value>)
@@ -133,42 +132,17 @@ std::string python_records() {
 
 from __future__ import annotations
 
-from typing import Optional
+from typing import Literal, Optional
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._motion import Angles
 from ._record import Record
-from ._words import CaveatCode, ContactKind, ContactSide, FeatureKind, LimitReason, MeasuredPart, RotationSense, ZeroFrom
 )" + each_record([]<class Record>() { return python_class<Record>(); });
 }
 
 // ---- TypeScript
-
-/// Whether an enum has this value: GCC and clang write the others as casts.
-template <auto value>
-constexpr bool is_enumerator() {
-  constexpr std::string_view signature = __PRETTY_FUNCTION__;
-  constexpr std::string_view before = "value = ";
-  return signature[signature.find(before) + before.size()] != '(';
-}
-
-/// The names of an enum in files, each in quotes and behind `separator` but the first.
-template <class Enum>
-std::string names_of(std::string_view separator) {
-  std::string names;
-  const auto add = [&]<int value>() {
-    if constexpr (is_enumerator<static_cast<Enum>(value)>())
-      if (const std::string_view name = name_of(static_cast<Enum>(value)); name != "none")
-        names += fmt::format("{}\"{}\"", names.empty() ? "" : separator, name);
-  };
-  [&]<int... values>(std::integer_sequence<int, values...>) {
-    (add.template operator()<values - std::is_signed_v<std::underlying_type_t<Enum>>>(), ...);
-  }
-  (std::make_integer_sequence<int, 32>());
-  return names;
-}
 
 /// As a type, and as a check of report_shape.ts; of a value that is not null.
 struct InPage {

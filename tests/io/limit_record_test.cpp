@@ -3,22 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 #include <string>
 
-#include "io/file/whole_file.hpp"
 #include "io/record/table_of.hpp"
 #include "rom_scene.hpp"
 
-/// One description of a limit: what the pages say of its values is what the files hold.
-
 namespace condyle::test {
 namespace {
-
-std::string page() {
-  return io::read_whole_file(std::filesystem::path(CONDYLE_SOURCE_DIR) / "docs/formats-limits.md");
-}
 
 constexpr auto every_column = [](const FieldColumn&) { return true; };
 
@@ -35,18 +27,6 @@ TEST(LimitRecord, NamesEachKeyAndColumnOnce) {
   }
   EXPECT_GE(keys.size(), 20u);
   EXPECT_GE(columns.size(), 30u);
-}
-
-TEST(LimitRecord, IsInThePageAsItIsInTheFiles) {
-  std::string keys = "| key | value |\n|---|---|\n", columns = "| column | unit | value |\n|---|---|---|\n";
-  for_each_field<LimitRecord>([&](const auto& field) {
-    if (*field.key != 0) keys += "| `" + std::string(field.key) + "` | " + field.meaning + " |\n";
-  });
-  for (const io::ResultColumn& column : io::columns_of<LimitRecord>(Anatomy::hip, every_column))
-    columns += "| `" + column.name + "` | " + column.unit + " | " + column.meaning + " |\n";
-  EXPECT_NE(page().find(keys), std::string::npos) << "docs/formats-limits.md, an element of motions:\n"
-                                                  << keys;
-  EXPECT_NE(page().find(columns), std::string::npos) << "docs/formats-limits.md, limits.csv:\n" << columns;
 }
 
 TEST(LimitRecord, HasAsManyCellsAsColumnsForAnyLimit) {

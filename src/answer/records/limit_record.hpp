@@ -121,50 +121,41 @@ inline constexpr auto table<FeatureRecord> = record("FeatureRecord",
                                                     field_if_any("part", &FeatureRecord::part));
 template <>
 inline constexpr auto table<FeaturesRecord> = record("FeaturesRecord", "What is in contact of either body.",
-                                                     field("fixed", &FeaturesRecord::fixed),
-                                                     field("mobile", &FeaturesRecord::mobile));
+                                                     CONDYLE_KEYS(FeaturesRecord, fixed, mobile));
 template <>
 inline constexpr auto table<PartsRecord> =
     record("PartsRecord", "Names of the meshes that touch, None of a body of one mesh.",
-           field("fixed", &PartsRecord::fixed), field("mobile", &PartsRecord::mobile));
+           CONDYLE_KEYS(PartsRecord, fixed, mobile));
 template <>
-inline constexpr auto table<AllowedDepthRecord> =
-    record("AllowedDepthRecord", "Depths of a limit with a depth allowed.",
-           field("at_start_mm", &AllowedDepthRecord::at_start_mm),
-           field("at_limit_mm", &AllowedDepthRecord::at_limit_mm),
-           field("ray_to_normal_deg", &AllowedDepthRecord::ray_to_normal_deg),
-           field("grows", &AllowedDepthRecord::grows));
+inline constexpr auto table<AllowedDepthRecord> = record("AllowedDepthRecord",
+                                                         "Depths of a limit with a depth allowed.",
+                                                         CONDYLE_KEYS(AllowedDepthRecord, at_start_mm,
+                                                                      at_limit_mm, ray_to_normal_deg, grows));
 template <>
 inline constexpr auto table<ClosedFormRecord> =
     record("ClosedForm", "Where liner and neck of an implant end a motion, as bodies of revolution.",
-           field("limit_deg", &ClosedFormRecord::limit_deg), field("reason", &ClosedFormRecord::reason),
-           field("of_facets_deg", &ClosedFormRecord::of_facets_deg));
+           CONDYLE_KEYS(ClosedFormRecord, limit_deg, reason, of_facets_deg));
 template <>
 inline constexpr auto table<BandWidthRecord> =
     record("BandWidthRecord", "Width of a band if only one source was uncertain.",
-           field("centre_deg", &BandWidthRecord::centre_deg), field("axes_deg", &BandWidthRecord::axes_deg),
-           field("surface_deg", &BandWidthRecord::surface_deg),
+           CONDYLE_KEYS(BandWidthRecord, centre_deg, axes_deg, surface_deg),
            field_if_any("parameters_deg", &BandWidthRecord::parameters_deg));
 template <>
-inline constexpr auto table<BandRecord> =
-    record("BandRecord", "The limit over the joints of a band.", field("p5_deg", &BandRecord::p5_deg),
-           field("median_deg", &BandRecord::median_deg), field("p95_deg", &BandRecord::p95_deg),
-           field("width_from", &BandRecord::width_from),
-           field("share_without_contact", &BandRecord::share_without_contact),
-           field("share_in_contact_at_start", &BandRecord::share_in_contact_at_start));
+inline constexpr auto table<BandRecord> = record("BandRecord", "The limit over the joints of a band.",
+                                                 CONDYLE_KEYS(BandRecord, p5_deg, median_deg, p95_deg,
+                                                              width_from, share_without_contact,
+                                                              share_in_contact_at_start));
 template <>
 inline constexpr auto table<CaveatRecord> =
     record("Caveat", "A caveat to read before a limit is compared with a living joint.",
-           field("code", &CaveatRecord::code), field("text", &CaveatRecord::text),
-           field("source", &CaveatRecord::source));
+           CONDYLE_KEYS(CaveatRecord, code, text, source));
 
 template <class Record, class OwnField>
 constexpr auto zone_table(const char* name, const char* meaning, OwnField of_this_body) {
-  return record(name, meaning, field("triangles", &Record::triangles), field("area_mm2", &Record::area_mm2),
-                field("centroid_mm", &Record::centroid_mm),
-                field("max_radial_depth_mm", &Record::max_radial_depth_mm),
-                field("max_tangential_depth_deg", &Record::max_tangential_depth_deg),
-                field("max_tangential_depth_mm", &Record::max_tangential_depth_mm), of_this_body);
+  return record(name, meaning,
+                CONDYLE_KEYS(Record, triangles, area_mm2, centroid_mm, max_radial_depth_mm,
+                             max_tangential_depth_deg, max_tangential_depth_mm),
+                of_this_body);
 }
 template <>
 inline constexpr auto table<FixedZoneRecord> =
@@ -175,10 +166,9 @@ inline constexpr auto table<MobileZoneRecord> =
     zone_table<MobileZoneRecord>("MobileZoneRecord", "The overlap past a limit, on the mobile body.",
                                  field("neck_angle_deg", &MobileZoneRecord::neck_angle_deg));
 template <>
-inline constexpr auto table<ZoneRecord> =
-    record("ZoneRecord", "The overlap past a limit.", field("past_deg", &ZoneRecord::past_deg),
-           field("contact_neck_angle_deg", &ZoneRecord::contact_neck_angle_deg),
-           field("fixed", &ZoneRecord::fixed), field("mobile", &ZoneRecord::mobile));
+inline constexpr auto table<ZoneRecord> = record("ZoneRecord", "The overlap past a limit.",
+                                                 CONDYLE_KEYS(ZoneRecord, past_deg, contact_neck_angle_deg,
+                                                              fixed, mobile));
 
 template <>
 inline constexpr auto table<LimitRecord> = record(

@@ -61,7 +61,7 @@ ShapeRecord shape_record(const MeasureAnswer& answer);
 template <>
 inline constexpr auto table<NormalRangeRecord> =
     record("NormalRange", "Between these values lie the measures of other people.",
-           field("low", &NormalRangeRecord::low), field("high", &NormalRangeRecord::high),
+           CONDYLE_KEYS(NormalRangeRecord, low, high),
            field("people", &NormalRangeRecord::people, "whose measures they are"),
            field("count", &NormalRangeRecord::count, "of these; null if the source does not say"),
            field("meaning", &NormalRangeRecord::meaning, "which measures lie between"),
@@ -70,7 +70,7 @@ template <>
 inline constexpr auto table<MeasureBandRecord> = record(
     "MeasureBand", "A measure over displaced joints.",
     field("p5", &MeasureBandRecord::p5, "5 % of them are below; null if none shows the measure"),
-    field("median", &MeasureBandRecord::median), field("p95", &MeasureBandRecord::p95),
+    CONDYLE_KEYS(MeasureBandRecord, median, p95),
     field("samples_without_value", &MeasureBandRecord::samples_without_value, "joints that do not show it"));
 template <>
 inline constexpr auto table<MeasureRecord> = record(
@@ -93,19 +93,14 @@ inline constexpr auto table<MeasureRecord> = record(
           "`p5`, `median`, `p95` over the displaced joints, and `samples_without_value`; null without "
           "`--band`"));
 template <>
-inline constexpr auto table<NeckHourRecord> = record(
-    "NeckHour", "What is measured in one direction around the neck, 12 superior and 3 anterior.",
-    field("hour", &NeckHourRecord::hour), field("alpha_deg", &NeckHourRecord::alpha_deg),
-    field("alpha_at_1mm_deg", &NeckHourRecord::alpha_at_1mm_deg),
-    field("is_doubtful", &NeckHourRecord::is_doubtful),
-    field("alpha_point_mm", &NeckHourRecord::alpha_point_mm), field("offset_mm", &NeckHourRecord::offset_mm),
-    field("offset_point_mm", &NeckHourRecord::offset_point_mm));
+inline constexpr auto table<NeckHourRecord> =
+    record("NeckHour", "What is measured in one direction around the neck, 12 superior and 3 anterior.",
+           CONDYLE_KEYS(NeckHourRecord, hour, alpha_deg, alpha_at_1mm_deg, is_doubtful, alpha_point_mm,
+                        offset_mm, offset_point_mm));
 template <>
-inline constexpr auto table<RimHourRecord> = record(
-    "RimHour", "The rim in one direction around the socket, 12 superior and 3 anterior.",
-    field("hour", &RimHourRecord::hour), field("point_mm", &RimHourRecord::point_mm),
-    field("cover_deg", &RimHourRecord::cover_deg), field("centre_edge_deg", &RimHourRecord::centre_edge_deg),
-    field("is_in_plane", &RimHourRecord::is_in_plane));
+inline constexpr auto table<RimHourRecord> =
+    record("RimHour", "The rim in one direction around the socket, 12 superior and 3 anterior.",
+           CONDYLE_KEYS(RimHourRecord, hour, point_mm, cover_deg, centre_edge_deg, is_in_plane));
 template <>
 inline constexpr auto table<ShapeRecord> = record(
     "ShapeRecord", "The shape of a hip, in the words of measures.json.",

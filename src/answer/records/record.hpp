@@ -1,5 +1,7 @@
 #pragma once
 
+#include <boost/preprocessor.hpp>
+
 #include <array>
 #include <concepts>
 #include <optional>
@@ -105,6 +107,12 @@ template <class... Fields>
 constexpr RecordTable<Fields...> record(const char* name, const char* meaning, Fields... fields) {
   return {name, meaning, {fields...}};
 }
+
+/// The keys of a record whose members say enough: CONDYLE_KEYS(BandRecord, p5_deg, median_deg).
+#define CONDYLE_KEY(unused, Record, number, member) \
+  BOOST_PP_COMMA_IF(number) field(BOOST_PP_STRINGIZE(member), &Record::member)
+#define CONDYLE_KEYS(Record, ...) \
+  BOOST_PP_SEQ_FOR_EACH_I(CONDYLE_KEY, Record, BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__))
 
 /// The table of a record.
 template <class Record>
