@@ -40,16 +40,17 @@ class Record:
     """A frozen record, whose values are attributes and, as in its file, have keys: `limit.closed_form["limit_deg"]`."""
 
     @classmethod
-    def of(cls: type[AnyRecord], said: Mapping[str, Any]) -> AnyRecord:
+    def of(cls: type[AnyRecord], said: Mapping[str, object]) -> AnyRecord:
         """The record that an object of JSON holds."""
         record = object.__new__(cls)
         hints = _hints_of(cls)
         vars(record).update((key, _value_of(hints[key], value)) for key, value in said.items())
         return record
 
-    def __getitem__(self, key: str) -> Any:
+    def __getitem__(self, key: str) -> object:
         try:
-            return vars(self)[key]
+            value: object = vars(self)[key]
+            return value
         except KeyError:
             raise unknown("key", key, vars(self)) from None
 

@@ -133,7 +133,9 @@ def test_arguments_that_take_words_are_of_literals():
     for name, value in signatures(condyle):
         for what, kind in hints(value).items():
             words = words_of(kind)
-            if words and what != "centre" and not name.startswith("ContactWitness"):
+            owner = getattr(condyle, name.split(".")[0], None)
+            is_of_record = isinstance(owner, type) and issubclass(owner, condyle.Record)  # written from the enums
+            if words and what != "centre" and not name.startswith("ContactWitness") and not is_of_record:
                 assert any(words <= each for each in lists), f"{name}: {what}: {words}"
                 found.append(f"{name}.{what}")
     assert {"Joint.penetration.method", "Joint.__init__.side", "Limit.reason", "DescribedJoint.kind",
