@@ -69,7 +69,7 @@ struct Limit {
   /// Set by RangeOfMotion if a mesh is called soft: its first contact, if before the limit.
   std::optional<EarlierContact> soft_contact = {};
 
-  ContactKind kind() const noexcept { return contact ? contact->kind : ContactKind::unknown; }
+  [[nodiscard]] ContactKind kind() const noexcept { return contact ? contact->kind : ContactKind::unknown; }
 };
 
 /// Work counters of a search.
@@ -88,7 +88,9 @@ struct RotationLimits {
   Limit negative, positive;
   SearchWork work = {};
 
-  bool free_at_start() const noexcept { return positive.reason != LimitReason::contact_at_start; }
+  [[nodiscard]] bool free_at_start() const noexcept {
+    return positive.reason != LimitReason::contact_at_start;
+  }
 };
 
 /// From `negative` <= 0 to `positive` >= 0, at most a full turn in each sense.
@@ -123,7 +125,8 @@ class FirstContact {
 
   /// Both limits from the start pose. Throws UsageError if the range does not hold 0, is more than a full
   /// turn in either sense, or is not finite, and for a pose that is not finite or translates beyond 1e30 mm. May be called from any thread; the same bits on each.
-  RotationLimits limits(const Pose& X_FM = Pose::Identity(), const RotationRange& range = {}) const;
+  [[nodiscard]] RotationLimits limits(const Pose& X_FM = Pose::Identity(),
+                                      const RotationRange& range = {}) const;
 
  private:
   struct Parts;
