@@ -16,7 +16,7 @@ set(contact_uses core mesh kinematics radial tangential)
 set(motion_uses core mesh kinematics radial tangential contact)
 set(measure_uses core mesh kinematics motion)
 set(plan_uses core mesh kinematics tangential motion)
-set(answer_uses core kinematics contact motion measure plan)
+set(answer_uses core mesh kinematics contact motion measure plan)
 set(sample_uses core mesh plan)
 set(io_uses core mesh kinematics radial tangential contact motion measure plan answer sample)
 
