@@ -66,7 +66,7 @@ std::unique_ptr<RangeOfMotion> ready(const Joint& joint, const condyle::motion::
                                      const Motion& motion) {
   auto range = std::make_unique<RangeOfMotion>(
       joint, condyle::motion::RangeOptions{.bearing = bearing, .overlap = {}});
-  range->limit(motion);
+  (void)range->limit(motion);
   return range;
 }
 

@@ -42,7 +42,7 @@ struct KneeContact {
                                             (contact + ".toml"))) {}
 
   void ask() const {
-    for (const Pose& X : X_FM) surfaces.at(X);
+    for (const Pose& X : X_FM) (void)surfaces.at(X);
   }
   /// Rays and triangles in contact of all poses.
   std::pair<std::size_t, std::size_t> work() const {

@@ -53,14 +53,14 @@ bool ask_walking_bones(Effort effort, Report& report) {
         std::count_if(frames.begin(), frames.end(), [](const auto& frame) { return frame->in_contact; });
   }
   const auto parts = interleaved(rounds, {[&] {
-                                            for (const auto& X : walk) bones.pairs(*X);
+                                            for (const auto& X : walk) (void)bones.pairs(*X);
                                           },
                                           [&] {
                                             for (const auto& X : walk)
                                               condyle::mesh::closest_points(fixed, mobile, *X);
                                           },
                                           [&] {
-                                            for (const auto& X : walk) depth.at(X->inverse());
+                                            for (const auto& X : walk) (void)depth.at(X->inverse());
                                           }});
   const auto ms = [](const std::vector<double>& samples) { return median(samples) * 1e3; };
   report.table(walk_head).add({std::string("hip_vhf_right"), std::int64_t(pelvis.triangles().size()),

@@ -43,15 +43,13 @@ std::vector<std::string> words_of(const CLI::App& command) {
   return words;
 }
 
-void add_where(CLI::App& command, const std::shared_ptr<WhereOptions>& options) {
-  command
-      .add_option_function<std::string>(
-          "--frame", [options](const std::string& name) { options->frame = io::answer_frame_named(name); },
-          "The frame in which points and meshes are written: that of the joint, or that of the mesh files")
-      ->option_text("joint|source (joint)");
+CLI::Option* add_out(CLI::App& command, std::string& out, const std::string& help) {
+  return command.add_option("--out", out, help)->option_text("FOLDER");
+}
+
+void add_json(CLI::App& command, AnswerForm& form, const char* help) {
   command.add_flag_callback(
-      "--ascii", [options] { options->vtp_encoding = io::VtpEncoding::text; },
-      "Write VTP files as text, which OpenSim reads");
+      "--json", [&form] { form = AnswerForm::json; }, help);
 }
 
 }  // namespace condyle::cli

@@ -1,12 +1,10 @@
 #pragma once
 
 #include <CLI/App.hpp>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "condyle/io/mesh_file.hpp"
-#include "condyle/io/provenance.hpp"
+#include "answer.hpp"
 
 /// Command line as answers quote it, and options that several commands share.
 
@@ -16,11 +14,10 @@ namespace condyle::cli {
 /// of commands, arguments, options with their values. Without --out, --json and --threads, so that runs compare.
 std::vector<std::string> words_of(const CLI::App& command);
 
-/// --frame and --ascii, for commands that write points and meshes.
-struct WhereOptions {
-  io::AnswerFrameName frame = io::AnswerFrameName::joint;
-  io::VtpEncoding vtp_encoding = io::VtpEncoding::binary;
-};
-void add_where(CLI::App& command, const std::shared_ptr<WhereOptions>& options);
+/// --out, a folder.
+CLI::Option* add_out(CLI::App& command, std::string& out, const std::string& help);
+/// --json; `form` is written while arguments are read.
+void add_json(CLI::App& command, AnswerForm& form,
+              const char* help = "Print the answer as JSON, with every number in full");
 
 }  // namespace condyle::cli

@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <cctype>
 
+#include "choice.hpp"
 #include "condyle/error.hpp"
 
 namespace condyle::cli {
@@ -24,53 +22,33 @@ std::string sentence(const std::string& when, std::string text) {
 
 }  // namespace
 
-void add_rays(CLI::App& command, const std::shared_ptr<io::ContactChanges>& options,
-              const std::string& when) {
-  command
-      .add_option_function<std::string>(
-          "--casting",
-          [options](const std::string& name) {
-            options->casting = name == "fixed"    ? contact::Casting::fixed
-                               : name == "mobile" ? contact::Casting::mobile
-                                                  : contact::Casting::both;
-          },
-          sentence(when, "the body from whose surface rays are cast"))
-      ->check(CLI::IsMember({"fixed", "mobile", "both"}))
-      ->option_text("fixed|mobile|both (both)");
-  command
-      .add_option_function<std::string>(
-          "--rule",
-          [options](const std::string& name) {
-            options->rule =
-                name == "face_centre" ? contact::FaceRule::face_centre : contact::FaceRule::cut_faces;
-          },
-          when +
-              "face_centre counts whole triangles by their centre, as OpenSim-JAM does; cut_faces cuts them "
-              "where "
-              "the depth is 0")
-      ->check(CLI::IsMember({"face_centre", "cut_faces"}))
-      ->option_text("face_centre|cut_faces (cut_faces)");
-  command.add_option("--reach", options->reach_mm, sentence(when, "how far rays go"))->option_text("MM (20)");
+void add_rays(CLI::App& command, io::ContactChanges& options, const std::string& when) {
+  add_choice(command, "--casting", options.casting,
+             {{"fixed", contact::Casting::fixed},
+              {"mobile", contact::Casting::mobile},
+              {"both", contact::Casting::both}},
+             sentence(when, "the body from whose surface rays are cast"), "both");
+  add_choice(
+      command, "--rule", options.rule,
+      {{"face_centre", contact::FaceRule::face_centre}, {"cut_faces", contact::FaceRule::cut_faces}},
+      when +
+          "face_centre counts whole triangles by their centre, as OpenSim-JAM does; cut_faces cuts them "
+          "where the depth is 0",
+      "cut_faces");
+  command.add_option("--reach", options.reach_mm, sentence(when, "how far rays go"))->option_text("MM (20)");
 }
 
-void add_layers(CLI::App& command, const std::shared_ptr<io::ContactChanges>& options) {
+void add_layers(CLI::App& command, io::ContactChanges& options) {
   const auto add = [&](const char* name, std::vector<double>& values, const char* what, const char* text) {
     command.add_option(name, values, what)->expected(1, 2)->option_text(text);
   };
-  add("--e", options->youngs_modulus_mpa,
+  add("--e", options.youngs_modulus_mpa,
       "Young's modulus of both layers, or of the fixed body's and the mobile one's", "MPA [MPA]");
-  add("--nu", options->poisson_ratio, "Poisson's ratio of the layers, below 0.5", "NU [NU]");
-  add("--thickness", options->thickness_mm, "Thickness of the layers", "MM [MM]");
-  command
-      .add_option_function<std::string>(
-          "--law",
-          [options](const std::string& name) {
-            options->law =
-                name == "linear" ? contact::PressureLaw::linear : contact::PressureLaw::logarithmic;
-          },
-          "How pressure grows with depth")
-      ->check(CLI::IsMember({"linear", "logarithmic"}))
-      ->option_text("linear|logarithmic (linear)");
+  add("--nu", options.poisson_ratio, "Poisson's ratio of the layers, below 0.5", "NU [NU]");
+  add("--thickness", options.thickness_mm, "Thickness of the layers", "MM [MM]");
+  add_choice(command, "--law", options.law,
+             {{"linear", contact::PressureLaw::linear}, {"logarithmic", contact::PressureLaw::logarithmic}},
+             "How pressure grows with depth", "linear");
 }
 
 io::ContactEntry contact_of(const io::ContactChanges& changes, const io::JointFile& file,
@@ -86,33 +64,27 @@ io::ContactEntry contact_of(const io::ContactChanges& changes, const io::JointFi
   return entry;
 }
 
-void add_force(CLI::App& command, const std::shared_ptr<BalanceArguments>& given, const char* force_help) {
-  command.add_option("--force", given->force, force_help)->expected(3)->option_text("X Y Z");
+void add_force(CLI::App& command, BalanceArguments& given, const char* force_help) {
+  command.add_option("--force", given.force, force_help)->expected(3)->option_text("X Y Z");
+  add_choice(command, "--force-frame", given.frame,
+             {{"fixed", BodyRole::fixed}, {"mobile", BodyRole::mobile}},
+             "The body in whose frame force and moment are given", "fixed");
   command
-      .add_option_function<std::string>(
-          "--force-frame",
-          [given](const std::string& name) {
-            given->frame = name == "fixed" ? BodyRole::fixed : BodyRole::mobile;
-          },
-          "The body in whose frame force and moment are given")
-      ->check(CLI::IsMember({"fixed", "mobile"}))
-      ->option_text("fixed|mobile (fixed)");
-  command
-      .add_option("--along", given->along,
+      .add_option("--along", given.along,
                   "With a force: move along this direction of the fixed frame only, or in the plane of two")
       ->expected(3, 6)
       ->option_text("X Y Z [X Y Z]");
 }
 
-void add_balance(CLI::App& command, const std::shared_ptr<BalanceArguments>& given) {
+void add_balance(CLI::App& command, BalanceArguments& given) {
   add_force(command, given, "Move the mobile body to where the contact carries this force on it, in N");
   command
-      .add_option("--moment", given->moment,
+      .add_option("--moment", given.moment,
                   "With --free-rotations: balance this moment about the mobile body's origin too, in N mm")
       ->expected(3)
       ->option_text("X Y Z");
   command.add_flag_callback(
-      "--free-rotations", [given] { given->rotations = true; }, "With a force: rotate the mobile body too");
+      "--free-rotations", [&given] { given.rotations = true; }, "With a force: rotate the mobile body too");
 }
 
 std::vector<Vec3> directions_of(const std::vector<double>& along) {
@@ -123,13 +95,30 @@ std::vector<Vec3> directions_of(const std::vector<double>& along) {
   return directions;
 }
 
-io::StudyLoad study_load_of(const std::string& pose, const std::vector<double>& force,
-                            const std::vector<double>& along, const io::ContactChanges& contact,
-                            Anatomy anatomy) {
-  if (force.empty() && !along.empty()) throw UsageError("--along: needs --force");
-  io::StudyLoad load{io::study_pose(pose, anatomy), contact, {}};
-  if (!force.empty()) load.force_n = Vec3(force[0], force[1], force[2]);
-  load.free_directions = directions_of(along);
+bool StudyLoadArguments::any_beside() const noexcept {
+  return contact.any_of_rays() || contact.any_of_layers() || contact.law || !force.empty() || !along.empty();
+}
+
+void add_study_load(CLI::App& command, StudyLoadArguments& given, const std::string& when) {
+  command
+      .add_option("--force", given.force,
+                  when + "move the mobile body to where the contact carries this force on it, in N")
+      ->expected(3)
+      ->option_text("ANTERIOR SUPERIOR LATERAL");
+  command
+      .add_option("--along", given.along,
+                  "With --force: move along this direction only, or in the plane of two")
+      ->expected(3, 6)
+      ->option_text("ANTERIOR SUPERIOR LATERAL [...]");
+  add_rays(command, given.contact, "With --load: ");
+  add_layers(command, given.contact);
+}
+
+io::StudyLoad study_load_of(const StudyLoadArguments& given, Anatomy anatomy) {
+  if (given.force.empty() && !given.along.empty()) throw UsageError("--along: needs --force");
+  io::StudyLoad load{io::study_pose(*given.pose, anatomy), given.contact, {}};
+  if (!given.force.empty()) load.force_n = vector_of(given.force);
+  load.free_directions = directions_of(given.along);
   return load;
 }
 

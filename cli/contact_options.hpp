@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,9 +17,8 @@ class App;
 namespace condyle::cli {
 
 /// `when` begins each line of help, where rays are not all that the command knows.
-void add_rays(CLI::App& command, const std::shared_ptr<io::ContactChanges>& options,
-              const std::string& when = "");
-void add_layers(CLI::App& command, const std::shared_ptr<io::ContactChanges>& options);
+void add_rays(CLI::App& command, io::ContactChanges& options, const std::string& when = "");
+void add_layers(CLI::App& command, io::ContactChanges& options);
 
 /// The joint file's entries with the given changes. With pressure UsageError if no body has a layer or one misses a
 /// value.
@@ -33,14 +31,23 @@ struct BalanceArguments {
   bool any() const noexcept { return !force.empty() || !moment.empty(); }
 };
 /// --force, --force-frame and --along.
-void add_force(CLI::App& command, const std::shared_ptr<BalanceArguments>& given, const char* force_help);
-void add_balance(CLI::App& command, const std::shared_ptr<BalanceArguments>& given);
+void add_force(CLI::App& command, BalanceArguments& given, const char* force_help);
+void add_balance(CLI::App& command, BalanceArguments& given);
 /// Directions of --along; UsageError for a count that is not whole directions.
 std::vector<Vec3> directions_of(const std::vector<double>& along);
-/// A load at a pose, its force and directions in components anterior, superior and lateral.
-io::StudyLoad study_load_of(const std::string& pose, const std::vector<double>& force,
-                            const std::vector<double>& along, const io::ContactChanges& contact,
-                            Anatomy anatomy);
+
+/// The load of many joints at one pose: its force and directions in components anterior, superior and lateral.
+struct StudyLoadArguments {
+  std::optional<std::string> pose;
+  std::vector<double> force, along;
+  io::ContactChanges contact;
+  /// Whether anything but the pose is given.
+  bool any_beside() const noexcept;
+};
+/// --force, --along and options on surfaces; `when` begins the help of the first.
+void add_study_load(CLI::App& command, StudyLoadArguments& given, const std::string& when);
+/// UsageError for directions without a force.
+io::StudyLoad study_load_of(const StudyLoadArguments& given, Anatomy anatomy);
 contact::Load load_of(const BalanceArguments& given);
 contact::BalanceOptions balance_options_of(const BalanceArguments& given);
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,12 +21,11 @@ namespace condyle::cli {
 struct FollowArguments {
   std::string record;
   bool load = false;
-  std::shared_ptr<BalanceArguments> balance = std::make_shared<BalanceArguments>();
+  BalanceArguments balance;
 };
 
 /// `excluded`: options of which neither the one nor the other may be given beside.
-void add_follow(CLI::App& command, const std::shared_ptr<FollowArguments>& given,
-                const std::vector<CLI::Option*>& excluded);
+void add_follow(CLI::App& command, FollowArguments& given, const std::vector<CLI::Option*>& excluded);
 
 /// Their names, for a group of the help.
 std::vector<std::string> follow_names();

@@ -1,36 +1,23 @@
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-#include <CLI/Validators.hpp>
 #include <array>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "answer.hpp"
-#include "command_line.hpp"
+#include "choice.hpp"
 #include "commands.hpp"
 #include "condyle/answer.hpp"
-#include "help_formatter.hpp"
 #include "implant_options.hpp"
-#include "io/joint/name_joint_file.hpp"
 #include "io/result/implant_result.hpp"
-#include "notes.hpp"
-#include "set_option.hpp"
+#include "joint_command.hpp"
 
 namespace condyle::cli {
 namespace {
 
-struct ImplantArguments {
-  ParameterArguments parameters;
-  std::string joint, out;
-  std::shared_ptr<ImplantSizeArguments> given =
-      std::make_shared<ImplantSizeArguments>(ImplantSizeArguments{plan::TotalHip{}});
+struct ImplantArguments : JointArguments {
+  ImplantSizeArguments given{plan::TotalHip{}};
   ImplantCentre centre = ImplantCentre::head;
   bool as_rim = false;
-  Strictness strictness = Strictness::notes;
-  AnswerForm form = AnswerForm::text;
 };
 
 /// Sizes, default: the bone's own.
@@ -38,8 +25,8 @@ constexpr std::array<std::string_view, 4> sizes_of_bones{"neck_shaft", "stem_ver
                                                          "cup_radius"};
 
 ImplantRequest request_of(const ImplantArguments& options) {
-  const auto is_left = [&](std::string_view size) { return !options.given->sizes.contains(size); };
-  return {.hip = std::get<plan::TotalHip>(options.given->implant),
+  const auto is_left = [&](std::string_view size) { return !options.given.sizes.contains(size); };
+  return {.hip = std::get<plan::TotalHip>(options.given.implant),
           .of_bones = {.neck_shaft = is_left("neck_shaft"),
                        .stem_version = is_left("stem_version"),
                        .offset = is_left("offset"),
@@ -49,26 +36,22 @@ ImplantRequest request_of(const ImplantArguments& options) {
 }
 
 void implant_command(const ImplantArguments& options, const CLI::App& command) {
-  const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
+  const io::LoadedJoint loaded = joint_of(options);
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
-  const io::Provenance from = io::provenance_of(loaded, words_of(command));
+  const io::Provenance from = provenance_of(options, loaded, command);
   if (!options.out.empty()) io::check_implant_folder(options.out, &from);
-  const ImplantAnswer answer =
-      io::name_joint_file(options.joint, [&] { return answer_implant(loaded, request_of(options)); });
+  const ImplantAnswer answer = answered(options, [&] { return answer_implant(loaded, request_of(options)); });
   const io::ImplantResult result{loaded.joint, answer, notes, &from, &loaded.report.file};
   if (!options.out.empty()) say_written(io::write_implant(options.out, result));
   print(options.form == AnswerForm::json ? io::implant_json(result) : io::implant_text(result));
 }
 
-void add_placement(CLI::App& command, const std::shared_ptr<ImplantArguments>& options) {
+void add_placement(CLI::App& command, ImplantArguments& options) {
+  add_choice(command, "--centre", options.centre,
+             {{"head", ImplantCentre::head}, {"socket", ImplantCentre::socket}},
+             "The centre of cup and head: that of the head of the femur, or of the socket", "head");
   command
-      .add_option_function<std::string>(
-          "--centre", [options](const std::string& word) { options->centre = implant_centre_named(word); },
-          "The centre of cup and head: that of the head of the femur, or of the socket")
-      ->check(CLI::IsMember({"head", "socket"}))
-      ->option_text("head|socket (head)");
-  command
-      .add_flag("--as-rim", options->as_rim,
+      .add_flag("--as-rim", options.as_rim,
                 "Orient the cup like the rim of the bone, in place of its inclination and anteversion")
       ->excludes("--inclination")
       ->excludes("--anteversion");
@@ -86,18 +69,13 @@ void add_implant(CLI::App& app) {
       "Bones and implant only: soft tissue, fixation and the strength of the remaining bone are not "
       "modelled.");
   auto options = std::make_shared<ImplantArguments>();
-  options->parameters = add_set(*command);
-  command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
-  command
-      ->add_option("--out", options->out, "Write implant.json, and hip.toml with its meshes into this folder")
-      ->option_text("FOLDER");
+  add_joint(*command, *options);
+  add_out(*command, options->out, "Write implant.json, and hip.toml with its meshes into this folder");
   add_definition(*command, options->given);
   const std::vector<std::string> sizes = add_sizes(*command, options->given, sizes_of_bones);
-  add_placement(*command, options);
+  add_placement(*command, *options);
   add_facets(*command, options->given);
-  command->add_flag_callback(
-      "--json", [options] { options->form = AnswerForm::json; },
-      "Print the answer as JSON, with every number in full");
+  add_json(*command, options->form);
   add_strict(*command, options->strictness);
   const std::vector<std::string> others(sizes.begin() + 2, sizes.end());
   group_help(*command, {{"Most used", {"--inclination", "--anteversion", "--as-rim", "--out", "--json"}},

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <CLI/Validators.hpp>
 #include <algorithm>
 
+#include "choice.hpp"
 #include "whole_number.hpp"
 
 namespace condyle::cli {
@@ -28,45 +27,41 @@ std::string value_text(const plan::ImplantParameter& size, const plan::Implant& 
 
 }  // namespace
 
-std::vector<std::string> add_sizes(CLI::App& command, const std::shared_ptr<ImplantSizeArguments>& given,
+std::vector<std::string> add_sizes(CLI::App& command, ImplantSizeArguments& given,
                                    std::span<const std::string_view> of_bones) {
   std::vector<std::string> names;
-  for (const plan::ImplantParameter& each : plan::implant_parameters(given->implant)) {
+  for (const plan::ImplantParameter& each : plan::implant_parameters(given.implant)) {
     names.push_back(option_name(each.name));
     command
         .add_option_function<double>(
             names.back(),
-            [given, set = each.set, name = each.name](double value) {
-              set(given->implant, value);
-              given->sizes.insert(name);
+            [&given, set = each.set, name = each.name](double value) {
+              set(given.implant, value);
+              given.sizes.insert(name);
             },
             std::string(each.meaning))
-        ->option_text(value_text(each, given->implant, of_bones));
+        ->option_text(value_text(each, given.implant, of_bones));
   }
   return names;
 }
 
-void add_facets(CLI::App& command, const std::shared_ptr<ImplantSizeArguments>& given) {
+void add_facets(CLI::App& command, ImplantSizeArguments& given) {
   command
       .add_option_function<int>(
           "--facets",
-          [given](int facets) { std::visit([&](auto& design) { design.facets = facets; }, given->implant); },
+          [&given](int facets) { std::visit([&](auto& design) { design.facets = facets; }, given.implant); },
           "Facets around liner and neck: with 360 limits are within 0.01 degrees of the closed form; the "
           "error goes with the square")
       ->check(whole_number(1))
       ->option_text(fmt::format("N ({})", plan::default_facets));
 }
 
-void add_definition(CLI::App& command, const std::shared_ptr<ImplantSizeArguments>& given) {
-  command
-      .add_option_function<std::string>(
-          "--definition",
-          [given](const std::string& word) {
-            std::get<plan::TotalHip>(given->implant).cup.definition = cup_definition_named(word);
-          },
-          "Which of Murray's definitions inclination and anteversion of the cup are by")
-      ->check(CLI::IsMember({"radiographic", "anatomic", "operative"}))
-      ->option_text("radiographic|anatomic|operative (radiographic)");
+void add_definition(CLI::App& command, ImplantSizeArguments& given) {
+  add_choice(command, "--definition", std::get<plan::TotalHip>(given.implant).cup.definition,
+             {{"radiographic", CupDefinition::radiographic},
+              {"anatomic", CupDefinition::anatomic},
+              {"operative", CupDefinition::operative}},
+             "Which of Murray's definitions inclination and anteversion of the cup are by", "radiographic");
 }
 
 }  // namespace condyle::cli

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <CLI/App.hpp>
-#include <memory>
 #include <set>
 #include <span>
 #include <string>
@@ -21,13 +20,13 @@ struct ImplantSizeArguments {
 
 /// Adds the options of all sizes, and returns their names. `given` is written while arguments are read. The help names `of_bones` in place of a
 /// default where the size is in this list.
-std::vector<std::string> add_sizes(CLI::App& command, const std::shared_ptr<ImplantSizeArguments>& given,
+std::vector<std::string> add_sizes(CLI::App& command, ImplantSizeArguments& given,
                                    std::span<const std::string_view> of_bones = {});
 
 /// --facets.
-void add_facets(CLI::App& command, const std::shared_ptr<ImplantSizeArguments>& given);
+void add_facets(CLI::App& command, ImplantSizeArguments& given);
 
 /// --definition, of a total hip.
-void add_definition(CLI::App& command, const std::shared_ptr<ImplantSizeArguments>& given);
+void add_definition(CLI::App& command, ImplantSizeArguments& given);
 
 }  // namespace condyle::cli

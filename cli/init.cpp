@@ -1,14 +1,12 @@
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "answer.hpp"
+#include "choice.hpp"
 #include "commands.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
@@ -32,11 +30,11 @@ namespace fs = std::filesystem;
 struct InitArguments {
   std::string fixed, mobile;  ///< files
   std::string joint;          ///< of a model, or which joint two meshes are
-  std::shared_ptr<ModelOptions> model = std::make_shared<ModelOptions>();
+  ModelOptions model;
   std::string fixed_label, mobile_label;
   std::optional<Side> side;
   std::optional<LengthUnit> units;
-  std::shared_ptr<LabelOptions> labels = std::make_shared<LabelOptions>();
+  LabelOptions labels;
   std::string out;
 
   fs::path joint_file() const { return out.empty() ? fs::path("joint.toml") : fs::path(out); }
@@ -75,7 +73,7 @@ void propose_from_meshes(const InitArguments& options) {
                           .side = options.side,
                           .units = options.units,
                           .anatomy = anatomy_of(options.joint),
-                          .polygons = options.model->polygons.value_or(io::PolygonRule::refuse)});
+                          .polygons = options.model.polygons.value_or(io::PolygonRule::refuse)});
   note_to_fill_in(proposal);
   if (options.out.empty()) return print(proposal.toml);
   io::write_output_file(options.out, proposal.toml);
@@ -86,7 +84,7 @@ void check_labels(const InitArguments& options) {
   if (options.out.empty())
     throw UsageError("--out: is needed, the surfaces of the bones are written beside the joint file");
   if (options.units) throw UsageError("--units: surfaces of label maps are in mm");
-  if (options.model->polygons) throw UsageError("--polygons: surfaces of label maps have none");
+  if (options.model.polygons) throw UsageError("--polygons: surfaces of label maps have none");
   if (anatomy_of(options.joint).value_or(Anatomy::hip) != Anatomy::hip)
     throw UsageError(
         "--joint: bones of a label map are made a hip; write others with condyle surface and give both "
@@ -98,10 +96,10 @@ void check_labels(const InitArguments& options) {
 void propose_from_labels(const InitArguments& options) {
   check_labels(options);
   const auto bone = [&](const std::string& label) {
-    return io::LabelBoneRequest{label, options.labels->task, options.labels->surface};
+    return io::LabelBoneRequest{label, options.labels.task, options.labels.surface};
   };
   io::LabelJointRequest request{.labels = options.fixed,
-                                .file = options.labels->file,
+                                .file = options.labels.file,
                                 .fixed = bone(options.fixed_label),
                                 .mobile = bone(options.mobile_label),
                                 .joint_file = options.joint_file(),
@@ -126,8 +124,8 @@ void propose_from_model(const InitArguments& options) {
   if (options.units) throw UsageError("--units: lengths of a model are metres");
   if (!options.fixed_label.empty() || !options.mobile_label.empty())
     throw UsageError("--fixed, --mobile: are for label maps, and " + options.fixed + " is none");
-  const io::Model model = model_of(options.fixed, options.model->geometry);
-  io::ModelJointRequest request = request_of(model, *options.model, options.joint, options.side);
+  const io::Model model = model_of(options.fixed, options.model.geometry);
+  io::ModelJointRequest request = request_of(model, options.model, options.joint, options.side);
   request.joint_file = options.joint_file();
   const io::ModelJointProposal proposed = io::propose_joint(model, request);
   for (const io::ModelNote& of_model : proposed.notes) note(io::to_text(of_model));
@@ -147,7 +145,7 @@ void init_command(const InitArguments& options, const CLI::App& command) {
   io::refuse_unread_image(options.fixed);
   if (!io::label_format_of(options.fixed)) refuse_label_options(command, options.fixed);
   if (is_model(options.fixed)) return propose_from_model(options);
-  if (options.model->any())
+  if (options.model.any())
     throw UsageError("--anatomy, --contact, --geometry: are for models of OpenSim, .osim");
   if (io::label_format_of(options.fixed)) return propose_from_labels(options);
   if (!options.fixed_label.empty() || !options.mobile_label.empty())
@@ -160,8 +158,7 @@ void init_command(const InitArguments& options, const CLI::App& command) {
 void add_init(CLI::App& app) {
   auto* command = app.add_subcommand("init",
                                      "Propose a joint file for two meshes, two bones of a label map or a "
-                                     "joint of an OpenSim model, with the "
-                                     "evidence for each value");
+                                     "joint of an OpenSim model, with the evidence for each value");
   command->footer(
       "Example: condyle sample hip --voxel 1 --out bones\n"
       "         condyle init bones/hip_bone.ply bones/femur.ply --side right -o proposed.toml\n"
@@ -169,14 +166,12 @@ void add_init(CLI::App& app) {
       "hip.toml\n"
       "A knee is FEMUR TIBIA --joint knee, and so are ankle, elbow and shoulder; a joint of an OpenSim model "
       "is MODEL.osim --joint NAME.\n"
-      "Values that could not be inferred are comments to fill in. Read the file before you use "
-      "it.");
+      "Values that could not be inferred are comments to fill in. Read the file before you use it.");
   auto options = std::make_shared<InitArguments>();
   command
-      ->add_option(
-          "FIXED", options->fixed,
-          "The mesh of the body that stays, such as the hip bone; or a label map: .nii, .nii.gz, .nrrd, "
-          ".nhdr, .mha, .mhd; or a model of OpenSim: .osim")
+      ->add_option("FIXED", options->fixed,
+                   "The mesh of the body that stays, such as the hip bone; or a label map: .nii, .nii.gz, "
+                   ".nrrd, .nhdr, .mha, .mhd; or a model of OpenSim: .osim")
       ->required();
   command->add_option(
       "MOBILE", options->mobile,
@@ -190,8 +185,7 @@ void add_init(CLI::App& app) {
   command
       ->add_option("--joint", options->joint,
                    "The joint of a model, by its name there; of two meshes hip, knee, ankle, elbow or "
-                   "shoulder, FIXED the "
-                   "bone nearer to the trunk. Default for two meshes: hip")
+                   "shoulder, FIXED the bone nearer to the trunk. Default for two meshes: hip")
       ->option_text("NAME");
   add_model(*command, options->model);
   add_label_surface(*command, options->labels);
@@ -199,12 +193,12 @@ void add_init(CLI::App& app) {
   add_side(
       *command, options->side,
       "The side of the body. Default: by the labels' names or the model's, else inferred from the bones");
-  command
-      ->add_option_function<std::string>(
-          "--units", [options](const std::string& units) { options->units = length_unit_named(units); },
-          "The unit of both meshes. Default: inferred from their size")
-      ->check(CLI::IsMember({"mm", "cm", "in", "m"}))
-      ->option_text("mm|cm|in|m");
+  add_choice(*command, "--units", options->units,
+             {{"mm", LengthUnit::millimetres},
+              {"cm", LengthUnit::centimetres},
+              {"in", LengthUnit::inches},
+              {"m", LengthUnit::metres}},
+             "The unit of both meshes. Default: inferred from their size");
   command
       ->add_option("-o,--out", options->out,
                    "Write the joint file here, and surfaces of a label map beside it")

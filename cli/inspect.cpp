@@ -28,7 +28,7 @@ namespace {
 
 struct InspectArguments {
   std::vector<std::string> meshes;  ///< or label maps, or models
-  std::shared_ptr<LabelOptions> labels = std::make_shared<LabelOptions>();
+  LabelOptions labels;
   std::vector<std::string> geometry;  ///< folders with meshes of models
   std::optional<io::PolygonRule> polygons;
   std::vector<std::string> repairs;
@@ -80,7 +80,7 @@ void inspect_models(const InspectArguments& options, const CLI::App& command) {
 void inspect_label_maps(const InspectArguments& options, const CLI::App& command) {
   std::vector<io::LabelInspection> images;
   for (const std::string& path : options.meshes)
-    images.push_back(io::inspect_labels(path, options.labels->file));
+    images.push_back(io::inspect_labels(path, options.labels.file));
   print(options.form == AnswerForm::json ? io::labels_json(images, words_of(command))
                                          : io::labels_text(images));
 }
@@ -141,11 +141,8 @@ void add_inspect(CLI::App& app) {
       ->allow_extra_args(false)
       ->option_text("weld,drop_unreferenced,flip_inverted");
   add_polygons(*command, options->polygons, "refuse");
-  command->add_option("--out", options->out, "Write the meshes into this folder, as read and repaired, .ply")
-      ->option_text("FOLDER");
-  command->add_flag_callback(
-      "--json", [options] { options->form = AnswerForm::json; },
-      "Print the answer as JSON, with every number in full");
+  add_out(*command, options->out, "Write the meshes into this folder, as read and repaired, .ply");
+  add_json(*command, options->form);
   add_label_file(*command, options->labels);
   add_geometry(*command, options->geometry);
   group_help(*command, {{"Meshes", {"--repair", "--polygons", "--out"}},

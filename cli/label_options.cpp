@@ -1,69 +1,42 @@
 #include "label_options.hpp"
 
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-
 #include "answer.hpp"
+#include "choice.hpp"
 #include "condyle/error.hpp"
 #include "whole_number.hpp"
 
 namespace condyle::cli {
-namespace {
-
-constexpr io::AffineChoice affines[] = {io::AffineChoice::sform, io::AffineChoice::qform};
-constexpr io::StatedAxes stated_axes[] = {io::StatedAxes::lps, io::StatedAxes::ras, io::StatedAxes::las};
-
-}  // namespace
-
-void add_label_file(CLI::App& command, const std::shared_ptr<LabelOptions>& options) {
-  command
-      .add_option_function<std::string>(
-          "--affine", [options](const std::string& word) { options->file.affine = affines[word == "qform"]; },
-          "Which of the two places that a NIfTI file gives its voxels")
-      ->check(CLI::IsMember({"sform", "qform"}))
-      ->option_text("sform|qform (sform, else qform)");
+void add_label_file(CLI::App& command, LabelOptions& options) {
+  add_choice(command, "--affine", options.file.affine,
+             {{"sform", io::AffineChoice::sform}, {"qform", io::AffineChoice::qform}},
+             "Which of the two places that a NIfTI file gives its voxels", "sform, else qform");
   command
       .add_option_function<std::int64_t>(
-          "--volume", [options](std::int64_t volume) { options->file.volume = volume; },
+          "--volume", [&options](std::int64_t volume) { options.file.volume = volume; },
           "Which volume of a NIfTI file with several, from 0")
       ->check(whole_number(0))
       ->option_text("N");
-  command
-      .add_option_function<std::string>(
-          "--axes",
-          [options](const std::string& word) {
-            options->file.axes = stated_axes[word == "LPS" ? 0 : word == "RAS" ? 1 : 2];
-          },
-          "The directions of an image that gives none")
-      ->check(CLI::IsMember({"LPS", "RAS", "LAS"}))
-      ->option_text("LPS|RAS|LAS");
-  command.add_flag("--elsewhere", options->file.outside_folder,
+  add_choice(command, "--axes", options.file.axes,
+             {{"LPS", io::StatedAxes::lps}, {"RAS", io::StatedAxes::ras}, {"LAS", io::StatedAxes::las}},
+             "The directions of an image that gives none");
+  command.add_flag("--elsewhere", options.file.outside_folder,
                    "A header may name data outside its own folder");
 }
 
-void add_label_surface(CLI::App& command, const std::shared_ptr<LabelOptions>& options) {
+void add_label_surface(CLI::App& command, LabelOptions& options) {
   command
       .add_option_function<std::string>(
-          "--task", [options](const std::string& word) { options->task = io::label_task_of(word); },
+          "--task", [&options](const std::string& word) { options.task = io::label_task_of(word); },
           "The table of TotalSegmentator that names the labels")
       ->check(CLI::IsMember({"total", "total_v1", "total_mr"}))
       ->option_text("total|total_v1|total_mr");
-  command
-      .add_option_function<std::string>(
-          "--pieces", [options](const std::string& word) { options->surface.all_pieces = word == "all"; },
-          "The pieces of a label to keep")
-      ->check(CLI::IsMember({"largest", "all"}))
-      ->option_text("largest|all (largest)");
-  command
-      .add_option_function<std::string>(
-          "--cavities",
-          [options](const std::string& word) { options->surface.keep_cavities = word == "keep"; },
-          "Whether closed cavities, such as marrow, are filled")
-      ->check(CLI::IsMember({"fill", "keep"}))
-      ->option_text("fill|keep (fill)");
+  add_choice(command, "--pieces", options.surface.all_pieces, {{"largest", false}, {"all", true}},
+             "The pieces of a label to keep", "largest");
+  add_choice(command, "--cavities", options.surface.keep_cavities, {{"fill", false}, {"keep", true}},
+             "Whether closed cavities, such as marrow, are filled", "fill");
   command
       .add_option_function<std::size_t>(
-          "--triangles", [options](std::size_t count) { options->surface.triangles = count; },
+          "--triangles", [&options](std::size_t count) { options.surface.triangles = count; },
           "Simplify each surface to about this many triangles")
       ->check(whole_number(1))
       ->option_text("N (as extracted)");

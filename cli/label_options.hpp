@@ -2,7 +2,6 @@
 
 #include <CLI/App.hpp>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,10 +19,10 @@ struct LabelOptions {
 };
 
 /// --affine, --volume, --axes and --elsewhere.
-void add_label_file(CLI::App& command, const std::shared_ptr<LabelOptions>& options);
+void add_label_file(CLI::App& command, LabelOptions& options);
 
 /// --task, --pieces, --cavities and --triangles.
-void add_label_surface(CLI::App& command, const std::shared_ptr<LabelOptions>& options);
+void add_label_surface(CLI::App& command, LabelOptions& options);
 
 /// The long names of both, for groups of the help.
 std::vector<std::string> label_file_names();

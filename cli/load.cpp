@@ -1,63 +1,47 @@
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "answer.hpp"
-#include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
-#include "condyle/io/joint_file.hpp"
 #include "contact_options.hpp"
-#include "help_formatter.hpp"
-#include "io/file/input_recorder.hpp"
-#include "io/joint/name_joint_file.hpp"
 #include "io/result/load_result.hpp"
-#include "io/result/provenance_forms.hpp"
-#include "notes.hpp"
-#include "set_option.hpp"
+#include "joint_command.hpp"
 
 namespace condyle::cli {
 namespace {
 
-struct LoadArguments {
-  ParameterArguments parameters;
-  std::string joint, pose, out;
-  std::shared_ptr<io::ContactChanges> contact = std::make_shared<io::ContactChanges>();
-  std::shared_ptr<BalanceArguments> balance = std::make_shared<BalanceArguments>();
-  Strictness strictness = Strictness::notes;
-  std::shared_ptr<WhereOptions> where = std::make_shared<WhereOptions>();
-  AnswerForm form = AnswerForm::text;
+struct LoadArguments : JointArguments {
+  std::string pose;
+  io::ContactChanges contact;
+  BalanceArguments balance;
 };
 
 void load_command(const LoadArguments& options, const CLI::App& command) {
   const io::InputRecorder read;
-  const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
+  const io::LoadedJoint loaded = joint_of(options);
   const Joint& joint = loaded.joint;
   const io::PoseArgument given = io::given_pose(options.pose, joint);
   for (const std::string& remark : given.notes) note(remark);
-  io::Provenance from = io::provenance_of(loaded, words_of(command), options.where->frame);
+  io::Provenance from = provenance_of(options, loaded, command);
   if (!options.out.empty()) io::check_load_folder(options.out, &from);
-  const io::ContactEntry contact = contact_of(*options.contact, loaded.report.file, true);
+  const io::ContactEntry contact = contact_of(options.contact, loaded.report.file, true);
   const io::ContactSurfaces surfaces = io::surfaces_of(contact, joint);
   LoadRequest request{.X_FM = given.X_FM, .names = {surfaces.fixed.name, surfaces.mobile.name}};
-  if (options.balance->any()) request.load = load_of(*options.balance);
-  if (request.load) request.balance = balance_options_of(*options.balance);
+  if (options.balance.any()) request.load = load_of(options.balance);
+  if (request.load) request.balance = balance_options_of(options.balance);
   const io::LoadQuestion question{
       joint, given.pose, given.X_FM, surfaces, contact, request.load, noted(loaded, options.strictness),
       &from};
   const contact::ElasticContact layers(surfaces.fixed.mesh, surfaces.mobile.mesh,
                                        io::elastic_options(contact, surfaces, loaded));
   io::add_other_files(from, read);
-  const LoadAnswer answer = io::name_joint_file(options.joint, [&] { return answer_load(layers, request); });
+  const LoadAnswer answer = answered(options, [&] { return answer_load(layers, request); });
   note_contact(answer.notes, loaded, options.strictness);
   if (!answer.carries_load()) throw UsageError("--force: " + contact::reason_of(*answer.balanced));
-  if (!options.out.empty())
-    say_written(io::write_load(options.out, question, answer, options.where->vtp_encoding));
+  if (!options.out.empty()) say_written(io::write_load(options.out, question, answer, options.vtp_encoding));
   print(options.form == AnswerForm::json ? io::load_json(question, answer) : io::load_text(question, answer));
 }
 
@@ -70,8 +54,7 @@ void add_load(CLI::App& app) {
       "Example: condyle sample cartilages --scenario 7 --out sample\n"
       "         condyle load sample/cartilages.toml --e 12 --nu 0.42 --thickness 1.5 --force 0 1500 -200");
   auto options = std::make_shared<LoadArguments>();
-  options->parameters = add_set(*command);
-  command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
+  add_joint(*command, *options);
   command
       ->add_option(
           "--pose", options->pose,
@@ -81,12 +64,9 @@ void add_load(CLI::App& app) {
   add_rays(*command, options->contact);
   add_layers(*command, options->contact);
   add_balance(*command, options->balance);
-  command->add_option("--out", options->out, "Write fixed.vtp, mobile.vtp and load.json into this folder")
-      ->option_text("FOLDER");
-  add_where(*command, options->where);
-  command->add_flag_callback(
-      "--json", [options] { options->form = AnswerForm::json; },
-      "Print the answer as JSON, with every number in full");
+  add_out(*command, options->out, "Write fixed.vtp, mobile.vtp and load.json into this folder");
+  add_where(*command, *options);
+  add_json(*command, options->form);
   add_strict(*command, options->strictness);
   group_help(*command, {{"Most used", {"--pose", "--force", "--e", "--nu", "--thickness"}},
                         {"Question", {"--set", "--moment", "--force-frame", "--along", "--free-rotations"}},

@@ -32,8 +32,8 @@ namespace {
 namespace cli = condyle::cli;
 
 constexpr const char* exit_codes =
-    "Exit codes: 0 answered, 2 wrong usage, 3 bad file, 4 mesh unfit for the question, 5 internal error, "
-    "6 bodies in contact in the reference pose, 130 interrupted.";
+    "Exit codes: 0 answered, 2 wrong usage, 3 bad file, 4 mesh unfit for the question, 5 internal error, 6 "
+    "bodies in contact in the reference pose, 130 interrupted.";
 
 /// A closed standard stream would give its number to the next file that is opened, and answers would be
 /// written into it. Opened for reading, the number is taken and writing still fails.
@@ -103,8 +103,7 @@ std::string describe_unexpected(const std::string& word, const CLI::App& command
                        condyle::core::did_you_mean(word, below), fmt::join(below, ", "));
   if (word == "-q" || word == "--quiet")
     return fmt::format(
-        "{}: there is no option {}: answers go to standard output, and 2>/dev/null hides notes and "
-        "progress",
+        "{}: there is no option {}: answers go to standard output, and 2>/dev/null hides notes and progress",
         name, word);
   if (!word.starts_with('-'))
     return fmt::format("{0}: '{1}' is one argument too many; condyle help {0} has them", name, word);

@@ -2,15 +2,22 @@
 
 #include <fmt/format.h>
 
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-
+#include "choice.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/mesh/parse.hpp"
 #include "io/mesh/polygon_rule.hpp"
 
 namespace condyle::cli {
+
+void add_anatomy(CLI::App& command, std::optional<Anatomy>& anatomy, const std::string& help,
+                 const std::string& otherwise) {
+  std::vector<std::string> words;
+  for (const Anatomy each : all_anatomies) words.emplace_back(name_of(each));
+  add_words(
+      command, "--anatomy", words, [&anatomy](std::size_t place) { anatomy = all_anatomies[place]; }, help,
+      otherwise);
+}
 
 void add_geometry(CLI::App& command, std::vector<std::string>& folders) {
   command
@@ -33,23 +40,15 @@ void add_polygons(CLI::App& command, std::optional<io::PolygonRule>& polygons, c
       ->option_text("refuse|split|guess");
 }
 
-void add_model(CLI::App& command, const std::shared_ptr<ModelOptions>& options) {
+void add_model(CLI::App& command, ModelOptions& options) {
+  add_anatomy(command, options.anatomy,
+              "The kind of a model's joint. Default: by the names of joint and bodies");
   command
-      .add_option_function<std::string>(
-          "--anatomy",
-          [options](const std::string& name) {
-            for (const Anatomy anatomy : all_anatomies)
-              if (name == name_of(anatomy)) options->anatomy = anatomy;
-          },
-          "The kind of a model's joint. Default: by the names of joint and bodies")
-      ->check(CLI::IsMember({"hip", "knee", "ankle", "elbow", "shoulder"}))
-      ->option_text("hip|knee|ankle|elbow|shoulder");
-  command
-      .add_option("--contact", options->contact,
+      .add_option("--contact", options.contact,
                   "The contact of a model between the two bodies. Default: the first")
       ->option_text("NAME");
-  add_geometry(command, options->geometry);
-  add_polygons(command, options->polygons, "refuse; for meshes of a model split");
+  add_geometry(command, options.geometry);
+  add_polygons(command, options.polygons, "refuse; for meshes of a model split");
 }
 
 std::vector<std::string> model_names() {
@@ -57,12 +56,7 @@ std::vector<std::string> model_names() {
 }
 
 void add_side(CLI::App& command, std::optional<Side>& side, const std::string& help) {
-  command
-      .add_option_function<std::string>(
-          "--side", [&side](const std::string& name) { side = name == "right" ? Side::right : Side::left; },
-          help)
-      ->check(CLI::IsMember({"right", "left"}))
-      ->option_text("right|left");
+  add_choice(command, "--side", side, {{"right", Side::right}, {"left", Side::left}}, help);
 }
 
 bool is_model(const std::string& path) {

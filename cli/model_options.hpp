@@ -2,7 +2,6 @@
 
 #include <CLI/App.hpp>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,11 +22,15 @@ struct ModelOptions {
   bool any() const noexcept { return !geometry.empty() || anatomy || !contact.empty(); }
 };
 
+/// --anatomy.
+void add_anatomy(CLI::App& command, std::optional<Anatomy>& anatomy, const std::string& help,
+                 const std::string& otherwise = "");
+
 /// --polygons; `otherwise` says what holds without it.
 void add_polygons(CLI::App& command, std::optional<io::PolygonRule>& polygons, const std::string& otherwise);
 
 /// --anatomy, --contact, --geometry and --polygons.
-void add_model(CLI::App& command, const std::shared_ptr<ModelOptions>& options);
+void add_model(CLI::App& command, ModelOptions& options);
 std::vector<std::string> model_names();
 
 /// --geometry alone.

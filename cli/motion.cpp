@@ -1,56 +1,40 @@
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "answer.hpp"
-#include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/answer.hpp"
-#include "condyle/io/joint_file.hpp"
 #include "contact_options.hpp"
-#include "help_formatter.hpp"
-#include "io/file/input_recorder.hpp"
-#include "io/joint/name_joint_file.hpp"
 #include "io/motion/gaps.hpp"
 #include "io/motion/load_table.hpp"
 #include "io/motion/motion_of_joint.hpp"
-#include "io/result/provenance_forms.hpp"
+#include "joint_command.hpp"
 #include "model_options.hpp"
-#include "notes.hpp"
-#include "set_option.hpp"
-#include "with_progress.hpp"
 
 namespace condyle::cli {
 namespace {
 
-struct MotionArguments {
-  ParameterArguments parameters;
-  std::string joint, motion, loads, out;
+struct MotionArguments : JointArguments {
+  std::string motion, loads;
   std::string model_joint;  ///< of a model in place of a joint file
   std::optional<Side> side;
-  std::shared_ptr<ModelOptions> model = std::make_shared<ModelOptions>();
+  ModelOptions model;
   bool with_pressure = false, between = false;
-  std::shared_ptr<io::ContactChanges> contact = std::make_shared<io::ContactChanges>();
-  std::shared_ptr<BalanceArguments> balance = std::make_shared<BalanceArguments>();
+  io::ContactChanges contact;
+  BalanceArguments balance;
   std::vector<double> cycle;
   io::MotionFiles files;
-  Strictness strictness = Strictness::notes;
-  std::shared_ptr<WhereOptions> where = std::make_shared<WhereOptions>();
-  AnswerForm form = AnswerForm::text;
 };
 
 /// The load of each frame, from a file. Frames without one are gaps of the motion.
 std::vector<std::optional<contact::Load>> loads_of(const MotionArguments& options, io::JointMotion& motion) {
   if (options.loads.empty()) return {};
   const io::MotionTable table = io::read_motion_table(options.loads);
-  auto loads = io::loads_of(table, motion.times, options.balance->frame, options.balance->rotations);
+  auto loads = io::loads_of(table, motion.times, options.balance.frame, options.balance.rotations);
   std::vector<std::string> processing = table.processing;
   io::note_gaps(table, loads, processing);
   for (const std::string& remark : processing)
@@ -64,21 +48,21 @@ MotionRequest request_of(const MotionArguments& options, io::JointMotion& motion
   MotionRequest request{.loads = loads_of(options, motion)};
   request.X_FM = motion.X_FM;
   if (motion.times.in_seconds) request.time_s = motion.times.values;
-  if (options.balance->any()) request.load = load_of(*options.balance);
-  if (request.has_load()) request.balance = balance_options_of(*options.balance);
+  if (options.balance.any()) request.load = load_of(options.balance);
+  if (request.has_load()) request.balance = balance_options_of(options.balance);
   if (options.between) request.between = BetweenFrames::always;
   return request;
 }
 
-io::LoadedJoint joint_of(const MotionArguments& options) {
+io::LoadedJoint joint_or_model(const MotionArguments& options) {
   if (is_model(options.joint)) {
-    const io::Model model = model_of(options.joint, options.model->geometry);
+    const io::Model model = model_of(options.joint, options.model.geometry);
     io::LoadedJoint loaded =
-        io::read_joint(model, request_of(model, *options.model, options.model_joint, options.side));
+        io::read_joint(model, request_of(model, options.model, options.model_joint, options.side));
     for (const std::string& remark : loaded.report.file.processing) note(remark);
     return loaded;
   }
-  if (!options.model_joint.empty() || options.side || options.model->any() || options.model->polygons)
+  if (!options.model_joint.empty() || options.side || options.model.any() || options.model.polygons)
     throw UsageError(
         "--joint, --side, --anatomy, --contact, --geometry, --polygons: are for models of OpenSim, .osim");
   return io::read_joint(options.joint);
@@ -86,18 +70,16 @@ io::LoadedJoint joint_of(const MotionArguments& options) {
 
 void motion_command(const MotionArguments& options, const CLI::App& command) {
   const io::InputRecorder read;
-  const io::LoadedJoint loaded = joint_at(joint_of(options), options.parameters);
+  const io::LoadedJoint loaded = joint_at(joint_or_model(options), options.parameters);
   io::JointMotion motion = io::motion_of(loaded, io::read_motion_table(options.motion));
   MotionRequest request = request_of(options, motion);
   check_motion_request(request);
   for (const std::string& remark : motion.processing) note(remark);
   const bool with_pressure = options.with_pressure || request.has_load();
-  io::Provenance from = io::provenance_of(loaded, words_of(command), options.where->frame);
-  for (const std::string* file : {&options.motion, &options.loads})
-    if (!file->empty()) from.read.emplace_back(*file);
+  io::Provenance from = provenance_of(options, loaded, command, {options.motion, options.loads});
   if (!options.out.empty()) io::check_motion_folder(options.out, &from);
   const io::ContactEntry contact =
-      io::motion_contact(contact_of(*options.contact, loaded.report.file, with_pressure), with_pressure);
+      io::motion_contact(contact_of(options.contact, loaded.report.file, with_pressure), with_pressure);
   const io::ContactSurfaces surfaces = io::surfaces_of(contact, loaded.joint);
   const io::MotionQuestion question{
       loaded, motion, surfaces, contact, with_pressure, noted(loaded, options.strictness), &from};
@@ -111,7 +93,7 @@ void motion_command(const MotionArguments& options, const CLI::App& command) {
   note_contact(answer.notes, loaded, options.strictness);
   if (!options.out.empty()) {
     io::MotionFiles files = options.files;
-    files.encoding = options.where->vtp_encoding;
+    files.encoding = options.vtp_encoding;
     if (!options.cycle.empty()) files.cycle = io::Cycle{options.cycle[0], options.cycle[1]};
     const auto written = io::write_motion(options.out, question, answer, files);
     if (written.size() <= 8)
@@ -134,11 +116,7 @@ void add_motion(CLI::App& app) {
       "The motion file's columns are those of [recorded_motion] in the joint file, or flexion_deg, x_mm and "
       "the like.");
   auto options = std::make_shared<MotionArguments>();
-  options->parameters = add_set(*command);
-  command
-      ->add_option("JOINT", options->joint,
-                   "The joint file, .toml, or a model of OpenSim, .osim, with --joint")
-      ->required();
+  add_joint(*command, *options, "The joint file, .toml, or a model of OpenSim, .osim, with --joint");
   command->add_option("--motion", options->motion, "The recorded motion, .mot, .sto or .csv")
       ->required()
       ->option_text("FILE");
@@ -165,9 +143,8 @@ void add_motion(CLI::App& app) {
       "Also find contact between the samples, within bounds, if the centre moves. About a held centre it "
       "is exact and always found");
   for (const char* load : {"--force", "--moment", "--loads"}) between->excludes(command->get_option(load));
-  auto* out = command->add_option("--out", options->out,
-                                  "Write curves.csv, curves.sto and motion.json into this folder");
-  out->option_text("FOLDER");
+  auto* out =
+      add_out(*command, options->out, "Write curves.csv, curves.sto and motion.json into this folder");
   command
       ->add_option("--cycle", options->cycle,
                    "With --out: write cycle.csv too, 101 points between two times in seconds")
@@ -184,10 +161,8 @@ void add_motion(CLI::App& app) {
           "--jam", [options] { options->files.jam = true; },
           "With --out: write jam.h5 too, as OpenSim-JAM writes contact")
       ->needs(out);
-  add_where(*command, options->where);
-  command->add_flag_callback(
-      "--json", [options] { options->form = AnswerForm::json; },
-      "Print the answer as JSON, with every number in full");
+  add_where(*command, *options);
+  add_json(*command, options->form);
   add_strict(*command, options->strictness);
   std::vector<std::string> of_models{"--joint", "--side"};
   for (const std::string& name : model_names()) of_models.push_back(name);

@@ -1,39 +1,27 @@
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "answer.hpp"
-#include "command_line.hpp"
+#include "choice.hpp"
 #include "commands.hpp"
 #include "condyle/error.hpp"
 #include "condyle/hip_measures.hpp"
-#include "condyle/io/joint_file.hpp"
 #include "condyle/io/picture.hpp"
 #include "condyle/io/pose_text.hpp"
-#include "help_formatter.hpp"
-#include "io/file/input_recorder.hpp"
 #include "io/file/output_file.hpp"
-#include "io/joint/name_joint_file.hpp"
-#include "io/result/provenance_forms.hpp"
-#include "notes.hpp"
-#include "set_option.hpp"
+#include "joint_command.hpp"
 
 namespace condyle::cli {
 namespace {
 
-struct PictureArguments {
-  ParameterArguments parameters;
-  std::string joint, pose, out;
+struct PictureArguments : JointArguments {
+  std::string pose;
   std::string view = "anterior", size = "1200x900";
   std::optional<BodyRole> hidden, transparent;
   io::PictureOptions picture;
   bool measures = false;
-  Strictness strictness = Strictness::notes;
 };
 
 /// Two whole numbers with an x between them.
@@ -64,7 +52,7 @@ std::vector<io::PictureMark> marks_of(const Joint& joint, const Pose& X_FM) {
 
 void picture_command(const PictureArguments& options, const CLI::App& command) {
   const io::InputRecorder read;
-  const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
+  const io::LoadedJoint loaded = joint_of(options);
   const Joint& joint = loaded.joint;
   const io::PoseArgument given = io::given_pose(options.pose, joint);
   for (const std::string& remark : given.notes) note("pose: " + remark);
@@ -75,25 +63,18 @@ void picture_command(const PictureArguments& options, const CLI::App& command) {
   picture.mobile = style_of(BodyRole::mobile, options);
   if (!options.out.ends_with(".png")) throw UsageError("--out: " + options.out + " does not end in .png");
   noted(loaded, options.strictness);
-  io::Provenance from = io::provenance_of(loaded, words_of(command));
+  io::Provenance from = provenance_of(options, loaded, command);
   io::check_output_file(options.out, from.read);
-  if (options.measures)
-    picture.marks = io::name_joint_file(options.joint, [&] { return marks_of(joint, given.X_FM); });
-  const io::Picture drawn = io::name_joint_file(
-      options.joint, [&] { return io::draw_joint(joint, given.pose.angles(), given.X_FM, picture); });
+  if (options.measures) picture.marks = answered(options, [&] { return marks_of(joint, given.X_FM); });
+  const io::Picture drawn =
+      answered(options, [&] { return io::draw_joint(joint, given.pose.angles(), given.X_FM, picture); });
   io::add_other_files(from, read);
   io::write_png(options.out, drawn, &from);
   say_written({options.out});
 }
 
 void add_body(CLI::App& command, const char* name, std::optional<BodyRole>& body, const char* what) {
-  command
-      .add_option_function<std::string>(
-          name,
-          [&body](const std::string& role) { body = role == "fixed" ? BodyRole::fixed : BodyRole::mobile; },
-          what)
-      ->check(CLI::IsMember({"fixed", "mobile"}))
-      ->option_text("fixed|mobile");
+  add_choice(command, name, body, {{"fixed", BodyRole::fixed}, {"mobile", BodyRole::mobile}}, what);
 }
 
 }  // namespace
@@ -105,8 +86,7 @@ void add_picture(CLI::App& app) {
       "         condyle picture sample/hip.toml --pose \"flexion=110 internal_rotation=35\" --view "
       "anterior-superior --hide fixed --out deep.png");
   auto options = std::make_shared<PictureArguments>();
-  options->parameters = add_set(*command);
-  command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
+  add_joint(*command, *options);
   command
       ->add_option("--pose", options->pose,
                    "Draw this pose: angles in degrees, and x, y, z of a free joint in mm, such as "
@@ -116,19 +96,15 @@ void add_picture(CLI::App& app) {
       ->add_option("--view", options->view,
                    "View from this side; several with hyphens give a view from between them")
       ->option_text("anterior|posterior|left|right|superior|inferior|medial|lateral (anterior)");
-  command
-      ->add_option_function<std::string>(
-          "--colour",
-          [options](const std::string& name) {
-            options->picture.colour = name == "depth"     ? io::PictureColour::depth
-                                      : name == "gap"     ? io::PictureColour::gap
-                                      : name == "nearest" ? io::PictureColour::nearest
-                                                          : io::PictureColour::none;
-          },
-          "Colour by depth in the other bone, as condyle depth computes it; by the gap along rays from the "
-          "centre; by the distance to the nearest point; or not")
-      ->check(CLI::IsMember({"depth", "gap", "nearest", "none"}))
-      ->option_text("depth|gap|nearest|none (depth)");
+  add_choice(
+      *command, "--colour", options->picture.colour,
+      {{"depth", io::PictureColour::depth},
+       {"gap", io::PictureColour::gap},
+       {"nearest", io::PictureColour::nearest},
+       {"none", io::PictureColour::none}},
+      "Colour by depth in the other bone, as condyle depth computes it; by the gap along rays from the "
+      "centre; by the distance to the nearest point; or not",
+      "depth");
   command
       ->add_option("--range", options->picture.range_mm,
                    "Colours end at this distance or depth. Default: 8 mm, and for depths enough for all")

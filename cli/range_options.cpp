@@ -43,83 +43,96 @@ std::optional<Vec3> translation_of(const std::string& text, const Joint& joint) 
 
 }  // namespace
 
-CLI::Option* add_map(CLI::App& command, const std::shared_ptr<RangeArguments>& given) {
-  auto* map =
-      command
-          .add_option("--map", given->map,
-                      "Compute limits over a grid of two held angles, in degrees, such as flexion=-20:120:1 "
-                      "adduction=-40:30:1. The first one runs to the right")
-          ->option_text("ANGLE=FIRST:LAST:STEP ANGLE=FIRST:LAST:STEP")
-          // One is refused below, and a file that was taken for the second one: with words that help.
-          ->expected(1, 2)
-          ->check(
-              [](const std::string& axis) {
-                return axis.find('=') == axis.npos ? "'" + axis + "' is no axis: " + map_needs
-                                                   : std::string();
-              },
-              "");
-  command.add_option("--vary", given->vary, "With --map: the angle that turns over the grid")
+CLI::Option* add_map(CLI::App& command, RangeArguments& given) {
+  auto* map = command
+                  .add_option("--map", given.map,
+                              "Compute limits over a grid of two held angles, in degrees, such as "
+                              "flexion=-20:120:1 adduction=-40:30:1. The first one runs to the right")
+                  ->option_text("ANGLE=FIRST:LAST:STEP ANGLE=FIRST:LAST:STEP")
+                  // One is refused below, and a file that was taken for the second one: with words that help.
+                  ->expected(1, 2)
+                  ->check(
+                      [](const std::string& axis) {
+                        return axis.find('=') == axis.npos ? "'" + axis + "' is no axis: " + map_needs
+                                                           : std::string();
+                      },
+                      "");
+  command.add_option("--vary", given.vary, "With --map: the angle that turns over the grid")
       ->option_text("ANGLE (the third one)");
   return map;
 }
 
-CLI::Option* add_translation(CLI::App& command, const std::shared_ptr<RangeArguments>& given) {
+CLI::Option* add_translation(CLI::App& command, RangeArguments& given) {
   return command
-      .add_option("--translation", given->translation,
+      .add_option("--translation", given.translation,
                   "Hold a free joint here in all motions, in mm. Default: the reference pose's place")
       ->option_text("\"x=X y=Y z=Z\"");
 }
 
-CLI::Option* add_bearing(CLI::App& command, const std::shared_ptr<RangeArguments>& given) {
+CLI::Option* add_bearing(CLI::App& command, RangeArguments& given) {
   return command
       .add_option_function<std::string>(
-          "--bearing", [given](const std::string& text) { given->bearing = parse_bearing(text); },
+          "--bearing", [&given](const std::string& text) { given.bearing = parse_bearing(text); },
           "Contact this near to the head's sphere is bearing contact and ends no motion; with count every "
-          "contact ends "
-          "a motion. Default: 2 mm, or less if the rim is near")
+          "contact ends a motion. Default: 2 mm, or less if the rim is near")
       ->option_text("MM|count (2)");
 }
 
-CLI::Option* add_accept(CLI::App& command, const std::shared_ptr<RangeArguments>& given) {
+CLI::Option* add_accept(CLI::App& command, RangeArguments& given) {
   return command.add_flag_callback(
-      "--accept-reference-contact", [given] { given->reference_contact = motion::ReferenceContact::accept; },
+      "--accept-reference-contact", [&given] { given.reference_contact = motion::ReferenceContact::accept; },
       "Answer although the bodies are in contact in the reference pose. Motions that start in contact report "
       "so");
 }
 
-CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeArguments>& given) {
+CLI::Option* add_band(CLI::App& command, RangeArguments& given) {
   const std::string band_help =
       "Compute how far each limit moves within its uncertainty: from 5 to 95 % of N displaced joints";
   auto* band = command.add_flag("--band{200}", band_help)
                    ->check(whole_number(1))
-                   ->each([given](const std::string& text) { given->band.samples = std::stoull(text); })
+                   ->each([&given](const std::string& text) { given.band.samples = std::stoull(text); })
                    ->option_text("[=N] (200)");
   const auto for_band = [&](CLI::Option* option) { option->needs(band); };
   for_band(command
-               .add_option("--seed", given->band.seed,
+               .add_option("--seed", given.band.seed,
                            "With --band: the seed of the displacements, instead of that of the joint file")
                ->check(seed_number())
                ->option_text("N (1)"));
   for_band(command
-               .add_option("--sigma-centre", given->band.centre_mm,
+               .add_option("--sigma-centre", given.band.centre_mm,
                            "With --band: the standard deviation of each coordinate of the centre, instead of "
-                           "that of the joint "
-                           "file")
+                           "that of the joint file")
                ->option_text("MM (0.5)"));
   for_band(command
-               .add_option("--sigma-axes", given->band.axes_deg,
+               .add_option("--sigma-axes", given.band.axes_deg,
                            "With --band: the same of the rotation about each axis")
                ->option_text("DEG (1)"));
   for_band(command
-               .add_option("--sigma-surface", given->band.surface_mm,
+               .add_option("--sigma-surface", given.band.surface_mm,
                            "With --band: the same of each surface along its normals")
                ->option_text("MM (0.25, of a label map 0.25 voxels)"));
   return band;
 }
 
-CLI::Option* add_past(CLI::App& command, const std::shared_ptr<RangeArguments>& given) {
-  return command.add_option("--past", given->past_deg, "Find the impingement zones this far past each limit")
+CLI::Option* add_past(CLI::App& command, RangeArguments& given) {
+  return command.add_option("--past", given.past_deg, "Find the impingement zones this far past each limit")
       ->option_text("DEG");
+}
+
+void add_motions(CLI::App& command, std::vector<std::string>& lists) {
+  command
+      .add_option("--motion", lists,
+                  "Compute the limits of this motion only, or of these, with commas between their names")
+      ->expected(1)
+      ->take_all()
+      ->option_text("NAME[,NAME...] (all)");
+}
+
+std::vector<std::string> names_in(const std::vector<std::string>& lists) {
+  std::vector<std::string> names;
+  for (const std::string& list : lists)
+    for (std::string& name : CLI::detail::split(list, ',')) names.push_back(std::move(name));
+  return names;
 }
 
 std::optional<motion::MapGrid> grid_of(const RangeArguments& given, JointKind kind, Anatomy anatomy) {

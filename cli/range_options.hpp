@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,12 +27,17 @@ struct RangeArguments {
 };
 
 /// Each adds the options of one question and returns the first of them. `given` is written while arguments are read.
-CLI::Option* add_map(CLI::App& command, const std::shared_ptr<RangeArguments>& given);
-CLI::Option* add_translation(CLI::App& command, const std::shared_ptr<RangeArguments>& given);
-CLI::Option* add_bearing(CLI::App& command, const std::shared_ptr<RangeArguments>& given);
-CLI::Option* add_accept(CLI::App& command, const std::shared_ptr<RangeArguments>& given);
-CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeArguments>& given);
-CLI::Option* add_past(CLI::App& command, const std::shared_ptr<RangeArguments>& given);
+CLI::Option* add_map(CLI::App& command, RangeArguments& given);
+CLI::Option* add_translation(CLI::App& command, RangeArguments& given);
+CLI::Option* add_bearing(CLI::App& command, RangeArguments& given);
+CLI::Option* add_accept(CLI::App& command, RangeArguments& given);
+CLI::Option* add_band(CLI::App& command, RangeArguments& given);
+CLI::Option* add_past(CLI::App& command, RangeArguments& given);
+
+/// --motion, which may be given often.
+void add_motions(CLI::App& command, std::vector<std::string>& lists);
+/// What lists with commas between their names have together.
+std::vector<std::string> names_in(const std::vector<std::string>& lists);
 
 /// Nothing if no map is requested. Throws UsageError.
 std::optional<motion::MapGrid> grid_of(const RangeArguments& given, JointKind kind, Anatomy anatomy);

@@ -1,9 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-#include <CLI/Validators.hpp>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,26 +8,16 @@
 #include <utility>
 #include <vector>
 
-#include "answer.hpp"
-#include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/error.hpp"
-#include "condyle/io/joint_file.hpp"
 #include "condyle/joint.hpp"
 #include "contact_options.hpp"
 #include "follow_options.hpp"
-#include "help_formatter.hpp"
-#include "io/file/input_recorder.hpp"
-#include "io/joint/name_joint_file.hpp"
 #include "io/report/answer_report.hpp"
-#include "io/result/provenance_forms.hpp"
 #include "io/sweep/target_table.hpp"
-#include "notes.hpp"
+#include "joint_command.hpp"
 #include "range_options.hpp"
 #include "resection_options.hpp"
-#include "set_option.hpp"
-#include "whole_number.hpp"
-#include "with_progress.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -39,19 +25,19 @@ namespace {
 enum class Content { joint, nothing };
 
 struct ReportArguments {
-  ParameterArguments parameters;
+  std::vector<std::string> parameters;
   Content content = Content::joint;
   std::string first, second, out, motion, sweep, targets;
   std::optional<std::string> title;
   io::ReportLabels labels;
   bool with_pressure = false, measures = false;
   std::size_t curve_points = ResectionRequest{}.curve_points;
-  std::shared_ptr<ResectionArguments> cut = std::make_shared<ResectionArguments>();
-  std::shared_ptr<RangeArguments> range = std::make_shared<RangeArguments>();
-  std::shared_ptr<FollowArguments> follow = std::make_shared<FollowArguments>();
+  ResectionArguments cut;
+  RangeArguments range;
+  FollowArguments follow;
   Strictness strictness = Strictness::notes;
 
-  bool has_plan() const noexcept { return !cut->targets.empty(); }
+  bool has_plan() const noexcept { return !cut.targets.empty(); }
   /// Whether the joint of the page, the second of two, is compared with the first.
   bool compares() const noexcept { return !second.empty(); }
   const std::string& joint() const noexcept { return compares() ? second : first; }
@@ -98,17 +84,17 @@ void check_comparison(const ReportArguments& options) {
   if (!options.compares()) return;
   if (options.has_plan())
     throw UsageError("--resect: a plan has its own before and after: for one joint file, not for two");
-  if (!options.follow->record.empty() || options.follow->load)
+  if (!options.follow.record.empty() || options.follow.load)
     throw UsageError(fmt::format("{}: for one joint file, not for two, whose centres are held",
-                                 options.follow->load ? "--follow-load" : "--follow"));
+                                 options.follow.load ? "--follow-load" : "--follow"));
 }
 
 /// As `condyle resect` asks; nothing without --resect.
 std::optional<ResectionRequest> planned(const ReportArguments& options, const RangeRequest& range) {
   if (!options.has_plan()) return std::nullopt;
-  ResectionRequest request{.resection = resection_request_of(*options.cut),
+  ResectionRequest request{.resection = resection_request_of(options.cut),
                            .curve_points = options.curve_points};
-  request.resection.targets = reach_targets(range.motions, options.cut->targets);
+  request.resection.targets = reach_targets(range.motions, options.cut.targets);
   return request;
 }
 
@@ -155,10 +141,10 @@ void report_command(const ReportArguments& options, const CLI::App& command) {
   if (options.compares()) before.emplace(options, loaded.joint, words_of(command));
   io::ReportRequest request{.with_pressure = options.with_pressure, .with_measures = options.measures};
   if (!options.motion.empty()) request.motion = io::read_motion_table(options.motion);
-  request.range = range_request_of(*options.range, loaded, Case(loaded).motions());
+  request.range = range_request_of(options.range, loaded, Case(loaded).motions());
   std::optional<Followed> follows;
   io::name_joint_file(options.joint(), [&] {
-    follows.emplace(*options.follow, loaded, io::MotionsAre::all, request.range);
+    follows.emplace(options.follow, loaded, io::MotionsAre::all, request.range);
     check_range_request(loaded, request.range);
   });
   request.plan = planned(options, request.range);
@@ -175,7 +161,7 @@ void report_command(const ReportArguments& options, const CLI::App& command) {
   const std::vector<JointNote> notes =
       noted(loaded, options.strictness, before ? options.joint() + ": " : "");
   io::Provenance from = io::provenance_of(loaded, words_of(command));
-  for (const std::string& file : {options.motion, options.follow->record, options.targets})
+  for (const std::string& file : {options.motion, options.follow.record, options.targets})
     if (!file.empty()) from.read.emplace_back(file);
   if (before) from.read.insert(from.read.end(), before->from.read.begin(), before->from.read.end());
   // Where the file cannot be written is reported before the work, not after it.
@@ -208,7 +194,7 @@ void add_report(CLI::App& app) {
       "The file needs no server and no network, and sends nothing. If limits cannot be computed it says "
       "why and shows the joint.");
   auto options = std::make_shared<ReportArguments>();
-  options->parameters = add_set(*command);
+  add_set(*command, options->parameters);
   command->add_option("JOINT", options->first, "The joint file, .toml; with AFTER, that of the joint before");
   command->add_option("AFTER", options->second,
                       "Show this joint file, and compare it with JOINT. --set is for this one only");
@@ -256,17 +242,12 @@ void add_report(CLI::App& app) {
                     "Show the shape of a hip too, as condyle measure does, with bands if --band says so");
   CLI::Option* resect =
       command
-          ->add_option("--resect", options->cut->targets,
+          ->add_option("--resect", options->cut.targets,
                        "Show the joint without the bone that must go for these motions to reach this far, as "
                        "condyle resect --reach does: \"flexion=115 fadir=30\"")
           ->option_text("MOTION=DEG ...");
   add_cut(*command, options->cut, resect);
-  command
-      ->add_option("--curve", options->curve_points,
-                   "Points on the curve of degrees against mm3 for each target; 0 for none, each costs a cut")
-      ->option_text("N (10)")
-      ->check(whole_number(0, 1000))
-      ->needs(resect);
+  add_curve(*command, options->curve_points)->needs(resect);
   auto* map = add_map(*command, options->range);
   auto* translation = add_translation(*command, options->range);
   auto* past = add_past(*command, options->range);

@@ -6,6 +6,7 @@
 #include <CLI/Validators.hpp>
 
 #include "condyle/error.hpp"
+#include "whole_number.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -18,35 +19,41 @@ double fixed_share(const ResectionArguments& given) {
 
 }  // namespace
 
-void add_cut(CLI::App& command, const std::shared_ptr<ResectionArguments>& given, CLI::Option* targets) {
+void add_cut(CLI::App& command, ResectionArguments& given, CLI::Option* targets) {
   const auto add = [&](CLI::Option* option, const char* value) {
     option->option_text(value)->needs(targets);
   };
   add(command
-          .add_option("--from", given->from,
+          .add_option("--from", given.from,
                       "Cut this body: the moving one, the one that stays, as at a socket's rim, or both")
           ->check(CLI::IsMember({"mobile", "fixed", "both"})),
       "mobile|fixed|both (mobile)");
-  add(command.add_option("--share", given->share,
+  add(command.add_option("--share", given.share,
                          "With --from both: cut the fixed body for this share of the depth, 0 to 1"),
       "SHARE (0.5)");
   add(command.add_option(
-          "--margin", given->margin_mm,
-          "Keep the remaining bone clear of the other bone's surface moved outwards by this, 0 to "
-          "10"),
+          "--margin", given.margin_mm,
+          "Keep the remaining bone clear of the other bone's surface moved outwards by this, 0 to 10"),
       "MM (0)");
-  add(command.add_option(
-          "--burr", given->burr_mm,
-          "Leave a surface that a ball of this diameter can make, 0.5 to 30: no groove is narrower, and "
-          "the answer reports the bone that goes only for that"),
+  add(command.add_option("--burr", given.burr_mm,
+                         "Leave a surface that a ball of this diameter can make, 0.5 to 30: no groove is "
+                         "narrower, and the answer reports the bone that goes only for that"),
       "MM");
-  add(command.add_option("--deepest", given->deepest_mm, "Remove no more than this anywhere"), "MM");
-  add(command.add_option("--within", given->within_mm,
+  add(command.add_option("--deepest", given.deepest_mm, "Remove no more than this anywhere"), "MM");
+  add(command.add_option("--within", given.within_mm,
                          "Keep bone farther than this outside the ball of the bearing surface, the head's "
                          "radius and margin: the head-neck junction is its border"),
       "MM");
-  add(command.add_option("--edge", given->edge_mm, "Make triangles around the cut this small, 0.05 to 10"),
+  add(command.add_option("--edge", given.edge_mm, "Make triangles around the cut this small, 0.05 to 10"),
       "MM (0.5)");
+}
+
+CLI::Option* add_curve(CLI::App& command, std::size_t& points) {
+  return command
+      .add_option("--curve", points,
+                  "Points on the curve of degrees against mm3 for each target; 0 for none, each costs a cut")
+      ->option_text("N (10)")
+      ->check(whole_number(0, 1000));
 }
 
 HelpGroup resection_group() {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <memory>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,7 +26,9 @@ struct ResectionArguments {
 
 /// Adds the options of a cut. `targets` is the option that asks for one, which these need. `given` is written while arguments are
 /// read.
-void add_cut(CLI::App& command, const std::shared_ptr<ResectionArguments>& given, CLI::Option* targets);
+void add_cut(CLI::App& command, ResectionArguments& given, CLI::Option* targets);
+/// --curve.
+CLI::Option* add_curve(CLI::App& command, std::size_t& points);
 /// Their group in the help, where limits are the command's question.
 HelpGroup resection_group();
 

@@ -1,32 +1,21 @@
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "answer.hpp"
-#include "command_line.hpp"
+#include "choice.hpp"
 #include "commands.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
-#include "condyle/io/joint_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "follow_options.hpp"
-#include "help_formatter.hpp"
-#include "io/file/input_recorder.hpp"
-#include "io/joint/name_joint_file.hpp"
-#include "io/result/provenance_forms.hpp"
 #include "io/result/rom_files.hpp"
 #include "io/result/rom_result.hpp"
-#include "notes.hpp"
+#include "joint_command.hpp"
 #include "range_options.hpp"
-#include "set_option.hpp"
-#include "with_progress.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -34,28 +23,15 @@ namespace {
 enum class Task { limits, list_motions };
 enum class ReferenceContacts { count, leave_out };
 
-struct RomArguments {
-  ParameterArguments parameters;
-  std::string joint, out;
+struct RomArguments : JointArguments {
   std::vector<std::string> motions;
   std::optional<double> allow_depth_mm;
-  std::shared_ptr<FollowArguments> follow = std::make_shared<FollowArguments>();
+  FollowArguments follow;
   ReferenceContacts reference_contacts = ReferenceContacts::count;
-  std::shared_ptr<RangeArguments> range = std::make_shared<RangeArguments>();
+  RangeArguments range;
   Task task = Task::limits;
   motion::ClockPlane clock = motion::ClockPlane::sagittal;
-  Strictness strictness = Strictness::notes;
-  std::shared_ptr<WhereOptions> where = std::make_shared<WhereOptions>();
-  AnswerForm form = AnswerForm::text;
 };
-
-/// Each may be a list parted by commas.
-std::vector<std::string> names_in(const std::vector<std::string>& lists) {
-  std::vector<std::string> names;
-  for (const std::string& list : lists)
-    for (std::string& name : CLI::detail::split(list, ',')) names.push_back(std::move(name));
-  return names;
-}
 
 /// One line per motion: its name, what varies and how far, and what is held.
 std::string list_of(const std::vector<motion::Motion>& motions, Anatomy joint) {
@@ -77,7 +53,7 @@ std::string list_of(const std::vector<motion::Motion>& motions, Anatomy joint) {
 
 RangeRequest request_of(const RomArguments& options, const io::LoadedJoint& loaded,
                         std::vector<motion::Motion> motions) {
-  RangeRequest request = range_request_of(*options.range, loaded, std::move(motions));
+  RangeRequest request = range_request_of(options.range, loaded, std::move(motions));
   if (options.reference_contacts == ReferenceContacts::leave_out)
     request.range.overlap.leave_out_reference_contacts.emplace();
   if (options.allow_depth_mm)
@@ -87,10 +63,11 @@ RangeRequest request_of(const RomArguments& options, const io::LoadedJoint& load
 }
 
 /// Where the bodies are in contact in the reference pose, the error names the options there are.
-RangeAnswer answer_of(const io::LoadedJoint& loaded, const RangeRequest& request) {
-  return io::name_joint_file(loaded.report.file.path.string(), [&] {
+RangeAnswer answer_of(const RomArguments& options, const io::LoadedJoint& loaded,
+                      const RangeRequest& request) {
+  return answered(options, [&](const Control& control) {
     try {
-      return with_progress([&](const Control& control) { return answer_range(loaded, request, control); });
+      return answer_range(loaded, request, control);
     } catch (const motion::ReferenceContactError& error) {
       throw motion::ReferenceContactError(std::string(error.what()) +
                                           " (--allow-depth, --exclude-reference-contacts, "
@@ -101,28 +78,27 @@ RangeAnswer answer_of(const io::LoadedJoint& loaded, const RangeRequest& request
 
 void rom_command(const RomArguments& options, const CLI::App& command) {
   const io::InputRecorder read;
-  const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
+  const io::LoadedJoint loaded = joint_of(options);
   std::vector<motion::Motion> motions = Case(loaded).motions(names_in(options.motions));
   if (options.task == Task::list_motions) return print(list_of(motions, loaded.joint.anatomy));
   RangeRequest request = request_of(options, loaded, std::move(motions));
   std::optional<Followed> followed;
   io::name_joint_file(options.joint, [&] {
-    followed.emplace(*options.follow, loaded,
+    followed.emplace(options.follow, loaded,
                      options.motions.empty() ? io::MotionsAre::all : io::MotionsAre::chosen, request);
     check_range_request(loaded, request);
   });
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   note_contact(range_request_notes(request), loaded, options.strictness);
-  io::Provenance from = io::provenance_of(loaded, words_of(command), options.where->frame);
-  if (!options.follow->record.empty()) from.read.emplace_back(options.follow->record);
+  io::Provenance from = provenance_of(options, loaded, command, {options.follow.record});
   // A folder that cannot be written to is reported before the work, not after it.
   if (!options.out.empty()) io::check_rom_folder(options.out, &from);
 
   io::add_other_files(from, read);
-  const RangeAnswer answer = answer_of(loaded, request);
+  const RangeAnswer answer = answer_of(options, loaded, request);
   note_all(answer.notes);
   const io::RomResult result = io::rom_result_of(answer, notes, &from);
-  if (!options.out.empty()) say_written(io::write_rom(options.out, result, options.where->vtp_encoding));
+  if (!options.out.empty()) say_written(io::write_rom(options.out, result, options.vtp_encoding));
   print(options.form == AnswerForm::json ? io::rom_json(result) : io::rom_text(result));
 }
 
@@ -137,14 +113,8 @@ void add_rom(CLI::App& app) {
       "         condyle rom sample/hip.toml --map flexion=0:120:10 adduction=-30:20:10 --out range\n"
       "Exit code 6: the bodies are in contact in the reference pose and no option says what to do about it.");
   auto options = std::make_shared<RomArguments>();
-  options->parameters = add_set(*command);
-  command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
-  command
-      ->add_option("--motion", options->motions,
-                   "Compute the limits of this motion only, or of these, with commas between their names")
-      ->expected(1)
-      ->take_all()
-      ->option_text("NAME[,NAME...] (all)");
+  add_joint(*command, *options);
+  add_motions(*command, options->motions);
   command->add_flag_callback(
       "--list-motions", [options] { options->task = Task::list_motions; },
       "Print the motions that the joint has, with their angles, and end");
@@ -165,26 +135,17 @@ void add_rom(CLI::App& app) {
   auto* band = add_band(*command, options->range);
   for (CLI::Option* other : {map, bearing, contacts, accept, band}) depth->excludes(other);
   add_follow(*command, options->follow, {map, contacts, accept, band, depth, translation, past});
-  command
-      ->add_option_function<std::string>(
-          "--clock",
-          [options](const std::string& name) {
-            options->clock = name == "rim" ? motion::ClockPlane::rim : motion::ClockPlane::sagittal;
-          },
-          "The plane of the clock on which contacts are read: the sagittal one, or that of the rim with 6 at "
-          "the notch")
-      ->check(CLI::IsMember({"sagittal", "rim"}))
-      ->option_text("sagittal|rim (sagittal)");
-  command
-      ->add_option(
-          "--out", options->out,
+  add_choice(
+      *command, "--clock", options->clock,
+      {{"sagittal", motion::ClockPlane::sagittal}, {"rim", motion::ClockPlane::rim}},
+      "The plane of the clock on which contacts are read: the sagittal one, or that of the rim with 6 at "
+      "the notch",
+      "sagittal");
+  add_out(*command, options->out,
           "Write rom.json, limits.csv and bearing.vtp into this folder; map.csv, map_intervals.csv and "
-          "map.vtp of a map, zone_*.vtp of zones. python3 -m condyle.plot FOLDER draws them")
-      ->option_text("FOLDER");
-  add_where(*command, options->where);
-  command->add_flag_callback(
-      "--json", [options] { options->form = AnswerForm::json; },
-      "Print the answer as JSON, with every number in full");
+          "map.vtp of a map, zone_*.vtp of zones. python3 -m condyle.plot FOLDER draws them");
+  add_where(*command, *options);
+  add_json(*command, options->form);
   add_strict(*command, options->strictness);
   group_help(*command,
              {{"Most used", {"--motion", "--band", "--map", "--out", "--json"}},

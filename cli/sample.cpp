@@ -1,14 +1,13 @@
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
 
 #include "answer.hpp"
+#include "choice.hpp"
+#include "command_line.hpp"
 #include "commands.hpp"
 #include "help_formatter.hpp"
 #include "io/result/sample_files.hpp"
@@ -112,15 +111,6 @@ void add_resolution(CLI::App& command, int& scenario, int first, const char* hel
   of_fixed->needs(of_mobile);
 }
 
-void add_side(CLI::App& command, Side& side) {
-  command
-      .add_option_function<std::string>(
-          "--side", [&side](const std::string& name) { side = name == "left" ? Side::left : Side::right; },
-          "The side of the body. A left hip is the right one mirrored")
-      ->check(CLI::IsMember({"right", "left"}))
-      ->option_text("right|left (right)");
-}
-
 void add_measures(CLI::App& command, sample::HipParameters& hip) {
   add_length(command, "--head-radius", hip.head_radius_mm, "Radius of the femoral head");
   add_length(command, "--joint-space", hip.joint_space_mm, "Joint space between the bones");
@@ -158,9 +148,7 @@ void add_hip(CLI::App& sample) {
       "Example: condyle sample hip --out sample\n"
       "         condyle sample hip --scenario 2 --neck-shaft-angle 135 --side left --out valgus");
   auto options = std::make_shared<HipOptions>();
-  command->add_option("--out", options->out, "Write hip_bone.ply, femur.ply and hip.toml into this folder")
-      ->required()
-      ->option_text("FOLDER");
+  add_out(*command, options->out, "Write hip_bone.ply, femur.ply and hip.toml into this folder")->required();
   add_resolution(*command, options->scenario, 1,
                  "How fine the meshes are: 1 has 1542 triangles of the femur and 2442 of the hip bone, each "
                  "next one four times as many",
@@ -170,7 +158,8 @@ void add_hip(CLI::App& sample) {
       ->add_option("--voxel", options->voxel_mm,
                    "Write labels.nii.gz too: a label map of both bones with voxels so wide, for condyle init")
       ->option_text("MM");
-  add_side(*command, options->side);
+  add_choice(*command, "--side", options->side, {{"right", Side::right}, {"left", Side::left}},
+             "The side of the body. A left hip is the right one mirrored", "right");
   add_measures(*command, options->hip);
   group_help(*command,
              {{"Most used", {"--out", "--side", "--scenario", "--alpha-angle", "--neck-shaft-angle"}},
@@ -186,19 +175,17 @@ void add_cartilages(CLI::App& sample) {
       "Example: condyle sample cartilages --out cartilages\n"
       "         condyle sample cartilages --scenario 6 --clearance -0.3 --out overlapping");
   auto options = std::make_shared<CartilageOptions>();
-  command
-      ->add_option(
-          "--out", options->out,
+  add_out(*command, options->out,
           "Write acetabular_cartilage.ply, femoral_cartilage.ply and cartilages.toml into this folder")
-      ->required()
-      ->option_text("FOLDER");
+      ->required();
   add_resolution(
       *command, options->scenario, 5,
       "How fine the meshes are: 2824 femoral and 2876 acetabular triangles, 4338 and 4222, 7734 and "
       "7870, or 17294 and 14824",
       {"--acetabular-triangles", options->acetabular_triangles},
       {"--femoral-triangles", options->femoral_triangles});
-  add_side(*command, options->side);
+  add_choice(*command, "--side", options->side, {{"right", Side::right}, {"left", Side::left}},
+             "The side of the body. A left hip is the right one mirrored", "right");
   add_length(*command, "--clearance", options->cartilage.clearance_mm,
              "Gap between the articular spheres; below 0 they overlap");
   add_length(*command, "--femoral-thickness", options->cartilage.femoral_thickness_mm,
@@ -235,9 +222,7 @@ void add_cohort(CLI::App& sample) {
       "         condyle study cohort/cohort.csv --out study\n"
       "Distributions are in cohort.json. Hip k of a seed is the same for any n.");
   auto options = std::make_shared<CohortOptions>();
-  command->add_option("--out", options->out, "Write cohort.csv and cohort.json into this folder")
-      ->required()
-      ->option_text("FOLDER");
+  add_out(*command, options->out, "Write cohort.csv and cohort.json into this folder")->required();
   command->add_option("--n", options->cohort.n, "Draw this many hips")
       ->required()
       ->check(whole_number(0))

@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "answer.hpp"
+#include "choice.hpp"
+#include "command_line.hpp"
 #include "condyle/error.hpp"
 #include "condyle/sample/hip.hpp"
 #include "help_formatter.hpp"
@@ -25,7 +24,7 @@ namespace {
 enum class Bones { sample, none };
 
 struct ImplantOptions {
-  std::shared_ptr<ImplantSizeArguments> given;
+  ImplantSizeArguments given;
   Side side = Side::right;
   Bones bones = Bones::none;
   int scenario = 1;
@@ -35,12 +34,12 @@ struct ImplantOptions {
 void sample_implant_command(const ImplantOptions& options) {
   plan::ImplantMeshes meshes;
   if (options.bones == Bones::sample)
-    meshes = *sample::sample_replacement(std::get<plan::TotalHip>(options.given->implant), {},
+    meshes = *sample::sample_replacement(std::get<plan::TotalHip>(options.given.implant), {},
                                          static_cast<sample::Scenario>(options.scenario), options.side);
   else
-    meshes = plan::implant_meshes(options.given->implant, options.side);
+    meshes = plan::implant_meshes(options.given.implant, options.side);
   io::OutputFolder out(options.out);
-  io::write_sample_implant(out, meshes, options.given->implant, options.side);
+  io::write_sample_implant(out, meshes, options.given.implant, options.side);
   out.commit();
   std::string text, files;
   for (const auto* body : {&meshes.fixed, &meshes.mobile})
@@ -50,23 +49,16 @@ void sample_implant_command(const ImplantOptions& options) {
       files += part + ".ply, ";
     }
   const char* joint =
-      std::holds_alternative<plan::TotalHip>(options.given->implant) ? "hip.toml" : "shoulder.toml";
-  print(text + io::implant_lines(options.given->implant, options.side) +
+      std::holds_alternative<plan::TotalHip>(options.given.implant) ? "hip.toml" : "shoulder.toml";
+  print(text + io::implant_lines(options.given.implant, options.side) +
         fmt::format("written to {}: {}{}\n", options.out, files, joint));
 }
 
-void add_common(CLI::App& command, const std::shared_ptr<ImplantOptions>& options, const char* files) {
-  command.add_option("--out", options->out, fmt::format("Write {} into this folder", files))
-      ->required()
-      ->option_text("FOLDER");
-  command
-      .add_option_function<std::string>(
-          "--side",
-          [options](const std::string& name) { options->side = name == "left" ? Side::left : Side::right; },
-          "The side of the body. A left implant is the right one mirrored")
-      ->check(CLI::IsMember({"right", "left"}))
-      ->option_text("right|left (right)");
-  add_facets(command, options->given);
+void add_common(CLI::App& command, ImplantOptions& options, const char* files) {
+  add_out(command, options.out, fmt::format("Write {} into this folder", files))->required();
+  add_choice(command, "--side", options.side, {{"right", Side::right}, {"left", Side::left}},
+             "The side of the body. A left implant is the right one mirrored", "right");
+  add_facets(command, options.given);
 }
 
 void add_replacement(CLI::App& sample) {
@@ -77,19 +69,12 @@ void add_replacement(CLI::App& sample) {
       "         condyle sample replacement --bones none --head-radius 18 --definition anatomic --out alone\n"
       "         condyle rom thr/hip.toml");
   auto options = std::make_shared<ImplantOptions>();
-  options->given = std::make_shared<ImplantSizeArguments>(ImplantSizeArguments{plan::TotalHip{}});
+  options->given.implant = plan::TotalHip{};
   options->bones = Bones::sample;
-  add_common(*command, options, "a mesh for each part and hip.toml");
+  add_common(*command, *options, "a mesh for each part and hip.toml");
   add_definition(*command, options->given);
-  command
-      ->add_option_function<std::string>(
-          "--bones",
-          [options](const std::string& word) {
-            options->bones = word == "none" ? Bones::none : Bones::sample;
-          },
-          "Bones around the implant: the sample hip with its usual measures, or none")
-      ->check(CLI::IsMember({"sample", "none"}))
-      ->option_text("sample|none (sample)");
+  add_choice(*command, "--bones", options->bones, {{"sample", Bones::sample}, {"none", Bones::none}},
+             "Bones around the implant: the sample hip with its usual measures, or none", "sample");
   command->add_option("--scenario", options->scenario, "How fine the bones are, as in condyle sample hip")
       ->check(whole_number(1, 4))
       ->option_text("1..4 (1)");
@@ -107,8 +92,8 @@ void add_reverse_shoulder(CLI::App& sample) {
       "Example: condyle sample reverse-shoulder --neck-shaft 145 --out reverse\n"
       "         condyle rom reverse/shoulder.toml");
   auto options = std::make_shared<ImplantOptions>();
-  options->given = std::make_shared<ImplantSizeArguments>(ImplantSizeArguments{plan::ReverseShoulder{}});
-  add_common(*command, options, "a mesh for each part and shoulder.toml");
+  options->given.implant = plan::ReverseShoulder{};
+  add_common(*command, *options, "a mesh for each part and shoulder.toml");
   const std::vector<std::string> sizes = add_sizes(*command, options->given);
   group_help(*command,
              {{"Most used", {"--out", "--side"}}, {"Sizes", sizes}, {"Resolution", {"--facets", "--help"}}});

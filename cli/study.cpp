@@ -7,11 +7,13 @@
 #include <string>
 
 #include "answer.hpp"
+#include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/study.hpp"
 #include "contact_options.hpp"
 #include "help_formatter.hpp"
+#include "model_options.hpp"
 #include "range_options.hpp"
 #include "resection_options.hpp"
 #include "with_progress.hpp"
@@ -20,37 +22,30 @@ namespace condyle::cli {
 namespace {
 
 struct StudyArguments {
-  std::string table, out, anatomy = "hip", shard, depth;
-  std::optional<std::string> load;
+  std::string table, out, shard, depth;
+  std::optional<Anatomy> anatomy;
+  StudyLoadArguments load;
   bool follows_load = false;
-  std::vector<double> force, along;
   std::vector<std::string> motions;
   bool leaves_out_reference_contacts = false, measures = false;
-  std::shared_ptr<ResectionArguments> cut = std::make_shared<ResectionArguments>();
+  ResectionArguments cut;
   io::BadJoint bad_joint = io::BadJoint::is_a_row;
-  std::shared_ptr<RangeArguments> range = std::make_shared<RangeArguments>();
-  std::shared_ptr<io::ContactChanges> contact = std::make_shared<io::ContactChanges>();
+  RangeArguments range;
 };
 
-Anatomy anatomy_named(std::string_view name) {
-  for (const Anatomy anatomy : all_anatomies)
-    if (name_of(anatomy) == name) return anatomy;
-  throw UsageError("--anatomy: there are hip, knee, ankle, elbow and shoulder");
-}
-
 io::StudyFollowLoad follow_load_of(const StudyArguments& given) {
-  if (given.load)
+  if (given.load.pose)
     throw UsageError("--follow-load: stands beside --load, and one of the two is meant by --force");
-  if (given.force.empty()) throw UsageError("--follow-load: needs --force");
-  return {Vec3(given.force[0], given.force[1], given.force[2]), directions_of(given.along), *given.contact};
+  const StudyLoadArguments& load = given.load;
+  if (load.force.empty()) throw UsageError("--follow-load: needs --force");
+  return {Vec3(load.force[0], load.force[1], load.force[2]), directions_of(load.along), load.contact};
 }
 
 io::StudyOptions study_options(const StudyArguments& given) {
-  const RangeArguments& range = *given.range;
+  const RangeArguments& range = given.range;
   io::StudyOptions options;
-  options.anatomy = anatomy_named(given.anatomy);
-  for (const std::string& list : given.motions)
-    for (const std::string& name : CLI::detail::split(list, ',')) options.motions.push_back(name);
+  options.anatomy = given.anatomy.value_or(Anatomy::hip);
+  options.motions = names_in(given.motions);
   options.bearing = range.bearing;
   options.reference_contact = range.reference_contact;
   if (given.leaves_out_reference_contacts) options.leave_out_reference_contacts.emplace();
@@ -58,14 +53,13 @@ io::StudyOptions study_options(const StudyArguments& given) {
   options.bands = band_of(range);
   if (!given.depth.empty()) options.depth_at = io::study_pose(given.depth, options.anatomy);
   options.measures = given.measures;
-  if (!given.cut->targets.empty())
-    options.resection = io::StudyResection{parse_reach(given.cut->targets), resection_request_of(*given.cut)};
+  if (!given.cut.targets.empty())
+    options.resection = io::StudyResection{parse_reach(given.cut.targets), resection_request_of(given.cut)};
   if (given.follows_load)
     options.follow_load = follow_load_of(given);
-  else if (given.load)
-    options.load = study_load_of(*given.load, given.force, given.along, *given.contact, options.anatomy);
-  else if (given.contact->any_of_rays() || given.contact->any_of_layers() || given.contact->law ||
-           !given.force.empty() || !given.along.empty())
+  else if (given.load.pose)
+    options.load = study_load_of(given.load, options.anatomy);
+  else if (given.load.any_beside())
     throw UsageError("--force, --e and all else on a load: needs --load or --follow-load");
   return options;
 }
@@ -108,26 +102,17 @@ void add_study(CLI::App& app) {
           "side, units and axes, or sample (1 to 4) with measures. A column follow names the recorded motion "
           "that the translation of a free joint follows. Other columns go into the results")
       ->required();
-  command
-      ->add_option("--out", options->out,
-                   "Write limits.csv, hips.csv, failures.csv, columns.csv, study.h5 and study.json into this "
-                   "folder")
-      ->required()
-      ->option_text("FOLDER");
+  add_out(*command, options->out,
+          "Write limits.csv, hips.csv, failures.csv, columns.csv, study.h5 and study.json into this "
+          "folder")
+      ->required();
   command
       ->add_option(
           "--shard", options->shard,
           "Answer only part i of N of the table, into FOLDER/shards. condyle merge puts the parts together")
       ->option_text("i/N");
-  command
-      ->add_option("--motion", options->motions,
-                   "Compute the limits of this motion only, or of these, with commas between their names")
-      ->expected(1)
-      ->take_all()
-      ->option_text("NAME[,NAME...] (all)");
-  command->add_option("--anatomy", options->anatomy, "The joint of all rows of the table")
-      ->check(CLI::IsMember({"hip", "knee", "ankle", "elbow", "shoulder"}))
-      ->option_text("hip|knee|ankle|elbow|shoulder (hip)");
+  add_motions(*command, options->motions);
+  add_anatomy(*command, options->anatomy, "The joint of all rows of the table", "hip");
   add_map(*command, options->range);
   add_bearing(*command, options->range);
   command->add_flag("--exclude-reference-contacts", options->leaves_out_reference_contacts,
@@ -145,13 +130,13 @@ void add_study(CLI::App& app) {
       "pelvis is tilted forwards by the table's column pelvic_tilt_deg");
   CLI::Option* resect =
       command
-          ->add_option("--resect", options->cut->targets,
+          ->add_option("--resect", options->cut.targets,
                        "Find the bone that must go for these motions to reach this far, as condyle resect "
                        "--reach does: \"flexion=115 fadir=30\"")
           ->option_text("MOTION=DEG ...");
   add_cut(*command, options->cut, resect);
   command
-      ->add_option("--load", options->load,
+      ->add_option("--load", options->load.pose,
                    "Compute contact pressure in this pose too (\"\" is the reference pose), with the layers "
                    "of the joint "
                    "files or those of --e, --nu and --thickness")
@@ -160,20 +145,7 @@ void add_study(CLI::App& app) {
       "--follow-load", options->follows_load,
       "Do not hold the centre of free joints: at each angle the contact carries --force. Limits are then "
       "bounded, not exact");
-  command
-      ->add_option(
-          "--force", options->force,
-          "With --load or --follow-load: move the mobile body to where the contact carries this force "
-          "on it, in N")
-      ->expected(3)
-      ->option_text("ANTERIOR SUPERIOR LATERAL");
-  command
-      ->add_option("--along", options->along,
-                   "With --force: move along this direction only, or in the plane of two")
-      ->expected(3, 6)
-      ->option_text("ANTERIOR SUPERIOR LATERAL [...]");
-  add_rays(*command, options->contact, "With --load: ");
-  add_layers(*command, options->contact);
+  add_study_load(*command, options->load, "With --load or --follow-load: ");
   command->add_flag_callback(
       "--strict", [options] { options->bad_joint = io::BadJoint::ends_run; },
       "End the run, and write nothing, at a joint that cannot be answered or with which something looks "

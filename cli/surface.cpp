@@ -22,7 +22,7 @@ namespace {
 
 struct SurfaceArguments {
   std::string image, label, out;
-  std::shared_ptr<LabelOptions> labels = std::make_shared<LabelOptions>();
+  LabelOptions labels;
   AnswerForm form = AnswerForm::text;
 };
 
@@ -30,8 +30,8 @@ void surface_command(const SurfaceArguments& options, const CLI::App& command) {
   io::check_written_mesh(options.out);
   const std::filesystem::path read[] = {options.image};
   io::check_output_file(options.out, read);
-  const io::LabelMap map = io::read_labels(options.image, options.labels->file);
-  const io::LabelBoneRequest request{options.label, options.labels->task, options.labels->surface};
+  const io::LabelMap map = io::read_labels(options.image, options.labels.file);
+  const io::LabelBoneRequest request{options.label, options.labels.task, options.labels.surface};
   const io::LabelBone bone = with_progress(
       [&](const Control& control) { return io::bone_of(map, options.image, request, control); });
   note_all(map.notes);
@@ -65,9 +65,7 @@ void add_surface(CLI::App& app) {
   command->add_option("-o,--out", options->out, "Write the surface here, .ply or .vtp")
       ->option_text("FILE")
       ->required();
-  command->add_flag_callback(
-      "--json", [options] { options->form = AnswerForm::json; },
-      "Print the answer as JSON, with every number in full");
+  add_json(*command, options->form);
   add_label_surface(*command, options->labels);
   add_label_file(*command, options->labels);
   std::vector<std::string> of_bone{"--label"};

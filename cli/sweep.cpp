@@ -1,47 +1,31 @@
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "answer.hpp"
-#include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/study.hpp"
 #include "contact_options.hpp"
-#include "help_formatter.hpp"
 #include "io/file/input_file.hpp"
-#include "io/file/input_recorder.hpp"
-#include "io/joint/name_joint_file.hpp"
-#include "io/result/provenance_forms.hpp"
 #include "io/sweep/load_quantities.hpp"
 #include "io/sweep/sweep_files.hpp"
 #include "io/sweep/target_table.hpp"
-#include "notes.hpp"
+#include "joint_command.hpp"
 #include "range_options.hpp"
-#include "set_option.hpp"
-#include "with_progress.hpp"
 
 namespace condyle::cli {
 namespace {
 
-struct SweepArguments {
-  ParameterArguments parameters;
-  std::string joint, vary, targets, out, shard;
+struct SweepArguments : JointArguments {
+  std::string vary, targets, shard;
   std::vector<std::string> measures;
-  std::optional<std::string> load;
-  std::vector<double> force, along;
-  std::shared_ptr<io::ContactChanges> contact = std::make_shared<io::ContactChanges>();
-  std::shared_ptr<RangeArguments> range = std::make_shared<RangeArguments>();
-  Strictness strictness = Strictness::notes;
-  AnswerForm form = AnswerForm::text;
+  StudyLoadArguments load;
+  RangeArguments range;
 };
 
 SweepShare share_of(const std::string& text) {
@@ -52,25 +36,21 @@ SweepShare share_of(const std::string& text) {
 
 /// Further quantities of each design.
 void add_quantities(const SweepArguments& options, const io::LoadedJoint& loaded, SweepRequest& request) {
-  std::vector<std::string> keys;
-  for (const std::string& list : options.measures)
-    for (const std::string& key : CLI::detail::split(list, ',')) keys.push_back(key);
+  const std::vector<std::string> keys = names_in(options.measures);
   if (!keys.empty()) request.quantities.push_back(measured_quantities(keys, Case(loaded).measure_options()));
-  if (options.load) {
-    const io::StudyLoad load =
-        study_load_of(*options.load, options.force, options.along, *options.contact, loaded.joint.anatomy);
-    request.quantities.push_back(io::load_quantities(loaded, load));
-  } else if (!options.force.empty() || !options.along.empty() || options.contact->any_of_rays() ||
-             options.contact->any_of_layers() || options.contact->law) {
+  if (options.load.pose) {
+    request.quantities.push_back(
+        io::load_quantities(loaded, study_load_of(options.load, loaded.joint.anatomy)));
+  } else if (options.load.any_beside()) {
     throw UsageError("--force, --e and all else on a load: needs --load");
   }
 }
 
 void sweep_command(const SweepArguments& options, const CLI::App& command) {
   const io::InputRecorder read;
-  const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint), options.parameters);
+  const io::LoadedJoint loaded = joint_of(options);
   const std::string targets = io::read_whole_file(options.targets);
-  RangeRequest range = range_request_of(*options.range, loaded, {});
+  RangeRequest range = range_request_of(options.range, loaded, {});
   SweepRequest request{.parameters = plan::parse_sweep(options.vary),
                        .targets = io::parse_targets(targets, options.targets, Case(loaded).motions(),
                                                     loaded.joint.kind, loaded.joint.anatomy),
@@ -82,8 +62,7 @@ void sweep_command(const SweepArguments& options, const CLI::App& command) {
     throw UsageError("--shard: needs --out, where its results lie");
   io::name_joint_file(options.joint, [&] { check_sweep(loaded, request); });
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
-  io::Provenance from = io::provenance_of(loaded, words_of(command));
-  from.read.emplace_back(options.targets);
+  io::Provenance from = provenance_of(options, loaded, command, {options.targets});
   const std::string asked = io::sweep_options(from.command, read.inputs());
   const std::filesystem::path folder = io::sweep_folder(options.out, request.share);
   std::optional<io::SweepResult> result;
@@ -94,9 +73,8 @@ void sweep_command(const SweepArguments& options, const CLI::App& command) {
   if (result) {
     note("is there already, of the same inputs, options and version");
   } else {
-    SweepAnswer answer = io::name_joint_file(options.joint, [&] {
-      return with_progress([&](const Control& control) { return answer_sweep(loaded, request, control); });
-    });
+    SweepAnswer answer =
+        answered(options, [&](const Control& control) { return answer_sweep(loaded, request, control); });
     if (const auto why = read.passing_failure()) throw FileError(*why);
     io::add_other_files(from, read);
     result = io::sweep_result_of(loaded, std::move(answer), notes, &from);
@@ -125,8 +103,7 @@ void add_sweep(CLI::App& app) {
       "merge puts shares "
       "together.");
   auto options = std::make_shared<SweepArguments>();
-  options->parameters = add_set(*command);
-  command->add_option("JOINT", options->joint, "The joint file, .toml, with [[part]]")->required();
+  add_joint(*command, *options, "The joint file, .toml, with [[part]]");
   command
       ->add_option(
           "--vary", options->vary,
@@ -141,12 +118,9 @@ void add_sweep(CLI::App& app) {
           "reach_deg, and pelvic_tilt_deg of the posture")
       ->required()
       ->option_text("FILE");
-  command
-      ->add_option(
-          "--out", options->out,
+  add_out(*command, options->out,
           "Write sweep.json, designs.csv, safe.csv and zone.vtp into this folder. python3 -m condyle.plot "
-          "FOLDER draws them")
-      ->option_text("FOLDER");
+          "FOLDER draws them");
   command
       ->add_option("--shard", options->shard,
                    "Compute only part i of N of the designs, into FOLDER/shards. condyle merge puts the "
@@ -160,29 +134,16 @@ void add_sweep(CLI::App& app) {
       ->take_all()
       ->option_text("KEY[,KEY...]");
   command
-      ->add_option("--load", options->load,
+      ->add_option("--load", options->load.pose,
                    "Compute contact pressure of each design in this pose too (\"\" is the reference pose), "
                    "with the layers "
                    "of the joint file or those of --e, --nu and --thickness")
       ->option_text("POSE");
-  command
-      ->add_option("--force", options->force,
-                   "With --load: move the mobile body to where the contact carries this force on it, in N")
-      ->expected(3)
-      ->option_text("ANTERIOR SUPERIOR LATERAL");
-  command
-      ->add_option("--along", options->along,
-                   "With --force: move along this direction only, or in the plane of two")
-      ->expected(3, 6)
-      ->option_text("ANTERIOR SUPERIOR LATERAL [...]");
-  add_rays(*command, options->contact, "With --load: ");
-  add_layers(*command, options->contact);
+  add_study_load(*command, options->load, "With --load: ");
   add_band(*command, options->range);
   add_bearing(*command, options->range);
   add_accept(*command, options->range);
-  command->add_flag_callback(
-      "--json", [options] { options->form = AnswerForm::json; },
-      "Print the answer as JSON, without the designs, which --out writes");
+  add_json(*command, options->form, "Print the answer as JSON, without the designs, which --out writes");
   add_strict(*command, options->strictness);
   group_help(*command, {{"Most used", {"--vary", "--targets", "--out", "--band", "--shard"}},
                         {"Question", {"--set", "--measures", "--load", "--force", "--along"}},

@@ -16,7 +16,7 @@ set(contact_uses core mesh kinematics radial tangential)
 set(motion_uses core mesh kinematics radial tangential contact)
 set(measure_uses core mesh kinematics motion)
 set(plan_uses core mesh kinematics tangential motion)
-set(answer_uses core kinematics contact motion measure plan)
+set(answer_uses core mesh kinematics contact motion measure plan)
 set(sample_uses core mesh plan)
 set(io_uses core mesh kinematics radial tangential contact motion measure plan answer sample)
 
@@ -121,7 +121,7 @@ endforeach()
 # What is read is opened by io/file/input_file.hpp, which records it for keys. Shards are a study's own files.
 file(GLOB_RECURSE readers RELATIVE ${SOURCE} ${SOURCE}/src/*.hpp ${SOURCE}/src/*.cpp ${SOURCE}/cli/*.cpp ${SOURCE}/cli/*.hpp
      ${SOURCE}/python/bindings/*.cpp)
-list(FILTER readers EXCLUDE REGEX "^src/io/(file/|study/merge_study|sweep/sweep_files)")
+list(FILTER readers EXCLUDE REGEX "^src/io/(file/|study/(merge_study|study_files))")
 foreach(file ${readers})
   file(STRINGS ${SOURCE}/${file} lines REGEX "fopen\\(|fstream|opendir\\(|directory_iterator|getenv\\(|is_regular_file\\(|[^a-z_]file_size\\(|mmap\\(")
   foreach(line IN LISTS lines)

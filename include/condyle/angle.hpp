@@ -10,16 +10,18 @@ namespace condyle {
 class Angle {
  public:
   constexpr Angle() = default;
-  static constexpr Angle degrees(double value) noexcept { return Angle(value * (std::numbers::pi / 180)); }
-  static constexpr Angle radians(double value) noexcept { return Angle(value); }
+  [[nodiscard]] static constexpr Angle degrees(double value) noexcept {
+    return Angle(value * (std::numbers::pi / 180));
+  }
+  [[nodiscard]] static constexpr Angle radians(double value) noexcept { return Angle(value); }
 
-  constexpr double degrees() const noexcept { return radians_ * (180 / std::numbers::pi); }
-  constexpr double radians() const noexcept { return radians_; }
+  [[nodiscard]] constexpr double degrees() const noexcept { return radians_ * (180 / std::numbers::pi); }
+  [[nodiscard]] constexpr double radians() const noexcept { return radians_; }
 
-  constexpr Angle operator-() const noexcept { return Angle(-radians_); }
-  constexpr Angle operator+(Angle b) const noexcept { return Angle(radians_ + b.radians_); }
-  constexpr Angle operator-(Angle b) const noexcept { return Angle(radians_ - b.radians_); }
-  constexpr Angle operator*(double s) const noexcept { return Angle(radians_ * s); }
+  [[nodiscard]] constexpr Angle operator-() const noexcept { return Angle(-radians_); }
+  [[nodiscard]] constexpr Angle operator+(Angle b) const noexcept { return Angle(radians_ + b.radians_); }
+  [[nodiscard]] constexpr Angle operator-(Angle b) const noexcept { return Angle(radians_ - b.radians_); }
+  [[nodiscard]] constexpr Angle operator*(double s) const noexcept { return Angle(radians_ * s); }
   constexpr auto operator<=>(const Angle&) const = default;
 
  private:
@@ -35,12 +37,12 @@ inline constexpr double two_pi = 2 * std::numbers::pi;
 enum class RotationSense : signed char { negative = -1, none = 0, positive = 1 };
 
 /// -1, 0 or +1.
-constexpr double sign_of(RotationSense sense) noexcept {
+[[nodiscard]] constexpr double sign_of(RotationSense sense) noexcept {
   return static_cast<double>(sense);
 }
 
 /// As in files: "positive".
-constexpr std::string_view name_of(RotationSense sense) noexcept {
+[[nodiscard]] constexpr std::string_view name_of(RotationSense sense) noexcept {
   return sense == RotationSense::positive   ? "positive"
          : sense == RotationSense::negative ? "negative"
                                             : "none";

@@ -51,7 +51,7 @@ struct BearingSurface {
   std::optional<Sphere> socket;         ///< in F, fitted; empty if the fixed body has no spherical socket
   std::vector<std::uint8_t> triangles;  ///< of the mobile mesh: 1 for bearing
 
-  std::size_t count() const noexcept;
+  [[nodiscard]] std::size_t count() const noexcept;
 };
 
 /// Role of one triangle in contact: PartContact, and where on the mobile body it slides.
@@ -66,9 +66,9 @@ enum class ContactRole : std::uint8_t {
 struct ContactRoles {
   std::vector<ContactRole> fixed = {}, mobile = {};
 
-  bool has(ContactRole role) const noexcept;
+  [[nodiscard]] bool has(ContactRole role) const noexcept;
   /// Whether some contact slides, which something of the mobile body must: then the rest is impingement.
-  bool distinguish_bearing() const noexcept;
+  [[nodiscard]] bool distinguish_bearing() const noexcept;
 };
 
 enum class BearingRule : std::uint8_t {
@@ -112,12 +112,12 @@ struct BearingFinding {
   /// Faces that close the bones where their images end, or where they were cut near the joint: contact on them is not contact of bones.
   std::vector<ImageCut> fixed_cuts = {}, mobile_cuts = {};
 
-  bool is_on_cut(const ContactWitness& contact) const noexcept;
+  [[nodiscard]] bool is_on_cut(const ContactWitness& contact) const noexcept;
   /// Kind of a contact of features of these meshes. Linear in their triangles for vertices and edges.
-  ContactKind kind_of(const TriMesh& fixed, const TriMesh& mobile,
-                      const ContactWitness& contact) const noexcept;
+  [[nodiscard]] ContactKind kind_of(const TriMesh& fixed, const TriMesh& mobile,
+                                    const ContactWitness& contact) const noexcept;
   /// Kind of a contact of two triangles, whatever their place.
-  ContactKind kind_of(Index fixed_triangle, Index mobile_triangle) const noexcept;
+  [[nodiscard]] ContactKind kind_of(Index fixed_triangle, Index mobile_triangle) const noexcept;
 };
 
 /// Searches for the head of a hip or shoulder around the joint centre. No surface for other joints (Joint::has_head()), if no head is
@@ -126,6 +126,6 @@ struct BearingFinding {
 /// for a margin below 0 or not finite.
 ///
 /// Some milliseconds per 10,000 triangles: both bodies are searched for spheres, once, which are kept with their meshes.
-BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& options = {});
+[[nodiscard]] BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& options = {});
 
 }  // namespace condyle::motion

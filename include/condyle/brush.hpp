@@ -79,16 +79,16 @@ class Brush {
   /// Takes the last stroke back, bit by bit; then, of a bone that was cut before, the cut. False if there is none.
   bool undo();
   /// How often undo() can be called.
-  std::size_t steps() const noexcept;
+  [[nodiscard]] std::size_t steps() const noexcept;
 
   /// Where the vertices are now, and where they were.
-  const Points& vertices() const noexcept;
-  const Points& before() const noexcept;
+  [[nodiscard]] const Points& vertices() const noexcept;
+  [[nodiscard]] const Points& before() const noexcept;
   /// Distance of each vertex from the surface before, mm.
-  const std::vector<double>& depth_mm() const noexcept;
-  BrushedBone removed() const;
+  [[nodiscard]] const std::vector<double>& depth_mm() const noexcept;
+  [[nodiscard]] BrushedBone removed() const;
   /// Mean length of the edges, mm: a cut is no finer.
-  double edge_mm() const noexcept;
+  [[nodiscard]] double edge_mm() const noexcept;
 
  private:
   struct Parts;
@@ -97,8 +97,8 @@ class Brush {
 
 /// Marks of the vertices of a body that belong to its bearing surface or to a soft mesh: corners of triangles whose contact does not end a
 /// motion. Of a fixed body that is one mesh none.
-std::vector<std::uint8_t> protected_vertices(const Joint& joint, BodyRole body,
-                                             const motion::ContactRoles& roles);
+[[nodiscard]] std::vector<std::uint8_t> protected_vertices(const Joint& joint, BodyRole body,
+                                                           const motion::ContactRoles& roles);
 
 struct BrushRequest {
   BodyRole body = BodyRole::mobile;
@@ -121,7 +121,7 @@ struct BrushedJoint {
 /// stays as it was: bone that a stroke brings into the bearing ball ends motions all the same, where a joint made anew calls it bearing surface.
 ///
 /// Throws as Brush and RangeOfMotion do, and UsageError for a bone that a part is cut from and for a joint with an implant.
-BrushedJoint brush_joint(const Joint& joint, const BrushRequest& request,
-                         std::span<const motion::Motion> motions);
+[[nodiscard]] BrushedJoint brush_joint(const Joint& joint, const BrushRequest& request,
+                                       std::span<const motion::Motion> motions);
 
 }  // namespace condyle::plan

@@ -21,12 +21,12 @@ namespace condyle::contact {
 
 class JointContact;
 class BodyPair;
-const BodyPair& body_pair_of(const JointContact& joint);
+[[nodiscard]] const BodyPair& body_pair_of(const JointContact& joint);
 struct ChosenVertices;
 struct MovedVertices;
 struct ChosenArcs;
-ChosenArcs arcs_of(const JointContact& joint, const Pose& X_FM, const Vec3& axis_F,
-                   const ChosenVertices& vertices);
+[[nodiscard]] ChosenArcs arcs_of(const JointContact& joint, const Pose& X_FM, const Vec3& axis_F,
+                                 const ChosenVertices& vertices);
 /// A triangle of the fixed and one of the mobile body that share a point.
 struct TrianglePair {
   Index fixed, mobile;
@@ -90,31 +90,31 @@ class JointContact {
   /// Vertices inside either body, or on its surface, with radial depths, and intersecting pairs. The fast
   /// path: vertices that are certainly outside cost next to nothing. Raises MeshError if the joint centre
   /// lies on a surface.
-  Contact at(const Pose& X_FM) const;
+  [[nodiscard]] Contact at(const Pose& X_FM) const;
   /// Only the penetrating vertices, into results that keep their capacity: nothing is allocated once they are large
   /// enough. Raises MeshError if the other body's mesh is open, too.
   void mobile_in_fixed(const Pose& X_FM, radial::Penetrations& out) const;
   void fixed_in_mobile(const Pose& X_FM, radial::Penetrations& out) const;
 
   /// The same and the gap of every vertex outside: the joint space along rays. Raises as at() does.
-  RadialContact radial(const Pose& X_FM) const;
+  [[nodiscard]] RadialContact radial(const Pose& X_FM) const;
   /// Gaps and depths about an axis through the joint centre, given in F, of any length but zero. Building a ring
   /// table costs much more than querying it; those of both bodies are kept for the next pose with the same axis in
   /// the body's own frame.
-  TangentialContact tangential(
+  [[nodiscard]] TangentialContact tangential(
       const Pose& X_FM, const Vec3& axis_F,
       tangential::TangentialRule rule = tangential::TangentialRule::alternating) const;
 
   /// The exact set of intersecting triangle pairs, ascending.
-  std::vector<TrianglePair> pairs(const Pose& X_FM) const;
+  [[nodiscard]] std::vector<TrianglePair> pairs(const Pose& X_FM) const;
   /// Whether the bodies share a point; ends at the first witness found.
-  bool in_contact(const Pose& X_FM) const;
+  [[nodiscard]] bool in_contact(const Pose& X_FM) const;
 
-  const Mesh& fixed() const noexcept;
-  const Mesh& mobile() const noexcept;
+  [[nodiscard]] const Mesh& fixed() const noexcept;
+  [[nodiscard]] const Mesh& mobile() const noexcept;
   /// The direction tables, for questions of one's own.
-  const radial::RadialTable& fixed_table() const;
-  const radial::RadialTable& mobile_table() const;
+  [[nodiscard]] const radial::RadialTable& fixed_table() const;
+  [[nodiscard]] const radial::RadialTable& mobile_table() const;
 
  private:
   struct Parts;
@@ -141,7 +141,7 @@ struct DeepestVertex {
   Angle ray_to_normal;      ///< between the ray and the normal of the surface that it leaves through
 
   /// Whether its radial depth means something; else the tangential one does.
-  bool radial_is_depth() const noexcept {
+  [[nodiscard]] bool radial_is_depth() const noexcept {
     return !(ray_to_normal > radial::oblique_ray || depth_mm > longest_meaningful_ratio * shortest_exit_mm);
   }
 };
@@ -160,7 +160,8 @@ struct RadialBodySummary {
 };
 
 /// `points` are the query points of `other` that gave `results`.
-RadialBodySummary summarise(const radial::RadialResults& results, PointsView points, const Mesh& other);
+[[nodiscard]] RadialBodySummary summarise(const radial::RadialResults& results, PointsView points,
+                                          const Mesh& other);
 
 /// Both bodies; empty if the other mesh is open.
 struct RadialSummary {
@@ -168,7 +169,8 @@ struct RadialSummary {
 };
 
 /// `contact` is what joint.radial(X_FM) gave.
-RadialSummary summarise(const JointContact& joint, const Pose& X_FM, const RadialContact& contact);
+[[nodiscard]] RadialSummary summarise(const JointContact& joint, const Pose& X_FM,
+                                      const RadialContact& contact);
 
 /// A vertex and how far it must rotate to be free.
 struct DeepestRotation {
@@ -192,6 +194,6 @@ struct TangentialBodySummary {
   std::optional<double> min_gap_mm;
 };
 
-TangentialBodySummary summarise(const tangential::TangentialResults& results);
+[[nodiscard]] TangentialBodySummary summarise(const tangential::TangentialResults& results);
 
 }  // namespace condyle::contact

@@ -73,15 +73,15 @@ enum class DistancesOf { vertices_inside, all_vertices };
 
 /// `contact` is of all vertices at this pose, from JointContact::radial() or tangential(). Both meshes must have a
 /// triangle. A few milliseconds for bones in contact, and some microseconds for each vertex that has a distance, on all threads.
-ContactMeasures measure_contact(const JointContact& joint, const Pose& X_FM, const MeasuredContact& contact,
-                                DistancesOf distances);
+[[nodiscard]] ContactMeasures measure_contact(const JointContact& joint, const Pose& X_FM,
+                                              const MeasuredContact& contact, DistancesOf distances);
 
 /// The distances of measure_contact() only.
-NearestDistances nearest_distances(const JointContact& joint, const Pose& X_FM,
-                                   const MeasuredContact& contact, DistancesOf distances);
+[[nodiscard]] NearestDistances nearest_distances(const JointContact& joint, const Pose& X_FM,
+                                                 const MeasuredContact& contact, DistancesOf distances);
 
 /// summarise() with nearest distances that are known already; those of vertices inside are enough.
-RadialSummary summarise(const RadialContact& contact, const NearestDistances& distances);
+[[nodiscard]] RadialSummary summarise(const RadialContact& contact, const NearestDistances& distances);
 
 // The depth to read of each vertex: of several ways out the one that means a depth there. docs/depths.md.
 
@@ -130,12 +130,14 @@ struct ReliableContact {
 /// A vertex's radial depth if that is a depth (DeepestVertex::radial_is_depth); else the shortest arc about one of the
 /// joint's axes at this pose, of those that set it free; else its nearest distance. `contact` and `distances` are those
 /// of the same pose. Builds ring tables only if a vertex needs them.
-ReliableContact reliable_depths(const JointContact& joint, JointKind kind, CoordinateSystem system,
-                                const JointAngles& pose, const RadialContact& contact,
-                                const NearestDistances& distances);
+[[nodiscard]] ReliableContact reliable_depths(const JointContact& joint, JointKind kind,
+                                              CoordinateSystem system, const JointAngles& pose,
+                                              const RadialContact& contact,
+                                              const NearestDistances& distances);
 
 /// The same without rotations: radial depths, and nearest distances where those are none.
-ReliableContact reliable_radial_depths(const RadialContact& contact, const NearestDistances& distances);
+[[nodiscard]] ReliableContact reliable_radial_depths(const RadialContact& contact,
+                                                     const NearestDistances& distances);
 
 /// The deepest vertex of either body; of two as deep the mobile one.
 struct DeepestOfBoth {
@@ -144,9 +146,9 @@ struct DeepestOfBoth {
 };
 
 /// Empty if no vertex has a depth other than its nearest distance.
-std::optional<DeepestOfBoth> deepest_of(const ReliableContact& contact);
+[[nodiscard]] std::optional<DeepestOfBoth> deepest_of(const ReliableContact& contact);
 
 /// Vertices inside of either body of which neither ray nor arc is a depth.
-std::size_t without_depth(const ReliableContact& contact) noexcept;
+[[nodiscard]] std::size_t without_depth(const ReliableContact& contact) noexcept;
 
 }  // namespace condyle::contact

@@ -15,7 +15,7 @@ namespace condyle::motion {
 
 enum class FeatureKind : std::uint8_t { vertex, edge, face };
 /// As in files: "vertex".
-std::string_view name_of(FeatureKind kind) noexcept;
+[[nodiscard]] std::string_view name_of(FeatureKind kind) noexcept;
 
 /// A vertex by its number, an edge by its two vertices (ascending), a face by its triangle's number: numbers
 /// of the mesh.
@@ -36,7 +36,7 @@ enum class ContactKind : std::uint8_t {
   soft,         ///< A mesh called soft touches: PartContact.
 };
 /// As in files: "bearing".
-std::string_view name_of(ContactKind kind) noexcept;
+[[nodiscard]] std::string_view name_of(ContactKind kind) noexcept;
 
 /// A pair of features in contact, and the point on each body in its own frame. If several pairs are in contact at the
 /// same reported angle, the first in the order of Feature, the rotating body's feature compared first.
@@ -52,7 +52,7 @@ enum class LimitReason : std::uint8_t {
   contact_at_start,  ///< The surfaces meet at the start already, or one body is inside the other.
 };
 /// As in files: "end_of_range".
-std::string_view name_of(LimitReason reason) noexcept;
+[[nodiscard]] std::string_view name_of(LimitReason reason) noexcept;
 
 /// Contact before a limit that does not end the motion: of bearing surfaces, or of a mesh called soft.
 struct EarlierContact {
@@ -75,7 +75,7 @@ struct Limit {
   /// Set by RangeOfMotion if a mesh is called soft: its first contact, if before the limit.
   std::optional<EarlierContact> soft_contact = {};
 
-  ContactKind kind() const noexcept { return contact ? contact->kind : ContactKind::unknown; }
+  [[nodiscard]] ContactKind kind() const noexcept { return contact ? contact->kind : ContactKind::unknown; }
 };
 
 /// Work counters of a search.
@@ -94,7 +94,9 @@ struct RotationLimits {
   Limit negative, positive;
   SearchWork work = {};
 
-  bool free_at_start() const noexcept { return positive.reason != LimitReason::contact_at_start; }
+  [[nodiscard]] bool free_at_start() const noexcept {
+    return positive.reason != LimitReason::contact_at_start;
+  }
 };
 
 /// From `negative` <= 0 to `positive` >= 0, at most a full turn in each sense.
@@ -129,7 +131,8 @@ class FirstContact {
 
   /// Both limits from the start pose. Throws UsageError if the range does not hold 0, is more than a full
   /// turn in either sense, or is not finite, and for a pose that is not finite or translates beyond 1e30 mm. May be called from any thread; the same bits on each.
-  RotationLimits limits(const Pose& X_FM = Pose::Identity(), const RotationRange& range = {}) const;
+  [[nodiscard]] RotationLimits limits(const Pose& X_FM = Pose::Identity(),
+                                      const RotationRange& range = {}) const;
 
  private:
   struct Parts;

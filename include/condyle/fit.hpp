@@ -20,10 +20,10 @@ struct Sphere {
 /// Lengths that belong to a hip or shoulder are stated for a head of this radius, mm, and grow with the head: no angle depends on the
 /// size of a child or an animal, nor on the unit of a file.
 inline constexpr double usual_head_radius_mm = 24;
-inline double by_head(double usual_mm, double head_radius) noexcept {
+[[nodiscard]] inline double by_head(double usual_mm, double head_radius) noexcept {
   return usual_mm * (head_radius / usual_head_radius_mm);
 }
-inline double by_head(double usual_mm, const Sphere& head) noexcept {
+[[nodiscard]] inline double by_head(double usual_mm, const Sphere& head) noexcept {
   return by_head(usual_mm, head.radius);
 }
 
@@ -36,8 +36,8 @@ struct SphereFit {
 
 /// The sphere that minimises the sum of squared distances of these points to it. Throws MeshError if fewer
 /// than four points, or points (nearly) in one plane, leave it undetermined.
-SphereFit fit_sphere(PointsView points, std::span<const Index> vertices);
-SphereFit fit_sphere(PointsView points);
+[[nodiscard]] SphereFit fit_sphere(PointsView points, std::span<const Index> vertices);
+[[nodiscard]] SphereFit fit_sphere(PointsView points);
 
 /// Which side of the sphere the solid is on: inside (a head) or outside (a socket). Inferred from the winding: in a
 /// mesh of inverted orientation, heads are sockets.
@@ -72,7 +72,7 @@ struct SphericalPatch {
 /// Deterministic. Only surface that faces the outside is considered: no piece of it inside another. Throws MeshError if no part of the
 /// surface is spherical: at least a tenth of a sphere, spread in all directions (no strip, as where a sphere touches a cylinder from
 /// inside), 12 vertices or more.
-SphericalPatch find_sphere(const Mesh& mesh, const SphereSearch& search = {});
+[[nodiscard]] SphericalPatch find_sphere(const Mesh& mesh, const SphereSearch& search = {});
 
 struct Cylinder {
   Vec3 point;      ///< on the axis, nearest the centroid of the vertices used
@@ -94,7 +94,8 @@ struct CylinderFit {
 
 /// The cylinder near `start` that minimises the sum of squared distances of these points to it. Throws
 /// MeshError if the points leave it undetermined (fewer than five, or all on one line or plane).
-CylinderFit fit_cylinder(PointsView points, std::span<const Index> vertices, const Cylinder& start);
+[[nodiscard]] CylinderFit fit_cylinder(PointsView points, std::span<const Index> vertices,
+                                       const Cylinder& start);
 
 /// Parts of one surface that give axes farther apart give no axis.
 inline constexpr Angle largest_direction_bound = Angle::degrees(15);
@@ -112,6 +113,6 @@ struct CylinderSearch {
 /// those, and inside a ball the part with most area is taken and may be as imperfect as a talar dome, whose residuals
 /// are a twentieth of its radius. Deterministic. Only surface that faces the outside is considered. Throws MeshError if no part of the
 /// surface is cylindrical, or where its parts do not agree on a direction within largest_direction_bound.
-CylinderFit find_cylinder(const Mesh& mesh, const CylinderSearch& search = {});
+[[nodiscard]] CylinderFit find_cylinder(const Mesh& mesh, const CylinderSearch& search = {});
 
 }  // namespace condyle

@@ -42,7 +42,7 @@ struct HipMeasures;
 
 enum class MeasuredPart : std::uint8_t { femur, acetabulum, both };
 /// As in files: "acetabulum".
-std::string_view name_of(MeasuredPart part) noexcept;
+[[nodiscard]] std::string_view name_of(MeasuredPart part) noexcept;
 
 /// One measure: what texts, tables and columns are made of.
 struct MeasureDefinition {
@@ -59,9 +59,9 @@ struct MeasureDefinition {
 };
 
 /// Every measure, in the order of reports.
-std::span<const MeasureDefinition> measure_definitions() noexcept;
+[[nodiscard]] std::span<const MeasureDefinition> measure_definitions() noexcept;
 /// Null if no measure has this key.
-const MeasureDefinition* measure_definition(std::string_view key) noexcept;
+[[nodiscard]] const MeasureDefinition* measure_definition(std::string_view key) noexcept;
 
 /// Forwards or backwards.
 inline constexpr double largest_pelvic_tilt_deg = 60;
@@ -193,15 +193,15 @@ struct HipMeasures {
 
 /// Source of a joint's axes: "anterior pelvic plane", "plane of ASIS and PSIS", "the femur's epicondyles, not the pelvis"; empty
 /// for directions, which do not say how the pelvis lay. The pose of the femur in the scan says nothing of it either.
-std::string pelvis_frame_of(const FrameDescription& frame);
+[[nodiscard]] std::string pelvis_frame_of(const FrameDescription& frame);
 /// The frame of every measure that turns with the pelvis: "as scanned", "anterior pelvic plane, tilt 10 deg given".
-std::string stated_frame(const HipMeasures& measures);
+[[nodiscard]] std::string stated_frame(const HipMeasures& measures);
 
 /// Measures of a hip as its meshes show it. What cannot be measured is empty and says why. If a body has several meshes, those called
 /// bearing or soft are left out. Throws UsageError for another joint than a hip, a hinge, and a request outside its ranges.
 ///
 /// Some tens of milliseconds for 50,000 triangles, after the searches for head, socket and condyles, which are kept with the meshes.
-HipMeasures measure_hip(const Joint& joint, const MeasureOptions& request = {});
+[[nodiscard]] HipMeasures measure_hip(const Joint& joint, const MeasureOptions& request = {});
 
 /// The spread of one measure.
 struct MeasureBand {
@@ -214,10 +214,11 @@ struct MeasureBand {
 /// the head's centre moves with the joint's. The same bits whatever the threads; empty if it was stopped before all samples were done.
 ///
 /// Throws UsageError as measure_hip() and limit_bands() do.
-std::optional<std::vector<MeasureBand>> measure_bands(const Joint& joint, const MeasureOptions& request,
-                                                      const motion::BandOptions& options,
-                                                      const Control& control);
-std::vector<MeasureBand> measure_bands(const Joint& joint, const MeasureOptions& request = {},
-                                       const motion::BandOptions& options = {});
+[[nodiscard]] std::optional<std::vector<MeasureBand>> measure_bands(const Joint& joint,
+                                                                    const MeasureOptions& request,
+                                                                    const motion::BandOptions& options,
+                                                                    const Control& control);
+[[nodiscard]] std::vector<MeasureBand> measure_bands(const Joint& joint, const MeasureOptions& request = {},
+                                                     const motion::BandOptions& options = {});
 
 }  // namespace condyle::measure

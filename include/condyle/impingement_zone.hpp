@@ -30,25 +30,25 @@ struct ClockFace {
 
   /// The hour of a direction from the centre, in [0, 12): 0 is 12 o'clock, 1.5 half past one. Along the
   /// face's normal there is no hour: 0.
-  double hour_of(const Vec3& direction) const noexcept;
+  [[nodiscard]] double hour_of(const Vec3& direction) const noexcept;
   /// The same as an angle from 12 towards 3, in [0, 360) degrees.
-  Angle angle_of(const Vec3& direction) const noexcept;
+  [[nodiscard]] Angle angle_of(const Vec3& direction) const noexcept;
 };
 
 /// The face whose plane has this normal (either sense, any length but zero): 12 is Y of the joint frame and 3
 /// is X, each as it falls on the plane, X as far as it is across 12. Throws UsageError if the normal is
 /// within a degree of Y, or 12 and X leave no 3.
-ClockFace clock_face(const Vec3& normal);
+[[nodiscard]] ClockFace clock_face(const Vec3& normal);
 
 /// The acetabular clock if the opening plane is not given: the sagittal plane, normal Z. Published clock
 /// positions refer to the opening plane itself; between the two a position moves by up to half an hour or so,
 /// depending on inclination and version.
-ClockFace sagittal_clock();
+[[nodiscard]] ClockFace sagittal_clock();
 
 /// The acetabular clock in the plane of the rim: the plane fitted to the rim as the head sees it, 6 o'clock at the
 /// acetabular notch, where published clock positions have it. Head and mesh in F. Empty if no rim or no notch is
 /// found, or the plane leaves no 3 o'clock.
-std::optional<ClockFace> find_rim_clock(const TriMesh& fixed, const Sphere& head);
+[[nodiscard]] std::optional<ClockFace> find_rim_clock(const TriMesh& fixed, const Sphere& head);
 
 /// Which of the two a position refers to.
 enum class ClockPlane { sagittal, rim };
@@ -62,10 +62,10 @@ struct NeckAxis {
 /// corners between 1.2 and 1.6 head radii from the joint centre. There the femur consists only of the neck;
 /// nearer is the head, farther begin the trochanters. Empty if there is nothing in that shell, or it lies
 /// around the centre more evenly than any neck does.
-std::optional<NeckAxis> find_neck_axis(const TriMesh& mobile, double head_radius_mm);
+[[nodiscard]] std::optional<NeckAxis> find_neck_axis(const TriMesh& mobile, double head_radius_mm);
 
 /// The clock around the neck: its plane is across the neck's axis.
-ClockFace neck_clock(const NeckAxis& neck);
+[[nodiscard]] ClockFace neck_clock(const NeckAxis& neck);
 
 struct ZoneOptions {
   BearingOptions bearing = {};                 ///< as the limits were found with
@@ -114,10 +114,10 @@ class ZoneFinder {
   /// Empty for motions that contact did not end. The overlap of bearing contact is no zone unless it counts: neither
   /// the mobile body's bearing surface nor the part of the fixed body inside behind it. Triangles that overlap
   /// options left out are part of zones.
-  std::optional<ImpingementZone> zone(const MotionLimit& limit) const;
+  [[nodiscard]] std::optional<ImpingementZone> zone(const MotionLimit& limit) const;
 
   /// In M; empty if it was not given and no neck was found.
-  const std::optional<NeckAxis>& neck() const noexcept;
+  [[nodiscard]] const std::optional<NeckAxis>& neck() const noexcept;
 
  private:
   struct Parts;

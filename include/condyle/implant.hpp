@@ -35,23 +35,23 @@ struct CupAngles {
 ///     radiographic  ( sin v,        -cos i cos v,  sin i cos v)
 ///     anatomic      ( sin i sin v,  -cos i,        sin i cos v)
 ///     operative     ( cos i sin v,  -cos i cos v,  sin i      )        a left hip: Z negated
-Vec3 cup_axis(const CupAngles& angles, Side side) noexcept;
+[[nodiscard]] Vec3 cup_axis(const CupAngles& angles, Side side) noexcept;
 
 /// The angles of an axis of any length but zero: the inverse of cup_axis() to rounding, for inclinations of 0 to 90 degrees.
-CupAngles cup_angles(const Vec3& axis, CupDefinition definition, Side side) noexcept;
+[[nodiscard]] CupAngles cup_angles(const Vec3& axis, CupDefinition definition, Side side) noexcept;
 
 /// The same axis by another definition.
-CupAngles by_definition(const CupAngles& angles, CupDefinition definition) noexcept;
+[[nodiscard]] CupAngles by_definition(const CupAngles& angles, CupDefinition definition) noexcept;
 
 /// The unit axis of a stem's neck from the centre of the head towards the stem, in the mobile frame. Of a right hip
 /// R_y(-version) (0, -cos(180 - neck_shaft), sin(180 - neck_shaft)).
-Vec3 neck_axis(Angle neck_shaft, Angle version, Side side) noexcept;
+[[nodiscard]] Vec3 neck_axis(Angle neck_shaft, Angle version, Side side) noexcept;
 
 struct StemAngles {
   Angle neck_shaft, version;
 };
 /// The angles of an axis of any length but zero: the inverse of neck_axis() to rounding.
-StemAngles stem_angles(const Vec3& axis, Side side) noexcept;
+[[nodiscard]] StemAngles stem_angles(const Vec3& axis, Side side) noexcept;
 
 // ---- bodies of revolution ------------------------------------------------------------------------------------------------
 
@@ -81,7 +81,7 @@ struct NeckShape {
 ///     theta = min over rho of delta(rho) - gamma(rho);     sharp rim, cylinder: 180 - half_angle - asin(neck / liner radius)
 ///
 /// To 1e-12 rad. For a neck that reaches beyond the liner's outer radius. Zero or below if the neck never fits.
-Angle contact_half_angle(const LinerShape& liner, const NeckShape& neck) noexcept;
+[[nodiscard]] Angle contact_half_angle(const LinerShape& liner, const NeckShape& neck) noexcept;
 
 /// Where a motion of a RevolvedPair ends.
 struct ClosedLimit {
@@ -91,8 +91,8 @@ struct ClosedLimit {
 };
 
 /// The first root of fixed_axis . R(t) mobile_axis = P + A cos t + B sin t = cos(half_angle) above 0, in the range of the motion.
-ClosedLimit closed_limit(const RevolvedPair& pair, CoordinateSystem system,
-                         const motion::Motion& motion) noexcept;
+[[nodiscard]] ClosedLimit closed_limit(const RevolvedPair& pair, CoordinateSystem system,
+                                       const motion::Motion& motion) noexcept;
 
 // ---- the implants --------------------------------------------------------------------------------------------------------
 
@@ -152,7 +152,7 @@ struct ReverseShoulder {
 using Implant = std::variant<TotalHip, ReverseShoulder>;
 
 /// As in files: "total_hip", "reverse_shoulder".
-std::string_view name_of(const Implant& implant) noexcept;
+[[nodiscard]] std::string_view name_of(const Implant& implant) noexcept;
 
 /// A size of an implant by its name in files; options have hyphens, Python has the unit behind it: "neck_radius",
 /// --neck-radius, neck_radius_mm.
@@ -164,31 +164,31 @@ struct ImplantParameter {
 };
 
 /// All sizes of this kind of implant, without facets and definition.
-std::span<const ImplantParameter> implant_parameters(const Implant& implant) noexcept;
+[[nodiscard]] std::span<const ImplantParameter> implant_parameters(const Implant& implant) noexcept;
 
 /// Throws UsageError, one line on the first size that is out of its range, or on what contradicts what: a head larger than its
 /// cup, a neck thicker than the head or as wide as the opening, a neck that ends inside the cup.
 void check_implant(const Implant& implant);
 
 /// Liner and neck as bodies of revolution; empty where they are none: why_not_revolved() says what is not.
-std::optional<RevolvedPair> revolved_pair(const Implant& implant, Side side);
+[[nodiscard]] std::optional<RevolvedPair> revolved_pair(const Implant& implant, Side side);
 /// Empty if there is a closed form.
-std::string why_not_revolved(const Implant& implant);
+[[nodiscard]] std::string why_not_revolved(const Implant& implant);
 
 /// Where the liner and the neck of an implant are in a joint: meshes by the names of implant_meshes().
-JointImplant implant_in_joint(const Implant& implant, const Joint& joint);
+[[nodiscard]] JointImplant implant_in_joint(const Implant& implant, const Joint& joint);
 
 /// Where the parts of the joint have the axis of its cup; empty if it has none.
-std::optional<CupAngles> cup_angles(const Joint& joint, CupDefinition definition);
+[[nodiscard]] std::optional<CupAngles> cup_angles(const Joint& joint, CupDefinition definition);
 
 /// The closed form of a joint with an implant, where its parts have it, or why there is none: a lip, a part that is shifted.
 struct ClosedForm {
   std::optional<RevolvedPair> pair = {};
   std::string why_none = {};  ///< empty if there is a pair, and of a joint without an implant
 };
-ClosedForm closed_form(const Joint& joint);
+[[nodiscard]] ClosedForm closed_form(const Joint& joint);
 /// The same at other values of its parts' parameters.
-ClosedForm closed_form(const Joint& joint, std::span<const PosedPart> parts);
+[[nodiscard]] ClosedForm closed_form(const Joint& joint, std::span<const PosedPart> parts);
 
 /// One closed mesh of an implant, by its name as a part of a body.
 struct ImplantMesh {
@@ -207,7 +207,8 @@ struct ImplantMeshes {
 
 /// Throws UsageError as check_implant(). `stem_down` is where the stem points, of a right joint: that of a bone whose shaft leans leans with
 /// it, and the angle of the neck stays that from Y. The same bytes for the same sizes.
-ImplantMeshes implant_meshes(const Implant& implant, Side side, const Vec3& stem_down = -Vec3::UnitY());
+[[nodiscard]] ImplantMeshes implant_meshes(const Implant& implant, Side side,
+                                           const Vec3& stem_down = -Vec3::UnitY());
 
 /// The plane across the neck of a total hip where the bone of the femur is cut: between neck and stem.
 struct NeckCut {
@@ -215,6 +216,6 @@ struct NeckCut {
   double offset_mm;
   Vec3 stem_axis_point;  ///< where the neck's axis meets the stem's
 };
-NeckCut neck_cut(const TotalHip& hip, Side side);
+[[nodiscard]] NeckCut neck_cut(const TotalHip& hip, Side side);
 
 }  // namespace condyle::plan

@@ -45,7 +45,7 @@ struct TriangleCrossing {
 struct BoundingBox {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
 
-  double diagonal() const { return (high - low).norm(); }
+  [[nodiscard]] double diagonal() const { return (high - low).norm(); }
 };
 
 /// Triangles that hang together over edges, two triangles' or more. Solids that touch in a vertex are two
@@ -117,18 +117,18 @@ struct MeshReport {
   /// As Mesh::is_closed: every edge is used as often in one direction as in the other. The surface then has an
   /// inside, if perhaps an inverted one. Neither self-intersections nor non-manifold edges and vertices matter
   /// to that.
-  bool is_closed() const noexcept { return unbalanced_edges.count == 0; }
+  [[nodiscard]] bool is_closed() const noexcept { return unbalanced_edges.count == 0; }
 };
 
 /// Looks at everything once, in n log n unless it crosses itself all over.
-MeshReport inspect(const Mesh& mesh);
+[[nodiscard]] MeshReport inspect(const Mesh& mesh);
 
 /// The report's guess of the unit, without the rest of it. Linear.
-LikelyUnit likely_unit(const TriMesh& mesh);
+[[nodiscard]] LikelyUnit likely_unit(const TriMesh& mesh);
 
 /// The first boundary loop in words, for the message that refuses an open mesh: "an open boundary of 14 edges
 /// near (12.1, -3, 44.9), from vertex 812 (the first of 3)". Empty for a mesh without boundary.
-std::string describe_boundary(const MeshReport& report);
+[[nodiscard]] std::string describe_boundary(const MeshReport& report);
 
 // Repairs that lose nothing: the surface is the same set of points before and after. Each is requested by
 // name, changes the mesh in place and says what it did. Whatever would need a guess (filling holes, dropping
@@ -136,7 +136,7 @@ std::string describe_boundary(const MeshReport& report);
 
 /// For every point the number of the first one with the same coordinates, -0 being +0: its own number where
 /// it is that first one. Coordinates must not be NaN. n log n.
-std::vector<Index> first_of_same_coordinates(PointsView points);
+[[nodiscard]] std::vector<Index> first_of_same_coordinates(PointsView points);
 
 /// Merges vertices whose coordinates are the same, -0 being +0, without any tolerance; the first of each
 /// stays, in its place. Triangles stay, all of them. Returns how many vertices went.
@@ -155,10 +155,10 @@ std::size_t flip_inverted(TriMesh& mesh);
 // vertices of the others; a mesh of one piece stays as it is. The cavities of the piece that stays, wound as such, stay with it.
 
 /// The piece of most volume among those that lie in no other; of most area if the mesh is open. n log n.
-TriMesh largest_piece(const Mesh& mesh);
+[[nodiscard]] TriMesh largest_piece(const Mesh& mesh);
 
 /// The piece whose surface is nearest a point, such as a joint centre: of two legs the one at this hip. n log n.
-TriMesh piece_at(const Mesh& mesh, const Vec3& point);
+[[nodiscard]] TriMesh piece_at(const Mesh& mesh, const Vec3& point);
 
 /// The three as values, for lists of them.
 enum class Repair { weld, drop_unreferenced, flip_inverted };

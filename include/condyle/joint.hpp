@@ -32,7 +32,7 @@ enum class PartContact : std::uint8_t {
 };
 
 /// As in files: "bearing".
-std::string_view name_of(PartContact contact) noexcept;
+[[nodiscard]] std::string_view name_of(PartContact contact) noexcept;
 
 /// Which vertices and triangles of a body's mesh came from one of several meshes.
 struct BodyPart {
@@ -56,7 +56,7 @@ struct BodyImage {
   std::vector<ImageCut> cuts = {};
 
   /// Width of a voxel along a unit direction, mm.
-  double voxel_width_mm(const Vec3& direction) const noexcept {
+  [[nodiscard]] double voxel_width_mm(const Vec3& direction) const noexcept {
     return (voxel.transpose() * direction).norm();
   }
 };
@@ -78,25 +78,25 @@ struct Body {
 inline constexpr double on_cut_mm = 0.01;
 
 /// Whether a point of the body's surface, in its frame, lies on a face that closes it where its image ends.
-bool is_on_cut(const Body& body, const Vec3& point) noexcept;
-bool is_on_cut(const std::vector<ImageCut>& cuts, const Vec3& point) noexcept;
+[[nodiscard]] bool is_on_cut(const Body& body, const Vec3& point) noexcept;
+[[nodiscard]] bool is_on_cut(const std::vector<ImageCut>& cuts, const Vec3& point) noexcept;
 
 /// Area of the triangles that lie in the body's cuts, mm^2. Linear in the mesh.
-double cut_area_mm2(const Body& body);
+[[nodiscard]] double cut_area_mm2(const Body& body);
 
 /// The mesh of the part of this name. Throws UsageError with the names there are. Linear in the part.
-Mesh mesh_of_part(const Body& body, std::string_view part);
+[[nodiscard]] Mesh mesh_of_part(const Body& body, std::string_view part);
 
 /// Whether a mesh of this body has that word.
-bool has_part(const Body& body, PartContact contact) noexcept;
+[[nodiscard]] bool has_part(const Body& body, PartContact contact) noexcept;
 
 /// Whether a part was cut from a mesh of this body, and whether a triangle is of a face in which one was.
-bool is_cut(const Body& body) noexcept;
-bool is_cut_face(const Body& body, std::size_t triangle) noexcept;
+[[nodiscard]] bool is_cut(const Body& body) noexcept;
+[[nodiscard]] bool is_cut_face(const Body& body, std::size_t triangle) noexcept;
 
 /// The part that a vertex or a triangle of the body's mesh is of; null if the body is one mesh.
-const BodyPart* part_of_vertex(const Body& body, std::size_t vertex) noexcept;
-const BodyPart* part_of_triangle(const Body& body, std::size_t triangle) noexcept;
+[[nodiscard]] const BodyPart* part_of_vertex(const Body& body, std::size_t vertex) noexcept;
+[[nodiscard]] const BodyPart* part_of_triangle(const Body& body, std::size_t triangle) noexcept;
 
 /// Murray's three pairs of angles of the axis of a cup (1993).
 enum class CupDefinition : std::uint8_t {
@@ -108,9 +108,9 @@ inline constexpr CupDefinition all_cup_definitions[] = {CupDefinition::radiograp
                                                         CupDefinition::operative};
 
 /// As in files: "radiographic".
-std::string_view name_of(CupDefinition definition) noexcept;
+[[nodiscard]] std::string_view name_of(CupDefinition definition) noexcept;
 /// Throws UsageError that lists the valid words.
-CupDefinition cup_definition_named(std::string_view word);
+[[nodiscard]] CupDefinition cup_definition_named(std::string_view word);
 
 /// How a parameter moves its part, from its value v and the value v0 at which the meshes stand as they are given. With s = 1 of a
 /// right joint and -1 of a left one, about axes of the body's frame:
@@ -145,9 +145,9 @@ inline constexpr ParameterKind all_parameter_kinds[] = {
     ParameterKind::size,    ParameterKind::cup_inclination, ParameterKind::cup_anteversion};
 
 /// As in files: "inclination".
-std::string_view name_of(ParameterKind kind) noexcept;
+[[nodiscard]] std::string_view name_of(ParameterKind kind) noexcept;
 /// "deg", "mm", or "1" of a size, whose values have the unit of `as_given`.
-std::string_view unit_of(ParameterKind kind) noexcept;
+[[nodiscard]] std::string_view unit_of(ParameterKind kind) noexcept;
 
 /// A number by which a part is moved. Rotations are in degrees, translations in mm.
 struct PartParameter {
@@ -238,15 +238,17 @@ struct Joint {
   std::optional<JointImplant> implant = {};
   ZeroFrom zero_from = ZeroFrom::as_given;
 
-  CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
+  [[nodiscard]] CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
   /// False of a hinge that flexes forwards and is no joint in particular.
-  bool names_its_joint() const noexcept { return anatomy != Anatomy::hip || kind != JointKind::hinge; }
+  [[nodiscard]] bool names_its_joint() const noexcept {
+    return anatomy != Anatomy::hip || kind != JointKind::hinge;
+  }
   /// Whether a head slides in a socket: only there bearing contact is distinguished from impingement.
-  bool has_head() const noexcept {
+  [[nodiscard]] bool has_head() const noexcept {
     return kind != JointKind::hinge && (anatomy == Anatomy::hip || anatomy == Anatomy::shoulder);
   }
   /// Whether its socket is a hip's, for everything inferred from that: clock faces, normal ranges, the checks of its axes.
-  bool is_hip() const noexcept { return anatomy == Anatomy::hip && names_its_joint(); }
+  [[nodiscard]] bool is_hip() const noexcept { return anatomy == Anatomy::hip && names_its_joint(); }
 };
 
 /// A value of a parameter, by the names of its part and of itself: "cup.inclination".
@@ -256,18 +258,18 @@ struct ParameterValue {
 };
 
 /// Values from "cup.inclination=42 cup.version=15", separated by blanks or commas. Throws UsageError for other text.
-std::vector<ParameterValue> parse_parameters(std::string_view text);
+[[nodiscard]] std::vector<ParameterValue> parse_parameters(std::string_view text);
 
 /// The joint at these values; parameters that are not named keep theirs. Coordinates of a part that is moved are rounded once more; where
 /// all its parameters are as given, they keep every bit. Throws UsageError for a name that there is not, with the names there are, a
 /// value outside of its range, and one that is given twice. Linear in the meshes.
-Joint with_parameters(const Joint& joint, std::span<const ParameterValue> values);
+[[nodiscard]] Joint with_parameters(const Joint& joint, std::span<const ParameterValue> values);
 
 /// "cup.inclination 42 deg instead of 40": the parameters whose values differ from those of the description; empty if none does.
-std::string changed_parameters(const Joint& joint);
+[[nodiscard]] std::string changed_parameters(const Joint& joint);
 
 /// Whether a parameter has a standard deviation.
-bool has_uncertain_parameters(const Joint& joint) noexcept;
+[[nodiscard]] bool has_uncertain_parameters(const Joint& joint) noexcept;
 
 /// A joint whose mobile body keeps this translation, of the fixed body's axes in mm: the same joint seen from where the
 /// mobile body's origin is. With R_FM p_M + t = p_F and t held, p_F - t = R_FM p_M is a rotation about the origin, and all that
@@ -275,6 +277,6 @@ bool has_uncertain_parameters(const Joint& joint) noexcept;
 /// of answers in its frame are t short of those of the joint given.
 ///
 /// Linear in the fixed mesh; with t = 0 the joint as it is.
-Joint held_at(const Joint& joint, const Vec3& translation_mm);
+[[nodiscard]] Joint held_at(const Joint& joint, const Vec3& translation_mm);
 
 }  // namespace condyle

@@ -45,7 +45,7 @@ enum class JointNoteCode : std::uint8_t {
 };
 
 /// As in files: "wrong_side".
-std::string_view name_of(JointNoteCode code) noexcept;
+[[nodiscard]] std::string_view name_of(JointNoteCode code) noexcept;
 
 struct JointNote {
   JointNoteCode code;
@@ -71,12 +71,12 @@ inline constexpr double farthest_head_from_socket_mm = 1.5;
 ///
 /// Searches both surfaces for spheres, which are kept with their meshes: some tens of milliseconds for 50,000 triangles, less
 /// where a fit gave the centre.
-std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& placement);
+[[nodiscard]] std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& placement);
 
 // From where the angles of a joint count, and how the femur of a hip lies there.
 
 /// As in files: "as_given".
-std::string_view name_of(ZeroFrom from) noexcept;
+[[nodiscard]] std::string_view name_of(ZeroFrom from) noexcept;
 
 /// A femur lies in neutral where its mechanical axis, from between its condyles to the head's centre, points superior, and the line behind both
 /// condyles to the right: the axes of Wu et al. (2002) with the condyles' backs for the epicondyles, which lie 3 to 6 degrees
@@ -90,15 +90,15 @@ struct ZeroPose {
   std::optional<JointAngles> femur = {};
 
   /// Whether the condyles say that zero is not neutral. Landmarks of both bodies are believed.
-  bool is_turned() const noexcept;
+  [[nodiscard]] bool is_turned() const noexcept;
   /// Whether zero is neutral as far as anybody can know: only then limits are compared with those of other people.
-  bool is_neutral() const noexcept;
+  [[nodiscard]] bool is_neutral() const noexcept;
 };
 
 /// Some milliseconds per 100,000 triangles after the head is found; kept with the mesh.
-ZeroPose zero_pose(const Joint& joint);
+[[nodiscard]] ZeroPose zero_pose(const Joint& joint);
 
 /// "the pose in which femur is given; it shows no condyles, so how the leg lay is not known": where zero is.
-std::string zero_text(const Joint& joint, const ZeroPose& zero);
+[[nodiscard]] std::string zero_text(const Joint& joint, const ZeroPose& zero);
 
 }  // namespace condyle

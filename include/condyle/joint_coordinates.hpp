@@ -73,18 +73,18 @@ struct AngleNames {
 ///     ankle    dorsiflexion, plantarflexion      inversion, eversion    internal_, external_rotation
 ///     elbow    flexion, extension                varus, valgus          pronation, supination
 ///     shoulder plane_of_elevation, posterior_plane_of_elevation   elevation, lowering   internal_, external_rotation
-const std::array<AngleNames, 3>& coordinate_names(Anatomy joint) noexcept;
+[[nodiscard]] const std::array<AngleNames, 3>& coordinate_names(Anatomy joint) noexcept;
 
 /// X_FM at these angles: a rotation about the joint centre. Any finite angles. Exactly the identity at zero,
 /// and every entry exactly 0, 1 or -1 if all three are multiples of 90 degrees.
-Pose pose_at(CoordinateSystem system, const JointAngles& angles) noexcept;
+[[nodiscard]] Pose pose_at(CoordinateSystem system, const JointAngles& angles) noexcept;
 
 /// The angles of a pose; only the rotation is read. The first and the third are in (-180, 180] degrees, the second in
 /// [-90, 90], the elevation of a shoulder in [0, 180]. Where e1 and e3 lie along one line (to rounding) the pose fixes
 /// only the sum or difference of those two: at +-90 degrees of adduction internal rotation is given as 0, at 0 and 180
 /// degrees of elevation the plane of elevation is. pose_at() of the answer is the rotation again to rounding, there and
 /// everywhere.
-JointAngles angles_at(CoordinateSystem system, const Pose& X_FM) noexcept;
+[[nodiscard]] JointAngles angles_at(CoordinateSystem system, const Pose& X_FM) noexcept;
 
 /// The unit axis in F about which the mobile body rotates when one angle grows and the other two are held:
 /// rotating M counter-clockwise about it by d is adding d to that angle.
@@ -92,7 +92,7 @@ JointAngles angles_at(CoordinateSystem system, const Pose& X_FM) noexcept;
 ///     flexion            e1 = +-Z (shoulder +-Y)         whatever the angles
 ///     adduction          e2 = R(flexion) (+-X)           depends on flexion
 ///     internal rotation  e3 = R_FM (+-Y)                 depends on flexion and adduction
-Vec3 axis_of(JointAngle angle, CoordinateSystem system, const JointAngles& at) noexcept;
+[[nodiscard]] Vec3 axis_of(JointAngle angle, CoordinateSystem system, const JointAngles& at) noexcept;
 
 /// Along which axes the components of a translation are.
 enum class TranslationFrame {
@@ -111,20 +111,22 @@ struct JointCoordinates {
 };
 
 /// X_FM of p_F = R_FM p_M + t, t the translation brought into F.
-Pose pose_at(CoordinateSystem system, const JointCoordinates& at, TranslationFrame frame) noexcept;
+[[nodiscard]] Pose pose_at(CoordinateSystem system, const JointCoordinates& at,
+                           TranslationFrame frame) noexcept;
 
 /// The coordinates of a pose: angles_at() and the translation. Along joint axes the translation is not finite, or without
 /// meaning, where e1 and e3 lie along one line.
-JointCoordinates coordinates_at(CoordinateSystem system, const Pose& X_FM, TranslationFrame frame) noexcept;
+[[nodiscard]] JointCoordinates coordinates_at(CoordinateSystem system, const Pose& X_FM,
+                                              TranslationFrame frame) noexcept;
 
 /// This angle of the three.
-Angle angle_of(const JointAngles& angles, JointAngle angle) noexcept;
+[[nodiscard]] Angle angle_of(const JointAngles& angles, JointAngle angle) noexcept;
 
-std::string_view name_of(Side side) noexcept;
-std::string_view name_of(JointKind kind) noexcept;
-std::string_view name_of(Anatomy joint) noexcept;
-std::string_view name_of(TranslationFrame frame) noexcept;
+[[nodiscard]] std::string_view name_of(Side side) noexcept;
+[[nodiscard]] std::string_view name_of(JointKind kind) noexcept;
+[[nodiscard]] std::string_view name_of(Anatomy joint) noexcept;
+[[nodiscard]] std::string_view name_of(TranslationFrame frame) noexcept;
 /// "flexion", or what the joint calls this angle: the positive one of its coordinate_names().
-std::string_view name_of(JointAngle angle, Anatomy joint) noexcept;
+[[nodiscard]] std::string_view name_of(JointAngle angle, Anatomy joint) noexcept;
 
 }  // namespace condyle

@@ -109,11 +109,12 @@ struct LabelSurface {
 ///
 /// Raises UsageError for options out of range, for a grid whose matrix is not finite or not invertible, and for a mask whose
 /// arrays do not fit its sizes; MeshError if no voxel is set, or if smoothing leaves none of them.
-LabelSurface surface_of(const VoxelMask& mask, const LabelSurfaceOptions& options = {});
+[[nodiscard]] LabelSurface surface_of(const VoxelMask& mask, const LabelSurfaceOptions& options = {});
 
 /// The same; empty if it was stopped. Progress: steps of the work.
-std::optional<LabelSurface> surface_of(const VoxelMask& mask, const LabelSurfaceOptions& options,
-                                       const Control& control);
+[[nodiscard]] std::optional<LabelSurface> surface_of(const VoxelMask& mask,
+                                                     const LabelSurfaceOptions& options,
+                                                     const Control& control);
 
 /// Where two bones of one image touch.
 struct TouchingVoxels {
@@ -123,6 +124,6 @@ struct TouchingVoxels {
 };
 
 /// Raises UsageError if the masks are of different grids, or their arrays do not fit their sizes.
-TouchingVoxels touching_voxels(const VoxelMask& a, const VoxelMask& b);
+[[nodiscard]] TouchingVoxels touching_voxels(const VoxelMask& a, const VoxelMask& b);
 
 }  // namespace condyle

@@ -25,7 +25,9 @@ struct Uncertainty {
   double surface_voxels = 0.25;
 
   /// Whether the body's surface is moved by a share of a voxel.
-  bool is_by_voxels(const Body& body) const noexcept { return body.image && surface_voxels > 0; }
+  [[nodiscard]] bool is_by_voxels(const Body& body) const noexcept {
+    return body.image && surface_voxels > 0;
+  }
 };
 
 struct BandOptions {
@@ -58,12 +60,14 @@ struct LimitBand {
 /// Throws UsageError for fewer than 20 samples, a standard deviation that is negative or not finite, and motions that
 /// check_motion() refuses. Up to five searches per sample, one with all sources together and one with each source by
 /// itself, of some milliseconds each for twelve motions of a hip.
-std::vector<LimitBand> limit_bands(const Joint& joint, std::span<const Motion> motions,
-                                   const RangeOptions& range, const BandOptions& options = {});
+[[nodiscard]] std::vector<LimitBand> limit_bands(const Joint& joint, std::span<const Motion> motions,
+                                                 const RangeOptions& range, const BandOptions& options = {});
 /// The same; empty if it was stopped before all samples were done.
-std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<const Motion> motions,
-                                                  const RangeOptions& range, const BandOptions& options,
-                                                  const Control& control);
+[[nodiscard]] std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint,
+                                                                std::span<const Motion> motions,
+                                                                const RangeOptions& range,
+                                                                const BandOptions& options,
+                                                                const Control& control);
 
 /// One motion's limit in a joint that is displaced.
 struct DisplacedLimit {
@@ -74,7 +78,8 @@ struct DisplacedLimit {
 /// Exact limits of the joint as it would turn about each of these centres, given in the reference pose in mm from the joint
 /// centre: for each centre one per motion. Throws UsageError if check_motion() does. A search per centre and motion, of
 /// some milliseconds for twelve motions of a hip.
-std::vector<DisplacedLimit> limits_about(const Joint& joint, std::span<const Motion> motions,
-                                         const RangeOptions& range, std::span<const Vec3> centres);
+[[nodiscard]] std::vector<DisplacedLimit> limits_about(const Joint& joint, std::span<const Motion> motions,
+                                                       const RangeOptions& range,
+                                                       std::span<const Vec3> centres);
 
 }  // namespace condyle::motion

@@ -44,15 +44,17 @@ struct AxisErrors {
   double superior_length;  ///< |length - 1|
   double right_angle;      ///< |cosine of the angle between them|
 
-  bool none() const noexcept { return anterior_length == 0 && superior_length == 0 && right_angle == 0; }
+  [[nodiscard]] bool none() const noexcept {
+    return anterior_length == 0 && superior_length == 0 && right_angle == 0;
+  }
 };
-AxisErrors axis_errors(const Vec3& anterior, const Vec3& superior) noexcept;
+[[nodiscard]] AxisErrors axis_errors(const Vec3& anterior, const Vec3& superior) noexcept;
 
 /// A joint frame from its centre and two directions. Both must be unit vectors at a right angle within
 /// axis_tolerance; what rounding left is then removed by scaling both and rotating each by half of the angle
 /// they were off. Orthonormal input is used as it is, bit for bit. Throws UsageError, saying by how much the
 /// directions are off.
-Pose frame_from_axes(const Vec3& centre, const Vec3& anterior, const Vec3& superior);
+[[nodiscard]] Pose frame_from_axes(const Vec3& centre, const Vec3& anterior, const Vec3& superior);
 
 // The frames from landmarks throw UsageError if landmarks coincide or lie on one line. Points in mm.
 
@@ -63,14 +65,14 @@ Pose frame_from_axes(const Vec3& centre, const Vec3& anterior, const Vec3& super
 struct PelvisLandmarks {
   Vec3 right_asis, left_asis, right_psis, left_psis;
 };
-Pose frame_from_landmarks(const Vec3& centre, const PelvisLandmarks& landmarks);
+[[nodiscard]] Pose frame_from_landmarks(const Vec3& centre, const PelvisLandmarks& landmarks);
 
 /// Anterior pelvic plane, as used for planning cups: Y and Z in the plane of both ASIS and the pubic
 /// symphysis, Z parallel to the line from the left to the right ASIS, Y upwards, X forwards.
 struct AnteriorPelvicPlane {
   Vec3 right_asis, left_asis, pubic_symphysis;
 };
-Pose frame_from_landmarks(const Vec3& centre, const AnteriorPelvicPlane& landmarks);
+[[nodiscard]] Pose frame_from_landmarks(const Vec3& centre, const AnteriorPelvicPlane& landmarks);
 
 /// Femoral frame of the same recommendation: Y from the midpoint of the epicondyles to the hip centre, Z at a
 /// right angle to it in the plane of all three points, to the right, X forwards. The origin is the hip
@@ -78,14 +80,14 @@ Pose frame_from_landmarks(const Vec3& centre, const AnteriorPelvicPlane& landmar
 struct FemurLandmarks {
   Vec3 medial_epicondyle, lateral_epicondyle;
 };
-Pose frame_from_landmarks(const Vec3& hip_centre, Side side, const FemurLandmarks& landmarks);
+[[nodiscard]] Pose frame_from_landmarks(const Vec3& hip_centre, Side side, const FemurLandmarks& landmarks);
 
 /// A hinge at the knee: Z along the epicondyles to the right, origin at their midpoint, Y at a right angle to
 /// Z in their plane with the hip centre, upwards, X forwards.
 struct TransepicondylarAxis {
   Vec3 medial_epicondyle, lateral_epicondyle, hip_centre;
 };
-Pose frame_from_landmarks(Side side, const TransepicondylarAxis& landmarks);
+[[nodiscard]] Pose frame_from_landmarks(Side side, const TransepicondylarAxis& landmarks);
 
 /// The axes of a joint frame as unit vectors in W: orthonormal within axis_tolerance or refused.
 struct FrameDirections {
@@ -142,7 +144,7 @@ struct JointDescription {
   /// Parts with a pose of their own: they move the bodies once these are placed.
   std::vector<DescribedPart> parts = {};
 
-  CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
+  [[nodiscard]] CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
 };
 
 /// Report of how a mesh was placed in the joint.
@@ -184,6 +186,6 @@ struct PlacedJoint {
 /// ("frame", "frame.centre", "units") or the name of the body.
 ///
 /// Linear in the meshes, but for a fit, which searches the surface.
-PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mobile);
+[[nodiscard]] PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mobile);
 
 }  // namespace condyle

@@ -16,7 +16,7 @@ enum class LengthUnit : std::uint8_t { millimetres, centimetres, inches, metres 
 inline constexpr LengthUnit all_length_units[] = {LengthUnit::millimetres, LengthUnit::centimetres,
                                                   LengthUnit::inches, LengthUnit::metres};
 
-constexpr double mm_per(LengthUnit unit) noexcept {
+[[nodiscard]] constexpr double mm_per(LengthUnit unit) noexcept {
   return unit == LengthUnit::metres        ? 1000
          : unit == LengthUnit::inches      ? 25.4
          : unit == LengthUnit::centimetres ? 10
@@ -24,20 +24,20 @@ constexpr double mm_per(LengthUnit unit) noexcept {
 }
 
 /// As in files: "cm".
-std::string_view name_of(LengthUnit unit) noexcept;
+[[nodiscard]] std::string_view name_of(LengthUnit unit) noexcept;
 /// In a sentence: "centimetres".
-std::string_view plural_of(LengthUnit unit) noexcept;
+[[nodiscard]] std::string_view plural_of(LengthUnit unit) noexcept;
 /// Throws UsageError that lists the valid words.
-LengthUnit length_unit_named(std::string_view word);
+[[nodiscard]] LengthUnit length_unit_named(std::string_view word);
 
 class Mesh;
 namespace mesh {
 class EdgeTable;
 class VertexTriangles;
 class Findings;
-const EdgeTable& edges_of(const Mesh& mesh);
-const VertexTriangles& triangles_at_vertices_of(const Mesh& mesh);
-Findings& findings_of(const Mesh& mesh);
+[[nodiscard]] const EdgeTable& edges_of(const Mesh& mesh);
+[[nodiscard]] const VertexTriangles& triangles_at_vertices_of(const Mesh& mesh);
+[[nodiscard]] Findings& findings_of(const Mesh& mesh);
 }  // namespace mesh
 
 /// Three vertex numbers, counter-clockwise seen from outside the solid.
@@ -49,13 +49,15 @@ struct TriMesh {
   Points vertices;
   std::vector<Triangle> triangles;
 
-  Vec3 corner(std::size_t triangle, int k) const noexcept { return vertices[triangles[triangle][k]]; }
+  [[nodiscard]] Vec3 corner(std::size_t triangle, int k) const noexcept {
+    return vertices[triangles[triangle][k]];
+  }
 
   friend bool operator==(const TriMesh&, const TriMesh&) = default;
 };
 
 /// The mesh with its vertices moved; same triangles.
-inline TriMesh posed(const Pose& X, const TriMesh& mesh) {
+[[nodiscard]] inline TriMesh posed(const Pose& X, const TriMesh& mesh) {
   return {posed(X, mesh.vertices.view()), mesh.triangles};
 }
 
@@ -76,21 +78,23 @@ class Mesh {
   /// closed mesh.
   Mesh(TriMesh arrays);
 
-  const TriMesh& arrays() const noexcept;
-  const Points& vertices() const noexcept { return arrays().vertices; }
-  const std::vector<Triangle>& triangles() const noexcept { return arrays().triangles; }
-  Vec3 corner(std::size_t triangle, int k) const noexcept { return arrays().corner(triangle, k); }
+  [[nodiscard]] const TriMesh& arrays() const noexcept;
+  [[nodiscard]] const Points& vertices() const noexcept { return arrays().vertices; }
+  [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return arrays().triangles; }
+  [[nodiscard]] Vec3 corner(std::size_t triangle, int k) const noexcept {
+    return arrays().corner(triangle, k);
+  }
 
   /// Whether every edge is used as often in one direction as in the other: then the surface has an inside, in the
   /// sense of the winding number. Neither manifoldness nor freedom from self-intersections is required.
-  bool is_closed() const noexcept { return !unbalanced_edge().has_value(); }
+  [[nodiscard]] bool is_closed() const noexcept { return !unbalanced_edge().has_value(); }
   /// The first directed edge, in the order of triangles, that is used more often than its opposite.
-  const std::optional<DirectedEdge>& unbalanced_edge() const noexcept;
+  [[nodiscard]] const std::optional<DirectedEdge>& unbalanced_edge() const noexcept;
 
   /// The same triangles with other vertex positions. What depends on the triangles alone is shared and not computed again:
   /// whether the mesh is closed, its edges, the triangles at each vertex. Raises MeshError if the number of vertices differs,
   /// and as the constructor does.
-  Mesh moved_to(Points vertices) const;
+  [[nodiscard]] Mesh moved_to(Points vertices) const;
 
   operator const TriMesh&() const noexcept { return arrays(); }
 

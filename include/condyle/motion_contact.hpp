@@ -46,7 +46,7 @@ struct FrameContact {
 /// One entry per pose, empty for gaps; frames in parallel, with the same answers on any number of threads. The outer
 /// optional is empty if the work was stopped before its end. Raises what ElasticContact::at() raises, with the
 /// frame's number before the message.
-std::optional<std::vector<std::optional<FrameContact>>> contact_along(
+[[nodiscard]] std::optional<std::vector<std::optional<FrameContact>>> contact_along(
     const contact::JointContact& joint, const SurfaceQuestion& surfaces,
     std::span<const std::optional<Pose>> X_FM, BodyRole casting = BodyRole::mobile,
     const Control& control = {});
@@ -55,7 +55,7 @@ std::optional<std::vector<std::optional<FrameContact>>> contact_along(
 /// translation as the last frame that carries its load has moved its own, and on as that changed between two balanced frames
 /// next to each other. One load for all frames, or one for each. Frames that do not carry it say so in their outcome and hand
 /// nothing on; gaps stay gaps. Not parallel.
-std::optional<std::vector<std::optional<contact::BalancedPose>>> balance_along(
+[[nodiscard]] std::optional<std::vector<std::optional<contact::BalancedPose>>> balance_along(
     const contact::ElasticContact& surfaces, std::span<const std::optional<Pose>> X_FM,
     std::span<const contact::Load> loads, const contact::BalanceOptions& balance = {},
     const Control& control = {});
@@ -83,7 +83,7 @@ enum class ContactNoteCode : std::uint8_t {
 };
 
 /// As in files: "unlikely_modulus".
-std::string_view name_of(ContactNoteCode code) noexcept;
+[[nodiscard]] std::string_view name_of(ContactNoteCode code) noexcept;
 
 struct ContactNote {
   ContactNoteCode code;
@@ -99,36 +99,38 @@ struct BodyNames {
 };
 
 /// Looks at moduli, Poisson's ratios, thicknesses, and whether a layer's mesh is rather a bone. Changes nothing.
-std::vector<ContactNote> check_layers(const Mesh& fixed, const Mesh& mobile,
-                                      const contact::ElasticContactOptions& options,
-                                      const BodyNames& names = {});
-std::vector<ContactNote> check_layers(const contact::ElasticContact& contact, const BodyNames& names = {});
+[[nodiscard]] std::vector<ContactNote> check_layers(const Mesh& fixed, const Mesh& mobile,
+                                                    const contact::ElasticContactOptions& options,
+                                                    const BodyNames& names = {});
+[[nodiscard]] std::vector<ContactNote> check_layers(const contact::ElasticContact& contact,
+                                                    const BodyNames& names = {});
 
 /// Looks at the force that is to be balanced.
-std::vector<ContactNote> check_load(const contact::Load& load);
+[[nodiscard]] std::vector<ContactNote> check_load(const contact::Load& load);
 
 /// Looks at what one pose shows: force, strain of the layers, and what the largest values come from. Without layers the last only.
-std::vector<ContactNote> check_contact(const contact::ElasticContactResults& results,
-                                       const BodyNames& names = {});
+[[nodiscard]] std::vector<ContactNote> check_contact(const contact::ElasticContactResults& results,
+                                                     const BodyNames& names = {});
 
 /// Looks at the force and the strain of the layers in what a simulator integrates.
-std::vector<ContactNote> check_contact(const contact::ContactForces& forces);
+[[nodiscard]] std::vector<ContactNote> check_contact(const contact::ContactForces& forces);
 
 /// Checks the frames of a motion, one note for all: strain, force, the source of the peaks, and the distance of the
 /// bodies in most frames that have an answer.
-std::vector<ContactNote> check_motion(std::span<const std::optional<FrameContact>> frames,
-                                      const BodyNames& names = {});
+[[nodiscard]] std::vector<ContactNote> check_motion(std::span<const std::optional<FrameContact>> frames,
+                                                    const BodyNames& names = {});
 
 /// Looks at the largest size of a recorded coordinate: an angle in degrees or a length in mm.
 enum class RecordedKind : std::uint8_t { angle_deg, length_mm };
-std::optional<ContactNote> check_recorded(std::string_view coordinate, RecordedKind kind, double largest);
+[[nodiscard]] std::optional<ContactNote> check_recorded(std::string_view coordinate, RecordedKind kind,
+                                                        double largest);
 
 /// Looks at all angles that a file's header says to be in degrees, each a column in degrees: the values of a motion in radians do
 /// not reach 180 degrees, and no column moves by more than that.
-std::optional<ContactNote> check_degrees(std::span<const std::vector<double>> columns);
+[[nodiscard]] std::optional<ContactNote> check_degrees(std::span<const std::vector<double>> columns);
 
 /// Looks at the times of all frames, in seconds and ascending.
-std::optional<ContactNote> check_times(std::span<const double> seconds);
+[[nodiscard]] std::optional<ContactNote> check_times(std::span<const double> seconds);
 
 /// How contact was searched for between two neighbouring samples.
 enum class BetweenSamples : std::uint8_t {
@@ -202,11 +204,14 @@ struct RecordedContactOptions {
 /// times that are not finite or do not ascend, poses that are not rotations to 1e-9 with a finite translation,
 /// neighbours more than 179 degrees apart (the sense of rotation is not known), or a resolution that is not above 0;
 /// the first bad sample is named, counted from 0.
-RecordedContact contact_between(const contact::JointContact& bodies, std::span<const double> time_s,
-                                std::span<const Pose> X_FM, const RecordedContactOptions& options = {});
+[[nodiscard]] RecordedContact contact_between(const contact::JointContact& bodies,
+                                              std::span<const double> time_s, std::span<const Pose> X_FM,
+                                              const RecordedContactOptions& options = {});
 /// The same; empty if it was stopped before all ways were done.
-std::optional<RecordedContact> contact_between(const contact::JointContact& bodies,
-                                               std::span<const double> time_s, std::span<const Pose> X_FM,
-                                               const RecordedContactOptions& options, const Control& control);
+[[nodiscard]] std::optional<RecordedContact> contact_between(const contact::JointContact& bodies,
+                                                             std::span<const double> time_s,
+                                                             std::span<const Pose> X_FM,
+                                                             const RecordedContactOptions& options,
+                                                             const Control& control);
 
 }  // namespace condyle::motion

@@ -19,10 +19,12 @@ struct GridAxis {
   double first_deg = 0, last_deg = 0, step_deg = 1;
 
   /// Values on the axis; the last one counts if it is a whole number of steps away to a millionth of one.
-  std::size_t count() const;
+  [[nodiscard]] std::size_t count() const;
   /// Whether the last one is none of the values.
-  bool ends_early() const;
-  double value_deg(std::size_t i) const noexcept { return first_deg + static_cast<double>(i) * step_deg; }
+  [[nodiscard]] bool ends_early() const;
+  [[nodiscard]] double value_deg(std::size_t i) const noexcept {
+    return first_deg + static_cast<double>(i) * step_deg;
+  }
 };
 
 /// Past this many points a map is refused: at a millisecond each it would run for hours, at some 350 bytes
@@ -43,9 +45,9 @@ struct MapGrid {
   Angle start = {};                                                   ///< of the varied angle
   RotationRange range = {Angle::degrees(-180), Angle::degrees(180)};  ///< from the start, in either direction
 
-  std::size_t size() const { return row.count() * column.count(); }
+  [[nodiscard]] std::size_t size() const { return row.count() * column.count(); }
   /// The joint's angles at the start of a point's rotations.
-  JointAngles start_of(std::size_t point) const;
+  [[nodiscard]] JointAngles start_of(std::size_t point) const;
 };
 
 /// Throws UsageError for three angles that are not all different, steps that are not above 0, axes that end before
@@ -61,14 +63,15 @@ struct MotionMap {
   Anatomy anatomy = Anatomy::hip;  ///< of the joint
 
   /// Work counters of all searches together.
-  SearchWork work() const noexcept;
+  [[nodiscard]] SearchWork work() const noexcept;
 };
 
 /// Computes all points, on all threads. Each point's answer is that of RangeOfMotion: the same bits whatever
 /// the threads. Throws as check_grid().
-MotionMap motion_map(const MapGrid& grid, const RangeOfMotion& joint);
+[[nodiscard]] MotionMap motion_map(const MapGrid& grid, const RangeOfMotion& joint);
 /// The same; empty if it was stopped before all points were computed.
-std::optional<MotionMap> motion_map(const MapGrid& grid, const RangeOfMotion& joint, const Control& control);
+[[nodiscard]] std::optional<MotionMap> motion_map(const MapGrid& grid, const RangeOfMotion& joint,
+                                                  const Control& control);
 
 /// How much of the space of joint angles is free, all intervals of every point together, by the trapezoidal rule over the grid: the error of the
 /// volume goes with the square of the step where limits change smoothly.
@@ -87,6 +90,6 @@ struct FreeVolume {
 };
 
 /// A grid with one row has no volume, with one column no areas: zeros.
-FreeVolume free_volume(const MotionMap& map);
+[[nodiscard]] FreeVolume free_volume(const MotionMap& map);
 
 }  // namespace condyle::motion

@@ -50,8 +50,8 @@ struct FaceContact {
   double load_n = 0;                ///< integral of the pressure
   Vec3 load_moment = Vec3::Zero();  ///< integral of pressure times place, N mm
 
-  double mean_depth_mm() const noexcept { return overlap_mm3 / area_mm2; }
-  double mean_pressure_mpa() const noexcept { return load_n / area_mm2; }
+  [[nodiscard]] double mean_depth_mm() const noexcept { return overlap_mm3 / area_mm2; }
+  [[nodiscard]] double mean_pressure_mpa() const noexcept { return load_n / area_mm2; }
 };
 
 /// Sums over the faces in contact, in the frame of the casting body.
@@ -90,7 +90,7 @@ struct SurfaceContact {
 };
 
 /// Sums over some of the faces in contact: a compartment, say.
-ContactTotals totals_of(std::span<const FaceContact> faces, const Mesh& casting, FaceRule rule);
+[[nodiscard]] ContactTotals totals_of(std::span<const FaceContact> faces, const Mesh& casting, FaceRule rule);
 
 /// The points p with normal.p > offset_mm, in the frame of the casting body.
 struct HalfSpace {
@@ -98,8 +98,8 @@ struct HalfSpace {
   double offset_mm = 0;
 };
 /// The faces whose centre is in all of the half-spaces.
-std::vector<FaceContact> faces_within(std::span<const FaceContact> faces, const Mesh& casting,
-                                      std::span<const HalfSpace> region);
+[[nodiscard]] std::vector<FaceContact> faces_within(std::span<const FaceContact> faces, const Mesh& casting,
+                                                    std::span<const HalfSpace> region);
 
 /// Two surfaces made ready for rays from one to the other, in any pose. Both meshes may be open. Any number of threads
 /// may ask.
@@ -122,16 +122,16 @@ class NormalDepth {
 
   /// X_CT is the pose of the target in the casting body: X_FM with the fixed body casting, its inverse with the mobile one.
   /// UsageError if it is not finite or translates beyond 1e30 mm. Some 0.1 microseconds a ray.
-  SurfaceContact at(const Pose& X_CT) const;
+  [[nodiscard]] SurfaceContact at(const Pose& X_CT) const;
   void at(const Pose& X_CT, SurfaceContact& out) const;
 
   /// Rays of this pose that meet the target's inner side only beyond the reach, up to twice of it, and have a depth there: contact
   /// that the reach cuts off.
-  std::size_t cut_off_by_reach(const Pose& X_CT) const;
+  [[nodiscard]] std::size_t cut_off_by_reach(const Pose& X_CT) const;
 
-  const Mesh& casting() const noexcept;
-  const Mesh& target() const noexcept;
-  const NormalDepthOptions& options() const noexcept;
+  [[nodiscard]] const Mesh& casting() const noexcept;
+  [[nodiscard]] const Mesh& target() const noexcept;
+  [[nodiscard]] const NormalDepthOptions& options() const noexcept;
 
  private:
   std::unique_ptr<OverlapSampler> sampler_;
@@ -139,6 +139,6 @@ class NormalDepth {
 
 /// For each vertex of a layer's surface, the distance along its negative normal to a surface behind it: the thickness
 /// of a cartilage on its bone, mm. NaN if nothing lies within the reach.
-std::vector<double> thickness_to(const Mesh& layer, const Mesh& behind, double reach_mm = 20);
+[[nodiscard]] std::vector<double> thickness_to(const Mesh& layer, const Mesh& behind, double reach_mm = 20);
 
 }  // namespace condyle::contact

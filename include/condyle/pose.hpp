@@ -23,12 +23,12 @@ inline constexpr Index no_index = 0xffffffffu;
 struct PointsView {
   std::span<const double> x, y, z;
 
-  std::size_t size() const noexcept { return x.size(); }
-  Vec3 operator[](std::size_t i) const noexcept {
+  [[nodiscard]] std::size_t size() const noexcept { return x.size(); }
+  [[nodiscard]] Vec3 operator[](std::size_t i) const noexcept {
     assert(i < size());
     return {x[i], y[i], z[i]};
   }
-  PointsView subspan(std::size_t first, std::size_t count) const noexcept {
+  [[nodiscard]] PointsView subspan(std::size_t first, std::size_t count) const noexcept {
     return {x.subspan(first, count), y.subspan(first, count), z.subspan(first, count)};
   }
 };
@@ -40,8 +40,8 @@ struct Points {
   Points() = default;
   explicit Points(std::size_t count) : x(count), y(count), z(count) {}
 
-  std::size_t size() const noexcept { return x.size(); }
-  Vec3 operator[](std::size_t i) const noexcept {
+  [[nodiscard]] std::size_t size() const noexcept { return x.size(); }
+  [[nodiscard]] Vec3 operator[](std::size_t i) const noexcept {
     assert(i < size());
     return {x[i], y[i], z[i]};
   }
@@ -51,7 +51,7 @@ struct Points {
   }
   void push_back(const Vec3& p) { x.push_back(p.x()), y.push_back(p.y()), z.push_back(p.z()); }
   void reserve(std::size_t count) { x.reserve(count), y.reserve(count), z.reserve(count); }
-  PointsView view() const noexcept { return {x, y, z}; }
+  [[nodiscard]] PointsView view() const noexcept { return {x, y, z}; }
   operator PointsView() const noexcept { return view(); }
 
   friend bool operator==(const Points&, const Points&) = default;
@@ -66,7 +66,7 @@ using Pose = Eigen::Isometry3d;
 
 /// One point moved by a pose, its products and sums rounded in one fixed order, so that the same input
 /// gives the same bits on every instruction set.
-inline Vec3 posed(const Pose& X, const Vec3& p) noexcept {
+[[nodiscard]] inline Vec3 posed(const Pose& X, const Vec3& p) noexcept {
   const auto& m = X.matrix();
   const auto row = [&](int i) { return ((m(i, 0) * p.x() + m(i, 1) * p.y()) + m(i, 2) * p.z()) + m(i, 3); };
   return {row(0), row(1), row(2)};
@@ -74,7 +74,7 @@ inline Vec3 posed(const Pose& X, const Vec3& p) noexcept {
 
 /// The inverse pose, its sums in one fixed order too. The last coordinate's order differs from the others' as Eigen's
 /// does when it vectorises: stored results keep their bits.
-inline Pose inverted(const Pose& X) noexcept {
+[[nodiscard]] inline Pose inverted(const Pose& X) noexcept {
   const auto& m = X.matrix();
   Pose out = Pose::Identity();
   for (int i = 0; i < 3; ++i) {
@@ -87,7 +87,7 @@ inline Pose inverted(const Pose& X) noexcept {
 
 /// Many points moved by a pose; out may hold any size before.
 void posed(const Pose& X, PointsView points, Points& out);
-Points posed(const Pose& X, PointsView points);
+[[nodiscard]] Points posed(const Pose& X, PointsView points);
 
 struct TriMesh;
 
@@ -105,20 +105,20 @@ class AxisFrame {
   /// 1e30 mm.
   AxisFrame(const Vec3& point, const Vec3& direction);
 
-  const Vec3& point() const noexcept { return point_; }
+  [[nodiscard]] const Vec3& point() const noexcept { return point_; }
   /// Unit length.
-  Vec3 direction() const noexcept { return rotation_.row(2).transpose(); }
+  [[nodiscard]] Vec3 direction() const noexcept { return rotation_.row(2).transpose(); }
 
   /// Rows: the frame's x, y and z.
-  const Eigen::Matrix3d& rotation() const noexcept { return rotation_; }
+  [[nodiscard]] const Eigen::Matrix3d& rotation() const noexcept { return rotation_; }
 
   /// From mesh coordinates to the frame's, and back; millimetres.
-  Vec3 to_axis(const Vec3& p) const noexcept {
+  [[nodiscard]] Vec3 to_axis(const Vec3& p) const noexcept {
     const double x = p.x() - point_.x(), y = p.y() - point_.y(), z = p.z() - point_.z();
     const auto row = [&](int i) { return (rotation_(i, 0) * x + rotation_(i, 1) * y) + rotation_(i, 2) * z; };
     return {row(0), row(1), row(2)};
   }
-  Vec3 from_axis(const Vec3& p) const noexcept { return rotation_.transpose() * p + point_; }
+  [[nodiscard]] Vec3 from_axis(const Vec3& p) const noexcept { return rotation_.transpose() * p + point_; }
 
  private:
   Vec3 point_;

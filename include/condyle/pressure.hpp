@@ -38,7 +38,7 @@ struct ElasticLayer {
   std::optional<std::array<double, 2>> thickness_bounds_mm = {};
 
   /// Modulus of a layer that cannot spread sideways, MPa.
-  double confined_modulus_mpa() const noexcept {
+  [[nodiscard]] double confined_modulus_mpa() const noexcept {
     return (1 - poisson_ratio) * youngs_modulus_mpa / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio));
   }
 };
@@ -160,7 +160,7 @@ struct ContactForces {
   std::vector<ForcePatch> patches;
   std::vector<Index> patch_faces;
 
-  std::span<const Index> faces_of(const ForcePatch& patch) const noexcept {
+  [[nodiscard]] std::span<const Index> faces_of(const ForcePatch& patch) const noexcept {
     return {patch_faces.data() + patch.first_face, patch.faces};
   }
 };
@@ -182,31 +182,31 @@ class ElasticContact {
   void update(BodyRole body, std::span<const Index> moved, PointsView positions);
 
   /// MeshError with the logarithmic law if the overlap reaches the thickness, naming the triangle.
-  ElasticContactResults at(const Pose& X_FM) const;
+  [[nodiscard]] ElasticContactResults at(const Pose& X_FM) const;
 
   /// What a simulator integrates: forces, stiffness, friction, damping (ContactForces). UsageError if an option is
   /// outside its domain; MeshError as at(). The second keeps the memory of an earlier result.
   ///
   ///     const ContactForces now = knee.forces(X_FM, {.vertex_forces = true, .stiffness = true});
-  ContactForces forces(const Pose& X_FM, const ForceOptions& options = {}) const;
+  [[nodiscard]] ContactForces forces(const Pose& X_FM, const ForceOptions& options = {}) const;
   void forces(const Pose& X_FM, const ForceOptions& options, ContactForces& out) const;
 
   /// The force on the mobile body, in F, with the depth evaluated at 16 points of each face in contact: it shows the
   /// effect of mesh edges on `at(X_FM).on_mobile`, whose depths are linear from corner to corner. Sixteen times the
   /// rays. Empty with the rule face_centre, whose depths have no such effect, and if the logarithmic law has no
   /// answer at one of these points.
-  std::optional<Vec3> refined_force_n(const Pose& X_FM) const;
+  [[nodiscard]] std::optional<Vec3> refined_force_n(const Pose& X_FM) const;
 
   /// Rays of this pose that a longer reach would find in contact: NormalDepth::cut_off_by_reach().
-  std::size_t cut_off_by_reach(const Pose& X_FM) const;
+  [[nodiscard]] std::size_t cut_off_by_reach(const Pose& X_FM) const;
 
-  const Mesh& fixed() const noexcept;
-  const Mesh& mobile() const noexcept;
-  const ElasticContactOptions& options() const noexcept;
+  [[nodiscard]] const Mesh& fixed() const noexcept;
+  [[nodiscard]] const Mesh& mobile() const noexcept;
+  [[nodiscard]] const ElasticContactOptions& options() const noexcept;
 
   /// Internal data of balance(); not for use outside the library.
   struct Parts;
-  const Parts& parts() const noexcept { return *parts_; }
+  [[nodiscard]] const Parts& parts() const noexcept { return *parts_; }
 
  private:
   std::unique_ptr<Parts> parts_;
@@ -218,13 +218,13 @@ class ContactRamp {
   /// UsageError if the duration is not above 0; MeshError as ElasticContact::at().
   ContactRamp(const ElasticContact& contact, const Pose& start, double duration_s);
 
-  bool has_overlap() const noexcept { return max_depth_mm_ > 0; }
-  double max_depth_mm() const noexcept { return max_depth_mm_; }  ///< at the start
-  double energy_nmm() const noexcept { return energy_nmm_; }      ///< at the start
-  double duration_s() const noexcept { return duration_s_; }
+  [[nodiscard]] bool has_overlap() const noexcept { return max_depth_mm_ > 0; }
+  [[nodiscard]] double max_depth_mm() const noexcept { return max_depth_mm_; }  ///< at the start
+  [[nodiscard]] double energy_nmm() const noexcept { return energy_nmm_; }      ///< at the start
+  [[nodiscard]] double duration_s() const noexcept { return duration_s_; }
   /// 3 s^2 - 2 s^3 at the share s of the duration: 0 before it, 1 after it, and its rate is 0 at both ends. 1 throughout if
   /// nothing overlaps at the start.
-  double factor_at(double time_s) const noexcept;
+  [[nodiscard]] double factor_at(double time_s) const noexcept;
 
  private:
   double duration_s_, max_depth_mm_ = 0, energy_nmm_ = 0;
@@ -260,7 +260,7 @@ struct BalanceOptions {
 };
 
 /// Whether nothing of a load acts along what the balance leaves free: no pose is the one that carries it.
-bool is_zero_along(const Load& load, const Pose& X_FM, const BalanceOptions& options);
+[[nodiscard]] bool is_zero_along(const Load& load, const Pose& X_FM, const BalanceOptions& options);
 
 enum class BalanceOutcome {
   balanced,
@@ -273,7 +273,7 @@ enum class BalanceOutcome {
 };
 
 /// "balanced", "at_jump", "pulled_apart", "over_the_rim", "too_large", "unstable", "free_direction".
-std::string_view name_of(BalanceOutcome outcome) noexcept;
+[[nodiscard]] std::string_view name_of(BalanceOutcome outcome) noexcept;
 
 struct BalancedPose {
   BalanceOutcome outcome;
@@ -287,11 +287,11 @@ struct BalancedPose {
 
   /// The contact carries the load at X_FM: balanced, unstable, or at a jump up to the residual. Else X_FM is only where the
   /// search ended.
-  bool carries_load() const noexcept;
+  [[nodiscard]] bool carries_load() const noexcept;
 };
 
 /// One line that says why there is no balance, or what is wrong with it; empty if nothing is.
-std::string reason_of(const BalancedPose& pose);
+[[nodiscard]] std::string reason_of(const BalancedPose& pose);
 
 /// From a start nearby, with its rotation held unless rotations are free: Newton's method on the load of the contact, of each
 /// step as much as leaves less of the load and stores no more energy than the load gives. A start without contact is moved along the load to
@@ -302,8 +302,8 @@ std::string reason_of(const BalancedPose& pose);
 ///
 /// UsageError if a share is not from 0 to 1, the load is zero or not finite along what is free, or directions depend on each other. Some ten times
 /// the cost of a pose.
-BalancedPose balance(const ElasticContact& contact, const Pose& start, const Load& load,
-                     const BalanceOptions& options = {});
+[[nodiscard]] BalancedPose balance(const ElasticContact& contact, const Pose& start, const Load& load,
+                                   const BalanceOptions& options = {});
 
 // Depths along normals of both bodies in one pose.
 
@@ -322,7 +322,8 @@ struct NormalContact {
 
 /// Both meshes may be open. For one pose: rays are prepared at each call, and a NormalDepth keeps them for many.
 /// UsageError if the reach is not above 0.
-NormalContact normal_contact(const JointContact& joint, const Pose& X_FM, Casting casting = Casting::both,
-                             const NormalDepthOptions& rays = {});
+[[nodiscard]] NormalContact normal_contact(const JointContact& joint, const Pose& X_FM,
+                                           Casting casting = Casting::both,
+                                           const NormalDepthOptions& rays = {});
 
 }  // namespace condyle::contact

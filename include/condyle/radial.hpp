@@ -51,7 +51,7 @@ struct RadialResults {
   /// Between the ray and the normal of that triangle, 0 to a right angle; 0 if there is no triangle.
   std::vector<Angle> ray_to_normal;
 
-  std::size_t size() const noexcept { return state.size(); }
+  [[nodiscard]] std::size_t size() const noexcept { return state.size(); }
   void resize(std::size_t count);
   friend bool operator==(const RadialResults&, const RadialResults&) = default;
 };
@@ -75,7 +75,7 @@ struct Penetrations {
   /// RadialTable::add_ray_to_normal, empty until then: an arctangent costs more than all else of a point.
   std::vector<Angle> ray_to_normal;
 
-  std::size_t size() const noexcept { return point.size(); }
+  [[nodiscard]] std::size_t size() const noexcept { return point.size(); }
   void clear();
   /// All but ray_to_normal.
   void resize(std::size_t count);
@@ -107,10 +107,10 @@ class SortedPoints {
   /// are few.
   void update(PointsView points, std::span<const char> is_moved);
 
-  std::size_t size() const noexcept;
+  [[nodiscard]] std::size_t size() const noexcept;
 
   /// For the library's own use.
-  const PointBlocks& blocks() const noexcept { return *blocks_; }
+  [[nodiscard]] const PointBlocks& blocks() const noexcept { return *blocks_; }
 
  private:
   std::shared_ptr<PointBlocks> blocks_;
@@ -175,11 +175,11 @@ class RadialTable {
   /// cell's list, sixteen triangles at a time, and the few of them that its ray comes near. On all threads of the
   /// calling oneTBB arena.
   void query(PointsView points, RadialResults& out) const;
-  RadialResults query(PointsView points) const;
+  [[nodiscard]] RadialResults query(PointsView points) const;
 
   /// Only the radial_gap_mm of query(), one number for each point, sooner: for colours and curves. The same errors;
   /// the angle between ray and normal costs an arctangent each.
-  std::vector<double> radial_gaps(PointsView points) const;
+  [[nodiscard]] std::vector<double> radial_gaps(PointsView points) const;
 
   /// Every point that is not outside at a pose X_FM, with what query() says of it, byte for byte: points posed
   /// and rounded once (condyle/pose.hpp), signs exact, on every instruction set alike. All other points are
@@ -206,12 +206,12 @@ class RadialTable {
   void prepare_penetrations() const;
 
   /// As it is now, after all updates.
-  const TriMesh& mesh() const noexcept;
-  bool is_closed() const noexcept;
+  [[nodiscard]] const TriMesh& mesh() const noexcept;
+  [[nodiscard]] bool is_closed() const noexcept;
   /// Winding number of the centre; empty for an open mesh.
-  std::optional<int> winding_at_centre() const noexcept;
+  [[nodiscard]] std::optional<int> winding_at_centre() const noexcept;
   /// Size of the parts built so far.
-  RadialTableSize table_size() const noexcept;
+  [[nodiscard]] RadialTableSize table_size() const noexcept;
 
  private:
   std::unique_ptr<DirectionTable> table_;

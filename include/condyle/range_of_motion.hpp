@@ -80,7 +80,7 @@ struct Motion {
 ///
 /// The two tests are bedside manoeuvres without agreed angles: these are this library's definitions, written
 /// here so that they can be cited and, under the same names, replaced.
-std::vector<Motion> hip_motions();
+[[nodiscard]] std::vector<Motion> hip_motions();
 
 /// The built-in motions of a joint that is no hinge: hip_motions(), and for other joints each of its angles in both
 /// senses (an angle without known range turns by 90 or 120 degrees at most), rotation again _at_90_flexion if it
@@ -99,14 +99,14 @@ std::vector<Motion> hip_motions();
 ///
 /// A hinge has the two of its first angle, 0 to 180 degrees each. Normal ranges are known here of hips only: those that are
 /// published of shoulders are of the arm against the trunk, to which the scapula adds.
-std::vector<Motion> built_in_motions(JointKind kind, Anatomy joint);
+[[nodiscard]] std::vector<Motion> built_in_motions(JointKind kind, Anatomy joint);
 
 /// Built-in motions with the user's: one of a known name replaces it in its place, others follow in order.
-std::vector<Motion> with_own_motions(std::vector<Motion> built_in, std::span<const Motion> own);
+[[nodiscard]] std::vector<Motion> with_own_motions(std::vector<Motion> built_in, std::span<const Motion> own);
 
 /// The motion of that name; where none has it as written, the first that has it in any case, with blanks or hyphens for
 /// underscores. Throws UsageError that lists the valid names.
-const Motion& motion_named(std::span<const Motion> motions, std::string_view name);
+[[nodiscard]] const Motion& motion_named(std::span<const Motion> motions, std::string_view name);
 
 /// Throws UsageError if this kind of joint has no such motion: a range that is not above 0 and at
 /// most a full turn, an angle that is not finite, or a hinge turned or held in another angle than flexion.
@@ -119,7 +119,7 @@ struct FreeInterval {
   /// interval's middle. Either ends by contact or at the end of the range.
   Limit at_low, at_high;
 
-  bool holds_start() const noexcept { return low <= Angle() && high >= Angle(); }
+  [[nodiscard]] bool holds_start() const noexcept { return low <= Angle() && high >= Angle(); }
 };
 
 /// All angles of one joint angle that are free.
@@ -128,7 +128,7 @@ struct FreeAngles {
   std::vector<FreeInterval> intervals;  ///< ascending
 
   /// The one that holds the start, else the nearest to it, the lower of two as near; null if nothing is free.
-  const FreeInterval* nearest_to_start() const noexcept;
+  [[nodiscard]] const FreeInterval* nearest_to_start() const noexcept;
 };
 
 /// How a head lies in its socket where a motion ends.
@@ -150,22 +150,22 @@ struct MotionLimit {
   /// The record or load of its translation ends at the limit, before the motion's range: the joint may turn farther.
   bool translation_ends = false;
 
-  JointAngles angles_at_limit() const noexcept;
+  [[nodiscard]] JointAngles angles_at_limit() const noexcept;
 };
 
 /// Side of the joint centre, seen along the joint's Z.
 enum class ContactSide : std::uint8_t { superior, anterior, inferior, posterior };
 
 /// As in files: "superior".
-std::string_view name_of(ContactSide side) noexcept;
+[[nodiscard]] std::string_view name_of(ContactSide side) noexcept;
 
 /// On which side of a shoulder's centre a motion ended in contact that is no bearing contact: superior, where the acromion is, anterior
 /// (coracoid process), inferior (lower rim and neck of the scapula: notching) or posterior; the nearest of the four. Empty for other
 /// joints, without a contact point, and for one that lies within 30 degrees of the joint's Z.
-std::optional<ContactSide> contact_side(const Joint& joint, const MotionLimit& limit) noexcept;
+[[nodiscard]] std::optional<ContactSide> contact_side(const Joint& joint, const MotionLimit& limit) noexcept;
 
 /// These angles with one of them changed by `by`.
-JointAngles turned_by(JointAngles from, JointAngle angle, Angle by) noexcept;
+[[nodiscard]] JointAngles turned_by(JointAngles from, JointAngle angle, Angle by) noexcept;
 
 struct RangeOptions {
   BearingOptions bearing = {};
@@ -208,27 +208,29 @@ class RangeOfMotion {
   RangeOfMotion& operator=(const RangeOfMotion&) = delete;
 
   /// Throws UsageError if check_motion() does.
-  MotionLimit limit(const Motion& motion) const;
+  [[nodiscard]] MotionLimit limit(const Motion& motion) const;
   /// The same for many, in their order, on all threads.
-  std::vector<MotionLimit> limits(std::span<const Motion> motions) const;
+  [[nodiscard]] std::vector<MotionLimit> limits(std::span<const Motion> motions) const;
 
   /// How far one angle changes from this start in either sense. The start must be finite, the range as RotationRange
   /// says, and on a hinge flexion is the only angle. May be called from any thread.
-  RotationLimits both_limits(JointAngle vary, const JointAngles& start, const RotationRange& range) const;
+  [[nodiscard]] RotationLimits both_limits(JointAngle vary, const JointAngles& start,
+                                           const RotationRange& range) const;
 
   /// All intervals of one angle that are free within the range: the one that holds the start, if the start is free,
   /// has the limits of both_limits(); others lie beyond contact. Intervals below 1e-9 rad are none. Some milliseconds
   /// if the fixed mesh is closed, else more. Throws UsageError for a range of more than half a turn in either sense.
   /// May be called from any thread.
-  FreeAngles free_angles(JointAngle vary, const JointAngles& start, const RotationRange& range) const;
+  [[nodiscard]] FreeAngles free_angles(JointAngle vary, const JointAngles& start,
+                                       const RotationRange& range) const;
 
-  JointKind kind() const noexcept;
-  CoordinateSystem coordinates() const noexcept;
+  [[nodiscard]] JointKind kind() const noexcept;
+  [[nodiscard]] CoordinateSystem coordinates() const noexcept;
   /// The bearing surface, or why there is none and everything counts.
-  const BearingFinding& bearing() const noexcept;
-  BearingRule bearing_rule() const noexcept;
+  [[nodiscard]] const BearingFinding& bearing() const noexcept;
+  [[nodiscard]] BearingRule bearing_rule() const noexcept;
   /// How much of each body the overlap options leave out.
-  const LeftOut& left_out() const noexcept;
+  [[nodiscard]] const LeftOut& left_out() const noexcept;
 
  private:
   struct Parts;
@@ -276,7 +278,8 @@ class PathFinder {
 
   /// Throws UsageError for fewer than two waypoints, angles that are not finite, segments of more than a full
   /// turn, other angles than flexion on a hinge, or a tolerance below 1e-6 degrees.
-  PathLimit limit(std::span<const JointAngles> waypoints, Angle tolerance = Angle::degrees(1e-3)) const;
+  [[nodiscard]] PathLimit limit(std::span<const JointAngles> waypoints,
+                                Angle tolerance = Angle::degrees(1e-3)) const;
 
  private:
   struct Parts;
@@ -319,13 +322,13 @@ class FollowedRange {
 
   /// Throws UsageError as check_motion(), for knots that do not begin at the start or do not ascend, and for a tolerance below 1e-6
   /// degrees. Empty if it was stopped. From any thread.
-  std::optional<FollowedLimit> limit(const Motion& motion, const NextKnot& next,
-                                     const std::stop_token& stop = {},
-                                     Angle tolerance = Angle::degrees(1e-3)) const;
+  [[nodiscard]] std::optional<FollowedLimit> limit(const Motion& motion, const NextKnot& next,
+                                                   const std::stop_token& stop = {},
+                                                   Angle tolerance = Angle::degrees(1e-3)) const;
 
   /// Basis of the classification of contacts.
-  const BearingFinding& bearing() const noexcept;
-  BearingRule bearing_rule() const noexcept;
+  [[nodiscard]] const BearingFinding& bearing() const noexcept;
+  [[nodiscard]] BearingRule bearing_rule() const noexcept;
 
  private:
   struct Parts;
@@ -375,13 +378,13 @@ class DepthRange {
   DepthRange(const DepthRange&) = delete;
   DepthRange& operator=(const DepthRange&) = delete;
 
-  DeepestPlace deepest(const JointAngles& at) const;
+  [[nodiscard]] DeepestPlace deepest(const JointAngles& at) const;
   /// `contact_at_start` if the depth at the start is too large already.
-  DepthLimit limit(const Motion& motion) const;
-  std::vector<DepthLimit> limits(std::span<const Motion> motions) const;
+  [[nodiscard]] DepthLimit limit(const Motion& motion) const;
+  [[nodiscard]] std::vector<DepthLimit> limits(std::span<const Motion> motions) const;
 
   /// The bearing surface that labels contacts: all of them count.
-  const BearingFinding& bearing() const noexcept;
+  [[nodiscard]] const BearingFinding& bearing() const noexcept;
 
  private:
   struct Parts;

@@ -24,7 +24,7 @@ struct ReachTarget {
 };
 
 /// For people: 120, where the angle in radians has 119.99999999999999.
-inline double asked_degrees(Angle angle) noexcept {
+[[nodiscard]] inline double asked_degrees(Angle angle) noexcept {
   return std::round(angle.degrees() * 1e9) / 1e9;
 }
 
@@ -37,7 +37,7 @@ enum class KeptBy : std::uint8_t {
 };
 
 /// As in files: "bearing".
-std::string_view name_of(KeptBy by) noexcept;
+[[nodiscard]] std::string_view name_of(KeptBy by) noexcept;
 
 /// Parts of a bone that must stay, beside its bearing surface.
 struct KeptBone {
@@ -117,14 +117,14 @@ struct Resection {
   /// On the way to a target the other bone sweeps over bearing surface of the mobile body, whose contact counts for nothing.
   bool sweeps_bearing = false;
 
-  double volume_mm3() const noexcept {
+  [[nodiscard]] double volume_mm3() const noexcept {
     return (mobile ? mobile->volume_mm3 : 0) + (fixed ? fixed->volume_mm3 : 0);
   }
 };
 
 /// The joint with another mesh in the mobile body's place, in its frame M: the same bone after something was done to it. Head, socket and
 /// margin stay those that the bearing surface of this joint has: a fit to a mesh with smaller triangles in places would move them.
-Joint with_mobile_mesh(const Joint& joint, Mesh mesh);
+[[nodiscard]] Joint with_mobile_mesh(const Joint& joint, Mesh mesh);
 
 /// Throws UsageError for a request without targets, two of one motion, reaches that are not within the motion's range, and values outside
 /// theirs.
@@ -135,8 +135,9 @@ void check_resection(const Joint& joint, const ResectionOptions& request);
 ///
 /// Throws UsageError as check_resection(), MeshError if a body is not closed or a cut surface would run through itself, and
 /// ReferenceContactError. A second or so for a hip of 20,000 triangles and one motion.
-Resection resect(const Joint& joint, const ResectionOptions& request);
+[[nodiscard]] Resection resect(const Joint& joint, const ResectionOptions& request);
 /// The same; empty if it was stopped.
-std::optional<Resection> resect(const Joint& joint, const ResectionOptions& request, const Control& control);
+[[nodiscard]] std::optional<Resection> resect(const Joint& joint, const ResectionOptions& request,
+                                              const Control& control);
 
 }  // namespace condyle::plan

@@ -22,15 +22,15 @@ struct SweptParameter {
   double first = 0, last = 0, step = 1;
 
   /// Values on the axis; the last one counts if it is a whole number of steps away to a millionth of one.
-  std::size_t count() const;
+  [[nodiscard]] std::size_t count() const;
   /// Whether the last one is none of the values.
-  bool ends_early() const;
-  double value(std::size_t i) const noexcept { return first + static_cast<double>(i) * step; }
+  [[nodiscard]] bool ends_early() const;
+  [[nodiscard]] double value(std::size_t i) const noexcept { return first + static_cast<double>(i) * step; }
 };
 
 /// Swept parameters of "cup.inclination=30:50:1 cup.anteversion=0:30:1". Throws UsageError for other text, a step that is not above 0, an
 /// axis that ends before it begins, and a name that is given twice.
-std::vector<SweptParameter> parse_sweep(std::string_view text);
+[[nodiscard]] std::vector<SweptParameter> parse_sweep(std::string_view text);
 
 /// A motion that a design has to leave free.
 struct SweepTarget {
@@ -41,7 +41,7 @@ struct SweepTarget {
   std::string source = {};  ///< of the angle, as its table has it
 
   /// The motion as the joint file's pelvis sees it: a pose of flexion f at an anterior tilt t is that of flexion f + t without.
-  motion::Motion without_tilt() const noexcept;
+  [[nodiscard]] motion::Motion without_tilt() const noexcept;
 };
 
 /// How a limit was decided.
@@ -51,7 +51,7 @@ enum class LimitKnownBy : std::uint8_t {
 };
 
 /// As in files: "meshes".
-std::string_view name_of(LimitKnownBy by) noexcept;
+[[nodiscard]] std::string_view name_of(LimitKnownBy by) noexcept;
 
 /// Where one target motion ends with one design.
 struct DesignLimit {

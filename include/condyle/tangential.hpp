@@ -59,7 +59,7 @@ struct TangentialResults {
   std::vector<RotationSense> rotation_sense;
   TangentialWork work;
 
-  std::size_t size() const noexcept { return state.size(); }
+  [[nodiscard]] std::size_t size() const noexcept { return state.size(); }
   void resize(std::size_t count);
   friend bool operator==(const TangentialResults&, const TangentialResults&) = default;
 };
@@ -94,18 +94,18 @@ class OccupiedArcs {
   OccupiedArcs() : offset_(1, 0) {}
 
   /// Number of points.
-  std::size_t size() const noexcept { return offset_.size() - 1; }
+  [[nodiscard]] std::size_t size() const noexcept { return offset_.size() - 1; }
   /// The arcs of one point, ascending.
-  std::span<const OccupiedArc> of(std::size_t point) const noexcept {
+  [[nodiscard]] std::span<const OccupiedArc> of(std::size_t point) const noexcept {
     return {arc_.data() + offset_[point], offset_[point + 1] - offset_[point]};
   }
 
   /// Whether the point, rotated by phi, lies in the solid. As exact as the ends of the arcs are: they err by
   /// some 1e-14 of a radian where the circle crosses the surface, by 1e-7 at worst where it only touches it.
   /// Logarithmic in the point's arcs.
-  bool inside_at(std::size_t point, Angle phi) const noexcept;
+  [[nodiscard]] bool inside_at(std::size_t point, Angle phi) const noexcept;
   /// The gap of the point rotated by phi.
-  AngularGap gap_at(std::size_t point, Angle phi) const noexcept;
+  [[nodiscard]] AngularGap gap_at(std::size_t point, Angle phi) const noexcept;
 
   friend bool operator==(const OccupiedArcs&, const OccupiedArcs&) = default;
 
@@ -144,13 +144,14 @@ class RingTable {
   /// is not finite or beyond 1e30 mm.
   void query(PointsView points, TangentialResults& results,
              TangentialRule rule = TangentialRule::alternating) const;
-  TangentialResults query(PointsView points, TangentialRule rule = TangentialRule::alternating) const;
+  [[nodiscard]] TangentialResults query(PointsView points,
+                                        TangentialRule rule = TangentialRule::alternating) const;
 
   /// All rotation angles at which each point lies in the solid. Costs about as much as one query.
-  OccupiedArcs occupied_arcs(PointsView points) const;
+  [[nodiscard]] OccupiedArcs occupied_arcs(PointsView points) const;
 
-  const AxisFrame& frame() const noexcept;
-  RingTableSize table_size() const noexcept;
+  [[nodiscard]] const AxisFrame& frame() const noexcept;
+  [[nodiscard]] RingTableSize table_size() const noexcept;
 
  private:
   std::shared_ptr<const Rings> rings_;

@@ -8,6 +8,13 @@ namespace condyle::python {
 
 namespace py = pybind11;
 
+/// The result of `work`, which takes no Python objects, done without the interpreter's lock.
+template <class Work>
+auto without_lock(const Work& work) {
+  const py::gil_scoped_release released;
+  return work();
+}
+
 void bind_mesh(py::module_& module);
 void bind_inspect(py::module_& module);
 void bind_fit(py::module_& module);

@@ -14,18 +14,14 @@ py::tuple clock_tuple(const motion::ClockFace& face) {
 
 py::object rim_clock(const Mesh& fixed, const py::object& centre, double radius_mm) {
   const Sphere head{vector_in(centre, "head_centre"), radius_mm};
-  const std::optional<motion::ClockFace> face = [&] {
-    const py::gil_scoped_release released;
-    return motion::find_rim_clock(fixed, head);
-  }();
+  const std::optional<motion::ClockFace> face =
+      without_lock([&] { return motion::find_rim_clock(fixed, head); });
   return face ? py::object(clock_tuple(*face)) : py::none();
 }
 
 py::object neck_axis(const Mesh& mobile, double head_radius_mm) {
-  const std::optional<motion::NeckAxis> axis = [&] {
-    const py::gil_scoped_release released;
-    return motion::find_neck_axis(mobile, head_radius_mm);
-  }();
+  const std::optional<motion::NeckAxis> axis =
+      without_lock([&] { return motion::find_neck_axis(mobile, head_radius_mm); });
   return axis ? py::object(array_of(axis->direction)) : py::none();
 }
 

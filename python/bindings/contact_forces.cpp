@@ -74,10 +74,7 @@ py::list patches_of(const contact::ContactForces& forces) {
 py::dict forces_at(const contact::ElasticContact& contact, const py::object& pose, const py::dict& given) {
   const Pose X_FM = one_pose(pose, "pose");
   const contact::ForceOptions options = force_options_in(given);
-  const contact::ContactForces forces = [&] {
-    const py::gil_scoped_release released;
-    return contact.forces(X_FM, options);
-  }();
+  const contact::ContactForces forces = without_lock([&] { return contact.forces(X_FM, options); });
   py::dict dict;
   dict["force_n"] = array_of(forces.on_mobile_body.force_n);
   dict["moment_nmm"] = array_of(forces.on_mobile_body.moment_nmm);

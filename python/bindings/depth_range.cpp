@@ -27,10 +27,7 @@ py::dict place_dict(const motion::DeepestPlace& place) {
 
 py::dict deepest(const motion::DepthRange& range, const py::object& angles_deg) {
   const JointAngles at = angles_in(angles_deg, "angles");
-  return place_dict([&] {
-    const py::gil_scoped_release released;
-    return range.deepest(at);
-  }());
+  return place_dict(without_lock([&] { return range.deepest(at); }));
 }
 
 py::list limits_by_depth(const motion::DepthRange& range, const JointHandle& handle, const py::list& given,

@@ -18,10 +18,9 @@ std::unique_ptr<motion::FirstContact> first_contact(const Mesh& fixed, const Mes
 py::tuple first_limits(const motion::FirstContact& contact, const py::object& pose, double negative_deg,
                        double positive_deg) {
   const Pose X_FM = one_pose(pose, "pose");
-  const motion::RotationLimits found = [&] {
-    const py::gil_scoped_release released;
+  const motion::RotationLimits found = without_lock([&] {
     return contact.limits(X_FM, {Angle::degrees(negative_deg), Angle::degrees(positive_deg)});
-  }();
+  });
   return py::make_tuple(dict_of(found.negative), dict_of(found.positive));
 }
 

@@ -23,10 +23,7 @@ py::dict fit_dict(SphereFit fit) {
 
 py::dict fit_points(const py::object& given) {
   const PointsIn points(given, "points");
-  return fit_dict([&] {
-    const py::gil_scoped_release released;
-    return fit_sphere(points.view());
-  }());
+  return fit_dict(without_lock([&] { return fit_sphere(points.view()); }));
 }
 
 std::optional<Sphere> ball(const py::object& centre, double radius_mm) {
@@ -42,10 +39,7 @@ py::dict find_in(const Mesh& mesh, bool is_head, std::optional<double> smallest_
                             .largest_radius = largest_radius,
                             .within = ball(within_centre, within_radius),
                             .resamples = resamples};
-  SphericalPatch patch = [&] {
-    const py::gil_scoped_release released;
-    return find_sphere(mesh, search);
-  }();
+  SphericalPatch patch = without_lock([&] { return find_sphere(mesh, search); });
   const double coverage = patch.coverage;
   py::dict dict = fit_dict(std::move(patch.fit));
   dict["coverage"] = coverage;
@@ -85,10 +79,7 @@ py::dict fit_cylinder_to(const py::object& given, const py::object& point, const
 py::dict find_cylinder_in(const Mesh& mesh, double smallest_radius, double largest_radius,
                           const py::object& within_centre, double within_radius) {
   const CylinderSearch search{smallest_radius, largest_radius, ball(within_centre, within_radius)};
-  return fit_dict([&] {
-    const py::gil_scoped_release released;
-    return find_cylinder(mesh, search);
-  }());
+  return fit_dict(without_lock([&] { return find_cylinder(mesh, search); }));
 }
 
 }  // namespace

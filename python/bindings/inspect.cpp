@@ -52,10 +52,7 @@ py::object unit_of(const LikelyUnit& likely) {
 }
 
 py::dict inspected(const Mesh& mesh) {
-  const MeshReport report = [&] {
-    const py::gil_scoped_release released;
-    return inspect(mesh);
-  }();
+  const MeshReport report = without_lock([&] { return inspect(mesh); });
   py::dict findings;
   findings["boundary_edges"] = finding(report.boundary_edges);
   findings["boundary_loops"] = finding(report.boundary_loops);

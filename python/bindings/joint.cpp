@@ -78,10 +78,8 @@ py::tuple coordinates_of(const JointHandle& handle, const py::object& given) {
 }
 
 py::list checks_of(const JointHandle& handle) {
-  const std::vector<JointNote> notes = [&] {
-    const py::gil_scoped_release released;
-    return check_joint(handle.joint(), handle.loaded.report.placement);
-  }();
+  const std::vector<JointNote> notes =
+      without_lock([&] { return check_joint(handle.joint(), handle.loaded.report.placement); });
   return notes_of(notes);
 }
 
@@ -144,10 +142,7 @@ py::tuple proposed(const std::filesystem::path& fixed, const std::filesystem::pa
   if (joint) request.anatomy = anatomy_named(*joint);
   if (side) request.side = *side == name_of(Side::right) ? Side::right : Side::left;
   if (units) request.units = length_unit_named(*units);
-  const io::JointProposal proposal = [&] {
-    const py::gil_scoped_release released;
-    return io::propose_joint(request);
-  }();
+  const io::JointProposal proposal = without_lock([&] { return io::propose_joint(request); });
   return py::make_tuple(proposal.toml, proposal.to_fill_in, proposal.evidence);
 }
 
@@ -189,10 +184,7 @@ void bind_joint(py::module_& module) {
                              })
       .def("zero",
            [](const JointHandle& h) {
-             const ZeroPose zero = [&] {
-               const py::gil_scoped_release released;
-               return zero_pose(h.joint());
-             }();
+             const ZeroPose zero = without_lock([&] { return zero_pose(h.joint()); });
              std::optional<std::array<double, 3>> femur;
              if (zero.femur)
                femur = {zero.femur->flexion.degrees(), zero.femur->adduction.degrees(),

@@ -51,8 +51,7 @@ void set_landmarks(FrameDescription& frame, const py::dict& points) {
     throw UsageError(
         "landmarks: there are those of the pelvis (right_asis, left_asis, with right_psis, left_psis or "
         "pubic_symphysis), the femur (medial_epicondyle, lateral_epicondyle), both, or the knee (epicondyles "
-        "and "
-        "hip_centre)");
+        "and hip_centre)");
   }
 }
 

@@ -34,10 +34,7 @@ py::array affine_array(const Eigen::Affine3d& X) {
 
 /// (label, layer, names, voxels, first, size, touches) of each label above 0.
 py::list labels_of(const io::LabelMap& map) {
-  const std::vector<io::LabelSummary> summaries = [&] {
-    const py::gil_scoped_release released;
-    return io::summaries_of(map);
-  }();
+  const std::vector<io::LabelSummary> summaries = without_lock([&] { return io::summaries_of(map); });
   py::list list;
   for (const io::LabelSummary& summary : summaries) {
     if (summary.label == 0) continue;
@@ -82,10 +79,7 @@ py::dict surface_dict(LabelSurface&& surface, const BodyImage& image) {
   dict["simplification_error_mm"] =
       surface.simplification ? py::object(py::float_(surface.simplification->largest_error)) : py::none();
   dict["image"] = py::cast(image);
-  dict["mesh"] = [&] {
-    const py::gil_scoped_release released;
-    return Mesh(std::move(surface.mesh));
-  }();
+  dict["mesh"] = without_lock([&] { return Mesh(std::move(surface.mesh)); });
   return dict;
 }
 

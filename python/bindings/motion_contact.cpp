@@ -50,10 +50,7 @@ py::dict balanced(const contact::ElasticContact& surfaces, const py::object& sta
   const contact::Load load{{vector_in(force_n, "force_n"), vector_in(moment_nmm, "moment_nmm")},
                            frame_in(given)};
   const contact::BalanceOptions options = options_in(given);
-  contact::BalancedPose found = [&] {
-    const py::gil_scoped_release released;
-    return contact::balance(surfaces, X_FM, load, options);
-  }();
+  contact::BalancedPose found = without_lock([&] { return contact::balance(surfaces, X_FM, load, options); });
   return balance_dict(std::move(found), surfaces, load);
 }
 

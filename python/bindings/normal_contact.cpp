@@ -6,11 +6,11 @@
 #include <optional>
 #include <string>
 
+#include "answer/depth_meshes.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "interrupts.hpp"
 #include "joint.hpp"
-#include "mesh/require_solid.hpp"
 #include "surface_contact.hpp"
 
 namespace condyle::python {
@@ -28,8 +28,8 @@ py::tuple normal(const JointHandle& handle, const py::object& given, const std::
   Follower follower(progress, in.poses.size());
   {
     const py::gil_scoped_release released;
-    mesh::require_oriented(fixed, handle.joint().fixed.name);
-    mesh::require_oriented(mobile, handle.joint().mobile.name);
+    answer::require_depth_meshes(handle.joint(), DepthMethod::normal,
+                                 {handle.joint().fixed.name, handle.joint().mobile.name});
     std::optional<contact::NormalDepth> from_fixed, from_mobile;
     if (casting != contact::Casting::mobile) from_fixed.emplace(fixed, mobile, rays);
     if (casting != contact::Casting::fixed) from_mobile.emplace(mobile, fixed, rays);
@@ -49,10 +49,7 @@ py::tuple normal(const JointHandle& handle, const py::object& given, const std::
 }
 
 py::array thickness(const Mesh& layer, const Mesh& behind, double reach_mm) {
-  std::vector<double> values = [&] {
-    const py::gil_scoped_release released;
-    return contact::thickness_to(layer, behind, reach_mm);
-  }();
+  std::vector<double> values = without_lock([&] { return contact::thickness_to(layer, behind, reach_mm); });
   return array_of(std::move(values));
 }
 

@@ -81,10 +81,7 @@ void bind_pressure(py::module_& module) {
       .def("refined_force_n",
            [](const contact::ElasticContact& contact, const py::object& pose) -> py::object {
              const Pose X_FM = one_pose(pose, "pose");
-             const auto force = [&] {
-               const py::gil_scoped_release released;
-               return contact.refined_force_n(X_FM);
-             }();
+             const auto force = without_lock([&] { return contact.refined_force_n(X_FM); });
              return force ? py::object(array_of(*force)) : py::none();
            })
       .def("notes",

@@ -39,10 +39,8 @@ py::dict free_angles(const RangeHandle& handle, std::size_t vary, const py::obje
                      double negative_deg, double positive_deg) {
   const JointAngles from = angles_in(start, "start");
   const motion::RotationRange range{Angle::degrees(negative_deg), Angle::degrees(positive_deg)};
-  const motion::FreeAngles found = [&] {
-    const py::gil_scoped_release released;
-    return handle.answer.range->free_angles(angle_numbered(vary), from, range);
-  }();
+  const motion::FreeAngles found =
+      without_lock([&] { return handle.answer.range->free_angles(angle_numbered(vary), from, range); });
   const io::AnswerFrame frame = io::frame_of(handle.result());
   py::list intervals;
   for (const motion::FreeInterval& interval : found.intervals)

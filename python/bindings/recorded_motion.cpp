@@ -17,10 +17,7 @@ namespace condyle::python {
 namespace {
 
 py::dict table_of(const std::filesystem::path& path) {
-  io::MotionTable table = [&] {
-    const py::gil_scoped_release released;
-    return io::read_motion_table(path);
-  }();
+  io::MotionTable table = without_lock([&] { return io::read_motion_table(path); });
   py::dict columns;
   for (std::size_t i = 0; i < table.columns.size(); ++i)
     columns[py::str(table.columns[i])] = array_of(std::move(table.values[i]));
@@ -33,10 +30,8 @@ py::dict table_of(const std::filesystem::path& path) {
 
 /// Times and (N, 4, 4) poses, NaN for gaps.
 py::dict motion_of_file(const JointHandle& handle, const std::filesystem::path& path) {
-  io::JointMotion motion = [&] {
-    const py::gil_scoped_release released;
-    return io::motion_of(handle.loaded, io::read_motion_table(path));
-  }();
+  io::JointMotion motion =
+      without_lock([&] { return io::motion_of(handle.loaded, io::read_motion_table(path)); });
   const auto count = static_cast<py::ssize_t>(motion.X_FM.size());
   py::array_t<double> poses({count, py::ssize_t{4}, py::ssize_t{4}});
   auto values = poses.mutable_unchecked<3>();

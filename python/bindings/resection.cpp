@@ -124,10 +124,7 @@ py::dict brushed(const JointHandle& handle, const py::list& motions, const py::l
                  const py::dict& given) {
   const plan::BrushRequest request = strokes_in(strokes, given);
   const std::vector<motion::Motion> known = motions_in(motions);
-  plan::BrushedJoint done = [&] {
-    const py::gil_scoped_release released;
-    return plan::brush_joint(handle.joint(), request, known);
-  }();
+  plan::BrushedJoint done = without_lock([&] { return plan::brush_joint(handle.joint(), request, known); });
   py::list outcomes;
   for (const plan::StrokeOutcome& each : done.strokes)
     outcomes.append(py::make_tuple(each.moved, each.kept, each.limited));

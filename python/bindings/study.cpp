@@ -119,10 +119,7 @@ std::vector<std::pair<std::string, std::string>> study(
 }
 
 std::vector<std::pair<std::string, std::string>> merge(const std::string& folder) {
-  const io::StudyDone done = [&] {
-    const py::gil_scoped_release released;
-    return io::merge_study(folder);
-  }();
+  const io::StudyDone done = without_lock([&] { return io::merge_study(folder); });
   io::require_answered(done, folder);
   return noted(done);
 }

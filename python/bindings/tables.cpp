@@ -95,11 +95,10 @@ tangential::RingTable ring_table(const Mesh& mesh, const py::object& point, cons
 
 py::dict query_rings(const tangential::RingTable& table, const py::object& given, bool is_nearest_arc) {
   const PointsIn points(given, "points");
-  tangential::TangentialResults results = [&] {
-    const py::gil_scoped_release released;
+  tangential::TangentialResults results = without_lock([&] {
     return table.query(points.view(), is_nearest_arc ? tangential::TangentialRule::nearest_arc
                                                      : tangential::TangentialRule::alternating);
-  }();
+  });
   return dict_of(std::move(results));
 }
 

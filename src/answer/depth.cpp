@@ -58,14 +58,14 @@ void add_normal_depths(DepthAnswer& answer, const contact::JointContact& bodies)
 std::vector<std::string> caveats_of(const DepthRequest& request) {
   if (request.method == DepthMethod::normal)
     return {
-        "depths along normals compare with those of the same casting surface and rule only, not with "
-        "radial or tangential ones"};
+        "depths along normals compare with those of the same casting surface and rule only, not with radial "
+        "or tangential ones"};
   if (!translates(request)) return {};
-  return {core::formatted(
-      "the mobile body's centre is %.3f mm from the fixed body's: rays of mobile vertices start at the fixed "
-      "body's, those of fixed vertices at the mobile body's%s",
-      request.X_FM.translation().norm(),
-      request.method == DepthMethod::reliable ? "; no depths along arcs are computed" : "")};
+  return {
+      core::formatted("the mobile body's centre is %.3f mm from the fixed body's: rays of mobile vertices "
+                      "start at the fixed body's, those of fixed vertices at the mobile body's%s",
+                      request.X_FM.translation().norm(),
+                      request.method == DepthMethod::reliable ? "; no depths along arcs are computed" : "")};
 }
 
 const std::vector<contact::TrianglePair>& pairs_of(const DepthAnswer& answer) {
@@ -114,10 +114,10 @@ void check_depth_request(const Joint& joint, const DepthRequest& request) {
   if ((request.casting || request.rays) && request.method != DepthMethod::normal)
     throw UsageError("casting, rule, reach: are for method normal");
   if (request.method == DepthMethod::tangential && translates(request))
-    throw UsageError(core::formatted(
-        "method tangential: turns about the joint centre, and the pose is translated from it by %.3f mm; "
-        "method radial answers there",
-        request.X_FM.translation().norm()));
+    throw UsageError(
+        core::formatted("method tangential: turns about the joint centre, and the pose is translated from it "
+                        "by %.3f mm; method radial answers there",
+                        request.X_FM.translation().norm()));
   if (!request.pose) return;
   const Eigen::Matrix3d difference =
       pose_at(joint.coordinates(), *request.pose).linear() - request.X_FM.linear();

@@ -59,12 +59,10 @@ RecordedTranslation recorded_translation(const motion::Motion& motion, const Fol
   const auto back = std::adjacent_find(knots.begin(), knots.end(),
                                        [](const auto& a, const auto& b) { return !(a.turned < b.turned); });
   if (back != knots.end())
-    return {
-        {},
-        formatted(
-            "the recorded angle turns back, or stands still, %.4g degrees past the motion's start: a part is "
-            "needed in which it only grows or only falls",
-            back->turned.degrees() + 0.0)};
+    return {{},
+            formatted("the recorded angle turns back, or stands still, %.4g degrees past the motion's start: "
+                      "a part is needed in which it only grows or only falls",
+                      back->turned.degrees() + 0.0)};
   if (knots.front().turned > Angle())
     return {{},
             formatted("the recorded angle begins %.4g degrees past the motion's start",
@@ -221,18 +219,16 @@ class FollowingLimits {
 std::vector<std::string> caveats_of(const RangeRequest& request, double bend_mm) {
   constexpr auto bounded = "limits are bounded, not exact: the centre is not held";
   if (const auto* load = std::get_if<FollowLoad>(&*request.follow))
-    return {
-        formatted("the translation is where the contact carries the load, found every %g degrees and taken "
-                  "to be straight in between, which is off by some %.2g mm; rotations are held; ",
-                  load->step.degrees(), bend_mm) +
-        bounded};
+    return {formatted("the translation is where the contact carries the load, found every %g degrees and "
+                      "taken to be straight in between, which is off by some %.2g mm; rotations are held; ",
+                      load->step.degrees(), bend_mm) +
+            bounded};
   double apart = 0;
   for (const motion::Motion& motion : request.motions)
     apart = std::max(apart, most_apart_deg(motion, std::get<FollowRecord>(*request.follow)));
-  return {formatted(
-              "the translation is that of the recorded motion, straight between two of its frames, the other "
-              "angles are held, up to %.3g degrees from the recorded ones; ",
-              apart) +
+  return {formatted("the translation is that of the recorded motion, straight between two of its frames, the "
+                    "other angles are held, up to %.3g degrees from the recorded ones; ",
+                    apart) +
           bounded};
 }
 

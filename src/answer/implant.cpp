@@ -229,8 +229,7 @@ void take_placed(ImplantAnswer& answer, plan::PlacedHip&& placed) {
 }
 
 const char* const implant_caveat =
-    "bones and implant only: soft tissue, fixation and the strength of the remaining bone are not "
-    "modelled; "
+    "bones and implant only: soft tissue, fixation and the strength of the remaining bone are not modelled; "
     "the hip bone is not reamed";
 
 }  // namespace

@@ -27,10 +27,10 @@ void note_axes(const motion::MapGrid& grid, Anatomy anatomy, std::vector<RangeNo
     if (axis->ends_early())
       notes.push_back(
           {RangeNoteCode::last_value_left_out,
-           core::formatted("the map goes up to %s %.10g, not %.10g: the step of %.10g degrees leads "
-                           "to no point there",
-                           std::string(name_of(axis->angle, anatomy)).c_str(),
-                           axis->value_deg(axis->count() - 1), axis->last_deg, axis->step_deg)});
+           core::formatted(
+               "the map goes up to %s %.10g, not %.10g: the step of %.10g degrees leads to no point there",
+               std::string(name_of(axis->angle, anatomy)).c_str(), axis->value_deg(axis->count() - 1),
+               axis->last_deg, axis->step_deg)});
 }
 
 /// Zones, map and bands, as far as they are requested; false if stopped.
@@ -56,10 +56,10 @@ bool add_beyond_limits(RangeAnswer& answer, const RangeRequest& request, const m
     answer.bands = std::move(*bands);
     const motion::Uncertainty& sigma = answer.band_options.sigma;
     if (sigma.is_by_voxels(answer.joint.fixed) || sigma.is_by_voxels(answer.joint.mobile))
-      answer.caveats.push_back(core::formatted(
-          "the band takes %g voxels along the normal as the standard deviation of surfaces from label "
-          "maps: the grid's part, not the error of the segmentation",
-          sigma.surface_voxels));
+      answer.caveats.push_back(
+          core::formatted("the band takes %g voxels along the normal as the standard deviation of surfaces "
+                          "from label maps: the grid's part, not the error of the segmentation",
+                          sigma.surface_voxels));
   }
   return true;
 }
@@ -68,7 +68,7 @@ bool add_beyond_limits(RangeAnswer& answer, const RangeRequest& request, const m
 
 void check_range_request(const Case& of, const RangeRequest& request) {
   const Joint& joint = of.joint;
-  if (!request.follow) held_translation(of, request.translation_mm);
+  if (!request.follow) (void)held_translation(of, request.translation_mm);
   for (const motion::Motion& motion : request.motions) motion::check_motion(motion, joint.kind);
   if (request.map) motion::check_grid(*request.map, joint.kind);
   if (request.allowed_depth && (request.map || request.bands || request.zones_past))

@@ -74,10 +74,10 @@ void note_cuts(const Joint& joint, std::span<const motion::MotionLimit> limits,
       if (cut_body_of(joint, bearing, limit) == body)
         motions += (motions.empty() ? "" : ", ") + limit.motion.name;
     if (!motions.empty())
-      notes.push_back({RangeNoteCode::limit_on_cut,
-                       "no limits: " + motions + " on the face that closes " + body->name +
-                           " where its image, or the bone, was cut off; the joint stops there at "
-                           "the latest"});
+      notes.push_back(
+          {RangeNoteCode::limit_on_cut,
+           "no limits: " + motions + " on the face that closes " + body->name +
+               " where its image, or the bone, was cut off; the joint stops there at the latest"});
   }
 }
 
@@ -175,12 +175,11 @@ void note_sliding(const Joint& joint, std::span<const motion::MotionLimit> limit
     return limit.end.reason != motion::LimitReason::end_of_range;
   });
   if (joint.has_head() || bearing.roles.distinguish_bearing() || !any_contact) return;
-  notes.push_back(
-      {RangeNoteCode::sliding_surfaces,
-       "the surfaces of " + std::string(with_article(joint)) +
-           " slide on each other by nature, and a motion ends where the meshes first touch, sliding "
-           "contact included: limits are lower bounds of how far the joint turns, unless the space of "
-           "its cartilage keeps those surfaces apart"});
+  notes.push_back({RangeNoteCode::sliding_surfaces,
+                   "the surfaces of " + std::string(with_article(joint)) +
+                       " slide on each other by nature, and a motion ends where the meshes first touch, "
+                       "sliding contact included: limits are lower bounds of how far the joint turns, unless "
+                       "the space of its cartilage keeps those surfaces apart"});
 }
 
 void note_narrow_margin(const Joint& joint, const motion::NarrowMargin& narrow,

@@ -114,20 +114,18 @@ void note_bones(ResectionAnswer& answer, const Joint& joint, const motion::Range
   if (answer.resection.mobile && answer.shape_before) {
     const double share = share_of_neck(*answer.resection.mobile, *answer.shape_before);
     if (share > neck_width_share)
-      answer.notes.push_back(
-          {ResectionNoteCode::neck_is_narrowed,
-           formatted("the cut takes %.0f %% of the neck's width at one place, more than %.0f %%: how "
-                     "strong the neck still is, is not modelled",
-                     100 * share, 100 * neck_width_share)});
+      answer.notes.push_back({ResectionNoteCode::neck_is_narrowed,
+                              formatted("the cut takes %.0f %% of the neck's width at one place, more than "
+                                        "%.0f %%: how strong the neck still is, is not modelled",
+                                        100 * share, 100 * neck_width_share)});
     const auto &before = answer.shape_before->femur.alpha_largest.value,
                &after = answer.shape_after->femur.alpha_largest.value;
     if (share > 0 && before && after && *after > *before - alpha_unchanged_deg)
       answer.notes.push_back(
           {ResectionNoteCode::alpha_stays,
-           formatted(
-               "the alpha angle stays, %.1f degrees before and %.1f after: it is read where the surface "
-               "leaves the head's sphere, and bone there that no target meets stays",
-               *before, *after)});
+           formatted("the alpha angle stays, %.1f degrees before and %.1f after: it is read where the "
+                     "surface leaves the head's sphere, and bone there that no target meets stays",
+                     *before, *after)});
   }
   if (answer.resection.mobile || answer.resection.fixed)
     for (const RangeNote& note :
@@ -178,11 +176,11 @@ void note_finer_triangles(ResectionAnswer& answer, const Joint& finer, const mot
   for (std::size_t i = 0; i < limits.size(); ++i)
     if (const Angle was = answer.before[i].end.turned, is = limits[i].end.turned;
         is.degrees() > was.degrees() + no_change_deg)
-      answer.notes.push_back(
-          {ResectionNoteCode::finer_triangles,
-           motions[i].name + " ends at " + in_degrees(was) + " degrees, and at " + in_degrees(is) +
-               " with smaller triangles of the same surface, those in the bearing ball left out: from "
-               "there on the cut counts"});
+      answer.notes.push_back({ResectionNoteCode::finer_triangles,
+                              motions[i].name + " ends at " + in_degrees(was) + " degrees, and at " +
+                                  in_degrees(is) +
+                                  " with smaller triangles of the same surface, those in the bearing ball "
+                                  "left out: from there on the cut counts"});
 }
 
 void note_gains(ResectionAnswer& answer) {

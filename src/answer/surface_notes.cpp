@@ -54,13 +54,12 @@ void note_touching(const Joint& joint, const motion::RangeOptions& range,
   }
   const double share = inside / static_cast<double>(std::count(on_head.begin(), on_head.end(), 1));
   if (!(share >= least_touching_share)) return;
-  notes.push_back(
-      {RangeNoteCode::bones_touch,
-       core::formatted("in the reference pose %.0f %% of the bearing surface of ", 100 * share) +
-           joint.mobile.name + " lies inside " + joint.fixed.name +
-           core::formatted(", up to %.1f mm deep: bones have a joint space between them, and one that is "
-                           "segmented too thick meets the other too early",
-                           deepest)});
+  notes.push_back({RangeNoteCode::bones_touch,
+                   core::formatted("in the reference pose %.0f %% of the bearing surface of ", 100 * share) +
+                       joint.mobile.name + " lies inside " + joint.fixed.name +
+                       core::formatted(", up to %.1f mm deep: bones have a joint space between them, and one "
+                                       "that is segmented too thick meets the other too early",
+                                       deepest)});
 }
 
 void note_coarse(const Joint& joint, const motion::BearingSurface& surface, std::vector<RangeNote>& notes) {

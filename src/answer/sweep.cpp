@@ -250,17 +250,15 @@ void note_request(const Joint& joint, SweepAnswer& sweep) {
     if (const double last = swept.value(swept.count() - 1); swept.ends_early())
       sweep.notes.push_back(
           {SweepNoteCode::last_value_left_out,
-           swept.name + formatted(" is swept up to %.10g, not %.10g: the step of %.10g leads "
-                                  "to no design there",
-                                  last, swept.last, swept.step)});
+           swept.name +
+               formatted(" is swept up to %.10g, not %.10g: the step of %.10g leads to no design there", last,
+                         swept.last, swept.step)});
     const PartParameter& parameter = parameter_named(joint, swept.name);
     if (parameter.value != parameter.described)
-      sweep.notes.push_back(
-          {SweepNoteCode::value_is_swept,
-           swept.name +
-               formatted(" was set to %.10g and is swept: only the joint as it is has that value, and "
-                         "no design changes by it",
-                         parameter.value)});
+      sweep.notes.push_back({SweepNoteCode::value_is_swept,
+                             swept.name + formatted(" was set to %.10g and is swept: only the joint as it is "
+                                                    "has that value, and no design changes by it",
+                                                    parameter.value)});
   }
 }
 
@@ -340,12 +338,12 @@ void check_sweep(const Case& of, const SweepRequest& request) {
     low.push_back({swept.name, swept.first});
     high.push_back({swept.name, swept.value(swept.count() - 1)});
   }
-  with_parameters(joint, low);  // throws for names and values that there are not
-  with_parameters(joint, high);
+  (void)with_parameters(joint, low);  // throws for names and values that there are not
+  (void)with_parameters(joint, high);
   for (const plan::SweptParameter& swept : request.parameters)
     if (parameter_named(joint, swept.name).kind == ParameterKind::size)
       throw UsageError(swept.name + ": sizes are not swept: rotations and translations of parts are");
-  designs_of(request.parameters);
+  (void)designs_of(request.parameters);
   std::set<std::string_view> names;
   for (const plan::SweepTarget& target : request.targets) {
     check_target(target, joint);
@@ -356,8 +354,7 @@ void check_sweep(const Case& of, const SweepRequest& request) {
   if (request.bands->any_sigma())
     throw UsageError(
         "standard deviations of centre, axes and surfaces: a sweep displaces parameters of parts only, by "
-        "their "
-        "sigma in the joint file");
+        "their sigma in the joint file");
   motion::check_band(band_options(of, *request.bands));
   if (!has_uncertain_parameters(joint))
     throw UsageError("a band needs a parameter with a standard deviation: sigma of [[part.parameter]]");
@@ -376,11 +373,10 @@ std::optional<SweepAnswer> answer_sweep(const Case& of, const SweepRequest& as_g
   note_request(joint, answer);
   std::optional<plan::DesignLimits> made(std::in_place, joint, range, request.targets, names);
   if (const std::string difference = difference_from_closed_form(*made, answer); !difference.empty()) {
-    answer.notes.push_back(
-        {SweepNoteCode::differs_from_closed_form,
-         "the meshes of the implant end motions elsewhere than bodies of the sizes in the joint "
-         "file, so that every limit is searched for: " +
-             difference});
+    answer.notes.push_back({SweepNoteCode::differs_from_closed_form,
+                            "the meshes of the implant end motions elsewhere than bodies of the sizes in the "
+                            "joint file, so that every limit is searched for: " +
+                                difference});
     made.emplace(joint, range, request.targets, names, false);
   }
   const plan::DesignLimits& limits = *made;

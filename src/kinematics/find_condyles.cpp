@@ -289,20 +289,19 @@ void require_condyles(const Fitted& best) {
   const Support& s = best.support;
   if (s.has_two_condyles(best.fit.cylinder.radius)) return;
   throw MeshError(core::formatted(
-      "the best common cylinder of two condyles, of radius %.1f mm, has %.0f degrees of "
-      "a turn in common (needs %.0f), is %.1f radii wide (needs %.1f to %.1f) and has "
-      "%.2f as much between as on a side (needs %.1f or less)",
+      "the best common cylinder of two condyles, of radius %.1f mm, has %.0f degrees of a turn in common "
+      "(needs %.0f), is %.1f radii wide (needs %.1f to %.1f) and has %.2f as much between as on a side "
+      "(needs %.1f or less)",
       best.fit.cylinder.radius, s.common_arc_deg, least_common_arc_deg, s.length / best.fit.cylinder.radius,
       least_width, largest_width, s.between, most_between));
 }
 
 void require_bounds(const CylinderFit& fit) {
   if (*fit.direction_bound <= largest_axis_bound && *fit.axis_bound_mm <= largest_place_bound_mm) return;
-  throw MeshError(
-      core::formatted("parts of the condyles give axes up to %.1f degrees and %.1f mm off (needs %.0f and "
-                      "%.0f)",
-                      fit.direction_bound->degrees(), *fit.axis_bound_mm, largest_axis_bound.degrees(),
-                      largest_place_bound_mm));
+  throw MeshError(core::formatted(
+      "parts of the condyles give axes up to %.1f degrees and %.1f mm off (needs %.0f and %.0f)",
+      fit.direction_bound->degrees(), *fit.axis_bound_mm, largest_axis_bound.degrees(),
+      largest_place_bound_mm));
 }
 
 /// The best fit to points of the surface, from candidates of their means. `vertices` are numbered as the points say. Throws

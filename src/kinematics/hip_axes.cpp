@@ -140,9 +140,9 @@ Evidence end_vote(const char* bone, const AgreeingAxes& reading, const Vec3& lin
   const double deg = -std::atan2(from.cross(to).z(), from.dot(to)) * 180 / std::numbers::pi;
   return {
       deg / end_margin_deg,
-      formatted("the far end of the %s is %.0f degrees nearer to the vertical than neck and socket (needs "
-                "%.0f)",
-                bone, deg, end_margin_deg)};
+      formatted(
+          "the far end of the %s is %.0f degrees nearer to the vertical than neck and socket (needs %.0f)",
+          bone, deg, end_margin_deg)};
 }
 
 std::vector<Evidence> end_votes(const HipAnatomy& hip, const AgreeingAxes& reading) {
@@ -189,10 +189,10 @@ std::optional<Evidence> neck_vote(const Vec3& neck, const Horizon& seen) {
   const double front = neck.dot(seen.front), out = neck.dot(seen.out);
   if (std::hypot(front, out) < least_horizontal) return std::nullopt;
   const double deg = -std::atan2(front, out) * 180 / std::numbers::pi, vote = deg / neck_margin_deg;
-  return Evidence{vote,
-                  formatted("the socket opens %.0f degrees in front of the neck, read as a right hip: %s "
-                            "(needs %.0f)",
-                            deg, vote_text(vote).c_str(), neck_margin_deg)};
+  return Evidence{
+      vote,
+      formatted("the socket opens %.0f degrees in front of the neck, read as a right hip: %s (needs %.0f)",
+                deg, vote_text(vote).c_str(), neck_margin_deg)};
 }
 
 /// Sums by area over the hip bone below the head's centre, of how far in front and how deep (against the opening) it is.
@@ -266,10 +266,9 @@ std::vector<std::string> votes_text(const std::vector<Direction>& directions, co
   for (const Direction& direction : directions)
     lines.push_back(
         formatted("%s: %.2f; %.2f", direction.name, vote(direction, best), vote(direction, next)));
-  lines.push_back(
-      formatted("mean: %.2f; %.2f; at best in any axes %.2f (needs %.2f, %.2f more than "
-                "the next, no vote below %.2f)",
-                best.votes.mean, next.votes.mean, of_all, least_mean, least_lead, least_vote));
+  lines.push_back(formatted(
+      "mean: %.2f; %.2f; at best in any axes %.2f (needs %.2f, %.2f more than the next, no vote below %.2f)",
+      best.votes.mean, next.votes.mean, of_all, least_mean, least_lead, least_vote));
   return lines;
 }
 

@@ -135,13 +135,11 @@ void check_surface(const Body& body, Notes& notes, bool is_cut = false) {
   // An open mesh has its own note.
   if (body.mesh.is_closed())
     if (const mesh::DoubledTriangles doubled = mesh::doubled_triangles(body.mesh); doubled.count > 0)
-      notes.add(
-          JointNoteCode::doubled_triangles,
-          body.name +
-              formatted(" has %zu of its %zu triangles on others, the first %u on %u: its volume counts "
-                        "twice there",
-                        doubled.count, body.mesh.triangles().size(), (*doubled.first)[1],
-                        (*doubled.first)[0]));
+      notes.add(JointNoteCode::doubled_triangles,
+                body.name + formatted(" has %zu of its %zu triangles on others, the first %u on %u: its "
+                                      "volume counts twice there",
+                                      doubled.count, body.mesh.triangles().size(), (*doubled.first)[1],
+                                      (*doubled.first)[0]));
   const mesh::SelfCrossings& crossings = mesh::self_crossings_of(body.mesh);
   if (crossings.pairs == 0) return;
   double crossing = 0, area = 0;
@@ -152,22 +150,20 @@ void check_surface(const Body& body, Notes& notes, bool is_cut = false) {
     if (crossings.crosses[t]) crossing += here;
   }
   if (crossing > largest_crossing_share * area)
-    notes.add(
-        JointNoteCode::self_crossings,
-        body.name +
-            formatted(" crosses itself: %zu pairs of triangles, the first %u and %u, on %.2g %% of its "
-                      "surface; inside and outside are uncertain there",
-                      crossings.pairs, (*crossings.first)[0], (*crossings.first)[1], 100 * crossing / area));
+    notes.add(JointNoteCode::self_crossings,
+              body.name + formatted(" crosses itself: %zu pairs of triangles, the first %u and %u, on %.2g "
+                                    "%% of its surface; inside and outside are uncertain there",
+                                    crossings.pairs, (*crossings.first)[0], (*crossings.first)[1],
+                                    100 * crossing / area));
 }
 
 void check_cuts(const Body& body, Notes& notes) {
   if (!body.image || body.image->cuts.empty()) return;
-  notes.add(
-      JointNoteCode::cut_by_view,
-      body.name + formatted(" ends where its image ends, in %zu flat face%s of %.0f mm2 together: what is "
-                            "missing may end a motion earlier, and limits are upper bounds",
-                            body.image->cuts.size(), body.image->cuts.size() == 1 ? "" : "s",
-                            cut_area_mm2(body)));
+  notes.add(JointNoteCode::cut_by_view,
+            body.name + formatted(" ends where its image ends, in %zu flat face%s of %.0f mm2 together: what "
+                                  "is missing may end a motion earlier, and limits are upper bounds",
+                                  body.image->cuts.size(), body.image->cuts.size() == 1 ? "" : "s",
+                                  cut_area_mm2(body)));
 }
 
 /// A fragment that is moved is less than what it is cut from; of the mobile body either part may move.

@@ -24,11 +24,10 @@ JointCylinder joint_cylinder(const TriMesh& bone, const TriMesh& other, double r
     if (*fit.direction_bound <= largest_axis_bound && *fit.axis_bound_mm <= largest_place_bound_mm)
       return {std::move(fit), {}};
     return {{},
-            core::formatted(
-                "parts of the best cylinder, of radius %.1f mm, give axes up to %.1f degrees and %.1f mm off "
-                "(needs %.0f and %.0f)",
-                fit.cylinder.radius, fit.direction_bound->degrees(), *fit.axis_bound_mm,
-                largest_axis_bound.degrees(), largest_place_bound_mm)};
+            core::formatted("parts of the best cylinder, of radius %.1f mm, give axes up to %.1f degrees and "
+                            "%.1f mm off (needs %.0f and %.0f)",
+                            fit.cylinder.radius, fit.direction_bound->degrees(), *fit.axis_bound_mm,
+                            largest_axis_bound.degrees(), largest_place_bound_mm)};
   } catch (const MeshError& error) {
     return {{}, error.what()};
   }

@@ -122,9 +122,7 @@ std::string why_no_condyles_here(const TriMesh& femur, const Condyles& found) {
     if (sphere.coverage < least_stray_head_coverage) return {};
     return formatted(
         "the part facing the other body is a head, %.0f %% of a sphere of radius %.1f mm, and no condyles: "
-        "do "
-        "both "
-        "meshes lie in one frame?",
+        "do both meshes lie in one frame?",
         100 * sphere.coverage, sphere.fit.sphere.radius);
   } catch (const MeshError&) {
     return {};
@@ -152,8 +150,8 @@ void find_axes(const TriMesh& femur, KneeAnatomy& knee) {
     return;
   }
   knee.evidence.push_back(
-      formatted("front: the condyles stand clear of what is between them by %.2f radii more behind than "
-                "in front (needs %.1f)",
+      formatted("front: the condyles stand clear of what is between them by %.2f radii more behind than in "
+                "front (needs %.1f)",
                 *behind - *in_front, least_notch));
   if (std::abs(offset) < least_shaft_ahead || *behind - *in_front < least_notch) {
     knee.why_no_axes = "shaft and condyles do not agree on front and back";
@@ -174,15 +172,15 @@ void find_side(const TriMesh& femur, KneeAnatomy& knee) {
   const double lean =
       std::atan2(shaft.direction.dot(right), shaft.direction.dot(knee.axes->superior)) * degrees_per_radian;
   knee.evidence.push_back(
-      formatted("side: upwards the shaft leans %.1f degrees to the %s against the condyles' axis, as of "
-                "a %s knee (needs %.0f)",
+      formatted("side: upwards the shaft leans %.1f degrees to the %s against the condyles' axis, as of a %s "
+                "knee (needs %.0f)",
                 std::abs(lean), word(lean), word(lean), least_lean_deg));
   const ReachOfBone front = reach_of(femur, *knee.condyles, knee.axes->anterior, knee.axes->superior);
   const double ridge =
       (axis.direction.dot(right) > 0 ? front.last - front.first : front.first - front.last) / axis.radius;
   knee.evidence.push_back(
-      formatted("side: the trochlea's %s side stands %.2f radii of the condyles farther forwards, as of "
-                "a %s knee (needs %.1f)",
+      formatted("side: the trochlea's %s side stands %.2f radii of the condyles farther forwards, as of a %s "
+                "knee (needs %.1f)",
                 word(ridge), std::abs(ridge), word(ridge), least_ridge));
   const bool leans = std::abs(lean) >= least_lean_deg, has_ridge = std::abs(ridge) >= least_ridge;
   if (knee.head) {
@@ -190,8 +188,8 @@ void find_side(const TriMesh& femur, KneeAnatomy& knee) {
     const double offset =
         -(to_head - to_head.dot(shaft.direction) * shaft.direction).dot(right) / axis.radius;
     knee.evidence.push_back(
-        formatted("side: the femur's head lies %.1f radii of the condyles to the %s of the shaft, as of "
-                  "a %s knee (needs %.1f, and decides)",
+        formatted("side: the femur's head lies %.1f radii of the condyles to the %s of the shaft, as of a %s "
+                  "knee (needs %.1f, and decides)",
                   std::abs(offset), word(-offset), word(offset), least_hip_head_offset));
     const bool contradicted = (leans && lean * offset < 0) || (has_ridge && ridge * offset < 0);
     if (std::abs(offset) >= least_hip_head_offset && !contradicted)
@@ -215,10 +213,9 @@ void check_tibia(const TriMesh& tibia, KneeAnatomy& knee) {
   const Vec3 down = area_centroid(tibia) - knee.condyles->fit.cylinder.point;
   const double behind =
       std::atan2(-down.dot(knee.axes->anterior), -down.dot(knee.axes->superior)) * degrees_per_radian;
-  knee.evidence.push_back(
-      formatted("the mobile body lies %.0f degrees %s straight down from the condyles (needs %.0f in "
-                "front at most)",
-                std::abs(behind), behind < 0 ? "in front of" : "behind", most_in_front_deg));
+  knee.evidence.push_back(formatted(
+      "the mobile body lies %.0f degrees %s straight down from the condyles (needs %.0f in front at most)",
+      std::abs(behind), behind < 0 ? "in front of" : "behind", most_in_front_deg));
   if (behind >= -most_in_front_deg && behind <= most_behind_deg) return;
   knee.axes.reset();
   knee.why_no_axes = "the mobile body does not lie below or behind the condyles, as a tibia does";

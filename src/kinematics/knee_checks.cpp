@@ -36,12 +36,11 @@ std::optional<JointNote> note_on_front_and_side(const Joint& joint, const KneeAn
         JointNoteCode::mirrored,
         "the condyles of " + femur + " stand in front of its shaft: front and back are mirrored"};
   if (is_backwards)
-    return JointNote{
-        JointNoteCode::axes_turned,
-        "the condyles of " + femur +
-            " stand in front of its shaft: the axes are turned by 180 degrees about superior, as "
-            "where LPS coordinates are read as RAS" +
-            (knee.side ? "" : ", or front and back are mirrored")};
+    return JointNote{JointNoteCode::axes_turned,
+                     "the condyles of " + femur +
+                         " stand in front of its shaft: the axes are turned by 180 degrees about superior, "
+                         "as where LPS coordinates are read as RAS" +
+                         (knee.side ? "" : ", or front and back are mirrored")};
   if (is_other_side)
     return JointNote{JointNoteCode::wrong_side,
                      formatted("the side is %s, but ", word_of(joint.side).data()) + femur +

@@ -238,16 +238,16 @@ std::vector<JointNote> long_bone_notes(const Joint& joint, const JointPlacement&
   const bool said_already = !notes.empty() && notes.back().code == JointNoteCode::axes_not_upright;
   if (!said_already && joint.anatomy != Anatomy::shoulder &&
       begins_at_joint(*fixed, mesh::outer_surface(joint.fixed.mesh)) && fixed->along.y() < upright)
-    notes.push_back({JointNoteCode::axes_not_upright,
-                     fixed_name +
-                         " does not lie above the joint: superior does not point up, or the centre is at "
-                         "its other end"});
+    notes.push_back(
+        {JointNoteCode::axes_not_upright,
+         fixed_name +
+             " does not lie above the joint: superior does not point up, or the centre is at its other end"});
   if (joint.anatomy != Anatomy::ankle && begins_at_joint(*mobile, mesh::outer_surface(joint.mobile.mesh)) &&
       -mobile->along.y() < upright)
-    notes.push_back({JointNoteCode::axes_not_upright,
-                     mobile_name +
-                         " does not hang down from the joint at zero angles: superior or the reference "
-                         "pose is wrong"});
+    notes.push_back(
+        {JointNoteCode::axes_not_upright,
+         mobile_name +
+             " does not hang down from the joint at zero angles: superior or the reference pose is wrong"});
   if (joint.anatomy == Anatomy::shoulder) return notes;
   if (const double off = distance_to_bones(joint, X_FM); off > farthest_from_axis_mm)
     notes.push_back({JointNoteCode::far_centre,

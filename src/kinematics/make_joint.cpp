@@ -124,8 +124,8 @@ Pose rotated_to_axis(const Pose& X_WF, const Vec3& fitted, JointPlacement& place
   placement.axis_rotation = Angle::radians(std::atan2(z.cross(axis).norm(), z.dot(axis)));
   if (placement.axis_rotation.degrees() > largest_turn_deg)
     throw MeshError(
-        formatted("frame.centre: the fitted axis is %.1f degrees from right = anterior x superior; "
-                  "more than %g is not taken for the same axis (limit the fit with fit_within)",
+        formatted("frame.centre: the fitted axis is %.1f degrees from right = anterior x superior; more than "
+                  "%g is not taken for the same axis (limit the fit with fit_within)",
                   placement.axis_rotation.degrees(), largest_turn_deg));
   Pose rotated = X_WF;
   rotated.linear() = smallest_rotation(z, axis) * X_WF.linear();
@@ -267,13 +267,13 @@ std::vector<std::string> processing_of(const JointPlacement& placement) {
   }
   if (placement.cylinder) {
     const CylinderFit& fit = *placement.cylinder;
-    notes.push_back(formatted(
-        "axis fitted: cylinder of radius %.3f mm over %zu vertices, %.0f %% of a turn, rms residual "
-        "%.3f mm, largest %.3f mm; direction within %.2f degrees and axis within %.2f mm by resampling; "
-        "axes rotated by %.2f degrees to it",
-        fit.cylinder.radius, fit.vertices.size(), 100 * fit.coverage, fit.rms_residual, fit.largest_residual,
-        fit.direction_bound.value_or(Angle()).degrees(), fit.axis_bound_mm.value_or(0),
-        placement.axis_rotation.degrees()));
+    notes.push_back(
+        formatted("axis fitted: cylinder of radius %.3f mm over %zu vertices, %.0f %% of a turn, rms "
+                  "residual %.3f mm, largest %.3f mm; direction within %.2f degrees and axis within %.2f mm "
+                  "by resampling; axes rotated by %.2f degrees to it",
+                  fit.cylinder.radius, fit.vertices.size(), 100 * fit.coverage, fit.rms_residual,
+                  fit.largest_residual, fit.direction_bound.value_or(Angle()).degrees(),
+                  fit.axis_bound_mm.value_or(0), placement.axis_rotation.degrees()));
   }
   return notes;
 }

@@ -57,8 +57,8 @@ std::optional<Glenoid> find_glenoid(const TriMesh& scapula, const Sphere& head, 
       (glenoid.fit.sphere.centre - scapula.vertices[glenoid.fit.vertices[0]]).dot(glenoid.faces) > 0)
     return glenoid;
   why_none = core::formatted(
-      "what faces the head has a sphere of %.1f head radii with rms %.1f mm (needs %.1f to %.0f, hollow, "
-      "and %.1f)",
+      "what faces the head has a sphere of %.1f head radii with rms %.1f mm (needs %.1f to %.0f, hollow, and "
+      "%.1f)",
       ratio, glenoid.fit.rms_residual, smallest_glenoid_ratio, largest_glenoid_ratio, most_residual_mm);
   return std::nullopt;
 }

@@ -101,11 +101,10 @@ std::optional<JointNote> turned_leg_note(const Joint& joint, std::span<const Joi
   if (std::any_of(others.begin(), others.end(), is_of_axes)) return std::nullopt;
   const ZeroPose zero = zero_pose(joint);
   if (!zero.is_turned()) return std::nullopt;
-  return JointNote{JointNoteCode::turned_leg,
-                   joint.mobile.name + " lies turned where angles are 0, by its condyles at " +
-                       angles_text(*zero.femur) +
-                       " from neutral: limits count from there, and the reference pose can be taken from the "
-                       "anatomy"};
+  return JointNote{
+      JointNoteCode::turned_leg,
+      joint.mobile.name + " lies turned where angles are 0, by its condyles at " + angles_text(*zero.femur) +
+          " from neutral: limits count from there, and the reference pose can be taken from the anatomy"};
 }
 
 }  // namespace kinematics

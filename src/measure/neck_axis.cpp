@@ -153,11 +153,10 @@ NeckFinding find_neck(const TriMesh& femur, const Sphere& head) {
   if (direction.dot(middle) < 0) direction = -direction;
   const double share = found->area.norm() / (std::numbers::pi * radius * radius);
   if (!(share >= least_neck_share && share <= largest_share))
-    return {
-        {},
-        core::formatted("what crosses a sphere of %.1f radii about the head has %.2f of its great circle: "
-                        "no neck (needs %.2f to %.2f)",
-                        neck_sphere, share, least_neck_share, largest_share)};
+    return {{},
+            core::formatted("what crosses a sphere of %.1f radii about the head has %.2f of its great "
+                            "circle: no neck (needs %.2f to %.2f)",
+                            neck_sphere, share, least_neck_share, largest_share)};
   if (direction.dot(middle) < least_alike * middle.norm())
     return {{}, "what crosses the sphere about the head does not lie to one side, as a neck does"};
   NeckLine neck{direction, found->area.norm(), found->outline};

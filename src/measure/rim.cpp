@@ -142,8 +142,8 @@ std::string why_not_of_head(const RimGeometry& rim, const Sphere& head) {
   const double beside = (ray - ray.dot(rim.normal) * rim.normal).norm();
   if (rim.radius_mm >= narrowest_rim * head.radius && beside <= farthest_beside * head.radius) return {};
   return core::formatted(
-      "what faces the head ends in a circle of %.0f mm radius, %.0f mm beside the head: no socket "
-      "that it is in",
+      "what faces the head ends in a circle of %.0f mm radius, %.0f mm beside the head: no socket that it is "
+      "in",
       rim.radius_mm, beside);
 }
 

@@ -173,16 +173,14 @@ void check_sizes(const Sizes& sizes) {
   const LinerShape& liner = sizes.liner;
   constexpr double thinnest = 1;
   if (liner.outer_radius_mm < liner.radius_mm + thinnest)
-    refuse(
-        core::formatted("a head of radius %g mm is too large for a cup of radius %g mm outside: its wall "
-                        "needs %g mm",
-                        liner.radius_mm, liner.outer_radius_mm, thinnest));
+    refuse(core::formatted(
+        "a head of radius %g mm is too large for a cup of radius %g mm outside: its wall needs %g mm",
+        liner.radius_mm, liner.outer_radius_mm, thinnest));
   const double chamfer_cosine = core::sine_cosine(liner.chamfer.radians()).cosine;
   if (chamfer_cosine * liner.outer_radius_mm <= liner.radius_mm)
-    refuse(
-        core::formatted("a chamfer of %g degrees is too much for walls from %g to %g mm: it would run into "
-                        "the head",
-                        written_degrees(liner.chamfer), liner.radius_mm, liner.outer_radius_mm));
+    refuse(core::formatted(
+        "a chamfer of %g degrees is too much for walls from %g to %g mm: it would run into the head",
+        written_degrees(liner.chamfer), liner.radius_mm, liner.outer_radius_mm));
   const double t = std::tan(sizes.neck.taper.radians());
   const double at_end = sizes.neck.radius_mm + t * sizes.neck_end_mm;
   constexpr double thinnest_neck = 1;
@@ -195,10 +193,10 @@ void check_sizes(const Sizes& sizes) {
   constexpr double beyond = 2;
   // The neck ends in a plane: its end is beyond the cup all over if its middle is.
   if (sizes.neck_end_mm < liner.outer_radius_mm + beyond)
-    refuse(core::formatted(
-        "the neck ends %.3g mm from the centre of the head, too near to a cup of radius %g mm "
-        "outside: it must end %g mm beyond, by a larger %s",
-        sizes.neck_end_mm, liner.outer_radius_mm, beyond, sizes.neck_end_by));
+    refuse(
+        core::formatted("the neck ends %.3g mm from the centre of the head, too near to a cup of radius %g "
+                        "mm outside: it must end %g mm beyond, by a larger %s",
+                        sizes.neck_end_mm, liner.outer_radius_mm, beyond, sizes.neck_end_by));
   if (!(contact_half_angle(liner, sizes.neck) > Angle::degrees(1)))
     refuse("the neck is too thick for the opening of the liner: both would always be in contact");
 }
@@ -212,10 +210,9 @@ void check_design(const TotalHip& hip) {
         std::hypot(hip.neck_radius_mm, std::max(hip.neck_upper_width_mm, hip.neck_lower_width_mm) / 2);
     if (farthest + std::tan(hip.neck_taper.radians()) * hip.head_radius_mm >=
         hip.head_radius_mm - hip.clearance_mm)
-      refuse(
-          core::formatted("the neck, whose corners are %.3g mm from its axis, is thicker than the head, of "
-                          "radius %g mm",
-                          farthest, hip.head_radius_mm - hip.clearance_mm));
+      refuse(core::formatted(
+          "the neck, whose corners are %.3g mm from its axis, is thicker than the head, of radius %g mm",
+          farthest, hip.head_radius_mm - hip.clearance_mm));
   }
   if (hip.lip > Angle()) {
     LinerShape raised{hip.head_radius_mm, hip.cup_radius_mm, hip.liner_half_angle + hip.lip, hip.chamfer};

@@ -115,10 +115,9 @@ std::optional<Resection> resect(const Joint& joint, const ResectionOptions& requ
     done.targets.push_back({target, target.reach, before.limit(target.motion), {}, {}});
     const motion::Limit& end = done.targets.back().before.end;
     if (end.reason == motion::LimitReason::contact_at_start)
-      throw MeshError(
-          "resection: " + target.motion.name +
-          " is in contact at its start: plan what brings the joint there first, and ask for this of "
-          "the joint without that bone");
+      throw MeshError("resection: " + target.motion.name +
+                      " is in contact at its start: plan what brings the joint there first, and ask for this "
+                      "of the joint without that bone");
     if (end.turned < target.reach || request.margin_mm > 0)
       open.push_back({i, target.motion, target.reach, end.turned});
   }

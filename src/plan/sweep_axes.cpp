@@ -39,9 +39,9 @@ SweptParameter swept_of(std::string_view item) {
   swept.step = number_of(rest);
   if (swept.name.empty() || !has_last || !has_step || !rest.empty() ||
       !std::isfinite(swept.first + swept.last + swept.step))
-    throw UsageError("\"" + core::one_line(item) +
-                     "\" is not a parameter with its first and last value and a step, as in "
-                     "cup.inclination=30:50:1");
+    throw UsageError(
+        "\"" + core::one_line(item) +
+        "\" is not a parameter with its first and last value and a step, as in cup.inclination=30:50:1");
   const std::string named = core::one_line(swept.name) + ": ";
   if (swept.step <= 0) throw UsageError(named + "the step must be above 0");
   if (swept.last < swept.first)

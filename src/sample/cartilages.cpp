@@ -27,8 +27,7 @@ void require_valid(const HipParameters& hip, const CartilageParameters& cartilag
   const double left = sample::articular_spheres(hip, cartilage).acetabular_thickness();
   if (left < least_thickness_mm) {
     throw UsageError(fmt::format(
-        "sample hip: the joint space leaves {:g} mm for the acetabular cartilage, must be at least "
-        "{:g} mm",
+        "sample hip: the joint space leaves {:g} mm for the acetabular cartilage, must be at least {:g} mm",
         left, least_thickness_mm));
   }
 }

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "answer/depth_meshes.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "condyle/make_joint.hpp"
@@ -178,6 +179,35 @@ TEST(DepthAnswer, OfAnOpenBodyHasNothingInsideIt) {
   EXPECT_FALSE(rays.reliable.mobile);
   EXPECT_TRUE(rays.reliable.fixed);
   EXPECT_FALSE(answer.measures.volume_mm3);
+}
+
+/// A sheet, open but with an outer side, against a ball; and the sheet with one triangle wound against the others.
+TEST(DepthMeshes, AreSolidsForDepthsAndHaveOuterSidesForNormals) {
+  TriMesh wound = plane(20, 8);
+  std::swap(wound.triangles[0][1], wound.triangles[0][2]);
+  Joint joint{.name = "sheet",
+              .kind = JointKind::ball,
+              .side = Side::right,
+              .fixed = {"sheet", plane(20, 8)},
+              .mobile = {"ball", sphere({0, 1, 0}, 5, 3)}};
+  const auto refusal = [&](DepthMethod method) -> std::pair<std::string, bool> {
+    try {
+      answer::require_depth_meshes(joint, method, {"sheet.ply", "ball.ply"});
+    } catch (const answer::NoSolidError& error) {
+      return {error.what(), error.normals_would_do};
+    } catch (const MeshError& error) {
+      return {error.what(), false};
+    }
+    return {};
+  };
+  EXPECT_TRUE(refusal(DepthMethod::normal).first.empty());
+  for (const DepthMethod method : {DepthMethod::reliable, DepthMethod::radial, DepthMethod::tangential}) {
+    EXPECT_TRUE(refusal(method).first.starts_with("sheet.ply: "));
+    EXPECT_TRUE(refusal(method).second);
+  }
+  joint.fixed.mesh = wound;
+  EXPECT_TRUE(refusal(DepthMethod::normal).first.starts_with("sheet.ply: "));
+  EXPECT_FALSE(refusal(DepthMethod::reliable).second);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "io/joint/contact_table.hpp"
+#include "io/joint/depth_surfaces.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "io/joint/depth_surfaces.hpp"
 #include "io/motion/motion_text.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
@@ -207,6 +209,21 @@ TEST_F(ContactSurfacesOfAJoint, AreItsPartsByName) {
   EXPECT_EQ(surfaces.fixed.mesh.arrays(), mesh_of_part(loaded.joint.fixed, "layer").arrays());
   EXPECT_EQ(surfaces.mobile.name, "ball");
   EXPECT_THROW(io::surfaces_of({.mobile_part = "layer"}, loaded.joint), UsageError) << "the ball is one mesh";
+}
+
+TEST_F(ContactSurfacesOfAJoint, TakeThePlaceOfBodiesForDepthsAlongNormals) {
+  const io::LoadedJoint loaded =
+      joint("[contact]\nfixed_part = \"layer\"\ncasting = \"mobile\"\nrule = \"face_centre\"\nreach = 7\n");
+  const io::ContactEntry& entry = *loaded.report.file.contact;
+  const Joint of_surfaces = io::joint_of_surfaces(entry, loaded.joint);
+  EXPECT_EQ(of_surfaces.fixed.name, "layer");
+  EXPECT_EQ(of_surfaces.fixed.mesh.triangles().size(), 2u);
+  EXPECT_EQ(of_surfaces.mobile.mesh.arrays(), loaded.joint.mobile.mesh.arrays());
+  const DepthRequest request = io::cast_as(entry, {.method = DepthMethod::normal});
+  EXPECT_EQ(request.method, DepthMethod::normal);
+  EXPECT_EQ(request.casting, contact::Casting::mobile);
+  EXPECT_EQ(request.rays->rule, contact::FaceRule::face_centre);
+  EXPECT_EQ(request.rays->reach_mm, 7);
 }
 
 TEST_F(ContactSurfacesOfAJoint, AThicknessCanBeGivenForEachVertex) {

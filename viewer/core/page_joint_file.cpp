@@ -86,12 +86,7 @@ std::string block_of_joint(const io::LoadedJoint& loaded) {
   }
   std::optional<io::RomResult> rom;
   if (answer) rom.emplace(io::rom_result_of(*answer, notes, &from));
-  io::Report report{.title = loaded.joint.name,
-                    .joint = loaded.joint,
-                    .reference_pose = loaded.report.placement.reference_pose,
-                    .rom = rom ? &*rom : nullptr,
-                    .rom_error = error};
-  if (loaded.report.file.recorded_motion) report.recorded_motion = &*loaded.report.file.recorded_motion;
+  const io::Report report = io::report_of(loaded, rom ? &*rom : nullptr, error);
   io::BlockArrays arrays;
   io::Json json = io::joint_object(report, arrays);
   json["only_in_reports"] = only_in_reports(loaded.report.file);

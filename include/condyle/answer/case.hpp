@@ -26,11 +26,11 @@ struct Case {
   std::string pelvis_frame = {};  ///< measure::pelvis_frame_of() its description; empty: not stated
 
   /// Motions that can be requested: the built-in ones and its own.
-  std::vector<motion::Motion> motions() const;
+  [[nodiscard]] std::vector<motion::Motion> motions() const;
   /// Those of these names, as motion_named() finds them; all if there are no names.
-  std::vector<motion::Motion> motions(std::span<const std::string> names) const;
+  [[nodiscard]] std::vector<motion::Motion> motions(std::span<const std::string> names) const;
   /// How its shape is measured: in the frame that its axes are from, the ischiofemoral distance in its reference pose.
-  measure::MeasureOptions measure_options(Angle pelvic_tilt = {}) const;
+  [[nodiscard]] measure::MeasureOptions measure_options(Angle pelvic_tilt = {}) const;
 };
 
 /// A band of displaced joints, and how they are displaced. What is left open is as the case has it.
@@ -40,11 +40,11 @@ struct BandRequest {
   /// Standard deviations: of each coordinate of the centre, of the rotation about each axis, and of each surface along its normals.
   std::optional<double> centre_mm = {}, axes_deg = {}, surface_mm = {};
 
-  bool any_sigma() const noexcept { return centre_mm || axes_deg || surface_mm; }
+  [[nodiscard]] bool any_sigma() const noexcept { return centre_mm || axes_deg || surface_mm; }
 };
 
 /// The one place where a request and what a case says about its uncertainty meet. A surface with a standard deviation in mm has none
 /// in voxels.
-motion::BandOptions band_options(const Case& joint, const BandRequest& request);
+[[nodiscard]] motion::BandOptions band_options(const Case& joint, const BandRequest& request);
 
 }  // namespace condyle

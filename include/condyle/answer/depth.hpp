@@ -68,7 +68,7 @@ struct DepthAnswer {
   std::variant<RayDepths, ArcDepths, contact::NormalContact> depths;
   std::vector<std::string> caveats = {};  ///< what the depths must be read with, a sentence each
 
-  bool in_contact() const noexcept;
+  [[nodiscard]] bool in_contact() const noexcept;
 };
 
 /// Throws UsageError for options of another method, arcs at a pose that translates, and angles that are not those of X_FM.
@@ -79,8 +79,8 @@ void check_depth_request(const Joint& joint, const DepthRequest& request);
 ///
 /// Throws UsageError as check_depth_request(), MeshError as JointContact::radial() does. Open meshes have no inside: what lacks
 /// an answer for that is empty.
-DepthAnswer answer_depth(const contact::JointContact& bodies, const Joint& joint,
-                         const DepthRequest& request);
-DepthAnswer answer_depth(const Joint& joint, const DepthRequest& request);
+[[nodiscard]] DepthAnswer answer_depth(const contact::JointContact& bodies, const Joint& joint,
+                                       const DepthRequest& request);
+[[nodiscard]] DepthAnswer answer_depth(const Joint& joint, const DepthRequest& request);
 
 }  // namespace condyle

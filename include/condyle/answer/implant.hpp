@@ -33,9 +33,9 @@ enum class ImplantCentre : std::uint8_t {
 };
 
 /// As in files: "head".
-std::string_view name_of(ImplantCentre centre) noexcept;
+[[nodiscard]] std::string_view name_of(ImplantCentre centre) noexcept;
 /// Throws UsageError that lists the valid words.
-ImplantCentre implant_centre_named(std::string_view word);
+[[nodiscard]] ImplantCentre implant_centre_named(std::string_view word);
 
 /// Options of a request for an implant, with their defaults.
 struct ImplantRequest {
@@ -57,7 +57,7 @@ enum class ImplantNoteCode : std::uint8_t {
 };
 
 /// As in files: "cup_in_bone".
-std::string_view name_of(ImplantNoteCode code) noexcept;
+[[nodiscard]] std::string_view name_of(ImplantNoteCode code) noexcept;
 
 struct ImplantNote {
   ImplantNoteCode code;
@@ -103,6 +103,6 @@ struct ImplantAnswer {
 /// Throws UsageError for what is no hip, has an implant already or a shaft that lies level, for sizes as check_implant() does, for a head
 /// that bone blocks, and if the bones do not show what a size is to be taken from, naming the size; MeshError for a femur that is
 /// not closed or has no head; ReferenceContactError if the bodies are in contact at zero angles. As long as measure_hip().
-ImplantAnswer answer_implant(const Case& joint, const ImplantRequest& request);
+[[nodiscard]] ImplantAnswer answer_implant(const Case& joint, const ImplantRequest& request);
 
 }  // namespace condyle

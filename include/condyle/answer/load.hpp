@@ -33,7 +33,7 @@ struct LoadAnswer {
 
   /// False if a load was requested and no contact carries it: `balanced` has the reason, X_FM and the contact are
   /// those at which the search stopped, and the numbers mean nothing.
-  bool carries_load() const noexcept { return !balanced || balanced->carries_load(); }
+  [[nodiscard]] bool carries_load() const noexcept { return !balanced || balanced->carries_load(); }
 };
 
 /// Throws UsageError for a moment without free rotations, which nothing would balance.
@@ -41,6 +41,6 @@ void check_load_request(const LoadRequest& request);
 
 /// Pressure at a pose, or at the pose that balances a load. Throws UsageError as check_load_request() and balance(), MeshError
 /// as ElasticContact::at(). Costs two evaluations of the contact and sixteen rays for each triangle, and a balance ten more.
-LoadAnswer answer_load(const contact::ElasticContact& surfaces, const LoadRequest& request);
+[[nodiscard]] LoadAnswer answer_load(const contact::ElasticContact& surfaces, const LoadRequest& request);
 
 }  // namespace condyle

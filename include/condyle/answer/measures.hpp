@@ -28,8 +28,8 @@ struct MeasureAnswer {
 /// Measures, and their bands if requested. Empty if it was stopped. Stage: "joints of the band".
 ///
 /// Throws UsageError as measure_hip() and measure_bands() do, and costs what they cost.
-std::optional<MeasureAnswer> answer_measures(const Case& joint, const MeasureRequest& request,
-                                             const Control& control);
-MeasureAnswer answer_measures(const Case& joint, const MeasureRequest& request = {});
+[[nodiscard]] std::optional<MeasureAnswer> answer_measures(const Case& joint, const MeasureRequest& request,
+                                                           const Control& control);
+[[nodiscard]] MeasureAnswer answer_measures(const Case& joint, const MeasureRequest& request = {});
 
 }  // namespace condyle

@@ -37,7 +37,7 @@ struct MotionRequest {
   contact::NormalDepthOptions rays = {};
   motion::BodyNames names = {};  ///< as notes call the bodies
 
-  bool has_load() const noexcept { return load || !loads.empty(); }
+  [[nodiscard]] bool has_load() const noexcept { return load || !loads.empty(); }
 };
 
 /// Contact in every frame, and how a load was balanced.
@@ -63,17 +63,17 @@ void check_motion_request(const MotionRequest& request);
 /// samples", "frames".
 ///
 /// Throws UsageError as check_motion_request(), balance_along() and contact_between(), MeshError as contact_along().
-std::optional<MotionAnswer> answer_motion(const contact::JointContact& bodies,
-                                          const contact::ElasticContact* layers, const MotionRequest& request,
-                                          const Control& control);
-MotionAnswer answer_motion(const contact::JointContact& bodies, const contact::ElasticContact* layers,
-                           const MotionRequest& request);
+[[nodiscard]] std::optional<MotionAnswer> answer_motion(const contact::JointContact& bodies,
+                                                        const contact::ElasticContact* layers,
+                                                        const MotionRequest& request, const Control& control);
+[[nodiscard]] MotionAnswer answer_motion(const contact::JointContact& bodies,
+                                         const contact::ElasticContact* layers, const MotionRequest& request);
 
 /// The notes of answer_motion() on layers and loads, which are known before its work is done.
-std::vector<motion::ContactNote> motion_request_notes(const contact::ElasticContact* layers,
-                                                      const MotionRequest& request);
+[[nodiscard]] std::vector<motion::ContactNote> motion_request_notes(const contact::ElasticContact* layers,
+                                                                    const MotionRequest& request);
 
 /// The frame with the largest force on the mobile body; empty if none is above 0.
-std::optional<std::size_t> frame_of_largest_force(const MotionAnswer& answer);
+[[nodiscard]] std::optional<std::size_t> frame_of_largest_force(const MotionAnswer& answer);
 
 }  // namespace condyle

@@ -45,8 +45,8 @@ using Follow = std::variant<FollowRecord, FollowLoad>;
 
 /// The motions along which the recorded angle begins at the motion's start or before it, goes on past it, and never turns
 /// back.
-std::vector<motion::Motion> motions_recorded(std::span<const motion::Motion> motions,
-                                             const FollowRecord& record);
+[[nodiscard]] std::vector<motion::Motion> motions_recorded(std::span<const motion::Motion> motions,
+                                                           const FollowRecord& record);
 
 /// Options of a request for the range of motion, with their defaults.
 struct RangeRequest {
@@ -84,7 +84,7 @@ enum class RangeNoteCode : std::uint8_t {
 };
 
 /// As in files: "centre_moves_limits".
-std::string_view name_of(RangeNoteCode code) noexcept;
+[[nodiscard]] std::string_view name_of(RangeNoteCode code) noexcept;
 
 /// Caveat on the limits that follows from the shape of this joint. Unlike a JointNote it reports no fault of the
 /// set-up.
@@ -122,13 +122,13 @@ struct RangeAnswer {
 
 /// The translation that all motions of a free joint keep: the one requested, else that of its reference pose. Empty for joints
 /// that do not translate. Throws UsageError if one is requested of those, or if it would turn with the joint's axes.
-std::optional<Vec3> held_translation(const Case& joint, const std::optional<Vec3>& requested);
+[[nodiscard]] std::optional<Vec3> held_translation(const Case& joint, const std::optional<Vec3>& requested);
 
 /// Throws UsageError for what answer_range() would refuse before it computes anything.
 void check_range_request(const Case& joint, const RangeRequest& request);
 
 /// Warnings on the recorded motion, or the layers and the load, that a translation follows: known before the work.
-std::vector<motion::ContactNote> range_request_notes(const RangeRequest& request);
+[[nodiscard]] std::vector<motion::ContactNote> range_request_notes(const RangeRequest& request);
 
 /// Computes exact limits, or limits with a depth allowed, and what else is requested. Empty if it was stopped.
 ///
@@ -137,23 +137,26 @@ std::vector<motion::ContactNote> range_request_notes(const RangeRequest& request
 /// not have.
 ///
 /// Some milliseconds a motion, once the joint is prepared; maps and bands as motion_map() and limit_bands().
-std::optional<RangeAnswer> answer_range(const Case& joint, const RangeRequest& request,
-                                        const Control& control);
-RangeAnswer answer_range(const Case& joint, const RangeRequest& request);
+[[nodiscard]] std::optional<RangeAnswer> answer_range(const Case& joint, const RangeRequest& request,
+                                                      const Control& control);
+[[nodiscard]] RangeAnswer answer_range(const Case& joint, const RangeRequest& request);
 
 /// The same by the tables of an answer about this joint with these options of the range: exact limits of further motions with their closed
 /// forms, maps, bands and zones, and no notes on the limits. Empty if it was stopped. Throws UsageError as check_motion() and
 /// check_grid().
-std::optional<RangeAnswer> further_answer(const Case& joint, const RangeAnswer& kept,
-                                          const RangeRequest& request, const Control& control = {});
+[[nodiscard]] std::optional<RangeAnswer> further_answer(const Case& joint, const RangeAnswer& kept,
+                                                        const RangeRequest& request,
+                                                        const Control& control = {});
 
 /// The notes of answer_range(), for callers who have the limits and their bearing surface already. Two searches of all motions if
 /// head and socket are more than centres_apart_mm apart.
-std::vector<RangeNote> range_notes(const Joint& joint, std::span<const motion::MotionLimit> limits,
-                                   const motion::RangeOptions& range, const motion::BearingFinding& bearing);
+[[nodiscard]] std::vector<RangeNote> range_notes(const Joint& joint,
+                                                 std::span<const motion::MotionLimit> limits,
+                                                 const motion::RangeOptions& range,
+                                                 const motion::BearingFinding& bearing);
 
 /// Sentences on what these options leave out or accept.
-std::vector<std::string> range_caveats(const motion::RangeOptions& options,
-                                       const motion::RangeOfMotion& range);
+[[nodiscard]] std::vector<std::string> range_caveats(const motion::RangeOptions& options,
+                                                     const motion::RangeOfMotion& range);
 
 }  // namespace condyle

@@ -51,7 +51,7 @@ enum class ResectionNoteCode : std::uint8_t {
 };
 
 /// As in files: "nothing_to_do".
-std::string_view name_of(ResectionNoteCode code) noexcept;
+[[nodiscard]] std::string_view name_of(ResectionNoteCode code) noexcept;
 
 struct ResectionNote {
   ResectionNoteCode code;
@@ -79,21 +79,23 @@ struct NamedReach {
 };
 
 /// Targets from "flexion=115 internal_rotation_at_90_flexion=30", separated by blanks or commas. Throws UsageError for other text.
-std::vector<NamedReach> parse_reach(std::string_view text);
+[[nodiscard]] std::vector<NamedReach> parse_reach(std::string_view text);
 
 /// Targets of these motions, each by its name as motion_named() finds it. Throws UsageError for an unknown name.
-std::vector<plan::ReachTarget> reach_targets(std::span<const motion::Motion> motions,
-                                             std::span<const NamedReach> named);
+[[nodiscard]] std::vector<plan::ReachTarget> reach_targets(std::span<const motion::Motion> motions,
+                                                           std::span<const NamedReach> named);
 /// The targets in a text, as parse_reach() reads it.
-std::vector<plan::ReachTarget> reach_targets(std::span<const motion::Motion> motions, std::string_view text);
+[[nodiscard]] std::vector<plan::ReachTarget> reach_targets(std::span<const motion::Motion> motions,
+                                                           std::string_view text);
 
 /// The bone that must go, the limits and the shape before and after, and what each degree costs. Empty if it was stopped. Stages:
 /// "cuts", "joints of the band".
 ///
 /// Throws as resect(), measure_hip() and limit_bands() do. A second for each cut of a hip of 20,000 triangles: one, one for each
 /// point of a curve, and some for a band.
-std::optional<ResectionAnswer> answer_resection(const Case& joint, const ResectionRequest& request,
-                                                const Control& control);
-ResectionAnswer answer_resection(const Case& joint, const ResectionRequest& request);
+[[nodiscard]] std::optional<ResectionAnswer> answer_resection(const Case& joint,
+                                                              const ResectionRequest& request,
+                                                              const Control& control);
+[[nodiscard]] ResectionAnswer answer_resection(const Case& joint, const ResectionRequest& request);
 
 }  // namespace condyle

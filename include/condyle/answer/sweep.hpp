@@ -31,8 +31,8 @@ struct SweepQuantities {
 };
 
 /// Measures of a hip's shape, by their keys. Throws UsageError for a key that no measure has.
-SweepQuantities measured_quantities(std::span<const std::string> keys,
-                                    const measure::MeasureOptions& request);
+[[nodiscard]] SweepQuantities measured_quantities(std::span<const std::string> keys,
+                                                  const measure::MeasureOptions& request);
 
 /// Options of a request for a sweep, with their defaults.
 struct SweepRequest {
@@ -62,7 +62,7 @@ inline constexpr SweepNoteCode all_request_notes[] = {SweepNoteCode::differs_fro
                                                       SweepNoteCode::value_is_swept};
 
 /// As in files: "nothing_is_safe".
-std::string_view name_of(SweepNoteCode code) noexcept;
+[[nodiscard]] std::string_view name_of(SweepNoteCode code) noexcept;
 
 struct SweepNote {
   SweepNoteCode code;
@@ -95,13 +95,13 @@ struct SweepAnswer {
   std::vector<SweepNote> notes = {};
   std::vector<std::string> caveats = {};
 
-  std::size_t designs() const noexcept { return margin_deg.size(); }
+  [[nodiscard]] std::size_t designs() const noexcept { return margin_deg.size(); }
   /// The values of a design, counted from the first of the whole sweep.
-  std::vector<double> values_of(std::size_t design) const;
+  [[nodiscard]] std::vector<double> values_of(std::size_t design) const;
 };
 
 /// Designs of all axes together.
-std::size_t designs_of(std::span<const plan::SweptParameter> parameters);
+[[nodiscard]] std::size_t designs_of(std::span<const plan::SweptParameter> parameters);
 
 /// Throws UsageError for what answer_sweep() would refuse before it computes anything: no target or parameter, more than four of these,
 /// values outside of a parameter's range, a reach beyond its motion's range, a tilt of what is no hip, a size.
@@ -112,12 +112,12 @@ void check_sweep(const Case& joint, const SweepRequest& request);
 ///
 /// Throws UsageError as check_sweep(), MeshError if nothing of a body could end a motion. Designs of an implant whose bones do not move cost
 /// some microseconds a target; where the meshes decide, a millisecond a target and pair of meshes.
-std::optional<SweepAnswer> answer_sweep(const Case& joint, const SweepRequest& request,
-                                        const Control& control);
-SweepAnswer answer_sweep(const Case& joint, const SweepRequest& request);
+[[nodiscard]] std::optional<SweepAnswer> answer_sweep(const Case& joint, const SweepRequest& request,
+                                                      const Control& control);
+[[nodiscard]] SweepAnswer answer_sweep(const Case& joint, const SweepRequest& request);
 
 /// The shares of one sweep, all of them in their order, as one: the answer of the sweep that was not shared. Throws UsageError if one does not
 /// follow the one before.
-SweepAnswer merged_sweep(std::span<const SweepAnswer> shares);
+[[nodiscard]] SweepAnswer merged_sweep(std::span<const SweepAnswer> shares);
 
 }  // namespace condyle

@@ -68,13 +68,14 @@ struct ContactSurfaces {
   Body fixed, mobile;
 };
 /// UsageError for a part that a body does not have; the error lists its parts.
-ContactSurfaces surfaces_of(const ContactEntry& entry, const Joint& joint);
+[[nodiscard]] ContactSurfaces surfaces_of(const ContactEntry& entry, const Joint& joint);
 
 /// The options of an elastic contact of these surfaces, thicknesses measured or read. FileError for a mesh or a file of
 /// thicknesses that cannot be read or has not one for each vertex,
 /// MeshError if a vertex of a layer has nothing behind it within the reach and the entry gives no thickness for that.
-contact::ElasticContactOptions elastic_options(const ContactEntry& entry, const ContactSurfaces& surfaces,
-                                               const LoadedJoint& joint);
+[[nodiscard]] contact::ElasticContactOptions elastic_options(const ContactEntry& entry,
+                                                             const ContactSurfaces& surfaces,
+                                                             const LoadedJoint& joint);
 
 /// Values that replace a joint file's entries for its surfaces in contact; only those given replace.
 struct ContactChanges {
@@ -85,15 +86,15 @@ struct ContactChanges {
   /// One for both layers, or one of each: fixed, mobile.
   std::vector<double> youngs_modulus_mpa = {}, poisson_ratio = {}, thickness_mm = {};
 
-  bool any_of_rays() const noexcept { return casting || rule || reach_mm; }
-  bool any_of_layers() const noexcept {
+  [[nodiscard]] bool any_of_rays() const noexcept { return casting || rule || reach_mm; }
+  [[nodiscard]] bool any_of_layers() const noexcept {
     return !youngs_modulus_mpa.empty() || !poisson_ratio.empty() || !thickness_mm.empty();
   }
 };
 
 /// The entry with the changes. A body without a layer gets one where modulus, ratio and thickness are all given, and no part
 /// of one otherwise; a thickness that is given takes the place of a measured one.
-ContactEntry changed(ContactEntry entry, const ContactChanges& changes);
+[[nodiscard]] ContactEntry changed(ContactEntry entry, const ContactChanges& changes);
 
 /// Which connected pieces of a mesh are the bone.
 enum class PieceRule : std::uint8_t {
@@ -114,7 +115,9 @@ struct MeshEntry {
   Vec3 scale = Vec3::Ones();
   Pose X_BG = Pose::Identity();
 
-  bool is_moved() const noexcept { return scale != Vec3::Ones() || !X_BG.matrix().isIdentity(0); }
+  [[nodiscard]] bool is_moved() const noexcept {
+    return scale != Vec3::Ones() || !X_BG.matrix().isIdentity(0);
+  }
 };
 
 /// A [fixed] or [mobile] table.
@@ -141,10 +144,10 @@ struct JointFile {
   FileDigest digest = {};
   std::vector<std::string> processing = {};  ///< one line each: what was corrected in reading
 };
-JointFile read_joint_file(const std::filesystem::path& path);
+[[nodiscard]] JointFile read_joint_file(const std::filesystem::path& path);
 
 /// The file itself, its meshes, and what its layers are measured by.
-std::vector<std::filesystem::path> files_of(const JointFile& file);
+[[nodiscard]] std::vector<std::filesystem::path> files_of(const JointFile& file);
 
 /// Report of how one mesh was placed in the joint.
 struct BodyMeshReport {
@@ -181,10 +184,10 @@ struct LoadedJoint {
 
 /// Reads a joint file and its meshes, and makes the joint: docs/joint-frame.md, "Placement", and make_joint().
 /// Throws FileError, and MeshError if a fit finds nothing or a repair cannot be made.
-LoadedJoint read_joint(const std::filesystem::path& path);
+[[nodiscard]] LoadedJoint read_joint(const std::filesystem::path& path);
 
 /// The joint at these values of its parts' parameters, as with_parameters() of its `joint`; and the report of that.
-LoadedJoint with_parameters(const LoadedJoint& loaded, std::span<const ParameterValue> values);
+[[nodiscard]] LoadedJoint with_parameters(const LoadedJoint& loaded, std::span<const ParameterValue> values);
 
 /// Input of a proposal.
 struct ProposalRequest {
@@ -210,7 +213,7 @@ struct JointProposal {
 /// in the socket and the hip bone's shape vote for the side. What the votes do not settle, or settle against the given
 /// side, is left to fill in; nothing is guessed. Other joints have their axis from condyles, dome or trochlea, their directions
 /// from shafts, where the bones show them: docs/other-joints.md. Throws FileError if a mesh cannot be read.
-JointProposal propose_joint(const ProposalRequest& request);
+[[nodiscard]] JointProposal propose_joint(const ProposalRequest& request);
 
 // A recorded motion of a joint: from the columns of a table to poses X_FM in the joint frame.
 
@@ -228,9 +231,9 @@ struct JointMotion {
 /// their units: flexion_deg, internal_rotation_rad, x_mm, z_m; coordinates without a column are 0, and a note says so.
 /// Columns of poses are of the frames of the mesh files. FileError as for recorded_coordinates() and recorded_poses(), and
 /// for a joint that does not translate if its poses do by more than 1e-6 mm.
-JointMotion motion_of(const LoadedJoint& joint, const MotionTable& table);
+[[nodiscard]] JointMotion motion_of(const LoadedJoint& joint, const MotionTable& table);
 
 /// The coordinates of its frames, without gaps.
-std::vector<JointCoordinates> coordinates_of(const Joint& joint, const JointMotion& motion);
+[[nodiscard]] std::vector<JointCoordinates> coordinates_of(const Joint& joint, const JointMotion& motion);
 
 }  // namespace condyle::io

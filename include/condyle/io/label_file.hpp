@@ -45,7 +45,7 @@ enum class LabelNoteCode {
 };
 
 /// As in files: "two_affines".
-std::string_view name_of(LabelNoteCode code) noexcept;
+[[nodiscard]] std::string_view name_of(LabelNoteCode code) noexcept;
 
 struct LabelNote {
   LabelNoteCode code;
@@ -88,18 +88,18 @@ struct LabelFileOptions {
 ///
 /// Refused: axes in one plane, a size of 0, more than 2^40 voxels, fewer bytes than the header promises, and before any
 /// memory is taken a compressed file that is too short for them.
-LabelMap read_labels(const std::filesystem::path& path, const LabelFileOptions& options = {});
+[[nodiscard]] LabelMap read_labels(const std::filesystem::path& path, const LabelFileOptions& options = {});
 
 /// The same from memory; `name` is what errors call the file. A header whose data lie in another file is refused.
-LabelMap read_labels(std::string_view bytes, LabelFormat format, std::string_view name,
-                     const LabelFileOptions& options = {});
+[[nodiscard]] LabelMap read_labels(std::string_view bytes, LabelFormat format, std::string_view name,
+                                   const LabelFileOptions& options = {});
 
 /// The format that the name of a file ends in, nothing if it is none of a label map.
-std::optional<LabelFormat> label_format_of(const std::filesystem::path& path);
+[[nodiscard]] std::optional<LabelFormat> label_format_of(const std::filesystem::path& path);
 
 /// The voxels of a label in their smallest box. A label that no voxel of the layer has gives a box of size 0. The layer
 /// must exist.
-VoxelMask mask_of(const LabelMap& map, std::size_t layer, std::uint32_t label);
+[[nodiscard]] VoxelMask mask_of(const LabelMap& map, std::size_t layer, std::uint32_t label);
 
 /// Extent of a label in one layer.
 struct LabelSummary {
@@ -114,14 +114,14 @@ struct LabelSummary {
 };
 
 /// Every label of every layer that has voxels, by layer and then by label; one pass over the image.
-std::vector<LabelSummary> summaries_of(const LabelMap& map);
+[[nodiscard]] std::vector<LabelSummary> summaries_of(const LabelMap& map);
 
 /// Tables of labels that TotalSegmentator publishes: version 2 and 1 of its task for CT, and that for MR.
 enum class LabelTask { total, total_v1, total_mr };
 
 /// "total", "total_v1" or "total_mr", nothing for any other word.
-std::optional<LabelTask> label_task_of(std::string_view word) noexcept;
-std::string_view name_of(LabelTask task) noexcept;
+[[nodiscard]] std::optional<LabelTask> label_task_of(std::string_view word) noexcept;
+[[nodiscard]] std::string_view name_of(LabelTask task) noexcept;
 
 /// One label among those of a file, as a user chose it.
 struct ChosenLabel {
@@ -138,7 +138,8 @@ struct ChosenLabel {
 /// UsageError for a name that neither the file nor the table has, which lists the names there are; for one that stands for
 /// several; for a number that no voxel has; and if the file and the table call one value differently. A segment without voxels
 /// is found all the same: mask_of() gives it a size of 0.
-ChosenLabel choose_label(const LabelMap& map, std::string_view text, std::optional<LabelTask> task = {});
+[[nodiscard]] ChosenLabel choose_label(const LabelMap& map, std::string_view text,
+                                       std::optional<LabelTask> task = {});
 
 /// Which bone, and how its surface is made.
 struct LabelBoneRequest {
@@ -159,7 +160,7 @@ struct LabelBone {
 };
 
 /// Facts about the image of a body's surface.
-BodyImage image_of(const VoxelGrid& grid, const LabelSurface& surface);
+[[nodiscard]] BodyImage image_of(const VoxelGrid& grid, const LabelSurface& surface);
 
 /// Fewer voxels, or a smaller box, are no bone.
 inline constexpr std::int64_t fewest_bone_voxels = 500;
@@ -167,12 +168,12 @@ inline constexpr double smallest_bone_mm = 20;
 
 /// The surface of one bone; empty if it was stopped. `file` is what errors call the image. Throws UsageError as choose_label() does,
 /// MeshError for a label that is empty or too small for a bone.
-std::optional<LabelBone> bone_of(const LabelMap& map, std::string_view file, const LabelBoneRequest& request,
-                                 const Control& control);
-LabelBone bone_of(const LabelMap& map, std::string_view file, const LabelBoneRequest& request);
+[[nodiscard]] std::optional<LabelBone> bone_of(const LabelMap& map, std::string_view file,
+                                               const LabelBoneRequest& request, const Control& control);
+[[nodiscard]] LabelBone bone_of(const LabelMap& map, std::string_view file, const LabelBoneRequest& request);
 
 /// The side that a label's name states, as "femur_left" does; empty if it states none, or both.
-std::optional<Side> side_in_name(std::string_view name);
+[[nodiscard]] std::optional<Side> side_in_name(std::string_view name);
 
 /// Two bones that make a joint.
 struct LabelJointRequest {
@@ -194,11 +195,13 @@ struct LabelJoint {
 
 /// Reads the images, extracts both bones and proposes a joint file as propose_joint() does: the axes are the image's. Writes nothing.
 /// Throws FileError, and what bone_of() throws; UsageError if both bones are one label or their names are of two sides.
-std::optional<LabelJoint> propose_joint(const LabelJointRequest& request, const Control& control);
-LabelJoint propose_joint(const LabelJointRequest& request);
+[[nodiscard]] std::optional<LabelJoint> propose_joint(const LabelJointRequest& request,
+                                                      const Control& control);
+[[nodiscard]] LabelJoint propose_joint(const LabelJointRequest& request);
 
 /// The same of images that were read already; `mobile_map` is null if one has both bones. The request's files name them.
-std::optional<LabelJoint> propose_joint(const LabelMap& map, const LabelMap* mobile_map,
-                                        const LabelJointRequest& request, const Control& control);
+[[nodiscard]] std::optional<LabelJoint> propose_joint(const LabelMap& map, const LabelMap* mobile_map,
+                                                      const LabelJointRequest& request,
+                                                      const Control& control);
 
 }  // namespace condyle::io

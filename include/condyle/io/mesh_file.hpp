@@ -26,7 +26,7 @@ struct FileDigest {
 };
 
 /// Digest of a file's whole contents. Some 3 ms per MB.
-FileDigest digest_of(std::string_view contents);
+[[nodiscard]] FileDigest digest_of(std::string_view contents);
 
 /// A mesh as its file has it, in the file's own unit: a mesh file does not say which one that is.
 struct MeshFile {
@@ -47,14 +47,15 @@ enum class MeshFormat { stl, obj, ply, vtp, vtk };
 
 /// Reads .stl (text and binary), .obj, .ply, .vtp (XML PolyData) or .vtk (legacy PolyData); the extension
 /// decides, in upper or lower case. Coordinates keep every bit the file gives.
-MeshFile read_mesh(const std::filesystem::path& path, PolygonRule polygons = PolygonRule::refuse);
+[[nodiscard]] MeshFile read_mesh(const std::filesystem::path& path,
+                                 PolygonRule polygons = PolygonRule::refuse);
 
 /// The same from memory; `name` is what errors call the file.
-MeshFile read_mesh(std::string_view bytes, MeshFormat format, std::string_view name,
-                   PolygonRule polygons = PolygonRule::refuse);
+[[nodiscard]] MeshFile read_mesh(std::string_view bytes, MeshFormat format, std::string_view name,
+                                 PolygonRule polygons = PolygonRule::refuse);
 
 /// The format that the extension names.
-MeshFormat mesh_format_of(const std::filesystem::path& path);
+[[nodiscard]] MeshFormat mesh_format_of(const std::filesystem::path& path);
 
 /// Writes .vtp or .ply, as the extension says: binary, in floats where every coordinate is one and else in
 /// doubles, so that reading gives the same bits back. The file appears whole under its name or not at all.

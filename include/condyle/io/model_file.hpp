@@ -31,7 +31,7 @@ enum class CoordinateMotion {
   coupled,        ///< it turns the joint through a function
 };
 /// "rotational", "translational", "coupled".
-std::string_view name_of(CoordinateMotion motion) noexcept;
+[[nodiscard]] std::string_view name_of(CoordinateMotion motion) noexcept;
 
 struct ModelCoordinate {
   std::string name;
@@ -52,12 +52,12 @@ struct ModelJoint {
   std::size_t line = 0;
   bool is_reversed = false;  ///< has `reverse`, which exchanges parent and child up to version 30513
 
-  std::vector<double> defaults() const;
+  [[nodiscard]] std::vector<double> defaults() const;
 };
 
 /// X_parent_child at one value for each coordinate, in their order. Throws UsageError for another number of values, FileError
 /// for a joint that cannot be read. 1e-15 of the model's size.
-Pose pose_of(const ModelJoint& joint, std::span<const double> q);
+[[nodiscard]] Pose pose_of(const ModelJoint& joint, std::span<const double> q);
 
 /// A mesh that a model attaches to a body: p_body = X_BG diag(scale) v.
 struct ModelMesh {
@@ -124,14 +124,14 @@ enum class ModelNoteCode : std::uint8_t {
   left_out,             ///< A component that cannot be read, and why; nothing that was asked for needs it.
 };
 /// As written: "missing_mesh".
-std::string_view name_of(ModelNoteCode code) noexcept;
+[[nodiscard]] std::string_view name_of(ModelNoteCode code) noexcept;
 
 struct ModelNote {
   ModelNoteCode code;
   std::string text;  ///< one line
 };
 /// "missing_mesh: ...".
-std::string to_text(const ModelNote& note);
+[[nodiscard]] std::string to_text(const ModelNote& note);
 
 struct Model {
   std::filesystem::path path;
@@ -152,19 +152,19 @@ struct Model {
 /// mesh is opened. A joint, mesh or frame that cannot be read is refused where it is needed and leaves the rest as it is. Throws
 /// FileError, one line with the line of the file, for what is no model, for two bodies of one name, and for a folder that
 /// there is not.
-Model read_model(const std::filesystem::path& path,
-                 std::span<const std::filesystem::path> geometry_folders = {});
+[[nodiscard]] Model read_model(const std::filesystem::path& path,
+                               std::span<const std::filesystem::path> geometry_folders = {});
 
 /// The same from memory; the path is what errors call it, and what meshes are found from.
-Model read_model(std::string_view bytes, const std::filesystem::path& path,
-                 std::span<const std::filesystem::path> geometry_folders = {});
+[[nodiscard]] Model read_model(std::string_view bytes, const std::filesystem::path& path,
+                               std::span<const std::filesystem::path> geometry_folders = {});
 
 /// The joint of that name. Throws UsageError with the names there are, and FileError for one that cannot be read.
-const ModelJoint& joint_named(const Model& model, std::string_view name);
+[[nodiscard]] const ModelJoint& joint_named(const Model& model, std::string_view name);
 
 /// The meshes of the parent's or the child's body and of all bodies welded to it, their poses in the body. Throws FileError
 /// for a weld that cannot be read.
-std::vector<ModelMesh> meshes_of(const Model& model, const ModelJoint& joint, BodyRole role);
+[[nodiscard]] std::vector<ModelMesh> meshes_of(const Model& model, const ModelJoint& joint, BodyRole role);
 
 /// Options of a joint file that is proposed for a model's joint.
 struct ModelJointRequest {
@@ -188,10 +188,10 @@ struct ModelJointProposal {
 
 /// Centre, axes, signs, kind, meshes, contact and the columns of a recorded motion as the model has them. Reads the meshes that it
 /// names. Throws UsageError if the joint or the contact is not there, or names do not determine joint or side; FileError if the joint cannot be read.
-ModelJointProposal propose_joint(const Model& model, const ModelJointRequest& request);
+[[nodiscard]] ModelJointProposal propose_joint(const Model& model, const ModelJointRequest& request);
 
 /// The joint itself, as read_joint() would read the proposed file, with the notes among its processing. Throws as both do;
 /// FileError if no mesh of a body is there.
-LoadedJoint read_joint(const Model& model, const ModelJointRequest& request);
+[[nodiscard]] LoadedJoint read_joint(const Model& model, const ModelJointRequest& request);
 
 }  // namespace condyle::io

@@ -39,7 +39,7 @@ struct ViewDirection {
 /// "anterior", "posterior", "left", "right", "superior", "inferior", "medial", "lateral", or several of them with
 /// hyphens for a view from between: "anterior-superior". Superior is up; where one looks along it, anterior is.
 /// Throws UsageError.
-ViewDirection view_named(std::string_view name, Side side);
+[[nodiscard]] ViewDirection view_named(std::string_view name, Side side);
 
 /// A body of one colour, in F, drawn over the others; it shines through what is before it.
 struct PictureMark {
@@ -51,7 +51,7 @@ struct PictureMark {
 /// trochanter. Vermilion: the circle of the rim's plane, its normal and the rim's points that it was fitted to; grey: the other ones.
 /// Green: where the head's contour ends at every hour around the neck. Orange: superior and the edges of the roof from the head's centre,
 /// and the rim's chords. Purple: where the bones are nearest, in the poses that this is measured in. What was not found is left out.
-std::vector<PictureMark> measure_marks(const measure::HipMeasures& measures, const Pose& X_FM);
+[[nodiscard]] std::vector<PictureMark> measure_marks(const measure::HipMeasures& measures, const Pose& X_FM);
 
 struct PictureOptions {
   ViewDirection view = {};
@@ -80,8 +80,8 @@ struct Picture {
 ///
 /// Throws UsageError for options out of their domain, MeshError if a depth or a gap is requested of an open mesh. The
 /// same bytes whatever the threads. About half a second for a picture of the usual size, and the cost of the values.
-Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM,
-                   const PictureOptions& options = {});
+[[nodiscard]] Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM,
+                                 const PictureOptions& options = {});
 
 /// Writes PNG, with the provenance as texts; whole or not at all, in a folder that is made if it is missing. Throws
 /// FileError.

@@ -23,9 +23,9 @@ enum class AnswerFrameName {
 };
 
 /// "joint", "source".
-std::string_view name_of(AnswerFrameName name) noexcept;
+[[nodiscard]] std::string_view name_of(AnswerFrameName name) noexcept;
 /// The frame of that name; throws UsageError that lists the valid names.
-AnswerFrameName answer_frame_named(std::string_view name);
+[[nodiscard]] AnswerFrameName answer_frame_named(std::string_view name);
 
 /// Brings points and meshes of an answer, which are in the bodies' own joint frames, into the requested frame. Points
 /// are mm in both; meshes in the source frame have the unit of their files, so that they lie on those. Default: the
@@ -35,19 +35,19 @@ class AnswerFrame {
   AnswerFrame() = default;
   AnswerFrame(AnswerFrameName name, const JointReport& report);
 
-  AnswerFrameName name() const noexcept { return name_; }
+  [[nodiscard]] AnswerFrameName name() const noexcept { return name_; }
 
   /// The same for an answer about held_at(joint, translation): what it gives in F is moved back.
-  AnswerFrame of_held(const Vec3& translation_mm) const;
+  [[nodiscard]] AnswerFrame of_held(const Vec3& translation_mm) const;
 
   /// A point or a direction of F, and a point fixed to the mobile body, given in M.
-  Vec3 fixed_point(const Vec3& p_F) const noexcept;
-  Vec3 fixed_direction(const Vec3& d_F) const noexcept;
-  Vec3 mobile_point(const Vec3& p_M) const noexcept;
+  [[nodiscard]] Vec3 fixed_point(const Vec3& p_F) const noexcept;
+  [[nodiscard]] Vec3 fixed_direction(const Vec3& d_F) const noexcept;
+  [[nodiscard]] Vec3 mobile_point(const Vec3& p_M) const noexcept;
 
   /// A mesh in F, and the mobile body as it is in M: in the source frame as its file has it.
-  TriMesh fixed_mesh(const TriMesh& mesh) const;
-  TriMesh mobile_mesh(const TriMesh& mesh) const;
+  [[nodiscard]] TriMesh fixed_mesh(const TriMesh& mesh) const;
+  [[nodiscard]] TriMesh mobile_mesh(const TriMesh& mesh) const;
 
  private:
   AnswerFrameName name_ = AnswerFrameName::joint;
@@ -93,7 +93,7 @@ struct Provenance {
   std::vector<OtherFile> other_files =
       {};  ///< read beside joint file and meshes, in the order of their paths
 };
-Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> command,
-                         AnswerFrameName frame = AnswerFrameName::joint);
+[[nodiscard]] Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> command,
+                                       AnswerFrameName frame = AnswerFrameName::joint);
 
 }  // namespace condyle::io

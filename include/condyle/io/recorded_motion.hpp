@@ -37,7 +37,7 @@ struct MotionTable {
 /// and empty lines at the end are passed over; numbers are read the same in every locale.
 /// Raises FileError, one line "file: line N: column 'x': what is wrong", where rows and names differ in number, a cell
 /// has no number or an infinite one, two columns share a name, times do not increase, or a header or all rows are missing.
-MotionTable read_motion_table(const std::filesystem::path& path);
+[[nodiscard]] MotionTable read_motion_table(const std::filesystem::path& path);
 
 /// When each row was.
 struct FrameTimes {
@@ -46,7 +46,7 @@ struct FrameTimes {
 };
 
 /// The column `time` in seconds; without one the column `Frame`, or else frames counted from 0. Case does not count.
-FrameTimes frame_times(const MotionTable& table);
+[[nodiscard]] FrameTimes frame_times(const MotionTable& table);
 
 enum class CoordinateKind { angle, length };
 enum class ColumnUnit { degrees, radians, millimetres, metres };
@@ -98,8 +98,8 @@ struct NamedCoordinates {
 
 /// Raises FileError for a column that is not there (naming one that was most likely meant) or could be two, and for an
 /// angle whose unit neither the mapping nor the file's header gives, or both and not the same. Lengths must have a unit.
-NamedCoordinates recorded_coordinates(const MotionTable& table,
-                                      const std::vector<ColumnOfCoordinate>& mapping);
+[[nodiscard]] NamedCoordinates recorded_coordinates(const MotionTable& table,
+                                                    const std::vector<ColumnOfCoordinate>& mapping);
 
 /// Poses of every frame.
 struct RecordedPoses {
@@ -118,6 +118,6 @@ struct RecordedPoses {
 /// differs from 0. Rotations are the nearest ones to those of the file (singular values); a note reports the
 /// deviation of the file's if it is beyond 1e-9. Raises FileError for columns that are missing, for 0 0 0 1 in
 /// neither place or in both by turns, and for a row whose rotation is off by more than 1e-4 or is a reflection.
-RecordedPoses recorded_poses(const MotionTable& table, const ColumnsOfPoses& mapping);
+[[nodiscard]] RecordedPoses recorded_poses(const MotionTable& table, const ColumnsOfPoses& mapping);
 
 }  // namespace condyle::io

@@ -24,7 +24,7 @@ namespace condyle::io {
 /// A pose at which every joint is queried, read as parse_pose() reads it. Whether a joint reaches it is decided joint
 /// by joint, as `condyle depth` decides it: a pose that a hinge cannot reach ends the study. Throws UsageError; a
 /// matrix is refused too.
-PoseDegrees study_pose(std::string_view text, Anatomy joint);
+[[nodiscard]] PoseDegrees study_pose(std::string_view text, Anatomy joint);
 
 /// Contact pressure in one pose, or in the place nearby where the contact carries a force.
 struct StudyLoad {
@@ -75,8 +75,8 @@ struct Shard {
   std::size_t number = 1, of = 1;  ///< 1 <= number <= of
 
   /// As "3/7"; throws UsageError.
-  static Shard parse(std::string_view text);
-  bool is_whole() const noexcept { return of == 1; }
+  [[nodiscard]] static Shard parse(std::string_view text);
+  [[nodiscard]] bool is_whole() const noexcept { return of == 1; }
 };
 
 /// Effect on a study of a joint that cannot be answered.
@@ -121,7 +121,7 @@ struct StudyDone {
 ///
 /// Throws FileError for a table that cannot be read and a folder that cannot be written; UsageError for options that do not
 /// fit a joint. Memory: some kB a row, and the joints at work, one per thread. Empty if it was stopped: nothing is written.
-std::optional<StudyDone> run_study(const Study& study, const Control& control = {});
+[[nodiscard]] std::optional<StudyDone> run_study(const Study& study, const Control& control = {});
 
 /// Throws if no joint was answered, which is no result: the error of the first failure, naming `table`.
 void require_answered(const StudyDone& done, const std::filesystem::path& table);
@@ -129,6 +129,6 @@ void require_answered(const StudyDone& done, const std::filesystem::path& table)
 /// Puts the shards below the folder together: the tables are those of a run of all rows, byte for byte. Throws FileError if
 /// a shard is missing, or is of another table, other options or another version than the first, or was changed. Reads all tables
 /// into memory.
-StudyDone merge_study(const std::filesystem::path& folder);
+[[nodiscard]] StudyDone merge_study(const std::filesystem::path& folder);
 
 }  // namespace condyle::io

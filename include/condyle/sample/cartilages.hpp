@@ -56,15 +56,16 @@ struct SampleCartilages {
 /// Bones and cartilages have surfaces in common, but not triangles: each cuts into the other by what they
 /// sag, tenths of a millimetre at the coarsest. A cam is bone, and stands out through the cartilage. Same
 /// parameters, same bytes, on any number of threads. Raises UsageError as sample_hip() does.
-SampleCartilages sample_cartilages(const HipParameters& hip, const CartilageParameters& cartilage,
-                                   const CartilageResolution& resolution);
+[[nodiscard]] SampleCartilages sample_cartilages(const HipParameters& hip,
+                                                 const CartilageParameters& cartilage,
+                                                 const CartilageResolution& resolution);
 /// The same; empty if it was stopped.
-std::optional<SampleCartilages> sample_cartilages(const HipParameters& hip,
-                                                  const CartilageParameters& cartilage,
-                                                  const CartilageResolution& resolution,
-                                                  const std::stop_token& stop);
+[[nodiscard]] std::optional<SampleCartilages> sample_cartilages(const HipParameters& hip,
+                                                                const CartilageParameters& cartilage,
+                                                                const CartilageResolution& resolution,
+                                                                const std::stop_token& stop);
 
 /// The other side: Z negated, triangles flipped so that they face outwards again.
-SampleCartilages mirrored(const SampleCartilages& cartilages);
+[[nodiscard]] SampleCartilages mirrored(const SampleCartilages& cartilages);
 
 }  // namespace condyle::sample

@@ -86,14 +86,14 @@ struct SampleHip {
 /// A right hip with these measures in the neutral pose, bones apart. Same parameters, same bytes, on any
 /// number of threads. Raises UsageError naming the parameter that is out of its range, or saying what the
 /// parameters together make impossible.
-SampleHip sample_hip(const HipParameters& parameters, const Resolution& resolution);
+[[nodiscard]] SampleHip sample_hip(const HipParameters& parameters, const Resolution& resolution);
 /// The same; empty if it was stopped.
-std::optional<SampleHip> sample_hip(const HipParameters& parameters, const Resolution& resolution,
-                                    const std::stop_token& stop);
+[[nodiscard]] std::optional<SampleHip> sample_hip(const HipParameters& parameters,
+                                                  const Resolution& resolution, const std::stop_token& stop);
 
 /// The other side: Z negated, triangles flipped so that they face outwards again.
-TriMesh mirrored(const TriMesh& mesh);
-SampleHip mirrored(const SampleHip& hip);
+[[nodiscard]] TriMesh mirrored(const TriMesh& mesh);
+[[nodiscard]] SampleHip mirrored(const SampleHip& hip);
 
 /// A measure of the sample hip by the name it has in tables and in Python: "neck_shaft_angle_deg". Values are mm or degrees.
 struct HipMeasure {
@@ -103,10 +103,10 @@ struct HipMeasure {
 };
 
 /// All measures of HipParameters, in their order.
-std::span<const HipMeasure> hip_measures() noexcept;
+[[nodiscard]] std::span<const HipMeasure> hip_measures() noexcept;
 
 /// Null if no measure has this name.
-const HipMeasure* hip_measure_named(std::string_view name) noexcept;
+[[nodiscard]] const HipMeasure* hip_measure_named(std::string_view name) noexcept;
 
 // Hips with measures drawn at random, for anybody to try a study on. docs/cohort.md has where the distributions come from.
 
@@ -118,7 +118,7 @@ struct MeasureDistribution {
 };
 
 /// One for each measure that is drawn, each independent of the others; those not drawn are as HipParameters has them.
-std::span<const MeasureDistribution> cohort_distributions() noexcept;
+[[nodiscard]] std::span<const MeasureDistribution> cohort_distributions() noexcept;
 
 /// A hip of a cohort.
 struct CohortHip {
@@ -130,7 +130,7 @@ struct CohortHip {
 
 /// Hip k of the cohort of this seed, which does not depend on how many there are. An alpha angle drawn below the least of a
 /// cam makes a hip without one. Some microseconds.
-CohortHip cohort_hip(std::uint64_t seed, std::uint64_t k);
+[[nodiscard]] CohortHip cohort_hip(std::uint64_t seed, std::uint64_t k);
 
 /// The sample hip with a total hip in it, as parts of two bodies in the joint frame at zero angles:
 ///
@@ -143,9 +143,9 @@ CohortHip cohort_hip(std::uint64_t seed, std::uint64_t k);
 ///
 /// Throws UsageError as check_implant() and sample_hip() do, for a cup larger than the socket, and for a neck of the femur that cannot be cut
 /// there. Empty if it was stopped. Same parameters, same bytes.
-std::optional<plan::ImplantMeshes> sample_replacement(const plan::TotalHip& implant,
-                                                      const HipParameters& bones,
-                                                      const Resolution& resolution, Side side,
-                                                      const std::stop_token& stop = {});
+[[nodiscard]] std::optional<plan::ImplantMeshes> sample_replacement(const plan::TotalHip& implant,
+                                                                    const HipParameters& bones,
+                                                                    const Resolution& resolution, Side side,
+                                                                    const std::stop_token& stop = {});
 
 }  // namespace condyle::sample

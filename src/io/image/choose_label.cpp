@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <functional>
+#include <iterator>
 #include <set>
 #include <span>
 #include <utility>
@@ -215,8 +216,7 @@ ChosenLabel choose_table_entry(const LabelMap& map, const TableEntry& entry, Lab
   }
   if (names.empty())
     throw UsageError(
-        fmt::format("{}: the file names no labels: choose a number, or say of which task the "
-                    "names are; {}",
+        fmt::format("{}: the file names no labels: choose a number, or say of which task the names are; {}",
                     io::in_quotes(text), numbers_of(map)));
   throw UsageError(fmt::format("no label is called {}{}: there are {}", io::in_quotes(text),
                                core::did_you_mean(text, names), listed(quoted)));
@@ -225,15 +225,9 @@ ChosenLabel choose_table_entry(const LabelMap& map, const TableEntry& entry, Lab
 }  // namespace
 
 std::string_view name_of(LabelTask task) noexcept {
-  switch (task) {
-    case LabelTask::total_v1:
-      return "total_v1";
-    case LabelTask::total_mr:
-      return "total_mr";
-    case LabelTask::total:
-      break;
-  }
-  return "total";
+  constexpr std::string_view names[] = {"total", "total_v1", "total_mr"};
+  static_assert(std::size(names) == static_cast<std::size_t>(LabelTask::total_mr) + 1);
+  return names[static_cast<std::size_t>(task)];
 }
 
 std::optional<LabelTask> label_task_of(std::string_view word) noexcept {
@@ -249,8 +243,7 @@ ChosenLabel choose_label(const LabelMap& map, std::string_view text, std::option
     // A segment may be called "2" and have the label 1: which of both is meant cannot be known.
     if (segment && (segment->label != number->label || (number->layer && *number->layer != segment->layer)))
       throw UsageError(
-          fmt::format("{} is a number and also the name of the label {}:{}: give its layer and "
-                      "label instead",
+          fmt::format("{} is a number and also the name of the label {}:{}: give its layer and label instead",
                       io::in_quotes(text), segment->layer, segment->label));
     return choose_number(map, *number);
   }

@@ -85,11 +85,10 @@ void note_cavities(const LabelBone& bone, bool kept, std::vector<LabelNote>& not
 
 void note_cuts(const LabelBone& bone, std::vector<LabelNote>& notes) {
   for (const CapPlane& cap : bone.surface.caps)
-    notes.push_back(
-        {LabelNoteCode::cut_by_view,
-         fmt::format("{} ends at the {} voxels of the image along {}, and is closed there by a flat face of "
-                     "{:.0f} mm2: limits of a joint with it are upper bounds",
-                     bone.name, cap.high ? "last" : "first", "ijk"[cap.axis], cap.area)});
+    notes.push_back({LabelNoteCode::cut_by_view,
+                     fmt::format("{} ends at the {} voxels of the image along {}, and is closed there by a "
+                                 "flat face of {:.0f} mm2: limits of a joint with it are upper bounds",
+                                 bone.name, cap.high ? "last" : "first", "ijk"[cap.axis], cap.area)});
 }
 
 void note_simplification(const LabelBone& bone, std::vector<LabelNote>& notes) {
@@ -97,8 +96,7 @@ void note_simplification(const LabelBone& bone, std::vector<LabelNote>& notes) {
   if (!simplified || !(simplified->largest_error > bone.surface.spacing.maxCoeff())) return;
   notes.push_back({LabelNoteCode::simplified_away,
                    fmt::format("{} was simplified from {} to {} triangles, which moved its surface by up to "
-                               "{:.3g} mm, more than a "
-                               "voxel: ask for more triangles",
+                               "{:.3g} mm, more than a voxel: ask for more triangles",
                                bone.name, simplified->triangles_before, bone.surface.mesh.triangles.size(),
                                simplified->largest_error)});
 }

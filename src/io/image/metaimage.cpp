@@ -77,18 +77,18 @@ void check_is_image(const HeaderFields& fields) {
     fields.fail("ElementToIntensityFunctionOffset", "an offset other than 0 is not read");
 }
 
-VoxelType element_type(const HeaderFields& fields) {
+NumberType element_type(const HeaderFields& fields) {
   const auto type = fields.need("ElementType");
-  if (type == "MET_UCHAR") return VoxelType::u8;
-  if (type == "MET_CHAR") return VoxelType::i8;
-  if (type == "MET_USHORT") return VoxelType::u16;
-  if (type == "MET_SHORT") return VoxelType::i16;
-  if (type == "MET_UINT") return VoxelType::u32;
-  if (type == "MET_INT") return VoxelType::i32;
-  if (type == "MET_ULONG_LONG") return VoxelType::u64;
-  if (type == "MET_LONG_LONG") return VoxelType::i64;
-  if (type == "MET_FLOAT") return VoxelType::f32;
-  if (type == "MET_DOUBLE") return VoxelType::f64;
+  if (type == "MET_UCHAR") return NumberType::u8;
+  if (type == "MET_CHAR") return NumberType::i8;
+  if (type == "MET_USHORT") return NumberType::u16;
+  if (type == "MET_SHORT") return NumberType::i16;
+  if (type == "MET_UINT") return NumberType::u32;
+  if (type == "MET_INT") return NumberType::i32;
+  if (type == "MET_ULONG_LONG") return NumberType::u64;
+  if (type == "MET_LONG_LONG") return NumberType::i64;
+  if (type == "MET_FLOAT") return NumberType::f32;
+  if (type == "MET_DOUBLE") return NumberType::f64;
   if (type == "MET_LONG" || type == "MET_ULONG")
     fields.fail("ElementType",
                 fmt::format("{} has 4 bytes in some programs and 8 in others: is not read", type));

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string>
 
@@ -14,36 +16,13 @@ namespace condyle::io {
 namespace {
 
 struct DataType {
-  VoxelType type;
-  int bits;
+  int code;
+  NumberType type;
 };
-
-std::optional<DataType> data_type(int code) {
-  switch (code) {
-    case 2:
-      return DataType{VoxelType::u8, 8};
-    case 256:
-      return DataType{VoxelType::i8, 8};
-    case 4:
-      return DataType{VoxelType::i16, 16};
-    case 512:
-      return DataType{VoxelType::u16, 16};
-    case 8:
-      return DataType{VoxelType::i32, 32};
-    case 768:
-      return DataType{VoxelType::u32, 32};
-    case 1024:
-      return DataType{VoxelType::i64, 64};
-    case 1280:
-      return DataType{VoxelType::u64, 64};
-    case 16:
-      return DataType{VoxelType::f32, 32};
-    case 64:
-      return DataType{VoxelType::f64, 64};
-    default:
-      return std::nullopt;
-  }
-}
+constexpr DataType data_types[] = {{2, NumberType::u8},     {256, NumberType::i8},   {4, NumberType::i16},
+                                   {512, NumberType::u16},  {8, NumberType::i32},    {768, NumberType::u32},
+                                   {1024, NumberType::i64}, {1280, NumberType::u64}, {16, NumberType::f32},
+                                   {64, NumberType::f64}};
 
 std::string_view refused_type(int code) {
   switch (code) {
@@ -63,14 +42,15 @@ std::string_view refused_type(int code) {
   }
 }
 
-VoxelType checked_type(const NiftiHeader& header, const ByteSource& source) {
-  const auto type = data_type(header.datatype);
-  if (!type)
+NumberType checked_type(const NiftiHeader& header, const ByteSource& source) {
+  const auto* known = std::find_if(std::begin(data_types), std::end(data_types),
+                                   [&](const DataType& each) { return each.code == header.datatype; });
+  if (known == std::end(data_types))
     source.fail(fmt::format("datatype: {} ({}) is not read", header.datatype, refused_type(header.datatype)));
-  if (header.bits_per_voxel != type->bits)
-    source.fail(fmt::format("bitpix: {} instead of the {} of datatype {}", header.bits_per_voxel, type->bits,
+  if (const auto bits = 8 * static_cast<int>(bytes_of(known->type)); header.bits_per_voxel != bits)
+    source.fail(fmt::format("bitpix: {} instead of the {} of datatype {}", header.bits_per_voxel, bits,
                             header.datatype));
-  return type->type;
+  return known->type;
 }
 
 VoxelData voxel_data(const NiftiHeader& header, const ByteSource& source) {

@@ -92,8 +92,7 @@ void note_voxel_sizes(const NiftiHeader& header, const Affine3d& X_WI, double mm
   };
   notes.push_back(
       {LabelNoteCode::two_voxel_sizes, fmt::format("Voxels are {} by the sform, which was used as nibabel "
-                                                   "does, and {} by pixdim, which ITK and 3D Slicer "
-                                                   "take.",
+                                                   "does, and {} by pixdim, which ITK and 3D Slicer take.",
                                                    text(of_sform), text(of_pixdim))});
 }
 

@@ -14,26 +14,27 @@
 namespace condyle::io {
 namespace {
 
-VoxelType nrrd_type(const HeaderFields& fields) {
+NumberType nrrd_type(const HeaderFields& fields) {
   const std::string type = io::lower_case(fields.need("type"));
   const auto is = [&](auto... names) { return ((type == names) || ...); };
-  if (is("uchar", "unsigned char", "uint8", "uint8_t")) return VoxelType::u8;
-  if (is("signed char", "int8", "int8_t")) return VoxelType::i8;
-  if (is("ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t")) return VoxelType::u16;
-  if (is("short", "short int", "signed short", "signed short int", "int16", "int16_t")) return VoxelType::i16;
-  if (is("uint", "unsigned int", "uint32", "uint32_t")) return VoxelType::u32;
-  if (is("int", "signed int", "int32", "int32_t")) return VoxelType::i32;
+  if (is("uchar", "unsigned char", "uint8", "uint8_t")) return NumberType::u8;
+  if (is("signed char", "int8", "int8_t")) return NumberType::i8;
+  if (is("ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t")) return NumberType::u16;
+  if (is("short", "short int", "signed short", "signed short int", "int16", "int16_t"))
+    return NumberType::i16;
+  if (is("uint", "unsigned int", "uint32", "uint32_t")) return NumberType::u32;
+  if (is("int", "signed int", "int32", "int32_t")) return NumberType::i32;
   if (is("ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"))
-    return VoxelType::u64;
+    return NumberType::u64;
   if (is("longlong", "long long", "long long int", "signed long long", "signed long long int", "int64",
          "int64_t"))
-    return VoxelType::i64;
-  if (is("float")) return VoxelType::f32;
-  if (is("double")) return VoxelType::f64;
+    return NumberType::i64;
+  if (is("float")) return NumberType::f32;
+  if (is("double")) return NumberType::f64;
   fields.fail("type", fmt::format("{} is not read", in_quotes(type)));
 }
 
-std::endian byte_order(const HeaderFields& fields, VoxelType type) {
+std::endian byte_order(const HeaderFields& fields, NumberType type) {
   if (bytes_of(type) == 1) return std::endian::native;
   const std::string order = io::lower_case(fields.need("endian"));
   if (order == "little") return std::endian::little;

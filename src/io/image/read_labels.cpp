@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <iterator>
 #include <string>
 
 #include "condyle/error.hpp"
@@ -63,33 +64,12 @@ LabelMap read_labels(std::string_view bytes, LabelFormat format, std::string_vie
 }
 
 std::string_view name_of(LabelNoteCode code) noexcept {
-  switch (code) {
-    case LabelNoteCode::two_affines:
-      return "two_affines";
-    case LabelNoteCode::two_voxel_sizes:
-      return "two_voxel_sizes";
-    case LabelNoteCode::unknown_units:
-      return "unknown_units";
-    case LabelNoteCode::more_bytes:
-      return "more_bytes";
-    case LabelNoteCode::empty_segmentation:
-      return "empty_segmentation";
-    case LabelNoteCode::pieces:
-      return "pieces";
-    case LabelNoteCode::cavities:
-      return "cavities";
-    case LabelNoteCode::cut_by_view:
-      return "cut_by_view";
-    case LabelNoteCode::simplified_away:
-      return "simplified_away";
-    case LabelNoteCode::touching:
-      return "touching";
-    case LabelNoteCode::label_tables:
-      return "label_tables";
-    case LabelNoteCode::axes_not_used:
-      break;
-  }
-  return "axes_not_used";
+  constexpr std::string_view names[] = {"two_affines", "two_voxel_sizes",    "unknown_units",
+                                        "more_bytes",  "empty_segmentation", "pieces",
+                                        "cavities",    "cut_by_view",        "simplified_away",
+                                        "touching",    "label_tables",       "axes_not_used"};
+  static_assert(std::size(names) == static_cast<std::size_t>(LabelNoteCode::axes_not_used) + 1);
+  return names[static_cast<std::size_t>(code)];
 }
 
 }  // namespace condyle::io

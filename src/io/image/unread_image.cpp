@@ -30,13 +30,11 @@ void refuse_unread_image(const std::filesystem::path& path) {
   if (name.ends_with(".mgz") || name.ends_with(".mgh"))
     refuse(
         "FreeSurfer's images are not read: its mri_convert makes .nii.gz of a label map, which condyle init "
-        "and condyle "
-        "surface read");
+        "and condyle surface read");
   if (name.ends_with(".dcm") || name.ends_with(".dicom") || has_mark_of_dicom(path))
     refuse(
         "DICOM is not read: open it in 3D Slicer, segment the bones and save the segmentation as .seg.nrrd, "
-        "which "
-        "condyle init and condyle surface read; dcm2niix makes .nii.gz of label images");
+        "which condyle init and condyle surface read; dcm2niix makes .nii.gz of label images");
 }
 
 }  // namespace condyle::io

@@ -94,11 +94,11 @@ class Narrower {
         is_scaled ? data_.slope * static_cast<double>(stored) + data_.intercept : static_cast<double>(stored);
     const double whole = std::round(value);
     if (!(std::abs(value - whole) <= farthest_from_whole)) {
-      stream_.fail(fmt::format("{}: value {} is no whole number{}", place_of(place, data_), value,
-                               is_scaled ? fmt::format(" (slope {}, intercept {}): a map of probabilities "
-                                                       "is no label map",
-                                                       data_.slope, data_.intercept)
-                                         : ""));
+      stream_.fail(fmt::format(
+          "{}: value {} is no whole number{}", place_of(place, data_), value,
+          is_scaled ? fmt::format(" (slope {}, intercept {}): a map of probabilities is no label map",
+                                  data_.slope, data_.intercept)
+                    : ""));
     }
     if (!(whole >= 0 && whole <= largest_label)) refuse(fmt::format("{}", value), place);
     return static_cast<std::uint32_t>(whole);
@@ -185,23 +185,6 @@ void read_values(ByteStream& stream, const VoxelData& data, LabelMap& map) {
 
 }  // namespace
 
-std::uint64_t bytes_of(VoxelType type) noexcept {
-  switch (type) {
-    case VoxelType::u8:
-    case VoxelType::i8:
-      return 1;
-    case VoxelType::u16:
-    case VoxelType::i16:
-      return 2;
-    case VoxelType::u32:
-    case VoxelType::i32:
-    case VoxelType::f32:
-      return 4;
-    default:
-      return 8;
-  }
-}
-
 void check_size(const VoxelData& data, const ByteSource& source, std::string_view element) {
   constexpr std::uint64_t most_voxels = std::uint64_t{1} << 40;
   std::uint64_t left = data.layers == 0 ? 0 : most_voxels / data.layers;
@@ -218,43 +201,12 @@ void read_voxels(ByteStream& stream, const VoxelData& data, LabelMap& map) {
   if (!stream.may_hold(data.bytes()))
     stream.fail(
         fmt::format("data: the file is too short for the {} bytes that the header promises", data.bytes()));
-  switch (data.type) {
-    case VoxelType::u8:
-      read_values<std::uint8_t>(stream, data, map);
-      break;
-    case VoxelType::i8:
-      read_values<std::int8_t>(stream, data, map);
-      break;
-    case VoxelType::u16:
-      read_values<std::uint16_t>(stream, data, map);
-      break;
-    case VoxelType::i16:
-      read_values<std::int16_t>(stream, data, map);
-      break;
-    case VoxelType::u32:
-      read_values<std::uint32_t>(stream, data, map);
-      break;
-    case VoxelType::i32:
-      read_values<std::int32_t>(stream, data, map);
-      break;
-    case VoxelType::u64:
-      read_values<std::uint64_t>(stream, data, map);
-      break;
-    case VoxelType::i64:
-      read_values<std::int64_t>(stream, data, map);
-      break;
-    case VoxelType::f32:
-      read_values<float>(stream, data, map);
-      break;
-    case VoxelType::f64:
-      read_values<double>(stream, data, map);
-      break;
-  }
+  with_number_type(data.type, [&](auto zero) { read_values<decltype(zero)>(stream, data, map); });
   if (stream.has_more(data.bytes() + checked_beyond))
-    map.notes.push_back({LabelNoteCode::more_bytes,
-                         fmt::format("The file holds more than the {} bytes of voxels that its header "
-                                     "promises: the rest was not read.",
-                                     data.bytes())});
+    map.notes.push_back(
+        {LabelNoteCode::more_bytes, fmt::format("The file holds more than the {} bytes of voxels that its "
+                                                "header promises: the rest was not read.",
+                                                data.bytes())});
   if (data.voxels() == 1)
     map.notes.push_back({LabelNoteCode::empty_segmentation,
                          "The image has a single voxel: 3D Slicer writes an empty segmentation so."});

@@ -6,19 +6,16 @@
 #include <string>
 
 #include "condyle/io/label_file.hpp"
+#include "io/file/number_type.hpp"
 #include "io/image/byte_stream.hpp"
 
 namespace condyle::io {
-
-enum class VoxelType { u8, i8, u16, i16, u32, i32, u64, i64, f32, f64 };
-
-std::uint64_t bytes_of(VoxelType type) noexcept;
 
 /// How the voxels of an image lie in its data.
 ///
 ///   layers = 3, run = 1:   a0 b0 c0 a1 b1 c1 a2 ...     run = 2:   a0 a1 b0 b1 c0 c1 a2 a3 ...
 struct VoxelData {
-  VoxelType type = VoxelType::u8;
+  NumberType type = NumberType::u8;
   std::endian order = std::endian::little;
   std::array<std::int64_t, 3> size{};
   std::uint64_t layers = 1;

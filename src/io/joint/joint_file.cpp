@@ -45,8 +45,8 @@ std::string with_line_feeds(std::string_view text) {
 toml::table parsed(std::string_view text, const std::filesystem::path& path) {
   if (is_xml(text))
     throw FileError(
-        fmt::format("{}: is XML and no joint file; if it is a model of OpenSim, condyle init {} "
-                    "--joint NAME makes a joint file of it",
+        fmt::format("{}: is XML and no joint file; if it is a model of OpenSim, condyle init {} --joint NAME "
+                    "makes a joint file of it",
                     path.string(), path.string()));
   if (const auto line = io::line_nested_too_deep(text))
     throw FileError(fmt::format("{}: line {}: keys, lists and tables may be nested {} deep, not deeper",
@@ -252,10 +252,9 @@ void refuse_layer_of_part(const TomlTable& contact, std::string_view key,
   for (const auto& [part, centre] : parts)
     if (part.body == body && (mesh.empty() || part.meshes.empty() ||
                               std::find(part.meshes.begin(), part.meshes.end(), mesh) != part.meshes.end()))
-      contact.fail(key,
-                   fmt::format("behind: part {} moves the layer's mesh and not what lies behind it; give "
-                               "thickness or thickness_file instead",
-                               part.name));
+      contact.fail(key, fmt::format("behind: part {} moves the layer's mesh and not what lies behind it; "
+                                    "give thickness or thickness_file instead",
+                                    part.name));
 }
 
 /// Faces in which a part was cut carry no load.

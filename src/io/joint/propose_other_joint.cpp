@@ -133,8 +133,8 @@ ShownJoint shown_knee(const TriMesh& femur, const TriMesh& tibia) {
       .kind_says = "a knee turns in all three angles and slides",
       .other_choices = {
           "kind = \"hinge\" is the other choice: flexion about the condyles' axis, and nothing else",
-          "translation_frame = \"joint_axes\" would give x, y, z along the joint's axes (Grood and "
-          "Suntay 1983), not the femur's"}};
+          "translation_frame = \"joint_axes\" would give x, y, z along the joint's axes (Grood and Suntay "
+          "1983), not the femur's"}};
   if (!knee.condyles) {
     const bool is_exchanged = kinematics::knee_anatomy(tibia, femur).condyles.has_value();
     joint.centre.says = knee.why_no_condyles + exchanged_text(is_exchanged, "condyles");
@@ -200,8 +200,8 @@ ShownJoint shown_elbow(const TriMesh& humerus, const TriMesh& ulna) {
   joint.anterior_choices = fmt::format("{} or {}", direction_text(*elbow.from_shaft_line),
                                        direction_text(-*elbow.from_shaft_line));
   joint.anterior.says = fmt::format(
-      "the first is where the axis lies from the shaft's line, by {:.1f} mm, as in front of "
-      "most humeri; its opposite makes flexion extension",
+      "the first is where the axis lies from the shaft's line, by {:.1f} mm, as in front of most humeri; its "
+      "opposite makes flexion extension",
       elbow.off_shaft_line_mm);
   return joint;
 }

@@ -13,17 +13,17 @@ namespace {
 
 struct LegacyTypeName {
   std::string_view name;
-  VtkType type;
+  NumberType type;
 };
 // vtkIdType stands for int in files, whatever it is in memory. "long" has the size it had where it was
 // written: not read.
 constexpr LegacyTypeName legacy_type_names[] = {
-    {"char", VtkType::i8},          {"unsigned_char", VtkType::u8},
-    {"short", VtkType::i16},        {"unsigned_short", VtkType::u16},
-    {"int", VtkType::i32},          {"unsigned_int", VtkType::u32},
-    {"vtktypeint64", VtkType::i64}, {"vtktypeuint64", VtkType::u64},
-    {"vtkidtype", VtkType::i32},    {"float", VtkType::f32},
-    {"double", VtkType::f64}};
+    {"char", NumberType::i8},          {"unsigned_char", NumberType::u8},
+    {"short", NumberType::i16},        {"unsigned_short", NumberType::u16},
+    {"int", NumberType::i32},          {"unsigned_int", NumberType::u32},
+    {"vtktypeint64", NumberType::i64}, {"vtktypeuint64", NumberType::u64},
+    {"vtkidtype", NumberType::i32},    {"float", NumberType::f32},
+    {"double", NumberType::f64}};
 
 /// From this version on, cells are given by offsets and corners, before by length and corners in turn.
 constexpr double first_version_with_offsets = 5;
@@ -89,7 +89,7 @@ class Reader {
 
   Points read_points() {
     const auto count = text_.number<std::uint64_t>("the number of points");
-    const VtkType type = read_type();
+    const NumberType type = read_type();
     if (!is_floating(type)) text_.fail("points should be float or double");
     if (count > largest_count / 3) source_.fail("points: announces more than any file can hold");
     const auto xyz = numbers<double>(type, 3 * count, "points");
@@ -118,7 +118,7 @@ class Reader {
   }
 
   Cells cells_by_length(std::uint64_t count, std::uint64_t size, std::string_view section) {
-    const auto row = numbers<std::int64_t>(VtkType::i32, size, section);
+    const auto row = numbers<std::int64_t>(NumberType::i32, size, section);
     if (count > row.size()) source_.fail(fmt::format("{}: {} cells in {} numbers", section, count, size));
     Cells cells;
     std::size_t at = 0;
@@ -154,9 +154,9 @@ class Reader {
     if (name == "string" || name == "utf8_string") return skip_texts(count);
     if (name == "bit") {
       if (is_text_)
-        numbers<double>(VtkType::u8, count, "field");
+        numbers<double>(NumberType::u8, count, "field");
       else
-        numbers<double>(VtkType::u8, count / 8 + (count % 8 > 0 ? 1 : 0), "field");
+        numbers<double>(NumberType::u8, count / 8 + (count % 8 > 0 ? 1 : 0), "field");
       return;
     }
     numbers<double>(type_of(word), count, "field");
@@ -197,9 +197,9 @@ class Reader {
     }
   }
 
-  VtkType read_type() { return type_of(text_.word()); }
+  NumberType read_type() { return type_of(text_.word()); }
 
-  VtkType type_of(std::string_view word) {
+  NumberType type_of(std::string_view word) {
     const auto name = io::lower_case(word);
     for (const auto& known : legacy_type_names) {
       if (known.name == name) return known.type;
@@ -209,8 +209,8 @@ class Reader {
 
   /// So many numbers. No memory is allocated before the file is known to have the bytes.
   template <class Out>
-  std::vector<Out> numbers(VtkType type, std::uint64_t count, std::string_view what) {
-    return with_type(type, [&](auto zero) { return numbers_of<decltype(zero), Out>(count, what); });
+  std::vector<Out> numbers(NumberType type, std::uint64_t count, std::string_view what) {
+    return with_number_type(type, [&](auto zero) { return numbers_of<decltype(zero), Out>(count, what); });
   }
 
   template <class T, class Out>
@@ -274,8 +274,7 @@ RawMesh read_legacy_vtk(const Source& source) {
   }
   source.fail(
       "its binary numbers are little-endian, those of a legacy VTK file are big-endian: write it anew as "
-      "text, or as "
-      ".vtp");
+      "text, or as .vtp");
 }
 
 }  // namespace condyle::io

@@ -5,68 +5,38 @@
 #include <type_traits>
 #include <utility>
 
+#include "io/file/number_type.hpp"
 #include "io/mesh/parse.hpp"
 
 namespace condyle::io {
 namespace {
 
-enum class Type { i8, u8, i16, u16, i32, u32, f32, f64 };
 enum class Encoding { text, little, big };
 
 struct PlyTypeName {
   std::string_view name;
-  Type type;
+  NumberType type;
 };
 constexpr PlyTypeName ply_type_names[] = {
-    {"char", Type::i8},   {"int8", Type::i8},     {"uchar", Type::u8},   {"uint8", Type::u8},
-    {"short", Type::i16}, {"int16", Type::i16},   {"ushort", Type::u16}, {"uint16", Type::u16},
-    {"int", Type::i32},   {"int32", Type::i32},   {"uint", Type::u32},   {"uint32", Type::u32},
-    {"float", Type::f32}, {"float32", Type::f32}, {"double", Type::f64}, {"float64", Type::f64}};
-
-constexpr bool is_floating(Type type) {
-  return type == Type::f32 || type == Type::f64;
-}
-
-/// Calls with a zero of the C++ type.
-template <class Call>
-auto with_type(Type type, const Call& call) {
-  switch (type) {
-    case Type::i8:
-      return call(std::int8_t{});
-    case Type::u8:
-      return call(std::uint8_t{});
-    case Type::i16:
-      return call(std::int16_t{});
-    case Type::u16:
-      return call(std::uint16_t{});
-    case Type::i32:
-      return call(std::int32_t{});
-    case Type::u32:
-      return call(std::uint32_t{});
-    case Type::f32:
-      return call(float{});
-    case Type::f64:
-      break;
-  }
-  return call(double{});
-}
+    {"char", NumberType::i8},    {"int8", NumberType::i8},     {"uchar", NumberType::u8},
+    {"uint8", NumberType::u8},   {"short", NumberType::i16},   {"int16", NumberType::i16},
+    {"ushort", NumberType::u16}, {"uint16", NumberType::u16},  {"int", NumberType::i32},
+    {"int32", NumberType::i32},  {"uint", NumberType::u32},    {"uint32", NumberType::u32},
+    {"float", NumberType::f32},  {"float32", NumberType::f32}, {"double", NumberType::f64},
+    {"float64", NumberType::f64}};
 
 /// What -1 becomes in an unsigned type; -1 for every other type.
-std::int64_t largest_unsigned(Type type) {
-  return with_type(type, [](auto zero) -> std::int64_t {
+std::int64_t largest_unsigned(NumberType type) {
+  return with_number_type(type, [](auto zero) -> std::int64_t {
     if constexpr (std::is_unsigned_v<decltype(zero)>) return std::numeric_limits<decltype(zero)>::max();
     return -1;
   });
 }
 
-std::size_t size_of(Type type) {
-  return with_type(type, [](auto zero) { return sizeof zero; });
-}
-
 struct Property {
   std::string name;
-  Type type;
-  std::optional<Type> count_type;  ///< Type of a list's length.
+  NumberType type;
+  std::optional<NumberType> count_type;  ///< Type of a list's length.
 };
 
 struct Element {
@@ -92,7 +62,7 @@ std::vector<std::string_view> ply_words(std::string_view line) {
   return words;
 }
 
-Type type_from(std::string_view name, const TextCursor& text) {
+NumberType type_from(std::string_view name, const TextCursor& text) {
   for (const auto& known : ply_type_names) {
     if (known.name == name) return known.type;
   }
@@ -124,7 +94,7 @@ Element element_from(const std::vector<std::string_view>& words, const TextCurso
 Property property_from(const std::vector<std::string_view>& words, const TextCursor& text) {
   if (words.size() == 3) return {name_from(words[2], text), type_from(words[1], text), std::nullopt};
   if (words.size() != 5 || words[1] != "list") text.fail("a property needs a type and a name");
-  const Type count_type = type_from(words[2], text);
+  const NumberType count_type = type_from(words[2], text);
   if (is_floating(count_type)) text.fail("the length of a list should be of an integer type");
   return {name_from(words[4], text), type_from(words[3], text), count_type};
 }
@@ -167,16 +137,16 @@ class Values {
 
   /// Coordinates as doubles: a value declared float is rounded to float first, as it would be in a binary
   /// file.
-  double coordinate(Type type, std::string_view element, std::uint64_t number) {
-    return with_type(type,
-                     [&](auto zero) { return static_cast<double>(next<decltype(zero)>(element, number)); });
+  double coordinate(NumberType type, std::string_view element, std::uint64_t number) {
+    return with_number_type(
+        type, [&](auto zero) { return static_cast<double>(next<decltype(zero)>(element, number)); });
   }
-  std::int64_t integer(Type type, std::string_view element, std::uint64_t number) {
-    return with_type(
+  std::int64_t integer(NumberType type, std::string_view element, std::uint64_t number) {
+    return with_number_type(
         type, [&](auto zero) { return static_cast<std::int64_t>(next<decltype(zero)>(element, number)); });
   }
-  void skip(Type type, std::string_view element, std::uint64_t number) {
-    with_type(type, [&](auto zero) { next<decltype(zero)>(element, number); });
+  void skip(NumberType type, std::string_view element, std::uint64_t number) {
+    with_number_type(type, [&](auto zero) { next<decltype(zero)>(element, number); });
   }
   /// Whether so many values of so many bytes can follow. A value of text takes two bytes, its own and a
   /// space; the last one in the file may lack the space.
@@ -221,7 +191,7 @@ class Values {
 void check_count(const Source& source, const Element& element, const Values& values) {
   std::size_t bytes = 0;
   for (const auto& property : element.properties)
-    bytes += size_of(property.count_type.value_or(property.type));
+    bytes += bytes_of(property.count_type.value_or(property.type));
   if (!values.can_hold(element.count, bytes, element.properties.size())) {
     source.fail(fmt::format("header: {} elements {} announced, more than the rest of the file can hold",
                             element.count, in_quotes(element.name)));
@@ -232,7 +202,7 @@ void check_count(const Source& source, const Element& element, const Values& val
 std::uint64_t list_length(const Property& list, const Element& element, std::uint64_t number, Values& values,
                           const Source& source) {
   const auto length = values.integer(*list.count_type, element.name, number);
-  if (length < 0 || !values.can_hold(static_cast<std::uint64_t>(length), size_of(list.type), 1)) {
+  if (length < 0 || !values.can_hold(static_cast<std::uint64_t>(length), bytes_of(list.type), 1)) {
     source.fail(
         fmt::format("{} {}: a list of {} values does not fit the file", element.name, number, length));
   }

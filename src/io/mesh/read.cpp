@@ -100,9 +100,8 @@ MeshFormat mesh_format_of(const std::filesystem::path& path) {
   io::refuse_unread_image(path);
   if (is_image(io::lower_case(path.filename().string())))
     throw FileError(fmt::format(
-        "{}: an image or label map is no mesh: .stl, .obj, .ply, .vtp and .vtk are read. Export the "
-        "surface of each bone from the program that segmented it (3D Slicer: Segmentations, Export to "
-        "files, STL)",
+        "{}: an image or label map is no mesh: .stl, .obj, .ply, .vtp and .vtk are read. Export the surface "
+        "of each bone from the program that segmented it (3D Slicer: Segmentations, Export to files, STL)",
         path.string()));
   if (extension == ".gz" || extension == ".zip" || extension == ".bz2" || extension == ".xz" ||
       extension == ".zst")

@@ -177,14 +177,14 @@ std::vector<Out> read(const VtkArray& array, const VtkEncoding& encoding, std::u
 
 std::vector<double> read_coordinates(const VtkArray& array, const VtkEncoding& encoding, std::uint64_t count,
                                      const Source& source) {
-  if (array.type == VtkType::f32) return read<float, double>(array, encoding, count, source);
-  if (array.type == VtkType::f64) return read<double, double>(array, encoding, count, source);
+  if (array.type == NumberType::f32) return read<float, double>(array, encoding, count, source);
+  if (array.type == NumberType::f64) return read<double, double>(array, encoding, count, source);
   fail(source, array, "coordinates should be Float32 or Float64");
 }
 
 std::vector<std::int64_t> read_integers(const VtkArray& array, const VtkEncoding& encoding,
                                         std::uint64_t count, const Source& source) {
-  return with_type(array.type, [&](auto zero) -> std::vector<std::int64_t> {
+  return with_number_type(array.type, [&](auto zero) -> std::vector<std::int64_t> {
     if constexpr (std::is_floating_point_v<decltype(zero)>) {
       fail(source, array, "should be of an integer type");
     } else {

@@ -7,45 +7,12 @@
 #include <string_view>
 #include <vector>
 
+#include "io/file/number_type.hpp"
 #include "io/mesh/parse.hpp"
 
 /// Arrays of numbers as VTK's XML files hold them: text, base64 or raw bytes, plain or in compressed blocks.
 
 namespace condyle::io {
-
-enum class VtkType { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
-
-constexpr bool is_floating(VtkType type) {
-  return type == VtkType::f32 || type == VtkType::f64;
-}
-
-/// Calls with a zero of the C++ type.
-template <class Call>
-auto with_type(VtkType type, const Call& call) {
-  switch (type) {
-    case VtkType::i8:
-      return call(std::int8_t{});
-    case VtkType::u8:
-      return call(std::uint8_t{});
-    case VtkType::i16:
-      return call(std::int16_t{});
-    case VtkType::u16:
-      return call(std::uint16_t{});
-    case VtkType::i32:
-      return call(std::int32_t{});
-    case VtkType::u32:
-      return call(std::uint32_t{});
-    case VtkType::i64:
-      return call(std::int64_t{});
-    case VtkType::u64:
-      return call(std::uint64_t{});
-    case VtkType::f32:
-      return call(float{});
-    case VtkType::f64:
-      break;
-  }
-  return call(double{});
-}
 
 enum class Compressor { none, zlib, lz4 };
 
@@ -61,7 +28,7 @@ struct VtkArray {
   enum class Format { text, base64, raw };
 
   std::string label;  ///< For messages: "Points", "Polys connectivity".
-  VtkType type;
+  NumberType type;
   Format format;
   std::string_view data;  ///< From its first character on; appended arrays may go on into the next one's.
 };

@@ -16,12 +16,13 @@ constexpr std::string_view end_of_file = "</VTKFile>";
 
 struct VtpTypeName {
   std::string_view name;
-  VtkType type;
+  NumberType type;
 };
-constexpr VtpTypeName vtp_type_names[] = {
-    {"Int8", VtkType::i8},     {"UInt8", VtkType::u8},   {"Int16", VtkType::i16}, {"UInt16", VtkType::u16},
-    {"Int32", VtkType::i32},   {"UInt32", VtkType::u32}, {"Int64", VtkType::i64}, {"UInt64", VtkType::u64},
-    {"Float32", VtkType::f32}, {"Float64", VtkType::f64}};
+constexpr VtpTypeName vtp_type_names[] = {{"Int8", NumberType::i8},     {"UInt8", NumberType::u8},
+                                          {"Int16", NumberType::i16},   {"UInt16", NumberType::u16},
+                                          {"Int32", NumberType::i32},   {"UInt32", NumberType::u32},
+                                          {"Int64", NumberType::i64},   {"UInt64", NumberType::u64},
+                                          {"Float32", NumberType::f32}, {"Float64", NumberType::f64}};
 
 /// An array as its tag describes it; where an appended one begins is known only once the file's end is
 /// reached.
@@ -99,7 +100,7 @@ Piece piece_from(const XmlTag& tag, const XmlCursor& xml) {
 }
 
 Description description_from(const XmlTag& tag, std::string label, const XmlCursor& xml) {
-  Description description{{std::move(label), VtkType::f32, VtkArray::Format::text, {}}, std::nullopt};
+  Description description{{std::move(label), NumberType::f32, VtkArray::Format::text, {}}, std::nullopt};
   auto& array = description.array;
   const auto type = required(tag, "type", xml);
   const auto* known = std::find_if(std::begin(vtp_type_names), std::end(vtp_type_names),

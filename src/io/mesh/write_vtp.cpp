@@ -169,14 +169,14 @@ void add_fields(VtpText& out, const std::vector<VtpField>& fields) {
 std::string vtp_bytes(const TriMesh& mesh, std::span<const MeshArray> point_arrays,
                       std::span<const MeshArray> cell_arrays, const VtpOptions& options) {
   VtpText out(options.encoding);
-  out.add(fmt::format(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\"{}>\n<PolyData>\n",
-      options.encoding == VtpEncoding::binary ? " compressor=\"vtkZLibDataCompressor\"" : ""));
+  out.add(
+      fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+                  "byte_order=\"LittleEndian\" header_type=\"UInt64\"{}>\n<PolyData>\n",
+                  options.encoding == VtpEncoding::binary ? " compressor=\"vtkZLibDataCompressor\"" : ""));
   add_fields(out, options.fields);
   out.add(
-      fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" "
-                  "NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n",
+      fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+                  "NumberOfPolys=\"{}\">\n",
                   mesh.vertices.size(), mesh.triangles.size()));
   add_attributes(out, "PointData", point_arrays, mesh.vertices.size());
   add_attributes(out, "CellData", cell_arrays, mesh.triangles.size());

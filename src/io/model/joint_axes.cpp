@@ -117,16 +117,16 @@ JointAxes axes_of(const StandingModel& model, const ModelJoint& joint) {
     axes.R_PA = R_PF * S, axes.R_FA = S;
     if (axes.turned.empty() && !S.isIdentity(0))
       axes.turned = fmt::format(
-          "the joint's frame is turned in body {}, its X along {}, its Y along {} and its Z along "
-          "{}: angles are named by the body's axes",
+          "the joint's frame is turned in body {}, its X along {}, its Y along {} and its Z along {}: angles "
+          "are named by the body's axes",
           body, nearest_axis(R_PF.col(0)), nearest_axis(R_PF.col(1)), nearest_axis(R_PF.col(2)));
     return axes;
   }
   axes.R_PA = axes.R_PB, axes.R_FA = R_PF.transpose() * axes.R_PB;
   if (axes.turned.empty() && is_far)
     axes.turned = fmt::format(
-        "an axis of the joint's frame is {:.0f} degrees from any of body {}: angles are about the "
-        "body's axes, X anterior, Y superior and Z to the right",
+        "an axis of the joint's frame is {:.0f} degrees from any of body {}: angles are about the body's "
+        "axes, X anterior, Y superior and Z to the right",
         off, body);
   return axes;
 }

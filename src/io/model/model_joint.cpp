@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <iterator>
+
 #include "condyle/error.hpp"
 #include "condyle/io/model_file.hpp"
 #include "core/near_name.hpp"
@@ -9,59 +11,33 @@
 namespace condyle::io {
 
 std::string_view name_of(CoordinateMotion motion) noexcept {
-  switch (motion) {
-    case CoordinateMotion::rotational:
-      return "rotational";
-    case CoordinateMotion::translational:
-      return "translational";
-    case CoordinateMotion::coupled:
-      break;
-  }
-  return "coupled";
+  constexpr std::string_view names[] = {"rotational", "translational", "coupled"};
+  static_assert(std::size(names) == static_cast<std::size_t>(CoordinateMotion::coupled) + 1);
+  return names[static_cast<std::size_t>(motion)];
 }
 
 std::string_view name_of(ModelNoteCode code) noexcept {
-  switch (code) {
-    case ModelNoteCode::missing_mesh:
-      return "missing_mesh";
-    case ModelNoteCode::other_case:
-      return "other_case";
-    case ModelNoteCode::mirrored:
-      return "mirrored";
-    case ModelNoteCode::uneven_scale:
-      return "uneven_scale";
-    case ModelNoteCode::repeated_mesh:
-      return "repeated_mesh";
-    case ModelNoteCode::not_used:
-      return "not_used";
-    case ModelNoteCode::welded:
-      return "welded";
-    case ModelNoteCode::oblique_axis:
-      return "oblique_axis";
-    case ModelNoteCode::turned_frame:
-      return "turned_frame";
-    case ModelNoteCode::given_otherwise:
-      return "given_otherwise";
-    case ModelNoteCode::contact_left_out:
-      return "contact_left_out";
-    case ModelNoteCode::several_contacts:
-      return "several_contacts";
-    case ModelNoteCode::measured_thickness:
-      return "measured_thickness";
-    case ModelNoteCode::reverse_passed_over:
-      return "reverse_passed_over";
-    case ModelNoteCode::exchanged_bodies:
-      return "exchanged_bodies";
-    case ModelNoteCode::coupled_coordinate:
-      return "coupled_coordinate";
-    case ModelNoteCode::no_length_unit:
-      return "no_length_unit";
-    case ModelNoteCode::no_name:
-      return "no_name";
-    case ModelNoteCode::left_out:
-      break;
-  }
-  return "left_out";
+  constexpr std::string_view names[] = {"missing_mesh",
+                                        "other_case",
+                                        "mirrored",
+                                        "uneven_scale",
+                                        "repeated_mesh",
+                                        "not_used",
+                                        "welded",
+                                        "oblique_axis",
+                                        "turned_frame",
+                                        "given_otherwise",
+                                        "contact_left_out",
+                                        "several_contacts",
+                                        "measured_thickness",
+                                        "reverse_passed_over",
+                                        "exchanged_bodies",
+                                        "coupled_coordinate",
+                                        "no_length_unit",
+                                        "no_name",
+                                        "left_out"};
+  static_assert(std::size(names) == static_cast<std::size_t>(ModelNoteCode::left_out) + 1);
+  return names[static_cast<std::size_t>(code)];
 }
 
 std::string to_text(const ModelNote& note) {

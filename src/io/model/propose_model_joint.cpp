@@ -128,8 +128,8 @@ class ModelJointFile {
     }
     if (!anatomy_ && mapping_.kind != JointKind::hinge)
       throw UsageError(
-          fmt::format("{}: joint {}: its names are of no joint known here: say whether it is a hip, "
-                      "knee, ankle, elbow or shoulder",
+          fmt::format("{}: joint {}: its names are of no joint known here: say whether it is a hip, knee, "
+                      "ankle, elbow or shoulder",
                       model.path.string(), in_quotes(joint_.name)));
     const WeldedBodies welded(model_);
     fixed_bodies_ = welded.of(joint_, BodyRole::fixed);
@@ -503,8 +503,7 @@ class ModelJointFile {
     if (has_proximal_child(joint_))
       note(ModelNoteCode::exchanged_bodies,
            fmt::format("the child body, {}, is the proximal bone: angles are of it in {}, so a flexion of "
-                       "the joint is negative "
-                       "here, and so on",
+                       "the joint is negative here, and so on",
                        in_quotes(joint_.child_body), in_quotes(joint_.parent_body)));
     if (const ModelCoupler* coupler = coupler_of_joint())
       note(ModelNoteCode::coupled_coordinate,

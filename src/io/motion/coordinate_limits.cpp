@@ -54,15 +54,15 @@ void BeyondLimits::check(const CoordinateLimits& limits, std::span<const double>
 std::vector<motion::ContactNote> BeyondLimits::notes() const {
   std::vector<motion::ContactNote> notes;
   if (!beyond_.empty())
-    notes.push_back({motion::ContactNoteCode::beyond_range,
-                     fmt::format("coordinates leave the ranges that the model gives them, and are used as "
-                                 "they are: {}",
-                                 beyond_)});
+    notes.push_back(
+        {motion::ContactNoteCode::beyond_range,
+         fmt::format("coordinates leave the ranges that the model gives them, and are used as they are: {}",
+                     beyond_)});
   if (!unlocked_.empty())
-    notes.push_back({motion::ContactNoteCode::locked_coordinate,
-                     fmt::format("coordinates that the model locks have other values, and are used as they "
-                                 "are: {}",
-                                 unlocked_)});
+    notes.push_back(
+        {motion::ContactNoteCode::locked_coordinate,
+         fmt::format("coordinates that the model locks have other values, and are used as they are: {}",
+                     unlocked_)});
   return notes;
 }
 

@@ -137,16 +137,16 @@ class ModelMotion {
     const std::optional<bool> degrees = has_degrees();
     if (coordinate.motion == CoordinateMotion::coupled) {
       if (degrees.value_or(false))
-        processing_->push_back(fmt::format(
-            "{}: coordinate {} turns the joint through a function: its column is in radians, whatever the "
-            "header says",
-            table_.path.string(), in_quotes(coordinate.name)));
+        processing_->push_back(
+            fmt::format("{}: coordinate {} turns the joint through a function: its column is in radians, "
+                        "whatever the header says",
+                        table_.path.string(), in_quotes(coordinate.name)));
       return false;
     }
     if (!degrees)
       throw FileError(
-          fmt::format("{}: column {}: the file does not say whether angles are in degrees: give "
-                      "angles = \"deg\" or \"rad\" in [recorded_motion]",
+          fmt::format("{}: column {}: the file does not say whether angles are in degrees: give angles = "
+                      "\"deg\" or \"rad\" in [recorded_motion]",
                       table_.path.string(), in_quotes(coordinate.name)));
     return *degrees;
   }

@@ -105,10 +105,9 @@ MotionTable read_opensim_table(const Source& source) {
   check_data_type(header, source);
   table.in_degrees = in_degrees(header, source);
   if (table.in_degrees && header.prose_in_degrees && *table.in_degrees != *header.prose_in_degrees)
-    table.processing.push_back(
-        fmt::format("the header says inDegrees={0} and in words that angles are in {1}: inDegrees={0} "
-                    "is followed",
-                    *table.in_degrees ? "yes" : "no", *header.prose_in_degrees ? "degrees" : "radians"));
+    table.processing.push_back(fmt::format(
+        "the header says inDegrees={0} and in words that angles are in {1}: inDegrees={0} is followed",
+        *table.in_degrees ? "yes" : "no", *header.prose_in_degrees ? "degrees" : "radians"));
   std::size_t empty_line = 0, names_line = 0;
   std::string_view names;
   while (!cursor.at_end()) {

@@ -21,11 +21,11 @@ ColumnUnit unit_of(const MotionTable& table, const ColumnOfCoordinate& entry) {
     const bool is_degrees = entry.unit == ColumnUnit::degrees;
     // Nothing shows which of the two is wrong, and either answer would look right.
     if (entry.kind == CoordinateKind::angle && table.in_degrees && *table.in_degrees != is_degrees)
-      throw FileError(fmt::format(
-          "{}: column {}: its unit is given as {}, and the header says inDegrees={}: leave the unit out, or "
-          "correct the header",
-          table.path.string(), io::in_quotes(entry.column), is_degrees ? "degrees" : "radians",
-          *table.in_degrees ? "yes" : "no"));
+      throw FileError(
+          fmt::format("{}: column {}: its unit is given as {}, and the header says inDegrees={}: leave the "
+                      "unit out, or correct the header",
+                      table.path.string(), io::in_quotes(entry.column), is_degrees ? "degrees" : "radians",
+                      *table.in_degrees ? "yes" : "no"));
     return *entry.unit;
   }
   assert(entry.kind == CoordinateKind::angle && "a length has a unit");

@@ -315,10 +315,10 @@ ViewDirection view_named(std::string_view name, Side side) {
     const auto* found = std::find_if(std::begin(directions), std::end(directions),
                                      [&](const auto& each) { return each.first == rest.substr(0, end); });
     if (found == std::end(directions) || end + 1 == rest.size())
-      throw UsageError(fmt::format(
-          "view '{}': there are anterior, posterior, left, right, superior, inferior, medial, lateral, and "
-          "several of them with hyphens",
-          name));
+      throw UsageError(
+          fmt::format("view '{}': there are anterior, posterior, left, right, superior, inferior, medial, "
+                      "lateral, and several of them with hyphens",
+                      name));
     sum += found->second;
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }

@@ -122,16 +122,6 @@ std::optional<ReportAnswer> answer_report(const LoadedJoint& loaded, const Repor
   return answer;
 }
 
-Report report_of(const LoadedJoint& loaded, const RomResult* rom, std::string why_none) {
-  Report report{.title = loaded.joint.name,
-                .joint = loaded.joint,
-                .reference_pose = loaded.report.placement.reference_pose,
-                .rom = rom,
-                .rom_error = std::move(why_none)};
-  if (loaded.report.file.recorded_motion) report.recorded_motion = &*loaded.report.file.recorded_motion;
-  return report;
-}
-
 void write_report(const std::filesystem::path& path, const LoadedJoint& loaded, const ReportRequest& request,
                   const ReportAnswer& answer, const ReportWords& words) {
   const LoadedJoint shown = shown_joint(loaded, answer);

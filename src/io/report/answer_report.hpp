@@ -78,7 +78,4 @@ struct ReportWords {
 void write_report(const std::filesystem::path& path, const LoadedJoint& loaded, const ReportRequest& request,
                   const ReportAnswer& answer, const ReportWords& words);
 
-/// The page of a joint with these limits, or without any; all else is left open.
-Report report_of(const LoadedJoint& loaded, const RomResult* rom, std::string why_none);
-
 }  // namespace condyle::io

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "condyle/io/joint_file.hpp"
 #include "condyle/io/recorded_motion.hpp"
 #include "condyle/joint.hpp"
 #include "io/result/measure_result.hpp"
@@ -77,6 +78,9 @@ struct Report {
   std::optional<double> bearing_margin_mm = {};
   ReportLabels labels = {};
 };
+
+/// The page of a joint with these limits, or without any; all else is left open.
+Report report_of(const LoadedJoint& loaded, const RomResult* rom, std::string why_none);
 
 /// The page. Vertices keep every bit. Radial gaps of all vertices are computed in the reference pose and at the
 /// end of each limit; the rest is linear in meshes, map and frames. The same bytes whatever the threads.

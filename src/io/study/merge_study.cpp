@@ -9,7 +9,6 @@
 #include "condyle/version.hpp"
 #include "io/file/replaced_files.hpp"
 #include "io/file/whole_file.hpp"
-#include "io/mesh/parse.hpp"
 #include "io/study/study_files.hpp"
 #include "io/study/study_inputs.hpp"
 
@@ -18,18 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Into how many shards the study was parted, by the names of their folders.
 std::size_t shards_in(const fs::path& folder) {
-  std::set<std::size_t> counts;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder / "shards", error), end; !error && entry != end; ++entry) {
-    const std::string name = entry->path().filename().string();
-    const std::size_t mark = name.find("_of_");
-    std::size_t number, of;
-    if (mark != name.npos && io::parse_number(std::string_view(name).substr(0, mark), number) &&
-        io::parse_number(std::string_view(name).substr(mark + 4), of))
-      counts.insert(of);
-  }
+  const std::set<std::size_t> counts = shard_counts(folder);
   if (counts.empty()) throw FileError(fmt::format("{}: there is no shard of a study", folder.string()));
   if (counts.size() > 1)
     throw FileError(fmt::format("{}: shards of {} and of {} lie there: remove those of one run",

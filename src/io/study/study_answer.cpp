@@ -55,10 +55,10 @@ void check_kind(const StudyTable& table, const StudyRow& row, const LoadedJoint&
                                 name_of(options.anatomy)));
   if (joint.kind != JointKind::free) return;
   if (!follows(table, row, options))
-    throw FileError(fmt::format(
-        "{}: is a free joint, and a study takes one with a translation to follow: a recorded motion in a "
-        "column follow, or a load",
-        file));
+    throw FileError(
+        fmt::format("{}: is a free joint, and a study takes one with a translation to follow: a recorded "
+                    "motion in a column follow, or a load",
+                    file));
   if (options.depth_at || options.load)
     throw FileError(fmt::format(
         "{}: is a free joint, and poses of a study have no translation: neither depth nor load is answered",

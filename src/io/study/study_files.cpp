@@ -9,6 +9,7 @@
 #include "io/file/output_folder.hpp"
 #include "io/file/plain_text.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/mesh/parse.hpp"
 #include "io/result/json.hpp"
 #include "io/result/scope_text.hpp"
 
@@ -90,6 +91,21 @@ bool is_of_study(std::string_view name) {
 
 fs::path shard_folder(const fs::path& folder, const Shard& shard) {
   return folder / "shards" / fmt::format("{}_of_{}", shard.number, shard.of);
+}
+
+std::set<std::size_t> shard_counts(const fs::path& folder) {
+  std::set<std::size_t> counts;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder / "shards", error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    const std::size_t mark = name.find("_of_");
+    std::size_t number = 0, of = 0;
+    if (mark != name.npos && parse_number(std::string_view(name).substr(0, mark), number) &&
+        parse_number(std::string_view(name).substr(mark + 4), of))
+      counts.insert(of);
+  }
+  return counts;
 }
 
 std::vector<fs::path> study_result_files(const fs::path& folder) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,8 @@ std::optional<StudyFailure> first_failure(const StudyResults& results);
 
 /// Where a shard's results lie: "DIR/shards/3_of_7".
 std::filesystem::path shard_folder(const std::filesystem::path& folder, const Shard& shard);
+/// Into how many shards a study or a sweep was parted, by the names of their folders.
+std::set<std::size_t> shard_counts(const std::filesystem::path& folder);
 
 /// The files that a folder of results has, by their names there.
 std::vector<std::filesystem::path> study_result_files(const std::filesystem::path& folder);

@@ -30,10 +30,10 @@ JointSource source_of(const StudyTable& table, const StudyRow& row) {
            : has("labels")        ? JointSource::labels
            : has("opensim_model") ? JointSource::model
                                   : JointSource::sample;
-  throw FileError(fmt::format(
-      "{}: line {}: a row needs joint, or fixed and mobile, or labels, or opensim_model, or sample, and "
-      "only one of them",
-      table.path.string(), row.line));
+  throw FileError(
+      fmt::format("{}: line {}: a row needs joint, or fixed and mobile, or labels, or opensim_model, or "
+                  "sample, and only one of them",
+                  table.path.string(), row.line));
 }
 
 std::filesystem::path path_in(const StudyTable& table, const StudyRow& row, std::string_view column) {

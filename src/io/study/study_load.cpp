@@ -69,8 +69,7 @@ std::vector<ResultColumn> load_columns() {
   std::vector<ResultColumn> columns = {
       {"load_outcome", "", text_column,
        "balanced, at_jump or unstable; pulled_apart, over_the_rim, too_large or free_direction, where the "
-       "other "
-       "columns are empty; empty without a force"},
+       "other columns are empty; empty without a force"},
       {"load_residual_n", "N", number_column, "what contact and force add up to; empty without a force"}};
   for (const char* axis : {"x", "y", "z"})
     columns.push_back({fmt::format("load_moved_{}_mm", axis), "mm", number_column,
@@ -93,10 +92,9 @@ std::vector<ResultColumn> load_columns() {
   for (const char* axis : {"x", "y", "z"})
     columns.push_back({fmt::format("load_force_{}_n", axis), "N", number_column,
                        "of the contact on the mobile body, joint frame"});
-  columns.push_back(
-      {"load_refined_force_n", "N", number_column,
-       "length of that force with 16 rays in each triangle: what the meshes' edges leave open; empty "
-       "with one ray for each triangle"});
+  columns.push_back({"load_refined_force_n", "N", number_column,
+                     "length of that force with 16 rays in each triangle: what the meshes' edges leave open; "
+                     "empty with one ray for each triangle"});
   columns.push_back({"load_cut_off_by_reach", "", number_column,
                      "rays that a longer reach would find in contact; 0: the reach suffices"});
   return columns;

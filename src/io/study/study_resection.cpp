@@ -70,16 +70,15 @@ std::vector<ResultColumn> resection_columns(const StudyResection& resection) {
       {"resect_deepest_mm", "mm", number_column, "largest depth of the cut"}};
   for (const auto& [motion, reach] : resection.targets) {
     const std::string name = std::string(resection_prefix) + motion;
-    columns.push_back({name + "_planned_deg", "deg", number_column,
-                       fmt::format("the target of {} degrees, or as far as bone that stays lets the motion "
-                                   "go",
-                                   plan::asked_degrees(reach))});
+    columns.push_back(
+        {name + "_planned_deg", "deg", number_column,
+         fmt::format("the target of {} degrees, or as far as bone that stays lets the motion go",
+                     plan::asked_degrees(reach))});
     columns.push_back(
         {name + "_after_deg", "deg", number_column, "how far the motion goes without the bone"});
     columns.push_back(
         {name + "_blocked_by", "", text_column,
-         "why bone that stops it short of its target stays: bearing, depth or zone; empty where "
-         "none does"});
+         "why bone that stops it short of its target stays: bearing, depth or zone; empty where none does"});
   }
   columns.push_back({"resect_notes", "", text_column, "codes of the notes on the plan, with blanks between"});
   columns.push_back({"resect_none", "", text_column, "why there is no plan"});

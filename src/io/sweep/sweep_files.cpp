@@ -13,9 +13,9 @@
 #include "io/file/output_folder.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/joint/given_degrees.hpp"
-#include "io/mesh/parse.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/study/json_digest.hpp"
+#include "io/study/study_files.hpp"
 #include "io/study/study_inputs.hpp"
 
 namespace condyle::io {
@@ -99,22 +99,6 @@ std::optional<SweepTexts> texts_in(const fs::path& folder) {
   }
 }
 
-/// Into how many shares the sweep was parted, by the names of their folders.
-std::set<std::size_t> counts_in(const fs::path& folder) {
-  std::set<std::size_t> counts;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder / "shards", error), end; !error && entry != end;
-       entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    const std::size_t mark = name.find("_of_");
-    std::size_t number = 0, of = 0;
-    if (mark != name.npos && parse_number(std::string_view(name).substr(0, mark), number) &&
-        parse_number(std::string_view(name).substr(mark + 4), of))
-      counts.insert(of);
-  }
-  return counts;
-}
-
 /// The words of the command without its share.
 std::vector<std::string> without_shard(std::span<const std::string> command) {
   std::vector<std::string> words;
@@ -169,7 +153,7 @@ Json common_to_shares(const Json& json) {
 }  // namespace
 
 fs::path sweep_folder(const fs::path& folder, const SweepShare& share) {
-  return share.of == 1 ? folder : folder / "shards" / fmt::format("{}_of_{}", share.number, share.of);
+  return share.of == 1 ? folder : shard_folder(folder, {share.number, share.of});
 }
 
 void check_sweep_folder(const fs::path& folder, const Provenance* from) {
@@ -229,7 +213,7 @@ std::vector<fs::path> write_sweep(const fs::path& folder, const SweepResult& res
 }
 
 bool has_sweep_shards(const fs::path& folder) {
-  for (const std::size_t of : counts_in(folder))
+  for (const std::size_t of : shard_counts(folder))
     for (std::size_t number = 1; number <= of; ++number) {
       std::error_code ignored;
       if (fs::exists(sweep_folder(folder, {number, of}) / "sweep.json", ignored)) return true;
@@ -238,7 +222,7 @@ bool has_sweep_shards(const fs::path& folder) {
 }
 
 MergedSweep merge_sweep(const fs::path& folder) {
-  const std::set<std::size_t> counts = counts_in(folder);
+  const std::set<std::size_t> counts = shard_counts(folder);
   if (counts.size() != 1)
     throw FileError(fmt::format("{}: shards of {} lie there: remove those of other runs",
                                 (folder / "shards").string(), fmt::join(counts, " and of ")));

@@ -87,10 +87,9 @@ void note_layer(const std::optional<contact::ElasticLayer>& layer, const Mesh& m
              (nu < least_poisson
                   ? formatted(" has a Poisson's ratio of %.4g: no tissue or implant widens when stretched",
                               nu)
-                  : formatted(
-                        " has a Poisson's ratio of %.6g: it is %.3g times as stiff as Young's modulus, and "
-                        "the last digit decides",
-                        nu, layer->confined_modulus_mpa() / layer->youngs_modulus_mpa))});
+                  : formatted(" has a Poisson's ratio of %.6g: it is %.3g times as stiff as Young's modulus, "
+                              "and the last digit decides",
+                              nu, layer->confined_modulus_mpa() / layer->youngs_modulus_mpa))});
   double least = 0, most = 0;
   if (const auto* one = std::get_if<double>(&layer->thickness_mm)) {
     least = most = *one;
@@ -118,12 +117,10 @@ void note_layer(const std::optional<contact::ElasticLayer>& layer, const Mesh& m
   }
   const double thickness = area > 0 ? 2 * std::abs(mesh::enclosed_volume(mesh)) / area : 0;
   if (thickness > least_of_bone && thickness > least_ratio_of_bone * most)
-    notes.push_back(
-        {ContactNoteCode::layer_on_bone,
-         name + formatted(
-                    " is %.1f mm thick in the mean and has a layer of %.3g mm: is its mesh the bone, without "
-                    "the cartilage? Its surface is taken for the layer's",
-                    thickness, most)});
+    notes.push_back({ContactNoteCode::layer_on_bone,
+                     name + formatted(" is %.1f mm thick in the mean and has a layer of %.3g mm: is its mesh "
+                                      "the bone, without the cartilage? Its surface is taken for the layer's",
+                                      thickness, most)});
 }
 
 void note_strain(double strain, std::string_view where, std::vector<ContactNote>& notes) {
@@ -141,19 +138,17 @@ void note_strain(double strain, std::string_view where, std::vector<ContactNote>
 
 void note_force(double force, std::string_view what, std::vector<ContactNote>& notes) {
   if (!(force > most_body_weights * body_weight)) return;
-  notes.push_back(
-      {ContactNoteCode::unlikely_load,
-       std::string(what) + formatted(" is %.4g N, %.3g times a body weight of %g N (75 kg assumed); "
-                                     "stumbling loads a hip by 8.7 times it",
-                                     force, force / body_weight, body_weight)});
+  notes.push_back({ContactNoteCode::unlikely_load,
+                   std::string(what) + formatted(" is %.4g N, %.3g times a body weight of %g N (75 kg "
+                                                 "assumed); stumbling loads a hip by 8.7 times it",
+                                                 force, force / body_weight, body_weight)});
 }
 
 ContactNote oblique_peak(std::string_view body, const std::string& where) {
-  return {
-      ContactNoteCode::oblique_peak,
-      "the largest values of " + std::string(body) + where +
-          " come from a triangle whose ray meets the other surface more than 60 degrees off its normal, as "
-          "along a rim: its length is no depth"};
+  return {ContactNoteCode::oblique_peak,
+          "the largest values of " + std::string(body) + where +
+              " come from a triangle whose ray meets the other surface more than 60 degrees off its normal, "
+              "as along a rim: its length is no depth"};
 }
 
 double force_of(const FrameContact& frame) {
@@ -293,9 +288,10 @@ std::optional<ContactNote> check_recorded(std::string_view coordinate, RecordedK
   if (kind == RecordedKind::angle_deg && largest > largest_angle_deg)
     return ContactNote{
         ContactNoteCode::unlikely_angle,
-        name + formatted(" reaches %.4g degrees, more than two turns: is its column in degrees, and "
-                         "read as radians?",
-                         largest)};
+        name +
+            formatted(
+                " reaches %.4g degrees, more than two turns: is its column in degrees, and read as radians?",
+                largest)};
   if (kind == RecordedKind::length_mm && largest > largest_length_mm)
     return ContactNote{
         ContactNoteCode::unlikely_translation,
@@ -318,11 +314,10 @@ std::optional<ContactNote> check_degrees(std::span<const std::vector<double>> co
     widest = std::max(widest, high - low);
   }
   if (largest > half_turn_rad || widest < least_motion_rad) return std::nullopt;
-  return ContactNote{
-      ContactNoteCode::unlikely_angle,
-      formatted("all recorded angles are within %.3g degrees and move by at most %.3g: are they in "
-                "radians, though the header says inDegrees=yes?",
-                largest, widest)};
+  return ContactNote{ContactNoteCode::unlikely_angle,
+                     formatted("all recorded angles are within %.3g degrees and move by at most %.3g: are "
+                               "they in radians, though the header says inDegrees=yes?",
+                               largest, widest)};
 }
 
 std::optional<ContactNote> check_times(std::span<const double> seconds) {

@@ -120,9 +120,9 @@ BearingFinding surface_of(const Joint& joint, const BearingOptions& options) {
   if (const double off = surface.head.centre.norm(); off > farthest)
     return none(
         joint.mobile.name +
-        core::formatted(": the sphere found as its head has its centre %.1f mm from the joint centre, "
-                        "more than %.3g",
-                        off, farthest));
+        core::formatted(
+            ": the sphere found as its head has its centre %.1f mm from the joint centre, more than %.3g",
+            off, farthest));
   find_socket(joint, surface);
   // A bearing cartilage reaches nearly to the rim's, and its own contact is none of impingement: no reserve is kept there.
   const auto [gap, by] = limiting_gap(surface);

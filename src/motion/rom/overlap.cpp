@@ -183,8 +183,7 @@ std::string explain_overlap(const Joint& joint, const JointAngles& at) {
   }
   return text +
          ". Allow a radial depth, leave out the contacts in the reference pose, state another reference "
-         "pose, or accept "
-         "contact at the start";
+         "pose, or accept contact at the start";
 }
 
 }  // namespace condyle::motion
