@@ -1,6 +1,7 @@
 #include "condyle/contact_measures.hpp"
 
 #include <limits>
+#include <optional>
 
 #include "contact/body_pair.hpp"
 #include "contact/overlap.hpp"
@@ -13,15 +14,20 @@
 namespace condyle::contact {
 namespace {
 
-/// `distance` takes points in the frame of these.
+/// `vertices` are in the frame of the tree.
 std::vector<double> distances_of(const Points& vertices,
                                  const std::optional<std::span<const PointState>>& states, DistancesOf which,
-                                 const auto& distance) {
+                                 const mesh::TriangleTree& tree) {
   std::vector<double> distances(vertices.size(), std::numeric_limits<double>::quiet_NaN());
+  std::optional<mesh::DistancesToSurface> all;
+  if (which == DistancesOf::all_vertices) all.emplace(tree);
   core::parallel_chunks(distances.size(), 256, [&](std::size_t first, std::size_t last) {
+    Index nearest = no_index;
     for (std::size_t v = first; v < last; ++v)
-      if (which == DistancesOf::all_vertices || (states && (*states)[v] == PointState::inside))
-        distances[v] = distance(vertices[v]);
+      if (all)
+        distances[v] = (*all)(vertices[v], nearest);
+      else if (states && (*states)[v] == PointState::inside)
+        distances[v] = mesh::distance_to_surface(tree, vertices[v]);
   });
   return distances;
 }
@@ -57,12 +63,9 @@ ContactPatch patch_from(const Sums& sums) {
 
 NearestDistances distances_at(const BodyPair& bodies, const JointContact& joint, const Pose& X_FM,
                               const Points& mobile_in_F, const MeasuredContact& meeting, DistancesOf which) {
-  const auto to_fixed = [&](const Vec3& p_F) { return mesh::distance_to_surface(bodies.fixed_tree(), p_F); };
-  const auto to_mobile = [&](const Vec3& p_M) {
-    return mesh::distance_to_surface(bodies.mobile_tree(), p_M);
-  };
-  return {distances_of(mobile_in_F, meeting.mobile, which, to_fixed),
-          distances_of(posed(inverted(X_FM), joint.fixed().vertices()), meeting.fixed, which, to_mobile)};
+  return {distances_of(mobile_in_F, meeting.mobile, which, bodies.fixed_tree()),
+          distances_of(posed(inverted(X_FM), joint.fixed().vertices()), meeting.fixed, which,
+                       bodies.mobile_tree())};
 }
 
 }  // namespace

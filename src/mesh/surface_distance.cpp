@@ -103,10 +103,19 @@ double distance_to_surface(const TriangleTree& surface, const Vec3& p) noexcept 
   });
 }
 
+DistancesToSurface::DistancesToSurface(const TriangleTree& surface) : surface_(surface) {
+  // Of a hip whose bones have 119,000 and 59,000 triangles discs make all distances slower by 2 to 10 %, of one four times as fine quicker by 25 %.
+  constexpr std::size_t fine = 200'000;
+  if (surface.triangles().size() >= fine) discs_.emplace(surface);
+}
+
 double DistancesToSurface::operator()(const Vec3& p, Index& nearest) const noexcept {
+  const auto to_box = [&](Index node) { return squared_distance_to_box(p, surface_.nodes()[node]); };
+  if (!discs_)
+    return nearest_distance(surface_, p, nearest, [&](Index node, double) { return to_box(node); });
   return nearest_distance(surface_, p, nearest, [&](Index node, double enough) {
-    const double squared = squared_distance_to_box(p, surface_.nodes()[node]);
-    return squared > enough ? squared : std::max(squared, discs_.squared_distance(p, node));
+    const double squared = to_box(node);
+    return squared > enough ? squared : std::max(squared, discs_->squared_distance(p, node));
   });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cassert>
+#include <optional>
 
 #include "condyle/mesh.hpp"
 #include "mesh/node_discs.hpp"
@@ -17,11 +18,12 @@ double distance_to_triangle(const Vec3& p, const TriangleCorners& t) noexcept;
 /// translation, in any direction. A query tests a few leaves if the point is near; from a distance, more of a finer mesh.
 double distance_to_surface(const TriangleTree& surface, const Vec3& p) noexcept;
 
-/// The same for many points, wherever they are: a query tests a few leaves however distant the point and fine the mesh. Linear to make.
+/// The same for many points, wherever they are: a query tests a few leaves however distant the point and fine the mesh. Linear to make; of
+/// fine meshes it has bounds beside those of the tree.
 class DistancesToSurface {
  public:
   /// The tree must have a triangle, outlive this and keep its vertices.
-  explicit DistancesToSurface(const TriangleTree& surface) : surface_(surface), discs_(surface) {}
+  explicit DistancesToSurface(const TriangleTree& surface);
 
   /// `nearest` is no_index, or the place of a triangle that is near p, as the one nearest to the point before: it makes this faster
   /// and changes no distance. It becomes the place of a triangle that is nearest.
@@ -29,7 +31,7 @@ class DistancesToSurface {
 
  private:
   const TriangleTree& surface_;
-  NodeDiscs discs_;
+  std::optional<NodeDiscs> discs_;
 };
 
 /// distance_to_surface() with a tree of its own, built once.

@@ -71,6 +71,8 @@ class BoneCut {
   void cut();
   std::optional<Failure> cut_at_edge();
   bool cut_with_shorter_edges();
+  std::size_t turned(const TriMesh& mesh) const;
+  void refuse_many_folds() const;
   std::string fault() const;
   std::string asked(std::size_t target) const;
   bool lower_for_reach();

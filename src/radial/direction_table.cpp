@@ -14,8 +14,21 @@
 namespace condyle::radial {
 namespace {
 
-/// Cells along a side for a mesh of so many triangles.
-int cells_per_side(const RadialOptions& options, std::size_t triangles) {
+/// Whether triangles, seen from the centre, are longer than four cells of the finest map, on average of some.
+bool are_slender(const TriMesh& mesh) {
+  constexpr std::size_t step = 64;
+  constexpr double longest = 4 * 2.0 / 128;
+  double sum = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += step) {
+    const Vec3 a = mesh.corner(t, 0).stableNormalized(), b = mesh.corner(t, 1).stableNormalized(),
+               c = mesh.corner(t, 2).stableNormalized();
+    sum += std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()});
+  }
+  return sum * static_cast<double>(step) > longest * static_cast<double>(mesh.triangles.size());
+}
+
+/// Cells along a side for a mesh.
+int cells_per_side(const RadialOptions& options, const TriMesh& mesh) {
   // 2048^2 cells a face is 25 million cells: past that the table outgrows any mesh it could serve.
   if (options.cells_per_side && (*options.cells_per_side < 1 || *options.cells_per_side > 2048)) {
     throw UsageError("cells_per_side is " + std::to_string(*options.cells_per_side) +
@@ -25,13 +38,16 @@ int cells_per_side(const RadialOptions& options, std::size_t triangles) {
   if (options.map == DirectionMapKind::cartesian) return 64;
   // A few triangles to a cell: with finer ones each has more entries, which costs time to build and
   // memory, and a query gains little. Sides that can be halved have deep pyramids.
+  const std::size_t triangles = mesh.triangles.size();
   if (triangles < 6000) return triangles < 3000 ? 16 : 24;
   if (triangles < 12000) return 32;
-  return triangles < 60000 ? 48 : triangles < 600000 ? 64 : 128;
+  if (triangles < 60000) return 48;
+  // Of 700,000 meridian triangles 64 cells have 12 entries each, 128 have 25.
+  return triangles < 600000 || are_slender(mesh) ? 64 : 128;
 }
 
-DirectionMap make_map(const RadialOptions& options, std::size_t triangles) {
-  const int side = cells_per_side(options, triangles);
+DirectionMap make_map(const RadialOptions& options, const TriMesh& mesh) {
+  const int side = cells_per_side(options, mesh);
   if (options.map == DirectionMapKind::cartesian) return CartesianMap(side);
   return CubeMap(side);
 }
@@ -52,7 +68,7 @@ void require_no_corner_at_centre(const TriMesh& mesh) {
 // ---- Build
 
 DirectionTable::DirectionTable(Mesh mesh, const RadialOptions& options)
-    : given_(std::move(mesh)), map_(make_map(options, given_.triangles().size())) {
+    : given_(std::move(mesh)), map_(make_map(options, given_.arrays())) {
   build_parts();
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "command.hpp"
@@ -37,6 +38,28 @@ const std::vector<Failing> commands = {
     {"report", "report joint.toml --title Earlier --out out/page.html",
      "report joint.toml --out out/page.html"}};
 
+/// Others, of a sample hip and its replacement: with CONDYLE_LONG_TESTS, some thousand of the allocations of each.
+const std::vector<Failing> long_commands = {
+    {"band", "rom hip.toml --motion extension --band=20 --out out",
+     "rom hip.toml --motion fadir --band=20 --out out"},
+    {"map", "rom hip.toml --map flexion=80:100:20 adduction=0:10:10 --out out",
+     "rom hip.toml --map flexion=80:100:20 adduction=0:20:20 --past 3 --out out"},
+    {"measure", "measure layer.toml --out out", "measure hip.toml --out out"},
+    {"load", "load layer.toml --pose flexion=10 --out out", "load layer.toml --pose flexion=20 --out out"},
+    {"motion", "motion hip.toml --motion swing.csv --out out",
+     "motion layer.toml --motion swing.csv --load --out out"},
+    {"resect", "resect hip.toml --reach fadir=25 --curve 0 --out out",
+     "resect hip.toml --reach fadir=30 --curve 1 --burr 6 --out out"},
+    {"implant", "implant hip.toml --inclination 40 --out out", "implant hip.toml --inclination 42 --out out"},
+    {"sweep", "sweep replaced/hip.toml --vary cup.inclination=40:45:5 --targets sit.csv --out out",
+     "sweep replaced/hip.toml --vary cup.inclination=40:45:5 --targets sit.csv --band=20 --out out"},
+    {"picture", "picture hip.toml --size 64x64 --out out/picture.png",
+     "picture hip.toml --measures --size 80x64 --out out/picture.png"},
+    {"inspect", "inspect replaced/femur.ply --out out", "inspect femur.ply --repair weld --out out"},
+    {"surface", "surface labels.nii.gz --label 76 --out out/bone.ply",
+     "surface labels.nii.gz --label 76 --triangles 2000 --out out/bone.ply"},
+    {"sample", "sample cohort --n 1 --out out", "sample cohort --n 2 --out out"}};
+
 /// One run of the command, as the log has it.
 struct Outcome {
   long number, exit_code, asked, live;
@@ -64,11 +87,26 @@ class FailingAllocations : public ::testing::TestWithParam<Failing> {
                                           "\"arm.ply\"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\n"
                                           "superior = [0, 1, 0]\n";
     std::ofstream(here / "two.csv") << "id,joint\na,joint.toml\nb,joint.toml\n";
+    if (is_long_command()) make_hips();
     ASSERT_EQ(run_condyle(here, GetParam().before).exit_code, 0);
     fs::rename(here / "out", here / "before");
     whole_ = run_condyle(here, GetParam().command);
     ASSERT_EQ(whole_.exit_code, 0) << whole_.err;
     fs::rename(here / "out", here / "after");
+  }
+
+  static bool is_long_command() {
+    return std::any_of(long_commands.begin(), long_commands.end(),
+                       [](const Failing& each) { return std::string_view(each.name) == GetParam().name; });
+  }
+  void make_hips() const {
+    sample_into(here, "hip --alpha-angle 70 --voxel 2");
+    sample_into(here / "replaced", "replacement --facets 24");
+    std::ofstream(here / "layer.toml") << io::read_whole_file(here / "hip.toml")
+                                       << "[contact]\ncasting = \"fixed\"\n[contact.fixed]\n"
+                                          "youngs_modulus_mpa = 12\npoisson_ratio = 0.45\nthickness = 2\n";
+    std::ofstream(here / "swing.csv") << "time,flexion_deg\n0,0\n0.1,10\n0.2,\n0.3,30\n";
+    std::ofstream(here / "sit.csv") << "name,motion,reach_deg\nsit,flexion,100\n";
   }
 
   /// The command with "FIRST STEP LAST MODE" failing.
@@ -125,8 +163,9 @@ TEST_P(FailingAllocations, EndWithOneLineAndNothingTorn) {
   expect_all_or_nothing(none.front(), none.front().live);
   // The steps are prime to most periods of a program; all of them are some minutes.
   const bool is_long = std::getenv("CONDYLE_LONG_TESTS") != nullptr;
-  for (const auto& [mode, runs] : {std::pair{"once", 90}, std::pair{"on", 30}}) {
-    const long step = is_long ? 1 : std::max(asked / runs, 1L) | 1;
+  for (const auto& [mode, few] : {std::pair{"once", 90}, std::pair{"on", 30}}) {
+    const long runs = is_long_command() ? 20L * few : is_long ? asked : few;
+    const long step = std::max(asked / runs, 1L) | 1;
     const auto all = outcomes(fmt::format("1 {} {} {}", step, 2 * asked, mode));
     EXPECT_GE(static_cast<long>(all.size()), asked / step);
     long failed = 0;
@@ -138,6 +177,10 @@ TEST_P(FailingAllocations, EndWithOneLineAndNothingTorn) {
   }
 }
 
+INSTANTIATE_TEST_SUITE_P(LongCommands, FailingAllocations,
+                         testing::ValuesIn(std::getenv("CONDYLE_LONG_TESTS") ? long_commands
+                                                                             : std::vector<Failing>{}),
+                         [](const auto& failing) { return std::string(failing.param.name); });
 INSTANTIATE_TEST_SUITE_P(Commands, FailingAllocations, testing::ValuesIn(commands),
                          [](const auto& failing) { return std::string(failing.param.name); });
 

@@ -621,5 +621,27 @@ TEST(Resection, TheVisibleHumansHipLosesLittleMoreThanTheLeast) {
   expect_sound(*flexion.mobile);
 }
 
+// A globe on a cone: what flexion sweeps of the cone folds, whichever way it goes. The other directions, each as long, are not tried.
+TEST(Resection, ACutThatFoldsManyTrianglesIsRefusedAtOnce) {
+  const auto hip = hip_vhf_right();
+  if (!hip) GTEST_SKIP() << "no real hip in CONDYLE_DATA";
+  constexpr double radius = 23.8, rows = 23;
+  std::vector<ProfilePoint> profile{{-radius, 0}};
+  for (int i = 1; i < rows; ++i)
+    profile.push_back(
+        {-radius * std::cos(i * 180 / rows * degree), radius * std::sin(i * 180 / rows * degree)});
+  profile.push_back({80, 0});
+  Joint joint = *hip;
+  joint.mobile.mesh = Mesh(revolved(down, profile, 100));
+  try {
+    plan::resect(joint, reaching({target("flexion", 125)}));
+    FAIL();
+  } catch (const MeshError& error) {
+    EXPECT_NE(std::string(error.what()).find("turns more than 10000 triangles over: ask for less"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace condyle::test

@@ -377,6 +377,14 @@ TEST(RadialTable, TheAngleBetweenRayAndNormalTellsWhereRadialDepthMeansSomething
   EXPECT_GT(hits.ray_to_normal[1], oblique_ray);
 }
 
+// Strips round a tube, seen from the centre some times longer than a cell: smaller cells would have entries as the power 3/2 of the triangles.
+TEST(RadialTable, SlenderTrianglesHaveEntriesInProportion) {
+  const auto entries = [](int around) {
+    return RadialTable(test::torus(5, 2, around, 10)).table_size().entries;
+  };
+  EXPECT_LE(entries(4 * 8'000), 5 * entries(8'000));
+}
+
 TEST(RadialTable, CellsOutOfRangeAreRefused) {
   EXPECT_THROW(RadialTable(sphere({0, 0, 0}, 1, 0), {DirectionMapKind::cube, 0}), UsageError);
   EXPECT_THROW(RadialTable(sphere({0, 0, 0}, 1, 0), {DirectionMapKind::cube, 1 << 20}), UsageError);

@@ -103,7 +103,7 @@ CubeBinning::CubeBinning(PointsView vertices, std::span<const Triangle> triangle
 void CubeBinning::bin() {
   const std::size_t triangles = triangles_.size();
   const MeshView view = view_of(vertices_, triangles_);
-  // Capacity for more cells than meshes take that fit the map: what is not written costs nothing, moving does.
+  // Capacity for more cells than meshes take that fit the map: what is not written costs nothing.
   entry_.resize(6 * triangles);
   std::array<std::uint32_t, triangles_per_chunk> larger;
   for (std::size_t first = 0; first < triangles; first += triangles_per_chunk) {
@@ -119,8 +119,12 @@ void CubeBinning::bin() {
 }
 
 void CubeBinning::reserve(std::size_t entries) {
-  const std::size_t needed = count_ + entries + binning_padding;
-  if (entry_.size() < needed) entry_.resize(std::max(needed, entry_.size() + entry_.size() / 2));
+  const std::size_t needed = entries + binning_padding;
+  if (entry_.size() >= count_ + needed) return;
+  core::UninitialisedVector<CellEntry> next(std::max(needed, entry_.size()));
+  entry_.resize(count_);
+  full_.push_back(std::move(entry_));
+  entry_ = std::move(next), count_ = 0;
 }
 
 void CubeBinning::bin_larger(Index triangle) {

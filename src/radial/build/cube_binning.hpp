@@ -29,7 +29,11 @@ class CubeBinning {
   void bin();
 
   /// In the order of the triangles.
-  std::span<const CellEntry> entries() const noexcept { return {entry_.data(), count_}; }
+  void for_each_entry(const auto& visit) const {
+    for (const auto& block : full_)
+      for (const CellEntry& entry : block) visit(entry);
+    for (const CellEntry& entry : std::span(entry_).first(count_)) visit(entry);
+  }
   std::uint32_t length(Index cell) const noexcept { return length_[cell]; }
   /// Whether any triangle had to be clipped: then only where the vertices truly are has counted for it.
   bool has_clipped() const noexcept { return has_clipped_; }
@@ -58,8 +62,10 @@ class CubeBinning {
   const CubeMap& map_;
   PlacedVertices placed_;
   int n_;
+  /// Blocks: entries of slender triangles are many more than can be foreseen, and moving them would take their memory twice.
+  std::vector<core::UninitialisedVector<CellEntry>> full_;
   core::UninitialisedVector<CellEntry> entry_;
-  std::size_t count_ = 0;
+  std::size_t count_ = 0;  ///< in the block that is being filled
   std::vector<std::uint32_t> length_;
   /// Waiting to be binned, see ProjectedTriangles; vectors are read whole, beyond those that wait too.
   static constexpr std::size_t most_projected = 256;

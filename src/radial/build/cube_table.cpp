@@ -29,8 +29,9 @@ void sort_into_rows(const CubeBinning& binning, const CubeMap& map, CellEntries&
     first += binning.length(cell);
   }
   entries.resize(first);
-  for (const CellEntry& entry : binning.entries())
+  binning.for_each_entry([&](const CellEntry& entry) {
     entries.set(entries.row[entry.cell].last++, entry.triangle, entry.dop);
+  });
   entries.split_rows();
 }
 

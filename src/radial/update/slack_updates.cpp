@@ -192,10 +192,10 @@ void remove(const TriMesh& mesh, const CubeMap& map, std::span<const Index> tria
             std::span<const Triangle> corners, const CubeTable& table, Rows& rows, CellSet& touched) {
   CubeBinning binning(mesh.vertices, corners, map, in_slack(table));
   binning.bin();
-  for (const CellEntry& entry : binning.entries()) {
+  binning.for_each_entry([&](const CellEntry& entry) {
     rows.remove(entry.cell, triangles[entry.triangle]);
     touched.add(entry.cell);
-  }
+  });
 }
 
 /// Puts triangles that are in no row into those of their vertices' slack.
@@ -204,7 +204,8 @@ void reinsert(const TriMesh& mesh, const CubeMap& map, std::span<const Index> tr
   CubeBinning binning(mesh.vertices, corners, map, in_slack(table));
   binning.bin();
   table.has_clipped |= binning.has_clipped();
-  for (const CellEntry& entry : binning.entries()) rows.add(entry.cell, triangles[entry.triangle], entry.dop);
+  binning.for_each_entry(
+      [&](const CellEntry& entry) { rows.add(entry.cell, triangles[entry.triangle], entry.dop); });
 }
 
 /// Bins the triangles at vertices that left their slack again.
@@ -236,8 +237,7 @@ struct EntriesByCell {
   std::vector<std::uint32_t> first;
   core::UninitialisedVector<std::uint32_t> place;
 
-  EntriesByCell(const CubeBinning& binning, std::span<const Index> cells, Index cell_count)
-      : place(binning.entries().size()) {
+  EntriesByCell(const CubeBinning& binning, std::span<const Index> cells, Index cell_count) {
     core::UninitialisedVector<std::uint32_t> next(cell_count);
     first.reserve(cells.size() + 1);
     first.push_back(0);
@@ -245,7 +245,8 @@ struct EntriesByCell {
       next[cell] = first.back();
       first.push_back(first.back() + binning.length(cell));
     }
-    for (const CellEntry& entry : binning.entries()) place[next[entry.cell]++] = entry.triangle;
+    place.resize(first.back());
+    binning.for_each_entry([&](const CellEntry& entry) { place[next[entry.cell]++] = entry.triangle; });
   }
 };
 
@@ -276,7 +277,7 @@ ChangedRadii measure_radii(const TriMesh& mesh, const CubeMap& map, std::span<co
                            const CubeTable& table, CellRadii& radii, CellSet& touched) {
   CubeBinning binning(mesh.vertices, corners, map, in_slack(table));
   binning.bin();
-  for (const CellEntry& entry : binning.entries()) touched.add(entry.cell);
+  binning.for_each_entry([&](const CellEntry& entry) { touched.add(entry.cell); });
   const EntriesByCell by_cell(binning, touched.cells(), map.cell_count());
   return find_radii_in(map, table, {triangles, planes, touched.cells(), by_cell.first, by_cell.place}, radii);
 }
