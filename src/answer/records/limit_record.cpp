@@ -83,7 +83,8 @@ FeatureRecord feature_record(const motion::Feature& feature, const Body& body) {
 LimitRecord limit_record(const RangeAnswer& answer, std::size_t i) {
   const Joint& joint = answer.joint;
   const motion::MotionLimit& limit = answer.limits[i];
-  const auto& [motion, end, head, translation, translation_ends] = limit;
+  const motion::Motion& motion = limit.motion;
+  const motion::Limit& end = limit.end;
   const JointAngles start = motion.start, at_limit = limit.angles_at_limit();
   const auto given = [&](JointAngle angle) { return GivenDegrees{angle_of(start, angle)}; };
   LimitRecord record{
@@ -101,7 +102,7 @@ LimitRecord limit_record(const RangeAnswer& answer, std::size_t i) {
       .zero_from = joint.zero_from,
       .at_limit_deg =
           of_angles<double>([&](JointAngle angle) { return angle_of(at_limit, angle).degrees(); }),
-      .translation_mm = translation,
+      .translation_mm = limit.translation_mm,
       .contact_side = motion::contact_side(joint, limit),
       .clock_hour = clock_hour(answer, limit),
       .guarantee = answer.depths.empty() ? guarantee_text(limit) : guarantee_text(answer.depths[i])};
@@ -118,13 +119,13 @@ LimitRecord limit_record(const RangeAnswer& answer, std::size_t i) {
                                    part_name(joint.mobile, contact->mobile_feature)};
     }
   }
-  if (head) {
+  if (const auto& head = limit.head) {
     record.centre_distance_mm = head->centre_distance_mm;
     record.joint_space_mm = head->joint_space_mm;
   }
   if (const auto range = normal_range(joint, limit)) record.normal_range_deg = {*range};
   if (is_as_defined_here(motion)) record.definition = "as defined here; no angles are agreed on";
-  if (answer.follows) record.translation_ends = translation_ends;
+  if (answer.follows) record.translation_ends = limit.translation_ends;
   if (const auto& contact = end.contact) {
     record.contact_point_mm = {contact->fixed_point};
     record.contact_point_mobile_mm = {contact->mobile_point};

@@ -59,7 +59,7 @@ std::vector<ResultColumn> columns_of(Anatomy joint, const Shown& shown) {
   constexpr std::array<const char*, 3> directions = {"anterior", "superior", "to the subject's right"};
   std::vector<ResultColumn> columns;
   for_each_field<Record>([&](const auto& field) {
-    if constexpr (field.has_column) {
+    if constexpr (std::remove_cvref_t<decltype(field)>::has_column) {
       if (!shown(field.column)) return;
       using Value =
           std::remove_cvref_t<decltype(*cells::value_of(static_cast<const Record*>(nullptr), field))>;
@@ -88,7 +88,7 @@ template <class Record, class Shown>
 void append_cells(std::vector<std::string>& cells, const Record& record, const RecordContext& context,
                   const Shown& shown) {
   for_each_field<Record>([&](const auto& field) {
-    if constexpr (field.has_column) {
+    if constexpr (std::remove_cvref_t<decltype(field)>::has_column) {
       if (!shown(field.column)) return;
       const auto* value = cells::value_of(&record, field);
       using Value = std::remove_cvref_t<decltype(*value)>;
