@@ -36,6 +36,15 @@ def _value_of(hint: Any, said: Any) -> Any:
     return [_value_of(get_args(hint)[0], each) for each in said] if isinstance(said, list) else said
 
 
+def _is_same(one: Any, other: Any) -> bool:
+    """Equality of values that may hold arrays."""
+    if isinstance(one, np.ndarray):
+        return isinstance(other, np.ndarray) and np.array_equal(one, other, equal_nan=True)
+    if isinstance(one, dict) and isinstance(other, dict):
+        return one.keys() == other.keys() and all(_is_same(one[key], other[key]) for key in one)
+    return bool(one == other)
+
+
 class Record:
     """A frozen record, whose values are attributes and, as in its file, have keys: `limit.closed_form["limit_deg"]`."""
 
@@ -67,10 +76,10 @@ class Record:
         raise AttributeError(f"{type(self).__name__}.{key} is not deleted")
 
     def __eq__(self, other: object) -> bool:
-        return type(self) is type(other) and repr(self) == repr(other)
+        return type(self) is type(other) and _is_same(vars(self), vars(other))
 
     def __hash__(self) -> int:
-        return hash(repr(self))
+        return hash((type(self), *vars(self)))
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({', '.join(f'{key}={value!r}' for key, value in vars(self).items())})"

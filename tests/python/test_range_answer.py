@@ -67,6 +67,18 @@ def test_the_sample_hip(hip, command, hip_file):
     assert left.caveats[0].startswith("left out:")
     again = pickle.loads(pickle.dumps(rom.limits))
     assert [said_of(limit) for limit in again] == [said_of(limit) for limit in rom]
+    assert again == rom.limits and hash(again[0]) == hash(rom.limits[0]) and again[0] != again[1]
+    vars(again[1])["contact_point_mm"] = np.nextafter(rom.limits[1].contact_point_mm, 100)
+    assert again[1] != rom.limits[1]
+    for refused in (lambda: setattr(rom.limits[0], "limit_deg", 0), lambda: delattr(rom.limits[0], "limit_deg")):
+        with pytest.raises(AttributeError):
+            refused()
+    with pytest.warns(DeprecationWarning, match="limit_deg"):
+        assert rom.limits[0].turned_deg == rom.limits[0]["limit_deg"]
+    old = {**vars(again[0]), "turned_deg": 3.0}
+    del old["limit_deg"]
+    again[0].__setstate__(old)  # as a limit that was pickled by the name of then
+    assert again[0].limit_deg == 3
     for key in ("clock_hour", "guarantee"):  # pickled before there were such members
         del vars(again[0])[key]
     assert again[0].clock_hour is None and again[0].guarantee == ""
