@@ -18,7 +18,7 @@ exec(compile(code, "README.md", "exec"), {})
 bones = condyle.sample_hip(scenario=2)
 joint = condyle.Joint(bones.hip_bone, bones.femur)
 limits = joint.range_of_motion()
-print(*(limit.turned_deg for limit in limits.limits))
+print(*(limit.limit_deg for limit in limits.limits))
 print(joint.depths({"flexion_deg": 140}).max_depth_mm)
 print(hashlib.sha256(joint.picture({"flexion_deg": 140}).tobytes()).hexdigest())
 with tempfile.TemporaryDirectory() as folder:
