@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from . import _native
 from ._described_joint import DescribedJoint
 from ._errors import unknown
-from ._record import Record, renamed
-from ._records import MeasureRecord, ShapeRecord
+from ._record import renamed
+from ._records import MeasureRecord
 from ._words import Progress, band_of, number, progress_of
 
 
@@ -25,7 +25,7 @@ class HipMeasure(MeasureRecord):
         return renamed("in_pelvis_frame", "frame", self.frame is not None)
 
 
-def _column(of_hours: Iterable[Record], key: str) -> NDArray[np.float64]:
+def _column(of_hours: Iterable[Mapping[str, Optional[float]]], key: str) -> NDArray[np.float64]:
     """A value of each direction, NaN where there is none."""
     return np.array([math.nan if at[key] is None else at[key] for at in of_hours], dtype=np.float64)
 
@@ -72,18 +72,18 @@ class HipMeasures(Mapping[str, HipMeasure]):
                  progress: Progress) -> None:
         said = _native.hip_measures_of(joint._asked, number(pelvic_tilt_deg, "pelvic_tilt_deg"), band_of(band_samples, seed),
                                        progress_of(progress))
-        shape = ShapeRecord.of({key: said[key] for key in ShapeRecord.__annotations__})
+        neck, rim = said["around_neck"], said["rim"]
         self._by_key = {each["key"]: HipMeasure.of(each) for each in said["measures"]}
-        self.pelvis_frame, self.geometry, self.left_out = shape.pelvis_frame, said["geometry"], tuple(shape.left_out)
-        self.neck_hour = _column(shape.around_neck, "hour")
+        self.pelvis_frame, self.geometry, self.left_out = said["pelvis_frame"], said["geometry"], tuple(said["left_out"])
+        self.neck_hour = _column(neck, "hour")
         self.alpha_deg, self.alpha_at_1mm_deg, self.offset_mm = (
-            _column(shape.around_neck, key) for key in ("alpha_deg", "alpha_at_1mm_deg", "offset_mm"))
-        self.is_doubtful = np.array([at.is_doubtful for at in shape.around_neck], dtype=bool)
+            _column(neck, key) for key in ("alpha_deg", "alpha_at_1mm_deg", "offset_mm"))
+        self.is_doubtful = np.array([at["is_doubtful"] for at in neck], dtype=bool)
         self.rim_hour, self.cover_deg, self.centre_edge_deg = (
-            _column(shape.rim, key) for key in ("hour", "cover_deg", "centre_edge_deg"))
+            _column(rim, key) for key in ("hour", "cover_deg", "centre_edge_deg"))
         none = np.full(3, math.nan)
-        self.rim_points = np.array([none if at.point_mm is None else at.point_mm for at in shape.rim], dtype=np.float64).reshape(-1, 3)
-        self.is_in_plane = np.array([at.is_in_plane for at in shape.rim], dtype=bool)
+        self.rim_points = np.array([none if at["point_mm"] is None else at["point_mm"] for at in rim], dtype=np.float64).reshape(-1, 3)
+        self.is_in_plane = np.array([at["is_in_plane"] for at in rim], dtype=bool)
 
     def __getitem__(self, key: str) -> HipMeasure:
         try:

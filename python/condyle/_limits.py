@@ -15,7 +15,8 @@ from ._errors import UsageError
 from ._mesh import TriMesh
 from ._motion import Angles, Motion, Motions
 from ._record import renamed
-from ._records import FeatureRecord, LimitRecord
+from ._records import Caveat as Caveat  # as limits were pickled that had it from here
+from ._records import FeatureRecord, FeaturesRecord, LimitRecord, PartsRecord
 from ._words import ContactKind, LimitReason, number
 
 
@@ -95,10 +96,18 @@ class Limit(OldNames):
 
 def _feature_of(record: FeatureRecord) -> Feature:
     if record.kind == "edge":
-        first, last = record.vertices or (0, 0)
+        assert record.vertices is not None
+        first, last = record.vertices
         return "edge", first, last
-    number = record.id or 0
-    return ("vertex", number) if record.kind == "vertex" else ("face", number)
+    assert record.id is not None
+    return ("vertex", record.id) if record.kind == "vertex" else ("face", record.id)
+
+
+def _feature_said(feature: Feature, part: Optional[str]) -> dict[str, object]:
+    kind, *numbers = feature
+    said: dict[str, object] = {"kind": kind, "part": part}
+    said["vertices" if kind == "edge" else "id"] = numbers if kind == "edge" else numbers[0]
+    return said
 
 
 class MotionLimit(LimitRecord, OldNames):
@@ -141,13 +150,27 @@ class MotionLimit(LimitRecord, OldNames):
         return self.soft_contact_parts.mobile if self.soft_contact_parts else None
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        for old, new in (("turned_deg", "limit_deg"), ("angles_deg", "at_limit_deg")):  # of limits that were pickled by their old names
-            if old in state:
-                state[new] = state.pop(old)
+        if "turned_deg" in state:
+            state = _renamed_state(dict(state))
         vars(self).update(state)
 
     def __repr__(self) -> str:
         return f"MotionLimit({self.motion.name}: {self.limit_deg:.6g} deg, {self.reason})"
+
+
+def _renamed_state(old: dict[str, Any]) -> dict[str, Any]:
+    """The state of a limit that was pickled when it had names of its own, by the names of the files. What it did not hold it has not."""
+    contact, motion = old.pop("contact"), old["motion"]
+    fixed, mobile = old.pop("fixed_part"), old.pop("mobile_part")
+    soft = {body: old.pop(f"soft_{body}_part") for body in ("fixed", "mobile")}
+    state = {**old, "name": motion.name, "limit_deg": old.pop("turned_deg"), "at_limit_deg": old.pop("angles_deg"),
+             "range_deg": motion.range_deg, "start_deg": motion.start_deg,
+             "contact_kind": None if old["reason"] == "end_of_range" else contact.kind if contact else "unknown",
+             "soft_contact_parts": PartsRecord.of(soft) if old["soft_contact"] else None}
+    if contact:
+        state.update(contact_point_mm=contact.fixed_point, contact_point_mobile_mm=contact.mobile_point, features=FeaturesRecord.of({
+            "fixed": _feature_said(contact.fixed_feature, fixed), "mobile": _feature_said(contact.mobile_feature, mobile)}))
+    return {key: value for key, value in state.items() if key not in ("turned_deg", "angles_deg")}
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import is_dataclass
 from typing import Any, Iterator, Mapping, NoReturn, TypeVar, get_args, get_type_hints
 
 import numpy as np
@@ -42,6 +43,8 @@ def _is_same(one: Any, other: Any) -> bool:
         return isinstance(other, np.ndarray) and np.array_equal(one, other, equal_nan=True)
     if isinstance(one, dict) and isinstance(other, dict):
         return one.keys() == other.keys() and all(_is_same(one[key], other[key]) for key in one)
+    if is_dataclass(one) and type(one) is type(other):
+        return _is_same(vars(one), vars(other))
     return bool(one == other)
 
 

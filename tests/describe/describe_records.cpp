@@ -8,12 +8,12 @@
 
 #include "answer/records/limit_record.hpp"
 #include "answer/records/measure_record.hpp"
+#include "condyle/error.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/record/table_of.hpp"
 
-/// condyle_describe ROOT [--check]: writes what is made from the tables of records, the classes of Python, the types of the page and the tables of
-/// docs/, into the
-/// repository at ROOT; with --check it names each file that is not what would be written, with exit code 1.
+/// condyle_describe ROOT [--check]: writes what is made from the tables of records into the repository at ROOT: the classes of Python, the
+/// types of the page and the tables of docs/. With --check it names each file that is not what would be written, with exit code 1.
 
 namespace condyle {
 namespace {
@@ -216,7 +216,7 @@ import { each, flag, ifThere, list, number, object, oneOf, orNull, text, three }
 /// A page with the table below this header replaced.
 std::string with_table(std::string page, std::string_view header, std::string_view rows) {
   const std::size_t begin = page.find(header);
-  if (begin == page.npos) return page;
+  if (begin == page.npos) throw FileError(fmt::format("a page has no table below: {}", header));
   const std::size_t end = std::min(page.find("\n\n", begin), page.size() - 1);
   return page.replace(begin, end + 1 - begin, std::string(header) + std::string(rows));
 }
@@ -276,5 +276,10 @@ int described(const std::filesystem::path& root, bool only_check) {
 
 int main(int count, char** words) {
   if (count < 2) return 2;
-  return condyle::described(words[1], count > 2 && std::string_view(words[2]) == "--check");
+  try {
+    return condyle::described(words[1], count > 2 && std::string_view(words[2]) == "--check");
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return 1;
+  }
 }

@@ -75,10 +75,16 @@ def test_the_sample_hip(hip, command, hip_file):
             refused()
     with pytest.warns(DeprecationWarning, match="limit_deg"):
         assert rom.limits[0].turned_deg == rom.limits[0]["limit_deg"]
-    old = {**vars(again[0]), "turned_deg": 3.0}
-    del old["limit_deg"]
-    again[0].__setstate__(old)  # as a limit that was pickled by the name of then
-    assert again[0].limit_deg == 3
+    # As limits were pickled by their names of then, with the features as they were.
+    kept = ("motion", "reason", "soft_contact", "error_bound_deg", "bearing_contact_deg", "soft_contact_deg", "caveats")
+    for limit in rom.limits:
+        old = condyle.MotionLimit.__new__(condyle.MotionLimit)
+        old.__setstate__({**{key: getattr(limit, key) for key in kept}, "turned_deg": limit.limit_deg, "angles_deg": limit.at_limit_deg,
+                          "contact": limit.contact, "fixed_part": "socket", "mobile_part": None, "soft_fixed_part": None,
+                          "soft_mobile_part": None})
+        assert (old.limit_deg, old.at_limit_deg, old.name, old.contact_kind) == (
+            limit.limit_deg, limit.at_limit_deg, limit.name, limit.contact_kind)
+        assert str(old.contact) == str(limit.contact) and old.fixed_part == (limit.contact and "socket") and old.mobile_part is None
     for key in ("clock_hour", "guarantee"):  # pickled before there were such members
         del vars(again[0])[key]
     assert again[0].clock_hour is None and again[0].guarantee == ""
