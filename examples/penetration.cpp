@@ -1,4 +1,4 @@
-// How deep the femur of the sample hip penetrates the hip bone: `condyle sample hip --out sample` first.
+// How deep the femur of the sample hip penetrates the hip bone: `condyle sample hip --scenario 2 --out sample` first.
 #include <condyle/condyle.hpp>
 #include <condyle/io/joint_file.hpp>
 #include <cstdio>

@@ -1,11 +1,15 @@
-"""The Python of the README runs."""
+"""The Python of the README runs, and answers what its command line and its C++ do."""
 
 import re
 
 
 def test_the_program_of_the_readme_runs(source, capsys):
-    code, = re.findall(r"```python\n(.*?)```", (source / "README.md").read_text(), re.DOTALL)
+    readme = (source / "README.md").read_text()
+    code, = re.findall(r"```python\n(.*?)```", readme, re.DOTALL)
     exec(compile(code, "README.md", "exec"), {})
-    depth, limit = map(float, capsys.readouterr().out.split())
-    # The answer of `condyle depth` for this pose; the longest ray is 25.98 mm.
-    assert f"{depth:.2f}" == "10.98" and 100 < limit < 149
+    printed = capsys.readouterr().out
+    assert printed == code.splitlines()[-1].partition("  # ")[2] + "\n"
+    # One joint and one pose, so one depth.
+    depth, = re.findall(r"^  depth: ([0-9.]+) mm along the ray", readme, re.MULTILINE)
+    in_cpp, = re.findall(r"^It prints `depth ([0-9.]+) mm, ", readme, re.MULTILINE)
+    assert printed.startswith(f"{depth} mm, ") and f"{float(depth):.2f}" == in_cpp
