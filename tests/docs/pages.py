@@ -3,7 +3,8 @@
 
 - a page of docs/ has at most 200 lines, and README.md at most 300 words before the first answer of a command;
 - a link to a heading leads to one;
-- a page that a comment of the sources cites is there.
+- a page that a comment of the sources cites is there;
+- every function of docs/cpp.md stands in its example, which the tests compile and run.
 """
 import re
 import sys
@@ -37,6 +38,10 @@ def main(source: Path) -> int:
             to = (page.parent / target).resolve() if target else page.resolve()
             if to in texts and anchor not in anchors_of(texts[to]):
                 wrong.append(f"{page.relative_to(source)}: no heading #{anchor} in {to.relative_to(source.resolve())}")
+    example = (source / "examples/joint_of_arrays.cpp").read_text(encoding="utf-8")
+    wrong += [f"docs/cpp.md: not in its example: {function.partition(chr(10))[0]}"
+              for block in re.findall(r"^```cpp\n(.*?)^```", texts[(source / "docs/cpp.md").resolve()], re.S | re.M)
+              for function in block.split("\n\n") if function.strip() not in example]
     for folder in SOURCES:
         for file in sorted((source / folder).rglob("*")):
             if file.suffix in (".hpp", ".cpp", ".py", ".cmake") and file.is_file():
