@@ -4,7 +4,8 @@
 - a page of docs/ has at most 200 lines, and README.md at most 300 words before the first answer of a command;
 - a link to a heading leads to one;
 - a page that a comment of the sources cites is there;
-- every function of docs/cpp.md stands in its example, which the tests compile and run.
+- every function of docs/cpp.md stands in its example, which the tests compile and run;
+- docs/commands.md names every command.
 """
 import re
 import sys
@@ -42,6 +43,10 @@ def main(source: Path) -> int:
     wrong += [f"docs/cpp.md: not in its example: {function.partition(chr(10))[0]}"
               for block in re.findall(r"^```cpp\n(.*?)^```", texts[(source / "docs/cpp.md").resolve()], re.S | re.M)
               for function in block.split("\n\n") if function.strip() not in example]
+    named = texts[(source / "docs/commands.md").resolve()]
+    wrong += [f"docs/commands.md: condyle {command} answers no question"
+              for command in re.findall(r"\badd_(\w+)\(", (source / "cli/commands.hpp").read_text(encoding="utf-8"))
+              if not re.search(rf"`condyle {command}\b", named)]
     for folder in SOURCES:
         for file in sorted((source / folder).rglob("*")):
             if file.suffix in (".hpp", ".cpp", ".py", ".cmake") and file.is_file():
