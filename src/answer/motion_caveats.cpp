@@ -4,6 +4,8 @@
 #include <array>
 #include <string>
 
+#include "core/lower_case.hpp"
+
 namespace condyle {
 namespace {
 
@@ -90,10 +92,7 @@ constexpr std::array caveat_rows{
 };
 
 bool is_called_labrum(std::string_view name) {
-  std::string lower(name);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower.find("labrum") != lower.npos;
+  return core::lower_case(name).find("labrum") != std::string::npos;
 }
 
 bool has_labrum(const Body& body) {

@@ -42,7 +42,7 @@ int cells_per_side(const RadialOptions& options, const TriMesh& mesh) {
   if (triangles < 6000) return triangles < 3000 ? 16 : 24;
   if (triangles < 12000) return 32;
   if (triangles < 60000) return 48;
-  // Of 700,000 meridian triangles 64 cells have 12 entries each, 128 have 25.
+  // With 700,000 meridian triangles 64 cells have 12 entries each, 128 have 25.
   return triangles < 600000 || are_slender(mesh) ? 64 : 128;
 }
 

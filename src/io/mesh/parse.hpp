@@ -18,6 +18,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "core/lower_case.hpp"
 #include "condyle/mesh.hpp"
 #include "io/file/in_quotes.hpp"
 
@@ -50,8 +51,7 @@ struct Source {
   [[noreturn]] void fail(std::string_view what) const { throw FileError(fmt::format("{}: {}", name, what)); }
 };
 
-/// ASCII only, whatever the locale.
-std::string lower_case(std::string_view text);
+using core::lower_case;
 bool is_space(char c) noexcept;
 
 /// The number a word spells, all of it. A leading + is allowed; nan and inf are numbers here. Nothing where

@@ -7,6 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "core/lower_case.hpp"
+
 namespace condyle::io {
 namespace {
 
@@ -24,13 +26,6 @@ struct Tissues {
   }
 };
 
-std::string lower_case(std::string_view name) {
-  std::string lower(name);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower;
-}
-
 /// All tissues that a name speaks of ("cartilage with labrum"); `otherwise` where it speaks of none.
 void add_named(Tissues& tissues, std::string_view name, Tissue otherwise) {
   static constexpr std::array words{
@@ -39,7 +34,7 @@ void add_named(Tissues& tissues, std::string_view name, Tissue otherwise) {
       std::pair{"capsule", Tissue::soft},         std::pair{"tendon", Tissue::soft},
       std::pair{"muscle", Tissue::soft},          std::pair{"implant", Tissue::implants},
       std::pair{"prosthe", Tissue::implants}};
-  const std::string lower = lower_case(name);
+  const std::string lower = core::lower_case(name);
   bool is_known = false;
   for (const auto& [word, tissue] : words)
     if (lower.find(word) != lower.npos) {

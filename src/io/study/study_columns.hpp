@@ -20,7 +20,7 @@ struct StudyColumns {
 /// Columns for this table and these options.
 StudyColumns study_columns(const StudyTable& table, const StudyOptions& options);
 
-/// Of the columns of limits those that a study has.
+/// Which columns of limits a study has.
 struct LimitColumns {
   bool bands, follows;
 
