@@ -119,7 +119,7 @@ py::dict sweep(const JointHandle& handle, const py::list& vary, const py::object
   dict["window_measure"] = answer.window_measure;
   dict["best"] = answer.best;
   dict["here"] = py::make_tuple(answer.here, dict_of_limits(answer.limits_here));
-  dict["notes"] = notes_of(answer.notes);
+  dict["notes"] = notes_of(answer.notes) + notes_of(answer.limit_notes);
   dict["caveats"] = answer.caveats;
   dict["sweep"] =
       std::make_unique<SweepHandle>(SweepHandle{handle.loaded, std::move(request), std::move(answer)});

@@ -278,6 +278,16 @@ std::string difference_from_closed_form(const plan::DesignLimits& limits, const 
   return difference;
 }
 
+/// What the limits of the targets' motions must be read with; of a joint that is in contact in its reference pose nothing.
+std::vector<RangeNote> notes_on_limits(const Joint& joint, const SweepRequest& request,
+                                       const SweepAnswer& sweep) {
+  if (std::isnan(sweep.limits_here.front().turned_deg)) return {};
+  std::vector<motion::Motion> motions;
+  for (const plan::SweepTarget& target : request.targets) motions.push_back(target.without_tilt());
+  const motion::RangeOfMotion range(joint, request.range);
+  return range_notes(joint, range.limits(motions), request.range, range.bearing());
+}
+
 }  // namespace
 
 SweepQuantities measured_quantities(std::span<const std::string> keys,
@@ -383,6 +393,7 @@ std::optional<SweepAnswer> answer_sweep(const Case& of, const SweepRequest& as_g
   answer.pairs = limits.pairs();
   answer.limits_here.resize(request.targets.size());
   limits.limits(answer.here, answer.limits_here);
+  answer.limit_notes = notes_on_limits(joint, request, answer);
 
   Sweeping sweeping(request, limits, answer);
   if (!sweeping.designs(control) || !sweeping.borders(control)) return std::nullopt;

@@ -40,21 +40,85 @@ void measure(SweepAnswer& sweep) {
     sweep.safe_measure += line_weight(sweep.parameters, interval.line) * (interval.high - interval.low);
 }
 
-void find_best(SweepAnswer& sweep) {
+/// Of every design the steps to the next one that is not safe, along the axes one after the other; beyond the sweep none is known to be safe.
+std::vector<std::uint32_t> steps_inside(const SweepAnswer& sweep) {
+  constexpr std::uint32_t far = std::numeric_limits<std::uint32_t>::max() / 2;
+  std::vector<std::uint32_t> steps(sweep.designs());
+  for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = sweep.margin_deg[i] >= 0 ? far : 0;
+  std::size_t stride = 1;
+  for (std::size_t p = sweep.parameters.size(); p-- > 0;) {
+    const std::size_t count = sweep.parameters[p].count();
+    const auto at = [&](std::size_t i) { return (sweep.first_design + i) / stride % count; };
+    const auto take = [&](std::size_t i, bool has_neighbour, std::size_t neighbour) {
+      steps[i] = std::min(steps[i], has_neighbour ? steps[neighbour] + 1 : 1);
+    };
+    if (count > 1) {
+      for (std::size_t i = 0; i < steps.size(); ++i) take(i, at(i) > 0 && i >= stride, i - stride);
+      for (std::size_t i = steps.size(); i-- > 0;)
+        take(i, at(i) + 1 < count && i + stride < steps.size(), i + stride);
+    }
+    stride *= count;
+  }
+  return steps;
+}
+
+/// Steps from the joint as it is to a design, along the axes one after the other.
+double steps_from_here(const SweepAnswer& sweep, std::size_t design) {
+  const std::vector<double> values = sweep.values_of(design);
+  double steps = 0;
+  for (std::size_t p = 0; p < values.size(); ++p)
+    steps += std::abs(values[p] - sweep.here[p]) / sweep.parameters[p].step;
+  return steps;
+}
+
+/// The designs of the largest margin, as indices into the share.
+std::vector<std::size_t> best_designs(const SweepAnswer& sweep) {
+  std::vector<std::size_t> best;
+  for (std::size_t i = 0; i < sweep.designs(); ++i) {
+    const double margin = sweep.margin_deg[i];
+    if (std::isnan(margin)) continue;
+    if (!best.empty() && margin > sweep.margin_deg[best.front()]) best.clear();
+    if (best.empty() || margin == sweep.margin_deg[best.front()]) best.push_back(i);
+  }
+  return best;
+}
+
+void find_best(SweepAnswer& sweep, const std::vector<std::size_t>& equals) {
   sweep.best.reset();
-  for (std::size_t i = 0; i < sweep.designs(); ++i)
-    if (!std::isnan(sweep.margin_deg[i]) &&
-        (!sweep.best || sweep.margin_deg[i] > sweep.margin_deg[*sweep.best - sweep.first_design]))
-      sweep.best = sweep.first_design + i;
+  if (equals.empty()) return;
+  const std::vector<std::uint32_t> inside = steps_inside(sweep);
+  const std::size_t best = *std::min_element(equals.begin(), equals.end(), [&](std::size_t a, std::size_t b) {
+    if (inside[a] != inside[b]) return inside[a] > inside[b];
+    return steps_from_here(sweep, sweep.first_design + a) < steps_from_here(sweep, sweep.first_design + b);
+  });
+  sweep.best = sweep.first_design + best;
+}
+
+std::span<const plan::DesignLimit> limits_of(const SweepAnswer& sweep, std::size_t i) {
+  return std::span(sweep.limits).subspan(i * sweep.targets.size(), sweep.targets.size());
+}
+
+/// What ends the target of the least margin in all of these designs; empty if it is not the same.
+std::string common_end(const SweepAnswer& sweep, const std::vector<std::size_t>& designs) {
+  const auto end_of = [&](std::size_t i) {
+    const std::size_t target = least_target(sweep.targets, limits_of(sweep, i));
+    return std::pair(target, limits_of(sweep, i)[target].pair);
+  };
+  const auto [target, pair] = end_of(designs.front());
+  for (const std::size_t i : designs)
+    if (end_of(i) != std::pair(target, pair)) return "";
+  const std::string name = sweep.targets[target].name;
+  if (pair == plan::DesignLimit::no_pair) return "; in all of them the range of " + name + " ends first";
+  return "; in all of them " + name + " ends with " + sweep.pairs[pair].mobile + " on " +
+         sweep.pairs[pair].fixed;
 }
 
 /// By how much which target is missed, where that is least.
 std::string nothing_text(const SweepAnswer& sweep) {
   if (!sweep.best) return "no design is safe: all are in contact in the reference pose";
   const std::size_t best = *sweep.best - sweep.first_design;
-  const auto limits = std::span(sweep.limits).subspan(best * sweep.targets.size(), sweep.targets.size());
   return "no design is safe: the best one falls short of " +
-         sweep.targets[least_target(sweep.targets, limits)].name +
+         sweep.targets[least_target(sweep.targets, limits_of(sweep, best))].name +
          formatted(" by %.2f degrees", -sweep.margin_deg[best]);
 }
 
@@ -81,13 +145,19 @@ std::string safe_ends(const SweepAnswer& sweep) {
   return ends;
 }
 
-void note(SweepAnswer& sweep) {
+void note(SweepAnswer& sweep, const std::vector<std::size_t>& equals) {
   const auto add = [&](SweepNoteCode code, std::string text) {
     sweep.notes.push_back({code, std::move(text)});
   };
   const auto safe = static_cast<std::size_t>(std::count_if(sweep.margin_deg.begin(), sweep.margin_deg.end(),
                                                            [](double margin) { return margin >= 0; }));
   if (sweep.designs() == 0) return;  // of more shares than lines
+  if (equals.size() > 1)
+    add(SweepNoteCode::best_is_shared,
+        formatted("%zu designs have the largest margin, %.2f degrees", equals.size(),
+                  sweep.margin_deg[equals.front()]) +
+            common_end(sweep, equals) +
+            "; the best of them lies deepest among safe designs, then nearest to the joint as it is");
   if (safe == 0) return add(SweepNoteCode::nothing_is_safe, nothing_text(sweep));
   if (safe == sweep.designs())
     return add(SweepNoteCode::everything_is_safe,
@@ -130,9 +200,10 @@ std::size_t least_target(std::span<const plan::SweepTarget> targets,
 
 void summarise_sweep(SweepAnswer& sweep) {
   measure(sweep);
-  find_best(sweep);
+  const std::vector<std::size_t> equals = best_designs(sweep);
+  find_best(sweep, equals);
   std::erase_if(sweep.notes, [](const SweepNote& each) { return !is_of_request(each.code); });
-  note(sweep);
+  note(sweep, equals);
 }
 
 }  // namespace answer
@@ -151,6 +222,8 @@ std::string_view name_of(SweepNoteCode code) noexcept {
       return "separate_intervals";
     case SweepNoteCode::last_value_left_out:
       return "last_value_left_out";
+    case SweepNoteCode::best_is_shared:
+      return "best_is_shared";
     case SweepNoteCode::value_is_swept:
       break;
   }

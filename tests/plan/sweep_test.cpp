@@ -299,6 +299,47 @@ TEST(Sweep, TiltsThePelvisByTurningItBackInFlexion) {
     EXPECT_NEAR(found[t].turned_deg, range.limit(tilted[t].motion).end.turned.degrees(), 1e-9);
 }
 
+/// Five by five designs whose margin is 1 degree, but for those of the last value of b, which are not safe.
+SweepAnswer plateau() {
+  SweepAnswer sweep{.parameters = plan::parse_sweep("part.a=0:4:1 part.b=0:4:1"),
+                    .targets = {{.name = "sitting", .reach = Angle::degrees(100)}},
+                    .pairs = {{"liner", "neck"}},
+                    .share = {}};
+  for (int design = 0; design < 25; ++design) {
+    sweep.margin_deg.push_back(design % 5 < 4 ? 1 : -2);
+    sweep.limits.push_back({100 + sweep.margin_deg.back(), motion::LimitReason::contact});
+    sweep.limits.back().pair = 0;
+  }
+  return sweep;
+}
+
+TEST(Sweep, OfEqualDesignsTheBestLiesDeepestAmongSafeOnesThenNearestToTheJoint) {
+  SweepAnswer sweep = plateau();
+  // Two steps to what is not safe or not in the sweep have a = 1 to 3 with b = 1 or 2, and no design has more.
+  for (const auto& [here, best] : {std::pair<std::vector<double>, std::vector<double>>{{3.2, 0.6}, {3, 1}},
+                                   {{0, 9}, {1, 2}},
+                                   {{2, 1.4}, {2, 1}}}) {
+    sweep.here = here;
+    const SweepAnswer summarised = merged_sweep({&sweep, 1});
+    ASSERT_TRUE(summarised.best);
+    EXPECT_EQ(summarised.values_of(*summarised.best), best);
+    ASSERT_FALSE(summarised.notes.empty());
+    EXPECT_EQ(summarised.notes.front().text,
+              "20 designs have the largest margin, 1.00 degrees; in all of them sitting ends with neck on "
+              "liner; the "
+              "best of them lies deepest among safe designs, then nearest to the joint as it is");
+  }
+}
+
+TEST(Sweep, OneBestDesignIsNotSaidToShareItsMargin) {
+  SweepAnswer sweep = plateau();
+  sweep.here = {2, 2};
+  sweep.margin_deg[0] = 3;
+  const SweepAnswer summarised = merged_sweep({&sweep, 1});
+  EXPECT_EQ(summarised.best, 0u);
+  for (const SweepNote& note : summarised.notes) EXPECT_NE(note.code, SweepNoteCode::best_is_shared);
+}
+
 TEST(Sweep, OfSharesIsThatOfTheWhole) {
   const PlacedJoint placed = implant_alone({}, 4);
   SweepRequest request{.parameters = plan::parse_sweep("cup.inclination=30:50:4 cup.anteversion=-20:40:5"),

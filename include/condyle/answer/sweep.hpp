@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "condyle/answer/case.hpp"
+#include "condyle/answer/range.hpp"
 #include "condyle/hip_measures.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/sweep.hpp"
@@ -53,6 +54,7 @@ enum class SweepNoteCode : std::uint8_t {
   zone_leaves_window,  ///< Designs at the border of what was swept are safe: the zone goes on beyond.
   separate_intervals,  ///< Along some line the safe designs are not side by side.
   last_value_left_out,  ///< No whole number of steps leads to the last value of a parameter: the sweep ends before it.
+  best_is_shared,  ///< Several designs have the largest margin: what ends them all, and which of them is called best.
   value_is_swept,  ///< A swept parameter has another value than the joint's description: it is that of the joint as it is only.
 };
 
@@ -88,11 +90,14 @@ struct SweepAnswer {
   /// Measures of what is safe, by the trapezoidal rule over the lines, and of the whole window; a share has its lines' part. In the product of
   /// the parameters' units.
   double safe_measure = 0, window_measure = 0;
-  /// The design of the largest margin, the first of equals; empty if all are in contact.
+  /// The design of the largest margin; of equals the one with most steps to the next design that is not safe or not in the sweep, then the one
+  /// with fewest steps from the joint as it is, then the first. Empty if all are in contact.
   std::optional<std::size_t> best = {};
   std::vector<double> here = {};                    ///< the values that the joint has of the swept parameters
   std::vector<plan::DesignLimit> limits_here = {};  ///< one per target
   std::vector<SweepNote> notes = {};
+  std::vector<RangeNote> limit_notes =
+      {};  ///< what limits of the joint as it is must be read with, as those of answer_range()
   std::vector<std::string> caveats = {};
 
   [[nodiscard]] std::size_t designs() const noexcept { return margin_deg.size(); }

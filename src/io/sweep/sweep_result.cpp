@@ -198,7 +198,7 @@ SweepResult sweep_result_of(const LoadedJoint& loaded, SweepAnswer answer, std::
                      .answer = std::move(answer)};
   for (const plan::SweptParameter& swept : result.answer.parameters)
     result.units.emplace_back(unit_of(swept_kind(loaded.joint, swept.name)));
-  result.notes = io::notes_json(notes);
+  result.notes = io::notes_json(notes, {}, result.answer.limit_notes);
   result.provenance = io::provenance_json(from);
   return result;
 }
