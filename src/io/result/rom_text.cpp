@@ -363,7 +363,8 @@ std::string rom_text(const RomResult& result) {
   Column name{Align::left, {"motion"}}, turned{Align::right, {"limit (deg)"}},
       reason{Align::left, {"ended by"}}, point{Align::left, {"contact point (mm)"}},
       clock{Align::right, {"clock"}}, bearing{Align::right, {"bearing (deg)"}},
-      soft{Align::right, {"soft (deg)"}}, closed{Align::right, {"closed form"}};
+      soft{Align::right, {"soft (deg)"}}, closed{Align::right, {"closed form"}},
+      normal{Align::right, {"normal"}};
   const auto earlier_text = [](const std::optional<motion::EarlierContact>& contact) {
     return contact ? fmt::format("{:.2f}", contact->turned.degrees()) : "-";
   };
@@ -371,6 +372,8 @@ std::string rom_text(const RomResult& result) {
     const motion::MotionLimit& limit = result.answer.limits[i];
     name.cells.push_back(limit.motion.name);
     turned.cells.push_back(limit_text(i));
+    const auto range = normal_range(result.joint, limit);
+    normal.cells.push_back(range ? fmt::format("{:g}", range->degrees()) : "-");
     const auto side = motion::contact_side(result.joint, limit);
     reason.cells.push_back(std::string(words_of(limit)) + (side ? fmt::format(", {}", name_of(*side)) : ""));
     point.cells.push_back(limit.end.contact
@@ -393,7 +396,11 @@ std::string rom_text(const RomResult& result) {
   for (const std::string& caveat : result.answer.caveats) text += wrapped(fmt::format("  {}\n", caveat));
   text += zero_words(result) + clock_words(result);
   // The figures that people quote, within a terminal's width; the rest is in JSON and CSV.
-  std::vector<Column> shown{std::move(name), std::move(turned), std::move(reason)};
+  const bool has_normal =
+      std::any_of(normal.cells.begin() + 1, normal.cells.end(), [](const auto& cell) { return cell != "-"; });
+  std::vector<Column> shown{std::move(name), std::move(turned)};
+  if (has_normal) shown.push_back(std::move(normal));
+  shown.push_back(std::move(reason));
   shown.push_back(std::move(joint.is_hip() ? clock : point));
   if (std::any_of(result.answer.limits.begin(), result.answer.limits.end(),
                   [](const motion::MotionLimit& limit) { return limit.end.bearing_contact.has_value(); }))
@@ -403,6 +410,9 @@ std::string rom_text(const RomResult& result) {
     shown.push_back(std::move(soft));
   if (!result.answer.closed.empty()) shown.push_back(std::move(closed));
   text += table_text(shown);
+  if (has_normal)
+    text += wrapped(fmt::format("  normal: how far healthy hips turn, soft tissue included ({})\n",
+                                normal_hip_range_source));
   text += arcs_text(result);
   text += closed_text(result);
   text += met_text(result, "ended by", end_of);
