@@ -9,6 +9,7 @@
 #include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
 #include "motion/motion_cases.hpp"
+#include "motion/rom/displacement.hpp"
 #include "support/real_hip.hpp"
 
 /// Bands of limits: in closed form, the same on any number of threads, and those of an independent run on real hips.
@@ -125,6 +126,28 @@ TEST(LimitBand, OfAJointWithABearingSurfaceIsTheSameBytesOnAnyNumberOfThreads) {
       EXPECT_EQ(other[i].share_in_contact_at_start, one[i].share_in_contact_at_start);
     }
   }
+}
+
+// The size of an implant is given; that of the bone beside it was measured.
+TEST(LimitBand, OfAnImplantMovesTheSurfaceOfBoneOnly) {
+  Joint joint = post_joint(JointAngle::flexion, Side::right).joint;
+  const std::size_t half = joint.fixed.mesh.vertices().size(),
+                    triangles = joint.fixed.mesh.triangles().size();
+  joint.fixed.mesh = Mesh(joined(joint.fixed.mesh.arrays(),
+                                 posed(Pose(Eigen::Translation3d(500, 0, 0)), joint.fixed.mesh.arrays())));
+  joint.fixed.parts = {{"pelvis", 0, half, 0, triangles}, {"liner", half, half, triangles, triangles}};
+  const auto moved_vertices = [&](std::size_t from) {
+    const auto points = MovableSurface(joint, BodyRole::fixed, {.surface_mm = 0.5}).moved_by(1);
+    std::size_t count = 0;
+    for (std::size_t v = from; v < from + half; ++v) count += (*points)[v] != joint.fixed.mesh.vertices()[v];
+    return count;
+  };
+  EXPECT_EQ(moved_vertices(half), half) << "a mesh called liner is no implant";
+  joint.implant = JointImplant{"liner", ""};
+  EXPECT_EQ(moved_vertices(0), half);
+  EXPECT_EQ(moved_vertices(half), 0u);
+  joint.fixed.parts[0].name = "neck";
+  EXPECT_EQ(moved_vertices(half), half) << "without bone a deviation is that of the sizes";
 }
 
 TEST(LimitBand, RefusesWhatIsNoUncertainty) {

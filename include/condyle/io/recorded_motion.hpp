@@ -51,6 +51,9 @@ struct FrameTimes {
 enum class CoordinateKind { angle, length };
 enum class ColumnUnit { degrees, radians, millimetres, metres };
 
+/// As in files: "deg", "rad", "mm", "m".
+[[nodiscard]] std::string_view name_of(ColumnUnit unit) noexcept;
+
 /// A coordinate of a joint and the column that records it: value = sign * column + offset.
 struct ColumnOfCoordinate {
   std::string coordinate = {};  ///< its name in the joint

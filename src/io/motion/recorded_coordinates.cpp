@@ -61,6 +61,11 @@ CoordinateLimits coordinate_limits_of(const ColumnOfCoordinate& entry) {
 
 }  // namespace
 
+std::string_view name_of(ColumnUnit unit) noexcept {
+  constexpr std::string_view names[] = {"deg", "rad", "mm", "m"};
+  return names[static_cast<std::size_t>(unit)];
+}
+
 NamedCoordinates recorded_coordinates(const MotionTable& table,
                                       const std::vector<ColumnOfCoordinate>& mapping) {
   NamedCoordinates out;

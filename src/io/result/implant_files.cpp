@@ -12,9 +12,9 @@
 #include "io/file/whole_file.hpp"
 #include "io/joint/implant_parts.hpp"
 #include "io/joint/implant_table.hpp"
-#include "io/joint/motion_lines.hpp"
 #include "io/joint/part_tables.hpp"
 #include "io/joint/proposal_lines.hpp"
+#include "io/joint/settings_lines.hpp"
 #include "io/result/implant_result.hpp"
 #include "io/result/provenance_forms.hpp"
 
@@ -68,18 +68,11 @@ std::string name_with_implant(const Joint& joint) {
   return joint.name + " with a total hip";
 }
 
-/// Sizes of an implant are given and not measured; axes and seed are those of the joint before.
+/// The centre is that of cup and head, which are given and not measured; surfaces and axes are those of the bones before.
 motion::Uncertainty uncertainty_of(const JointFile* file) {
-  motion::Uncertainty sigma{.centre_mm = 0, .surface_mm = 0, .surface_voxels = 0};
-  if (file != nullptr) sigma.axes = file->uncertainty.axes;
+  motion::Uncertainty sigma = file ? file->uncertainty : motion::Uncertainty{};
+  sigma.centre_mm = 0;
   return sigma;
-}
-
-void add_uncertainty(ProposalLines& lines, const JointFile* file) {
-  lines.add("\n[uncertainty]  # sizes of an implant are given, not measured");
-  lines.add("centre = 0.0\nsurface = 0.0");
-  if (file == nullptr) return;
-  lines.add(fmt::format("axes = {:.12g}\nseed = {}", file->uncertainty.axes.degrees(), file->band_seed));
 }
 
 }  // namespace
@@ -91,6 +84,7 @@ std::string implant_joint_file(const ImplantResult& result) {
   lines.add(fmt::format("# Written by condyle implant {}.", version));
   lines.add(fmt::format("condyle = {}", io::format_version));
   lines.add("name = " + io::toml_text(name_with_implant(result.joint)));
+  lines.add("planned = " + io::toml_text(joint.planned));
   lines.add(
       fmt::format("kind = \"ball\"\njoint = \"hip\"\nside = \"{}\"\nunits = \"mm\"", name_of(joint.side)));
   add_body(lines, "fixed", joint.fixed);
@@ -99,8 +93,7 @@ std::string implant_joint_file(const ImplantResult& result) {
   lines.add("centre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n");
   if (joint.zero_from != ZeroFrom::as_given) lines.add("[reference_pose]  # as the bones were given\n");
   lines.add(io::implant_text(implant) + io::parts_text(io::implant_parts(implant, BonesAround::some)));
-  if (result.file) io::add_motions(lines, result.file->motions, Anatomy::hip);
-  add_uncertainty(lines, result.file);
+  io::add_settings(lines, result.file ? *result.file : JointFile{}, uncertainty_of(result.file));
   return std::move(lines).proposal(joint.side).toml;
 }
 
@@ -110,12 +103,17 @@ LoadedJoint joint_with_implant(const ImplantResult& result) {
   JointFile& file = report.file;
   file.implant = answer.hip;
   file.joint.name = name_with_implant(result.joint);
+  file.joint.planned = answer.joint.planned;
   file.joint.side = result.joint.side;
   file.joint.frame.centre = Vec3(Vec3::Zero());
   if (answer.joint.zero_from != ZeroFrom::as_given) file.joint.zero_from = ZeroFrom::stated;
   for (PosedPart& part : io::implant_parts(answer.hip, BonesAround::some))
     file.joint.parts.push_back({std::move(part)});
-  if (result.file) file.motions = result.file->motions, file.band_seed = result.file->band_seed;
+  if (result.file) {
+    file.motions = result.file->motions, file.band_seed = result.file->band_seed;
+    if (const auto& mapping = result.file->recorded_motion)
+      if (std::holds_alternative<std::vector<ColumnOfCoordinate>>(*mapping)) file.recorded_motion = mapping;
+  }
   file.uncertainty = uncertainty_of(result.file);
   auto [joint, placement] = make_joint(file.joint, answer.joint.fixed, answer.joint.mobile);
   report.processing = placement.processing;

@@ -53,9 +53,9 @@ std::vector<Group> grouped(std::span<const Motion> motions) {
 /// A body as its search reads it, its surface movable along its normals.
 class Surface {
  public:
-  Surface(const Body& body, const Mesh& part, const Uncertainty& sigma,
+  Surface(const Joint& joint, BodyRole role, const Mesh& part, const Uncertainty& sigma,
           const kinematics::DisplacedParts& parts)
-      : vertices_(body, sigma), parts_(parts), tree_(part) {}
+      : vertices_(joint, role, sigma), parts_(parts), tree_(part) {}
 
   const FeatureTree& tree() const noexcept { return tree_; }
   /// Moved by so many standard deviations; empty if it stays where it is.
@@ -83,9 +83,9 @@ struct DisplacedJoint::Parts {
         fixed_parts_(joint, BodyRole::fixed),
         mobile_parts_(joint, BodyRole::mobile) {
     for (const PartOfMesh& part : parts.fixed)
-      fixed_.emplace_back(joint.fixed, part.mesh, sigma, fixed_parts_);
+      fixed_.emplace_back(joint, BodyRole::fixed, part.mesh, sigma, fixed_parts_);
     for (const PartOfMesh& part : parts.mobile)
-      mobile_.emplace_back(joint.mobile, part.mesh, sigma, mobile_parts_);
+      mobile_.emplace_back(joint, BodyRole::mobile, part.mesh, sigma, mobile_parts_);
   }
 
   /// Writes one outcome per motion. The frame G of the displaced joint lies at X_FG in F; with both bodies where the

@@ -37,6 +37,8 @@ Pose displaced_frame(const Displacement& by);
 class MovableSurface {
  public:
   MovableSurface(const Body& body, const Uncertainty& sigma);
+  /// Of a body of this joint: beside bone, the meshes of its implant stay where they are, since their sizes are given and not measured.
+  MovableSurface(const Joint& joint, BodyRole role, const Uncertainty& sigma);
 
   /// Its vertices, moved by so many standard deviations; empty if it stays where it is.
   std::optional<Points> moved_by(double standard_deviations) const;
