@@ -22,7 +22,7 @@ const whilePrinted = `matchMedia("print").addEventListener("change", ({ matches 
 
 const pagesOf = (path) => (readFileSync(path, "latin1").match(/\/Type\s*\/Page\b/g) ?? []).length;
 
-for (const name of ["sample", "compared", "vhf_right", "knee"])
+for (const name of ["sample", "plan", "compared", "vhf_right", "knee"])
   for (const colorScheme of ["light", "dark"])
     test(`${name} printed from a ${colorScheme} page is two sheets, in black on white, without controls`, { skip: !has(name) && "not made" }, async () => {
       const { page } = await openPage(browser, pathOf(name), { colorScheme, script: whilePrinted });

@@ -7,7 +7,7 @@ import { pageWith } from "./page_copy";
 import { Clearance } from "./panels/clearance";
 import { ComparePanel } from "./panels/compare";
 import { DisplayPanel } from "./panels/display";
-import { addEditPanels } from "./panels/edits";
+import { addEditPanels, sweepOf } from "./panels/edits";
 import { FreeAngles } from "./panels/free_angles";
 import { actions, copyLink, headingOf, listenToKeys } from "./panels/header";
 import { JointFigures } from "./panels/joint_figures";
@@ -132,7 +132,7 @@ export class Page {
     if (compared) addPlanPanel(compared.element);
     if (this.plan) addPlanPanel(this.plan.element);
     if (shape) addPlanPanel(shape.element);
-    this.paper = new Paper(text, this.counts(), extremes);
+    this.paper = new Paper(text, this.counts(), extremes, sweepOf(report));
     found("paper").replaceChildren(this.paper.element);
     this.putNotesOnPaper();
     this.placeActions();

@@ -180,7 +180,7 @@ export interface StoredPlan {
     deepest_mm: number;
     deepest_hour: number | null;
   }[];
-  limits: { motion: string; before: EndOfMotion; after: EndOfMotion }[];
+  limits: { motion: string; before: EndOfMotion; after: EndOfMotion; gain_deg: number }[];
   measures: { key: string; unit: string; before: number | null; after: number | null }[] | null;
   curve: { motion: string; reached_deg: number; volume_mm3: number; deepest_mm: number }[];
   resection_notes: { code: string; text: string }[];
@@ -297,6 +297,8 @@ export interface ReportText {
     fixed: string;
     mobile: string;
     translation_frame: "fixed" | "joint_axes";
+    /// What a plan did to the bones, if one did.
+    planned?: string;
   };
   coordinates: { name: string; opposite: string }[];
   reference_deg: [number, number, number];

@@ -51,7 +51,7 @@ const plan = object({
     body: bodyName, volume_mm3: number, least_volume_mm3: number, burr_volume_mm3: number, area_mm2: number, deepest_mm: number,
     deepest_hour: orNull(number),
   })),
-  limits: list(object({ motion: text, before: end, after: end })),
+  limits: list(object({ motion: text, before: end, after: end, gain_deg: number })),
   measures: orNull(list(object({ key: text, unit: text, before: orNull(number), after: orNull(number) }))),
   curve: list(object({ motion: text, reached_deg: number, volume_mm3: number, deepest_mm: number })),
   resection_notes: list(object({ code: text, text })), caveats: list(text),
@@ -97,6 +97,7 @@ const report = object({
   joint: object({
     name: text, kind: oneOf("ball", "hinge", "free"), anatomy: oneOf("hip", "knee", "ankle", "elbow", "shoulder"),
     side: oneOf("right", "left"), fixed: text, mobile: text, translation_frame: oneOf("fixed", "joint_axes"),
+    planned: ifThere(text),
   }),
   coordinates: list(object({ name: text, opposite: text }), 3), reference_deg: three, reference_mm: three,
   scope: ifThere(text), rom: orNull(rom), rom_error: ifThere(text),

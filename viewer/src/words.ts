@@ -77,8 +77,12 @@ export const words = {
   neckOnRim: "neck on rim",
   atHour: (meets: string, hour: string) => `${meets} at ${hour}`,
   awayFromRim: "away from the rim",
-  endsSentence: (name: string, limit: string, compared: string | null, place: string) =>
-    `${[`${name} ends at ${limit}`, compared, place].filter(Boolean).join(", ")}.`,
+  endsSentence: (name: string, limit: string, now: string | null, compared: string | null, place: string) =>
+    `${[`${name} ends at ${limit}`, now, compared, place].filter(Boolean).join(", ")}.`,
+  planned: (done: string) => `Planned, ${done}`,
+  plannedSentence: (done: string, sentence: string) => `Planned, ${done}: ${sentence}`,
+  beforePlan: "before what is planned",
+  nowIs: (limit: string) => `now ${limit}`,
   freeSentence: (name: string, deg: string) => `${name} meets no bone up to ${deg}°, where its range ends.`,
   translationSentence: (name: string, limit: string) => `${name} is known to ${limit}: the record or load that its translation follows ends there.`,
   startsInContactSentence: (name: string) => `${name} starts in contact.`,

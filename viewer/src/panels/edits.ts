@@ -65,7 +65,7 @@ function beforePlan(report: Report | null, arrays: JointArrays, body: BodyName):
   return xyz;
 }
 
-function sweepOf(report: Report | null): PartsOptions["sweep"] {
+export function sweepOf(report: Report | null): PartsOptions["sweep"] {
   const stored = report?.text.sweep;
   return stored ? { stored, margins: report.array(stored.margin_deg, "f64"), least: report.array(stored.least_target, "u8") } : null;
 }

@@ -2,6 +2,8 @@ import { html, named } from "../dom";
 import { clockDrawing } from "../plots/clock";
 import { limitsDrawing } from "../plots/limits";
 import { MapPlot } from "../plots/map";
+import { SweepMap } from "../plots/sweep_map";
+import { nowOf } from "../planned";
 import { scopeOf, type ReportText } from "../report";
 import { bandText, firstFigures, limitAlone, headlineMotion } from "../result";
 import { motionName, words } from "../words";
@@ -9,7 +11,9 @@ import { comparisonTable } from "./compare";
 import { headingOf } from "./header";
 import { normalText } from "./manoeuvres";
 import { methodOf, sourcesOf } from "./numbers";
+import { planInShort } from "./plan";
 import { sentenceOf, type Extreme } from "./strip";
+import type { ShownSweep } from "./sweep";
 
 /// The page on paper, two sheets: the answer with its picture, limits and scope; then the map, the method and the files.
 export class Paper {
@@ -18,11 +22,13 @@ export class Paper {
   private readonly caption = html("p", { class: "small" });
   private readonly notes = html("div", {});
 
-  constructor(text: ReportText, counts: { fixed: [number, number]; mobile: [number, number] }, extremes: readonly Extreme[]) {
+  constructor(
+    text: ReportText, counts: { fixed: [number, number]; mobile: [number, number] }, extremes: readonly Extreme[], sweep: ShownSweep | null) {
     const { rom, map } = text, isHip = text.joint.anatomy === "hip" && text.joint.kind !== "hinge";
     const headline = rom ? headlineMotion(rom, isHip) : null, hasLimits = rom?.motions.some(({ reason }) => reason !== "contact_at_start") ?? false;
     const figures = rom && hasLimits
-      ? firstFigures(rom, isHip).map((motion) => [motionName(motion.name), limitAlone(motion), bandText(motion), normalText(motion)] as const)
+      ? firstFigures(rom, isHip).map((motion) =>
+        [motionName(motion.name), limitAlone(motion), [nowOf(text, motion), bandText(motion)].filter(Boolean).join("; "), normalText(motion)] as const)
       : extremes.map(({ name, value, at }) => [name, value, "", at] as const);
     const clock = rom && clockDrawing(rom.motions, rom.clock_plane, null);
     const notes = rom?.notes ?? [], compared = comparisonTable(text);
@@ -35,10 +41,14 @@ export class Paper {
       ...(notes.length ? [html("p", { class: "warning" }, html("b", {}, words.noted(notes.length)), " ", notes.map((note) => note.text).join("; "))] : []),
       html("div", { class: "paper-picture" }, this.image, this.caption),
       ...(rom && hasLimits ? [html("div", { class: "paper-figures" }, drawn(limitsDrawing(rom.motions, null)), ...(clock ? [drawn(clock)] : []))] : []),
+      ...(text.plan
+        ? [html("div", { class: "paper-plan" }, ...planInShort(text.plan, { fixed: named(text.joint.fixed), mobile: named(text.joint.mobile) }))]
+        : []),
       ...(compared ? [compared] : []), scope);
     const filesBefore = text.before?.rom?.provenance;
     const second = html("div", { class: "sheet" },
       ...(map ? [html("div", { class: "paper-map" }, new MapPlot(map, null, "paper-").element)] : []),
+      ...(sweep ? [html("h2", {}, words.sweep), zoneOf(sweep, text)] : []),
       html("h2", {}, words.method), ...methodOf(text, counts),
       ...(rom?.provenance ? [html("h2", {}, words.sourceFiles), ...sourcesOf(rom.provenance)] : []),
       ...(filesBefore ? sourcesOf(filesBefore, words.filesBefore).slice(-1) : []), this.notes);
@@ -61,6 +71,14 @@ export class Paper {
     this.image.alt = caption;
     this.caption.textContent = caption;
   }
+}
+
+/// The safe zone with the point of the joint as it is, and the notes that it must be read with.
+function zoneOf({ stored, margins, least }: ShownSweep, { posed }: ReportText): HTMLElement {
+  const map = new SweepMap(stored, margins, least, () => undefined, "paper-");
+  const values = new Map((posed?.parts ?? []).flatMap(({ name, parameters }) => parameters.map((each) => [`${name}.${each.name}`, each.value])));
+  map.show(stored.parameters.map(({ name }) => values.get(name) ?? NaN));
+  return html("div", {}, map.element, html("p", { class: "small" }, ...stored.sweep_notes.map(({ text }) => `${words.sweepNoted(text)} `)));
 }
 
 function drawn({ picture, caption }: { picture: SVGSVGElement; caption: string }): HTMLElement {

@@ -11,6 +11,22 @@ import { words } from "../words";
 import { measureName } from "./shape";
 import { lines, table } from "./table";
 
+/// The targets with their limits before and after, what stands in the way of them, and the bone that goes.
+export function planInShort({ targets, cuts, margin_mm }: StoredPlan, names: Record<BodyName, string>): HTMLElement[] {
+  const blocked = targets.flatMap(({ motion, planned_deg, blocked: by }) =>
+    (by ? [words.blocked(named(spaced(motion)), planned_deg.toFixed(1), words.keptBy[by.kept_by], names[by.body])] : []));
+  return [
+    table(["", words.before, words.target, words.after], targets.map((target) => [
+      named(spaced(target.motion)), endText(target.before), `${Number(target.reach_deg.toFixed(2))}°`, endText(target.after),
+    ]), words.targets),
+    ...(blocked.length ? [lines(blocked)] : []),
+    cuts.length
+      ? lines(cuts.map((cut) => words.cut({ ...cut, name: names[cut.body], hour: cut.deepest_hour === null ? null : clockTime(cut.deepest_hour) })))
+      : html("p", {}, words.nothingGoes),
+    ...(margin_mm > 0 ? [html("p", {}, words.plannedMargin(String(margin_mm)))] : []),
+  ];
+}
+
 /// The bone that must go: how much, the gain of each motion, and the cost of each degree. The joint of the page is without it.
 export class PlanPanel {
   readonly element: HTMLElement;
@@ -21,25 +37,15 @@ export class PlanPanel {
   constructor(
     private readonly scene: JointScene | null, private readonly report: Report, private readonly plan: StoredPlan,
     names: Record<BodyName, string>) {
-    const { targets, cuts, limits, measures, curve, margin_mm, resection_notes, caveats } = plan;
+    const { cuts, limits, measures, curve, resection_notes, caveats } = plan;
     this.deepest_mm = Math.max(0, ...cuts.map((cut) => cut.deepest_mm));
-    const parts: HTMLElement[] = [html("p", {}, words.withoutBone)];
-    parts.push(table(["", words.before, words.target, words.after], targets.map((target) => [
-      named(spaced(target.motion)), endText(target.before), `${Number(target.reach_deg.toFixed(2))}°`, endText(target.after),
-    ]), words.targets));
-    const blocked = targets.flatMap(({ motion, planned_deg, blocked: by }) =>
-      (by ? [words.blocked(named(spaced(motion)), planned_deg.toFixed(1), words.keptBy[by.kept_by], names[by.body])] : []));
-    if (blocked.length) parts.push(lines(blocked));
-    parts.push(cuts.length
-      ? lines(cuts.map((cut) => words.cut({ ...cut, name: names[cut.body], hour: cut.deepest_hour === null ? null : clockTime(cut.deepest_hour) })))
-      : html("p", {}, words.nothingGoes));
-    if (margin_mm > 0) parts.push(html("p", {}, words.plannedMargin(String(margin_mm))));
+    const parts: HTMLElement[] = [html("p", {}, words.withoutBone), ...planInShort(plan, names)];
     if (scene && cuts.length)
       parts.push(html("div", { class: "row no-print" }, checkbox(words.showRemoved, false, (on) => this.showRemoved(on))));
     const drawing = planCurveDrawing(curve);
     if (drawing) parts.push(figure(drawing));
-    const more: HTMLElement[] = [table(["", words.before, words.after, words.gain], limits.map(({ motion, before, after }) => [
-      named(spaced(motion)), endText(before), endText(after), `${fixed(after.limit_deg - before.limit_deg, 1)}°`,
+    const more: HTMLElement[] = [table(["", words.before, words.after, words.gain], limits.map(({ motion, before, after, gain_deg }) => [
+      named(spaced(motion)), endText(before), endText(after), `${fixed(gain_deg, 1)}°`,
     ]), words.limits)];
     const changed = (measures ?? []).filter(({ before, after }) => before?.toFixed(1) !== after?.toFixed(1));
     const text = (value: number | null) => (value === null ? "–" : fixed(value, 1));

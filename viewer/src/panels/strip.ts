@@ -1,5 +1,6 @@
 import { button, html, named, shortened, spaced } from "../dom";
 import { clockTime, fixed } from "../numbers";
+import { nowOf, plannedOf } from "../planned";
 import type { MotionAnswer, ReportText } from "../report";
 import { bandText, deficitOf, differenceOf, differenceText, firstFigures, limitAlone, limitText, headlineMotion } from "../result";
 import { motionName, words } from "../words";
@@ -30,13 +31,18 @@ export function pinOf(motion: MotionAnswer, text: ReportText): string {
   return motion.clock_hour === null ? place : `${clockTime(motion.clock_hour)}, ${place.replace(` at ${clockTime(motion.clock_hour)}`, "")}`;
 }
 
-/// One sentence about a motion: where it ends, its band, how much it lacks, and where contact is.
+/// One sentence about a motion: where it ends, its band, how much it lacks, and where contact is; of a planned joint what was done to it first.
 export function sentenceOf(motion: MotionAnswer, report: ReportText): string {
+  const planned = plannedOf(report), sentence = sentenceOnEnd(motion, report);
+  return planned ? words.plannedSentence(planned, sentence) : sentence;
+}
+
+function sentenceOnEnd(motion: MotionAnswer, report: ReportText): string {
   const name = capital(named(motionName(motion.name)));
   if (motion.reason === "contact_at_start") return words.startsInContactSentence(name);
   if (motion.translation_ends) return words.translationSentence(name, limitAlone(motion));
   if (motion.reason === "end_of_range") return words.freeSentence(name, fixed(motion.limit_deg, 0));
-  return words.endsSentence(name, limitText(motion), againstNormal(motion, report), placeOf(motion, report));
+  return words.endsSentence(name, limitText(motion), nowOf(report, motion), againstNormal(motion, report), placeOf(motion, report));
 }
 
 /// How far a limit is short of the normal range or beyond it; null for joints without normal ranges.
@@ -67,7 +73,8 @@ export class ResultStrip {
         const lacks = deficitOf(motion) !== null;
         const made = card(motionName(motion.name), limitAlone(motion), bandText(motion), normalText(motion), () => go(motion), !canGo(motion));
         made.classList.toggle("short", lacks);
-        const difference = differenceOf(report, motion.name);
+        const difference = differenceOf(report, motion.name), now = nowOf(report, motion);
+        if (now) made.querySelector(".result-value")?.append(" ", html("span", { class: "result-difference", title: words.beforePlan }, now));
         if (difference) made.querySelector(".result-value")?.append(" ", html("span", { class: "result-difference", title: words.toBefore }, differenceText(difference)));
         this.cards.set(motion.name, made);
         return made;

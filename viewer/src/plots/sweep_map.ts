@@ -36,10 +36,10 @@ export class SweepMap {
   private readonly said = html("p", { class: "small", "aria-hidden": "true" });
   private at: number[];
 
-  /// `moved` to values in the hand, in the order of the sweep's parameters.
+  /// `moved` to values in the hand, in the order of the sweep's parameters. `prefix` is of ids: a hidden map's patterns draw nothing in another one.
   constructor(
     private readonly sweep: StoredSweep, private readonly margins: Float64Array, private readonly least: Uint8Array,
-    private readonly moved: (values: number[]) => void) {
+    private readonly moved: (values: number[]) => void, private readonly prefix = "") {
     const [first, second] = sweep.parameters as [SweptParameter, SweptParameter | undefined];
     const high = second ? planeHeight : stripHeight;
     this.x = axisOf(first, [left, width - right]);
@@ -106,7 +106,7 @@ export class SweepMap {
 
   private drawCells(high: number): void {
     const { x, y } = this, wide = 2 * x.half, tall = y ? 2 * y.half : high;
-    this.picture.append(svg("defs", {}, svg("pattern", { id: "sweep-unfree", width: 6, height: 6, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
+    this.picture.append(svg("defs", {}, svg("pattern", { id: `${this.prefix}sweep-unfree`, width: 6, height: 6, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
       svg("rect", { width: 6, height: 6, class: "unfree-back" }), svg("rect", { width: 2, height: 6, class: "unfree-line" }))));
     const isRoomy = wide >= roomForNumber.width && tall >= roomForNumber.height;
     for (let i = 0; i < this.margins.length; ++i) {
@@ -115,7 +115,7 @@ export class SweepMap {
       this.picture.append(svg("rect", {
         x: middle.x - x.half, y: middle.y - tall / 2, width: wide, height: tall,
         class: margin_deg === null ? "sweep-contact" : margin_deg >= 0 ? "sweep-safe" : "sweep-short",
-        ...(margin_deg === null ? { fill: "url(#sweep-unfree)" } : {}),
+        ...(margin_deg === null ? { fill: `url(#${this.prefix}sweep-unfree)` } : {}),
       }));
       if (isRoomy && margin_deg !== null)
         this.picture.append(svg("text", { x: middle.x + (y ? 4 : 0), y: middle.y + 4, "text-anchor": y ? "start" : "middle", class: "sweep-number", "aria-hidden": "true" }, signed(margin_deg, Math.abs(margin_deg) < 1 ? 1 : 0)));
