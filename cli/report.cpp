@@ -244,7 +244,7 @@ void add_report(CLI::App& app) {
       command
           ->add_option("--resect", options->cut.targets,
                        "Show the joint without the bone that must go for these motions to reach this far, as "
-                       "condyle resect --reach does: \"flexion=115 fadir=30\"")
+                       "condyle resect --reach does: \"flexion=115 fadir=+10\"")
           ->option_text("MOTION=DEG ...");
   add_cut(*command, options->cut, resect);
   add_curve(*command, options->curve_points)->needs(resect);

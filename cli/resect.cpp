@@ -69,7 +69,8 @@ void add_resect(CLI::App& app) {
       command
           ->add_option("--reach", options->cut.targets,
                        "How far each motion shall go from its start, by its name in condyle rom "
-                       "--list-motions: \"flexion=115 fadir=30\"")
+                       "--list-motions: \"flexion=115 fadir=30\"; with a plus how far beyond its limit now: "
+                       "\"fadir=+10\"")
           ->option_text("MOTION=DEG ...")
           ->required();
   add_cut(*command, options->cut, reach);

@@ -132,7 +132,7 @@ void add_study(CLI::App& app) {
       command
           ->add_option("--resect", options->cut.targets,
                        "Find the bone that must go for these motions to reach this far, as condyle resect "
-                       "--reach does: \"flexion=115 fadir=30\"")
+                       "--reach does: \"flexion=115 fadir=+10\"")
           ->option_text("MOTION=DEG ...");
   add_cut(*command, options->cut, resect);
   command

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -215,6 +216,10 @@ struct JointImplant {
   std::string why_no_pair = {};           ///< what is no body of revolution
 };
 
+/// Names that meshes of implants have as parts of a body.
+inline constexpr std::array<std::string_view, 5> implant_mesh_names{"liner", "head", "neck", "stem",
+                                                                    "pillar"};
+
 /// What the zero of a joint's angles is known by.
 enum class ZeroFrom : std::uint8_t {
   as_given,  ///< It is the pose in which the mobile mesh is given, as that of a scan: nothing says how the body lay.
@@ -237,6 +242,8 @@ struct Joint {
   std::optional<PosedParts> posed = {};  ///< parts with a pose of their own; the bodies above have them moved
   std::optional<JointImplant> implant = {};
   ZeroFrom zero_from = ZeroFrom::as_given;
+  /// What a plan did to the bones: "without 164.1 mm3 of femur". Empty: they are as they were measured.
+  std::string planned = {};
 
   [[nodiscard]] CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
   /// False of a hinge that flexes forwards and is no joint in particular.

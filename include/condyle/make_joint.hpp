@@ -143,6 +143,7 @@ struct JointDescription {
   Pose fixed_in_W = Pose::Identity(), mobile_in_W = Pose::Identity();
   /// Parts with a pose of their own: they move the bodies once these are placed.
   std::vector<DescribedPart> parts = {};
+  std::string planned = {};  ///< what a plan did to the bones, as Joint::planned
 
   [[nodiscard]] CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
 };

@@ -21,6 +21,7 @@ namespace condyle::plan {
 struct ReachTarget {
   motion::Motion motion = {};
   Angle reach = {};
+  bool is_gain = false;  ///< `reach` counts from where the motion ends now
 };
 
 /// For people: 120, where the angle in radians has 119.99999999999999.
@@ -125,6 +126,10 @@ struct Resection {
 /// The joint with another mesh in the mobile body's place, in its frame M: the same bone after something was done to it. Head, socket and
 /// margin stay those that the bearing surface of this joint has: a fit to a mesh with smaller triangles in places would move them.
 [[nodiscard]] Joint with_mobile_mesh(const Joint& joint, Mesh mesh);
+
+/// The request with every target counted from its motion's start. Throws UsageError, as check_resection(), for a gain of a motion that nothing
+/// ends, and one that leads beyond the motion's range; and as RangeOfMotion does.
+[[nodiscard]] ResectionOptions with_gains_resolved(const Joint& joint, const ResectionOptions& request);
 
 /// Throws UsageError for a request without targets, two of one motion, reaches that are not within the motion's range, and values outside
 /// theirs.

@@ -65,16 +65,13 @@ void members(T& value, const Each& each) {
   } else if constexpr (is_one_of<Struct, PartParameter, io::ContactEntry, io::ColumnOfCoordinate>) {
     auto& [a, b, c, d, e, f, g, h, i] = value;
     each(a, b, c, d, e, f, g, h, i);
-  } else if constexpr (is_one_of<Struct, Joint>) {
-    auto& [a, b, c, d, e, f, g, h, i, j] = value;
-    each(a, b, c, d, e, f, g, h, i, j);
-  } else if constexpr (is_one_of<Struct, JointPlacement>) {
+  } else if constexpr (is_one_of<Struct, Joint, JointPlacement>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k] = value;
     each(a, b, c, d, e, f, g, h, i, j, k);
-  } else if constexpr (is_one_of<Struct, JointDescription, io::BodyMeshReport>) {
+  } else if constexpr (is_one_of<Struct, io::BodyMeshReport>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l] = value;
     each(a, b, c, d, e, f, g, h, i, j, k, l);
-  } else if constexpr (is_one_of<Struct, io::JointFile>) {
+  } else if constexpr (is_one_of<Struct, JointDescription, io::JointFile>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = value;
     each(a, b, c, d, e, f, g, h, i, j, k, l, m);
   } else if constexpr (is_one_of<Struct, plan::ReverseShoulder>) {

@@ -95,10 +95,13 @@ py::dict resection(const JointHandle& handle, const py::list& motions, const py:
   dict["targets"] = targets;
   dict["before"] = limits_of(handle.joint(), answer.before);
   dict["after"] = limits_of(answer.resection.joint, answer.after);
+  py::list gain;
+  for (const Angle each : answer.gain) gain.append(each.degrees());
+  dict["gain_deg"] = gain;
   dict["shapes"] = shapes_of(answer);
   dict["bands"] = bands;
   dict["curve"] = curve;
-  dict["notes"] = notes_of(answer.notes);
+  dict["notes"] = notes_of(answer.notes) + notes_of(answer.limit_notes);
   dict["margin_mm"] = answer.margin_mm;
   dict["caveats"] = answer.caveats;
   dict["plan"] = std::make_unique<PlanHandle>(PlanHandle{handle.loaded, std::move(answer)});

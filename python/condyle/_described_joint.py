@@ -96,6 +96,14 @@ class DescribedJoint:
         return self._native.name
 
     @property
+    def planned(self) -> str:
+        """What a plan did to the joint: "without 164.1 mm3 of femur", "with a total hip", "cup.inclination 42 deg instead of 40"; "" if nothing.
+
+        C++: `Joint::planned` in condyle/joint.hpp.
+        """
+        return self._native.planned
+
+    @property
     def kind(self) -> JointKind:
         """"ball", "hinge" or "free"."""
         return self._native.kind

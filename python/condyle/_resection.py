@@ -104,6 +104,8 @@ class Resection(Generic[OfJoint]):
     targets : tuple of ReachedTarget
     before, after : tuple of MotionLimit
         Exact limits of all motions of the joint, before and without the bone.
+    gain_deg : tuple of float
+        What the cut adds to each of them. Smaller triangles of the same surface add a little by themselves, which is no gain.
     measures : dict of (before, after)
         Measures of a hip by the keys of :class:`HipMeasures`; None for a measure that the meshes do not show. Empty for other joints.
     curve : tuple of CurvePoint
@@ -120,6 +122,7 @@ class Resection(Generic[OfJoint]):
     targets: tuple[ReachedTarget, ...]
     before: tuple[MotionLimit, ...]
     after: tuple[MotionLimit, ...]
+    gain_deg: tuple[float, ...]
     measures: dict[str, tuple[Optional[float], Optional[float]]]
     curve: tuple[CurvePoint, ...]
     margin_mm: float
@@ -215,6 +218,6 @@ def resection(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], reach
     return Resection(
         without, _cut_of(found["mobile"]), _cut_of(found["fixed"]), tuple(targets),
         tuple(limit_of(each, joint) for each in found["before"]), tuple(limit_of(each, without) for each in found["after"]),
-        found["shapes"] or {},
+        tuple(found["gain_deg"]), found["shapes"] or {},
         tuple(CurvePoint(targets[target].motion, *rest) for target, *rest in found["curve"]), found["margin_mm"], reported(found["notes"]),
         found["caveats"], found["plan"])

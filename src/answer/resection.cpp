@@ -105,7 +105,20 @@ void note_targets(ResectionAnswer& answer) {
   }
 }
 
-void note_bones(ResectionAnswer& answer, const Joint& joint, const motion::RangeOptions& range) {
+/// What the limits after the cut must be read with. Of sliding surfaces, which a cut may take, a note of the cut says more.
+void note_limits(ResectionAnswer& answer, const Joint& before, const motion::BearingFinding& bearing_before,
+                 const motion::BearingFinding& bearing, const motion::RangeOptions& range) {
+  answer.limit_notes = range_notes(answer.resection.joint, answer.after, range, bearing);
+  std::erase_if(answer.limit_notes,
+                [](const RangeNote& note) { return note.code == RangeNoteCode::sliding_surfaces; });
+  if (before.has_head()) return;
+  for (const RangeNote& note : range_notes(before, answer.before, range, bearing_before))
+    if (note.code == RangeNoteCode::sliding_surfaces)
+      answer.notes.push_back(
+          {ResectionNoteCode::sliding_surfaces, note.text + "; removed bone may belong to those surfaces"});
+}
+
+void note_bones(ResectionAnswer& answer) {
   if (answer.resection.sweeps_bearing)
     answer.notes.push_back({ResectionNoteCode::bearing_is_swept,
                             answer.resection.joint.mobile.name +
@@ -127,12 +140,6 @@ void note_bones(ResectionAnswer& answer, const Joint& joint, const motion::Range
                      "surface leaves the head's sphere, and bone there that no target meets stays",
                      *before, *after)});
   }
-  if (answer.resection.mobile || answer.resection.fixed)
-    for (const RangeNote& note :
-         range_notes(joint, answer.before, range, motion::find_bearing_surface(joint, range.bearing)))
-      if (note.code == RangeNoteCode::sliding_surfaces)
-        answer.notes.push_back(
-            {ResectionNoteCode::sliding_surfaces, note.text + "; removed bone may belong to those surfaces"});
   for (const auto* cut : {&answer.resection.mobile, &answer.resection.fixed}) {
     if (!*cut) continue;
     const double unasked = (*cut)->volume_mm3 - (*cut)->burr_volume_mm3 - (*cut)->least_volume_mm3;
@@ -170,17 +177,21 @@ Joint with_finer_triangles(const plan::Resection& resection) {
 }
 
 /// A limit's gain through smaller triangles does not count as a gain of the cut.
-void note_finer_triangles(ResectionAnswer& answer, const Joint& finer, const motion::RangeOptions& range,
-                          std::span<const motion::Motion> motions) {
+void take_gains(ResectionAnswer& answer, const Joint& finer, const motion::RangeOptions& range,
+                std::span<const motion::Motion> motions) {
   const std::vector<motion::MotionLimit> limits = motion::RangeOfMotion(finer, range).limits(motions);
-  for (std::size_t i = 0; i < limits.size(); ++i)
-    if (const Angle was = answer.before[i].end.turned, is = limits[i].end.turned;
-        is.degrees() > was.degrees() + no_change_deg)
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    const Angle was = answer.before[i].end.turned, is = limits[i].end.turned;
+    const Angle gained = answer.after[i].end.turned - was, by_triangles = is - was;
+    answer.gain.push_back(
+        gained > Angle() && by_triangles > Angle() ? std::max(gained - by_triangles, Angle()) : gained);
+    if (is.degrees() > was.degrees() + no_change_deg)
       answer.notes.push_back({ResectionNoteCode::finer_triangles,
                               motions[i].name + " ends at " + in_degrees(was) + " degrees, and at " +
                                   in_degrees(is) +
                                   " with smaller triangles of the same surface, those in the bearing ball "
                                   "left out: from there on the cut counts"});
+  }
 }
 
 void note_gains(ResectionAnswer& answer) {
@@ -192,8 +203,8 @@ void note_gains(ResectionAnswer& answer) {
           return !outcome.blocked && outcome.target.motion.name == answer.before[i].motion.name;
         }))
       continue;
-    const motion::Limit &a = answer.before[i].end, &b = answer.after[i].end;
-    if (a.reason == motion::LimitReason::contact && b.turned.degrees() < a.turned.degrees() + no_change_deg)
+    if (answer.before[i].end.reason == motion::LimitReason::contact &&
+        answer.gain[i].degrees() < no_change_deg)
       same += (same.empty() ? "" : ", ") + answer.before[i].motion.name;
   }
   if (!same.empty())
@@ -337,13 +348,16 @@ std::vector<NamedReach> parse_reach(std::string_view text) {
     text.remove_prefix(end);
     const auto equals = item.find('=');
     double degrees = 0;
-    const auto number = equals == item.npos ? std::string_view() : item.substr(equals + 1);
+    auto number = equals == item.npos ? std::string_view() : item.substr(equals + 1);
+    const bool is_gain = number.starts_with('+');
+    if (is_gain) number.remove_prefix(1);
     const auto [stopped, error] = std::from_chars(number.data(), number.data() + number.size(), degrees);
     if (equals == item.npos || equals == 0 || error != std::errc() ||
         stopped != number.data() + number.size() || !std::isfinite(degrees))
       throw UsageError("targets: \"" + std::string(item) +
-                       "\" is not a motion and its degrees, as in flexion=115");
-    named.push_back({std::string(item.substr(0, equals)), Angle::degrees(degrees)});
+                       "\" is not a motion and its degrees, as in flexion=115, or what it shall gain, as in "
+                       "flexion=+10");
+    named.push_back({std::string(item.substr(0, equals)), Angle::degrees(degrees), is_gain});
   }
   if (named.empty()) throw UsageError("targets: none is given, as in flexion=115");
   return named;
@@ -352,7 +366,8 @@ std::vector<NamedReach> parse_reach(std::string_view text) {
 std::vector<plan::ReachTarget> reach_targets(std::span<const motion::Motion> motions,
                                              std::span<const NamedReach> named) {
   std::vector<plan::ReachTarget> targets;
-  for (const auto& [motion, reach] : named) targets.push_back({motion::motion_named(motions, motion), reach});
+  for (const auto& [motion, reach, is_gain] : named)
+    targets.push_back({motion::motion_named(motions, motion), reach, is_gain});
   return targets;
 }
 
@@ -367,6 +382,7 @@ std::optional<ResectionAnswer> answer_resection(const Case& of, const ResectionR
   if (asked.motions.empty()) asked.motions = of.motions();
   const auto held = held_translation(of, {});
   const Joint at = held && *held != Vec3::Zero() ? held_at(of.joint, *held) : of.joint;
+  asked.resection = plan::with_gains_resolved(at, asked.resection);
   Cuts cuts(at, control,
             1 + asked.resection.targets.size() * asked.curve_points + (asked.bands ? most_band_plans : 0));
   auto first = cuts(asked.resection);
@@ -377,7 +393,8 @@ std::optional<ResectionAnswer> answer_resection(const Case& of, const ResectionR
     if (!reach_bands(asked, band_options(of, *asked.bands), control, cuts, answer)) return std::nullopt;
   const motion::RangeOfMotion range(at, asked.resection.range);
   answer.before = range.limits(asked.motions);
-  answer.after = motion::RangeOfMotion(answer.resection.joint, asked.resection.range).limits(asked.motions);
+  const motion::RangeOfMotion range_after(answer.resection.joint, asked.resection.range);
+  answer.after = range_after.limits(asked.motions);
   // Compared on the same triangles: what a measure takes of a surface depends a little on them.
   const Joint finer = with_finer_triangles(answer.resection);
   if (at.is_hip() && at.kind != JointKind::hinge) {
@@ -386,8 +403,10 @@ std::optional<ResectionAnswer> answer_resection(const Case& of, const ResectionR
   }
   if (asked.curve_points > 0 && !add_curve(asked, cuts, answer)) return std::nullopt;
   note_targets(answer);
-  note_finer_triangles(answer, finer, asked.resection.range, asked.motions);
-  note_bones(answer, at, asked.resection.range);
+  take_gains(answer, finer, asked.resection.range, asked.motions);
+  note_bones(answer);
+  if (answer.resection.mobile || answer.resection.fixed)
+    note_limits(answer, at, range.bearing(), range_after.bearing(), asked.resection.range);
   note_gains(answer);
   answer.caveats = range_caveats(asked.resection.range, range);
   answer.caveats.emplace_back(

@@ -391,6 +391,7 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
               description.anatomy,
               description.translation_frame};
   joint.zero_from = placement.zero_from;
+  joint.planned = description.planned;
   if (!parts.empty())
     joint.posed = PosedParts{std::move(parts),
                              {joint.fixed.mesh, joint.fixed.image, joint.fixed.head},

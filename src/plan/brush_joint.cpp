@@ -5,6 +5,7 @@
 #include "condyle/brush.hpp"
 #include "condyle/error.hpp"
 #include "kinematics/posed_parts.hpp"
+#include "plan/planned.hpp"
 
 namespace condyle::plan {
 namespace {
@@ -68,9 +69,13 @@ BrushedJoint brush_joint(const Joint& joint, const BrushRequest& request,
   std::vector<StrokeOutcome> outcomes;
   for (const BrushStroke& stroke : request.strokes) outcomes.push_back(brush.stroke(stroke));
   const motion::RangeOfMotion after(before, request.body, brush.vertices());
-  return {.joint = with_brushed_bone(joint, request.body, brush.vertices(), before.bearing()),
+  Joint brushed = with_brushed_bone(joint, request.body, brush.vertices(), before.bearing());
+  BrushedBone removed = brush.removed();
+  if (removed.volume_mm3 > 0)
+    add_planned(brushed, without_bone(removed.volume_mm3, bone.name) + " by strokes");
+  return {.joint = std::move(brushed),
           .strokes = std::move(outcomes),
-          .removed = brush.removed(),
+          .removed = std::move(removed),
           .depth_mm = brush.depth_mm(),
           .before = before.limits(motions),
           .after = after.limits(motions)};

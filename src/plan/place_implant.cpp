@@ -10,6 +10,7 @@
 #include "mesh/cut_mesh.hpp"
 #include "mesh/surface_distance.hpp"
 #include "plan/joined_body.hpp"
+#include "plan/planned.hpp"
 
 namespace condyle::plan {
 namespace {
@@ -20,9 +21,7 @@ bool is_bone(const BodyPart& part) {
 
 /// A bone called as a mesh of the implant would be taken for it.
 std::string bone_name(const std::string& name) {
-  constexpr std::array<std::string_view, 4> of_implant{"liner", "head", "neck", "stem"};
-  const bool is_taken = std::find(of_implant.begin(), of_implant.end(), name) != of_implant.end();
-  return is_taken ? name + " bone" : name;
+  return std::ranges::find(implant_mesh_names, name) != implant_mesh_names.end() ? name + " bone" : name;
 }
 
 /// The meshes of a body that are bones.
@@ -156,6 +155,8 @@ PlacedHip place_total_hip(const TotalHip& hip, const Joint& joint, const PlacedB
   placed.fixed.image = moved(joint.fixed.image, -by.centre);
   placed.mobile.image = moved(joint.mobile.image, of_femur);
   placed.implant = implant_in_joint(hip, placed);
+  placed.planned = joint.planned;
+  add_planned(placed, "with a total hip");
   return {std::move(placed), cut, shift, removed, meshes_left_out(joint)};
 }
 

@@ -11,12 +11,16 @@
 #include "kinematics/hip_parts.hpp"
 #include "kinematics/posed_parts.hpp"
 #include "plan/bone_cut.hpp"
+#include "plan/planned.hpp"
 
 namespace condyle::plan {
 namespace {
 
 using plan::BoneCut;
 using plan::CutTarget;
+
+/// What is added to the name of a joint that was cut.
+constexpr std::string_view resected = ", resected";
 
 std::string degrees(Angle angle) {
   return core::formatted("%.6g", angle.degrees());
@@ -85,6 +89,26 @@ void check_resection(const Joint& joint, const ResectionOptions& request) {
   check_kept(request.fixed, joint.fixed);
 }
 
+ResectionOptions with_gains_resolved(const Joint& joint, const ResectionOptions& request) {
+  check_resection(joint, request);
+  ResectionOptions resolved = request;
+  std::optional<motion::RangeOfMotion> now;
+  for (ReachTarget& target : resolved.targets) {
+    if (!target.is_gain) continue;
+    if (!now) now.emplace(joint, request.range);
+    const motion::Limit end = now->limit(target.motion).end;
+    const std::string& name = target.motion.name;
+    if (end.reason == motion::LimitReason::end_of_range)
+      throw UsageError("resection: nothing ends " + name + " within its range of " +
+                       degrees(target.motion.range) + " degrees: it has nothing to gain");
+    if (end.turned + target.reach > target.motion.range)
+      throw UsageError("resection: " + name + " ends at " + degrees(end.turned) + " degrees, and " +
+                       degrees(target.reach) + " more are beyond its range, " + degrees(target.motion.range));
+    target = {target.motion, end.turned + target.reach};
+  }
+  return resolved;
+}
+
 Joint with_mobile_mesh(const Joint& joint, Mesh mesh) {
   Joint other = joint;
   // By itself: a head may have been fitted to this mesh already.
@@ -105,8 +129,9 @@ Resection resect(const Joint& joint, const ResectionOptions& request) {
   return *resect(joint, request, {});
 }
 
-std::optional<Resection> resect(const Joint& joint, const ResectionOptions& request, const Control& control) {
-  check_resection(joint, request);
+std::optional<Resection> resect(const Joint& joint, const ResectionOptions& as_given,
+                                const Control& control) {
+  const ResectionOptions request = with_gains_resolved(joint, as_given);
   Resection done{joint, {}, {}, {}, false};
   const motion::RangeOfMotion before(joint, request.range);
   std::vector<CutTarget> open;
@@ -157,6 +182,11 @@ std::optional<Resection> resect(const Joint& joint, const ResectionOptions& requ
     if (!report()) return std::nullopt;
   }
   kinematics::take_as_moved(done.joint);
+  if (done.mobile || done.fixed) {
+    if (!done.joint.name.ends_with(resected)) done.joint.name += resected;
+    for (const auto* cut : {&done.mobile, &done.fixed})
+      if (*cut) add_planned(done.joint, without_bone((*cut)->volume_mm3, (*cut)->body.name));
+  }
   const motion::RangeOfMotion after(done.joint, request.range);
   for (ReachOutcome& outcome : done.targets) outcome.after = after.limit(outcome.target.motion);
   return done;

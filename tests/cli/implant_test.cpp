@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
@@ -89,8 +90,38 @@ TEST_F(ImplantCommand, KeepsTheMotionsOfTheJointFile) {
   const io::JointFile file = io::read_joint_file(folder / "thr/hip.toml");
   ASSERT_TRUE(file.implant);
   EXPECT_EQ(file.uncertainty.centre_mm, 0);
-  EXPECT_EQ(file.uncertainty.surface_mm, 0);
+  EXPECT_EQ(file.joint.planned, "with a total hip");
+  // What is uncertain of the bones stays so.
+  const io::JointFile before = io::read_joint_file(folder / "hip.toml");
+  EXPECT_EQ(file.uncertainty.surface_mm, before.uncertainty.surface_mm);
+  EXPECT_EQ(file.uncertainty.surface_voxels, before.uncertainty.surface_voxels);
   EXPECT_EQ(file.joint.parts.size(), 2u);
+}
+
+TEST_F(ImplantCommand, ABandMovesTheSurfacesOfBonesAndNoneOfTheImplant) {
+  for (const double voxel : {0.0, 1.2}) {
+    if (voxel > 0)
+      std::ofstream(folder / "hip.toml", std::ios::app) << fmt::format(
+          "\n[fixed.image]\nvoxel_i = [{0}, 0, 0]\nvoxel_j = [0, {0}, 0]\nvoxel_k = [0, 0, {0}]\n", voxel);
+    ASSERT_EQ(run(fmt::format("implant hip.toml --out thr_{}", voxel > 0)).exit_code, 0);
+    const std::string file = fmt::format("thr_{}/hip.toml", voxel > 0);
+    EXPECT_EQ(io::read_joint_file(folder / file).fixed.image.has_value(), voxel > 0);
+    const Json rom = answer("rom " + file + " --band=20");
+    std::size_t of_bones = 0, of_implant = 0;
+    for (const Json& motion : rom["motions"]) {
+      if (motion["reason"] != "contact") continue;
+      const double by_surface = motion["band"]["width_from"]["surface_deg"];
+      const bool is_bone = motion["features"]["fixed"]["part"] == "hip bone";
+      of_bones += is_bone, of_implant += !is_bone;
+      if (is_bone) {
+        EXPECT_GT(by_surface, 0.5) << motion["name"];
+      } else {
+        EXPECT_LT(by_surface, motion["band"]["width_from"]["parameters_deg"].get<double>()) << motion["name"];
+      }
+    }
+    EXPECT_GE(of_bones, 2u);
+    EXPECT_GE(of_implant, 3u);
+  }
 }
 
 TEST_F(ImplantCommand, RefusesInOneLineAndWritesNothing) {

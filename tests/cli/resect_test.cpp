@@ -67,6 +67,63 @@ TEST_F(ResectCommand, WritesAJointWithTheLimitsItSays) {
     EXPECT_EQ(limits[i]["limit_deg"], json["limits"][i]["after"]["limit_deg"]) << limits[i]["motion"];
 }
 
+TEST_F(ResectCommand, AJointThatWasCutSaysSoInEveryAnswer) {
+  const Json json = answer("--reach internal_rotation_at_90_flexion=45 --curve 0 --out plan");
+  const std::string planned =
+      fmt::format("without {:.1f} mm3 of {}, from hip.toml", json["cuts"][0]["volume_mm3"].get<double>(),
+                  json["cuts"][0]["name"].get<std::string>());
+  for (const std::string command : {"rom", "depth", "measure", "frame"}) {
+    const Ran said = run(command + " plan/resected.toml");
+    EXPECT_NE(said.out.find(", resected"), said.out.npos) << command;
+    EXPECT_NE(said.out.find("  planned: " + planned), said.out.npos) << said.out;
+    const Json of = Json::parse(run(command + " plan/resected.toml --json").out);
+    EXPECT_EQ(of["provenance"]["planned"], planned) << command;
+  }
+  // Cut once more: the name says it once, and the list has both.
+  ASSERT_EQ(run("resect plan/resected.toml --reach internal_rotation_at_90_flexion=50 --curve 0 --out again")
+                .exit_code,
+            0);
+  const io::JointFile again = io::read_joint_file(folder / "again/resected.toml");
+  EXPECT_EQ(again.joint.planned.rfind(planned + ", without ", 0), 0u) << again.joint.planned;
+  EXPECT_EQ(again.joint.name.find("resected"), again.joint.name.rfind("resected"));
+}
+
+TEST_F(ResectCommand, KeepsTheColumnsOfARecordedMotion) {
+  std::ofstream(folder / "hip.toml", std::ios::app)
+      << "\n[recorded_motion]\n"
+         "flexion = { column = \"a \\\"quoted\\\" one\", unit = \"rad\", sign = -1, offset = 0.5, range = "
+         "[-1, 2] }\n"
+         "adduction = { column = \"b\", default = 3, locked = true }\n";
+  ASSERT_EQ(run("resect hip.toml --reach internal_rotation_at_90_flexion=45 --curve 0 --out plan").exit_code,
+            0);
+  const auto columns_of = [&](const char* file) {
+    return std::get<std::vector<io::ColumnOfCoordinate>>(*io::read_joint_file(folder / file).recorded_motion);
+  };
+  const auto before = columns_of("hip.toml"), after = columns_of("plan/resected.toml");
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(after[i].coordinate, before[i].coordinate);
+    EXPECT_EQ(after[i].column, before[i].column);
+    EXPECT_EQ(after[i].unit, before[i].unit);
+    EXPECT_EQ(after[i].sign, before[i].sign);
+    EXPECT_EQ(after[i].offset, before[i].offset);
+    EXPECT_EQ(after[i].otherwise, before[i].otherwise);
+    EXPECT_EQ(after[i].range, before[i].range);
+    EXPECT_EQ(after[i].is_locked, before[i].is_locked);
+  }
+}
+
+TEST_F(ResectCommand, SaysThatPosesOfTheMeshesAsGivenAreLeftOut) {
+  std::ofstream(folder / "hip.toml", std::ios::app)
+      << "\n[recorded_motion]\nfixed_body = \"pelvis\"\nmobile_body = \"femur\"\nunits = \"mm\"\n";
+  ASSERT_EQ(run("resect hip.toml --reach internal_rotation_at_90_flexion=45 --curve 0 --out plan").exit_code,
+            0);
+  EXPECT_FALSE(io::read_joint_file(folder / "plan/resected.toml").recorded_motion);
+  std::ifstream file(folder / "plan/resected.toml");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(text.find("# [recorded_motion] is left out"), text.npos);
+}
+
 TEST_F(ResectCommand, NothingToDoIsAnAnswer) {
   const Json json = answer("--reach flexion=20 --out plan");
   EXPECT_TRUE(json["cuts"].empty());
@@ -93,6 +150,15 @@ bool has_note(const Json& json, std::string_view code) {
 TEST_F(ResectCommand, WhatSmallerTrianglesGainIsSaid) {
   const Json json = answer("--reach internal_rotation_at_90_flexion=40 --bearing 5 --curve 0");
   EXPECT_TRUE(has_note(json, "finer_triangles"));
+  // What they gain is no gain of the cut: nothing of it was in the way.
+  bool any = false;
+  for (const Json& limit : json["limits"]) {
+    const double gained =
+        limit["after"]["limit_deg"].get<double>() - limit["before"]["limit_deg"].get<double>();
+    EXPECT_LE(limit["gain_deg"].get<double>(), std::max(gained, 0.0)) << limit["motion"];
+    any |= limit["gain_deg"].get<double>() < gained - 0.1;
+  }
+  EXPECT_TRUE(any);
   EXPECT_FALSE(has_note(json, "nothing_to_do"));
   EXPECT_FALSE(has_note(answer("--reach internal_rotation_at_90_flexion=45 --curve 0"), "finer_triangles"));
 }

@@ -501,6 +501,35 @@ TEST(Resection, KeptBoneStopsAMotionAndIsNamed) {
   EXPECT_NEAR(none.targets[0].planned.degrees(), 53.13, 0.05);
 }
 
+TEST(Resection, AGainCountsFromWhereTheMotionEnds) {
+  const Joint joint = hip_of(socket(25, endless), neck(15));
+  const auto gain_of = [](const char* motion, double degrees) {
+    plan::ReachTarget gain = target(motion, degrees);
+    gain.is_gain = true;
+    return reaching({gain});
+  };
+  const plan::Resection by_gain = plan::resect(joint, gain_of("flexion", 4));
+  const double now = by_gain.targets[0].before.end.turned.degrees();
+  EXPECT_NEAR(now, 53.13, 0.02);
+  EXPECT_NEAR(by_gain.targets[0].target.reach.degrees(), now + 4, 1e-12);
+  EXPECT_FALSE(by_gain.targets[0].target.is_gain);
+  EXPECT_NEAR(by_gain.volume_mm3(), plan::resect(joint, reaching({target("flexion", now + 4)})).volume_mm3(),
+              1e-3);
+  const auto refusal_of = [&](const plan::ResectionOptions& request) {
+    try {
+      (void)plan::resect(joint, request);
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal_of(gain_of("flexion", 130)).find("more are beyond its range"), std::string::npos);
+  EXPECT_NE(refusal_of(gain_of("internal_rotation", 5)).find("nothing to gain"), std::string::npos);
+  EXPECT_NE(refusal_of(gain_of("flexion", -5)).find("cannot reach -5"), std::string::npos);
+  EXPECT_TRUE(parse_reach("flexion=+4").front().is_gain);
+  EXPECT_THROW((void)parse_reach("flexion=++4"), UsageError);
+}
+
 TEST(Resection, RequestsThatSayNothingAreRefused) {
   const Joint joint = hip_of(socket(16, 20), neck(6));
   EXPECT_THROW(plan::resect(joint, {}), UsageError);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "condyle/answer/case.hpp"
+#include "condyle/answer/range.hpp"
 #include "condyle/hip_measures.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/resection.hpp"
@@ -64,11 +65,15 @@ inline constexpr double neck_width_share = 0.3;
 struct ResectionAnswer {
   plan::Resection resection;
   double margin_mm = 0;  ///< as planned: larger than requested where a band is to be reached
-  std::vector<motion::MotionLimit> before = {}, after = {};                 ///< one per motion
+  std::vector<motion::MotionLimit> before = {}, after = {};  ///< one per motion
+  std::vector<Angle> gain =
+      {};  ///< one per motion: what the cut adds, without what smaller triangles alone add
   std::optional<measure::HipMeasures> shape_before = {}, shape_after = {};  ///< of a hip
   std::vector<motion::LimitBand> bands = {};    ///< one per target if requested: after
   std::vector<ResectionCurvePoint> curve = {};  ///< by target, ascending
   std::vector<ResectionNote> notes = {};
+  std::vector<RangeNote> limit_notes =
+      {};  ///< what the limits after the cut must be read with, as those of answer_range()
   std::vector<std::string> caveats = {};  ///< what the plan leaves out, a sentence each
 };
 
@@ -76,9 +81,10 @@ struct ResectionAnswer {
 struct NamedReach {
   std::string motion;
   Angle reach;
+  bool is_gain = false;  ///< as plan::ReachTarget::is_gain
 };
 
-/// Targets from "flexion=115 internal_rotation_at_90_flexion=30", separated by blanks or commas. Throws UsageError for other text.
+/// Targets from "flexion=115 internal_rotation_at_90_flexion=+10", separated by blanks or commas: with a plus what the motion shall gain. Throws UsageError for other text.
 [[nodiscard]] std::vector<NamedReach> parse_reach(std::string_view text);
 
 /// Targets of these motions, each by its name as motion_named() finds it. Throws UsageError for an unknown name.

@@ -91,7 +91,8 @@ struct Provenance {
   std::vector<PosedPart> parts = {};      ///< with the values that the answer is of
   std::vector<plan::CupAngles> cup = {};  ///< of a total hip, by each definition
   std::vector<OtherFile> other_files =
-      {};  ///< read beside joint file and meshes, in the order of their paths
+      {};                    ///< read beside joint file and meshes, in the order of their paths
+  std::string planned = {};  ///< as Joint::planned
 };
 [[nodiscard]] Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> command,
                                        AnswerFrameName frame = AnswerFrameName::joint);

@@ -511,6 +511,7 @@ JointFile joint_file_of(std::string_view text, const std::filesystem::path& path
   out.path = path;
   out.digest = digest_of(text);
   joint.name = file.required("name", file.text("name"));
+  joint.planned = file.text("planned").value_or("");
   constexpr JointKind kinds[] = {JointKind::ball, JointKind::hinge, JointKind::free};
   joint.kind = kinds[file.required_word("kind", {"ball", "hinge", "free"})];
   joint.side = file.required_word("side", {"right", "left"}) == 0 ? Side::right : Side::left;

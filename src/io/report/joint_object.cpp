@@ -14,6 +14,7 @@
 #include "io/report/posed_json.hpp"
 #include "io/report/recorded_columns.hpp"
 #include "io/result/json.hpp"
+#include "io/result/parameters.hpp"
 #include "io/result/scope_text.hpp"
 
 static_assert(std::endian::native == std::endian::little,
@@ -45,13 +46,15 @@ Json parts_json(const Body& body) {
 }
 
 Json joint_json(const Joint& joint) {
-  return {{"name", joint.name},
+  Json json{{"name", joint.name},
           {"kind", name_of(joint.kind)},
           {"anatomy", name_of(joint.anatomy)},
           {"side", name_of(joint.side)},
           {"fixed", joint.fixed.name},
           {"mobile", joint.mobile.name},
           {"translation_frame", name_of(joint.translation_frame)}};
+  if (std::string planned = planned_text(joint); !planned.empty()) json["planned"] = std::move(planned);
+  return json;
 }
 
 Json coordinates_json(Anatomy joint) {

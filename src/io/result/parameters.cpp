@@ -6,8 +6,14 @@
 
 namespace condyle::io {
 
+std::string planned_text(const Joint& joint) {
+  const std::string changed = changed_parameters(joint);
+  return joint.planned + (joint.planned.empty() || changed.empty() ? "" : ", ") + changed;
+}
+
 std::string parameters_text(const Joint& joint) {
   std::string text;
+  if (!joint.planned.empty()) text += fmt::format("  planned: {}\n", joint.planned);
   if (const std::string changed = changed_parameters(joint); !changed.empty())
     text += fmt::format("  not as in the joint file: {}\n", changed);
   for (const CupDefinition definition : all_cup_definitions)

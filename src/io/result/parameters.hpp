@@ -11,7 +11,10 @@
 
 namespace condyle::io {
 
-/// Lines on the parameters whose values are not those of the joint file, and on the angles of the cup of an implant by each definition;
+/// What a plan did to the joint and the values that its parts were set to; empty if it is as its file has it and as it was measured.
+std::string planned_text(const Joint& joint);
+
+/// Lines on what is planned, on the parameters whose values are not those of the joint file, and on the angles of the cup of an implant by each definition;
 /// nothing if there is neither.
 std::string parameters_text(const Joint& joint);
 

@@ -195,7 +195,9 @@ Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> com
           AnswerFrame(frame, report),
           files_of(report.file),
           loaded.joint.posed ? loaded.joint.posed->parts : std::vector<PosedPart>{},
-          cup_of(loaded.joint)};
+          cup_of(loaded.joint),
+          {},
+          loaded.joint.planned};
 }
 
 Json file_json(const std::filesystem::path& path, const FileDigest& digest) {
@@ -211,6 +213,7 @@ Json provenance_json(const Provenance* from) {
             {"frame", name_of(from->frame.name())},
             {"fixed_mesh", mesh_json(from->fixed)},
             {"mobile_mesh", mesh_json(from->mobile)}};
+  if (!from->planned.empty()) json["planned"] = from->planned;
   if (!from->parts.empty()) json["parameters"] = parameters_json(from->parts);
   if (Json cuts = cuts_json(from->parts); !cuts.empty()) json["cuts"] = std::move(cuts);
   if (!from->cup.empty()) json["cup"] = cup_json(from->cup);
@@ -233,6 +236,7 @@ std::vector<VtpField> provenance_fields(const Provenance* from) {
   add("mobile_mesh", files_text(from->mobile));
   add("side", std::string(name_of(from->side)));
   add("frame", std::string(name_of(from->frame.name())));
+  if (!from->planned.empty()) add("planned", from->planned);
   if (!from->parts.empty()) add("parameters", values_text(from->parts));
   if (!from->other_files.empty()) add("other_files", files_text(from->other_files));
   add("fixed_joint_from_source", row_by_row(from->fixed.joint_from_source));

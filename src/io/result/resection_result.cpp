@@ -11,8 +11,8 @@
 #include "condyle/version.hpp"
 #include "io/file/csv_fields.hpp"
 #include "io/file/format_version.hpp"
-#include "io/joint/motion_lines.hpp"
 #include "io/joint/proposal_lines.hpp"
+#include "io/joint/settings_lines.hpp"
 #include "io/result/clock_text.hpp"
 #include "io/result/json.hpp"
 #include "io/result/parameters.hpp"
@@ -103,8 +103,8 @@ std::string limit_value(const motion::MotionLimit& limit) {
 }
 
 /// To the digit that is shown, and 0 without a sign.
-double shown_gain(const motion::MotionLimit& before, const motion::MotionLimit& after) {
-  return std::round(10 * (after.end.turned - before.end.turned).degrees()) / 10 + 0.0;
+double shown_gain(Angle gain) {
+  return std::round(10 * gain.degrees()) / 10 + 0.0;
 }
 
 std::string limit_lines(const ResectionAnswer& answer) {
@@ -113,9 +113,9 @@ std::string limit_lines(const ResectionAnswer& answer) {
   std::string text =
       fmt::format("  {:<{}}  {:>8}  {:>8}  {:>6}\n", "limits (deg)", widest + 2, "before", "after", "gain");
   for (std::size_t i = 0; i < answer.before.size(); ++i)
-    text += fmt::format("    {:<{}}  {:>8}  {:>8}  {:>6.1f}\n", answer.before[i].motion.name, widest,
-                        limit_value(answer.before[i]), limit_value(answer.after[i]),
-                        shown_gain(answer.before[i], answer.after[i]));
+    text +=
+        fmt::format("    {:<{}}  {:>8}  {:>8}  {:>6.1f}\n", answer.before[i].motion.name, widest,
+                    limit_value(answer.before[i]), limit_value(answer.after[i]), shown_gain(answer.gain[i]));
   return text;
 }
 
@@ -217,16 +217,6 @@ std::string exact_vector(const Vec3& v) {
   return fmt::format("[{}, {}, {}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
 }
 
-/// Motions and uncertainty of the old joint file.
-void add_settings(ProposalLines& lines, const JointFile& file) {
-  io::add_motions(lines, file.motions, file.joint.anatomy);
-  const motion::Uncertainty& sigma = file.uncertainty;
-  lines.add("\n[uncertainty]");
-  lines.add(fmt::format("centre = {}\naxes = {:.12g}\nseed = {}", sigma.centre_mm, sigma.axes.degrees(),
-                        file.band_seed));
-  if (sigma.surface_voxels == 0) lines.add(fmt::format("surface = {}", sigma.surface_mm));
-}
-
 }  // namespace
 
 std::string resection_text(const ResectionResult& result) {
@@ -240,6 +230,7 @@ std::string resection_text(const ResectionResult& result) {
   if (answer.margin_mm > 0) text += fmt::format("  planned with a margin of {:g} mm\n", answer.margin_mm);
   text += limit_lines(answer) + shape_lines(answer) + curve_lines(answer);
   for (const ResectionNote& note : answer.notes) text += fmt::format("  note: {}\n", note.text);
+  for (const RangeNote& note : answer.limit_notes) text += fmt::format("  note: {}\n", note.text);
   for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
   return text + fmt::format("  {}\n", scope_text(result.joint));
 }
@@ -252,7 +243,8 @@ Json resection_object(const ResectionResult& result) {
   for (std::size_t i = 0; i < answer.before.size(); ++i)
     limits.push_back({{"motion", answer.before[i].motion.name},
                       {"before", limit_json(answer.before[i])},
-                      {"after", limit_json(answer.after[i])}});
+                      {"after", limit_json(answer.after[i])},
+                      {"gain_deg", answer.gain[i].degrees()}});
   Json hours = nullptr;
   if (has_hours(answer)) hours = depth_by_hour(answer);
   Json json{{"condyle", io::format_version},
@@ -269,7 +261,7 @@ Json resection_object(const ResectionResult& result) {
             {"curve", curve_json(answer)},
             {"resection_notes", resection_notes_json(answer.notes)},
             {"caveats", answer.caveats},
-            {"notes", io::notes_json(result.notes)},
+            {"notes", io::notes_json(result.notes, {}, answer.limit_notes)},
             {"scope", scope_text(result.joint)},
             {"provenance", io::provenance_json(result.provenance)}};
   io::drop_negative_zeros(json);
@@ -283,15 +275,16 @@ std::string resection_json(const ResectionResult& result) {
 std::string resection_limits_csv(const ResectionResult& result) {
   const ResectionAnswer& answer = result.answer;
   std::string text = io::provenance_comments(result.provenance) +
-                     "motion,before_deg,before_reason,after_deg,after_reason,reach_deg\n";
+                     "motion,before_deg,before_reason,after_deg,after_reason,reach_deg,gain_deg\n";
   for (std::size_t i = 0; i < answer.before.size(); ++i) {
     const motion::MotionLimit &a = answer.before[i], &b = answer.after[i];
     std::string reach;
     for (const plan::ReachOutcome& outcome : answer.resection.targets)
       if (outcome.target.motion.name == a.motion.name)
         reach = fmt::format("{}", plan::asked_degrees(outcome.target.reach));
-    text += fmt::format("{},{},{},{},{},{}\n", io::csv_field(a.motion.name), a.end.turned.degrees(),
-                        name_of(a.end.reason), b.end.turned.degrees(), name_of(b.end.reason), reach);
+    text += fmt::format("{},{},{},{},{},{},{}\n", io::csv_field(a.motion.name), a.end.turned.degrees(),
+                        name_of(a.end.reason), b.end.turned.degrees(), name_of(b.end.reason), reach,
+                        answer.gain[i].degrees());
   }
   return text;
 }
@@ -318,10 +311,13 @@ std::string resection_hours_csv(const ResectionResult& result) {
 std::string resected_joint_file(const ResectionResult& result) {
   const Joint& joint = result.answer.resection.joint;
   ProposalLines lines;
-  lines.add(
-      fmt::format("# Written by condyle resect {}: {} without the bone that must go.", version, joint.name));
+  lines.add(fmt::format("# Written by condyle resect {}: {} without the bone that must go.", version,
+                        result.joint.name));
   lines.add(fmt::format("condyle = {}", io::format_version));
   lines.add("name = " + io::toml_text(joint.name));
+  const std::string from =
+      result.file ? fmt::format(", from {}", result.file->path.filename().string()) : std::string();
+  lines.add("planned = " + io::toml_text(joint.planned + from));
   lines.add(fmt::format("kind = \"{}\"", name_of(joint.kind)));
   if (joint.names_its_joint()) lines.add(fmt::format("joint = \"{}\"", name_of(joint.anatomy)));
   lines.add(fmt::format("side = \"{}\"", name_of(joint.side)));
@@ -375,7 +371,7 @@ std::string resected_joint_file(const ResectionResult& result) {
       if (reference[angle] != 0)
         lines.add(fmt::format("{} = {}", name_of(angle, joint.anatomy), reference[angle]));
   }
-  if (result.file) add_settings(lines, *result.file);
+  if (result.file) io::add_settings(lines, *result.file, result.file->uncertainty);
   return std::move(lines).proposal(joint.side).toml;
 }
 

@@ -42,8 +42,8 @@ Json follow_load_json(const StudyFollowLoad& load) {
 Json resection_json(const StudyResection& resection) {
   const plan::ResectionOptions& cut = resection.cut;
   Json json;
-  for (const auto& [motion, reach] : resection.targets)
-    json["reach_deg"][motion] = plan::asked_degrees(reach);
+  for (const auto& [motion, reach, is_gain] : resection.targets)
+    json[is_gain ? "gain_deg" : "reach_deg"][motion] = plan::asked_degrees(reach);
   json["fixed_share"] = cut.fixed_share;
   json["margin_mm"] = cut.margin_mm;
   json["burr_mm"] = nullable(cut.burr_mm);

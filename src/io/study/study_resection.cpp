@@ -68,12 +68,12 @@ std::vector<ResultColumn> resection_columns(const StudyResection& resection) {
       {"resect_least_volume_mm3", "mm^3", number_column, "of it, what the other bone sweeps over"},
       {"resect_area_mm2", "mm^2", number_column, "of the surface that is cut"},
       {"resect_deepest_mm", "mm", number_column, "largest depth of the cut"}};
-  for (const auto& [motion, reach] : resection.targets) {
+  for (const auto& [motion, reach, is_gain] : resection.targets) {
     const std::string name = std::string(resection_prefix) + motion;
     columns.push_back(
         {name + "_planned_deg", "deg", number_column,
-         fmt::format("the target of {} degrees, or as far as bone that stays lets the motion go",
-                     plan::asked_degrees(reach))});
+         fmt::format("the target of {} degrees{}, or as far as bone that stays lets the motion go",
+                     plan::asked_degrees(reach), is_gain ? " more" : "")});
     columns.push_back(
         {name + "_after_deg", "deg", number_column, "how far the motion goes without the bone"});
     columns.push_back(
