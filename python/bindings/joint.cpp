@@ -15,6 +15,7 @@
 #include "condyle/io/pose_text.hpp"
 #include "condyle/joint_checks.hpp"
 #include "io/mesh/polygon_rule.hpp"
+#include "io/result/parameters.hpp"
 #include "io/result/scope_text.hpp"
 #include "joint_description.hpp"
 #include "joint_state.hpp"

@@ -23,8 +23,8 @@ ResectionRequest request_in(const py::list& motions, const py::list& reach, cons
   ResectionRequest request{.resection = cut_in(given), .motions = motions_in(motions)};
   for (const py::handle each : reach) {
     const auto target = each.cast<py::tuple>();
-    request.resection.targets.push_back(
-        {motion_in(target[0].cast<py::tuple>()), Angle::degrees(target[1].cast<double>())});
+    request.resection.targets.push_back({motion_in(target[0].cast<py::tuple>()),
+                                         Angle::degrees(target[1].cast<double>()), target[2].cast<bool>()});
   }
   request.resection.mobile.vertices = given["keep_mobile"].cast<std::vector<std::uint8_t>>();
   request.resection.fixed.vertices = given["keep_fixed"].cast<std::vector<std::uint8_t>>();

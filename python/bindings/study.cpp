@@ -88,8 +88,9 @@ io::StudyOptions study_options_in(const py::dict& given) {
   if (const py::object given_cut = given["resection"]; !given_cut.is_none()) {
     const auto cut = given_cut.cast<py::dict>();
     options.resection.emplace();
-    for (const auto& [motion, degrees] : cut["reach"].cast<std::vector<std::pair<std::string, double>>>())
-      options.resection->targets.push_back({motion, Angle::degrees(degrees)});
+    for (const auto& [motion, degrees, is_gain] :
+         cut["reach"].cast<std::vector<std::tuple<std::string, double, bool>>>())
+      options.resection->targets.push_back({motion, Angle::degrees(degrees), is_gain});
     options.resection->cut = cut_in(cut);
   }
   if (const py::object load = given["load"]; !load.is_none())
