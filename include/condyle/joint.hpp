@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -216,9 +215,10 @@ struct JointImplant {
   std::string why_no_pair = {};           ///< what is no body of revolution
 };
 
-/// Names that meshes of implants have as parts of a body.
-inline constexpr std::array<std::string_view, 5> implant_mesh_names{"liner", "head", "neck", "stem",
-                                                                    "pillar"};
+/// Whether a mesh of an implant has this name as a part of a body.
+[[nodiscard]] constexpr bool is_implant_mesh(std::string_view name) noexcept {
+  return name == "liner" || name == "head" || name == "neck" || name == "stem" || name == "pillar";
+}
 
 /// What the zero of a joint's angles is known by.
 enum class ZeroFrom : std::uint8_t {

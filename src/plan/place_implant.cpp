@@ -21,7 +21,7 @@ bool is_bone(const BodyPart& part) {
 
 /// A bone called as a mesh of the implant would be taken for it.
 std::string bone_name(const std::string& name) {
-  return std::ranges::find(implant_mesh_names, name) != implant_mesh_names.end() ? name + " bone" : name;
+  return is_implant_mesh(name) ? name + " bone" : name;
 }
 
 /// The meshes of a body that are bones.

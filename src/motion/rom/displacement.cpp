@@ -31,10 +31,8 @@ MovableSurface::MovableSurface(const Body& body, const Uncertainty& sigma)
 MovableSurface::MovableSurface(const Joint& joint, BodyRole role, const Uncertainty& sigma)
     : MovableSurface(role == BodyRole::fixed ? joint.fixed : joint.mobile, sigma) {
   const std::vector<BodyPart>& parts = (role == BodyRole::fixed ? joint.fixed : joint.mobile).parts;
-  const auto is_of_implant = [](const BodyPart& part) {
-    return std::ranges::find(implant_mesh_names, part.name) != implant_mesh_names.end();
-  };
-  if (!joint.implant || std::ranges::all_of(parts, is_of_implant)) return;
+  const auto is_of_implant = [](const BodyPart& part) { return is_implant_mesh(part.name); };
+  if (!joint.implant || std::all_of(parts.begin(), parts.end(), is_of_implant)) return;
   for (const BodyPart& part : parts)
     if (is_of_implant(part))
       for (std::size_t v = 0; v < part.vertices; ++v) directions_.set(part.first_vertex + v, Vec3::Zero());
