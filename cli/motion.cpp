@@ -111,8 +111,10 @@ void add_motion(CLI::App& app) {
   auto* command = app.add_subcommand(
       "motion", "Compute contact in every frame of a recorded motion: area, depth, pressure, force");
   command->footer(
-      "Example: condyle motion knee.toml --motion states.sto --load --out flexion\n"
-      "         condyle motion lenhart2015.osim --joint knee_r --motion states.sto --load --out flexion\n"
+      "Example: condyle sample cartilages --clearance -0.3 --out sample\n"
+      "         printf 'time,flexion_deg\\n0,0\\n0.5,15\\n1,30\\n' > walk.csv\n"
+      "         condyle motion sample/cartilages.toml --motion walk.csv --load --e 12 --nu 0.42 "
+      "--thickness 1.5 --out walk\n"
       "The motion file's columns are those of [recorded_motion] in the joint file, or flexion_deg, x_mm and "
       "the like.");
   auto options = std::make_shared<MotionArguments>();

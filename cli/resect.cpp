@@ -60,7 +60,7 @@ void add_resect(CLI::App& app) {
       "resect", "Find the bone that must go for motions to reach their targets, and the joint without it");
   command->footer(
       "Example: condyle sample hip --alpha-angle 70 --out sample\n"
-      "         condyle resect sample/hip.toml --reach \"internal_rotation_at_90_flexion=30\" --out plan\n"
+      "         condyle resect sample/hip.toml --reach \"internal_rotation_at_90_flexion=45\" --out plan\n"
       "         condyle rom plan/resected.toml\n"
       "Osseous: labrum, cartilage, capsule and the strength of the remaining bone are not modelled.");
   auto options = std::make_shared<ResectArguments>();
