@@ -48,6 +48,7 @@ void resect_command(const ResectArguments& options, const CLI::App& command) {
   const ResectionAnswer answer =
       answered(options, [&](const Control& control) { return answer_resection(loaded, request, control); });
   io::add_other_files(from, read);
+  note_all(answer.notes);
   const io::ResectionResult result{loaded.joint, answer, notes, &from, &loaded.report.file};
   if (!options.out.empty()) say_written(io::write_resection(options.out, result));
   print(options.form == AnswerForm::json ? io::resection_json(result) : io::resection_text(result));
