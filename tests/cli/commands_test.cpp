@@ -243,6 +243,8 @@ TEST_F(Command, InitReplacesNoJointFile) {
   const std::string proposed = io::read_whole_file(here / "new.toml");
   EXPECT_EQ(run("init hip_bone.ply femur.ply").out, proposed);
   expect_refused(3, "init hip_bone.ply femur.ply -o new.toml", "is not replaced");
+  expect_refused(2, "init hip_bone.ply femur.ply -o new.json",
+                 "new.json: a joint file is written, FILE.toml");
 }
 
 TEST_F(Command, AnswersDoNotDependOnTheNumberOfThreads) {
