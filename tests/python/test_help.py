@@ -48,3 +48,17 @@ def test_its_examples_run_as_printed_in_an_empty_folder(words, on_path, tmp_path
         pytest.importorskip("matplotlib")
     ran = subprocess.run(["sh", "-e", "-c", example], cwd=tmp_path, capture_output=True, text=True)
     assert ran.returncode == 0, f"{example}{ran.stderr}"
+
+
+def test_options_of_one_name_say_what_they_mean_in_each_command():
+    def says(command, *texts):
+        words = " ".join(help_of(command).split())
+        return [text in words for text in texts]
+
+    contact, right, lateral = "or with its layers, load or motion", "and to the right, of a left joint too", "to the left of a left one"
+    for command in ("load", "motion", "rom", "report"):
+        assert says(command, contact, right, lateral) == [True, True, False], command
+    for command in ("frame", "depth", "measure", "resect", "implant", "picture"):
+        assert says(command, contact, right, lateral) == [False, False, False], command
+    for command in ("sweep", "study"):
+        assert says(command, contact, right, lateral) == [False, False, True], command
