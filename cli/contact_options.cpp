@@ -35,7 +35,10 @@ void add_rays(CLI::App& command, io::ContactChanges& options, const std::string&
           "face_centre counts whole triangles by their centre, as OpenSim-JAM does; cut_faces cuts them "
           "where the depth is 0",
       "cut_faces");
-  command.add_option("--reach", options.reach_mm, sentence(when, "how far rays go"))->option_text("MM (20)");
+  command
+      .add_option("--reach", options.reach_mm,
+                  sentence(when, "how far rays go from one surface to the other"))
+      ->option_text("MM (20)");
 }
 
 void add_layers(CLI::App& command, io::ContactChanges& options) {
@@ -64,8 +67,12 @@ io::ContactEntry contact_of(const io::ContactChanges& changes, const io::JointFi
   return entry;
 }
 
-void add_force(CLI::App& command, BalanceArguments& given, const char* force_help) {
-  command.add_option("--force", given.force, force_help)->expected(3)->option_text("X Y Z");
+void add_force(CLI::App& command, BalanceArguments& given, const std::string& force_help) {
+  command
+      .add_option("--force", given.force,
+                  force_help + ", in N: anterior, superior and to the right, of a left joint too")
+      ->expected(3)
+      ->option_text("X Y Z");
   add_choice(command, "--force-frame", given.frame,
              {{"fixed", BodyRole::fixed}, {"mobile", BodyRole::mobile}},
              "The body in whose frame force and moment are given", "fixed");
@@ -77,7 +84,7 @@ void add_force(CLI::App& command, BalanceArguments& given, const char* force_hel
 }
 
 void add_balance(CLI::App& command, BalanceArguments& given) {
-  add_force(command, given, "Move the mobile body to where the contact carries this force on it, in N");
+  add_force(command, given, "Move the mobile body to where the contact carries this force on it");
   command
       .add_option("--moment", given.moment,
                   "With --free-rotations: balance this moment about the mobile body's origin too, in N mm")
@@ -102,7 +109,9 @@ bool StudyLoadArguments::any_beside() const noexcept {
 void add_study_load(CLI::App& command, StudyLoadArguments& given, const std::string& when) {
   command
       .add_option("--force", given.force,
-                  when + "move the mobile body to where the contact carries this force on it, in N")
+                  when +
+                      "move the mobile body to where the contact carries this force on it, in N; lateral is "
+                      "to the right of a right joint, to the left of a left one")
       ->expected(3)
       ->option_text("ANTERIOR SUPERIOR LATERAL");
   command

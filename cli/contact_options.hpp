@@ -31,7 +31,7 @@ struct BalanceArguments {
   bool any() const noexcept { return !force.empty() || !moment.empty(); }
 };
 /// --force, --force-frame and --along.
-void add_force(CLI::App& command, BalanceArguments& given, const char* force_help);
+void add_force(CLI::App& command, BalanceArguments& given, const std::string& force_help);
 void add_balance(CLI::App& command, BalanceArguments& given);
 /// Directions of --along; UsageError for a count that is not whole directions.
 std::vector<Vec3> directions_of(const std::vector<double>& along);

@@ -19,7 +19,7 @@ void add_follow(CLI::App& command, FollowArguments& given, const std::vector<CLI
   auto* load = command.add_flag_callback(
       "--follow-load", [&given] { given.load = true; },
       "Do not hold the centre of a free joint: at each angle the layers of [contact] carry --force");
-  add_force(command, given.balance, "With --follow-load: the force on the mobile body, in N");
+  add_force(command, given.balance, "With --follow-load: the force on the mobile body");
   load->excludes(record);
   for (CLI::Option* other : excluded)
     for (CLI::Option* following : {record, load}) following->excludes(other);

@@ -21,7 +21,9 @@ void frame_command(const JointArguments& options, const CLI::App& command) {
 void add_frame(CLI::App& app) {
   auto* command =
       app.add_subcommand("frame", "Show the frame of a joint: centre, axes, fit, and what was converted");
-  command->footer("Example: condyle frame right_hip.toml --json --strict");
+  command->footer(
+      "Example: condyle sample hip --out sample\n"
+      "         condyle frame sample/hip.toml --json --strict");
   auto options = std::make_shared<JointArguments>();
   add_joint(*command, *options);
   add_json(*command, options->form);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <sstream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,8 +14,10 @@ namespace {
 
 constexpr std::size_t line_width = 100, description_column = 32;
 
-/// Broken between words, lines after the first indented; lines of the text stay lines, with what they begin with.
-std::string wrapped(const std::string& text, std::size_t first_column, std::size_t indent) {
+/// Broken between words, with `at_break` before each break, lines after the first indented; lines of the text stay lines, with what
+/// they begin with.
+std::string wrapped(const std::string& text, std::size_t first_column, std::size_t indent,
+                    std::string_view at_break = {}) {
   std::string out;
   std::istringstream lines(text);
   std::size_t column = first_column;
@@ -25,8 +28,8 @@ std::string wrapped(const std::string& text, std::size_t first_column, std::size
     std::istringstream words(line);
     bool begins = true;
     for (std::string word; words >> word; begins = false) {
-      if (!begins && column + 1 + word.size() > line_width) {
-        out += "\n" + std::string(indent, ' ');
+      if (!begins && column + 1 + word.size() + at_break.size() > line_width) {
+        out += std::string(at_break) + "\n" + std::string(indent, ' ');
         column = indent;
       } else if (!begins) {
         out += " ", ++column;
@@ -110,8 +113,14 @@ std::string HelpFormatter::make_description(const CLI::App* app) const {
 }
 
 std::string HelpFormatter::make_footer(const CLI::App* app) const {
-  const std::string footer = app->get_footer();
-  return footer.empty() ? "" : wrapped(footer, 0, 2) + "\n";
+  std::string text;
+  std::istringstream lines(app->get_footer());
+  for (std::string line; std::getline(lines, line);) {
+    // A shell reads a command that goes on after a backslash as one.
+    const bool is_command = line.starts_with("Example: ") || line.starts_with(" ");
+    text += (is_command ? wrapped(line, 0, 11, " \\") : wrapped(line, 0, 2)) + "\n";
+  }
+  return text;
 }
 
 void group_help(CLI::App& command, std::vector<HelpGroup> groups) {

@@ -41,6 +41,7 @@ void implant_command(const ImplantArguments& options, const CLI::App& command) {
   const io::Provenance from = provenance_of(options, loaded, command);
   if (!options.out.empty()) io::check_implant_folder(options.out, &from);
   const ImplantAnswer answer = answered(options, [&] { return answer_implant(loaded, request_of(options)); });
+  note_all(answer.notes);
   const io::ImplantResult result{loaded.joint, answer, notes, &from, &loaded.report.file};
   if (!options.out.empty()) say_written(io::write_implant(options.out, result));
   print(options.form == AnswerForm::json ? io::implant_json(result) : io::implant_text(result));

@@ -49,7 +49,7 @@ void refuse_existing(const fs::path& path, const char* why) {
 void check_out(const InitArguments& options) {
   if (options.out.empty()) return;
   refuse_existing(options.out, "a joint file may have been edited and is not replaced");
-  io::check_output_file(options.out);
+  io::check_output_file(options.out, {}, {"a joint file", {".toml"}});
 }
 
 void note_to_fill_in(const io::JointProposal& proposal) {

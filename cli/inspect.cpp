@@ -126,9 +126,9 @@ void add_inspect(CLI::App& app) {
   auto* command =
       app.add_subcommand("inspect", "Report the contents and the defects of meshes, label maps and models");
   command->footer(
-      "Example: condyle inspect femur.ply hip_bone.ply\n"
-      "         condyle inspect femur.ply --repair drop_unreferenced,flip_inverted --out repaired\n"
-      "         condyle sample hip --voxel 1 --out scan\n"
+      "Example: condyle sample hip --voxel 1 --out scan\n"
+      "         condyle inspect scan/femur.ply scan/hip_bone.ply\n"
+      "         condyle inspect scan/femur.ply --repair drop_unreferenced,flip_inverted --out repaired\n"
       "         condyle inspect scan/labels.nii.gz");
   auto options = std::make_shared<InspectArguments>();
   command

@@ -67,7 +67,7 @@ void add_load(CLI::App& app) {
   add_out(*command, options->out, "Write fixed.vtp, mobile.vtp and load.json into this folder");
   add_where(*command, *options);
   add_json(*command, options->form);
-  add_strict(*command, options->strictness);
+  add_strict(*command, options->strictness, or_contact);
   group_help(*command, {{"Most used", {"--pose", "--force", "--e", "--nu", "--thickness"}},
                         {"Question", {"--set", "--moment", "--force-frame", "--along", "--free-rotations"}},
                         {"Contact", {"--law", "--casting", "--rule", "--reach"}},

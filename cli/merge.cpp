@@ -27,7 +27,10 @@ void merge_shares(const std::string& folder) {
 void add_merge(CLI::App& app) {
   auto* command = app.add_subcommand("merge", "Put the shards of a study or of a sweep together");
   command->footer(
-      "Example: condyle merge study\n"
+      "Example: condyle sample cohort --n 4 --out cohort\n"
+      "         condyle study cohort/cohort.csv --out study --shard 1/2\n"
+      "         condyle study cohort/cohort.csv --out study --shard 2/2\n"
+      "         condyle merge study\n"
       "The tables are those of a run of the whole table, byte for byte.\n"
       "Exit code 3: a shard is missing or not whole, or is of another table, other options or another "
       "version. If no joint was answered: that of the first failure.");

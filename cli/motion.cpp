@@ -111,10 +111,12 @@ void add_motion(CLI::App& app) {
   auto* command = app.add_subcommand(
       "motion", "Compute contact in every frame of a recorded motion: area, depth, pressure, force");
   command->footer(
-      "Example: condyle motion knee.toml --motion states.sto --load --out flexion\n"
-      "         condyle motion lenhart2015.osim --joint knee_r --motion states.sto --load --out flexion\n"
+      "Example: condyle sample cartilages --clearance -0.3 --out sample\n"
+      "         printf 'time,flexion_deg\\n0,0\\n0.5,15\\n1,30\\n' > walk.csv\n"
+      "         condyle motion sample/cartilages.toml --motion walk.csv --load --e 12 --nu 0.42 "
+      "--thickness 1.5 --out walk\n"
       "The motion file's columns are those of [recorded_motion] in the joint file, or flexion_deg, x_mm and "
-      "the like.");
+      "the like. A joint of an OpenSim model is MODEL.osim --joint NAME.");
   auto options = std::make_shared<MotionArguments>();
   add_joint(*command, *options, "The joint file, .toml, or a model of OpenSim, .osim, with --joint");
   command->add_option("--motion", options->motion, "The recorded motion, .mot, .sto or .csv")
@@ -126,7 +128,8 @@ void add_motion(CLI::App& app) {
   add_model(*command, options->model);
   command->add_flag_callback(
       "--load", [options] { options->with_pressure = true; },
-      "Compute pressure, force and moment too, with the layers of the options or of the joint file");
+      "Compute pressure, force and moment of the recorded poses too, with the layers of the options or of "
+      "the joint file; --force and --loads include it");
   add_rays(*command, options->contact);
   add_layers(*command, options->contact);
   add_balance(*command, options->balance);
@@ -163,7 +166,7 @@ void add_motion(CLI::App& app) {
       ->needs(out);
   add_where(*command, *options);
   add_json(*command, options->form);
-  add_strict(*command, options->strictness);
+  add_strict(*command, options->strictness, or_contact);
   std::vector<std::string> of_models{"--joint", "--side"};
   for (const std::string& name : model_names()) of_models.push_back(name);
   group_help(*command,

@@ -12,11 +12,12 @@
 
 namespace condyle::cli {
 
-void add_strict(CLI::App& command, Strictness& strictness) {
+void add_strict(CLI::App& command, Strictness& strictness, const std::string& or_what) {
   command.add_flag_callback(
       "--strict", [&strictness] { strictness = Strictness::errors; },
       "Refuse to answer, with exit code 4, if something looks wrong with the joint (side, axes, units, "
-      "centre, meshes) or with its layers, load or motion. By default a note reports it");
+      "centre, meshes)" +
+          or_what + ". By default a note reports it");
 }
 
 namespace {

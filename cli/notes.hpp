@@ -18,8 +18,11 @@ namespace condyle::cli {
 /// Severity of notes on a joint: remarks beside an answer, or errors instead of it.
 enum class Strictness { notes, errors };
 
+/// What notes of a command may be on beside the joint: add_strict().
+inline constexpr const char* or_contact = " or with its layers, load or motion";
+
 /// --strict for a command that answers for a joint; `strictness` is written while arguments are read.
-void add_strict(CLI::App& command, Strictness& strictness);
+void add_strict(CLI::App& command, Strictness& strictness, const std::string& or_what = {});
 
 /// Looks at a joint as it was read and notes what looks wrong, before anything is computed: what fails later
 /// may fail for that. Where notes are errors, throws MeshError with all of them. `whose` stands before each if

@@ -61,10 +61,9 @@ void picture_command(const PictureArguments& options, const CLI::App& command) {
   picture.view = io::view_named(options.view, joint.side);
   picture.fixed = style_of(BodyRole::fixed, options);
   picture.mobile = style_of(BodyRole::mobile, options);
-  if (!options.out.ends_with(".png")) throw UsageError("--out: " + options.out + " does not end in .png");
   noted(loaded, options.strictness);
   io::Provenance from = provenance_of(options, loaded, command);
-  io::check_output_file(options.out, from.read);
+  io::check_output_file(options.out, from.read, {"a picture", {".png"}});
   if (options.measures) picture.marks = answered(options, [&] { return marks_of(joint, given.X_FM); });
   const io::Picture drawn =
       answered(options, [&] { return io::draw_joint(joint, given.pose.angles(), given.X_FM, picture); });

@@ -121,8 +121,10 @@ CLI::Option* add_past(CLI::App& command, RangeArguments& given) {
 
 void add_motions(CLI::App& command, std::vector<std::string>& lists) {
   command
-      .add_option("--motion", lists,
-                  "Compute the limits of this motion only, or of these, with commas between their names")
+      .add_option(
+          "--motion", lists,
+          "Compute the limits of this motion only, or of these, with commas between their names: those of "
+          "condyle rom --list-motions")
       ->expected(1)
       ->take_all()
       ->option_text("NAME[,NAME...] (all)");

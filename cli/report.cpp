@@ -255,7 +255,7 @@ void add_report(CLI::App& app) {
   auto* accept = add_accept(*command, options->range);
   auto* band = add_band(*command, options->range);
   add_follow(*command, options->follow, {map, translation, past, accept, band});
-  add_strict(*command, options->strictness);
+  add_strict(*command, options->strictness, or_contact);
   HelpGroup of_cut = resection_group();
   of_cut.options.emplace_back("--curve");
   group_help(

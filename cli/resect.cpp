@@ -48,6 +48,8 @@ void resect_command(const ResectArguments& options, const CLI::App& command) {
   const ResectionAnswer answer =
       answered(options, [&](const Control& control) { return answer_resection(loaded, request, control); });
   io::add_other_files(from, read);
+  note_all(answer.notes);
+  note_all(answer.limit_notes);
   const io::ResectionResult result{loaded.joint, answer, notes, &from, &loaded.report.file};
   if (!options.out.empty()) say_written(io::write_resection(options.out, result));
   print(options.form == AnswerForm::json ? io::resection_json(result) : io::resection_text(result));
@@ -60,7 +62,7 @@ void add_resect(CLI::App& app) {
       "resect", "Find the bone that must go for motions to reach their targets, and the joint without it");
   command->footer(
       "Example: condyle sample hip --alpha-angle 70 --out sample\n"
-      "         condyle resect sample/hip.toml --reach \"internal_rotation_at_90_flexion=30\" --out plan\n"
+      "         condyle resect sample/hip.toml --reach \"internal_rotation_at_90_flexion=45\" --out plan\n"
       "         condyle rom plan/resected.toml\n"
       "Osseous: labrum, cartilage, capsule and the strength of the remaining bone are not modelled.");
   auto options = std::make_shared<ResectArguments>();

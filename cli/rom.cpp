@@ -146,7 +146,7 @@ void add_rom(CLI::App& app) {
           "map.vtp of a map, zone_*.vtp of zones. python3 -m condyle.plot FOLDER draws them");
   add_where(*command, *options);
   add_json(*command, options->form);
-  add_strict(*command, options->strictness);
+  add_strict(*command, options->strictness, or_contact);
   group_help(*command,
              {{"Most used", {"--motion", "--band", "--map", "--out", "--json"}},
               {"Question", {"--set", "--list-motions", "--vary", "--past", "--translation", "--clock"}},

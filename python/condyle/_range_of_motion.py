@@ -250,7 +250,8 @@ class RangeOfMotion:
         motion, which the page plays with its curves; `load`: with pressure, by the layers of the joint file. What looks wrong with
         them is warned of, :class:`JointWarning`. `case`
         and `date` stand in the heading and `note` under the result, as given: nothing is taken from the clock. Files are named
-        without their folders unless `whole_paths`. Whole or not at all; FileError where it cannot be written.
+        without their folders unless `whole_paths`. Whole or not at all; FileError where it cannot be written, UsageError if its
+        name does not end in .html or .htm.
 
         C++: `condyle::answer_range` in condyle/answer.hpp; `condyle report`.
 

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// A hip of a socket and a head on a neck, under the names that the examples of --help use.
+/// A hip of a socket and a head on a neck.
 class Command : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -199,40 +199,6 @@ TEST_F(Command, HelpAndVersionAreAnswers) {
   EXPECT_EQ(run("help").out, run("--help").out);
 }
 
-TEST_F(Command, HelpFitsATerminalAndHasAnExample) {
-  for (const char* command : {"",
-                              "init",
-                              "surface",
-                              "inspect",
-                              "frame",
-                              "depth",
-                              "rom",
-                              "load",
-                              "motion",
-                              "picture",
-                              "report",
-                              "measure",
-                              "resect",
-                              "implant",
-                              "sample",
-                              "sample hip",
-                              "sample cartilages",
-                              "sample cohort",
-                              "sample replacement",
-                              "sample reverse-shoulder",
-                              "study",
-                              "merge"}) {
-    SCOPED_TRACE(command);
-    std::istringstream help(run(std::string(command) + " --help").out);
-    bool has_example = false;
-    for (std::string line; std::getline(help, line);) {
-      EXPECT_LE(line.size(), 100u) << line;
-      has_example = has_example || line.find("condyle ") != line.npos;
-    }
-    EXPECT_TRUE(has_example || std::string(command) == "sample");
-  }
-}
-
 /// Every option in one group, and first the five that matter most.
 TEST_F(Command, HelpBeginsWithFiveOptionsAndLeavesNoneWithoutAGroup) {
   for (const char* command : {"depth", "rom", "load", "motion", "measure", "resect", "implant", "picture",
@@ -268,26 +234,6 @@ TEST_F(Command, NearMissesAreAnsweredWithWhatWasMeant) {
   expect_refused(3, "frame right_hip.toml", "right_hip.toml: mobile.mesh: there is no file ");
 }
 
-/// The examples in the help of every command, run as they stand.
-TEST_F(Command, TheExamplesOfHelpWork) {
-  std::set<std::string> lines;  // some commands begin with the same sample
-  for (const char* command : {"init", "surface", "inspect", "frame", "load", "picture", "report", "study"}) {
-    // Where a line was too long for a terminal it goes on, indented by two.
-    const std::string help =
-        std::regex_replace(run(std::string(command) + " --help").out, std::regex("\n  (?=[^ ])"), " ");
-    std::size_t examples = 0;
-    for (auto at = help.find("Example"); at != help.npos && (at = help.find("condyle ", at)) != help.npos;
-         ++at) {
-      const std::string line = help.substr(at + 8, help.find('\n', at) - at - 8);
-      ++examples;
-      if (!lines.insert(line).second) continue;
-      const Ran ran = run(line);
-      EXPECT_EQ(ran.exit_code, 0) << line << ": " << ran.err;
-    }
-    EXPECT_GT(examples, 0u) << help;
-  }
-}
-
 TEST_F(Command, InitReplacesNoJointFile) {
   const std::string edited = io::read_whole_file(here / "right_hip.toml");
   expect_refused(3, "init hip_bone.ply femur.ply -o right_hip.toml", "right_hip.toml: is there already");
@@ -297,6 +243,8 @@ TEST_F(Command, InitReplacesNoJointFile) {
   const std::string proposed = io::read_whole_file(here / "new.toml");
   EXPECT_EQ(run("init hip_bone.ply femur.ply").out, proposed);
   expect_refused(3, "init hip_bone.ply femur.ply -o new.toml", "is not replaced");
+  expect_refused(2, "init hip_bone.ply femur.ply -o new.json",
+                 "new.json: a joint file is written, FILE.toml");
 }
 
 TEST_F(Command, AnswersDoNotDependOnTheNumberOfThreads) {

@@ -468,21 +468,5 @@ TEST_F(SampleJointCommand, ALeftHipIsTheMirroredRightOne) {
   }
 }
 
-/// The examples in the help of the commands, run as they stand, in their order.
-TEST_F(SampleJointCommand, TheExamplesOfHelpWork) {
-  for (const char* command : {"sample hip", "sample cartilages", "depth"}) {
-    const std::string help = run(std::string(command) + " --help").out;
-    std::size_t examples = 0;
-    for (auto at = help.find("Example"); at != help.npos && (at = help.find("condyle ", at)) != help.npos;
-         ++at) {
-      const std::string line = help.substr(at + 8, help.find('\n', at) - at - 8);
-      const Ran ran = run(line);
-      EXPECT_EQ(ran.exit_code, 0) << line << ": " << ran.err;
-      ++examples;
-    }
-    EXPECT_GE(examples, 2u) << help;
-  }
-}
-
 }  // namespace
 }  // namespace condyle::test

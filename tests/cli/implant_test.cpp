@@ -33,7 +33,9 @@ class ImplantCommand : public ::testing::Test {
 };
 
 TEST_F(ImplantCommand, SaysWhatTheLibraryAnswers) {
-  const Json json = answer("implant hip.toml --inclination 45 --definition anatomic --offset 42");
+  const std::string asked = "implant hip.toml --inclination 45 --definition anatomic --offset 42";
+  const Json json = answer(asked);
+  const Ran text = run(asked);
   const io::LoadedJoint loaded = io::read_joint(folder / "hip.toml");
   ImplantRequest request;
   request.hip.cup = {Angle::degrees(45), Angle::degrees(15), CupDefinition::anatomic};
@@ -48,8 +50,13 @@ TEST_F(ImplantCommand, SaysWhatTheLibraryAnswers) {
   EXPECT_NEAR(json["cup"]["anatomic"]["inclination_deg"].get<double>(), 45, 1e-9);
   EXPECT_EQ(json["half_angle_deg"], expected.pair->half_angle.degrees());
   ASSERT_EQ(json["implant_notes"].size(), expected.notes.size());
-  for (std::size_t i = 0; i < expected.notes.size(); ++i)
+  std::string notes;
+  for (std::size_t i = 0; i < expected.notes.size(); ++i) {
     EXPECT_EQ(json["implant_notes"][i]["text"], expected.notes[i].text);
+    EXPECT_EQ(text.out.find(expected.notes[i].text), text.out.npos) << text.out;
+    notes += fmt::format("condyle: note: {}: {}\n", name_of(expected.notes[i].code), expected.notes[i].text);
+  }
+  EXPECT_EQ(text.err, notes);
 }
 
 TEST_F(ImplantCommand, WritesAJointThatHasTheClosedFormAndTurnsItsParts) {

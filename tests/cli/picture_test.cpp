@@ -87,7 +87,7 @@ TEST_F(PictureCommand, IsTheSameBytesOnOneThreadAndOnTwo) {
 
 TEST_F(PictureCommand, RefusesInOneLineAndWritesNothing) {
   expect_refused(2, "picture hip.toml", "--out is required");
-  expect_refused(2, "picture hip.toml --out p.jpg", "does not end in .png");
+  expect_refused(2, "picture hip.toml --out p.jpg", "p.jpg: a picture is written, FILE.png");
   expect_refused(2, "picture hip.toml --out p.png --view above", "view 'above'");
   expect_refused(2, "picture hip.toml --out p.png --colour red", "--colour");
   expect_refused(2, "picture hip.toml --out p.png --hide both", "--hide");

@@ -328,6 +328,10 @@ TEST_F(ReportCommand, WithoutAJointIsThePageThatTakesOne) {
 
 TEST_F(ReportCommand, RefusesInOneLineAndWritesNothing) {
   expect_refused(2, "report joint.toml", "--out is required");
+  for (const std::string joint : {"joint.toml", "--empty"})
+    for (const std::string file : {"case.pdf", "page"})
+      expect_refused(2, "report " + joint + " --out " + file,
+                     file + ": a page is written, FILE.html; print it to PDF from a browser");
   expect_refused(2, "report --out report.html", "JOINT is required");
   expect_refused(2, "report joint.toml --out report.html --seed 4", "requires --band");
   expect_refused(2, "report joint.toml --out report.html --load", "no layers");

@@ -54,6 +54,15 @@ TEST_F(ResectCommand, SaysWhatTheLibraryAnswers) {
     EXPECT_EQ(json["resection_notes"][i]["text"], expected.notes[i].text);
 }
 
+TEST_F(ResectCommand, SaysANoteOnceByItsCodeOnStandardError) {
+  const Ran text = run("resect hip.toml --reach flexion=10"),
+            json = run("resect hip.toml --reach flexion=10 --json");
+  const Json note = Json::parse(json.out)["resection_notes"][0];
+  EXPECT_EQ(text.out.find(note["text"].get<std::string>()), text.out.npos) << text.out;
+  for (const Ran& ran : {text, json})
+    EXPECT_EQ(ran.err, "condyle: note: nothing_to_do: " + note["text"].get<std::string>() + "\n");
+}
+
 TEST_F(ResectCommand, WritesAJointWithTheLimitsItSays) {
   const Json json = answer("--reach internal_rotation_at_90_flexion=45 --curve 0 --out plan");
   for (const char* name : {"resection.json", "limits.csv", "hours.csv", "depth_mobile.vtp", "resected.toml",

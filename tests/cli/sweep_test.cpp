@@ -77,9 +77,14 @@ TEST_F(SweepCommand, SaysWhatTheLibraryAnswers) {
   EXPECT_EQ(json["targets"][0]["source"], "made up");
   EXPECT_EQ(json["band"]["samples"], 20);
   ASSERT_EQ(json["sweep_notes"].size(), expected.notes.size());
+  const std::string text = sweep("--band=20 --out zone").out;
   for (std::size_t i = 0; i < expected.notes.size(); ++i) {
     EXPECT_EQ(json["sweep_notes"][i]["text"], expected.notes[i].text);
-    EXPECT_NE(ran.err.find(expected.notes[i].text), ran.err.npos) << ran.err;
+    const std::string& note = expected.notes[i].text;
+    EXPECT_NE(ran.err.find(fmt::format("note: {}: {}\n", name_of(expected.notes[i].code), note)),
+              ran.err.npos)
+        << ran.err;
+    EXPECT_EQ(text.find(note), text.npos) << text;
   }
   const std::vector<std::string> rows = lines_of(bytes("zone/designs.csv"));
   ASSERT_EQ(rows.size(), 1 + expected.designs());

@@ -82,8 +82,9 @@ def test_a_report_compares_joints_as_the_command_does(command, sampled, hip, hip
         rom.write_report(tmp_path / "other.html", before=condyle.read_joint(tmp_path / "left" / "hip.toml"))
     with pytest.raises(condyle.UsageError, match="before: a joint is needed, not str"):
         rom.write_report(tmp_path / "other.html", before=str(before_file))
-    with pytest.raises(condyle.FileError):
-        rom.write_report(before_file, before=before)
+    (tmp_path / "before.html").hardlink_to(before_file)
+    with pytest.raises(condyle.FileError, match="is read for this answer"):
+        rom.write_report(tmp_path / "before.html", before=before)
     assert not (tmp_path / "other.html").exists()
 
 
@@ -148,6 +149,8 @@ def test_a_report_that_cannot_be_written_leaves_nothing(hip, tmp_path):
     rom = hip.range_of_motion(["flexion"])
     with pytest.raises(condyle.FileError):
         rom.write_report(tmp_path)
+    with pytest.raises(condyle.UsageError, match="a page is written, FILE.html"):
+        rom.write_report(tmp_path / "hip.pdf")
     with pytest.raises(condyle.UsageError, match="band_samples"):
         rom.write_report(tmp_path / "hip.html", band_samples=3)
     with pytest.raises(condyle.UsageError, match="past"):

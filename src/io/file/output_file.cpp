@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <string>
 #include <system_error>
 
 #include "condyle/error.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/file/replaced_files.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/mesh/parse.hpp"
 
 namespace condyle::io {
 namespace {
@@ -35,12 +38,24 @@ NameTaken checked(const fs::path& path) {
   return taken;
 }
 
+void check_ending(const fs::path& path, const FileKind& kind) {
+  const std::string ending = lower_case(path.extension().string());
+  std::error_code ignored;
+  // The name of a link, such as /dev/stdout, is not that of the file.
+  if (kind.endings.empty() || fs::is_symlink(path, ignored) ||
+      std::find(kind.endings.begin(), kind.endings.end(), ending) != kind.endings.end())
+    return;
+  throw UsageError(
+      fmt::format("{}: {} is written, FILE{}{}", path.string(), kind.what, kind.endings.front(), kind.hint));
+}
+
 }  // namespace
 
-void check_output_file(const fs::path& path, std::span<const fs::path> read) {
+void check_output_file(const fs::path& path, std::span<const fs::path> read, const FileKind& kind) {
   const NameTaken taken = checked(path);
   check_replaces_none({&path, 1}, read);
   if (taken == NameTaken::replaceable) {
+    check_ending(path, kind);
     OutputFolder{folder_of(end_of_links(path))};
   } else if (::access(path.c_str(), W_OK) != 0) {
     throw FileError(

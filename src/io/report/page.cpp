@@ -69,7 +69,8 @@ std::string report_html(const Report& report) {
 }
 
 void check_report_file(const std::filesystem::path& path, const Provenance* from) {
-  io::check_output_file(path, io::files_read(from));
+  io::check_output_file(path, io::files_read(from),
+                        {"a page", {".html", ".htm"}, "; print it to PDF from a browser"});
 }
 
 void write_report(const std::filesystem::path& path, const Report& report) {
@@ -83,6 +84,7 @@ std::string empty_report_html() {
 }
 
 void write_empty_report(const std::filesystem::path& path) {
+  check_report_file(path, nullptr);
   io::write_output_file(path, empty_report_html());
 }
 

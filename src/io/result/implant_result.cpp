@@ -188,7 +188,6 @@ std::string implant_text(const ImplantResult& result) {
   text += io::parameters_text(result.joint);
   text += indented(implant_lines(answer.hip, result.joint.side)) + rim_line(result) + cup_line(answer);
   text += centre_lines(result) + stem_lines(answer);
-  for (const ImplantNote& note : answer.notes) text += fmt::format("  note: {}\n", note.text);
   for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
   return text + fmt::format("  {}\n", scope_text(answer.joint));
 }

@@ -229,8 +229,6 @@ std::string resection_text(const ResectionResult& result) {
   for (const CutOfBody& cut : cuts_of(answer.resection)) text += cut_lines(result, cut);
   if (answer.margin_mm > 0) text += fmt::format("  planned with a margin of {:g} mm\n", answer.margin_mm);
   text += limit_lines(answer) + shape_lines(answer) + curve_lines(answer);
-  for (const ResectionNote& note : answer.notes) text += fmt::format("  note: {}\n", note.text);
-  for (const RangeNote& note : answer.limit_notes) text += fmt::format("  note: {}\n", note.text);
   for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
   return text + fmt::format("  {}\n", scope_text(result.joint));
 }

@@ -234,7 +234,6 @@ std::string sweep_text(const SweepResult& result) {
   if (const std::size_t forms = known_by_form(sweep); forms > 0)
     text += fmt::format("  {} of {} limits in closed form, the others by the meshes\n", forms,
                         sweep.limits.size());
-  for (const SweepNote& note : sweep.notes) text += fmt::format("  note: {}\n", note.text);
   for (const std::string& caveat : sweep.caveats) text += fmt::format("  {}\n", caveat);
   return text + fmt::format("  {}\n", result.scope);
 }
