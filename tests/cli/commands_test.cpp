@@ -290,13 +290,14 @@ TEST_F(Command, TheExamplesOfHelpWork) {
 
 TEST_F(Command, InitReplacesNoJointFile) {
   const std::string edited = io::read_whole_file(here / "right_hip.toml");
-  expect_refused(3, "init hip_bone.ply femur.ply -o right_hip.toml", "right_hip.toml: is there already");
+  expect_refused(3, "init hip_bone.ply femur.ply -o right_hip.toml",
+                 "right_hip.toml: is there already, and may have been edited: name another or remove it");
   EXPECT_EQ(io::read_whole_file(here / "right_hip.toml"), edited);
   const Ran ran = run("init hip_bone.ply femur.ply -o new.toml");
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   const std::string proposed = io::read_whole_file(here / "new.toml");
   EXPECT_EQ(run("init hip_bone.ply femur.ply").out, proposed);
-  expect_refused(3, "init hip_bone.ply femur.ply -o new.toml", "is not replaced");
+  expect_refused(3, "init hip_bone.ply femur.ply -o new.toml", "name another or remove it");
 }
 
 TEST_F(Command, AnswersDoNotDependOnTheNumberOfThreads) {
