@@ -43,12 +43,12 @@ struct InitArguments {
 void refuse_existing(const fs::path& path, const char* why) {
   std::error_code ignored;
   if (fs::exists(fs::symlink_status(path, ignored)))
-    throw FileError(path.string() + ": is there already; " + why);
+    throw FileError(path.string() + ": is there already, " + why + ": name another or remove it");
 }
 
 void check_out(const InitArguments& options) {
   if (options.out.empty()) return;
-  refuse_existing(options.out, "a joint file may have been edited and is not replaced");
+  refuse_existing(options.out, "and may have been edited");
   io::check_output_file(options.out, {}, {"a joint file", {".toml"}});
 }
 
@@ -108,7 +108,7 @@ void propose_from_labels(const InitArguments& options) {
   const io::LabelJoint joint =
       with_progress([&](const Control& control) { return io::propose_joint(request, control); });
   for (const fs::path& mesh : {joint.fixed_mesh, joint.mobile_mesh})
-    refuse_existing(mesh, "a mesh of a joint is not replaced");
+    refuse_existing(mesh, "and is a mesh of a joint");
   note_all(joint.notes);
   note_to_fill_in(joint.proposal);
   const fs::path folder = request.joint_file.parent_path();

@@ -81,6 +81,7 @@ void sweep_command(const SweepArguments& options, const CLI::App& command) {
     const io::SweepKey key = io::sweep_key(asked, io::sweep_inputs(read));
     if (!options.out.empty()) say_written(io::write_sweep(folder, *result, key, &from));
   }
+  note_all(result->answer.limit_notes);
   note_all(result->answer.notes);
   print(options.form == AnswerForm::json ? io::sweep_json(*result) : io::sweep_text(*result));
 }

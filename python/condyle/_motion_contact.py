@@ -58,6 +58,12 @@ class ContactFrames(list[Optional[FrameContact]]):
 
     notes: tuple[ContactNote, ...] = ()
 
+    @property
+    def nearest(self) -> Optional[int]:
+        """Number of the frame with the smallest gap, the first of equals; None if all are gaps of the motion."""
+        answered = [(frame.smallest_gap_mm, i) for i, frame in enumerate(self) if frame is not None]
+        return min(answered)[1] if answered else None
+
 
 def contact_along(joint: DescribedJoint, poses: ArrayLike, surfaces: Optional[ElasticContact], casting: Body,
                   rule: FaceRule, reach_mm: float, progress: Progress) -> ContactFrames:

@@ -145,13 +145,51 @@ TEST_F(Command, ABadFileEndsWithThree) {
   expect_refused(3, "inspect 'line\nbreak.ply'", "line break.ply");
   expect_refused(3, "inspect .", ".");
   expect_refused(3, "frame none.toml", "none.toml");
-  expect_refused(3, "frame femur.ply", "femur.ply: line 1: not TOML");
-  folder.file("in/model.osim", "<?xml version=\"1.0\"?>\n<OpenSimDocument Version=\"40000\"/>");
-  expect_refused(3, "rom model.osim", "condyle init model.osim --joint NAME makes a joint file of it");
+  expect_refused(3, "inspect right_hip.toml", "right_hip.toml: is a joint file, not a mesh: condyle frame ");
   expect_refused(3, "frame .", ".");
   write_joint("\"right\"", "\"up\"");
   expect_refused(3, "frame right_hip.toml",
                  "right_hip.toml: line 4: side: must be \"right\" or \"left\", not \"up\"");
+}
+
+/// By content or, where that shows nothing, by name: whatever is no joint file has a command that takes it.
+TEST_F(Command, WhatIsNoJointFileIsNamedWithWhatTakesIt) {
+  const auto refused = [&](const std::string& name, const std::string& text, const std::string& saying) {
+    folder.file("in/" + name, text);
+    expect_refused(3, "rom " + name, name + ": is " + saying);
+  };
+  const std::string text = "some text\n";
+  const auto mesh = "a mesh, not a joint file: condyle init FIXED MOBILE --out hip.toml makes one\n";
+  expect_refused(3, "rom femur.ply", "femur.ply: is " + std::string(mesh));
+  for (const char* command : {"frame", "measure", "depth", "load"})
+    expect_refused(3, command + std::string(" femur.ply"), "femur.ply: is a mesh, not a joint file: ");
+  refused("deep.ply", std::string(40, '['), mesh);
+  for (const char* name : {"a.stl", "a.obj", "a.vtk", "a.vtp", "A.STL"}) refused(name, text, mesh);
+  refused("renamed.toml", "ply\nformat ascii 1.0\n", mesh);
+  refused("vtk.toml", "# vtk DataFile Version 3.0\nmesh\n", mesh);
+  refused("stl.toml", "solid bone\nfacet normal 0 0 1\n", mesh);
+  refused("vtp.toml", "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">", mesh);
+  refused("binary.toml", std::string(84, '\0'), mesh);
+  refused("article.pdf", "%PDF-1.7\n", "a PDF, not a joint file: condyle init FIXED MOBILE ");
+  for (const char* name : {"map.nii", "map.nii.gz", "map.nrrd", "map.nhdr", "map.mha", "map.mhd"})
+    refused(name, text,
+            "a label map, not a joint file: condyle init " + std::string(name) +
+                " --fixed LABEL --mobile LABEL --out hip.toml makes one");
+  refused("map", "NRRD0005\ntype: short\n", "a label map, not a joint file: ");
+  refused("model.osim", "<?xml version=\"1.0\"?>\n<OpenSimDocument Version=\"40000\"/>",
+          "a model of OpenSim, not a joint file: condyle init model.osim --joint NAME --out joint.toml ");
+  refused("model.xml", "<OpenSimDocument/>", "a model of OpenSim, not a joint file: ");
+  refused("page.html", "<html></html>", "XML, not a joint file: ");
+  refused("walk.mot", text, "a recorded motion, not a joint file: condyle motion JOINT --motion walk.mot ");
+  refused("table.csv", "id,joint\n", "a table, not a joint file: condyle study takes ");
+  refused("joint.toml", "PK\3\4", "compressed by zip, not a joint file: uncompress it first");
+  folder.file("in/scan.dcm", text);
+  expect_refused(3, "rom scan.dcm", "scan.dcm: DICOM is not read");
+  folder.file("in/text.toml", text);
+  expect_refused(3, "rom text.toml", "text.toml: line 1: not TOML: ");
+  // A joint file is one under any name.
+  std::filesystem::copy_file(folder.path() / "in/right_hip.toml", folder.path() / "in/hip.ply");
+  EXPECT_EQ(run("frame hip.ply").exit_code, 0);
 }
 
 TEST_F(Command, AnUnwritableFolderEndsWithThreeAndLeavesNothing) {
@@ -236,13 +274,14 @@ TEST_F(Command, NearMissesAreAnsweredWithWhatWasMeant) {
 
 TEST_F(Command, InitReplacesNoJointFile) {
   const std::string edited = io::read_whole_file(here / "right_hip.toml");
-  expect_refused(3, "init hip_bone.ply femur.ply -o right_hip.toml", "right_hip.toml: is there already");
+  expect_refused(3, "init hip_bone.ply femur.ply -o right_hip.toml",
+                 "right_hip.toml: is there already, and may have been edited: name another or remove it");
   EXPECT_EQ(io::read_whole_file(here / "right_hip.toml"), edited);
   const Ran ran = run("init hip_bone.ply femur.ply -o new.toml");
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   const std::string proposed = io::read_whole_file(here / "new.toml");
   EXPECT_EQ(run("init hip_bone.ply femur.ply").out, proposed);
-  expect_refused(3, "init hip_bone.ply femur.ply -o new.toml", "is not replaced");
+  expect_refused(3, "init hip_bone.ply femur.ply -o new.toml", "name another or remove it");
   expect_refused(2, "init hip_bone.ply femur.ply -o new.json",
                  "new.json: a joint file is written, FILE.toml");
 }

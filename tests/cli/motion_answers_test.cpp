@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -196,6 +198,32 @@ TEST_F(Motion, LoadsThatNothingWouldAskAreRefused) {
 }
 
 /// A body of two meshes: wherever contact is reported, the mesh that touches is named.
+TEST_F(Motion, WithoutContactReportsTheSmallestGap) {
+  // The end of the shank passes the post's edge, (40, -80), at 15 and at 20 degrees: nearest at the second time.
+  write("swing.csv", "time,flexion_deg\n2,0\n2.5,10\n3,5\n");
+  const Ran text = run("motion shank.toml --motion swing.csv --out out");
+  ASSERT_EQ(text.exit_code, 0) << text.err;
+  const NumberTable curves = csv_of(folder / "out/curves.csv");
+  const double gap = curves.rows[1][curves.column("smallest_gap_mm")];
+  for (const auto& row : curves.rows) EXPECT_GE(row[curves.column("smallest_gap_mm")], gap);
+  EXPECT_GT(gap, 0);
+  EXPECT_NE(text.out.find(fmt::format("0 frames in contact\n  smallest gap {:.4g} mm at 2.5 s\n", gap)),
+            text.out.npos)
+      << text.out;
+  const Json json = Json::parse(text_of(folder / "out/motion.json"));
+  EXPECT_EQ(json["smallest_gap_mm"], (Json{{"value", gap}, {"time_s", 2.5}}));
+  for (const char* key : {"largest_area_mm2", "largest_depth_mm"})
+    EXPECT_EQ(json[key], (Json{{"value", 0.0}, {"time_s", nullptr}})) << key;
+  // Of frames that are gaps nothing is known; contact has no gap.
+  write("gaps.csv", "time,flexion_deg\n0,\n1,\n");
+  EXPECT_TRUE(
+      Json::parse(run("motion shank.toml --motion gaps.csv --json").out)["smallest_gap_mm"].is_null());
+  write("on.csv", "time,flexion_deg\n0,0\n1,30\n");
+  const Json on = Json::parse(run("motion shank.toml --motion on.csv --json").out);
+  EXPECT_EQ(on["smallest_gap_mm"], (Json{{"value", 0.0}, {"time_s", 1.0}}));
+  EXPECT_EQ(run("motion shank.toml --motion on.csv").out.find("smallest gap"), std::string::npos);
+}
+
 TEST_F(Motion, AnswersNameThePartThatTouches) {
   const TriMesh bone = box({-5, 100, -5}, {5, 110, 5});
   io::write_mesh(folder / "bone.ply", bone);

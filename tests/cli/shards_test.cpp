@@ -144,6 +144,23 @@ TEST_P(Shards, AreMadeAnewByTheirCommandAfterARefusal) {
   expect_whole();
 }
 
+TEST_P(Shards, ThatWereMergedAreThereAlreadyForARunOfTheWhole) {
+  const auto is_there = [&] {
+    const Ran ran = answer("--out out");
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return ran.err.find("is there already") != ran.err.npos;
+  };
+  expect_whole();
+  for (const char* time : {"first", "second"}) EXPECT_TRUE(is_there()) << time;
+  for (const std::string& name : GetParam().results)
+    EXPECT_EQ(io::read_whole_file(here / "out" / name), io::read_whole_file(here / "whole" / name)) << name;
+  put_back();
+  expect_whole();
+  const bool is_study = GetParam().name == std::string("study");
+  std::ofstream(here / (is_study ? "post9.ply" : "neck.ply"), std::ios::app) << "\n";
+  EXPECT_FALSE(is_there()) << "an input is another";
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, Shards, testing::ValuesIn(sharded_commands),
                          [](const auto& each) { return std::string(each.param.name); });
 

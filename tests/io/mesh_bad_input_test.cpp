@@ -113,6 +113,14 @@ TEST(BadMeshFile, AMissingFileAFolderAndAnUnknownExtensionAreNamed) {
             unknown.string() + ": unknown extension '.step': .stl, .obj, .ply, .vtp and .vtk are read");
 }
 
+TEST(BadMeshFile, AJointFileIsNamedAsThat) {
+  const Folder folder;
+  const std::string joint = (folder / "hip.toml").string();
+  std::ofstream(joint) << "condyle = 1\n";
+  EXPECT_EQ(complaint(joint), joint + ": is a joint file, not a mesh: condyle frame " + joint +
+                                  " shows its bodies; .stl, .obj, .ply, .vtp and .vtk are read");
+}
+
 TEST(BadMeshFile, ExtensionsMayBeInCapitals) {
   const Folder folder;
   std::ofstream(folder / "FEMUR.PLY") << ply_text;

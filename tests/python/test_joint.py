@@ -105,6 +105,9 @@ def test_frames_of_a_motion_show_what_their_poses_show(hip):
         assert frames[n].in_contact == hip.in_contact(poses[n])
         assert frames[n].intersecting_pairs == len(hip.pairs(poses[n]))
         assert frames[n].smallest_gap_mm == hip.contact_measures(poses[n]).smallest_gap_mm
+    gaps = [np.inf if frame is None else frame.smallest_gap_mm for frame in frames]
+    assert frames.nearest == np.argmin(gaps)
+    assert hip.contact_along(poses[2:3]).nearest is None
     # By 150 degrees the bones are deeper than rays go.
     assert frames[0].cut_off_by_reach == 0 < frames[3].cut_off_by_reach
     with pytest.raises(condyle.UsageError, match="pose 1: the rotation is not orthonormal"):

@@ -17,6 +17,7 @@
 #include "io/joint/implant_table.hpp"
 #include "io/joint/load_joint.hpp"
 #include "io/joint/mesh_path.hpp"
+#include "io/joint/other_file.hpp"
 #include "io/joint/part_tables.hpp"
 #include "io/joint/pose_matrix.hpp"
 #include "io/joint/recorded_motion_table.hpp"
@@ -29,12 +30,6 @@ namespace {
 
 using io::TomlTable;
 
-/// Whether the text is XML, as models of OpenSim are, and no joint file.
-bool is_xml(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
-  return first != text.npos && text[first] == '<';
-}
-
 /// TOML knows no line that ends with a carriage return alone, as some editors write.
 std::string with_line_feeds(std::string_view text) {
   std::string lines(text);
@@ -43,19 +38,19 @@ std::string with_line_feeds(std::string_view text) {
 }
 
 toml::table parsed(std::string_view text, const std::filesystem::path& path) {
-  if (is_xml(text))
-    throw FileError(
-        fmt::format("{}: is XML and no joint file; if it is a model of OpenSim, condyle init {} --joint NAME "
-                    "makes a joint file of it",
-                    path.string(), path.string()));
+  const auto error_at = [&](std::size_t line, const std::string& what) {
+    const std::string other = io::other_file(text, path);
+    return FileError(
+        fmt::format("{}: {}", path.string(), other.empty() ? fmt::format("line {}: {}", line, what) : other));
+  };
   if (const auto line = io::line_nested_too_deep(text))
-    throw FileError(fmt::format("{}: line {}: keys, lists and tables may be nested {} deep, not deeper",
-                                path.string(), *line, io::most_toml_levels));
+    throw error_at(
+        *line, fmt::format("keys, lists and tables may be nested {} deep, not deeper", io::most_toml_levels));
   try {
     return toml::parse(with_line_feeds(text), path.string());
   } catch (const toml::parse_error& error) {
-    throw FileError(fmt::format("{}: line {}: not TOML: {}", path.string(), error.source().begin.line,
-                                core::one_line(error.description(), 300)));
+    throw error_at(error.source().begin.line,
+                   fmt::format("not TOML: {}", core::one_line(error.description(), 300)));
   }
 }
 

@@ -8,7 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -177,6 +179,9 @@ void append_cells(RawMesh& raw, std::span<const std::int64_t> corners, std::span
 /// corner, and for a strip of fewer than three corners.
 void append_strips(RawMesh& raw, std::span<const std::int64_t> corners, std::span<const std::int64_t> ends,
                    const Source& source);
+
+/// The format that the name of a file ends in; empty if it is none of a mesh.
+std::optional<MeshFormat> mesh_format_named(const std::filesystem::path& path);
 
 /// Whether the file has exactly the size that the count after a binary header of STL implies.
 bool is_binary_stl(const Source& source);

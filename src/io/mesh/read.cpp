@@ -90,13 +90,24 @@ bool is_image(const std::string& name) {
 
 }  // namespace
 
-MeshFormat mesh_format_of(const std::filesystem::path& path) {
+std::optional<MeshFormat> mesh_format_named(const std::filesystem::path& path) {
   const auto extension = io::lower_case(path.extension().string());
   if (extension == ".stl") return MeshFormat::stl;
   if (extension == ".obj") return MeshFormat::obj;
   if (extension == ".ply") return MeshFormat::ply;
   if (extension == ".vtp") return MeshFormat::vtp;
   if (extension == ".vtk") return MeshFormat::vtk;
+  return std::nullopt;
+}
+
+MeshFormat mesh_format_of(const std::filesystem::path& path) {
+  if (const auto format = io::mesh_format_named(path)) return *format;
+  const auto extension = io::lower_case(path.extension().string());
+  if (extension == ".toml")
+    throw FileError(
+        fmt::format("{0}: is a joint file, not a mesh: condyle frame {0} shows its bodies; .stl, .obj, .ply, "
+                    ".vtp and .vtk are read",
+                    path.string()));
   io::refuse_unread_image(path);
   if (is_image(io::lower_case(path.filename().string())))
     throw FileError(fmt::format(

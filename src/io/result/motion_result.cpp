@@ -26,9 +26,10 @@ struct Summary {
               oblique = 0, oblique_peak = 0;
   struct Largest {
     double value = 0, at = 0;
-    const motion::FrameContact* frame = nullptr;
+    const motion::FrameContact* frame = nullptr;  ///< none if no frame has a value
   };
   Largest area, depth, pressure, force;
+  Largest nearest;  ///< the smallest gap
 };
 
 Summary summary_of(const MotionQuestion& question, const MotionAnswer& answer) {
@@ -51,6 +52,8 @@ Summary summary_of(const MotionQuestion& question, const MotionAnswer& answer) {
     const auto consider = [&](Summary::Largest& largest, double value) {
       if (value > largest.value) largest = {value, question.motion.times.values[i], &*frame};
     };
+    if (!summary.nearest.frame || frame->smallest_gap_mm < summary.nearest.value)
+      summary.nearest = {frame->smallest_gap_mm, question.motion.times.values[i], &*frame};
     consider(summary.area, totals.area_mm2);
     consider(summary.depth, totals.max_depth_mm);
     consider(summary.pressure, totals.max_pressure_mpa);
@@ -175,6 +178,9 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
       text += fmt::format("  largest {} {:.4g} {} at {:g}{}{}\n", what, largest.value, of, largest.at, unit,
                           where);
   };
+  if (summary.in_contact == 0 && summary.nearest.frame)
+    text +=
+        fmt::format("  smallest gap {:.4g} mm at {:g}{}\n", summary.nearest.value, summary.nearest.at, unit);
   line("contact area", summary.area, "mm2");
   const Index deepest = summary.depth.frame ? io::deepest_of(summary.depth.frame->surface)->face : no_index;
   line("depth", summary.depth, "mm",
@@ -223,7 +229,9 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
   const Joint& joint = question.joint.joint;
   const FrameTimes& times = question.motion.times;
   const char* axis = times.in_seconds ? "time_s" : "frame";
-  const auto largest = [&](const Summary::Largest& of) { return Json{{"value", of.value}, {axis, of.at}}; };
+  const auto largest = [&](const Summary::Largest& of) {
+    return Json{{"value", of.value}, {axis, of.frame ? Json(of.at) : Json(nullptr)}};
+  };
   Json json{{"condyle", io::format_version},
             {"joint", joint.name},
             {"fixed", question.surfaces.fixed.name},
@@ -245,6 +253,7 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
             {"frames_cut_off_by_reach", summary.cut_off},
             {"frames_with_oblique_area", summary.oblique},
             {"frames_with_oblique_peak", summary.oblique_peak},
+            {"smallest_gap_mm", summary.nearest.frame ? largest(summary.nearest) : Json(nullptr)},
             {"largest_area_mm2", largest(summary.area)},
             {"largest_depth_mm", largest(summary.depth)}};
   if (summary.depth.frame) {

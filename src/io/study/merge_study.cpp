@@ -112,14 +112,16 @@ StudyDone merge_study(const fs::path& folder) {
   check_is_of_folder(whole.record, {1, of}, first);
   check_keeps_the_table(folder, whole.record);
   check_keeps_the_shards(folder, of);
+  std::vector<StudyInputs> inputs = {whole.record.inputs};
   for (std::size_t number = 2; number <= of; ++number) {
     const fs::path shard = io::shard_folder(folder, {number, of});
     StudyResults results = io::read_study(shard);
     check_is_of_folder(results.record, {number, of}, shard);
     append(whole, results, shard);
+    inputs.push_back(std::move(results.record.inputs));
   }
   check_inputs(whole.record, first);
-  whole.record.inputs = {};
+  whole.record.inputs = joined(inputs);
   if (whole.record.joints + whole.record.failures != whole.record.table_rows)
     throw FileError(fmt::format("{}: {} rows in the shards where the table has {}", folder.string(),
                                 whole.record.joints + whole.record.failures, whole.record.table_rows));

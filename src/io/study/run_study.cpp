@@ -190,9 +190,12 @@ class ResultsThere {
 /// The study in the folder, if it is the one that this run would write.
 std::optional<StudyDone> done_before(const std::filesystem::path& folder, const StudyRecord& asked,
                                      const std::string& columns, const StudyTable& table, Rows rows) {
-  const auto there = io::read_study_record(folder);
-  if (!there || there->inputs.of_rows.size() != rows.size() ||
-      there->key != key_of(asked, columns, rows, there->inputs.now(table.path.parent_path())))
+  auto there = io::read_study_record(folder);
+  if (!there || there->inputs.of_rows.size() != rows.size()) return std::nullopt;
+  // Shards are merged where the table need not be: of merged tables the key is found here, if the table is the same.
+  if (there->is_merged && there->table_digest.sha256 == asked.table_digest.sha256)
+    there->key = key_of(*there, columns, rows, there->inputs);
+  if (there->key != key_of(asked, columns, rows, there->inputs.now(table.path.parent_path())))
     return std::nullopt;
   StudyResults results = io::read_study(folder);
   // Other rows of the table may have changed: then the shard belongs to the new table as it is.

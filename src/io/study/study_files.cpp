@@ -57,7 +57,7 @@ Json record_json(const StudyRecord& record, const std::vector<NamedFile>& files)
   json["merged"] = record.is_merged;
   json["joints"] = record.joints;
   json["failures"] = record.failures;
-  json["inputs"] = record.is_merged ? Json(nullptr) : inputs_json(record.inputs);
+  json["inputs"] = inputs_json(record.inputs);
   for (const NamedFile& file : files) json["files"][file.name] = digest_json(digest_of(file.contents));
   json["scope"] = scope_text();
   return json;
@@ -76,7 +76,7 @@ StudyRecord record_of(const Json& json) {
   record.is_merged = json.at("merged");
   record.joints = json.at("joints");
   record.failures = json.at("failures");
-  if (!record.is_merged) record.inputs = inputs_in(json.at("inputs"));
+  record.inputs = inputs_in(json.at("inputs"));
   return record;
 }
 

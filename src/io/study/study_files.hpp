@@ -26,7 +26,7 @@ struct StudyRecord {
   std::size_t table_rows = 0;
   Shard shard;
   bool is_merged = false;
-  StudyInputs inputs;  ///< none of merged tables
+  StudyInputs inputs;
   std::size_t joints = 0, failures = 0;
 };
 

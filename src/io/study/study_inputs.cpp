@@ -33,6 +33,21 @@ fs::path path_in(const fs::path& folder, const Input& input) {
   return input.kind == Input::Kind::variable ? input.path : folder / input.path;
 }
 
+/// Each input once, in the order in which rows read them.
+struct GatheredInputs {
+  StudyInputs inputs;
+  std::map<std::pair<Input::Kind, fs::path>, std::size_t> places;
+
+  std::size_t place_of(Input input) {
+    const auto [place, is_new] = places.emplace(std::pair(input.kind, input.path), inputs.all.size());
+    if (is_new)
+      inputs.all.push_back(std::move(input));
+    else if (Input& before = inputs.all[place->second]; before.state != input.state)
+      before.state = changing_state;
+    return place->second;
+  }
+};
+
 }  // namespace
 
 StudyInputs StudyInputs::now(const fs::path& folder) const {
@@ -45,21 +60,26 @@ StudyInputs StudyInputs::now(const fs::path& folder) const {
 }
 
 StudyInputs study_inputs(const fs::path& folder, std::span<const std::vector<Input>> of_rows) {
-  StudyInputs inputs;
-  std::map<std::pair<Input::Kind, fs::path>, std::size_t> place_of;
+  GatheredInputs gathered;
   for (const std::vector<Input>& of_row : of_rows) {
-    std::vector<std::size_t>& places = inputs.of_rows.emplace_back();
-    for (const Input& input : of_row) {
-      fs::path path = path_below(folder, input);
-      const auto [place, is_new] = place_of.emplace(std::pair(input.kind, path), inputs.all.size());
-      places.push_back(place->second);
-      if (is_new)
-        inputs.all.push_back({input.kind, std::move(path), input.state});
-      else if (Input& before = inputs.all[place->second]; before.state != input.state)
-        before.state = changing_state;
+    std::vector<std::size_t>& places = gathered.inputs.of_rows.emplace_back();
+    for (const Input& input : of_row)
+      places.push_back(gathered.place_of({input.kind, path_below(folder, input), input.state}));
+  }
+  return std::move(gathered.inputs);
+}
+
+StudyInputs joined(std::span<const StudyInputs> shards) {
+  GatheredInputs gathered;
+  for (const StudyInputs& shard : shards) {
+    std::vector<std::size_t> moved;
+    for (const Input& input : shard.all) moved.push_back(gathered.place_of(input));
+    for (const std::vector<std::size_t>& of_row : shard.of_rows) {
+      std::vector<std::size_t>& places = gathered.inputs.of_rows.emplace_back();
+      for (const std::size_t place : of_row) places.push_back(moved[place]);
     }
   }
-  return inputs;
+  return std::move(gathered.inputs);
 }
 
 std::string inputs_sha256(const StudyRow& row, std::span<const Input> inputs) {

@@ -25,6 +25,9 @@ struct StudyInputs {
 /// Gathers what each row recorded.
 StudyInputs study_inputs(const std::filesystem::path& folder, std::span<const std::vector<Input>> of_rows);
 
+/// Those of shards, one after the other, as a run of the whole table gathers them.
+StudyInputs joined(std::span<const StudyInputs> shards);
+
 /// SHA-256 of the row and of the contents of the files that it read.
 std::string inputs_sha256(const StudyRow& row, std::span<const Input> inputs);
 
