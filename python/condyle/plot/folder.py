@@ -66,7 +66,8 @@ def _plane(zone: Zone, quantity: str) -> Figure:
 
 
 def _of_rom(result: Dict[str, Any]) -> List[Drawing]:
-    found: List[Drawing] = [("limits", lambda: limits(result).figure)]
+    name = "limits" if all(motion.get("band") is None for motion in result["motions"]) else "limit_bands"
+    found: List[Drawing] = [(name, lambda: limits(result).figure)]
     if any(motion.get("clock_hour") is not None for motion in result["motions"]):
         found.append(("clock_face", lambda: clock_face(result).figure))
     grid = result.get("grid")
@@ -98,7 +99,7 @@ def _of_motion(folder: Path, frames: Optional[Sequence[int]], projection: Projec
         raise files.ReadError(
             f"{folder}: no map_mobile_*.vtp with values in it: condyle motion writes them with --maps")
     if maps:
-        found.append(("pressure_map", _surfaces(folder, maps, frames, projection)))
+        found.append(_surfaces(folder, maps, frames, projection))
     return found
 
 
@@ -121,8 +122,7 @@ def _chosen(folder: Path, maps: Dict[int, Path], frames: Optional[Sequence[int]]
     return list(frames)
 
 
-def _surfaces(folder: Path, maps: Dict[int, Path], frames: Optional[Sequence[int]], projection: Projection
-              ) -> Callable[[], Figure]:
+def _surfaces(folder: Path, maps: Dict[int, Path], frames: Optional[Sequence[int]], projection: Projection) -> Drawing:
     chosen = _chosen(folder, maps, frames)
     surfaces = [files.read_surface(maps[frame]) for frame in chosen]
     name = next((name for name in ("pressure_mpa", "depth_mm") if name in surfaces[0].values), None)
@@ -133,7 +133,7 @@ def _surfaces(folder: Path, maps: Dict[int, Path], frames: Optional[Sequence[int
     provenance = answer.get("provenance")
     in_joint_frame = isinstance(provenance, dict) and provenance.get("frame") == "joint"
     side = answer.get("side") if in_joint_frame else None
-    return functools.partial(_side_by_side, surfaces, first, name, side, projection)
+    return f"{name.rpartition('_')[0]}_map", functools.partial(_side_by_side, surfaces, first, name, side, projection)
 
 
 def _side_by_side(surfaces: Sequence[files.Surface], first: files.Surface, name: str, side: Optional[str],
