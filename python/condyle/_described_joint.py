@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._coordinates import positions_in
-from ._errors import UsageError, unknown, warn
+from ._errors import JointWarning, UsageError, unknown, warn
 from ._mesh import TriMesh
 from ._native import Joint as NativeJoint
 from ._poses import ManyNumbers, ManyPosesLike, OnePoseLike, Pose, PoseLike, Poses
@@ -309,7 +309,7 @@ class DescribedJoint:
         self._has_warned = True  # whoever shows a warning may ask the joint
         try:
             for note in self.notes:
-                warn(f"{self.name}: {note.code}: {note.text}")
+                warn(f"{self.name}: {note.code}: {note.text}", JointWarning)
         except BaseException:  # a warning that is an error is one again at the next answer
             self._has_warned = False
             raise

@@ -27,7 +27,8 @@ class FollowedRange:
     limits : tuple of MotionLimit
         Bounded, not exact: the joint is free up to each, and in contact past it by `error_bound_deg`, or surfaces pass nearer to each
         other than some micrometres. `translation_mm` (3,) is where the mobile body's origin is there.
-    notes : what they must be read with, each with a :class:`JointWarning`: where the record or the balance ends
+    notes : what they must be read with, each with a :class:`JointRemark`: where the record or the balance ends; layers and load that
+        look wrong have a :class:`JointWarning`
     caveats : list of str
 
     `found["flexion"]` is one of the limits.

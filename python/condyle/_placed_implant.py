@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._contact_checks import ContactNote, reported
+from ._contact_checks import ContactNote, remarked
 from ._described_joint import DescribedJoint
 from ._errors import UsageError, unknown
 from ._mesh import TriMesh
@@ -62,7 +62,7 @@ class PlacedImplant(Generic[OfJoint]):
         Between the axes of liner and neck where both first touch, in closed form; with `why_no_half_angle`.
     evidence : dict
         Landmarks of its placement, as in implant.json: head and socket with the residuals of their fits, axes and angles of the femur.
-    notes : what it must be read with, each with a :class:`JointWarning`
+    notes : what it must be read with, each with a :class:`JointRemark`
     caveats : list of str
     """
 
@@ -126,4 +126,4 @@ def placed_implant(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], 
         frozenset(units[name] for name in said["of_bones"]), cup, _angles_of(said["rim"]), found["centre_mm"], found["femur_shift_mm"],
         found["cut_normal"], said["cut"]["offset_mm"], said["cut"]["removed_mm3"], said["room_mm"],
         stands_out and (stands_out["mm"], stands_out["hour"]), said["half_angle_deg"], said["why_no_half_angle"],
-        {key: said[key] for key in ("frame", "head", "socket", "femur")}, reported(found["notes"]), found["caveats"], found["placed"])
+        {key: said[key] for key in ("frame", "head", "socket", "femur")}, remarked(found["notes"]), found["caveats"], found["placed"])

@@ -12,7 +12,7 @@ from . import _native
 from ._answer import html_of
 from ._contact_checks import notes_said, reported
 from ._described_joint import DescribedJoint
-from ._errors import UsageError, unknown, warn
+from ._errors import JointRemark, UsageError, unknown, warn
 from ._impingement_zone import ImpingementZone, body_zone_of
 from ._limit_band import LimitBand
 from ._limits import FreeAngles, Limit, MotionLimit, end_text, limit_of, motion_limit_of
@@ -92,7 +92,7 @@ class RangeOfMotion:
 
     `limits` is a tuple of :class:`MotionLimit`; `rom["flexion"]` is one of them. Limits are exact: never past a
     contact, short of one by at most `error_bound_deg`. `notes` is what they must be read with because of the joint's shape, each
-    with a :class:`JointWarning`. What `condyle rom --json` says beside them has its keys: :attr:`caveats`, :attr:`implant` and so on.
+    with a :class:`JointRemark`. What `condyle rom --json` says beside them has its keys: :attr:`caveats`, :attr:`implant` and so on.
     Any number of threads may ask.
 
     C++: `condyle::answer_range` in condyle/answer.hpp; `condyle rom`.
@@ -172,7 +172,7 @@ class RangeOfMotion:
         """Free values of the third angle over a grid of the two others, on all threads.
 
         `column` and `row` are each one angle with first, last and step in degrees: `{"flexion": (0, 120, 10)}`. Exact
-        at every point; a :class:`JointWarning` names an axis that ends before its last value. Ctrl-C ends it within points
+        at every point; a :class:`JointRemark` names an axis that ends before its last value. Ctrl-C ends it within points
         begun; `progress` is called with (done, total).
 
         C++: `condyle::further_answer` with `RangeRequest::map` in condyle/answer.hpp.
@@ -248,7 +248,7 @@ class RangeOfMotion:
         scene, and its limits of the same motions, with bands of the same seed and standard deviations, stand beside these. `sweep`, of
         the same joint over one parameter or two, shows its safe zone with a point that turns the parts. `motion` is the file of a recorded
         motion, which the page plays with its curves; `load`: with pressure, by the layers of the joint file. What looks wrong with
-        them is warned of, :class:`JointWarning`. `case`
+        them is warned of, :class:`JointWarning`, and remarks are made of how they were read. `case`
         and `date` stand in the heading and `note` under the result, as given: nothing is taken from the clock. Files are named
         without their folders unless `whole_paths`. Whole or not at all; FileError where it cannot be written.
 
@@ -273,7 +273,7 @@ class RangeOfMotion:
             report_labels(case, note, date, whole_paths), progress_of(progress))
         reported(notes)
         for remark in remarks:
-            warn(remark)
+            warn(remark, JointRemark)
 
     def _zone_of(self, found: Optional[dict[str, Any]]) -> Optional[ImpingementZone]:
         if found is None:

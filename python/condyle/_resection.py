@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._contact_checks import ContactNote, reported
+from ._contact_checks import ContactNote, remarked
 from ._described_joint import DescribedJoint
 from ._errors import UsageError
 from ._limits import MotionLimit, motion_limit_of
@@ -110,7 +110,7 @@ class Resection(Generic[OfJoint]):
         Degrees against mm3.
     margin_mm : float
         As planned: larger than asked for where bands are to be reached.
-    notes : what the plan must be read with, each with a :class:`JointWarning`
+    notes : what the plan must be read with, each with a :class:`JointRemark`
     caveats : list of str
     """
 
@@ -216,5 +216,5 @@ def resection(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], reach
         without, _cut_of(found["mobile"]), _cut_of(found["fixed"]), tuple(targets),
         tuple(limit_of(each, joint) for each in found["before"]), tuple(limit_of(each, without) for each in found["after"]),
         found["shapes"] or {},
-        tuple(CurvePoint(targets[target].motion, *rest) for target, *rest in found["curve"]), found["margin_mm"], reported(found["notes"]),
+        tuple(CurvePoint(targets[target].motion, *rest) for target, *rest in found["curve"]), found["margin_mm"], remarked(found["notes"]),
         found["caveats"], found["plan"])

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native
 from ._answer import html_of
 from ._csv_text import plain_field
+from ._contact_checks import kind_of
 from ._errors import FileError, UsageError, unknown, warn
 from ._pressure import ElasticLayer
 from ._resection import cut_options
@@ -301,7 +302,7 @@ def _grid(given: Any, vary: Optional[str]) -> Optional[tuple[str, str, Optional[
 
 def _warn_of(noted: Sequence[tuple[str, str]]) -> None:
     for joint, codes in noted:
-        warn(f"{joint}: {codes}")
+        warn(f"{joint}: {codes}", kind_of(codes.split()))
 
 
 def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = None, anatomy: Anatomy = "hip",
@@ -348,8 +349,8 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
 
     Results there of the same inputs, options and version are not computed again. Without `strict` a joint that cannot
     be answered is a row of `failures`, and one with which something looks wrong (`notes` in `hips`) is warned of,
-    :class:`JointWarning`. Where no joint could be answered, the error of the first one is raised once the files are
-    written; not of a shard.
+    :class:`JointWarning`, or :class:`JointRemark` if only its limits have notes. Where no joint could be answered, the
+    error of the first one is raised once the files are written; not of a shard.
 
     C++: `condyle::run_study` in condyle/io/study.hpp; `condyle study`.
     """

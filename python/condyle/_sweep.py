@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._answer import html_of
-from ._contact_checks import ContactNote, reported
+from ._contact_checks import ContactNote, remarked
 from ._described_joint import DescribedJoint
 from ._errors import UsageError
 from ._limits import REASONS
@@ -125,7 +125,7 @@ class Sweep:
         The design of the largest margin; None if all are in contact in their reference poses.
     here : Design
         The joint as it is.
-    notes : what the zone must be read with, each with a :class:`JointWarning`
+    notes : what the zone must be read with, each with a :class:`JointRemark`
     caveats : list of str
     """
 
@@ -284,4 +284,4 @@ def sweep(joint: DescribedJoint, vary: Mapping[str, Sequence[float]], targets: U
         tuple(EndingPair(*each) for each in found["pairs"]), margin, margin >= 0,
         None if probability is None else probability.reshape(shape), quantities,
         tuple(interval(*each) for each in found["safe_intervals"]), found["safe_measure"], found["window_measure"], best, here,
-        reported(found["notes"]), found["caveats"], found["sweep"])
+        remarked(found["notes"]), found["caveats"], found["sweep"])

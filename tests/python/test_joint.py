@@ -223,7 +223,7 @@ def test_resections_are_those_of_the_command(tmp_path, sampled, command):
     said = json.loads(subprocess.run(
         [command, "resect", tmp_path / "hip.toml", "--reach", "internal_rotation_at_90_flexion=45", "--curve", "2", "--json", "--out",
          tmp_path / "plan"], check=True, capture_output=True, text=True).stdout)
-    with pytest.warns(condyle.JointWarning):
+    with pytest.warns(condyle.JointRemark):
         plan = joint.resection(reach, curve_points=2)
     cut, = said["cuts"]
     assert plan.fixed is None and plan.mobile.volume_mm3 == plan.volume_mm3 == cut["volume_mm3"]

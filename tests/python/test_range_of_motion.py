@@ -56,7 +56,7 @@ def test_notes_of_limits_are_the_same_everywhere(command, hip_file, tmp_path):
     assert note["code"] == "centre_moves_limits" and "1.3 mm apart" in note["text"]
     assert f"note: {note['code']}: {note['text']}" in ran.stderr
 
-    with pytest.warns(condyle.JointWarning, match="centre_moves_limits"):
+    with pytest.warns(condyle.JointRemark, match="centre_moves_limits"):
         rom = condyle.read_joint(moved).range_of_motion()
     assert [vars(each) for each in rom.notes] == [note]
 
@@ -65,6 +65,8 @@ def test_notes_of_limits_are_the_same_everywhere(command, hip_file, tmp_path):
     with open(tmp_path / "out/hips.csv") as rows:
         row, = csv.DictReader(line for line in rows if not line.startswith("#"))
     assert row["notes"] == note["code"]
+    with pytest.warns(condyle.JointRemark, match="moved: centre_moves_limits"):
+        condyle.run_study(tmp_path / "hips.csv", tmp_path / "ours", motions=["flexion"])
 
 
 def test_surfaces_that_slide_by_nature_are_noted_everywhere(command, hip_file, tmp_path):
@@ -78,7 +80,7 @@ def test_surfaces_that_slide_by_nature_are_noted_everywhere(command, hip_file, t
     note, = [each for each in json.loads(ran.stdout)["notes"] if each["code"] == "sliding_surfaces"]
     assert note["text"].startswith("the surfaces of an elbow slide on each other by nature")
     assert f"note: {note['code']}: {note['text']}" in ran.stderr
-    with pytest.warns(condyle.JointWarning, match="sliding_surfaces"):
+    with pytest.warns(condyle.JointRemark, match="sliding_surfaces"):
         rom = condyle.read_joint(elbow).range_of_motion()
     assert [vars(each) for each in rom.notes] == [note]
     assert rom.bearing is None
@@ -285,7 +287,7 @@ def test_the_centre_follows_a_recorded_motion_or_a_load(tmp_path, coarse_bones, 
     assert found["flexion"].translation_mm.tolist() == by_command["motions"][0]["translation_mm"]
     assert found["flexion"].translation_ends is by_command["motions"][0]["translation_ends"] is False
     (tmp_path / "short.csv").write_text("time,flexion_deg,x_mm,y_mm\n" + "".join(rows.splitlines(True)[:5]))
-    with pytest.warns(condyle.JointWarning, match="recorded motion ends 8 degrees"):
+    with pytest.warns(condyle.JointRemark, match="recorded motion ends 8 degrees"):
         led = joint.range_following(poses=joint.motion(tmp_path / "short.csv").X_FM)
     short = led["flexion"]
     assert repr(led) == "FollowedRange(flexion 8.0 translation_ends)"

@@ -8,7 +8,7 @@ import condyle.plot as figures
 from condyle.plot.__main__ import main
 from condyle.plot.folder import drawings
 
-pytestmark = pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::condyle.JointRemark")
 TARGETS = [("sitting", "flexion", 110), ("pivoting", "external_rotation", 40)]
 
 
