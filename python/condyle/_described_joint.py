@@ -9,6 +9,7 @@ from typing import Any, ContextManager, Mapping, Optional, Union, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._answer import Unchanging
 from ._coordinates import positions_in
 from ._errors import JointWarning, UsageError, unknown, warn
 from ._mesh import TriMesh
@@ -76,7 +77,7 @@ class JointNote:
     text: str
 
 
-class DescribedJoint:
+class DescribedJoint(Unchanging):
     """A joint before anything is asked of it."""
 
     __slots__ = ("_native", "_fixed", "_mobile", "_notes", "_has_warned", "_lock")

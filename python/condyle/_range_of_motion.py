@@ -6,10 +6,10 @@ import math
 from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence, TypedDict
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._answer import html_of
+from ._answer import Unchanging, html_of
 from ._contact_checks import notes_said, reported
 from ._described_joint import DescribedJoint
 from ._errors import JointRemark, UsageError, unknown, warn
@@ -18,6 +18,7 @@ from ._limit_band import LimitBand
 from ._limits import FreeAngles, Limit, MotionLimit, end_text, limit_of, motion_limit_of
 from ._motion import Motion, MotionLike, Motions
 from ._motion_map import MotionMap, map_of
+from ._native import RangeOfMotion as NativeRange
 from ._resection import OfJoint, Resection
 from ._sweep import Sweep
 from ._words import FEWEST_SAMPLES, MOST_SAMPLES, BearingRule, ClockPlane, Path, Progress, band_of, count, number, path_of
@@ -87,24 +88,46 @@ def _native_sweep(sweep: object, plan: Optional[Resection[OfJoint]]) -> Optional
     return sweep._shown()
 
 
-class RangeOfMotion:
+class RangeOfMotion(Unchanging):
     """A joint made ready for motions, and the limits of those asked for. Made by :meth:`Joint.range_of_motion`.
 
     `limits` is a tuple of :class:`MotionLimit`; `rom["flexion"]` is one of them. Limits are exact: never past a
     contact, short of one by at most `error_bound_deg`. `notes` is what they must be read with because of the joint's shape, each
     with a :class:`JointRemark`. What `condyle rom --json` says beside them has its keys: :attr:`caveats`, :attr:`implant` and so on.
-    Any number of threads may ask.
+    Any number of threads may ask. It can be pickled: the tables for further questions are built anew when the first one needs them.
 
     C++: `condyle::answer_range` in condyle/answer.hpp; `condyle rom`.
     """
 
-    __slots__ = ("_native", "_joint", "_motions", "_said", "limits", "notes", "__weakref__")
+    __slots__ = ("_made", "_asked", "_joint", "_motions", "_said", "limits", "notes", "__weakref__")
+    _made: Optional[NativeRange]
+    _asked: tuple[Any, ...]
 
-    def __init__(self, joint: DescribedJoint, native: _native.RangeOfMotion, motions: Motions) -> None:
-        self._native, self._joint, self._motions = native, joint, motions
-        self._said = native.answer()
+    def __init__(self, joint: DescribedJoint, motions: Motions, asked: list[tuple[object, ...]], translation_mm: Optional[ArrayLike],
+                 *how: object) -> None:
+        self._asked = asked, translation_mm, *how
+        self._made = _native.range_of_motion(joint._asked, *self._asked)
+        self._joint, self._motions, self._said = joint, motions, self._made.answer()
+        if translation_mm is not None:  # an array, which may change
+            self._asked = asked, self.held_translation_mm, *how
         self.limits = tuple(map(self._motion_limit_of, self._said.pop("limits")))
         self.notes = notes_said(self._said["notes"])
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return RangeOfMotion._remade, (self._joint, self._asked, self._said, self.limits, self.notes)
+
+    @classmethod
+    def _remade(cls, joint: DescribedJoint, *kept: Any) -> RangeOfMotion:
+        rom = cls.__new__(cls)
+        rom._made, rom._joint, rom._motions = None, joint, Motions(joint._native)
+        rom._asked, rom._said, rom.limits, rom.notes = kept
+        return rom
+
+    @property
+    def _native(self) -> NativeRange:
+        if self._made is None:
+            self._made = _native.range_of_motion(self._joint._native, *self._asked)
+        return self._made
 
     def _limit_of(self, found: dict[str, Any]) -> Limit:
         return limit_of(found, self._joint.fixed, self._joint.mobile)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Callable, Generic, Mapping, NamedTuple, Optional, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
+from ._answer import Compiled, kept
 from ._contact_checks import ContactNote, remarked
 from ._described_joint import DescribedJoint
 from ._errors import UsageError
@@ -16,6 +17,7 @@ from ._limits import MotionLimit, motion_limit_of
 from ._mesh import TriMesh
 from ._motion import Motions
 from ._native import Joint as NativeJoint
+from ._native import Plan
 from ._words import BearingRule, Body, CutFrom, KeptBy, Progress, band_of, count, number, progress_of, word
 
 OfJoint = TypeVar("OfJoint", bound=DescribedJoint)
@@ -93,7 +95,7 @@ class CurvePoint(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Resection(Generic[OfJoint]):
+class Resection(Compiled, Generic[OfJoint]):
     """A plan made by :meth:`Joint.resection`.
 
     Attributes
@@ -125,18 +127,13 @@ class Resection(Generic[OfJoint]):
     margin_mm: float
     notes: tuple[ContactNote, ...]
     caveats: list[str]
-    _plan: Optional[_native.Plan] = field(default=None, repr=False)
+    _native: Optional[Plan] = None
 
-    def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_plan": None}
-
-    def _shown_by(self, joint: DescribedJoint) -> _native.Plan:
+    def _shown_by(self, joint: DescribedJoint) -> Plan:
         """Its data in a report, beside the limits of this joint."""
         if joint is not self.joint:
             raise UsageError("plan: the limits are not those of plan.joint")
-        if self._plan is None:
-            raise UsageError("plan: was pickled, which leaves out what a report shows: ask for it again")
-        return self._plan
+        return kept(self._native, "plan", "a report shows")
 
     @property
     def volume_mm3(self) -> float:
