@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence, TypedDict
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence, TypedDict, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,10 +12,10 @@ from . import _native
 from ._answer import Unchanging, html_of
 from ._contact_checks import notes_said, reported
 from ._described_joint import DescribedJoint
-from ._errors import JointRemark, UsageError, unknown, warn
+from ._errors import JointRemark, UsageError, warn
 from ._impingement_zone import ImpingementZone, body_zone_of
 from ._limit_band import LimitBand
-from ._limits import FreeAngles, Limit, MotionLimit, end_text, limit_of, motion_limit_of
+from ._limits import FreeAngles, Limit, MotionLimit, end_text, limit_in, limit_of, motion_limit_of
 from ._motion import Motion, MotionLike, Motions
 from ._motion_map import MotionMap, map_of
 from ._native import RangeOfMotion as NativeRange
@@ -91,7 +91,7 @@ def _native_sweep(sweep: object, plan: Optional[Resection[OfJoint]]) -> Optional
 class RangeOfMotion(Unchanging):
     """A joint made ready for motions, and the limits of those asked for. Made by :meth:`Joint.range_of_motion`.
 
-    `limits` is a tuple of :class:`MotionLimit`; `rom["flexion"]` is one of them. Limits are exact: never past a
+    `limits` is a tuple of :class:`MotionLimit`; `rom["flexion"]` and `rom[0]` are one of them, `rom[-2:]` some. Limits are exact: never past a
     contact, short of one by at most `error_bound_deg`. `notes` is what they must be read with because of the joint's shape, each
     with a :class:`JointRemark`. What `condyle rom --json` says beside them has its keys: :attr:`caveats`, :attr:`implant` and so on.
     Any number of threads may ask. It can be pickled: the tables for further questions are built anew when the first one needs them.
@@ -151,11 +151,14 @@ class RangeOfMotion(Unchanging):
         found, = self._native.limits([self._motions.tuple_of(self.motion(motion))])
         return self._motion_limit_of(found)
 
-    def __getitem__(self, name: str) -> MotionLimit:
-        for limit in self.limits:
-            if limit.motion.name == name:
-                return limit
-        raise unknown("limit", name, (limit.motion.name for limit in self.limits))
+    @overload
+    def __getitem__(self, which: Union[str, int]) -> MotionLimit: ...
+
+    @overload
+    def __getitem__(self, which: slice) -> tuple[MotionLimit, ...]: ...
+
+    def __getitem__(self, which: Union[str, int, slice]) -> Union[MotionLimit, tuple[MotionLimit, ...]]:
+        return limit_in(self.limits, which)
 
     def __iter__(self) -> Iterator[MotionLimit]:
         return iter(self.limits)

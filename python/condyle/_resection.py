@@ -18,7 +18,7 @@ from ._mesh import TriMesh
 from ._motion import Motions
 from ._native import Joint as NativeJoint
 from ._native import Plan
-from ._words import BearingRule, Body, CutFrom, KeptBy, Progress, band_of, count, number, progress_of, word
+from ._words import BearingRule, Body, CutFrom, KeptBy, Progress, band_of, count, number, progress_of, text_of, word
 
 OfJoint = TypeVar("OfJoint", bound=DescribedJoint)
 
@@ -152,6 +152,13 @@ def _cut_of(found: Optional[dict[str, Any]]) -> Optional[CutBone]:
     return CutBone(after, before, **found)
 
 
+def reach_of(given: Mapping[str, float]) -> list[tuple[str, float]]:
+    """Motions and how far each shall go, checked."""
+    if not isinstance(given, Mapping) or not given:
+        raise UsageError('reach: motions and their degrees are needed: {"flexion": 115}')
+    return [(text_of(name, "reach"), number(degrees, f"reach of {name}")) for name, degrees in given.items()]
+
+
 def kept_vertices(marks: Optional[ArrayLike], mesh: TriMesh, what: str) -> NDArray[np.uint8]:
     """Marks of the vertices that stay, as the compiled part numbers them; none for none."""
     if marks is None:
@@ -198,7 +205,7 @@ def resection(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], reach
         "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm")}
     found = _native.resection(
         joint._asked, [known.tuple_of(each) for each in known.known],
-        [(known.tuple_of(known[name]), number(degrees, f"reach of {name}")) for name, degrees in reach.items()], options,
+        [(known.tuple_of(known[name]), degrees) for name, degrees in reach_of(reach)], options,
         progress_of(progress))
     without = of_native(found["joint"])
 

@@ -20,7 +20,7 @@ from ._csv_text import plain_field
 from ._contact_checks import kind_of
 from ._errors import FileError, UsageError, unknown, warn
 from ._pressure import ElasticLayer
-from ._resection import cut_options
+from ._resection import cut_options, reach_of
 from ._words import Anatomy, BearingRule, Bodies, CutFrom, FaceRule, Path, PressureLaw, Progress, band_of, count, number, number_array
 from ._words import path_of, progress_of, text_of, word
 
@@ -152,12 +152,8 @@ class StudyResection:
     edge_mm: float = 0.5
 
     def _checked(self) -> dict[str, Any]:
-        if not isinstance(self.reach, Mapping) or not self.reach:
-            raise UsageError('reach: motions and their degrees are needed: {"flexion": 115}')
-        cut = cut_options(self.cut, self.share, self.margin_mm, self.deepest_mm, self.within_mm, self.burr_mm,
-                          self.edge_mm)
-        reach = [(text_of(name, "reach"), number(degrees, f"reach of {name}")) for name, degrees in self.reach.items()]
-        return {**cut, "reach": reach}
+        return {"reach": reach_of(self.reach), **cut_options(self.cut, self.share, self.margin_mm, self.deepest_mm, self.within_mm,
+                                                             self.burr_mm, self.edge_mm)}
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -216,6 +216,18 @@ def test_measures_are_those_of_the_command(tmp_path, sampled, command):
         joint.measures(pelvic_tilt_deg=90)
 
 
+@pytest.mark.parametrize("reach", ["fadir=40", {}, None, [("fadir", 40)]])
+def test_a_resection_says_how_its_targets_are_given(hip, reach):
+    with pytest.raises(condyle.UsageError, match='reach: motions and their degrees are needed: {"flexion": 115}'):
+        hip.resection(reach)
+
+
+def test_the_two_bodies_of_a_sample_are_those_of_a_joint(coarse_bones):
+    assert condyle.Joint(*coarse_bones).mobile == coarse_bones.femur
+    acetabular, femoral = condyle.sample_cartilages()
+    assert len(femoral.vertices) == 1414 < len(acetabular.vertices)
+
+
 def test_resections_are_those_of_the_command(tmp_path, sampled, command):
     sampled(tmp_path, "hip", "--alpha-angle", "70")
     joint = condyle.read_joint(tmp_path / "hip.toml")

@@ -107,6 +107,11 @@ def test_a_map_is_that_of_the_command(hip, rom, command, hip_file, tmp_path):
     assert found.to_xarray().lower_deg.shape == (3, 4) and len(found.to_dataframe()) == 12
 
 
+def test_limits_are_taken_by_name_number_and_slice(rom):
+    assert rom[0] is rom["flexion"] is rom.limits[0] and rom[-1] is rom[np.int64(11)] is rom["faber"]
+    assert rom[:2] == rom.limits[:2] and rom[-2:] == rom.limits[10:]
+
+
 def test_a_free_set_and_its_contact_set_fill_the_range(rom):
     free = rom.free_angles("internal_rotation", {"flexion": 90})
     both = np.concatenate([free.intervals_deg, free.contact_set_deg])
@@ -280,7 +285,7 @@ def test_the_centre_follows_a_recorded_motion_or_a_load(tmp_path, coarse_bones, 
     rows = "".join(f"{i * 0.1},{d},{0.01 * d},{-0.005 * d}\n" for i, d in enumerate(degrees))
     (tmp_path / "record.csv").write_text("time,flexion_deg,x_mm,y_mm\n" + rows)
     found = joint.range_following(poses=joint.motion(tmp_path / "record.csv").X_FM)
-    assert [limit.motion.name for limit in found.limits] == ["flexion"]
+    assert [limit.motion.name for limit in found.limits] == ["flexion"] and found[-1] is found["flexion"]
     by_command = json.loads(subprocess.run([command, "rom", tmp_path / "hip.toml", "--follow", tmp_path / "record.csv", "--json"],
                                            check=True, capture_output=True, text=True).stdout)
     assert found["flexion"].limit_deg == by_command["motions"][0]["limit_deg"]
