@@ -26,7 +26,7 @@ REASONS: tuple[LimitReason, ...] = get_args(LimitReason)
 KINDS: tuple[ContactKind, ...] = get_args(ContactKind)
 
 
-def end_text(limit_deg: float, reason: LimitReason) -> str:
+def end_text(limit_deg: float, reason: str) -> str:
     """ "134.8", or ">120" where the range ends without contact."""
     return f">{round(limit_deg, 1):g}" if reason == "end_of_range" else f"{limit_deg:.1f}"
 
