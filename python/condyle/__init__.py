@@ -26,7 +26,7 @@ from ._inspect import Finding, MeshComponent, MeshReport, inspect
 from ._joint import Joint, read_joint
 from ._joint_contact import JointContact
 from ._labels import Label, LabelMap, LabelNote, LabelPiece, LabelSurface, SurfaceCut, read_labels, surface
-from ._limit_band import LimitBand
+from ._limit_band import LimitBand, LimitBands
 from ._followed_range import FollowedRange
 from ._hip_measures import HipMeasure, HipMeasures
 from ._limits import KINDS, REASONS, ContactWitness, FreeAngles, Limit, MotionLimit, PathLimit
@@ -60,7 +60,7 @@ __all__ = [
     "ElasticContact", "ElasticContactResults", "ElasticLayer", "EndingPair", "FileError", "Finding", "FirstContact", "FrameContact",
     "FittedSphere", "FollowedRange", "HipMeasure", "HipMeasures", "MeasureBand", "NormalRange", "ForcePatch", "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "ImplantPair", "Joint", "JointContact", "JointMotion", "JointNote", "PartParameter", "ZeroPose",
     "JointProposal", "JointRemark", "JointWarning", "KINDS", "KNOWN_BY", "Label", "LabelMap", "LabelNote", "LabelPiece", "LabelSurface", "Limit",
-    "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Model", "ModelCoordinate", "ModelJoint", "ModelMesh", "ModelNote", "Motion", "MotionArc", "MotionLimit",
+    "LimitBand", "LimitBands", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Model", "ModelCoordinate", "ModelJoint", "ModelMesh", "ModelNote", "Motion", "MotionArc", "MotionLimit",
     "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",
     "OutOfRangeError", "PathLimit", "Penetration", "Penetrations", "PlacedImplant", "Pose", "Poses", "REASONS", "REPLACEMENT_SIZES", "REVERSE_SHOULDER_SIZES", "RadialTable",
     "RangeOfMotion", "Record", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits", "SampleCartilages",

@@ -14,7 +14,7 @@ from ._contact_checks import notes_said, reported
 from ._described_joint import DescribedJoint
 from ._errors import JointRemark, UsageError, warn
 from ._impingement_zone import ImpingementZone, body_zone_of
-from ._limit_band import LimitBand
+from ._limit_band import LimitBand, LimitBands
 from ._limits import FreeAngles, Limit, MotionLimit, end_text, limit_in, limit_of, motion_limit_of
 from ._motion import Motion, MotionLike, Motions
 from ._motion_map import MotionMap, map_of
@@ -234,7 +234,7 @@ class RangeOfMotion(Unchanging):
     def bands(self, motions: Optional[Sequence[MotionLike]] = None, *, samples: int = 200,
               seed: Optional[int] = None, sigma_centre_mm: Optional[float] = None,
               sigma_axes_deg: Optional[float] = None, sigma_surface_mm: Optional[float] = None,
-              progress: Progress = None) -> tuple[LimitBand, ...]:
+              progress: Progress = None) -> LimitBands:
         """How far each limit moves with what is uncertain: 5 to 95 % of `samples` displaced joints, 20 to 100,000.
 
         Standard deviations and a seed not given are those of the joint file, else 0.5 mm, 1 degree, 0.25 mm and 1; a surface from
@@ -246,7 +246,7 @@ class RangeOfMotion(Unchanging):
         asked = [limit.motion for limit in self.limits] if motions is None else self._motions.asked(motions)
         band = band_of(count(samples, "samples", FEWEST_SAMPLES, MOST_SAMPLES), seed, sigma_centre_mm, sigma_axes_deg, sigma_surface_mm)
         found = _native.limit_bands(self._native, [self._motions.tuple_of(each) for each in asked], band, progress_of(progress))
-        return tuple(LimitBand(motion, **band) for motion, band in zip(asked, found))
+        return LimitBands(LimitBand(motion, **band) for motion, band in zip(asked, found))
 
     def zones(self, motions: Optional[Sequence[MotionLike]] = None, *, past_deg: float = 5,
               progress: Progress = None) -> tuple[Optional[ImpingementZone], ...]:

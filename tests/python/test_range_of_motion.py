@@ -154,6 +154,15 @@ def test_bands_are_those_of_the_command(hip, command, hip_file):
     assert (band.p5_deg, band.median_deg, band.p95_deg) == (theirs["p5_deg"], theirs["median_deg"], theirs["p95_deg"])
 
 
+def test_bands_are_a_table(coarse_bones):
+    pytest.importorskip("pandas")
+    bands = condyle.Joint(*coarse_bones).range_of_motion(["flexion", "faber"]).bands(samples=20)
+    table = bands.to_dataframe()
+    assert table.motion.tolist() == ["flexion", "faber"] and table.p95_deg.tolist() == [band.p95_deg for band in bands]
+    assert f"<td>flexion</td><td>{bands[0].p5_deg:.1f}, {bands[0].median_deg:.1f}, {bands[0].p95_deg:.1f}</td>" in bands._repr_html_()
+    assert isinstance(bands, tuple) and type(pickle.loads(pickle.dumps(bands))) is condyle.LimitBands
+
+
 def test_a_zone_grows_past_its_limit(hip):
     rom = hip.range_of_motion(["flexion"])
     near, = rom.zones(past_deg=2)
