@@ -55,7 +55,7 @@ def draw_hip():
     condyle("rom", OUT / "sample/hip.toml", "--map", "flexion=0:130:5", "adduction=-40:30:5", "--out", OUT / "map")
     condyle("measure", OUT / "sample/hip.toml", "--out", OUT / "shape")
     draw(OUT / "shape", {"hip_shape": "hip_shape.png"})
-    draw(OUT / "rom", {"limits": "limits.png", "clock_face": "clock_face.png"})
+    draw(OUT / "rom", {"limit_bands": "limits.png", "clock_face": "clock_face.png"})
     draw(OUT / "map", {"map_internal_rotation": "map_internal_rotation.png"})
 
 

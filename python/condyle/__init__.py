@@ -4,7 +4,8 @@ Arrays are numpy's, lengths are millimetres, angles degrees; names say so where 
 the fixed body, M that of the mobile one; a pose X_FM is a (4, 4) matrix with p_F = X_FM p_M. Every
 error that the module raises on purpose is a :class:`CondyleError` of one line: :class:`FileError` (an OSError),
 :class:`MeshError` and :class:`UsageError` (ValueErrors), and of the last one :class:`UnknownNameError` (a KeyError) and
-:class:`OutOfRangeError` (an IndexError). What looks wrong with a joint is a :class:`JointWarning` at its first answer.
+:class:`OutOfRangeError` (an IndexError). What looks wrong with a joint is a :class:`JointWarning` at its first answer;
+what an answer must be read with is a :class:`JointRemark`.
 """
 
 from ._brush import Brushed, BrushStroke, StrokeOutcome
@@ -13,7 +14,7 @@ from ._contact_checks import ContactNote
 from ._contact_forces import ContactForces, ForcePatch, VertexForces, VertexStiffness
 from ._depth_range import DeepestPlace, DepthLimit, DepthRange
 from ._described_joint import BodyPart, JointNote, PartParameter, ZeroPose
-from ._errors import CondyleError, FileError, JointWarning, MeshError, OutOfRangeError, ReferenceContactError
+from ._errors import CondyleError, FileError, JointRemark, JointWarning, MeshError, OutOfRangeError, ReferenceContactError
 from ._errors import UnknownNameError, UsageError
 from ._first_contact import FirstContact, RotationLimits
 from ._fit import CylinderFit, SphereFit, find_cylinder, find_sphere, fit_cylinder, fit_sphere
@@ -25,7 +26,7 @@ from ._inspect import Finding, MeshComponent, MeshReport, inspect
 from ._joint import Joint, read_joint
 from ._joint_contact import JointContact
 from ._labels import Label, LabelMap, LabelNote, LabelPiece, LabelSurface, SurfaceCut, read_labels, surface
-from ._limit_band import LimitBand
+from ._limit_band import LimitBand, LimitBands
 from ._followed_range import FollowedRange
 from ._hip_measures import HipMeasure, HipMeasures
 from ._limits import KINDS, REASONS, ContactWitness, FreeAngles, Limit, MotionLimit, PathLimit
@@ -58,8 +59,8 @@ __all__ = [
     "ContactTotals", "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit", "DepthRange", "Depths", "Design",
     "ElasticContact", "ElasticContactResults", "ElasticLayer", "EndingPair", "FileError", "Finding", "FirstContact", "FrameContact",
     "FittedSphere", "FollowedRange", "HipMeasure", "HipMeasures", "MeasureBand", "NormalRange", "ForcePatch", "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "ImplantPair", "Joint", "JointContact", "JointMotion", "JointNote", "PartParameter", "ZeroPose",
-    "JointProposal", "JointWarning", "KINDS", "KNOWN_BY", "Label", "LabelMap", "LabelNote", "LabelPiece", "LabelSurface", "Limit",
-    "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Model", "ModelCoordinate", "ModelJoint", "ModelMesh", "ModelNote", "Motion", "MotionArc", "MotionLimit",
+    "JointProposal", "JointRemark", "JointWarning", "KINDS", "KNOWN_BY", "Label", "LabelMap", "LabelNote", "LabelPiece", "LabelSurface", "Limit",
+    "LimitBand", "LimitBands", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Model", "ModelCoordinate", "ModelJoint", "ModelMesh", "ModelNote", "Motion", "MotionArc", "MotionLimit",
     "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",
     "OutOfRangeError", "PathLimit", "Penetration", "Penetrations", "PlacedImplant", "Pose", "Poses", "REASONS", "REPLACEMENT_SIZES", "REVERSE_SHOULDER_SIZES", "RadialTable",
     "RangeOfMotion", "Record", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits", "SampleCartilages",

@@ -4,18 +4,44 @@ from __future__ import annotations
 
 import html
 from dataclasses import fields
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Optional, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._errors import unknown
+from ._errors import UsageError, unknown
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
 Value = TypeVar("Value")
+
+
+class Unchanging:
+    """What nothing changes: a copy is the object itself, with the tables that it has built."""
+
+    __slots__ = ()
+
+    def __copy__(self: Value) -> Value:
+        return self
+
+    def __deepcopy__(self: Value, memo: dict[int, Any]) -> Value:
+        return self
+
+
+class Compiled(Unchanging):
+    """An answer with a part, `_native`, that files and reports need and that a pickle leaves out."""
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**vars(self), "_native": None}
+
+
+def kept(native: Optional[Value], what: str, needed_by: str) -> Value:
+    """The compiled part of an answer; UsageError if it was pickled."""
+    if native is None:
+        raise UsageError(f"{what}: was pickled, which leaves out what {needed_by}: ask for it again")
+    return native
 
 
 class ByName(dict[str, Value]):

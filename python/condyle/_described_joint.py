@@ -9,8 +9,9 @@ from typing import Any, ContextManager, Mapping, Optional, Union, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._answer import Unchanging
 from ._coordinates import positions_in
-from ._errors import UsageError, unknown, warn
+from ._errors import JointWarning, UsageError, unknown, warn
 from ._mesh import TriMesh
 from ._native import Joint as NativeJoint
 from ._poses import ManyNumbers, ManyPosesLike, OnePoseLike, Pose, PoseLike, Poses
@@ -76,7 +77,7 @@ class JointNote:
     text: str
 
 
-class DescribedJoint:
+class DescribedJoint(Unchanging):
     """A joint before anything is asked of it."""
 
     __slots__ = ("_native", "_fixed", "_mobile", "_notes", "_has_warned", "_lock")
@@ -317,7 +318,7 @@ class DescribedJoint:
         self._has_warned = True  # whoever shows a warning may ask the joint
         try:
             for note in self.notes:
-                warn(f"{self.name}: {note.code}: {note.text}")
+                warn(f"{self.name}: {note.code}: {note.text}", JointWarning)
         except BaseException:  # a warning that is an error is one again at the next answer
             self._has_warned = False
             raise

@@ -45,15 +45,19 @@ class OutOfRangeError(UsageError, IndexError):
 
 
 class JointWarning(UserWarning):
-    """A warning on a joint that answers a query: docs/checks.md. The answer is unchanged.
+    """What looks wrong with a joint, its layers, load or motion: docs/checks.md. The answer is unchanged.
 
     Each note of :attr:`Joint.notes` is one warning, at the joint's first answer: "right hip: wrong_side: ...".
     `warnings.simplefilter("error", condyle.JointWarning)` makes them errors, as `--strict` of the command does.
     """
 
 
+class JointRemark(UserWarning):
+    """What an answer must be read with, and how something was read: nothing is wrong, and `--strict` lets it pass."""
+
+
 for _error in (CondyleError, FileError, MeshError, ReferenceContactError, UsageError, UnknownNameError, OutOfRangeError,
-               JointWarning):
+               JointWarning, JointRemark):
     _error.__module__ = "condyle"
 
 
@@ -67,10 +71,10 @@ def unknown(what: str, name: object, known: Iterable[str]) -> UnknownNameError:
                             + (f"there are {', '.join(names)}" if names else "there are none"))
 
 
-def warn(text: str) -> None:
-    """A JointWarning of one printable line, at the line of the caller's that asked the module."""
+def warn(text: str, kind: type[UserWarning]) -> None:
+    """A warning of one printable line, at the line of the caller's that asked the module."""
     depth, frame = 2, sys._getframe(1)
     while frame.f_back is not None and str(frame.f_globals.get("__name__")).partition(".")[0] == "condyle":
         depth, frame = depth + 1, frame.f_back
     line = "".join(letter if letter.isprintable() else "?" for letter in text)
-    warnings.warn(JointWarning(line), stacklevel=depth)
+    warnings.warn(kind(line), stacklevel=depth)

@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Optional, Sequence
+from typing import Optional, Sequence, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._answer import Compiled, kept
 from ._contact_checks import ContactNote, notes_said
 from ._described_joint import DescribedJoint
 from ._errors import UsageError
-from ._limits import MotionLimit, end_text, motion_limit_of
+from ._limits import MotionLimit, end_text, limit_in, motion_limit_of
 from ._motion import MotionLike, Motions
+from ._native import RangeOfMotion as NativeRange
 from ._pressure import ElasticContact, used
 from ._words import BearingRule, Body, Path, Progress, number, path_of, progress_of, report_labels, text_of, word
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class FollowedRange:
+class FollowedRange(Compiled):
     """Limits of motions on which a free joint's translation follows a recorded motion or a load.
 
     Attributes
@@ -27,7 +29,8 @@ class FollowedRange:
     limits : tuple of MotionLimit
         Bounded, not exact: the joint is free up to each, and in contact past it by `error_bound_deg`, or surfaces pass nearer to each
         other than some micrometres. `translation_mm` (3,) is where the mobile body's origin is there.
-    notes : what they must be read with, each with a :class:`JointWarning`: where the record or the balance ends
+    notes : what they must be read with, each with a :class:`JointRemark`: where the record or the balance ends; layers and load that
+        look wrong have a :class:`JointWarning`
     caveats : list of str
 
     `found["flexion"]` is one of the limits.
@@ -37,16 +40,7 @@ class FollowedRange:
     notes: tuple[ContactNote, ...]
     caveats: list[str]
     _joint: DescribedJoint
-    _kept: Optional[_native.RangeOfMotion]
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_kept": None}
-
-    def __copy__(self) -> FollowedRange:
-        return self
-
-    def __deepcopy__(self, memo: dict[int, Any]) -> FollowedRange:
-        return self
+    _native: Optional[NativeRange]
 
     def write_report(self, path: Path, *, title: Optional[str] = None, case: Optional[str] = None, note: Optional[str] = None,
                      date: Optional[str] = None, whole_paths: bool = False, progress: Progress = None) -> None:
@@ -57,17 +51,18 @@ class FollowedRange:
 
         C++: `condyle::answer_range` in condyle/answer.hpp.
         """
-        if self._kept is None:
-            raise UsageError("limits: were pickled, which leaves out what a report shows: ask for them again")
         _native.write_report(
-            self._kept, self._joint._asked, path_of(path), None if title is None else text_of(title, "title"), None, None, False, None,
+            kept(self._native, "range of motion", "a report shows"), self._joint._asked, path_of(path), None if title is None else text_of(title, "title"), None, None, False, None,
             None, None, None, False, report_labels(case, note, date, whole_paths), progress_of(progress))
 
-    def __getitem__(self, name: str) -> MotionLimit:
-        for limit in self.limits:
-            if limit.motion.name == name:
-                return limit
-        raise UsageError(f"no limit of {name} was computed")
+    @overload
+    def __getitem__(self, which: Union[str, int]) -> MotionLimit: ...
+
+    @overload
+    def __getitem__(self, which: slice) -> tuple[MotionLimit, ...]: ...
+
+    def __getitem__(self, which: Union[str, int, slice]) -> Union[MotionLimit, tuple[MotionLimit, ...]]:
+        return limit_in(self.limits, which)
 
     def __repr__(self) -> str:
         def end(limit: MotionLimit) -> str:

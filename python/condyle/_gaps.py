@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Callable, Generic, Optional, TypeVar, get_args
+from typing import TYPE_CHECKING, Any, Callable, Generic, Optional, TypeVar, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,9 @@ from numpy.typing import NDArray
 from ._answer import Columns, html_of
 from ._mesh import TriMesh
 from ._words import Way
+
+if TYPE_CHECKING:
+    import pandas
 
 #: Values of `VertexDepths.way`, by number.
 WAYS: tuple[Way, ...] = get_args(Way)
@@ -111,6 +114,13 @@ class BothBodies(Generic[Of]):
 
     def _repr_html_(self) -> str:
         return html_of(type(self).__name__, [("mobile", repr(self.mobile)), ("fixed", repr(self.fixed))])
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row per vertex, with columns `body` and `vertex`. Needs pandas."""
+        import pandas
+
+        bodies = {name: body.to_dataframe() for name, body in (("mobile", self.mobile), ("fixed", self.fixed)) if body is not None}
+        return pandas.concat(bodies, names=["body", "vertex"]).reset_index() if bodies else pandas.DataFrame()
 
 
 class Gaps(BothBodies[VertexGaps]):

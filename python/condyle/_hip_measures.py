@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import math
-from typing import Iterable, Iterator, Mapping, Optional
+from typing import TYPE_CHECKING, Iterable, Iterator, Mapping, Optional
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
+from ._answer import html_of
 from ._described_joint import DescribedJoint
 from ._errors import unknown
-from ._record import renamed
+from ._record import columns_of, renamed
 from ._records import MeasureRecord
 from ._words import Progress, band_of, number, progress_of
+
+if TYPE_CHECKING:
+    import pandas
 
 
 class HipMeasure(MeasureRecord):
@@ -96,6 +100,16 @@ class HipMeasures(Mapping[str, HipMeasure]):
 
     def __len__(self) -> int:
         return len(self._by_key)
+
+    def _repr_html_(self) -> str:
+        return html_of("measures", [(each.key, f"{each.value:.4g} {each.unit}".removesuffix(" 1") if each.value is not None else str(each.why_none))
+                                    for each in self.values()])
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row per measure. Needs pandas."""
+        import pandas
+
+        return pandas.DataFrame(list(map(columns_of, self.values())))
 
     def __repr__(self) -> str:
         measured = sum(each.value is not None for each in self.values())

@@ -165,14 +165,6 @@ class Joint(DescribedJoint):
         given = [(text_of(name, "values"), number(value, str(name))) for name, value in values.items()]
         return Joint._of_native(self._native.with_parameters(given))
 
-    # Copies. Nothing changes a joint: a copy is the joint itself, with the tables that it has built.
-
-    def __copy__(self) -> Joint:
-        return self
-
-    def __deepcopy__(self, memo: dict[int, Any]) -> Joint:
-        return self
-
     def __reduce__(self) -> tuple[Any, ...]:
         return Joint._remade, (self._native, self._fixed._numbering(), self._mobile._numbering())
 
@@ -472,8 +464,8 @@ class Joint(DescribedJoint):
             "accept_reference_contact": bool(accept_reference_contact), "leave_out_rings": rings}
         known = Motions(self._native)
         asked = known.known if motions is None else known.asked(motions)
-        return RangeOfMotion(self, _native.range_of_motion(self._asked, [known.tuple_of(each) for each in asked], translation_mm,
-                                                           word(clock, "clock", ClockPlane) == "rim", options), known)
+        return RangeOfMotion(self, known, [known.tuple_of(each) for each in asked], translation_mm,
+                             word(clock, "clock", ClockPlane) == "rim", options)
 
     def measures(self, *, pelvic_tilt_deg: float = 0, band_samples: int = 0, seed: Optional[int] = None,
                  progress: Progress = None) -> HipMeasures:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._errors import UsageError, warn
+from ._errors import JointRemark, UsageError, warn
 from ._mesh import TriMesh
 from ._native import BodyImage
 from ._native import LabelMap as NativeLabelMap
@@ -259,7 +259,7 @@ def joint_bones(labels: Union[LabelMap, Path], fixed: Optional[LabelLike], mobil
     if missing:
         raise UsageError(f"cannot be inferred from the bones: {'; '.join(missing)}")
     for note in label_notes(notes):
-        warn(f"{note.code}: {note.text}")
+        warn(f"{note.code}: {note.text}", JointRemark)
     return _surface_of(bone), _surface_of(other), cast(Side, found)
 
 

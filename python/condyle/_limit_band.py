@@ -3,8 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
+from ._answer import html_of
 from ._motion import Motion
+from ._record import columns_of
+
+if TYPE_CHECKING:
+    import pandas
 
 
 @dataclass(frozen=True)
@@ -24,3 +30,19 @@ class LimitBand:
     share_without_contact: float
     share_in_contact_at_start: float
     width_from_parameters_deg: float = 0
+
+
+class LimitBands(tuple[LimitBand, ...]):
+    """The bands of :meth:`RangeOfMotion.bands`, one for each motion."""
+
+    __slots__ = ()
+
+    def _repr_html_(self) -> str:
+        return html_of("5, 50 and 95 % of the limits (deg)", [
+            (band.motion.name, f"{band.p5_deg:.1f}, {band.median_deg:.1f}, {band.p95_deg:.1f}") for band in self])
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row per motion. Needs pandas."""
+        import pandas
+
+        return pandas.DataFrame(list(map(columns_of, self)))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from . import _native
 from ._coordinates import position_in
 from ._described_joint import DescribedJoint
-from ._errors import UsageError
+from ._errors import OutOfRangeError, UsageError, unknown
 from ._mesh import TriMesh
 from ._motion import Angles, Motion, Motions
 from ._record import renamed
@@ -26,9 +26,24 @@ REASONS: tuple[LimitReason, ...] = get_args(LimitReason)
 KINDS: tuple[ContactKind, ...] = get_args(ContactKind)
 
 
-def end_text(limit_deg: float, reason: LimitReason) -> str:
+def end_text(limit_deg: float, reason: str) -> str:
     """ "134.8", or ">120" where the range ends without contact."""
     return f">{round(limit_deg, 1):g}" if reason == "end_of_range" else f"{limit_deg:.1f}"
+
+
+def limit_in(limits: tuple[MotionLimit, ...], which: Union[str, int, slice]) -> Union[MotionLimit, tuple[MotionLimit, ...]]:
+    """One of the limits by its name or number, or several."""
+    if isinstance(which, slice):
+        return limits[which]
+    if hasattr(which, "__index__"):
+        try:
+            return limits[which]
+        except IndexError:
+            raise OutOfRangeError(f"limit: there are {len(limits)}, counted from 0, and no {which}") from None
+    for limit in limits:
+        if limit.motion.name == which:
+            return limit
+    raise unknown("limit", which, (limit.motion.name for limit in limits))
 
 
 Feature = Union[tuple[Literal["vertex"], int], tuple[Literal["edge"], int, int], tuple[Literal["face"], int]]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._errors import UnknownNameError, UsageError, warn
+from ._errors import JointRemark, UnknownNameError, UsageError, warn
 from ._native import Joint as NativeJoint
 from ._native import Model as NativeModel
 from ._propose_joint import JointProposal
@@ -91,7 +91,7 @@ class ModelJoint:
 
         Warns
         -----
-        JointWarning
+        JointRemark
             For a name without a unit.
 
         C++: `condyle::pose_of` in condyle/io/model_file.hpp.
@@ -128,7 +128,8 @@ class ModelJoint:
         for i, name in by.items():
             if name == self.coordinates[i].name:
                 taken_as = "metres" if self.coordinates[i].motion == "translational" else "radians"
-                warn(f"coordinates: {name} is in {taken_as}: say so, with {' or '.join(_units_of(self.coordinates[i]))} behind its name")
+                warn(f"coordinates: {name} is in {taken_as}: say so, with {' or '.join(_units_of(self.coordinates[i]))} behind its name",
+                     JointRemark)
         try:
             whole = np.broadcast_arrays(*columns) if columns else [np.zeros(())]
         except ValueError:

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, field
-from typing import Any, Callable, Generic, Mapping, Optional, TypeVar
+from dataclasses import dataclass
+from typing import Callable, Generic, Mapping, Optional, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._contact_checks import ContactNote, reported
+from ._answer import Compiled, kept
+from ._contact_checks import ContactNote, remarked
 from ._described_joint import DescribedJoint
 from ._errors import UsageError, unknown
 from ._mesh import TriMesh
 from ._native import Joint as NativeJoint
+from ._native import PlacedImplant as NativePlacedImplant
 from ._words import CupDefinition, ImplantCentre, Path, count, number, path_of, word
 
 OfJoint = TypeVar("OfJoint", bound=DescribedJoint)
@@ -33,7 +35,7 @@ def sizes_in(given: Mapping[str, float], known: tuple[str, ...]) -> dict[str, fl
 
 
 @dataclass(frozen=True, eq=False)
-class PlacedImplant(Generic[OfJoint]):
+class PlacedImplant(Compiled, Generic[OfJoint]):
     """A total hip in the place of a hip, made by :meth:`Joint.implant`. Points and directions are in the frame of the joint before.
 
     Attributes
@@ -62,7 +64,7 @@ class PlacedImplant(Generic[OfJoint]):
         Between the axes of liner and neck where both first touch, in closed form; with `why_no_half_angle`.
     evidence : dict
         Landmarks of its placement, as in implant.json: head and socket with the residuals of their fits, axes and angles of the femur.
-    notes : what it must be read with, each with a :class:`JointWarning`
+    notes : what it must be read with, each with a :class:`JointRemark`
     caveats : list of str
     """
 
@@ -85,16 +87,11 @@ class PlacedImplant(Generic[OfJoint]):
     evidence: dict[str, object]
     notes: tuple[ContactNote, ...]
     caveats: list[str]
-    _placed: Optional[_native.PlacedImplant] = field(default=None, repr=False)
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_placed": None}
+    _native: Optional[NativePlacedImplant] = None
 
     def write(self, folder: Path) -> list[str]:
         """Writes implant.json, and hip.toml with its meshes, as the command does; their paths. FileError."""
-        if self._placed is None:
-            raise UsageError("implant: was pickled, which leaves out what its files need: ask for it again")
-        return self._placed.write(path_of(folder, "folder"))
+        return kept(self._native, "implant", "its files need").write(path_of(folder, "folder"))
 
     def __repr__(self) -> str:
         inclination, anteversion = self.cup["radiographic"]
@@ -126,4 +123,4 @@ def placed_implant(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], 
         frozenset(units[name] for name in said["of_bones"]), cup, _angles_of(said["rim"]), found["centre_mm"], found["femur_shift_mm"],
         found["cut_normal"], said["cut"]["offset_mm"], said["cut"]["removed_mm3"], said["room_mm"],
         stands_out and (stands_out["mm"], stands_out["hour"]), said["half_angle_deg"], said["why_no_half_angle"],
-        {key: said[key] for key in ("frame", "head", "socket", "femur")}, reported(found["notes"]), found["caveats"], found["placed"])
+        {key: said[key] for key in ("frame", "head", "socket", "femur")}, remarked(found["notes"]), found["caveats"], found["placed"])

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence, TypedDict
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence, TypedDict, Union, overload
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._answer import html_of
+from ._answer import Unchanging, html_of
 from ._contact_checks import notes_said, reported
 from ._described_joint import DescribedJoint
-from ._errors import UsageError, unknown, warn
+from ._errors import JointRemark, UsageError, warn
 from ._impingement_zone import ImpingementZone, body_zone_of
-from ._limit_band import LimitBand
-from ._limits import FreeAngles, Limit, MotionLimit, end_text, limit_of, motion_limit_of
+from ._limit_band import LimitBand, LimitBands
+from ._limits import FreeAngles, Limit, MotionLimit, end_text, limit_in, limit_of, motion_limit_of
 from ._motion import Motion, MotionLike, Motions
 from ._motion_map import MotionMap, map_of
+from ._native import RangeOfMotion as NativeRange
 from ._resection import OfJoint, Resection
 from ._sweep import Sweep
 from ._words import FEWEST_SAMPLES, MOST_SAMPLES, BearingRule, ClockPlane, Path, Progress, band_of, count, number, path_of
@@ -87,24 +88,46 @@ def _native_sweep(sweep: object, plan: Optional[Resection[OfJoint]]) -> Optional
     return sweep._shown()
 
 
-class RangeOfMotion:
+class RangeOfMotion(Unchanging):
     """A joint made ready for motions, and the limits of those asked for. Made by :meth:`Joint.range_of_motion`.
 
-    `limits` is a tuple of :class:`MotionLimit`; `rom["flexion"]` is one of them. Limits are exact: never past a
+    `limits` is a tuple of :class:`MotionLimit`; `rom["flexion"]` and `rom[0]` are one of them, `rom[-2:]` some. Limits are exact: never past a
     contact, short of one by at most `error_bound_deg`. `notes` is what they must be read with because of the joint's shape, each
-    with a :class:`JointWarning`. What `condyle rom --json` says beside them has its keys: :attr:`caveats`, :attr:`implant` and so on.
-    Any number of threads may ask.
+    with a :class:`JointRemark`. What `condyle rom --json` says beside them has its keys: :attr:`caveats`, :attr:`implant` and so on.
+    Any number of threads may ask. It can be pickled: the tables for further questions are built anew when the first one needs them.
 
     C++: `condyle::answer_range` in condyle/answer.hpp; `condyle rom`.
     """
 
-    __slots__ = ("_native", "_joint", "_motions", "_said", "limits", "notes", "__weakref__")
+    __slots__ = ("_made", "_asked", "_joint", "_motions", "_said", "limits", "notes", "__weakref__")
+    _made: Optional[NativeRange]
+    _asked: tuple[Any, ...]
 
-    def __init__(self, joint: DescribedJoint, native: _native.RangeOfMotion, motions: Motions) -> None:
-        self._native, self._joint, self._motions = native, joint, motions
-        self._said = native.answer()
+    def __init__(self, joint: DescribedJoint, motions: Motions, asked: list[tuple[object, ...]], translation_mm: Optional[ArrayLike],
+                 *how: object) -> None:
+        self._asked = asked, translation_mm, *how
+        self._made = _native.range_of_motion(joint._asked, *self._asked)
+        self._joint, self._motions, self._said = joint, motions, self._made.answer()
+        if translation_mm is not None:  # an array, which may change
+            self._asked = asked, self.held_translation_mm, *how
         self.limits = tuple(map(self._motion_limit_of, self._said.pop("limits")))
         self.notes = notes_said(self._said["notes"])
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return RangeOfMotion._remade, (self._joint, self._asked, self._said, self.limits, self.notes)
+
+    @classmethod
+    def _remade(cls, joint: DescribedJoint, *kept: Any) -> RangeOfMotion:
+        rom = cls.__new__(cls)
+        rom._made, rom._joint, rom._motions = None, joint, Motions(joint._native)
+        rom._asked, rom._said, rom.limits, rom.notes = kept
+        return rom
+
+    @property
+    def _native(self) -> NativeRange:
+        if self._made is None:
+            self._made = _native.range_of_motion(self._joint._native, *self._asked)
+        return self._made
 
     def _limit_of(self, found: dict[str, Any]) -> Limit:
         return limit_of(found, self._joint.fixed, self._joint.mobile)
@@ -128,11 +151,14 @@ class RangeOfMotion:
         found, = self._native.limits([self._motions.tuple_of(self.motion(motion))])
         return self._motion_limit_of(found)
 
-    def __getitem__(self, name: str) -> MotionLimit:
-        for limit in self.limits:
-            if limit.motion.name == name:
-                return limit
-        raise unknown("limit", name, (limit.motion.name for limit in self.limits))
+    @overload
+    def __getitem__(self, which: Union[str, int]) -> MotionLimit: ...
+
+    @overload
+    def __getitem__(self, which: slice) -> tuple[MotionLimit, ...]: ...
+
+    def __getitem__(self, which: Union[str, int, slice]) -> Union[MotionLimit, tuple[MotionLimit, ...]]:
+        return limit_in(self.limits, which)
 
     def __iter__(self) -> Iterator[MotionLimit]:
         return iter(self.limits)
@@ -172,7 +198,7 @@ class RangeOfMotion:
         """Free values of the third angle over a grid of the two others, on all threads.
 
         `column` and `row` are each one angle with first, last and step in degrees: `{"flexion": (0, 120, 10)}`. Exact
-        at every point; a :class:`JointWarning` names an axis that ends before its last value. Ctrl-C ends it within points
+        at every point; a :class:`JointRemark` names an axis that ends before its last value. Ctrl-C ends it within points
         begun; `progress` is called with (done, total).
 
         C++: `condyle::further_answer` with `RangeRequest::map` in condyle/answer.hpp.
@@ -208,7 +234,7 @@ class RangeOfMotion:
     def bands(self, motions: Optional[Sequence[MotionLike]] = None, *, samples: int = 200,
               seed: Optional[int] = None, sigma_centre_mm: Optional[float] = None,
               sigma_axes_deg: Optional[float] = None, sigma_surface_mm: Optional[float] = None,
-              progress: Progress = None) -> tuple[LimitBand, ...]:
+              progress: Progress = None) -> LimitBands:
         """How far each limit moves with what is uncertain: 5 to 95 % of `samples` displaced joints, 20 to 100,000.
 
         Standard deviations and a seed not given are those of the joint file, else 0.5 mm, 1 degree, 0.25 mm and 1; a surface from
@@ -220,7 +246,7 @@ class RangeOfMotion:
         asked = [limit.motion for limit in self.limits] if motions is None else self._motions.asked(motions)
         band = band_of(count(samples, "samples", FEWEST_SAMPLES, MOST_SAMPLES), seed, sigma_centre_mm, sigma_axes_deg, sigma_surface_mm)
         found = _native.limit_bands(self._native, [self._motions.tuple_of(each) for each in asked], band, progress_of(progress))
-        return tuple(LimitBand(motion, **band) for motion, band in zip(asked, found))
+        return LimitBands(LimitBand(motion, **band) for motion, band in zip(asked, found))
 
     def zones(self, motions: Optional[Sequence[MotionLike]] = None, *, past_deg: float = 5,
               progress: Progress = None) -> tuple[Optional[ImpingementZone], ...]:
@@ -248,7 +274,7 @@ class RangeOfMotion:
         scene, and its limits of the same motions, with bands of the same seed and standard deviations, stand beside these. `sweep`, of
         the same joint over one parameter or two, shows its safe zone with a point that turns the parts. `motion` is the file of a recorded
         motion, which the page plays with its curves; `load`: with pressure, by the layers of the joint file. What looks wrong with
-        them is warned of, :class:`JointWarning`. `case`
+        them is warned of, :class:`JointWarning`, and remarks are made of how they were read. `case`
         and `date` stand in the heading and `note` under the result, as given: nothing is taken from the clock. Files are named
         without their folders unless `whole_paths`. Whole or not at all; FileError where it cannot be written, UsageError if its
         name does not end in .html or .htm.
@@ -274,7 +300,7 @@ class RangeOfMotion:
             report_labels(case, note, date, whole_paths), progress_of(progress))
         reported(notes)
         for remark in remarks:
-            warn(remark)
+            warn(remark, JointRemark)
 
     def _zone_of(self, found: Optional[dict[str, Any]]) -> Optional[ImpingementZone]:
         if found is None:

@@ -9,8 +9,9 @@ from typing import Any, Iterator, Mapping, NoReturn, TypeVar, get_args, get_type
 import numpy as np
 from numpy.typing import NDArray
 
+from ._answer import html_of
 from ._errors import unknown
-from ._motion import Angles
+from ._motion import Angles, Motion
 
 AnyRecord = TypeVar("AnyRecord", bound="Record")
 Value = TypeVar("Value")
@@ -48,6 +49,18 @@ def _is_same(one: Any, other: Any) -> bool:
     return bool(one == other)
 
 
+def columns_of(values: object) -> dict[str, object]:
+    """What a record or an answer holds as a row of a table: a motion by its name, and records in it by both keys, "normal_low", as in files."""
+    row: dict[str, object] = {}
+    hints = _hints_of(type(values))
+    for key, value in vars(values).items():
+        if isinstance(value, Record):
+            row.update((f"{key}_{inner}", each) for inner, each in columns_of(value).items())
+        elif value is not None or not any(isinstance(each, type) and issubclass(each, Record) for each in get_args(hints[key])):
+            row[key] = value.name if isinstance(value, Motion) else value
+    return row
+
+
 class Record:
     """A frozen record, whose values are attributes and, as in its file, have keys: `limit.closed_form["limit_deg"]`."""
 
@@ -71,6 +84,9 @@ class Record:
 
     def keys(self) -> list[str]:
         return list(vars(self))
+
+    def _repr_html_(self) -> str:
+        return html_of(type(self).__name__, [(key, str(value)) for key, value in columns_of(self).items() if value is not None])
 
     def __setattr__(self, key: str, value: object) -> NoReturn:
         raise AttributeError(f"{type(self).__name__}.{key} is not assigned to")

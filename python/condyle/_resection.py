@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Callable, Generic, Mapping, NamedTuple, Optional, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._contact_checks import ContactNote, reported
+from ._answer import Compiled, kept
+from ._contact_checks import ContactNote, remarked
 from ._described_joint import DescribedJoint
 from ._errors import UsageError
 from ._limits import MotionLimit, motion_limit_of
 from ._mesh import TriMesh
 from ._motion import Motions
 from ._native import Joint as NativeJoint
-from ._words import BearingRule, Body, CutFrom, KeptBy, Progress, band_of, count, number, progress_of, word
+from ._native import Plan
+from ._words import BearingRule, Body, CutFrom, KeptBy, Progress, band_of, count, number, progress_of, text_of, word
 
 OfJoint = TypeVar("OfJoint", bound=DescribedJoint)
 
@@ -93,7 +95,7 @@ class CurvePoint(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Resection(Generic[OfJoint]):
+class Resection(Compiled, Generic[OfJoint]):
     """A plan made by :meth:`Joint.resection`.
 
     Attributes
@@ -112,7 +114,7 @@ class Resection(Generic[OfJoint]):
         Degrees against mm3.
     margin_mm : float
         As planned: larger than asked for where bands are to be reached.
-    notes : what the plan must be read with, each with a :class:`JointWarning`
+    notes : what the plan must be read with, each with a :class:`JointRemark`
     caveats : list of str
     """
 
@@ -128,18 +130,13 @@ class Resection(Generic[OfJoint]):
     margin_mm: float
     notes: tuple[ContactNote, ...]
     caveats: list[str]
-    _plan: Optional[_native.Plan] = field(default=None, repr=False)
+    _native: Optional[Plan] = None
 
-    def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_plan": None}
-
-    def _shown_by(self, joint: DescribedJoint) -> _native.Plan:
+    def _shown_by(self, joint: DescribedJoint) -> Plan:
         """Its data in a report, beside the limits of this joint."""
         if joint is not self.joint:
             raise UsageError("plan: the limits are not those of plan.joint")
-        if self._plan is None:
-            raise UsageError("plan: was pickled, which leaves out what a report shows: ask for it again")
-        return self._plan
+        return kept(self._native, "plan", "a report shows")
 
     @property
     def volume_mm3(self) -> float:
@@ -156,6 +153,13 @@ def _cut_of(found: Optional[dict[str, Any]]) -> Optional[CutBone]:
         return None
     before, after = (TriMesh._of_native(found.pop(name)) for name in ("before", "after"))
     return CutBone(after, before, **found)
+
+
+def reach_of(given: Mapping[str, float]) -> list[tuple[str, float]]:
+    """Motions and how far each shall go, checked."""
+    if not isinstance(given, Mapping) or not given:
+        raise UsageError('reach: motions and their degrees are needed: {"flexion": 115}')
+    return [(text_of(name, "reach"), number(degrees, f"reach of {name}")) for name, degrees in given.items()]
 
 
 def kept_vertices(marks: Optional[ArrayLike], mesh: TriMesh, what: str) -> NDArray[np.uint8]:
@@ -204,7 +208,7 @@ def resection(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], reach
         "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm")}
     found = _native.resection(
         joint._asked, [known.tuple_of(each) for each in known.known],
-        [(known.tuple_of(known[name]), number(degrees, f"reach of {name}")) for name, degrees in reach.items()], options,
+        [(known.tuple_of(known[name]), degrees) for name, degrees in reach_of(reach)], options,
         progress_of(progress))
     without = of_native(found["joint"])
 
@@ -219,5 +223,5 @@ def resection(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], reach
         without, _cut_of(found["mobile"]), _cut_of(found["fixed"]), tuple(targets),
         tuple(limit_of(each, joint) for each in found["before"]), tuple(limit_of(each, without) for each in found["after"]),
         tuple(found["gain_deg"]), found["shapes"] or {},
-        tuple(CurvePoint(targets[target].motion, *rest) for target, *rest in found["curve"]), found["margin_mm"], reported(found["notes"]),
+        tuple(CurvePoint(targets[target].motion, *rest) for target, *rest in found["curve"]), found["margin_mm"], remarked(found["notes"]),
         found["caveats"], found["plan"])

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Mapping, Optional
+from typing import Mapping, NamedTuple, Optional
 
 from . import _native
 from ._errors import UsageError, unknown
@@ -18,16 +17,14 @@ HIP_PARAMETERS = (
     "lateral_centre_edge_angle_deg")
 
 
-@dataclass(frozen=True)
-class SampleHip:
-    """Two bones in the joint frame in the neutral pose, apart: `hip_bone` is the fixed body, `femur` the mobile one."""
+class SampleHip(NamedTuple):
+    """Two bones in the joint frame in the neutral pose, apart: `hip_bone` is the fixed body, `femur` the mobile one, `Joint(*bones)`."""
 
     hip_bone: TriMesh
     femur: TriMesh
 
 
-@dataclass(frozen=True)
-class SampleCartilages:
+class SampleCartilages(NamedTuple):
     """Two cartilages in the joint frame of the bones: `acetabular`, with its labrum, is fixed, `femoral` mobile."""
 
     acetabular: TriMesh

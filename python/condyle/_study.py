@@ -17,9 +17,10 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native
 from ._answer import html_of
 from ._csv_text import plain_field
+from ._contact_checks import kind_of
 from ._errors import FileError, UsageError, unknown, warn
 from ._pressure import ElasticLayer
-from ._resection import cut_options
+from ._resection import cut_options, reach_of
 from ._words import Anatomy, BearingRule, Bodies, CutFrom, FaceRule, Path, PressureLaw, Progress, band_of, count, number, number_array
 from ._words import path_of, progress_of, text_of, word
 
@@ -151,12 +152,8 @@ class StudyResection:
     edge_mm: float = 0.5
 
     def _checked(self) -> dict[str, Any]:
-        if not isinstance(self.reach, Mapping) or not self.reach:
-            raise UsageError('reach: motions and their degrees are needed: {"flexion": 115}')
-        cut = cut_options(self.cut, self.share, self.margin_mm, self.deepest_mm, self.within_mm, self.burr_mm,
-                          self.edge_mm)
-        reach = [(text_of(name, "reach"), number(degrees, f"reach of {name}")) for name, degrees in self.reach.items()]
-        return {**cut, "reach": reach}
+        return {"reach": reach_of(self.reach), **cut_options(self.cut, self.share, self.margin_mm, self.deepest_mm, self.within_mm,
+                                                             self.burr_mm, self.edge_mm)}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -301,7 +298,7 @@ def _grid(given: Any, vary: Optional[str]) -> Optional[tuple[str, str, Optional[
 
 def _warn_of(noted: Sequence[tuple[str, str]]) -> None:
     for joint, codes in noted:
-        warn(f"{joint}: {codes}")
+        warn(f"{joint}: {codes}", kind_of(codes.split()))
 
 
 def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = None, anatomy: Anatomy = "hip",
@@ -348,8 +345,8 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
 
     Results there of the same inputs, options and version are not computed again. Without `strict` a joint that cannot
     be answered is a row of `failures`, and one with which something looks wrong (`notes` in `hips`) is warned of,
-    :class:`JointWarning`. Where no joint could be answered, the error of the first one is raised once the files are
-    written; not of a shard.
+    :class:`JointWarning`, or :class:`JointRemark` if only its limits have notes. Where no joint could be answered, the
+    error of the first one is raised once the files are written; not of a shard.
 
     C++: `condyle::run_study` in condyle/io/study.hpp; `condyle study`.
     """

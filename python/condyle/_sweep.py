@@ -10,18 +10,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._answer import html_of
-from ._contact_checks import ContactNote, reported
+from ._answer import Compiled, html_of, kept
+from ._contact_checks import ContactNote, remarked
 from ._described_joint import DescribedJoint
 from ._errors import UsageError
 from ._limits import REASONS
 from ._motion import Motion, MotionLike, Motions
+from ._native import Sweep as NativeSweep
 from ._words import BearingRule, LimitKnownBy, Path, Progress, band_of, number, path_of, progress_of, text_of, word
 
 if TYPE_CHECKING:
     import xarray
-
-    from ._native import Sweep as NativeSweep
 
 #: By what a limit of a sweep is known: its `known_by` are positions in this.
 KNOWN_BY: tuple[LimitKnownBy, ...] = get_args(LimitKnownBy)
@@ -92,7 +91,7 @@ class SafeInterval(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Sweep:
+class Sweep(Compiled):
     """Limits of every design of a grid, made by :meth:`Joint.sweep`. With the axes of n1, n2, ... values and T targets:
 
     Attributes
@@ -125,7 +124,7 @@ class Sweep:
         The design of the largest margin; None if all are in contact in their reference poses.
     here : Design
         The joint as it is.
-    notes : what the zone must be read with, each with a :class:`JointWarning`
+    notes : what the zone must be read with, each with a :class:`JointRemark`
     caveats : list of str
     """
 
@@ -148,10 +147,7 @@ class Sweep:
     here: Design
     notes: tuple[ContactNote, ...]
     caveats: list[str]
-    _native: Optional[_native.Sweep] = field(default=None)
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_native": None}
+    _native: Optional[NativeSweep] = None
 
     def __repr__(self) -> str:
         axes = " x ".join(f"{len(values)} {name}" for name, values in self.axes.items())
@@ -182,16 +178,12 @@ class Sweep:
 
     def _shown(self) -> NativeSweep:
         """What a report shows of it."""
-        if self._native is None:
-            raise UsageError("sweep: was pickled, which leaves out what a report shows: ask for it again")
-        return self._native
+        return kept(self._native, "sweep", "a report shows")
 
     def write(self, folder: Path) -> list[str]:
         """sweep.json, designs.csv, safe.csv and of two parameters zone.vtp, as `condyle sweep --out` writes them but without
         provenance, for `python3 -m condyle.plot`. Their paths are returned."""
-        if self._native is None:
-            raise UsageError("sweep: was pickled, which leaves out what its files need: ask for it again")
-        return self._native.write(path_of(folder, "folder"))
+        return kept(self._native, "sweep", "its files need").write(path_of(folder, "folder"))
 
 
 def _axes_of(vary: Mapping[str, Sequence[float]]) -> list[tuple[str, float, float, float]]:
@@ -284,4 +276,4 @@ def sweep(joint: DescribedJoint, vary: Mapping[str, Sequence[float]], targets: U
         tuple(EndingPair(*each) for each in found["pairs"]), margin, margin >= 0,
         None if probability is None else probability.reshape(shape), quantities,
         tuple(interval(*each) for each in found["safe_intervals"]), found["safe_measure"], found["window_measure"], best, here,
-        reported(found["notes"]), found["caveats"], found["sweep"])
+        remarked(found["notes"]), found["caveats"], found["sweep"])

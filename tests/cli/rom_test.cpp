@@ -147,7 +147,8 @@ TEST_F(RomCommand, WhatAnEarlierRunWroteIsReplaced) {
   std::ofstream(here / "notes.txt") << "somebody's";
   ASSERT_EQ(run(std::string("rom joint.toml --motion flexion --past 4 --out .") + small_map).exit_code, 0);
   EXPECT_TRUE(fs::exists(here / "zone_01_flexion_fixed.vtp"));
-  for (const char* drawn : {"limits.pdf", "clock_face.png", "map_flexion.svg", "map_free_range.pdf"})
+  for (const char* drawn :
+       {"limits.pdf", "limit_bands.png", "clock_face.png", "map_flexion.svg", "map_free_range.pdf"})
     std::ofstream(here / drawn) << "drawn of it";
   std::ofstream(here / "map_of_mine.pdf") << "somebody's";
   const Ran ran = run("rom joint.toml --motion extension --out .");

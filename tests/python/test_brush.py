@@ -8,7 +8,7 @@ import pytest
 import condyle
 from condyle import BrushStroke
 
-pytestmark = pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::condyle.JointRemark")
 
 MOTION = "internal_rotation_at_90_flexion"
 

@@ -113,6 +113,33 @@ def test_copies_of_a_joint_are_the_joint(hip):
     assert copy.copy(hip) is hip and copy.deepcopy([hip])[0] is hip
 
 
+def test_a_range_of_motion_comes_back_and_is_asked_on(tmp_path, coarse_bones):
+    joint = condyle.Joint(coarse_bones.hip_bone, coarse_bones.femur, kind="free", name="hip")
+    rom = joint.range_of_motion(["flexion", condyle.Motion("mine", "extension", 90, {})], translation_mm=np.array([0.1, 0.2, 0.3]))
+    again = pickle.loads(pickle.dumps(rom))
+    for each in (lambda rom: rom.limits, lambda rom: rom.notes, repr, lambda rom: rom._said, lambda rom: rom.held_translation_mm,
+                 lambda rom: rom.known_motions):
+        assert each(again) == each(rom)
+    assert again._made is None, "nothing is asked anew before it is needed"
+    assert again.bands(samples=20) == rom.bands(samples=20) and again.limit("fadir") == rom.limit("fadir")
+    assert again.bearing["triangles"].tolist() == rom.bearing["triangles"].tolist() and again.left_out == rom.left_out
+    for name, each in (("a", rom), ("b", again)):
+        each.write_report(tmp_path / f"{name}.html")
+    assert (tmp_path / "a.html").read_bytes() == (tmp_path / "b.html").read_bytes()
+    assert copy.copy(rom) is rom and copy.deepcopy([rom])[0] is rom
+
+
+def test_copies_of_plans_are_the_plans(coarse_bones):
+    """A copy lost what a report shows of it."""
+    joint = condyle.Joint(coarse_bones.hip_bone, coarse_bones.femur)
+    plan = joint.resection({"flexion": 5}, curve_points=0)
+    assert copy.deepcopy(plan) is copy.copy(plan) is plan
+
+
+def band_of(rom):
+    return rom.bands(samples=20)
+
+
 def limit_of(joint):
     return joint.range_of_motion(["flexion"]).limits[0].limit_deg
 
@@ -120,6 +147,8 @@ def limit_of(joint):
 def test_another_process_answers_the_same(hip):
     with multiprocessing.get_context("spawn").Pool(1) as pool:
         assert pool.map(limit_of, [hip]) == [limit_of(hip)]
+        rom = hip.range_of_motion(["flexion"])
+        assert pool.map(band_of, [rom]) == [band_of(rom)]
 
 
 def test_what_is_cut_off_or_of_another_version_is_refused(hip):
@@ -137,6 +166,7 @@ def test_what_is_pickled_comes_back_or_raises_by_every_protocol(hip, protocol):
     assert limit_of(pickle.loads(pickle.dumps(hip, protocol))) == limit_of(hip)
     assert limit_of(condyle.Joint._of_native(pickle.loads(pickle.dumps(hip._native, protocol)))) == limit_of(hip)
     rom = hip.range_of_motion(["flexion"])
+    assert pickle.loads(pickle.dumps(rom, protocol)).limits == rom.limits
     holders = [rom, hip.fixed, condyle.RadialTable(hip.fixed), condyle.JointContact(hip.fixed, hip.mobile),
                condyle.FirstContact(hip.fixed, hip.mobile, (0, 0, 0), (0, 0, 1)), condyle.DepthRange(hip, 1),
                condyle.RingTable(hip.fixed, (0, 0, 0), (0, 0, 1))]

@@ -37,7 +37,7 @@ NAMES = {
                             "column: no 'limit_deg'; there are id"),
     "a measure": (lambda hip, rom: condyle.sample_hip(haed_radius_mm=24),
                   "measure of the hip: no 'haed_radius_mm': did you mean 'head_radius_mm'? there are head_radius_mm, "),
-    "a name that is no text": (lambda hip, rom: rom[3], "limit: no int; there are flexion, fadir"),
+    "a name that is no text": (lambda hip, rom: rom[3.0], "limit: no float; there are flexion, fadir"),
 }
 
 
@@ -57,6 +57,9 @@ def test_a_pose_beyond_the_last_is_an_index_error(hip, coarse_bones):
         with pytest.raises(IndexError, match=f"pose: there are 2, counted from 0, and no {n}"):
             many[n]
     arcs = condyle.RingTable(coarse_bones.femur, [0, 0, 0], [0, 0, 1]).occupied_arcs([[1, 0, 0]])
+    for n in (2, -3):
+        with pytest.raises(IndexError, match=f"limit: there are 2, counted from 0, and no {n}"):
+            hip.range_of_motion(["flexion", "fadir"])[n]
     with pytest.raises(condyle.OutOfRangeError, match="point: there are 1, counted from 0, and no 1"):
         arcs.of(1)
 

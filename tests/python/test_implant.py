@@ -9,7 +9,7 @@ import pytest
 import condyle
 
 
-@pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+@pytest.mark.filterwarnings("ignore::condyle.JointRemark")
 def test_the_meshes_are_those_of_the_command(command, tmp_path):
     made = condyle.sample_replacement(inclination_deg=45, anteversion_deg=20, definition="operative", head_radius_mm=18,
                                       facets=96, side="left")
@@ -25,7 +25,7 @@ def test_the_meshes_are_those_of_the_command(command, tmp_path):
     assert read.range_of_motion().bands(["flexion"], samples=20) == made.joint.range_of_motion().bands(["flexion"], samples=20)
 
 
-@pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+@pytest.mark.filterwarnings("ignore::condyle.JointRemark")
 def test_limits_name_the_parts_and_are_those_of_the_closed_form():
     hip = condyle.sample_replacement(bones="none").joint
     rom = hip.range_of_motion(bearing="count")
@@ -62,7 +62,7 @@ def test_wrong_sizes_are_one_line(arguments, line):
     assert line in str(error.value) and "\n" not in str(error.value)
 
 
-@pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+@pytest.mark.filterwarnings("ignore::condyle.JointRemark")
 def test_an_implant_in_a_joint_is_that_of_the_command(command, hip_file, hip, tmp_path):
     placed = hip.implant(inclination_deg=45, definition="anatomic", offset_mm=42, facets=96)
     made = tmp_path / "made"
@@ -87,7 +87,7 @@ def test_an_implant_in_a_joint_is_that_of_the_command(command, hip_file, hip, tm
     assert read.parameters["cup.inclination"].value == placed.joint.parameters["cup.inclination"].value
 
 
-@pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+@pytest.mark.filterwarnings("ignore::condyle.JointRemark")
 def test_an_implant_in_a_joint_is_asked_as_any_joint(hip):
     placed = hip.implant(neck_shaft_deg=135, stem_version_deg=15, offset_mm=40)
     flexion = placed.joint.range_of_motion(bearing="count").limit("flexion")
@@ -105,7 +105,7 @@ def test_an_implant_in_a_joint_is_asked_as_any_joint(hip):
     ({"head_radius_mm": 28, "cup_radius_mm": 30}, "a head of radius 28 mm does not fit"),
     ({"haed_radius_mm": 16}, "haed_radius_mm"),
 ])
-@pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+@pytest.mark.filterwarnings("ignore::condyle.JointRemark")
 def test_what_does_not_fit_a_joint_is_one_line(hip, arguments, line):
     with pytest.raises(condyle.UsageError) as error:
         hip.implant(**arguments)

@@ -219,6 +219,37 @@ def test_measures_are_those_of_the_command(tmp_path, sampled, command):
         joint.measures(pelvic_tilt_deg=90)
 
 
+def test_depths_and_measures_are_tables(coarse_bones):
+    pytest.importorskip("pandas")
+    joint = condyle.Joint(*coarse_bones)
+    depths = joint.depths({"flexion_deg": 140})
+    table = depths.to_dataframe()
+    assert list(table.columns) == ["body", "vertex", "depth_mm", "way"] and len(table) == len(depths.mobile) + len(depths.fixed)
+    of_fixed = table[table.body == "fixed"]
+    assert of_fixed.depth_mm.tolist() == depths.fixed.depth_mm.tolist() and of_fixed.vertex.tolist() == list(range(len(depths.fixed)))
+    assert condyle.Depths(None, None).to_dataframe().empty
+    measures = joint.measures()
+    table = measures.to_dataframe().set_index("key")
+    at = table.loc["alpha_12_deg"]
+    assert at["value"] == measures["alpha_12_deg"].value and at["normal_high"] == measures["alpha_12_deg"].normal.high
+    assert list(table.index) == list(measures) and not {"normal", "patients", "band"} & set(table.columns)
+    shown = measures._repr_html_()
+    assert f"<td>{measures['alpha_12_deg'].value:.4g} deg</td>" in shown and "ends above the knee" in shown
+    assert "<td>normal_high</td><td>66.0</td>" in measures["alpha_12_deg"]._repr_html_() and "why_none" not in measures["alpha_12_deg"]._repr_html_()
+
+
+@pytest.mark.parametrize("reach", ["fadir=40", {}, None, [("fadir", 40)]])
+def test_a_resection_says_how_its_targets_are_given(hip, reach):
+    with pytest.raises(condyle.UsageError, match='reach: motions and their degrees are needed: {"flexion": 115}'):
+        hip.resection(reach)
+
+
+def test_the_two_bodies_of_a_sample_are_those_of_a_joint(coarse_bones):
+    assert condyle.Joint(*coarse_bones).mobile == coarse_bones.femur
+    acetabular, femoral = condyle.sample_cartilages()
+    assert len(femoral.vertices) == 1414 < len(acetabular.vertices)
+
+
 def test_resections_are_those_of_the_command(tmp_path, sampled, command):
     sampled(tmp_path, "hip", "--alpha-angle", "70")
     joint = condyle.read_joint(tmp_path / "hip.toml")
@@ -226,7 +257,7 @@ def test_resections_are_those_of_the_command(tmp_path, sampled, command):
     said = json.loads(subprocess.run(
         [command, "resect", tmp_path / "hip.toml", "--reach", "internal_rotation_at_90_flexion=45", "--curve", "2", "--json", "--out",
          tmp_path / "plan"], check=True, capture_output=True, text=True).stdout)
-    with pytest.warns(condyle.JointWarning):
+    with pytest.warns(condyle.JointRemark):
         plan = joint.resection(reach, curve_points=2)
     cut, = said["cuts"]
     assert plan.fixed is None and plan.mobile.volume_mm3 == plan.volume_mm3 == cut["volume_mm3"]

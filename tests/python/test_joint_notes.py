@@ -2,6 +2,7 @@
 
 import json
 import pickle
+import re
 import subprocess
 import threading
 import warnings
@@ -70,6 +71,22 @@ def test_a_warning_can_be_an_error(left):
             with pytest.raises(condyle.JointWarning, match="wrong_side"):
                 left.in_contact(np.eye(4))
     assert len(warnings_of(lambda: left.in_contact(np.eye(4)))) == 1
+
+
+def test_what_strict_lets_pass_is_a_remark(command, sampled, tmp_path):
+    file = sampled(tmp_path, "hip", "--alpha-angle", "70") / "hip.toml"
+    subprocess.run([command, "resect", file, "--reach", "internal_rotation_at_90_flexion=45", "--curve", "0", "--strict"], check=True,
+                   capture_output=True)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", condyle.JointWarning)
+        with pytest.warns(condyle.JointRemark, match="no_gain"):
+            condyle.read_joint(file).resection({"internal_rotation_at_90_flexion": 45}, curve_points=0)
+    assert not issubclass(condyle.JointRemark, condyle.JointWarning)
+
+
+def test_notes_of_limits_are_known_by_their_codes(source):
+    codes = re.search(r"enum class RangeNoteCode.*?{(.*?)^};", (source / "include/condyle/answer/range.hpp").read_text(), re.DOTALL | re.MULTILINE)
+    assert set(re.findall(r"^  (\w+),", codes[1], re.MULTILINE)) == condyle._contact_checks.OF_LIMITS
 
 
 def test_a_joint_that_is_right_warns_of_nothing(hip):

@@ -55,10 +55,10 @@ def test_coordinates_say_their_unit(gait: condyle.Model) -> None:
     wanted = knee.pose([-1.2])
     np.testing.assert_allclose(knee.pose({"knee_angle_r_deg": np.degrees(-1.2)}), wanted, rtol=0, atol=1e-15)
     np.testing.assert_array_equal(knee.pose({"knee_angle_r_rad": -1.2}), wanted)
-    with pytest.warns(condyle.JointWarning, match="knee_angle_r is in radians: say so, with _rad or _deg behind"):
+    with pytest.warns(condyle.JointRemark, match="knee_angle_r is in radians: say so, with _rad or _deg behind"):
         np.testing.assert_array_equal(knee.pose({"knee_angle_r": -1.2}), wanted)
     np.testing.assert_array_equal(pelvis.pose({"pelvis_ty_mm": 500})[:3, 3], pelvis.pose({"pelvis_ty_m": 0.5})[:3, 3])
-    with pytest.warns(condyle.JointWarning, match="pelvis_ty is in metres"):
+    with pytest.warns(condyle.JointRemark, match="pelvis_ty is in metres"):
         pelvis.pose({"pelvis_ty": 0.5})
     with pytest.raises(condyle.UsageError, match="knee_angle_r_deg and knee_angle_r_rad are one coordinate"):
         knee.pose({"knee_angle_r_deg": 1, "knee_angle_r_rad": 1})

@@ -90,7 +90,7 @@ def test_the_sample_hip(hip, command, hip_file):
     assert again[0].clock_hour is None and again[0].guarantee == ""
 
 
-@pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+@pytest.mark.filterwarnings("ignore::condyle.JointWarning", "ignore::condyle.JointRemark")
 def test_a_label_map_that_its_image_cuts(command, sampled, tmp_path):
     sampled(tmp_path, "hip", "--scenario", "2", "--voxel", "1.5")
     labels = condyle.read_labels(tmp_path / "labels.nii.gz")
@@ -109,7 +109,7 @@ def test_a_label_map_that_its_image_cuts(command, sampled, tmp_path):
     require_same(joint, command, tmp_path / "cut.toml")
 
 
-@pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+@pytest.mark.filterwarnings("ignore::condyle.JointRemark")
 def test_an_implant(command, sampled, tmp_path):
     file = sampled(tmp_path, "replacement", "--bones", "none", "--facets", "60") / "hip.toml"
     rom = require_same(condyle.read_joint(file), command, file)
@@ -120,7 +120,7 @@ def test_an_implant(command, sampled, tmp_path):
 def test_an_implant_whose_meshes_are_not_those_of_its_sizes(command, sampled, tmp_path):
     file = sampled(tmp_path, "replacement", "--bones", "none", "--facets", "60") / "hip.toml"
     file.write_text(file.read_text().replace("neck_radius = 6", "neck_radius = 7"))
-    with pytest.warns(condyle.JointWarning, match="differs_from_closed_form"):
+    with pytest.warns(condyle.JointRemark, match="differs_from_closed_form"):
         rom = require_same(condyle.read_joint(file), command, file)
     assert "differs_from_closed_form" in [note.code for note in rom.notes]
 
@@ -162,6 +162,6 @@ def test_a_translation_that_is_held_and_one_that_follows(command, coarse_bones, 
     of_arrays.write_report(tmp_path / "hip.html")
     shown, = text_of(tmp_path / "hip.html")["rom"]["motions"]
     assert shown["contact_point_mm"] == of_arrays["flexion"].contact.fixed_point.tolist()
-    with pytest.warns(condyle.JointWarning, match="translation_ends"):
+    with pytest.warns(condyle.JointRemark, match="translation_ends"):
         found = joint.range_following(poses=joint.motion(tmp_path / "record.csv").X_FM)
     require_same_limits(joint, found, said_by(command, tmp_path / "hip.toml", "--follow", tmp_path / "record.csv"))

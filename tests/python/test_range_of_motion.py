@@ -56,7 +56,7 @@ def test_notes_of_limits_are_the_same_everywhere(command, hip_file, tmp_path):
     assert note["code"] == "centre_moves_limits" and "1.3 mm apart" in note["text"]
     assert f"note: {note['code']}: {note['text']}" in ran.stderr
 
-    with pytest.warns(condyle.JointWarning, match="centre_moves_limits"):
+    with pytest.warns(condyle.JointRemark, match="centre_moves_limits"):
         rom = condyle.read_joint(moved).range_of_motion()
     assert [vars(each) for each in rom.notes] == [note]
 
@@ -65,6 +65,8 @@ def test_notes_of_limits_are_the_same_everywhere(command, hip_file, tmp_path):
     with open(tmp_path / "out/hips.csv") as rows:
         row, = csv.DictReader(line for line in rows if not line.startswith("#"))
     assert row["notes"] == note["code"]
+    with pytest.warns(condyle.JointRemark, match="moved: centre_moves_limits"):
+        condyle.run_study(tmp_path / "hips.csv", tmp_path / "ours", motions=["flexion"])
 
 
 def test_surfaces_that_slide_by_nature_are_noted_everywhere(command, hip_file, tmp_path):
@@ -78,7 +80,7 @@ def test_surfaces_that_slide_by_nature_are_noted_everywhere(command, hip_file, t
     note, = [each for each in json.loads(ran.stdout)["notes"] if each["code"] == "sliding_surfaces"]
     assert note["text"].startswith("the surfaces of an elbow slide on each other by nature")
     assert f"note: {note['code']}: {note['text']}" in ran.stderr
-    with pytest.warns(condyle.JointWarning, match="sliding_surfaces"):
+    with pytest.warns(condyle.JointRemark, match="sliding_surfaces"):
         rom = condyle.read_joint(elbow).range_of_motion()
     assert [vars(each) for each in rom.notes] == [note]
     assert rom.bearing is None
@@ -103,6 +105,11 @@ def test_a_map_is_that_of_the_command(hip, rom, command, hip_file, tmp_path):
             assert found.upper_deg[at] == found.positive.turned_deg[at]
     assert seen == sorted(seen) and all(total == 12 for _, total in seen)
     assert found.to_xarray().lower_deg.shape == (3, 4) and len(found.to_dataframe()) == 12
+
+
+def test_limits_are_taken_by_name_number_and_slice(rom):
+    assert rom[0] is rom["flexion"] is rom.limits[0] and rom[-1] is rom[np.int64(11)] is rom["faber"]
+    assert rom[:2] == rom.limits[:2] and rom[-2:] == rom.limits[10:]
 
 
 def test_a_free_set_and_its_contact_set_fill_the_range(rom):
@@ -145,6 +152,15 @@ def test_bands_are_those_of_the_command(hip, command, hip_file):
     band, = hip.range_of_motion(["flexion"]).bands(samples=20)
     theirs = said["motions"][0]["band"]
     assert (band.p5_deg, band.median_deg, band.p95_deg) == (theirs["p5_deg"], theirs["median_deg"], theirs["p95_deg"])
+
+
+def test_bands_are_a_table(coarse_bones):
+    pytest.importorskip("pandas")
+    bands = condyle.Joint(*coarse_bones).range_of_motion(["flexion", "faber"]).bands(samples=20)
+    table = bands.to_dataframe()
+    assert table.motion.tolist() == ["flexion", "faber"] and table.p95_deg.tolist() == [band.p95_deg for band in bands]
+    assert f"<td>flexion</td><td>{bands[0].p5_deg:.1f}, {bands[0].median_deg:.1f}, {bands[0].p95_deg:.1f}</td>" in bands._repr_html_()
+    assert isinstance(bands, tuple) and type(pickle.loads(pickle.dumps(bands))) is condyle.LimitBands
 
 
 def test_a_zone_grows_past_its_limit(hip):
@@ -278,14 +294,14 @@ def test_the_centre_follows_a_recorded_motion_or_a_load(tmp_path, coarse_bones, 
     rows = "".join(f"{i * 0.1},{d},{0.01 * d},{-0.005 * d}\n" for i, d in enumerate(degrees))
     (tmp_path / "record.csv").write_text("time,flexion_deg,x_mm,y_mm\n" + rows)
     found = joint.range_following(poses=joint.motion(tmp_path / "record.csv").X_FM)
-    assert [limit.motion.name for limit in found.limits] == ["flexion"]
+    assert [limit.motion.name for limit in found.limits] == ["flexion"] and found[-1] is found["flexion"]
     by_command = json.loads(subprocess.run([command, "rom", tmp_path / "hip.toml", "--follow", tmp_path / "record.csv", "--json"],
                                            check=True, capture_output=True, text=True).stdout)
     assert found["flexion"].limit_deg == by_command["motions"][0]["limit_deg"]
     assert found["flexion"].translation_mm.tolist() == by_command["motions"][0]["translation_mm"]
     assert found["flexion"].translation_ends is by_command["motions"][0]["translation_ends"] is False
     (tmp_path / "short.csv").write_text("time,flexion_deg,x_mm,y_mm\n" + "".join(rows.splitlines(True)[:5]))
-    with pytest.warns(condyle.JointWarning, match="recorded motion ends 8 degrees"):
+    with pytest.warns(condyle.JointRemark, match="recorded motion ends 8 degrees"):
         led = joint.range_following(poses=joint.motion(tmp_path / "short.csv").X_FM)
     short = led["flexion"]
     assert repr(led) == "FollowedRange(flexion 8.0 translation_ends)"

@@ -24,7 +24,7 @@ def test_a_report_is_that_of_the_command_but_for_its_name(command, hip, hip_file
 def test_a_report_shows_shape_and_plan_as_the_command_does(tmp_path, sampled, command):
     sampled(tmp_path, "hip", "--alpha-angle", "70")
     joint = condyle.read_joint(tmp_path / "hip.toml")
-    with pytest.warns(condyle.JointWarning):
+    with pytest.warns(condyle.JointRemark):
         plan = joint.resection({"internal_rotation_at_90_flexion": 45}, curve_points=1)
     plan.joint.range_of_motion().write_report(tmp_path / "python.html", measures=True, plan=plan)
     subprocess.run([command, "report", tmp_path / "hip.toml", "--measures", "--curve", "1", "--resect",

@@ -14,7 +14,7 @@ VARY = {"cup.inclination": (30, 50, 10), "cup.anteversion": (-20, 40, 10)}
 TARGETS = [("sitting", "flexion", 110, -5), condyle.Target("pivoting", "external_rotation", 40)]
 TABLE = "name,motion,reach_deg,pelvic_tilt_deg\nsitting,flexion,110,-5\npivoting,external_rotation,40,\n"
 
-pytestmark = pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::condyle.JointRemark")
 
 
 @pytest.fixture(scope="module")
@@ -135,7 +135,7 @@ def test_a_pickled_joint_has_its_implant(hip, zone):
 
 
 def test_its_zone_is_noted(hip):
-    with pytest.warns(condyle.JointWarning, match="nothing_is_safe"):
+    with pytest.warns(condyle.JointRemark, match="nothing_is_safe"):
         zone = hip.sweep({"cup.anteversion": (-40, -20, 10)}, TARGETS)
     assert [note.code for note in zone.notes] == ["nothing_is_safe"]
 

@@ -37,17 +37,17 @@ def _refuse(line: str, code: int) -> None:
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="python3 -m condyle.plot", formatter_class=argparse.RawDescriptionHelpFormatter, epilog=EXAMPLES,
-        description="Draws what condyle rom, condyle motion, condyle measure or condyle sweep left in a folder: limits, "
-        "clock_face, map_MOVEMENT\nand map_free_range; curves, cycle and pressure_map; hip_shape; safe_zone and "
-        "safe_probability. Names what was written.")
+        description="Draws what condyle rom, condyle motion, condyle measure or condyle sweep left in a folder: limits or "
+        "limit_bands, clock_face,\nmap_MOVEMENT and map_free_range; curves, cycle and pressure_map or depth_map; hip_shape; safe_zone "
+        "and safe_probability. Names what was written.")
     parser.add_argument("folder", metavar="FOLDER", type=Path, help="what was given to --out")
     parser.add_argument("--format", choices=("pdf", "svg", "png"), default="pdf",
                         help="vectors (pdf, svg) or 300 dots per inch (png); pdf if not said")
     parser.add_argument("--out", metavar="DIR", type=Path, help="where figures go; the folder itself if not said")
     parser.add_argument("--frames", metavar="N", type=int, nargs="+",
-                        help="frames of pressure_map, from 0; first, middle and last if not said")
+                        help="frames of pressure_map and depth_map, from 0; first, middle and last if not said")
     parser.add_argument("--projection", choices=PROJECTIONS, default="plane",
-                        help="of pressure_map: along the mean normal, or azimuthal equidistant about the joint centre")
+                        help="of pressure_map and depth_map: along the mean normal, or azimuthal equidistant about the joint centre")
     return parser
 
 

@@ -6,17 +6,20 @@ from typing import Any, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Un
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
+from matplotlib.transforms import offset_copy
 from numpy.typing import ArrayLike, NDArray
 
 from .._errors import UsageError
 from .._study import Study
 from . import style
+from .motion_curves import axis_label
 from .words import in_two_lines, motion_name
 
 StudyLike = Union[Study, Mapping[str, ArrayLike]]
 MOST_GROUPS = len(style.CYCLE)
 MARKERS = "osD^vPX"
 """Markers of groups, in the order of the colours: the figure reads without colour."""
+WITHOUT_CONTACT: Any = {"marker": ">", "linestyle": "none"}
 
 
 class Spread(NamedTuple):
@@ -107,8 +110,11 @@ def limit_distributions(study: StudyLike, *, by: Optional[str] = None, motions: 
         ax.grid(axis="x")
         ax.set_xlim(left=0)
         ax.set_xlabel("limit: median, quartiles, 5 to 95 % (°)")
-        if legend and by is not None:
-            style.legend_below(ax, is_ours, _handles(by, groups))
+        if legend:
+            handles = [] if by is None else _handles(by, groups)
+            if (reasons[np.isin(names, shown)] == "end_of_range").any():
+                handles.append(Line2D([], [], color=style.GREY, label="some: no contact in the range", **WITHOUT_CONTACT))
+            style.legend_below(ax, is_ours, handles)
     return ax
 
 
@@ -118,9 +124,10 @@ def _spread(ax: Axes, y: float, spread: Spread, group: int, height: float) -> No
     ax.barh(y, spread.third_quartile - spread.quartile, left=spread.quartile, height=0.55 * height, color=colour,
             alpha=0.35, gid="quartiles")
     ax.plot([spread.median], [y], marker=MARKERS[group], color=colour, markeredgecolor="white", markeredgewidth=0.5,
-            markersize=4.5, gid="median")
-    if spread.share_without_contact > 0:
-        ax.plot([spread.p95], [y], marker=">", color=style.GREY, markersize=3.5, gid="without_contact")
+            markersize=4.5, clip_on=False, gid="median")
+    if spread.share_without_contact > 0:  # beside the mark of a median that is there too
+        ax.plot([spread.p95], [y], color=style.GREY, markersize=3.5, clip_on=False, gid="without_contact", **WITHOUT_CONTACT,
+                transform=offset_copy(ax.transData, ax.figure, x=4.5, units="points"))
 
 
 def _handles(by: str, groups: Sequence[Tuple[str, Any]]) -> List[Any]:
@@ -150,7 +157,7 @@ def limit_against(study: StudyLike, measure: str, motion: str, *, by: Optional[s
     by
         A column that parts the joints into groups, seven at most.
     label
-        Label of the axis of the measure; default: its name.
+        Label of the axis of the measure; default: its name and unit.
 
     Returns
     -------
@@ -173,7 +180,7 @@ def limit_against(study: StudyLike, measure: str, motion: str, *, by: Optional[s
             _points(ax, values[of].astype(float), limits[of], reasons[of] == "end_of_range", i)
         ax.grid(axis="y")
         ax.set_ylim(bottom=0)
-        ax.set_xlabel(label or measure.replace("_", " "))
+        ax.set_xlabel(label or axis_label(measure))
         ax.set_ylabel(in_two_lines(motion_name(motion)) + " (°)")
         if legend and by is not None:
             style.legend_below(ax, is_ours, _handles(by, groups))

@@ -182,7 +182,7 @@ def _check_motion(where: str, motion: Any) -> None:
     if motion["reason"] not in ("contact", "end_of_range", "contact_at_start"):
         raise ReadError(f"{where}: 'reason' is none of contact, end_of_range and contact_at_start")
     _check_number(where, motion, "limit_deg")
-    for key in ("bearing_contact_deg", "normal_range_deg", "clock_hour"):
+    for key in ("bearing_contact_deg", "normal_range_deg", "clock_hour", "range_deg"):
         if motion.get(key) is not None:
             _check_number(where, motion, key)
     caveats = motion.get("caveats", [])
@@ -193,6 +193,8 @@ def _check_motion(where: str, motion: Any) -> None:
     if band is not None:
         for key in ("p5_deg", "median_deg", "p95_deg"):
             _check_number(f"{where}: band", band, key)
+        if band.get("share_without_contact") is not None:
+            _check_number(f"{where}: band", band, "share_without_contact")
 
 
 def _check_number(where: str, of: Any, key: str) -> None:

@@ -13,7 +13,7 @@ from . import files, style
 from .hip_shape import hip_shape
 from .limit_bars import limits
 from .map_contours import VIEWS, View, motion_map
-from .motion_curves import QUANTITIES, curve, has, panels
+from .motion_curves import QUANTITIES, has, panels
 from .pressure_surface import Projection, add_scale, laid_flat, pressure_map, quantity_label
 from .rim_clock import clock_face
 from .safe_zone import Zone, margins_along, safe_zone, safe_zones, zone_of
@@ -66,7 +66,8 @@ def _plane(zone: Zone, quantity: str) -> Figure:
 
 
 def _of_rom(result: Dict[str, Any]) -> List[Drawing]:
-    found: List[Drawing] = [("limits", lambda: limits(result).figure)]
+    name = "limits" if all(motion.get("band") is None for motion in result["motions"]) else "limit_bands"
+    found: List[Drawing] = [(name, lambda: limits(result).figure)]
     if any(motion.get("clock_hour") is not None for motion in result["motions"]):
         found.append(("clock_face", lambda: clock_face(result).figure))
     grid = result.get("grid")
@@ -84,12 +85,9 @@ def _map(result: Dict[str, Any], view: View) -> Figure:
 def _of_motion(folder: Path, frames: Optional[Sequence[int]], projection: Projection) -> List[Drawing]:
     table = files.read_curves(folder / "curves.csv")
     found: List[Drawing] = []
-    if any(has(table, quantity) for quantity in QUANTITIES if quantity != "gap"):
-        found.append(("curves", lambda: panels(table)))
-    elif has(table, "gap"):
-        found.append(("curves", lambda: curve(table, "gap").figure))
-    else:
+    if not any(has(table, quantity) for quantity in QUANTITIES):
         raise files.ReadError(f"{folder / 'curves.csv'}: no columns of contact that could be drawn")
+    found.append(("curves", lambda: panels(table)))
     if (folder / "cycle.csv").exists():
         cycle = files.read_curves(folder / "cycle.csv")
         found.append(("cycle", lambda: panels(cycle)))
@@ -98,7 +96,7 @@ def _of_motion(folder: Path, frames: Optional[Sequence[int]], projection: Projec
         raise files.ReadError(
             f"{folder}: no map_mobile_*.vtp with values in it: condyle motion writes them with --maps")
     if maps:
-        found.append(("pressure_map", _surfaces(folder, maps, frames, projection)))
+        found.append(_surfaces(folder, maps, frames, projection))
     return found
 
 
@@ -121,8 +119,7 @@ def _chosen(folder: Path, maps: Dict[int, Path], frames: Optional[Sequence[int]]
     return list(frames)
 
 
-def _surfaces(folder: Path, maps: Dict[int, Path], frames: Optional[Sequence[int]], projection: Projection
-              ) -> Callable[[], Figure]:
+def _surfaces(folder: Path, maps: Dict[int, Path], frames: Optional[Sequence[int]], projection: Projection) -> Drawing:
     chosen = _chosen(folder, maps, frames)
     surfaces = [files.read_surface(maps[frame]) for frame in chosen]
     name = next((name for name in ("pressure_mpa", "depth_mm") if name in surfaces[0].values), None)
@@ -133,7 +130,7 @@ def _surfaces(folder: Path, maps: Dict[int, Path], frames: Optional[Sequence[int
     provenance = answer.get("provenance")
     in_joint_frame = isinstance(provenance, dict) and provenance.get("frame") == "joint"
     side = answer.get("side") if in_joint_frame else None
-    return functools.partial(_side_by_side, surfaces, first, name, side, projection)
+    return f"{name.rpartition('_')[0]}_map", functools.partial(_side_by_side, surfaces, first, name, side, projection)
 
 
 def _side_by_side(surfaces: Sequence[files.Surface], first: files.Surface, name: str, side: Optional[str],
@@ -142,7 +139,7 @@ def _side_by_side(surfaces: Sequence[files.Surface], first: files.Surface, name:
     anywhere = np.max([surface.values[name] for surface in surfaces], axis=0) > 0
     weights = np.where(anywhere, 1.0, 0.0) if anywhere.any() else np.ones(len(anywhere))
     flat = laid_flat(projection, first.vertices, first.triangles, weights)
-    highest = max(float(surface.values[name].max()) for surface in surfaces) or 1.0
+    highest = max(float(surface.values[name].max()) for surface in surfaces)
     points = flat.points_mm[first.triangles[flat.facing | anywhere]].reshape(-1, 2)
     width, height = np.ptp(points, axis=0)
     each_mm = (style.DOUBLE_COLUMN_MM - 32) / len(surfaces)
@@ -151,11 +148,12 @@ def _side_by_side(surfaces: Sequence[files.Surface], first: files.Surface, name:
                                         figsize=style.size_mm(style.DOUBLE_COLUMN_MM,
                                                               13 + min(each_mm * height / width, 120)))
         for i, (ax, surface) in enumerate(zip(all_axes.flat, surfaces)):
-            pressure_map(surface.vertices, surface.triangles, surface.values[name], ax=ax, highest=highest, side=side,
+            pressure_map(surface.vertices, surface.triangles, surface.values[name], ax=ax, highest=highest or 1.0, side=side,
                          colour_bar=False, flattened=flat)
             ax.text(0.02, 0.98, "abcdefghijklmnopqrstuvwxyz"[i % 26], transform=ax.transAxes, fontweight="bold",
                     va="top")
             if i:
                 ax.set_ylabel("")
-        add_scale(all_axes, highest, quantity_label(name))
+        if highest:
+            add_scale(all_axes, highest, quantity_label(name))
     return figure

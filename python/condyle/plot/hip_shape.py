@@ -125,7 +125,7 @@ def alpha_by_clock(shape: ShapeLike, *, ax: Optional[Axes] = None, legend: bool 
         for hour, value in named:
             ax.plot(hour, value, marker="o", color=style.BLUE, linestyle="none", gid="named")
             ax.annotate(f"{value:.0f}°", (hour, value), xytext=(0, 4), textcoords="offset points", ha="center",
-                        fontsize=style.smaller(1.5))
+                        fontsize=style.smaller(1.5), path_effects=style.white_border())
         largest, at = (_named(shape, key).value for key in ("alpha_largest_deg", "alpha_largest_hour"))
         if largest is not None and at is not None:
             ax.plot(_along_axis(np.array([at])), [largest], marker="D", color=style.VERMILION, linestyle="none",

@@ -8,6 +8,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MultipleLocator
 
+from .._limits import end_text
 from . import style
 from .motion_ends import Band, Bands, MotionEnd, RomLike, motion_ends
 from .words import AS_DEFINED_HERE, SOFT_TISSUE_ENDS, SOFT_TISSUE_MARK, in_two_lines, is_as_defined_here
@@ -28,17 +29,21 @@ ENDS: Dict[str, End] = {
     "cut": End(style.VERMILION, "s", "cut of the image: no limit"),
     "bearing": End(style.ORANGE, "D", "bearing contact"),
     "end_of_range": End(style.GREY, ">", "no contact in the range"),
+    "translation_ends": End(style.GREY, "P", "no contact, translation ends"),
     "contact_at_start": End(style.VERMILION, "X", "in contact at the start"),
 }
 
 
 def _value(end: MotionEnd) -> str:
-    """ "131.9° (126–135)": a limit with its band, as it may be quoted; "≥ 120°" where the range ended before."""
-    turned, band = end.turned_deg, end.band
-    if end.end == "end_of_range" and (band is None or band.p5_deg > turned - 0.5):
-        return f"≥ {turned:.0f}°"
-    text = f"{turned:.1f}°"
+    """ "131.9° (126–135)", ">120° (88–120)": a limit with its band, as the command quotes it."""
+    text, band = f"{end_text(end.turned_deg, end.end)}°", end.band
     return text if band is None else f"{text} ({band.p5_deg:.0f}–{band.p95_deg:.0f})"
+
+
+def _with_its_band(end: MotionEnd) -> MotionEnd:
+    """Without one that lies at the end of the range as a whole."""
+    is_beyond = end.end == "end_of_range" and end.band is not None and round(end.band.p5_deg) == round(end.band.p95_deg)
+    return end._replace(band=None) if is_beyond else end
 
 
 def _bar(ax: Axes, y: float, end: MotionEnd) -> None:
@@ -59,6 +64,8 @@ def _whisker(ax: Axes, y: float, band: Band) -> None:
     ax.errorbar([band.median_deg], [below], xerr=[[band.median_deg - band.p5_deg], [band.p95_deg - band.median_deg]],
                 fmt="|", color=style.BLACK, markersize=3, markeredgewidth=0.7, elinewidth=0.7, capsize=1.6,
                 capthick=0.7, zorder=3, label="_band")
+    if band.is_open:
+        ax.plot([band.p95_deg], [below], marker=">", color=style.BLACK, markersize=3, linestyle="none", clip_on=False, zorder=3, gid="open_band")
 
 
 def _normal(ax: Axes, y: float, degrees: float) -> None:
@@ -89,6 +96,8 @@ def _handles(ends: Sequence[MotionEnd], source: Optional[str]) -> List[Any]:
     if any(end.band is not None for end in ends):
         handles.append(Line2D([], [], marker="|", color=style.BLACK, linewidth=0.7, markersize=4,
                               label="band, 5 to 95 %"))
+    if any(end.band is not None and end.band.is_open for end in ends):
+        handles.append(Line2D([], [], marker=">", color=style.BLACK, linewidth=0.7, markersize=3, label="band beyond the range"))
     if any(end.normal_deg is not None for end in ends):
         handles.append(Patch(color=style.LIGHT_GREY, label="normal range" + (f" ({source})" if source else "")))
     if any(is_as_defined_here(end.name) for end in ends):
@@ -112,7 +121,8 @@ def limits(result: RomLike, *, ax: Optional[Axes] = None, bands: Bands = True,
     ax
         Where to draw; without it new axes as wide as a column, under `print_style`.
     bands
-        A whisker from 5 to 95 % of each limit, with a tick at the median: those of the result, or one per motion as
+        A whisker from 5 to 95 % of each limit, with a tick at the median, and an arrow (gid `open_band`) for its end where over 5 % of
+        the joints turn to the end of the range without contact: those of the result, or one per motion as
         `RangeOfMotion.bands` gives them. False: none.
     normal_ranges
         A grey bar behind, where a source has a value: of the living, in whom soft tissue stops most motions before bone
@@ -128,7 +138,7 @@ def limits(result: RomLike, *, ax: Optional[Axes] = None, bands: Bands = True,
     bar (gid `bearing_contact`) where bearing surfaces met before. A dagger marks the names of motions that soft
     tissue usually ends before bone does.
     """
-    ends = motion_ends(result, bands)
+    ends = list(map(_with_its_band, motion_ends(result, bands)))
     if normal_ranges is not True:
         given = normal_ranges or {}
         ends = [end._replace(normal_deg=given.get(end.name)) for end in ends]

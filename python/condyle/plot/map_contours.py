@@ -5,14 +5,11 @@ import math
 from typing import Any, Iterator, List, Literal, Mapping, Optional, Sequence, Tuple, Union, get_args
 
 import matplotlib
-import matplotlib.patheffects as effects
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection
 from matplotlib.patches import Patch, Rectangle
-from matplotlib.text import Text
 from matplotlib.ticker import FuncFormatter, MultipleLocator
-from matplotlib.transforms import Bbox
 from numpy.typing import NDArray
 
 from .._errors import UsageError
@@ -141,21 +138,6 @@ def _handles(names: Sequence[str]) -> List[Patch]:
     return handles
 
 
-def _tidy(ax: Axes, labels: Sequence[Text]) -> None:
-    """Labels of contours upright, with a white border; without those that stand on another one or across the frame."""
-    kept: List[Bbox] = []
-    frame = ax.get_window_extent()
-    for label in labels:
-        label.set_rotation(0)
-        label.set_path_effects([effects.withStroke(linewidth=1.8, foreground="white")])
-        extent = label.get_window_extent(ax.figure.canvas.get_renderer())
-        is_inside = frame.x0 < extent.x0 and extent.x1 < frame.x1 and frame.y0 < extent.y0 and extent.y1 < frame.y1
-        if is_inside and not any(extent.overlaps(other) for other in kept):
-            kept.append(extent)
-        else:
-            label.set_visible(False)
-
-
 MOST_TICKS = 7
 
 
@@ -214,7 +196,7 @@ def motion_map(result: MapLike, view: View = "positive", *, ax: Optional[Axes] =
         for name, marked in marks:
             _hatch(ax, grid, marked, name)
         labels = ax.clabel(lines, fmt=lambda level: number(level), fontsize=style.smaller(1), inline=False)
-        _tidy(ax, labels)
+        style.tidy(ax, labels)
         for side in ("top", "right"):
             ax.spines[side].set_visible(True)
         _angle_ticks(ax.xaxis, grid.columns_deg)

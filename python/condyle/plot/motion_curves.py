@@ -1,7 +1,7 @@
 """Contact along a recorded motion or over a cycle, as curves."""
 from __future__ import annotations
 
-from typing import Dict, Literal, Mapping, NamedTuple, Optional, Sequence, Tuple
+from typing import Dict, List, Literal, Mapping, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -180,24 +180,28 @@ def cycles(tables: Sequence[Table], quantity: QuantityName, *, ax: Optional[Axes
 
 def panels(table: Table, *, along: Optional[str] = None, label: Optional[str] = None, reference: Optional[Table] = None,
            reference_label: str = "reference") -> Figure:
-    """Area, depth, pressure and force of one motion, as far as there are: a figure as wide as a page, which it returns.
+    """Area, depth, pressure and force of one motion, as far as there are, or the gap if nothing touches: a figure, which it returns.
 
-    Arguments are those of `curve`.
+    Arguments are those of `curve`. It is as wide as a page, with one quantity as a column.
     """
     import matplotlib.pyplot as plt
 
-    shown = [name for name in QUANTITIES if name != "gap" and has(table, name)]
+    shown: List[QuantityName] = [name for name in QUANTITIES if name != "gap" and has(table, name)]
+    if has(table, "gap") and not any((column(table, name) > 0).any() for each in shown for name, _ in QUANTITIES[each].columns):
+        shown = ["gap"]
     if not shown:
         raise UsageError(f"no contact in this table: it has {', '.join(table)}")
-    rows = -(-len(shown) // 2)
+    columns = min(2, len(shown))
+    rows = -(-len(shown) // columns)
+    width_mm = style.SINGLE_COLUMN_MM if columns == 1 else style.DOUBLE_COLUMN_MM
     with style.print_style():
-        figure, all_axes = plt.subplots(rows, 2, figsize=style.size_mm(style.DOUBLE_COLUMN_MM, 50 * rows),
-                                        layout="constrained", squeeze=False)
+        figure, all_axes = plt.subplots(rows, columns, figsize=style.size_mm(width_mm, 50 * rows), layout="constrained", squeeze=False)
         for i, ax in enumerate(all_axes.flat):
             if i >= len(shown):
                 ax.set_axis_off()
                 continue
             known = None if reference is None or not has(reference, shown[i]) else reference
             curve(table, shown[i], ax=ax, along=along, label=label, reference=known, reference_label=reference_label)
-            ax.text(-0.01, 1.03, "abcd"[i], transform=ax.transAxes, fontweight="bold", ha="right")
+            if columns > 1:
+                ax.text(-0.01, 1.03, "abcd"[i], transform=ax.transAxes, fontweight="bold", ha="right")
     return figure

@@ -1,6 +1,7 @@
 """A range of motion for figures, whether it comes from rom.json or from `Joint.range_of_motion`."""
 from __future__ import annotations
 
+import math
 from typing import Any, List, Mapping, NamedTuple, Optional, Protocol, Sequence, Tuple, Union
 
 from .._errors import UsageError
@@ -21,16 +22,17 @@ Bands = Union[bool, Sequence[Union[LimitBand, Mapping[str, float]]]]
 
 
 class Band(NamedTuple):
-    """Band of a limit, degrees: 5, 50 and 95 % of its joints."""
+    """Band of a limit, degrees: 5, 50 and 95 % of its joints; `is_open` if over 5 % of them reach the end of the range without contact."""
 
     p5_deg: float
     median_deg: float
     p95_deg: float
+    is_open: bool
 
 
 class MotionEnd(NamedTuple):
-    """Where a motion ends. `end` is "impingement", "bearing", "cut", "contact" (of an unknown kind), "end_of_range" or
-    "contact_at_start"; `bearing_deg` where bearing surfaces met before; `hour` on the rim's clock, in [0, 12); `caveats`
+    """Where a motion ends. `end` is "impingement", "bearing", "cut", "contact" (of an unknown kind), "end_of_range",
+    "translation_ends" or "contact_at_start"; `bearing_deg` where bearing surfaces met before; `hour` on the rim's clock, in [0, 12); `caveats`
     the codes of what usually ends such a motion.
     """
 
@@ -41,17 +43,23 @@ class MotionEnd(NamedTuple):
     band: Optional[Band]
     normal_deg: Optional[float]
     hour: Optional[float]
-    caveats: Tuple[str, ...] = ()
+    caveats: Tuple[str, ...]
+    range_deg: float
 
 
-def _end(reason: str, kind: Optional[str]) -> str:
+def _end(limit: Any) -> str:
+    reason: str = of(limit, "reason")
     if reason != "contact":
-        return reason
+        return "translation_ends" if of(limit, "translation_ends") else reason
+    kind: Optional[str] = of(limit, "contact_kind")
     return kind if kind in ("impingement", "bearing", "cut") else "contact"
 
 
-def _band(found: Any) -> Optional[Band]:
-    return None if found is None else Band(*(float(of(found, name)) for name in Band._fields))
+def _band(found: Any, range_deg: float) -> Optional[Band]:
+    if found is None:
+        return None
+    p5, median, p95 = (float(of(found, name)) for name in Band._fields[:3])
+    return Band(p5, median, p95, of(found, "share_without_contact", 0) > 0.05 and p95 > range_deg - 0.5)
 
 
 def _caveats(limit: Any) -> Tuple[str, ...]:
@@ -59,9 +67,9 @@ def _caveats(limit: Any) -> Tuple[str, ...]:
 
 
 def _of_limit(limit: Any) -> MotionEnd:
-    return MotionEnd(of(limit, "name"), of(limit, "limit_deg"), _end(of(limit, "reason"), of(limit, "contact_kind")),
-                     of(limit, "bearing_contact_deg"), _band(of(limit, "band")), of(limit, "normal_range_deg"),
-                     of(limit, "clock_hour"), _caveats(limit))
+    range_deg = float(of(limit, "range_deg", math.inf))
+    return MotionEnd(of(limit, "name"), of(limit, "limit_deg"), _end(limit), of(limit, "bearing_contact_deg"), _band(of(limit, "band"), range_deg),
+                     of(limit, "normal_range_deg"), of(limit, "clock_hour"), _caveats(limit), range_deg)
 
 
 def motion_ends(result: RomLike, bands: Bands = True) -> List[MotionEnd]:
@@ -79,4 +87,4 @@ def motion_ends(result: RomLike, bands: Bands = True) -> List[MotionEnd]:
         return [end._replace(band=None) for end in ends]
     if len(bands) != len(ends):
         raise UsageError(f"{len(bands)} bands for {len(ends)} motions")
-    return [end._replace(band=_band(band)) for end, band in zip(ends, bands)]
+    return [end._replace(band=_band(band, end.range_deg)) for end, band in zip(ends, bands)]

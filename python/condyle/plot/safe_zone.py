@@ -6,7 +6,6 @@ from typing import Any, Dict, Iterator, List, Mapping, NamedTuple, Optional, Seq
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib import patheffects as effects
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
@@ -105,7 +104,7 @@ def _ending(zone: Zone) -> List[str]:
 
 def _ends(zone: Zone) -> Iterator[Tuple[str, List[Tuple[float, float]]]]:
     """Border of a zone over two parameters: pieces from line to line, each with the target that ends it; half way between two
-    lines where these differ."""
+    lines where these differ, and to where the zone leaves what was swept."""
     x_of = zone.axes[0]
     lines: Dict[int, List[Tuple[float, float, Optional[str], Optional[str]]]] = {}
     for values, low, high, low_target, high_target in zone.intervals:
@@ -115,13 +114,22 @@ def _ends(zone: Zone) -> Iterator[Tuple[str, List[Tuple[float, float]]]]:
             for next_low, next_high, next_low_target, next_high_target in lines.get(i + 1, []):
                 if next_low > high or low > next_high:
                     continue
-                for at, target, next_at, next_target in ((low, low_target, next_low, next_low_target),
-                                                         (high, high_target, next_high, next_high_target)):
+                for edge, at, target, next_at, next_target in ((0, low, low_target, next_low, next_low_target),
+                                                               (-1, high, high_target, next_high, next_high_target)):
                     middle = ((x_of[i] + x_of[i + 1]) / 2, (at + next_at) / 2)
+                    margin, next_margin = zone.margin_deg[i : i + 2, edge]
+                    if (target is None) != (next_target is None) and margin * next_margin < 0:
+                        middle = (np.interp(0, *zip(*sorted([(margin, x_of[i]), (next_margin, x_of[i + 1])]))), zone.axes[1][edge])
                     if target is not None:
                         yield target, [(x_of[i], at), middle]
                     if next_target is not None:
                         yield next_target, [middle, (x_of[i + 1], next_at)]
+
+
+def _marks(zone: Zone) -> List[Tuple[Tuple[float, ...], str, str, str]]:
+    """Designs with a mark, as far as they lie in what is drawn: where, its marker, gid and words."""
+    return [(at, marker, gid, words) for at, marker, gid, words in ((zone.here, "+", "here", "as it is"), (zone.best, "*", "best", "largest margin"))
+            if at is not None and all(axis[0] <= value <= axis[-1] for axis, value in zip(zone.axes, at))]
 
 
 def _contours(ax: Axes, zone: Zone, values: Array, levels: Array, unit: str) -> None:
@@ -130,13 +138,14 @@ def _contours(ax: Axes, zone: Zone, values: Array, levels: Array, unit: str) -> 
     if not drawn:
         return
     lines = ax.contour(x, y, values.T, levels=drawn, colors="black", linewidths=0.4, zorder=2)
-    for text in ax.clabel(lines, fmt=lambda level: number(round(level, 6)) + unit, fontsize=style.smaller(2), inline=True,
-                          inline_spacing=2):
-        text.set_path_effects([effects.withStroke(linewidth=1.5, foreground="white")])
+    style.tidy(ax, ax.clabel(lines, fmt=lambda level: number(round(level, 6)) + unit, fontsize=style.smaller(2), inline=False),
+               [at for at, *_ in _marks(zone)])
 
 
 def _over_two(ax: Axes, zone: Zone, quantity: str, looks: Dict[str, Dict[str, Any]]) -> None:
     x, y = zone.axes
+    ax.set_xlim(x[0], x[-1])
+    ax.set_ylim(y[0], y[-1])
     ax.set_facecolor(style.LIGHT_GREY)  # shows through where a design is in contact in its reference pose
     known = zone.margin_deg.T
     ax.contourf(x, y, known, levels=[-1e9, 0, 1e9], colors=["white", ZONE], zorder=1)
@@ -154,12 +163,9 @@ def _over_two(ax: Axes, zone: Zone, quantity: str, looks: Dict[str, Dict[str, An
         if pieces:
             ax.add_collection(LineCollection(pieces, colors=look["color"], linestyles=[look["linestyle"]], linewidths=1.8, zorder=3,
                                              gid=f"ended by {target}"))
-    for at, marker, size, gid in ((zone.here, "+", 7, "here"), (zone.best, "*", 8, "best")):
-        if at is not None and x[0] <= at[0] <= x[-1] and y[0] <= at[1] <= y[-1]:
-            ax.plot(at[0], at[1], marker=marker, markersize=size, color="black", markeredgewidth=1.4 if marker == "+" else 0.4,
-                    markerfacecolor=style.YELLOW, linestyle="none", zorder=4, clip_on=False, gid=gid)
-    ax.set_xlim(x[0], x[-1])
-    ax.set_ylim(y[0], y[-1])
+    for at, marker, gid, _ in _marks(zone):
+        ax.plot(at[0], at[1], marker=marker, markersize=7 if marker == "+" else 8, color="black", markeredgewidth=1.4 if marker == "+" else 0.4,
+                markerfacecolor=style.YELLOW, linestyle="none", zorder=4, clip_on=False, gid=gid)
     for side in ("top", "right"):
         ax.spines[side].set_visible(True)
     ax.set_xlabel(_label(zone, 0))
@@ -172,11 +178,8 @@ def _handles(zone: Zone, looks: Dict[str, Dict[str, Any]]) -> List[Any]:
     handles += [Line2D([], [], linewidth=1.8, label=f"ended by {cut(name, 26)}", **look) for name, look in looks.items()]
     if np.isnan(zone.margin_deg).any():
         handles.append(Patch(facecolor=style.LIGHT_GREY, label="in contact at the start"))
-    for at, marker, words in ((zone.here, "+", "as it is"), (zone.best, "*", "largest margin")):
-        if at is not None and all(axis[0] <= value <= axis[-1] for axis, value in zip(zone.axes, at)):
-            handles.append(Line2D([], [], marker=marker, markersize=6, color="black", markerfacecolor=style.YELLOW,
-                                  markeredgewidth=1.2 if marker == "+" else 0.4, linestyle="none", label=words))
-    return handles
+    return handles + [Line2D([], [], marker=marker, markersize=6, color="black", markerfacecolor=style.YELLOW,
+                             markeredgewidth=1.2 if marker == "+" else 0.4, linestyle="none", label=words) for _, marker, _, words in _marks(zone)]
 
 
 def _slices(zone: Zone) -> List[Tuple[str, Zone]]:

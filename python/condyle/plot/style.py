@@ -5,12 +5,15 @@ import contextlib
 import io
 import os
 from pathlib import Path
-from typing import Any, Dict, Iterator, Optional, Sequence, Union
+from typing import Any, Dict, Iterator, List, Optional, Sequence, Union
 
 import matplotlib
 import matplotlib.pyplot as plt
+from matplotlib import patheffects as effects
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.text import Text
+from matplotlib.transforms import Bbox
 
 from .._errors import UsageError
 
@@ -125,6 +128,26 @@ def legend_below(ax: Axes, is_ours: bool, handles: Sequence[Any], columns: int =
     legend = ax.legend(loc="lower center", bbox_to_anchor=(0.5, 0.5 / height), bbox_transform=figure.transFigure,
                        **look)
     legend.set_in_layout(False)
+
+
+def white_border() -> List[effects.AbstractPathEffect]:
+    """Of text that lines run behind."""
+    return [effects.withStroke(linewidth=1.8, foreground="white")]
+
+
+def tidy(ax: Axes, labels: Sequence[Text], marks: Sequence[Sequence[float]] = ()) -> None:
+    """Labels of contours upright, with a white border; without those that stand on another one, on marks at these points or across the frame."""
+    kept = [Bbox([each, each]).padded(6) for each in ax.transData.transform(marks)] if len(marks) else []
+    frame = ax.get_window_extent()
+    for label in labels:
+        label.set_rotation(0)
+        label.set_path_effects(white_border())
+        extent = label.get_window_extent(ax.figure.canvas.get_renderer())
+        is_inside = frame.x0 < extent.x0 and extent.x1 < frame.x1 and frame.y0 < extent.y0 and extent.y1 < frame.y1
+        if is_inside and not any(extent.overlaps(other) for other in kept):
+            kept.append(extent)
+        else:
+            label.set_visible(False)
 
 
 def smaller(points: float = 1) -> float:

@@ -25,7 +25,7 @@ bool is_of_motion(std::string_view name) {
                                                "regions.csv", "jam.h5",     "map_fixed.vtp"};
   if (std::find(std::begin(names), std::end(names), name) != std::end(names)) return true;
   // Figures that condyle.plot drew of an earlier motion would contradict this one.
-  for (const std::string_view stem : {"curves", "cycle", "pressure_map"})
+  for (const std::string_view stem : {"curves", "cycle", "pressure_map", "depth_map"})
     if (name.starts_with(stem) && io::is_figure_ending(name.substr(stem.size()))) return true;
   return (name.starts_with("map_fixed_") || name.starts_with("map_mobile_")) && name.ends_with(".vtp");
 }

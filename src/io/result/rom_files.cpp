@@ -28,7 +28,8 @@ bool is_drawn_of_rom(std::string_view name) {
   const std::size_t dot = name.rfind('.');
   if (dot == name.npos || !io::is_figure_ending(name.substr(dot))) return false;
   const std::string_view stem = name.substr(0, dot);
-  if (stem == "limits" || stem == "clock_face" || stem == "map_free_range") return true;
+  for (const std::string_view each : {"limits", "limit_bands", "clock_face", "map_free_range"})
+    if (stem == each) return true;
   for (const Anatomy joint : all_anatomies)
     for (const auto& [positive, negative] : coordinate_names(joint))
       for (const std::string_view movement : {positive, negative})

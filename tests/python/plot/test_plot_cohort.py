@@ -50,6 +50,17 @@ def test_groups_stand_below_each_other_in_the_order_of_their_values(table):
     assert [text.get_text() for text in ax.get_legend().get_texts()] == ["sex f", "sex m"]
 
 
+def test_an_arrow_for_what_ended_without_contact_stands_beside_the_median_and_is_explained():
+    """It lay on the mark of a median at the end of the range, and both were cut off at the end of the axis."""
+    table = {"motion": ["faber"] * 2, "limit_deg": [120.0, 120.0], "reason": ["end_of_range", "end_of_range"], "alpha_deg": [50.0, 60.0]}
+    ax = figures.limit_distributions(table)
+    (arrow,), (median,) = of(ax, "without_contact"), of(ax, "median")
+    places = [line.get_transform().transform(line.get_xydata())[0] for line in (arrow, median)]
+    assert places[0][0] - places[1][0] == pytest.approx(4.5 * ax.figure.dpi / 72) and not (arrow.get_clip_on() or median.get_clip_on())
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["some: no contact in the range"]
+    assert figures.limit_against(table, "alpha_deg", "faber").get_xlabel() == "alpha (°)"
+
+
 def test_a_point_stands_for_each_joint(table):
     ax = figures.limit_against(table, "alpha_deg", "fadir", label="alpha angle (°)")
     (contact,), (free,) = of(ax, "limits"), of(ax, "without_contact")

@@ -108,6 +108,32 @@ def test_a_folder_has_the_figures_of_its_data(tmp_path):
     assert [name for name, _ in drawings(motion_folder(tmp_path / "motion"))] == ["curves"]
 
 
+BAND = {"p5_deg": 95.0, "median_deg": 100.0, "p95_deg": 105.0}
+
+
+def test_limits_of_a_map_do_not_replace_those_with_bands(tmp_path):
+    banded = {"name": "flexion", "limit_deg": 100.0, "reason": "contact", "band": BAND}
+    for folder in (rom_folder(tmp_path / "range", motions=[banded]), map_folder(tmp_path / "map")):
+        assert run(folder, "--format", "png", "--out", tmp_path / "figures").returncode == 0
+    assert {path.stem for path in (tmp_path / "figures").iterdir()} >= {"limit_bands", "limits"}
+
+
+def test_the_command_removes_figures_of_what_it_replaces(tmp_path, command, coarse_hip_file):
+    def answered(*arguments: object) -> None:
+        subprocess.run([command, *map(str, arguments), "--out", str(tmp_path / "out")], check=True, capture_output=True)
+
+    pytest.importorskip("vtkmodules")
+    (tmp_path / "swing.csv").write_text("time,flexion_deg\n0,0\n1,140\n")
+    rom = ["rom", coarse_hip_file, "--motion", "flexion"]
+    swing = ["motion", coarse_hip_file, "--motion", tmp_path / "swing.csv"]
+    for first, second, drawn in (([*rom, "--band=20"], rom, "limit_bands"), ([*swing, "--maps"], swing, "depth_map")):
+        answered(*first)
+        assert run(tmp_path / "out").returncode == 0
+        assert (tmp_path / "out" / f"{drawn}.pdf").exists()
+        answered(*second)
+        assert not (tmp_path / "out" / f"{drawn}.pdf").exists()
+
+
 @pytest.mark.parametrize("format, begins", [("pdf", b"%PDF"), ("svg", b"<?xml"), ("png", b"\x89PNG")])
 def test_the_module_names_what_it_wrote(tmp_path, format, begins):
     ran = run_alone(rom_folder(tmp_path / "rom"), "--format", format, "--out", tmp_path / "new" / "figures")

@@ -99,6 +99,30 @@ def test_whiskers_reach_from_5_to_95_percent_with_the_median_between():
     assert texts(without, "value")[0] == "127.2°"
 
 
+def test_a_band_that_the_range_cuts_off_is_open_and_quoted_as_the_command_does():
+    def ended(p95, share, reason="end_of_range", **more):
+        band = {"p5_deg": 88.0, "median_deg": 110.0, "p95_deg": p95, "share_without_contact": share}
+        return motion("faber", 120.0 if reason == "end_of_range" else 110.0, reason, band=band, range_deg=120.0, **more)
+
+    def drawn(*motions):
+        ax = figures.limits({"motions": motions})
+        said = [text.get_text() for text in ax.get_legend().get_texts()]
+        opened = [line.get_xdata()[0] for line in lines(ax, "open_band")]
+        assert ("band beyond the range" in said) == bool(opened)
+        return texts(ax, "value"), opened
+
+    assert drawn(ended(119.99, 0.88)) == ([">120° (88–120)"], [119.99])
+    assert drawn(ended(119.99, 0.06, "contact")) == (["110.0° (88–120)"], [119.99])
+    assert drawn(ended(119.0, 0.05), ended(120.0, 0.05), ended(118.0, 0.5)) == (
+        [">120° (88–119)", ">120° (88–120)", ">120° (88–118)"], [])
+    beyond = {**BAND, "p5_deg": 119.9, "median_deg": 120.0, "p95_deg": 120.0, "share_without_contact": 1.0}
+    ax = figures.limits({"motions": [motion("faber", 120.0, "end_of_range", band=beyond, range_deg=120.0)]})
+    assert texts(ax, "value") == [">120°"] and not ax.containers[1:], "as a whole beyond: no whisker"
+    followed = motion("flexion", 8.0, "end_of_range", translation_ends=True)
+    ax = figures.limits({"motions": [followed]})
+    assert texts(ax, "value") == ["8.0°"] and "no contact, translation ends" in [text.get_text() for text in ax.get_legend().get_texts()]
+
+
 def test_what_ended_a_motion_has_a_shape_of_its_own():
     ax = figures.limits(RESULT)
     ends = lines(ax, "end")
@@ -106,7 +130,7 @@ def test_what_ended_a_motion_has_a_shape_of_its_own():
     assert [line.get_marker() for line in ends] == ["o", "o", ">", "X", "D"]
     (bearing,) = lines(ax, "bearing_contact")
     assert (bearing.get_xdata()[0], bearing.get_marker()) == (12.0, "D")
-    assert texts(ax, "value")[2:4] == ["≥ 90°", "0.0°"]
+    assert texts(ax, "value")[2:4] == [">90°", "0.0°"]
 
 
 def test_attributes_do_as_well_as_keys():
@@ -240,6 +264,6 @@ def test_live_results_are_drawn_as_files_are():
     ax = figures.limits(live, bands=bands, normal_ranges={"flexion": 120})
     assert [bar.get_width() for bar in bars(ax, "limit")] == [100, 90]
     assert [bar.get_width() for bar in bars(ax, "normal_range")] == [120]
-    assert texts(ax, "value") == ["100.0° (95–104)", "≥ 90°"]
+    assert texts(ax, "value") == ["100.0° (95–104)", ">90°"]
     with pytest.raises(ValueError, match="1 bands for 2 motions"):
         figures.limits(live, bands=bands[:1])

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import condyle.plot as figures
+from condyle.plot.folder import _side_by_side
 
 
 @pytest.fixture(autouse=True)
@@ -88,6 +89,17 @@ def test_panels_draw_what_there_is():
         figures.panels({"time_s": [0.0]})
 
 
+def test_one_quantity_is_as_wide_as_a_column_and_bodies_apart_have_a_gap():
+    alone = figures.panels({"time_s": [0.0, 1.0], "area_mm2": [1.0, 2.0]})
+    apart = {name: np.zeros(3) for name in TABLE} | {"time_s": TABLE["time_s"], "smallest_gap_mm": [1.0, 0.5, np.nan]}
+    for figure, label in ((alone, "contact area (mm²)"), (figures.panels(apart), "smallest gap (mm)"),
+                          (figures.panels({"time_s": [0.0], "smallest_gap_mm": [0.0]}), "smallest gap (mm)")):
+        assert [ax.get_ylabel() for ax in figure.axes] == [label]
+        assert figure.get_size_inches()[0] * 25.4 == pytest.approx(85)
+    touching = figures.panels({**TABLE, "smallest_gap_mm": [0.0, 0.0, 0.0]})
+    assert "smallest gap (mm)" not in [ax.get_ylabel() for ax in touching.axes]
+
+
 def test_answers_of_poses_become_curves():
     """With the names of condyle.ElasticContactResults."""
     totals = SimpleNamespace(area_mm2=10.0, mean_depth_mm=0.1, max_depth_mm=0.3, mean_pressure_mpa=1.0,
@@ -162,6 +174,13 @@ def test_pressure_has_its_colours_and_the_rest_is_grey():
     fixed = figures.pressure_map(points, triangles, values, projection="sphere", highest=8)
     assert {c.get_gid(): c for c in fixed.collections}["in_contact"].get_clim() == (0, 8)
     assert tuple(fixed.figure.axes[-1].get_ylim()) == (0, 8)
+
+
+def test_frames_without_contact_have_no_scale():
+    points, triangles = cap()
+    for depth, scales in ((0.0, 0), (0.5, 1)):
+        surface = figures.files.Surface(points, triangles, {"depth_mm": np.full(len(triangles), depth)})
+        assert len(_side_by_side([surface] * 2, surface, "depth_mm", None, "plane").axes) == 2 + scales
 
 
 @pytest.mark.parametrize("side, word", [("right", "lateral"), ("left", "medial")])

@@ -46,6 +46,7 @@ def test_alpha_stands_at_its_hour_with_12_in_the_middle(shape):
     (normal,) = [patch for patch in ax.patches if patch.get_gid() == "normal_range"]
     assert (normal.get_y(), normal.get_y() + normal.get_height()) == (30, 66)
     assert "alpha angle (°)" == ax.get_ylabel()
+    assert len(ax.texts) == 3 and all(text.get_path_effects() for text in ax.texts), "curves run behind the numbers"
 
 
 def test_the_rim_stands_at_its_hour_with_its_sections_and_its_frame(shape):

@@ -8,7 +8,7 @@ import condyle.plot as figures
 from condyle.plot.__main__ import main
 from condyle.plot.folder import drawings
 
-pytestmark = pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::condyle.JointRemark")
 TARGETS = [("sitting", "flexion", 110), ("pivoting", "external_rotation", 40)]
 
 
@@ -44,6 +44,30 @@ def test_the_border_is_that_of_the_safe_intervals_by_the_target_that_ends_it(zon
     assert drawn["here"].get_xydata().tolist() == [[40, 15]]
     assert drawn["best"].get_xydata().tolist() == [list(zone.best.values.values())]
     assert ax.get_xlabel() == "Cup inclination (°)" and ax.get_ylabel() == "Cup anteversion (°)"
+
+
+def test_the_border_ends_where_the_zone_leaves_what_was_swept(zone):
+    """Half way to a line whose safe values go on beyond the window it lay off the zone."""
+    cut = figures.safe_zone.__globals__["zone_of"](zone)
+    window = slice(5, None)
+    first = cut.axes[1][5]
+    cut = cut._replace(axes=(cut.axes[0], cut.axes[1][window]), margin_deg=cut.margin_deg[:, window], probability=None, intervals=[
+        (values, max(low, first), high, low_target if low > first else None, high_target)
+        for values, low, high, low_target, high_target in cut.intervals])
+    assert len({low_target for _, _, _, low_target, _ in cut.intervals}) == 2, "otherwise nothing would be tested"
+    segments = np.concatenate(by_gid(figures.safe_zone(cut))["ended by sitting"].get_segments())
+    at_edge = segments[segments[:, 1] == first]
+    assert len(at_edge) == 1
+    assert np.interp(at_edge[0, 0], cut.axes[0], cut.margin_deg[:, 0]) == pytest.approx(0, abs=1e-9)
+
+
+def test_labels_of_contours_stand_whole_in_the_frame_and_beside_the_marks(zone):
+    ax = figures.safe_zone(zone, quantity="probability")
+    frame, marks = ax.get_window_extent(), ax.transData.transform([zone.best.values["cup.inclination"], zone.best.values["cup.anteversion"]])
+    extents = [text.get_window_extent() for text in ax.texts if text.get_visible()]
+    assert extents and all(frame.x0 < each.x0 and each.x1 < frame.x1 and frame.y0 < each.y0 and each.y1 < frame.y1 for each in extents)
+    assert not any(each.contains(*marks) for each in extents)
+    assert not any(one.overlaps(other) for i, one in enumerate(extents) for other in extents[:i])
 
 
 def test_a_folder_is_drawn_as_its_result(zone, tmp_path):
