@@ -29,7 +29,7 @@ from ._placed_implant import PlacedImplant, placed_implant
 from ._poses import ManyPosesLike, OnePoseLike, PoseLike
 from ._pressure import ElasticContact
 from ._range_of_motion import RangeOfMotion
-from ._resection import Resection, resection
+from ._resection import Reach, Resection, resection
 from ._recorded_motion import JointMotion, RecordedContact, recorded_contact
 from ._surface_contact import NormalContact, normal_contact
 from ._sweep import Sweep, TargetLike, sweep
@@ -487,7 +487,7 @@ class Joint(DescribedJoint):
         """
         return HipMeasures(self, pelvic_tilt_deg, band_samples, seed, progress)
 
-    def resection(self, reach: Mapping[str, float], *, cut: CutFrom = "mobile", share: Optional[float] = None,
+    def resection(self, reach: Reach, *, cut: CutFrom = "mobile", share: Optional[float] = None,
                   margin_mm: float = 0, deepest_mm: Optional[float] = None, within_mm: Optional[float] = None,
                   burr_mm: Optional[float] = None, keep: Optional[ArrayLike] = None, keep_fixed: Optional[ArrayLike] = None, edge_mm: float = 0.5,
                   curve_points: int = 10, band_samples: int = 0, seed: Optional[int] = None,
@@ -500,7 +500,7 @@ class Joint(DescribedJoint):
         Parameters
         ----------
         reach : mapping of motions to degrees
-            How far each shall go from its start.
+            How far each shall go from its start, or as a text with a plus, "+10", how far beyond its limit now.
         cut : "mobile", "fixed" or "both"
             The body that is cut; with "both" the fixed one for `share` of the depth, half if not given.
         margin_mm : float

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import Any, Callable, Generic, Mapping, NamedTuple, Optional, TypeVar
+from typing import Any, Callable, Generic, Mapping, NamedTuple, Optional, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -155,11 +156,27 @@ def _cut_of(found: Optional[dict[str, Any]]) -> Optional[CutBone]:
     return CutBone(after, before, **found)
 
 
-def reach_of(given: Mapping[str, float]) -> list[tuple[str, float]]:
-    """Motions and how far each shall go, checked."""
+#: Motions and how far each shall go from its start in degrees, or with a plus from where it ends now: {"flexion": 115, "fadir": "+10"}.
+Reach = Mapping[str, Union[float, str]]
+
+
+def reach_of(given: Reach) -> list[tuple[str, float, bool]]:
+    """Motions, degrees, and whether these are a gain, checked."""
     if not isinstance(given, Mapping) or not given:
-        raise UsageError('reach: motions and their degrees are needed: {"flexion": 115}')
-    return [(text_of(name, "reach"), number(degrees, f"reach of {name}")) for name, degrees in given.items()]
+        raise UsageError('reach: motions and their degrees are needed: {"flexion": 115}, or what they shall gain: {"flexion": "+10"}')
+
+    def degrees_of(name: str, value: Union[float, str]) -> tuple[float, bool]:
+        if not isinstance(value, str):
+            return number(value, f"reach of {name}"), False
+        try:
+            gain = float(value) if value.strip().startswith("+") else math.nan
+        except ValueError:
+            gain = math.nan
+        if math.isnan(gain):
+            raise UsageError(f'reach of {name}: must be degrees, or a gain as "+10"')
+        return number(gain, f"reach of {name}"), True
+
+    return [(text_of(name, "reach"), *degrees_of(name, value)) for name, value in given.items()]
 
 
 def kept_vertices(marks: Optional[ArrayLike], mesh: TriMesh, what: str) -> NDArray[np.uint8]:
@@ -194,7 +211,7 @@ def cut_options(cut: CutFrom, share: Optional[float], margin_mm: float, deepest_
             "burr_mm": optional(burr_mm, "burr_mm"), "edge_mm": number(edge_mm, "edge_mm")}
 
 
-def resection(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], reach: Mapping[str, float], cut: CutFrom, share: Optional[float], margin_mm: float,
+def resection(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], reach: Reach, cut: CutFrom, share: Optional[float], margin_mm: float,
               deepest_mm: Optional[float], within_mm: Optional[float], burr_mm: Optional[float], keep: Optional[ArrayLike],
               keep_fixed: Optional[ArrayLike], edge_mm: float, curve_points: int, band_samples: int, seed: Optional[int],
               bearing: BearingRule, bearing_margin_mm: Optional[float], progress: Progress) -> Resection[OfJoint]:
@@ -208,7 +225,7 @@ def resection(joint: OfJoint, of_native: Callable[[NativeJoint], OfJoint], reach
         "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm")}
     found = _native.resection(
         joint._asked, [known.tuple_of(each) for each in known.known],
-        [(known.tuple_of(known[name]), degrees) for name, degrees in reach_of(reach)], options,
+        [(known.tuple_of(known[name]), degrees, is_gain) for name, degrees, is_gain in reach_of(reach)], options,
         progress_of(progress))
     without = of_native(found["joint"])
 

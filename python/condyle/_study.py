@@ -20,7 +20,7 @@ from ._csv_text import plain_field
 from ._contact_checks import kind_of
 from ._errors import FileError, UsageError, unknown, warn
 from ._pressure import ElasticLayer
-from ._resection import cut_options, reach_of
+from ._resection import Reach, cut_options, reach_of
 from ._words import Anatomy, BearingRule, Bodies, CutFrom, FaceRule, Path, PressureLaw, Progress, band_of, count, number, number_array
 from ._words import path_of, progress_of, text_of, word
 
@@ -137,12 +137,12 @@ class StudyResection:
 
     Attributes
     ----------
-    reach : mapping of motions to degrees
+    reach : mapping of motions to degrees, or to gains as "+10"
     cut, share, margin_mm, deepest_mm, within_mm, burr_mm, edge_mm
         As :meth:`Joint.resection` takes them.
     """
 
-    reach: Mapping[str, float]
+    reach: Reach
     cut: CutFrom = "mobile"
     share: Optional[float] = None
     margin_mm: float = 0

@@ -238,6 +238,12 @@ def test_depths_and_measures_are_tables(coarse_bones):
     assert "<td>normal_high</td><td>66.0</td>" in measures["alpha_12_deg"]._repr_html_() and "why_none" not in measures["alpha_12_deg"]._repr_html_()
 
 
+@pytest.mark.parametrize("value", ["10", "+", "+nan", "ten", ""])
+def test_a_gain_that_is_none_is_refused(hip, value):
+    with pytest.raises(condyle.UsageError, match='reach of fadir: must be degrees, or a gain as "\\+10"'):
+        hip.resection({"fadir": value})
+
+
 @pytest.mark.parametrize("reach", ["fadir=40", {}, None, [("fadir", 40)]])
 def test_a_resection_says_how_its_targets_are_given(hip, reach):
     with pytest.raises(condyle.UsageError, match='reach: motions and their degrees are needed: {"flexion": 115}'):
@@ -264,7 +270,12 @@ def test_resections_are_those_of_the_command(tmp_path, sampled, command):
     assert plan.mobile.depth_mm.max() == cut["deepest_mm"] and plan.margin_mm == said["margin_mm"]
     assert [each.limit_deg for each in plan.after] == [each["after"]["limit_deg"] for each in said["limits"]]
     assert [point._asdict() for point in plan.curve] == said["curve"]
-    assert [note.text for note in plan.notes] == [note["text"] for note in said["resection_notes"]]
+    assert [note.text for note in plan.notes] == [note["text"] for note in said["resection_notes"] + said["notes"]]
+    assert list(plan.gain_deg) == [each["gain_deg"] for each in said["limits"]]
+    assert plan.joint.name == "sample right hip, resected" and joint.planned == ""
+    assert plan.joint.planned == f"without {plan.volume_mm3:.1f} mm3 of femur" == pickle.loads(pickle.dumps(plan.joint)).planned
+    gained = joint.resection({"internal_rotation_at_90_flexion": "+5"}, curve_points=0).targets[0]
+    assert gained.reach_deg == pytest.approx(gained.before.limit_deg + 5, abs=1e-9) and gained.after.limit_deg >= gained.reach_deg
     assert plan.measures["alpha_3_deg"] == tuple(
         next((each["before"], each["after"]) for each in said["measures"] if each["key"] == "alpha_3_deg"))
     # The joint without the bone composes, survives a pickle, and is the one that the command wrote.

@@ -36,7 +36,7 @@ export class Paper {
     const first = html("div", { class: "sheet" }, html("h1", {}, headingOf(text)),
       ...(text.note ? [html("p", {}, text.note)] : []),
       html("div", { class: "paper-results" }, ...figures.map(([name, value, band, normal]) =>
-        html("div", {}, html("span", {}, named(name)), html("b", {}, value), html("span", {}, [band, normal].filter(Boolean).join(" "))))),
+        html("div", {}, html("span", {}, named(name)), html("b", {}, value), html("span", {}, [band, normal].filter(Boolean).join("; "))))),
       html("p", {}, hasLimits && headline ? sentenceOf(headline, text) : rom ? words.noLimitsInContact : words.noLimits + (text.rom_error ?? "")),
       ...(notes.length ? [html("p", { class: "warning" }, html("b", {}, words.noted(notes.length)), " ", notes.map((note) => note.text).join("; "))] : []),
       html("div", { class: "paper-picture" }, this.image, this.caption),
