@@ -32,13 +32,17 @@ ENDS: Dict[str, End] = {
 }
 
 
+def turned_text(end: MotionEnd) -> str:
+    """ "131.9°"; "≥ 120°" where the range ended before."""
+    return f"≥ {end.turned_deg:.0f}°" if end.end == "end_of_range" else f"{end.turned_deg:.1f}°"
+
+
 def _value(end: MotionEnd) -> str:
-    """ "131.9° (126–135)": a limit with its band, as it may be quoted; "≥ 120°" where the range ended before."""
-    turned, band = end.turned_deg, end.band
-    if end.end == "end_of_range" and (band is None or band.p5_deg > turned - 0.5):
-        return f"≥ {turned:.0f}°"
-    text = f"{turned:.1f}°"
-    return text if band is None else f"{text} ({band.p5_deg:.0f}–{band.p95_deg:.0f})"
+    """ "131.9° (126–135)": a limit with its band, as it may be quoted."""
+    band = end.band
+    if band is None or (end.end == "end_of_range" and band.p5_deg > end.turned_deg - 0.5):
+        return turned_text(end)
+    return f"{end.turned_deg:.1f}° ({band.p5_deg:.0f}–{band.p95_deg:.0f})"
 
 
 def _bar(ax: Axes, y: float, end: MotionEnd) -> None:
@@ -70,9 +74,16 @@ def _is_ended_by_soft_tissue(end: MotionEnd) -> bool:
     return "soft_tissue_ends" in end.caveats
 
 
-def _name(end: MotionEnd) -> str:
+def marked_name(end: MotionEnd) -> str:
+    """The name of a motion, with a dagger where soft tissue usually ends it."""
     name = motion_name(end.name)
-    return in_two_lines(f"{name} {SOFT_TISSUE_MARK}" if _is_ended_by_soft_tissue(end) else name)
+    return f"{name} {SOFT_TISSUE_MARK}" if _is_ended_by_soft_tissue(end) else name
+
+
+def footnotes(ends: Sequence[MotionEnd]) -> List[str]:
+    """Of the names of these motions."""
+    found = [AS_DEFINED_HERE] if any(is_as_defined_here(end.name) for end in ends) else []
+    return found + [SOFT_TISSUE_ENDS] * any(map(_is_ended_by_soft_tissue, ends))
 
 
 def _handles(ends: Sequence[MotionEnd], source: Optional[str]) -> List[Any]:
@@ -91,11 +102,7 @@ def _handles(ends: Sequence[MotionEnd], source: Optional[str]) -> List[Any]:
                               label="band, 5 to 95 %"))
     if any(end.normal_deg is not None for end in ends):
         handles.append(Patch(color=style.LIGHT_GREY, label="normal range" + (f" ({source})" if source else "")))
-    if any(is_as_defined_here(end.name) for end in ends):
-        handles.append(Line2D([], [], linestyle="none", label=AS_DEFINED_HERE))
-    if any(_is_ended_by_soft_tissue(end) for end in ends):
-        handles.append(Line2D([], [], linestyle="none", label=SOFT_TISSUE_ENDS))
-    return handles
+    return handles + [Line2D([], [], linestyle="none", label=footnote) for footnote in footnotes(ends)]
 
 
 def limits(result: RomLike, *, ax: Optional[Axes] = None, bands: Bands = True,
@@ -151,7 +158,7 @@ def limits(result: RomLike, *, ax: Optional[Axes] = None, bands: Bands = True,
         ax.set_xlim(0, step * -(-longest // step))
         ax.xaxis.set_major_locator(MultipleLocator(step))
         ax.set_ylim(len(ends) - 0.5, -0.5)
-        ax.set_yticks(range(len(ends)), [_name(end) for end in ends])
+        ax.set_yticks(range(len(ends)), [in_two_lines(marked_name(end)) for end in ends])
         ax.tick_params(axis="y", length=0)
         ax.grid(axis="x")
         ax.set_xlabel("\n".join(filter(None, ("turned from the start of the motion (°)", scope_clause(result)))))
