@@ -288,7 +288,7 @@ def help_reader(condyle: Path, has_module: bool):
     for made in ("hip", "cartilages", "cohort", "replacement", "reverse-shoulder"):
         known["sample"] |= defined(condyle, "sample", made)
     if has_module:
-        known["plot"] = defined(sys.executable, "-m", "condyle.plot")
+        known["plot"] = defined(sys.executable, "-m", "condyle.plot") | defined(sys.executable, "-m", "condyle.plot", "sheet")
     everything = of_all.union(*known.values())
     return lambda command: known.get(command, everything)
 

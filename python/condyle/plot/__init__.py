@@ -9,8 +9,9 @@ are taken as the module gives them, or as `condyle.plot.files` reads them from t
     ax = figures.limits(result)
     figures.save(ax, "limits.pdf")
 
-`python3 -m condyle.plot FOLDER` draws all that is in a folder. Needs matplotlib 3.6 or newer. What is read
-of files is drawn without the compiled part of Condyle, which `import condyle` loads all the same.
+`python3 -m condyle.plot FOLDER` draws all that is in a folder, `python3 -m condyle.plot sheet FOLDER...` a case on one page.
+Needs matplotlib 3.6 or newer. What is read of files is drawn without the compiled part of Condyle, which `import condyle`
+loads all the same.
 """
 from __future__ import annotations
 
@@ -21,6 +22,7 @@ except ImportError:
 
 from . import files, style
 from .agreement import Series, agreement, many_methods
+from .case_sheet import sheet
 from .cohort import limit_against, limit_distributions
 from .files import ReadError
 from .flatten import Flattened, about_centre, on_plane
@@ -63,6 +65,7 @@ __all__ = [
     "safe_zone",
     "safe_zones",
     "save",
+    "sheet",
     "size_mm",
     "style",
     "table_of",

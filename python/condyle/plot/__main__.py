@@ -1,15 +1,15 @@
-"""Draws what is in a folder of results: python3 -m condyle.plot FOLDER."""
+"""Draws what is in a folder of results, python3 -m condyle.plot FOLDER, or a case on one page, python3 -m condyle.plot sheet INPUT..."""
 from __future__ import annotations
 
 import argparse
 import sys
 from pathlib import Path
-from typing import List, Optional, Sequence
+from typing import List, Optional, Sequence, Tuple
 
 import matplotlib
 import matplotlib.pyplot as plt
 
-from . import style
+from . import case_sheet, style
 from .files import ReadError
 from .folder import drawings
 from .pressure_surface import PROJECTIONS
@@ -20,7 +20,11 @@ examples:
   condyle rom hip.toml --map flexion=0:120:10 adduction=-30:20:10 --out map && python3 -m condyle.plot map --format png
   condyle motion knee.toml --motion walk.mot --load --maps --out walk
   python3 -m condyle.plot walk --frames 0 20 40 --out figures
+a case on one page, of which python3 -m condyle.plot sheet --help says more; a folder of that name is ./sheet:
+  condyle resect hip.toml --reach "fadir=48" --out plan
+  python3 -m condyle.plot sheet range plan --case "Case 17" --date 2026-11-27 --out case.pdf
 """
+Rendered = List[Tuple[Path, bytes]]
 WRONG_USAGE, BAD_FILE, INTERNAL = 2, 3, 5
 
 
@@ -51,31 +55,67 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _sheet_parser() -> argparse.ArgumentParser:
+    parser = _Parser(
+        prog="python3 -m condyle.plot sheet", formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog="example:\n" + EXAMPLES[EXAMPLES.index("  condyle resect"):],
+        description="Writes one A4 page of a case: limits now and planned with targets, bands and normal ranges; the bone that must go;\n"
+        "contacts on the rim; the safe zone; all notes. Names what was written.")
+    parser.add_argument("inputs", metavar="INPUT", type=Path, nargs="+",
+                        help="folders of condyle rom, resect, measure or sweep --out, or their rom.json, resection.json, measures.json, sweep.json: "
+                        "one of each at most, of one joint")
+    parser.add_argument("--out", metavar="FILE.pdf", type=_pdf, required=True, help="the page, as PDF")
+    parser.add_argument("--case", metavar="TEXT", default="", help="begins the heading: a number or a pseudonym")
+    parser.add_argument("--date", metavar="TEXT", default="", help="in the heading; none is taken from the clock")
+    parser.add_argument("--note", metavar="TEXT", default="", help="stands below the heading")
+    parser.add_argument("--picture", metavar="FILE.png", type=Path,
+                        help="shown as the cut, in place of depth_mobile.png and depth_fixed.png beside resection.json")
+    return parser
+
+
+def _pdf(text: str) -> Path:
+    if not text.lower().endswith(".pdf"):
+        raise argparse.ArgumentTypeError("a sheet is written as .pdf")
+    return Path(text)
+
+
+def _figures(given: argparse.Namespace) -> Rendered:
+    rendered = []
+    for name, draw in drawings(given.folder, given.frames, given.projection):
+        figure = draw()
+        rendered.append(((given.out or given.folder) / f"{name}.{given.format}", style.rendered(figure, given.format)))
+        plt.close(figure)
+    return rendered
+
+
+def _sheet(given: argparse.Namespace) -> Rendered:
+    figure = case_sheet.sheet(given.inputs, case=given.case, date=given.date, note=given.note, picture=given.picture)
+    rendered = [(given.out, style.rendered(figure, "pdf", case_sheet.DPI))]
+    plt.close(figure)
+    return rendered
+
+
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Draws all figures first and writes them then; returns the exit code of a success, and exits with the others'."""
-    given = _parser().parse_args(arguments)
+    words = sys.argv[1:] if arguments is None else list(arguments)
+    is_sheet = words[:1] == ["sheet"]
+    given = _sheet_parser().parse_args(words[1:]) if is_sheet else _parser().parse_args(words)
     matplotlib.use("Agg")
-    out: Path = given.out or given.folder
+    about = given.out if is_sheet else given.folder
     try:
-        rendered = []
-        for name, draw in drawings(given.folder, given.frames, given.projection):
-            figure = draw()
-            rendered.append((out / f"{name}.{given.format}", style.rendered(figure, given.format)))
-            plt.close(figure)
-        out.mkdir(parents=True, exist_ok=True)
-        written: List[Path] = []
+        rendered = _sheet(given) if is_sheet else _figures(given)
         for path, content in rendered:
+            path.parent.mkdir(parents=True, exist_ok=True)
             style.write_whole(path, content)
-            written.append(path)
     except ReadError as error:
         _refuse(str(error), BAD_FILE)
     except ImportError as error:
         _refuse(str(error), INTERNAL)
     except ValueError as error:
-        _refuse(f"{given.folder}: {error}", BAD_FILE)
+        _refuse(f"{about}: {error}", BAD_FILE)
     except OSError as error:
-        _refuse(f"{error.filename or out}: {error.strerror or error}", BAD_FILE)
-    for path in written:
+        _refuse(f"{error.filename or about}: {error.strerror or error}", BAD_FILE)
+    for path, _ in rendered:
         print(path)
     return 0
 

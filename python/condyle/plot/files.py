@@ -52,6 +52,12 @@ def read_json(path: PathLike) -> Dict[str, Any]:
     return value
 
 
+def in_folder(path: PathLike, name: str) -> Path:
+    """The file of this name in a folder; the file itself where one is given."""
+    path = Path(path)
+    return path / name if path.is_dir() else path
+
+
 def _fields(line: str) -> List[str]:
     return [plain_field(field) for field in next(csv.reader([line]))]
 
@@ -111,9 +117,8 @@ def read_sto(path: PathLike) -> Dict[str, Array]:
 
 
 def read_rom(folder: PathLike) -> Dict[str, Any]:
-    """`rom.json` of a folder; with a map, `"grid"` holds it as a `MotionGrid`."""
-    folder = Path(folder)
-    path = folder / "rom.json"
+    """`rom.json` of a folder, or a file by its name; with a map, `"grid"` holds it as a `MotionGrid`."""
+    path = in_folder(folder, "rom.json")
     result = read_json(path)
     motions = result.get("motions")
     if not isinstance(motions, list) or not motions:
@@ -121,14 +126,14 @@ def read_rom(folder: PathLike) -> Dict[str, Any]:
     for i, motion in enumerate(motions):
         _check_motion(f"{path}: motion {i}", motion)
     if "map" in result:
-        result["grid"] = _read_grid(folder, result["map"], path)
+        result["grid"] = _read_grid(path.parent, result["map"], path)
     return result
 
 
 def read_sweep(folder: PathLike) -> Dict[str, Any]:
-    """`sweep.json`, `designs.csv` and `safe.csv` of a folder, as `safe_zone` draws them."""
-    folder = Path(folder)
-    path = folder / "sweep.json"
+    """`sweep.json`, `designs.csv` and `safe.csv` of a folder, or beside a file by its name, as `safe_zone` draws them."""
+    path = in_folder(folder, "sweep.json")
+    folder = path.parent
     answer = read_json(path)
     try:
         axes = {each["name"]: each["first"] + each["step"] * np.arange(each["count"]) for each in answer["parameters"]}
@@ -204,9 +209,10 @@ def _check_number(where: str, of: Any, key: str) -> None:
 
 
 def read_measures(folder: PathLike) -> Dict[str, Any]:
-    """`measures.json` of a folder, as :class:`condyle.HipMeasures` names it: `"measures"` by their keys, and the arrays `neck_hour`,
-    `alpha_deg`, `alpha_at_1mm_deg`, `offset_mm`, `rim_hour`, `cover_deg` and `centre_edge_deg`, NaN for measures that could not be computed."""
-    path = Path(folder) / "measures.json"
+    """`measures.json` of a folder, or a file by its name, as :class:`condyle.HipMeasures` names it: `"measures"` by their keys, and the
+    arrays `neck_hour`, `alpha_deg`, `alpha_at_1mm_deg`, `offset_mm`, `rim_hour`, `cover_deg` and `centre_edge_deg`, NaN for measures that
+    could not be computed."""
+    path = in_folder(folder, "measures.json")
     answer = read_json(path)
     measures = answer.get("measures")
     if not isinstance(measures, list) or not all(isinstance(each, dict) and isinstance(each.get("key"), str)

@@ -34,9 +34,14 @@ ENDS: Dict[str, End] = {
 }
 
 
+def turned_text(end: MotionEnd) -> str:
+    """ "131.9°"; ">120°" where the range ended before."""
+    return f"{end_text(end.turned_deg, end.end)}°"
+
+
 def _value(end: MotionEnd) -> str:
     """ "131.9° (126–135)", ">120° (88–120)": a limit with its band, as the command quotes it."""
-    text, band = f"{end_text(end.turned_deg, end.end)}°", end.band
+    text, band = turned_text(end), end.band
     return text if band is None else f"{text} ({band.p5_deg:.0f}–{band.p95_deg:.0f})"
 
 
@@ -77,9 +82,16 @@ def _is_ended_by_soft_tissue(end: MotionEnd) -> bool:
     return "soft_tissue_ends" in end.caveats
 
 
-def _name(end: MotionEnd) -> str:
+def marked_name(end: MotionEnd) -> str:
+    """The name of a motion, with a dagger where soft tissue usually ends it."""
     name = motion_name(end.name)
-    return in_two_lines(f"{name} {SOFT_TISSUE_MARK}" if _is_ended_by_soft_tissue(end) else name)
+    return f"{name} {SOFT_TISSUE_MARK}" if _is_ended_by_soft_tissue(end) else name
+
+
+def footnotes(ends: Sequence[MotionEnd]) -> List[str]:
+    """Of the names of these motions."""
+    found = [AS_DEFINED_HERE] if any(is_as_defined_here(end.name) for end in ends) else []
+    return found + [SOFT_TISSUE_ENDS] * any(map(_is_ended_by_soft_tissue, ends))
 
 
 def _handles(ends: Sequence[MotionEnd], source: Optional[str]) -> List[Any]:
@@ -100,11 +112,7 @@ def _handles(ends: Sequence[MotionEnd], source: Optional[str]) -> List[Any]:
         handles.append(Line2D([], [], marker=">", color=style.BLACK, linewidth=0.7, markersize=3, label="band beyond the range"))
     if any(end.normal_deg is not None for end in ends):
         handles.append(Patch(color=style.LIGHT_GREY, label="normal range" + (f" ({source})" if source else "")))
-    if any(is_as_defined_here(end.name) for end in ends):
-        handles.append(Line2D([], [], linestyle="none", label=AS_DEFINED_HERE))
-    if any(_is_ended_by_soft_tissue(end) for end in ends):
-        handles.append(Line2D([], [], linestyle="none", label=SOFT_TISSUE_ENDS))
-    return handles
+    return handles + [Line2D([], [], linestyle="none", label=footnote) for footnote in footnotes(ends)]
 
 
 def limits(result: RomLike, *, ax: Optional[Axes] = None, bands: Bands = True,
@@ -161,7 +169,7 @@ def limits(result: RomLike, *, ax: Optional[Axes] = None, bands: Bands = True,
         ax.set_xlim(0, step * -(-longest // step))
         ax.xaxis.set_major_locator(MultipleLocator(step))
         ax.set_ylim(len(ends) - 0.5, -0.5)
-        ax.set_yticks(range(len(ends)), [_name(end) for end in ends])
+        ax.set_yticks(range(len(ends)), [in_two_lines(marked_name(end)) for end in ends])
         ax.tick_params(axis="y", length=0)
         ax.grid(axis="x")
         ax.set_xlabel("\n".join(filter(None, ("turned from the start of the motion (°)", scope_clause(result)))))

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import math
 import textwrap
-from typing import List, NamedTuple, Optional, Sequence
+from typing import List, Mapping, NamedTuple, Optional, Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
@@ -84,13 +84,35 @@ class Place(NamedTuple):
     end: str
 
 
-def _labels(ax: Axes, half: List[Place], side: int) -> None:
-    """Labels of one half of the face; side 1 is the right one."""
+def _in_lines(place: Place, name: str) -> str:
+    return "\n".join(textwrap.wrap(f"{clock_text(place.hour)} {name}", LETTERS, max_lines=3, placeholder="…"))
+
+
+def _places(result: RomLike) -> List[Place]:
+    return [Place(end.hour, end.name, end.end) for end in motion_ends(result) if end.hour is not None]
+
+
+def _halves(places: List[Place]) -> "tuple[List[Place], List[Place]]":
+    """Those of the right half of the face and those of the left one."""
+    return [place for place in places if place.hour < 6], [place for place in places if place.hour >= 6]
+
+
+def names_fit(result: RomLike) -> bool:
+    """Whether the names of all motions stand beside the face whole and in their size."""
+    halves = [[_in_lines(place, motion_name(place.motion)) for place in half] for half in _halves(_places(result))]
+    return not any("…" in text for half in halves for text in half) and all(
+        sum(1 + text.count("\n") for text in half) * (LINE + 0.1) <= 2 * HALF_HEIGHT for half in halves)
+
+
+def _labels(ax: Axes, half: List[Place], side: int, names: Mapping[str, str]) -> None:
+    """Labels of one half of the face; side 1 is the right one. Type is smaller where it would not fit."""
     half = sorted(half, key=lambda place: _on_face(1, place.hour)[1])
-    names = [f"{clock_text(place.hour)} {motion_name(place.motion)}" for place in half]
-    texts = ["\n".join(textwrap.wrap(name, LETTERS, max_lines=3, placeholder="…")) for name in names]
-    heights = [LINE * (1 + text.count("\n")) for text in texts]
-    gaps = [(a + b) / 2 + 0.1 for a, b in zip(heights, heights[1:])]
+    texts = [_in_lines(place, names.get(place.motion) or motion_name(place.motion)) for place in half]
+    lines = [1 + text.count("\n") for text in texts]
+    shrunk = min(1.0, 2 * HALF_HEIGHT / (LINE * max(1, sum(lines))))
+    heights = [LINE * shrunk * count for count in lines]
+    gap = min(0.1, (2 * HALF_HEIGHT - sum(heights)) / max(1, len(heights) - 1))
+    gaps = [(a + b) / 2 + gap for a, b in zip(heights, heights[1:])]
     outer = max(heights, default=0.0) / 2
     at = spread_apart([_on_face(1.14, place.hour)[1] for place in half], gaps, outer - HALF_HEIGHT, HALF_HEIGHT - outer)
     for place, text, y in zip(half, texts, at):
@@ -98,11 +120,11 @@ def _labels(ax: Axes, half: List[Place], side: int) -> None:
         x = 1.28 * side
         ax.plot([on_rim[0], bend[0], x], [on_rim[1], bend[1], y], color=style.GREY, linewidth=0.5, zorder=1,
                 gid="leader")
-        ax.text(x + 0.04 * side, y, text, ha="left" if side > 0 else "right", va="center", fontsize=style.smaller(1.5),
-                linespacing=1.05, gid="place")
+        ax.text(x + 0.04 * side, y, text, ha="left" if side > 0 else "right", va="center",
+                fontsize=shrunk * style.smaller(1.5), linespacing=1.05, gid="place")
 
 
-def clock_face(result: RomLike, *, ax: Optional[Axes] = None, legend: bool = True) -> Axes:
+def clock_face(result: RomLike, *, ax: Optional[Axes] = None, legend: bool = True, names: Optional[Mapping[str, str]] = None) -> Axes:
     """Draws where on the rim of a hip's socket its motions end.
 
     12 is superior and on top, 3 anterior and to the right, for right and left hips alike, so that sides compare. In the
@@ -116,12 +138,14 @@ def clock_face(result: RomLike, *, ax: Optional[Axes] = None, legend: bool = Tru
         Where to draw; without it new axes as wide as a column, under `print_style`.
     legend
         Whether to explain the marks, if there is more than one kind.
+    names
+        What motions are called beside the face, by their names; without it their names in words.
 
     Returns
     -------
     The axes, the face at the origin with radius 1; one mark (gid `end`) per motion on its edge.
     """
-    found = [Place(end.hour, end.name, end.end) for end in motion_ends(result) if end.hour is not None]
+    found = _places(result)
     kinds = [name for name in ENDS if any(place.end == name for place in found)]
     handles = [Line2D([], [], marker=ENDS[kind].marker, color=ENDS[kind].colour, linestyle="none",
                       label=ENDS[kind].words)
@@ -135,8 +159,8 @@ def clock_face(result: RomLike, *, ax: Optional[Axes] = None, legend: bool = Tru
         ax.set_ylim(-HALF_HEIGHT, HALF_HEIGHT)
         ax.set_xlim(-HALF_WIDTH, HALF_WIDTH)
         _face(ax, of(result, "clock_plane", "sagittal"))
-        _labels(ax, [place for place in found if place.hour < 6], 1)
-        _labels(ax, [place for place in found if place.hour >= 6], -1)
+        for half, side in zip(_halves(found), (1, -1)):
+            _labels(ax, half, side, names or {})
         for place in found:
             end = ENDS[place.end]
             ax.plot(*([v] for v in _on_face(1, place.hour)), marker=end.marker, color=end.colour,

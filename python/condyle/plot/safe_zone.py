@@ -182,6 +182,11 @@ def _handles(zone: Zone, looks: Dict[str, Dict[str, Any]]) -> List[Any]:
                              markeredgewidth=1.2 if marker == "+" else 0.4, linestyle="none", label=words) for _, marker, _, words in _marks(zone)]
 
 
+def legend_entries(zone: Zone) -> int:
+    """As many as `margins_along` or `safe_zone` explain."""
+    return 2 + len(zone.targets) if len(zone.names) == 1 else len(_handles(zone, _looks(_ending(zone))))
+
+
 def _slices(zone: Zone) -> List[Tuple[str, Zone]]:
     """The last two of more than two parameters, at values of the others: all of them, or some at equal distances; existing designs of the
     best design, and of the joint as it is, where it lies in the slice."""
@@ -189,22 +194,31 @@ def _slices(zone: Zone) -> List[Tuple[str, Zone]]:
     counts = [len(axis) for axis in zone.axes[:others]]
     each = counts if math.prod(counts) <= MOST_PANELS else [min(count, 4 if others == 1 else 3) for count in counts]
     picked = [np.unique(np.linspace(0, count - 1, few).round().astype(int)) for count, few in zip(counts, each)]
-    slices = []
-    for at in np.stack(np.meshgrid(*picked, indexing="ij"), axis=-1).reshape(-1, others):
-        values = [float(zone.axes[k][i]) for k, i in enumerate(at)]
+    return [_slice(zone, tuple(at)) for at in np.stack(np.meshgrid(*picked, indexing="ij"), axis=-1).reshape(-1, others)]
 
-        def inside(point: Optional[Tuple[float, ...]]) -> Optional[Tuple[float, ...]]:
-            return point[others:] if point is not None and np.allclose(point[:others], values) else None
 
-        title = ", ".join(f"{_parameter(zone, k)} {number(value)}" for k, value in enumerate(values))
-        here = inside(zone.here)
-        slices.append((title, zone._replace(
-            names=zone.names[others:], units=zone.units[others:], axes=zone.axes[others:], over_deg=zone.over_deg[tuple(at)],
-            margin_deg=zone.margin_deg[tuple(at)], probability=None if zone.probability is None else zone.probability[tuple(at)],
-            intervals=[(rest[others:], low, high, low_target, high_target)
-                       for rest, low, high, low_target, high_target in zone.intervals if np.allclose(rest[:others], values)],
-            here=here if here is not None else (math.nan, math.nan), best=inside(zone.best))))
-    return slices
+def _slice(zone: Zone, at: Tuple[int, ...]) -> Tuple[str, Zone]:
+    """The last two parameters where the others have the values of these numbers, and what the others are."""
+    others = len(at)
+    values = [float(zone.axes[k][i]) for k, i in enumerate(at)]
+
+    def inside(point: Optional[Tuple[float, ...]]) -> Optional[Tuple[float, ...]]:
+        return point[others:] if point is not None and np.allclose(point[:others], values) else None
+
+    title = ", ".join(f"{_parameter(zone, k)} {number(value)}" for k, value in enumerate(values))
+    here = inside(zone.here)
+    return title, zone._replace(
+        names=zone.names[others:], units=zone.units[others:], axes=zone.axes[others:], over_deg=zone.over_deg[at],
+        margin_deg=zone.margin_deg[at], probability=None if zone.probability is None else zone.probability[at],
+        intervals=[(rest[others:], low, high, low_target, high_target)
+                   for rest, low, high, low_target, high_target in zone.intervals if np.allclose(rest[:others], values)],
+        here=here if here is not None else (math.nan, math.nan), best=inside(zone.best))
+
+
+def slice_of_best(zone: Zone) -> Tuple[str, Zone]:
+    """Of more than two parameters the slice nearest to the best design, or if there is none to the joint as it is; what the others are."""
+    at = zone.best or zone.here
+    return _slice(zone, tuple(int(np.argmin(np.abs(axis - value))) for axis, value in zip(zone.axes[:-2], at)))
 
 
 def margins_along(result: SweepLike, *, ax: Optional[Axes] = None) -> Axes:

@@ -43,11 +43,14 @@ def capitalised(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
+def in_sentence(name: str) -> str:
+    """ "internal rotation at 90° flexion" of "internal_rotation_at_90_flexion"; FADIR and FABER in capitals."""
+    return _SHORT.get(name) or spaced(name.replace("_at_90_flexion", "_at_90°_flexion"))
+
+
 def motion_name(name: str) -> str:
-    """ "Internal rotation at 90° flexion" of "internal_rotation_at_90_flexion"; FADIR and FABER in capitals."""
-    if name in _SHORT:
-        return _SHORT[name]
-    return capitalised(spaced(name.replace("_at_90_flexion", "_at_90°_flexion")))
+    """The same with its first letter as a capital."""
+    return capitalised(in_sentence(name))
 
 
 def cut(text: str, longest: int) -> str:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import condyle.plot as figures
-from condyle.plot.rim_clock import clock_text, spread_apart
+from condyle.plot.rim_clock import clock_text, names_fit, spread_apart
 
 
 def motion(name, limit, reason="contact", kind="impingement", **more):
@@ -180,6 +180,18 @@ def test_all_words_are_on_the_paper():
                 extent = text.get_window_extent(figure.canvas.get_renderer())
                 assert extent.x0 >= -0.5 and extent.x1 <= page.x1 + 0.5, text.get_text()
                 assert extent.y0 >= -0.5 and extent.y1 <= page.y1 + 0.5, text.get_text()
+
+
+def test_labels_of_many_contacts_get_smaller_and_do_not_overlap():
+    many = {"motions": [motion(f"motion_{i}", 30.0, clock_hour=i / 4) for i in range(24)]}
+    for names in ({}, {"motion_0": "A"}):
+        ax = figures.clock_face(many, names=names)
+        labels = sorted((text for text in ax.texts if text.get_gid() == "place"), key=lambda text: text.get_position()[1])
+        assert len(labels) == 24 and labels[0].get_fontsize() == pytest.approx(6.5 * 16 / 24)
+        boxes = [text.get_window_extent() for text in labels]
+        assert all(lower.y1 <= upper.y0 + 0.5 for lower, upper in zip(boxes, boxes[1:]))
+        assert labels[-1].get_text() == ("12:00 A" if names else "12:00 Motion 0")
+    assert not names_fit(many) and names_fit(RESULT)
 
 
 def test_the_clock_has_twelve_on_top_and_three_at_the_right():

@@ -1,0 +1,187 @@
+"""An A4 page measured in mm from its upper left corner: blocks of text and tables whose heights are known before they are drawn."""
+from __future__ import annotations
+
+import functools
+from typing import Callable, List, NamedTuple, Sequence
+
+import matplotlib.pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.font_manager import FontProperties
+from matplotlib.patches import Rectangle
+from matplotlib.textpath import text_to_path
+
+from . import style
+
+WIDTH_MM, HEIGHT_MM = 210.0, 297.0
+MM_PER_POINT = style.MM_PER_INCH / 72
+LINE = 1.25
+"""Distance of lines over the size of their type."""
+
+
+class Block(NamedTuple):
+    """Something of this height in mm; `draw` takes where its upper edge lies."""
+
+    height: float
+    draw: Callable[[float], None]
+
+
+def nothing(height: float) -> Block:
+    """Space between blocks."""
+    return Block(height, lambda top: None)
+
+
+def stacked(blocks: Sequence[Block]) -> Block:
+    """Blocks one below the other."""
+
+    def draw(top: float) -> None:
+        for block in blocks:
+            block.draw(top)
+            top += block.height
+
+    return Block(sum(block.height for block in blocks), draw)
+
+
+@functools.lru_cache(maxsize=20_000)
+def _width_of(text: str, bold: bool) -> float:
+    """Of type of 1 point, mm."""
+    font = FontProperties(family=style.PRINT["font.sans-serif"], weight="bold" if bold else "normal", size=100)
+    width, _, _ = text_to_path.get_text_width_height_descent(text, font, ismath=False)
+    return float(width) * MM_PER_POINT / 100
+
+
+def width_mm(text: str, points: float, bold: bool = False) -> float:
+    """Of a line of text."""
+    return points * _width_of(text, bold)
+
+
+def _pieces(word: str, width: float, bold: bool) -> List[str]:
+    """A word that is wider than a line, broken where it has to be."""
+    pieces = [""]
+    for letter in word:
+        if pieces[-1] and _width_of(pieces[-1] + letter, bold) > width:
+            pieces.append("")
+        pieces[-1] += letter
+    return pieces
+
+
+def wrapped(text: str, longest_mm: float, points: float, bold: bool = False) -> List[str]:
+    """Lines that are no wider than this, as drawn; whatever does not print is a blank."""
+    width = longest_mm / points
+    printed = "".join(letter if letter.isprintable() else " " for letter in text)
+    lines: List[str] = []
+    used = 0.0
+    for word in printed.split():
+        for i, piece in enumerate(_pieces(word, width, bold) if _width_of(word, bold) > width else [word]):
+            wide = _width_of(piece, bold)
+            if lines and not i and used + _width_of(" ", bold) + wide <= width:
+                lines[-1] += " " + piece
+                used += _width_of(" ", bold) + wide
+            else:
+                lines.append(piece)
+                used = wide
+    return lines
+
+
+class Column(NamedTuple):
+    """A column of a table. Numbers are centred, in a column as wide as they need; texts begin at the left and share what is left by these parts:
+    of the spare width if all have room in one line, else of the whole rest."""
+
+    heading: str
+    part: int = 0
+
+
+class Cell(NamedTuple):
+    """A field of a table."""
+
+    text: str
+    bold: bool = False
+
+
+class Paper:
+    """The page as a figure."""
+
+    def __init__(self) -> None:
+        self.figure = plt.figure(figsize=style.size_mm(WIDTH_MM, HEIGHT_MM))
+
+    def line(self, x: float, top: float, text: str, points: float, *, bold: bool = False, colour: str = style.BLACK, centred: bool = False) -> None:
+        """One line of text below `top`, to the right of `x` or about it."""
+        base = top + points * MM_PER_POINT * (0.5 * LINE + 0.36)  # capitals in the middle of the line
+        self.figure.text(x / WIDTH_MM, 1 - base / HEIGHT_MM, text, fontsize=points, fontweight="bold" if bold else "normal", color=colour,
+                         ha="center" if centred else "left", va="baseline")
+
+    def box(self, x: float, top: float, width: float, height: float, colour: str) -> None:
+        """A rectangle without an edge."""
+        self.figure.add_artist(Rectangle((x / WIDTH_MM, 1 - (top + height) / HEIGHT_MM), width / WIDTH_MM, height / HEIGHT_MM,
+                                         transform=self.figure.transFigure, facecolor=colour, linewidth=0, zorder=-1))
+
+    def axes(self, x: float, top: float, width: float, height: float) -> Axes:
+        """Axes of this size."""
+        return self.figure.add_axes((x / WIDTH_MM, 1 - (top + height) / HEIGHT_MM, width / WIDTH_MM, height / HEIGHT_MM))
+
+    def _lines(self, lines: Sequence[str], x: float, points: float, bold: bool, colour: str) -> Block:
+        each = points * MM_PER_POINT * LINE
+
+        def draw(top: float) -> None:
+            for i, line in enumerate(lines):
+                self.line(x, top + i * each, line, points, bold=bold, colour=colour)
+
+        return Block(len(lines) * each, draw)
+
+    def paragraph(self, text: str, x: float, width: float, points: float, *, bold: bool = False, colour: str = style.BLACK) -> Block:
+        """Text in lines of this width."""
+        return self._lines(wrapped(text, width, points, bold), x, points, bold, colour)
+
+    def in_two_columns(self, texts: Sequence[str], x: float, width: float, points: float, gap: float = 4) -> Block:
+        """Paragraphs in two columns, none of them divided."""
+        each = (width - gap) / 2
+        blocks = [self.paragraph(text, x, each, points) for text in texts]
+        half, left, at = sum(block.height for block in blocks) / 2, 0.0, 0
+        while left < half - 1e-9:
+            left += blocks[at].height
+            at += 1
+        right = [self.paragraph(text, x + each + gap, each, points) for text in texts[at:]]
+        columns = stacked(blocks[:at]), stacked(right)
+
+        def draw(top: float) -> None:
+            for column in columns:
+                column.draw(top)
+
+        return Block(max(column.height for column in columns), draw)
+
+    def ribbon(self, text: str, x: float, width: float, points: float, colour: str) -> Block:
+        """White text on a colour."""
+        inner = self.paragraph(text, x + 2, width - 4, points, bold=True, colour="white")
+
+        def draw(top: float) -> None:
+            self.box(x, top, width, inner.height + 2, colour)
+            inner.draw(top + 1)
+
+        return Block(inner.height + 2, draw)
+
+    def table(self, columns: Sequence[Column], rows: Sequence[Sequence[Cell]], x: float, width: float, points: float) -> Block:
+        """Rows below their headings, every second one shaded; a row is as high as the longest of its cells asks for."""
+        border, each = 1.0, points * MM_PER_POINT * LINE
+        all_rows = [[Cell(column.heading, bold=True) for column in columns], *rows]
+        needed = [max(width_mm(row[i].text, points, row[i].bold) for row in all_rows) + 2 * border + 1e-6 for i in range(len(columns))]
+        parts = sum(column.part for column in columns)
+        spare = width - sum(needed)
+        if spare < 0:
+            needed = [0.0 if column.part else need for need, column in zip(needed, columns)]
+            spare = width - sum(needed)
+        widths = [need + spare * column.part / parts for need, column in zip(needed, columns)]
+        lines = [[wrapped(cell.text, wide - 2 * border, points, cell.bold) for cell, wide in zip(row, widths)] for row in all_rows]
+        heights = [max(map(len, of_row)) * each + border for of_row in lines]
+
+        def draw(top: float) -> None:
+            for i, row in enumerate(all_rows):
+                if i % 2 == 0:
+                    self.box(x, top, width, heights[i], "#f4f4f4" if i else style.LIGHT_GREY)
+                left = x
+                for column, wide, cell, of_cell in zip(columns, widths, row, lines[i]):
+                    for k, line in enumerate(of_cell):
+                        self.line(left + border if column.part else left + wide / 2, top + border / 2 + k * each, line, points, bold=cell.bold,
+                                  centred=not column.part)
+                    left += wide
+                top += heights[i]
+
+        return Block(sum(heights), draw)
