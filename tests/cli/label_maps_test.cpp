@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "condyle/io/label_file.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/image/write_labels.hpp"
 #include "support/temporary_folder.hpp"
@@ -145,6 +146,48 @@ TEST_F(LabelMaps, OfOneBoneEachAreCalledAsTheirFiles) {
   EXPECT_NE(surface.out.find("femur_left: "), std::string::npos) << surface.out << surface.err;
   const auto sides = "init hip_right.nii.gz femur_left.nii.gz -o sides/hip.toml";
   expect_refusal(run(sides), 2, "hip_right and femur_left are of two sides", sides);
+}
+
+/// Of a label that both halves of a pelvis have, the half beside the femur counts, whichever is the larger; and so of both femora.
+TEST_F(LabelMaps, OfAWholePelvisGiveTheHalfBesideTheFemur) {
+  const io::LabelMap map = io::read_labels(scan->path() / "labels.nii.gz");
+  const auto [ni, nj, nk] = map.grid.size;
+  VoxelGrid grid = map.grid;
+  grid.size[0] = 2 * ni;
+  ASSERT_GT(grid.X_WI(0, 0), 0)
+      << "i runs to the left: the mirror image beside the right hip is the left one";
+  // 1 the pelvis, whose right half lacks its top, 2 the right femur and 3 the left one.
+  std::vector<std::uint8_t> labels(static_cast<std::size_t>(2 * ni * nj * nk));
+  std::size_t v = 0;
+  for (std::int64_t row = 0; row < nj * nk; ++row)
+    for (std::int64_t i = 0; i < 2 * ni; ++i, ++v) {
+      const bool is_right = i < ni;
+      const std::int64_t from = ni * row + (is_right ? i : 2 * ni - 1 - i);
+      const std::uint32_t label = map.labels[map.layers[0][static_cast<std::size_t>(from)]];
+      if (label == 76) labels[v] = is_right ? 2 : 3;
+      if (label == 78 && (!is_right || row < nj * nk * 9 / 10)) labels[v] = 1;
+    }
+  const auto init = [&](const std::string& mobile, const std::string& of) {
+    const Ran made = run("init both.nii.gz --fixed 1 --mobile " + mobile + " -o " + of + "/hip.toml");
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    return made.err;
+  };
+  const auto expect_side = [&](const std::string& mobile, const std::string& side) {
+    const std::string notes = init(mobile, side + mobile);
+    EXPECT_EQ(notes.find("to fill in"), notes.npos) << notes;
+    EXPECT_NE(notes.find("label_1 is in 2 pieces: the one beside label_" + mobile + " is kept"), notes.npos)
+        << notes;
+    EXPECT_NE(text(side + mobile + "/hip.toml").find("side = '" + side + "'"), std::string::npos) << mobile;
+  };
+  io::write_labels(scan->path() / "both.nii.gz", grid, labels);
+  expect_side("2", "right");
+  expect_side("3", "left");
+  const std::string all = init("3 --pieces all", "all");
+  EXPECT_NE(all.find("label_1 is in 2 pieces, all of them kept"), all.npos) << all;
+  for (std::uint8_t& label : labels)
+    if (label == 3) label = 2;
+  io::write_labels(scan->path() / "both.nii.gz", grid, labels);
+  expect_side("2", "left");  // of both the larger half of the pelvis
 }
 
 TEST_F(LabelMaps, AreRowsOfAStudy) {

@@ -45,7 +45,7 @@ struct FrameTimes {
   bool in_seconds = true;      ///< else numbers of frames
 };
 
-/// The column `time` in seconds; without one the column `Frame`, or else frames counted from 0. Case does not count.
+/// The column `time` or `time_s` in seconds; without one the column `Frame`, or else frames counted from 0. Case does not count.
 [[nodiscard]] FrameTimes frame_times(const MotionTable& table);
 
 enum class CoordinateKind { angle, length };

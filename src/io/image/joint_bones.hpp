@@ -19,6 +19,13 @@ struct ImagedBone {
   const LabelBone& bone;
 };
 
+/// Whether one of several large pieces of a label is the bone, as of a whole pelvis.
+bool is_in_large_pieces(const LabelBone& bone);
+
+/// bone_of(), but of such a label the piece that lies nearest to the other bone.
+std::optional<LabelBone> bone_beside(const LabelBone& other, const LabelMap& map, std::string_view file,
+                                     const LabelBoneRequest& request, const Control& control);
+
 /// Where the surface of a bone comes from, one line each: its label and voxels, what the grid leaves open.
 std::vector<std::string> origin_of(const LabelBone& bone, std::string_view image_name);
 

@@ -1,11 +1,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cmath>
+#include <utility>
 
 #include "condyle/error.hpp"
 #include "condyle/io/label_file.hpp"
 #include "io/file/plain_text.hpp"
+#include "io/image/joint_bones.hpp"
+#include "mesh/enclosed_volume.hpp"
+#include "mesh/label_surface/voxel_pieces.hpp"
 
 namespace condyle::io {
 namespace {
@@ -56,7 +62,8 @@ void check_size(const VoxelMask& mask, std::int64_t voxels, std::string_view fil
                                 voxels, longest));
 }
 
-void note_pieces(const LabelBone& bone, std::vector<LabelNote>& notes) {
+/// `other` is empty if the largest piece is kept.
+void note_pieces(const LabelBone& bone, std::string_view other, std::vector<LabelNote>& notes) {
   double kept = 0, dropped = 0;
   std::size_t kept_pieces = 0, dropped_pieces = 0;
   for (const LabelPiece& piece : bone.surface.pieces) {
@@ -65,10 +72,11 @@ void note_pieces(const LabelBone& bone, std::vector<LabelNote>& notes) {
     ++(piece.kept ? kept_pieces : dropped_pieces);
   }
   if (dropped_pieces > 0)
-    notes.push_back(
-        {LabelNoteCode::pieces,
-         fmt::format("{} is in {} pieces: the largest is kept, {:.0f} mm3, and {:.0f} mm3 are left out",
-                     bone.name, kept_pieces + dropped_pieces, kept, dropped)});
+    notes.push_back({LabelNoteCode::pieces,
+                     fmt::format("{} is in {} pieces: {} is kept, {:.0f} mm3, and {:.0f} mm3 are left out",
+                                 bone.name, kept_pieces + dropped_pieces,
+                                 other.empty() ? "the largest" : fmt::format("the one beside {}", other),
+                                 kept, dropped)});
   else if (kept_pieces > 1)
     notes.push_back(
         {LabelNoteCode::pieces, fmt::format("{} is in {} pieces, all of them kept", bone.name, kept_pieces)});
@@ -101,6 +109,56 @@ void note_simplification(const LabelBone& bone, std::vector<LabelNote>& notes) {
                                simplified->largest_error)});
 }
 
+/// Takes large pieces out of the mask but for the one that lies nearest to the other bone; returns their voxels.
+std::vector<std::int64_t> keep_piece_beside(const LabelBone& other, VoxelMask& mask) {
+  mesh::VoxelBox box{mask.size, std::move(mask.inside)};
+  const std::array<std::int64_t, 3>& first = mask.first;
+  const Eigen::Affine3d X_WB =
+      mask.image.X_WI * Eigen::Translation3d(static_cast<double>(first[0]), static_cast<double>(first[1]),
+                                             static_cast<double>(first[2]));
+  const BoundingBox bounds = mesh::bounds_of_vertices(other.surface.mesh);
+  auto voxels = mesh::keep_large_piece_near(box, X_WB, (bounds.low + bounds.high) / 2);
+  mask.inside = std::move(box.inside);
+  return voxels;
+}
+
+/// Among the pieces of a surface, most voxels first.
+void add_left_out(const std::vector<std::int64_t>& left_out, double voxel_mm3,
+                  std::vector<LabelPiece>& pieces) {
+  for (const std::int64_t voxels : left_out)
+    pieces.push_back({voxels, static_cast<double>(voxels) * voxel_mm3, false});
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const LabelPiece& a, const LabelPiece& b) { return a.voxels > b.voxels; });
+}
+
+std::optional<LabelBone> bone_of(const LabelMap& map, std::string_view file, const LabelBoneRequest& request,
+                                 const LabelBone* other, const Control& control) {
+  LabelBone bone{.name = {}, .label = chosen_label(map, file, request), .surface = {}, .image = {}};
+  bone.name = bone.label.name;
+  if (bone.name.empty())
+    bone.name = request.label.empty() ? name_of_mask(file) : fmt::format("label_{}", bone.label.label);
+  VoxelMask mask = mask_of(map, bone.label.layer, bone.label.label);
+  bone.voxels = std::count(mask.inside.begin(), mask.inside.end(), std::uint8_t{1});
+  check_size(mask, bone.voxels, file, bone.name);
+  std::vector<std::int64_t> left_out;
+  if (other) left_out = keep_piece_beside(*other, mask);
+  try {
+    auto surface = surface_of(mask, request.surface, control);
+    if (!surface) return std::nullopt;
+    bone.surface = std::move(*surface);
+  } catch (const MeshError& error) {
+    throw MeshError(fmt::format("{}: {}: {}", file, bone.name, error.what()));
+  }
+  add_left_out(left_out, std::abs(mask.image.X_WI.linear().determinant()), bone.surface.pieces);
+  bone.image = image_of(map.grid, bone.surface);
+  bone.notes = bone.label.notes;
+  note_pieces(bone, left_out.empty() ? std::string_view() : other->name, bone.notes);
+  note_cavities(bone, request.surface.keep_cavities, bone.notes);
+  note_cuts(bone, bone.notes);
+  note_simplification(bone, bone.notes);
+  return bone;
+}
+
 }  // namespace
 
 BodyImage image_of(const VoxelGrid& grid, const LabelSurface& surface) {
@@ -111,27 +169,17 @@ BodyImage image_of(const VoxelGrid& grid, const LabelSurface& surface) {
 
 std::optional<LabelBone> bone_of(const LabelMap& map, std::string_view file, const LabelBoneRequest& request,
                                  const Control& control) {
-  LabelBone bone{.name = {}, .label = chosen_label(map, file, request), .surface = {}, .image = {}};
-  bone.name = bone.label.name;
-  if (bone.name.empty())
-    bone.name = request.label.empty() ? name_of_mask(file) : fmt::format("label_{}", bone.label.label);
-  const VoxelMask mask = mask_of(map, bone.label.layer, bone.label.label);
-  bone.voxels = std::count(mask.inside.begin(), mask.inside.end(), std::uint8_t{1});
-  check_size(mask, bone.voxels, file, bone.name);
-  try {
-    auto surface = surface_of(mask, request.surface, control);
-    if (!surface) return std::nullopt;
-    bone.surface = std::move(*surface);
-  } catch (const MeshError& error) {
-    throw MeshError(fmt::format("{}: {}: {}", file, bone.name, error.what()));
-  }
-  bone.image = image_of(map.grid, bone.surface);
-  bone.notes = bone.label.notes;
-  note_pieces(bone, bone.notes);
-  note_cavities(bone, request.surface.keep_cavities, bone.notes);
-  note_cuts(bone, bone.notes);
-  note_simplification(bone, bone.notes);
-  return bone;
+  return bone_of(map, file, request, nullptr, control);
+}
+
+bool is_in_large_pieces(const LabelBone& bone) {
+  const std::vector<LabelPiece>& pieces = bone.surface.pieces;
+  return pieces.size() > 1 && !pieces[1].kept && mesh::is_large_piece(pieces[1].voxels, pieces[0].voxels);
+}
+
+std::optional<LabelBone> bone_beside(const LabelBone& other, const LabelMap& map, std::string_view file,
+                                     const LabelBoneRequest& request, const Control& control) {
+  return bone_of(map, file, request, &other, control);
 }
 
 LabelBone bone_of(const LabelMap& map, std::string_view file, const LabelBoneRequest& request) {

@@ -38,6 +38,12 @@ std::optional<LabelJoint> propose_joint(const LabelMap& map, const LabelMap* oth
   if (!fixed) return std::nullopt;
   auto mobile = bone_of(mobile_map, mobile_name, request.mobile, control);
   if (!mobile) return std::nullopt;
+  // The mobile bone shows which half of a pelvis is meant; if both labels are of two bones, the largest fixed one is.
+  if (io::is_in_large_pieces(*mobile))
+    mobile = io::bone_beside(*fixed, mobile_map, mobile_name, request.mobile, control);
+  if (mobile && io::is_in_large_pieces(*fixed))
+    fixed = io::bone_beside(*mobile, map, fixed_name, request.fixed, control);
+  if (!fixed || !mobile) return std::nullopt;
   const ImagedBone of_fixed{map, fixed_name, *fixed}, of_mobile{mobile_map, mobile_name, *mobile};
   io::check_are_two(of_fixed, of_mobile);
 

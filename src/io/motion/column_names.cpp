@@ -63,8 +63,16 @@ std::size_t column_named(const MotionTable& table, std::string_view name) {
   for (const std::string& column : table.columns)
     if (const std::string_view coordinate = coordinate_of(column); !coordinate.empty())
       known.emplace_back(coordinate);
-  throw FileError(fmt::format("{}: has no column {}{}", table.path.string(), in_quotes(name),
-                              core::did_you_mean(name, known)));
+  throw FileError(fmt::format("{}: has no column {}{}{}", table.path.string(), in_quotes(name),
+                              core::did_you_mean(name, known), those_there(table.columns)));
+}
+
+std::string those_there(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 20;  // a motion of a whole body has hundreds
+  const std::size_t count = names.size(), named = std::min(count, most);
+  std::string text = "; it has ";
+  for (std::size_t c = 0; c < named; ++c) text += (c == 0 ? "" : ", ") + in_quotes(names[c]);
+  return named == count ? text : text + fmt::format(" and {} more", count - named);
 }
 
 }  // namespace condyle::io

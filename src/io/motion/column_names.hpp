@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "condyle/io/recorded_motion.hpp"
 
@@ -14,5 +16,8 @@ namespace condyle::io {
 std::optional<std::size_t> find_column(const MotionTable& table, std::string_view name);
 /// The same; raises FileError if there is none.
 std::size_t column_named(const MotionTable& table, std::string_view name);
+
+/// "; it has 'time', 'knee_flex_r' and 12 more", for messages about a column that is not there.
+std::string those_there(const std::vector<std::string>& names);
 
 }  // namespace condyle::io

@@ -9,6 +9,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/joint/coordinate_name.hpp"
+#include "io/motion/column_names.hpp"
 
 namespace condyle::io {
 
@@ -29,9 +30,19 @@ std::vector<ColumnOfCoordinate> columns_by_name(const MotionTable& table, const 
   }
   if (columns.empty())
     throw FileError(fmt::format(
-        "{}: no column says a coordinate of the joint ({}), and the joint file has no [recorded_motion]",
-        table.path.string(), wanted));
+        "{}: no column says a coordinate of the joint ({}), and the joint file has no [recorded_motion]{}",
+        table.path.string(), wanted, those_there(table.columns)));
   return columns;
+}
+
+bool is_of_curves(const MotionTable& table, const Joint& joint) {
+  const auto has = [&](const std::string& name) {
+    return std::find(table.columns.begin(), table.columns.end(), name) != table.columns.end();
+  };
+  const auto names = coordinate_names_of(joint.kind, joint.anatomy);
+  return has("smallest_gap_mm") && std::all_of(names.begin(), names.end(), [&](const CoordinateName& name) {
+           return has(name.name + (name.kind == CoordinateKind::angle ? "_deg" : "_mm"));
+         });
 }
 
 void note_times(JointMotion& motion) {

@@ -9,6 +9,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/provenance.hpp"
+#include "io/motion/column_names.hpp"
 #include "io/motion/coordinate_motion.hpp"
 #include "io/motion/model_poses.hpp"
 
@@ -54,12 +55,21 @@ JointMotion of_poses(const LoadedJoint& loaded, const MotionTable& table, Record
   return motion;
 }
 
+/// Whether a mapping of coordinates names a column of the table, which then counts as it says.
+bool names_a_column(const RecordedMotionMapping& mapping, const MotionTable& table) {
+  const auto* columns = std::get_if<std::vector<ColumnOfCoordinate>>(&mapping);
+  return columns && std::any_of(columns->begin(), columns->end(), [&](const ColumnOfCoordinate& entry) {
+           return io::find_column(table, entry.column).has_value();
+         });
+}
+
 }  // namespace
 
 JointMotion motion_of(const LoadedJoint& joint, const MotionTable& table) {
   const auto& mapping = joint.report.file.recorded_motion;
+  const bool is_again = mapping && io::is_of_curves(table, joint.joint) && !names_a_column(*mapping, table);
   const auto read = [&] {
-    if (!mapping)
+    if (!mapping || is_again)
       return io::motion_of_coordinates(joint.joint, table, io::columns_by_name(table, joint.joint));
     if (const auto* poses = std::get_if<ColumnsOfPoses>(&*mapping))
       return of_poses(joint, table, recorded_poses(table, *poses));
@@ -68,6 +78,10 @@ JointMotion motion_of(const LoadedJoint& joint, const MotionTable& table) {
     return io::motion_of_coordinates(joint.joint, table, std::get<std::vector<ColumnOfCoordinate>>(*mapping));
   };
   JointMotion motion = read();
+  if (is_again)
+    motion.processing.push_back(
+        fmt::format("{}: is of condyle motion: its columns of coordinates are read, not [recorded_motion]",
+                    table.path.string()));
   motion.path = table.path;
   motion.digest = table.digest;
   return motion;

@@ -8,6 +8,7 @@
 
 #include "condyle/error.hpp"
 #include "core/near_name.hpp"
+#include "io/motion/column_names.hpp"
 
 namespace condyle::io {
 namespace {
@@ -34,8 +35,8 @@ std::array<Column, 3> columns_of(const MotionTable& table, const std::array<cons
     std::erase_if(others, [&](const std::string& name) {
       return std::find(names.begin(), names.end(), name) != names.end();
     });
-    throw FileError(fmt::format("{}: has no column '{}'{}", table.path.string(), names[axis],
-                                core::did_you_mean(names[axis], others)));
+    throw FileError(fmt::format("{}: has no column '{}'{}{}", table.path.string(), names[axis],
+                                core::did_you_mean(names[axis], others), those_there(table.columns)));
   }
   return columns;
 }

@@ -93,8 +93,9 @@ class ModelMotion {
     std::set<std::string_view> looked_at;
     for (const ModelCoordinate& coordinate : joint_->coordinates)
       if (has_source(coordinate.name, looked_at)) return;
-    throw FileError(fmt::format("{}: has no column of joint {}: {} or the like", table_.path.string(),
-                                in_quotes(joint_->name), in_quotes(joint_->coordinates.front().name)));
+    throw FileError(fmt::format("{}: has no column of joint {}: {} or the like{}", table_.path.string(),
+                                in_quotes(joint_->name), in_quotes(joint_->coordinates.front().name),
+                                those_there(table_.columns)));
   }
 
   /// Whether a column gives this coordinate, or couplers do by columns of others. Each coordinate is looked at once.

@@ -123,8 +123,9 @@ MotionTable TableBuilder::finish() {
 }
 
 std::size_t time_column(const MotionTable& table) {
-  const std::size_t time = place_of(table, "time");
-  return time < table.columns.size() ? time : place_of(table, "frame");
+  for (const char* name : {"time", "time_s"})
+    if (const std::size_t at = place_of(table, name); at < table.columns.size()) return at;
+  return place_of(table, "frame");
 }
 
 bool is_of_opensim(const std::filesystem::path& path) {
@@ -154,7 +155,7 @@ FrameTimes frame_times(const MotionTable& table) {
   const std::size_t column = io::time_column(table);
   if (column < table.columns.size()) {
     times.values = table.values[column];
-    times.in_seconds = io::lower_case(table.columns[column]) == "time";
+    times.in_seconds = io::lower_case(table.columns[column]) != "frame";
     return times;
   }
   for (std::size_t row = 0; row < table.rows; ++row) times.values.push_back(static_cast<double>(row));

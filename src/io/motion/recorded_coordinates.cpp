@@ -73,8 +73,9 @@ NamedCoordinates recorded_coordinates(const MotionTable& table,
   out.processing = table.processing;
   out.frames.assign(table.rows, std::vector<double>());
   if (!mapping.empty() && has_none(table, mapping))
-    throw FileError(fmt::format("{}: has none of the joint's columns, {} and the others", table.path.string(),
-                                io::in_quotes(mapping.front().column)));
+    throw FileError(fmt::format("{}: has none of the joint's columns, {} and the others{}",
+                                table.path.string(), io::in_quotes(mapping.front().column),
+                                those_there(table.columns)));
   BeyondLimits beyond;
   std::vector<std::vector<double>> degrees_by_header;
   for (const ColumnOfCoordinate& entry : mapping) {

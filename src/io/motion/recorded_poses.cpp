@@ -10,6 +10,7 @@
 #include "core/predicates.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/joint/nearest_rotation.hpp"
+#include "io/motion/column_names.hpp"
 #include "io/motion/gaps.hpp"
 
 namespace condyle::io {
@@ -69,11 +70,13 @@ BodyColumns columns_of(const MotionTable& table, const std::string& body) {
   BodyColumns columns{body, {}, Translation::last_column};
   const bool of_jam = place(body + jam_endings.front()) < table.columns.size();
   const auto suffix = of_jam ? std::string() : xmalab_suffix(table, body);
-  if (!suffix)
+  if (!suffix) {
+    const std::vector<std::string> bodies = bodies_of(table);
     throw FileError(
-        fmt::format("{}: has no columns of body {}{}: they are named {}_T11 to {}_T44, or {}_R11 to {}_1",
-                    table.path.string(), io::in_quotes(body), core::did_you_mean(body, bodies_of(table)),
-                    body, body, body, body));
+        fmt::format("{}: has no columns of body {}{}: they are named {}_T11 to {}_T44, or {}_R11 to {}_1{}",
+                    table.path.string(), io::in_quotes(body), core::did_you_mean(body, bodies), body, body,
+                    body, body, those_there(bodies.empty() ? table.columns : bodies)));
+  }
   if (!of_jam) columns.named_for = Translation::last_row;
   for (std::size_t i = 0; i < columns.places.size(); ++i) {
     const std::string name = body + (of_jam ? jam_endings[i] : xmalab_endings[i]) + *suffix;

@@ -1,6 +1,7 @@
 #include "mesh/label_surface/voxel_pieces.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -116,6 +117,46 @@ std::vector<std::int64_t> keep_pieces(VoxelBox& box, bool all) {
   std::erase(voxels, 0);
   std::stable_sort(voxels.begin(), voxels.end(), std::greater<>());
   return voxels;
+}
+
+std::vector<std::int64_t> keep_large_piece_near(VoxelBox& box, const Eigen::Affine3d& X_WB,
+                                                const Vec3& point_W) {
+  struct Piece {
+    std::int64_t voxels = 0;
+    Vec3 sum = Vec3::Zero();  ///< of the voxels' indices
+    bool is_taken_out = false;
+  };
+  const Runs runs(box, 1);
+  DisjointSets sets = runs.connected(true);
+  std::vector<Piece> pieces(runs.count());
+  std::int64_t most = 0;
+  runs.for_each([&](std::size_t r, const Run& run, std::int64_t j, std::int64_t k) {
+    Piece& piece = pieces[sets.find(static_cast<Index>(r))];
+    const std::int64_t voxels = run.end - run.begin;
+    piece.voxels += voxels;
+    piece.sum += static_cast<double>(voxels) * Vec3(static_cast<double>(run.begin + run.end - 1) / 2,
+                                                    static_cast<double>(j), static_cast<double>(k));
+    most = std::max(most, piece.voxels);
+  });
+  Piece* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (Piece& piece : pieces) {
+    piece.is_taken_out = is_large_piece(piece.voxels, most);
+    if (!piece.is_taken_out) continue;
+    const Vec3 centroid_W = X_WB * (piece.sum / static_cast<double>(piece.voxels));
+    if (const double distance = (centroid_W - point_W).norm(); distance < least)
+      least = distance, nearest = &piece;
+  }
+  if (nearest) nearest->is_taken_out = false;
+  runs.for_each([&](std::size_t r, const Run& run, std::int64_t j, std::int64_t k) {
+    if (!pieces[sets.find(static_cast<Index>(r))].is_taken_out) return;
+    const auto row = voxels_of(box, run, j, k);
+    std::fill(row.begin(), row.end(), std::uint8_t{0});
+  });
+  std::vector<std::int64_t> taken_out;
+  for (const Piece& piece : pieces)
+    if (piece.is_taken_out) taken_out.push_back(piece.voxels);
+  return taken_out;
 }
 
 Cavities find_cavities(VoxelBox& box, bool fill) {

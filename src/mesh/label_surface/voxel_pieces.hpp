@@ -1,10 +1,13 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "condyle/mesh.hpp"
 
 namespace condyle::mesh {
 
@@ -17,6 +20,16 @@ struct VoxelBox {
 /// Voxels of each 26-connected piece, most first, and of equals the one whose first voxel comes first.
 /// Unless `all`, only the first piece stays in the box.
 std::vector<std::int64_t> keep_pieces(VoxelBox& box, bool all);
+
+/// Whether a piece may be a bone of its own beside the largest one: a fifth of its voxels.
+constexpr bool is_large_piece(std::int64_t voxels, std::int64_t most) noexcept {
+  return voxels > 0 && 5 * voxels >= most;
+}
+
+/// Of the large pieces only the one whose centroid is nearest to a point stays.
+/// Returns the voxels of those taken out; `X_WB` takes the box's indices to the frame of the point.
+std::vector<std::int64_t> keep_large_piece_near(VoxelBox& box, const Eigen::Affine3d& X_WB,
+                                                const Vec3& point_W);
 
 /// How many 26-connected pieces each value below `values` is in, in one pass over voxels of the size, i fastest. Memory:
 /// two slices.

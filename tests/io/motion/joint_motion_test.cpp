@@ -142,6 +142,41 @@ TEST(JointMotion, ABallDoesNotTranslate) {
   }
 }
 
+/// What condyle motion writes: its coordinates are the joint's own, whatever columns the recording had.
+TEST(JointMotion, CurvesOfAMotionAreReadAgain) {
+  const RecordedBodies bodies(1);
+  const auto read = [&](const std::string& mapping, const char* table) {
+    std::string file = bodies.joint("free", "mm", "", "", standard, "");
+    file = file.substr(0, file.find("[recorded_motion]")) + mapping;
+    const io::LoadedJoint joint = io::read_joint(bodies.folder().file("knee.toml", file));
+    const io::JointMotion motion =
+        io::motion_of(joint, io::read_motion_table(bodies.folder().file("curves.csv", table)));
+    EXPECT_TRUE(motion.times.in_seconds);
+    EXPECT_EQ(motion.times.values, (std::vector<double>{0.5, 0.75}));
+    const JointCoordinates at = io::coordinates_of(joint.joint, motion)[1];
+    EXPECT_NEAR(at.translation_mm.y(), 4, 1e-12);
+    bool is_noted = false;
+    for (const std::string& remark : motion.processing)
+      is_noted |= remark.find("not [recorded_motion]") != remark.npos;
+    return std::pair(at.angles.flexion.degrees(), is_noted);
+  };
+  const auto curves =
+      "time_s,smallest_gap_mm,flexion_deg,adduction_deg,internal_rotation_deg,x_mm,y_mm,z_mm\n"
+      "0.5,1.5,0,0,0,0,0,0\n0.75,2.5,30,0,0,0,4,0\n";
+  for (const char* mapping : {"[recorded_motion]\nfixed_body = \"F\"\nmobile_body = \"M\"\nunits = \"mm\"\n",
+                              "[recorded_motion]\nflexion = \"knee_flex_r\"\n",
+                              "[recorded_motion]\nmodel = \"knee.osim\"\njoint = \"knee_r\"\n"}) {
+    const auto [flexion_deg, is_noted] = read(mapping, curves);
+    EXPECT_NEAR(flexion_deg, 30, 1e-12) << mapping;
+    EXPECT_TRUE(is_noted) << mapping;
+  }
+  EXPECT_FALSE(read("", curves).second) << "nothing else was to be read";
+  const std::string turned =
+      "[recorded_motion]\nflexion = { column = \"flexion_deg\", unit = \"deg\", sign = -1 }\n"
+      "y = { column = \"y_mm\", unit = \"mm\" }\n";
+  EXPECT_NEAR(read(turned, curves).first, -30, 1e-12) << "a mapping that names the column counts";
+}
+
 TEST(JointMotion, NotesTimesThatLookLikeMilliseconds) {
   const test::TemporaryFolder folder;
   io::write_mesh(folder / "a.ply", test::box({1, 1, 1}, {2, 2, 2}));
@@ -161,6 +196,7 @@ TEST(JointMotion, NotesTimesThatLookLikeMilliseconds) {
             std::vector{motion::ContactNoteCode::unlikely_times});
   EXPECT_TRUE(codes("time,flexion_deg\n0.5,10\n0.51,20\n0.52,30\n").empty());
   EXPECT_TRUE(codes("time,flexion_deg\n0,10\n1,20\n2,30\n").empty());
+  EXPECT_EQ(codes("time_s,flexion_deg\n500,10\n510,20\n520,30\n").size(), 1u);
   EXPECT_TRUE(codes("frame,flexion_deg\n500,10\n510,20\n520,30\n").empty()) << "numbers of frames";
 }
 

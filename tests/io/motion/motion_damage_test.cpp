@@ -72,12 +72,16 @@ const std::string states =
 
 TEST(DamagedMotion, States) {
   const auto with = [](std::string_view from, std::string_view to) { return replaced(states, from, to); };
-  const std::string flexion = "/jointset/knee_r/knee_flex_r/value";
+  const std::string flexion = "/jointset/knee_r/knee_flex_r/value",
+                    others = ", '/jointset/knee_r/knee_flex_r/speed', '/jointset/knee_r/knee_tx_r/value'";
   expect_complaints(
       "passive.sto", states,
       {{with("knee_flex_r/value", "knee_flx_r/value"),
-        "has no column 'knee_flex_r' (did you mean \"knee_flx_r\"?)"},
-       {with("knee_flex_r/value", "knee_r/angle/value"), "has no column 'knee_flex_r'"},
+        "has no column 'knee_flex_r' (did you mean \"knee_flx_r\"?); it has 'time', "
+        "'/jointset/knee_r/knee_flx_r/value'" +
+            others},
+       {with("knee_flex_r/value", "knee_r/angle/value"),
+        "has no column 'knee_flex_r'; it has 'time', '/jointset/knee_r/knee_r/angle/value'" + others},
        {with("knee_flex_r/speed", "x/knee_flex_r/value"),
         "column 'knee_flex_r' could be '/jointset/knee_r/knee_flex_r/value' or "
         "'/jointset/knee_r/x/knee_flex_r/value': give the whole name"},
@@ -123,7 +127,7 @@ TEST(DamagedMotion, Matrices) {
       "mri.sto", matrices,
       {{with("tibia_T11", "tibai_T11"),
         "has no columns of body 'tibia' (did you mean \"tibai\"?): they are named tibia_T11 to tibia_T44, or "
-        "tibia_R11 to tibia_1"},
+        "tibia_R11 to tibia_1; it has 'F', 'tibai'"},
        {with("tibia_T23", "tibia_X23"), "has no column 'tibia_T23'"},
        {with("tibia_T23", "tibia_T22"), "line 3: column 'tibia_T22' is there twice"},
        {with_last("\t0\t-1\t0\t10\t1\t0\t0\t20\t0\t0\t1\t30\t0\t0\t0\t2"),
@@ -169,7 +173,8 @@ TEST(DamagedMotion, Xmalab) {
   };
   expect_complaints(
       "xmalab.csv", xmalab,
-      {{with("M_R11", "m_R11"), "has no columns of body 'M': they are named M_T11 to M_T44, or M_R11 to M_1"},
+      {{with("M_R11", "m_R11"),
+        "has no columns of body 'M': they are named M_T11 to M_T44, or M_R11 to M_1; it has 'F', 'm'"},
        {with("M_R11_25Hz", "M_R11_50Hz"), "has no column 'M_R12_50Hz'"},
        {with("M_02", "M_R11_50Hz"), "body 'M' has two sets of columns: 'M_R11_25Hz' and 'M_R11_50Hz_25Hz'"},
        {with("M_02", "M_01"), "line 1: column 'M_01_25Hz' is there twice"},
@@ -216,7 +221,8 @@ TEST(DamagedMotion, Csv) {
        {with("\n0.2", "\n\n0.2"), "line 5: is empty, and rows follow"},
        {with("time,flexion,rotation\n", ""),
         "line 2: '0' should be the name of column 1: the names of the columns are missing"},
-       {with("flexion", "flexoin"), "has no column 'flexion' (did you mean \"flexoin\"?)"}},
+       {with("flexion", "flexoin"),
+        "has no column 'flexion' (did you mean \"flexoin\"?); it has 'time', 'flexoin', 'rotation'"}},
       [](const std::filesystem::path& path) {
         io::recorded_coordinates(
             io::read_motion_table(path),
@@ -242,7 +248,9 @@ TEST(DamagedMotion, Loads) {
       "loads.csv", loads,
       {{"", "is empty"},
        {"time,force_x_n,force_y_n,force_z_n\n", "has no rows of numbers"},
-       {with("force_y_n", "force_y"), "has no column 'force_y_n' (did you mean \"force_y\"?)"},
+       {with("force_y_n", "force_y"),
+        "has no column 'force_y_n' (did you mean \"force_y\"?); it has 'time', 'force_x_n', 'force_y', "
+        "'force_z_n'"},
        {with("force_z_n", "force_y_n"), "line 1: column 'force_y_n' is there twice"},
        {with("-1500", "-15oo"), "line 3: column 'force_y_n': '-15oo' should be a number"},
        {with("-1500", "-inf"), "line 3: column 'force_y_n': '-inf' is not finite"},
@@ -254,7 +262,14 @@ TEST(DamagedMotion, Loads) {
        {with("\n0.1", "\n\n0.1"), "line 3: is empty, and rows follow"},
        {beside, "column 'moment_x_nmm': moments are balanced with --free-rotations only"}},
       read(false));
-  EXPECT_EQ(test::refusal("loads.csv", beside, read(true)), "has no column 'moment_y_nmm'");
+  EXPECT_EQ(test::refusal("loads.csv", beside, read(true)),
+            "has no column 'moment_y_nmm'; it has 'time', 'force_x_n', 'force_y_n', 'force_z_n', "
+            "'moment_x_nmm', 'moment_z_nmm'");
+  std::string names = "time", values;
+  for (int c = 0; c < 25; ++c) names += ",c" + std::to_string(c), values += ",1";
+  const std::string table = names + "\n0" + values + "\n0.1" + values + "\n0.2" + values + "\n";
+  const std::string many = test::refusal("loads.csv", table, read(false));
+  EXPECT_NE(many.find("'c18' and 6 more"), many.npos) << many;
 }
 
 TEST(RecordedLoads, AFrameWithAGapHasNone) {
