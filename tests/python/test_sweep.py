@@ -75,7 +75,7 @@ def test_it_is_that_of_the_command(zone, by_command):
     assert zone.best.margin_deg == np.nanmax(zone.margin_deg)
     assert zone.here.values == said["here"]["values"]
     assert list(zone.here.limits_deg) == [each["limit_deg"] for each in said["here"]["limits"]]
-    assert [note.text for note in zone.notes] == [note["text"] for note in said["sweep_notes"]]
+    assert [note.text for note in zone.notes] == [note["text"] for note in said["sweep_notes"] + said["notes"]]
     assert zone.caveats == said["caveats"]
 
 
@@ -137,7 +137,7 @@ def test_a_pickled_joint_has_its_implant(hip, zone):
 def test_its_zone_is_noted(hip):
     with pytest.warns(condyle.JointRemark, match="nothing_is_safe"):
         zone = hip.sweep({"cup.anteversion": (-40, -20, 10)}, TARGETS)
-    assert [note.code for note in zone.notes] == ["nothing_is_safe"]
+    assert [note.code for note in zone.notes] == ["nothing_is_safe", "narrow_bearing_margin"]
 
 
 @pytest.mark.parametrize("vary, targets, words", [

@@ -54,7 +54,8 @@ def rows_of(case: Case) -> List[Row]:
     rows = [(end, *_meeting(case.rom, motion)) for end, motion in zip(motion_ends(case.rom), case.rom["motions"])] if case.rom else []
     known = {end.name for end, *_ in rows}
     rows += [(end, *_meeting(plan, {})) for end in _ends(plan, "before") if end.name not in known]
-    gains = {each["motion"]: each["gain_deg"] for each in plan["limits"]}
+    # Files of earlier versions have no gains.
+    gains = {each["motion"]: each.get("gain_deg", each["after"]["limit_deg"] - each["before"]["limit_deg"]) for each in plan["limits"]}
     return [Row(*row, targets.get(row[0].name), after.get(row[0].name), gains.get(row[0].name, 0.0)) for row in rows]
 
 
