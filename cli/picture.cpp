@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,6 +34,14 @@ void read_size(const std::string& text, io::PictureOptions& picture) {
       !CLI::detail::lexical_cast(text.substr(x + 1), height))
     throw UsageError("--size: '" + text + "' is not such as 1200x900");
   picture.width = width, picture.height = height;
+}
+
+/// A height in mm, or all.
+void read_field(const std::string& text, io::PictureOptions& picture) {
+  double mm = std::numeric_limits<double>::infinity();
+  if (text != "all" && !CLI::detail::lexical_cast(text, mm))
+    throw UsageError("--field: '" + text + "' is neither mm nor all");
+  picture.field_mm = mm;
 }
 
 io::BodyStyle style_of(BodyRole body, const PictureArguments& options) {
@@ -109,15 +118,17 @@ void add_picture(CLI::App& app) {
                    "Colours end at this distance or depth. Default: 8 mm, and for depths enough for all")
       ->option_text("MM");
   command
-      ->add_option("--field", options->picture.field_mm,
-                   "Show this height about the joint centre. Default: all of both bodies")
-      ->option_text("MM");
+      ->add_option_function<std::string>(
+          "--field", [options](const std::string& text) { read_field(text, options->picture); },
+          "Show this height about the joint centre, or all of both bodies. Default: the contact and "
+          "its surroundings, else the joint; without a head all")
+      ->option_text("MM|all");
   command->add_flag("--measures", options->measures,
                     "Draw the marks of condyle measure: axis of the neck, points and plane of the rim, where "
                     "the head's contour ends");
   command->add_flag_callback(
       "--plain", [options] { options->picture.is_annotated = false; },
-      "Leave out the scale bar, the letters of the sides and the line of the pose");
+      "Leave out the scale bar, the letters of the sides, the line of the pose and the key of --measures");
   add_body(*command, "--hide", options->hidden, "Do not draw this body");
   add_body(*command, "--transparent", options->transparent,
            "Draw this body as glass. If depths are shown without this and --hide, the outer one is");

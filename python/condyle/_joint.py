@@ -695,7 +695,7 @@ class Joint(DescribedJoint):
 
     def picture(self, pose: OnePoseLike, *, view: str = "anterior", colour: Colour = "depth", fixed: BodyStyle = "solid",
                 mobile: BodyStyle = "solid", width: int = 1200, height: int = 900, range_mm: Optional[float] = None,
-                field_mm: Optional[float] = None, measures: bool = False, plain: bool = False) -> NDArray[np.uint8]:
+                field_mm: Union[float, Literal["all"], None] = None, measures: bool = False, plain: bool = False) -> NDArray[np.uint8]:
         """Both bodies at one pose, drawn without a display: (height, width, 3) uint8, red, green, blue, from the top left.
 
         Parameters
@@ -705,13 +705,15 @@ class Joint(DescribedJoint):
         colour : "depth", "gap", "nearest" or "none"
             Quantity that colours the surfaces; the scale stands below.
         fixed, mobile : "solid", "transparent" or "hidden"
-        range_mm, field_mm : float, optional
-            End of the colours, and height of what is shown about the joint centre.
+        range_mm : float, optional
+            End of the colours.
+        field_mm : float or "all", optional
+            Height of what is shown about the joint centre, or both bodies. Default: the contact and its surroundings, else the joint.
         measures : bool
             Draw what :meth:`measures` measures a hip by too, as far as it was found: axis of the neck, points and plane of
             the rim, where the head's contour ends.
         plain : bool
-            Leave out the scale bar, the letters of the sides (A, P, S, I, R, L) and the line of the pose.
+            Leave out the scale bar, the letters of the sides (A, P, S, I, R, L), the line of the pose and the key of `measures`.
 
         Where depths are shown and both bodies are solid, the outer one is drawn as glass: the depths would be hidden.
 
@@ -730,7 +732,8 @@ class Joint(DescribedJoint):
             word(colour, "colour", Colour), word(fixed, "fixed", BodyStyle), word(mobile, "mobile", BodyStyle),
             count(width, "width"), count(height, "height"),
             None if range_mm is None else number(range_mm, "range_mm"),
-            None if field_mm is None else number(field_mm, "field_mm"), bool(measures), bool(plain))
+            None if field_mm is None else np.inf if isinstance(field_mm, str) and field_mm == "all" else number(field_mm, "field_mm"),
+            bool(measures), bool(plain))
 
     def path_limit(self, waypoints: Sequence[Mapping[str, float]], *, tolerance_deg: float = 1e-3) -> PathLimit:
         """Where a path of straight segments in the joint's angles ends, several of which may change at once.

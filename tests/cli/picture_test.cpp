@@ -55,7 +55,7 @@ TEST_F(PictureCommand, EveryOptionChangesThePicture) {
   ASSERT_EQ(run(base + "base.png").exit_code, 0);
   for (const char* option :
        {"--view posterior", "--colour gap", "--colour nearest", "--colour none", "--range 50", "--field 60",
-        "--hide mobile", "--transparent fixed", "--measures"}) {
+        "--field all", "--hide mobile", "--transparent fixed", "--measures"}) {
     ASSERT_EQ(run(base + "other.png " + option).exit_code, 0) << option;
     // The texts in it name the command line, so it is what follows them that is compared.
     const auto pixels = [](const std::string& png) { return png.substr(png.find("IDAT")); };
@@ -96,6 +96,7 @@ TEST_F(PictureCommand, RefusesInOneLineAndWritesNothing) {
   expect_refused(2, "picture hip.toml --out p.png --size 100x-100", "--size");
   expect_refused(2, "picture hip.toml --out p.png --range 0", "not above 0");
   expect_refused(2, "picture hip.toml --out p.png --field nan", "not 0.1 to 100000");
+  expect_refused(2, "picture hip.toml --out p.png --field some", "--field: 'some' is neither mm nor all");
   expect_refused(2, "picture hip.toml --out p.png --pose tilt=3", "tilt");
   expect_refused(3, "picture none.toml --out p.png", "none.toml");
   expect_refused(3, "picture hip.toml --out hip.toml/p.png", "cannot be written");

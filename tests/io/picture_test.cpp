@@ -6,6 +6,7 @@
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -277,7 +278,7 @@ TEST(PictureMarks, OfMeasuresLieWhereTheyWereMeasured) {
 TEST(Picture, FitsBothBodiesWhateverIsHidden) {
   Joint joint = joint_of(fine_box({-5, 300, -5}, {5, 310, 5}), fine_box({-5, -80, -5}, {5, -70, 5}));
   io::PictureOptions options = bare_square("anterior");
-  options.field_mm.reset();
+  options.field_mm = HUGE_VAL;
   const io::Picture both = io::draw_joint(joint, {}, Pose::Identity(), options);
   // 390 mm within 92 % of 200 pixels: the boxes are 4.7 pixels high, at either end of the picture's middle column.
   expect_colour(pixel(both, 100, 10), io::fixed_bone, 1, "fixed");
@@ -286,6 +287,104 @@ TEST(Picture, FitsBothBodiesWhateverIsHidden) {
   const io::Picture one = io::draw_joint(joint, {}, Pose::Identity(), options);
   expect_colour(pixel(one, 100, 10), io::white, 0, "fixed");
   expect_colour(pixel(one, 100, 189), io::mobile_bone, 1, "mobile");
+}
+
+/// How many mm high the scene of a picture is that shows a box of 10 mm, and where the box's middle is, in pixels from the scene's.
+struct Shown {
+  double height_mm, to_right, upwards;
+};
+
+/// The mobile body is hidden.
+Shown box_shown(const Joint& joint, io::PictureColour colour, std::optional<double> height_mm) {
+  io::PictureOptions options = bare_square("anterior");
+  options.colour = colour, options.field_mm = height_mm, options.mobile = io::BodyStyle::hidden;
+  const io::Picture picture = io::draw_joint(joint, {}, Pose::Identity(), options);
+  const std::size_t rows = side_px - io::legend_height(options);
+  std::size_t left = side_px, right = 0, top = rows, bottom = 0;
+  // The mark of zero reaches a pixel beyond a legend as low as this one.
+  for (std::size_t row = 0; row + 1 < rows; ++row)
+    for (std::size_t column = 0; column < side_px; ++column)
+      if (pixel(picture, column, row) != io::white) {
+        left = std::min(left, column), right = std::max(right, column + 1);
+        top = std::min(top, row), bottom = std::max(bottom, row + 1);
+      }
+  const auto half = [](std::size_t twice) { return static_cast<double>(twice) / 2; };
+  return {5 * static_cast<double>(rows) / half(bottom - top), half(left + right) - half(side_px),
+          half(rows) - half(top + bottom)};
+}
+
+TEST(PictureField, IsTwoAndAHalfRadiiOfTheHeadAboutTheCentreOrAllOfBothBodies) {
+  // No bone of the mobile body is nearer to the centre than 20 mm: 100 mm high, 2 pixels a mm.
+  const Joint ball = joint_of(fine_box({-5, 10, -5}, {5, 20, 5}), fine_box({-5, -300, -5}, {5, -20, 5}));
+  const Shown shown = box_shown(ball, io::PictureColour::none, std::nullopt);
+  EXPECT_NEAR(shown.height_mm, 100, 5);
+  EXPECT_NEAR(shown.to_right, 0, 1);
+  EXPECT_NEAR(shown.upwards, 30, 1);
+  // 320 mm within 92 % of the picture, so 1.74 to a pixel: of the box's 5.75 pixels 5 to 7 are seen.
+  const Joint hinge{"boxes", JointKind::hinge, Side::right, ball.fixed, ball.mobile};
+  for (const Shown& all : {box_shown(hinge, io::PictureColour::none, std::nullopt),
+                           box_shown(ball, io::PictureColour::none, HUGE_VAL)}) {
+    EXPECT_GE(all.height_mm, 10 * side_px / 7.);
+    EXPECT_LE(all.height_mm, 10 * side_px / 5.);
+  }
+}
+
+TEST(PictureField, IsThreeTimesTheContactOrHalfTheJointAboutItsMiddle) {
+  // A box of 10 mm within the mobile body, beside the centre; no bone of that body is nearer to the centre than `nearest`.
+  const auto shown = [](double nearest) {
+    return box_shown(
+        joint_of(fine_box({-5, -85, 20}, {5, -75, 30}), fine_box({-40, -300, -40}, {40, -nearest, 40})),
+        io::PictureColour::nearest, std::nullopt);
+  };
+  for (const auto& [nearest, height] : {std::pair{8.0, 30.0}, std::pair{32.0, 80.0}}) {
+    EXPECT_NEAR(shown(nearest).height_mm, height, 0.05 * height);
+    EXPECT_NEAR(shown(nearest).to_right, 0, 1);
+    EXPECT_NEAR(shown(nearest).upwards, 0, 1);
+  }
+}
+
+TEST(PictureKey, HasASwatchOfEachMeaningUnderThePicture) {
+  const Rgb blue = {0, 114, 178}, red = {200, 0, 0};
+  io::PictureOptions options = bare_square("anterior");
+  options.marks = {{box({20, -10, -30}, {21, 10, -20}), {0, 114, 178}, "a plane"},
+                   {box({20, -10, 20}, {21, 10, 30}), {0, 114, 178}, "a plane"},
+                   {box({20, 20, -5}, {21, 30, 5}), {200, 0, 0}}};
+  EXPECT_EQ(io::legend_height(options), 0u) << "plain pictures have none";
+  options.is_annotated = true;
+  const std::size_t key = io::legend_height(options);
+  ASSERT_EQ(key, 16u);
+  const io::Picture picture = io::draw_joint(plate_before_plate(), {}, Pose::Identity(), options);
+  std::size_t swatches = 0, reds = 0;
+  for (std::size_t column = 1; column < side_px; ++column) {
+    const std::size_t row = side_px - key / 2 - 1;
+    swatches += pixel(picture, column, row) == blue && pixel(picture, column - 1, row) == io::black;
+    reds += pixel(picture, column, row) == red;
+  }
+  EXPECT_EQ(swatches, 1u);
+  EXPECT_EQ(reds, 0u) << "without a meaning";
+}
+
+/// A bone of which a millimetre goes at one vertex.
+plan::CutBone cut_at(const Vec3& place) {
+  const TriMesh surface = box(place, place + Vec3(10, 10, 10));
+  plan::CutBone cut{{"bone", surface}, surface, {}, {}, {}, 0, 0, 0, 0, 0, 0, Vec3::Zero()};
+  cut.depth_mm.assign(surface.vertices.size(), 0);
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v)
+    if (surface.vertices[v] == place) cut.depth_mm[v] = 1;
+  return cut;
+}
+
+TEST(PictureKey, OfACutHasItsDepthsInMillimetres) {
+  plan::CutBone cut = cut_at({20, -40, 60});
+  cut.deepest_mm = 1;
+  const std::vector<io::PictureMark> bands = io::depth_bands(cut);
+  ASSERT_EQ(bands.size(), 4u);
+  EXPECT_EQ(bands[0].meaning, "0-0.25");
+  EXPECT_EQ(bands[1].meaning, "0.25-0.5");
+  EXPECT_EQ(bands[3].meaning, "0.75-1 mm deep");
+  cut.deepest_mm = 20;
+  std::replace(cut.depth_mm.begin(), cut.depth_mm.end(), 1.0, 20.0);
+  EXPECT_EQ(io::depth_bands(cut).back().meaning, "over 12 mm deep");
 }
 
 TEST(Picture, SmoothsEdges) {
@@ -330,10 +429,12 @@ TEST(Picture, RefusesWhatItCannotDraw) {
   };
   EXPECT_THROW(draw({.width = 63}), UsageError);
   EXPECT_THROW(draw({.height = 8193}), UsageError);
-  for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+  for (const double bad : {0.0, -1.0, std::nan("")}) {
     EXPECT_THROW(draw({.range_mm = bad}), UsageError);
     EXPECT_THROW(draw({.field_mm = bad}), UsageError);
   }
+  EXPECT_THROW(draw({.range_mm = HUGE_VAL}), UsageError);
+  EXPECT_THROW(draw({.field_mm = 2e5}), UsageError);
   TriMesh open = joint.fixed.mesh.arrays();
   open.triangles.pop_back();
   const Joint with_open = joint_of(open, joint.mobile.mesh);
@@ -364,16 +465,6 @@ TEST(PicturePng, ReadsBackWithItsProvenance) {
   EXPECT_NE(io::read_whole_file(folder / "new/p.png").find("picture joint.toml"), std::string::npos);
   folder.file("file", "in the way");
   EXPECT_THROW(io::write_png(folder / "file/p.png", picture), FileError);
-}
-
-/// A bone of which a millimetre goes at one vertex.
-plan::CutBone cut_at(const Vec3& place) {
-  const TriMesh surface = box(place, place + Vec3(10, 10, 10));
-  plan::CutBone cut{{"bone", surface}, surface, {}, {}, {}, 0, 0, 0, 0, 0, 0, Vec3::Zero()};
-  cut.depth_mm.assign(surface.vertices.size(), 0);
-  for (std::size_t v = 0; v < surface.vertices.size(); ++v)
-    if (surface.vertices[v] == place) cut.depth_mm[v] = 1;
-  return cut;
 }
 
 // Seen from in front, superior up: pictures are four wide and three high, about the joint centre.

@@ -163,11 +163,13 @@ def test_a_picture_is_that_of_the_command(command, hip, hip_file, tmp_path):
     subprocess.run([command, "picture", hip_file, "--pose", "flexion=140", "--view", "lateral", "--hide", "fixed", "--size", "320x240",
                     "--measures", "--out", tmp_path / "hip.png"], check=True, capture_output=True)
     theirs = np.round(255 * image.imread(tmp_path / "hip.png")[:, :, :3]).astype(np.uint8)
-    ours = hip.picture({"flexion_deg": 140}, view="lateral", fixed="hidden", width=320, height=240, measures=True)
+    drawn = {"view": "lateral", "fixed": "hidden", "width": 320, "height": 240, "measures": True}
+    ours = hip.picture({"flexion_deg": 140}, **drawn)
     assert ours.dtype == np.uint8 and np.array_equal(ours, theirs)
+    assert not np.array_equal(hip.picture({"flexion_deg": 140}, field_mm="all", **drawn), ours)
 
 
 def test_wrong_pictures_are_refused(hip):
-    for wrong in ({"view": "askew"}, {"colour": "red"}, {"fixed": "gone"}, {"width": 1}, {"range_mm": -1}, {"field_mm": np.nan}):
+    for wrong in ({"view": "askew"}, {"colour": "red"}, {"fixed": "gone"}, {"width": 1}, {"range_mm": -1}, {"field_mm": np.nan}, {"field_mm": "some"}):
         with pytest.raises(condyle.UsageError):
             hip.picture({"flexion_deg": 0}, **wrong)

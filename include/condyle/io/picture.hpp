@@ -45,6 +45,7 @@ struct ViewDirection {
 struct PictureMark {
   TriMesh mesh;
   std::array<std::uint8_t, 3> rgb;  ///< red, green, blue
+  std::string meaning = {};  ///< in the key under the picture, small letters and digits; empty: in none
 };
 
 /// Marks of a hip's measures. Blue: axes of neck and shaft, 12 o'clock, condylar line, the line that version is seen along, top of the
@@ -61,10 +62,13 @@ struct PictureOptions {
   std::size_t width = 1200, height = 900;  ///< pixels, 64 to 8192
   /// End of the colours; where not given 8 mm, for depths the first of 1, 2, 5, 10 ... that holds them.
   std::optional<double> range_mm = {};
-  /// Height of what is shown, about the joint centre, 0.1 mm to 100 m; where not given both bodies fit, hidden or not.
+  /// Height of what is shown, about the joint centre, 0.1 mm to 100 m; infinite: both bodies fit, hidden or not. Where not given what lies
+  /// inside the other body and its surroundings, by the values of the colours; without such values or contact 2.5 radii of a ball joint's
+  /// head about the centre, and both bodies of other joints.
   std::optional<double> field_mm = {};
   std::vector<PictureMark> marks = {};
-  bool is_annotated = true;  ///< with a scale bar, letters of where the sides are, and a line of the pose
+  bool is_annotated =
+      true;  ///< with a scale bar, letters of where the sides are, a line of the pose, and the key of the marks
 };
 
 /// Red, green, blue of each pixel, row by row from the top left.

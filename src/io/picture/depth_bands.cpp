@@ -1,5 +1,7 @@
 #include "io/picture/depth_bands.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -54,7 +56,14 @@ double depth_band_mm(const plan::CutBone& cut) {
 std::vector<PictureMark> depth_bands(const plan::CutBone& cut) {
   const double width = depth_band_mm(cut);
   std::vector<PictureMark> bands;
-  for (const auto& colour : depth_colours) bands.push_back({{}, colour});
+  double from = 0;
+  for (const auto& colour : depth_colours) {
+    const double to = from + width;
+    const bool is_open = bands.size() + 1 == depth_colours.size() && cut.deepest_mm > to;
+    bands.push_back(
+        {{}, colour, is_open ? fmt::format("over {:g}", from) : fmt::format("{:g}-{:g}", from, to)});
+    from = to;
+  }
   for (const Triangle& t : cut.before.triangles) {
     std::vector<DeepPoint> triangle;
     for (const Index v : t) triangle.push_back({cut.before.vertices[v], cut.depth_mm[v]});
@@ -65,6 +74,7 @@ std::vector<PictureMark> depth_bands(const plan::CutBone& cut) {
     }
   }
   std::erase_if(bands, [](const PictureMark& band) { return band.mesh.triangles.empty(); });
+  if (!bands.empty()) bands.back().meaning += " mm deep";
   return bands;
 }
 

@@ -9,7 +9,7 @@ namespace condyle::io {
 double depth_band_mm(const plan::CutBone& cut);
 
 /// The surface before, where something goes, in bands of equal depth from yellow to dark red: between two colours runs a contour line.
-/// In the frame of the bone.
+/// Each with its depths for the key; in the frame of the bone.
 std::vector<PictureMark> depth_bands(const plan::CutBone& cut);
 
 /// From where the cut is seen best: along its mean normal.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "io/picture/text.hpp"
 
@@ -15,9 +16,9 @@ namespace {
 struct Layout {
   double top, height, width;
 
-  explicit Layout(const Picture& picture, std::size_t legend)
+  Layout(const Picture& picture, std::size_t legend, std::size_t scale)
       : top(static_cast<double>(picture.height - legend)),
-        height(static_cast<double>(legend)),
+        height(static_cast<double>(scale)),
         width(static_cast<double>(picture.width)) {}
 
   double bar_left() const noexcept { return std::round(0.32 * width); }
@@ -50,32 +51,51 @@ std::string words_of(PictureColour colour) {
                                         : "nearest distance, mm";
 }
 
-}  // namespace
-
-void set_pixel(Picture& picture, std::size_t column, std::size_t row, const Rgb& colour) noexcept {
-  for (std::size_t k = 0; k < 3; ++k)
-    picture.rgb[3 * (row * picture.width + column) + k] = static_cast<std::uint8_t>(std::lround(colour[k]));
+std::size_t scale_height(const PictureOptions& options) noexcept {
+  return options.colour == PictureColour::none ? 0 : std::max<std::size_t>(24, options.height * 9 / 100);
 }
 
-Rgb hatching(double x, double y) noexcept {
-  constexpr double period = 8, dark = 3;
-  return std::fmod(x + y, period) < dark ? hatch_dark : hatch_light;
+std::size_t key_height(const PictureOptions& options) noexcept {
+  const bool has_key =
+      options.is_annotated && std::any_of(options.marks.begin(), options.marks.end(),
+                                          [](const PictureMark& mark) { return !mark.meaning.empty(); });
+  return has_key ? std::max<std::size_t>(16, options.height * 5 / 100) : 0;
 }
 
-Rgb striped(const Rgb& colour, double x, double y) noexcept {
-  constexpr double period = 8, light = 2;
-  const double across = std::fmod(x - y, period);
-  return (across < 0 ? across + period : across) < light ? white : colour;
+/// In one line, each meaning once.
+void draw_key(Picture& picture, const PictureOptions& options) {
+  const auto height = static_cast<double>(key_height(options)), width = static_cast<double>(picture.width);
+  if (!(height > 0)) return;
+  std::vector<const PictureMark*> shown;
+  // Widths where letters are 1 high: a swatch, its meaning, and what is free after either.
+  constexpr double swatch = 1.6, before_word = 0.6, after_word = 1.8;
+  double wide = 0;
+  for (const PictureMark& mark : options.marks) {
+    const bool is_shown = std::any_of(
+        shown.begin(), shown.end(), [&](const PictureMark* other) { return other->meaning == mark.meaning; });
+    if (mark.meaning.empty() || is_shown) continue;
+    shown.push_back(&mark);
+    wide += swatch + before_word + width_of(mark.meaning) + after_word;
+  }
+  const double size = std::min({0.45 * height, 0.02 * width, width / wide});
+  const double top = std::round(static_cast<double>(picture.height) - 0.8 * height);
+  Text text;
+  double left = (width - size * (wide - after_word)) / 2;
+  for (const PictureMark* mark : shown) {
+    const double from = std::round(left), end = std::max(from + 1, std::round(left + swatch * size));
+    const Rgb colour{double(mark->rgb[0]), double(mark->rgb[1]), double(mark->rgb[2])};
+    fill_framed(picture, from, end, top, std::round(top + 1.3 * size),
+                [&](double, double) { return colour; });
+    left += (swatch + before_word) * size;
+    text.add(mark->meaning, left, top + 1.15 * size, size, Alignment::left);
+    left += (width_of(mark->meaning) + after_word) * size;
+  }
+  text.draw(picture, {picture.height - key_height(options), picture.height});
 }
 
-std::size_t legend_height(const PictureOptions& options) noexcept {
-  if (options.colour == PictureColour::none) return 0;
-  return std::max<std::size_t>(24, options.height * 9 / 100);
-}
-
-void draw_legend(Picture& picture, const PictureOptions& options, const ColourScale& scale) {
+void draw_scale(Picture& picture, const PictureOptions& options, const ColourScale& scale) {
   if (options.colour == PictureColour::none) return;
-  const Layout at(picture, legend_height(options));
+  const Layout at(picture, legend_height(options), scale_height(options));
   const double low = scale.low_mm(), high = scale.range_mm, size = at.letter_size();
   const double left = at.bar_left(), right = at.bar_right(), top = at.bar_top(), bottom = at.bar_bottom();
   fill_framed(picture, left, right, top, bottom,
@@ -112,7 +132,35 @@ void draw_legend(Picture& picture, const PictureOptions& options, const ColourSc
     fill_framed(picture, swatch, end, top, bottom, hatching);
     text.add("only a bound", end + 0.8 * size, beside, size, Alignment::left);
   }
-  text.draw(picture, {static_cast<std::size_t>(at.top), picture.height});
+  const auto first = static_cast<std::size_t>(at.top);
+  text.draw(picture, {first, first + scale_height(options)});
+}
+
+}  // namespace
+
+void set_pixel(Picture& picture, std::size_t column, std::size_t row, const Rgb& colour) noexcept {
+  for (std::size_t k = 0; k < 3; ++k)
+    picture.rgb[3 * (row * picture.width + column) + k] = static_cast<std::uint8_t>(std::lround(colour[k]));
+}
+
+Rgb hatching(double x, double y) noexcept {
+  constexpr double period = 8, dark = 3;
+  return std::fmod(x + y, period) < dark ? hatch_dark : hatch_light;
+}
+
+Rgb striped(const Rgb& colour, double x, double y) noexcept {
+  constexpr double period = 8, light = 2;
+  const double across = std::fmod(x - y, period);
+  return (across < 0 ? across + period : across) < light ? white : colour;
+}
+
+std::size_t legend_height(const PictureOptions& options) noexcept {
+  return scale_height(options) + key_height(options);
+}
+
+void draw_legend(Picture& picture, const PictureOptions& options, const ColourScale& scale) {
+  draw_scale(picture, options, scale);
+  draw_key(picture, options);
 }
 
 }  // namespace condyle::io

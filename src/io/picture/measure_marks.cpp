@@ -66,8 +66,9 @@ void add_ring(TriMesh& mesh, const measure::RimGeometry& rim) {
   for (int step = 0; step < ring_steps; ++step) add_line(mesh, at(step), at(step + 1));
 }
 
-void add_mark(std::vector<PictureMark>& marks, TriMesh mesh, const std::array<std::uint8_t, 3>& rgb) {
-  if (!mesh.triangles.empty()) marks.push_back({std::move(mesh), rgb});
+void add_mark(std::vector<PictureMark>& marks, TriMesh mesh, const std::array<std::uint8_t, 3>& rgb,
+              const char* meaning) {
+  if (!mesh.triangles.empty()) marks.push_back({std::move(mesh), rgb, meaning});
 }
 
 /// Shaft, condylar line, the line that version is seen along, 12 o'clock and the top of the trochanter, with the femur.
@@ -134,14 +135,14 @@ std::vector<PictureMark> measure_marks(const measure::HipMeasures& measures, con
   }
   for (const measure::NeckHour& hour : femur.around_neck)
     if (hour.alpha_point) add_dot(alpha, X_FM * *hour.alpha_point, small_dot_mm);
-  add_mark(marks, std::move(plane), vermilion);
-  add_mark(marks, std::move(in_plane), vermilion);
-  add_mark(marks, std::move(off_plane), grey);
-  add_mark(marks, std::move(axis), blue);
-  add_mark(marks, std::move(alpha), green);
-  add_mark(marks, femur_axes(femur, X_FM), blue);
-  add_mark(marks, roof_lines(measures), orange);
-  add_mark(marks, nearest_places(measures.both), purple);
+  add_mark(marks, std::move(plane), vermilion, "rim and its plane");
+  add_mark(marks, std::move(in_plane), vermilion, "rim and its plane");
+  add_mark(marks, std::move(off_plane), grey, "rim off its plane");
+  add_mark(marks, std::move(axis), blue, "axes of the femur");
+  add_mark(marks, std::move(alpha), green, "end of the head");
+  add_mark(marks, femur_axes(femur, X_FM), blue, "axes of the femur");
+  add_mark(marks, roof_lines(measures), orange, "roof");
+  add_mark(marks, nearest_places(measures.both), purple, "nearest bone");
   return marks;
 }
 

@@ -9,6 +9,7 @@
 #include "condyle/error.hpp"
 #include "core/parallel.hpp"
 #include "io/picture/annotations.hpp"
+#include "io/picture/camera.hpp"
 #include "io/picture/colour_scale.hpp"
 #include "io/picture/legend.hpp"
 #include "io/picture/rasteriser.hpp"
@@ -20,12 +21,7 @@ namespace {
 
 /// Rows of pixels that a thread draws at a time: samples of two bodies stay within some megabytes.
 constexpr std::size_t strip_pixels = 8;
-/// Margin around the bodies, as a fraction of the smaller side of the picture.
-constexpr double margin = 0.04;
 constexpr double usual_range_mm = 8;
-/// A body seen from its edge is shown as if it were this large.
-constexpr double smallest_size_mm = 0.1;
-constexpr double largest_field_mm = 100'000;
 
 /// How strongly glass covers what is behind it: least where it faces the viewer, more towards its outline.
 double cover_of_glass(double facing) noexcept {
@@ -38,51 +34,6 @@ constexpr double cover_of_mark_behind = 0.45;
 /// Light from the viewer, and a little more from above: 1 for what faces the viewer.
 double brightness(double facing, double upward) noexcept {
   return std::clamp(0.4 + 0.6 * facing + 0.1 * upward, 0.0, 1.0);
-}
-
-/// Millimetres in the plane of the picture to samples.
-struct Camera {
-  Vec3 right, up, towards_viewer;
-  double samples_per_mm;
-  double origin_x, origin_y;  ///< where the joint centre is, in samples
-
-  FlatMesh laid(const TriMesh& mesh) const {
-    FlatMesh flat{.vertices = Points(mesh.vertices.size()), .triangles = mesh.triangles};
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-      const Vec3 p = mesh.vertices[v];
-      flat.vertices.set(v, {origin_x + samples_per_mm * p.dot(right), origin_y - samples_per_mm * p.dot(up),
-                            samples_per_mm * p.dot(towards_viewer)});
-    }
-    return flat;
-  }
-};
-
-/// Columns and rows of samples, without the legend's.
-Camera camera_of(const PictureOptions& options, const TriMesh& fixed, const TriMesh& mobile, double columns,
-                 double rows) {
-  const auto& [towards_viewer, up] = options.view;
-  Camera camera{.right = up.cross(towards_viewer),
-                .up = up,
-                .towards_viewer = towards_viewer,
-                .samples_per_mm = 1,
-                .origin_x = columns / 2,
-                .origin_y = rows / 2};
-  if (options.field_mm) {
-    camera.samples_per_mm = rows / *options.field_mm;
-    return camera;
-  }
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const TriMesh* mesh : {&fixed, &mobile})
-    for (std::size_t v = 0; v < mesh->vertices.size(); ++v) {
-      const Vec3 p = mesh->vertices[v], seen{p.dot(camera.right), p.dot(camera.up), 0};
-      low = low.cwiseMin(seen), high = high.cwiseMax(seen);
-    }
-  const double free = margin * std::min(columns, rows);
-  const Vec3 size = (high - low).cwiseMax(smallest_size_mm);
-  camera.samples_per_mm = std::min((columns - 2 * free) / size.x(), (rows - 2 * free) / size.y());
-  camera.origin_x -= camera.samples_per_mm * (low.x() + high.x()) / 2;
-  camera.origin_y += camera.samples_per_mm * (low.y() + high.y()) / 2;
-  return camera;
 }
 
 /// A body as it is drawn.
@@ -198,9 +149,10 @@ void check(const PictureOptions& options) {
           fmt::format("a picture of {} x {} pixels: each side is 64 to 8192", options.width, options.height));
   if (options.range_mm && !(*options.range_mm > 0 && std::isfinite(*options.range_mm)))
     throw UsageError(fmt::format("the end of the colours: {:g} mm is not above 0", *options.range_mm));
-  if (options.field_mm && !(*options.field_mm >= smallest_size_mm && *options.field_mm <= largest_field_mm))
-    throw UsageError(fmt::format("the height of the view: {:g} mm is not {:g} to {:g}", *options.field_mm,
-                                 smallest_size_mm, largest_field_mm));
+  if (const auto& field = options.field_mm;
+      field && !(*field >= smallest_field_mm && (*field <= largest_field_mm || std::isinf(*field))))
+    throw UsageError(fmt::format("the height of the view: {:g} mm is not {:g} to {:g}", *field,
+                                 smallest_field_mm, largest_field_mm));
 }
 
 /// The first of 1, 2, 5, 10, 20 ... mm that holds all depths.
@@ -343,8 +295,8 @@ Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM, 
   const std::size_t rows_of_scene = options.height - io::legend_height(options);
   const TriMesh &fixed = joint.fixed.mesh.arrays(), mobile = posed(X_FM, joint.mobile.mesh.arrays());
   const std::size_t columns = options.width * io::samples, rows = rows_of_scene * io::samples;
-  const Camera camera =
-      io::camera_of(options, fixed, mobile, static_cast<double>(columns), static_cast<double>(rows));
+  const Camera camera = io::camera_of(options, {joint.kind, fixed, mobile, values},
+                                      static_cast<double>(columns), static_cast<double>(rows));
   io::make_outer_glass(options, fixed, mobile, values, camera, static_cast<double>(columns),
                        static_cast<double>(rows));
   const Surface fixed_surface(fixed, values.fixed, scale, io::fixed_bone, options.fixed, camera, columns,
