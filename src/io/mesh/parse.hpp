@@ -20,8 +20,8 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "core/lower_case.hpp"
 #include "condyle/mesh.hpp"
+#include "core/lower_case.hpp"
 #include "io/file/in_quotes.hpp"
 
 /// Common parts of the mesh readers. They are our own, every format: VTK's drop digits of a double (STL,

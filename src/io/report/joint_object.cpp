@@ -47,12 +47,12 @@ Json parts_json(const Body& body) {
 
 Json joint_json(const Joint& joint) {
   Json json{{"name", joint.name},
-          {"kind", name_of(joint.kind)},
-          {"anatomy", name_of(joint.anatomy)},
-          {"side", name_of(joint.side)},
-          {"fixed", joint.fixed.name},
-          {"mobile", joint.mobile.name},
-          {"translation_frame", name_of(joint.translation_frame)}};
+            {"kind", name_of(joint.kind)},
+            {"anatomy", name_of(joint.anatomy)},
+            {"side", name_of(joint.side)},
+            {"fixed", joint.fixed.name},
+            {"mobile", joint.mobile.name},
+            {"translation_frame", name_of(joint.translation_frame)}};
   if (std::string planned = planned_text(joint); !planned.empty()) json["planned"] = std::move(planned);
   return json;
 }
