@@ -40,7 +40,7 @@ class FollowedRange(Compiled):
     notes: tuple[ContactNote, ...]
     caveats: list[str]
     _joint: DescribedJoint
-    _native: Optional[NativeRange]
+    _native: Optional[NativeRange] = None
 
     def write_report(self, path: Path, *, title: Optional[str] = None, case: Optional[str] = None, note: Optional[str] = None,
                      date: Optional[str] = None, whole_paths: bool = False, progress: Progress = None) -> None:
@@ -52,8 +52,9 @@ class FollowedRange(Compiled):
         C++: `condyle::answer_range` in condyle/answer.hpp.
         """
         _native.write_report(
-            kept(self._native, "range of motion", "a report shows"), self._joint._asked, path_of(path), None if title is None else text_of(title, "title"), None, None, False, None,
-            None, None, None, False, report_labels(case, note, date, whole_paths), progress_of(progress))
+            kept(self._native, "range of motion", "a report shows"), self._joint._asked, path_of(path),
+            None if title is None else text_of(title, "title"), None, None, False, None, None, None, None, False,
+            report_labels(case, note, date, whole_paths), progress_of(progress))
 
     @overload
     def __getitem__(self, which: Union[str, int]) -> MotionLimit: ...

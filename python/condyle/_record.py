@@ -56,7 +56,7 @@ def columns_of(values: object) -> dict[str, object]:
     for key, value in vars(values).items():
         if isinstance(value, Record):
             row.update((f"{key}_{inner}", each) for inner, each in columns_of(value).items())
-        elif value is not None or not any(isinstance(each, type) and issubclass(each, Record) for each in get_args(hints[key])):
+        elif value is not None or not any(isinstance(each, type) and issubclass(each, Record) for each in get_args(hints.get(key))):
             row[key] = value.name if isinstance(value, Motion) else value
     return row
 

@@ -156,11 +156,15 @@ def test_bands_are_those_of_the_command(hip, command, hip_file):
 
 def test_bands_are_a_table(coarse_bones):
     pytest.importorskip("pandas")
-    bands = condyle.Joint(*coarse_bones).range_of_motion(["flexion", "faber"]).bands(samples=20)
+    rom = condyle.Joint(*coarse_bones).range_of_motion(["flexion", "faber"])
+    bands = rom.bands(samples=20)
     table = bands.to_dataframe()
     assert table.motion.tolist() == ["flexion", "faber"] and table.p95_deg.tolist() == [band.p95_deg for band in bands]
     assert f"<td>flexion</td><td>{bands[0].p5_deg:.1f}, {bands[0].median_deg:.1f}, {bands[0].p95_deg:.1f}</td>" in bands._repr_html_()
     assert isinstance(bands, tuple) and type(pickle.loads(pickle.dumps(bands))) is condyle.LimitBands
+    old = pickle.loads(pickle.dumps(rom[0]))
+    vars(old)["key_of_then"] = None
+    assert "<td>limit_deg</td>" in old._repr_html_() and "key_of_then" not in old._repr_html_()
 
 
 def test_a_zone_grows_past_its_limit(hip):
