@@ -83,7 +83,8 @@ struct Picture {
 /// body's centre is held.
 ///
 /// Throws UsageError for options out of their domain, MeshError if a depth or a gap is requested of an open mesh. The
-/// same bytes whatever the threads. About half a second for a picture of the usual size, and the cost of the values.
+/// same bytes whatever the threads. Half a second to three of processor time for a picture of the usual size, by how much of it
+/// is bone, and the cost of the values.
 [[nodiscard]] Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM,
                                  const PictureOptions& options = {});
 

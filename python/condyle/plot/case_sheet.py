@@ -138,7 +138,7 @@ def _table(paper: Paper, rows: Sequence[Row], points: float) -> Block:
         Column("now"): [turned_text(row.now) for row in rows],
         Column("target"): [sheet_text.degrees_text(row.target["reach_deg"]) if row.target else "" for row in rows],
         Column("planned"): [_planned(row) for row in rows],
-        Column("5 to 95 %"): [f"{row.now.band.p5_deg:.0f}–{row.now.band.p95_deg:.0f}°" if row.now.band else "" for row in rows],
+        Column("band now"): [f"{row.now.band.p5_deg:.0f}–{row.now.band.p95_deg:.0f}°" if row.now.band else "" for row in rows],
         Column("normal"): [f"{number(row.now.normal_deg)}°" if row.now.normal_deg is not None else "" for row in rows],
         Column("ended by", 3): [_ended_by(row, any(each.now.hour is not None for each in rows)) for row in rows],
         Column("clock"): [clock_text(row.now.hour) if row.now.hour is not None else "" for row in rows],

@@ -81,8 +81,8 @@ def volume_text(cut: Dict[str, Any]) -> str:
 def heading(case: Case) -> str:
     """What the sheet shows: a plan, or the joint as it is."""
     if case.plan is None:
-        return "NOW: " + " and ".join(["limits of the joint as it is"] * bool(case.rom) + ["designs beside the joint as it is"] * bool(case.sweep) or
-                                      ["the joint as it is"])
+        beside = ", and designs beside it" if case.sweep else ""
+        return f"NOW: {'limits of ' if case.rom else ''}the joint as it is{beside}"
     cuts = [volume_text(cut) for cut in case.plan["cuts"] if cut["volume_mm3"] > 0]
     return f"PLANNED: {' and '.join(cuts)} removed; limits after it beside those now" if cuts else "PLANNED: no bone has to go"
 

@@ -178,7 +178,7 @@ def test_every_limit_and_every_note_stands_in_it_as_text(pdf):
                   "not a medical device", "2.74 mm at the deepest, at 2:31 of the neck", "1:30–2:00 1.9, 2:00–2:30 2.7",
                   "head neck offset at 1:30 6.4 → 8.8 mm", "12:15 (2)"):
         assert words in said, words
-    assert "secret" not in said and "neck shaft" not in said
+    assert "motion now target planned band now normal ended by clock" in said and "secret" not in said and "neck shaft" not in said
 
 
 def figures_of(i: int) -> str:
@@ -335,7 +335,7 @@ def test_a_sweep_has_its_zone_its_targets_and_a_slice_of_more_than_two_parameter
         joint.sweep(varied, [("sitting_on_a_low_chair", "flexion", 110), ("pivoting", "external_rotation", 40)]).write(at)
         figure = figures.sheet([at / "sweep.json"])
         said = texts_of(figure)
-        assert is_tidy(figure) and "NOW: designs beside the joint as it is" in said and "sitting on a low chair 110°" in said
+        assert is_tidy(figure) and "NOW: the joint as it is, and designs beside it" in said and "sitting on a low chair 110°" in said
         assert "designs leave all targets free. As it is: " in said and "not from files" in said
         assert ("stem version" in said.split("Safe zone")[1].split("Notes")[0]) == (len(varied) == 3)
 
