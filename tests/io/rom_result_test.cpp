@@ -173,7 +173,7 @@ TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
                                                   .bearing = {some_bearing(), {}},
                                                   .bearing_rule = motion::BearingRule::leave_out,
                                                   .caveats = {"left out: nothing"}})));
-  ASSERT_EQ(lines.size(), 16u);
+  ASSERT_EQ(lines.size(), 17u);
   EXPECT_EQ(lines[0], "arm and post: arm in post, right side");
   EXPECT_NE(lines[1].find("bearing surface: 2 of 3 triangles of arm"), std::string::npos) << lines[1];
   EXPECT_EQ(lines[3], "  left out: nothing");
@@ -187,6 +187,11 @@ TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
   EXPECT_NE(lines[7].find(" 70.74 "), std::string::npos);  // 1.2345678901 rad
   EXPECT_TRUE(lines[7].ends_with(" 63.03")) << "bearing contact at 1.1 rad: " << lines[7];
   EXPECT_NE(lines[8].find(" >40 "), std::string::npos) << lines[8];
+  // Right-aligned below its heading; of a motion that the source does not have nothing.
+  const std::size_t end = lines[6].find("normal") + std::string("normal").size();
+  EXPECT_EQ(lines[7].substr(end - 4, 4), " 120") << lines[7];
+  EXPECT_EQ(lines[8].substr(end - 4, 4), "   -") << lines[8];
+  EXPECT_EQ(lines[10], "  normal: how far healthy hips turn, soft tissue included (AAOS 1965)");
 }
 
 TEST(RomText, SaysWhereNoRimWasFoundAndNoMinusBeforeZero) {

@@ -64,19 +64,13 @@ def _sheet_parser() -> argparse.ArgumentParser:
     parser.add_argument("inputs", metavar="INPUT", type=Path, nargs="+",
                         help="folders of condyle rom, resect, measure or sweep --out, or their rom.json, resection.json, measures.json, sweep.json: "
                         "one of each at most, of one joint")
-    parser.add_argument("--out", metavar="FILE.pdf", type=_pdf, required=True, help="the page, as PDF")
+    parser.add_argument("--out", metavar="FILE.pdf", type=Path, required=True, help="the page, as PDF")
     parser.add_argument("--case", metavar="TEXT", default="", help="begins the heading: a number or a pseudonym")
     parser.add_argument("--date", metavar="TEXT", default="", help="in the heading; none is taken from the clock")
     parser.add_argument("--note", metavar="TEXT", default="", help="stands below the heading")
     parser.add_argument("--picture", metavar="FILE.png", type=Path,
                         help="shown as the cut, in place of depth_mobile.png and depth_fixed.png beside resection.json")
     return parser
-
-
-def _pdf(text: str) -> Path:
-    if not text.lower().endswith(".pdf"):
-        raise argparse.ArgumentTypeError("a sheet is written as .pdf")
-    return Path(text)
 
 
 def _figures(given: argparse.Namespace) -> Rendered:
@@ -99,7 +93,10 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Draws all figures first and writes them then; returns the exit code of a success, and exits with the others'."""
     words = sys.argv[1:] if arguments is None else list(arguments)
     is_sheet = words[:1] == ["sheet"]
-    given = _sheet_parser().parse_args(words[1:]) if is_sheet else _parser().parse_args(words)
+    parser = _sheet_parser() if is_sheet else _parser()
+    given = parser.parse_args(words[1:] if is_sheet else words)
+    if is_sheet and given.out.suffix.lower() != ".pdf":
+        parser.error("argument --out: a sheet is written as .pdf")
     matplotlib.use("Agg")
     about = given.out if is_sheet else given.folder
     try:
