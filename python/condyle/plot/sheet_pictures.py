@@ -1,4 +1,4 @@
-"""The pictures of a sheet: the cut with its key, the clock face, the safe zone; each in a place that is given in mm."""
+"""The pictures of a sheet: the cut, the clock face, the safe zone; each in a place that is given in mm."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -9,7 +9,6 @@ from matplotlib.axes import Axes
 
 from . import sheet_text, style
 from .case_files import Case
-from .cut_picture import depth_key
 from .files import ReadError
 from .motion_ends import motion_ends
 from .paper import HEIGHT_MM, WIDTH_MM, Block, Paper, stacked
@@ -17,7 +16,7 @@ from .rim_clock import HEIGHT_MM as CLOCK_MM
 from .rim_clock import clock_face, clock_text, names_fit
 from .safe_zone import legend_entries, margins_along, safe_zone, slice_of_best, zone_of
 
-TITLE_MM, KEY_MM = 4.0, 7.0
+TITLE_MM = 4.0
 SMALL = 6.5
 """Points of the type below pictures."""
 
@@ -67,14 +66,12 @@ def _image(paper: Paper, path: Path) -> Callable[[float, float, float, float], N
 
 
 def _cuts(paper: Paper, case: Case, given: Optional[Path], width: float) -> Picture:
-    """Each cut with its picture and key side by side, and below them what goes, in figures."""
+    """Each cut with its picture, which has a key, side by side, and below them what goes, in figures."""
     assert case.plan is not None
     cuts = [cut for cut in case.plan["cuts"] if cut["volume_mm3"] > 0]
     said = _said(case.plan, cuts)
-    drawn = [(case.paths["plan"].with_name(f"depth_{cut['body']}.png"), float(cut["deepest_mm"])) for cut in cuts]
-    images = [_image(paper, path) for path in ([given] if given else [path for path, _ in drawn if path.exists()])]
-    keys = [] if given else [deepest for path, deepest in drawn if path.exists()]
-    key = KEY_MM if keys else 0.0
+    drawn = [case.paths["plan"].with_name(f"depth_{cut['body']}.png") for cut in cuts]
+    images = [_image(paper, path) for path in ([given] if given else [path for path in drawn if path.exists()])]
 
     def below(left: float) -> Block:
         return stacked([paper.paragraph(text, left, width, SMALL) for text in said])
@@ -83,13 +80,11 @@ def _cuts(paper: Paper, case: Case, given: Optional[Path], width: float) -> Pict
         text = below(left)
         foot, each = top + height - text.height, width / max(1, len(images))
         for i, image in enumerate(images):
-            image(left + i * each, top, each - 1, foot - key - top)
-        for i, deepest in enumerate(keys):
-            depth_key(deepest, paper.axes(left + i * each + 4, foot - key + 1, each - 16, 2.2))
+            image(left + i * each, top, each - 1, foot - top)
         text.draw(foot)
 
-    rest = TITLE_MM + below(0).height + key
-    return Picture("Bone that must go" + (", by its depth in mm" if key else ""), rest + (30 if images else 0), rest + (66 if images else 0), draw)
+    rest = TITLE_MM + below(0).height
+    return Picture("Bone that must go" + (", by its depth" if images and not given else ""), rest + (30 if images else 0), rest + (66 if images else 0), draw)
 
 
 def _said(plan: Dict[str, Any], cuts: List[Dict[str, Any]]) -> List[str]:
