@@ -80,7 +80,7 @@ export const words = {
   endsSentence: (name: string, limit: string, now: string | null, compared: string | null, place: string) =>
     `${[`${name} ends at ${limit}`, now, compared, place].filter(Boolean).join(", ")}.`,
   planned: (done: string) => `Planned, ${done}`,
-  plannedSentence: (done: string, sentence: string) => `Planned, ${done}: ${sentence}`,
+  plannedSentence: (sentence: string) => `Planned: ${sentence}`,
   beforePlan: "before what is planned",
   nowIs: (limit: string) => `now ${limit}`,
   freeSentence: (name: string, deg: string) => `${name} meets no bone up to ${deg}°, where its range ends.`,

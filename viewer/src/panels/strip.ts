@@ -31,10 +31,10 @@ export function pinOf(motion: MotionAnswer, text: ReportText): string {
   return motion.clock_hour === null ? place : `${clockTime(motion.clock_hour)}, ${place.replace(` at ${clockTime(motion.clock_hour)}`, "")}`;
 }
 
-/// One sentence about a motion: where it ends, its band, how much it lacks, and where contact is; of a planned joint what was done to it first.
+/// One sentence about a motion: where it ends, its band, how much it lacks, and where contact is, and whether it is of a planned joint.
 export function sentenceOf(motion: MotionAnswer, report: ReportText): string {
-  const planned = plannedOf(report), sentence = sentenceOnEnd(motion, report);
-  return planned ? words.plannedSentence(planned, sentence) : sentence;
+  const sentence = sentenceOnEnd(motion, report);
+  return plannedOf(report) ? words.plannedSentence(sentence) : sentence;
 }
 
 function sentenceOnEnd(motion: MotionAnswer, report: ReportText): string {
