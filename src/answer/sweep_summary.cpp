@@ -108,9 +108,9 @@ std::string common_end(const SweepAnswer& sweep, const std::vector<std::size_t>&
   for (const std::size_t i : designs)
     if (end_of(i) != std::pair(target, pair)) return "";
   const std::string name = sweep.targets[target].name;
-  if (pair == plan::DesignLimit::no_pair) return "; in all of them the range of " + name + " ends first";
-  return "; in all of them " + name + " ends with " + sweep.pairs[pair].mobile + " on " +
-         sweep.pairs[pair].fixed;
+  if (pair == plan::DesignLimit::no_pair) return ": " + name + " ends with its range in all";
+  return ": " + name + " ends with " + sweep.pairs[pair].mobile + " on " + sweep.pairs[pair].fixed +
+         " in all";
 }
 
 /// By how much which target is missed, where that is least.
@@ -153,11 +153,9 @@ void note(SweepAnswer& sweep, const std::vector<std::size_t>& equals) {
                                                            [](double margin) { return margin >= 0; }));
   if (sweep.designs() == 0) return;  // of more shares than lines
   if (equals.size() > 1)
-    add(SweepNoteCode::best_is_shared,
-        formatted("%zu designs have the largest margin, %.2f degrees", equals.size(),
-                  sweep.margin_deg[equals.front()]) +
-            common_end(sweep, equals) +
-            "; the best of them lies deepest among safe designs, then nearest to the joint as it is");
+    add(SweepNoteCode::best_is_shared, formatted("%zu designs share the largest margin, %.2f degrees",
+                                                 equals.size(), sweep.margin_deg[equals.front()]) +
+                                           common_end(sweep, equals) + "; the best lies deepest in the zone");
   if (safe == 0) return add(SweepNoteCode::nothing_is_safe, nothing_text(sweep));
   if (safe == sweep.designs())
     return add(SweepNoteCode::everything_is_safe,

@@ -324,10 +324,10 @@ TEST(Sweep, OfEqualDesignsTheBestLiesDeepestAmongSafeOnesThenNearestToTheJoint) 
     ASSERT_TRUE(summarised.best);
     EXPECT_EQ(summarised.values_of(*summarised.best), best);
     ASSERT_FALSE(summarised.notes.empty());
-    EXPECT_EQ(summarised.notes.front().text,
-              "20 designs have the largest margin, 1.00 degrees; in all of them sitting ends with neck on "
-              "liner; the "
-              "best of them lies deepest among safe designs, then nearest to the joint as it is");
+    EXPECT_EQ(
+        summarised.notes.front().text,
+        "20 designs share the largest margin, 1.00 degrees: sitting ends with neck on liner in all; the best "
+        "lies deepest in the zone");
   }
 }
 

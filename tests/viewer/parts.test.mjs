@@ -289,7 +289,7 @@ for (const { name, of, vary, values } of zones)
 test("the point of the zone drags and moves by arrow keys, the parts turn along, and limits are those of the command there", async () => {
   const { page, complaints } = await openedZone("swept");
   const { text, array } = readReport(pathOf("swept"));
-  const map = page.locator(".sweep-map");
+  const map = page.locator("#panel-plan .sweep-map");
   assert.equal(await map.locator(".sweep-safe").count(), text.sweep.safe_designs);
   assert.equal(await map.locator(".sweep-line").count(), text.sweep.safe.length);
   assert.match(await map.getAttribute("aria-valuetext"), /^cup inclination 40°, cup anteversion 15°\. Nearest design: safe, [\d.]+° to spare of pivoting\.$/);
@@ -322,7 +322,7 @@ test("the point of the zone drags and moves by arrow keys, the parts turn along,
 
 test("over one parameter the zone is a strip, and outside of it the joint has no point", async () => {
   const { page } = await openedZone("swept_tilt");
-  const map = page.locator(".sweep-map");
+  const map = page.locator("#panel-plan .sweep-map");
   assert.equal(await map.locator("rect[class^=sweep]").count(), 11);
   await map.focus();
   await changedInZone(page, () => page.keyboard.press("ArrowLeft"));
