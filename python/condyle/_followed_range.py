@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Optional, Sequence, Union, overload
+from typing import Optional, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,7 +13,7 @@ from ._answer import Compiled, kept
 from ._contact_checks import ContactNote, notes_said
 from ._described_joint import DescribedJoint
 from ._errors import UsageError
-from ._limits import MotionLimit, end_text, limit_in, motion_limit_of
+from ._limits import HasLimits, MotionLimit, end_text, motion_limit_of
 from ._motion import MotionLike, Motions
 from ._native import RangeOfMotion as NativeRange
 from ._pressure import ElasticContact, used
@@ -21,7 +21,7 @@ from ._words import BearingRule, Body, Path, Progress, number, path_of, progress
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class FollowedRange(Compiled):
+class FollowedRange(HasLimits, Compiled):
     """Limits of motions on which a free joint's translation follows a recorded motion or a load.
 
     Attributes
@@ -55,15 +55,6 @@ class FollowedRange(Compiled):
             kept(self._native, "range of motion", "a report shows"), self._joint._asked, path_of(path),
             None if title is None else text_of(title, "title"), None, None, False, None, None, None, None, False,
             report_labels(case, note, date, whole_paths), progress_of(progress))
-
-    @overload
-    def __getitem__(self, which: Union[str, int]) -> MotionLimit: ...
-
-    @overload
-    def __getitem__(self, which: slice) -> tuple[MotionLimit, ...]: ...
-
-    def __getitem__(self, which: Union[str, int, slice]) -> Union[MotionLimit, tuple[MotionLimit, ...]]:
-        return limit_in(self.limits, which)
 
     def __repr__(self) -> str:
         def end(limit: MotionLimit) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal, Mapping, Optional, Sequence, Union, get_args
+from typing import Any, Iterator, Literal, Mapping, Optional, Sequence, Union, get_args, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,21 +29,6 @@ KINDS: tuple[ContactKind, ...] = get_args(ContactKind)
 def end_text(limit_deg: float, reason: str) -> str:
     """ "134.8", or ">120" where the range ends without contact."""
     return f">{round(limit_deg, 1):g}" if reason == "end_of_range" else f"{limit_deg:.1f}"
-
-
-def limit_in(limits: tuple[MotionLimit, ...], which: Union[str, int, slice]) -> Union[MotionLimit, tuple[MotionLimit, ...]]:
-    """One of the limits by its name or number, or several."""
-    if isinstance(which, slice):
-        return limits[which]
-    if hasattr(which, "__index__"):
-        try:
-            return limits[which]
-        except IndexError:
-            raise OutOfRangeError(f"limit: there are {len(limits)}, counted from 0, and no {which}") from None
-    for limit in limits:
-        if limit.motion.name == which:
-            return limit
-    raise unknown("limit", which, (limit.motion.name for limit in limits))
 
 
 Feature = Union[tuple[Literal["vertex"], int], tuple[Literal["edge"], int, int], tuple[Literal["face"], int]]
@@ -263,6 +248,38 @@ def _number_as_given(feature: dict[str, Any], mesh: TriMesh) -> None:
         feature["vertices"] = [mesh._as_given(vertex) for vertex in feature["vertices"]]
     elif feature["kind"] == "vertex":
         feature["id"] = mesh._as_given(feature["id"])
+
+
+class HasLimits:
+    """An answer whose `limits` are taken by the names of their motions or by number, and run through."""
+
+    __slots__ = ()
+    limits: tuple[MotionLimit, ...]
+
+    @overload
+    def __getitem__(self, which: Union[str, int]) -> MotionLimit: ...
+
+    @overload
+    def __getitem__(self, which: slice) -> tuple[MotionLimit, ...]: ...
+
+    def __getitem__(self, which: Union[str, int, slice]) -> Union[MotionLimit, tuple[MotionLimit, ...]]:
+        if isinstance(which, slice):
+            return self.limits[which]
+        if hasattr(which, "__index__"):
+            try:
+                return self.limits[which]
+            except IndexError:
+                raise OutOfRangeError(f"limit: there are {len(self.limits)}, counted from 0, and no {which}") from None
+        for limit in self.limits:
+            if limit.motion.name == which:
+                return limit
+        raise unknown("limit", which, (limit.motion.name for limit in self.limits))
+
+    def __iter__(self) -> Iterator[MotionLimit]:
+        return iter(self.limits)
+
+    def __len__(self) -> int:
+        return len(self.limits)
 
 
 def motion_limit_of(found: dict[str, Any], motions: Motions, joint: DescribedJoint) -> MotionLimit:

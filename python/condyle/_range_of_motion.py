@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence, TypedDict, Union, overload
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,7 +15,7 @@ from ._described_joint import DescribedJoint
 from ._errors import JointRemark, UsageError, warn
 from ._impingement_zone import ImpingementZone, body_zone_of
 from ._limit_band import LimitBand, LimitBands
-from ._limits import FreeAngles, Limit, MotionLimit, end_text, limit_in, limit_of, motion_limit_of
+from ._limits import FreeAngles, HasLimits, Limit, MotionLimit, end_text, limit_of, motion_limit_of
 from ._motion import Motion, MotionLike, Motions
 from ._motion_map import MotionMap, map_of
 from ._native import RangeOfMotion as NativeRange
@@ -88,7 +88,7 @@ def _native_sweep(sweep: object, plan: Optional[Resection[OfJoint]]) -> Optional
     return sweep._shown()
 
 
-class RangeOfMotion(Unchanging):
+class RangeOfMotion(HasLimits, Unchanging):
     """A joint made ready for motions, and the limits of those asked for. Made by :meth:`Joint.range_of_motion`.
 
     `limits` is a tuple of :class:`MotionLimit`; `rom["flexion"]` and `rom[0]` are one of them, `rom[-2:]` some. Limits are exact: never past a
@@ -150,21 +150,6 @@ class RangeOfMotion(Unchanging):
         """Where one motion ends: one of the known ones by its name, or a :class:`Motion` of one's own."""
         found, = self._native.limits([self._motions.tuple_of(self.motion(motion))])
         return self._motion_limit_of(found)
-
-    @overload
-    def __getitem__(self, which: Union[str, int]) -> MotionLimit: ...
-
-    @overload
-    def __getitem__(self, which: slice) -> tuple[MotionLimit, ...]: ...
-
-    def __getitem__(self, which: Union[str, int, slice]) -> Union[MotionLimit, tuple[MotionLimit, ...]]:
-        return limit_in(self.limits, which)
-
-    def __iter__(self) -> Iterator[MotionLimit]:
-        return iter(self.limits)
-
-    def __len__(self) -> int:
-        return len(self.limits)
 
     def free_angles(self, vary: str, start_deg: Mapping[str, float] = {}, *, negative_deg: float = -180,
                     positive_deg: float = 180) -> FreeAngles:

@@ -148,7 +148,7 @@ TEST_F(LabelMaps, OfOneBoneEachAreCalledAsTheirFiles) {
   expect_refusal(run(sides), 2, "hip_right and femur_left are of two sides", sides);
 }
 
-/// Of a label that both halves of a pelvis have, the half beside the femur counts, whichever is the larger; and so of both femora.
+/// If both halves of a pelvis have one label, the half beside the femur counts, whichever is the larger. So it is with both femora.
 TEST_F(LabelMaps, OfAWholePelvisGiveTheHalfBesideTheFemur) {
   const io::LabelMap map = io::read_labels(scan->path() / "labels.nii.gz");
   const auto [ni, nj, nk] = map.grid.size;

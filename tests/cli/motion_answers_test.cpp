@@ -214,7 +214,7 @@ TEST_F(Motion, WithoutContactReportsTheSmallestGap) {
   EXPECT_EQ(json["smallest_gap_mm"], (Json{{"value", gap}, {"time_s", 2.5}}));
   for (const char* key : {"largest_area_mm2", "largest_depth_mm"})
     EXPECT_EQ(json[key], (Json{{"value", 0.0}, {"time_s", nullptr}})) << key;
-  // Of frames that are gaps nothing is known; contact has no gap.
+  // Nothing is known of frames that are gaps; contact has no gap.
   write("gaps.csv", "time,flexion_deg\n0,\n1,\n");
   EXPECT_TRUE(
       Json::parse(run("motion shank.toml --motion gaps.csv --json").out)["smallest_gap_mm"].is_null());
