@@ -314,12 +314,16 @@ Shown box_shown(const Joint& joint, io::PictureColour colour, std::optional<doub
 }
 
 TEST(PictureField, IsTwoAndAHalfRadiiOfTheHeadAboutTheCentreOrAllOfBothBodies) {
-  // No bone of the mobile body is nearer to the centre than 20 mm: 100 mm high, 2 pixels a mm.
-  const Joint ball = joint_of(fine_box({-5, 10, -5}, {5, 20, 5}), fine_box({-5, -300, -5}, {5, -20, 5}));
-  const Shown shown = box_shown(ball, io::PictureColour::none, std::nullopt);
-  EXPECT_NEAR(shown.height_mm, 100, 5);
-  EXPECT_NEAR(shown.to_right, 0, 1);
-  EXPECT_NEAR(shown.upwards, 30, 1);
+  // A head of 20 mm: 100 mm high, 2 pixels a mm. A speck inside the head changes nothing.
+  const TriMesh mobile = joined(sphere({0, 0, 0}, 20, 4), fine_box({-5, -300, -5}, {5, -21, 5}));
+  const Joint ball = joint_of(fine_box({-5, 10, -5}, {5, 20, 5}), mobile);
+  for (const Joint& joint :
+       {ball, joint_of(ball.fixed.mesh.arrays(), joined(mobile, box({-1, -1, -1}, {1, 1, 1})))}) {
+    const Shown shown = box_shown(joint, io::PictureColour::none, std::nullopt);
+    EXPECT_NEAR(shown.height_mm, 100, 5);
+    EXPECT_NEAR(shown.to_right, 0, 1);
+    EXPECT_NEAR(shown.upwards, 30, 1);
+  }
   // 320 mm within 92 % of the picture, so 1.74 to a pixel: of the box's 5.75 pixels 5 to 7 are seen.
   const Joint hinge{"boxes", JointKind::hinge, Side::right, ball.fixed, ball.mobile};
   for (const Shown& all : {box_shown(hinge, io::PictureColour::none, std::nullopt),
@@ -330,16 +334,17 @@ TEST(PictureField, IsTwoAndAHalfRadiiOfTheHeadAboutTheCentreOrAllOfBothBodies) {
 }
 
 TEST(PictureField, IsThreeTimesTheContactOrHalfTheJointAboutItsMiddle) {
-  // A box of 10 mm within the mobile body, beside the centre; no bone of that body is nearer to the centre than `nearest`.
-  const auto shown = [](double nearest) {
+  // A box of 10 mm within the mobile body, beside a head about the centre.
+  const auto shown = [](double radius) {
     return box_shown(
-        joint_of(fine_box({-5, -85, 20}, {5, -75, 30}), fine_box({-40, -300, -40}, {40, -nearest, 40})),
+        joint_of(fine_box({-5, -85, 20}, {5, -75, 30}),
+                 joined(sphere({0, 0, 0}, radius, 4), fine_box({-40, -300, -40}, {40, -40, 40}))),
         io::PictureColour::nearest, std::nullopt);
   };
-  for (const auto& [nearest, height] : {std::pair{8.0, 30.0}, std::pair{32.0, 80.0}}) {
-    EXPECT_NEAR(shown(nearest).height_mm, height, 0.05 * height);
-    EXPECT_NEAR(shown(nearest).to_right, 0, 1);
-    EXPECT_NEAR(shown(nearest).upwards, 0, 1);
+  for (const auto& [radius, height] : {std::pair{8.0, 30.0}, std::pair{32.0, 80.0}}) {
+    EXPECT_NEAR(shown(radius).height_mm, height, 0.05 * height);
+    EXPECT_NEAR(shown(radius).to_right, 0, 1);
+    EXPECT_NEAR(shown(radius).upwards, 0, 1);
   }
 }
 
