@@ -40,7 +40,7 @@ void measure(SweepAnswer& sweep) {
     sweep.safe_measure += line_weight(sweep.parameters, interval.line) * (interval.high - interval.low);
 }
 
-/// Of every design the steps to the next one that is not safe, along the axes one after the other; beyond the sweep none is known to be safe.
+/// Steps from each design to the nearest one that is not safe, along the axes one after the other. No design beyond the sweep is known to be safe.
 std::vector<std::uint32_t> steps_inside(const SweepAnswer& sweep) {
   constexpr std::uint32_t far = std::numeric_limits<std::uint32_t>::max() / 2;
   std::vector<std::uint32_t> steps(sweep.designs());

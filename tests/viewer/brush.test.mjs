@@ -202,6 +202,7 @@ test("bones are kept as STL with a joint file that names them", async () => {
     assert.ok(toml.includes(`[${body}]`) && toml.includes(`mesh = "brushed_${body}.stl"`), toml);
   }
   assert.match(toml, /^condyle = 1$/m);
+  assert.match(toml, /^planned = "changed by strokes"$/m);
   assert.match(toml, /^\[mobile\.head\]/m);
   await page.context().close();
 });

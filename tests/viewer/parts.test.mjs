@@ -216,7 +216,9 @@ for (const { name, values } of cases)
     for (const download of downloads) await download.saveAs(join(into, download.suggestedFilename()));
     const now = await limitsNow(page, text);
     // Meshes are kept in single precision: 24 bits of some 100 mm are 1e-5 mm, and limits on a flat contact move by some hundred times that.
-    for (const { name: motion, limit_deg } of JSON.parse(command("rom", join(into, "turned.toml"), "--json")).motions)
+    const { motions, provenance } = JSON.parse(command("rom", join(into, "turned.toml"), "--json"));
+    assert.equal(provenance.planned, name === "placed" ? "with a total hip" : undefined);
+    for (const { name: motion, limit_deg } of motions)
       assert.ok(Math.abs(limit_deg - now[motion]) < 0.01, `${motion}: ${limit_deg} and ${now[motion]}`);
     await page.context().close();
   });

@@ -108,9 +108,11 @@ export function jointFileOf(text: ReportText, X_FM: readonly number[], version: 
   const isPosed = reference_deg.some((deg) => deg !== 0), isStated = (text.rom?.zero?.from ?? "as_given") !== "as_given";
   const body = (name: BodyName) => ["", `[${name}]`, `name = ${quoted(joint[name])}`,
     ...(name === "mobile" && isPosed ? [`pose = [${X_FM.join(", ")}]`] : []), ...meshLines(name, parts[name], became)];
+  // The values of turned parts stand in their own lines.
+  const planned = turned ? text.rom?.provenance?.planned : [joint.planned, "changed by strokes"].filter(Boolean).join(", ");
   return [
     `# Written by a page of condyle ${version}: ${quoted(joint.name)} with ${turned ? "parts turned" : "bones changed by a brush"}.`, "condyle = 1",
-    `name = ${quoted(joint.name)}`,
+    `name = ${quoted(joint.name)}`, ...(planned ? [`planned = ${quoted(planned)}`] : []),
     `kind = "${joint.kind}"`, ...(joint.kind === "hinge" && joint.anatomy === "hip" ? [] : [`joint = "${joint.anatomy}"`]),
     `side = "${joint.side}"`, `units = "mm"`, ...bodyNames.flatMap(body), ...(turned ? givenSphereLines(turned.posed) : sphereLines(text)), "",
     "[frame]  # the meshes are in the joint frame", "centre = [0, 0, 0]", "anterior = [1, 0, 0]", "superior = [0, 1, 0]",

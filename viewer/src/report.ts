@@ -58,6 +58,8 @@ export interface RomAnswer {
     joint_file?: MeshSource;
     fixed_mesh: MeshSource | { files: MeshSource[] };
     mobile_mesh: MeshSource | { files: MeshSource[] };
+    /// What a plan did to the bones, without the values of parts.
+    planned?: string;
     parameters?: PartParameter[];
   };
 }

@@ -18,7 +18,7 @@ const rom = object({
     samples: count, seed: number, sigma: object({ centre_mm: number, axes_deg: number, surface_mm: number, surface_voxels: ifThere(number), parameters: ifThere(each(number)) }),
   }))),
   provenance: ifThere(object({
-    version: text, command: list(text), joint_file: meshFile, fixed_mesh: meshFiles, mobile_mesh: meshFiles,
+    version: text, command: list(text), joint_file: meshFile, fixed_mesh: meshFiles, mobile_mesh: meshFiles, planned: ifThere(text),
     parameters: ifThere(list(object({ name: text, value: number, unit: text, in_joint_file: number }))),
   })),
 });

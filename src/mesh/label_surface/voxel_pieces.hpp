@@ -26,7 +26,7 @@ constexpr bool is_large_piece(std::int64_t voxels, std::int64_t most) noexcept {
   return voxels > 0 && 5 * voxels >= most;
 }
 
-/// Of the large pieces only the one whose centroid is nearest to a point stays.
+/// Keeps one of the large pieces, that whose centroid is nearest to a point.
 /// Returns the voxels of those taken out; `X_WB` takes the box's indices to the frame of the point.
 std::vector<std::int64_t> keep_large_piece_near(VoxelBox& box, const Eigen::Affine3d& X_WB,
                                                 const Vec3& point_W);

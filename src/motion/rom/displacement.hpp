@@ -37,7 +37,7 @@ Pose displaced_frame(const Displacement& by);
 class MovableSurface {
  public:
   MovableSurface(const Body& body, const Uncertainty& sigma);
-  /// Of a body of this joint: beside bone, the meshes of its implant stay where they are, since their sizes are given and not measured.
+  /// A body of a joint. Meshes of an implant beside bone stay where they are: their sizes are given, not measured.
   MovableSurface(const Joint& joint, BodyRole role, const Uncertainty& sigma);
 
   /// Its vertices, moved by so many standard deviations; empty if it stays where it is.
