@@ -1,4 +1,4 @@
-// The tables of docs/range-of-motion.md: limits of joints with their centre moved by a millimetre, in brackets what
+// The figures of docs/range-of-motion.md for a centre that moves: limits of joints with their centre moved by a millimetre, in brackets what
 // counting bearing contact would make of them, and how far they change.
 #include <algorithm>
 #include <array>

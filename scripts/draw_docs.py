@@ -83,7 +83,7 @@ def draw_pictures():
     condyle("implant", "out/docs/sample3/hip.toml", "--out", OUT / "placed")
     condyle("picture", "out/docs/placed/hip.toml", "--colour", "none", "--field", "170", "--size", "700x560", "--out", IMAGES / "placed_implant.png")
     print("docs/images/placed_implant.png")
-    # By the commands of docs/from-image.md.
+    # By the commands of docs/tutorial.md.
     condyle("sample", "hip", "--scenario", 3, "--voxel", 1, "--out", OUT / "scan")
     shutil.rmtree(OUT / "right", ignore_errors=True)
     condyle("init", "out/docs/scan/labels.nii.gz", "--task", "total", "--fixed", "hip_right", "--mobile", "femur_right", "--out", "out/docs/right/hip.toml")

@@ -9,7 +9,7 @@
 namespace condyle {
 namespace {
 
-// In full: docs/caveats.md.
+// In full: docs/range-of-motion.md.
 constexpr std::string_view turley = "Turley 2013, PMC3589629", han = "Han 2020, J Orthop Res 38:1779",
                            van_arkel = "van Arkel 2015, PMC4655836", labrum_study = "PMC7754612";
 

@@ -252,7 +252,7 @@ std::string measures_page(std::string page) {
 }
 
 int described(const std::filesystem::path& root, bool only_check) {
-  const std::filesystem::path limits = root / "docs/formats-limits.md", measures = root / "docs/measures.md";
+  const std::filesystem::path limits = root / "docs/formats-rom.md", measures = root / "docs/measures.md";
   const std::pair<std::filesystem::path, std::string> files[] = {
       {root / "python/condyle/_records.py", python_records()},
       {root / "viewer/src/records.ts", page_records()},

@@ -233,7 +233,7 @@ std::vector<std::string> codes_of(const Joint& joint, const motion::Motion& moti
   return codes;
 }
 
-/// By the table of docs/caveats.md.
+/// By the table of docs/range-of-motion.md.
 TEST(MotionCaveats, SayOfEachMotionOfAHipWhetherBoneUsuallyEndsIt) {
   using Codes = std::vector<std::string>;
   const std::map<std::string, Codes> expected{

@@ -264,7 +264,7 @@ TEST(BearingContact, DoesNotEndAPathOrAddToAZone) {
   EXPECT_GT(whole->mobile.triangles.back(), 12u);
 }
 
-/// Limits of the two clean hips with the centre moved by a millimetre: docs/range-of-motion.md has all.
+/// Limits of the two clean hips with the centre moved by a millimetre: examples/centre_displacement.cpp prints all.
 struct Displaced {
   Vec3 centre;
   std::array<double, 12> limits_deg;

@@ -9,7 +9,7 @@
 
 namespace condyle::test {
 
-/// The data of a report, read as docs/report.md describes them and by other means than they were written.
+/// The data of a report, read as docs/report-data.md describes them and by other means than they were written.
 struct ReportBlock {
   nlohmann::json json;
   std::string arrays;

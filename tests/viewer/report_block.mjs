@@ -1,4 +1,4 @@
-// The data block of a report: docs/report.md.
+// The data block of a report: docs/report-data.md.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { deflateSync, inflateSync } from "node:zlib";

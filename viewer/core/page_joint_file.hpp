@@ -16,7 +16,7 @@ int condyle_fill_file(const char* path, const std::uint8_t* bytes, int count);
 /// one of its name. Null for a bad file, with the command line's own line in condyle_error().
 const char* condyle_joint_meshes(const char* path, const std::uint8_t* bytes, int count);
 
-/// The block of the joint, as the report of `condyle report JOINT` has it (docs/report.md) but for the poses that are stored for pages
+/// The block of the joint, as the report of `condyle report JOINT` has it (docs/report-data.md) but for the poses that are stored for pages
 /// without a core, and how many bytes it has. Null as above; a joint that has no limits has its reason in the block.
 const std::uint8_t* condyle_joint_block();
 int condyle_joint_block_bytes();

@@ -300,7 +300,7 @@ export class Page {
       failed: warn,
     });
     this.core = core;
-    // For scripts in the console and for tests: docs/report.md, "From a script".
+    // For scripts in the console and for tests: docs/report-data.md, "From a script".
     Object.assign(globalThis, { condyle: { query: (query: Query) => core.query(query), scene: this.scene } });
     this.moved(this.motion.coordinates);
     core.askBearing();

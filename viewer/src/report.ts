@@ -5,7 +5,7 @@ import { checkedText } from "./report_shape";
 import type { Part } from "./scene/body";
 import { words } from "./words";
 
-/// Data that `condyle report` puts into the page; docs/report.md has every key.
+/// Data that `condyle report` puts into the page; docs/report-data.md has every key.
 
 export interface ArrayPlace {
   type: "f64" | "u32" | "i16" | "u8";
@@ -191,7 +191,7 @@ export interface StoredPlan {
   surfaces: Record<"fixed" | "mobile", { lowered: string; before: string; depth_mm: string } | null>;
 }
 
-/// How far a motion's limit is from that of the joint before; docs/compare.md.
+/// How far a motion's limit is from that of the joint before; docs/report-data.md.
 export interface LimitDifference {
   motion: string;
   /// After minus before; null if neither end is by contact, or one is in contact at the start.

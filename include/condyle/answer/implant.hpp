@@ -98,7 +98,7 @@ struct ImplantAnswer {
   std::vector<std::string> caveats = {};
 };
 
-/// A total hip in the place of the joint that a patient has: docs/placing-implants.md.
+/// A total hip in the place of the joint that a patient has: docs/implants.md.
 ///
 /// Throws UsageError for what is no hip, has an implant already or a shaft that lies level, for sizes as check_implant() does, for a head
 /// that bone blocks, and if the bones do not show what a size is to be taken from, naming the size; MeshError for a femur that is

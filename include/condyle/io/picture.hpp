@@ -12,7 +12,7 @@
 #include "condyle/io/provenance.hpp"
 #include "condyle/joint.hpp"
 
-/// Pictures of a joint in one pose, drawn without a display: docs/pictures.md.
+/// Pictures of a joint in one pose, drawn without a display: docs/figures.md.
 
 namespace condyle::measure {
 struct HipMeasures;

@@ -16,7 +16,7 @@
 #include "io/sweep/sweep_result.hpp"
 
 /// The output of `condyle report`: one HTML file that shows a joint in any browser and computes with it there. It
-/// loads nothing and sends nothing. Its contents, key by key, are in docs/report.md.
+/// loads nothing and sends nothing. Its contents, key by key, are in docs/report-data.md.
 
 namespace condyle::io {
 

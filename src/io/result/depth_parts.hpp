@@ -78,7 +78,7 @@ struct BodyViews {
     return deepest;
   }
 
-  /// The counts that methods with an inside give, under the keys of docs/formats-depth.md.
+  /// The counts that methods with an inside give, under the keys of docs/depths.md.
   void add_counts(Json& json, bool in_contact, std::size_t pairs) const {
     const auto inside = [](const BodyView<Summary>& view) {
       return view.summary ? Json(view.summary->vertices_inside) : Json(nullptr);
@@ -90,7 +90,7 @@ struct BodyViews {
   }
 };
 
-/// Where the deepest vertex is, under the keys of docs/formats-depth.md; nulls where there is none.
+/// Where the deepest vertex is, under the keys of docs/depths.md; nulls where there is none.
 template <class Deepest>
 void add_deepest(Json& json, const std::optional<Deepest>& deepest) {
   json["deepest_body"] = deepest ? Json(deepest->view->key) : Json(nullptr);
@@ -103,7 +103,7 @@ void add_deepest(Json& json, const std::optional<Deepest>& deepest) {
 /// "at (17.97, 20.65, 8.54) mm".
 std::string place_text(const Vec3& p);
 
-/// Areas, volume and nearest distance, one line each for those there are; and under the keys of docs/formats-depth.md.
+/// Areas, volume and nearest distance, one line each for those there are; and under the keys of docs/depths.md.
 std::string measures_text(const DepthQuestion& question, const contact::ContactMeasures& measures);
 void add_measures(Json& json, const DepthQuestion& question, const contact::ContactMeasures& measures);
 

@@ -12,7 +12,7 @@
 #include "condyle/joint.hpp"
 #include "condyle/joint_checks.hpp"
 
-/// Results of `condyle depth`, for files. Every key, array, unit and sign is in docs/formats-depth.md.
+/// Results of `condyle depth`, for files. Every key, array, unit and sign is in docs/depths.md.
 
 namespace condyle::io {
 

@@ -9,7 +9,7 @@
 #include "io/result/json.hpp"
 #include "io/result/rom_result.hpp"
 
-/// How far the limits of one joint are from those of another, of which the one was made by a change: docs/compare.md.
+/// How far the limits of one joint are from those of another, of which the one was made by a change: docs/report.md.
 
 namespace condyle::io {
 

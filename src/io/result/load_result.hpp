@@ -13,7 +13,7 @@
 #include "condyle/joint.hpp"
 #include "condyle/joint_checks.hpp"
 
-/// Results of `condyle load`, for files. Every key and array is in docs/formats-load.md.
+/// Results of `condyle load`, for files. Every key and array is in docs/formats.md.
 
 namespace condyle::io {
 
