@@ -22,6 +22,7 @@ except ImportError:
 
 from . import files, style
 from .agreement import Series, agreement, many_methods
+from .both_sides import both_sides
 from .case_sheet import sheet
 from .cohort import limit_against, limit_distributions
 from .files import ReadError
@@ -46,6 +47,7 @@ __all__ = [
     "about_centre",
     "agreement",
     "alpha_by_clock",
+    "both_sides",
     "centre_edge_by_clock",
     "clock_face",
     "curve",

@@ -39,24 +39,32 @@ def turned_text(end: MotionEnd) -> str:
     return f"{end_text(end.turned_deg, end.end)}°"
 
 
-def _value(end: MotionEnd) -> str:
+def value_text(end: MotionEnd) -> str:
     """ "131.9° (126–135)", ">120° (88–120)": a limit with its band, as the command quotes it."""
     text, band = turned_text(end), end.band
     return text if band is None else f"{text} ({band.p5_deg:.0f}–{band.p95_deg:.0f})"
 
 
+def ends_of(result: RomLike, bands: Bands = True) -> List[MotionEnd]:
+    """The ends as they are drawn: without a band that lies at the end of the range as a whole."""
+    return list(map(_with_its_band, motion_ends(result, bands)))
+
+
 def _with_its_band(end: MotionEnd) -> MotionEnd:
-    """Without one that lies at the end of the range as a whole."""
     is_beyond = end.end == "end_of_range" and end.band is not None and round(end.band.p5_deg) == round(end.band.p95_deg)
     return end._replace(band=None) if is_beyond else end
 
 
-def _bar(ax: Axes, y: float, end: MotionEnd) -> None:
+def bar(ax: Axes, y: float, end: MotionEnd, fill: bool = True) -> None:
+    """The bar of a motion, filled or hollow, with its marks, and below it the whisker of its band."""
     look = ENDS[end.end]
-    ax.barh(y, end.turned_deg, height=0.3, color=look.colour, gid="limit", zorder=2)
+    ax.barh(y, end.turned_deg, height=0.3, facecolor=look.colour if fill else "white", edgecolor=look.colour, linewidth=0 if fill else 0.9,
+            gid="limit", zorder=2)
     if end.bearing_deg is not None:
         _mark(ax, end.bearing_deg, y, ENDS["bearing"], "bearing_contact")
     _mark(ax, end.turned_deg, y, look, "end")
+    if end.band is not None:
+        _whisker(ax, y, end.band)
 
 
 def _mark(ax: Axes, x: float, y: float, end: End, gid: str) -> None:
@@ -73,9 +81,10 @@ def _whisker(ax: Axes, y: float, band: Band) -> None:
         ax.plot([band.p95_deg], [below], marker=">", color=style.BLACK, markersize=3, linestyle="none", clip_on=False, zorder=3, gid="open_band")
 
 
-def _normal(ax: Axes, y: float, degrees: float) -> None:
-    ax.barh(y, degrees, height=0.74, color=style.LIGHT_GREY, gid="normal_range", zorder=1)
-    ax.vlines(degrees, y - 0.37, y + 0.37, color=style.GREY, linewidth=0.9, zorder=1)
+def normal_range(ax: Axes, y: float, degrees: float, height: float = 0.74) -> None:
+    """Stands behind bars about a height."""
+    ax.barh(y, degrees, height=height, color=style.LIGHT_GREY, gid="normal_range", zorder=1)
+    ax.vlines(degrees, y - height / 2, y + height / 2, color=style.GREY, linewidth=0.9, zorder=1)
 
 
 def _is_ended_by_soft_tissue(end: MotionEnd) -> bool:
@@ -94,7 +103,7 @@ def footnotes(ends: Sequence[MotionEnd]) -> List[str]:
     return found + [SOFT_TISSUE_ENDS] * any(map(_is_ended_by_soft_tissue, ends))
 
 
-def _handles(ends: Sequence[MotionEnd], source: Optional[str]) -> List[Any]:
+def handles_of(ends: Sequence[MotionEnd], source: Optional[str]) -> List[Any]:
     """The elements shown, for the legend."""
     shown = {end.end for end in ends}
     if any(end.bearing_deg is not None for end in ends):
@@ -113,6 +122,18 @@ def _handles(ends: Sequence[MotionEnd], source: Optional[str]) -> List[Any]:
     if any(end.normal_deg is not None for end in ends):
         handles.append(Patch(color=style.LIGHT_GREY, label="normal range" + (f" ({source})" if source else "")))
     return handles + [Line2D([], [], linestyle="none", label=footnote) for footnote in footnotes(ends)]
+
+
+def degrees_axis(ax: Axes, ends: Sequence[MotionEnd], below: str) -> None:
+    """From 0 to beyond all bars, bands and normal ranges; of some length if nothing turns at all. A text stands below its label."""
+    reached = ((end.turned_deg, end.normal_deg, end.band and end.band.p95_deg) for end in ends)
+    longest = max(10.0, *(degrees for each in reached for degrees in each if degrees is not None))
+    step = step_of_ticks(longest, 5)
+    ax.set_xlim(0, step * -(-longest // step))
+    ax.xaxis.set_major_locator(MultipleLocator(step))
+    ax.tick_params(axis="y", which="both", length=0)
+    ax.grid(axis="x")
+    ax.set_xlabel("\n".join(filter(None, ("turned from the start of the motion (°)", below))))
 
 
 def limits(result: RomLike, *, ax: Optional[Axes] = None, bands: Bands = True,
@@ -146,34 +167,23 @@ def limits(result: RomLike, *, ax: Optional[Axes] = None, bands: Bands = True,
     bar (gid `bearing_contact`) where bearing surfaces met before. A dagger marks the names of motions that soft
     tissue usually ends before bone does.
     """
-    ends = list(map(_with_its_band, motion_ends(result, bands)))
+    ends = ends_of(result, bands)
     if normal_ranges is not True:
         given = normal_ranges or {}
         ends = [end._replace(normal_deg=given.get(end.name)) for end in ends]
     is_ours = ax is None
     with style.drawing(ax, style.SINGLE_COLUMN_MM, 22 + 6.2 * len(ends)) as ax:
-        longest = 10.0  # degrees: an axis of some length when nothing turns at all
         for y, end in enumerate(ends):
-            longest = max(longest, end.turned_deg)
-            _bar(ax, y, end)
+            bar(ax, y, end)
             if end.normal_deg is not None:
-                _normal(ax, y, end.normal_deg)
-                longest = max(longest, end.normal_deg)
-            if end.band is not None:
-                _whisker(ax, y, end.band)
-                longest = max(longest, end.band.p95_deg)
+                normal_range(ax, y, end.normal_deg)
             if values:
-                ax.text(1.04, y, _value(end), transform=ax.get_yaxis_transform(), va="center",
+                ax.text(1.04, y, value_text(end), transform=ax.get_yaxis_transform(), va="center",
                         fontsize=style.smaller(1.5), gid="value")
-        step = step_of_ticks(longest, 5)
-        ax.set_xlim(0, step * -(-longest // step))
-        ax.xaxis.set_major_locator(MultipleLocator(step))
         ax.set_ylim(len(ends) - 0.5, -0.5)
         ax.set_yticks(range(len(ends)), [in_two_lines(marked_name(end)) for end in ends])
-        ax.tick_params(axis="y", length=0)
-        ax.grid(axis="x")
-        ax.set_xlabel("\n".join(filter(None, ("turned from the start of the motion (°)", scope_clause(result)))))
+        degrees_axis(ax, ends, scope_clause(result))
         if legend:
             source = of(result, "normal_range_source") if normal_ranges is True else None
-            style.legend_below(ax, is_ours, _handles(ends, source))
+            style.legend_below(ax, is_ours, handles_of(ends, source))
     return ax
