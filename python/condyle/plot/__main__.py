@@ -4,12 +4,13 @@ from __future__ import annotations
 import argparse
 import sys
 from pathlib import Path
-from typing import List, Optional, Sequence, Tuple
+from typing import Callable, Dict, List, Optional, Sequence, Tuple
 
 import matplotlib
 import matplotlib.pyplot as plt
+from matplotlib.figure import Figure
 
-from . import case_sheet, style
+from . import case_sheet, patient, style
 from .files import ReadError
 from .folder import drawings
 from .pressure_surface import PROJECTIONS
@@ -18,6 +19,7 @@ EXAMPLES = """\
 examples:
   condyle rom hip.toml --band=40 --out range && python3 -m condyle.plot range
   condyle rom hip.toml --map flexion=0:120:10 adduction=-30:20:10 --out map && python3 -m condyle.plot map --format png
+  condyle hip hips.nii.gz --out patient && python3 -m condyle.plot patient --case "Case 17"
   condyle motion knee.toml --motion walk.mot --load --maps --out walk
   python3 -m condyle.plot walk --frames 0 20 40 --out figures
 a case on one page, of which python3 -m condyle.plot sheet --help says more; a folder of that name is ./sheet:
@@ -43,7 +45,8 @@ def _parser() -> argparse.ArgumentParser:
         prog="python3 -m condyle.plot", formatter_class=argparse.RawDescriptionHelpFormatter, epilog=EXAMPLES,
         description="Draws what condyle rom, condyle motion, condyle measure or condyle sweep left in a folder: limits or "
         "limit_bands, clock_face,\nmap_MOVEMENT and map_free_range; curves, cycle and pressure_map or depth_map; hip_shape; safe_zone "
-        "and safe_probability. Names what was written.")
+        "and safe_probability.\nOf a patient's folder, as condyle hip leaves it, draws the figures of each side, sheet.pdf of each, and both: "
+        "how far both turn. Names what was written.")
     parser.add_argument("folder", metavar="FOLDER", type=Path, help="what was given to --out")
     parser.add_argument("--format", choices=("pdf", "svg", "png"), default="pdf",
                         help="vectors (pdf, svg) or 300 dots per inch (png); pdf if not said")
@@ -52,7 +55,14 @@ def _parser() -> argparse.ArgumentParser:
                         help="frames of pressure_map and depth_map, from 0; first, middle and last if not said")
     parser.add_argument("--projection", choices=PROJECTIONS, default="plane",
                         help="of pressure_map and depth_map: along the mean normal, or azimuthal equidistant about the joint centre")
+    _add_heading(parser, "; of the sheets of a patient's folder")
     return parser
+
+
+def _add_heading(parser: argparse.ArgumentParser, whose: str = "") -> None:
+    parser.add_argument("--case", metavar="TEXT", default="", help="begins the heading: a number or a pseudonym" + whose)
+    parser.add_argument("--date", metavar="TEXT", default="", help="in the heading; none is taken from the clock" + whose)
+    parser.add_argument("--note", metavar="TEXT", default="", help="stands below the heading" + whose)
 
 
 def _sheet_parser() -> argparse.ArgumentParser:
@@ -65,28 +75,40 @@ def _sheet_parser() -> argparse.ArgumentParser:
                         help="folders of condyle rom, resect, measure or sweep --out, or their rom.json, resection.json, measures.json, sweep.json: "
                         "one of each at most, of one joint")
     parser.add_argument("--out", metavar="FILE.pdf", type=Path, required=True, help="the page, as PDF")
-    parser.add_argument("--case", metavar="TEXT", default="", help="begins the heading: a number or a pseudonym")
-    parser.add_argument("--date", metavar="TEXT", default="", help="in the heading; none is taken from the clock")
-    parser.add_argument("--note", metavar="TEXT", default="", help="stands below the heading")
+    _add_heading(parser)
     parser.add_argument("--picture", metavar="FILE.png", type=Path,
                         help="shown as the cut, in place of depth_mobile.png and depth_fixed.png beside resection.json")
     return parser
 
 
 def _figures(given: argparse.Namespace) -> Rendered:
-    rendered = []
-    for name, draw in drawings(given.folder, given.frames, given.projection):
-        figure = draw()
-        rendered.append(((given.out or given.folder) / f"{name}.{given.format}", style.rendered(figure, given.format)))
+    heading = _heading(given)
+    if patient.sides_of(given.folder):
+        found, sheets = patient.figures_of(given.folder, given.frames, given.projection), patient.sheets_of(given.folder, heading)
+    else:
+        found, sheets = drawings(given.folder, given.frames, given.projection), []
+        if any(heading.values()):
+            _refuse(f"{given.folder}: --case, --date and --note stand on sheets, which only a patient's folder has, as condyle hip leaves it",
+                    WRONG_USAGE)
+    out = given.out or given.folder
+    return [_rendered(out / f"{name}.{given.format}", draw, given.format) for name, draw in found] + \
+        [_rendered(out / f"{name}.pdf", draw, "pdf", case_sheet.DPI) for name, draw in sheets]
+
+
+def _heading(given: argparse.Namespace) -> Dict[str, str]:
+    return {"case": given.case, "date": given.date, "note": given.note}
+
+
+def _rendered(path: Path, draw: Callable[[], Figure], format: str, dpi: float = 300) -> Tuple[Path, bytes]:
+    figure = draw()
+    try:
+        return path, style.rendered(figure, format, dpi)
+    finally:
         plt.close(figure)
-    return rendered
 
 
 def _sheet(given: argparse.Namespace) -> Rendered:
-    figure = case_sheet.sheet(given.inputs, case=given.case, date=given.date, note=given.note, picture=given.picture)
-    rendered = [(given.out, style.rendered(figure, "pdf", case_sheet.DPI))]
-    plt.close(figure)
-    return rendered
+    return [_rendered(given.out, lambda: case_sheet.sheet(given.inputs, **_heading(given), picture=given.picture), "pdf", case_sheet.DPI)]
 
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:

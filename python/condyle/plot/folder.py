@@ -29,6 +29,15 @@ def drawings(folder: Path, frames: Optional[Sequence[int]] = None, projection: P
     """
     if not folder.is_dir():
         raise files.ReadError(f"{folder}: not a folder")
+    found = found_in(folder, frames, projection)
+    if not found:
+        raise files.ReadError(f"{folder}: neither rom.json nor curves.csv nor sweep.json nor measures.json of a hip in it, "
+                              "nor left/limits/rom.json nor right/limits/rom.json")
+    return found
+
+
+def found_in(folder: Path, frames: Optional[Sequence[int]] = None, projection: Projection = "plane") -> List[Drawing]:
+    """The same; nothing if there is nothing to draw."""
     found: List[Drawing] = []
     if (folder / "rom.json").exists():
         found += _of_rom(files.read_rom(folder))
@@ -42,8 +51,6 @@ def drawings(folder: Path, frames: Optional[Sequence[int]] = None, projection: P
         found += _of_motion(folder, frames, projection)
     elif frames:
         raise files.ReadError(f"{folder}: no curves.csv in it, so no frames to draw")
-    if not found:
-        raise files.ReadError(f"{folder}: neither rom.json nor curves.csv nor sweep.json nor measures.json of a hip in it")
     return found
 
 
