@@ -1,4 +1,4 @@
-// The curves of docs/deformities.md: internal rotation at 90 degrees of flexion against the alpha angle (cam)
+// The curves of docs/sample-hips.md: internal rotation at 90 degrees of flexion against the alpha angle (cam)
 // and against the lateral centre-edge angle (pincer), as CSV files in the folder given and as tables.
 #include <algorithm>
 #include <cstdio>

@@ -313,7 +313,7 @@ CONDYLE_API condyle_status condyle_elastic_results_surface(const condyle_elastic
 
 /// What condyle_elastic_contact_forces() computes, and how: without motion, friction and damping, the factor 1, the load only,
 /// until they are set. A setter refuses a value outside its domain by CONDYLE_BAD_ARGUMENT and leaves the options as they were.
-/// docs/forces.md has the formulas.
+/// docs/contact.md has the formulas.
 typedef struct condyle_force_options condyle_force_options;
 
 CONDYLE_API condyle_status condyle_force_options_create(condyle_force_options** options);

@@ -74,7 +74,7 @@ struct ElasticContactResults {
 };
 
 // Forces of an elastic contact as a simulator integrates them: wrench, stiffness, forces on vertices,
-// patches; with friction, damping and a ramp. docs/forces.md.
+// patches; with friction, damping and a ramp. docs/contact.md.
 //
 //     const ElasticContact knee(femur, tibia, {.mobile = cartilage});
 //     const ContactRamp ramp(knee, X_FM, 0.05);

@@ -66,7 +66,7 @@ class ForcePatch:
 
 @dataclass(frozen=True, eq=False)
 class ContactForces:
-    """Forces at one pose and motion (docs/forces.md). What was not asked for is None.
+    """Forces at one pose and motion (docs/contact.md). What was not asked for is None.
 
     Attributes
     ----------

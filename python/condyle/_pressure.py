@@ -208,7 +208,7 @@ class ElasticContact(DeformingContact):
                angular_velocity_rad_s: Optional[ArrayLike] = None, friction: float = 0, slip_velocity_mm_s: float = 1,
                damping_s_per_mm: float = 0, factor: float = 1, vertex_forces: bool = False, stiffness: bool = False,
                vertex_stiffness: bool = False, patches: bool = False) -> ContactForces:
-        """:class:`ContactForces` of X_FM, (4, 4), for a simulator to integrate (docs/forces.md).
+        """:class:`ContactForces` of X_FM, (4, 4), for a simulator to integrate (docs/contact.md).
 
         Parameters
         ----------

@@ -9,7 +9,7 @@
 #include "core/coordinate_range.hpp"
 #include "core/cross_matrix.hpp"
 
-/// docs/forces.md.
+/// docs/contact.md.
 
 namespace condyle::contact {
 namespace {
@@ -179,7 +179,7 @@ class CastForces {
     if (options_.vertex_stiffness) add_vertex_stiffness(sample, ends, spread, area * layers.slope);
   }
 
-  // Stiffness of the bodies: docs/forces.md. Changes are those of the load on the target when the target is moved, which is
+  // Stiffness of the bodies: docs/contact.md. Changes are those of the load on the target when the target is moved, which is
   // that on the mobile body when the mobile body is.
   void add_change(const OverlapSample& sample, const Ends& ends, double slope, double elastic) {
     const Vec3& normal = cast_.sampler().face_normals()[sample.face];

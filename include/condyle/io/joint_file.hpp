@@ -24,7 +24,7 @@
 #include "condyle/range_of_motion.hpp"
 
 /// Joint files: two meshes and how one rotates in the other, in TOML. Every key, with its unit and default,
-/// is in docs/joint-file.md, those of the table [contact] in docs/joint-contact.md. Bad files throw FileError, one line "file: line 7: frame.centre: what is wrong".
+/// is in docs/joint-file.md, those of the table [contact] in docs/contact.md. Bad files throw FileError, one line "file: line 7: frame.centre: what is wrong".
 
 namespace condyle::io {
 
