@@ -63,7 +63,7 @@ def test_a_normal_range_stands_once_behind_both_and_behind_one_if_the_other_has_
     drawn = bars(ax, "limit")[:2]
     assert normal.get_width() == 120 and normal.get_zorder() < drawn[0].get_zorder()
     assert normal.get_y() < drawn[0].get_y() and normal.get_y() + normal.get_height() > drawn[1].get_y() + drawn[1].get_height()
-    without = {**LEFT, "motions": [motion("flexion", 127.25)]}
+    without = {"motions": [motion("flexion", 127.25)]}
     ax = figures.both_sides(without, {**RIGHT, "motions": RIGHT["motions"][3:]})
     (normal,) = bars(ax, "normal_range")
     left, right = bars(ax, "limit")
@@ -113,6 +113,8 @@ def test_words_are_on_the_paper_and_none_stands_on_another():
         labels = [*ax.get_yticklabels(), *ax.get_yticklabels(minor=True), *ticks, ax.xaxis.label]
         shown = [text for text in [*ax.texts, *labels, *ax.get_legend().get_texts()] if text.get_text()]
         boxes = [(text.get_text(), text.get_window_extent()) for text in shown]
+        columns = {gid: [text.get_window_extent() for text in ax.texts if text.get_gid() == gid] for gid in ("value", "difference", "heading")}
+        assert max(box.x1 for box in columns["value"]) < min(box.x0 for box in columns["difference"] + columns["heading"])
         for i, (text, box) in enumerate(boxes):
             page = ax.figure.bbox.padded(0.5)
             assert box.x0 >= page.x0 and box.y0 >= page.y0 and box.x1 <= page.x1 and box.y1 <= page.y1, text

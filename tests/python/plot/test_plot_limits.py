@@ -94,6 +94,7 @@ def test_whiskers_reach_from_5_to_95_percent_with_the_median_between():
     assert segment[:, 0] == pytest.approx([120.5, 131.5], abs=1e-12)
     assert whisker.lines[0].get_xdata() == [126.0]
     assert texts(ax, "value")[0] == "127.2° (120–132)"
+    assert figures.limits({"motions": [motion("flexion", 119.0, band=BAND)]}).get_xlim() == (0, 150), "the axis reaches beyond the band, too"
     without = figures.limits(RESULT, bands=False)
     assert not [c for c in without.containers if hasattr(c, "has_xerr")]
     assert texts(without, "value")[0] == "127.2°"
