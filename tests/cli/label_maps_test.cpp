@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 #include "io/file/whole_file.hpp"
 #include "io/image/write_labels.hpp"
 #include "support/temporary_folder.hpp"
+#include "whole_pelvis.hpp"
 
 namespace condyle::test {
 namespace {
@@ -151,22 +153,15 @@ TEST_F(LabelMaps, OfOneBoneEachAreCalledAsTheirFiles) {
 /// If both halves of a pelvis have one label, the half beside the femur counts, whichever is the larger. So it is with both femora.
 TEST_F(LabelMaps, OfAWholePelvisGiveTheHalfBesideTheFemur) {
   const io::LabelMap map = io::read_labels(scan->path() / "labels.nii.gz");
-  const auto [ni, nj, nk] = map.grid.size;
-  VoxelGrid grid = map.grid;
-  grid.size[0] = 2 * ni;
-  ASSERT_GT(grid.X_WI(0, 0), 0)
+  ASSERT_GT(map.grid.X_WI(0, 0), 0)
       << "i runs to the left: the mirror image beside the right hip is the left one";
+  auto [grid, labels] = with_mirror_image(map);
   // 1 the pelvis, whose right half lacks its top, 2 the right femur and 3 the left one.
-  std::vector<std::uint8_t> labels(static_cast<std::size_t>(2 * ni * nj * nk));
-  std::size_t v = 0;
-  for (std::int64_t row = 0; row < nj * nk; ++row)
-    for (std::int64_t i = 0; i < 2 * ni; ++i, ++v) {
-      const bool is_right = i < ni;
-      const std::int64_t from = ni * row + (is_right ? i : 2 * ni - 1 - i);
-      const std::uint32_t label = map.labels[map.layers[0][static_cast<std::size_t>(from)]];
-      if (label == 76) labels[v] = is_right ? 2 : 3;
-      if (label == 78 && (!is_right || row < nj * nk * 9 / 10)) labels[v] = 1;
-    }
+  const std::size_t top = labels.size() * 9 / 10;
+  for (std::size_t v = 0; v < labels.size(); ++v) {
+    constexpr std::array<std::uint8_t, 4> by_number = {3, 2, 1, 1};
+    if (labels[v] != 0) labels[v] = labels[v] == 78 && v >= top ? 0 : by_number[labels[v] - 75u];
+  }
   const auto init = [&](const std::string& mobile, const std::string& of) {
     const Ran made = run("init both.nii.gz --fixed 1 --mobile " + mobile + " -o " + of + "/hip.toml");
     EXPECT_EQ(made.exit_code, 0) << made.err;
@@ -187,7 +182,10 @@ TEST_F(LabelMaps, OfAWholePelvisGiveTheHalfBesideTheFemur) {
   for (std::uint8_t& label : labels)
     if (label == 3) label = 2;
   io::write_labels(scan->path() / "both.nii.gz", grid, labels);
-  expect_side("2", "left");  // of both the larger half of the pelvis
+  expect_side("2", "left");  // of both the larger half of the pelvis, unless the side is stated
+  const std::string stated = init("2 --side right", "stated");
+  EXPECT_NE(stated.find("label_2 is in 2 pieces: the one on the right is kept"), stated.npos) << stated;
+  EXPECT_EQ(stated.find("to fill in"), stated.npos) << stated;
 }
 
 TEST_F(LabelMaps, AreRowsOfAStudy) {

@@ -26,9 +26,10 @@ struct CondyleLabels {
 
 struct CondyleBone {
   const CondyleLabels& of;
+  io::LabelBoneRequest request;
   io::LabelBone bone;
 
-  io::ImagedBone imaged() const { return {of.map, of.file.name, bone}; }
+  io::RequestedBone requested() const { return {of.map, of.file.name, request, bone}; }
 };
 
 namespace {
@@ -112,15 +113,20 @@ Body body_of(const io::LabelBone& bone) {
   return body;
 }
 
-void add_origin(const CondyleBone& bone, std::vector<std::string>& lines) {
-  for (const std::string& line : io::origin_of(bone.bone, bone.of.file.name))
-    lines.push_back(fmt::format("{}: {}", bone.bone.name, line));
+void add_origin(const io::ImagedBone& imaged, std::vector<std::string>& lines) {
+  for (const std::string& line : io::origin_of(imaged.bone, imaged.file))
+    lines.push_back(fmt::format("{}: {}", imaged.bone.name, line));
 }
 
 CondyleJoint* joined(const CondyleBone& fixed, const CondyleBone& mobile, const std::optional<Side>& given) {
-  io::check_are_two(fixed.imaged(), mobile.imaged());
-  const auto stated = io::stated_side(given, fixed.bone, mobile.bone);
-  const auto hip = hip_of(fixed.bone.surface.mesh, mobile.bone.surface.mesh);
+  io::RequestedBone of_fixed = fixed.requested(), of_mobile = mobile.requested();
+  io::take_pieces_of_joint(of_fixed, of_mobile, given, {});
+  const io::LabelBone &hip_bone = of_fixed.bone, &femur = of_mobile.bone;
+  const io::ImagedBone imaged_fixed{of_fixed.map, of_fixed.file, hip_bone},
+      imaged_mobile{of_mobile.map, of_mobile.file, femur};
+  io::check_are_two(imaged_fixed, imaged_mobile);
+  const auto stated = io::stated_side(given, hip_bone, femur);
+  const auto hip = hip_of(hip_bone.surface.mesh, femur.surface.mesh);
   const auto of_bones = kinematics::side_in(lps_axes, hip);
   JointDescription description{
       .name = "dropped joint", .side = agreed_side(stated, of_bones), .units = LengthUnit::millimetres};
@@ -130,13 +136,13 @@ CondyleJoint* joined(const CondyleBone& fixed, const CondyleBone& mobile, const 
   proposal.inferred.push_back(
       fmt::format("side: {}{}", name_of(description.side), stated ? fmt::format(", {}", stated->by) : ""));
   proposal.inferred.push_back("axes: LPS, by the image's header");
-  add_origin(fixed, proposal.inferred);
-  add_origin(mobile, proposal.inferred);
+  add_origin(imaged_fixed, proposal.inferred);
+  add_origin(imaged_mobile, proposal.inferred);
   proposal.inferred.insert(proposal.inferred.end(), of_bones.evidence.begin(), of_bones.evidence.end());
-  proposal.of_images = io::notes_of(fixed.imaged(), mobile.imaged());
+  proposal.of_images = io::notes_of(imaged_fixed, imaged_mobile);
   proposal.fixed = fixed.of.file, proposal.mobile = mobile.of.file;
-  proposal.fixed_name = fixed.bone.name, proposal.mobile_name = mobile.bone.name;
-  return joint_of(std::move(description), body_of(fixed.bone), body_of(mobile.bone), std::move(proposal));
+  proposal.fixed_name = hip_bone.name, proposal.mobile_name = femur.name;
+  return joint_of(std::move(description), body_of(hip_bone), body_of(femur), std::move(proposal));
 }
 
 }  // namespace
@@ -170,7 +176,8 @@ const char* condyle_labels(CondyleLabels* labels) {
 CondyleBone* condyle_bone(const CondyleLabels* labels, const char* label, const char* task) {
   return guarded(static_cast<CondyleBone*>(nullptr), [&] {
     io::LabelBoneRequest request{.label = label, .task = io::label_task_of(task)};
-    return new CondyleBone{*labels, io::bone_of(labels->map, labels->file.name, request)};
+    io::LabelBone bone = io::bone_of(labels->map, labels->file.name, request);
+    return new CondyleBone{*labels, std::move(request), std::move(bone)};
   });
 }
 

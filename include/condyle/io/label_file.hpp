@@ -194,7 +194,8 @@ struct LabelJoint {
 };
 
 /// Reads the images, extracts both bones and proposes a joint file as propose_joint() does: the axes are the image's. Writes nothing.
-/// If a label has several large pieces, as both halves of a pelvis, the bone is the piece nearest to the other bone.
+/// If a label has several large pieces, as both halves of a pelvis, the bone is the piece nearest to the other bone; if both labels
+/// have, as of both femora, the mobile one is the piece on the side of the request.
 /// Throws FileError, and what bone_of() throws; UsageError if both bones are one label or their names are of two sides.
 [[nodiscard]] std::optional<LabelJoint> propose_joint(const LabelJointRequest& request,
                                                       const Control& control);

@@ -19,12 +19,19 @@ struct ImagedBone {
   const LabelBone& bone;
 };
 
-/// Whether one of several large pieces of a label is the bone, as of a whole pelvis.
-bool is_in_large_pieces(const LabelBone& bone);
+/// A bone as it was asked for, of an image.
+struct RequestedBone {
+  const LabelMap& map;
+  std::string_view file;  ///< as errors call the image
+  const LabelBoneRequest& request;
+  LabelBone bone;
+};
 
-/// bone_of(), but of such a label the piece that lies nearest to the other bone.
-std::optional<LabelBone> bone_beside(const LabelBone& other, const LabelMap& map, std::string_view file,
-                                     const LabelBoneRequest& request, const Control& control);
+/// Of labels with several large pieces takes the two that make a joint: the fixed piece beside the mobile bone, which shows which half
+/// of a pelvis is meant; if both labels are of two bones, the mobile piece on that side, else the one beside the largest fixed one.
+/// Returns false if it was stopped.
+bool take_pieces_of_joint(RequestedBone& fixed, RequestedBone& mobile, const std::optional<Side>& side,
+                          const Control& control);
 
 /// Where the surface of a bone comes from, one line each: its label and voxels, what the grid leaves open.
 std::vector<std::string> origin_of(const LabelBone& bone, std::string_view image_name);

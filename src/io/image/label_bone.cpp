@@ -62,8 +62,8 @@ void check_size(const VoxelMask& mask, std::int64_t voxels, std::string_view fil
                                 voxels, longest));
 }
 
-/// `other` is empty if the largest piece is kept.
-void note_pieces(const LabelBone& bone, std::string_view other, std::vector<LabelNote>& notes) {
+/// `kept_for`: why this piece is kept, "the largest".
+void note_pieces(const LabelBone& bone, std::string_view kept_for, std::vector<LabelNote>& notes) {
   double kept = 0, dropped = 0;
   std::size_t kept_pieces = 0, dropped_pieces = 0;
   for (const LabelPiece& piece : bone.surface.pieces) {
@@ -74,9 +74,7 @@ void note_pieces(const LabelBone& bone, std::string_view other, std::vector<Labe
   if (dropped_pieces > 0)
     notes.push_back({LabelNoteCode::pieces,
                      fmt::format("{} is in {} pieces: {} is kept, {:.0f} mm3, and {:.0f} mm3 are left out",
-                                 bone.name, kept_pieces + dropped_pieces,
-                                 other.empty() ? "the largest" : fmt::format("the one beside {}", other),
-                                 kept, dropped)});
+                                 bone.name, kept_pieces + dropped_pieces, kept_for, kept, dropped)});
   else if (kept_pieces > 1)
     notes.push_back(
         {LabelNoteCode::pieces, fmt::format("{} is in {} pieces, all of them kept", bone.name, kept_pieces)});
@@ -109,17 +107,40 @@ void note_simplification(const LabelBone& bone, std::vector<LabelNote>& notes) {
                                simplified->largest_error)});
 }
 
-/// Takes large pieces out of the mask but for the one that lies nearest to the other bone; returns their voxels.
-std::vector<std::int64_t> keep_piece_beside(const LabelBone& other, VoxelMask& mask) {
+/// Where the large piece lies that is the bone, in LPS, and how a note calls it: "the one beside femur_left".
+struct PieceWanted {
+  Vec3 near_W;
+  std::string words;
+};
+
+/// Beside the other bone of a joint.
+PieceWanted beside(const LabelBone& other) {
+  const BoundingBox bounds = mesh::bounds_of_vertices(other.surface.mesh);
+  return {(bounds.low + bounds.high) / 2, fmt::format("the one beside {}", other.name)};
+}
+
+PieceWanted on_side(Side side, const LabelMap& map) {
+  constexpr double outside_mm = 1e5;  // of every image
+  return {map.grid.X_WI.translation() + Vec3(side == Side::left ? outside_mm : -outside_mm, 0, 0),
+          fmt::format("the one on the {}", name_of(side))};
+}
+
+/// Takes large pieces out of the mask but for that one; returns their voxels.
+std::vector<std::int64_t> keep_piece(const PieceWanted& wanted, VoxelMask& mask) {
   mesh::VoxelBox box{mask.size, std::move(mask.inside)};
   const std::array<std::int64_t, 3>& first = mask.first;
   const Eigen::Affine3d X_WB =
       mask.image.X_WI * Eigen::Translation3d(static_cast<double>(first[0]), static_cast<double>(first[1]),
                                              static_cast<double>(first[2]));
-  const BoundingBox bounds = mesh::bounds_of_vertices(other.surface.mesh);
-  auto voxels = mesh::keep_large_piece_near(box, X_WB, (bounds.low + bounds.high) / 2);
+  auto voxels = mesh::keep_large_piece_near(box, X_WB, wanted.near_W);
   mask.inside = std::move(box.inside);
   return voxels;
+}
+
+/// Whether one of several large pieces of a label is the bone, as of a whole pelvis.
+bool is_in_large_pieces(const LabelBone& bone) {
+  const std::vector<LabelPiece>& pieces = bone.surface.pieces;
+  return pieces.size() > 1 && !pieces[1].kept && mesh::is_large_piece(pieces[1].voxels, pieces[0].voxels);
 }
 
 /// Among the pieces of a surface, most voxels first.
@@ -132,7 +153,7 @@ void add_left_out(const std::vector<std::int64_t>& left_out, double voxel_mm3,
 }
 
 std::optional<LabelBone> bone_of(const LabelMap& map, std::string_view file, const LabelBoneRequest& request,
-                                 const LabelBone* other, const Control& control) {
+                                 const PieceWanted* wanted, const Control& control) {
   LabelBone bone{.name = {}, .label = chosen_label(map, file, request), .surface = {}, .image = {}};
   bone.name = bone.label.name;
   if (bone.name.empty())
@@ -141,7 +162,7 @@ std::optional<LabelBone> bone_of(const LabelMap& map, std::string_view file, con
   bone.voxels = std::count(mask.inside.begin(), mask.inside.end(), std::uint8_t{1});
   check_size(mask, bone.voxels, file, bone.name);
   std::vector<std::int64_t> left_out;
-  if (other) left_out = keep_piece_beside(*other, mask);
+  if (wanted) left_out = keep_piece(*wanted, mask);
   try {
     auto surface = surface_of(mask, request.surface, control);
     if (!surface) return std::nullopt;
@@ -152,7 +173,7 @@ std::optional<LabelBone> bone_of(const LabelMap& map, std::string_view file, con
   add_left_out(left_out, std::abs(mask.image.X_WI.linear().determinant()), bone.surface.pieces);
   bone.image = image_of(map.grid, bone.surface);
   bone.notes = bone.label.notes;
-  note_pieces(bone, left_out.empty() ? std::string_view() : other->name, bone.notes);
+  note_pieces(bone, left_out.empty() ? "the largest" : wanted->words, bone.notes);
   note_cavities(bone, request.surface.keep_cavities, bone.notes);
   note_cuts(bone, bone.notes);
   note_simplification(bone, bone.notes);
@@ -172,14 +193,17 @@ std::optional<LabelBone> bone_of(const LabelMap& map, std::string_view file, con
   return bone_of(map, file, request, nullptr, control);
 }
 
-bool is_in_large_pieces(const LabelBone& bone) {
-  const std::vector<LabelPiece>& pieces = bone.surface.pieces;
-  return pieces.size() > 1 && !pieces[1].kept && mesh::is_large_piece(pieces[1].voxels, pieces[0].voxels);
-}
-
-std::optional<LabelBone> bone_beside(const LabelBone& other, const LabelMap& map, std::string_view file,
-                                     const LabelBoneRequest& request, const Control& control) {
-  return bone_of(map, file, request, &other, control);
+bool take_pieces_of_joint(RequestedBone& fixed, RequestedBone& mobile, const std::optional<Side>& side,
+                          const Control& control) {
+  const auto take = [&](RequestedBone& of, const PieceWanted& wanted) {
+    auto bone = bone_of(of.map, of.file, of.request, &wanted, control);
+    if (bone) of.bone = *std::move(bone);
+    return bone.has_value();
+  };
+  if (is_in_large_pieces(mobile.bone) &&
+      !take(mobile, side ? on_side(*side, mobile.map) : beside(fixed.bone)))
+    return false;
+  return !is_in_large_pieces(fixed.bone) || take(fixed, beside(mobile.bone));
 }
 
 LabelBone bone_of(const LabelMap& map, std::string_view file, const LabelBoneRequest& request) {

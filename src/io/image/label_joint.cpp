@@ -38,24 +38,22 @@ std::optional<LabelJoint> propose_joint(const LabelMap& map, const LabelMap* oth
   if (!fixed) return std::nullopt;
   auto mobile = bone_of(mobile_map, mobile_name, request.mobile, control);
   if (!mobile) return std::nullopt;
-  // The mobile bone shows which half of a pelvis is meant; if both labels are of two bones, the largest fixed one is.
-  if (io::is_in_large_pieces(*mobile))
-    mobile = io::bone_beside(*fixed, mobile_map, mobile_name, request.mobile, control);
-  if (mobile && io::is_in_large_pieces(*fixed))
-    fixed = io::bone_beside(*mobile, map, fixed_name, request.fixed, control);
-  if (!fixed || !mobile) return std::nullopt;
-  const ImagedBone of_fixed{map, fixed_name, *fixed}, of_mobile{mobile_map, mobile_name, *mobile};
+  io::RequestedBone wanted_fixed{map, fixed_name, request.fixed, *std::move(fixed)},
+      wanted_mobile{mobile_map, mobile_name, request.mobile, *std::move(mobile)};
+  if (!io::take_pieces_of_joint(wanted_fixed, wanted_mobile, request.side, control)) return std::nullopt;
+  const ImagedBone of_fixed{map, fixed_name, wanted_fixed.bone},
+      of_mobile{mobile_map, mobile_name, wanted_mobile.bone};
   io::check_are_two(of_fixed, of_mobile);
 
   ProposalFacts facts{
       .joint_file = request.joint_file,
       .from = "bones of the label map " + core::one_line(request.labels.filename().string(), 200),
-      .side = io::stated_side(request.side, *fixed, *mobile),
+      .side = io::stated_side(request.side, of_fixed.bone, of_mobile.bone),
       .units = Stated<LengthUnit>{LengthUnit::millimetres, "of surfaces from label maps"},
       .axes_by = "surfaces from label maps are in LPS, by the image's header"};
   std::vector<LabelNote> notes = io::notes_of(of_fixed, of_mobile);
   const std::filesystem::path folder = request.joint_file.parent_path();
-  LabelJoint joint{std::move(*fixed), std::move(*mobile), {}, {}, {}, std::move(notes)};
+  LabelJoint joint{std::move(wanted_fixed.bone), std::move(wanted_mobile.bone), {}, {}, {}, std::move(notes)};
   joint.fixed_mesh = folder / file_name_of(joint.fixed.name);
   joint.mobile_mesh = folder / file_name_of(joint.mobile.name);
   if (joint.fixed_mesh == joint.mobile_mesh) {
