@@ -28,6 +28,9 @@ struct OppositeLimits {
 /// Those of which both end in contact, in the order of their first ones.
 std::vector<OppositeLimits> opposite_limits(std::span<const motion::MotionLimit> limits);
 
+/// The i-th limit as text quotes it: "131.9° (126–135)", "131.94" without bands, ">120" without contact in the range, "-" if none is known.
+std::string limit_words(const RangeAnswer& answer, std::size_t i);
+
 /// One limit of it, the i-th.
 Json motion_json(const RomResult& result, std::size_t i);
 

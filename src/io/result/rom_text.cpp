@@ -22,43 +22,10 @@
 #include "io/result/rom_parts.hpp"
 #include "io/result/rom_result.hpp"
 #include "io/result/scope_text.hpp"
+#include "io/result/text_table.hpp"
 
 namespace condyle::io {
 namespace {
-
-/// Characters of well-formed UTF-8: what a terminal shows, for the usual scripts.
-std::size_t shown_width(std::string_view text) noexcept {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xC0) != 0x80; }));
-}
-
-/// Lines of more than a terminal's width are broken between words, what comes after indented.
-std::string wrapped(std::string_view lines) {
-  constexpr std::size_t width = 100;
-  std::string text;
-  for (std::size_t end = 0; !lines.empty(); lines.remove_prefix(std::min(end + 1, lines.size()))) {
-    end = lines.find('\n');
-    std::string_view line = lines.substr(0, end);
-    if (end == lines.npos) end = lines.size();
-    const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
-    std::size_t column = 0;
-    for (std::string_view blanks; !line.empty();) {
-      const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
-      blanks = line.substr(0, begin), line.remove_prefix(begin);
-      const std::string_view word = line.substr(0, line.find(' '));
-      if (column > indent && column + begin + shown_width(word) > width) {
-        text += "\n" + std::string(indent + 2, ' ');
-        column = indent + 2;
-      } else {
-        text += blanks, column += begin;
-      }
-      text += word, column += shown_width(word);
-      line.remove_prefix(word.size());
-    }
-    text += "\n";
-  }
-  return text;
-}
 
 /// One line or two: what does not count and by which numbers.
 std::string bearing_text(const RomResult& result) {
@@ -192,29 +159,6 @@ std::string closed_text(const RomResult& result) {
       form.pair->half_angle.degrees()));
 }
 
-enum class Align { left, right };
-
-struct Column {
-  Align align;
-  std::vector<std::string> cells;  ///< its heading first
-};
-
-std::string table_text(std::span<const Column> columns) {
-  std::string text;
-  for (std::size_t row = 0; row < columns.front().cells.size(); ++row) {
-    std::string line = " ";
-    for (const Column& column : columns) {
-      std::size_t widest = 0;
-      for (const std::string& cell : column.cells) widest = std::max(widest, shown_width(cell));
-      const std::string& cell = column.cells[row];
-      const std::string blanks(widest - shown_width(cell), ' ');
-      line += fmt::format(" {} ", column.align == Align::left ? cell + blanks : blanks + cell);
-    }
-    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-  }
-  return text;
-}
-
 std::string surface_text(const motion::Uncertainty& sigma, const Joint& joint) {
   const bool fixed = sigma.is_by_voxels(joint.fixed), mobile = sigma.is_by_voxels(joint.mobile);
   const std::string voxels = fmt::format("{:g} voxels", sigma.surface_voxels);
@@ -238,14 +182,14 @@ std::string band_text(const RomResult& result) {
       "    (standard deviations, seed {}); its width where only one of them is moved:\n",
       options.samples, options.sigma.centre_mm, options.sigma.axes.degrees(),
       surface_text(options.sigma, result.joint), io::sigmas_text(result.joint), options.seed);
-  Column name{Align::left, {"motion"}}, median{Align::right, {"median"}}, low{Align::right, {"5 %"}},
+  TextColumn name{Align::left, {"motion"}}, median{Align::right, {"median"}}, low{Align::right, {"5 %"}},
       high{Align::right, {"95 %"}}, centre{Align::right, {"centre"}}, axes{Align::right, {"axes"}},
       surface{Align::right, {"surface"}}, parameters{Align::right, {"parameters"}},
       free{Align::right, {"no contact"}};
   for (std::size_t i = 0; i < result.answer.bands.size(); ++i) {
     const motion::LimitBand& band = result.answer.bands[i];
     name.cells.push_back(result.answer.limits[i].motion.name);
-    const auto add = [](Column& column, Angle angle) {
+    const auto add = [](TextColumn& column, Angle angle) {
       column.cells.push_back(fmt::format("{:.1f}", angle.degrees()));
     };
     add(median, band.median), add(low, band.p5), add(high, band.p95);
@@ -254,7 +198,7 @@ std::string band_text(const RomResult& result) {
     add(parameters, band.width_from.parameters);
     free.cells.push_back(fmt::format("{:.0f} %", 100 * band.share_without_contact));
   }
-  std::vector<Column> columns{name, median, low, high, centre, axes, surface};
+  std::vector<TextColumn> columns{name, median, low, high, centre, axes, surface};
   if (has_uncertain_parameters(result.joint)) columns.push_back(parameters);
   columns.push_back(free);
   return wrapped(text) + table_text(columns);
@@ -315,7 +259,7 @@ std::string zones_text(const RomResult& result) {
   if (std::none_of(result.answer.zones.begin(), result.answer.zones.end(),
                    [](const auto& zone) { return zone.has_value(); }))
     return "";
-  Column name{Align::left, {"motion"}},
+  TextColumn name{Align::left, {"motion"}},
       of_fixed{Align::right, {"area of " + result.joint.fixed.name + " (mm2)"}},
       of_mobile{Align::right, {"of " + result.joint.mobile.name}}, depth{Align::right, {"depth (mm)"}},
       clock{Align::right, {"clock"}}, place{Align::left, {"centre (mm)"}};
@@ -349,18 +293,18 @@ std::string zones_text(const RomResult& result) {
 
 }  // namespace
 
+std::string limit_words(const RangeAnswer& answer, std::size_t i) {
+  const motion::MotionLimit& limit = answer.limits[i];
+  if (limit.translation_ends && !limit.translation_mm) return "-";
+  const motion::LimitBand* band = answer.bands.empty() ? nullptr : &answer.bands[i];
+  // Where what a translation follows ends, the motion is known to there, not free beyond.
+  if (limit.end.reason == motion::LimitReason::end_of_range && !limit.translation_ends)
+    return io::beyond_range(limit.end.turned, band);
+  return band ? io::quoted_limit(limit.end.turned, *band) : fmt::format("{:.2f}", limit.end.turned.degrees());
+}
+
 std::string rom_text(const RomResult& result) {
-  const auto limit_text = [&](std::size_t i) -> std::string {
-    if (result.answer.limits[i].translation_ends && !result.answer.limits[i].translation_mm) return "-";
-    const Angle turned = result.answer.limits[i].end.turned;
-    // Where what a translation follows ends, the motion is known to there, not free beyond.
-    if (result.answer.limits[i].end.reason == motion::LimitReason::end_of_range &&
-        !result.answer.limits[i].translation_ends)
-      return io::beyond_range(turned, result.answer.bands.empty() ? nullptr : &result.answer.bands[i]);
-    return result.answer.bands.empty() ? fmt::format("{:.2f}", turned.degrees())
-                                       : io::quoted_limit(turned, result.answer.bands[i]);
-  };
-  Column name{Align::left, {"motion"}}, turned{Align::right, {"limit (deg)"}},
+  TextColumn name{Align::left, {"motion"}}, turned{Align::right, {"limit (deg)"}},
       reason{Align::left, {"ended by"}}, point{Align::left, {"contact point (mm)"}},
       clock{Align::right, {"clock"}}, bearing{Align::right, {"bearing (deg)"}},
       soft{Align::right, {"soft (deg)"}}, closed{Align::right, {"closed form"}},
@@ -371,7 +315,7 @@ std::string rom_text(const RomResult& result) {
   for (std::size_t i = 0; i < result.answer.limits.size(); ++i) {
     const motion::MotionLimit& limit = result.answer.limits[i];
     name.cells.push_back(limit.motion.name);
-    turned.cells.push_back(limit_text(i));
+    turned.cells.push_back(limit_words(result.answer, i));
     const auto range = normal_range(result.joint, limit);
     normal.cells.push_back(range ? fmt::format("{:g}", range->degrees()) : "-");
     const auto side = motion::contact_side(result.joint, limit);
@@ -398,7 +342,7 @@ std::string rom_text(const RomResult& result) {
   // The figures that people quote, within a terminal's width; the rest is in JSON and CSV.
   const bool has_normal =
       std::any_of(normal.cells.begin() + 1, normal.cells.end(), [](const auto& cell) { return cell != "-"; });
-  std::vector<Column> shown{std::move(name), std::move(turned)};
+  std::vector<TextColumn> shown{std::move(name), std::move(turned)};
   if (has_normal) shown.push_back(std::move(normal));
   shown.push_back(std::move(reason));
   shown.push_back(std::move(joint.is_hip() ? clock : point));
