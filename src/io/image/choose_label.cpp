@@ -13,6 +13,7 @@
 #include "condyle/io/label_file.hpp"
 #include "core/near_name.hpp"
 #include "io/file/in_quotes.hpp"
+#include "io/image/label_name.hpp"
 #include "io/mesh/parse.hpp"
 
 namespace condyle::io {
@@ -223,6 +224,12 @@ ChosenLabel choose_table_entry(const LabelMap& map, const TableEntry& entry, Lab
 }
 
 }  // namespace
+
+std::string name_of_label(const LabelMap& map, std::size_t layer, std::uint32_t label,
+                          std::optional<LabelTask> task) {
+  std::string name = name_in_file(map, layer, label);
+  return name.empty() && task ? std::string(table_name(*task, label)) : name;
+}
 
 std::string_view name_of(LabelTask task) noexcept {
   constexpr std::string_view names[] = {"total", "total_v1", "total_mr"};

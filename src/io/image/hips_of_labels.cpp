@@ -1,0 +1,131 @@
+#include "io/image/hips_of_labels.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <span>
+#include <utility>
+
+#include "condyle/error.hpp"
+#include "io/image/label_name.hpp"
+#include "mesh/label_surface/voxel_pieces.hpp"
+
+namespace condyle::io {
+namespace {
+
+constexpr std::array<std::string_view, 11> pelvis_words = {
+    "hip",  "hip bone", "pelvis",     "pelvic bone", "hemipelvis", "innominate", "innominate bone",
+    "coxa", "os coxae", "coxal bone", "hipbone"};
+constexpr std::array<std::string_view, 5> femur_words = {"femur", "proximal femur", "femur proximal",
+                                                         "femoral bone", "thigh bone"};
+
+/// A label that may be a bone.
+struct Named {
+  std::string label;  ///< as choose_label() takes it
+  std::optional<Side> side;
+};
+
+/// A name in lower case without its words for the side: "hip bone" of "Right_Hip_Bone".
+std::string without_side(std::string_view name) {
+  std::string bone, word;
+  const auto end_word = [&] {
+    if (!word.empty() && word != "left" && word != "right" && word != "l" && word != "r")
+      bone += (bone.empty() ? "" : " ") + word;
+    word.clear();
+  };
+  for (const char c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)))
+      word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    else
+      end_word();
+  }
+  end_word();
+  return bone;
+}
+
+/// The labels that have voxels and one of these names, or the one that was chosen.
+std::vector<Named> labels_called(const LabelMap& map, std::span<const LabelSummary> present,
+                                 std::span<const std::string_view> words, const std::string& chosen,
+                                 std::optional<LabelTask> task) {
+  if (!chosen.empty()) return {{chosen, side_in_name(choose_label(map, chosen, task).name)}};
+  std::vector<Named> found;
+  for (const LabelSummary& summary : present) {
+    const std::string name = name_of_label(map, summary.layer, summary.label, task);
+    if (std::find(words.begin(), words.end(), without_side(name)) != words.end())
+      found.push_back({name, side_in_name(name)});
+  }
+  return found;
+}
+
+/// Whether a label has pieces as large as bones on both sides.
+bool is_of_both_sides(const LabelMap& map, const std::string& label, std::optional<LabelTask> task) {
+  const ChosenLabel chosen = choose_label(map, label, task);
+  VoxelMask mask = mask_of(map, chosen.layer, chosen.label);
+  mesh::VoxelBox box{mask.size, std::move(mask.inside)};
+  const std::vector<std::int64_t> pieces = mesh::keep_pieces(box, true);
+  return pieces.size() > 1 && mesh::is_large_piece(pieces[1], pieces[0]);
+}
+
+/// Of several labels the one for a side: that of the side, else the only one without a side. Null if there is none.
+const Named* for_side(std::span<const Named> labels, std::optional<Side> side, std::string_view file,
+                      std::string_view what) {
+  for (const auto& wanted : {side, std::optional<Side>()}) {
+    std::vector<const Named*> found;
+    for (const Named& each : labels)
+      if (each.side == wanted || !side) found.push_back(&each);
+    if (found.size() > 1)
+      throw UsageError(fmt::format("{}: {} and {} are both a {}: --fixed and --mobile say which is meant",
+                                   file, found[0]->label, found[1]->label, what));
+    if (!found.empty()) return found.front();
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<LabelHip> hips_in(const LabelMap& map, std::string_view file, const HipLabels& wanted) {
+  const std::vector<LabelSummary> present = summaries_of(map);
+  const auto called = [&](std::span<const std::string_view> words, const std::string& chosen,
+                          std::string_view what) {
+    auto found = labels_called(map, present, words, chosen, wanted.task);
+    if (found.empty())
+      throw UsageError(fmt::format(
+          "{}: no label is called a {}: --task names labels by a table, --fixed and --mobile by number", file,
+          what));
+    return found;
+  };
+  const std::vector<Named> pelves = called(pelvis_words, wanted.fixed, "hip bone or pelvis"),
+                           femora = called(femur_words, wanted.mobile, "femur");
+  std::vector<LabelHip> hips;
+  const auto add = [&](const Named& femur, std::optional<Side> side) {
+    if (wanted.side && side && side != wanted.side) return;
+    const Named* pelvis = for_side(pelves, side, file, "hip bone or pelvis");
+    if (!pelvis) return;
+    for (const LabelHip& other : hips)
+      if (other.side == side || !side || !other.side)
+        throw UsageError(
+            fmt::format("{}: {} and {} are femora of one side, or have none in their names: "
+                        "--fixed and --mobile say which is meant",
+                        file, other.mobile, femur.label));
+    hips.push_back({pelvis->label, femur.label, side ? side : pelvis->side});
+  };
+  for (const Named& femur : femora) {
+    if (femur.side || !is_of_both_sides(map, femur.label, wanted.task)) {
+      add(femur, femur.side ? femur.side : wanted.side);
+    } else {
+      add(femur, Side::left);
+      add(femur, Side::right);
+    }
+  }
+  if (hips.empty())
+    throw UsageError(fmt::format("{}: no femur and hip bone are of one side{}", file,
+                                 wanted.side ? fmt::format(", the {}", name_of(*wanted.side)) : ""));
+  std::stable_sort(hips.begin(), hips.end(), [](const LabelHip& a, const LabelHip& b) {
+    return a.side == Side::left && b.side == Side::right;
+  });
+  return hips;
+}
+
+}  // namespace condyle::io

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "condyle/io/label_file.hpp"
+
+/// Which labels of an image are hips, one of each side of the body or both.
+
+namespace condyle::io {
+
+/// Two labels that make a hip, as choose_label() takes them.
+struct LabelHip {
+  std::string fixed, mobile;
+  std::optional<Side>
+      side;  ///< which large pieces are meant, if a label has those of both sides; empty if the bones show it
+};
+
+/// How bones are found: by names of the file or of the table, or by labels that somebody chose.
+struct HipLabels {
+  std::string fixed = {}, mobile = {};  ///< as choose_label() takes them; empty: by name
+  std::optional<LabelTask> task = {};
+  std::optional<Side> side = {};  ///< only this hip
+};
+
+/// The hips of an image, left before right. A femur without a side in its name is of both sides if it has two large pieces.
+/// Throws UsageError, which begins with `file`, if no label is called a pelvis or a femur, if several are for one side, and for a side that
+/// is not there.
+std::vector<LabelHip> hips_in(const LabelMap& map, std::string_view file, const HipLabels& wanted);
+
+}  // namespace condyle::io
