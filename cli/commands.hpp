@@ -9,6 +9,7 @@
 namespace condyle::cli {
 
 void add_init(CLI::App& app);
+void add_hip(CLI::App& app);
 void add_surface(CLI::App& app);
 void add_inspect(CLI::App& app);
 void add_frame(CLI::App& app);

@@ -11,15 +11,13 @@
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/label_file.hpp"
-#include "condyle/io/mesh_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "help_formatter.hpp"
 #include "io/file/output_file.hpp"
-#include "io/file/output_folder.hpp"
 #include "io/image/unread_image.hpp"
 #include "label_options.hpp"
 #include "model_options.hpp"
-#include "notes.hpp"
+#include "proposed_files.hpp"
 #include "with_progress.hpp"
 
 namespace condyle::cli {
@@ -40,20 +38,10 @@ struct InitArguments {
   fs::path joint_file() const { return out.empty() ? fs::path("joint.toml") : fs::path(out); }
 };
 
-void refuse_existing(const fs::path& path, const char* why) {
-  std::error_code ignored;
-  if (fs::exists(fs::symlink_status(path, ignored)))
-    throw FileError(path.string() + ": is there already, " + why + ": name another or remove it");
-}
-
 void check_out(const InitArguments& options) {
   if (options.out.empty()) return;
   refuse_existing(options.out, "and may have been edited");
   io::check_output_file(options.out, {}, {"a joint file", {".toml"}});
-}
-
-void note_to_fill_in(const io::JointProposal& proposal) {
-  for (const std::string& missing : proposal.to_fill_in) note("to fill in: " + missing);
 }
 
 /// Which joint two meshes are; empty if it was not given.
@@ -107,16 +95,7 @@ void propose_from_labels(const InitArguments& options) {
   if (!options.mobile.empty()) request.mobile_labels = options.mobile;
   const io::LabelJoint joint =
       with_progress([&](const Control& control) { return io::propose_joint(request, control); });
-  for (const fs::path& mesh : {joint.fixed_mesh, joint.mobile_mesh})
-    refuse_existing(mesh, "and is a mesh of a joint");
-  note_all(joint.notes);
-  note_to_fill_in(joint.proposal);
-  const fs::path folder = request.joint_file.parent_path();
-  io::OutputFolder out(folder.empty() ? fs::path(".") : folder);
-  io::write_mesh(out.file(joint.fixed_mesh.filename().string()), joint.fixed.surface.mesh);
-  io::write_mesh(out.file(joint.mobile_mesh.filename().string()), joint.mobile.surface.mesh);
-  io::write_output_file(out.file(request.joint_file.filename().string()), joint.proposal.toml);
-  say_written(out.commit());
+  write_proposal(joint, request.joint_file);
 }
 
 void propose_from_model(const InitArguments& options) {

@@ -175,6 +175,7 @@ int run(int argc, char** argv) {
       ->option_text("N (all cores)");
 
   cli::add_init(app);
+  cli::add_hip(app);
   cli::add_surface(app);
   cli::add_inspect(app);
   cli::add_frame(app);

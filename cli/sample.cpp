@@ -142,7 +142,7 @@ HelpGroup measures_group() {
            "--acetabular-version", "--centre-edge-angle"}};
 }
 
-void add_hip(CLI::App& sample) {
+void add_sample_hip(CLI::App& sample) {
   auto* command = sample.add_subcommand("hip", "Make a hip: hip bone, femur and joint file");
   command->footer(
       "Example: condyle sample hip --out sample\n"
@@ -244,7 +244,7 @@ void add_cohort(CLI::App& sample) {
 void add_sample(CLI::App& app) {
   auto* sample = app.add_subcommand("sample", "Make a built-in parametric joint");
   sample->require_subcommand(1);
-  add_hip(*sample);
+  add_sample_hip(*sample);
   add_cartilages(*sample);
   add_cohort(*sample);
   add_sample_implants(*sample);

@@ -1,0 +1,62 @@
+#include "figures.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+
+extern char** environ;
+
+namespace condyle::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Errors { shown, hidden };
+
+/// The exit code of a program, whose standard output is dropped; -1 if it did not run or did not end by itself.
+int run(std::vector<std::string> words, Errors errors) {
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  if (posix_spawn_file_actions_init(&actions) != 0) return -1;
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  if (errors == Errors::hidden)
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  pid_t child = 0;
+  const int failed = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  int status = 0;
+  if (failed != 0 || waitpid(child, &status, 0) != child || !WIFEXITED(status)) return -1;
+  return WEXITSTATUS(status);
+}
+
+/// A command that was built and not installed has its module beside it.
+void look_beside_command() {
+  std::error_code failed;
+  const fs::path module = fs::read_symlink("/proc/self/exe", failed).parent_path() / "python";
+  if (failed || !fs::exists(module / "condyle", failed)) return;
+  const char* before = std::getenv("PYTHONPATH");
+  const std::string path = module.string() + (before && *before ? std::string(":") + before : "");
+  setenv("PYTHONPATH", path.c_str(), 1);
+}
+
+}  // namespace
+
+std::string draw_figures(const std::vector<std::string>& words) {
+  look_beside_command();
+  for (const char* python : {"python3", "/usr/bin/python3"}) {
+    if (run({python, "-c", "import condyle.plot"}, Errors::hidden) != 0) continue;
+    std::vector<std::string> all{python, "-m", "condyle.plot"};
+    all.insert(all.end(), words.begin(), words.end());
+    return run(std::move(all), Errors::shown) == 0 ? "" : "python3 -m condyle.plot ended with an error";
+  }
+  return "no python3 has condyle.plot, which needs matplotlib";
+}
+
+}  // namespace condyle::cli

@@ -1,0 +1,326 @@
+#include <fmt/format.h>
+
+#include <exception>
+#include <filesystem>
+#include <list>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "choice.hpp"
+#include "commands.hpp"
+#include "condyle/error.hpp"
+#include "condyle/io/label_file.hpp"
+#include "figures.hpp"
+#include "interrupt.hpp"
+#include "io/file/failure.hpp"
+#include "io/file/output_file.hpp"
+#include "io/file/output_folder.hpp"
+#include "io/image/hips_of_labels.hpp"
+#include "io/image/unread_image.hpp"
+#include "io/report/answer_report.hpp"
+#include "io/result/both_sides.hpp"
+#include "io/result/rom_files.hpp"
+#include "joint_command.hpp"
+#include "label_options.hpp"
+#include "model_options.hpp"
+#include "proposed_files.hpp"
+#include "range_options.hpp"
+#include "whole_number.hpp"
+
+namespace condyle::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct HipArguments {
+  std::string pelvis, out, plan;
+  std::vector<std::string> femora;
+  std::string fixed_label, mobile_label;
+  LabelOptions labels;
+  std::optional<Side> side;
+  std::optional<LengthUnit> units;
+  RangeArguments range;
+  io::ReportLabels words;
+
+  /// Where the joint file of a side lies; how its meshes are named from there is the same for both sides.
+  fs::path joint_file(Side side_of_body) const {
+    return fs::path(out) / std::string(name_of(side_of_body)) / "hip.toml";
+  }
+};
+
+/// What was proposed for one femur, by labels with the surfaces of its bones.
+struct Proposed {
+  io::JointProposal joint;
+  std::optional<io::LabelJoint> of_labels = {};
+  std::string femur;  ///< as notes call it
+};
+
+/// A hip that was answered.
+struct AnsweredHip {
+  io::LoadedJoint loaded;
+  std::vector<JointNote> notes;
+  io::Provenance from;
+  io::ReportAnswer answer = {};
+
+  std::optional<io::RomResult> limits() {
+    if (!answer.range.answer) return std::nullopt;
+    return io::rom_result_of(*answer.range.answer, notes, &from);
+  }
+};
+
+/// Both bones of each hip in one label map, or the pelvis in one and each femur in a map of its own.
+std::list<Proposed> proposed_of_labels(const HipArguments& options) {
+  const io::LabelMap map = io::read_labels(options.pelvis, options.labels.file);
+  const io::LabelBoneRequest any{.label = {}, .task = options.labels.task, .surface = options.labels.surface};
+  io::LabelJointRequest request{.labels = options.pelvis,
+                                .file = options.labels.file,
+                                .fixed = any,
+                                .mobile = any,
+                                .joint_file = options.joint_file(Side::left)};
+  std::list<Proposed> all;
+  const auto add = [&](const io::LabelMap* of_femur) {
+    auto joint = with_progress(
+        [&](const Control& control) { return io::propose_joint(map, of_femur, request, control); });
+    std::string femur = joint.mobile.name;
+    all.push_back({joint.proposal, std::move(joint), std::move(femur)});
+  };
+  request.fixed.label = options.fixed_label;
+  request.mobile.label = options.mobile_label;
+  request.side = options.side;
+  for (const std::string& femur : options.femora) {
+    const io::LabelMap of_femur = io::read_labels(femur, options.labels.file);
+    request.mobile_labels = femur;
+    add(&of_femur);
+  }
+  if (!options.femora.empty()) return all;
+  const io::HipLabels wanted{options.fixed_label, options.mobile_label, options.labels.task, options.side};
+  for (const io::LabelHip& hip : io::hips_in(map, options.pelvis, wanted)) {
+    request.fixed.label = hip.fixed;
+    request.mobile.label = hip.mobile;
+    request.side = hip.side;
+    add(nullptr);
+  }
+  return all;
+}
+
+std::list<Proposed> proposed_of_meshes(const HipArguments& options) {
+  if (options.femora.empty()) throw UsageError("FEMUR: the mesh of one femur is needed, or of both");
+  std::list<Proposed> all;
+  for (const std::string& femur : options.femora)
+    all.push_back({io::propose_joint(io::ProposalRequest{.fixed = options.pelvis,
+                                                         .mobile = femur,
+                                                         .joint_file = options.joint_file(Side::left),
+                                                         .side = options.side,
+                                                         .units = options.units,
+                                                         .anatomy = Anatomy::hip}),
+                   std::nullopt, femur});
+  return all;
+}
+
+/// Writes a joint file and, of labels, its meshes; returns the side of the hip.
+Side write_joint(const HipArguments& options, Proposed& proposed) {
+  if (!proposed.joint.side) {
+    note_to_fill_in(proposed.joint);
+    throw UsageError(
+        fmt::format("{}: the bones do not show the side of the body: --side left or right", proposed.femur));
+  }
+  const Side side = *proposed.joint.side;
+  const fs::path file = options.joint_file(side);
+  refuse_existing(file.parent_path(), "of another femur of that side");
+  if (proposed.of_labels) {
+    io::LabelJoint& joint = *proposed.of_labels;
+    for (fs::path* mesh : {&joint.fixed_mesh, &joint.mobile_mesh})
+      *mesh = file.parent_path() / mesh->filename();
+    write_proposal(joint, file);
+  } else {
+    note_to_fill_in(proposed.joint);
+    io::OutputFolder folder(file.parent_path());
+    io::write_output_file(folder.file("hip.toml"), proposed.joint.toml);
+    say_written(folder.commit());
+  }
+  return side;
+}
+
+void write_plan(const fs::path& folder, AnsweredHip& hip, const io::ReportRequest& request,
+                const io::ReportWords& words) {
+  const io::ReportAnswer answer =
+      with_progress([&](const Control& control) { return io::answer_report(hip.loaded, request, control); });
+  note_all(answer.plan->notes);
+  const io::ResectionResult result{hip.loaded.joint, *answer.plan, hip.notes, &hip.from,
+                                   &hip.loaded.report.file};
+  say_written(io::write_resection(folder / "plan", result));
+  io::write_report(folder / "planned.html", hip.loaded, request, answer, words);
+  say_written({folder / "planned.html"});
+}
+
+/// Limits with bands, shape, page and plan of one hip, beside its joint file.
+void answer_hip(const HipArguments& options, Side side, const CLI::App& command,
+                std::list<AnsweredHip>& answered) {
+  const fs::path folder = options.joint_file(side).parent_path();
+  const std::string whose = std::string(name_of(side)) + ": ";
+  io::LoadedJoint loaded = io::read_joint(options.joint_file(side));
+  io::Provenance from = io::provenance_of(loaded, words_of(command));
+  AnsweredHip hip{std::move(loaded), {}, std::move(from)};
+  hip.notes = noted(hip.loaded, Strictness::notes, whose);
+  io::ReportRequest request{.range = range_request_of(options.range, hip.loaded, Case(hip.loaded).motions()),
+                            .with_measures = true};
+  std::optional<ResectionRequest> plan;
+  if (!options.plan.empty()) {
+    plan.emplace().resection.targets = reach_targets(request.range.motions, options.plan);
+    plan->curve_points = 0;  // each costs a cut: condyle resect has them
+  }
+  hip.answer =
+      with_progress([&](const Control& control) { return io::answer_report(hip.loaded, request, control); });
+  answered.push_back(std::move(hip));
+  AnsweredHip& kept = answered.back();
+  const io::ReportWords words{.labels = options.words, .notes = kept.notes, .from = &kept.from};
+  if (const auto limits = kept.limits()) {
+    note_all(kept.answer.range.answer->notes, whose);
+    say_written(io::write_rom(folder / "limits", *limits));
+  } else {
+    note(fmt::format("{}no limits: {}", whose, kept.answer.range.why_none));
+  }
+  say_written(io::write_measures(folder / "measures",
+                                 {kept.loaded.joint, *kept.answer.measures, kept.notes, &kept.from}));
+  io::write_report(folder / "hip.html", kept.loaded, request, kept.answer, words);
+  say_written({folder / "hip.html"});
+  request.plan = std::move(plan);
+  if (request.plan) write_plan(folder, kept, request, words);
+}
+
+void check_out(const HipArguments& options) {
+  std::error_code ignored;
+  if (!fs::is_empty(options.out, ignored) || ignored) refuse_existing(options.out, "and is no empty folder");
+}
+
+void draw(const HipArguments& options) {
+  std::vector<std::string> words{options.out};
+  const auto add = [&](const char* option, const std::optional<std::string>& text) {
+    if (text) words.push_back(fmt::format("{}={}", option, *text));
+  };
+  add("--case", options.words.case_name);
+  add("--date", options.words.date);
+  add("--note", options.words.note);
+  if (const std::string why = draw_figures(words); !why.empty())
+    note(fmt::format("no figures and no sheet: {}; then python3 -m condyle.plot {} draws them", why,
+                     options.out));
+}
+
+void print_limits(const HipArguments& options, std::list<AnsweredHip>& hips) {
+  AnsweredHip *left = nullptr, *right = nullptr;
+  for (AnsweredHip& hip : hips)
+    if (hip.answer.range.answer) (hip.loaded.joint.side == Side::left ? left : right) = &hip;
+  if (left && right) {
+    const io::RomResult of_left = *left->limits(), of_right = *right->limits();
+    const fs::path table = fs::path(options.out) / "both.csv";
+    io::write_output_file(table, io::both_sides_csv(of_left, of_right));
+    say_written({table});
+    print(io::both_sides_text(of_left, of_right));
+  } else if (left || right) {
+    print(io::rom_text(*(left ? left : right)->limits()));
+  }
+}
+
+void hip_command(const HipArguments& options, const CLI::App& command) {
+  check_out(options);
+  io::refuse_unread_image(options.pelvis);
+  const bool of_labels = io::label_format_of(options.pelvis).has_value();
+  if (!of_labels) refuse_label_options(command, options.pelvis);
+  if (!of_labels && !(options.fixed_label + options.mobile_label).empty())
+    throw UsageError("--fixed, --mobile: are for label maps, and " + options.pelvis + " is none");
+  if (options.side && options.femora.size() > 1)
+    throw UsageError("--side: is for one femur: of two each is of its own side");
+  if (of_labels && options.units) throw UsageError("--units: surfaces of label maps are in mm");
+  std::list<Proposed> proposed = of_labels ? proposed_of_labels(options) : proposed_of_meshes(options);
+  std::list<AnsweredHip> answered;
+  std::exception_ptr refused;  // one hip without an answer does not keep the other from having one
+  for (Proposed& each : proposed) {
+    try {
+      answer_hip(options, write_joint(options, each), command, answered);
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const std::runtime_error&) {
+      if (refused) note(io::failure_of_current_exception().message);
+      if (!refused) refused = std::current_exception();
+    }
+  }
+  if (!answered.empty()) draw(options);
+  print_limits(options, answered);
+  if (refused) std::rethrow_exception(refused);
+}
+
+}  // namespace
+
+void add_hip(CLI::App& app) {
+  auto* command = app.add_subcommand(
+      "hip", "Answer for a patient: joint files, limits, shape, figures, a sheet and a page of each hip");
+  command->footer(
+      "Example: condyle sample hip --voxel 1.5 --out bones\n"
+      "         condyle hip bones/labels.nii.gz --task total --out patient\n"
+      "         condyle hip bones/hip_bone.ply bones/femur.ply --side right --plan \"fadir=+10\" --out "
+      "planned\n"
+      "Of a pelvis that holds both hip bones each femur has the half beside it. What was assumed is noted, "
+      "and stands in hip.toml. "
+      "Figures and sheets need Python with matplotlib.");
+  auto options = std::make_shared<HipArguments>();
+  options->range.band.samples = BandRequest{}.samples;
+  command
+      ->add_option(
+          "PELVIS", options->pelvis,
+          "The mesh of the pelvis or hip bone; or a label map, of both bones unless FEMUR is one too")
+      ->required();
+  command->add_option("FEMUR", options->femora, "The mesh of a femur, or of each; or label maps of them")
+      ->expected(0, 2);
+  command
+      ->add_option("--out", options->out, "Write a folder for each side into this one, which is new or empty")
+      ->required()
+      ->option_text("FOLDER");
+  command
+      ->add_option(
+          "--plan", options->plan,
+          "Plan the bone that must go for these motions to reach this far, as condyle resect --reach")
+      ->option_text("MOTION=DEG ...");
+  add_side(*command, options->side,
+           "Only this hip. Default: by the labels' names, else inferred from the bones");
+  add_choice(*command, "--units", options->units,
+             {{"mm", LengthUnit::millimetres},
+              {"cm", LengthUnit::centimetres},
+              {"in", LengthUnit::inches},
+              {"m", LengthUnit::metres}},
+             "The unit of the meshes. Default: inferred from their size");
+  command
+      ->add_option("--fixed", options->fixed_label,
+                   "The label of the pelvis or hip bone: its number, or its name. Default: by its name")
+      ->option_text("LABEL");
+  command->add_option("--mobile", options->mobile_label, "The label of the femur, or of both")
+      ->option_text("LABEL");
+  add_label_surface(*command, options->labels);
+  add_label_file(*command, options->labels);
+  command
+      ->add_option("--samples", options->range.band.samples,
+                   "Displaced joints of each band, from 5 to 95 % of them; 0 for limits without bands")
+      ->check(whole_number(0))
+      ->option_text("N (200)");
+  add_accept(*command, options->range);
+  command
+      ->add_option("--case", options->words.case_name,
+                   "Begin the headings with this: a number or a pseudonym")
+      ->option_text("TEXT");
+  command->add_option("--note", options->words.note, "Put this under the results")->option_text("TEXT");
+  command->add_option("--date", options->words.date, "Put this date into the headings")->option_text("TEXT");
+  std::vector<std::string> of_labels{"--fixed", "--mobile"};
+  for (const std::string& name : label_surface_names()) of_labels.push_back(name);
+  group_help(*command, {{"Most used", {"--out", "--plan", "--side", "--task"}},
+                        {"Question", {"--units", "--samples", "--accept-reference-contact"}},
+                        {"Label maps", of_labels},
+                        {"Images", label_file_names()},
+                        {"Output", {"--case", "--note", "--date", "--help"}}});
+  command->callback([options, command] { hip_command(*options, *command); });
+}
+
+}  // namespace condyle::cli

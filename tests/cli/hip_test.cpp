@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "command.hpp"
+#include "condyle/io/label_file.hpp"
+#include "io/file/whole_file.hpp"
+#include "io/image/write_labels.hpp"
+#include "support/temporary_folder.hpp"
+#include "whole_pelvis.hpp"
+
+namespace condyle::test {
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+/// A patient with two hips in one label map, islands beside them, and with one hip as meshes.
+class Patients : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scan = std::make_unique<TemporaryFolder>();
+    ASSERT_EQ(run_condyle(scan->path(), "sample hip --scenario 2 --voxel 2.5 --out .").exit_code, 0);
+    auto [grid, labels] = with_mirror_image(io::read_labels(scan->path() / "labels.nii.gz"));
+    const std::size_t island = 5000;
+    for (std::size_t v = island; v < island + 3; ++v) labels[v] = 77;
+    io::write_labels(scan->path() / "whole.nii.gz", grid, labels);
+    for (std::uint8_t& label : labels)
+      if (label != 0) label = label < 77 ? 2 : 1;
+    io::write_labels(scan->path() / "unnamed.nii.gz", grid, labels);
+  }
+  static void TearDownTestSuite() { scan.reset(); }
+
+  Ran run(const std::string& arguments) const { return run_condyle(scan->path(), arguments); }
+  std::string text(const fs::path& name) const { return io::read_whole_file(scan->path() / name); }
+  Json json(const fs::path& name) const { return Json::parse(text(name)); }
+  bool is_there(const fs::path& name) const { return fs::exists(scan->path() / name); }
+
+  static inline std::unique_ptr<TemporaryFolder> scan;
+};
+
+TEST_F(Patients, GetBothHipsOfALabelMap) {
+  const Ran ran = run("hip whole.nii.gz --task total --samples 0 --case \"Case 4\" --out patient");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  for (const std::string side : {"left", "right"}) {
+    EXPECT_NE(text("patient/" + side + "/hip.toml").find("side = '" + side + "'"), std::string::npos);
+    EXPECT_EQ(json("patient/" + side + "/limits/rom.json")["side"], side);
+    EXPECT_EQ(json("patient/" + side + "/measures/measures.json")["side"], side);
+    EXPECT_TRUE(is_there("patient/" + side + "/hip.html"));
+    // One command after another gives the same.
+    const Json alone = Json::parse(run("rom patient/" + side + "/hip.toml --json").out);
+    const Json in_folder = json("patient/" + side + "/limits/rom.json");
+    EXPECT_EQ(in_folder["motions"], alone["motions"]);
+    EXPECT_EQ(in_folder["caveats"], alone["caveats"]);
+    EXPECT_EQ(json("patient/" + side + "/measures/measures.json")["measures"],
+              Json::parse(run("measure patient/" + side + "/hip.toml --json").out)["measures"]);
+  }
+  // The left hip is the mirror image of the right one.
+  EXPECT_NE(ran.out.find("left (deg)"), std::string::npos) << ran.out;
+  EXPECT_NE(ran.out.find("left - right"), std::string::npos) << ran.out;
+  EXPECT_NE(ran.out.find("  flexion to extension "), std::string::npos) << ran.out;
+  EXPECT_NE(ran.out.find("zero is not known to be neutral"), std::string::npos) << ran.out;
+  const std::string table = text("patient/both.csv");
+  EXPECT_NE(table.find("motion,left_deg,left_p5_deg,left_p95_deg,right_deg,"), std::string::npos) << table;
+  const Json left = json("patient/left/limits/rom.json")["motions"],
+             right = json("patient/right/limits/rom.json")["motions"];
+  for (std::size_t i = 0; i < left.size(); ++i)
+    EXPECT_NEAR(left[i]["limit_deg"].get<double>(), right[i]["limit_deg"].get<double>(), 0.5)
+        << left[i]["name"];
+}
+
+TEST_F(Patients, HaveBothFemoraInOneLabel) {
+  const Ran ran = run("hip unnamed.nii.gz --fixed 1 --mobile 2 --samples 0 --out unnamed");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_NE(ran.err.find("label_2 is in 2 pieces: the one on the left is kept"), std::string::npos)
+      << ran.err;
+  EXPECT_EQ(json("unnamed/left/limits/rom.json")["side"], "left");
+  EXPECT_EQ(json("unnamed/right/limits/rom.json")["side"], "right");
+}
+
+TEST_F(Patients, OfMeshesHaveAPlanToo) {
+  const Ran ran =
+      run("hip hip_bone.ply femur.ply --side right --samples 0 --plan \"fadir=+5\" --out planned");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_FALSE(is_there("planned/left"));
+  EXPECT_FALSE(is_there("planned/both.csv"));
+  const Json plan = json("planned/right/plan/resection.json");
+  EXPECT_EQ(plan["targets"][0]["motion"], "fadir");
+  EXPECT_TRUE(is_there("planned/right/planned.html"));
+  EXPECT_TRUE(is_there("planned/right/plan/resected.toml"));
+  // The limits of one hip are printed as condyle rom prints them.
+  EXPECT_EQ(ran.out, run("rom planned/right/hip.toml").out);
+}
+
+TEST_F(Patients, ThatAreNotClearAreRefusedBeforeTheWork) {
+  expect_refusal(run("hip whole.nii.gz --out x"), 2, "no label is called a hip bone or pelvis", "no names");
+  expect_refusal(run("hip hip_bone.ply --out x"), 2, "FEMUR: the mesh of one femur is needed", "no femur");
+  expect_refusal(run("hip hip_bone.ply femur.ply --task total --out x"), 2, "--task: is for label maps",
+                 "task");
+  expect_refusal(run("hip hip_bone.ply femur.ply femur.ply --side right --out x"), 2,
+                 "--side: is for one femur", "side");
+  expect_refusal(run("hip hip_bone.ply femur.ply --side right --plan nonsense=3 --out y"), 2, "nonsense",
+                 "plan");
+  fs::create_directory(scan->path() / "full");
+  std::ofstream(scan->path() / "full" / "notes.txt") << "mine";
+  expect_refusal(run("hip hip_bone.ply femur.ply --out full"), 3, "is there already", "full");
+  EXPECT_FALSE(is_there("x"));
+}
+
+}  // namespace
+}  // namespace condyle::test
