@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "choice.hpp"
 #include "commands.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
@@ -23,6 +24,7 @@ namespace {
 
 struct SweepArguments : JointArguments {
   std::string vary, targets, shard;
+  BestDesign best_by = BestDesign::largest_margin;
   std::vector<std::string> measures;
   StudyLoadArguments load;
   RangeArguments range;
@@ -56,7 +58,8 @@ void sweep_command(const SweepArguments& options, const CLI::App& command) {
                                                     loaded.joint.kind, loaded.joint.anatomy),
                        .range = range.range,
                        .bands = range.bands,
-                       .share = share_of(options.shard)};
+                       .share = share_of(options.shard),
+                       .best_by = options.best_by};
   add_quantities(options, loaded, request);
   if (request.share.of > 1 && options.out.empty())
     throw UsageError("--shard: needs --out, where its results lie");
@@ -116,12 +119,18 @@ void add_sweep(CLI::App& app) {
       ->add_option(
           "--targets", options->targets,
           "A CSV file with a row for each motion that must be free: name, motion (or start and movement), "
-          "reach_deg, and pelvic_tilt_deg of the posture")
+          "reach_deg, pelvic_tilt_deg of the posture, and weight, by which its margin is divided where the "
+          "best "
+          "design is chosen")
       ->required()
       ->option_text("FILE");
   add_out(*command, options->out,
           "Write sweep.json, designs.csv, safe.csv and zone.vtp into this folder. python3 -m condyle.plot "
           "FOLDER draws them");
+  add_choice(*command, "--best", options->best_by,
+             {{"largest-margin", BestDesign::largest_margin}, {"least-change", BestDesign::least_change}},
+             "Call the design best that leaves most margin, or the safe one nearest to the joint as it is",
+             "largest-margin");
   command
       ->add_option("--shard", options->shard,
                    "Compute only part i of N of the designs, into FOLDER/shards. condyle merge puts the "
@@ -147,7 +156,7 @@ void add_sweep(CLI::App& app) {
   add_json(*command, options->form, "Print the answer as JSON, without the designs, which --out writes");
   add_strict(*command, options->strictness);
   group_help(*command, {{"Most used", {"--vary", "--targets", "--out", "--band", "--shard"}},
-                        {"Question", {"--set", "--measures", "--load", "--force", "--along"}},
+                        {"Question", {"--set", "--best", "--measures", "--load", "--force", "--along"}},
                         {"Contact",
                          {"--bearing", "--accept-reference-contact", "--e", "--nu", "--thickness", "--law",
                           "--casting", "--rule", "--reach"}},

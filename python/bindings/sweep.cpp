@@ -36,7 +36,7 @@ std::vector<plan::SweptParameter> parameters_in(const py::list& given) {
   return swept;
 }
 
-/// The path of a table, or (name, motion, reach_deg, pelvic_tilt_deg, source) of each.
+/// The path of a table, or (name, motion, reach_deg, pelvic_tilt_deg, source, weight) of each.
 std::vector<plan::SweepTarget> sweep_targets_in(const JointHandle& handle, const py::object& given) {
   const Joint& joint = handle.joint();
   if (py::isinstance<py::str>(given))
@@ -47,7 +47,7 @@ std::vector<plan::SweepTarget> sweep_targets_in(const JointHandle& handle, const
     const auto target = each.cast<py::tuple>();
     targets.push_back({target[0].cast<std::string>(), motion_in(target[1].cast<py::tuple>()),
                        Angle::degrees(target[2].cast<double>()), Angle::degrees(target[3].cast<double>()),
-                       target[4].cast<std::string>()});
+                       target[4].cast<std::string>(), target[5].cast<double>()});
   }
   return targets;
 }
@@ -80,6 +80,7 @@ py::list list_of(const std::vector<plan::SafeInterval>& safe) {
 py::dict sweep(const JointHandle& handle, const py::list& vary, const py::object& targets,
                const py::dict& given, const py::object& progress) {
   SweepRequest request{.parameters = parameters_in(vary), .targets = sweep_targets_in(handle, targets)};
+  if (options["least_change"].cast<bool>()) request.best_by = BestDesign::least_change;
   request.range.bearing = bearing_in(given);
   if (given["accept_reference_contact"].cast<bool>())
     request.range.overlap.reference_contact = motion::ReferenceContact::accept;
@@ -102,7 +103,7 @@ py::dict sweep(const JointHandle& handle, const py::list& vary, const py::object
   }
   for (const plan::SweepTarget& each : answer.targets)
     described.append(py::make_tuple(each.name, tuple_of(each.motion), io::given_degrees(each.reach),
-                                    io::given_degrees(each.pelvic_tilt), each.source));
+                                    io::given_degrees(each.pelvic_tilt), each.source, each.weight));
   for (const plan::EndingPair& each : answer.pairs) pairs.append(py::make_tuple(each.fixed, each.mobile));
   py::dict dict = dict_of_limits(answer.limits);
   dict["axes"] = axes;

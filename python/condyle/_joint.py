@@ -33,7 +33,8 @@ from ._resection import Reach, Resection, resection
 from ._recorded_motion import JointMotion, RecordedContact, recorded_contact
 from ._surface_contact import NormalContact, normal_contact
 from ._sweep import Sweep, TargetLike, sweep
-from ._words import Anatomy, Axes, Ball, BearingRule, Bodies, Body, BodyStyle, Cavities, ClockPlane, Colour, CupDefinition, CutFrom, DepthMethod, FaceRule, GapMethod
+from ._words import Anatomy, Axes, Ball, BearingRule, BestDesign, Bodies, Body, BodyStyle
+from ._words import Cavities, ClockPlane, Colour, CupDefinition, CutFrom, DepthMethod, FaceRule, GapMethod
 from ._words import ImplantCentre, JointKind, LabelTask, LengthUnit, Path, Pieces, PolygonRule, Progress, Side, TranslationFrame
 from ._words import count, number, path_of, progress_of, text_of, word
 
@@ -613,8 +614,8 @@ class Joint(DescribedJoint):
 
     def sweep(self, vary: Mapping[str, Sequence[float]], targets: Union[Path, Sequence[TargetLike]], *, band_samples: int = 0,
               seed: Optional[int] = None, measures: Sequence[str] = (), load: Optional[str] = None,
-              force_n: Optional[ArrayLike] = None, bearing: BearingRule = "leave_out", bearing_margin_mm: Optional[float] = None,
-              accept_reference_contact: bool = False, progress: Progress = None) -> Sweep:
+              force_n: Optional[ArrayLike] = None, best: BestDesign = "largest_margin", bearing: BearingRule = "leave_out",
+              bearing_margin_mm: Optional[float] = None, accept_reference_contact: bool = False, progress: Progress = None) -> Sweep:
         """Limits over values of one to four :attr:`parameters`, and the designs that leave every target motion free.
 
         Osseous and prosthetic: soft tissue is not modelled.
@@ -635,6 +636,9 @@ class Joint(DescribedJoint):
             A pose such as "flexion=30" ("" is the reference pose): contact pressure of each design there, with the layers of the joint file.
         force_n : (3,), optional
             With `load`: anterior, superior and lateral components of the force on the mobile body that the contact is to carry, in N.
+        best : {"largest_margin", "least_change"}
+            Which design is called the best: the one with the largest of the least margins, or the safe one with the fewest steps from the joint
+            as it is.
         bearing, bearing_margin_mm, accept_reference_contact :
             As :meth:`range_of_motion` takes them.
 
@@ -657,7 +661,7 @@ class Joint(DescribedJoint):
         >>> zone.safe_intervals[1].high_target
         'pivoting'
         """
-        return sweep(self, vary, targets, band_samples, seed, measures, load, force_n, bearing, bearing_margin_mm, accept_reference_contact, progress)
+        return sweep(self, vary, targets, band_samples, seed, measures, load, force_n, best, bearing, bearing_margin_mm, accept_reference_contact, progress)
 
     def with_mobile(self, mesh: MeshLike) -> Joint:
         """The joint with this mesh in the mobile body's place: the same bone after something was done to it, in the frame M of

@@ -17,7 +17,7 @@ from ._errors import UsageError
 from ._limits import REASONS
 from ._motion import Motion, MotionLike, Motions
 from ._native import Sweep as NativeSweep
-from ._words import BearingRule, LimitKnownBy, Path, Progress, band_of, number, path_of, progress_of, text_of, word
+from ._words import BearingRule, BestDesign, LimitKnownBy, Path, Progress, band_of, number, path_of, progress_of, text_of, word
 
 if TYPE_CHECKING:
     import xarray
@@ -31,7 +31,8 @@ class Target:
     """A motion that a design has to leave free.
 
     `motion` is a name that the joint knows, or a :class:`Motion`; `reach_deg` how far it must turn from its start, up to its
-    range; `pelvic_tilt_deg` the anterior tilt of the posture, of a hip; `source` where the angle comes from.
+    range; `pelvic_tilt_deg` the anterior tilt of the posture, of a hip; `source` where the angle comes from. To find the best design its
+    margin counts divided by `weight`.
     """
 
     name: str
@@ -39,6 +40,7 @@ class Target:
     reach_deg: float
     pelvic_tilt_deg: float = 0
     source: str = ""
+    weight: float = 1
 
 
 TargetLike = Union[Target, tuple[str, MotionLike, float], tuple[str, MotionLike, float, float]]
@@ -206,7 +208,8 @@ def _target_of(given: TargetLike, known: Motions) -> tuple[Any, ...]:
         given = Target(*given)
     name = text_of(given.name, "targets")
     return (name, known.tuple_of(known[given.motion]), number(given.reach_deg, f"target {name}: reach_deg"),
-            number(given.pelvic_tilt_deg, f"target {name}: pelvic_tilt_deg"), text_of(given.source, f"target {name}: source"))
+            number(given.pelvic_tilt_deg, f"target {name}: pelvic_tilt_deg"), text_of(given.source, f"target {name}: source"),
+            number(given.weight, f"target {name}: weight"))
 
 
 def _force_of(given: ArrayLike) -> list[float]:
@@ -224,7 +227,7 @@ def _design_of(values: Sequence[float], axes: Sequence[str], found: Mapping[str,
 
 def sweep(joint: DescribedJoint, vary: Mapping[str, Sequence[float]], targets: Union[Path, Sequence[TargetLike]],
           band_samples: int, seed: Optional[int], measures: Sequence[str], load: Optional[str],
-          force_n: Optional[ArrayLike], bearing: BearingRule, bearing_margin_mm: Optional[float],
+          force_n: Optional[ArrayLike], best: BestDesign, bearing: BearingRule, bearing_margin_mm: Optional[float],
           accept_reference_contact: bool, progress: Progress) -> Sweep:
     known = Motions(joint._native)
     asked: Union[str, list[tuple[Any, ...]]]
@@ -239,22 +242,23 @@ def sweep(joint: DescribedJoint, vary: Mapping[str, Sequence[float]], targets: U
         "load": None if load is None else text_of(load, "load"),
         "force_n": None if force_n is None else _force_of(force_n),
         "band": band_of(band_samples, seed),
+        "least_change": word(best, "best", BestDesign) == "least_change",
         "count_bearing": word(bearing, "bearing", BearingRule) == "count",
         "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm"),
         "accept_reference_contact": bool(accept_reference_contact)}
     found = _native.sweep(joint._asked, _axes_of(vary), asked, options, progress_of(progress))
     axes = dict(found["axes"])
     names, shape = list(axes), tuple(len(values) for values in axes.values())
-    resolved = tuple(Target(name, known.motion_of(motion), reach, tilt, source)
-                     for name, motion, reach, tilt, source in found["targets"])
+    resolved = tuple(Target(name, known.motion_of(motion), reach, tilt, source, weight)
+                     for name, motion, reach, tilt, source, weight in found["targets"])
     limits = {key: found[key].reshape(*shape, len(resolved)) for key in ("limits_deg", "reason", "known_by", "ended_by")}
     margin = found["margin_deg"].reshape(shape)
     width = len(found["quantity_names"])
     quantities = {name: found["quantities"][i::width].reshape(shape) for i, name in enumerate(found["quantity_names"])}
-    best: Optional[Design] = None
+    best_design: Optional[Design] = None
     if found["best"] is not None:
         at = np.unravel_index(found["best"], shape)
-        best = _design_of([axis[i] for axis, i in zip(axes.values(), at)], names,
+        best_design = _design_of([axis[i] for axis, i in zip(axes.values(), at)], names,
                           {key: values[at] for key, values in limits.items()}, float(margin[at]),
                           {name: float(values[at]) for name, values in quantities.items()})
     values, ends = found["here"]
@@ -275,5 +279,5 @@ def sweep(joint: DescribedJoint, vary: Mapping[str, Sequence[float]], targets: U
         axes, {name: joint.parameters[name].unit for name in names}, resolved, limits["limits_deg"], limits["reason"], limits["known_by"], limits["ended_by"],
         tuple(EndingPair(*each) for each in found["pairs"]), margin, margin >= 0,
         None if probability is None else probability.reshape(shape), quantities,
-        tuple(interval(*each) for each in found["safe_intervals"]), found["safe_measure"], found["window_measure"], best, here,
+        tuple(interval(*each) for each in found["safe_intervals"]), found["safe_measure"], found["window_measure"], best_design, here,
         remarked(found["notes"]), found["caveats"], found["sweep"])

@@ -62,6 +62,8 @@ void check_target(const plan::SweepTarget& target, const Joint& joint) {
                                        -measure::largest_pelvic_tilt_deg, measure::largest_pelvic_tilt_deg));
   if (target.pelvic_tilt.radians() != 0 && !joint.is_hip())
     throw UsageError(named + "a pelvic tilt is of a hip");
+  if (!(target.weight > 0))
+    throw UsageError(named + formatted("its weight is %g, must be above 0", target.weight));
 }
 
 /// Designs that differ in the last parameter only.
@@ -378,6 +380,7 @@ std::optional<SweepAnswer> answer_sweep(const Case& of, const SweepRequest& as_g
   motion::RangeOptions& range = request.range;
   range.overlap.reference_pose = of.placement.reference_pose.angles;
   SweepAnswer answer{request.parameters, request.targets, {}, request.share};
+  answer.best_by = request.best_by;
   const std::vector<std::string> names = names_of(request.parameters);
   for (const std::string& name : names) answer.here.push_back(parameter_named(joint, name).value);
   note_request(joint, answer);

@@ -71,14 +71,45 @@ double steps_from_here(const SweepAnswer& sweep, std::size_t design) {
   return steps;
 }
 
-/// The designs of the largest margin, as indices into the share.
-std::vector<std::size_t> best_designs(const SweepAnswer& sweep) {
-  std::vector<std::size_t> best;
+std::span<const plan::DesignLimit> limits_of(const SweepAnswer& sweep, std::size_t i) {
+  return std::span(sweep.limits).subspan(i * sweep.targets.size(), sweep.targets.size());
+}
+
+bool is_weighted(const SweepAnswer& sweep) {
+  return std::any_of(sweep.targets.begin(), sweep.targets.end(),
+                     [](const plan::SweepTarget& target) { return target.weight != 1; });
+}
+
+/// The least of a design's margins, each divided by its target's weight.
+double weighted_margin(const SweepAnswer& sweep, std::size_t i) {
+  if (!is_weighted(sweep) || std::isnan(sweep.margin_deg[i])) return sweep.margin_deg[i];
+  const std::span<const plan::DesignLimit> limits = limits_of(sweep, i);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < limits.size(); ++t)
+    least =
+        std::min(least, (limits[t].turned_deg - sweep.targets[t].reach.degrees()) / sweep.targets[t].weight);
+  return least;
+}
+
+/// The designs that are equally good, as indices into the share.
+struct Equals {
+  std::vector<std::size_t> designs = {};
+  double merit = 0;            ///< of each: a margin, or less than 0 the steps from the joint as it is
+  bool are_by_change = false;  ///< and not by their margin
+};
+
+Equals best_designs(const SweepAnswer& sweep) {
+  const auto is_safe = [](double margin) { return margin >= 0; };
+  Equals best{.are_by_change = sweep.best_by == BestDesign::least_change &&
+                               std::any_of(sweep.margin_deg.begin(), sweep.margin_deg.end(), is_safe)};
   for (std::size_t i = 0; i < sweep.designs(); ++i) {
     const double margin = sweep.margin_deg[i];
-    if (std::isnan(margin)) continue;
-    if (!best.empty() && margin > sweep.margin_deg[best.front()]) best.clear();
-    if (best.empty() || margin == sweep.margin_deg[best.front()]) best.push_back(i);
+    if (std::isnan(margin) || (best.are_by_change && !is_safe(margin))) continue;
+    const double merit =
+        best.are_by_change ? -steps_from_here(sweep, sweep.first_design + i) : weighted_margin(sweep, i);
+    if (!best.designs.empty() && merit > best.merit) best.designs.clear();
+    if (best.designs.empty()) best.merit = merit;
+    if (merit == best.merit) best.designs.push_back(i);
   }
   return best;
 }
@@ -92,10 +123,6 @@ void find_best(SweepAnswer& sweep, const std::vector<std::size_t>& equals) {
     return steps_from_here(sweep, sweep.first_design + a) < steps_from_here(sweep, sweep.first_design + b);
   });
   sweep.best = sweep.first_design + best;
-}
-
-std::span<const plan::DesignLimit> limits_of(const SweepAnswer& sweep, std::size_t i) {
-  return std::span(sweep.limits).subspan(i * sweep.targets.size(), sweep.targets.size());
 }
 
 /// What ends the target of the least margin in all of these designs; empty if it is not the same.
@@ -145,17 +172,24 @@ std::string safe_ends(const SweepAnswer& sweep) {
   return ends;
 }
 
-void note(SweepAnswer& sweep, const std::vector<std::size_t>& equals) {
+/// Of several designs that are equally good: by what, and which of them is called best.
+std::string shared_text(const SweepAnswer& sweep, const Equals& equals) {
+  const std::size_t count = equals.designs.size();
+  const std::string best = "; the best lies deepest in the zone";
+  if (equals.are_by_change) return formatted("%zu safe designs change the joint as little", count) + best;
+  return formatted("%zu designs share the largest %smargin, %.2f degrees", count,
+                   is_weighted(sweep) ? "weighted " : "", equals.merit) +
+         common_end(sweep, equals.designs) + best;
+}
+
+void note(SweepAnswer& sweep, const Equals& equals) {
   const auto add = [&](SweepNoteCode code, std::string text) {
     sweep.notes.push_back({code, std::move(text)});
   };
   const auto safe = static_cast<std::size_t>(std::count_if(sweep.margin_deg.begin(), sweep.margin_deg.end(),
                                                            [](double margin) { return margin >= 0; }));
   if (sweep.designs() == 0) return;  // of more shares than lines
-  if (equals.size() > 1)
-    add(SweepNoteCode::best_is_shared, formatted("%zu designs share the largest margin, %.2f degrees",
-                                                 equals.size(), sweep.margin_deg[equals.front()]) +
-                                           common_end(sweep, equals) + "; the best lies deepest in the zone");
+  if (equals.designs.size() > 1) add(SweepNoteCode::best_is_shared, shared_text(sweep, equals));
   if (safe == 0) return add(SweepNoteCode::nothing_is_safe, nothing_text(sweep));
   if (safe == sweep.designs())
     return add(SweepNoteCode::everything_is_safe,
@@ -198,13 +232,17 @@ std::size_t least_target(std::span<const plan::SweepTarget> targets,
 
 void summarise_sweep(SweepAnswer& sweep) {
   measure(sweep);
-  const std::vector<std::size_t> equals = best_designs(sweep);
-  find_best(sweep, equals);
+  const Equals equals = best_designs(sweep);
+  find_best(sweep, equals.designs);
   std::erase_if(sweep.notes, [](const SweepNote& each) { return !is_of_request(each.code); });
   note(sweep, equals);
 }
 
 }  // namespace answer
+
+std::string_view name_of(BestDesign by) noexcept {
+  return by == BestDesign::least_change ? "least_change" : "largest_margin";
+}
 
 std::string_view name_of(SweepNoteCode code) noexcept {
   switch (code) {

@@ -331,6 +331,39 @@ TEST(Sweep, OfEqualDesignsTheBestLiesDeepestAmongSafeOnesThenNearestToTheJoint) 
   }
 }
 
+TEST(Sweep, ByLeastChangeTheBestIsTheSafeDesignNearestToTheJoint) {
+  SweepAnswer sweep = plateau();
+  sweep.best_by = BestDesign::least_change;
+  sweep.here = {0.2, 4.4};
+  EXPECT_EQ(merged_sweep({&sweep, 1}).best, 3u) << "0, 3: the last safe value of b";
+  sweep.here = {2.5, 0};
+  const SweepAnswer shared = merged_sweep({&sweep, 1});
+  EXPECT_EQ(shared.notes.front().text,
+            "2 safe designs change the joint as little; the best lies deepest in the zone");
+  for (double& margin : sweep.margin_deg) margin = -1;
+  sweep.margin_deg[7] = -0.5;
+  EXPECT_EQ(merged_sweep({&sweep, 1}).best, 7u) << "without a safe design by the margin";
+}
+
+TEST(Sweep, DividesMarginsByTheWeightsOfTheirTargetsToFindTheBest) {
+  SweepAnswer sweep{.parameters = plan::parse_sweep("part.a=0:2:1"),
+                    .targets = {{.name = "sitting", .reach = Angle::degrees(100)},
+                                {.name = "pivoting", .reach = Angle::degrees(40)}},
+                    .pairs = {{"liner", "neck"}},
+                    .share = {}};
+  sweep.here = {0};
+  for (const double over : {2.0, 5.0, 8.0}) {
+    sweep.limits.push_back({100 + over, motion::LimitReason::contact});
+    sweep.limits.push_back({40 + 10 - over, motion::LimitReason::contact});
+    sweep.margin_deg.push_back(std::min(over, 10 - over));
+  }
+  EXPECT_EQ(merged_sweep({&sweep, 1}).best, 1u);
+  sweep.targets[0].weight = 5;  // 8 / 5 and 2 are more than 5 / 5 and 5
+  const SweepAnswer weighted = merged_sweep({&sweep, 1});
+  EXPECT_EQ(weighted.best, 2u);
+  EXPECT_EQ(weighted.margin_deg[2], 2) << "margins are as they were";
+}
+
 TEST(Sweep, OneBestDesignIsNotSaidToShareItsMargin) {
   SweepAnswer sweep = plateau();
   sweep.here = {2, 2};

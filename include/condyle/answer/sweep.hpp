@@ -35,6 +35,15 @@ struct SweepQuantities {
 [[nodiscard]] SweepQuantities measured_quantities(std::span<const std::string> keys,
                                                   const measure::MeasureOptions& request);
 
+/// Which design is called the best.
+enum class BestDesign : std::uint8_t {
+  largest_margin,  ///< The least of its margins, each divided by its target's weight, is the largest.
+  least_change,    ///< It is safe, with fewest steps from the joint as it is; by its margin if none is safe.
+};
+
+/// As in files: "largest_margin".
+[[nodiscard]] std::string_view name_of(BestDesign by) noexcept;
+
 /// Options of a request for a sweep, with their defaults.
 struct SweepRequest {
   std::vector<plan::SweptParameter> parameters = {};  ///< one to four; the last one changes fastest
@@ -45,6 +54,7 @@ struct SweepRequest {
   /// A joint is made anew for each design that has any: up to a second each.
   std::vector<SweepQuantities> quantities = {};
   SweepShare share = {};
+  BestDesign best_by = BestDesign::largest_margin;
 };
 
 enum class SweepNoteCode : std::uint8_t {
@@ -54,7 +64,7 @@ enum class SweepNoteCode : std::uint8_t {
   zone_leaves_window,  ///< Designs at the border of what was swept are safe: the zone goes on beyond.
   separate_intervals,  ///< Along some line the safe designs are not side by side.
   last_value_left_out,  ///< No whole number of steps leads to the last value of a parameter: the sweep ends before it.
-  best_is_shared,  ///< Several designs have the largest margin: what ends them all, and which of them is called best.
+  best_is_shared,  ///< Several designs are equally good: what ends them all, and which of them is called best.
   value_is_swept,  ///< A swept parameter has another value than the joint's description: it is that of the joint as it is only.
 };
 
@@ -90,7 +100,8 @@ struct SweepAnswer {
   /// Measures of what is safe, by the trapezoidal rule over the lines, and of the whole window; a share has its lines' part. In the product of
   /// the parameters' units.
   double safe_measure = 0, window_measure = 0;
-  /// The design of the largest margin; of equals the one with most steps to the next design that is not safe or not in the sweep, then the one
+  BestDesign best_by = BestDesign::largest_margin;
+  /// The best design; of equals the one with most steps to the next design that is not safe or not in the sweep, then the one
   /// with fewest steps from the joint as it is, then the first. Empty if all are in contact.
   std::optional<std::size_t> best = {};
   std::vector<double> here = {};                    ///< the values that the joint has of the swept parameters

@@ -55,6 +55,7 @@ plan::SweepTarget target_in(const Json& json, Anatomy anatomy) {
   target.motion.range = Angle::degrees(json.at("range_deg").get<double>());
   target.reach = Angle::degrees(json.at("reach_deg").get<double>());
   target.pelvic_tilt = Angle::degrees(json.at("pelvic_tilt_deg").get<double>());
+  target.weight = json.at("weight").get<double>();
   if (!json.at("source").is_null()) target.source = json.at("source").get<std::string>();
   return target;
 }
@@ -106,6 +107,8 @@ void read_document(const Json& json, SweepResult& result) {
   sweep.share = {json.at("share").at("number").get<std::size_t>(),
                  json.at("share").at("of").get<std::size_t>()};
   sweep.first_design = json.at("first_design").get<std::size_t>();
+  if (json.at("best_by").get<std::string>() == name_of(BestDesign::least_change))
+    sweep.best_by = BestDesign::least_change;
   for (const plan::SweptParameter& each : sweep.parameters)
     sweep.here.push_back(json.at("here").at("values").at(each.name).get<double>());
   for (const Json& each : json.at("here").at("limits")) {

@@ -166,6 +166,7 @@ Json target_json(const plan::SweepTarget& target, Anatomy anatomy) {
           {"start_deg", std::move(start)},
           {"range_deg", io::given_degrees(target.motion.range)},
           {"reach_deg", io::given_degrees(target.reach)},
+          {"weight", target.weight},
           {"pelvic_tilt_deg", io::given_degrees(target.pelvic_tilt)},
           {"source", target.source.empty() ? Json(nullptr) : Json(target.source)}};
 }
@@ -216,8 +217,9 @@ std::string sweep_text(const SweepResult& result) {
   text +=
       fmt::format("  here: {}: {}\n", values_text(sweep, sweep.here), margin_text(sweep, sweep.limits_here));
   if (sweep.best) {
-    text += fmt::format("  best: {}: {}", values_text(sweep, sweep.values_of(*sweep.best)),
-                        margin_text(sweep, limits_of(sweep, *sweep.best)));
+    text += fmt::format(
+        "  best{}: {}: {}", sweep.best_by == BestDesign::least_change ? ", of least change" : "",
+        values_text(sweep, sweep.values_of(*sweep.best)), margin_text(sweep, limits_of(sweep, *sweep.best)));
     if (!sweep.probability.empty())
       text += fmt::format(", {:.1f} % likely", 100 * sweep.probability[*sweep.best - sweep.first_design]);
     text += "\n";
@@ -278,6 +280,7 @@ Json sweep_object(const SweepResult& result) {
              {{"values", values_json(sweep, sweep.here)},
               {"quantities", quantities_json(sweep, sweep.quantities_here)},
               {"limits", limit_json(sweep, sweep.limits_here)}}},
+            {"best_by", name_of(sweep.best_by)},
             {"best", std::move(best)},
             {"ending_pairs", std::move(pairs)},
             {"quantities", sweep.quantity_names},

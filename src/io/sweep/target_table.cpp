@@ -19,8 +19,8 @@
 namespace condyle::io {
 namespace {
 
-constexpr std::string_view target_columns[] = {"name",      "motion",    "start",           "movement",
-                                               "reach_deg", "range_deg", "pelvic_tilt_deg", "source"};
+constexpr std::string_view target_columns[] = {
+    "name", "motion", "start", "movement", "reach_deg", "range_deg", "pelvic_tilt_deg", "weight", "source"};
 
 /// Default range of a motion with its own start.
 constexpr double usual_range_deg = 120;
@@ -120,6 +120,7 @@ plan::SweepTarget target_of(const TargetRow& row, std::span<const motion::Motion
     row.fail("reach_deg", fmt::format("{} must be above 0 and up to the motion's range, {:.10g}", *reach,
                                       target.motion.range.degrees()));
   target.pelvic_tilt = Angle::degrees(row.number("pelvic_tilt_deg").value_or(0));
+  target.weight = row.number("weight").value_or(1);
   target.source = row.text("source");
   return target;
 }
