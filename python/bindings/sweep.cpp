@@ -80,7 +80,7 @@ py::list list_of(const std::vector<plan::SafeInterval>& safe) {
 py::dict sweep(const JointHandle& handle, const py::list& vary, const py::object& targets,
                const py::dict& given, const py::object& progress) {
   SweepRequest request{.parameters = parameters_in(vary), .targets = sweep_targets_in(handle, targets)};
-  if (options["least_change"].cast<bool>()) request.best_by = BestDesign::least_change;
+  if (given["least_change"].cast<bool>()) request.best_by = BestDesign::least_change;
   request.range.bearing = bearing_in(given);
   if (given["accept_reference_contact"].cast<bool>())
     request.range.overlap.reference_contact = motion::ReferenceContact::accept;

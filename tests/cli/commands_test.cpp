@@ -179,7 +179,10 @@ TEST_F(Command, WhatIsNoJointFileIsNamedWithWhatTakesIt) {
   refused("model.osim", "<?xml version=\"1.0\"?>\n<OpenSimDocument Version=\"40000\"/>",
           "a model of OpenSim, not a joint file: condyle init model.osim --joint NAME --out joint.toml ");
   refused("model.xml", "<OpenSimDocument/>", "a model of OpenSim, not a joint file: ");
-  refused("page.html", "<html></html>", "XML, not a joint file: ");
+  refused("page.html", "<html></html>", "a page, not a joint file: condyle init ");
+  refused("some.xml", "<a></a>", "XML, not a joint file: ");
+  refused("rom.json", "{\"joint\": \"hip\"}", "JSON, not a joint file: an answer names the joint file ");
+  refused("hip.png", "\x89PNG\r\n", "a picture, not a joint file: ");
   refused("walk.mot", text, "a recorded motion, not a joint file: condyle motion JOINT --motion walk.mot ");
   refused("table.csv", "id,joint\n", "a table, not a joint file: condyle study takes ");
   refused("joint.toml", "PK\3\4", "compressed by zip, not a joint file: uncompress it first");

@@ -87,6 +87,32 @@ def test_a_table_is_read_as_the_command_reads_it(hip, zone, tmp_path):
     assert read.probability is None
 
 
+def test_the_best_design_is_by_weights_or_by_least_change_as_the_command_finds_it(hip, zone, by_command, command):
+    (by_command / "weighted.csv").write_text("name,motion,reach_deg,weight\nsitting,flexion,110,4\npivoting,external_rotation,40,\n")
+    targets = [condyle.Target("sitting", "flexion", 110, weight=4), ("pivoting", "external_rotation", 40)]
+    bests = {}
+    for best in ("largest_margin", "least_change"):
+        ran = subprocess.run([command, "sweep", by_command / "hip.toml", "--vary", "cup.inclination=30:50:10 cup.anteversion=-20:40:10", "--targets",
+                              by_command / "weighted.csv", "--best", best.replace("_", "-"), "--json"], capture_output=True, check=True)
+        said = json.loads(ran.stdout)
+        swept = hip.sweep(VARY, targets, best=best)
+        assert swept.best.values == said["best"]["values"] and said["best_by"] == best
+        assert [each["weight"] for each in said["targets"]] == [each.weight for each in swept.targets] == [4, 1]
+        bests[best] = swept
+    over = bests["largest_margin"].limits_deg - np.array([110, 40])
+    margins = np.minimum(over[..., 0] / 4, over[..., 1])
+    at = [list(axis).index(value) for axis, value in zip(zone.axes.values(), bests["largest_margin"].best.values.values())]
+    assert margins[tuple(at)] == np.nanmax(margins)
+    near = bests["least_change"]
+    assert near.best.margin_deg >= 0
+    steps = np.array([[abs(a - near.here.values["cup.inclination"]) / 10 + abs(b - near.here.values["cup.anteversion"]) / 10
+                       for b in zone.axes["cup.anteversion"]] for a in zone.axes["cup.inclination"]])
+    at = [list(axis).index(value) for axis, value in zip(zone.axes.values(), near.best.values.values())]
+    assert steps[tuple(at)] == steps[near.safe].min()
+    with pytest.raises(condyle.UsageError, match="weight"):
+        hip.sweep(VARY, [condyle.Target("sitting", "flexion", 110, weight=0)])
+
+
 def test_its_files_are_those_of_the_command_but_where_it_comes_from(zone, by_command, tmp_path):
     zone.write(tmp_path)
     for name in ("designs.csv", "safe.csv", "zone.vtp"):

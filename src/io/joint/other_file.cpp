@@ -39,6 +39,10 @@ std::string other_file(std::string_view bytes, const std::filesystem::path& path
     return is("a recorded motion", fmt::format("condyle motion JOINT --motion {} takes it", file));
   if (extension == ".csv")
     return is("a table", "condyle study takes a table of joints, condyle motion --motion a recorded motion");
+  if (extension == ".json")
+    return is("JSON", "an answer names the joint file that it is of, as provenance.joint_file");
+  if (start.starts_with("\x89PNG")) return is("a picture", of_meshes);
+  if (extension == ".html") return is("a page", of_meshes);
   if (const auto packer = packed_by(bytes); !packer.empty())
     return is(fmt::format("compressed by {}", packer), "uncompress it first");
   const std::size_t first = start.find_first_not_of(" \t\r\n");
