@@ -36,7 +36,7 @@ def needed_by(program: Path) -> list[str]:
 
 
 def newest_version_needed(prefix: str, programs: list[Path]) -> tuple[int, ...]:
-    """Newest version that versioned symbols require, such as 2.35 for GLIBC_2.35."""
+    """Newest version that versioned symbols require, such as 2.34 for GLIBC_2.34."""
     found = re.findall(rf"Name: {prefix}_([0-9.]+)", output_of("readelf", "--version-info", "--wide", *map(str, programs)))
     return max(tuple(map(int, number.split("."))) for number in found)
 

@@ -88,7 +88,7 @@ void take_stem(ImplantAnswer& answer, const std::optional<plan::ShaftLine>& shaf
   answer.of_bones.offset = answer.of_bones.offset && shaft.has_value();
   if (!answer.of_bones.offset) return;
   const Vec3 to_shaft = native("offset");
-  hip.offset_mm = hundredths(std::hypot(to_shaft.x(), to_shaft.z()));
+  hip.offset_mm = hundredths(core::hypotenuse(to_shaft.x(), to_shaft.z()));
 }
 
 void take_cup(ImplantAnswer& answer, Side side) {

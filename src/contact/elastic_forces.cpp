@@ -8,6 +8,7 @@
 #include "contact/elastic_parts.hpp"
 #include "core/coordinate_range.hpp"
 #include "core/cross_matrix.hpp"
+#include "core/trigonometry.hpp"
 
 /// docs/contact.md.
 
@@ -156,7 +157,7 @@ class CastForces {
     if (options_.friction > 0) {
       const Vec3 velocity = velocity_at(sample.point), sliding = velocity - velocity.dot(normal) * normal;
       const double slip = options_.slip_velocity_mm_s;
-      const Vec3 friction = -options_.friction * pressing / std::hypot(sliding.norm(), slip) * sliding;
+      const Vec3 friction = -options_.friction * pressing / core::hypotenuse(sliding.norm(), slip) * sliding;
       on_mobile += friction;
       out.friction_power -= friction.dot(sliding);
     }

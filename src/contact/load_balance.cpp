@@ -12,6 +12,7 @@
 #include "contact/elastic_parts.hpp"
 #include "core/coordinate_range.hpp"
 #include "core/formatted.hpp"
+#include "core/trigonometry.hpp"
 
 namespace condyle::contact {
 namespace {
@@ -120,7 +121,7 @@ class Search {
   }
   /// Rotations count by the force they take at this arm, mm: half a joint across.
   static double size_of(const Vector6& wrench) {
-    return std::hypot(wrench.head<3>().norm(), wrench.tail<3>().norm() / 20);
+    return core::hypotenuse(wrench.head<3>().norm(), wrench.tail<3>().norm() / 20);
   }
 
   bool is_small(const Vector6& residual) const {

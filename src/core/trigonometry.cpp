@@ -120,4 +120,11 @@ double arctangent(double y, double x) noexcept {
   return std::copysign(angle.high, y);
 }
 
+double hypotenuse(double x, double y) noexcept {
+  const double length = std::sqrt(x * x + y * y);
+  if (!(length > 0) || !std::isfinite(length)) return length;
+  const Pair missing = exact_product(x, x) + exact_product(y, y) - exact_product(length, length);
+  return length + missing.high / (2 * length);
+}
+
 }  // namespace condyle::core

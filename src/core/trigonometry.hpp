@@ -1,6 +1,6 @@
 #pragma once
 
-/// Sine, cosine and arctangent with the same bits everywhere. Those of C libraries are right to half a unit in the last place
+/// Sine, cosine, arctangent and hypotenuse with the same bits everywhere. Those of C libraries are right to half a unit in the last place
 /// and a little more, and which of two neighbours they give depends on the library, its version and the instruction set. These
 /// are made of sums, products and quotients of doubles in pairs alone. Their errors before the last rounding are at most 2^-67
 /// of them: all but one in 2^13, at worst, are the exact value, rounded once.
@@ -16,5 +16,8 @@ SineCosine sine_cosine(double radians) noexcept;
 
 /// The angle of (x, y) in [-pi, pi], as std::atan2 has it, signs of zeros included.
 double arctangent(double y, double x) noexcept;
+
+/// The length of (x, y), whose squares are in the range of doubles. That of the C library would ask for glibc 2.35.
+double hypotenuse(double x, double y) noexcept;
 
 }  // namespace condyle::core

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/trigonometry.hpp"
 #include "kinematics/hip_anatomy.hpp"
 
 namespace condyle::kinematics {
@@ -82,7 +83,7 @@ std::vector<ViewFromBelow> seen_from_below(const TriMesh& femur, const Sphere& h
 /// How far in front of an edge of their outline the points lie in its middle; infinite if none does.
 double notch_behind(const std::vector<ViewFromBelow>& points, const ViewFromBelow& a,
                     const ViewFromBelow& b) {
-  const double length = std::hypot(b.x - a.x, b.y - a.y);
+  const double length = core::hypotenuse(b.x - a.x, b.y - a.y);
   double least = std::numeric_limits<double>::infinity();
   for (const ViewFromBelow& p : points) {
     const double along = ((p.x - a.x) * (b.x - a.x) + (p.y - a.y) * (b.y - a.y)) / (length * length);
@@ -161,7 +162,7 @@ std::optional<CondylarLine> condylar_line(const TriMesh& femur, const Sphere& he
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const ViewFromBelow &a = outline[i], &b = outline[(i + 1) % outline.size()];
     // Counter-clockwise, so that outwards is (dy, -dx).
-    const double dx = b.x - a.x, length = std::hypot(dx, b.y - a.y);
+    const double dx = b.x - a.x, length = core::hypotenuse(dx, b.y - a.y);
     if (dx < least_back_facing * length || length <= longest) continue;
     longest = length, found = {a, b};
   }

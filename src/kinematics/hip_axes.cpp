@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/formatted.hpp"
+#include "core/trigonometry.hpp"
 
 namespace condyle::kinematics {
 namespace {
@@ -187,7 +188,7 @@ std::string vote_text(double vote) {
 /// Votes for a right hip: > 0.
 std::optional<Evidence> neck_vote(const Vec3& neck, const Horizon& seen) {
   const double front = neck.dot(seen.front), out = neck.dot(seen.out);
-  if (std::hypot(front, out) < least_horizontal) return std::nullopt;
+  if (core::hypotenuse(front, out) < least_horizontal) return std::nullopt;
   const double deg = -std::atan2(front, out) * 180 / std::numbers::pi, vote = deg / neck_margin_deg;
   return Evidence{
       vote,

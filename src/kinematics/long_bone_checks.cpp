@@ -7,6 +7,7 @@
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "core/trigonometry.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/knee_checks.hpp"
 #include "kinematics/surface_points.hpp"
@@ -141,7 +142,7 @@ double distance_to_bones(const Joint& joint, const Pose& X_FM) {
       mesh::closest_points(*mesh::tree_of(joint.fixed.mesh), *mesh::tree_of(joint.mobile.mesh), X_FM);
   if (!nearest) return 0;
   const Vec3 middle = (nearest->a_point + nearest->b_point) / 2;
-  return joint.kind == JointKind::hinge ? std::hypot(middle.x(), middle.y()) : middle.norm();
+  return joint.kind == JointKind::hinge ? core::hypotenuse(middle.x(), middle.y()) : middle.norm();
 }
 
 /// A whole femur: from its condyles to its head, and how far the head lies to the right of the line along the bone, mm. That line

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/formatted.hpp"
+#include "core/trigonometry.hpp"
 #include "measure/centre_edge.hpp"
 #include "measure/degree.hpp"
 #include "measure/rim.hpp"
@@ -18,10 +19,10 @@ namespace {
 void set_opening(const RimGeometry& rim, const Sphere& head, const BodyAxes& axes, AcetabulumMeasures& out) {
   const double front = rim.normal.dot(axes.anterior), up = rim.normal.dot(axes.superior),
                side = rim.normal.dot(axes.lateral);
-  out.inclination = measured(std::atan2(std::hypot(front, side), -up) / degree);
+  out.inclination = measured(std::atan2(core::hypotenuse(front, side), -up) / degree);
   out.version = measured(std::atan2(front, side) / degree);
   out.inclination_radiographic = measured(std::atan2(side, -up) / degree);
-  out.version_radiographic = measured(std::atan2(front, std::hypot(side, up)) / degree);
+  out.version_radiographic = measured(std::atan2(front, core::hypotenuse(side, up)) / degree);
   out.rim_radius = measured(rim.radius_mm);
   out.rim_height = measured((rim.centre - head.centre).dot(rim.normal));
 }

@@ -207,7 +207,7 @@ void check_design(const TotalHip& hip) {
     refuse("a trapezoid neck has both widths, neck_upper_width and neck_lower_width");
   if (hip.neck_upper_width_mm > 0) {
     const double farthest =
-        std::hypot(hip.neck_radius_mm, std::max(hip.neck_upper_width_mm, hip.neck_lower_width_mm) / 2);
+        core::hypotenuse(hip.neck_radius_mm, std::max(hip.neck_upper_width_mm, hip.neck_lower_width_mm) / 2);
     if (farthest + std::tan(hip.neck_taper.radians()) * hip.head_radius_mm >=
         hip.head_radius_mm - hip.clearance_mm)
       refuse(core::formatted(

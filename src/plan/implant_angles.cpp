@@ -45,7 +45,7 @@ CupAngles cup_angles(const Vec3& axis, CupDefinition definition, Side side) noex
     case CupDefinition::radiographic:
       return {between(c.z(), -c.y()), arc_sine(c.x()), definition};
     case CupDefinition::anatomic:
-      return {between(std::hypot(c.x(), c.z()), -c.y()), between(c.x(), c.z()), definition};
+      return {between(core::hypotenuse(c.x(), c.z()), -c.y()), between(c.x(), c.z()), definition};
     case CupDefinition::operative:
       break;
   }
@@ -66,7 +66,7 @@ Vec3 neck_axis(Angle neck_shaft, Angle version, Side side) noexcept {
 
 StemAngles stem_angles(const Vec3& axis, Side side) noexcept {
   const Vec3 n = on_side(axis, side);
-  return {between(std::hypot(n.x(), n.z()), n.y()), between(-n.x(), n.z())};
+  return {between(core::hypotenuse(n.x(), n.z()), n.y()), between(-n.x(), n.z())};
 }
 
 }  // namespace condyle::plan

@@ -41,7 +41,7 @@ double half_angle_of(const LinerShape& liner, double liner_share, const NeckShap
   const auto at = [&](double s) {
     const double along = face.inner_along + s * (face.outer_along - face.inner_along);
     const double beside = face.inner_beside + s * (face.outer_beside - face.inner_beside);
-    return core::arctangent(beside, along) - half_width(neck, neck_share, std::hypot(along, beside));
+    return core::arctangent(beside, along) - half_width(neck, neck_share, core::hypotenuse(along, beside));
   };
   constexpr int places = 64;
   int least = 0;
@@ -67,7 +67,7 @@ struct Course {
   /// Empty if it never does; 0 if it is below at the start.
   std::optional<double> first_below(double cosine) const noexcept {
     if (P + A < cosine) return 0;
-    const double swing = std::hypot(A, B);
+    const double swing = core::hypotenuse(A, B);
     if (P - swing >= cosine) return std::nullopt;
     // cos(t - middle) = q: free while |t - middle| <= arccos q, which holds t = 0.
     const double q = std::clamp((cosine - P) / swing, -1.0, 1.0);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/trigonometry.hpp"
+
 namespace condyle::plan {
 namespace {
 
@@ -19,7 +21,7 @@ std::optional<Interval> while_outside(const AxisFrame& axis, const Vec3& point, 
                                       double radius) {
   const Vec3 p = axis.to_axis(point), c = axis.to_axis(centre);
   const double constant = p.squaredNorm() + c.squaredNorm() - 2 * p.z() * c.z() - radius * radius,
-               swing = 2 * std::hypot(p.x(), p.y()) * std::hypot(c.x(), c.y());
+               swing = 2 * core::hypotenuse(p.x(), p.y()) * core::hypotenuse(c.x(), c.y());
   if (constant - swing > 0) return Interval{0, 2 * two_pi};
   if (constant + swing <= 0) return std::nullopt;
   const double nearest = std::atan2(c.y(), c.x()) - std::atan2(p.y(), p.x()), a = std::acos(constant / swing);

@@ -69,6 +69,21 @@ TEST(Trigonometry, ArctangentsAreTheExactOnesRoundedOnce) {
   }
 }
 
+TEST(Trigonometry, HypotenusesAreTheExactOnesRoundedOnce) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> coordinate(-1, 1), power(-60, 60);
+  Misrounded misrounded;
+  for (int i = 0; i < 20000; ++i) {
+    const double x = coordinate(random), y = std::exp2(power(random)) * coordinate(random);
+    misrounded.hold(hypotenuse(x, y), static_cast<Long>(sqrt(Long(x) * Long(x) + Long(y) * Long(y))));
+  }
+  EXPECT_EQ(hypotenuse(-3, 4), 5);
+  for (const double x : {0.0, -0.0, 1.0, -2.5, infinity})
+    for (const double y : {0.0, -0.0})
+      EXPECT_TRUE(same(hypotenuse(x, y), std::abs(x)) && same(hypotenuse(y, x), std::abs(x))) << x;
+  EXPECT_TRUE(std::isnan(hypotenuse(std::numeric_limits<double>::quiet_NaN(), 1)));
+}
+
 TEST(Trigonometry, ZerosInfinitiesAndWhatIsNoNumberAreAsInTheStandardLibrary) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double y : {0.0, -0.0, 1.0, -2.0, infinity, -infinity}) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The command and the Python module load few libraries, and none that reaches the network or draws: a program that is run for
-# every joint of a study starts often. Usage: few_libraries.sh HDF5_INSIDE COMMAND [MODULE]
+# every joint of a study starts often. They ask for no C library newer than 2.34. Usage: few_libraries.sh HDF5_INSIDE COMMAND [MODULE]
 set -euo pipefail
 inside=$1
 shift
@@ -15,6 +15,9 @@ for program in "$@"; do
   [ -z "$heavy" ] || fail "$program loads $(xargs <<<"$heavy")"
   count=$(wc -l <<<"$loaded")
   [ "$count" -le 15 ] || fail "$program loads $count libraries: $(xargs <<<"$loaded")"
+  # Clusters with a C library of 2021 can start it, as far as Debian 12 (glibc 2.36) can tell.
+  newest=$(objdump -T "$program" | grep -o 'GLIBC_2\.[0-9]*' | sort -uV | tail -1)
+  [[ $(getconf GNU_LIBC_VERSION) != *2.36 || ${newest#GLIBC_2.} -le 34 ]] || fail "$program needs $newest: 2.34 is the newest"
   # Another HDF5 of the same process (h5py's) and this one must not take each other's functions.
   if nm -D --defined-only "$program" | grep -E ' (H5|SZ_|aec_)[A-Za-z_]*$'; then fail "$program shows these to others"; fi
 done

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/trigonometry.hpp"
+
 /// Letters as strokes of one width, drawn with round ends. Centre lines of digits and tall letters reach from 0.05 to 0.95,
 /// those of small letters to 0.61.
 
@@ -197,7 +199,7 @@ void add_dot(TriMesh& mesh, Place at, double half_width) {
 }
 
 void add_line(TriMesh& mesh, Place from, Place to, double half_width) {
-  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  const double length = core::hypotenuse(to.x - from.x, to.y - from.y);
   if (!(length > 0)) return;
   const double across_x = -half_width * (to.y - from.y) / length,
                across_y = half_width * (to.x - from.x) / length;

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "condyle/range_of_motion.hpp"
+#include "core/trigonometry.hpp"
 
 namespace condyle::motion {
 
@@ -25,7 +26,8 @@ std::optional<ContactSide> contact_side(const Joint& joint, const MotionLimit& l
     return std::nullopt;
   const Vec3 from_centre = contact->fixed_point - limit.translation_mm.value_or(Vec3::Zero());
   const double x = from_centre.x(), y = from_centre.y();
-  if (!(std::hypot(x, y) >= least_aside * from_centre.norm()) || from_centre.isZero()) return std::nullopt;
+  if (!(core::hypotenuse(x, y) >= least_aside * from_centre.norm()) || from_centre.isZero())
+    return std::nullopt;
   if (std::abs(y) >= std::abs(x)) return y > 0 ? ContactSide::superior : ContactSide::inferior;
   return x > 0 ? ContactSide::anterior : ContactSide::posterior;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "condyle/error.hpp"
+#include "core/trigonometry.hpp"
 #include "motion/rom/overlap.hpp"
 #include "motion/search/path_clearance.hpp"
 
@@ -40,8 +41,8 @@ double largest_rotation(const JointAngles& from, const JointAngles& to) noexcept
   const auto change = [&](JointAngle angle) {
     return std::abs((angle_of(to, angle) - angle_of(from, angle)).radians());
   };
-  return std::hypot(change(JointAngle::adduction),
-                    change(JointAngle::flexion) + change(JointAngle::internal_rotation));
+  return core::hypotenuse(change(JointAngle::adduction),
+                          change(JointAngle::flexion) + change(JointAngle::internal_rotation));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/predicates.hpp"
+#include "core/trigonometry.hpp"
 #include "radial/exact/cell_dop.hpp"
 
 namespace condyle::radial {
@@ -159,12 +160,12 @@ struct DirectionBox {
         return n_s * s + n_t * p + up * std::sqrt(std::max(0.0, radius * radius - p * p));
       };
       best = std::max({best, at(low), at(high)});
-      const double reach = std::hypot(n_t, up);
+      const double reach = core::hypotenuse(n_t, up);
       if (up > 0 && reach > 0) best = std::max(best, at(std::clamp(radius * n_t / reach, low, high)));
     };
     for (const double s : {x.low, x.high}) side(n.x(), s, n.y(), y);
     for (const double s : {y.low, y.high}) side(n.y(), s, n.x(), x);
-    const double flat = std::hypot(n.x(), n.y());
+    const double flat = core::hypotenuse(n.x(), n.y());
     if (flat > 0 && holds(n.x() / flat, n.y() / flat)) best = std::max(best, flat);
     return best;
   }
