@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "io/file/environment.hpp"
+
 extern char** environ;
 
 namespace condyle::cli {
@@ -41,8 +43,8 @@ void look_beside_command() {
   std::error_code failed;
   const fs::path module = fs::read_symlink("/proc/self/exe", failed).parent_path() / "python";
   if (failed || !fs::exists(module / "condyle", failed)) return;
-  const char* before = std::getenv("PYTHONPATH");
-  const std::string path = module.string() + (before && *before ? std::string(":") + before : "");
+  const std::string before = io::environment_variable("PYTHONPATH").value_or("");
+  const std::string path = module.string() + (before.empty() ? "" : ":" + before);
   setenv("PYTHONPATH", path.c_str(), 1);
 }
 

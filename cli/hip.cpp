@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <list>
 #include <memory>
 #include <optional>
@@ -73,61 +74,66 @@ struct AnsweredHip {
   }
 };
 
+/// Proposes the joint of one femur.
+using Propose = std::function<Proposed()>;
+
 /// Both bones of each hip in one label map, or the pelvis in one and each femur in a map of its own.
-std::list<Proposed> proposed_of_labels(const HipArguments& options) {
-  const io::LabelMap map = io::read_labels(options.pelvis, options.labels.file);
-  const io::LabelBoneRequest any{.label = {}, .task = options.labels.task, .surface = options.labels.surface};
-  io::LabelJointRequest request{.labels = options.pelvis,
-                                .file = options.labels.file,
-                                .fixed = any,
-                                .mobile = any,
-                                .joint_file = options.joint_file(Side::left)};
-  std::list<Proposed> all;
-  const auto add = [&](const io::LabelMap* of_femur) {
-    auto joint = with_progress(
-        [&](const Control& control) { return io::propose_joint(map, of_femur, request, control); });
-    std::string femur = joint.mobile.name;
-    all.push_back({joint.proposal, std::move(joint), std::move(femur)});
+std::vector<Propose> joints_of_labels(const HipArguments& options) {
+  const auto map = std::make_shared<const io::LabelMap>(io::read_labels(options.pelvis, options.labels.file));
+  const auto joint = [&options, map](const io::LabelHip& hip, const std::string& femur) {
+    const auto bone = [&](const std::string& label) {
+      return io::LabelBoneRequest{label, options.labels.task, options.labels.surface};
+    };
+    io::LabelJointRequest request{.labels = options.pelvis,
+                                  .file = options.labels.file,
+                                  .fixed = bone(hip.fixed),
+                                  .mobile = bone(hip.mobile),
+                                  .joint_file = options.joint_file(Side::left),
+                                  .side = hip.side};
+    std::optional<io::LabelMap> of_femur;
+    if (!femur.empty()) {
+      request.mobile_labels = femur;
+      of_femur = io::read_labels(femur, options.labels.file);
+    }
+    auto found = with_progress([&](const Control& control) {
+      return io::propose_joint(*map, of_femur ? &*of_femur : nullptr, request, control);
+    });
+    return Proposed{found.proposal, found, found.mobile.name};
   };
-  request.fixed.label = options.fixed_label;
-  request.mobile.label = options.mobile_label;
-  request.side = options.side;
-  for (const std::string& femur : options.femora) {
-    const io::LabelMap of_femur = io::read_labels(femur, options.labels.file);
-    request.mobile_labels = femur;
-    add(&of_femur);
-  }
-  if (!options.femora.empty()) return all;
+  std::vector<Propose> joints;
+  for (const std::string& femur : options.femora)
+    joints.emplace_back([=, &options] {
+      return joint({options.fixed_label, options.mobile_label, options.side}, femur);
+    });
+  if (!joints.empty()) return joints;
   const io::HipLabels wanted{options.fixed_label, options.mobile_label, options.labels.task, options.side};
-  for (const io::LabelHip& hip : io::hips_in(map, options.pelvis, wanted)) {
-    request.fixed.label = hip.fixed;
-    request.mobile.label = hip.mobile;
-    request.side = hip.side;
-    add(nullptr);
-  }
-  return all;
+  for (const io::LabelHip& hip : io::hips_in(*map, options.pelvis, wanted))
+    joints.emplace_back([=] { return joint(hip, ""); });
+  return joints;
 }
 
-std::list<Proposed> proposed_of_meshes(const HipArguments& options) {
+std::vector<Propose> joints_of_meshes(const HipArguments& options) {
   if (options.femora.empty()) throw UsageError("FEMUR: the mesh of one femur is needed, or of both");
-  std::list<Proposed> all;
+  std::vector<Propose> joints;
   for (const std::string& femur : options.femora)
-    all.push_back({io::propose_joint(io::ProposalRequest{.fixed = options.pelvis,
-                                                         .mobile = femur,
-                                                         .joint_file = options.joint_file(Side::left),
-                                                         .side = options.side,
-                                                         .units = options.units,
-                                                         .anatomy = Anatomy::hip}),
-                   std::nullopt, femur});
-  return all;
+    joints.emplace_back([&options, femur] {
+      return Proposed{io::propose_joint(io::ProposalRequest{.fixed = options.pelvis,
+                                                            .mobile = femur,
+                                                            .joint_file = options.joint_file(Side::left),
+                                                            .side = options.side,
+                                                            .units = options.units,
+                                                            .anatomy = Anatomy::hip}),
+                      std::nullopt, femur};
+    });
+  return joints;
 }
 
 /// Writes a joint file and, of labels, its meshes; returns the side of the hip.
 Side write_joint(const HipArguments& options, Proposed& proposed) {
   if (!proposed.joint.side) {
     note_to_fill_in(proposed.joint);
-    throw UsageError(
-        fmt::format("{}: the bones do not show the side of the body: --side left or right", proposed.femur));
+    throw MeshError(fmt::format(
+        "{}: the bones do not show the side of the body, which condyle init leaves open", proposed.femur));
   }
   const Side side = *proposed.joint.side;
   const fs::path file = options.joint_file(side);
@@ -236,12 +242,12 @@ void hip_command(const HipArguments& options, const CLI::App& command) {
   if (options.side && options.femora.size() > 1)
     throw UsageError("--side: is for one femur: of two each is of its own side");
   if (of_labels && options.units) throw UsageError("--units: surfaces of label maps are in mm");
-  std::list<Proposed> proposed = of_labels ? proposed_of_labels(options) : proposed_of_meshes(options);
   std::list<AnsweredHip> answered;
   std::exception_ptr refused;  // one hip without an answer does not keep the other from having one
-  for (Proposed& each : proposed) {
+  for (const Propose& propose : of_labels ? joints_of_labels(options) : joints_of_meshes(options)) {
     try {
-      answer_hip(options, write_joint(options, each), command, answered);
+      Proposed proposed = propose();
+      answer_hip(options, write_joint(options, proposed), command, answered);
     } catch (const Interrupted&) {
       throw;
     } catch (const std::runtime_error&) {
@@ -260,9 +266,10 @@ void add_hip(CLI::App& app) {
   auto* command = app.add_subcommand(
       "hip", "Answer for a patient: joint files, limits, shape, figures, a sheet and a page of each hip");
   command->footer(
-      "Example: condyle sample hip --voxel 1.5 --out bones\n"
+      "Example: condyle sample hip --voxel 2 --out bones\n"
       "         condyle hip bones/labels.nii.gz --task total --out patient\n"
-      "         condyle hip bones/hip_bone.ply bones/femur.ply --side right --plan \"fadir=+10\" --out "
+      "         condyle hip bones/hip_bone.ply bones/femur.ply --side right --samples 40 --plan "
+      "\"fadir=+10\" --out "
       "planned\n"
       "Of a pelvis that holds both hip bones each femur has the half beside it. What was assumed is noted, "
       "and stands in hip.toml. "

@@ -123,7 +123,7 @@ TEST_F(Command, FrameAnswersInTextAndJson) {
 }
 
 TEST_F(Command, WrongUsageEndsWithTwo) {
-  expect_refused(2, "", "a command is needed: init, surface, inspect, frame");
+  expect_refused(2, "", "a command is needed: init, hip, surface, inspect, frame");
   expect_refused(2, "inspekt femur.ply", "unknown command 'inspekt'");
   expect_refused(2, "inspect", "MESH is required");
   expect_refused(2, "frame", "JOINT is required");

@@ -88,12 +88,12 @@ def test_a_table_is_read_as_the_command_reads_it(hip, zone, tmp_path):
 
 
 def test_the_best_design_is_by_weights_or_by_least_change_as_the_command_finds_it(hip, zone, by_command, command):
-    (by_command / "weighted.csv").write_text("name,motion,reach_deg,weight\nsitting,flexion,110,4\npivoting,external_rotation,40,\n")
+    (by_command.parent / "weighted.csv").write_text("name,motion,reach_deg,weight\nsitting,flexion,110,4\npivoting,external_rotation,40,\n")
     targets = [condyle.Target("sitting", "flexion", 110, weight=4), ("pivoting", "external_rotation", 40)]
     bests = {}
     for best in ("largest_margin", "least_change"):
-        ran = subprocess.run([command, "sweep", by_command / "hip.toml", "--vary", "cup.inclination=30:50:10 cup.anteversion=-20:40:10", "--targets",
-                              by_command / "weighted.csv", "--best", best.replace("_", "-"), "--json"], capture_output=True, check=True)
+        ran = subprocess.run([command, "sweep", by_command.parent / "hip.toml", "--vary", "cup.inclination=30:50:10 cup.anteversion=-20:40:10",
+                              "--targets", by_command.parent / "weighted.csv", "--best", best.replace("_", "-"), "--json"], capture_output=True, check=True)
         said = json.loads(ran.stdout)
         swept = hip.sweep(VARY, targets, best=best)
         assert swept.best.values == said["best"]["values"] and said["best_by"] == best
