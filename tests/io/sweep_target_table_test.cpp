@@ -77,7 +77,7 @@ TEST(TargetTable, IsRefusedWithFileLineAndColumnInOneLine) {
   expect(header, "has no target");
   expect("name,motion,reach\na,flexion,20\n",
          "line 1: there is no column 'reach'; there are name, motion, start, movement, reach_deg, range_deg, "
-         "pelvic_tilt_deg, source");
+         "pelvic_tilt_deg, weight, source");
   expect("name,name,reach_deg\na,a,20\n", "line 1: column 'name' is there twice");
   expect("name,motion\na,flexion\n", "line 1: there is no column reach_deg");
   expect("\n# note\nmotion,reach_deg\nflexion,20\n", "line 3: there is no column name");

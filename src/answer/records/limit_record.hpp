@@ -306,7 +306,8 @@ inline constexpr auto table<LimitRecord> = record(
           {"", "how far a healthy hip turns by the source; empty if zero is not known to be neutral",
            Tables::rom}),
     field("caveats", &LimitRecord::caveats,
-          "list of `code`, `text` and `source` each: [what usually ends such a motion](range-of-motion.md#caveats); "
+          "list of `code`, `text` and `source` each: [what usually ends such a "
+          "motion](range-of-motion.md#caveats); "
           "empty for joints other than hips"),
     column_of(FieldColumn{"caveats", "codes of what usually ends such a motion, with blanks between",
                           Tables::studies},
