@@ -62,19 +62,18 @@ std::string both_sides_text(const RomResult& left, const RomResult& right) {
     columns[2].cells.push_back(limit_words(right.answer, pair.right));
     columns[3].cells.push_back(difference ? difference_words(*difference) : "-");
   }
+  std::string arcs;
   for (const OppositeLimits& of_left : opposite_limits(left.answer.limits))
-    for (const OppositeLimits& of_right : opposite_limits(right.answer.limits)) {
-      if (of_left.one->motion.name != of_right.one->motion.name ||
-          of_left.other->motion.name != of_right.other->motion.name)
-        continue;
-      columns[0].cells.push_back(
-          fmt::format("{} to {}", of_left.one->motion.name, of_left.other->motion.name));
-      columns[1].cells.push_back(fmt::format("{:.1f}", of_left.arc().degrees()));
-      columns[2].cells.push_back(fmt::format("{:.1f}", of_right.arc().degrees()));
-      columns[3].cells.push_back(difference_words(of_left.arc().degrees() - of_right.arc().degrees()));
-    }
+    for (const OppositeLimits& of_right : opposite_limits(right.answer.limits))
+      if (of_left.one->motion.name == of_right.one->motion.name &&
+          of_left.other->motion.name == of_right.other->motion.name)
+        arcs += fmt::format("{} {} to {} {:.1f} and {:.1f} ({})", arcs.empty() ? "" : ",",
+                            of_left.one->motion.name, of_left.other->motion.name, of_left.arc().degrees(),
+                            of_right.arc().degrees(),
+                            difference_words(of_left.arc().degrees() - of_right.arc().degrees()));
   const bool are_neutral = zero_pose(left.joint).is_neutral() && zero_pose(right.joint).is_neutral();
   return table_text(columns) +
+         (arcs.empty() ? "" : wrapped(fmt::format("  total arcs (deg), left and right:{}\n", arcs))) +
          (are_neutral ? ""
                       : wrapped("  zero is not known to be neutral on both sides: how the legs lay is in the "
                                 "differences of single motions, and not in those of arcs\n")) +
