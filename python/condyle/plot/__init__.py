@@ -32,6 +32,7 @@ from .limit_bars import limits
 from .map_contours import motion_map
 from .motion_curves import curve, cycles, panels, table_of
 from .motion_grid import MotionGrid
+from .outliers import Outlier, outliers
 from .pressure_surface import pressure_map
 from .rim_clock import clock_face
 from .safe_zone import margins_along, safe_zone, safe_zones
@@ -42,6 +43,7 @@ __all__ = [
     "SINGLE_COLUMN_MM",
     "Flattened",
     "MotionGrid",
+    "Outlier",
     "ReadError",
     "Series",
     "about_centre",
@@ -61,6 +63,7 @@ __all__ = [
     "margins_along",
     "motion_map",
     "on_plane",
+    "outliers",
     "panels",
     "pressure_map",
     "print_style",
