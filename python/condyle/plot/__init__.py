@@ -25,6 +25,7 @@ from .agreement import Series, agreement, many_methods
 from .both_sides import both_sides
 from .case_sheet import sheet
 from .cohort import limit_against, limit_distributions
+from .contact_sheet import contact_sheet
 from .files import ReadError
 from .flatten import Flattened, about_centre, on_plane
 from .hip_shape import alpha_by_clock, centre_edge_by_clock, hip_shape
@@ -52,6 +53,7 @@ __all__ = [
     "both_sides",
     "centre_edge_by_clock",
     "clock_face",
+    "contact_sheet",
     "curve",
     "cycles",
     "files",

@@ -11,6 +11,7 @@ import matplotlib
 import matplotlib.pyplot as plt
 from matplotlib import patheffects as effects
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
@@ -167,8 +168,18 @@ def rendered(figure: Figure, format: str, dpi: float = 300) -> bytes:
     return stream.getvalue()
 
 
-def save(drawn: Union[Axes, Figure], path: Union[str, Path], dpi: float = 300) -> None:
-    """Writes the figure of these axes; the ending of the name is the format: .pdf, .svg or .png (`dpi` dots per inch).
+def rendered_pages(figures: Sequence[Figure], dpi: float = 300) -> bytes:
+    """A PDF with a page of each figure, without a date."""
+    stream = io.BytesIO()
+    with print_style(), PdfPages(stream, metadata={"CreationDate": None}) as pages:
+        for figure in figures:
+            pages.savefig(figure, dpi=dpi)
+    return stream.getvalue()
+
+
+def save(drawn: Union[Axes, Figure, Sequence[Figure]], path: Union[str, Path], dpi: float = 300) -> None:
+    """Writes the figure of these axes; the ending of the name is the format: .pdf, .svg or .png (`dpi` dots per inch). Several figures are pages
+    of one .pdf.
 
     Raises UsageError for another ending. The file appears whole or not at all.
     """
@@ -176,6 +187,10 @@ def save(drawn: Union[Axes, Figure], path: Union[str, Path], dpi: float = 300) -
     format = path.suffix[1:].lower()
     if format not in FORMATS:
         raise UsageError(f"{path}: figures are written as .pdf, .svg or .png")
+    if isinstance(drawn, Sequence):
+        if format != "pdf":
+            raise UsageError(f"{path}: several figures are written as .pdf")
+        return write_whole(path, rendered_pages(drawn, dpi))
     figure = drawn if isinstance(drawn, Figure) else drawn.figure
     write_whole(path, rendered(figure, format, dpi))
 
