@@ -226,15 +226,20 @@ def _fields_of(line: str) -> list[str]:
 
 def _table_of(texts: Mapping[str, str], name: str, folder: FilePath) -> StudyTable:
     dictionary = [row for row in _rows_of(texts["columns.csv"])[1:] if row[0] == name]
-    header, *rows = _rows_of(texts[f"{name}.csv"])
+    if any(len(row) != 5 for row in dictionary):
+        raise FileError(f"{folder / 'columns.csv'}: a column of {name}.csv has not 5 fields")
+    header, *rows = _rows_of(texts[f"{name}.csv"]) or [[]]
     if header != [column for _, column, *_ in dictionary] or any(len(row) != len(header) for row in rows):
         raise FileError(f"{folder / (name + '.csv')}: has other columns than columns.csv says")
     columns: dict[str, Column] = {}
     for i, (_, column, _, kind, _) in enumerate(dictionary):
         fields = [row[i] for row in rows]
-        # Objects: in an array of fixed length each text would be as long as the longest.
-        columns[column] = (np.array([_number(field) for field in fields], float) if kind == "number" else
-                           np.array(fields, object))
+        try:
+            # Objects: in an array of fixed length each text would be as long as the longest.
+            columns[column] = (np.array([_number(field) for field in fields], float) if kind == "number" else
+                               np.array(fields, object))
+        except ValueError:
+            raise FileError(f"{folder / (name + '.csv')}: column '{column}': a field is not a number") from None
     return StudyTable(columns, {row[1]: row[2] for row in dictionary}, {row[1]: row[4] for row in dictionary})
 
 
