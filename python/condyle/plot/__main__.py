@@ -10,9 +10,11 @@ import matplotlib
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
-from . import case_sheet, patient, style
+from . import case_sheet, patient, study_folder, style
+from .contact_sheet import MOST_JOINTS, contact_sheet
 from .files import ReadError
 from .folder import drawings
+from .outliers import outliers_csv
 from .pressure_surface import PROJECTIONS
 
 EXAMPLES = """\
@@ -20,6 +22,7 @@ examples:
   condyle rom hip.toml --band=40 --out range && python3 -m condyle.plot range
   condyle rom hip.toml --map flexion=0:120:10 adduction=-30:20:10 --out map && python3 -m condyle.plot map --format png
   condyle hip hips.nii.gz --out patient && python3 -m condyle.plot patient --case "Case 17"
+  condyle study hips.csv --measures --out study && python3 -m condyle.plot study --out figures
   condyle motion knee.toml --motion walk.mot --load --maps --out walk
   python3 -m condyle.plot walk --frames 0 20 40 --out figures
 a case on one page, of which python3 -m condyle.plot sheet --help says more; a folder of that name is ./sheet:
@@ -46,7 +49,9 @@ def _parser() -> argparse.ArgumentParser:
         description="Draws what condyle rom, condyle motion, condyle measure or condyle sweep left in a folder: limits or "
         "limit_bands, clock_face,\nmap_MOVEMENT and map_free_range; curves, cycle and pressure_map or depth_map; hip_shape; safe_zone "
         "and safe_probability.\nOf a patient's folder, as condyle hip leaves it, draws the figures of each side, sheet.pdf of each, and both: "
-        "how far both turn. Names what was written.")
+        "how far both turn.\nOf a study's folder, as condyle study leaves it, draws limit_distributions, limits_by_COLUMN and "
+        "limits_against_COLUMN for each column of the table,\nmeasure_distributions, contact_sheet.pdf of all joints, and writes outliers.csv. "
+        "Names what was written.")
     parser.add_argument("folder", metavar="FOLDER", type=Path, help="what was given to --out")
     parser.add_argument("--format", choices=("pdf", "svg", "png"), default="pdf",
                         help="vectors (pdf, svg) or 300 dots per inch (png); pdf if not said")
@@ -83,16 +88,34 @@ def _sheet_parser() -> argparse.ArgumentParser:
 
 def _figures(given: argparse.Namespace) -> Rendered:
     heading = _heading(given)
+    if study_folder.is_study(given.folder):
+        return _of_study(given)
     if patient.sides_of(given.folder):
         found, sheets = patient.figures_of(given.folder, given.frames, given.projection), patient.sheets_of(given.folder, heading)
     else:
         found, sheets = drawings(given.folder, given.frames, given.projection), []
-        if any(heading.values()):
-            _refuse(f"{given.folder}: --case, --date and --note stand on sheets, which only a patient's folder has, as condyle hip leaves it",
-                    WRONG_USAGE)
+        _refuse_heading(given)
     out = given.out or given.folder
     return [_rendered(out / f"{name}.{given.format}", draw, given.format) for name, draw in found] + \
         [_rendered(out / f"{name}.pdf", draw, "pdf", case_sheet.DPI) for name, draw in sheets]
+
+
+def _refuse_heading(given: argparse.Namespace) -> None:
+    if any(_heading(given).values()):
+        _refuse(f"{given.folder}: --case, --date and --note stand on sheets, which only a patient's folder has, as condyle hip leaves it", WRONG_USAGE)
+
+
+def _of_study(given: argparse.Namespace) -> Rendered:
+    study, out = study_folder.read(given.folder), given.out or given.folder
+    _refuse_heading(given)
+    if given.frames:
+        raise ReadError(f"{given.folder}: no curves.csv in it, so no frames to draw")
+    found = [_rendered(out / f"{name}.{given.format}", draw, given.format) for name, draw in study_folder.figures_of(study)]
+    found.append((out / "outliers.csv", outliers_csv(study).encode("utf-8", "surrogateescape")))
+    if study.hips.rows > MOST_JOINTS:
+        print(f"condyle: note: no contact_sheet.pdf: {study.hips.rows} joints, at most {MOST_JOINTS} stand on one", file=sys.stderr)
+        return found
+    return found + [(out / "contact_sheet.pdf", style.rendered_pages(contact_sheet(study, name=given.folder.resolve().name), case_sheet.DPI))]
 
 
 def _heading(given: argparse.Namespace) -> Dict[str, str]:

@@ -102,7 +102,7 @@ def limit_distributions(study: StudyLike, *, by: Optional[str] = None, motions: 
             for i, (_, rows) in enumerate(groups):
                 of = rows & (names == name)
                 if of.any():
-                    _spread(ax, row + (i - (len(groups) - 1) / 2) * between, spread_of(limits[of], reasons[of]), i,
+                    draw_spread(ax, row + (i - (len(groups) - 1) / 2) * between, spread_of(limits[of], reasons[of]), i,
                             between)
         ax.set_ylim(len(shown) - 0.5, -0.5)
         ax.set_yticks(range(len(shown)), [in_two_lines(motion_name(name)) for name in shown])
@@ -118,7 +118,8 @@ def limit_distributions(study: StudyLike, *, by: Optional[str] = None, motions: 
     return ax
 
 
-def _spread(ax: Axes, y: float, spread: Spread, group: int, height: float) -> None:
+def draw_spread(ax: Axes, y: float, spread: Spread, group: int, height: float) -> None:
+    """The line, bar and mark of `limit_distributions` at a height."""
     colour = style.CYCLE[group]
     ax.plot([spread.p5, spread.p95], [y, y], color=colour, linewidth=0.9, solid_capstyle="butt", gid="band")
     ax.barh(y, spread.third_quartile - spread.quartile, left=spread.quartile, height=0.55 * height, color=colour,

@@ -32,7 +32,7 @@ def drawings(folder: Path, frames: Optional[Sequence[int]] = None, projection: P
     found = found_in(folder, frames, projection)
     if not found:
         raise files.ReadError(f"{folder}: neither rom.json nor curves.csv nor sweep.json nor measures.json of a hip in it, "
-                              "nor left/limits/rom.json nor right/limits/rom.json")
+                              "nor left/limits/rom.json nor right/limits/rom.json nor study.json")
     return found
 
 
