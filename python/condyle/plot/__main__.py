@@ -102,7 +102,8 @@ def _figures(given: argparse.Namespace) -> Rendered:
 
 def _refuse_heading(given: argparse.Namespace) -> None:
     if any(_heading(given).values()):
-        _refuse(f"{given.folder}: --case, --date and --note stand on sheets, which only a patient's folder has, as condyle hip leaves it", WRONG_USAGE)
+        _refuse(f"{given.folder}: --case, --date and --note stand on sheets, which only a patient's folder has, as condyle hip leaves it",
+                WRONG_USAGE)
 
 
 def _of_study(given: argparse.Namespace) -> Rendered:

@@ -127,7 +127,8 @@ def _title(paper: Paper, left: float, top: float, joint: str, has_outlier: bool,
     text = wrapped(joint, 1e6, 1)[:1] or [""]
     name = text[0] + " *" * is_far
     paper.line(left, top, name, min(7.0, wide / width_mm(name or " ", 1, True)), bold=True, colour=style.VERMILION if is_far else style.BLACK)
-    said = [f"{axis_label(each.column.replace('measured_', '')).partition(' (')[0]} {_deviations(each)}" for each in sorted(others.values(), key=lambda each: -abs(each.deviations))]
+    names = {column: axis_label(column.replace("measured_", "", 1)).partition(" (")[0] for column in others}
+    said = [f"{names[each.column]} {_deviations(each)}" for each in sorted(others.values(), key=lambda each: -abs(each.deviations))]
     fitting = [said[:n] + [f"{len(said) - n} more"] * (n < len(said)) for n in range(len(said), 0, -1)]
     line = next((", ".join(each) for each in fitting if width_mm(", ".join(each), SMALL) <= wide), ", ".join(fitting[-1]) if said else "")
     if line:
@@ -141,7 +142,8 @@ def _around(paper: Paper, heading: str, shown: int, every: List[MotionEnd], same
     paper.line(EDGE_MM + NAMES_MM, TOP_MM + math.ceil(shown / ACROSS) * HIGH_MM - LOW_MM + 3.5, "turned from the start of the motion (°)", 7)
     handles = handles_of(every, None)
     handles.append(Line2D([], [], marker="|", color=style.BLACK, linestyle="none", markersize=6, label="median of all joints"))
-    handles.append(Line2D([], [], marker=(5, 2, 0), color=style.VERMILION, linestyle="none", label="outlier: robust standard deviations from the median"))
+    says = "outlier: robust standard deviations from the median"
+    handles.append(Line2D([], [], marker=(5, 2, 0), color=style.VERMILION, linestyle="none", label=says))
     paper.figure.legend(handles=handles, loc="upper center", ncol=4, fontsize=6, bbox_to_anchor=(0.5, (BOTTOM_MM - 6) / HEIGHT_MM), borderaxespad=0,
                         columnspacing=1.4)
     if same:

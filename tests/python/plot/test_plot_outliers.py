@@ -19,12 +19,14 @@ def table_of(columns: "dict[str, object]", units: "dict[str, str]", meanings: "d
 def study_of(limits: "dict[str, list[float]]", reasons: "dict[str, list[str]] | None" = None, **hips: "list[object]") -> Study:
     """Limits by motions and columns of hips, each a value per joint; joints are called a0, a1 and so on unless hips have an id."""
     n = len(next(iter(limits.values())))
-    columns = {"id": [f"a{i}" for i in range(n)], "table_row": list(range(1, n + 1)), "side": ["left", "right"] * (n // 2) + ["left"] * (n % 2), **hips}
-    by_joint = [(joint, name, limits[name][i], (reasons or {}).get(name, ["contact"] * n)[i]) for i, joint in enumerate(columns["id"]) for name in limits]
+    sides = ["left", "right"] * (n // 2) + ["left"] * (n % 2)
+    columns = {"id": [f"a{i}" for i in range(n)], "table_row": list(range(1, n + 1)), "side": sides, **hips}
+    ended = {name: (reasons or {}).get(name, ["contact"] * n) for name in limits}
+    by_joint = [(joint, name, limits[name][i], ended[name][i]) for i, joint in enumerate(columns["id"]) for name in limits]
     keys = ("id", "motion", "limit_deg", "reason")
     rows = {key: [row[k] for row in by_joint] for k, key in enumerate(keys)}
-    rows.update(contact_kind=["impingement" if reason == "contact" else "" for reason in rows["reason"]], bearing_contact_deg=[np.nan] * len(by_joint),
-                caveats=[""] * len(by_joint))
+    rows.update(contact_kind=["impingement" if reason == "contact" else "" for reason in rows["reason"]],
+                bearing_contact_deg=[np.nan] * len(by_joint), caveats=[""] * len(by_joint))
     units = {name: unit for name in hips for unit, end in (("deg", "_deg"), ("mm", "_mm"), ("h", "_hour")) if name.endswith(end)}
     meanings = {name: "from the table" for name in hips if not name.startswith("measured_")}
     return Study(table_of(rows, {"limit_deg": "deg"}, {}), table_of(columns, units, meanings), table_of({"id": []}, {}, {}), {})
@@ -95,7 +97,8 @@ def test_the_table_has_joints_in_their_order_numbers_to_the_last_bit_and_no_form
     assert outliers_csv(study).splitlines()[-1].startswith('"\'=1+1",flexion')
 
 
-@pytest.mark.parametrize("text", ["plain", "=1+1", "'=1", "-5", "-5e3", "-x", "+", "@a", "a\x1b[2J", "\\u001b", "\\", 'a"b', "a,b", "#a", "\u2028", ""])
+@pytest.mark.parametrize("text", ["plain", "=1+1", "'=1", "-5", "-5e3", "-x", "+", "@a", "a\x1b[2J", "\\u001b", "\\", 'a"b', "a,b", "#a", "\u2028",
+                                  ""])
 def test_a_field_is_read_as_it_was_written(text):
     field = csv_field(text)
     assert plain_field(next(csv.reader([f"{field},"]))[0]) == text

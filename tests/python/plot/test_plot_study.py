@@ -49,8 +49,8 @@ def some(n: int = 3, **hips: "list[object]") -> Study:
 
 def test_figures_are_by_texts_and_against_numbers_of_the_table_and_of_measures():
     study = some(9, age_years=[float(i) for i in range(9)], clinic=["a", "b", "$a"] * 3, surgeon=[f"s{i}" for i in range(9)], sex=[1.0] * 9,
-                 measured_alpha_3_deg=[50.0] * 9, measured_frame=["joint", "pelvis", "x"] * 3, measured_none_deg=[np.nan] * 9, alpha=[1.0, *[np.nan] * 8],
-                 **{"A/b": [1.0, 2.0, *[np.nan] * 7], "a:b": [1.0, 2.0, *[np.nan] * 7]})
+                 measured_alpha_3_deg=[50.0] * 9, measured_frame=["joint", "pelvis", "x"] * 3, measured_none_deg=[np.nan] * 9,
+                 alpha=[1.0, *[np.nan] * 8], **{"A/b": [1.0, 2.0, *[np.nan] * 7], "a:b": [1.0, 2.0, *[np.nan] * 7]})
     names = [name for name, _ in figures_of(study)]
     assert names == ["limit_distributions", "limits_by_side", "limits_against_age_years", "limits_by_clinic", "limits_against_A_b",
                      "limits_against_a_b_5", "measure_distributions"]
@@ -143,8 +143,8 @@ def test_what_the_command_writes_is_drawn(tmp_path, command, coarse_hip_file):
     """The writer is C++: a column that it renames is detected here."""
     rows = "".join(f"{name},{coarse_hip_file},{age},{sex}\n" for name, age, sex in (("b", 30, "f"), ("a", 40, "m")))
     (tmp_path / "hips.csv").write_text(f"id,joint,age,sex\n{rows}c,nothere.toml,50,f\n")
-    subprocess.run([command, "study", tmp_path / "hips.csv", "--motion", "flexion,fadir", "--measures", "--band=20", "--out", tmp_path / "out"], check=True,
-                   capture_output=True)
+    asked = ["--motion", "flexion,fadir", "--measures", "--band=20"]
+    subprocess.run([command, "study", tmp_path / "hips.csv", *asked, "--out", tmp_path / "out"], check=True, capture_output=True)
     study = read(tmp_path / "out")
     assert isinstance(study, condyle.Study)
     assert [name for name, _ in figures_of(study)] == ["limit_distributions", "limits_against_age", "limits_by_sex", "measure_distributions"]
