@@ -50,8 +50,8 @@ test("in contact there is a way on: the least turn that leaves it, pressed, leav
   await turnTo(page, { flexion: start[0], adduction: start[1], internal_rotation: start[2] });
   const way = page.locator("#exit:visible");
   await way.waitFor();
-  assert.match(await page.locator("#status-text").textContent(), /^In contact/);
-  await page.waitForFunction(() => /In contact · [\d.]+ mm, \d+ mm², \d+ mm³/.test(document.getElementById("status-text").textContent));
+  assert.match(await page.locator("#status-text").textContent(), /^Impinging/);
+  await page.waitForFunction(() => /Impinging · [\d.]+ mm, \d+ mm², \d+ mm³/.test(document.getElementById("status-text").textContent));
   let least = Infinity;
   for (const vary of [0, 1, 2])
     for (const [low, high] of await freeOf(page, start, vary)) least = Math.min(least, Math.abs(Math.min(high, Math.max(low, start[vary])) - start[vary]));
@@ -59,7 +59,7 @@ test("in contact there is a way on: the least turn that leaves it, pressed, leav
   assert.ok(Math.abs(Number(turn) - least) <= (least < 10 ? 0.051 : 0.51), `${turn} and not ${least}`);
   await way.click();
   await settled(page);
-  await page.waitForFunction(() => document.getElementById("status").dataset.state === "free");
+  await page.waitForFunction(() => document.getElementById("status").dataset.state === "limit");
   await page.getByRole("button", { name: "Undo" }).click();
   await settled(page);
   assert.equal(await angleOf(page, "flexion"), start[0]);

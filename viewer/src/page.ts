@@ -99,7 +99,7 @@ export class Page {
     this.scene = sceneOf(arrays, text.parts, words.sceneLabel(names.fixed, names.mobile));
     this.scene?.setJointRadius(text.rom?.bearing?.head?.radius_mm ?? null);
     this.motion = new MotionPanel(text, {
-      moved: (at) => this.moved(at), arrived: (motion) => this.arrived(motion), showStored: computes ? null : (name) => this.showStored(name),
+      moved: (at) => this.moved(at), arrived: (motion, requested) => this.arrived(motion, requested), showStored: computes ? null : (name) => this.showStored(name),
     });
     this.stored = report && !computes ? new StoredPoses(report, (name) => this.showStored(name)) : null;
     const motion = added.motion ?? (report && text.recorded && recordedOf(report, text.recorded));
@@ -322,8 +322,8 @@ export class Page {
   private takeTurned({ fixed: fixedBody, mobile }: Turned, rests: boolean): void {
     this.scene?.replaceBody("fixed", fixedBody);
     this.scene?.replaceBody("mobile", mobile);
-    this.scene?.leaveLimit();
-    this.strip.unmark();
+    this.motion.markEnd(null);
+    this.leaveLimit();
     if (!rests) return;
     this.bearingIsFound = true;
     this.ask(this.motion.coordinates);
@@ -361,7 +361,7 @@ export class Page {
     this.recolour();
     const motion = this.text.rom?.motions.find((known) => known.name === name) ?? null;
     this.motion.markEnd(motion);
-    if (motion) return this.arrived({ ...motion, contact_point_mm: pose.contact_point_mm });
+    if (motion) return this.arrived({ ...motion, contact_point_mm: pose.contact_point_mm }, true);
     this.scene?.leaveLimit();
     this.zones?.show(name);
   }
@@ -398,8 +398,9 @@ export class Page {
     return this.scene!.picture(`${headingOf(this.text)} · ${said}`);
   }
 
-  private arrived(motion: MotionAnswer): void {
-    this.scene?.arriveAt(motion.contact_point_mm, pinOf(motion, this.text), "mobile");
+  /// The camera turns to a limit that was requested, and stays at one that a pose happens to be.
+  private arrived(motion: MotionAnswer, requested: boolean): void {
+    this.scene?.arriveAt(motion.contact_point_mm, pinOf(motion, this.text), "mobile", requested ? "slowly" : "not");
     this.zones?.show(motion.name);
     this.strip.describe(motion);
   }
@@ -412,10 +413,14 @@ export class Page {
   private moved(at: Coordinates): void {
     this.clearance?.drop();
     this.ask(at);
-    this.scene?.leaveLimit();
-    this.strip.unmark();
+    this.leaveLimit();
     this.figures.map?.mark(at);
     this.address.remember();
+  }
+
+  private leaveLimit(): void {
+    this.scene?.leaveLimit();
+    this.strip.unmark();
   }
 
   private counts(): { fixed: [number, number]; mobile: [number, number] } {

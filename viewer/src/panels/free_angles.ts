@@ -15,7 +15,7 @@ export class FreeAngles {
 
   constructor(
     private readonly core: CoreClient, private readonly count: number,
-    private readonly report: (vary: number, at: Coordinates, intervals: Interval[]) => void) {}
+    private readonly report: (vary: number, at: Coordinates, intervals: Interval[] | null) => void) {}
 
   ask(at: Coordinates, X_FM: ArrayLike<number>): void {
     this.waiting = { at, held: [X_FM[3]!, X_FM[7]!, X_FM[11]!] };
@@ -31,7 +31,7 @@ export class FreeAngles {
         for (let vary = 0; vary < this.count; ++vary)
           this.report(vary, at, (await this.core.query({ of: "mapPoint", question: questionOf(at, held, vary), point: 0 })) as Interval[]);
       } catch {
-        // Without computable free angles a pose shows none.
+        this.report(0, at, null);
       }
     }
     this.isBusy = false;
@@ -44,11 +44,26 @@ function questionOf({ angles }: Coordinates, held: [number, number, number], var
   return { columnAngle, rowAngle, vary, columns: [angles[columnAngle]!], rows: [angles[rowAngle]!], held };
 }
 
-/// An end of a free interval is free itself, short of contact by less than this.
-const hair_deg = 1e-6;
+/// A pose so near the end of a free interval is at it: a field shows a tenth of a degree.
+export const near_deg = 0.05;
 
 export function intervalAt(intervals: readonly Interval[], deg: number): Interval | null {
-  return intervals.find(([low, high]) => low - hair_deg <= deg && deg <= high + hair_deg) ?? null;
+  return intervals.find(([low, high]) => low - near_deg <= deg && deg <= high + near_deg) ?? null;
+}
+
+/// A pose by the rule of the limits: free, at an end that contact makes, with contact that ends no motion, or with contact that does.
+export type PoseState = { is: "free" | "bearing" | "impinging" } | { is: "limit"; vary: number; isHigh: boolean };
+
+/// `free` are the intervals of each angle in this pose; `touches` if any triangles of the bodies meet.
+export function stateOf(free: readonly (readonly Interval[])[], angles: readonly number[], touches: boolean): PoseState {
+  const ends = free.flatMap((intervals, vary) => intervals.flatMap(([low, high, atLow, atHigh]) => [
+    { vary, isHigh: false, off_deg: atLow ? Math.abs(angles[vary]! - low) : Infinity },
+    { vary, isHigh: true, off_deg: atHigh ? Math.abs(angles[vary]! - high) : Infinity },
+  ]));
+  const [nearest] = ends.filter(({ off_deg }) => off_deg <= near_deg).sort((a, b) => a.off_deg - b.off_deg);
+  if (nearest) return { is: "limit", ...nearest };
+  if (free.some((intervals, vary) => !intervalAt(intervals, angles[vary]!))) return { is: "impinging" };
+  return { is: touches ? "bearing" : "free" };
 }
 
 /// The smallest rotation of this angle that leaves contact; null if none does.

@@ -5,15 +5,21 @@ import type { Interval, MotionAnswer, ReportText } from "../report";
 import { shownBand } from "../result";
 import { words } from "../words";
 import { NumberField } from "./angle_field";
-import { intervalAt, nearestExit } from "./free_angles";
+import { intervalAt, near_deg, nearestExit, stateOf, type PoseState } from "./free_angles";
 import { ManoeuvreGrid } from "./manoeuvres";
 import { StatusChip, type Exit } from "./status";
 import { placeOf } from "./strip";
 
-const usualRange_deg = 120, translationRange_mm = 20, farthest_deg = 180, mostUndone = 100;
+const usualRange_deg = 120, translationRange_mm = 20, mostUndone = 100;
+export const farthest_deg = 180;
 /// The steps of one drag are undone together.
 const gesture_ms = 800;
 const axes = ["x", "y", "z"] as const;
+
+/// From where to where the joint is shifted along an axis of which this is the place in the reference pose.
+export function shiftRange(reference_mm: number): [number, number] {
+  return [-translationRange_mm + Math.min(0, reference_mm), translationRange_mm + Math.max(0, reference_mm)];
+}
 
 interface Slider {
   name: string;
@@ -29,8 +35,8 @@ interface Slider {
 
 export interface MotionHooks {
   moved: (at: Coordinates) => void;
-  /// A requested motion has come to its end.
-  arrived: (motion: MotionAnswer) => void;
+  /// The joint is at the end of a motion: one that was requested, or the one that ends in this pose, wherever the pose came from.
+  arrived: (motion: MotionAnswer, requested: boolean) => void;
   /// For a page that cannot compute: the joint takes the poses that the report holds, by their names, and none in between.
   showStored: ((name: string) => void) | null;
 }
@@ -54,7 +60,10 @@ export class MotionPanel {
   private animation = 0;
   private rememberedAt = -Infinity;
   private isWarm = false;
-  private inContact = false;
+  /// Whether any triangles meet; null until it is known of this pose.
+  private touches: boolean | null = null;
+  /// Whether the core knows free intervals; else contact is all that a pose tells.
+  private hasIntervals = true;
   private clear_mm: number | null = null;
   private lastDepth: Depth | null = null;
   /// The motion at whose end the joint is.
@@ -116,7 +125,7 @@ export class MotionPanel {
       (name === motion.vary ? motion.at_limit_deg : motion.start_deg)[name] ?? 0);
     this.goTo(angles, () => {
       this.markEnd(motion);
-      this.hooks.arrived(motion);
+      this.hooks.arrived(motion, true);
     }, motion.translation_mm ?? this.report.rom?.held_translation_mm);
   }
 
@@ -153,24 +162,26 @@ export class MotionPanel {
     this.set(last.angles, last.translation);
   }
 
-  /// One of the report's poses, if the page cannot compute.
+  /// The motion at whose end the joint is; null for none.
   markEnd(motion: MotionAnswer | null): void {
     this.end = motion;
     this.grid?.mark(motion);
     this.drawStatus();
   }
 
-  setFree(vary: number, at: Coordinates, intervals: Interval[]): void {
+  /// Null: the core does not know them.
+  setFree(vary: number, at: Coordinates, intervals: Interval[] | null): void {
     // Intervals of another pose are dropped.
     if (at.angles.some((deg, i) => deg !== this.angles[i]) || at.translation.some((mm, i) => mm !== this.translation[i])) return;
     const slider = this.sliders[vary]!;
+    this.hasIntervals = intervals !== null;
     slider.free = intervals;
     this.drawTrack(slider, at.angles[vary]!);
-    this.drawExit();
+    this.drawStatus();
   }
 
   setClearance(at: Coordinates, clear_mm: number | null): void {
-    if (this.inContact || at.angles.some((deg, i) => deg !== this.angles[i])) return;
+    if (this.touches || at.angles.some((deg, i) => deg !== this.angles[i])) return;
     this.clear_mm = clear_mm;
     this.drawStatus();
   }
@@ -202,7 +213,8 @@ export class MotionPanel {
     // The depth of another pose is dropped.
     this.depth.textContent = "";
     this.lastDepth = null;
-    this.inContact = shown.inContact;
+    this.touches = shown.inContact;
+    for (const slider of this.sliders) slider.free = null;
     const fixedName = named(this.report.joint.fixed), mobile = named(this.report.joint.mobile);
     const inside = ([["mobile", mobile], ["fixed", fixedName]] as const)
       .filter(([key]) => shown.inside[key].count > 0)
@@ -220,26 +232,63 @@ export class MotionPanel {
 
   private hasMoved(): void {
     this.end = null;
+    this.touches = null;
+    this.refuse(null);
     this.clear_mm = null;
     for (const slider of this.sliders) slider.free = null;
     this.grid?.mark(null);
     this.hooks.moved(this.coordinates);
   }
 
+  /// By the rule of the limits; null until the intervals of all angles are known.
+  private stateHere(): PoseState | null {
+    const free = this.sliders.flatMap((slider) => (slider.free ? [slider.free] : []));
+    if (this.touches !== null && free.length === this.sliders.length) return stateOf(free, this.angles, this.touches);
+    return this.touches === null || this.hasIntervals ? null : { is: this.touches ? "impinging" : "free" };
+  }
+
   private drawStatus(): void {
-    if (this.inContact) {
-      this.status.inContact(this.lastDepth);
-      this.drawExit();
-    } else if (this.end && this.end.reason === "contact") {
-      this.status.atLimit(placeOf(this.end, this.report));
-    } else {
-      this.status.free(this.clear_mm);
+    const state = this.stateHere(), { rom, joint } = this.report;
+    if (state) this.findEnd(state);
+    if (this.end?.reason === "contact") return this.status.atLimit(placeOf(this.end, this.report));
+    // Until the intervals are known, what was said stays, unless nothing meets and no motion ends here.
+    if (!state && !this.hooks.showStored && (this.touches !== false || this.motionHere())) return;
+    if (!state || state.is === "free") return this.status.free(this.clear_mm);
+    if (state.is === "bearing") return this.status.bearing();
+    if (state.is === "limit") {
+      const { name, opposite } = this.report.coordinates[state.vary]!;
+      return this.status.atLimit(words.meshOn(named(joint.mobile), named(joint.fixed)), spaced(state.isHigh ? name : opposite));
     }
+    const { bearing } = rom ?? {}, knowsBearing = bearing?.rule === "leave_out" && !bearing.why_none;
+    this.status.inContact(knowsBearing ? words.impinging : words.inContact, this.lastDepth);
+    this.drawExit();
+  }
+
+  /// The motion that ends here, if the joint as it is ends there too: a part or a bone may have changed since the report.
+  private findEnd(state: PoseState): void {
+    const here = this.motionHere(), isBounded = this.report.rom?.exact === false;
+    const ends = here && (here.reason === "contact" && !isBounded ? state.is === "limit" : state.is !== "impinging");
+    const end = ends ? here : null;
+    if (end === this.end) return;
+    this.end = end;
+    this.grid?.mark(end);
+    if (end) this.hooks.arrived(end, false);
+  }
+
+  /// A motion of the report whose end this pose is.
+  private motionHere(): MotionAnswer | null {
+    const { rom, coordinates } = this.report;
+    const isHere = (motion: MotionAnswer) => {
+      const at = this.angles[coordinates.findIndex(({ name }) => name === motion.vary)]!, held = motion.translation_mm ?? rom?.held_translation_mm;
+      return motion.reason !== "contact_at_start" && this.startsHere(motion) && Math.abs(at - (motion.at_limit_deg[motion.vary] ?? NaN)) <= near_deg &&
+        (held ?? this.translation).every((mm, i) => Math.abs(mm - this.translation[i]!) < 1e-9);
+    };
+    return this.end && isHere(this.end) ? this.end : (rom?.motions.find(isHere) ?? null);
   }
 
   /// The smallest rotation of one angle that leaves contact, once the intervals of all angles are known.
   private drawExit(): void {
-    if (!this.inContact || this.sliders.some(({ free }) => free === null)) return;
+    if (this.sliders.some(({ free }) => free === null)) return;
     const exits = this.sliders.flatMap(({ free }, vary): Exit[] => {
       const exit = nearestExit(free!, this.angles[vary]!);
       return exit ? [{ vary, ...exit }] : [];
@@ -299,8 +348,7 @@ export class MotionPanel {
 
   private moveAlong(axis: (typeof axes)[number]): HTMLLabelElement {
     const i = axes.indexOf(axis);
-    const field = new NumberField(words.translation(axis), -translationRange_mm + Math.min(0, this.report.reference_mm[i]!),
-      translationRange_mm + Math.max(0, this.report.reference_mm[i]!), 0.1, " mm", this.hooks.showStored !== null, (value) => {
+    const field = new NumberField(words.translation(axis), ...shiftRange(this.report.reference_mm[i]!), 0.1, " mm", this.hooks.showStored !== null, (value) => {
         this.remember();
         this.translation[i] = value;
         this.hasMoved();
@@ -353,7 +401,7 @@ export class MotionPanel {
     slider.track.replaceChildren(...marks);
     const here = intervalAt(free, at), exit = here ? null : nearestExit(free, at);
     slider.readout.textContent = here ? words.free(`${fixed(here[0], 1)}°`, `${fixed(here[1], 1)}°`)
-      : exit ? words.contactFreeFrom(`${fixed(exit.to_deg, 1)}°`) : words.startsInContact;
+      : exit ? words.freeOnlyFrom(`${fixed(exit.to_deg, 1)}°`) : words.nowhereFree;
   }
 
   /// Whether a motion's other angles are those of the pose.

@@ -29,15 +29,21 @@ export class StatusChip {
     this.setExit(null, "");
   }
 
-  atLimit(place: string): void {
-    this.say("limit", words.atLimit(place));
+  /// `motion` if it is none of the report's.
+  atLimit(place: string, motion = ""): void {
+    this.say("limit", words.atLimit(place, motion));
     this.setExit(null, "");
   }
 
-  /// `depth` comes once the joint is idle.
-  inContact(depth: Depth | null): void {
+  bearing(): void {
+    this.say("bearing", words.bearingEndsNone);
+    this.setExit(null, "");
+  }
+
+  /// `how` names the contact; `depth` comes once the joint is idle.
+  inContact(how: string, depth: Depth | null): void {
     const area = depth && Math.max(depth.area_mm2.fixed ?? 0, depth.area_mm2.mobile ?? 0);
-    this.say("contact", [words.inContact, [
+    this.say("contact", [how, [
       ...(depth?.deepest ? [`${fixed(depth.deepest.depth_mm, 1)} mm`] : []), ...(area ? [`${fixed(area, 0)} mm²`] : []),
       ...(depth?.volume_mm3 ? [`${fixed(depth.volume_mm3, 0)} mm³`] : []),
     ].join(", ")].filter(Boolean).join(" · "));
@@ -49,7 +55,7 @@ export class StatusChip {
     this.out.style.visibility = exit ? "" : "hidden";
   }
 
-  private say(state: "free" | "limit" | "contact", text: string): void {
+  private say(state: "free" | "limit" | "bearing" | "contact", text: string): void {
     this.element.dataset["state"] = state;
     // A screen reader is not interrupted at every step of a slider.
     const now = performance.now();

@@ -43,7 +43,7 @@ async function pictureOf(
     scene.canvas.tabIndex = -1;
     scene.setJointRadius(radius_mm);
     scene.setPose(pose.pose);
-    scene.arriveAt(pose.contact_point_mm, label, "mobile", true);
+    scene.arriveAt(pose.contact_point_mm, label, "mobile", "at once");
     const blob = await scene.picture("");
     scene.canvas.getContext("webgl2")?.getExtension("WEBGL_lose_context")?.loseContext();
     return await dataUrlOf(blob);

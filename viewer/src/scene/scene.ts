@@ -137,15 +137,16 @@ export class JointScene {
   // -- a limit ----------------------------------------------------------------------------------------------------------------------
 
   /// Turns the camera to look along a contact from the side on which the joint is open, at the surface of `from`; the other bone becomes
-  /// glass, and a pin with a text stands at the point. Null: the motion's end has no contact point, and the camera stays. `atOnce`: the
-  /// camera does not move there, it is there.
-  arriveAt(point: readonly [number, number, number] | null, label: string, from: BodyName, atOnce = false): void {
+  /// glass, and a pin with a text stands at the point. Null: the motion's end has no contact point, and the camera stays. With `turns`
+  /// the camera moves there, is there, or stays.
+  arriveAt(point: readonly [number, number, number] | null, label: string, from: BodyName, turns: "slowly" | "at once" | "not" = "slowly"): void {
     this.leaveLimit();
     if (!point) return;
     this.limit = { point: new Vector3(...point), label, glass: otherThan(from) };
     this.showContactPoint(point);
     this.applyOpacities();
-    this.turnToLimit(atOnce);
+    if (turns !== "not") this.turnToLimit(turns === "at once");
+    this.draw();
   }
 
   /// The limit's pin and glass go; the camera stays.

@@ -1,0 +1,86 @@
+// What the page says of a pose: by the rule of the limits, wherever the pose came from.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { angleOf, openPage, pathOf, settled, sharedBrowser, tile, turnTo } from "./browser.mjs";
+import { readReport } from "./report_block.mjs";
+
+const browser = await sharedBrowser();
+const motionOf = (report, name) => readReport(pathOf(report)).text.rom.motions.find((motion) => motion.name === name);
+
+/// Waits until the page says this state of the pose; its words.
+async function saidOf(page, state) {
+  await page.waitForFunction((wanted) => document.getElementById("status").dataset.state === wanted, state);
+  return page.locator("#status-text").textContent();
+}
+
+const readoutOf = (page, i) => page.locator(".slider-readout").nth(i).textContent();
+
+test("contact in the socket ends no motion, and chip and sliders say so alike", async () => {
+  const { bearing_contact_deg, limit_deg } = motionOf("shifted", "flexion");
+  const { page } = await openPage(browser, pathOf("shifted"), { reducedMotion: "reduce" });
+  await turnTo(page, { flexion: (bearing_contact_deg + limit_deg) / 2 });
+  assert.equal(await saidOf(page, "bearing"), "Bearing contact, ends no motion");
+  assert.match(await page.locator("#answer").textContent(), /^In contact/);
+  assert.equal(await page.locator("#exit").isVisible(), false);
+  for (const i of [0, 1, 2]) assert.match(await readoutOf(page, i), /^free /);
+  await tile(page, "flexion").click();
+  assert.match(await saidOf(page, "limit"), /^At the limit, first contact: /);
+  assert.equal(await tile(page, "flexion").getAttribute("aria-current"), "true");
+  await turnTo(page, { flexion: limit_deg + 5 });
+  assert.match(await saidOf(page, "contact"), /^Impinging/);
+  assert.equal(await readoutOf(page, 0), `blocked, free from ${limit_deg.toFixed(1)}°`);
+  await page.context().close();
+});
+
+test("where bearing contact counts, contact that ends motions is not called impingement", async () => {
+  const { page } = await openPage(browser, pathOf("counted"));
+  await turnTo(page, { flexion: 140 });
+  assert.match(await saidOf(page, "contact"), /^In contact/);
+  await page.context().close();
+});
+
+/// The page says that the joint is at the end of flexion, as if that had been pressed.
+async function isAtFlexion(page, sentence) {
+  assert.match(await saidOf(page, "limit"), /^At the limit, first contact: femur on hip bone/);
+  await page.locator(".tile[aria-current]").waitFor();
+  assert.equal(await tile(page, "flexion").getAttribute("aria-current"), "true");
+  assert.equal(await page.locator("#sentence").textContent(), sentence);
+  assert.match(await page.locator(".scene-pin").textContent(), /femur on hip bone/);
+}
+
+test("the pose of a limit is that limit from a link, a field, undo or a copy, with pin and sentence", async () => {
+  const { page } = await openPage(browser, pathOf("sample"), { reducedMotion: "reduce" });
+  await settled(page);
+  await tile(page, "flexion").click();
+  const sentence = await page.locator("#sentence").textContent();
+  assert.match(sentence, /^Flexion ends at /);
+  await isAtFlexion(page, sentence);
+  await page.waitForFunction(() => location.hash.includes("flexion="));
+  const { hash } = new URL(page.url());
+  const link = await openPage(browser, pathOf("sample"), { fragment: hash });
+  await isAtFlexion(link.page, sentence);
+  await link.page.context().close();
+  await turnTo(page, { flexion: 20 });
+  await saidOf(page, "free");
+  assert.equal(await page.locator(".tile[aria-current]").count(), 0);
+  await page.getByRole("button", { name: "Undo" }).click();
+  assert.equal(await angleOf(page, "flexion"), motionOf("sample", "flexion").limit_deg);
+  await isAtFlexion(page, sentence);
+  const typed = await openPage(browser, pathOf("sample"));
+  await turnTo(typed.page, { flexion: motionOf("sample", "flexion").limit_deg.toFixed(1) });
+  await isAtFlexion(typed.page, sentence);
+  // Five hundredths of a degree are at the limit; more are not.
+  await turnTo(typed.page, { flexion: motionOf("sample", "flexion").limit_deg - 0.06 });
+  await saidOf(typed.page, "free");
+  await typed.page.context().close();
+  await page.context().close();
+});
+
+test("a limit that is none of the report's has its motion and bodies named", async () => {
+  const { page } = await openPage(browser, pathOf("sample"), { fragment: "#adduction=10&flexion=100", reducedMotion: "reduce" });
+  await settled(page);
+  const end = (await page.evaluate(() => condyle.query({ of: "limit", limit: { start: [100, 10, 0], vary: 2, positive: true, range_deg: 90 } }))).turned_deg;
+  await turnTo(page, { internal_rotation: end });
+  assert.equal(await saidOf(page, "limit"), "At the limit of internal rotation, first contact: femur on hip bone");
+  await page.context().close();
+});
