@@ -86,10 +86,16 @@ export async function drop(page, files) {
     await client.send("Input.dispatchDragEvent", { type, x: 300, y: 300, data: { items: [], files, dragOperationsMask: 1 } });
 }
 
+/// Types a number into a field, and finishes it.
+export async function type(field, value) {
+  await field.fill(String(value));
+  await field.press("Enter");
+}
+
 /// Turns the joint as typing into the fields does.
 export async function turnTo(page, angles) {
   for (const [name, degrees] of Object.entries(angles))
-    await page.getByRole("spinbutton", { name: `${name.replaceAll("_", " ")}, degrees`, exact: true }).fill(String(degrees));
+    await type(page.getByRole("spinbutton", { name: `${name.replaceAll("_", " ")}, degrees`, exact: true }), degrees);
   await settled(page);
 }
 

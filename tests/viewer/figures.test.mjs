@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { angleOf, has, keep, openPage, openTab, pathOf, settled, sharedBrowser, tile, turnTo } from "./browser.mjs";
+import { angleOf, has, keep, openPage, openTab, pathOf, settled, sharedBrowser, tile, turnTo, type } from "./browser.mjs";
 import { readReport, withText } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
@@ -72,15 +72,24 @@ test("what is typed and is no angle in the range is refused in words, and the jo
   await turnTo(page, { flexion: 30 });
   const field = page.getByRole("spinbutton", { name: "flexion, degrees", exact: true });
   for (const [typed, says] of [["500", /^500° is not between \u2212180° and 180°: ignored\.$/], ["", /Not a number/], ["far", /Not a number/]]) {
-    await field.fill(typed);
+    await type(field, typed);
     assert.match(await page.locator("#refusal").textContent(), says);
     assert.equal(await field.getAttribute("aria-invalid"), "true");
     assert.equal(await angleOf(page, "flexion"), 30);
     await field.blur();
     assert.equal(await field.inputValue(), "30.0");
-    assert.equal(await page.locator("#refusal").textContent(), "");
+    // The line is still there to be read.
+    assert.match(await page.locator("#refusal").textContent(), says);
   }
-  await field.fill("\u221212,5");
+  // Digit by digit as a hand types: no part of a number is taken.
+  await field.fill("");
+  await field.pressSequentially("500");
+  assert.equal(await angleOf(page, "flexion"), 30);
+  await field.press("Tab");
+  assert.match(await page.locator("#refusal").textContent(), /^500° is not between/);
+  assert.equal(await angleOf(page, "flexion"), 30);
+  await type(field, "\u221212,5");
+  assert.equal(await page.locator("#refusal").textContent(), "");
   assert.equal(await angleOf(page, "flexion"), -12.5);
   await field.blur();
   assert.equal(await field.inputValue(), "\u221212.5");

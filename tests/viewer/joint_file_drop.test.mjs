@@ -5,7 +5,7 @@ import { execFileSync } from "node:child_process";
 import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { angleOf, drop, keep, openPage, openTab, reports, root, settled, sharedBrowser } from "./browser.mjs";
+import { angleOf, drop, keep, openPage, openTab, reports, root, settled, sharedBrowser, type } from "./browser.mjs";
 import { assertCommandLimits } from "./command_limits.mjs";
 
 const condyle = join(root, "build/release/condyle");
@@ -75,7 +75,7 @@ test("the parts of a dropped joint turn, with the command's limits, and a motion
   await openTab(page, "Plan");
   await page.locator("summary", { hasText: "Turn the parts" }).click();
   const region = page.getByRole("region", { name: "Turn the parts", exact: true });
-  await region.getByRole("spinbutton", { name: "femur version, degrees", exact: true }).fill("10");
+  await type(region.getByRole("spinbutton", { name: "femur version, degrees", exact: true }), 10);
   await page.waitForFunction((element) => element.dataset.allAfter !== undefined, await region.elementHandle());
   await assertLimits(page, answer("rom", joint, "--set", "femur.version=10"));
   await drop(page, [sample("moves.csv")]);

@@ -5,7 +5,7 @@ import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { keep, openPage, openTab, panelsPlaced, pathOf, reports, root, settled, sharedBrowser } from "./browser.mjs";
+import { keep, openPage, openTab, panelsPlaced, pathOf, reports, root, settled, sharedBrowser, type } from "./browser.mjs";
 import { readReport } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
@@ -43,7 +43,7 @@ async function changed(page, act) {
 
 /// Types values into fields, one after the other.
 async function set(page, values) {
-  for (const [name, value] of Object.entries(values)) await changed(page, () => field(page, name).fill(String(value)));
+  for (const [name, value] of Object.entries(values)) await changed(page, () => type(field(page, name), value));
   await settled(page);
 }
 
@@ -148,7 +148,7 @@ test("what turned is seen where it was, as a ghost, which can be hidden", async 
 test("a value outside of its range is refused in one line, and nothing turns", async () => {
   const { page } = await opened("tilted");
   const { text } = readReport(pathOf("tilted"));
-  await field(page, "pelvis tilt, degrees").fill("20.5");
+  await type(field(page, "pelvis tilt, degrees"), 20.5);
   assert.equal(await panel(page).locator("[role=status]").textContent(), "20.5° is not between −20° and 20°: ignored.");
   assert.equal(await field(page, "pelvis tilt, degrees").getAttribute("aria-invalid"), "true");
   assert.equal(await field(page, "pelvis tilt, degrees").getAttribute("aria-valuenow"), "10");

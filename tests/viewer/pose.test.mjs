@@ -45,7 +45,7 @@ async function isAtFlexion(page, sentence) {
   await page.locator(".tile[aria-current]").waitFor();
   assert.equal(await tile(page, "flexion").getAttribute("aria-current"), "true");
   assert.equal(await page.locator("#sentence").textContent(), sentence);
-  assert.match(await page.locator(".scene-pin").textContent(), /femur on hip bone/);
+  assert.match(await page.locator("#scene .scene-pin").textContent(), /femur on hip bone/);
 }
 
 test("the pose of a limit is that limit from a link, a field, undo or a copy, with pin and sentence", async () => {

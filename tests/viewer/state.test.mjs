@@ -95,3 +95,14 @@ test("nonsense in the address is as if it were not there", async () => {
   await page.context().close();
   await plain.page.context().close();
 });
+
+test("the address is checked as a field is: what none would take is refused in a line, and the rest is applied", async () => {
+  const { page } = await openPage(browser, pathOf("sample"), { fragment: "#flexion=500&adduction=10&internal_rotation=1e9&x=9999" });
+  await settled(page);
+  const said = await page.locator("#messages").textContent();
+  for (const line of ["flexion=500 in the address: 500° is not between \u2212180° and 180°: ignored.", "internal_rotation=1e9 in the address: 1000000000° is not between",
+    "x=9999 in the address: The joint's centre is held: ignored."]) assert.ok(said.includes(line), said);
+  const values = await page.locator("#side input[role=spinbutton]").evaluateAll((fields) => fields.slice(0, 3).map((field) => field.getAttribute("aria-valuenow")));
+  assert.deepEqual(values, ["0", "10", "0"]);
+  await page.context().close();
+});

@@ -264,7 +264,8 @@ export class Page {
 
   /// The view in the address.
   private applyAddress(): void {
-    const { coordinates, values, display, zone, camera } = this.address.read();
+    const { coordinates, values, refused, display, zone, camera } = this.address.read();
+    if (refused.length) warn(refused.join(" "));
     if (camera && this.scene) this.scene.viewpoint = camera;
     this.display.apply(display);
     this.zones?.show(zone);

@@ -1,5 +1,10 @@
 import type { Coordinates } from "./core/protocol";
+import { shortened } from "./dom";
 import type { ReportText } from "./report";
+import { typed } from "./numbers";
+import { refusalOf } from "./panels/angle_field";
+import { farthest_deg, shiftRange } from "./panels/motion";
+import { words } from "./words";
 import { readViewState, writeViewState, type ViewState } from "./view_state";
 
 const translationNames = ["x", "y", "z"];
@@ -16,10 +21,22 @@ export class ViewAddress {
   /// Once `closed` is aborted, the address is that of another page.
   constructor(private readonly text: ReportText, private readonly view: () => View, private readonly closed: AbortSignal) {}
 
-  /// The view in the address; `values` are angles and translation, those of the reference pose unless the address gives others.
-  read(): ViewState & { values: number[] } {
-    const reference = this.referencePose(), state = readViewState(location.hash, Object.keys(reference));
-    return { ...state, values: Object.entries(reference).map(([name, value]) => state.coordinates[name] ?? value) };
+  /// The view in the address; `values` are angles and translation, those of the reference pose unless the address gives others that a field
+  /// would take. `refused` has a line for each that none would.
+  read(): ViewState & { values: number[]; refused: string[] } {
+    const fields = new URLSearchParams(location.hash.replace(/^#/, "")), refused: string[] = [], coordinates: Record<string, number> = {};
+    const reference = Object.entries(this.referencePose()), { joint, rom, recorded, recorded_motion: file } = this.text;
+    // Limits along a record, and frames, shift joints that are not free.
+    const isHeld = joint.kind !== "free" && recorded === null && file === undefined && rom?.exact !== false && !rom?.held_translation_mm;
+    for (const [name, value] of reference) {
+      const said = fields.get(name);
+      if (said === null) continue;
+      const isShift = translationNames.includes(name), range: [number, number] = isShift ? shiftRange(value) : [-farthest_deg, farthest_deg];
+      const why = isShift && isHeld ? words.centreIsHeld : refusalOf(said, ...range, isShift ? " mm" : "°");
+      if (why === null) coordinates[name] = typed(said)!;
+      else refused.push(words.inAddress(`${name}=${shortened(said, 20)}`, why));
+    }
+    return { ...readViewState(location.hash), coordinates, refused, values: reference.map(([name, value]) => coordinates[name] ?? value) };
   }
 
   /// Browsers refuse an address that changes at every frame.

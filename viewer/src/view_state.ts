@@ -26,24 +26,19 @@ export interface ViewState {
 
 const cameraNumbers = 6;
 
-export function readViewState(fragment: string, names: readonly string[]): ViewState {
+/// All but the coordinates, which are checked as fields are.
+export function readViewState(fragment: string): Omit<ViewState, "coordinates"> {
   const fields = new URLSearchParams(fragment.replace(/^#/, ""));
   const number = (text: string | null | undefined): number | null => {
     const value = Number.parseFloat(text ?? "");
     return Number.isFinite(value) ? value : null;
   };
-  const coordinates: Record<string, number> = {};
-  for (const name of names) {
-    const value = number(fields.get(name));
-    if (value !== null) coordinates[name] = value;
-  }
   const camera = (fields.get("camera") ?? "").split(",").map(Number);
   const [axis, at] = (fields.get("clip") ?? "").split(":");
   const clip: ClipAxis = axis === "x" || axis === "y" || axis === "z" ? axis : "none";
   const scale = number(fields.get("scale"));
   const opacity = (body: BodyName) => Math.min(1, Math.max(0.1, number(fields.get(`${body}_opacity`)) ?? 1));
   return {
-    coordinates,
     display: {
       colour: fields.get("colour"), scale: scale !== null && scale > 0 ? scale : null,
       hidden: (fields.get("hidden") ?? "").split(",").filter((name) => name !== ""),

@@ -16,10 +16,8 @@ export const farthest_deg = 180;
 const gesture_ms = 800;
 const axes = ["x", "y", "z"] as const;
 
-/// From where to where the joint is shifted along an axis of which this is the place in the reference pose.
-export function shiftRange(reference_mm: number): [number, number] {
-  return [-translationRange_mm + Math.min(0, reference_mm), translationRange_mm + Math.max(0, reference_mm)];
-}
+/// From where to where the joint is shifted along an axis, by its place there in the reference pose.
+export const shiftRange = (at_mm: number): [number, number] => [Math.min(0, at_mm) - translationRange_mm, Math.max(0, at_mm) + translationRange_mm];
 
 interface Slider {
   name: string;
@@ -60,10 +58,8 @@ export class MotionPanel {
   private animation = 0;
   private rememberedAt = -Infinity;
   private isWarm = false;
-  /// Whether any triangles meet; null until it is known of this pose.
-  private touches: boolean | null = null;
-  /// Whether the core knows free intervals; else contact is all that a pose tells.
-  private hasIntervals = true;
+  private touches: boolean | null = null;  // null until it is known of this pose
+  private hasIntervals = true;  // else contact is all that a pose tells
   private clear_mm: number | null = null;
   private lastDepth: Depth | null = null;
   /// The motion at whose end the joint is.
@@ -266,23 +262,19 @@ export class MotionPanel {
 
   /// The motion that ends here, if the joint as it is ends there too: a part or a bone may have changed since the report.
   private findEnd(state: PoseState): void {
-    const here = this.motionHere(), isBounded = this.report.rom?.exact === false;
-    const ends = here && (here.reason === "contact" && !isBounded ? state.is === "limit" : state.is !== "impinging");
-    const end = ends ? here : null;
+    const here = this.motionHere(), isSharp = here?.reason === "contact" && this.report.rom?.exact !== false;
+    const end = (isSharp ? state.is === "limit" : state.is !== "impinging") ? here : null;
     if (end === this.end) return;
-    this.end = end;
-    this.grid?.mark(end);
+    this.grid?.mark(this.end = end);
     if (end) this.hooks.arrived(end, false);
   }
 
   /// A motion of the report whose end this pose is.
   private motionHere(): MotionAnswer | null {
     const { rom, coordinates } = this.report;
-    const isHere = (motion: MotionAnswer) => {
-      const at = this.angles[coordinates.findIndex(({ name }) => name === motion.vary)]!, held = motion.translation_mm ?? rom?.held_translation_mm;
-      return motion.reason !== "contact_at_start" && this.startsHere(motion) && Math.abs(at - (motion.at_limit_deg[motion.vary] ?? NaN)) <= near_deg &&
-        (held ?? this.translation).every((mm, i) => Math.abs(mm - this.translation[i]!) < 1e-9);
-    };
+    const isHere = (motion: MotionAnswer) => motion.reason !== "contact_at_start" && this.startsHere(motion) &&
+      Math.abs(this.angles[coordinates.findIndex(({ name }) => name === motion.vary)]! - motion.at_limit_deg[motion.vary]!) <= near_deg &&
+      (motion.translation_mm ?? rom?.held_translation_mm ?? this.translation).every((mm, i) => Math.abs(mm - this.translation[i]!) < 1e-9);
     return this.end && isHere(this.end) ? this.end : (rom?.motions.find(isHere) ?? null);
   }
 
