@@ -46,7 +46,7 @@ export const words = {
   closeHelp: "Close",
   /// About sixty words, to fit on one card.
   helpText:
-    "The strip shows where motions end, with a 90 % band and the normal range. Press a figure and the joint goes there. Drag the bones to turn " +
+    "The strip shows where motions end, with a 90 % band and the clinical range. Press a figure and the joint goes there. Drag the bones to turn " +
     "them, the sliders to move the joint: dark bars are free, pale ones blocked. Figures has the map and the clock face, Details the method " +
     "and files. Only bone is computed: soft tissue usually stops a hip earlier. Undo goes one step back.",
   keys: [
@@ -68,12 +68,11 @@ export const words = {
   stopFrames: (frame: number, of: number) => `Stop: frame ${frame} of ${of}`,
   result: "Result",
   footer: "Research software, not a medical device. Nothing leaves this computer.",
-  normalIs: (deg: string) => `normal ${deg}°`,
+  clinicalIs: (deg: string) => `clinical ${deg}°`,
   short: (lacks: string, normal: string) => `${lacks}° short of ${normal}°`,
-  lacks: (lacks: string, normal: string) => `${lacks}° short of normal (${normal}°)`,
-  beyond: (more: string, normal: string) => `${more}° beyond normal (${normal}°)`,
-  noNormal: "no normal range known",
-  notFromNeutral: "not compared with normal, as zero is not known to be neutral",
+  lacks: (lacks: string, clinical: string) => `${lacks}° short of the clinical range (${clinical}°)`,
+  noClinical: "no clinical range known",
+  notFromNeutral: "not compared with the clinical range, as zero is not known to be neutral",
   neckOnRim: "neck on rim",
   atHour: (meets: string, hour: string) => `${meets} at ${hour}`,
   awayFromRim: "away from the rim",
@@ -88,9 +87,11 @@ export const words = {
   startsInContactSentence: (name: string) => `${name} starts in contact.`,
   noLimitsInContact: "The surfaces are in contact at the start of every motion, so no motion has a limit.",
   noted: (count: number) => (count === 1 ? "1 note from the checks:" : `${count} notes from the checks:`),
+  remarks: (count: number) => (count === 1 ? "1 remark on how exact the limits are" : `${count} remarks on how exact the limits are`),
+  wrongSentence: (note: string) => `Set up wrongly, no number holds: ${note}.`,
   readNotes: "Read",
-  tileKey: "Bar: limit; band: 5 to 95 %; line: normal. Press to go there.",
-  tileKeyNoBand: "Bar: limit; line: normal. No band was asked for: condyle report --band.",
+  tileKey: "Bar: limit; band: 5 to 95 %; line: clinical. Press to go there.",
+  tileKeyNoBand: "Bar: limit; line: clinical. No band was asked for: condyle report --band.",
   saveLimits: "Save limits, CSV",
   isFree: "Free",
   freeClear: (mm: string) => `Free · ${mm} mm clear`,
@@ -233,11 +234,12 @@ export const words = {
 
   limits: "Limits",
   limitsCaption:
-    "How far each motion goes before bone meets bone. Bar: the limit; whisker: 5 to 95 % of its band; line: normal range.",
+    "How far each motion goes before bone meets bone. Bar: the limit; whisker: 5 to 95 % of its band; line: clinical range.",
   over: (limit: string) => `>${limit}`,
   bandOf: (low: string, high: string) => `(${low}–${high})`,
   limit: "limit",
   normal: "normal range",
+  clinical: "clinical range",
   bearingContact: "bearing contact",
   reason: "ends by",
   endsBy: (reason: string, kind: string) => `${reason} (${kind})`,
@@ -474,7 +476,7 @@ export const words = {
   bearingHead: (mm: string) => `Sphere fitted to the head: radius ${mm} mm.`,
   bearingSocket: (mm: string) => `Sphere fitted to the socket: radius ${mm} mm.`,
   bearingMargin: (mm: string) => `The bearing surface reaches ${mm} mm outside the head's sphere.`,
-  normalFrom: (source: string) => `Normal ranges: ${source}.`,
+  normalFrom: (source: string) => `Clinical ranges: ${source}.`,
   zeroAt: (where: string) => `Angles count from: ${where}.`,
   vertices: "vertices",
   triangles: "triangles",

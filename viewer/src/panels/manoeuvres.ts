@@ -8,11 +8,11 @@ import { roving } from "../roving";
 
 const columns = 4;
 
-/// How much a motion lacks, or the normal range.
+/// How much a motion lacks of its clinical range, or that range.
 export function normalText(motion: MotionAnswer): string {
   const lacks = deficitOf(motion);
   if (motion.normal_range_deg === null) return "";
-  return lacks === null ? words.normalIs(motion.normal_range_deg.toFixed(0)) : words.short(lacks.toFixed(0), motion.normal_range_deg.toFixed(0));
+  return lacks === null ? words.clinicalIs(motion.normal_range_deg.toFixed(0)) : words.short(lacks.toFixed(0), motion.normal_range_deg.toFixed(0));
 }
 
 /// Every motion with where it ends, as a grid to press: the table of limits.

@@ -81,7 +81,7 @@ function endOf(motion: MotionAnswer, joint: ReportText["joint"]): string {
 
 function limitsTable({ motions }: RomAnswer, joint: ReportText["joint"]): HTMLElement {
   return table(
-    ["", words.limit, words.band, words.reason, words.bearingContact, words.normal, words.errorBound],
+    ["", words.limit, words.band, words.reason, words.bearingContact, words.clinical, words.errorBound],
     motions.map((motion) => {
       const band = shownBand(motion);
       return [

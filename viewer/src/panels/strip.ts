@@ -2,7 +2,7 @@ import { button, html, named, shortened, spaced } from "../dom";
 import { clockTime, fixed } from "../numbers";
 import { nowOf, plannedOf } from "../planned";
 import type { MotionAnswer, ReportText } from "../report";
-import { bandText, deficitOf, differenceOf, differenceText, firstFigures, limitAlone, limitText, headlineMotion } from "../result";
+import { bandText, deficitOf, differenceOf, differenceText, firstFigures, limitAlone, limitText, headlineMotion, worstOf } from "../result";
 import { motionName, words } from "../words";
 import { normalText } from "./manoeuvres";
 
@@ -42,15 +42,16 @@ function sentenceOnEnd(motion: MotionAnswer, report: ReportText): string {
   if (motion.reason === "contact_at_start") return words.startsInContactSentence(name);
   if (motion.translation_ends) return words.translationSentence(name, limitAlone(motion));
   if (motion.reason === "end_of_range") return words.freeSentence(name, fixed(motion.limit_deg, 0));
-  return words.endsSentence(name, limitText(motion), nowOf(report, motion), againstNormal(motion, report), placeOf(motion, report));
+  return words.endsSentence(name, limitText(motion), nowOf(report, motion), againstClinical(motion, report), placeOf(motion, report));
 }
 
-/// How far a limit is short of the normal range or beyond it; null for joints without normal ranges.
-function againstNormal(motion: MotionAnswer, { rom }: ReportText): string | null {
-  const { normal_range_deg: normal, limit_deg } = motion, lacks = deficitOf(motion);
-  if (normal === null && rom?.zero?.is_neutral === false) return words.notFromNeutral;
-  if (normal === null) return rom?.motions.some(({ normal_range_deg }) => normal_range_deg !== null) ? words.noNormal : null;
-  return lacks === null ? words.beyond(fixed(limit_deg - normal, 0), fixed(normal, 0)) : words.lacks(fixed(lacks, 0), fixed(normal, 0));
+/// How far a limit is short of the clinical range. Soft tissue ends motions that bone leaves free: no limit is beyond that range, and a joint
+/// none of whose limits is short of it is not compared.
+function againstClinical(motion: MotionAnswer, { rom }: ReportText): string | null {
+  const { normal_range_deg: clinical } = motion, lacks = deficitOf(motion);
+  if (clinical === null && rom?.zero?.is_neutral === false) return words.notFromNeutral;
+  if (clinical === null) return worstOf(rom?.motions ?? []) ? words.noClinical : null;
+  return lacks === null ? null : words.lacks(fixed(lacks, 0), fixed(clinical, 0));
 }
 
 function capital(text: string): string {

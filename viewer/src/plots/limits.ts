@@ -79,7 +79,7 @@ export function limitsDrawing(motions: readonly MotionAnswer[], go: ((motion: Mo
       row.append(svg("line", {
         x1: x(motion.normal_range_deg), x2: x(motion.normal_range_deg), y1: y + 2, y2: y + rowHeight - 2, class: "normal",
       }));
-    row.append(svg("title", {}, `${name}: ${limitText(motion)}${motion.normal_range_deg === null ? "" : `; ${words.normalIs(fixed(motion.normal_range_deg, 0))}`}`));
+    row.append(svg("title", {}, `${name}: ${limitText(motion)}${motion.normal_range_deg === null ? "" : `; ${words.clinicalIs(fixed(motion.normal_range_deg, 0))}`}`));
     picture.append(pressable(row, `${words.goThere(name)}: ${limitText(motion)}`, go && (() => go(motion))));
   });
   return { name: "limits", caption: words.limitsCaption, picture, data: () => limitRows(motions) };
