@@ -30,6 +30,7 @@ import { drawWorst } from "./panels/worst_picture";
 import { ZonePanel } from "./panels/zones";
 import { droppedMotion, recordedOf, type RecordedMotion } from "./recorded_motion";
 import { scopeOf, type MotionAnswer, type Report, type ReportText } from "./report";
+import { wrongOf } from "./result";
 import { saveBlob } from "./save";
 import type { BodyName } from "./scene/body_names";
 import { JointScene } from "./scene/scene";
@@ -93,6 +94,7 @@ export class Page {
     }), this.closed.signal);
     const names = { fixed: named(text.joint.fixed), mobile: named(text.joint.mobile) };
     const heading = headingOf(text);
+    document.body.classList.toggle("set-up-wrongly", wrongOf(text.rom) !== null);
     document.title = words.pageTitle(shortened(text.title));
     found("title").textContent = heading;
     found("title").title = heading;
@@ -148,7 +150,7 @@ export class Page {
     this.scene?.canvas.getContext("webgl2")?.getExtension("WEBGL_lose_context")?.loseContext();
     for (const place of ["scene", "strip-place", "view-tools", "legend-place", "side", "paper", "actions"]) found(place).replaceChildren();
     found("help").remove();
-    document.body.classList.remove("wide");
+    document.body.classList.remove("wide", "set-up-wrongly");
   }
 
   /// Whether the page is about load: it opens on the recorded motion.

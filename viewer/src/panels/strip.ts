@@ -2,7 +2,7 @@ import { button, html, named, shortened, spaced } from "../dom";
 import { clockTime, fixed } from "../numbers";
 import { nowOf, plannedOf } from "../planned";
 import type { MotionAnswer, ReportText } from "../report";
-import { bandText, deficitOf, differenceOf, differenceText, firstFigures, limitAlone, limitText, headlineMotion, worstOf } from "../result";
+import { bandText, deficitOf, differenceOf, differenceText, firstFigures, limitAlone, gradeOf, limitText, headlineMotion, worstOf, wrongOf } from "../result";
 import { motionName, words } from "../words";
 import { normalText } from "./manoeuvres";
 
@@ -31,9 +31,11 @@ export function pinOf(motion: MotionAnswer, text: ReportText): string {
   return motion.clock_hour === null ? place : `${clockTime(motion.clock_hour)}, ${place.replace(` at ${clockTime(motion.clock_hour)}`, "")}`;
 }
 
-/// One sentence about a motion: where it ends, its band, how much it lacks, and where contact is, and whether it is of a planned joint.
+/// One sentence about a motion: where it ends, its band, how much it lacks, and where contact is, and whether it is of a planned joint. Of a
+/// joint that is set up wrongly, what is wrong.
 export function sentenceOf(motion: MotionAnswer, report: ReportText): string {
-  const sentence = sentenceOnEnd(motion, report);
+  const sentence = sentenceOnEnd(motion, report), wrong = wrongOf(report.rom);
+  if (wrong !== null) return words.wrongSentence(shortened(wrong, 300));
   return plannedOf(report) ? words.plannedSentence(sentence) : sentence;
 }
 
@@ -82,8 +84,8 @@ export class ResultStrip {
       })
       : extremes.map(({ name, value, at, go: show }) => card(name, value, "", at, show, false));
     const headline = rom && hasLimits ? headlineMotion(rom, isHip) : null;
-    this.sentence.textContent = headline ? sentenceOf(headline, report)
-      : rom ? words.noLimitsInContact : words.noLimits + shortened(report.rom_error ?? "", 300);
+    this.sentence.classList.toggle("wrong", headline !== null && wrongOf(rom) !== null);
+    this.sentence.textContent = headline ? sentenceOf(headline, report) : rom ? words.noLimitsInContact : words.noLimits + shortened(report.rom_error ?? "", 300);
     const notes = rom?.notes ?? [];
     this.element = html("section", { id: "strip", "aria-label": words.result },
       ...(cards.length ? [html("div", { id: "results" }, ...cards)] : []),
@@ -105,9 +107,12 @@ export class ResultStrip {
     for (const made of this.cards.values()) made.removeAttribute("aria-current");
   }
 
-  private noted(notes: readonly { text: string }[], showNotes: () => void): HTMLElement {
-    return html("div", { id: "noted", class: "warning" }, html("span", { class: "noted-text" }, html("b", {}, words.noted(notes.length)), " ",
-      notes.map(({ text }) => text).join("; ")), button(words.readNotes, showNotes, { class: "quiet-button" }));
+  private noted(notes: readonly { code: string; text: string }[], showNotes: () => void): HTMLElement {
+    const findings = notes.filter((note) => gradeOf(note) !== "remark"), remarks = notes.length - findings.length;
+    return html("div", { id: "noted", ...(findings.length ? { class: "warning" } : {}) }, html("span", { class: "noted-text" },
+      ...(findings.length ? [html("b", {}, words.noted(findings.length)), " ", findings.map(({ text }) => text).join("; "), " "] : []),
+      ...(remarks ? [html("span", { class: findings.length ? "" : "quiet" }, words.remarks(remarks))] : [])),
+      button(words.readNotes, showNotes, { class: "quiet-button" }));
   }
 }
 
