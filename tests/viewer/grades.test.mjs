@@ -1,8 +1,8 @@
-// Notes of the checks in three grades.
+// Notes of the checks in three grades, and joints that are planned.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { axeSource, openPage, panelsPlaced, sharedBrowser } from "./browser.mjs";
-import { withText } from "./report_block.mjs";
+import { axeSource, openPage, panelsPlaced, pathOf, sharedBrowser } from "./browser.mjs";
+import { readReport, withText } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
 
@@ -43,5 +43,19 @@ test("a finding is amber with its text, and a remark on how exact limits are is 
   const page = await opened("remark", ({ rom }) => rom.notes.push(remark));
   assert.match(await page.locator("#noted").textContent(), /^1 remark on how exact the limits are/);
   assert.equal(await page.locator("#noted.warning").count(), 0);
+  await page.context().close();
+});
+
+test("a comparison says with what, tells files of one name apart, and says planned if the joint after is", async () => {
+  const { rom, before } = readReport(pathOf("compared")).text;
+  // Both joint files have the same bytes, and both fixed meshes; the femurs differ.
+  const of = ({ provenance }) => `hip.toml (femur.ply: SHA-256 ${provenance.mobile_mesh.sha256.slice(0, 8)}…)`;
+  assert.notEqual(of(before.rom), of(rom));
+  const page = await opened("compared_planned", ({ joint }) => (joint.planned = "without 164.1 mm3 of femur"), "compared");
+  assert.ok((await page.locator("#title").textContent()).startsWith(`Planned, without 164.1 mm³ of femur · compared with ${of(before.rom)} · `));
+  const plan = await page.locator("#plan-panels").textContent();
+  assert.ok(plan.includes(`Before: ${of(before.rom)}. After: ${of(rom)}.`), plan);
+  assert.match(await page.locator("#sentence").textContent(), /^Planned: /);
+  assert.match(await page.locator(".result").first().textContent(), / now [>\d]/);
   await page.context().close();
 });

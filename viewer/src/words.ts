@@ -80,6 +80,9 @@ export const words = {
     `${[`${name} ends at ${limit}`, now, compared, place].filter(Boolean).join(", ")}.`,
   planned: (done: string) => `Planned, ${done}`,
   plannedSentence: (sentence: string) => `Planned: ${sentence}`,
+  without: (gone: string) => `by hand without ${gone}`,
+  volumeOf: (mm3: string, body: string) => `${mm3} mm³ of ${body}`,
+  beforeStrokes: (sentence: string) => `Before the strokes: ${sentence}`,
   beforePlan: "before what is planned",
   nowIs: (limit: string) => `now ${limit}`,
   freeSentence: (name: string, deg: string) => `${name} meets no bone up to ${deg}°, where its range ends.`,
@@ -259,8 +262,11 @@ export const words = {
   notCarried: "unknown: load not carried",
 
   compared: "Compared with before",
-  comparedWith: (file: string) =>
-    `Before: ${file}. Each joint lies in its own joint frame; both have the same pose and view.`,
+  comparedTo: (before: string) => `compared with ${before}`,
+  asInFile: (file: string) => `${file} as it is`,
+  withDigest: (name: string, file: string, digest: string) => `${name} (${file}: SHA-256 ${digest}…)`,
+  comparedWith: ({ before, after }: { before: string; after: string }) =>
+    `Before: ${before}. After: ${after}. Each joint lies in its own joint frame; both have the same pose and view.`,
   showBefore: "Show the joint before, transparent",
   sameBodies: "Both bodies are the same as in the joint before.",
   limitsCompared: "Limits before and after",

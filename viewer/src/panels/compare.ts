@@ -1,5 +1,6 @@
 import { checkbox, fold, html, named, section } from "../dom";
 import { signed } from "../numbers";
+import { comparedFiles } from "../planned";
 import type { LimitDifference, MotionAnswer, Report, ReportText, StoredBefore } from "../report";
 import { bandText, differenceText, limitAlone } from "../result";
 import { bodyNames } from "../scene/body_names";
@@ -77,7 +78,7 @@ export class ComparePanel {
     const differs = bodyNames.some((body) => before.surfaces[body] !== null), compared = comparisonTable(report.text);
     const hasBands = before.differences.some(({ band }) => band !== null);
     this.element = section(words.compared,
-      html("p", {}, words.comparedWith(named(before.file ?? before.joint.name))),
+      html("p", {}, words.comparedWith(comparedFiles(report.text)!)),
       ...(!differs ? [html("p", {}, words.sameBodies)] : scene ? [html("div", { class: "row no-print" }, toggle)] : []),
       ...reasonsOf(report.text), ...(compared ? [compared] : []),
       ...(compared ? [html("p", { class: "small" }, hasBands ? words.bandRuleShort : words.noBand)] : []));

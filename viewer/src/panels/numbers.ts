@@ -5,8 +5,9 @@ import { limitAlone, shownBand } from "../result";
 import { words } from "../words";
 import { lines, longestLine, table } from "./table";
 
-function filesOf(mesh: MeshSource | { files: MeshSource[] }): MeshSource[] {
-  return "files" in mesh ? mesh.files : [mesh];
+/// The joint file, if there is one, and the meshes.
+export function filesOf({ joint_file, fixed_mesh, mobile_mesh }: NonNullable<RomAnswer["provenance"]>): MeshSource[] {
+  return [...(joint_file ? [joint_file] : []), ...[fixed_mesh, mobile_mesh].flatMap((mesh) => ("files" in mesh ? mesh.files : [mesh]))];
 }
 
 /// All numbers of the report with their units, sources and limits of use, each group under a title that opens it.
@@ -41,8 +42,7 @@ export function methodOf(report: ReportText, counts: { fixed: [number, number]; 
 }
 
 export function sourcesOf(provenance: NonNullable<RomAnswer["provenance"]>, title: string = words.files): HTMLElement[] {
-  const { version, command, joint_file } = provenance;
-  const files = [...(joint_file ? [joint_file] : []), ...filesOf(provenance.fixed_mesh), ...filesOf(provenance.mobile_mesh)];
+  const { version, command } = provenance, files = filesOf(provenance);
   return [
     html("p", {}, shortened(command?.length ? words.madeBy(version, command.join(" ")) : words.madeHere(version), longestLine)),
     table([words.file, words.bytes, words.sha256], files.map(({ path, bytes, sha256 }) => [path, String(bytes), sha256]), title),
