@@ -1,7 +1,7 @@
 // Notes of the checks in three grades, and joints that are planned.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { axeSource, openPage, panelsPlaced, pathOf, sharedBrowser } from "./browser.mjs";
+import { axeSource, openPage, openTab, panelsPlaced, pathOf, sharedBrowser, settled } from "./browser.mjs";
 import { readReport, withText } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
@@ -57,5 +57,20 @@ test("a comparison says with what, tells files of one name apart, and says plann
   assert.ok(plan.includes(`Before: ${of(before.rom)}. After: ${of(rom)}.`), plan);
   assert.match(await page.locator("#sentence").textContent(), /^Planned: /);
   assert.match(await page.locator(".result").first().textContent(), / now [>\d]/);
+  await page.context().close();
+});
+
+test("strokes of the brush make the joint a planned one until they are undone", async () => {
+  const { page } = await openPage(browser, pathOf("sample"), { reducedMotion: "reduce" });
+  await settled(page);
+  const [title, sentence] = await Promise.all(["#title", "#sentence"].map((each) => page.locator(each).textContent()));
+  await openTab(page, "Plan");
+  await page.getByRole("button", { name: "Stroke where it ends" }).click();
+  await page.waitForFunction(() => document.getElementById("title").textContent.startsWith("Planned"));
+  assert.match(await page.locator("#title").textContent(), /^Planned, by hand without [\d.]+ mm³ of femur · /);
+  assert.equal(await page.locator("#sentence").textContent(), `Before the strokes: ${sentence}`);
+  await page.getByRole("button", { name: "Undo stroke" }).click();
+  await page.waitForFunction((said) => document.getElementById("title").textContent === said, title);
+  assert.equal(await page.locator("#sentence").textContent(), sentence);
   await page.context().close();
 });

@@ -28,6 +28,7 @@ import { pinOf, ResultStrip } from "./panels/strip";
 import type { Tabs } from "./panels/tabs";
 import { drawWorst } from "./panels/worst_picture";
 import { ZonePanel } from "./panels/zones";
+import { plannedByHand } from "./planned";
 import { droppedMotion, recordedOf, type RecordedMotion } from "./recorded_motion";
 import { scopeOf, type MotionAnswer, type Report, type ReportText } from "./report";
 import { wrongOf } from "./result";
@@ -81,6 +82,9 @@ export class Page {
   /// The report's poses, if the page cannot compute.
   private readonly stored: StoredPoses | null;
   private hasWorstPicture = false;
+  private readonly strokes: Partial<Record<BodyName, { volume_mm3: number; areByHand: boolean }>> = {};
+  /// The report's text, with what strokes of the brush plan.
+  private shownText: ReportText;
   private readonly closed = new AbortController();
 
   /// `report` holds the arrays of figures and poses that a joint dropped on the page has not; `computes` if the core answers; `added` is
@@ -89,6 +93,7 @@ export class Page {
     private readonly text: ReportText, private readonly arrays: JointArrays, private readonly report: Report | null, private readonly computes: boolean,
     added: Added = {}) {
     this.bearingIsFound = arrays.bearing === "found";
+    this.shownText = text;
     this.address = new ViewAddress(text, () => ({
       at: this.motion.coordinates, display: this.display.state, zone: this.zones?.motion ?? "", camera: this.scene?.viewpoint ?? null,
     }), this.closed.signal);
@@ -185,7 +190,7 @@ export class Page {
   private placeActions(): void {
     const { scene } = this;
     found("actions").replaceChildren(...actions({
-      picture: scene && (() => void savePicture(scene, this.text, this.motion.coordinates)), print: () => window.print(),
+      picture: scene && (() => void savePicture(scene, this.shownText, this.motion.coordinates)), print: () => window.print(),
       saveCopy: this.notes && (() => this.saveCopy()),
       copyLink: () => {
         this.address.write();
@@ -315,10 +320,20 @@ export class Page {
   }
 
   /// The bone has changed, so the display of the pose is requested again.
-  private takeBrushed({ body, vertices, depths_mm }: Brushed, rests: boolean): void {
+  private takeBrushed({ body, vertices, depths_mm, volume_mm3, steps }: Brushed, rests: boolean): void {
     this.scene?.replaceBody(body, vertices);
+    this.strokes[body] = { volume_mm3, areByHand: steps !== (this.text.plan?.surfaces[body] ? 1 : 0) };
+    this.sayStrokes();
     if (this.removed) this.removed[body] = { shown: Float32Array.from(depths_mm), marks: Uint8Array.from(depths_mm, (mm) => (mm > 0 ? 1 : 0)) };
     if (rests) this.ask(this.motion.coordinates);
+  }
+
+  /// After strokes the joint is a planned one, and the limits of strip and tiles are those before.
+  private sayStrokes(): void {
+    const has = Object.values(this.strokes).some(({ areByHand }) => areByHand), { joint } = this.text;
+    this.shownText = { ...this.text, joint: { ...joint, planned: has ? plannedByHand(joint, this.strokes) : joint.planned } };
+    for (const place of [found("title"), this.paper.element.querySelector("h1")!]) place.textContent = headingOf(this.shownText);
+    this.strip.setStrokes(has);
   }
 
   /// The same for a joint whose parts turn: the bearing surface is found again.
@@ -398,7 +413,7 @@ export class Page {
   /// The scene, once all of its colours belong to the pose requested last: the core answers in order.
   private async pictureOfFrame(said: string): Promise<Blob> {
     await this.core?.query({ of: "pose", at: this.motion.coordinates });
-    return this.scene!.picture(`${headingOf(this.text)} · ${said}`);
+    return this.scene!.picture(`${headingOf(this.shownText)} · ${said}`);
   }
 
   /// The camera turns to a limit that was requested, and stays at one that a pose happens to be.

@@ -1,12 +1,20 @@
 import { named } from "./dom";
+import { fixed } from "./numbers";
 import { filesOf } from "./panels/numbers";
 import type { MotionAnswer, ReportText } from "./report";
 import { endText } from "./result";
+import { bodyNames, type BodyName } from "./scene/body_names";
 import { words } from "./words";
 
 /// What a plan did to the joint of the page: "without 164.1 mm³ of femur"; null for a joint as it was measured.
 export function plannedOf({ joint }: ReportText): string | null {
   return joint.planned ? named(joint.planned).replaceAll("mm3", "mm³") : null;
+}
+
+/// What strokes of the brush did to the bones of the page; nothing while no bone is gone.
+export function plannedByHand(joint: ReportText["joint"], gone: Partial<Record<BodyName, { volume_mm3: number }>>): string | undefined {
+  const said = bodyNames.flatMap((body) => (gone[body]?.volume_mm3 ? [words.volumeOf(fixed(gone[body].volume_mm3, 1), joint[body])] : []));
+  return said.length ? words.without(said.join(", ")) : undefined;
 }
 
 /// The limit before the plan, if the page knows it: "now 32.6°". In a comparison it is that of the joint before.

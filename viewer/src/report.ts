@@ -300,7 +300,7 @@ export interface ReportText {
     mobile: string;
     translation_frame: "fixed" | "joint_axes";
     /// What a plan did to the bones, if one did.
-    planned?: string;
+    planned?: string | undefined;
   };
   coordinates: { name: string; opposite: string }[];
   reference_deg: [number, number, number];

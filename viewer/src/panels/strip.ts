@@ -64,6 +64,8 @@ function capital(text: string): string {
 export class ResultStrip {
   readonly element: HTMLElement;
   private readonly sentence = html("p", { id: "sentence", "aria-live": "polite" });
+  private said = "";
+  private hasStrokes = false;
   private readonly cards = new Map<string, HTMLButtonElement>();
 
   constructor(
@@ -85,7 +87,7 @@ export class ResultStrip {
       : extremes.map(({ name, value, at, go: show }) => card(name, value, "", at, show, false));
     const headline = rom && hasLimits ? headlineMotion(rom, isHip) : null;
     this.sentence.classList.toggle("wrong", headline !== null && wrongOf(rom) !== null);
-    this.sentence.textContent = headline ? sentenceOf(headline, report) : rom ? words.noLimitsInContact : words.noLimits + shortened(report.rom_error ?? "", 300);
+    this.say(headline ? sentenceOf(headline, report) : rom ? words.noLimitsInContact : words.noLimits + shortened(report.rom_error ?? "", 300));
     const notes = rom?.notes ?? [];
     this.element = html("section", { id: "strip", "aria-label": words.result },
       ...(cards.length ? [html("div", { id: "results" }, ...cards)] : []),
@@ -95,11 +97,22 @@ export class ResultStrip {
 
   /// Shows the sentence of the motion at whose end the joint is.
   describe(motion: MotionAnswer): void {
-    this.sentence.textContent = sentenceOf(motion, this.report);
+    this.say(sentenceOf(motion, this.report));
     for (const [name, made] of this.cards) {
       if (name === motion.name) made.setAttribute("aria-current", "true");
       else made.removeAttribute("aria-current");
     }
+  }
+
+  /// Whether strokes of the brush have changed the joint since these limits.
+  setStrokes(on: boolean): void {
+    this.hasStrokes = on;
+    this.say(this.said);
+  }
+
+  private say(sentence: string): void {
+    this.said = sentence;
+    this.sentence.textContent = this.hasStrokes ? words.beforeStrokes(sentence) : sentence;
   }
 
   /// The sentence stays; no figure is marked once the joint leaves the end of a motion.
