@@ -98,7 +98,7 @@ export const words = {
   saveLimits: "Save limits, CSV",
   isFree: "Free",
   freeClear: (mm: string) => `Free · ${mm} mm clear`,
-  atLimit: (place: string, motion: string) => `At the limit${motion ? ` of ${motion}` : ""}, first contact: ${place}`,
+  atLimit: (place: string, motion = "") => `At the limit${motion ? ` of ${motion}` : ""}, first contact: ${place}`,
   bearingEndsNone: "Bearing contact, ends no motion",
   impinging: "Impinging",
   freeAfter: (deg: string, movement: string) => `free after ${deg}° of ${movement}`,

@@ -246,14 +246,14 @@ export class MotionPanel {
   private drawStatus(): void {
     const state = this.stateHere(), { rom, joint } = this.report;
     if (state) this.findEnd(state);
-    if (this.end?.reason === "contact") return this.status.atLimit(placeOf(this.end, this.report));
+    if (this.end?.reason === "contact") return this.status.say("limit", words.atLimit(placeOf(this.end, this.report)));
     // Until the intervals are known, what was said stays, unless nothing meets and no motion ends here.
     if (!state && !this.hooks.showStored && (this.touches !== false || this.motionHere())) return;
-    if (!state || state.is === "free") return this.status.free(this.clear_mm);
-    if (state.is === "bearing") return this.status.bearing();
+    if (!state || state.is === "free") return this.status.say("free", this.clear_mm === null ? words.isFree : words.freeClear(fixed(this.clear_mm, 1)));
+    if (state.is === "bearing") return this.status.say("bearing", words.bearingEndsNone);
     if (state.is === "limit") {
       const { name, opposite } = this.report.coordinates[state.vary]!;
-      return this.status.atLimit(words.meshOn(named(joint.mobile), named(joint.fixed)), spaced(state.isHigh ? name : opposite));
+      return this.status.say("limit", words.atLimit(words.meshOn(named(joint.mobile), named(joint.fixed)), spaced(state.isHigh ? name : opposite)));
     }
     const { bearing } = rom ?? {}, knowsBearing = bearing?.rule === "leave_out" && !bearing.why_none;
     this.status.inContact(knowsBearing ? words.impinging : words.inContact, this.lastDepth);

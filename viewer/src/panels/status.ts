@@ -1,7 +1,6 @@
 import { html } from "../dom";
 import type { Depth } from "../core/protocol";
 import { fixed } from "../numbers";
-import { words } from "../words";
 
 export interface Exit {
   vary: number;
@@ -23,23 +22,6 @@ export class StatusChip {
     this.setExit(null, "");
   }
 
-  /// Not in contact; `clear_mm` comes later, and for some joints never.
-  free(clear_mm: number | null): void {
-    this.say("free", clear_mm === null ? words.isFree : words.freeClear(fixed(clear_mm, 1)));
-    this.setExit(null, "");
-  }
-
-  /// `motion` if it is none of the report's.
-  atLimit(place: string, motion = ""): void {
-    this.say("limit", words.atLimit(place, motion));
-    this.setExit(null, "");
-  }
-
-  bearing(): void {
-    this.say("bearing", words.bearingEndsNone);
-    this.setExit(null, "");
-  }
-
   /// `how` names the contact; `depth` comes once the joint is idle.
   inContact(how: string, depth: Depth | null): void {
     const area = depth && Math.max(depth.area_mm2.fixed ?? 0, depth.area_mm2.mobile ?? 0);
@@ -55,7 +37,9 @@ export class StatusChip {
     this.out.style.visibility = exit ? "" : "hidden";
   }
 
-  private say(state: "free" | "limit" | "bearing" | "contact", text: string): void {
+  /// Contact keeps its exit until another one is known.
+  say(state: "free" | "limit" | "bearing" | "contact", text: string): void {
+    if (state !== "contact") this.setExit(null, "");
     this.element.dataset["state"] = state;
     // A screen reader is not interrupted at every step of a slider.
     const now = performance.now();
