@@ -267,7 +267,7 @@ test("a motion recorded without times plays frame by frame and says so", { skip:
   await page.context().close();
 });
 
-test("the numbers say how they were found: bounds, bands, bearing contact, normal ranges", async () => {
+test("the numbers say how they were found: bounds, bands, bearing contact, clinical ranges", async () => {
   const { page } = await openPage(browser, pathOf("sample"));
   const { rom } = textOf("sample");
   const panel = page.locator("#panel-details");
@@ -275,7 +275,7 @@ test("the numbers say how they were found: bounds, bands, bearing contact, norma
   for (const wanted of ["free before it, in contact at it or past it by at most its error bound", `of ${rom.band.samples} displaced joints, seed ${rom.band.seed}`,
     `centre ${rom.band.sigma.centre_mm} mm, axes ${rom.band.sigma.axes_deg}°, surfaces ${rom.band.sigma.surface_mm} mm`,
     "Contact of the bearing surface does not end a motion", `radius ${rom.bearing.head.radius_mm.toFixed(2)} mm`,
-    `radius ${rom.bearing.socket.radius_mm.toFixed(2)} mm`, `reaches ${rom.bearing.margin_mm.toFixed(2)} mm`, "Normal ranges: AAOS 1965", "right, ball joint",
+    `radius ${rom.bearing.socket.radius_mm.toFixed(2)} mm`, `reaches ${rom.bearing.margin_mm.toFixed(2)} mm`, "Clinical ranges: AAOS 1965", "right, ball joint",
     `${rom.scope.slice(1)}.`, ...rom.motions.flatMap(({ caveats }) => caveats.map(({ text, source }) => source === null ? text : `${text} (${source})`))])
     assert.ok(text.includes(wanted), wanted);
   const rows = await panel.locator("[aria-labelledby=section-limits] table").locator("tbody tr").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));

@@ -50,7 +50,7 @@ test("the sheets have what was promised: limits with normals, clock face, scope;
   for (const { name } of rom.motions) assert.ok(first.includes(name.replaceAll("_", " ")), name);
   assert.equal(await page.locator("#paper .plot .normal").count(), rom.motions.filter(({ normal_range_deg }) => normal_range_deg !== null).length);
   assert.ok(first.includes(scope.slice(1)) && first.includes("Sagittal clock position"));
-  for (const wanted of ["Method and data", "Source files", rom.provenance.fixed_mesh.sha256, "Normal ranges: AAOS 1965"]) assert.ok(second.includes(wanted), wanted);
+  for (const wanted of ["Method and data", "Source files", rom.provenance.fixed_mesh.sha256, "Clinical ranges: AAOS 1965"]) assert.ok(second.includes(wanted), wanted);
   assert.ok((await page.locator("#paper rect.cell").count()) > 50);
   // Names of files, not where they lie.
   assert.ok(second.includes("hip_bone.ply") && !second.includes("/"), second.match(/.{40}\/.{40}/)?.[0]);
