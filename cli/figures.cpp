@@ -5,10 +5,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
+#include <thread>
 
+#include "interrupt.hpp"
 #include "io/file/environment.hpp"
 
 extern char** environ;
@@ -20,22 +24,29 @@ namespace fs = std::filesystem;
 
 enum class Errors { shown, hidden };
 
-/// The exit code of a program, whose standard output is dropped; -1 if it did not run or did not end by itself.
+/// The exit code of a program, whose standard output is its standard error; -1 if it did not run or did not end by itself.
 int run(std::vector<std::string> words, Errors errors) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   if (posix_spawn_file_actions_init(&actions) != 0) return -1;
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   if (errors == Errors::hidden)
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);  // names of files are no answer
   pid_t child = 0;
   const int failed = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
+  if (failed != 0) return -1;
+  // A signal to this process alone is for the program too.
+  const InterruptWatch watch;
   int status = 0;
-  if (failed != 0 || waitpid(child, &status, 0) != child || !WIFEXITED(status)) return -1;
-  return WEXITSTATUS(status);
+  while (waitpid(child, &status, WNOHANG) == 0) {
+    if (watch.interrupted()) kill(child, SIGTERM);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  if (watch.interrupted()) throw Interrupted("interrupted while figures were drawn; all else is written");
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 /// A command that was built and not installed has its module beside it.

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <exception>
 #include <filesystem>
@@ -16,6 +17,7 @@
 #include "commands.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/label_file.hpp"
+#include "condyle/range_of_motion.hpp"
 #include "figures.hpp"
 #include "interrupt.hpp"
 #include "io/file/failure.hpp"
@@ -67,6 +69,7 @@ struct AnsweredHip {
   std::vector<JointNote> notes;
   io::Provenance from;
   io::ReportAnswer answer = {};
+  std::string planned = {};  ///< a line for people; empty without a plan
 
   std::optional<io::RomResult> limits() {
     if (!answer.range.answer) return std::nullopt;
@@ -77,10 +80,14 @@ struct AnsweredHip {
 /// Proposes the joint of one femur.
 using Propose = std::function<Proposed()>;
 
-/// Both bones of each hip in one label map, or the pelvis in one and each femur in a map of its own.
+/// Both bones of each hip in one label map, or the pelvis in one and the femora in maps of their own.
 std::vector<Propose> joints_of_labels(const HipArguments& options) {
-  const auto map = std::make_shared<const io::LabelMap>(io::read_labels(options.pelvis, options.labels.file));
-  const auto joint = [&options, map](const io::LabelHip& hip, const std::string& femur) {
+  using Map = std::shared_ptr<const io::LabelMap>;
+  const auto read = [&](const std::string& file) {
+    return std::make_shared<const io::LabelMap>(io::read_labels(file, options.labels.file));
+  };
+  const Map map = read(options.pelvis);
+  const auto joint = [&options, map](const io::LabelHip& hip, const std::string& femur, const Map& of_femur) {
     const auto bone = [&](const std::string& label) {
       return io::LabelBoneRequest{label, options.labels.task, options.labels.surface};
     };
@@ -88,27 +95,31 @@ std::vector<Propose> joints_of_labels(const HipArguments& options) {
                                   .file = options.labels.file,
                                   .fixed = bone(hip.fixed),
                                   .mobile = bone(hip.mobile),
-                                  .joint_file = options.joint_file(Side::left),
-                                  .side = hip.side};
-    std::optional<io::LabelMap> of_femur;
-    if (!femur.empty()) {
-      request.mobile_labels = femur;
-      of_femur = io::read_labels(femur, options.labels.file);
-    }
-    auto found = with_progress([&](const Control& control) {
-      return io::propose_joint(*map, of_femur ? &*of_femur : nullptr, request, control);
-    });
+                                  .joint_file = options.joint_file(Side::left)};
+    if (hip.side_by_piece || options.side) request.side = hip.side;
+    if (hip.side_by_piece) request.side_by = "of the femur's place among both";
+    if (of_femur) request.mobile_labels = femur;
+    auto found = with_progress(
+        [&](const Control& control) { return io::propose_joint(*map, of_femur.get(), request, control); });
     return Proposed{found.proposal, found, found.mobile.name};
   };
   std::vector<Propose> joints;
-  for (const std::string& femur : options.femora)
-    joints.emplace_back([=, &options] {
-      return joint({options.fixed_label, options.mobile_label, options.side}, femur);
-    });
+  const auto add = [&](const io::LabelHip& hip, const std::string& femur = {}, const Map& of_femur = {}) {
+    joints.emplace_back([=] { return joint(hip, femur, of_femur); });
+  };
+  for (const std::string& femur : options.femora) {
+    const Map of_femur = read(femur);
+    const bool both = options.femora.size() == 1 && !options.side &&
+                      io::is_of_both_sides(*of_femur, options.mobile_label, options.labels.task);
+    for (const auto& side : both ? std::vector<std::optional<Side>>{Side::left, Side::right}
+                                 : std::vector<std::optional<Side>>{options.side})
+      add({options.fixed_label, options.mobile_label, side, both}, femur, of_femur);
+  }
   if (!joints.empty()) return joints;
-  const io::HipLabels wanted{options.fixed_label, options.mobile_label, options.labels.task, options.side};
-  for (const io::LabelHip& hip : io::hips_in(*map, options.pelvis, wanted))
-    joints.emplace_back([=] { return joint(hip, ""); });
+  const io::LabelHips found = io::hips_in(
+      *map, options.pelvis, {options.fixed_label, options.mobile_label, options.labels.task, options.side});
+  for (const std::string& bone : found.left_out) note("not answered: " + bone);
+  for (const io::LabelHip& hip : found.hips) add(hip);
   return joints;
 }
 
@@ -128,13 +139,11 @@ std::vector<Propose> joints_of_meshes(const HipArguments& options) {
   return joints;
 }
 
-/// Writes a joint file and, of labels, its meshes; returns the side of the hip.
+/// Writes a joint file and, of labels, its meshes; returns the side of the hip. Of an incomplete proposal nothing is written.
 Side write_joint(const HipArguments& options, Proposed& proposed) {
-  if (!proposed.joint.side) {
-    note_to_fill_in(proposed.joint);
-    throw MeshError(fmt::format(
-        "{}: the bones do not show the side of the body, which condyle init leaves open", proposed.femur));
-  }
+  if (!proposed.joint.side || !proposed.joint.to_fill_in.empty())
+    throw MeshError(fmt::format("{}: no joint file could be proposed: {}", proposed.femur,
+                                fmt::join(proposed.joint.to_fill_in, "; ")));
   const Side side = *proposed.joint.side;
   const fs::path file = options.joint_file(side);
   refuse_existing(file.parent_path(), "of another femur of that side");
@@ -144,7 +153,6 @@ Side write_joint(const HipArguments& options, Proposed& proposed) {
       *mesh = file.parent_path() / mesh->filename();
     write_proposal(joint, file);
   } else {
-    note_to_fill_in(proposed.joint);
     io::OutputFolder folder(file.parent_path());
     io::write_output_file(folder.file("hip.toml"), proposed.joint.toml);
     say_written(folder.commit());
@@ -152,16 +160,22 @@ Side write_joint(const HipArguments& options, Proposed& proposed) {
   return side;
 }
 
-void write_plan(const fs::path& folder, AnsweredHip& hip, const io::ReportRequest& request,
-                const io::ReportWords& words) {
+/// Returns what was planned and what it reaches, in a line.
+std::string write_plan(const fs::path& folder, AnsweredHip& hip, const io::ReportRequest& request,
+                       const io::ReportWords& words, std::string_view whose) {
   const io::ReportAnswer answer =
       with_progress([&](const Control& control) { return io::answer_report(hip.loaded, request, control); });
-  note_all(answer.plan->notes);
+  note_all(answer.plan->notes, whose);
   const io::ResectionResult result{hip.loaded.joint, *answer.plan, hip.notes, &hip.from,
                                    &hip.loaded.report.file};
   say_written(io::write_resection(folder / "plan", result));
   io::write_report(folder / "planned.html", hip.loaded, request, answer, words);
   say_written({folder / "planned.html"});
+  std::string reached;
+  for (const plan::ReachOutcome& outcome : answer.plan->resection.targets)
+    reached += fmt::format("; {} {:.1f} deg, now {:.1f}", outcome.target.motion.name,
+                           outcome.after.end.turned.degrees(), outcome.before.end.turned.degrees());
+  return fmt::format("  {}planned: {}{}\n", whose, answer.plan->resection.joint.planned, reached);
 }
 
 /// Limits with bands, shape, page and plan of one hip, beside its joint file.
@@ -196,39 +210,61 @@ void answer_hip(const HipArguments& options, Side side, const CLI::App& command,
   io::write_report(folder / "hip.html", kept.loaded, request, kept.answer, words);
   say_written({folder / "hip.html"});
   request.plan = std::move(plan);
-  if (request.plan) write_plan(folder, kept, request, words);
+  if (request.plan) kept.planned = write_plan(folder, kept, request, words, whose);
 }
 
 void check_out(const HipArguments& options) {
   std::error_code ignored;
-  if (!fs::is_empty(options.out, ignored) || ignored) refuse_existing(options.out, "and is no empty folder");
+  if (!fs::is_directory(options.out, ignored) || !fs::is_empty(options.out, ignored))
+    refuse_existing(options.out, "and is no empty folder");
 }
 
 void draw(const HipArguments& options) {
-  std::vector<std::string> words{options.out};
+  std::vector<std::string> words{options.out.starts_with('-') ? "./" + options.out : options.out};
   const auto add = [&](const char* option, const std::optional<std::string>& text) {
     if (text) words.push_back(fmt::format("{}={}", option, *text));
   };
   add("--case", options.words.case_name);
   add("--date", options.words.date);
   add("--note", options.words.note);
-  if (const std::string why = draw_figures(words); !why.empty())
-    note(fmt::format("no figures and no sheet: {}; then python3 -m condyle.plot {} draws them", why,
-                     options.out));
+  const std::string why = draw_figures(words);
+  if (why.empty()) return;
+  std::string line = "python3 -m condyle.plot";
+  for (const std::string& word : words) line += " '" + word + "'";
+  note(fmt::format("no figures and no sheet: {}; to draw them: {}", why, line));
 }
 
 void print_limits(const HipArguments& options, std::list<AnsweredHip>& hips) {
   AnsweredHip *left = nullptr, *right = nullptr;
-  for (AnsweredHip& hip : hips)
+  std::string plans;
+  for (AnsweredHip& hip : hips) {
     if (hip.answer.range.answer) (hip.loaded.joint.side == Side::left ? left : right) = &hip;
+    plans += hip.planned;
+  }
   if (left && right) {
     const io::RomResult of_left = *left->limits(), of_right = *right->limits();
     const fs::path table = fs::path(options.out) / "both.csv";
     io::write_output_file(table, io::both_sides_csv(of_left, of_right));
     say_written({table});
-    print(io::both_sides_text(of_left, of_right));
+    print(io::both_sides_text(of_left, of_right) + plans);
   } else if (left || right) {
-    print(io::rom_text(*(left ? left : right)->limits()));
+    print(io::rom_text(*(left ? left : right)->limits()) + plans);
+  }
+}
+
+/// The error that is being handled, as one of the same kind that begins with `whose`.
+std::exception_ptr current_error_of(std::string_view whose) {
+  const auto named = [&](const std::exception& error) { return std::string(whose) + error.what(); };
+  try {
+    throw;
+  } catch (const motion::ReferenceContactError& error) {
+    return std::make_exception_ptr(motion::ReferenceContactError(named(error)));
+  } catch (const MeshError& error) {
+    return std::make_exception_ptr(MeshError(named(error)));
+  } catch (const FileError& error) {
+    return std::make_exception_ptr(FileError(named(error)));
+  } catch (const UsageError& error) {
+    return std::make_exception_ptr(UsageError(named(error)));
   }
 }
 
@@ -242,21 +278,26 @@ void hip_command(const HipArguments& options, const CLI::App& command) {
   if (options.side && options.femora.size() > 1)
     throw UsageError("--side: is for one femur: of two each is of its own side");
   if (of_labels && options.units) throw UsageError("--units: surfaces of label maps are in mm");
+  if (!options.plan.empty())
+    (void)reach_targets(motion::hip_motions(), options.plan);  // throws before the work
   std::list<AnsweredHip> answered;
   std::exception_ptr refused;  // one hip without an answer does not keep the other from having one
   for (const Propose& propose : of_labels ? joints_of_labels(options) : joints_of_meshes(options)) {
+    std::string whose;
     try {
       Proposed proposed = propose();
-      answer_hip(options, write_joint(options, proposed), command, answered);
+      const Side side = write_joint(options, proposed);
+      whose = std::string(name_of(side)) + ": ";
+      answer_hip(options, side, command, answered);
     } catch (const Interrupted&) {
       throw;
-    } catch (const std::runtime_error&) {
-      if (refused) note(io::failure_of_current_exception().message);
-      if (!refused) refused = std::current_exception();
+    } catch (const std::exception&) {
+      if (refused) note(whose + io::failure_of_current_exception().message);
+      if (!refused) refused = current_error_of(whose);
     }
   }
-  if (!answered.empty()) draw(options);
   print_limits(options, answered);
+  if (!answered.empty()) draw(options);
   if (refused) std::rethrow_exception(refused);
 }
 

@@ -183,6 +183,7 @@ struct LabelJointRequest {
   LabelBoneRequest fixed, mobile;
   std::filesystem::path joint_file = {};  ///< where it is to lie; the meshes lie beside it
   std::optional<Side> side = {};  ///< default: that of the labels' names, else inferred from the bones
+  std::string side_by = "given";  ///< who states it, as the joint file says
 };
 
 struct LabelJoint {

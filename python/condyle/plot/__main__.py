@@ -30,7 +30,7 @@ a case on one page, of which python3 -m condyle.plot sheet --help says more; a f
   python3 -m condyle.plot sheet range plan --case "Case 17" --date 2026-11-27 --out case.pdf
 """
 Rendered = List[Tuple[Path, bytes]]
-WRONG_USAGE, BAD_FILE, INTERNAL = 2, 3, 5
+WRONG_USAGE, BAD_FILE, INTERNAL, INTERRUPTED = 2, 3, 5, 130
 
 
 class _Parser(argparse.ArgumentParser):
@@ -150,6 +150,8 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
         for path, content in rendered:
             path.parent.mkdir(parents=True, exist_ok=True)
             style.write_whole(path, content)
+    except KeyboardInterrupt:
+        _refuse("interrupted", INTERRUPTED)
     except ReadError as error:
         _refuse(str(error), BAD_FILE)
     except ImportError as error:

@@ -132,7 +132,8 @@ std::optional<NumberedLabel> numbered(std::string_view text) {
   return number;
 }
 
-ChosenLabel choose_number(const LabelMap& map, const NumberedLabel& number) {
+ChosenLabel choose_number(const LabelMap& map, const NumberedLabel& number,
+                          std::optional<LabelTask> task = {}) {
   const auto layers = layers_with(map, number.label);
   if (layers.empty())
     throw UsageError(fmt::format("no voxel has the label {}: {}", number.label, numbers_of(map)));
@@ -150,8 +151,9 @@ ChosenLabel choose_number(const LabelMap& map, const NumberedLabel& number) {
     throw UsageError(
         fmt::format("the label {} is in several layers: choose one of {}", number.label, listed(words)));
   }
-  return {
-      layer, number.label, name_in_file(map, layer, number.label), {tables_note(map, layer, number.label)}};
+  std::string name = name_of_label(map, layer, number.label, task);
+  if (task && !name.empty()) return {layer, number.label, std::move(name), {}};
+  return {layer, number.label, std::move(name), {tables_note(map, layer, number.label)}};
 }
 
 /// The segments whose name or id is this, by a comparison. A segment in the list twice counts once.
@@ -252,7 +254,7 @@ ChosenLabel choose_label(const LabelMap& map, std::string_view text, std::option
       throw UsageError(
           fmt::format("{} is a number and also the name of the label {}:{}: give its layer and label instead",
                       io::in_quotes(text), segment->layer, segment->label));
-    return choose_number(map, *number);
+    return choose_number(map, *number, task);
   }
   if (segment) {
     if (const TableEntry* entry = table_entry(task, text); entry && entry->label != segment->label)

@@ -59,15 +59,6 @@ std::vector<Named> labels_called(const LabelMap& map, std::span<const LabelSumma
   return found;
 }
 
-/// Whether a label has pieces as large as bones on both sides.
-bool is_of_both_sides(const LabelMap& map, const std::string& label, std::optional<LabelTask> task) {
-  const ChosenLabel chosen = choose_label(map, label, task);
-  VoxelMask mask = mask_of(map, chosen.layer, chosen.label);
-  mesh::VoxelBox box{mask.size, std::move(mask.inside)};
-  const std::vector<std::int64_t> pieces = mesh::keep_pieces(box, true);
-  return pieces.size() > 1 && mesh::is_large_piece(pieces[1], pieces[0]);
-}
-
 /// Of several labels the one for a side: that of the side, else the only one without a side. Null if there is none.
 const Named* for_side(std::span<const Named> labels, std::optional<Side> side, std::string_view file,
                       std::string_view what) {
@@ -85,7 +76,21 @@ const Named* for_side(std::span<const Named> labels, std::optional<Side> side, s
 
 }  // namespace
 
-std::vector<LabelHip> hips_in(const LabelMap& map, std::string_view file, const HipLabels& wanted) {
+bool is_of_both_sides(const LabelMap& map, const std::string& label, std::optional<LabelTask> task) {
+  ChosenLabel chosen;
+  if (label.empty()) {
+    for (const LabelSummary& summary : summaries_of(map))
+      if (summary.label != 0) chosen.layer = summary.layer, chosen.label = summary.label;
+  } else {
+    chosen = choose_label(map, label, task);
+  }
+  VoxelMask mask = mask_of(map, chosen.layer, chosen.label);
+  mesh::VoxelBox box{mask.size, std::move(mask.inside)};
+  const std::vector<std::int64_t> pieces = mesh::keep_pieces(box, true);
+  return pieces.size() > 1 && mesh::is_large_piece(pieces[1], pieces[0]);
+}
+
+LabelHips hips_in(const LabelMap& map, std::string_view file, const HipLabels& wanted) {
   const std::vector<LabelSummary> present = summaries_of(map);
   const auto called = [&](std::span<const std::string_view> words, const std::string& chosen,
                           std::string_view what) {
@@ -98,34 +103,42 @@ std::vector<LabelHip> hips_in(const LabelMap& map, std::string_view file, const 
   };
   const std::vector<Named> pelves = called(pelvis_words, wanted.fixed, "hip bone or pelvis"),
                            femora = called(femur_words, wanted.mobile, "femur");
-  std::vector<LabelHip> hips;
-  const auto add = [&](const Named& femur, std::optional<Side> side) {
+  LabelHips found;
+  const auto add = [&](const Named& femur, std::optional<Side> side, bool by_piece) {
     if (wanted.side && side && side != wanted.side) return;
     const Named* pelvis = for_side(pelves, side, file, "hip bone or pelvis");
-    if (!pelvis) return;
-    for (const LabelHip& other : hips)
+    if (!pelvis) return found.left_out.push_back(femur.label + ": no hip bone or pelvis of its side");
+    for (const LabelHip& other : found.hips)
       if (other.side == side || !side || !other.side)
         throw UsageError(
             fmt::format("{}: {} and {} are femora of one side, or have none in their names: "
                         "--fixed and --mobile say which is meant",
                         file, other.mobile, femur.label));
-    hips.push_back({pelvis->label, femur.label, side ? side : pelvis->side});
+    found.hips.push_back({pelvis->label, femur.label, side ? side : pelvis->side, by_piece});
   };
   for (const Named& femur : femora) {
     if (femur.side || !is_of_both_sides(map, femur.label, wanted.task)) {
-      add(femur, femur.side ? femur.side : wanted.side);
+      add(femur, femur.side ? femur.side : wanted.side, false);
+      if (femur.side && is_of_both_sides(map, femur.label, wanted.task))
+        found.left_out.push_back(femur.label +
+                                 ": has two pieces as large as a femur, of which one is answered");
     } else {
-      add(femur, Side::left);
-      add(femur, Side::right);
+      add(femur, Side::left, true);
+      add(femur, Side::right, true);
     }
   }
-  if (hips.empty())
+  for (const Named& pelvis : pelves)
+    if (std::none_of(found.hips.begin(), found.hips.end(),
+                     [&](const LabelHip& hip) { return hip.fixed == pelvis.label; }) &&
+        (!wanted.side || !pelvis.side || pelvis.side == wanted.side))
+      found.left_out.push_back(pelvis.label + ": no femur of its side");
+  if (found.hips.empty())
     throw UsageError(fmt::format("{}: no femur and hip bone are of one side{}", file,
                                  wanted.side ? fmt::format(", the {}", name_of(*wanted.side)) : ""));
-  std::stable_sort(hips.begin(), hips.end(), [](const LabelHip& a, const LabelHip& b) {
+  std::stable_sort(found.hips.begin(), found.hips.end(), [](const LabelHip& a, const LabelHip& b) {
     return a.side == Side::left && b.side == Side::right;
   });
-  return hips;
+  return found;
 }
 
 }  // namespace condyle::io

@@ -48,7 +48,7 @@ void check_are_two(const ImagedBone& fixed, const ImagedBone& mobile) {
 }
 
 std::optional<Stated<Side>> stated_side(const std::optional<Side>& given, const LabelBone& fixed,
-                                        const LabelBone& mobile) {
+                                        const LabelBone& mobile, const std::string& given_by) {
   const auto of_fixed = side_in_name(fixed.name), of_mobile = side_in_name(mobile.name);
   if (of_fixed && of_mobile && *of_fixed != *of_mobile)
     throw UsageError(fmt::format("{} and {} are of two sides", fixed.name, mobile.name));
@@ -56,7 +56,7 @@ std::optional<Stated<Side>> stated_side(const std::optional<Side>& given, const 
   if (given && named && *given != *named)
     throw UsageError(fmt::format("side: {} is given, and {} is of the other side", name_of(*given),
                                  of_fixed ? fixed.name : mobile.name));
-  if (given) return Stated<Side>{*given, "given"};
+  if (given) return Stated<Side>{*given, given_by};
   if (named) return Stated<Side>{*named, "by the names of the labels"};
   return std::nullopt;
 }

@@ -42,7 +42,7 @@ void check_are_two(const ImagedBone& fixed, const ImagedBone& mobile);
 /// The side that is given, else that of the labels' names, and by what. UsageError if the two names are of different sides, or not
 /// of the given one.
 std::optional<Stated<Side>> stated_side(const std::optional<Side>& given, const LabelBone& fixed,
-                                        const LabelBone& mobile);
+                                        const LabelBone& mobile, const std::string& given_by = "given");
 
 /// Notes where bones of one grid are neighbours, voxel to voxel, or overlap: labels of one image, or two masks that were cut out
 /// of it.

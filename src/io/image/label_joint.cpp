@@ -48,7 +48,7 @@ std::optional<LabelJoint> propose_joint(const LabelMap& map, const LabelMap* oth
   ProposalFacts facts{
       .joint_file = request.joint_file,
       .from = "bones of the label map " + core::one_line(request.labels.filename().string(), 200),
-      .side = io::stated_side(request.side, of_fixed.bone, of_mobile.bone),
+      .side = io::stated_side(request.side, of_fixed.bone, of_mobile.bone, request.side_by),
       .units = Stated<LengthUnit>{LengthUnit::millimetres, "of surfaces from label maps"},
       .axes_by = "surfaces from label maps are in LPS, by the image's header"};
   std::vector<LabelNote> notes = io::notes_of(of_fixed, of_mobile);

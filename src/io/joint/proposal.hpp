@@ -21,6 +21,7 @@ struct ProposedBody {
   double scale = 1;           ///< of the mesh's own coordinates, if its unit is another than the other body's
   std::string scale_by = {};  ///< evidence for it
   PolygonRule polygons = PolygonRule::refuse;
+  bool is_piece_at_joint = false;  ///< and not all of the mesh
 };
 
 /// A value that somebody stated, and who did.

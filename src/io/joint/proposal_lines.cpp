@@ -21,6 +21,9 @@ void add_keys(ProposalLines& lines, std::string_view role, const ProposedBody& b
   if (body.scale != 1) lines.key("scale", fmt::format("[{0:g}, {0:g}, {0:g}]", body.scale), body.scale_by);
   if (body.polygons != PolygonRule::refuse)
     lines.add(fmt::format("polygons = \"{}\"", name_of(body.polygons)));
+  if (body.is_piece_at_joint)
+    lines.key("pieces", "\"at_joint\"",
+              "the mesh has another piece as large beside it, as of a whole pelvis");
 }
 
 }  // namespace

@@ -68,10 +68,25 @@ void add_kind(ProposalLines& lines, const std::optional<kinematics::HipAnatomy>&
                             : std::string(", without a spherical socket round it")));
 }
 
-void add_centre(ProposalLines& lines, const std::optional<kinematics::HipAnatomy>& hip) {
+/// Of a mesh with two large pieces side by side, as of a whole pelvis, the one in which the head lies; else empty.
+std::optional<TriMesh> half_at(const TriMesh& whole, const Sphere& head) {
+  TriMesh half = piece_at(Mesh(whole), head.centre);
+  const auto is_small = [](std::size_t rest, std::size_t all) { return 5 * rest < all; };
+  if (is_small(whole.triangles.size() - half.triangles.size(), half.triangles.size())) return std::nullopt;
+  const BoundingBox all = mesh::bounds_of_vertices(whole), at_head = mesh::bounds_of_vertices(half);
+  const Vec3 beyond = (at_head.low - all.low).cwiseMax(all.high - at_head.high);
+  if (!(beyond.maxCoeff() > head.radius)) return std::nullopt;  // walls within
+  return half;
+}
+
+/// `stated`: a piece of a mesh is found by a centre in figures, in the unit of the mesh.
+void add_centre(ProposalLines& lines, const std::optional<kinematics::HipAnatomy>& hip,
+                std::optional<double> stated_per_mm) {
   if (!hip) return lines.missing("centre", "[x, y, z]", "nothing was fitted");
   const Sphere& head = hip->head.fit.sphere;
-  lines.key("centre", "\"fit\"",
+  const Vec3 centre = head.centre * stated_per_mm.value_or(1);
+  lines.key("centre",
+            stated_per_mm ? fmt::format("[{}, {}, {}]", centre.x(), centre.y(), centre.z()) : "\"fit\"",
             fmt::format("the head's centre, {} mm in the frame of the meshes, rms {:.2f} mm{}",
                         core::rounded(head.centre, 2), hip->head.fit.rms_residual,
                         hip->socket ? fmt::format("; the socket's is {:.2f} mm from it",
@@ -90,7 +105,13 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
   const LengthUnit units = inferred ? inferred->value : LengthUnit::millimetres;
   fixed.mesh = surface_in_mm(fixed, units);
   mobile.mesh = surface_in_mm(mobile, units);
-  const auto hip = kinematics::hip_anatomy(fixed.mesh, mobile.mesh);
+  auto hip = kinematics::hip_anatomy(fixed.mesh, mobile.mesh);
+  if (hip && !fixed.image)
+    if (auto half = half_at(fixed.mesh, hip->head.fit.sphere)) {
+      fixed.mesh = *std::move(half);
+      fixed.is_piece_at_joint = true;
+      hip = kinematics::hip_anatomy(fixed.mesh, mobile.mesh);
+    }
   add_kind(lines, hip);
 
   const std::optional<Side> given = facts.side ? std::optional(facts.side->value) : std::nullopt;
@@ -121,7 +142,7 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
   add_body(lines, "mobile", mobile, facts.joint_file);
 
   lines.add("\n[frame]");
-  add_centre(lines, hip);
+  add_centre(lines, hip, fixed.is_piece_at_joint ? std::optional(1 / mm_per(units)) : std::nullopt);
   if (facts.axes_by) {
     lines.key("axes", "\"LPS\"", *facts.axes_by);
   } else if (axes.agreeing.size() == 1) {

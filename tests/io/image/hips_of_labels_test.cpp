@@ -29,9 +29,11 @@ io::LabelMap blocks(const std::vector<std::uint32_t>& of, const std::vector<std:
 std::string hips(const io::LabelMap& map, const io::HipLabels& wanted = {}) {
   try {
     std::string text;
-    for (const io::LabelHip& hip : io::hips_in(map, "ct.nrrd", wanted))
+    const io::LabelHips found = io::hips_in(map, "ct.nrrd", wanted);
+    for (const io::LabelHip& hip : found.hips)
       text += fmt::format("{}{}: {} + {}", text.empty() ? "" : ", ", hip.side ? name_of(*hip.side) : "-",
                           hip.fixed, hip.mobile);
+    for (const std::string& bone : found.left_out) text += "; " + bone;
     return text;
   } catch (const UsageError& error) {
     return error.what();
@@ -60,6 +62,18 @@ TEST(HipsOfLabels, OfOneLabelForBothFemoraAreOfBothSides) {
   EXPECT_EQ(hips(map, {.fixed = "1", .mobile = "2"}), "left: 1 + 2, right: 1 + 2");
   EXPECT_EQ(hips(map, {.fixed = "1", .mobile = "2", .side = Side::left}), "left: 1 + 2");
   EXPECT_EQ(hips(blocks({2, 1}, {}), {.fixed = "1", .mobile = "2"}), "-: 1 + 2");
+}
+
+TEST(HipsOfLabels, WithoutTheirOtherBoneAreNamed) {
+  EXPECT_EQ(hips(blocks({1, 2, 3}, {"hip_left", "femur_left", "femur_right"})),
+            "left: hip_left + femur_left; femur_right: no hip bone or pelvis of its side");
+  EXPECT_EQ(hips(blocks({1, 2, 3}, {"hip_left", "femur_left", "hip_right"})),
+            "left: hip_left + femur_left; hip_right: no femur of its side");
+  EXPECT_EQ(hips(blocks({1, 2, 3}, {"hip_left", "femur_left", "hip_right"}), {.side = Side::left}),
+            "left: hip_left + femur_left");
+  EXPECT_EQ(hips(blocks({1, 2, 2, 3}, {"hip_left", "femur_left", "hip_right"})),
+            "left: hip_left + femur_left; femur_left: has two pieces as large as a femur, of which one is "
+            "answered; hip_right: no femur of its side");
 }
 
 TEST(HipsOfLabels, ThatAreNotClearAreRefused) {
