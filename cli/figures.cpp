@@ -41,12 +41,13 @@ int run(std::vector<std::string> words, Errors errors) {
   // A signal to this process alone is for the program too.
   const InterruptWatch watch;
   int status = 0;
-  while (waitpid(child, &status, WNOHANG) == 0) {
+  pid_t ended = 0;
+  while ((ended = waitpid(child, &status, WNOHANG)) == 0) {
     if (watch.interrupted()) kill(child, SIGTERM);
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   if (watch.interrupted()) throw Interrupted("interrupted while figures were drawn; all else is written");
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return ended == child && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 /// A command that was built and not installed has its module beside it.
@@ -63,6 +64,7 @@ void look_beside_command() {
 
 std::string draw_figures(const std::vector<std::string>& words) {
   look_beside_command();
+  setenv("PYTHONSAFEPATH", "1", 1);  // no modules of the working folder
   for (const char* python : {"python3", "/usr/bin/python3"}) {
     if (run({python, "-c", "import condyle.plot"}, Errors::hidden) != 0) continue;
     std::vector<std::string> all{python, "-m", "condyle.plot"};

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -27,6 +28,7 @@
 #include "io/image/unread_image.hpp"
 #include "io/report/answer_report.hpp"
 #include "io/result/both_sides.hpp"
+#include "io/result/quoted_limit.hpp"
 #include "io/result/rom_files.hpp"
 #include "joint_command.hpp"
 #include "label_options.hpp"
@@ -139,14 +141,17 @@ std::vector<Propose> joints_of_meshes(const HipArguments& options) {
   return joints;
 }
 
-/// Writes a joint file and, of labels, its meshes; returns the side of the hip. Of an incomplete proposal nothing is written.
+/// Writes a joint file and, of labels, its meshes; returns the side of the hip. Nothing is written of an incomplete proposal.
 Side write_joint(const HipArguments& options, Proposed& proposed) {
   if (!proposed.joint.side || !proposed.joint.to_fill_in.empty())
     throw MeshError(fmt::format("{}: no joint file could be proposed: {}", proposed.femur,
                                 fmt::join(proposed.joint.to_fill_in, "; ")));
   const Side side = *proposed.joint.side;
   const fs::path file = options.joint_file(side);
-  refuse_existing(file.parent_path(), "of another femur of that side");
+  if (fs::exists(file))
+    throw UsageError(
+        fmt::format("{}: is of the {} side, as another femur is: answer each by itself, with --side",
+                    proposed.femur, name_of(side)));
   if (proposed.of_labels) {
     io::LabelJoint& joint = *proposed.of_labels;
     for (fs::path* mesh : {&joint.fixed_mesh, &joint.mobile_mesh})
@@ -158,6 +163,14 @@ Side write_joint(const HipArguments& options, Proposed& proposed) {
     say_written(folder.commit());
   }
   return side;
+}
+
+/// "46.5 deg", and where no bone ends the motion that.
+std::string turned_words(const motion::MotionLimit& limit) {
+  if (limit.end.reason == motion::LimitReason::end_of_range)
+    return io::beyond_range(limit.end.turned, nullptr) + " deg";
+  const bool is_cut = limit.end.contact && limit.end.kind() == motion::ContactKind::cut;
+  return fmt::format("{:.1f} deg{}", limit.end.turned.degrees(), is_cut ? ", the cut of the image" : "");
 }
 
 /// Returns what was planned and what it reaches, in a line.
@@ -173,8 +186,8 @@ std::string write_plan(const fs::path& folder, AnsweredHip& hip, const io::Repor
   say_written({folder / "planned.html"});
   std::string reached;
   for (const plan::ReachOutcome& outcome : answer.plan->resection.targets)
-    reached += fmt::format("; {} {:.1f} deg, now {:.1f}", outcome.target.motion.name,
-                           outcome.after.end.turned.degrees(), outcome.before.end.turned.degrees());
+    reached += fmt::format("; {} {}, now {}", outcome.target.motion.name, turned_words(outcome.after),
+                           turned_words(outcome.before));
   return fmt::format("  {}planned: {}{}\n", whose, answer.plan->resection.joint.planned, reached);
 }
 
@@ -202,13 +215,14 @@ void answer_hip(const HipArguments& options, Side side, const CLI::App& command,
   if (const auto limits = kept.limits()) {
     note_all(kept.answer.range.answer->notes, whose);
     say_written(io::write_rom(folder / "limits", *limits));
-  } else {
-    note(fmt::format("{}no limits: {}", whose, kept.answer.range.why_none));
   }
   say_written(io::write_measures(folder / "measures",
                                  {kept.loaded.joint, *kept.answer.measures, kept.notes, &kept.from}));
   io::write_report(folder / "hip.html", kept.loaded, request, kept.answer, words);
   say_written({folder / "hip.html"});
+  if (!kept.answer.range.answer)  // throws the error that the page has as a sentence
+    (void)with_progress(
+        [&](const Control& control) { return answer_range(kept.loaded, request.range, control); });
   request.plan = std::move(plan);
   if (request.plan) kept.planned = write_plan(folder, kept, request, words, whose);
 }
@@ -230,7 +244,10 @@ void draw(const HipArguments& options) {
   const std::string why = draw_figures(words);
   if (why.empty()) return;
   std::string line = "python3 -m condyle.plot";
-  for (const std::string& word : words) line += " '" + word + "'";
+  for (std::string word : words) {
+    for (std::size_t at = 0; (at = word.find('\'', at)) != word.npos; at += 4) word.replace(at, 1, "'\\''");
+    line += " '" + word + "'";
+  }
   note(fmt::format("no figures and no sheet: {}; to draw them: {}", why, line));
 }
 
@@ -297,7 +314,8 @@ void hip_command(const HipArguments& options, const CLI::App& command) {
     }
   }
   print_limits(options, answered);
-  if (!answered.empty()) draw(options);
+  const auto has_limits = [](const AnsweredHip& hip) { return hip.answer.range.answer.has_value(); };
+  if (std::any_of(answered.begin(), answered.end(), has_limits)) draw(options);
   if (refused) std::rethrow_exception(refused);
 }
 
@@ -312,7 +330,7 @@ void add_hip(CLI::App& app) {
       "         condyle hip bones/hip_bone.ply bones/femur.ply --side right --samples 40 --plan "
       "\"fadir=+10\" --out "
       "planned\n"
-      "Of a pelvis that holds both hip bones each femur has the half beside it. What was assumed is noted, "
+      "Each femur has the half of the pelvis beside it. What was assumed stands in hip.toml. "
       "and stands in hip.toml. "
       "Figures and sheets need Python with matplotlib.");
   auto options = std::make_shared<HipArguments>();

@@ -39,7 +39,8 @@ struct SweepTarget {
   Angle reach = {};         ///< how far it has to turn from its start, up to the motion's range
   Angle pelvic_tilt = {};   ///< of the posture, forwards: of a hip
   std::string source = {};  ///< of the angle, as its table has it
-  double weight = 1;        ///< above 0: to find the best design its margin counts divided by this
+  double weight =
+      1;  ///< above 0: to find the best design its margin counts divided by this, and a miss times this
 
   /// The motion as the joint file's pelvis sees it: a pose of flexion f at an anterior tilt t is that of flexion f + t without.
   [[nodiscard]] motion::Motion without_tilt() const noexcept;

@@ -32,7 +32,7 @@ class Target:
 
     `motion` is a name that the joint knows, or a :class:`Motion`; `reach_deg` how far it must turn from its start, up to its
     range; `pelvic_tilt_deg` the anterior tilt of the posture, of a hip; `source` where the angle comes from. To find the best design its
-    margin counts divided by `weight`.
+    margin counts divided by `weight`, and a miss times `weight`.
     """
 
     name: str
@@ -123,11 +123,13 @@ class Sweep(Compiled):
     safe_measure, window_measure : float
         Area (length, volume) of what is safe and of all that was swept, in the product of the parameters' units.
     best : Design or None
-        The design of the largest margin; None if all are in contact in their reference poses.
+        As `best_by` says: the design of the largest margin, or the safe one nearest to the joint as it is; None if all are in contact in their
+        reference poses.
     here : Design
         The joint as it is.
     notes : what the zone must be read with, each with a :class:`JointRemark`
     caveats : list of str
+    best_by : {"largest_margin", "least_change"}
     """
 
     axes: dict[str, NDArray[np.float64]]
@@ -149,6 +151,7 @@ class Sweep(Compiled):
     here: Design
     notes: tuple[ContactNote, ...]
     caveats: list[str]
+    best_by: BestDesign = "largest_margin"
     _native: Optional[NativeSweep] = None
 
     def __repr__(self) -> str:
@@ -280,4 +283,4 @@ def sweep(joint: DescribedJoint, vary: Mapping[str, Sequence[float]], targets: U
         tuple(EndingPair(*each) for each in found["pairs"]), margin, margin >= 0,
         None if probability is None else probability.reshape(shape), quantities,
         tuple(interval(*each) for each in found["safe_intervals"]), found["safe_measure"], found["window_measure"], best_design, here,
-        remarked(found["notes"]), found["caveats"], found["sweep"])
+        remarked(found["notes"]), found["caveats"], best, found["sweep"])

@@ -68,7 +68,7 @@ double steps_from_here(const SweepAnswer& sweep, std::size_t design) {
   double steps = 0;
   for (std::size_t p = 0; p < values.size(); ++p)
     steps += std::abs(values[p] - sweep.here[p]) / sweep.parameters[p].step;
-  return steps;
+  return std::round(1e9 * steps) / 1e9;  // the same to either side
 }
 
 std::span<const plan::DesignLimit> limits_of(const SweepAnswer& sweep, std::size_t i) {
@@ -80,14 +80,25 @@ bool is_weighted(const SweepAnswer& sweep) {
                      [](const plan::SweepTarget& target) { return target.weight != 1; });
 }
 
-/// The least of a design's margins, each divided by its target's weight.
-double weighted_margin(const SweepAnswer& sweep, std::size_t i) {
-  if (!is_weighted(sweep) || std::isnan(sweep.margin_deg[i])) return sweep.margin_deg[i];
+/// A margin that is left counts less for a heavier target, and one that is missed counts more.
+double by_weight(double margin_deg, double weight) {
+  return margin_deg >= 0 ? margin_deg / weight : margin_deg * weight;
+}
+
+/// The least of a design's margins by weight, and of which target.
+struct LeastMargin {
+  std::size_t target = 0;
+  double margin = std::numeric_limits<double>::infinity();
+};
+
+LeastMargin least_by_weight(const SweepAnswer& sweep, std::size_t i) {
+  LeastMargin least;
   const std::span<const plan::DesignLimit> limits = limits_of(sweep, i);
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t t = 0; t < limits.size(); ++t)
-    least =
-        std::min(least, (limits[t].turned_deg - sweep.targets[t].reach.degrees()) / sweep.targets[t].weight);
+  for (std::size_t t = 0; t < limits.size(); ++t) {
+    const plan::SweepTarget& target = sweep.targets[t];
+    const double margin = by_weight(limits[t].turned_deg - target.reach.degrees(), target.weight);
+    if (margin < least.margin) least = {t, margin};
+  }
   return least;
 }
 
@@ -105,8 +116,9 @@ Equals best_designs(const SweepAnswer& sweep) {
   for (std::size_t i = 0; i < sweep.designs(); ++i) {
     const double margin = sweep.margin_deg[i];
     if (std::isnan(margin) || (best.are_by_change && !is_safe(margin))) continue;
-    const double merit =
-        best.are_by_change ? -steps_from_here(sweep, sweep.first_design + i) : weighted_margin(sweep, i);
+    const double merit = best.are_by_change   ? -steps_from_here(sweep, sweep.first_design + i)
+                         : is_weighted(sweep) ? least_by_weight(sweep, i).margin
+                                              : margin;
     if (!best.designs.empty() && merit > best.merit) best.designs.clear();
     if (best.designs.empty()) best.merit = merit;
     if (merit == best.merit) best.designs.push_back(i);
@@ -128,7 +140,7 @@ void find_best(SweepAnswer& sweep, const std::vector<std::size_t>& equals) {
 /// What ends the target of the least margin in all of these designs; empty if it is not the same.
 std::string common_end(const SweepAnswer& sweep, const std::vector<std::size_t>& designs) {
   const auto end_of = [&](std::size_t i) {
-    const std::size_t target = least_target(sweep.targets, limits_of(sweep, i));
+    const std::size_t target = least_by_weight(sweep, i).target;
     return std::pair(target, limits_of(sweep, i)[target].pair);
   };
   const auto [target, pair] = end_of(designs.front());
@@ -172,7 +184,7 @@ std::string safe_ends(const SweepAnswer& sweep) {
   return ends;
 }
 
-/// Of several designs that are equally good: by what, and which of them is called best.
+/// By what several designs are equally good, and which of them is called best.
 std::string shared_text(const SweepAnswer& sweep, const Equals& equals) {
   const std::size_t count = equals.designs.size();
   const std::string best = "; the best lies deepest in the zone";

@@ -2,7 +2,7 @@
 
 /// Sine, cosine, arctangent and hypotenuse with the same bits everywhere. Those of C libraries are right to half a unit in the last place
 /// and a little more, and which of two neighbours they give depends on the library, its version and the instruction set. These
-/// are made of sums, products and quotients of doubles in pairs alone. Their errors before the last rounding are at most 2^-67
+/// are made of sums, products, quotients and square roots of doubles, most in pairs, alone. Their errors before the last rounding are at most 2^-67
 /// of them: all but one in 2^13, at worst, are the exact value, rounded once.
 
 namespace condyle::core {

@@ -362,6 +362,23 @@ TEST(Sweep, DividesMarginsByTheWeightsOfTheirTargetsToFindTheBest) {
   const SweepAnswer weighted = merged_sweep({&sweep, 1});
   EXPECT_EQ(weighted.best, 2u);
   EXPECT_EQ(weighted.margin_deg[2], 2) << "margins are as they were";
+
+  // The target of the least margin by weight ends the best designs, and not that of the least margin.
+  sweep.limits[4] = sweep.limits[2], sweep.limits[5] = sweep.limits[3],
+  sweep.margin_deg[2] = sweep.margin_deg[1];
+  for (plan::DesignLimit& limit : sweep.limits) limit.pair = 0;
+  EXPECT_EQ(merged_sweep({&sweep, 1}).notes.front().text,
+            "2 designs share the largest weighted margin, 1.00 degrees: sitting ends with neck on liner in "
+            "all; the "
+            "best lies deepest in the zone");
+
+  // A miss of a heavier target counts more: 4 degrees of it against 10 of the other.
+  for (std::size_t i = 0; i < 3; ++i) {
+    sweep.limits[2 * i].turned_deg = i == 1 ? 100 : 96;
+    sweep.limits[2 * i + 1].turned_deg = i == 1 ? 30 : 40;
+    sweep.margin_deg[i] = i == 1 ? -10 : -4;
+  }
+  EXPECT_EQ(merged_sweep({&sweep, 1}).best, 1u);
 }
 
 TEST(Sweep, OneBestDesignIsNotSaidToShareItsMargin) {

@@ -96,7 +96,7 @@ def test_the_best_design_is_by_weights_or_by_least_change_as_the_command_finds_i
                               "--targets", by_command.parent / "weighted.csv", "--best", best.replace("_", "-"), "--json"], capture_output=True, check=True)
         said = json.loads(ran.stdout)
         swept = hip.sweep(VARY, targets, best=best)
-        assert swept.best.values == said["best"]["values"] and said["best_by"] == best
+        assert swept.best.values == said["best"]["values"] and swept.best_by == said["best_by"] == best
         assert [each["weight"] for each in said["targets"]] == [each.weight for each in swept.targets] == [4, 1]
         bests[best] = swept
     over = bests["largest_margin"].limits_deg - np.array([110, 40])

@@ -77,8 +77,8 @@ for (const [name, { joint, band }] of Object.entries(hips))
     assert.match(rest, /, (neck on rim|femur on hip bone)\b/);
     // By how much, against normal.
     assert.equal(limit, first.limit_deg.toFixed(1));
-    const against = !zero.is_neutral ? "not compared with the clinical range, as zero is not known to be neutral" : first.normal_range_deg !== null && first.limit_deg < first.normal_range_deg
-      ? `${(first.normal_range_deg - first.limit_deg).toFixed(0)}° short of the clinical range (${first.normal_range_deg}°)` : "";
+    const against = !zero.is_neutral ? "no clinical range, as zero is not known to be neutral" : first.normal_range_deg !== null && first.limit_deg < first.normal_range_deg
+      ? `${(first.normal_range_deg - first.limit_deg).toFixed(0)}° short of the clinical ${first.normal_range_deg}°` : "";
     assert.ok(rest.includes(against), rest);
     assert.equal(/clinical|normal/.test(rest), against !== "", rest);
     // A motion that goes farther than the clinical range is not judged by it; its tile has the range, in grey.

@@ -37,7 +37,7 @@ struct SweepQuantities {
 
 /// Which design is called the best.
 enum class BestDesign : std::uint8_t {
-  largest_margin,  ///< The least of its margins, each divided by its target's weight, is the largest.
+  largest_margin,  ///< The least of its margins by their targets' weights is the largest.
   least_change,    ///< It is safe, with fewest steps from the joint as it is; by its margin if none is safe.
 };
 

@@ -177,7 +177,7 @@ def _targets(paper: Paper, case: Case, points: float) -> Block:
         pair = design[target].get("ended_by")
         return f"{design[target]['limit_deg']:.1f}°" + (f", {spaced(pair['mobile'])} on {spaced(pair['fixed'])}" if pair else "")
 
-    columns = [Column("target of the sweep", 4), Column("needs"), Column("as it is", 3), Column("largest margin", 3)]
+    columns = [Column("target of the sweep", 4), Column("needs"), Column("as it is", 3), Column("best design", 3)]
     rows = [[Cell(spaced(target["name"])), Cell(f"{number(target['reach_deg'])}°"), *(Cell(limit(design, target["name"])) for design in designs)]
             for target in case.sweep["targets"]]
     return paper.table(columns, rows, EDGE_MM, INNER_MM, points)

@@ -128,7 +128,7 @@ def _ends(zone: Zone) -> Iterator[Tuple[str, List[Tuple[float, float]]]]:
 
 def _marks(zone: Zone) -> List[Tuple[Tuple[float, ...], str, str, str]]:
     """Designs with a mark, as far as they lie in what is drawn: where, its marker, gid and words."""
-    return [(at, marker, gid, words) for at, marker, gid, words in ((zone.here, "+", "here", "as it is"), (zone.best, "*", "best", "largest margin"))
+    return [(at, marker, gid, words) for at, marker, gid, words in ((zone.here, "+", "here", "as it is"), (zone.best, "*", "best", "best design"))
             if at is not None and all(axis[0] <= value <= axis[-1] for axis, value in zip(zone.axes, at))]
 
 

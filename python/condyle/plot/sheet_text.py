@@ -178,7 +178,7 @@ def sweep_line(sweep: Dict[str, Any]) -> str:
 
     best = sweep["best"]
     return (f"{sweep['safe_designs']} of {sweep['designs']} designs leave all targets free. As it is: {values(sweep['here'])}." +
-            (f" Largest margin, {best['margin_deg']:.1f}°: {values(best)}." if best else ""))
+            (f" Best design, with a margin of {best['margin_deg']:.1f}°: {values(best)}." if best else ""))
 
 
 class Note(NamedTuple):

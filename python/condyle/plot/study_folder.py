@@ -28,8 +28,8 @@ _REASONS = ("contact", "end_of_range", "contact_at_start")
 
 
 def is_study(folder: Path) -> bool:
-    """Whether a folder has a study, or shards of one."""
-    return (folder / "study.json").exists() or (folder / "shards").is_dir()
+    """Whether a folder has a study, or shards of one; a sweep has shards too."""
+    return (folder / "study.json").exists() or ((folder / "shards").is_dir() and not (folder / "sweep.json").exists())
 
 
 def read(folder: Path) -> Study:

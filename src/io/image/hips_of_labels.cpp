@@ -97,17 +97,23 @@ LabelHips hips_in(const LabelMap& map, std::string_view file, const HipLabels& w
     auto found = labels_called(map, present, words, chosen, wanted.task);
     if (found.empty())
       throw UsageError(fmt::format(
-          "{}: no label is called a {}: --task names labels by a table, --fixed and --mobile by number", file,
-          what));
+          "no label is called a {}: --task names labels by a table, --fixed and --mobile by number", what));
     return found;
   };
-  const std::vector<Named> pelves = called(pelvis_words, wanted.fixed, "hip bone or pelvis"),
-                           femora = called(femur_words, wanted.mobile, "femur");
+  std::vector<Named> pelves, femora;
+  try {
+    pelves = called(pelvis_words, wanted.fixed, "hip bone or pelvis");
+    femora = called(femur_words, wanted.mobile, "femur");
+  } catch (const UsageError& error) {
+    throw UsageError(fmt::format("{}: {}", file, error.what()));
+  }
   LabelHips found;
   const auto add = [&](const Named& femur, std::optional<Side> side, bool by_piece) {
     if (wanted.side && side && side != wanted.side) return;
     const Named* pelvis = for_side(pelves, side, file, "hip bone or pelvis");
     if (!pelvis) return found.left_out.push_back(femur.label + ": no hip bone or pelvis of its side");
+    if (femur.side && is_of_both_sides(map, femur.label, wanted.task))
+      found.left_out.push_back(femur.label + ": the other of its two large pieces");
     for (const LabelHip& other : found.hips)
       if (other.side == side || !side || !other.side)
         throw UsageError(
@@ -119,9 +125,6 @@ LabelHips hips_in(const LabelMap& map, std::string_view file, const HipLabels& w
   for (const Named& femur : femora) {
     if (femur.side || !is_of_both_sides(map, femur.label, wanted.task)) {
       add(femur, femur.side ? femur.side : wanted.side, false);
-      if (femur.side && is_of_both_sides(map, femur.label, wanted.task))
-        found.left_out.push_back(femur.label +
-                                 ": has two pieces as large as a femur, of which one is answered");
     } else {
       add(femur, Side::left, true);
       add(femur, Side::right, true);

@@ -35,7 +35,7 @@ struct HipLabels {
 /// called a pelvis or a femur, if several are for one side, and for a side that is not there.
 LabelHips hips_in(const LabelMap& map, std::string_view file, const HipLabels& wanted);
 
-/// Whether a label, or the only one of an image if `label` is empty, has pieces as large as bones on both sides.
+/// Whether a label, or the only one of an image if `label` is empty, has two pieces as large as bones.
 bool is_of_both_sides(const LabelMap& map, const std::string& label, std::optional<LabelTask> task);
 
 }  // namespace condyle::io

@@ -27,7 +27,7 @@ struct RequestedBone {
   LabelBone bone;
 };
 
-/// Of labels with several large pieces takes the two that make a joint: the fixed piece beside the mobile bone, which shows which half
+/// Takes the two pieces that make a joint, if labels have several large ones: the fixed piece beside the mobile bone, which shows which half
 /// of a pelvis is meant; if both labels are of two bones, the mobile piece on that side, else the one beside the largest fixed one.
 /// Returns false if it was stopped.
 bool take_pieces_of_joint(RequestedBone& fixed, RequestedBone& mobile, const std::optional<Side>& side,

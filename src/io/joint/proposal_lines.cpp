@@ -23,7 +23,7 @@ void add_keys(ProposalLines& lines, std::string_view role, const ProposedBody& b
     lines.add(fmt::format("polygons = \"{}\"", name_of(body.polygons)));
   if (body.is_piece_at_joint)
     lines.key("pieces", "\"at_joint\"",
-              "the mesh has another piece as large beside it, as of a whole pelvis");
+              "the mesh has another large piece beside this one, as a whole pelvis has");
 }
 
 }  // namespace

@@ -68,18 +68,26 @@ void add_kind(ProposalLines& lines, const std::optional<kinematics::HipAnatomy>&
                             : std::string(", without a spherical socket round it")));
 }
 
-/// Of a mesh with two large pieces side by side, as of a whole pelvis, the one in which the head lies; else empty.
+/// The piece in which the head lies, if the mesh has another large one beside it, as a whole pelvis has; else empty.
 std::optional<TriMesh> half_at(const TriMesh& whole, const Sphere& head) {
   TriMesh half = piece_at(Mesh(whole), head.centre);
-  const auto is_small = [](std::size_t rest, std::size_t all) { return 5 * rest < all; };
-  if (is_small(whole.triangles.size() - half.triangles.size(), half.triangles.size())) return std::nullopt;
+  const auto area_of = [](const TriMesh& mesh) {
+    double area = 0;
+    for (const Triangle& t : mesh.triangles) {
+      const Vec3 a = mesh.vertices[t[0]];
+      area += (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm() / 2;
+    }
+    return area;
+  };
+  const double at_joint = area_of(half);
+  if (5 * (area_of(whole) - at_joint) < at_joint) return std::nullopt;
   const BoundingBox all = mesh::bounds_of_vertices(whole), at_head = mesh::bounds_of_vertices(half);
   const Vec3 beyond = (at_head.low - all.low).cwiseMax(all.high - at_head.high);
   if (!(beyond.maxCoeff() > head.radius)) return std::nullopt;  // walls within
   return half;
 }
 
-/// `stated`: a piece of a mesh is found by a centre in figures, in the unit of the mesh.
+/// `stated_per_mm`: a piece of a mesh is found by a centre in figures, in the unit of the mesh.
 void add_centre(ProposalLines& lines, const std::optional<kinematics::HipAnatomy>& hip,
                 std::optional<double> stated_per_mm) {
   if (!hip) return lines.missing("centre", "[x, y, z]", "nothing was fitted");

@@ -32,9 +32,14 @@ std::vector<Pair> pairs_of(const RangeAnswer& left, const RangeAnswer& right) {
   return pairs;
 }
 
-/// Where contact ended the motion; a range that ends without it is no limit.
+bool ends_on_cut(const motion::MotionLimit& limit) {
+  return limit.end.reason == motion::LimitReason::contact && limit.end.kind() == motion::ContactKind::cut;
+}
+
+/// Where contact of bones ended the motion: neither a range that ends without it nor the cut of an image is a limit.
 std::optional<double> limit_deg(const motion::MotionLimit& limit) {
-  if (limit.translation_ends || limit.end.reason == motion::LimitReason::end_of_range) return std::nullopt;
+  if (limit.translation_ends || limit.end.reason == motion::LimitReason::end_of_range || ends_on_cut(limit))
+    return std::nullopt;
   return limit.end.turned.degrees();
 }
 
@@ -43,6 +48,18 @@ std::optional<double> difference_deg(const RomResult& left, const RomResult& rig
              of_right = limit_deg(right.answer.limits[pair.right]);
   if (!of_left || !of_right) return std::nullopt;
   return *of_left - *of_right;
+}
+
+std::string side_words(const RangeAnswer& answer, std::size_t i) {
+  return ends_on_cut(answer.limits[i]) ? "cut of image" : limit_words(answer, i);
+}
+
+/// Lines of provenance, each with whose it is.
+std::string comments_of(const char* side, const RomResult& result) {
+  std::string comments = provenance_comments(result.provenance);
+  for (std::size_t at = 0; at < comments.size(); at = comments.find('\n', at) + 1)
+    if (comments[at] == '#') comments.replace(at, 1, std::string("# ") + side);
+  return comments;
 }
 
 /// "+5.3", and "+0.0" of less than a twentieth.
@@ -58,8 +75,8 @@ std::string both_sides_text(const RomResult& left, const RomResult& right) {
   for (const Pair& pair : pairs_of(left.answer, right.answer)) {
     const auto difference = difference_deg(left, right, pair);
     columns[0].cells.push_back(left.answer.limits[pair.left].motion.name);
-    columns[1].cells.push_back(limit_words(left.answer, pair.left));
-    columns[2].cells.push_back(limit_words(right.answer, pair.right));
+    columns[1].cells.push_back(side_words(left.answer, pair.left));
+    columns[2].cells.push_back(side_words(right.answer, pair.right));
     columns[3].cells.push_back(difference ? difference_words(*difference) : "-");
   }
   std::string arcs;
@@ -71,17 +88,22 @@ std::string both_sides_text(const RomResult& left, const RomResult& right) {
                             of_left.one->motion.name, of_left.other->motion.name, of_left.arc().degrees(),
                             of_right.arc().degrees(),
                             difference_words(of_left.arc().degrees() - of_right.arc().degrees()));
-  const bool are_neutral = zero_pose(left.joint).is_neutral() && zero_pose(right.joint).is_neutral();
+  std::string unknown;
+  for (const RomResult* side : {&left, &right})
+    if (!zero_pose(side->joint).is_neutral())
+      unknown += fmt::format("{}{}", unknown.empty() ? "" : " and ", name_of(side->joint.side));
   return table_text(columns) +
          (arcs.empty() ? "" : wrapped(fmt::format("  total arcs (deg), left and right:{}\n", arcs))) +
-         (are_neutral ? ""
-                      : wrapped("  zero is not known to be neutral on both sides: how the legs lay is in the "
-                                "differences of single motions, and not in those of arcs\n")) +
+         (unknown.empty()
+              ? ""
+              : wrapped(fmt::format("  zero is not known to be neutral, {}: how the leg lay is in "
+                                    "differences of single motions, and not in those of arcs\n",
+                                    unknown))) +
          wrapped(fmt::format("  {}\n", scope_text(left.joint)));
 }
 
 std::string both_sides_csv(const RomResult& left, const RomResult& right) {
-  std::string text = provenance_comments(left.provenance) + provenance_comments(right.provenance) +
+  std::string text = comments_of("left", left) + comments_of("right", right) +
                      csv_line({"motion", "left_deg", "left_p5_deg", "left_p95_deg", "right_deg",
                                "right_p5_deg", "right_p95_deg", "difference_deg"});
   const auto number = [](std::optional<double> value) {
@@ -91,7 +113,7 @@ std::string both_sides_csv(const RomResult& left, const RomResult& right) {
     std::vector<std::string> cells{left.answer.limits[pair.left].motion.name};
     const auto add = [&](const RangeAnswer& answer, std::size_t i) {
       cells.push_back(number(limit_deg(answer.limits[i])));
-      const bool has_band = !answer.bands.empty();
+      const bool has_band = !answer.bands.empty() && limit_deg(answer.limits[i]);
       cells.push_back(has_band ? fmt::format("{}", answer.bands[i].p5.degrees()) : "");
       cells.push_back(has_band ? fmt::format("{}", answer.bands[i].p95.degrees()) : "");
     };

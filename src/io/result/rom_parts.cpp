@@ -19,7 +19,8 @@ Json zero_json(const Joint& joint) {
 
 std::vector<OppositeLimits> opposite_limits(std::span<const motion::MotionLimit> limits) {
   const auto ends = [](const motion::MotionLimit& limit) {
-    return limit.end.reason == motion::LimitReason::contact && !limit.translation_ends;
+    return limit.end.reason == motion::LimitReason::contact && !limit.translation_ends &&
+           limit.end.kind() != motion::ContactKind::cut;
   };
   std::vector<OppositeLimits> pairs;
   for (std::size_t i = 0; i < limits.size(); ++i)

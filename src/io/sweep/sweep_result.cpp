@@ -218,7 +218,9 @@ std::string sweep_text(const SweepResult& result) {
       fmt::format("  here: {}: {}\n", values_text(sweep, sweep.here), margin_text(sweep, sweep.limits_here));
   if (sweep.best) {
     text += fmt::format(
-        "  best{}: {}: {}", sweep.best_by == BestDesign::least_change ? ", of least change" : "",
+        "  best{}: {}: {}",
+        sweep.best_by == BestDesign::least_change && margin_of(sweep, *sweep.best) >= 0 ? ", of least change"
+                                                                                        : "",
         values_text(sweep, sweep.values_of(*sweep.best)), margin_text(sweep, limits_of(sweep, *sweep.best)));
     if (!sweep.probability.empty())
       text += fmt::format(", {:.1f} % likely", 100 * sweep.probability[*sweep.best - sweep.first_design]);

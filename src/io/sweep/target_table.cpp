@@ -121,6 +121,7 @@ plan::SweepTarget target_of(const TargetRow& row, std::span<const motion::Motion
                                       target.motion.range.degrees()));
   target.pelvic_tilt = Angle::degrees(row.number("pelvic_tilt_deg").value_or(0));
   target.weight = row.number("weight").value_or(1);
+  if (!(target.weight > 0)) row.fail("weight", fmt::format("{:.10g} must be above 0", target.weight));
   target.source = row.text("source");
   return target;
 }

@@ -72,8 +72,8 @@ TEST(HipsOfLabels, WithoutTheirOtherBoneAreNamed) {
   EXPECT_EQ(hips(blocks({1, 2, 3}, {"hip_left", "femur_left", "hip_right"}), {.side = Side::left}),
             "left: hip_left + femur_left");
   EXPECT_EQ(hips(blocks({1, 2, 2, 3}, {"hip_left", "femur_left", "hip_right"})),
-            "left: hip_left + femur_left; femur_left: has two pieces as large as a femur, of which one is "
-            "answered; hip_right: no femur of its side");
+            "left: hip_left + femur_left; femur_left: the other of its two large pieces; "
+            "hip_right: no femur of its side");
 }
 
 TEST(HipsOfLabels, ThatAreNotClearAreRefused) {

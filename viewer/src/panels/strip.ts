@@ -31,8 +31,8 @@ export function pinOf(motion: MotionAnswer, text: ReportText): string {
   return motion.clock_hour === null ? place : `${clockTime(motion.clock_hour)}, ${place.replace(` at ${clockTime(motion.clock_hour)}`, "")}`;
 }
 
-/// One sentence about a motion: where it ends, its band, how much it lacks, and where contact is, and whether it is of a planned joint. Of a
-/// joint that is set up wrongly, what is wrong.
+/// One sentence about a motion: where it ends, its band, how much it lacks, and where contact is, and whether it is of a planned joint; or
+/// what is wrong, if the joint is set up wrongly.
 export function sentenceOf(motion: MotionAnswer, report: ReportText): string {
   const sentence = sentenceOnEnd(motion, report), wrong = wrongOf(report.rom);
   if (wrong !== null) return words.wrongSentence(shortened(wrong, 300));

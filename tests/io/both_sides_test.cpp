@@ -1,0 +1,68 @@
+#include "io/result/both_sides.hpp"
+
+#include <gtest/gtest.h>
+
+#include "io/rom_scene.hpp"
+
+namespace condyle::test {
+namespace {
+
+/// A motion of flexion that contact ends at this angle.
+motion::MotionLimit ends_at(const char* name, RotationSense sense, double deg) {
+  motion::MotionLimit limit;
+  limit.motion = {name, JointAngle::flexion, sense};
+  limit.end.reason = motion::LimitReason::contact;
+  limit.end.turned = Angle::degrees(deg);
+  limit.end.contact = {{}, {}, Vec3(1, 0, 0), Vec3(1, 0, 0)};
+  return limit;
+}
+
+RangeAnswer ends_at(Side side, double flexion_deg, double extension_deg) {
+  Joint joint = arm_and_post();
+  joint.side = side;
+  return {.joint = joint,
+          .limits = {ends_at("flexion", RotationSense::positive, flexion_deg),
+                     ends_at("extension", RotationSense::negative, extension_deg)}};
+}
+
+void add_bands(RangeAnswer& answer) {
+  for (const motion::MotionLimit& limit : answer.limits) {
+    motion::LimitBand band;
+    band.p5 = limit.end.turned - Angle::degrees(2);
+    band.median = limit.end.turned;
+    band.p95 = limit.end.turned + Angle::degrees(3);
+    answer.bands.push_back(band);
+  }
+}
+
+TEST(BothSides, AreLeftThenRightAndTheDifferenceIsLeftLessRight) {
+  RangeAnswer left = ends_at(Side::left, 40, 40), right = ends_at(Side::right, 50.5, 20);
+  EXPECT_EQ(io::both_sides_csv(shown(left), shown(right)),
+            "motion,left_deg,left_p5_deg,left_p95_deg,right_deg,right_p5_deg,right_p95_deg,difference_deg\n"
+            "flexion,40,,,50.5,,,-10.5\n"
+            "extension,40,,,20,,,20\n");
+  const std::string text = io::both_sides_text(shown(left), shown(right));
+  EXPECT_NE(text.find("  flexion         40.00        50.50         -10.5\n"), text.npos) << text;
+  EXPECT_NE(text.find("total arcs (deg), left and right: flexion to extension 80.0 and 70.5 (+9.5)"),
+            text.npos)
+      << text;
+  add_bands(left);
+  EXPECT_NE(io::both_sides_csv(shown(left), shown(right)).find("extension,40,38,43,20,,,20\n"), text.npos);
+}
+
+TEST(BothSides, HaveNoDifferenceWhereNoContactOfBonesEndsAMotion) {
+  RangeAnswer left = ends_at(Side::left, 40, 20), right = ends_at(Side::right, 50, 15);
+  add_bands(left);
+  left.limits[0].end.reason = motion::LimitReason::end_of_range;
+  right.limits[1].end.contact->kind = motion::ContactKind::cut;
+  EXPECT_EQ(io::both_sides_csv(shown(left), shown(right)),
+            "motion,left_deg,left_p5_deg,left_p95_deg,right_deg,right_p5_deg,right_p95_deg,difference_deg\n"
+            "flexion,,,,50,,,\n"
+            "extension,20,18,23,,,,\n");
+  const std::string text = io::both_sides_text(shown(left), shown(right));
+  EXPECT_NE(text.find("cut of image"), text.npos) << text;
+  EXPECT_EQ(text.find("total arcs"), text.npos) << text;
+}
+
+}  // namespace
+}  // namespace condyle::test
