@@ -167,6 +167,7 @@ TEST_F(Keys, OfASweepHaveEveryOption) {
               {{"--vary", {with(""), "hip.toml --vary cup.inclination=40:50:5 --targets daily.csv"}},
                {"--targets", {with(""), vary + " --targets other.csv"}},
                {"--set", {with(""), with("--set cup.anteversion=16")}},
+               {"--best", {with(""), with("--best least-change")}},
                {"--band", {with("--band=20"), with("--band=21")}},
                {"--seed", {with("--band=20"), with("--band=20 --seed 7")}},
                {"--measures", {with(""), with("--measures centre_edge_lateral_section_deg")}},
