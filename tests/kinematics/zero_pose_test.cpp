@@ -55,7 +55,7 @@ void expect_angles(const JointAngles& found, const JointAngles& expected, double
   EXPECT_NEAR(found.internal_rotation.degrees(), expected.internal_rotation.degrees(), tolerance_deg);
 }
 
-/// Of the middle of the far end: the line to it has settled to far less after five rounds.
+/// The line to the middle of the far end has settled to far less after five rounds.
 constexpr double rounding_deg = 1e-3;
 
 TEST(ZeroPose, AFemursCondylesSayAtWhichAnglesItLies) {

@@ -59,7 +59,7 @@ std::vector<Named> labels_called(const LabelMap& map, std::span<const LabelSumma
   return found;
 }
 
-/// Of several labels the one for a side: that of the side, else the only one without a side. Null if there is none.
+/// The label for a side: that of the side, else the only one without a side. Null if there is none.
 const Named* for_side(std::span<const Named> labels, std::optional<Side> side, std::string_view file,
                       std::string_view what) {
   for (const auto& wanted : {side, std::optional<Side>()}) {
@@ -108,11 +108,11 @@ LabelHips hips_in(const LabelMap& map, std::string_view file, const HipLabels& w
     throw UsageError(fmt::format("{}: {}", file, error.what()));
   }
   LabelHips found;
-  const auto add = [&](const Named& femur, std::optional<Side> side, bool by_piece) {
+  const auto add = [&](const Named& femur, std::optional<Side> side, bool is_of_both, bool by_piece) {
     if (wanted.side && side && side != wanted.side) return;
     const Named* pelvis = for_side(pelves, side, file, "hip bone or pelvis");
     if (!pelvis) return found.left_out.push_back(femur.label + ": no hip bone or pelvis of its side");
-    if (femur.side && is_of_both_sides(map, femur.label, wanted.task))
+    if (femur.side && is_of_both)
       found.left_out.push_back(femur.label + ": the other of its two large pieces");
     for (const LabelHip& other : found.hips)
       if (other.side == side || !side || !other.side)
@@ -123,11 +123,12 @@ LabelHips hips_in(const LabelMap& map, std::string_view file, const HipLabels& w
     found.hips.push_back({pelvis->label, femur.label, side ? side : pelvis->side, by_piece});
   };
   for (const Named& femur : femora) {
-    if (femur.side || !is_of_both_sides(map, femur.label, wanted.task)) {
-      add(femur, femur.side ? femur.side : wanted.side, false);
+    const bool is_of_both = is_of_both_sides(map, femur.label, wanted.task);
+    if (femur.side || !is_of_both) {
+      add(femur, femur.side ? femur.side : wanted.side, is_of_both, false);
     } else {
-      add(femur, Side::left, true);
-      add(femur, Side::right, true);
+      add(femur, Side::left, true, true);
+      add(femur, Side::right, true, true);
     }
   }
   for (const Named& pelvis : pelves)
