@@ -1,7 +1,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <tbb/global_control.h>
 #include <unistd.h>
 
 #include <CLI/App.hpp>
@@ -20,6 +19,7 @@
 #include "commands.hpp"
 #include "condyle/version.hpp"
 #include "core/near_name.hpp"
+#include "core/thread_limit.hpp"
 #include "help_formatter.hpp"
 #include "interrupt.hpp"
 #include "io/file/failure.hpp"
@@ -163,13 +163,10 @@ int run(int argc, char** argv) {
              exit_codes);
 
   // Kept to the end of the process: out of memory within itself, oneTBB leaves a lock behind that its destructor waits for.
-  [[maybe_unused]] static tbb::global_control* limit = nullptr;
+  [[maybe_unused]] static condyle::core::ThreadLimit* limit = nullptr;
   app.add_option_function<int>(
          "--threads",
-         [](int count) {
-           limit = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                           static_cast<std::size_t>(count));
-         },
+         [](int count) { limit = new condyle::core::ThreadLimit(static_cast<std::size_t>(count)); },
          "Use at most this many threads. Results are the same for any number")
       ->check(cli::whole_number(1, 4096))
       ->option_text("N (all cores)");

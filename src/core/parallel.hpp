@@ -2,7 +2,9 @@
 
 #include <cstddef>
 
-#ifndef CONDYLE_SERIAL
+#if defined(CONDYLE_THREADS_STD)
+#include "core/thread_pool.hpp"
+#elif !defined(CONDYLE_THREADS_NONE)
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
@@ -15,13 +17,16 @@
 
 namespace condyle::core {
 
-/// Calls body(first, last) over [0, count) in chunks, on all threads of the calling oneTBB arena; built without threads, once
-/// for all. A body writes only to its own elements: results then do not depend on the number of threads. Limit threads from
-/// outside with tbb::global_control or tbb::task_arena.
+/// Calls body(first, last) over [0, count) in chunks, on all threads of the calling oneTBB arena or of our own pool, as
+/// CONDYLE_THREADS was when it was built; built without threads, once for all. A body writes only to its own elements: results then
+/// do not depend on the number of threads. Limit threads with core::ThreadLimit, and oneTBB's also from outside with
+/// tbb::global_control or tbb::task_arena.
 template <class Body>
 void parallel_chunks(std::size_t count, [[maybe_unused]] std::size_t grain, const Body& body) {
-#ifdef CONDYLE_SERIAL
+#if defined(CONDYLE_THREADS_NONE)
   if (count > 0) body(std::size_t{0}, count);
+#elif defined(CONDYLE_THREADS_STD)
+  pool::parallel_chunks(count, grain, body);
 #else
   SanitizerOrder begun, done;
   begun.before();
@@ -35,10 +40,10 @@ void parallel_chunks(std::size_t count, [[maybe_unused]] std::size_t grain, cons
 #endif
 }
 
-/// Calls it so that a thread that waits for what it computes in parallel takes up nothing from outside.
+/// Calls it so that a thread that waits for what it computes in parallel takes up nothing from outside. Our own pool never does.
 template <class Body>
 void isolated(const Body& body) {
-#ifdef CONDYLE_SERIAL
+#if defined(CONDYLE_THREADS_NONE) || defined(CONDYLE_THREADS_STD)
   body();
 #else
   tbb::this_task_arena::isolate(body);
@@ -50,9 +55,11 @@ void isolated(const Body& body) {
 /// exception is thrown.
 template <class First, class Second>
 void parallel_pair(const First& first, const Second& second) {
-#ifdef CONDYLE_SERIAL
+#if defined(CONDYLE_THREADS_NONE)
   first();
   second();
+#elif defined(CONDYLE_THREADS_STD)
+  pool::parallel_pair(first, second);
 #else
   std::exception_ptr first_error, second_error;
   SanitizerOrder begun, done;

@@ -1,16 +1,21 @@
 #pragma once
 
+#include <cstddef>
+
+#if defined(CONDYLE_THREADS_STD)
+#include "core/thread_pool.hpp"
+#elif !defined(CONDYLE_THREADS_NONE)
 #include <tbb/blocked_range.h>
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
-#include <cstddef>
 
 #include "core/sanitizer_order.hpp"
+#include "core/thread_limit.hpp"
+#endif
 
 namespace condyle::core {
 
@@ -20,10 +25,13 @@ namespace condyle::core {
 /// own elements and does not throw.
 template <class Body>
 void parallel_tasks(std::size_t count, const Body& body) {
+#if defined(CONDYLE_THREADS_NONE)
+  for (std::size_t i = 0; i < count; ++i) body(i);
+#elif defined(CONDYLE_THREADS_STD)
+  pool::parallel_tasks(count, body);
+#else
   if (count == 0) return;
-  const std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  const std::size_t threads =
-      std::min(allowed, static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
+  const std::size_t threads = threads_allowed();
   const std::size_t workers = std::min(count, threads);
   std::atomic<std::size_t> next = 0;
   SanitizerOrder begun, done;
@@ -39,6 +47,7 @@ void parallel_tasks(std::size_t count, const Body& body) {
       },
       tbb::simple_partitioner());
   done.after();
+#endif
 }
 
 }  // namespace condyle::core

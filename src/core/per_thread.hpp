@@ -1,8 +1,10 @@
 #pragma once
 
-#ifdef CONDYLE_SERIAL
+#if defined(CONDYLE_THREADS_NONE)
 #include <functional>
 #include <optional>
+#elif defined(CONDYLE_THREADS_STD)
+#include "core/thread_pool.hpp"
 #else
 #include <tbb/enumerable_thread_specific.h>
 #endif
@@ -11,7 +13,7 @@ namespace condyle::core {
 
 /// A value for each thread that asks for its own, made when it first does by the function given. Built without threads there
 /// is one.
-#ifdef CONDYLE_SERIAL
+#if defined(CONDYLE_THREADS_NONE)
 template <class T>
 class PerThread {
  public:
@@ -26,6 +28,8 @@ class PerThread {
   std::function<T()> make_;
   std::optional<T> value_;
 };
+#elif defined(CONDYLE_THREADS_STD)
+using pool::PerThread;
 #else
 template <class T>
 using PerThread = tbb::enumerable_thread_specific<T>;

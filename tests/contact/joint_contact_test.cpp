@@ -1,12 +1,12 @@
 #include "condyle/contact.hpp"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <random>
 
 #include "condyle/error.hpp"
 #include "contact/brute_pairs.hpp"
+#include "core/thread_limit.hpp"
 #include "support/brute_force.hpp"
 #include "support/test_meshes.hpp"
 
@@ -124,11 +124,11 @@ TEST(JointContact, OneThreadAndManyGiveTheSamePairs) {
   const JointContact joint(test::socket({0.05, 0.1, 0}, 1.0, 1.3, 4), sphere({0, 0.2, 0.1}, 0.95, 4));
   std::vector<TrianglePair> one, many;
   {
-    const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
+    const core::ThreadLimit single(1);
     one = joint.pairs(rotation(20, {1, 1, 0}));
   }
   {
-    const tbb::global_control eight(tbb::global_control::max_allowed_parallelism, 8);
+    const core::ThreadLimit eight(8);
     many = joint.pairs(rotation(20, {1, 1, 0}));
   }
   EXPECT_EQ(one, many);

@@ -1,7 +1,6 @@
 #include "io/file/input_recorder.hpp"
 
 #include <gtest/gtest.h>
-#include <tbb/task_arena.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -12,6 +11,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "core/thread_limit.hpp"
 #include "io/file/environment.hpp"
 #include "io/file/input_file.hpp"
 #include "io/file/output_file.hpp"
@@ -75,8 +75,7 @@ TEST_F(Recorded, OfTwoReadAtTheSameTimeIsAsOfOneAfterTheOther) {
     const InputRecorder read;
     io::read_pair(
         [&] {
-          if (tbb::this_task_arena::max_concurrency() > 1)
-            second_read.get_future().wait_for(std::chrono::seconds(5));
+          if (core::threads_allowed() > 1) second_read.get_future().wait_for(std::chrono::seconds(5));
           io::read_whole_file(a);
         },
         [&] { io::read_whole_file(b), second_read.set_value(); });

@@ -1,7 +1,6 @@
 #include "condyle/io/picture.hpp"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
@@ -12,6 +11,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/hip_measures.hpp"
+#include "core/thread_limit.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/picture/colour_scale.hpp"
 #include "io/picture/depth_bands.hpp"
@@ -419,7 +419,7 @@ TEST(PictureLegend, IsTheScaleWithItsZero) {
 TEST(Picture, IsTheSameBytesOnOneThreadAndOnTwo) {
   const Joint joint = joint_of(sphere({0, 0, 0}, 30, 4), sphere({10, 20, -5}, 15, 4));
   const auto draw = [&](std::size_t threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const core::ThreadLimit limit(threads);
     return io::draw_joint(joint, {}, Pose::Identity(),
                           {.fixed = io::BodyStyle::transparent, .width = 300, .height = 200})
         .rgb;

@@ -1,7 +1,6 @@
 #include "io/report/report.hpp"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <bit>
@@ -10,6 +9,7 @@
 
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
+#include "core/thread_limit.hpp"
 #include "io/file/output_file.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/report/page.hpp"
@@ -346,7 +346,7 @@ TEST(Report, IsTheSameBytesOnOneThreadAndOnMany) {
   const io::RomResult rom = answer.rom();
   const io::Report report{.title = "", .joint = answer.joint, .rom = &rom};
   const std::string many = io::report_html(report);
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const core::ThreadLimit one(1);
   EXPECT_EQ(io::report_html(report), many);
 }
 

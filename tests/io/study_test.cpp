@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/version.hpp"
+#include "core/thread_limit.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/result/sample_files.hpp"
 #include "study_of_arms.hpp"
@@ -79,7 +79,7 @@ TEST_F(StudyOfArms, IsTheSameOnAnyNumberOfThreads) {
   io::Study banded = study("one");
   banded.options.bands.emplace().samples = 20;
   for (const auto& [out, threads] : {std::pair("one", 1u), {"seven", 7u}}) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const core::ThreadLimit limit(threads);
     banded.folder = folder / out;
     run(banded);
   }

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -11,6 +10,7 @@
 #include "condyle/error.hpp"
 #include "condyle/hip_measures.hpp"
 #include "condyle/sample/hip.hpp"
+#include "core/thread_limit.hpp"
 #include "kinematics/hip_parts.hpp"
 #include "measure/analytic_hip.hpp"
 #include "measure/displaced_by_hand.hpp"
@@ -97,7 +97,7 @@ TEST(MeasureBands, OneThreadAndManyGiveTheSameBits) {
   const Joint& hip = some_hip();
   const motion::BandOptions options{.samples = 20, .seed = 5};
   const auto many = measure_bands(hip, {}, options);
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const core::ThreadLimit one(1);
   EXPECT_TRUE(same_bits(many, measure_bands(hip, {}, options)));
 }
 

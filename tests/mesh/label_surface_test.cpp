@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-#include <tbb/global_control.h>
 
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 #include <random>
 
 #include "condyle/error.hpp"
+#include "core/thread_limit.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/surface_distance.hpp"
 #include "mesh/winding_number.hpp"
@@ -363,7 +363,7 @@ TEST(LabelSurface, DoesNotDependOnTheBoxNorOnThreads) {
       X_WI);
   const LabelSurface whole = surface_of(mask), simple = surface_of(mask, {.triangles = 2000});
   EXPECT_EQ(surface_of(cropped(mask)).mesh, whole.mesh);
-  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const core::ThreadLimit one_thread(1);
   EXPECT_EQ(surface_of(mask).mesh, whole.mesh);
   EXPECT_EQ(surface_of(mask, {.triangles = 2000}).mesh, simple.mesh);
 }

@@ -1,11 +1,11 @@
 #include "mesh/subdivide.hpp"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <set>
 
+#include "core/thread_limit.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle {
@@ -77,7 +77,7 @@ TEST(Subdivide, OneThreadGivesTheSameBytesAsMany) {
   const TriMesh mesh = test::sphere(Vec3(1, 2, 3), 5, 4);
   const auto place = [](const Vec3& p) { return Vec3(Vec3(1, 2, 3) + 5 * (p - Vec3(1, 2, 3)).normalized()); };
   const TriMesh many = mesh::subdivided(mesh, place);
-  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const core::ThreadLimit one_thread(1);
   EXPECT_EQ(mesh::subdivided(mesh, place), many);
 }
 

@@ -1,7 +1,6 @@
 #include "mesh/winding_number.hpp"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <string>
 
 #include "condyle/error.hpp"
+#include "core/thread_limit.hpp"
 #include "support/brute_force.hpp"
 #include "support/shared_data.hpp"
 #include "support/test_meshes.hpp"
@@ -187,7 +187,7 @@ TEST(WindingNumber, IsTheSameForAnyNumberOfThreads) {
   for (int i = 0; i < 5000; ++i) points.push_back({uniform(random), uniform(random), uniform(random) / 4});
   const mesh::WindingNumber winding(mesh);
   const auto many = winding.at(points);
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const core::ThreadLimit one(1);
   EXPECT_EQ(many, winding.at(points));
   EXPECT_GT(std::count_if(many.begin(), many.end(), [](const auto& w) { return w.winding == 1; }), 500);
 }

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-#include <tbb/global_control.h>
 
 #include <numbers>
 
+#include "core/thread_limit.hpp"
 #include "motion/rotation_scenes.hpp"
 #include "support/test_meshes.hpp"
 
@@ -165,7 +165,7 @@ TEST(ContactSet, IsTheSameToTheByteOnOneThreadAndMany) {
   const RotationScene scene{sphere({3, 0, 0}, 1.2, 3),
                             joined(sphere({0, 3, 0.2}, 1, 3), sphere({-3, 0, 1}, 1, 3))};
   const core::ArcSet many = contact_set_of(scene);
-  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const core::ThreadLimit one_thread(1);
   EXPECT_EQ(contact_set_of(scene), many);
   EXPECT_EQ(many.arcs().size(), 2u);
 }

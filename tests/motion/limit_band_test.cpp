@@ -1,12 +1,12 @@
 #include "condyle/limit_band.hpp"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <cmath>
 #include <cstring>
 
 #include "condyle/error.hpp"
+#include "core/thread_limit.hpp"
 #include "motion/joint_scenes.hpp"
 #include "motion/motion_cases.hpp"
 #include "motion/rom/displacement.hpp"
@@ -83,7 +83,7 @@ TEST(LimitBand, IsTheSameBytesOnAnyNumberOfThreadsAndAnotherWithAnotherSeed) {
                        {.samples = 20, .seed = seed});
   };
   const auto many = bands(1), other = bands(2);
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const core::ThreadLimit one(1);
   const auto alone = bands(1);
   ASSERT_EQ(many.size(), motions.size());
   std::size_t different = 0;
@@ -103,7 +103,7 @@ TEST(LimitBand, OfAJointWithABearingSurfaceIsTheSameBytesOnAnyNumberOfThreads) {
   ASSERT_TRUE(find_bearing_surface(joint).surface);
   const std::vector<Motion> motions = hip_motions();
   const auto bands_on = [&](std::size_t threads) {
-    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    const core::ThreadLimit control(threads);
     return *limit_bands(joint, motions, {}, {.samples = 40, .seed = 3}, {});
   };
   const auto one = bands_on(1);

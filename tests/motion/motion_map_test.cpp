@@ -1,13 +1,13 @@
 #include "condyle/motion_map.hpp"
 
 #include <gtest/gtest.h>
-#include <tbb/task_arena.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
+#include "core/thread_limit.hpp"
 #include "motion/joint_scenes.hpp"
 #include "support/real_hip.hpp"
 #include "support/test_meshes.hpp"
@@ -137,8 +137,8 @@ TEST(MotionMap, GivesTheSameBytesOnOneThreadAndOnMany) {
       grid.row = {JointAngle::internal_rotation, -10, 10, 5},
       grid.column = {JointAngle::flexion, -10, 20, 10};
     const MotionMap many = motion_map(grid, joint);
-    tbb::task_arena single(1);
-    const MotionMap one = single.execute([&] { return motion_map(grid, joint); });
+    const core::ThreadLimit single(1);
+    const MotionMap one = motion_map(grid, joint);
     expect_same_points(many, one);
     EXPECT_EQ(many.work().node_pairs, one.work().node_pairs);
     EXPECT_GT(one.work().node_pairs, 0);
@@ -161,16 +161,14 @@ TEST(MotionMap, StoppedBeforeItsLastPointIsNone) {
   for (const std::size_t stop_at : {1u, 7u, 20u}) {
     std::stop_source stop;
     std::size_t last_done = 0;
-    tbb::task_arena single(1);
-    const auto map = single.execute([&] {
-      return motion_map(small_grid(), joint,
-                        {.progress =
-                             [&](std::string_view, std::size_t done, std::size_t) {
-                               last_done = done;
-                               if (done == stop_at) stop.request_stop();
-                             },
-                         .stop = stop.get_token()});
-    });
+    const core::ThreadLimit single(1);
+    const auto map = motion_map(small_grid(), joint,
+                                {.progress =
+                                     [&](std::string_view, std::size_t done, std::size_t) {
+                                       last_done = done;
+                                       if (done == stop_at) stop.request_stop();
+                                     },
+                                 .stop = stop.get_token()});
     EXPECT_EQ(last_done, stop_at);
     EXPECT_EQ(map.has_value(), stop_at == 20);
   }

@@ -1,7 +1,6 @@
 #include "condyle/range_of_motion.hpp"
 
 #include <gtest/gtest.h>
-#include <tbb/task_arena.h>
 
 #include <Eigen/Geometry>
 #include <array>
@@ -12,6 +11,7 @@
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
 #include "condyle/limit_band.hpp"
+#include "core/thread_limit.hpp"
 #include "motion/joint_scenes.hpp"
 #include "motion/motion_cases.hpp"
 
@@ -158,9 +158,9 @@ TEST(RangeOfMotion, SharedTablesAndManyThreadsGiveTheBytesOfFreshOnes) {
   const Joint joint = bumpy_joint(Side::right);
   const auto motions = hip_motions();
   const RangeOfMotion shared(joint);
-  tbb::task_arena one_thread(1);
   const auto many = shared.limits(motions);
-  const auto again = one_thread.execute([&] { return shared.limits(motions); });
+  const core::ThreadLimit one_thread(1);
+  const auto again = shared.limits(motions);
   ASSERT_EQ(many.size(), motions.size());
   std::size_t contacts = 0;
   for (std::size_t i = 0; i < motions.size(); ++i) {

@@ -1,7 +1,6 @@
 #include "condyle/motion_contact.hpp"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <random>
 
 #include "condyle/error.hpp"
+#include "core/thread_limit.hpp"
 #include "motion/joint_scenes.hpp"
 #include "motion/recorded/screw_motion.hpp"
 #include "support/test_meshes.hpp"
@@ -384,7 +384,7 @@ TEST(RecordedContact, IsTheSameToTheByteOnOneThreadAndMany) {
     return out;
   };
   const auto many = bits();
-  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const core::ThreadLimit one_thread(1);
   EXPECT_EQ(bits(), many);
   EXPECT_GT(many.size(), 8u);
 }

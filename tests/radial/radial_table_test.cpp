@@ -1,13 +1,13 @@
 #include "condyle/radial.hpp"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <limits>
 #include <random>
 
 #include "condyle/error.hpp"
+#include "core/thread_limit.hpp"
 #include "mesh/subdivide.hpp"
 #include "support/brute_force.hpp"
 #include "support/parameter_names.hpp"
@@ -281,11 +281,11 @@ TEST_P(RadialTableOnMap, OneThreadAndManyGiveTheSameBytes) {
   const Points points = points_at_random(20000, 1.3, 9);
   RadialResults one, many;
   {
-    const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
+    const core::ThreadLimit single(1);
     solid.query(points, one);
   }
   {
-    const tbb::global_control eight(tbb::global_control::max_allowed_parallelism, 8);
+    const core::ThreadLimit eight(8);
     solid.query(points, many);
   }
   EXPECT_EQ(one, many);

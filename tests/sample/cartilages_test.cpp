@@ -1,7 +1,6 @@
 #include "condyle/sample/cartilages.hpp"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +14,7 @@
 #include "condyle/error.hpp"
 #include "condyle/pose.hpp"
 #include "condyle/pressure.hpp"
+#include "core/thread_limit.hpp"
 #include "sample/cartilage_shape.hpp"
 #include "sample/femur_shape.hpp"
 #include "sample/hip_bone_shape.hpp"
@@ -238,7 +238,7 @@ TEST(SampleCartilages, LieOnTheirOwnBonesAndClearOfTheOther) {
 
 TEST(SampleCartilages, SameParametersGiveTheSameBytesOnAnyNumberOfThreads) {
   const SampleCartilages& first = made(CartilageScenario::five);
-  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const core::ThreadLimit one_thread(1);
   const SampleCartilages again = sample_cartilages({}, {}, CartilageScenario::five);
   EXPECT_EQ(again.femoral, first.femoral);
   EXPECT_EQ(again.acetabular, first.acetabular);

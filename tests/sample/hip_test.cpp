@@ -1,7 +1,6 @@
 #include "condyle/sample/hip.hpp"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 #include <string>
 
 #include "condyle/error.hpp"
+#include "core/thread_limit.hpp"
 #include "sample/femur_shape.hpp"
 #include "sample/hip_bone_shape.hpp"
 #include "sample/made_hips.hpp"
@@ -102,7 +102,7 @@ TEST(SampleHip, SameParametersGiveTheSameBytesOnAnyNumberOfThreads) {
   // Holds the vertices of the coarser ones: see above.
   const SampleHip& made = made_hip(Scenario::three);
   const SampleHip again = sample_hip({}, Scenario::three);
-  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const core::ThreadLimit one_thread(1);
   const SampleHip alone = sample_hip({}, Scenario::three);
   for (const SampleHip* other : {&again, &alone}) {
     EXPECT_EQ(other->femur, made.femur);

@@ -1,10 +1,10 @@
 #include "sample/self_intersection.hpp"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <random>
 
+#include "core/thread_limit.hpp"
 #include "support/brute_force.hpp"
 #include "support/test_meshes.hpp"
 
@@ -92,7 +92,7 @@ TEST(SelfIntersection, OneThreadFindsTheSamePairAsMany) {
   const TriMesh mesh =
       test::joined(test::sphere(Vec3::Zero(), 1, 4), test::sphere(Vec3(0.3, 0.4, 0.5), 1, 4));
   const auto many = first_self_intersection(mesh);
-  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const core::ThreadLimit one_thread(1);
   EXPECT_EQ(first_self_intersection(mesh), many);
   EXPECT_TRUE(many);
 }

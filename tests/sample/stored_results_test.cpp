@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <bit>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "condyle/pose.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "condyle/tangential.hpp"
+#include "core/thread_limit.hpp"
 #include "sample/made_hips.hpp"
 #include "simd/instruction_set.hpp"
 
@@ -243,7 +243,7 @@ TEST(StoredResults, AreTheSameOnEachInstructionSetAndOnOneTwoAndSevenThreads) {
     const simd::InstructionSetInUse in_use(set);
     for (const std::size_t threads : {1, 2, 7}) {
       SCOPED_TRACE(set.name + ", " + std::to_string(threads) + " threads");
-      const tbb::global_control most(tbb::global_control::max_allowed_parallelism, threads);
+      const core::ThreadLimit most(threads);
       expect_stored(Scenario::one, of_scenario_one);
     }
   }

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +6,7 @@
 
 #include "condyle/angle.hpp"
 #include "condyle/tangential.hpp"
+#include "core/thread_limit.hpp"
 #include "mesh/winding_number.hpp"
 #include "support/shared_data.hpp"
 
@@ -132,7 +132,7 @@ TEST(RealJoints, OneThreadAndManyGiveTheSameBytes) {
   const RingTable table(bone, frame);
   const auto results = table.query(points);
   const auto arcs = table.occupied_arcs(points);
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const core::ThreadLimit one(1);
   const RingTable single(bone, frame);
   EXPECT_EQ(results, single.query(points));
   EXPECT_EQ(arcs, single.occupied_arcs(points));

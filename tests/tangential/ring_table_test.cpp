@@ -1,7 +1,6 @@
 #include "condyle/tangential.hpp"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "condyle/error.hpp"
+#include "core/thread_limit.hpp"
 #include "mesh/winding_number.hpp"
 #include "simd/instruction_set.hpp"
 #include "support/test_meshes.hpp"
@@ -181,7 +181,7 @@ TEST(RingTable, IsTheSameForAnyNumberOfThreadsByteForByte) {
   const RingTable table(mesh, z_axis);
   const auto results = table.query(points);
   const auto arcs = table.occupied_arcs(points);
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const core::ThreadLimit one(1);
   EXPECT_EQ(results, RingTable(mesh, z_axis).query(points));
   EXPECT_EQ(arcs, RingTable(mesh, z_axis).occupied_arcs(points));
   EXPECT_GT(std::count(results.state.begin(), results.state.end(), PointState::inside), 2000);
