@@ -1,6 +1,6 @@
 # Thin front door; CMakePresets.json has the details.
 .PHONY: demo describe command test test-all nightly build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
-  package package-test wheel page-core page page-template sanitize-thread sanitize-some release label-limits
+  package package-test wheel page-core page page-template sanitize-thread sanitize-some release label-limits static static-test
 
 dependencies:
 	@scripts/install_dependencies.sh
@@ -67,7 +67,7 @@ nightly: bench_dependencies clang_dependencies
 	@$(configure_bench)
 	@cmake --build --preset release
 	@export CONDYLE_LONG_TESTS=1; $(call run_tests,release,none)
-	@$(MAKE) verify label-limits package clang sanitize sanitize-thread
+	@$(MAKE) static-test verify label-limits package clang sanitize sanitize-thread
 
 clang: clang_dependencies
 	@cmake --preset $@ -DCONDYLE_TESTS=ON -DCONDYLE_PYTHON=ON >/dev/null
@@ -164,6 +164,17 @@ wheel: build
 	@scripts/install_dependencies.sh wheel
 	@rm -rf out/wheel
 	@scripts/wheel.sh build/release out/wheel
+
+# The command as one file that runs on every Linux of this processor: build/static/condyle.
+static: command_dependencies
+	@cmake --preset static >/dev/null
+	@cmake --build --preset static --target condyle_cli
+
+# It beside the shared build, with nothing else in its root directory.
+static-test: static dependencies
+	@$(configure_all)
+	@cmake --build --preset release --target condyle_cli
+	@ctest --preset release -R '^static_command$$' --no-tests=error
 
 # A release in out/release from a clean tree: sources, packages, wheel, template, list of materials; each is run.
 release: dependencies docs_dependencies

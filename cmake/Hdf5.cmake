@@ -21,6 +21,10 @@ list(JOIN hidden ":" hidden)
 set(condyle_hdf5_options -Wl,--exclude-libs,${hidden} -Wl,--wrap=stdout,--wrap=stderr,--undefined=__wrap_stderr)
 
 if(CONDYLE_HDF5_STATIC AND CONDYLE_SZIP_STATIC AND CONDYLE_AEC_STATIC)
+  # One static file takes all of them as they are.
+  if(CONDYLE_STATIC)
+    set(CONDYLE_HDF5_INSIDE ON)
+  endif()
   # A shared library with nothing left open, as a program: CMake tries no others.
   file(WRITE ${CMAKE_BINARY_DIR}/CMakeFiles/hdf5_inside.cpp "#include <hdf5.h>
 hid_t created() {

@@ -1,0 +1,52 @@
+// The functions of Highway's library that its headers and the core call, for CONDYLE_STATIC: Debian has the library as a shared one only.
+// Results are the same on every instruction set, so that a wrong choice costs time and nothing else.
+
+#include <hwy/highway.h>
+
+#include <atomic>
+
+namespace hwy {
+namespace {
+
+/// 0: those of the processor.
+std::atomic<int64_t> chosen_for_test = 0;
+
+}  // namespace
+
+int64_t SupportedTargets() {
+  if (const int64_t chosen = chosen_for_test) return chosen;
+  // What the compiler is told that every processor has: the fallback.
+  int64_t targets = HWY_STATIC_TARGET;
+#if HWY_ARCH_X86
+  // What Highway's headers compile each for, wholly: a processor that lacks one of these instructions gets the set before.
+  __builtin_cpu_init();
+  if (!__builtin_cpu_supports("ssse3")) return targets;
+  targets |= HWY_SSSE3;
+  if (!__builtin_cpu_supports("sse4.1") || !__builtin_cpu_supports("sse4.2") ||
+      !__builtin_cpu_supports("pclmul") || !__builtin_cpu_supports("aes"))
+    return targets;
+  targets |= HWY_SSE4;
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma") || !__builtin_cpu_supports("bmi") ||
+      !__builtin_cpu_supports("bmi2") || !__builtin_cpu_supports("f16c") || !__builtin_cpu_supports("lzcnt"))
+    return targets;
+  targets |= HWY_AVX2;
+  if (!__builtin_cpu_supports("avx512f") || !__builtin_cpu_supports("avx512vl") ||
+      !__builtin_cpu_supports("avx512dq") || !__builtin_cpu_supports("avx512bw") ||
+      !__builtin_cpu_supports("avx512cd"))
+    return targets;
+  targets |= HWY_AVX3;
+#endif
+  return targets;
+}
+
+void SetSupportedTargetsForTest(int64_t targets) {
+  chosen_for_test = targets;
+  GetChosenTarget().DeInit();
+}
+
+ChosenTarget& GetChosenTarget() {
+  static ChosenTarget chosen;
+  return chosen;
+}
+
+}  // namespace hwy
