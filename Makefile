@@ -1,6 +1,6 @@
 # Thin front door; CMakePresets.json has the details.
 .PHONY: demo describe command test test-all nightly build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
-  package package-test wheel page-core page page-template sanitize-thread sanitize-some release label-limits static static-test
+  package package-test wheel page-core page page-template sanitize-thread sanitize-some release label-limits static image static-test
 
 dependencies:
 	@scripts/install_dependencies.sh
@@ -170,11 +170,16 @@ static: command_dependencies
 	@cmake --preset static >/dev/null
 	@cmake --build --preset static --target condyle_cli
 
-# It beside the shared build, with nothing else in its root directory.
-static-test: static dependencies
+# A container image of it: out/image/condyle-VERSION.oci.tar.
+image: static
+	@scripts/make_image.py build/static out/image
+
+# Both beside the shared build, with nothing else in their root directory.
+static-test: image dependencies
+	@scripts/install_dependencies.sh image
 	@$(configure_all)
 	@cmake --build --preset release --target condyle_cli
-	@ctest --preset release -R '^static_command$$' --no-tests=error
+	@ctest --preset release -R '^(static_command|image)$$' --no-tests=error
 
 # A release in out/release from a clean tree: sources, packages, wheel, template, list of materials; each is run.
 release: dependencies docs_dependencies

@@ -8,6 +8,7 @@
 #   install_dependencies.sh page      and for make page-core, make page and make page-template
 #   install_dependencies.sh package-test   and for make package-test
 #   install_dependencies.sh wheel     for make wheel; with docs, for make release
+#   install_dependencies.sh image     and for the test of make image, which unpacks it by umoci too
 #   install_dependencies.sh workflow  and for the test of workflow/
 set -euo pipefail
 
@@ -45,9 +46,10 @@ for group in "$@"; do
       ;;
     package-test) packages+=(debootstrap) ;;
     wheel) packages+=(patchelf python3-pip python3-venv python3-wheel) ;;
+    image) packages+=(umoci) ;;
     workflow) packages+=(snakemake slurmctld slurmd slurm-client munge) ;;
     *)
-      echo "install_dependencies.sh: no group '$group'; there are command, clang, bench, docs, page, package-test, wheel, workflow" >&2
+      echo "install_dependencies.sh: no group '$group'; there are command, clang, bench, docs, page, package-test, wheel, image, workflow" >&2
       exit 2
       ;;
   esac
