@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -73,7 +72,7 @@ void remove_with_files(const char* folder) noexcept {
     if (at < 0) return;
     alignas(dirent64) char entries[4096];
     long bytes;
-    while ((bytes = ::syscall(SYS_getdents64, at, entries, sizeof entries)) > 0) {
+    while ((bytes = ::getdents64(at, reinterpret_cast<dirent64*>(entries), sizeof entries)) > 0) {
       for (long i = 0; i < bytes;) {
         const auto* entry = reinterpret_cast<const dirent64*>(entries + i);
         ::unlinkat(at, entry->d_name, 0);  // fails for . and ..

@@ -10,22 +10,24 @@
 #include "condyle/io/pose_text.hpp"
 #include "condyle/make_joint.hpp"
 #include "core/rounded.hpp"
+#include "core/trigonometry.hpp"
 #include "io/joint/proposal.hpp"
 #include "io/joint/proposal_lines.hpp"
 #include "io/joint/propose_other_joint.hpp"
 #include "io/joint/propose_units.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_axes.hpp"
+#include "mesh/enclosed_volume.hpp"
 
 namespace condyle::io {
 namespace {
 
 double degrees(double cosine) {
-  return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
+  return core::arccosine(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
 double degrees_forwards(double forwards, double outwards) {
-  return std::atan2(forwards, outwards) * 180 / std::numbers::pi;
+  return core::arctangent(forwards, outwards) * 180 / std::numbers::pi;
 }
 
 void add_side(ProposalLines& lines, const std::optional<Stated<Side>>& stated,

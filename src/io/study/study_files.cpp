@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "condyle/error.hpp"
 #include "io/file/format_version.hpp"
@@ -123,13 +124,13 @@ void prepare_study_folder(const fs::path& folder) {
 
 std::vector<fs::path> write_study(const fs::path& folder, const StudyResults& results) {
   const StudyTexts& texts = results.texts;
-  const std::string h5 = study_h5(read_columns_csv(results.columns, "columns.csv"), texts);
+  const std::optional<std::string> h5 = study_h5(read_columns_csv(results.columns, "columns.csv"), texts);
   const std::string comments = comments_of(results.record);
-  const std::vector<NamedFile> files = {{"limits.csv", comments + texts.limits},
-                                        {"hips.csv", comments + texts.hips},
-                                        {"failures.csv", comments + texts.failures},
-                                        {"columns.csv", comments + results.columns},
-                                        {"study.h5", h5}};
+  std::vector<NamedFile> files = {{"limits.csv", comments + texts.limits},
+                                  {"hips.csv", comments + texts.hips},
+                                  {"failures.csv", comments + texts.failures},
+                                  {"columns.csv", comments + results.columns}};
+  if (h5) files.push_back({"study.h5", *h5});
   OutputFolder out(folder, is_of_study, {}, record_name);
   for (const auto& [name, contents] : files) write_whole_file(out.file(name), contents);
   write_whole_file(out.file(record_name), document(record_json(results.record, files)));

@@ -49,7 +49,7 @@ void add_table(H5Image& file, const std::string& group, const std::vector<Result
 
 }  // namespace
 
-std::string study_h5(const StudyColumns& columns, const StudyTexts& texts) {
+std::optional<std::string> study_h5(const StudyColumns& columns, const StudyTexts& texts) {
   H5Image file;
   add_table(file, "/limits", columns.limits, texts.limits);
   add_table(file, "/hips", columns.hips, texts.hips);

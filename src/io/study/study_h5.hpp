@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,7 +14,7 @@ struct StudyTexts {
 };
 
 /// The same tables as an HDF5 file: a group per table, a data set per column with its unit and meaning as attributes; an empty
-/// number is nan. The same bytes for the same tables.
-std::string study_h5(const StudyColumns& columns, const StudyTexts& texts);
+/// number is nan. The same bytes for the same tables. None from a program built without HDF5.
+std::optional<std::string> study_h5(const StudyColumns& columns, const StudyTexts& texts);
 
 }  // namespace condyle::io
