@@ -129,6 +129,16 @@ foreach(file ${readers})
   endforeach()
 endforeach()
 
+# Sines have the bits of core/trigonometry.hpp everywhere; those of C libraries differ in their last.
+file(GLOB_RECURSE computing RELATIVE ${SOURCE} ${SOURCE}/src/*.?pp ${SOURCE}/include/*.hpp ${SOURCE}/cli/*.?pp ${SOURCE}/viewer/core/*.?pp)
+list(FILTER computing EXCLUDE REGEX "^src/core/trigonometry\\.|^src/tangential/exact/arctangent")
+foreach(file ${computing})
+  file(STRINGS ${SOURCE}/${file} lines REGEX "std::a?(sin|cos|tan)h?2?\\(|AngleAxisd")
+  foreach(line IN LISTS lines)
+    message(SEND_ERROR "${file}: core/trigonometry.hpp has the same bits everywhere: ${line}")
+  endforeach()
+endforeach()
+
 # What is answered is decided in answer/: shells ask it, and not the kernels below. Each exception with its reason.
 set(kernels "motion::(motion_map|limit_bands|contact_along|balance_along|contact_between|RangeOfMotion|ZoneFinder|DepthRange)"
             "measure::measure_(hip|bands)" "plan::(resect|place_total_hip|DesignLimits)" "contact::balance")

@@ -8,6 +8,7 @@
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "core/trigonometry.hpp"
 #include "kinematics/surface_sag.hpp"
 
 namespace condyle::answer {
@@ -66,7 +67,8 @@ void note_coarse(const Joint& joint, const motion::BearingSurface& surface, std:
   const double reach = reach_in_radii * surface.head.radius;
   const double fixed = kinematics::surface_sag_mm(joint.fixed.mesh, surface.head.centre, reach),
                mobile = kinematics::surface_sag_mm(joint.mobile.mesh, surface.head.centre, reach);
-  const double change_deg = std::atan((fixed + mobile) / surface.head.radius) * 180 / std::numbers::pi;
+  const double change_deg =
+      core::arctangent((fixed + mobile) / surface.head.radius, 1) * 180 / std::numbers::pi;
   if (!(change_deg > largest_change_deg)) return;
   notes.push_back(
       {RangeNoteCode::coarse_mesh,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "condyle/mesh.hpp"
+#include "core/trigonometry.hpp"
 
 namespace condyle::contact {
 
@@ -22,7 +23,7 @@ inline Vec3 area_vector(const TriMesh& mesh, std::size_t face) {
 /// The angle of a triangle at one of its corners, radians.
 inline double angle_at(const std::array<Vec3, 3>& corners, std::size_t k) {
   const Vec3 a = corners[(k + 1) % 3] - corners[k], b = corners[(k + 2) % 3] - corners[k];
-  return std::atan2(a.cross(b).norm(), a.dot(b));
+  return core::arctangent(a.cross(b).norm(), a.dot(b));
 }
 
 /// The cosine of `oblique_ray`: a ray that meets the target at a smaller one to its normal has no depth.

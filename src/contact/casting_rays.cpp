@@ -8,6 +8,7 @@
 
 #include "contact/along_rays.hpp"
 #include "core/parallel.hpp"
+#include "core/trigonometry.hpp"
 #include "mesh/triangle_tree.hpp"
 #include "mesh/vertex_triangles.hpp"
 
@@ -15,10 +16,10 @@ namespace condyle::contact {
 namespace {
 
 /// Faces that meet at a larger angle than this meet at a crease: each side has its own normals there.
-const double crease_cosine = std::cos(40 * std::numbers::pi / 180);
+const double crease_cosine = core::cosine(40 * std::numbers::pi / 180);
 
 /// Faces within half of that angle of one of them are within all of it of each other, whatever is rounded.
-const double smooth_cosine = std::cos(20 * std::numbers::pi / 180) + 1e-9;
+const double smooth_cosine = core::cosine(20 * std::numbers::pi / 180) + 1e-9;
 
 /// Faces, or vertices, that a thread takes at once: some tens of microseconds.
 constexpr std::size_t grain = 512;

@@ -12,7 +12,7 @@
 #include "contact/elastic_parts.hpp"
 #include "core/coordinate_range.hpp"
 #include "core/formatted.hpp"
-#include "core/trigonometry.hpp"
+#include "core/rotation_about.hpp"
 
 namespace condyle::contact {
 namespace {
@@ -80,7 +80,7 @@ Pose moved(const Pose& X, const Vector6& by) {
   Pose out = X;
   out.translation() += by.head<3>();
   if (const double angle = by.tail<3>().norm(); angle > 0)
-    out.linear() = Eigen::AngleAxisd(angle, by.tail<3>() / angle).toRotationMatrix() * X.linear();
+    out.linear() = core::rotation_about(by.tail<3>() / angle, angle) * X.linear();
   return out;
 }
 

@@ -9,6 +9,7 @@
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "core/trigonometry.hpp"
 #include "kinematics/joint_cylinder.hpp"
 #include "kinematics/resampling.hpp"
 #include "kinematics/surface_points.hpp"
@@ -70,7 +71,7 @@ std::optional<Place> place_on(const SurfacePoint& p, const Cylinder& c, const Ve
   const double distance = ray.norm();
   if (std::abs(distance - c.radius) > band || p.normal.dot(ray) < smallest_cosine * distance)
     return std::nullopt;
-  return Place{height, std::atan2(ray.dot(e2), ray.dot(e1)) / two_pi + 0.5, p.area};
+  return Place{height, core::arctangent(ray.dot(e2), ray.dot(e1)) / two_pi + 0.5, p.area};
 }
 
 /// The length between the second and the 98th hundredth: single vertices of other surfaces lie on every cylinder.
@@ -240,7 +241,7 @@ void add_bounds(const TriMesh& femur, CylinderFit& fit, double middle) {
   const Vec3 e1 = c.direction.unitOrthogonal(), e2 = c.direction.cross(e1);
   const auto block_of = [&](Index v) {
     const Vec3 q = femur.vertices[v] - c.point;
-    const double turn = std::atan2(q.dot(e2), q.dot(e1)) / two_pi + 0.5;
+    const double turn = core::arctangent(q.dot(e2), q.dot(e1)) / two_pi + 0.5;
     return std::int64_t{std::min(static_cast<int>(turn * sectors), sectors - 1)} * 2 +
            (q.dot(c.direction) > middle);
   };
@@ -250,8 +251,8 @@ void add_bounds(const TriMesh& femur, CylinderFit& fit, double middle) {
     try {
       const Cylinder other = fit_cylinder(femur.vertices, drawn, c).cylinder;
       shifts.push_back((other.point - c.point).cross(other.direction).norm());
-      turns.push_back(
-          std::atan2(other.direction.cross(c.direction).norm(), std::abs(other.direction.dot(c.direction))));
+      turns.push_back(core::arctangent(other.direction.cross(c.direction).norm(),
+                                       std::abs(other.direction.dot(c.direction))));
     } catch (const MeshError&) {  // no axis at all
       shifts.push_back(c.radius);
       turns.push_back(two_pi / 4);

@@ -7,6 +7,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/fit.hpp"
+#include "core/trigonometry.hpp"
 #include "kinematics/resampling.hpp"
 #include "kinematics/surface_points.hpp"
 #include "mesh/surface_pieces.hpp"
@@ -222,7 +223,7 @@ void bound_axis(const TriMesh& mesh, CylinderFit& fit) {
   const Vec3 e1 = c.direction.unitOrthogonal(), e2 = c.direction.cross(e1);
   const auto block_of = [&](Index v) {
     const Vec3 q = mesh.vertices[v] - c.point;
-    const double turn = std::atan2(q.dot(e2), q.dot(e1)) / two_pi + 0.5,
+    const double turn = core::arctangent(q.dot(e2), q.dot(e1)) / two_pi + 0.5,
                  height = (q.dot(c.direction) - low) / (high - low);
     const auto part = [](double share, int parts) {
       return std::min(static_cast<int>(share * parts), parts - 1);
@@ -236,8 +237,8 @@ void bound_axis(const TriMesh& mesh, CylinderFit& fit) {
     try {
       const Cylinder other = fit_cylinder(mesh.vertices, drawn, c).cylinder;
       shifts.push_back((other.point - c.point).cross(other.direction).norm());
-      turns.push_back(
-          std::atan2(other.direction.cross(c.direction).norm(), std::abs(other.direction.dot(c.direction))));
+      turns.push_back(core::arctangent(other.direction.cross(c.direction).norm(),
+                                       std::abs(other.direction.dot(c.direction))));
     } catch (const MeshError&) {  // no axis at all
       shifts.push_back(c.radius);
       turns.push_back(two_pi / 4);

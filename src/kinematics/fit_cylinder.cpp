@@ -7,6 +7,7 @@
 
 #include "condyle/error.hpp"
 #include "core/predicates.hpp"
+#include "core/trigonometry.hpp"
 
 namespace condyle {
 namespace {
@@ -112,7 +113,7 @@ double share_of_turn(PointsView points, std::span<const Index> vertices, const A
   const auto [e1, e2] = across(axis.direction);
   for (const Index v : vertices) {
     const Vec3 q = points[v] - axis.point;
-    const double turn = std::atan2(q.dot(e2), q.dot(e1)) / two_pi + 0.5;
+    const double turn = core::arctangent(q.dot(e2), q.dot(e1)) / two_pi + 0.5;
     taken[std::min(static_cast<std::size_t>(turn * sectors), sectors - 1)] = true;
   }
   return static_cast<double>(std::count(taken.begin(), taken.end(), true)) / sectors;

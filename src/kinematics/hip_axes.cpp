@@ -138,7 +138,7 @@ Evidence end_vote(const char* bone, const AgreeingAxes& reading, const Vec3& lin
     return Vec3(v.dot(reading.lateral()), v.dot(reading.superior()), 0);
   };
   const Vec3 from = seen(line), to = seen(end);
-  const double deg = -std::atan2(from.cross(to).z(), from.dot(to)) * 180 / std::numbers::pi;
+  const double deg = -core::arctangent(from.cross(to).z(), from.dot(to)) * 180 / std::numbers::pi;
   return {
       deg / end_margin_deg,
       formatted(
@@ -189,7 +189,7 @@ std::string vote_text(double vote) {
 std::optional<Evidence> neck_vote(const Vec3& neck, const Horizon& seen) {
   const double front = neck.dot(seen.front), out = neck.dot(seen.out);
   if (core::hypotenuse(front, out) < least_horizontal) return std::nullopt;
-  const double deg = -std::atan2(front, out) * 180 / std::numbers::pi, vote = deg / neck_margin_deg;
+  const double deg = -core::arctangent(front, out) * 180 / std::numbers::pi, vote = deg / neck_margin_deg;
   return Evidence{
       vote,
       formatted("the socket opens %.0f degrees in front of the neck, read as a right hip: %s (needs %.0f)",

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "condyle/error.hpp"
+#include "core/trigonometry.hpp"
 
 namespace condyle {
 namespace {
@@ -55,7 +56,7 @@ Pose frame_from_axes(const Vec3& centre, const Vec3& anterior, const Vec3& super
   if (!(error.superior_length <= axis_tolerance))
     throw UsageError("superior has length " + text(superior.norm()) + ", not 1");
   if (!(error.right_angle <= 2 * axis_tolerance)) {
-    const double degrees = Angle::radians(std::acos(anterior.dot(superior))).degrees();
+    const double degrees = Angle::radians(core::arccosine(anterior.dot(superior))).degrees();
     throw UsageError("anterior and superior are " + text(degrees) + " degrees apart, not 90 (off by " +
                      text(std::abs(degrees - 90)) + ")");
   }

@@ -8,6 +8,7 @@
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "core/trigonometry.hpp"
 #include "kinematics/corners.hpp"
 #include "kinematics/facing_part.hpp"
 #include "kinematics/hip_anatomy.hpp"
@@ -65,7 +66,7 @@ Epicondyles find_epicondyles(const TriMesh& femur, const Cylinder& axis) {
     if (height > last.height) last = {p, height};
   });
   const double cosine = (last.at - first.at).normalized().dot(axis.direction);
-  return {first.at, last.at, std::acos(std::clamp(cosine, -1.0, 1.0)) * degrees_per_radian};
+  return {first.at, last.at, core::arccosine(std::clamp(cosine, -1.0, 1.0)) * degrees_per_radian};
 }
 
 /// How far the surface near the axis reaches towards `ahead`, in the two parts of a femur on either side of the notch and
@@ -169,8 +170,8 @@ void find_side(const TriMesh& femur, KneeAnatomy& knee) {
   const auto side_of = [](double to_right) { return to_right > 0 ? Side::right : Side::left; };
   const auto word = [&](double to_right) { return to_right > 0 ? "right" : "left"; };
 
-  const double lean =
-      std::atan2(shaft.direction.dot(right), shaft.direction.dot(knee.axes->superior)) * degrees_per_radian;
+  const double lean = core::arctangent(shaft.direction.dot(right), shaft.direction.dot(knee.axes->superior)) *
+                      degrees_per_radian;
   knee.evidence.push_back(
       formatted("side: upwards the shaft leans %.1f degrees to the %s against the condyles' axis, as of a %s "
                 "knee (needs %.0f)",
@@ -212,7 +213,7 @@ void find_side(const TriMesh& femur, KneeAnatomy& knee) {
 void check_tibia(const TriMesh& tibia, KneeAnatomy& knee) {
   const Vec3 down = area_centroid(tibia) - knee.condyles->fit.cylinder.point;
   const double behind =
-      std::atan2(-down.dot(knee.axes->anterior), -down.dot(knee.axes->superior)) * degrees_per_radian;
+      core::arctangent(-down.dot(knee.axes->anterior), -down.dot(knee.axes->superior)) * degrees_per_radian;
   knee.evidence.push_back(formatted(
       "the mobile body lies %.0f degrees %s straight down from the condyles (needs %.0f in front at most)",
       std::abs(behind), behind < 0 ? "in front of" : "behind", most_in_front_deg));

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/formatted.hpp"
+#include "core/trigonometry.hpp"
 #include "kinematics/knee_anatomy.hpp"
 #include "mesh/surface_pieces.hpp"
 
@@ -19,7 +20,7 @@ constexpr double least_upright = 0.3;
 constexpr double most_turned_deg = 30;
 
 double degrees_between_lines(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), std::abs(a.dot(b))) * 180 / std::numbers::pi;
+  return core::arctangent(a.cross(b).norm(), std::abs(a.dot(b))) * 180 / std::numbers::pi;
 }
 
 std::string_view word_of(Side side) {

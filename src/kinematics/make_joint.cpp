@@ -13,6 +13,7 @@
 #include "core/extended.hpp"
 #include "core/formatted.hpp"
 #include "core/rounded.hpp"
+#include "core/trigonometry.hpp"
 #include "kinematics/body_pieces.hpp"
 #include "kinematics/cut_parts.hpp"
 #include "kinematics/femoral_axes.hpp"
@@ -121,7 +122,7 @@ Pose rotated_to_axis(const Pose& X_WF, const Vec3& fitted, JointPlacement& place
   constexpr double largest_turn_deg = 45;  // beyond it the fit is not of the joint that the axes describe
   const Vec3 z = X_WF.linear().col(2);
   const Vec3 axis = z.dot(fitted) < 0 ? Vec3(-fitted) : fitted;
-  placement.axis_rotation = Angle::radians(std::atan2(z.cross(axis).norm(), z.dot(axis)));
+  placement.axis_rotation = Angle::radians(core::arctangent(z.cross(axis).norm(), z.dot(axis)));
   if (placement.axis_rotation.degrees() > largest_turn_deg)
     throw MeshError(
         formatted("frame.centre: the fitted axis is %.1f degrees from right = anterior x superior; more than "

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/trigonometry.hpp"
 #include "kinematics/corners.hpp"
 
 namespace condyle::kinematics {
@@ -36,7 +37,7 @@ double whole_reach(const TriMesh& bone, const Vec3& joint, const ShaftLine& line
     const double height = (p - joint).dot(line.direction);
     if (height < begins) return;
     const Vec3 q = p - line.point;
-    const double turn = std::atan2(q.dot(e2), q.dot(e1)) / two_pi + 0.5;
+    const double turn = core::arctangent(q.dot(e2), q.dot(e1)) / two_pi + 0.5;
     double& of_sector = reach[std::min(static_cast<std::size_t>(turn * sectors), std::size_t{sectors - 1})];
     of_sector = std::max(of_sector, height);
   });
@@ -87,7 +88,7 @@ ShaftLine line_through(const Slices& slices, const Vec3& direction) {
   const double residual = std::max(0.0, solved.eigenvalues()[1]) / std::max(1.0, n - 2);
   const double slope = std::sqrt(residual / solved.eigenvalues()[2]);
   return {mean,        along,        slices.first,
-          slices.last, slices.reach, 2 * std::atan(slope) * 180 / std::numbers::pi};
+          slices.last, slices.reach, 2 * core::arctangent(slope, 1) * 180 / std::numbers::pi};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "condyle/error.hpp"
+#include "core/trigonometry.hpp"
 #include "kinematics/surface_points.hpp"
 #include "mesh/disjoint_sets.hpp"
 #include "mesh/triangle_distance.hpp"
@@ -146,7 +147,7 @@ std::optional<double> rim_gap(const TriMesh& fixed, const std::vector<Index>& wi
   const Vec3 x = opening.unitOrthogonal(), y = opening.cross(x);
   for (const Index v : within) {
     const Vec3 ray = fixed.vertices[v] - head.centre;
-    const double turn = std::atan2(ray.dot(y), ray.dot(x)) / (2 * std::numbers::pi) + 0.5;
+    const double turn = core::arctangent(ray.dot(y), ray.dot(x)) / (2 * std::numbers::pi) + 0.5;
     Crest& crest = crests[std::min(static_cast<std::size_t>(turn * sectors), sectors - 1)];
     const double towards = ray.dot(opening) / ray.norm();
     if (towards > crest.towards_opening) crest = {towards, ray.norm() - head.radius};
@@ -187,7 +188,8 @@ bool is_socket_of(const Sphere& head, const SphericalPatch& socket) {
 double nearest_beside(const TriMesh& fixed, const Sphere& head, const std::optional<ShallowSocket>& socket) {
   double nearest = std::numeric_limits<double>::infinity();
   const double cone =
-      socket ? std::cos(std::min(std::numbers::pi, std::acos(socket->cone_cosine) + beyond_rim)) : 2;
+      socket ? core::cosine(std::min(std::numbers::pi, core::arccosine(socket->cone_cosine) + beyond_rim))
+             : 2;
   for (std::size_t t = 0; t < fixed.triangles.size(); ++t) {
     const std::array corners{fixed.corner(t, 0), fixed.corner(t, 1), fixed.corner(t, 2)};
     const Vec3 point = mesh::nearest_on_triangle(Vec3::Zero(), corners);

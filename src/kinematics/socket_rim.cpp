@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/trigonometry.hpp"
 #include "mesh/vertex_normals.hpp"
 
 namespace condyle::kinematics {
@@ -55,7 +56,7 @@ Crests crests_of(const std::vector<Vec3>& rays, const Vec3& opening, double head
   const Vec3 x = opening.unitOrthogonal(), y = opening.cross(x);
   Crests crests{};
   for (const Vec3& ray : rays) {
-    const double turn = std::atan2(ray.dot(y), ray.dot(x)) / (2 * std::numbers::pi) + 0.5;
+    const double turn = core::arctangent(ray.dot(y), ray.dot(x)) / (2 * std::numbers::pi) + 0.5;
     Crest& crest = crests[std::min(static_cast<std::size_t>(turn * rim_sectors), rim_sectors - 1)];
     const double towards = ray.dot(opening) / ray.norm();
     if (crest.found && towards <= crest.towards_opening) continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/trigonometry.hpp"
 #include "mesh/edge_table.hpp"
 
 namespace condyle::kinematics {
@@ -30,7 +31,7 @@ double surface_sag_mm(const Mesh& mesh, const Vec3& about, double within_mm) {
     if (!(length > 0)) continue;
     // Heights of both triangles over the edge; half of them is between their middles.
     const double chord = (a.norm() + b.norm()) / (2 * length);
-    sags.push_back(chord * std::atan2(a.cross(b).norm(), a.dot(b)) / 8);
+    sags.push_back(chord * core::arctangent(a.cross(b).norm(), a.dot(b)) / 8);
   }
   if (sags.empty()) return 0;
   const auto nth = sags.begin() + static_cast<std::ptrdiff_t>((sags.size() - 1) - (sags.size() - 1) / one_in);

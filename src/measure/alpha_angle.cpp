@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/formatted.hpp"
+#include "core/trigonometry.hpp"
 #include "measure/degree.hpp"
 
 namespace condyle::measure {
@@ -28,7 +29,7 @@ struct Interval {
 
 /// Angles of the ends of a contour piece from the centre.
 Interval seen(const ContourPiece& piece, const Vec2& from) {
-  const auto angle = [&](const Vec2& p) { return std::atan2(p.y() - from.y(), p.x() - from.x()); };
+  const auto angle = [&](const Vec2& p) { return core::arctangent(p.y() - from.y(), p.x() - from.x()); };
   const double a = angle(piece.from), b = angle(piece.to);
   return a < b ? Interval{a, b, piece.to} : Interval{b, a, piece.from};
 }
@@ -66,7 +67,7 @@ bool goes_on_at(const std::vector<Interval>& within, double angle) {
 
 std::optional<CircleFit> head_circle(const Contour& section, double head_radius) {
   Contour head;
-  const double slope = 1 / std::tan(circle_begins_deg * degree);
+  const double slope = 1 / core::tangent(circle_begins_deg * degree);
   const auto before = [&](const Vec2& p) { return p.x() - slope * std::abs(p.y()); };
   for (ContourPiece piece : section) {
     if (!faces_outwards(piece)) continue;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/trigonometry.hpp"
+
 namespace condyle::measure {
 namespace {
 
@@ -66,7 +68,7 @@ AxisSections::AxisSections(const TriMesh& mesh, const Vec3& centre, const Vec3& 
 }
 
 Contour AxisSections::at(double turn) const {
-  const double c = std::cos(turn), s = std::sin(turn);
+  const double c = core::cosine(turn), s = core::sine(turn);
   std::vector<double> above(along_.size());
   for (std::size_t v = 0; v < above.size(); ++v) above[v] = c * on_quarter_[v] - s * on_zero_[v];
   const auto place = [&](Index v) { return Vec2(along_[v], c * on_zero_[v] + s * on_quarter_[v]); };
@@ -93,7 +95,7 @@ Contour AxisSections::at(double turn) const {
 }
 
 Vec3 AxisSections::direction(double turn) const noexcept {
-  return std::cos(turn) * zero_ + std::sin(turn) * quarter_;
+  return core::cosine(turn) * zero_ + core::sine(turn) * quarter_;
 }
 
 Vec3 AxisSections::point(double turn, const Vec2& p) const noexcept {

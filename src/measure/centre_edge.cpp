@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/trigonometry.hpp"
 #include "measure/axis_sections.hpp"
 #include "measure/degree.hpp"
 #include "measure/rim.hpp"
@@ -28,7 +29,8 @@ std::vector<CoveredArc> seen(const Contour& section, double reach) {
   std::vector<CoveredArc> out;
   for (ContourPiece piece : section) {
     if (!clip_to_circle(piece, Vec2::Zero(), reach)) continue;
-    const double a = std::atan2(piece.from.y(), piece.from.x()), b = std::atan2(piece.to.y(), piece.to.x());
+    const double a = core::arctangent(piece.from.y(), piece.from.x()),
+                 b = core::arctangent(piece.to.y(), piece.to.x());
     if (std::abs(a - b) > std::numbers::pi) continue;  // straight below: no roof
     out.push_back(a < b ? CoveredArc{a, b, piece.to, piece.to_end}
                         : CoveredArc{b, a, piece.from, piece.from_end});

@@ -4,6 +4,7 @@
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "core/trigonometry.hpp"
 #include "kinematics/bone_sizes.hpp"
 #include "kinematics/condylar_line.hpp"
 #include "kinematics/find_condyles.hpp"
@@ -19,7 +20,7 @@ Vec3 square_to(const Vec3& v, const Vec3& axis) {
 
 /// By how much -neck is in front of `medial`, both seen along an axis.
 double forward_deg(const Vec3& neck, const Vec3& medial, const Vec3& anterior) {
-  return std::atan2(-neck.dot(anterior), -neck.dot(medial)) / degree;
+  return core::arctangent(-neck.dot(anterior), -neck.dot(medial)) / degree;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "condyle/angle.hpp"
+#include "core/trigonometry.hpp"
 
 namespace condyle::measure {
 namespace {
@@ -191,7 +192,8 @@ std::vector<Circle> starts_of(const std::vector<Weighted>& all) {
     std::vector<Weighted> some;
     for (const Weighted& one : all) {
       const Vec2 ray = one.point - whole->centre;
-      const double turn = std::atan2(std::abs(ray.y()), -ray.x()) / (two_pi / 2);  // the same on both sides
+      const double turn =
+          core::arctangent(std::abs(ray.y()), -ray.x()) / (two_pi / 2);  // the same on both sides
       if (std::min(static_cast<std::size_t>(turn * starts), starts - 1) != skipped) some.push_back(one);
     }
     if (const auto circle = algebraic(some)) out.push_back(*circle);

@@ -3,11 +3,13 @@
 #include <cmath>
 #include <utility>
 
+#include "core/trigonometry.hpp"
+
 namespace condyle::measure {
 
 BodyAxes body_axes(Side side, Angle tilt) {
   // A pelvis that tilts forwards turns by -tilt about Z in its frame; its frame turns by tilt about it.
-  const double c = std::cos(tilt.radians()), s = std::sin(tilt.radians());
+  const double c = core::cosine(tilt.radians()), s = core::sine(tilt.radians());
   return {{c, s, 0}, {-s, c, 0}, {0, 0, side == Side::right ? 1.0 : -1.0}};
 }
 

@@ -19,10 +19,10 @@ namespace {
 void set_opening(const RimGeometry& rim, const Sphere& head, const BodyAxes& axes, AcetabulumMeasures& out) {
   const double front = rim.normal.dot(axes.anterior), up = rim.normal.dot(axes.superior),
                side = rim.normal.dot(axes.lateral);
-  out.inclination = measured(std::atan2(core::hypotenuse(front, side), -up) / degree);
-  out.version = measured(std::atan2(front, side) / degree);
-  out.inclination_radiographic = measured(std::atan2(side, -up) / degree);
-  out.version_radiographic = measured(std::atan2(front, core::hypotenuse(side, up)) / degree);
+  out.inclination = measured(core::arctangent(core::hypotenuse(front, side), -up) / degree);
+  out.version = measured(core::arctangent(front, side) / degree);
+  out.inclination_radiographic = measured(core::arctangent(side, -up) / degree);
+  out.version_radiographic = measured(core::arctangent(front, core::hypotenuse(side, up)) / degree);
   out.rim_radius = measured(rim.radius_mm);
   out.rim_height = measured((rim.centre - head.centre).dot(rim.normal));
 }
@@ -30,7 +30,7 @@ void set_opening(const RimGeometry& rim, const Sphere& head, const BodyAxes& axe
 /// The mean over all hours of the share within a cone of that hour's angle; hours without wall are between their neighbours.
 double coverage_of(const std::vector<RimHour>& rim) {
   const std::size_t count = rim.size();
-  const auto share = [&](std::size_t i) { return (1 - std::cos(rim[i].cover_deg * degree)) / 2; };
+  const auto share = [&](std::size_t i) { return (1 - core::cosine(rim[i].cover_deg * degree)) / 2; };
   double sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
     std::size_t before = 0, after = 0;

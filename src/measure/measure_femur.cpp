@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/formatted.hpp"
+#include "core/trigonometry.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "measure/degree.hpp"
 #include "measure/femoral_version.hpp"
@@ -78,8 +79,8 @@ void set_shaft(const TriMesh& femur, const ShaftFinding& found, const std::optio
     return;
   }
   out.shaft = geometry_of(*shaft, head.centre);
-  out.neck_shaft = neck ? measured(std::atan2(neck->direction.cross(shaft->direction).norm(),
-                                              -neck->direction.dot(shaft->direction)) /
+  out.neck_shaft = neck ? measured(core::arctangent(neck->direction.cross(shaft->direction).norm(),
+                                                    -neck->direction.dot(shaft->direction)) /
                                    degree)
                         : not_measured(no_neck);
   const TrochanterFinding trochanter = greater_trochanter(femur, head, *shaft, parts.femur_ends);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/formatted.hpp"
+#include "core/trigonometry.hpp"
 #include "mesh/disjoint_sets.hpp"
 
 namespace condyle::measure {
@@ -71,7 +72,7 @@ Loop arcs_in(const std::array<Vec3, 3>& corners, const std::vector<Crossing>& cr
   std::vector<std::pair<double, const Crossing*>> around;
   for (const Crossing& crossing : crossings) {
     const Vec3 ray = crossing.point - q;
-    around.emplace_back(std::atan2(ray.dot(v), ray.dot(u)), &crossing);
+    around.emplace_back(core::arctangent(ray.dot(v), ray.dot(u)), &crossing);
   }
   std::sort(around.begin(), around.end());
   const auto inside = [&](const Vec3& p) {
@@ -84,7 +85,7 @@ Loop arcs_in(const std::array<Vec3, 3>& corners, const std::vector<Crossing>& cr
     const auto& [next, to] = around[(i + 1) % around.size()];
     const double turn = i + 1 < around.size() ? next - begin : next - begin + 2 * std::numbers::pi;
     const double middle = begin + turn / 2;
-    const Vec3 half = q + rho * (std::cos(middle) * u + std::sin(middle) * v);
+    const Vec3 half = q + rho * (core::cosine(middle) * u + core::sine(middle) * v);
     if (!inside(half)) continue;
     out.area += (q.cross(to->point - from->point) + squared * turn * normal) / 2;
     out.open += to->point - from->point;

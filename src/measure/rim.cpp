@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/formatted.hpp"
+#include "core/trigonometry.hpp"
 #include "kinematics/surface_points.hpp"
 #include "measure/degree.hpp"
 #include "measure/fit_circle.hpp"
@@ -36,7 +37,7 @@ std::optional<Vec2> farthest_towards_opening(const Contour& half, double reach) 
   double largest = -1;
   bool is_end = false;
   const auto consider = [&](const Vec2& p, bool ends) {
-    const double angle = std::atan2(p.y(), -p.x());
+    const double angle = core::arctangent(p.y(), -p.x());
     if (angle > largest) largest = angle, farthest = p, is_end = ends;
   };
   for (ContourPiece piece : half) {
@@ -59,9 +60,9 @@ std::vector<RimHour> rim_about(const SocketWall& wall, const Sphere& head, const
     const auto edge = farthest_towards_opening(half, reach);
     if (!edge) return;
     out.point = sections.point(turn, *edge);
-    out.cover_deg = std::atan2(edge->y(), -edge->x()) / degree;
+    out.cover_deg = core::arctangent(edge->y(), -edge->x()) / degree;
     const Vec3 ray = *out.point - head.centre;
-    out.centre_edge_deg = std::atan2(ray.cross(axes.superior).norm(), ray.dot(axes.superior)) / degree;
+    out.centre_edge_deg = core::arctangent(ray.cross(axes.superior).norm(), ray.dot(axes.superior)) / degree;
   };
   for (std::size_t k = 0; k < rim_steps / 2; ++k) {
     const Contour section = sections.at(two_pi * static_cast<double>(k) / rim_steps);
@@ -176,7 +177,7 @@ std::string edge_grain_note(const SocketWall& wall, const Sphere& head, const Ve
       nearest = off, edge = wall.edge_mm[v];
   if (!(edge > by_head(coarse_edge_mm, head))) return {};
   return core::formatted("triangles of %.1f mm cut off the rim here: it may end %.0f degrees farther", edge,
-                         std::atan2(edge / 2, (point - head.centre).norm()) / degree);
+                         core::arctangent(edge / 2, (point - head.centre).norm()) / degree);
 }
 
 RimFinding find_rim(const SocketWall& wall, const Sphere& head, const Vec3& opening, const BodyAxes& axes) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/formatted.hpp"
+#include "core/trigonometry.hpp"
 
 namespace condyle::measure {
 
@@ -46,7 +47,7 @@ ChordFinding chord_at(const std::vector<RimHour>& rim, const Sphere& head, const
 
 double chord_version_deg(const RimChord& chord, const BodyAxes& axes) {
   const Vec3 along = chord.front - chord.back;
-  return std::atan2(-along.dot(axes.lateral), along.dot(axes.anterior)) * 180 / std::numbers::pi;
+  return core::arctangent(-along.dot(axes.lateral), along.dot(axes.anterior)) * 180 / std::numbers::pi;
 }
 
 }  // namespace condyle::measure

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/formatted.hpp"
+#include "core/trigonometry.hpp"
 #include "kinematics/corners.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/surface_points.hpp"
@@ -140,7 +141,7 @@ ShaftAxis line_through(const std::vector<Vec3>& points, const std::vector<double
   if (along.dot(direction) < 0) along = -along;
   // Least squares: the variance of the slope is that of the residuals over the sum of squared abscissae.
   const double residual = std::max(0.0, solved.eigenvalues()[1]) / std::max(1.0, n - 2);
-  return {mean, along, 0, 0, 2 * std::atan(std::sqrt(residual / solved.eigenvalues()[2])) / degree};
+  return {mean, along, 0, 0, 2 * core::arctangent(std::sqrt(residual / solved.eigenvalues()[2]), 1) / degree};
 }
 
 double distance(const ShaftAxis& line, const Vec3& p) {

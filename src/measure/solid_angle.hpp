@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "condyle/mesh.hpp"
+#include "core/trigonometry.hpp"
 
 namespace condyle::measure {
 
@@ -10,7 +11,8 @@ namespace condyle::measure {
 inline double solid_angle(const TriMesh& mesh, std::size_t t, const Vec3& from) {
   const Vec3 a = mesh.corner(t, 0) - from, b = mesh.corner(t, 1) - from, c = mesh.corner(t, 2) - from;
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  return 2 *
+         core::arctangent(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
 }  // namespace condyle::measure

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/predicates.hpp"
+#include "core/trigonometry.hpp"
 
 namespace condyle::mesh {
 namespace {
@@ -40,7 +41,8 @@ class PlaneView {
   }
   /// From the direction b to c clockwise to that from b to d, in (0, 2 pi].
   double clockwise(Index b, Index c, Index d) const {
-    const double angle = std::atan2(v(c) - v(b), u(c) - u(b)) - std::atan2(v(d) - v(b), u(d) - u(b));
+    const double angle =
+        core::arctangent(v(c) - v(b), u(c) - u(b)) - core::arctangent(v(d) - v(b), u(d) - u(b));
     return angle > 0 ? angle : angle + 2 * std::numbers::pi;
   }
   /// Whether a triangle holds p, one that reaches `margin` farther beyond its side from c to a.

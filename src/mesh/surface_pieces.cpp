@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/lazy.hpp"
+#include "core/trigonometry.hpp"
 #include "mesh/disjoint_sets.hpp"
 #include "mesh/edge_table.hpp"
 #include "mesh/enclosed_volume.hpp"
@@ -104,7 +105,8 @@ double winding_share(const TriMesh& mesh, const Vec3& p) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Vec3 a = mesh.corner(t, 0) - p, b = mesh.corner(t, 1) - p, c = mesh.corner(t, 2) - p;
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+    sum +=
+        2 * core::arctangent(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
   }
   return sum / (4 * std::numbers::pi);
 }

@@ -14,6 +14,7 @@
 #include "core/formatted.hpp"
 #include "core/lazy.hpp"
 #include "core/per_thread.hpp"
+#include "core/trigonometry.hpp"
 #include "kinematics/posed_parts.hpp"
 #include "mesh/triangle_distance.hpp"
 #include "motion/rom/overlap.hpp"
@@ -401,7 +402,7 @@ struct DesignLimits::Parts {
                   const RevolvedPair& form) const {
     const Vec3 neck = posed(pose_at(joint.coordinates(), at.start), form.mobile_axis);
     const Angle apart =
-        Angle::radians(std::atan2(form.fixed_axis.cross(neck).norm(), form.fixed_axis.dot(neck)));
+        Angle::radians(core::arctangent(form.fixed_axis.cross(neck).norm(), form.fixed_axis.dot(neck)));
     if (apart < form.of_facets_low - closed_form_slack) return true;
     if (!(apart > form.of_facets_high + closed_form_slack)) return false;
     best.take({0, motion::LimitReason::contact_at_start}, pair.name, LimitKnownBy::closed_form);

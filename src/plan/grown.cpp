@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/trigonometry.hpp"
+
 namespace condyle::plan {
 namespace {
 
@@ -30,7 +32,7 @@ Mesh grown(const Mesh& mesh, double by_mm) {
     for (int k = 0; k < 3; ++k) {
       const Vec3 to_next = (mesh.corner(t, (k + 1) % 3) - mesh.corner(t, k)).stableNormalized(),
                  to_last = (mesh.corner(t, (k + 2) % 3) - mesh.corner(t, k)).stableNormalized();
-      const double angle = std::acos(std::clamp(to_next.dot(to_last), -1.0, 1.0));
+      const double angle = core::arccosine(std::clamp(to_next.dot(to_last), -1.0, 1.0));
       squares[v[k]] += angle * normal * normal.transpose();
       sums[v[k]] += angle * normal;
     }

@@ -181,7 +181,7 @@ void check_sizes(const Sizes& sizes) {
     refuse(core::formatted(
         "a chamfer of %g degrees is too much for walls from %g to %g mm: it would run into the head",
         written_degrees(liner.chamfer), liner.radius_mm, liner.outer_radius_mm));
-  const double t = std::tan(sizes.neck.taper.radians());
+  const double t = core::tangent(sizes.neck.taper.radians());
   const double at_end = sizes.neck.radius_mm + t * sizes.neck_end_mm;
   constexpr double thinnest_neck = 1;
   if (sizes.neck.radius_mm + t * sizes.ball_radius_mm >= sizes.ball_radius_mm)
@@ -208,7 +208,7 @@ void check_design(const TotalHip& hip) {
   if (hip.neck_upper_width_mm > 0) {
     const double farthest =
         core::hypotenuse(hip.neck_radius_mm, std::max(hip.neck_upper_width_mm, hip.neck_lower_width_mm) / 2);
-    if (farthest + std::tan(hip.neck_taper.radians()) * hip.head_radius_mm >=
+    if (farthest + core::tangent(hip.neck_taper.radians()) * hip.head_radius_mm >=
         hip.head_radius_mm - hip.clearance_mm)
       refuse(core::formatted(
           "the neck, whose corners are %.3g mm from its axis, is thicker than the head, of radius %g mm",

@@ -24,7 +24,8 @@ std::optional<Interval> while_outside(const AxisFrame& axis, const Vec3& point, 
                swing = 2 * core::hypotenuse(p.x(), p.y()) * core::hypotenuse(c.x(), c.y());
   if (constant - swing > 0) return Interval{0, 2 * two_pi};
   if (constant + swing <= 0) return std::nullopt;
-  const double nearest = std::atan2(c.y(), c.x()) - std::atan2(p.y(), p.x()), a = std::acos(constant / swing);
+  const double nearest = core::arctangent(c.y(), c.x()) - core::arctangent(p.y(), p.x()),
+               a = core::arccosine(constant / swing);
   const double turns = std::floor((nearest + a) / two_pi) * two_pi;
   return Interval{nearest + a - turns, nearest + two_pi - a - turns};
 }

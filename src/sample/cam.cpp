@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/rotation_about.hpp"
+#include "core/trigonometry.hpp"
+
 namespace condyle::sample {
 namespace {
 
@@ -25,15 +28,15 @@ FieldValue Cam::operator()(const Vec3& p) const noexcept {
   // on both sides of its plane, so within the sweep its gradient lies in that plane and turns back with it.
   const Vec3 side = neck.cross(out);
   const double at =
-      std::clamp(std::atan2(p.dot(side), p.dot(out)), -cam_sweep.radians(), cam_sweep.radians());
-  const Eigen::AngleAxisd back(-at, neck);
+      std::clamp(core::arctangent(p.dot(side), p.dot(out)), -cam_sweep.radians(), cam_sweep.radians());
+  const Eigen::Matrix3d back = core::rotation_about(neck, -at);
   const FieldValue middle = bar(bump, end, back * p);
-  return {middle.value, back.inverse() * middle.gradient};
+  return {middle.value, back.transpose() * middle.gradient};
 }
 
 std::array<Ball, 3> Cam::places() const noexcept {
-  const Eigen::AngleAxisd rotation(cam_sweep.radians(), neck);
-  return {bump, {rotation * bump.centre, bump.radius}, {rotation.inverse() * bump.centre, bump.radius}};
+  const Eigen::Matrix3d rotation = core::rotation_about(neck, cam_sweep.radians());
+  return {bump, {rotation * bump.centre, bump.radius}, {rotation.transpose() * bump.centre, bump.radius}};
 }
 
 FieldValue Cam::seam(const Vec3& p) const noexcept {
@@ -50,7 +53,7 @@ Cam cam_crossing_at(const HipParameters& hip, Angle crossing, double grown) noex
   const Vec3 out = cam_direction(axes);
   const double radius = hip.head_radius_mm;
   const auto towards = [&](Angle angle) {
-    return Vec3(std::cos(angle.radians()) * axes.neck + std::sin(angle.radians()) * out);
+    return Vec3(core::cosine(angle.radians()) * axes.neck + core::sine(angle.radians()) * out);
   };
   // Where they cross, the bump's normal leans away from the neck by the steepness.
   const Angle steepness = least_steepness + (full_steepness - least_steepness) * grown;

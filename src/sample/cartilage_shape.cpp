@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/trigonometry.hpp"
 #include "sample/femur_shape.hpp"
 #include "sample/hip_bone_shape.hpp"
 
@@ -27,7 +28,8 @@ struct FartherThan {
   Angle angle;
 
   FieldValue operator()(const Vec3& p) const noexcept {
-    const double along = p.dot(axis), sine = std::sin(angle.radians()), cosine = std::cos(angle.radians());
+    const double along = p.dot(axis), sine = core::sine(angle.radians()),
+                 cosine = core::cosine(angle.radians());
     const Vec3 across = p - along * axis;
     const double distance = across.norm();
     const Vec3 outward = distance > 0 ? Vec3(across / distance) : Vec3(Vec3::Zero());

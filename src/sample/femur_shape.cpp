@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/trigonometry.hpp"
 #include "sample/cam.hpp"
 #include "sample/skeleton.hpp"
 
@@ -62,8 +63,8 @@ FemurPieces femur_without_cam(const HipParameters& hip) {
   const double scale = hip.head_radius_mm / nominal_head_radius;
   // The trochanters rotate about the shaft with the neck: torsion takes place below them.
   const double torsion = (hip.femoral_anteversion - nominal_anteversion).radians();
-  const Vec3 anterior = std::cos(torsion) * Vec3::UnitX() + std::sin(torsion) * axes.lateral;
-  const Vec3 lateral = std::cos(torsion) * axes.lateral - std::sin(torsion) * Vec3::UnitX();
+  const Vec3 anterior = core::cosine(torsion) * Vec3::UnitX() + core::sine(torsion) * axes.lateral;
+  const Vec3 lateral = core::cosine(torsion) * axes.lateral - core::sine(torsion) * Vec3::UnitX();
   // A point by its distances from the foot, in millimetres at the nominal size: up, forward, to the side.
   const auto at = [&](double up, double forward, double side, double radius) {
     const Vec3 offset = -up * axes.distal + forward * anterior + side * lateral;
@@ -98,7 +99,7 @@ FemurPieces femur_without_cam(const HipParameters& hip) {
 /// The point in the cam's plane at this angle from the neck's axis that is just outside the head's circle.
 Vec3 leaving_at(const HipParameters& hip, double angle_rad) noexcept {
   const FemurAxes axes = femur_axes(hip);
-  const Vec3 towards = std::cos(angle_rad) * axes.neck + std::sin(angle_rad) * cam_direction(axes);
+  const Vec3 towards = core::cosine(angle_rad) * axes.neck + core::sine(angle_rad) * cam_direction(axes);
   return (1 + cam_departure) * hip.head_radius_mm * towards;
 }
 
@@ -137,11 +138,11 @@ FemurAxes femur_axes(const HipParameters& hip) noexcept {
   const double lean = shaft_lean.radians(), anteversion = hip.femoral_anteversion.radians();
   const double bend = std::numbers::pi - hip.neck_shaft_angle.radians();
   FemurAxes axes;
-  axes.distal = Vec3(0, -std::cos(lean), -std::sin(lean));
-  axes.lateral = Vec3(0, -std::sin(lean), std::cos(lean));
-  axes.neck =
-      std::sin(bend) * (std::cos(anteversion) * axes.lateral - std::sin(anteversion) * Vec3::UnitX()) +
-      std::cos(bend) * axes.distal;
+  axes.distal = Vec3(0, -core::cosine(lean), -core::sine(lean));
+  axes.lateral = Vec3(0, -core::sine(lean), core::cosine(lean));
+  axes.neck = core::sine(bend) *
+                  (core::cosine(anteversion) * axes.lateral - core::sine(anteversion) * Vec3::UnitX()) +
+              core::cosine(bend) * axes.distal;
   axes.foot = hip.neck_length_mm * axes.neck;
   return axes;
 }

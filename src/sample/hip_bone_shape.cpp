@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/trigonometry.hpp"
 #include "sample/skeleton.hpp"
 
 namespace condyle::sample {
@@ -111,8 +112,8 @@ Socket socket_of(const HipParameters& hip) noexcept {
   const double edge = hip.lateral_centre_edge_angle.radians();
   Socket socket;
   socket.radius = hip.head_radius_mm + hip.joint_space_mm;
-  socket.opening = Vec3(std::sin(inclination) * std::sin(version), -std::cos(inclination),
-                        std::sin(inclination) * std::cos(version));
+  socket.opening = Vec3(core::sine(inclination) * core::sine(version), -core::cosine(inclination),
+                        core::sine(inclination) * core::cosine(version));
   const Vec3 down(0.15, -1, 0);
   socket.notch = (down - down.dot(socket.opening) * socket.opening).normalized();
   // The edge is where a radiograph shows it: in the middle of the rounded seam between socket and rim. There
@@ -120,7 +121,7 @@ Socket socket_of(const HipParameters& hip) noexcept {
   //     x = s h^2 / 4 where h = 1 - (s / 2 - x) / s, hence x^2 - 3 s x + s^2 / 4 = 0.
   const double seam = rim_seam * socket.radius / nominal_socket_radius;
   const double sunk = (1.5 - std::numbers::sqrt2) * seam;
-  const Vec3 roof = (socket.radius + seam / 2) * Vec3(0, std::cos(edge), std::sin(edge));
+  const Vec3 roof = (socket.radius + seam / 2) * Vec3(0, core::cosine(edge), core::sine(edge));
   socket.rim_offset = roof.dot(socket.opening) + sunk;
   return socket;
 }

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/trigonometry.hpp"
+
 namespace condyle::sample {
 namespace {
 
@@ -52,7 +54,7 @@ void subdivide_sheet(std::vector<Ball>& balls, Triangles& triangles) {
       continue;
     }
     const auto n = static_cast<double>(ring[v].size());
-    const double c = 0.375 + 0.25 * std::cos(2 * std::numbers::pi / n), weight = (0.625 - c * c) / n;
+    const double c = 0.375 + 0.25 * core::cosine(2 * std::numbers::pi / n), weight = (0.625 - c * c) / n;
     Ball sum = (1 - n * weight) * balls[v];
     for (const Index neighbour : ring[v]) sum = sum + weight * balls[neighbour];
     finer.push_back(sum);

@@ -2,11 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <random>
+#include <vector>
+
+#include "core/rotation_about.hpp"
 
 namespace condyle::core {
 namespace {
@@ -82,6 +86,34 @@ TEST(Trigonometry, HypotenusesAreTheExactOnesRoundedOnce) {
     for (const double y : {0.0, -0.0})
       EXPECT_TRUE(same(hypotenuse(x, y), std::abs(x)) && same(hypotenuse(y, x), std::abs(x))) << x;
   EXPECT_TRUE(std::isnan(hypotenuse(std::numeric_limits<double>::quiet_NaN(), 1)));
+}
+
+/// Within two units in the last place: a root and an arctangent, each rounded.
+TEST(Trigonometry, ArccosinesAndArcsinesAreThoseOfTheStandardLibraryButForTheirLastBits) {
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> share(-1, 1);
+  std::vector<double> values = {1.0,    -1.0, 0.0, std::nextafter(1.0, 0.0), -std::nextafter(1.0, 0.0),
+                                1e-300, 0.5};
+  for (int i = 0; i < 5000; ++i) values.push_back(share(random));
+  for (const double value : values) {
+    const Long arc = acos(Long(value)), other = asin(Long(value));
+    EXPECT_LE(abs(Long(arccosine(value)) - arc), abs(arc) * 0x1p-51) << value;
+    EXPECT_LE(abs(Long(arcsine(value)) - other), abs(other) * 0x1p-51) << value;
+  }
+  EXPECT_TRUE(std::isnan(arccosine(1.5)) && std::isnan(arcsine(-1.5)));
+}
+
+TEST(Trigonometry, RotationsAreThoseOfEigenButForTheirLastBits) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Vector3d axis =
+        Eigen::Vector3d(coordinate(random), coordinate(random), coordinate(random)).normalized();
+    const double angle = 10 * coordinate(random);
+    const Eigen::Matrix3d expected = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+    // Entries are sums of two products of numbers up to 1.
+    EXPECT_LE((rotation_about(axis, angle) - expected).cwiseAbs().maxCoeff(), 0x1p-50) << angle;
+  }
 }
 
 TEST(Trigonometry, ZerosInfinitiesAndWhatIsNoNumberAreAsInTheStandardLibrary) {

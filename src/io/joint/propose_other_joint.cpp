@@ -9,6 +9,7 @@
 #include "condyle/inspect.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "core/rounded.hpp"
+#include "core/trigonometry.hpp"
 #include "io/joint/proposal_lines.hpp"
 #include "io/joint/propose_units.hpp"
 #include "kinematics/ankle_anatomy.hpp"
@@ -91,7 +92,7 @@ std::string nearest_axes_text(const kinematics::ShownAxes& axes) {
     const Vec3 right = in.anterior.cross(in.superior);
     const double trace =
         in.anterior.dot(axes.anterior) + in.superior.dot(axes.superior) + right.dot(axes.right());
-    return in_degrees(std::acos(std::clamp((trace - 1) / 2, -1.0, 1.0)));
+    return in_degrees(core::arccosine(std::clamp((trace - 1) / 2, -1.0, 1.0)));
   };
   const auto nearest = std::min_element(known.begin(), known.end(), [&](const Known& a, const Known& b) {
     return turned(a.axes) < turned(b.axes);

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/trigonometry.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/model/spatial_transform.hpp"
 
@@ -24,7 +25,7 @@ constexpr int most_joints_above = 200;
 
 /// The angle between an axis of a frame and its namesake of another, for the axis that is farthest off.
 double farthest_axis_deg(const Eigen::Matrix3d& R) {
-  return std::acos(std::clamp(R.diagonal().minCoeff(), -1.0, 1.0)) * 180 / std::numbers::pi;
+  return core::arccosine(std::clamp(R.diagonal().minCoeff(), -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
 /// S with columns along axes of a frame, right-handed, for which R S is nearest to the identity. The identity itself before

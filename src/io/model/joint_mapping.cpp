@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/trigonometry.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/mesh/parse.hpp"
 #include "io/model/joint_axes.hpp"
@@ -184,7 +185,7 @@ JointMapping hinge(const ModelJoint& joint, const SpatialTransform& axes, const 
   } else {
     mapping.why += ", by a function of its coordinates";
   }
-  const double off = std::acos(std::clamp(direction * upright.z(), -1.0, 1.0)) * degrees_per_radian;
+  const double off = core::arccosine(std::clamp(direction * upright.z(), -1.0, 1.0)) * degrees_per_radian;
   if (off > 45) {
     const Vec3 positive_about =
         ((1000 * direction * positive * in_parent).array().round() / 1000 + 0.0).matrix();  // no -0

@@ -30,7 +30,7 @@ class Stroke {
     const int steps = static_cast<int>(std::ceil(std::abs(to - from) / step));
     for (int i = 0; i <= steps; ++i) {
       const double angle = (from + (to - from) * i / steps) * std::numbers::pi / 180;
-      places_.push_back({centre.x + width * std::cos(angle), centre.y + height * std::sin(angle)});
+      places_.push_back({centre.x + width * core::cosine(angle), centre.y + height * core::sine(angle)});
     }
     return *this;
   }
@@ -193,7 +193,7 @@ void add_dot(TriMesh& mesh, Place at, double half_width) {
   const auto first = static_cast<Index>(mesh.vertices.size());
   for (Index i = 0; i < corners; ++i) {
     const double angle = 2 * std::numbers::pi * i / corners;
-    add_place(mesh, at.x + half_width * std::cos(angle), at.y + half_width * std::sin(angle));
+    add_place(mesh, at.x + half_width * core::cosine(angle), at.y + half_width * core::sine(angle));
   }
   for (Index i = 2; i < corners; ++i) mesh.triangles.push_back({first, first + i - 1, first + i});
 }

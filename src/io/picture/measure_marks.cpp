@@ -4,6 +4,7 @@
 
 #include "condyle/hip_measures.hpp"
 #include "condyle/io/picture.hpp"
+#include "core/trigonometry.hpp"
 
 namespace condyle::io {
 namespace {
@@ -26,7 +27,7 @@ void add_line(TriMesh& mesh, const Vec3& from, const Vec3& to) {
   for (const Vec3& end : {from, to})
     for (int k = 0; k < sides; ++k) {
       const double turn = 2 * std::numbers::pi * k / sides;
-      mesh.vertices.push_back(end + line_mm * (std::cos(turn) * x + std::sin(turn) * y));
+      mesh.vertices.push_back(end + line_mm * (core::cosine(turn) * x + core::sine(turn) * y));
     }
   for (Index k = 0; k < sides; ++k) {
     const Index a = first + k, b = first + (k + 1) % sides;
@@ -61,7 +62,7 @@ void add_ring(TriMesh& mesh, const measure::RimGeometry& rim) {
   const Vec3 x = rim.clock.twelve, y = rim.normal.cross(x);
   const auto at = [&](int step) {
     const double turn = 2 * std::numbers::pi * step / ring_steps;
-    return Vec3(rim.centre + rim.radius_mm * (std::cos(turn) * x + std::sin(turn) * y));
+    return Vec3(rim.centre + rim.radius_mm * (core::cosine(turn) * x + core::sine(turn) * y));
   };
   for (int step = 0; step < ring_steps; ++step) add_line(mesh, at(step), at(step + 1));
 }

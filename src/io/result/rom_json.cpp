@@ -5,6 +5,7 @@
 
 #include "answer/records/limit_record.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "core/trigonometry.hpp"
 #include "io/file/format_version.hpp"
 #include "io/record/json_of.hpp"
 #include "io/result/json.hpp"
@@ -132,9 +133,10 @@ Json implant_json(const Joint& joint) {
   Json json{{"fixed_part", joint.implant->fixed_mesh}, {"mobile_part", joint.implant->mobile_mesh}};
   json["half_angle_deg"] = form.pair ? Json(form.pair->half_angle.degrees()) : Json(nullptr);
   json["between_axes_deg"] =
-      form.pair ? Json(std::acos(std::clamp(form.pair->fixed_axis.dot(form.pair->mobile_axis), -1.0, 1.0)) *
-                       (180 / std::numbers::pi))
-                : Json(nullptr);
+      form.pair
+          ? Json(core::arccosine(std::clamp(form.pair->fixed_axis.dot(form.pair->mobile_axis), -1.0, 1.0)) *
+                 (180 / std::numbers::pi))
+          : Json(nullptr);
   if (!form.pair) json["why_no_closed_form"] = form.why_none;
   return json;
 }

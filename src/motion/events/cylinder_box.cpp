@@ -1,6 +1,7 @@
 #include "motion/events/cylinder_box.hpp"
 
 #include "core/predicates.hpp"
+#include "core/trigonometry.hpp"
 
 namespace condyle::motion {
 namespace {
@@ -55,7 +56,7 @@ Arc arc_of(double a, double b, double c) noexcept {
 
 CylinderPoint cylinder_point(const Triple<double>& p) noexcept {
   const double rho2 = square(p.x) + square(p.y);
-  return {std::sqrt(rho2), wrapped(std::atan2(p.y, p.x)), std::sqrt(rho2 + square(p.z))};
+  return {std::sqrt(rho2), wrapped(core::arctangent(p.y, p.x)), std::sqrt(rho2 + square(p.z))};
 }
 
 CylinderBox box_of_vertex(const Triple<double>& p, const CylinderPoint& at) noexcept {
@@ -113,7 +114,7 @@ CylinderBox box_of_box(const Triple<double>& centre, const Triple<double>& half)
                   std::max(0.0, at.r - ball),    at.r + ball,    full_turn.start, full_turn.width};
   // Seen from the axis the circle covers asin(reach / rho) on either side.
   if (reach < at.rho) {
-    const double half_arc = std::asin(reach / at.rho) * (1 + relative_slack) + opposite_slack;
+    const double half_arc = core::arcsine(reach / at.rho) * (1 + relative_slack) + opposite_slack;
     box.theta = wrapped(at.theta - half_arc);
     box.theta_width = 2 * half_arc + angle_slack;
   }

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "core/predicates.hpp"
+#include "core/rotation_about.hpp"
+#include "core/trigonometry.hpp"
 
 namespace condyle::motion {
 namespace {
@@ -29,7 +31,7 @@ ScrewMotion::ScrewMotion(const Pose& from, const Pose& to, double reach_mm)
   // For a rotation R by t about a, the half of R - R^T is the cross product with a sin t, and the trace 1 + 2 cos t.
   const Eigen::Matrix3d R = to.linear() * from.linear().transpose();
   const Vec3 a_sine = 0.5 * Vec3(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
-  const double sine = a_sine.norm(), angle = std::atan2(sine, 0.5 * (R.trace() - 1));
+  const double sine = a_sine.norm(), angle = core::arctangent(sine, 0.5 * (R.trace() - 1));
   if (angle * reach_mm > rounding_mm) {
     rotation_ = angle;
     if (sine > 0) axis_ = a_sine / sine;
@@ -39,7 +41,7 @@ ScrewMotion::ScrewMotion(const Pose& from, const Pose& to, double reach_mm)
   if (rotation_ > 0 && !holds_origin_) {
     shift_ = axis_.dot(change) * axis_;
     const Vec3 chord = change - shift_, across = axis_.cross(chord);
-    const double k = 1 / std::tan(rotation_ / 2);
+    const double k = 1 / core::tangent(rotation_ / 2);
     sine_ = 0.5 * (k * chord - across), cosine_ = 0.5 * (chord + k * across);
   }
   // At the start, and so everywhere on the way.
@@ -51,9 +53,9 @@ Pose ScrewMotion::at(double s) const {
   Pose X = from_;
   if (s == 0) return X;
   const double angle = s * rotation_;
-  if (rotation_ > 0) X.linear() = Eigen::AngleAxisd(angle, axis_).toRotationMatrix() * from_.linear();
-  const double half_sine = std::sin(angle / 2);
-  X.translation() += s * shift_ + std::sin(angle) * sine_ + 2 * half_sine * half_sine * cosine_;
+  if (rotation_ > 0) X.linear() = core::rotation_about(axis_, angle) * from_.linear();
+  const double half_sine = core::sine(angle / 2);
+  X.translation() += s * shift_ + core::sine(angle) * sine_ + 2 * half_sine * half_sine * cosine_;
   return X;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "condyle/error.hpp"
+#include "core/trigonometry.hpp"
 #include "kinematics/socket_rim.hpp"
 
 namespace condyle::motion {
@@ -21,7 +22,7 @@ constexpr double least_one_sided = 0.5;
 }  // namespace
 
 Angle ClockFace::angle_of(const Vec3& direction) const noexcept {
-  const double angle = std::atan2(direction.dot(three), direction.dot(twelve));
+  const double angle = core::arctangent(direction.dot(three), direction.dot(twelve));
   return Angle::radians(angle < 0 ? angle + two_pi : angle);
 }
 

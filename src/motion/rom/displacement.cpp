@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/rotation_about.hpp"
 #include "kinematics/cut_parts.hpp"
 #include "mesh/vertex_normals.hpp"
 
@@ -11,7 +12,7 @@ Pose displaced_frame(const Displacement& by) {
   Pose X_FG = Pose::Identity();
   X_FG.translation() = by.centre;
   if (const double angle = by.axes.norm(); angle > 0)
-    X_FG.linear() = Eigen::AngleAxisd(angle, by.axes / angle).toRotationMatrix();
+    X_FG.linear() = core::rotation_about(by.axes / angle, angle);
   return X_FG;
 }
 

@@ -9,6 +9,7 @@
 
 #include "condyle/error.hpp"
 #include "core/parallel.hpp"
+#include "core/trigonometry.hpp"
 
 namespace condyle::motion {
 namespace {
@@ -55,16 +56,16 @@ struct HaarWeight {
 
   double at(Angle second) const noexcept {
     const double a = second.radians();
-    return anatomy == Anatomy::shoulder ? std::abs(std::sin(a)) : std::cos(a);
+    return anatomy == Anatomy::shoulder ? std::abs(core::sine(a)) : core::cosine(a);
   }
   double integral(Angle from, Angle to) const noexcept {
     const double a = from.radians(), b = to.radians();
     return anatomy == Anatomy::shoulder ? integral_of_abs_sine(b) - integral_of_abs_sine(a)
-                                        : std::sin(b) - std::sin(a);
+                                        : core::sine(b) - core::sine(a);
   }
   static double integral_of_abs_sine(double a) noexcept {
     const double half_turns = std::floor(a / std::numbers::pi);
-    return 2 * half_turns + 1 - std::cos(a - half_turns * std::numbers::pi);
+    return 2 * half_turns + 1 - core::cosine(a - half_turns * std::numbers::pi);
   }
 };
 

@@ -211,10 +211,10 @@ struct ConeBounds {
   /// Interval of coordinate k over the cap's directions.
   Interval coordinate(int k) const noexcept {
     if (cap_cosine <= 0) return {-1, 1};
-    const double middle = std::acos(std::clamp(cap_axis[k], -1.0, 1.0));
-    const double opening = std::acos(std::min(cap_cosine, 1.0));
-    return {std::cos(std::min(middle + opening, std::numbers::pi)) - rim_margin,
-            std::cos(std::max(middle - opening, 0.0)) + rim_margin};
+    const double middle = core::arccosine(std::clamp(cap_axis[k], -1.0, 1.0));
+    const double opening = core::arccosine(std::min(cap_cosine, 1.0));
+    return {core::cosine(std::min(middle + opening, std::numbers::pi)) - rim_margin,
+            core::cosine(std::max(middle - opening, 0.0)) + rim_margin};
   }
 
   /// The radius interval over the box, or an empty one (low > high) where the cone does not meet it.

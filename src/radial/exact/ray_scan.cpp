@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/exact_integers.hpp"
+#include "core/trigonometry.hpp"
 #include "radial/exact/triangle_plane.hpp"
 
 namespace condyle::radial {
@@ -59,7 +60,7 @@ double distance_along_ray(const Vec3& v, const Cone& t) {
 
 Angle angle_to_normal(const Vec3& v, const Cone& t) noexcept {
   const Vec3 normal = (t.b - t.a).cross(t.c - t.a);
-  return Angle::radians(std::atan2(v.cross(normal).norm(), std::abs(v.dot(normal))));
+  return Angle::radians(core::arctangent(v.cross(normal).norm(), std::abs(v.dot(normal))));
 }
 
 RayScan::RayScan(const TriMesh& mesh, int winding_at_centre)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/trigonometry.hpp"
 #include "tangential/build/box_cells.hpp"
 #include "tangential/exact/circle_crossing.hpp"
 
@@ -206,7 +207,7 @@ FreeDirections find_free_directions(const AxisVertices& vertices, std::span<cons
   // In a direction free in the cell of that radius and height: along the ray outwards.
   const auto winding_at = [&](int direction, double rho, double z) {
     const double angle = FreeDirections::angle_of(direction).radians();
-    const Circle circle = circle_through(Vec3(rho * std::cos(angle), rho * std::sin(angle), z), scale);
+    const Circle circle = circle_through(Vec3(rho * core::cosine(angle), rho * core::sine(angle), z), scale);
     TangentialWork work;
     int winding = 0;
     for (const Index t : near[static_cast<std::size_t>(direction)]) {
