@@ -1,6 +1,6 @@
 # Thin front door; CMakePresets.json has the details.
 .PHONY: demo describe command test test-all nightly build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
-  package package-test wheel page-core page page-template sanitize-thread sanitize-some release label-limits static image static-test
+  package package-test wheel page-core page page-template sanitize-thread sanitize-some release label-limits static image static-test npm npm-test
 
 dependencies:
 	@scripts/install_dependencies.sh
@@ -67,7 +67,7 @@ nightly: bench_dependencies clang_dependencies
 	@$(configure_bench)
 	@cmake --build --preset release
 	@export CONDYLE_LONG_TESTS=1; $(call run_tests,release,none)
-	@$(MAKE) static-test verify label-limits package clang sanitize sanitize-thread
+	@$(MAKE) static-test npm-test verify label-limits package clang sanitize sanitize-thread
 
 clang: clang_dependencies
 	@cmake --preset $@ -DCONDYLE_TESTS=ON -DCONDYLE_PYTHON=ON >/dev/null
@@ -151,6 +151,14 @@ page-template: page-core
 docs: docs_dependencies
 	@$(configure_all)
 	@cmake --build --preset release --target docs
+
+# The npm package in out/npm: the command compiled to WebAssembly for node.
+npm: export EMSDK_PYTHON = /usr/bin/python3
+npm: dependencies
+	@scripts/install_dependencies.sh page
+	@emcmake cmake -S npm -B build/npm -G Ninja >/dev/null
+	@NODE_PATH=/usr/share/nodejs cmake --build build/npm
+	@scripts/npm_package.sh build/npm out/npm
 
 # Debian packages in out/packages: the command, python3-condyle, libcondyle-dev, condyle-doc.
 package: build docs

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# Installs the npm package where nothing can be fetched, in a folder with blanks and umlauts, and runs it there as another user with another
+# locale: exit codes, a report, a study, a file that cannot be written, and an interruption.
+# Usage: installed.sh CONDYLE PACKAGE.tgz
+set -euo pipefail
+condyle=$(realpath "$1")
+package=$(realpath "$2")
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+fail() { echo "installed.sh: $*" >&2; exit 1; }
+
+[ "$(stat -c %s "$package")" -lt 4000000 ] || fail "the package has $(stat -c %s "$package") bytes, and may have 4,000,000"
+place="$folder/ein Ordner für Hüften"
+mkdir "$place"
+chmod 755 "$folder"
+cp "$package" "$place/"
+cd "$place"
+npm install --offline --no-audit --no-fund --silent "./$(basename "$package")"
+node -e '
+  const { dependencies, scripts } = JSON.parse(require("fs").readFileSync("node_modules/condyle/package.json", "utf8"));
+  if (dependencies || scripts) throw new Error("the package has dependencies or scripts");'
+[ -z "$(find node_modules -mindepth 1 -maxdepth 1 ! -name condyle ! -name .bin ! -name .package-lock.json)" ] || fail "more than the package was installed"
+
+run=(env LC_ALL=de_DE.UTF-8 LANG=de_DE.UTF-8 npx --offline --no-install condyle)
+if [ "$(id -u)" -eq 0 ]; then
+  chmod 777 .
+  run=(setpriv --reuid nobody --regid nogroup --clear-groups env HOME="$place" LC_ALL=de_DE.UTF-8 npx --offline --no-install condyle)
+fi
+expect() {
+  local code=$1 got=0
+  shift
+  "${run[@]}" "$@" >answer.txt 2>errors.txt || got=$?
+  [ "$got" -eq "$code" ] || fail "condyle $*: exit code $got and not $code: $(cat errors.txt)"
+}
+expect 0 --version
+expect 0 sample hip --out "Hüfte eins"
+expect 0 rom "Hüfte eins/hip.toml" --json
+"$condyle" rom "Hüfte eins/hip.toml" --json | cmp - answer.txt
+expect 0 report "Hüfte eins/hip.toml" --out Bericht.html
+"$condyle" report "Hüfte eins/hip.toml" --out native.html 2>/dev/null
+# The command line is part of a report.
+cmp <(sed 's/native\.html/Bericht.html/' native.html | head -c 1000) <(head -c 1000 Bericht.html)
+expect 2 rom
+expect 3 rom nothing.toml
+grep -q 'nothing.toml: no such file' errors.txt || fail "a file that is not there: $(cat errors.txt)"
+[ "$(wc -l <errors.txt)" -eq 1 ] || fail "more than one line: $(cat errors.txt)"
+printf 'solid\n' >broken.stl
+expect 3 inspect broken.stl
+echo "text" | "${run[@]}" rom /dev/stdin >/dev/null 2>errors.txt && fail "standard input is no joint" || true
+
+# Ctrl-C during long work ends it with 130, one line and nothing half-written.
+setsid "${run[@]}" rom "Hüfte eins/hip.toml" --map flexion=0:120:1 adduction=-30:20:1 --out interrupted >answer.txt 2>errors.txt &
+sleep 3
+pkill -INT -s $! node || fail "the work was over before it could be interrupted"
+code=0
+wait $! || code=$?
+[ "$code" -eq 130 ] || fail "interrupted: exit code $code: $(cat errors.txt)"
+grep -q 'condyle: interrupted' errors.txt || fail "interrupted: $(cat errors.txt)"
+[ ! -e interrupted ] || fail "interrupted: $(find interrupted)"
+[ -z "$(find . -name '.condyle-*')" ] || fail "interrupted: $(find . -name '.condyle-*')"
+echo "installed.sh: passed"
