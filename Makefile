@@ -152,13 +152,12 @@ docs: docs_dependencies
 	@$(configure_all)
 	@cmake --build --preset release --target docs
 
-# The npm package in out/npm: the command compiled to WebAssembly for node.
+# The npm package in out/npm: the command compiled to WebAssembly for node, and the page's core as a module.
 npm: export EMSDK_PYTHON = /usr/bin/python3
-npm: dependencies
-	@scripts/install_dependencies.sh page
+npm: page-core
 	@emcmake cmake -S npm -B build/npm -G Ninja >/dev/null
 	@NODE_PATH=/usr/share/nodejs cmake --build build/npm
-	@scripts/npm_package.sh build/npm out/npm
+	@scripts/npm_package.sh build/npm build/page_core out/npm
 
 # Debian packages in out/packages: the command, python3-condyle, libcondyle-dev, condyle-doc.
 package: build docs

@@ -1,21 +1,32 @@
-// Makes the folder of the npm package of what `emcmake cmake -S npm` has built: node build.mjs FOLDER_OF_BUILD FOLDER VERSION
-import { copyFileSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+// Makes the folder of the npm package of what `emcmake cmake -S npm` has built, and of the page's core:
+//   node build.mjs FOLDER_OF_BUILD FOLDER_OF_PAGE_CORE FOLDER VERSION
+import { copyFileSync, cpSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const here = dirname(fileURLToPath(import.meta.url)), root = dirname(here);
-const [built, folder, version] = [resolve(process.argv[2]), resolve(process.argv[3]), process.argv[4]];
+const [built, pageCore, folder] = process.argv.slice(2, 5).map((path) => resolve(path)), version = process.argv[5];
 const { build } = createRequire(join(root, "viewer/package.json"))("esbuild");
+const pako = join(root, "viewer/node_modules/pako/dist/pako.mjs");
 mkdirSync(folder, { recursive: true });
 
 await build({
   entryPoints: [join(here, "package/command.js"), join(here, "package/worker.js")],
   bundle: true, minify: true, outdir: folder, format: "esm", platform: "node", target: "node18", charset: "ascii", legalComments: "none",
-  alias: { "condyle-wasm": join(built, "condyle.js"), pako: join(root, "viewer/node_modules/pako/dist/pako.mjs") },
+  alias: { "condyle-wasm": join(built, "condyle.js"), pako },
   // The module of emscripten asks for node's own by require.
   banner: { js: 'import { createRequire as requireOf } from "node:module"; import { dirname as folderOf } from "node:path"; import { fileURLToPath as pathOf } from "node:url"; const require = requireOf(import.meta.url), __filename = pathOf(import.meta.url), __dirname = folderOf(__filename);' },
 });
+// The module, for browsers too. What emscripten's glue asks of node is there in node only.
+await build({
+  entryPoints: [join(here, "package/index.ts")],
+  bundle: true, minify: true, outdir: folder, format: "esm", platform: "neutral", target: "es2022", charset: "ascii", legalComments: "none",
+  alias: { "page-core": join(pageCore, "page_core.js"), pako }, external: ["fs", "path", "crypto"], define: { __dirname: '""' },
+  banner: { js: 'const require = globalThis.process?.versions?.node ? (await import(/* @vite-ignore */ /* webpackIgnore: true */ ["node", "module"].join(":"))).createRequire(import.meta.url) : undefined;' },
+});
+cpSync(join(built, "types"), join(folder, "types"), { recursive: true });
+copyFileSync(join(root, "viewer/src/core/wasm.d.ts"), join(folder, "types/viewer/src/core/wasm.d.ts"));
 const command = join(folder, "command.js");
 const text = readFileSync(command, "utf8");
 if (!text.startsWith("#!")) throw new Error("the command has no first line for the shell");

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
 # Installs the npm package where nothing can be fetched, in a folder with blanks and umlauts, and runs it there as another user with another
 # locale: exit codes, a report, a study, a file that cannot be written, and an interruption.
+# Then the module: its examples, its types, and its answers against the command's, in node and in a browser.
 # Usage: installed.sh CONDYLE PACKAGE.tgz
 set -euo pipefail
+root=$(cd "$(dirname "$0")/../.." && pwd)
 condyle=$(realpath "$1")
 package=$(realpath "$2")
 folder=$(mktemp -d)
@@ -58,4 +60,43 @@ wait $! || code=$?
 grep -q 'condyle: interrupted' errors.txt || fail "interrupted: $(cat errors.txt)"
 [ ! -e interrupted ] || fail "interrupted: $(find interrupted)"
 [ -z "$(find . -name '.condyle-*')" ] || fail "interrupted: $(find . -name '.condyle-*')"
+
+cp "$root"/npm/examples/*.mjs .
+node limits.mjs "Hüfte eins/hip.toml" >limits.txt
+[ "$(wc -l <limits.txt)" -eq 13 ] || fail "limits.mjs: $(cat limits.txt)"
+node depths.mjs "Hüfte eins/hip.toml" >depths.csv
+[ "$(wc -l <depths.csv)" -eq 9 ] || fail "depths.mjs: $(cat depths.csv)"
+"$condyle" rom "Hüfte eins/hip.toml" --json >rom.json
+"$condyle" depth "Hüfte eins/hip.toml" --pose "flexion=90 internal_rotation=60" --json >depth.json
+cat >same.mjs <<'MODULE'
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { depth, rangeOfMotion, readJoint } from "condyle";
+
+const read = (name) => JSON.parse(readFileSync(name, "utf8"));
+const joint = await readJoint("Hüfte eins/hip.toml");
+assert.deepEqual(rangeOfMotion(joint).motions, read("rom.json").motions);
+assert.equal(depth(joint, { flexion: 90, internal_rotation: 60 }).deepest.depth_mm, read("depth.json").reliable_depth.depth_mm);
+const files = Object.fromEntries(["hip.toml", "hip_bone.ply", "femur.ply"].map((name) => [name, readFileSync(`Hüfte eins/${name}`)]));
+assert.deepEqual(rangeOfMotion(await readJoint(files)).motions, read("rom.json").motions);
+await assert.rejects(readJoint("nothing.toml"), /nothing\.toml/);
+delete files["femur.ply"];
+await assert.rejects(readJoint(files), /femur\.ply/);
+assert.throws(() => depth(joint, { flexoin: 3 }), RangeError);
+MODULE
+node same.mjs
+cat >typed.ts <<'MODULE'
+import { contact, depth, rangeOfMotion, readJoint, type Joint } from "condyle";
+
+export async function ends(path: string): Promise<number[]> {
+  const joint: Joint = await readJoint(path);
+  const deepest: number | undefined = depth(joint, { flexion: 90 }).deepest?.depth_mm;
+  const pairs: Uint32Array = contact(joint).pairs;
+  return [deepest ?? 0, pairs.length, ...(rangeOfMotion(joint)?.motions ?? []).map(({ limit_deg }) => limit_deg)];
+}
+MODULE
+(cd "$root/viewer" && npx --no-install tsc --noEmit --strict --skipLibCheck --target es2022 --lib es2022,dom --module esnext --moduleResolution bundler "$place/typed.ts")
+node "$root/tests/npm/browser.mjs" . "Hüfte eins/hip.toml" >lists.txt
+[ "$(wc -l <lists.txt)" -eq 24 ] || fail "browser.mjs: $(cat lists.txt)"
+head -12 lists.txt | cmp - <(tail -12 lists.txt)
 echo "installed.sh: passed"
