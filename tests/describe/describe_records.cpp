@@ -144,37 +144,30 @@ from ._record import Record
 
 // ---- TypeScript
 
-/// As a type, and as a check of report_shape.ts; of a value that is not null.
-struct InPage {
-  std::string type, check;
-};
-
 /// "limitRecord" of LimitRecord.
 std::string check_name(std::string name) {
   name[0] = static_cast<char>(name[0] - 'A' + 'a');
   return name;
 }
 
+/// As a check of checks.ts, which has its type too; of a value that is not null.
 template <class Value>
-InPage in_page() {
+std::string check_of() {
   if constexpr (is_optional<Value>) {
-    return in_page<typename Value::value_type>();
+    return check_of<typename Value::value_type>();
   } else if constexpr (IsRecord<Value>) {
-    return {table<Value>.name, check_name(table<Value>.name)};
+    return check_name(table<Value>.name);
   } else if constexpr (io::cells::is_point<Value>) {
-    return {"[number, number, number]", "three"};
+    return "three";
   } else if constexpr (is_of_angles<Value>) {
-    return {"Record<string, number>", "each(number)"};
+    return "each(number)";
   } else if constexpr (is_list<Value>) {
-    const InPage of = in_page<typename Value::value_type>();
-    return {of.type + "[]", "list(" + of.check + ")"};
+    return "list(" + check_of<typename Value::value_type>() + ")";
   } else if constexpr (std::is_enum_v<Value> && !std::same_as<Value, JointAngle>) {
-    return {names_of<Value>(" | "), "oneOf(" + names_of<Value>(", ") + ")"};
+    return "oneOf(" + names_of<Value>(", ") + ")";
   } else {
     const std::string hint = hint_of<Value>();
-    return hint == "bool"  ? InPage{"boolean", "flag"}
-           : hint == "str" ? InPage{"string", "text"}
-                           : InPage{"number", "number"};
+    return hint == "bool" ? "flag" : hint == "str" ? "text" : "number";
   }
 }
 
@@ -189,24 +182,23 @@ constexpr bool can_be_null(IfEmpty if_empty) {
 
 template <class Record>
 std::string page_type() {
-  std::string members, checks;
+  std::string checks;
   for_each_field<Record>([&](const auto& field) {
     if (*field.key == 0) return;
     using Value = std::remove_cvref_t<decltype(std::declval<Record>().*std::get<0>(field.path))>;
-    const auto [type, check] = in_page<Value>();
-    const bool null = can_be_null<Value>(field.if_empty), may_lack = field.if_empty == IfEmpty::left_out;
-    members += fmt::format("  {}{}: {}{};\n", field.key, may_lack ? "?" : "", type, null ? " | null" : "");
-    const std::string checked = null ? "orNull(" + check + ")" : check;
-    checks += fmt::format("  {}: {},\n", field.key, may_lack ? "ifThere(" + checked + ")" : checked);
+    std::string check = check_of<Value>();
+    if (can_be_null<Value>(field.if_empty)) check = "orNull(" + check + ")";
+    if (field.if_empty == IfEmpty::left_out) check = "ifThere(" + check + ")";
+    checks += fmt::format("  {}: {},\n", field.key, check);
   });
-  return fmt::format("\n/// {}\nexport interface {} {{\n{}}}\nconst {} = object({{\n{}}});\n",
-                     table<Record>.meaning, table<Record>.name, members, check_name(table<Record>.name),
-                     checks);
+  const std::string check = check_name(table<Record>.name);
+  return fmt::format("\n/// {}\nexport type {} = Passed<typeof {}>;\nconst {} = object({{\n{}}});\n",
+                     table<Record>.meaning, table<Record>.name, check, check, checks);
 }
 
 std::string page_records() {
   return R"(// Records of answers, and checks of them. Made by `make describe` from the tables in src/answer/records/.
-import { each, flag, ifThere, list, number, object, oneOf, orNull, text, three } from "./checks";
+import { each, flag, ifThere, list, number, object, oneOf, orNull, text, three, type Passed } from "./checks";
 )" + each_record([]<class Record>() { return page_type<Record>(); }) +
          "\nexport { limitRecord, shapeRecord };\n";
 }

@@ -1,13 +1,8 @@
 // Records of answers, and checks of them. Made by `make describe` from the tables in src/answer/records/.
-import { each, flag, ifThere, list, number, object, oneOf, orNull, text, three } from "./checks";
+import { each, flag, ifThere, list, number, object, oneOf, orNull, text, three, type Passed } from "./checks";
 
 /// A vertex or a face by its number, or an edge by its two vertices, ascending: in numbers of the mesh, from 0.
-export interface FeatureRecord {
-  kind: "vertex" | "edge" | "face";
-  vertices?: number[];
-  id?: number;
-  part?: string;
-}
+export type FeatureRecord = Passed<typeof featureRecord>;
 const featureRecord = object({
   kind: oneOf("vertex", "edge", "face"),
   vertices: ifThere(list(number)),
@@ -16,32 +11,21 @@ const featureRecord = object({
 });
 
 /// What is in contact of either body.
-export interface FeaturesRecord {
-  fixed: FeatureRecord;
-  mobile: FeatureRecord;
-}
+export type FeaturesRecord = Passed<typeof featuresRecord>;
 const featuresRecord = object({
   fixed: featureRecord,
   mobile: featureRecord,
 });
 
 /// Names of the meshes that touch, None of a body of one mesh.
-export interface PartsRecord {
-  fixed: string | null;
-  mobile: string | null;
-}
+export type PartsRecord = Passed<typeof partsRecord>;
 const partsRecord = object({
   fixed: orNull(text),
   mobile: orNull(text),
 });
 
 /// Depths of a limit with a depth allowed.
-export interface AllowedDepthRecord {
-  at_start_mm: number;
-  at_limit_mm: number;
-  ray_to_normal_deg: number;
-  grows: boolean;
-}
+export type AllowedDepthRecord = Passed<typeof allowedDepthRecord>;
 const allowedDepthRecord = object({
   at_start_mm: number,
   at_limit_mm: number,
@@ -50,11 +34,7 @@ const allowedDepthRecord = object({
 });
 
 /// Where liner and neck of an implant end a motion, as bodies of revolution.
-export interface ClosedForm {
-  limit_deg: number;
-  reason: "contact" | "end_of_range" | "contact_at_start";
-  of_facets_deg: number[];
-}
+export type ClosedForm = Passed<typeof closedForm>;
 const closedForm = object({
   limit_deg: number,
   reason: oneOf("contact", "end_of_range", "contact_at_start"),
@@ -62,12 +42,7 @@ const closedForm = object({
 });
 
 /// Width of a band if only one source was uncertain.
-export interface BandWidthRecord {
-  centre_deg: number;
-  axes_deg: number;
-  surface_deg: number;
-  parameters_deg?: number;
-}
+export type BandWidthRecord = Passed<typeof bandWidthRecord>;
 const bandWidthRecord = object({
   centre_deg: number,
   axes_deg: number,
@@ -76,14 +51,7 @@ const bandWidthRecord = object({
 });
 
 /// The limit over the joints of a band.
-export interface BandRecord {
-  p5_deg: number;
-  median_deg: number;
-  p95_deg: number;
-  width_from: BandWidthRecord;
-  share_without_contact: number;
-  share_in_contact_at_start: number;
-}
+export type BandRecord = Passed<typeof bandRecord>;
 const bandRecord = object({
   p5_deg: number,
   median_deg: number,
@@ -94,11 +62,7 @@ const bandRecord = object({
 });
 
 /// A caveat to read before a limit is compared with a living joint.
-export interface Caveat {
-  code: "bone_may_end" | "soft_tissue_ends" | "soft_tissue_close" | "capsule_restrains" | "labrum_not_modelled" | "end_unknown";
-  text: string;
-  source: string | null;
-}
+export type Caveat = Passed<typeof caveat>;
 const caveat = object({
   code: oneOf("bone_may_end", "soft_tissue_ends", "soft_tissue_close", "capsule_restrains", "labrum_not_modelled", "end_unknown"),
   text: text,
@@ -106,15 +70,7 @@ const caveat = object({
 });
 
 /// The overlap past a limit, on the fixed body.
-export interface FixedZoneRecord {
-  triangles: number;
-  area_mm2: number;
-  centroid_mm: [number, number, number] | null;
-  max_radial_depth_mm: number | null;
-  max_tangential_depth_deg: number | null;
-  max_tangential_depth_mm: number | null;
-  clock_hour: number | null;
-}
+export type FixedZoneRecord = Passed<typeof fixedZoneRecord>;
 const fixedZoneRecord = object({
   triangles: number,
   area_mm2: number,
@@ -126,15 +82,7 @@ const fixedZoneRecord = object({
 });
 
 /// The overlap past a limit, on the mobile body.
-export interface MobileZoneRecord {
-  triangles: number;
-  area_mm2: number;
-  centroid_mm: [number, number, number] | null;
-  max_radial_depth_mm: number | null;
-  max_tangential_depth_deg: number | null;
-  max_tangential_depth_mm: number | null;
-  neck_angle_deg: number | null;
-}
+export type MobileZoneRecord = Passed<typeof mobileZoneRecord>;
 const mobileZoneRecord = object({
   triangles: number,
   area_mm2: number,
@@ -146,12 +94,7 @@ const mobileZoneRecord = object({
 });
 
 /// The overlap past a limit.
-export interface ZoneRecord {
-  past_deg: number;
-  contact_neck_angle_deg: number | null;
-  fixed: FixedZoneRecord;
-  mobile: MobileZoneRecord;
-}
+export type ZoneRecord = Passed<typeof zoneRecord>;
 const zoneRecord = object({
   past_deg: number,
   contact_neck_angle_deg: orNull(number),
@@ -160,42 +103,7 @@ const zoneRecord = object({
 });
 
 /// Where one motion ends, in the words of rom.json.
-export interface LimitRecord {
-  name: string;
-  limit_deg: number;
-  reason: "contact" | "end_of_range" | "contact_at_start";
-  contact_kind: "unknown" | "bearing" | "impingement" | "cut" | "soft" | null;
-  bearing_contact_deg: number | null;
-  bearing_contact_point_mm: [number, number, number] | null;
-  soft_contact_deg: number | null;
-  soft_contact_point_mm: [number, number, number] | null;
-  soft_contact_parts: PartsRecord | null;
-  centre_distance_mm: number | null;
-  joint_space_mm: number | null;
-  error_bound_deg: number;
-  vary: string;
-  sense: "negative" | "positive";
-  range_deg: number;
-  start_deg: Record<string, number>;
-  held_deg: Record<string, number>;
-  zero_from: "as_given" | "stated" | "landmarks" | "anatomy";
-  definition: string | null;
-  at_limit_deg: Record<string, number>;
-  translation_mm: [number, number, number] | null;
-  translation_ends: boolean | null;
-  contact_point_mm: [number, number, number] | null;
-  contact_point_mobile_mm: [number, number, number] | null;
-  features: FeaturesRecord | null;
-  contact_side: "superior" | "anterior" | "inferior" | "posterior" | null;
-  clock_hour: number | null;
-  normal_range_deg: number | null;
-  caveats: Caveat[];
-  guarantee: string;
-  depth?: AllowedDepthRecord;
-  closed_form?: ClosedForm;
-  zone?: ZoneRecord | null;
-  band: BandRecord | null;
-}
+export type LimitRecord = Passed<typeof limitRecord>;
 const limitRecord = object({
   name: text,
   limit_deg: number,
@@ -234,14 +142,7 @@ const limitRecord = object({
 });
 
 /// Between these values lie the measures of other people.
-export interface NormalRange {
-  low: number;
-  high: number;
-  people: string;
-  count: number | null;
-  meaning: string;
-  source: string;
-}
+export type NormalRange = Passed<typeof normalRange>;
 const normalRange = object({
   low: number,
   high: number,
@@ -252,12 +153,7 @@ const normalRange = object({
 });
 
 /// A measure over displaced joints.
-export interface MeasureBand {
-  p5: number | null;
-  median: number | null;
-  p95: number | null;
-  samples_without_value: number;
-}
+export type MeasureBand = Passed<typeof measureBand>;
 const measureBand = object({
   p5: orNull(number),
   median: orNull(number),
@@ -266,21 +162,7 @@ const measureBand = object({
 });
 
 /// One measure of a hip.
-export interface MeasureRecord {
-  key: string;
-  part: "femur" | "acetabulum" | "both";
-  unit: string;
-  value: number | null;
-  why_none: string | null;
-  note: string | null;
-  definition: string;
-  measured_by: string[];
-  source: string;
-  frame: string | null;
-  normal: NormalRange | null;
-  patients: NormalRange | null;
-  band: MeasureBand | null;
-}
+export type MeasureRecord = Passed<typeof measureRecord>;
 const measureRecord = object({
   key: text,
   part: oneOf("femur", "acetabulum", "both"),
@@ -298,15 +180,7 @@ const measureRecord = object({
 });
 
 /// What is measured in one direction around the neck, 12 superior and 3 anterior.
-export interface NeckHour {
-  hour: number;
-  alpha_deg: number | null;
-  alpha_at_1mm_deg: number | null;
-  is_doubtful: boolean;
-  alpha_point_mm: [number, number, number] | null;
-  offset_mm: number | null;
-  offset_point_mm: [number, number, number] | null;
-}
+export type NeckHour = Passed<typeof neckHour>;
 const neckHour = object({
   hour: number,
   alpha_deg: orNull(number),
@@ -318,13 +192,7 @@ const neckHour = object({
 });
 
 /// The rim in one direction around the socket, 12 superior and 3 anterior.
-export interface RimHour {
-  hour: number;
-  point_mm: [number, number, number] | null;
-  cover_deg: number | null;
-  centre_edge_deg: number | null;
-  is_in_plane: boolean;
-}
+export type RimHour = Passed<typeof rimHour>;
 const rimHour = object({
   hour: number,
   point_mm: orNull(three),
@@ -334,14 +202,7 @@ const rimHour = object({
 });
 
 /// The shape of a hip, in the words of measures.json.
-export interface ShapeRecord {
-  pelvis_frame: string;
-  pelvic_tilt_deg: number;
-  left_out: string[];
-  measures: MeasureRecord[];
-  around_neck: NeckHour[];
-  rim: RimHour[];
-}
+export type ShapeRecord = Passed<typeof shapeRecord>;
 const shapeRecord = object({
   pelvis_frame: text,
   pelvic_tilt_deg: number,

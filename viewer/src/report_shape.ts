@@ -1,13 +1,18 @@
-import { count, each, flag, ifThere, isObject, list, number, object, oneOf, orNull, ReportError, text, three, wrong, type Check } from "./checks";
-import { limitRecord, shapeRecord } from "./records";
-import type { ArrayPlace, ReportText } from "./report";
+import {
+  count, each, flag, ifThere, isObject, list, number, object, oneOf, orNull, ReportError, text, three, wrong, type Check, type Passed,
+} from "./checks";
+import { limitRecord, shapeRecord, type ShapeRecord } from "./records";
+import type { ArrayPlace } from "./report";
 import { words } from "./words";
 
 const meshFile = object({ path: text, bytes: number, sha256: text });
-const meshFiles: Check = (value, key) => (isObject(value) && "files" in value ? object({ files: list(meshFile) }) : meshFile)(value, key);
+const severalFiles = object({ files: list(meshFile) });
+const meshFiles: Check<Passed<typeof meshFile> | Passed<typeof severalFiles>> = (value, key) =>
+  (isObject(value) && "files" in value ? severalFiles : meshFile)(value, key);
 
 const sphere = object({ radius_mm: number, centre_mm: ifThere(three) });
 const rom = object({
+  implant: ifThere(object({ fixed_part: text, mobile_part: text })),
   exact: ifThere(flag), clock_plane: ifThere(orNull(oneOf("sagittal", "rim"))),
   held_translation_mm: ifThere(orNull(three)), motions: list(limitRecord), notes: list(object({ code: text, text })), caveats: list(text),
   zero: ifThere(object({ from: text, is_neutral: ifThere(orNull(flag)), text })), normal_range_source: ifThere(orNull(text)), scope: text, bearing: ifThere(object({
@@ -23,6 +28,9 @@ const rom = object({
   })),
 });
 
+/// low, high, whether contact ends it at the low end, and at the high end
+const interval = list(number, 4) as Check<[number, number, number, number]>;
+export type Interval = Passed<typeof interval>;
 const mapAxis = object({ angle: text, opposite: text, values_deg: list(number) });
 const surface = object({
   first_vertex: count, vertices: count, first_triangle: count, triangles: count, youngs_modulus_mpa: ifThere(number),
@@ -37,6 +45,8 @@ const geometry = object({
     rim_plane: orNull(object({ centre_mm: three, normal: three, radius_mm: number })),
   }),
 });
+
+const measures: Check<ShapeRecord & Passed<typeof geometry>> = (value, key) => [shapeRecord, geometry].forEach((check) => check(value, key));
 
 const bodyName = oneOf("fixed", "mobile");
 const end = object({ limit_deg: number, reason: oneOf("contact", "end_of_range", "contact_at_start") });
@@ -77,7 +87,8 @@ const posed = object({
   parts: list(object({
     name: text, body: bodyName, meshes: list(text), centre_mm: three, definition: text, is_cut: flag,
     parameters: list(object({
-      name: text, kind: text, unit: text, range: list(number, 2), value: number, in_joint_file: number, as_given: number, sigma: number, along: three,
+      name: text, kind: text, unit: text, range: list(number, 2) as Check<[number, number]>, value: number, in_joint_file: number,
+      as_given: number, sigma: number, along: three,
     })),
   })),
   bearing_margin_mm: orNull(number), fixed: givenBody, mobile: givenBody,
@@ -102,7 +113,7 @@ const report = object({
   coordinates: list(object({ name: text, opposite: text }), 3), reference_deg: three, reference_mm: three,
   scope: ifThere(text), rom: orNull(rom), rom_error: ifThere(text),
   map: orNull(object({
-    columns: mapAxis, rows: mapAxis, vary: text, vary_opposite: text, start_deg: number, intervals: list(list(list(number, 4))),
+    columns: mapAxis, rows: mapAxis, vary: text, vary_opposite: text, start_deg: number, intervals: list(list(interval)),
   })),
   zones: list(object({ motion: text, past_deg: number, fixed: text, mobile: text })),
   layers: orNull(object({
@@ -119,10 +130,12 @@ const report = object({
     name: text, axis: oneOf("time_s", "frame"), times_s: text, coordinates_deg: text, coordinates_mm: text, poses: text,
     curves: list(object({ name: text, unit: text, values: text })),
   })),
-  recorded_motion: ifThere(object({ by: oneOf("columns", "poses", "model") })), measures: orNull((value, key) => [shapeRecord, geometry].forEach((check) => check(value, key))), plan: orNull(plan),
+  recorded_motion: ifThere(object({ by: oneOf("columns", "poses", "model") })), measures: orNull(measures), plan: orNull(plan),
   before: ifThere(orNull(before)), posed: ifThere(orNull(posed)), sweep: ifThere(orNull(sweep)), only_in_reports: ifThere(list(oneOf("contact"))),
   taken_by_name: ifThere(list(object({ mesh: text, taken: text }))),
 });
+
+export type ReportText = Passed<typeof report>;
 
 /// The text of a block with every key that the page reads; throws ReportError that names the first wrong one.
 export function checkedText(json: string): ReportText {
