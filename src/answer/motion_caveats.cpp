@@ -123,6 +123,7 @@ std::string_view name_of(MotionCaveatCode code) noexcept {
 
 std::vector<MotionCaveat> motion_caveats(const Joint& joint, const motion::Motion& motion) {
   if (!joint.is_hip()) return {};
+  if (joint.implant) return {unknown};
   for (const auto& [name, vary, sense, caveats] : caveat_rows) {
     // A motion of one's own may have a built-in one's name and be another.
     if (name != motion.name || vary != motion.vary || sense != motion.sense) continue;

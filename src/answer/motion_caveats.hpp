@@ -46,7 +46,7 @@ struct MotionCaveat {
 ///     fadir                              bone may end it         Han et al. 2020; no labrum, PMC7754612
 ///     faber                              the capsule restrains   van Arkel et al. 2015
 ///
-/// No labrum: not where a mesh is called one.
+/// No labrum: not where a mesh is called one. The sources are of native hips: the motions of an implant have the caveat that no source is known.
 std::vector<MotionCaveat> motion_caveats(const Joint& joint, const motion::Motion& motion);
 
 }  // namespace condyle

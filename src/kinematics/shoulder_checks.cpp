@@ -77,8 +77,10 @@ std::vector<JointNote> shoulder_notes(const Joint& joint, const JointPlacement& 
   const bool is_head = head && head->coverage >= least_humeral_coverage;
   // Far from the joint centre even a scapula may have something round.
   if (!(is_head && head->fit.sphere.centre.norm() <= farthest_stray_sphere) && are_swapped(joint)) {
-    notes.push_back({JointNoteCode::swapped_bodies, joint.fixed.name + " has a head and " + mobile +
-                                                        " has a socket for it: are the bodies exchanged?"});
+    // A reverse shoulder has its head on the scapula.
+    if (!joint.implant)
+      notes.push_back({JointNoteCode::swapped_bodies, joint.fixed.name + " has a head and " + mobile +
+                                                          " has a socket for it: are the bodies exchanged?"});
     return notes;
   }
   if (!is_head) {

@@ -98,5 +98,19 @@ TEST(SampleReverseShoulder, IsAShoulderWithItsSizesInTheJointFile) {
   EXPECT_EQ(std::get<plan::ReverseShoulder>(*file.implant), expected);
 }
 
+/// A head on the scapula is what makes a shoulder reverse, and facets stand out of a sphere by hundredths of a millimetre.
+TEST(SampleImplants, HaveNothingThatLooksWrong) {
+  const TemporaryFolder folder;
+  for (const char* sample : {"replacement", "replacement --bones none --side left", "reverse-shoulder"}) {
+    ASSERT_EQ(made_implant(folder, std::string(sample) + " --out made").exit_code, 0);
+    const char* joint =
+        std::filesystem::exists(folder / "made/hip.toml") ? "made/hip.toml" : "made/shoulder.toml";
+    const Ran rom = run_condyle(folder.path(), std::string("rom --strict --json ") + joint);
+    ASSERT_EQ(rom.exit_code, 0) << rom.err;
+    EXPECT_EQ(nlohmann::json::parse(rom.out)["notes"], nlohmann::json::array()) << sample;
+    std::filesystem::remove_all(folder / "made");
+  }
+}
+
 }  // namespace
 }  // namespace condyle::test

@@ -350,6 +350,16 @@ TEST(NormalHipRange, IsGivenWhereTheSourceHasAValue) {
     EXPECT_FALSE(normal_hip_range(none)) << none;
 }
 
+TEST(MotionCaveats, HaveNoStudiesOfNativeHipsForAnImplant) {
+  Joint joint = arm_and_post();
+  joint.implant = JointImplant{};
+  for (const motion::Motion& motion : motion::hip_motions()) {
+    const std::vector<MotionCaveat> caveats = motion_caveats(joint, motion);
+    ASSERT_EQ(caveats.size(), 1u) << motion.name;
+    EXPECT_EQ(caveats[0].code, MotionCaveatCode::end_unknown);
+  }
+}
+
 /// Two limits that turn one angle to either side, and a third that ends nowhere.
 std::vector<motion::MotionLimit> opposite_limits() {
   std::vector<motion::MotionLimit> limits;

@@ -144,6 +144,12 @@ TEST(BearingSurface, WhoseMarginIsNarrowerThanSurfacesAreRoughSaysSo) {
   const double radius_of_diagonal = (socket_radius - std::sqrt(3.0)) / (1 + rim_reserve_mm / 24);
   EXPECT_TRUE(margin_of(radius_of_diagonal + 0.01));
   EXPECT_FALSE(margin_of(radius_of_diagonal - 0.01));
+  // An implant's facets, of 4 degrees here, stand out by hundredths of a millimetre.
+  joint.fixed.image = {};
+  joint.implant = JointImplant{};
+  const auto radius_at = [&](double margin) { return (socket_radius - margin) / (1 + rim_reserve_mm / 24); };
+  EXPECT_FALSE(margin_of(radius_at(0.1)));
+  EXPECT_TRUE(margin_of(radius_at(0.01)));
 }
 
 TEST(BearingSurface, OfACartilageThatHasNoRoomSaysSoToo) {

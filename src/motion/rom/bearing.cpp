@@ -11,6 +11,7 @@
 #include "kinematics/flat_ends.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_parts.hpp"
+#include "kinematics/surface_sag.hpp"
 #include "motion/rom/contact_roles.hpp"
 
 namespace condyle::motion {
@@ -82,9 +83,15 @@ std::string no_margin(const Joint& joint, double gap_mm, MarginLimit by) {
              std::max(gap_mm, 0.0));
 }
 
-/// The corners of a staircase stand out of the surface that it shows by up to a voxel's diagonal.
+/// The corners of a staircase stand out of the surface that it shows by up to a voxel's diagonal. An implant is made to its sizes: its surfaces
+/// are as rough as their facets.
 double narrow_bound(const Joint& joint, const Sphere& head) {
-  double bound = by_head(narrow_bearing_margin_mm, head);
+  const auto sag_mm = [&](const Body& body) {
+    return kinematics::surface_sag_mm(body.mesh, head.centre,
+                                      by_head(usual_bearing_margin_mm, head) + head.radius);
+  };
+  double bound =
+      joint.implant ? sag_mm(joint.fixed) + sag_mm(joint.mobile) : by_head(narrow_bearing_margin_mm, head);
   for (const Body* body : {&joint.fixed, &joint.mobile})
     if (body->image) bound = std::max(bound, body->image->voxel.rowwise().sum().norm());
   return bound;
