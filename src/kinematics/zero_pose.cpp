@@ -6,6 +6,7 @@
 #include "core/rounded.hpp"
 #include "kinematics/femoral_axes.hpp"
 #include "kinematics/turned_leg.hpp"
+#include "kinematics/wrong_set_up.hpp"
 
 namespace condyle {
 namespace {
@@ -85,20 +86,9 @@ std::string zero_text(const Joint& joint, const ZeroPose& zero) {
 namespace kinematics {
 
 std::optional<JointNote> turned_leg_note(const Joint& joint, std::span<const JointNote> others) {
-  const auto is_of_axes = [](const JointNote& note) {
-    switch (note.code) {
-      case JointNoteCode::swapped_bodies:
-      case JointNoteCode::axes_not_upright:
-      case JointNoteCode::axes_turned:
-      case JointNoteCode::wrong_side:
-      case JointNoteCode::mirrored:
-      case JointNoteCode::bodies_disagree:
-        return true;
-      default:
-        return false;
-    }
-  };
-  if (std::any_of(others.begin(), others.end(), is_of_axes)) return std::nullopt;
+  if (std::any_of(others.begin(), others.end(),
+                  [](const JointNote& note) { return is_wrong_set_up(note.code); }))
+    return std::nullopt;
   const ZeroPose zero = zero_pose(joint);
   if (!zero.is_turned()) return std::nullopt;
   return JointNote{

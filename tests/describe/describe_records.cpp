@@ -9,8 +9,10 @@
 #include "answer/records/limit_record.hpp"
 #include "answer/records/measure_record.hpp"
 #include "condyle/error.hpp"
+#include "condyle/joint_checks.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/record/table_of.hpp"
+#include "kinematics/wrong_set_up.hpp"
 
 /// condyle_describe ROOT [--check]: writes what is made from the tables of records into the repository at ROOT: the classes of Python, the
 /// types of the page and the tables of docs/. With --check it names each file that is not what would be written, with exit code 1.
@@ -26,19 +28,25 @@ constexpr bool is_enumerator() {
   return signature[signature.find(before) + before.size()] != '(';
 }
 
+template <class Enum, class Visit>
+void for_each_enumerator(const Visit& visit) {
+  const auto one = [&]<int value>() {
+    if constexpr (is_enumerator<static_cast<Enum>(value)>()) visit(static_cast<Enum>(value));
+  };
+  [&]<int... values>(std::integer_sequence<int, values...>) {
+    (one.template operator()<values - std::is_signed_v<std::underlying_type_t<Enum>>>(), ...);
+  }
+  (std::make_integer_sequence<int, 64>());
+}
+
 /// The names of an enum in files, each in quotes and behind `separator` but the first.
 template <class Enum>
 std::string names_of(std::string_view separator) {
   std::string names;
-  const auto add = [&]<int value>() {
-    if constexpr (is_enumerator<static_cast<Enum>(value)>())
-      if (const std::string_view name = name_of(static_cast<Enum>(value)); name != "none")
-        names += fmt::format("{}\"{}\"", names.empty() ? "" : separator, name);
-  };
-  [&]<int... values>(std::integer_sequence<int, values...>) {
-    (add.template operator()<values - std::is_signed_v<std::underlying_type_t<Enum>>>(), ...);
-  }
-  (std::make_integer_sequence<int, 32>());
+  for_each_enumerator<Enum>([&](Enum value) {
+    if (const std::string_view name = name_of(value); name != "none")
+      names += fmt::format("{}\"{}\"", names.empty() ? "" : separator, name);
+  });
   return names;
 }
 
@@ -196,11 +204,25 @@ std::string page_type() {
                      table<Record>.meaning, table<Record>.name, check, check, checks);
 }
 
+/// Codes of the notes that are no findings.
+std::string note_grades() {
+  std::string grades;
+  for_each_enumerator<JointNoteCode>([&](JointNoteCode code) {
+    if (kinematics::is_wrong_set_up(code)) grades += fmt::format("  {}: \"wrong\",\n", name_of(code));
+  });
+  for_each_enumerator<RangeNoteCode>(
+      [&](RangeNoteCode code) { grades += fmt::format("  {}: \"remark\",\n", name_of(code)); });
+  return "\n/// Notes by which no number holds, and those on how exact limits are, which `--strict` lets "
+         "pass; others are "
+         "findings.\nexport const noteGrades: Record<string, \"wrong\" | \"remark\"> = {\n" +
+         grades + "};\n";
+}
+
 std::string page_records() {
   return R"(// Records of answers, and checks of them. Made by `make describe` from the tables in src/answer/records/.
 import { each, flag, ifThere, list, number, object, oneOf, orNull, text, three, type Passed } from "./checks";
 )" + each_record([]<class Record>() { return page_type<Record>(); }) +
-         "\nexport { limitRecord, shapeRecord };\n";
+         note_grades() + "\nexport { limitRecord, shapeRecord };\n";
 }
 
 // ---- docs/

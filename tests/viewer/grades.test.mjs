@@ -40,8 +40,8 @@ test("a finding is amber with its text, and a remark on how exact limits are is 
   assert.equal(await both.locator("#noted.warning").count(), 1);
   assert.match(await both.locator("#sentence").textContent(), / ends at /);
   await both.context().close();
-  const page = await opened("remark", ({ rom }) => rom.notes.push(remark));
-  assert.match(await page.locator("#noted").textContent(), /^1 remark on how exact the limits are/);
+  const page = await opened("remark", ({ rom }) => rom.notes.push(remark, { code: "translation_ends", text: "the record ends before the range" }));
+  assert.match(await page.locator("#noted").textContent(), /^2 remarks on how exact the limits are/);
   assert.equal(await page.locator("#noted.warning").count(), 0);
   await page.context().close();
 });

@@ -212,4 +212,26 @@ const shapeRecord = object({
   rim: list(rimHour),
 });
 
+/// Notes by which no number holds, and those on how exact limits are, which `--strict` lets pass; others are findings.
+export const noteGrades: Record<string, "wrong" | "remark"> = {
+  same_mesh: "wrong",
+  swapped_bodies: "wrong",
+  axes_not_upright: "wrong",
+  axes_turned: "wrong",
+  wrong_side: "wrong",
+  mirrored: "wrong",
+  bodies_disagree: "wrong",
+  centre_moves_limits: "remark",
+  narrow_bearing_margin: "remark",
+  limit_on_cut: "remark",
+  limit_on_part_cut: "remark",
+  limit_on_piece: "remark",
+  sliding_surfaces: "remark",
+  translation_ends: "remark",
+  bones_touch: "remark",
+  coarse_mesh: "remark",
+  differs_from_closed_form: "remark",
+  last_value_left_out: "remark",
+};
+
 export { limitRecord, shapeRecord };

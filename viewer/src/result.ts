@@ -1,13 +1,11 @@
 import { fixed, plain, signed } from "./numbers";
 import type { Band, LimitDifference, MotionAnswer, ReportText, RomAnswer } from "./report";
+import { noteGrades } from "./records";
 import { words } from "./words";
 
-/// What a note of the checks means for the numbers: a joint that is set up wrongly, a finding, or a remark on how exact limits are, which
-/// `--strict` lets pass: docs/checks.md.
+/// What a note of the checks means for the numbers: docs/checks.md.
 export function gradeOf({ code }: { code: string }): "wrong" | "finding" | "remark" {
-  if (/^(wrong_side|mirrored|swapped_bodies|bodies_disagree|axes_(turned|not_upright)|same_mesh)$/.test(code)) return "wrong";
-  return /^(bones_touch|centre_moves_limits|coarse_mesh|differs_from_closed_form|last_value_left_out|limit_on_(cut|piece|part_cut)|narrow_bearing_margin|sliding_surfaces)$/
-    .test(code) ? "remark" : "finding";
+  return noteGrades[code] ?? "finding";
 }
 
 /// The note by which no number of the joint is to be believed; null if there is none.
