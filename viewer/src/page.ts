@@ -20,7 +20,7 @@ import { Paper } from "./panels/paper";
 import { PlanPanel } from "./panels/plan";
 import { addPlanPanel } from "./panels/plan_tab";
 import { PointerPanel } from "./panels/pointer";
-import { RecordedPanel, type Frame } from "./panels/recorded";
+import { RecordedPanel, type Frame, type Loaded } from "./panels/recorded";
 import { fileName, poseLine, savePicture, saveSurfaces } from "./panels/saved_files";
 import { shapePanel } from "./panels/shape";
 import { StoredPoses } from "./panels/stored_poses";
@@ -70,6 +70,7 @@ export class Page {
   private readonly paper: Paper;
   private readonly address: ViewAddress;
   private readonly recorded: RecordedPanel | null;
+  private readonly loaded: Loaded | null;
   private readonly notes: NotesPanel | null;
   private core: CoreClient | null = null;
   private freeAngles: FreeAngles | null = null;
@@ -112,8 +113,11 @@ export class Page {
     const motion = added.motion ?? (report && text.recorded && recordedOf(report, text.recorded));
     this.recorded = motion ? new RecordedPanel(
       motion, (frame) => this.showFrame(frame), this.scene && ((said) => this.pictureOfFrame(said))) : null;
-    const extremes = this.recorded?.extremes() ?? [];
-    this.strip = new ResultStrip(text, (motion) => this.motion.goToEnd(motion), (motion) => this.motion.canGo(motion), extremes, () => this.showFold("checks"));
+    // A joint that is set up wrongly says that first.
+    this.loaded = text.layers && wrongOf(text.rom) === null ? this.recorded?.loaded() ?? null : null;
+    const extremes = this.loaded?.figures ?? this.recorded?.extremes() ?? [], ofLoad = this.loaded?.sentence ?? null;
+    this.strip = new ResultStrip(
+      text, (motion) => this.motion.goToEnd(motion), (motion) => this.motion.canGo(motion), extremes, () => this.showFold("checks"), ofLoad);
     found("strip-place").replaceChildren(this.strip.element);
     this.plan = report && text.plan && new PlanPanel(this.scene, report, text.plan, names);
     const { fixed: fixedCount, mobile: mobileCount } = this.counts();
@@ -139,7 +143,7 @@ export class Page {
     if (compared) addPlanPanel(compared.element);
     if (this.plan) addPlanPanel(this.plan.element);
     if (shape) addPlanPanel(shape.element);
-    this.paper = new Paper(text, this.counts(), extremes, sweepOf(report));
+    this.paper = new Paper(text, this.counts(), extremes, sweepOf(report), ofLoad);
     found("paper").replaceChildren(this.paper.element);
     this.putNotesOnPaper();
     this.placeActions();
@@ -262,7 +266,7 @@ export class Page {
 
   /// The limit that the sentence is about, on paper.
   private drawWorst(): void {
-    if (!this.scene) return;
+    if (!this.scene || this.loaded) return;
     drawWorst(this.text, this.arrays, this.closed.signal, (picture, caption) => {
       this.hasWorstPicture = true;
       this.paper.setPicture(picture, caption);
@@ -277,7 +281,7 @@ export class Page {
     this.display.apply(display);
     this.zones?.show(zone);
     if (this.computes) this.motion.set(values.slice(0, 3), values.slice(3));
-    if (this.opensOnLoad && Object.keys(coordinates).length === 0) this.recorded?.show(0);
+    if (this.opensOnLoad && Object.keys(coordinates).length === 0) this.recorded?.show(this.loaded?.frame ?? 0);
   }
 
   /// The joint is ready in the worker; poses are answered from now on.

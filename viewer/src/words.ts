@@ -76,8 +76,7 @@ export const words = {
   neckOnRim: "neck on rim",
   atHour: (meets: string, hour: string) => `${meets} at ${hour}`,
   awayFromRim: "away from the rim",
-  endsSentence: (name: string, limit: string, now: string | null, compared: string | null, place: string) =>
-    `${[`${name} ends at ${limit}`, now, compared, place].filter(Boolean).join(", ")}.`,
+  endsSentence: (name: string, limit: string, ...said: (string | null)[]) => `${[`${name} ends at ${limit}`, ...said].filter(Boolean).join(", ")}.`,
   planned: (done: string) => `Planned, ${done}`,
   plannedSentence: (sentence: string) => `Planned: ${sentence}`,
   without: (gone: string) => `by hand without ${gone}`,
@@ -134,6 +133,13 @@ export const words = {
   quantities: "Quantities",
   seconds: (s: string) => `${s} s`.replace("-", "\u2212"),
   frameNumber: (frame: string) => `frame ${frame}`,
+  peakPressure: "peak pressure",
+  areaThen: "area then",
+  forceThen: "force then",
+  loadSentence: ([peak, area, force, shares]: readonly { name: string; value: string }[], at: string) =>
+    `Peak pressure ${peak!.value} at ${at}: ${area!.value} in contact carry ${force!.value}${shares ? `, ${shares.name} ${shares.value}` : ""}.`,
+  heldLimits: "Limits held in the scan's place",
+  held: "held in the scan's place",
   largest: (title: string) => `largest ${title}`,
   curvesCaption: "Curves of the recorded motion. The line is the frame that the scene shows: drag it, or use the arrow keys.",
   plateau: (name: string, quantity: string) => `${name} from above, front up: ${quantity}`,

@@ -132,7 +132,8 @@ Json poses_json(const Report& report, BlockArrays& arrays) {
 /// Unit of a curve's numbers, by the end of its name.
 std::string_view unit_of(std::string_view name) {
   static constexpr std::pair<std::string_view, std::string_view> units[] = {
-      {"_mm2", "mm²"}, {"_nmm", "N mm"}, {"_mpa", "MPa"}, {"_mm", "mm"}, {"_deg", "°"}, {"_n", "N"}};
+      {"_mm2", "mm²"}, {"_nmm", "N mm"}, {"_mpa", "MPa"},  {"_mm", "mm"},
+      {"_deg", "°"},   {"_n", "N"},      {"_percent", "%"}};
   for (const auto& [ending, unit] : units)
     if (name.ends_with(ending)) return unit;
   return "";
@@ -140,7 +141,10 @@ std::string_view unit_of(std::string_view name) {
 
 Json recorded_json(const ReportedMotion& recorded, const Joint& joint, BlockArrays& arrays) {
   const RecordedFrames frames = recorded_frames(joint, recorded.question.motion.X_FM);
-  const Curves curves = curves_of(recorded.question, recorded.answer);
+  Curves curves = curves_of(recorded.question, recorded.answer);
+  const Curves shares = load_shares_of(recorded.question, recorded.answer);
+  curves.names.insert(curves.names.end(), shares.names.begin(), shares.names.end());
+  curves.values.insert(curves.values.end(), shares.values.begin(), shares.values.end());
   Json json{{"name", recorded.name},
             {"axis", curves.axis},
             {"times_s", arrays.add("recorded_times", curves.at)},

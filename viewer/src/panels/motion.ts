@@ -85,7 +85,7 @@ export class MotionPanel {
       html("div", { class: "row motion-row no-print" },
         button(words.reset, () => (showStored ? showStored("reference") : this.goTo([...report.reference_deg], () => undefined, report.reference_mm)),
           { disabled: !this.hasPose("reference") }), this.undoButton, this.refusal),
-      ...(this.grid ? [this.grid.element] : []));
+      ...(this.grid ? [...(report.rom!.held_translation_mm ? [html("h3", {}, words.heldLimits)] : []), this.grid.element] : []));
   }
 
   get coordinates(): Coordinates {

@@ -23,10 +23,11 @@ export class Paper {
   private readonly notes = html("div", {});
 
   constructor(
-    text: ReportText, counts: { fixed: [number, number]; mobile: [number, number] }, extremes: readonly Extreme[], sweep: ShownSweep | null) {
+    text: ReportText, counts: { fixed: [number, number]; mobile: [number, number] }, extremes: readonly Extreme[], sweep: ShownSweep | null,
+    ofLoad: string | null) {
     const { rom, map } = text, isHip = text.joint.anatomy === "hip" && text.joint.kind !== "hinge";
     const headline = rom ? headlineMotion(rom, isHip) : null, hasLimits = rom?.motions.some(({ reason }) => reason !== "contact_at_start") ?? false;
-    const figures = rom && hasLimits
+    const figures = rom && hasLimits && ofLoad === null
       ? firstFigures(rom, isHip).map((motion) =>
         [motionName(motion.name), limitAlone(motion), [nowOf(text, motion), bandText(motion)].filter(Boolean).join("; "), normalText(motion)] as const)
       : extremes.map(({ name, value, at }) => [name, value, "", at] as const);
@@ -37,9 +38,11 @@ export class Paper {
       ...(text.note ? [html("p", {}, text.note)] : []),
       html("div", { class: "paper-results" }, ...figures.map(([name, value, band, normal]) =>
         html("div", {}, html("span", {}, named(name)), html("b", {}, value), html("span", {}, [band, normal].filter(Boolean).join("; "))))),
-      html("p", {}, hasLimits && headline ? sentenceOf(headline, text) : rom ? words.noLimitsInContact : words.noLimits + (text.rom_error ?? "")),
+      html("p", {}, ofLoad ??
+        (hasLimits && headline ? sentenceOf(headline, text) : rom ? words.noLimitsInContact : words.noLimits + (text.rom_error ?? ""))),
       ...(notes.length ? [html("p", { class: "warning" }, html("b", {}, words.noted(notes.length)), " ", notes.map((note) => note.text).join("; "))] : []),
       html("div", { class: "paper-picture" }, this.image, this.caption),
+      ...(hasLimits && rom!.held_translation_mm ? [html("h3", {}, words.heldLimits)] : []),
       ...(rom && hasLimits ? [html("div", { class: "paper-figures" }, drawn(limitsDrawing(rom.motions, null)), ...(clock ? [drawn(clock)] : []))] : []),
       ...(text.plan
         ? [html("div", { class: "paper-plan" }, ...planInShort(text.plan, { fixed: named(text.joint.fixed), mobile: named(text.joint.mobile) }))]

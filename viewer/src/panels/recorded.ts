@@ -1,6 +1,6 @@
 import { zipSync } from "fflate";
 import { button, checkbox, choice, html, named, section } from "../dom";
-import { plain } from "../numbers";
+import { fixed, plain } from "../numbers";
 import { CurveStack, curveOf, shownAtOnce, valueText, usualCurves, type Curve, type CurveKind } from "../plots/curves";
 import { figure } from "../plots/figure";
 import type { RecordedMotion } from "../recorded_motion";
@@ -16,6 +16,21 @@ export interface Frame {
   angles: number[];
   translation: number[];
   X_FM: number[];
+}
+
+/// What a joint under load answers first, and the frame that it is of.
+export interface Loaded {
+  frame: number;
+  figures: Extreme[];
+  sentence: string;
+}
+
+const isGap = ({ name }: Curve) => name === "smallest_gap_mm";
+
+/// The frame with the largest value, of a gap the smallest; -1 if there is none.
+function extremeOf(curve: Curve): number {
+  const { values } = curve, goes = (value: number, than: number) => (isGap(curve) ? value < than : Math.abs(value) > Math.abs(than));
+  return values.reduce((best, value, i) => (Number.isFinite(value) && (best < 0 || goes(value, values[best]!)) ? i : best), -1);
 }
 
 /// A recorded motion that plays, with its curves under it.
@@ -59,15 +74,30 @@ export class RecordedPanel {
 
   /// The largest values of the curves shown first, and their times.
   extremes(): Extreme[] {
-    return usualCurves(this.curves).flatMap(({ name, title, unit, values }) => {
-      const isGap = name === "smallest_gap_mm";
-      let frame = -1;
-      values.forEach((value, i) => {
-        if (Number.isFinite(value) && (frame < 0 || (isGap ? value < values[frame]! : Math.abs(value) > Math.abs(values[frame]!)))) frame = i;
-      });
+    return usualCurves(this.curves).flatMap((curve) => {
+      const frame = extremeOf(curve), { title, values, unit } = curve;
       if (frame < 0) return [];
-      return [{ name: isGap ? title : words.largest(title), value: valueText(values[frame]!, unit), at: this.timeText(frame), go: () => this.show(frame) }];
+      return [this.figureAt(frame, isGap(curve) ? title : words.largest(title), valueText(values[frame]!, unit))];
     });
+  }
+
+  /// The answer of a joint with layers: the largest pressure, and area, force and what the regions carry of it then. Null without pressure.
+  loaded(): Loaded | null {
+    const of = (name: string) => this.curves.find((curve) => curve.name === name), pressure = of("max_pressure_mpa");
+    if (pressure?.kind !== "changes") return null;
+    const frame = extremeOf(pressure), at = (name: string) => of(name)?.values[frame] ?? Number.NaN;
+    const shares = this.curves.filter(({ name }) => name.endsWith("_share_percent")),
+      regions = shares.map(({ title }) => title.replace(/ share$/, ""));
+    const figures = [
+      [words.peakPressure, valueText(pressure.values[frame]!, pressure.unit)], [words.areaThen, valueText(at("area_mm2"), "mm²")],
+      [words.forceThen, valueText(Math.hypot(at("force_x_n"), at("force_y_n"), at("force_z_n")), "N")],
+      ...(shares.length > 1 ? [[regions.join(" : "), shares.map(({ values }) => fixed(values[frame]!, 0)).join(" : ")]] : []),
+    ].map(([name, value]) => this.figureAt(frame, name!, value!));
+    return { frame, figures, sentence: words.loadSentence(figures, figures[0]!.at) };
+  }
+
+  private figureAt(frame: number, name: string, value: string): Extreme {
+    return { name, value, at: this.timeText(frame), go: () => this.show(frame) };
   }
 
   show(frame: number): void {

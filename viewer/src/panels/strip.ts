@@ -44,7 +44,8 @@ function sentenceOnEnd(motion: MotionAnswer, report: ReportText): string {
   if (motion.reason === "contact_at_start") return words.startsInContactSentence(name);
   if (motion.translation_ends) return words.translationSentence(name, limitAlone(motion));
   if (motion.reason === "end_of_range") return words.freeSentence(name, fixed(motion.limit_deg, 0));
-  return words.endsSentence(name, limitText(motion), nowOf(report, motion), againstClinical(motion, report), placeOf(motion, report));
+  const held = report.rom!.held_translation_mm ? words.held : null;
+  return words.endsSentence(name, limitText(motion), nowOf(report, motion), held, againstClinical(motion, report), placeOf(motion, report));
 }
 
 /// How far a limit is short of the clinical range. Soft tissue ends motions that bone leaves free: no limit is beyond that range, and a joint
@@ -70,9 +71,9 @@ export class ResultStrip {
 
   constructor(
     private readonly report: ReportText, go: (motion: MotionAnswer) => void, canGo: (motion: MotionAnswer) => boolean, extremes: readonly Extreme[],
-    showNotes: () => void) {
+    showNotes: () => void, ofLoad: string | null) {
     const { rom } = report, isHip = report.joint.anatomy === "hip" && report.joint.kind !== "hinge";
-    const hasLimits = rom !== null && rom.motions.some(({ reason }) => reason !== "contact_at_start");
+    const hasLimits = ofLoad === null && rom !== null && rom.motions.some(({ reason }) => reason !== "contact_at_start");
     const cards = hasLimits
       ? firstFigures(rom, isHip).map((motion) => {
         const lacks = deficitOf(motion) !== null;
@@ -87,7 +88,8 @@ export class ResultStrip {
       : extremes.map(({ name, value, at, go: show }) => card(name, value, "", at, show, false));
     const headline = rom && hasLimits ? headlineMotion(rom, isHip) : null;
     this.sentence.classList.toggle("wrong", headline !== null && wrongOf(rom) !== null);
-    this.say(headline ? sentenceOf(headline, report) : rom ? words.noLimitsInContact : words.noLimits + shortened(report.rom_error ?? "", 300));
+    this.say(ofLoad ??
+      (headline ? sentenceOf(headline, report) : rom ? words.noLimitsInContact : words.noLimits + shortened(report.rom_error ?? "", 300)));
     const notes = rom?.notes ?? [];
     this.element = html("section", { id: "strip", "aria-label": words.result },
       ...(cards.length ? [html("div", { id: "results" }, ...cards)] : []),

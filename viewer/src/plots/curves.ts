@@ -24,7 +24,7 @@ export function curveOf({ name, unit }: { name: string; unit: string }, values: 
   const finite = Array.from(values).filter(Number.isFinite);
   return {
     // Names of columns end in their units, letters and digits only.
-    name, unit, values, title: spaced(named(name.replace(/_(mm2|mm3|mm|deg|nmm|n|mpa|mj)$/, ""))),
+    name, unit, values, title: spaced(named(name.replace(/_(mm2|mm3|mm|deg|nmm|n|mpa|mj|percent)$/, ""))),
     kind: finite.length === 0 ? "empty" : finite.every((value) => value === 0) ? "zero" : "changes",
   };
 }
