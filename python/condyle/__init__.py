@@ -45,7 +45,7 @@ from ._range_of_motion import Bearing, FittedSphere, ImplantPair, MotionArc, Ran
 from ._recorded_motion import ContactEnd, ContactInterval, JointMotion, MotionTable, RecordedContact
 from ._recorded_motion import read_motion_table
 from ._record import Record
-from ._records import Caveat, ClosedForm, MeasureBand, NormalRange
+from ._records import BoneReference, Caveat, ClosedForm, MeasureBand, NormalRange
 from ._resection import Blocked, CurvePoint, CutBone, ReachedTarget, Resection
 from ._sample import HIP_PARAMETERS, SampleCartilages, SampleHip, sample_cartilages, sample_hip
 from ._study import Study, StudyLoad, StudyResection, StudyTable, merge_study, read_study, run_study, sample_cohort
@@ -54,7 +54,7 @@ from ._sweep import KNOWN_BY, Design, EndingPair, SafeInterval, Sweep, Target
 from ._tables import OccupiedArcs, RadialTable, RingTable
 
 __all__ = [
-    "BalanceOptions", "BalancedPose", "Bearing", "Blocked", "BrushStroke", "Brushed", "CurvePoint", "CutBone", "ReachedTarget", "Resection", "BodyPart", "BodyZone", "Caveat", "ClockFace", "ClosedForm", "CondyleError",
+    "BalanceOptions", "BalancedPose", "Bearing", "Blocked", "BoneReference", "BrushStroke", "Brushed", "CurvePoint", "CutBone", "ReachedTarget", "Resection", "BodyPart", "BodyZone", "Caveat", "ClockFace", "ClosedForm", "CondyleError",
     "ContactEnd", "ContactForces", "ContactFrames", "ContactInterval", "ContactMeasures", "ContactNote", "ContactPatch", "ContactRamp",
     "ContactTotals", "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit", "DepthRange", "Depths", "Design",
     "ElasticContact", "ElasticContactResults", "ElasticLayer", "EndingPair", "FileError", "Finding", "FirstContact", "FrameContact",

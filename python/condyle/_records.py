@@ -71,6 +71,17 @@ class BandRecord(Record):
     share_in_contact_at_start: float
 
 
+class BoneReference(Record):
+    """Means of simulations of bone in other people's hips; their spread is not given."""
+
+    healthy_deg: float
+    cam_without_complaints_deg: float
+    patients_deg: float
+    people_each: int
+    is_short: bool
+    source: str
+
+
 class Caveat(Record):
     """A caveat to read before a limit is compared with a living joint."""
 
@@ -186,6 +197,10 @@ class LimitRecord(Record):
     normal_range_deg : float or None
         how far a healthy hip turns from neutral in this motion by the source, below; null if the source has no value, if zero
         angles are not known to be neutral (`zero`), and for other joints
+    bone_reference : BoneReference or None
+        only of internal rotation at 90° flexion of a hip without implant, with zero known to be neutral and no end but
+        impingement: means of simulations of bone, `healthy_deg`, `cam_without_complaints_deg`, `patients_deg`, `people_each`,
+        `source`; `is_short` if the limit is not above that of hips with a cam
     caveats : list[Caveat]
         list of `code`, `text` and `source` each: what usually ends such a motion; empty for joints other than hips
     guarantee : str
@@ -232,6 +247,7 @@ class LimitRecord(Record):
     contact_side: Optional[Literal["superior", "anterior", "inferior", "posterior"]] = None
     clock_hour: Optional[float] = None
     normal_range_deg: Optional[float] = None
+    bone_reference: Optional[BoneReference] = None
     caveats: list[Caveat]
     guarantee: str
     depth: Optional[AllowedDepthRecord] = None

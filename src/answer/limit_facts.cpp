@@ -1,6 +1,8 @@
 #include "answer/limit_facts.hpp"
 
+#include <algorithm>
 #include <array>
+#include <vector>
 
 #include "condyle/joint_checks.hpp"
 #include "core/formatted.hpp"
@@ -29,6 +31,28 @@ std::optional<Angle> normal_hip_range(std::string_view motion) noexcept {
 std::optional<Angle> normal_range(const Joint& joint, const motion::MotionLimit& limit) {
   if (!joint.is_hip() || !zero_pose(joint).is_neutral()) return std::nullopt;
   return normal_hip_range(limit.motion.name);
+}
+
+std::optional<BoneReference> bone_reference(const Joint& joint, const motion::MotionLimit& limit) {
+  static constexpr std::array references{
+      BoneReference{"internal_rotation_at_90_flexion", Angle::degrees(27.9), Angle::degrees(21.1),
+                    Angle::degrees(12.3), 10, "Audenaert 2012, doi 10.1177/0363546512441328"}};
+  const motion::Motion& motion = limit.motion;
+  const auto known = std::find_if(references.begin(), references.end(),
+                                  [&](const BoneReference& each) { return each.motion == motion.name; });
+  if (known == references.end() || !joint.is_hip() || joint.implant || !zero_pose(joint).is_neutral())
+    return std::nullopt;
+  // A motion of one's own may have a built-in one's name and be another.
+  const std::vector<motion::Motion> built_in = motion::hip_motions();
+  const motion::Motion& same = motion::motion_named(built_in, known->motion);
+  if (same.vary != motion.vary || same.sense != motion.sense || same.start != motion.start)
+    return std::nullopt;
+  if (ends_in_contact(limit) && limit.end.kind() != motion::ContactKind::impingement) return std::nullopt;
+  return *known;
+}
+
+bool is_short(const BoneReference& reference, const motion::MotionLimit& limit) noexcept {
+  return limit.end.turned <= reference.cam_without_complaints;
 }
 
 std::optional<double> clock_hour(const RangeAnswer& answer, const motion::MotionLimit& limit) {

@@ -31,6 +31,22 @@ std::optional<Angle> normal_hip_range(std::string_view motion) noexcept;
 /// The same for a limit; empty of other joints, and if zero angles are not known to be neutral: ranges count from there.
 std::optional<Angle> normal_range(const Joint& joint, const motion::MotionLimit& limit);
 
+/// Where bone ended a motion in simulations of other people's hips: means. No spread is given.
+struct BoneReference {
+  std::string_view motion;
+  Angle healthy, cam_without_complaints, patients;
+  int people_each;  ///< of each group
+  std::string_view source;
+};
+/// The one study at hand of bone, and not of the living: Audenaert et al., Am J Sports Med 40 (2012) 1329. Its abstract says "on impingement
+/// testing", which is 90 degrees of flexion; how far it adducts is not said, and internal rotation grows smaller with adduction: a limit at
+/// none that is short is short. None of implants, if zero angles are not known to be neutral, and of a limit that does not say
+/// where bone impinges.
+std::optional<BoneReference> bone_reference(const Joint& joint, const motion::MotionLimit& limit);
+/// Whether bone ends the motion no later than in the mean of hips with a cam. A limit below the healthy mean by less says nothing: half of all
+/// healthy hips have one.
+bool is_short(const BoneReference& reference, const motion::MotionLimit& limit) noexcept;
+
 /// The source as results and figures name it.
 inline constexpr std::string_view normal_hip_range_source = "AAOS 1965";
 

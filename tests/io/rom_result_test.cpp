@@ -153,7 +153,7 @@ TEST(RomCsv, HasAsManyFieldsInEveryLineAndEveryBitOfTheNumbers) {
   EXPECT_EQ(turned, limits[0].end.turned.degrees());
   EXPECT_NE(lines[1].find(",edge 3-17,face 40,"), std::string::npos);
   EXPECT_TRUE(lines[3].ends_with(",,,,,,,,,,,,,end_unknown")) << lines[3];
-  EXPECT_TRUE(lines[1].ends_with(",120,bone_may_end")) << "the normal range of flexion, and what ends it";
+  EXPECT_TRUE(lines[1].ends_with(",120,,bone_may_end")) << "the normal range of flexion, and what ends it";
 }
 
 TEST(RomCsv, NamesTheMeshesThatMeet) {
@@ -350,6 +350,55 @@ TEST(NormalHipRange, IsGivenWhereTheSourceHasAValue) {
     EXPECT_FALSE(normal_hip_range(none)) << none;
 }
 
+/// Internal rotation at 90 degrees of flexion that impingement ends there.
+motion::MotionLimit impingement_test_at(Angle turned) {
+  motion::MotionLimit limit;
+  limit.motion = motion::motion_named(motion::hip_motions(), "internal_rotation_at_90_flexion");
+  limit.end.turned = turned;
+  limit.end.reason = motion::LimitReason::contact;
+  limit.end.contact = motion::ContactWitness{};
+  limit.end.contact->kind = motion::ContactKind::impingement;
+  return limit;
+}
+
+TEST(BoneReference, IsShortFromTheMeanOfHipsWithACamDown) {
+  Joint joint = arm_and_post();
+  joint.zero_from = ZeroFrom::stated;
+  for (const auto& [turned, is_short] :
+       {std::pair(21.11, false), {21.1, true}, {10.0, true}, {24.0, false}}) {
+    const std::vector limits{impingement_test_at(Angle::degrees(turned))};
+    const Json json = Json::parse(io::rom_json(shown({.joint = joint, .limits = limits})))["motions"][0];
+    EXPECT_EQ(json["bone_reference"], (Json{{"healthy_deg", 27.9},
+                                            {"cam_without_complaints_deg", 21.1},
+                                            {"patients_deg", 12.3},
+                                            {"people_each", 10},
+                                            {"is_short", is_short},
+                                            {"source", "Audenaert 2012, doi 10.1177/0363546512441328"}}));
+    EXPECT_TRUE(json["normal_range_deg"].is_null());
+    const std::string text = io::rom_text(shown({.joint = joint, .limits = limits}));
+    EXPECT_NE(text.find("27.9 deg in 10 simulated healthy hips"), text.npos) << text;
+    EXPECT_EQ(text.find("as early as in hips with a cam") != text.npos, is_short) << text;
+  }
+}
+
+TEST(BoneReference, IsOfNativeHipsFromNeutralAndImpingementOnly) {
+  Joint joint = arm_and_post();
+  joint.zero_from = ZeroFrom::stated;
+  const motion::MotionLimit limit = impingement_test_at(Angle::degrees(10));
+  ASSERT_TRUE(bone_reference(joint, limit));
+  Joint replaced = joint, shoulder = joint, as_scanned = joint;
+  replaced.implant = JointImplant{};
+  shoulder.anatomy = Anatomy::shoulder;
+  as_scanned.zero_from = ZeroFrom::as_given;
+  for (const Joint& other : {replaced, shoulder, as_scanned}) EXPECT_FALSE(bone_reference(other, limit));
+  std::array others{limit, limit, limit, limit};
+  others[0].motion.name = "fadir";
+  others[1].motion.start.adduction = Angle::degrees(10);
+  others[2].motion.sense = RotationSense::negative;
+  others[3].end.contact->kind = motion::ContactKind::bearing;
+  for (const motion::MotionLimit& other : others) EXPECT_FALSE(bone_reference(joint, other));
+}
+
 TEST(MotionCaveats, HaveNoStudiesOfNativeHipsForAnImplant) {
   Joint joint = arm_and_post();
   joint.implant = JointImplant{};
@@ -445,7 +494,7 @@ TEST(ClockHour, HasTwelveSuperiorAndThreeAnteriorOnEitherSideOfTheBody) {
       EXPECT_NEAR(clock_hour(result.answer, limits[i]).value(), hours[i], 1e-14);
     EXPECT_NEAR(Json::parse(io::rom_json(result))["motions"][2]["clock_hour"].get<double>(), 1.5, 1e-14);
     EXPECT_NE(io::rom_text(result).find("  1:30\n"), std::string::npos);
-    EXPECT_NE(io::rom_csv(result).find(",1.5,,,,,,,,120,bone_may_end\n"), std::string::npos);
+    EXPECT_NE(io::rom_csv(result).find(",1.5,,,,,,,,120,,bone_may_end\n"), std::string::npos);
   }
 }
 

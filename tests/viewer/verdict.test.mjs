@@ -3,12 +3,72 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { join } from "node:path";
 import { test } from "node:test";
-import { has, keep, openPage, openTab, pathOf, reports, root, settled, sharedBrowser } from "./browser.mjs";
-import { readReport } from "./report_block.mjs";
+import { has, keep, openPage, openTab, panelsPlaced, pathOf, reports, root, settled, sharedBrowser } from "./browser.mjs";
+import { readReport, withText } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
 const condyle = join(root, "build/release/condyle");
 const run = (...words) => execFileSync(condyle, words, { encoding: "utf8", stdio: ["ignore", "pipe", "ignore"] });
+
+/// The page of a sample that is made here.
+async function sampled(name, ...sample) {
+  const folder = join(reports, name), path = join(reports, `${name}.html`), joint = join(folder, sample[0] === "reverse-shoulder" ? "shoulder.toml" : "hip.toml");
+  run("sample", ...sample, "--out", folder);
+  run("report", joint, "--out", path);
+  const { page } = await openPage(browser, path, { reducedMotion: "reduce" });
+  await settled(page);
+  return { page, joint };
+}
+
+const tile = (page, name) => page.locator(".result", { hasText: new RegExp(`^${name} `) });
+const rotation = "internal rotation at 90° flexion";
+
+test("a hip with cam and pincer is short of simulated healthy hips, and page and command say so alike", async () => {
+  const { page, joint } = await sampled("cam_pincer", "hip", "--alpha-angle", "80", "--centre-edge-angle", "40", "--anteversion", "5");
+  const { bone_reference: bone, limit_deg } = JSON.parse(run("rom", joint, "--json")).motions.find(({ name }) => name === "internal_rotation_at_90_flexion");
+  assert.deepEqual([bone.healthy_deg, bone.patients_deg, bone.people_each, bone.is_short], [27.9, 12.3, 10, true]);
+  const sentence = await page.locator("#sentence").textContent();
+  assert.ok(sentence.startsWith(`Internal rotation at 90° flexion ends at ${limit_deg.toFixed(1)}°, in simulated healthy hips at 27.9°, in patients with cam at 12.3° (Audenaert 2012), `), sentence);
+  assert.ok((await tile(page, rotation).textContent()).endsWith(`${(27.9 - limit_deg).toFixed(0)}° short of 27.9°`));
+  assert.equal(await tile(page, rotation).evaluate((element) => element.classList.contains("short")), true);
+  assert.equal(await page.locator(".tile.short").count(), 1);
+  assert.match(run("rom", joint), /27\.9 deg in 10 simulated\s+healthy hips.* as early\s+as in hips with a cam/s);
+  assert.ok((await page.locator("#paper").textContent()).includes(sentence));
+  await keep(page, "cam_pincer");
+  await page.context().close();
+});
+
+test("where nothing is short the sentence says what no motion ends before, and the clinical range is never passed", async () => {
+  const { page } = await openPage(browser, pathOf("sample"), { reducedMotion: "reduce" });
+  await settled(page);
+  const seen = await page.locator("#sentence").textContent();
+  assert.match(seen, /, no motion ends before its clinical range or the 27\.9° of simulated healthy hips, /);
+  assert.match(await tile(page, rotation).textContent(), /healthy bone 27\.9°$/);
+  assert.equal(await page.locator(".tile.short, .result.short").count(), 0);
+  assert.doesNotMatch(await page.locator("#strip").textContent(), /beyond|normal/);
+  await page.context().close();
+});
+
+test("a limit between healthy hips and those with a cam is compared and not called short", async () => {
+  const between = withText("between", ({ rom }) => {
+    const motion = rom.motions.find(({ name }) => name === "internal_rotation_at_90_flexion");
+    Object.assign(motion, { limit_deg: 24, bone_reference: { ...motion.bone_reference, is_short: false } });
+  });
+  const { page } = await openPage(browser, between, { answers: false });
+  await panelsPlaced(page);
+  assert.match(await page.locator("#sentence").textContent(), / ends at 24\.0°.*, in simulated healthy hips at 27\.9° \(Audenaert 2012\), /);
+  assert.equal(await tile(page, rotation).evaluate((element) => element.classList.contains("short")), false);
+  await page.context().close();
+});
+
+test("samples of implants have no box of notes, and no caveats of native hips", async () => {
+  for (const sample of [["replacement"], ["replacement", "--bones", "none"], ["reverse-shoulder"]]) {
+    const { page, joint } = await sampled(sample.join("_").replaceAll("-", ""), ...sample);
+    assert.equal(await page.locator("#noted").count(), 0, `${sample}: ${await page.locator("#noted").allTextContents()}`);
+    for (const said of [await page.locator("#side").textContent(), run("rom", joint)]) assert.doesNotMatch(said, /labrum|cadaver|native hips|capsule/);
+    await page.context().close();
+  }
+});
 
 test("a loaded knee opens on its largest pressure, in that frame, with area, force and the share of either side", { skip: !has("knee") && "not made" }, async () => {
   const { page, complaints } = await openPage(browser, pathOf("knee"), { reducedMotion: "reduce" });

@@ -61,6 +61,17 @@ const bandRecord = object({
   share_in_contact_at_start: number,
 });
 
+/// Means of simulations of bone in other people's hips; their spread is not given.
+export type BoneReference = Passed<typeof boneReference>;
+const boneReference = object({
+  healthy_deg: number,
+  cam_without_complaints_deg: number,
+  patients_deg: number,
+  people_each: number,
+  is_short: flag,
+  source: text,
+});
+
 /// A caveat to read before a limit is compared with a living joint.
 export type Caveat = Passed<typeof caveat>;
 const caveat = object({
@@ -133,6 +144,7 @@ const limitRecord = object({
   contact_side: orNull(oneOf("superior", "anterior", "inferior", "posterior")),
   clock_hour: orNull(number),
   normal_range_deg: orNull(number),
+  bone_reference: ifThere(boneReference),
   caveats: list(caveat),
   guarantee: text,
   depth: ifThere(allowedDepthRecord),

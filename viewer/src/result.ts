@@ -18,10 +18,12 @@ export function wrongOf(rom: RomAnswer | null): string | null {
 const ofHips = ["flexion", "internal_rotation_at_90_flexion", "fadir"];
 const shownFirst = 4;
 
-/// How much a motion lacks of its normal range, in degrees; null if it lacks nothing or has no normal range.
-export function deficitOf({ reason, limit_deg, normal_range_deg, translation_ends }: MotionAnswer): number | null {
-  if (normal_range_deg === null || reason === "end_of_range" || translation_ends) return null;
-  const lacks = normal_range_deg - (reason === "contact_at_start" ? 0 : limit_deg);
+/// By how much a motion ends before its clinical range, or before bone of healthy hips if it is as short as with a cam, in degrees; null if it
+/// is not short, or is compared with neither.
+export function deficitOf({ reason, limit_deg, normal_range_deg, bone_reference, translation_ends }: MotionAnswer): number | null {
+  const compared = bone_reference?.is_short ? bone_reference.healthy_deg : normal_range_deg;
+  if (compared === null || reason === "end_of_range" || translation_ends) return null;
+  const lacks = compared - (reason === "contact_at_start" ? 0 : limit_deg);
   return lacks > 0 ? lacks : null;
 }
 

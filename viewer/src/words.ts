@@ -1,3 +1,4 @@
+import type { BoneReference } from "./records";
 import type { BandSigma } from "./report";
 
 interface BandSource extends BandSigma {
@@ -72,6 +73,14 @@ export const words = {
   short: (lacks: string, normal: string) => `${lacks}° short of ${normal}°`,
   lacks: (lacks: string, clinical: string) => `${lacks}° short of the clinical ${clinical}°`,
   noClinical: "no clinical range known",
+  healthyIs: (deg: string) => `healthy bone ${deg}°`,
+  boneEnds: ({ healthy_deg, patients_deg, source }: BoneReference, isShort: boolean) =>
+    `in simulated healthy hips at ${healthy_deg}°${isShort ? `, in patients with cam at ${patients_deg}°` : ""} (${source.split(",")[0]})`,
+  noneShort: (bone?: BoneReference) =>
+    `no motion ends before its clinical range${bone ? ` or the ${bone.healthy_deg}° of simulated healthy hips` : ""}`,
+  boneFrom: (motion: string, { healthy_deg, cam_without_complaints_deg, patients_deg, people_each, source }: BoneReference) =>
+    `Bone ends ${motion} at ${healthy_deg}° in ${people_each} simulated healthy hips, ${cam_without_complaints_deg}° in as many with a cam ` +
+    `and no complaints, ${patients_deg}° in as many patients; no spread is given (${source}).`,
   notFromNeutral: "no clinical range, as zero is not known to be neutral",
   neckOnRim: "neck on rim",
   atHour: (meets: string, hour: string) => `${meets} at ${hour}`,

@@ -124,6 +124,9 @@ LimitRecord limit_record(const RangeAnswer& answer, std::size_t i) {
     record.joint_space_mm = head->joint_space_mm;
   }
   if (const auto range = normal_range(joint, limit)) record.normal_range_deg = {*range};
+  if (const auto bone = bone_reference(joint, limit))
+    record.bone_reference = {{bone->healthy},   {bone->cam_without_complaints}, {bone->patients},
+                             bone->people_each, is_short(*bone, limit),         bone->source};
   if (is_as_defined_here(motion)) record.definition = "as defined here; no angles are agreed on";
   if (answer.follows) record.translation_ends = limit.translation_ends;
   if (const auto& contact = end.contact) {

@@ -44,6 +44,12 @@ struct BandRecord {
   BandWidthRecord width_from;
   double share_without_contact, share_in_contact_at_start;
 };
+struct BoneReferenceRecord {
+  GivenDegrees healthy_deg, cam_without_complaints_deg, patients_deg;
+  int people_each;
+  bool is_short;
+  std::string_view source;
+};
 struct CaveatRecord {
   MotionCaveatCode code;
   std::string_view text;
@@ -99,6 +105,7 @@ struct LimitRecord {
   std::optional<motion::ContactSide> contact_side = {};
   std::optional<double> clock_hour = {};
   std::optional<GivenDegrees> normal_range_deg = {};
+  std::optional<BoneReferenceRecord> bone_reference = {};
   std::vector<CaveatRecord> caveats = {};
   std::string guarantee;
   std::optional<AllowedDepthRecord> depth = {};
@@ -145,6 +152,11 @@ inline constexpr auto table<BandRecord> = record("BandRecord", "The limit over t
                                                  CONDYLE_KEYS(BandRecord, p5_deg, median_deg, p95_deg,
                                                               width_from, share_without_contact,
                                                               share_in_contact_at_start));
+template <>
+inline constexpr auto table<BoneReferenceRecord> =
+    record("BoneReference", "Means of simulations of bone in other people's hips; their spread is not given.",
+           CONDYLE_KEYS(BoneReferenceRecord, healthy_deg, cam_without_complaints_deg, patients_deg,
+                        people_each, is_short, source));
 template <>
 inline constexpr auto table<CaveatRecord> =
     record("Caveat", "A caveat to read before a limit is compared with a living joint.",
@@ -305,6 +317,17 @@ inline constexpr auto table<LimitRecord> = record(
           "has no value, if zero angles are not known to be neutral (`zero`), and for other joints",
           {"", "how far a healthy hip turns by the source; empty if zero is not known to be neutral",
            Tables::rom}),
+    field_if_any(
+        "bone_reference", &LimitRecord::bone_reference,
+        "only of internal rotation at 90° flexion of a hip without implant, with zero known to be neutral "
+        "and no end but impingement: means of [simulations of "
+        "bone](range-of-motion.md#ranges-of-bone), `healthy_deg`, `cam_without_complaints_deg`, "
+        "`patients_deg`, `people_each`, `source`; `is_short` if the limit is not above that of hips "
+        "with a cam"),
+    column_of(FieldColumn{"bone_reference_deg",
+                          "where bone ends the motion in healthy hips by simulation; empty without a source",
+                          Tables::rom},
+              &LimitRecord::bone_reference, &BoneReferenceRecord::healthy_deg),
     field("caveats", &LimitRecord::caveats,
           "list of `code`, `text` and `source` each: [what usually ends such a "
           "motion](range-of-motion.md#caveats); "

@@ -229,6 +229,20 @@ std::string caveat_text(const RomResult& result) {
   return wrapped(text);
 }
 
+/// Limits beside those of simulations of bone.
+std::string bone_text(const RomResult& result) {
+  std::string text;
+  for (const motion::MotionLimit& limit : result.answer.limits)
+    if (const auto bone = bone_reference(result.joint, limit))
+      text += wrapped(fmt::format(
+          "  bone ends {} at {:.1f} deg in {} simulated healthy hips, {:.1f} in as many with a cam and no "
+          "complaints, {:.1f} in as many patients ({}); no spread is given{}\n",
+          limit.motion.name, bone->healthy.degrees(), bone->people_each,
+          bone->cam_without_complaints.degrees(), bone->patients.degrees(), bone->source,
+          is_short(*bone, limit) ? ": here it ends it as early as in hips with a cam" : ""));
+  return text;
+}
+
 /// Where angles count from, and whether limits may be held against normal ranges.
 std::string zero_words(const RomResult& result) {
   const ZeroPose zero = zero_pose(result.joint);
@@ -357,6 +371,7 @@ std::string rom_text(const RomResult& result) {
   if (has_normal)
     text += wrapped(fmt::format("  normal: how far healthy hips turn, soft tissue included ({})\n",
                                 normal_hip_range_source));
+  text += bone_text(result);
   text += arcs_text(result);
   text += closed_text(result);
   text += met_text(result, "ended by", end_of);

@@ -8,11 +8,12 @@ import { roving } from "../roving";
 
 const columns = 4;
 
-/// How much a motion lacks of its clinical range, or that range.
+/// What a motion is compared with, and how much it is short of that.
 export function normalText(motion: MotionAnswer): string {
-  const lacks = deficitOf(motion);
-  if (motion.normal_range_deg === null) return "";
-  return lacks === null ? words.clinicalIs(motion.normal_range_deg.toFixed(0)) : words.short(lacks.toFixed(0), motion.normal_range_deg.toFixed(0));
+  const { normal_range_deg: clinical, bone_reference: bone } = motion, lacks = deficitOf(motion);
+  if (clinical === null && !bone) return "";
+  const said = bone ? String(bone.healthy_deg) : clinical!.toFixed(0);
+  return lacks !== null ? words.short(lacks.toFixed(0), said) : bone ? words.healthyIs(said) : words.clinicalIs(said);
 }
 
 /// Every motion with where it ends, as a grid to press: the table of limits.

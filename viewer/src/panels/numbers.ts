@@ -2,7 +2,7 @@ import { fold, html, named, shortened, spaced } from "../dom";
 import { fixed } from "../numbers";
 import type { MeshSource, MotionAnswer, PartParameter, ReportText, RomAnswer } from "../report";
 import { limitAlone, shownBand } from "../result";
-import { words } from "../words";
+import { motionName, words } from "../words";
 import { lines, longestLine, table } from "./table";
 
 /// The joint file, if there is one, and the meshes.
@@ -98,7 +98,7 @@ function changedParameter({ name, value, unit, in_joint_file }: PartParameter): 
 }
 
 /// The rules and the uncertainty of the limits, a line each.
-function howFound({ exact, band, bearing, zero, normal_range_source, provenance }: RomAnswer): string[] {
+function howFound({ exact, band, bearing, zero, normal_range_source, motions, provenance }: RomAnswer): string[] {
   const mm = (value: number) => value.toFixed(2);
   const changed = (provenance?.parameters ?? []).filter(({ value, in_joint_file }) => value !== in_joint_file);
   return [
@@ -111,5 +111,6 @@ function howFound({ exact, band, bearing, zero, normal_range_source, provenance 
     ...(bearing?.socket ? [words.bearingSocket(mm(bearing.socket.radius_mm))] : []),
     ...(typeof bearing?.margin_mm === "number" ? [words.bearingMargin(mm(bearing.margin_mm))] : []),
     ...(normal_range_source ? [words.normalFrom(normal_range_source)] : []),
+    ...motions.flatMap(({ name, bone_reference: bone }) => (bone ? [words.boneFrom(motionName(name), bone)] : [])),
   ];
 }

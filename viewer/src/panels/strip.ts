@@ -1,7 +1,7 @@
 import { button, html, named, shortened, spaced } from "../dom";
 import { clockTime, fixed } from "../numbers";
 import { nowOf, plannedOf } from "../planned";
-import type { MotionAnswer, ReportText } from "../report";
+import type { MotionAnswer, ReportText, RomAnswer } from "../report";
 import { bandText, deficitOf, differenceOf, differenceText, firstFigures, limitAlone, gradeOf, limitText, headlineMotion, worstOf, wrongOf } from "../result";
 import { motionName, words } from "../words";
 import { normalText } from "./manoeuvres";
@@ -45,16 +45,19 @@ function sentenceOnEnd(motion: MotionAnswer, report: ReportText): string {
   if (motion.translation_ends) return words.translationSentence(name, limitAlone(motion));
   if (motion.reason === "end_of_range") return words.freeSentence(name, fixed(motion.limit_deg, 0));
   const held = report.rom!.held_translation_mm ? words.held : null;
-  return words.endsSentence(name, limitText(motion), nowOf(report, motion), held, againstClinical(motion, report), placeOf(motion, report));
+  return words.endsSentence(name, limitText(motion), nowOf(report, motion), held, compared(motion, report.rom!), placeOf(motion, report));
 }
 
-/// How far a limit is short of the clinical range. Soft tissue ends motions that bone leaves free: no limit is beyond that range, and a joint
-/// none of whose limits is short of it is not compared.
-function againstClinical(motion: MotionAnswer, { rom }: ReportText): string | null {
-  const { normal_range_deg: clinical } = motion, lacks = deficitOf(motion);
-  if (clinical === null && rom?.zero?.is_neutral === false) return words.notFromNeutral;
-  if (clinical === null) return worstOf(rom?.motions ?? []) ? words.noClinical : null;
-  return lacks === null ? null : words.lacks(fixed(lacks, 0), fixed(clinical, 0));
+/// What a limit is short of, or that no limit of the joint is short. Soft tissue ends motions that bone leaves free: no limit is beyond a
+/// clinical range.
+function compared(motion: MotionAnswer, { motions, zero }: RomAnswer): string {
+  const { normal_range_deg: clinical, bone_reference: bone, limit_deg } = motion, lacks = deficitOf(motion);
+  if (zero?.is_neutral === false) return words.notFromNeutral;
+  if (bone && (lacks !== null || limit_deg < bone.healthy_deg)) return words.boneEnds(bone, lacks !== null);
+  if (lacks !== null) return words.lacks(fixed(lacks, 0), fixed(clinical!, 0));
+  if (!worstOf(motions) && motions.some((each) => each.normal_range_deg !== null))
+    return words.noneShort(motions.find((each) => each.limit_deg >= (each.bone_reference?.healthy_deg ?? Infinity))?.bone_reference);
+  return clinical === null ? words.noClinical : words.clinicalIs(fixed(clinical, 0));
 }
 
 function capital(text: string): string {
