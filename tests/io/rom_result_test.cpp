@@ -442,7 +442,7 @@ TEST(RomResult, SaysWhereAnglesCountFrom) {
     EXPECT_EQ(json["motions"][0]["normal_range_deg"], is_neutral ? Json(45.0) : Json(nullptr)) << word;
     const std::string text = io::rom_text(shown({.joint = joint, .limits = limits}));
     EXPECT_NE(text.find("  zero: "), text.npos) << text;
-    EXPECT_EQ(text.find("not compared with normal ranges") == text.npos, is_neutral) << text;
+    EXPECT_EQ(text.find("not compared with clinical ranges") == text.npos, is_neutral) << text;
   }
 }
 

@@ -68,7 +68,7 @@ test("a hip and hips with parts, a bearing mesh and a recorded motion are those 
   assert.equal((await assertReported(join(reports, "placed/hip.toml"), named(placed))).rom.implant.fixed_part, "liner");
 });
 
-test("normal ranges, motions, units, scales, poses and repairs of the joint file count", async () => {
+test("clinical ranges, motions, units, scales, poses and repairs of the joint file count", async () => {
   const joint = written("all.toml", readFileSync(sample("hip.toml"), "utf8")
     .replace('mesh = "hip_bone.ply"', 'mesh = "hip_bone.ply"\nrepair = ["weld"]\nscale = [1, 1, 1.01]').replace('mesh = "femur.ply"', 'mesh = "femur.ply"\npose = { flexion = 5, adduction = 2, translation = [0.5, -1, 0.25] }')
     .replace(/^\[reference_pose\].*$/m, "[reference_pose]\nflexion = -3") +

@@ -74,7 +74,7 @@ def _sheet_parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="python3 -m condyle.plot sheet", formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog="example:\n" + EXAMPLES[EXAMPLES.index("  condyle resect"):],
-        description="Writes one A4 page of a case: limits now and planned with targets, bands and normal ranges; the bone that must go;\n"
+        description="Writes one A4 page of a case: limits now and planned with targets, bands and clinical ranges; the bone that must go;\n"
         "contacts on the rim; the safe zone; all notes. Names what was written.")
     parser.add_argument("inputs", metavar="INPUT", type=Path, nargs="+",
                         help="folders of condyle rom, resect, measure or sweep --out, or their rom.json, resection.json, measures.json, sweep.json: "

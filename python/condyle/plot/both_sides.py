@@ -52,7 +52,7 @@ def both_sides(left: RomLike, right: RomLike, *, ax: Optional[Axes] = None) -> A
 
     Returns
     -------
-    The axes: bars (gid `limit`), filled for the left side and hollow for the right one, with the marks and bands of `limits`. A normal range
+    The axes: bars (gid `limit`), filled for the left side and hollow for the right one, with the marks and bands of `limits`. A clinical range
     that both have stands behind both. At the right are the limits (gid `value`), and how much further the left side turns (gid `difference`): a
     bound, with ">" or "<", if one side ends without contact in its range; a dash if both do, if the cut of an image ends one, or if one side
     lacks the motion.

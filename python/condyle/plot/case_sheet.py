@@ -107,7 +107,7 @@ def _above(paper: Paper, case: Case, rows: List[Row], heading: Tuple[str, str, s
     if rows:
         blocks += [nothing(1.2), _table(paper, rows, 8 * size)]
         source = case.rom and any(row.now.normal_deg is not None for row in rows) and case.rom.get("normal_range_source")
-        below = [f"Normal range: {source}."] * bool(source) + [sheet_text.how_sure(case)]
+        below = [f"Clinical range: {source}."] * bool(source) + [sheet_text.how_sure(case)]
         below += [f"{each}." for each in footnotes([row.now for row in rows])]
         blocks.append(paper.paragraph(" ".join(below), EDGE_MM, INNER_MM, 6.5 * size))
     if case.sweep:

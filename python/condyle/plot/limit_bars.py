@@ -120,12 +120,12 @@ def handles_of(ends: Sequence[MotionEnd], source: Optional[str]) -> List[Any]:
     if any(end.band is not None and end.band.is_open for end in ends):
         handles.append(Line2D([], [], marker=">", color=style.BLACK, linewidth=0.7, markersize=3, label="band beyond the range"))
     if any(end.normal_deg is not None for end in ends):
-        handles.append(Patch(color=style.LIGHT_GREY, label="normal range" + (f" ({source})" if source else "")))
+        handles.append(Patch(color=style.LIGHT_GREY, label="clinical range" + (f" ({source})" if source else "")))
     return handles + [Line2D([], [], linestyle="none", label=footnote) for footnote in footnotes(ends)]
 
 
 def degrees_axis(ax: Axes, ends: Sequence[MotionEnd], below: str) -> None:
-    """From 0 to beyond all bars, bands and normal ranges; of some length if nothing turns at all. A text stands below its label."""
+    """From 0 to beyond all bars, bands and clinical ranges; of some length if nothing turns at all. A text stands below its label."""
     reached = ((end.turned_deg, end.normal_deg, end.band and end.band.p95_deg) for end in ends)
     longest = max(10.0, *(degrees for each in reached for degrees in each if degrees is not None))
     step = step_of_ticks(longest, 5)

@@ -94,8 +94,8 @@ def _end_words(row: Row) -> str:
 
 
 def limited_most(rows: List[Row]) -> str:
-    """The motion that lacks most of its target; without targets, of its normal range; where none lacks anything, the one that turns least."""
-    asked = {"target": [row.target["reach_deg"] if row.target else None for row in rows], "normal range": [row.now.normal_deg for row in rows]}
+    """The motion that lacks most of its target; without targets, of its clinical range; where none lacks anything, the one that turns least."""
+    asked = {"target": [row.target["reach_deg"] if row.target else None for row in rows], "clinical range": [row.now.normal_deg for row in rows]}
     for wanted, degrees in asked.items():
         lacks = [0.0 if each is None else each - row.now.turned_deg for row, each in zip(rows, degrees)]
         most = max(range(len(rows)), key=lacks.__getitem__)

@@ -243,12 +243,12 @@ std::string bone_text(const RomResult& result) {
   return text;
 }
 
-/// Where angles count from, and whether limits may be held against normal ranges.
+/// Where angles count from, and whether limits may be held against clinical ranges.
 std::string zero_words(const RomResult& result) {
   const ZeroPose zero = zero_pose(result.joint);
   return wrapped(fmt::format(
       "  zero: {}{}\n", zero_text(result.joint, zero),
-      result.joint.is_hip() && !zero.is_neutral() ? "; limits are not compared with normal ranges" : ""));
+      result.joint.is_hip() && !zero.is_neutral() ? "; limits are not compared with clinical ranges" : ""));
 }
 
 /// From contact to contact of opposite motions, wherever zero is; nothing if none have it.

@@ -57,7 +57,7 @@ def test_marks_bands_and_values_are_those_of_limits():
     assert texts(ax, "value") == ["127.2° (120–132)", "102.0°", "30.5°", "35.9°", ">90°", "80.0°", "20.0°", "15.0°"]
 
 
-def test_a_normal_range_stands_once_behind_both_and_behind_one_if_the_other_has_none():
+def test_a_clinical_range_stands_once_behind_both_and_behind_one_if_the_other_has_none():
     ax = figures.both_sides(LEFT, RIGHT)
     (normal,) = bars(ax, "normal_range")
     drawn = bars(ax, "limit")[:2]
@@ -69,7 +69,7 @@ def test_a_normal_range_stands_once_behind_both_and_behind_one_if_the_other_has_
     left, right = bars(ax, "limit")
     assert left.get_y() + left.get_height() < normal.get_y() < right.get_y()
     for sides in ((LEFT, RIGHT), (without, RIGHT), (RIGHT, without)):
-        assert [text.get_text() for text in figures.both_sides(*sides).get_legend().get_texts()].count("normal range (AAOS 1965)") == 1
+        assert [text.get_text() for text in figures.both_sides(*sides).get_legend().get_texts()].count("clinical range (AAOS 1965)") == 1
 
 
 def test_differences_are_of_the_limits_and_bounds_where_a_side_ends_without_contact():

@@ -57,7 +57,7 @@ def test_bars_are_as_long_as_the_limits_from_the_top():
     assert "(°)" in ax.get_xlabel()
 
 
-def test_normal_ranges_stand_behind_where_a_source_has_one():
+def test_clinical_ranges_stand_behind_where_a_source_has_one():
     ax = figures.limits(RESULT)
     (normal,) = bars(ax, "normal_range")
     assert normal.get_width() == 120

@@ -221,9 +221,9 @@ def test_the_motion_that_lacks_most_is_named_with_what_ends_it(tmp_path):
     planned = plan(("flexion", 100, 100), ("fadir", 20, 36), targets={"fadir": 35})
     for n, (motions, planned, words) in enumerate((
             (motions, planned, "FADIR lacks most of its target: 20.0° of 35°, ended by impingement of neck on liner at 1:15 of the clock."),
-            (motions, None, "Flexion lacks most of its normal range: 100.0° of 120°, ended by impingement of femur on hip bone."),
+            (motions, None, "Flexion lacks most of its clinical range: 100.0° of 120°, ended by impingement of femur on hip bone."),
             ((motion("flexion", 125, normal_range_deg=120), motion("faber", 120, reason="end_of_range")), None,
-             "No motion ends before its normal range. FABER turns least: >120°, no contact in the range."),
+             "No motion ends before its clinical range. FABER turns least: >120°, no contact in the range."),
             ((motion("faber", 0, reason="contact_at_start"),), None, "FABER turns least: 0.0°, in contact at the start."))):
         assert sheet_text.limited_most(sheet_text.rows_of(case(tmp_path / str(n), *motions, plan_of=planned))) == words
 
