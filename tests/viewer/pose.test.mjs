@@ -1,7 +1,7 @@
 // What the page says of a pose: by the rule of the limits, wherever the pose came from.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { angleOf, openPage, pathOf, settled, sharedBrowser, tile, turnTo } from "./browser.mjs";
+import { openPage, pathOf, settled, sharedBrowser, tile, turnTo } from "./browser.mjs";
 import { readReport } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
@@ -14,6 +14,10 @@ async function saidOf(page, state) {
 }
 
 const readoutOf = (page, i) => page.locator(".slider-readout").nth(i).textContent();
+
+/// Waits until an angle is this one: the browser goes back in its own time.
+const isAngle = (page, name, deg) => page.waitForFunction(([label, value]) =>
+  Number(document.querySelector(`input[role=spinbutton][aria-label="${label}, degrees"]`).getAttribute("aria-valuenow")) === value, [name, deg]);
 
 test("contact in the socket ends no motion, and chip and sliders say so alike", async () => {
   const { bearing_contact_deg, limit_deg } = motionOf("shifted", "flexion");
@@ -64,7 +68,7 @@ test("the pose of a limit is that limit from a link, a field, undo or a copy, wi
   await saidOf(page, "free");
   assert.equal(await page.locator(".tile[aria-current]").count(), 0);
   await page.getByRole("button", { name: "Undo" }).click();
-  assert.equal(await angleOf(page, "flexion"), motionOf("sample", "flexion").limit_deg);
+  await isAngle(page, "flexion", motionOf("sample", "flexion").limit_deg);
   await isAtFlexion(page, sentence);
   const typed = await openPage(browser, pathOf("sample"));
   await turnTo(typed.page, { flexion: motionOf("sample", "flexion").limit_deg.toFixed(1) });
@@ -82,5 +86,42 @@ test("a limit that is none of the report's has its motion and bodies named", asy
   const end = (await page.evaluate(() => condyle.query({ of: "limit", limit: { start: [100, 10, 0], vary: 2, positive: true, range_deg: 90 } }))).turned_deg;
   await turnTo(page, { internal_rotation: end });
   assert.equal(await saidOf(page, "limit"), "At the limit of internal rotation, first contact: femur on hip bone");
+  await page.context().close();
+});
+
+test("Back takes gestures back one by one as Undo does, Forward brings them again, and a link is one entry", async () => {
+  const { page } = await openPage(browser, pathOf("sample"), { fragment: "#flexion=20", reducedMotion: "reduce" });
+  await settled(page);
+  const entries = () => page.evaluate(() => history.length), first = await entries(), undo = page.getByRole("button", { name: "Undo", exact: true });
+  await page.waitForFunction(() => location.hash.includes("camera"));
+  assert.equal(await entries(), first);
+  assert.equal(await undo.isDisabled(), true);
+  // Many events of a slider are one gesture.
+  await page.locator("#angle-flexion").focus();
+  for (let i = 0; i < 6; ++i) await page.keyboard.press("ArrowRight");
+  await isAngle(page, "flexion", 20.6);
+  assert.equal(await entries(), first + 1);
+  await turnTo(page, { adduction: 10.123456789 });
+  await tile(page, "FADIR").click();
+  assert.equal(await entries(), first + 3);
+  await page.goBack();
+  await isAngle(page, "adduction", 10.123456789);
+  await undo.click();
+  await isAngle(page, "adduction", 0);
+  await isAngle(page, "flexion", 20.6);
+  await page.goForward();
+  await isAngle(page, "adduction", 10.123456789);
+  await page.goBack();
+  await page.keyboard.press("u");
+  await isAngle(page, "flexion", 20);
+  await page.waitForFunction(() => [...document.querySelectorAll("button")].find(({ textContent }) => textContent === "Undo").disabled);
+  // And an address that is typed is a step.
+  await page.evaluate(() => (location.hash = "#flexion=50"));
+  await isAngle(page, "flexion", 50);
+  await undo.click();
+  await isAngle(page, "flexion", 20);
+  // Before the first step the page is left.
+  await page.goBack();
+  await page.waitForURL("about:blank");
   await page.context().close();
 });

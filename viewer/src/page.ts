@@ -108,6 +108,10 @@ export class Page {
     this.scene?.setJointRadius(text.rom?.bearing?.head?.radius_mm ?? null);
     this.motion = new MotionPanel(text, {
       moved: (at) => this.moved(at), arrived: (motion, requested) => this.arrived(motion, requested), showStored: computes ? null : (name) => this.showStored(name),
+      undo: () => this.undo(), begins: () => {
+        this.address.begin();
+        this.motion.setUndo(true);
+      },
     });
     this.stored = report && !computes ? new StoredPoses(report, (name) => this.showStored(name)) : null;
     const motion = added.motion ?? (report && text.recorded && recordedOf(report, text.recorded));
@@ -205,13 +209,13 @@ export class Page {
 
   private listen(): void {
     const { signal } = this.closed;
-    window.addEventListener("hashchange", () => this.applyAddress(), { signal });
+    for (const event of ["popstate", "hashchange"]) window.addEventListener(event, () => this.applyAddress(this.address.returned()), { signal });
     // Without a picture made for paper, paper shows the joint's present pose.
     window.addEventListener("beforeprint", () => this.takePictureForPaper(), { signal });
     window.addEventListener("beforeprint", () => this.putNotesOnPaper(), { signal });
     listenToKeys({
       "1": () => this.tabs.showNumber(1), "2": () => this.tabs.showNumber(2), "3": () => this.tabs.showNumber(3), "4": () => this.tabs.showNumber(4),
-      f: () => this.scene?.fitJoint(), u: () => this.motion.undo(), "0": () => this.motion.set(this.text.reference_deg, this.text.reference_mm),
+      f: () => this.scene?.fitJoint(), u: () => this.undo(), "0": () => this.motion.goTo(this.text.reference_deg, () => undefined, this.text.reference_mm),
       " ": () => this.recorded?.toggle(), "?": () => found<HTMLDialogElement>("help").showModal(),
     }, signal);
   }
@@ -273,14 +277,21 @@ export class Page {
     });
   }
 
-  /// The view in the address.
-  private applyAddress(): void {
+  /// The browser's own Back is the same.
+  private undo(): void {
+    if (this.address.step > 0) history.back();
+  }
+
+  /// The view in the address; of a step back or forth the pose and the camera.
+  private applyAddress(isStep = false): void {
     const { coordinates, values, refused, display, zone, camera } = this.address.read();
     if (refused.length) warn(refused.join(" "));
     if (camera && this.scene) this.scene.viewpoint = camera;
+    if (this.computes) this.motion.step(values.slice(0, 3), values.slice(3));
+    this.motion.setUndo(this.address.step > 0);
+    if (isStep) return;
     this.display.apply(display);
     this.zones?.show(zone);
-    if (this.computes) this.motion.set(values.slice(0, 3), values.slice(3));
     if (this.opensOnLoad && Object.keys(coordinates).length === 0) this.recorded?.show(this.loaded?.frame ?? 0);
   }
 

@@ -14,12 +14,35 @@ export interface View extends Omit<ViewState, "coordinates"> {
   at: Coordinates;
 }
 
-/// The address as a link to the page's view.
+/// The address as a link to the page's view. Each gesture is a step of the browser's history, by its number in the state of its entry.
 export class ViewAddress {
   private timer = 0;
+  private latest: number;
 
   /// Once `closed` is aborted, the address is that of another page.
-  constructor(private readonly text: ReportText, private readonly view: () => View, private readonly closed: AbortSignal) {}
+  constructor(private readonly text: ReportText, private readonly view: () => View, private readonly closed: AbortSignal) {
+    if (history.state === null) history.replaceState({ step: 0 }, "");
+    this.latest = this.step;
+  }
+
+  /// How many steps lead back to where the page was opened.
+  get step(): number {
+    return (history.state as { step: number } | null)?.step ?? 0;
+  }
+
+  /// The present view stays as a step, and a gesture makes the next one.
+  begin(): void {
+    this.write();
+    history.pushState({ step: (this.latest = this.step + 1) }, "");
+  }
+
+  /// Whether the address is a step that was there; another one, which was typed, is made the next.
+  returned(): boolean {
+    const isStep = history.state !== null;
+    if (!isStep) history.replaceState({ step: this.latest + 1 }, "");
+    this.latest = this.step;
+    return isStep;
+  }
 
   /// The view in the address; `values` are angles and translation, those of the reference pose unless the address gives others that a field
   /// would take. `refused` has a line for each that none would.
@@ -52,7 +75,7 @@ export class ViewAddress {
     const coordinates = Object.fromEntries(
       Object.entries(this.referencePose()).map(([name, reference], i) => [name, values[i]!, reference] as const)
         .filter(([, value, reference]) => value !== reference));
-    history.replaceState(null, "", writeViewState({ coordinates, ...rest }));
+    history.replaceState(history.state, "", writeViewState({ coordinates, ...rest }));
   }
 
   /// Coordinates by their names in the address.

@@ -10,9 +10,9 @@ import { ManoeuvreGrid } from "./manoeuvres";
 import { StatusChip, type Exit } from "./status";
 import { placeOf } from "./strip";
 
-const usualRange_deg = 120, translationRange_mm = 20, mostUndone = 100;
+const usualRange_deg = 120, translationRange_mm = 20;
 export const farthest_deg = 180;
-/// The steps of one drag are undone together.
+/// The steps of one drag are one gesture, and those of one control within so long.
 const gesture_ms = 800;
 const axes = ["x", "y", "z"] as const;
 
@@ -33,6 +33,9 @@ interface Slider {
 
 export interface MotionHooks {
   moved: (at: Coordinates) => void;
+  /// A gesture begins, which undo takes back.
+  begins: () => void;
+  undo: () => void;
   /// The joint is at the end of a motion: one that was requested, or the one that ends in this pose, wherever the pose came from.
   arrived: (motion: MotionAnswer, requested: boolean) => void;
   /// For a page that cannot compute: the joint takes the poses that the report holds, by their names, and none in between.
@@ -52,11 +55,10 @@ export class MotionPanel {
   private readonly grid: ManoeuvreGrid | null;
   private readonly undoButton: HTMLButtonElement;
   private readonly refusal = html("p", { id: "refusal", role: "status" });
-  private readonly past: Coordinates[] = [];
   private angles: [number, number, number];
   private translation: [number, number, number];
   private animation = 0;
-  private rememberedAt = -Infinity;
+  private remembered: { by: unknown; at: number } | null = null;
   private isWarm = false;
   private touches: boolean | null = null;  // null until it is known of this pose
   private hasIntervals = true;  // else contact is all that a pose tells
@@ -80,7 +82,7 @@ export class MotionPanel {
     const motions = (report.rom?.motions ?? []).filter(({ reason }) => reason !== "contact_at_start");
     this.grid = motions.length ? new ManoeuvreGrid(
       report.rom!.motions, (motion) => this.goToEnd(motion), ({ name }) => this.hasPose(name), report.before ?? null) : null;
-    this.undoButton = button(words.undo, () => this.undo(), { disabled: true, title: words.undoKey });
+    this.undoButton = button(words.undo, hooks.undo, { disabled: true, title: words.undoKey });
     this.element = html("section", { "aria-label": words.motion }, this.status.element, html("div", { class: "sliders" }, ...rows),
       html("div", { class: "row motion-row no-print" },
         button(words.reset, () => (showStored ? showStored("reference") : this.goTo([...report.reference_deg], () => undefined, report.reference_mm)),
@@ -88,8 +90,19 @@ export class MotionPanel {
       ...(this.grid ? [...(report.rom!.held_translation_mm ? [html("h3", {}, words.heldLimits)] : []), this.grid.element] : []));
   }
 
+  setUndo(can: boolean): void {
+    this.undoButton.disabled = !can;
+  }
+
   get coordinates(): Coordinates {
     return { angles: [...this.angles], translation: [...this.translation] };
+  }
+
+  /// The coordinates of an earlier step, or of a later one.
+  step(angles: readonly number[], translation: readonly number[]): void {
+    cancelAnimationFrame(this.animation);
+    this.remembered = null;
+    this.set(angles, translation);
   }
 
   /// Takes these coordinates at once.
@@ -106,7 +119,7 @@ export class MotionPanel {
   /// Angles while a map's cross is dragged.
   drag(angles: readonly number[]): void {
     cancelAnimationFrame(this.animation);
-    this.remember();
+    this.remember(this.sliders);
     this.set(angles);
   }
 
@@ -128,7 +141,7 @@ export class MotionPanel {
   /// The joint turns there, at once if its user asked for less motion.
   goTo(angles: readonly number[], there: () => void = () => undefined, given?: readonly number[] | null): void {
     cancelAnimationFrame(this.animation);
-    this.remember(true);
+    this.remember(null);
     const from = this.coordinates;
     const translation = given ?? from.translation;
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) {
@@ -147,15 +160,6 @@ export class MotionPanel {
       else there();
     };
     step();
-  }
-
-  undo(): void {
-    const last = this.past.pop();
-    this.undoButton.disabled = this.past.length === 0;
-    if (!last || this.hooks.showStored) return;
-    cancelAnimationFrame(this.animation);
-    this.rememberedAt = -Infinity;
-    this.set(last.angles, last.translation);
   }
 
   /// The motion at whose end the joint is; null for none.
@@ -297,14 +301,11 @@ export class MotionPanel {
     this.goTo(angles);
   }
 
-  /// Stores the previous pose for undo, once for a gesture.
-  private remember(always = false): void {
-    const now = performance.now(), isNew = always || now - this.rememberedAt > gesture_ms;
-    this.rememberedAt = now;
-    if (!isNew) return;
-    this.past.push(this.coordinates);
-    if (this.past.length > mostUndone) this.past.shift();
-    this.undoButton.disabled = false;
+  /// The pose before a gesture is remembered, once; null: by a press.
+  private remember(by: unknown): void {
+    const at = performance.now(), last = this.remembered, isNew = !last || by === null || by !== last.by || at - last.at > gesture_ms;
+    this.remembered = { by, at };
+    if (isNew) this.hooks.begins();
   }
 
   private hasPose(name: string): boolean {
@@ -318,7 +319,7 @@ export class MotionPanel {
     const input = html("input", { type: "range", id: `angle-${name}`, min: low, max: high, step: 0.1, value: 0, "aria-label": label, disabled });
     const taken = (value: number) => {
       cancelAnimationFrame(this.animation);
-      this.remember();
+      this.remember(input);
       this.angles[angle] = value;
     };
     const field = new NumberField(label, -farthest_deg, farthest_deg, 0.1, "°", disabled, (value) => {
@@ -341,7 +342,7 @@ export class MotionPanel {
   private moveAlong(axis: (typeof axes)[number]): HTMLLabelElement {
     const i = axes.indexOf(axis);
     const field = new NumberField(words.translation(axis), ...shiftRange(this.report.reference_mm[i]!), 0.1, " mm", this.hooks.showStored !== null, (value) => {
-        this.remember();
+        this.remember(axis);
         this.translation[i] = value;
         this.hasMoved();
       }, (why) => this.refuse(why));
