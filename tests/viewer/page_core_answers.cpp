@@ -141,12 +141,18 @@ void answer_pose(CondyleJoint* joint, const double* question, double X[16], std:
   answers << '\n';
 }
 
-/// The answer of `condyle depth` there; the query's angles come first.
+/// The answer of `condyle depth` there, and where the surfaces are nearest to each other; the query's angles come first.
 void answer_depth(CondyleJoint* joint, const double* question, const double X[16], std::ostream& answers) {
   double depth[16];
   checked(condyle_depth(joint, X, question, depth));
   answers << "depth";
   for (const double value : depth) answers << ' ' << (std::isnan(value) ? "none" : bits(value));
+  answers << "\nnearest";
+  for (const int counted : {0, 1}) {
+    double nearest[7];
+    checked(condyle_nearest(joint, X, counted, nearest));
+    for (const double value : nearest) answers << ' ' << bits(value);
+  }
   answers << '\n';
 }
 

@@ -76,6 +76,14 @@ const answerers = {
     ++count.depths;
     return Array.from(f64(depth, 16), (value) => (Number.isNaN(value) ? "none" : bits(value))).join(" ");
   },
+  // Distances are rounded to 1e-12 of coordinates, which are below 1,000 mm; of triangles that share the nearest point any is named.
+  nearest(fields) {
+    const native = fields.map(fromBits), page = [0, 1].flatMap((counted) => {
+      checked(core._condyle_nearest(joint, pose, counted, depth));
+      return Array.from(f64(depth, 7));
+    });
+    if (!native.every((value, i) => [1, 2, 3].includes(i % 7) || Math.abs(value - page[i]) <= 1e-9)) wrong.push(`nearest of pose ${count.poses}: ${page} and not ${native}`);
+  },
   contact: () => `${checked(core._condyle_in_contact(joint, pose))}`,
   pairs() {
     const pairs = checked(core._condyle_pairs(joint, pose));

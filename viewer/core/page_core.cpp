@@ -11,6 +11,8 @@
 
 #include "condyle/answer.hpp"
 #include "condyle/joint.hpp"
+#include "contact/body_pair.hpp"
+#include "mesh/surface_to_surface.hpp"
 #include "page_joint.hpp"
 
 using namespace condyle;
@@ -64,6 +66,28 @@ void visit_inside(CondyleJoint& joint, const Pose& X, bool of_fixed, radial::Pen
     visit(contact::DeepestVertex{v, found.depth_mm[i], other_surface(joint, of_fixed)(X * vertices[v]),
                                  found.ray_to_normal[i]});
   }
+}
+
+/// Of the parts whose contact ends motions, in numbers of the whole meshes.
+mesh::ClosestPoints nearest_counted(CondyleJoint& joint, const motion::RangeOfMotion& range,
+                                    const Pose& X_FM) {
+  if (!joint.counted) {
+    motion::OverlapOptions options;
+    options.reference_contact = motion::ReferenceContact::accept;
+    joint.counted = motion::parts_that_count(joint.joint, options, range.bearing(), range.bearing_rule());
+  }
+  std::optional<mesh::ClosestPoints> nearest;
+  for (const motion::PairOfParts& pair : joint.counted->impinging) {
+    const auto& [fixed, fixed_in_whole] = joint.counted->fixed[pair.fixed];
+    const auto& [mobile, mobile_in_whole] = joint.counted->mobile[pair.mobile];
+    const double at_most = nearest ? nearest->distance_mm : std::numeric_limits<double>::infinity();
+    if (auto found = mesh::closest_points(*mesh::tree_of(fixed), *mesh::tree_of(mobile), X_FM, at_most)) {
+      found->a_triangle = fixed_in_whole[found->a_triangle];
+      found->b_triangle = mobile_in_whole[found->b_triangle];
+      nearest = found;
+    }
+  }
+  return nearest.value();
 }
 
 /// About the axes in their order.
@@ -272,6 +296,24 @@ int condyle_shown(CondyleJoint* joint, const double* pose, int quantity, int of_
           if (const Index v = inside.point[i]; inside.state[i] == PointState::inside) values[v] = -values[v];
         break;
     }
+    return 0;
+  });
+}
+
+int condyle_nearest(CondyleJoint* joint, const double* pose, int counted, double answer[7]) {
+  return guarded(-1, [&] {
+    const Pose X_FM = pose_of(pose);
+    const motion::RangeOfMotion& range = range_of(*joint, joint->range_held_at);
+    const contact::BodyPair& bodies = contact::body_pair_of(joint->bodies);
+    const mesh::ClosestPoints nearest =
+        counted ? nearest_counted(*joint, range, X_FM)
+                : mesh::closest_points(bodies.fixed_tree(), bodies.mobile_tree(), X_FM).value();
+    const motion::ContactKind kind = range.bearing().kind_of(nearest.a_triangle, nearest.b_triangle);
+    answer[0] = nearest.distance_mm;
+    answer[1] = nearest.a_triangle;
+    answer[2] = nearest.b_triangle;
+    answer[3] = kind == motion::ContactKind::bearing ? 1 : 0;
+    for (int i = 0; i < 3; ++i) answer[4 + i] = nearest.a_point[i];
     return 0;
   });
 }

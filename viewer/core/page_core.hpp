@@ -59,6 +59,11 @@ int condyle_depth(CondyleJoint* joint, const double* pose, const double* angles_
 int condyle_shown(CondyleJoint* joint, const double* pose, int quantity, int of_fixed, float* values,
                   std::uint8_t* marks);
 
+/// Where the surfaces are nearest to each other at a pose, or with `counted` those parts of them whose contact ends motions: in `answer` the
+/// distance, 0 if they meet; the triangles of the fixed and of the mobile body; 1 if contact of these two is bearing contact, else 0; and
+/// the point of the fixed body, in F.
+int condyle_nearest(CondyleJoint* joint, const double* pose, int counted, double answer[7]);
+
 /// 1 where the bodies share a point, else 0.
 int condyle_in_contact(CondyleJoint* joint, const double* pose);
 /// How many pairs of triangles meet, and which: fixed, mobile each.

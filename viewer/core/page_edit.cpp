@@ -49,6 +49,7 @@ void take_brushed(CondyleJoint& joint, BodyRole role, const Points& vertices) {
   joint.bodies = contact::JointContact(joint.bodies, role, bone.mesh);
   (role == BodyRole::fixed ? joint.to_fixed : joint.to_mobile).reset();
   joint.edit.about.reset();
+  joint.counted.reset();
   if (!joint.range) return;
   const bool is_held = role == BodyRole::fixed && joint.range_held_at != Vec3::Zero();
   joint.range = std::make_shared<const motion::RangeOfMotion>(

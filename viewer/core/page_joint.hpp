@@ -15,6 +15,7 @@
 #include "condyle/pressure.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "mesh/surface_distance.hpp"
+#include "motion/rom/overlap.hpp"
 
 /// The part of a body that carries load: a run of its vertices from `first_vertex`, as a mesh of its own.
 struct PageSurface {
@@ -73,6 +74,7 @@ struct CondyleJoint {
   std::vector<std::uint32_t> pair_triangles = {};
   std::vector<double> intervals = {};
   std::optional<condyle::mesh::SurfaceDistance> to_fixed = {}, to_mobile = {};
+  std::optional<condyle::motion::PartsOfJoint> counted = {};  ///< parts whose contact ends motions
   PagePressure pressure = {};
   PageEdit edit = {};
   PageParts parts = {};

@@ -47,6 +47,7 @@ void take(CondyleJoint& joint, Joint moved, motion::BearingOptions bearing) {
   joint.bearing = std::move(bearing);
   joint.range.reset();
   joint.edit.about.reset();
+  joint.counted.reset();
   joint.to_fixed.reset();
   joint.to_mobile.reset();
 }

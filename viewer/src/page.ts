@@ -313,7 +313,6 @@ export class Page {
         document.documentElement.dataset["answered"] = String(Number(document.documentElement.dataset["answered"] ?? 0) + 1);
       },
       values: (values) => this.show(values),
-      limit: () => undefined,
       depth: (depth) => this.motion.showDepth(depth),
       bearing: (triangles) => {
         if (this.bearingIsFound) this.clearance?.leaveOut(triangles);
@@ -440,7 +439,7 @@ export class Page {
 
   private ask(at: Coordinates): void {
     const { quantity } = this.display;
-    this.core?.ask(at, quantity === "removed" ? "none" : quantity, null);
+    this.core?.ask(at, quantity === "removed" ? "none" : quantity);
   }
 
   private moved(at: Coordinates): void {

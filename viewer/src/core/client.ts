@@ -8,7 +8,6 @@ declare const workerSource: string;
 export interface Answers {
   shown(at: Coordinates, shown: Shown, roundTripMs: number): void;
   values(values: BothValues): void;
-  limit(at: Coordinates, limit: LiveLimit): void;
   depth(depth: Depth): void;
   bearing(triangles: Uint8Array): void;
   mapPoint(point: number, intervals: [number, number, number, number][]): void;
@@ -25,7 +24,6 @@ export interface EditAnswers {
 interface Question {
   at: Coordinates;
   quantity: Quantity;
-  ranges: [number, number][] | null;
 }
 
 /// The core in its worker. It answers one pose at a time; of the poses requested meanwhile it answers only the latest.
@@ -33,7 +31,7 @@ export class CoreClient {
   private readonly worker: Worker;
   private underWay: { id: number; question: Question; asked: number } | null = null;
   private waiting: Question | null = null;
-  private answered: { id: number; at: Coordinates } | null = null;
+  private answered: number | null = null;
   private count = 0;
   private readonly queries = new Map<number, (answer: QueryAnswer | null, error: string) => void>();
   private readonly edits = new Map<number, { answers: EditAnswers; last: number }>();
@@ -117,9 +115,8 @@ export class CoreClient {
     this.answers = answers;
   }
 
-  /// `ranges`: how far each angle is searched back and forth for its limits; null for none.
-  ask(at: Coordinates, quantity: Quantity, ranges: [number, number][] | null): void {
-    this.waiting = { at, quantity, ranges };
+  ask(at: Coordinates, quantity: Quantity): void {
+    this.waiting = { at, quantity };
     if (!this.underWay) this.send();
   }
 
@@ -168,20 +165,16 @@ export class CoreClient {
       case "shown": {
         const { id, question, asked } = this.underWay!;
         this.underWay = null;
-        this.answered = { id, at: question.at };
+        this.answered = id;
         this.answers?.shown(question.at, message.shown, performance.now() - asked);
         this.send();
         return;
       }
       case "values":
-        if (message.id === this.answered?.id) this.answers?.values(message.values);
-        return;
-      case "limit":
-        // A limit of an earlier pose is dropped.
-        if (message.id === this.answered?.id) this.answers?.limit(this.answered.at, message.limit);
+        if (message.id === this.answered) this.answers?.values(message.values);
         return;
       case "depth":
-        if (message.id === this.answered?.id) this.answers?.depth(message.depth);
+        if (message.id === this.answered) this.answers?.depth(message.depth);
         return;
       case "queried":
         this.queries.get(message.id)?.(message.answer, message.error);

@@ -3,7 +3,7 @@ import { openModule } from "./module";
 import {
   quantityNumber, type BothPenetrations, type BothValues, type Brushed, type Coordinates, type Depth, type Details, type DroppedFile, type Edit,
   type SideChoice,
-  type Inside, type JointArrays, type Layers, type LimitQuestion, type LiveLimit, type MapQuestion, type MotionFrames, type Penetrations,
+  type Inside, type JointArrays, type Layers, type LimitQuestion, type LiveLimit, type MapQuestion, type MotionFrames, type Nearest, type Penetrations,
   type Proposal, type Quantity, type Shown, type Stroke, type Surface, type Turned, type Values,
 } from "./protocol";
 import { describeParts, within } from "./parts";
@@ -109,11 +109,11 @@ export class CoreJoint {
     return { mobile: this.valuesOf(quantity, 0, this.vertices.mobile), fixed: this.valuesOf(quantity, 1, this.vertices.fixed) };
   }
 
-  /// Searched from a pose of the joint.
-  limitFrom(at: Coordinates, vary: number, positive: boolean, range_deg: number): LiveLimit {
+  nearest(at: Coordinates, counted: boolean): Nearest {
     this.place(at);
-    const X_FM = this.f64(this.pose, 16);
-    return this.limit({ start: at.angles, held: [X_FM[3]!, X_FM[7]!, X_FM[11]!], vary, positive, range_deg });
+    this.checked(this.core._condyle_nearest(this.joint, this.pose, counted ? 1 : 0, this.answer));
+    const [distance_mm, fixed, mobile, isBearing, x, y, z] = this.f64(this.answer, 7) as unknown as [number, number, number, number, number, number, number];
+    return { distance_mm, triangle: { fixed, mobile }, isBearing: isBearing === 1, point: [x, y, z] };
   }
 
   limit({ start, held, vary, positive, range_deg }: LimitQuestion): LiveLimit {

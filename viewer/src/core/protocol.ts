@@ -105,6 +105,15 @@ export interface Depth {
   coveredAgain_mm3: number | null;
 }
 
+/// Where the surfaces are nearest to each other; the point is the fixed body's, in F.
+export interface Nearest {
+  distance_mm: number;
+  triangle: { fixed: number; mobile: number };
+  /// Whether contact there would end no motion.
+  isBearing: boolean;
+  point: [number, number, number];
+}
+
 /// Results at one pose.
 export interface Shown {
   pose: Float64Array;
@@ -208,6 +217,8 @@ export type Query =
   /// 16 numbers, row by row.
   | { of: "poseMatrix"; X_FM: number[] }
   | { of: "depth"; at: Coordinates }
+  /// Of the whole surfaces, or `counted`: of those parts whose contact ends motions.
+  | { of: "nearest"; at: Coordinates; counted: boolean }
   /// Both bodies' vertices inside, without the other results of a pose.
   | { of: "penetrations"; at: Coordinates }
   | { of: "values"; at: Coordinates; quantity: Exclude<Quantity, "none"> }
@@ -217,7 +228,7 @@ export type Query =
   | { of: "motion"; file: DroppedFile; columns: string }
   /// Bytes that the core has taken.
   | { of: "memory" };
-export type QueryAnswer = number | MotionFrames | Details | Depth | BothPenetrations | BothValues | LiveLimit | [number, number, number, number][];
+export type QueryAnswer = number | MotionFrames | Details | Depth | Nearest | BothPenetrations | BothValues | LiveLimit | [number, number, number, number][];
 
 /// The answer of condyle_motion() on a motion file; null in a gap.
 export interface MotionFrames {
@@ -279,7 +290,7 @@ export type ToWorker =
   | { type: "propose"; wasm: ArrayBuffer; fixed: DroppedFile; mobile: DroppedFile; side: SideChoice }
   | { type: "jointFile"; wasm: ArrayBuffer; joint: NamedFile; files: readonly NamedFile[] }
   | { type: "open"; wasm: ArrayBuffer; joint: JointArrays }
-  | { type: "pose"; id: number; at: Coordinates; quantity: Quantity; ranges: [number, number][] | null }
+  | { type: "pose"; id: number; at: Coordinates; quantity: Quantity }
   | { type: "query"; id: number; query: Query }
   /// The limits are those after the edit, in this order.
   | { type: "edit"; id: number; edit: Edit; limits: LimitQuestion[] }
@@ -297,7 +308,6 @@ export type FromWorker =
   | { type: "failed"; message: string }
   | { type: "shown"; id: number; shown: Shown }
   | { type: "values"; id: number; values: BothValues }
-  | { type: "limit"; id: number; limit: LiveLimit }
   | { type: "depth"; id: number; depth: Depth }
   | { type: "queried"; id: number; answer: QueryAnswer | null; error: string }
   /// Null for an edit of no bone, and for one that failed.

@@ -17,6 +17,7 @@ declare module "page-core" {
     _condyle_penetrating_vertices(joint: number): number;
     _condyle_depths(joint: number): number;
     _condyle_depth(joint: number, pose: number, angles: number, answer: number): number;
+    _condyle_nearest(joint: number, pose: number, counted: number, answer: number): number;
     _condyle_shown(joint: number, pose: number, quantity: number, ofFixed: number, values: number, marks: number): number;
     _condyle_in_contact(joint: number, pose: number): number;
     _condyle_pairs(joint: number, pose: number): number;

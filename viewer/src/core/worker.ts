@@ -5,7 +5,7 @@ import { CoreLabels } from "./labels";
 import type { Edit, FromWorker, LimitQuestion, MapQuestion, Quantity, Query, QueryAnswer, ToWorker } from "./protocol";
 
 /// Answers in the order of visible effect: changes by hand, the latest pose, limits after the last change, then the pose's colours, its
-/// limits one by one, its depth, then all else. A message that arrives meanwhile comes in between; pending answers about an earlier pose are
+/// depth, then all else. A message that arrives meanwhile comes in between; pending answers about an earlier pose are
 /// dropped. All limits after a change come before the next change.
 
 type PoseQuestion = Extract<ToWorker, { type: "pose" }>;
@@ -49,10 +49,6 @@ function next(): void {
     say({ type: "shown", id: asked.id, shown }, [shown.pose.buffer as ArrayBuffer, shown.pairs.buffer as ArrayBuffer]);
     const { quantity } = asked;
     if (quantity !== "none") aboutPose.push(() => sayValues(asked, quantity));
-    asked.ranges?.forEach((range, vary) => range.forEach((range_deg, positive) => aboutPose.push(() => {
-      const limit = joint!.limitFrom(asked.at, vary, positive === 1, range_deg);
-      say({ type: "limit", id: asked.id, limit });
-    })));
     // Last: it takes longest.
     if (shown.inContact) aboutPose.push(() => say({ type: "depth", id: asked.id, depth: joint!.depth(asked.at) }));
   } else {
@@ -97,6 +93,8 @@ function answerTo(query: Query): QueryAnswer {
       return joint!.detailsOf(query.X_FM);
     case "depth":
       return joint!.depth(query.at);
+    case "nearest":
+      return joint!.nearest(query.at, query.counted);
     case "penetrations":
       return joint!.penetrationsAt(query.at);
     case "values":
