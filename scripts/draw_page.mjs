@@ -25,7 +25,7 @@ try {
   await settled(page);
   await page.waitForFunction(() => [...document.querySelectorAll(".slider-readout")].every(({ textContent }) => textContent !== ""));
   // The distance between the bones comes last.
-  await page.getByText(/^Free · .* clear$/).waitFor();
+  await page.getByText(/^Free · .* mm, /).waitFor();
   await page.screenshot({ path: join(root, "docs/images/page.png") });
   await drawPlan();
 } finally {

@@ -1,7 +1,9 @@
 // What the page says of a pose: by the rule of the limits, wherever the pose came from.
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { join } from "node:path";
 import { test } from "node:test";
-import { openPage, pathOf, settled, sharedBrowser, tile, turnTo } from "./browser.mjs";
+import { has, openPage, pathOf, reports, root, settled, sharedBrowser, tile, turnTo } from "./browser.mjs";
 import { readReport } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
@@ -87,6 +89,55 @@ test("a limit that is none of the report's has its motion and bodies named", asy
   await turnTo(page, { internal_rotation: end });
   assert.equal(await saidOf(page, "limit"), "At the limit of internal rotation, first contact: femur on hip bone");
   await page.context().close();
+});
+
+/// What the page says of a free pose, once it has measured it.
+async function nearestSaid(page) {
+  await page.waitForFunction(() => document.getElementById("status-text").textContent.startsWith("Free · "));
+  return page.locator("#status-text").textContent();
+}
+
+const nearestOf = (joint, pose) => JSON.parse(execFileSync(join(root, "build/release/condyle"), ["depth", join(reports, joint), "--pose", pose, "--json"],
+  { stdio: ["ignore", "pipe", "ignore"] })).nearest_distance_mm;
+
+test("chip, condyle depth and the curve of a motion give one nearest distance, and the chip says between what", async () => {
+  const { text, array } = readReport(pathOf("moves"));
+  const gaps = array(text.recorded.curves.find(({ name }) => name === "smallest_gap_mm").values), angles = array(text.recorded.coordinates_deg);
+  const { page } = await openPage(browser, pathOf("moves"));
+  for (const i of [1, 2]) {
+    const [flexion, adduction, internal_rotation] = angles.slice(3 * i, 3 * i + 3);
+    await turnTo(page, { flexion, adduction, internal_rotation });
+    const said = await nearestSaid(page), mm = nearestOf("sample/moves.toml", `flexion=${flexion} adduction=${adduction} internal_rotation=${internal_rotation}`);
+    assert.equal(gaps[i].toFixed(9), mm.toFixed(9));
+    assert.match(said, new RegExp(`^Free · ${mm.toFixed(1)} mm, head to socket · [\\d.]+ mm, \\w+`));
+  }
+  await page.context().close();
+});
+
+test("near the end of a motion the neck is nearest to the rim, a little before it touches", async () => {
+  const { limit_deg } = motionOf("sample", "internal_rotation_at_90_flexion");
+  const { page } = await openPage(browser, pathOf("sample"), { fragment: `#flexion=90&internal_rotation=${limit_deg - 0.2}` });
+  const mm = nearestOf("sample/hip.toml", `flexion=90 internal_rotation=${limit_deg - 0.2}`);
+  assert.equal(await nearestSaid(page), `Free · ${mm.toFixed(1)} mm, neck to rim`);
+  await page.context().close();
+});
+
+test("on a real hip the chip's distance is the command's", { skip: !has("vhf_right") && "not made" }, async () => {
+  const { page } = await openPage(browser, pathOf("vhf_right"), { fragment: "#flexion=40" });
+  assert.ok((await nearestSaid(page)).startsWith(`Free · ${nearestOf("vhf_right.toml", "flexion=40").toFixed(1)} mm, head to socket · `));
+  await page.context().close();
+});
+
+test("the clearance of an implant is that of its neck from the liner, not of the head in it", async () => {
+  const { limit_deg } = motionOf("placed", "flexion"), mms = [];
+  for (const flexion of [40, limit_deg - 5, limit_deg - 0.5]) {
+    const { page } = await openPage(browser, pathOf("placed"), { fragment: `#flexion=${flexion}` });
+    const [, mm, between] = /^Free · ([\d.]+) mm, (.*)$/.exec(await nearestSaid(page));
+    if (flexion !== 40) assert.equal(between, "neck to liner");
+    mms.push(Number(mm));
+    await page.context().close();
+  }
+  assert.ok(mms[0] > mms[1] && mms[1] > mms[2] && mms[2] < 0.3, String(mms));
 });
 
 test("Back takes gestures back one by one as Undo does, Forward brings them again, and a link is one entry", async () => {

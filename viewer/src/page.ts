@@ -78,8 +78,6 @@ export class Page {
   private zones: ZonePanel | null = null;
   private readonly plan: PlanPanel | null;
   private readonly removed: BothValues | null;
-  /// Whether the core found the bearing surface; else it is the report's.
-  private bearingIsFound: boolean;
   /// The report's poses, if the page cannot compute.
   private readonly stored: StoredPoses | null;
   private hasWorstPicture = false;
@@ -93,7 +91,6 @@ export class Page {
   constructor(
     private readonly text: ReportText, private readonly arrays: JointArrays, private readonly report: Report | null, private readonly computes: boolean,
     added: Added = {}) {
-    this.bearingIsFound = arrays.bearing === "found";
     this.shownText = text;
     this.address = new ViewAddress(text, () => ({
       at: this.motion.coordinates, display: this.display.state, zone: this.zones?.motion ?? "", camera: this.scene?.viewpoint ?? null,
@@ -299,8 +296,7 @@ export class Page {
   compute(core: CoreClient): void {
     const count = this.text.joint.kind === "hinge" ? 1 : 3;
     this.freeAngles = new FreeAngles(core, count, (vary, at, intervals) => this.motion.setFree(vary, at, intervals));
-    this.clearance = new Clearance(core, this.arrays.mobile, (at, clear_mm) => this.motion.setClearance(at, clear_mm));
-    if (this.arrays.bearing !== "found" && !this.arrays.bearing.counts) this.clearance.leaveOut(this.arrays.bearing.mobile ?? []);
+    this.clearance = new Clearance(core, this.text.rom?.implant !== undefined, (at, nearest) => this.motion.setNearest(at, nearest));
     core.listen({
       shown: (at, shown, roundTrip_ms) => {
         this.stand(shown.pose);
@@ -314,10 +310,7 @@ export class Page {
       },
       values: (values) => this.show(values),
       depth: (depth) => this.motion.showDepth(depth),
-      bearing: (triangles) => {
-        if (this.bearingIsFound) this.clearance?.leaveOut(triangles);
-        this.markBearing(triangles);
-      },
+      bearing: (triangles) => this.markBearing(triangles),
       mapPoint: (point, intervals) => this.figures.map?.set(point, intervals),
       failed: warn,
     });
@@ -357,7 +350,6 @@ export class Page {
     this.motion.markEnd(null);
     this.leaveLimit();
     if (!rests) return;
-    this.bearingIsFound = true;
     this.ask(this.motion.coordinates);
     this.core?.askBearing();
   }

@@ -1,5 +1,5 @@
 import { button, html, named, spaced, svg } from "../dom";
-import type { Coordinates, Depth, Shown } from "../core/protocol";
+import type { Coordinates, Depth, Nearest, Shown } from "../core/protocol";
 import { fixed, plain } from "../numbers";
 import type { Interval, MotionAnswer, ReportText } from "../report";
 import { shownBand } from "../result";
@@ -8,7 +8,7 @@ import { NumberField } from "./angle_field";
 import { intervalAt, near_deg, nearestExit, stateOf, type PoseState } from "./free_angles";
 import { ManoeuvreGrid } from "./manoeuvres";
 import { StatusChip, type Exit } from "./status";
-import { placeOf } from "./strip";
+import { nearestText, placeOf } from "./strip";
 
 const usualRange_deg = 120, translationRange_mm = 20;
 export const farthest_deg = 180;
@@ -61,8 +61,8 @@ export class MotionPanel {
   private remembered: { by: unknown; at: number } | null = null;
   private isWarm = false;
   private touches: boolean | null = null;  // null until it is known of this pose
-  private hasIntervals = true;  // else contact is all that a pose tells
-  private clear_mm: number | null = null;
+  private hasIntervals = true;  // without them the page knows only whether the bodies meet
+  private nearest: Nearest[] | null = null;
   private lastDepth: Depth | null = null;
   /// The motion at whose end the joint is.
   private end: MotionAnswer | null = null;
@@ -180,9 +180,9 @@ export class MotionPanel {
     this.drawStatus();
   }
 
-  setClearance(at: Coordinates, clear_mm: number | null): void {
+  setNearest(at: Coordinates, nearest: Nearest[]): void {
     if (this.touches || at.angles.some((deg, i) => deg !== this.angles[i])) return;
-    this.clear_mm = clear_mm;
+    this.nearest = nearest;
     this.drawStatus();
   }
 
@@ -234,7 +234,7 @@ export class MotionPanel {
     this.end = null;
     this.touches = null;
     this.refuse(null);
-    this.clear_mm = null;
+    this.nearest = null;
     for (const slider of this.sliders) slider.free = null;
     this.grid?.mark(null);
     this.hooks.moved(this.coordinates);
@@ -253,7 +253,7 @@ export class MotionPanel {
     if (this.end?.reason === "contact") return this.status.say("limit", words.atLimit(placeOf(this.end, this.report)));
     // Until the intervals are known, what was said stays, unless nothing meets and no motion ends here.
     if (!state && !this.hooks.showStored && (this.touches !== false || this.motionHere())) return;
-    if (!state || state.is === "free") return this.status.say("free", this.clear_mm === null ? words.isFree : words.freeClear(fixed(this.clear_mm, 1)));
+    if (!state || state.is === "free") return this.status.say("free", this.nearest ? words.freeClear(nearestText(this.nearest, this.report)) : words.isFree);
     if (state.is === "bearing") return this.status.say("bearing", words.bearingEndsNone);
     if (state.is === "limit") {
       const { name, opposite } = this.report.coordinates[state.vary]!;

@@ -1,8 +1,10 @@
 import { button, html, named, shortened, spaced } from "../dom";
 import { clockTime, fixed } from "../numbers";
+import type { Nearest } from "../core/protocol";
 import { nowOf, plannedOf } from "../planned";
 import type { MotionAnswer, ReportText, RomAnswer } from "../report";
 import { bandText, deficitOf, differenceOf, differenceText, firstFigures, limitAlone, gradeOf, limitText, headlineMotion, worstOf, wrongOf } from "../result";
+import type { BodyName } from "../scene/body_names";
 import { motionName, words } from "../words";
 import { normalText } from "./manoeuvres";
 
@@ -12,6 +14,27 @@ export interface Extreme {
   value: string;
   at: string;
   go: () => void;
+}
+
+/// In head radii from the joint centre: a rim lies 1.1 to 1.4 from it, a trochanter farther.
+const farthestRim = 1.6;
+
+/// Whether a point of F is at the rim of a hip, which has an hour.
+function isAtRim(point: readonly number[] | null, { rom }: ReportText): boolean {
+  const head = rom?.bearing?.head;
+  return Boolean(rom?.clock_plane) && point !== null && (!head || Math.hypot(...point) <= farthestRim * head.radius_mm);
+}
+
+/// "0.4 mm, head to socket · 12.3 mm, neck to rim": what is how far from what.
+export function nearestText(nearest: readonly Nearest[], text: ReportText): string {
+  const partOf = (body: BodyName, triangle: number) => (text.parts[body].length > 1
+    ? text.parts[body].find(({ first_triangle, triangles }) => triangle < first_triangle + triangles)?.name : undefined);
+  const isHip = text.joint.anatomy === "hip";
+  return nearest.map(({ distance_mm, triangle, isBearing, point }) => {
+    const mobile = partOf("mobile", triangle.mobile), fixedPart = partOf("fixed", triangle.fixed);
+    return words.nearest(fixed(distance_mm, 1), mobile || fixedPart || !isHip ? words.meshTo(spaced(named(mobile ?? text.joint.mobile)), spaced(named(fixedPart ?? text.joint.fixed)))
+      : isBearing ? words.headToSocket : isAtRim(point, text) ? words.neckToRim : words.meshTo(named(text.joint.mobile), named(text.joint.fixed)));
+  }).join(" · ");
 }
 
 /// The contact at the end of a motion and its hour, if known.
