@@ -74,16 +74,19 @@ test("limits and bands are those of condyle rom of each joint, and differences a
   await page.context().close();
 });
 
-test("figures of the strip have the difference, those of a report of one joint have none", async () => {
+test("figures of the strip and tiles go from the limit before to that after, those of a report of one joint have no other", async () => {
   const { page } = await opened();
-  const found = await page.locator(".result").evaluateAll((cards) => cards.map((card) => card.querySelector(".result-difference")?.textContent ?? ""));
+  const found = await page.locator(".result b").allTextContents(), tiles = await page.locator(".tile-value").allTextContents();
   assert.equal(found.length, 4);
-  const flexion = text.before.differences[0];
-  assert.equal(found[0], `${signed(flexion.difference_deg)}°`);
+  assert.equal(found[0], `${before.motions[0].limit_deg.toFixed(1)} → ${after.motions[0].limit_deg.toFixed(1)}°`);
+  after.motions.forEach((motion, i) => {
+    const then = endOf(before.motions[i]), now = endOf(motion);
+    assert.ok(tiles[i].trim().startsWith(then === now ? now : `${then.replace("°", "")} → ${now}`), tiles[i]);
+  });
   await page.context().close();
   const { page: single } = await openPage(browser, pathOf("sample"));
   await settled(single);
-  assert.equal(await single.locator(".result-difference").count(), 0);
+  assert.doesNotMatch(await single.locator("#results, .tiles").first().textContent(), /→/);
   assert.equal(await comparison(single).count(), 0);
   await single.context().close();
 });
@@ -172,7 +175,7 @@ test("a joint before without limits is shown, and the page says why it has none"
   await openTab(page, "Plan");
   assert.match(await page.locator("#panel-plan").textContent(), /The joint before has no limits: the bones are in contact/);
   assert.equal(await comparison(page).count(), 0);
-  assert.equal(await page.locator(".result-difference").count(), 0);
+  assert.doesNotMatch(await page.locator("#results").textContent(), /→/);
   assert.equal(await ghostBox(page).isChecked(), true);
   assert.deepEqual(complaints, []);
   await page.context().close();

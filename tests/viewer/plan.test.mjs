@@ -53,21 +53,22 @@ test("targets, gains and what goes are those of the report", async () => {
   await page.context().close();
 });
 
-test("what is planned is said in heading, figures and sentence, beside what is now, and on paper", async () => {
+test("what is planned is said by a ribbon, and in figures and sentence from the limit before, and on paper", async () => {
   const { page } = await opened();
   const [cut] = text.plan.cuts, done = `without ${cut.volume_mm3.toFixed(1)} mm³ of femur`;
   assert.equal(text.joint.planned, done.replace("mm³", "mm3"));
   const first = text.rom.motions.find(({ name }) => name === text.plan.targets[0].motion);
   const nowOf = (motion) => {
     const { limit_deg, reason } = text.plan.limits.find((each) => each.motion === motion.name).before;
-    return reason === "end_of_range" ? `now >${limit_deg}°` : `now ${limit_deg.toFixed(1)}°`;
+    return reason === "end_of_range" ? `>${limit_deg}` : limit_deg.toFixed(1);
   };
-  assert.ok((await page.locator("#title").textContent()).startsWith(`Planned, ${done} · `));
+  const ribbon = `After a planned cut of ${done.replace("without ", "")}`;
+  assert.equal(await page.locator("#ribbon").textContent(), ribbon);
   assert.ok((await page.locator("#sentence").textContent()).startsWith("Planned: "));
   const figures = await page.locator("#results .result").allTextContents();
-  assert.equal(figures.filter((said) => / now [>\d]/.test(said)).length, figures.length, figures.join("; "));
+  assert.ok(figures.some((said) => said.includes(`${nowOf(first)} → `)), figures.join("; "));
   const [sheet] = await page.locator("#paper .sheet").allTextContents();
-  for (const wanted of [`Planned, ${done}`, `${cut.volume_mm3.toFixed(1)} mm³ go`, `${cut.deepest_mm.toFixed(2)} mm at the deepest`, nowOf(first), "Targets"])
+  for (const wanted of [ribbon, `${cut.volume_mm3.toFixed(1)} mm³ go`, `${cut.deepest_mm.toFixed(2)} mm at the deepest`, `${nowOf(first)} → `, "Targets"])
     assert.ok(sheet.includes(wanted), wanted);
   await page.context().close();
 });

@@ -49,7 +49,7 @@ async function press(page, role, name) {
 const asSaid = (name) => name.replace(/^(fadir|faber)$/, (short) => short.toUpperCase()).replaceAll("_", " ").replace(/ at (\d+) /, " at $1° ");
 const clock = (hour) => `${Math.floor(Math.round(hour * 60) / 60) || 12}:${String(Math.round(hour * 60) % 60).padStart(2, "0")}`;
 
-/// The motion that limits the hip, by the rule of docs/report.md: what lacks most of its normal range, else internal rotation in flexion.
+/// The motion that limits the hip, by the rule of docs/report.md: what lacks most of its clinical range, else internal rotation in flexion.
 function limiting(motions) {
   const lacks = ({ reason, limit_deg, normal_range_deg }) => (reason === "contact" && normal_range_deg !== null ? normal_range_deg - limit_deg : 0);
   const worst = [...motions].sort((a, b) => lacks(b) - lacks(a))[0];
@@ -77,7 +77,7 @@ for (const [name, { joint, band }] of Object.entries(hips))
     assert.match(rest, /, (neck on rim|femur on hip bone)\b/);
     // By how much, against normal.
     assert.equal(limit, first.limit_deg.toFixed(1));
-    const against = !zero.is_neutral ? "no clinical range, as zero is not known to be neutral" : first.normal_range_deg !== null && first.limit_deg < first.normal_range_deg
+    const against = !zero.is_neutral ? `no clinical range, as zero is ${zero.from === "as_given" ? "the pose of the scan" : "not known to be neutral"}` : first.normal_range_deg !== null && first.limit_deg < first.normal_range_deg
       ? `${(first.normal_range_deg - first.limit_deg).toFixed(0)}° short of the clinical ${first.normal_range_deg}°`
       : "no motion ends before its clinical range or the 27.9° of simulated healthy hips";
     assert.ok(rest.includes(`, ${against}, `), rest);

@@ -1,7 +1,8 @@
 import type { CoreClient } from "./core/client";
-import type { BothValues, Brushed, Coordinates, JointArrays, MotionFrames, Query, ShownQuantity, Turned } from "./core/protocol";
+import type { BothValues, Brushed, Coordinates, JointArrays, LiveLimit, MotionFrames, Query, ShownQuantity, Turned } from "./core/protocol";
 import { button, checkbox, found, html, named, shortened } from "./dom";
 import { post, warn } from "./messages";
+import { fixed } from "./numbers";
 import { blockOf, countOf, type Copied, type UserNotes } from "./notes_block";
 import { pageWith } from "./page_copy";
 import { Clearance } from "./panels/clearance";
@@ -12,6 +13,7 @@ import { FreeAngles } from "./panels/free_angles";
 import { actions, copyLink, headingOf, listenToKeys } from "./panels/header";
 import { JointFigures } from "./panels/joint_figures";
 import { licencesFold } from "./panels/licences";
+import { questionsOf } from "./panels/live_limits";
 import { MotionPanel } from "./panels/motion";
 import { NotesPanel } from "./panels/notes";
 import { numberFolds } from "./panels/numbers";
@@ -24,11 +26,11 @@ import { RecordedPanel, type Frame, type Loaded } from "./panels/recorded";
 import { fileName, poseLine, savePicture, saveSurfaces } from "./panels/saved_files";
 import { shapePanel } from "./panels/shape";
 import { StoredPoses } from "./panels/stored_poses";
-import { pinOf, ResultStrip } from "./panels/strip";
+import { pinOf, ResultStrip, type Extreme } from "./panels/strip";
 import type { Tabs } from "./panels/tabs";
 import { drawWorst } from "./panels/worst_picture";
 import { ZonePanel } from "./panels/zones";
-import { plannedByHand } from "./planned";
+import { changedByHand, ribbonOf } from "./planned";
 import { droppedMotion, recordedOf, type RecordedMotion } from "./recorded_motion";
 import { scopeOf, type MotionAnswer, type Report, type ReportText } from "./report";
 import { wrongOf } from "./result";
@@ -64,10 +66,10 @@ export class Page {
   private readonly scene: JointScene | null;
   private readonly display: DisplayPanel;
   private readonly motion: MotionPanel;
-  private readonly strip: ResultStrip;
+  private strip: ResultStrip;
   private readonly tabs: Tabs;
   private readonly figures: JointFigures;
-  private readonly paper: Paper;
+  private paper: Paper;
   private readonly address: ViewAddress;
   private readonly recorded: RecordedPanel | null;
   private readonly loaded: Loaded | null;
@@ -82,8 +84,10 @@ export class Page {
   private readonly stored: StoredPoses | null;
   private hasWorstPicture = false;
   private readonly strokes: Partial<Record<BodyName, { volume_mm3: number; areByHand: boolean }>> = {};
-  /// The report's text, with what strokes of the brush plan.
+  /// The report's text, as a change by hand has it.
   private shownText: ReportText;
+  /// Whether the address is of a joint that was changed by hand, elsewhere.
+  private isLinked = false;
   private readonly closed = new AbortController();
 
   /// `report` holds the arrays of figures and poses that a joint dropped on the page has not; `computes` if the core answers; `added` is
@@ -94,13 +98,12 @@ export class Page {
     this.shownText = text;
     this.address = new ViewAddress(text, () => ({
       at: this.motion.coordinates, display: this.display.state, zone: this.zones?.motion ?? "", camera: this.scene?.viewpoint ?? null,
+      isByHand: this.isLinked || this.shownText.by_hand !== undefined,
     }), this.closed.signal);
     const names = { fixed: named(text.joint.fixed), mobile: named(text.joint.mobile) };
-    const heading = headingOf(text);
     document.body.classList.toggle("set-up-wrongly", wrongOf(text.rom) !== null);
     document.title = words.pageTitle(shortened(text.title));
-    found("title").textContent = heading;
-    found("title").title = heading;
+    found("title").textContent = found("title").title = headingOf(text);
     this.scene = sceneOf(arrays, text.parts, words.sceneLabel(names.fixed, names.mobile));
     this.scene?.setJointRadius(text.rom?.bearing?.head?.radius_mm ?? null);
     this.motion = new MotionPanel(text, {
@@ -116,10 +119,7 @@ export class Page {
       motion, (frame) => this.showFrame(frame), this.scene && ((said) => this.pictureOfFrame(said))) : null;
     // A joint that is set up wrongly says that first.
     this.loaded = text.layers && wrongOf(text.rom) === null ? this.recorded?.loaded() ?? null : null;
-    const extremes = this.loaded?.figures ?? this.recorded?.extremes() ?? [], ofLoad = this.loaded?.sentence ?? null;
-    this.strip = new ResultStrip(
-      text, (motion) => this.motion.goToEnd(motion), (motion) => this.motion.canGo(motion), extremes, () => this.showFold("checks"), ofLoad);
-    found("strip-place").replaceChildren(this.strip.element);
+    this.strip = this.placedStrip();
     this.plan = report && text.plan && new PlanPanel(this.scene, report, text.plan, names);
     const { fixed: fixedCount, mobile: mobileCount } = this.counts();
     this.removed = this.plan && this.plan.values({ fixed: fixedCount[0], mobile: mobileCount[0] });
@@ -144,8 +144,7 @@ export class Page {
     if (compared) addPlanPanel(compared.element);
     if (this.plan) addPlanPanel(this.plan.element);
     if (shape) addPlanPanel(shape.element);
-    this.paper = new Paper(text, this.counts(), extremes, sweepOf(report), ofLoad);
-    found("paper").replaceChildren(this.paper.element);
+    this.paper = this.placedPaper();
     this.putNotesOnPaper();
     this.placeActions();
     this.listen();
@@ -160,7 +159,25 @@ export class Page {
     this.scene?.canvas.getContext("webgl2")?.getExtension("WEBGL_lose_context")?.loseContext();
     for (const place of ["scene", "strip-place", "view-tools", "legend-place", "side", "paper", "actions"]) found(place).replaceChildren();
     found("help").remove();
-    document.body.classList.remove("wide", "set-up-wrongly");
+    document.body.classList.remove("wide", "set-up-wrongly", "limits-wait");
+    document.body.dataset["byHand"] = "";
+  }
+
+  private placedStrip(): ResultStrip {
+    const strip = new ResultStrip(this.shownText, (motion) => this.motion.goToEnd(motion), (motion) => this.motion.canGo(motion),
+      this.extremes(), () => this.showFold("checks"), this.loaded?.sentence ?? null);
+    found("strip-place").replaceChildren(strip.element);
+    return strip;
+  }
+
+  private placedPaper(): Paper {
+    const paper = new Paper(this.shownText, this.counts(), this.extremes(), sweepOf(this.report), this.loaded?.sentence ?? null);
+    found("paper").replaceChildren(paper.element);
+    return paper;
+  }
+
+  private extremes(): readonly Extreme[] {
+    return this.loaded?.figures ?? this.recorded?.extremes() ?? [];
   }
 
   /// Whether the page is about load: it opens on the recorded motion.
@@ -269,6 +286,7 @@ export class Page {
   private drawWorst(): void {
     if (!this.scene || this.loaded) return;
     drawWorst(this.text, this.arrays, this.closed.signal, (picture, caption) => {
+      if (this.shownText.by_hand) return;
       this.hasWorstPicture = true;
       this.paper.setPicture(picture, caption);
     });
@@ -281,7 +299,7 @@ export class Page {
 
   /// The view in the address; of a step back or forth the pose and the camera.
   private applyAddress(isStep = false): void {
-    const { coordinates, values, refused, display, zone, camera } = this.address.read();
+    const { coordinates, values, refused, display, zone, camera, isByHand } = this.address.read();
     if (refused.length) warn(refused.join(" "));
     if (camera && this.scene) this.scene.viewpoint = camera;
     if (this.computes) this.motion.step(values.slice(0, 3), values.slice(3));
@@ -289,7 +307,18 @@ export class Page {
     if (isStep) return;
     this.display.apply(display);
     this.zones?.show(zone);
+    this.isLinked = isByHand;
+    this.sayRibbon();
     if (this.opensOnLoad && Object.keys(coordinates).length === 0) this.recorded?.show(this.loaded?.frame ?? 0);
+  }
+
+  private sayRibbon(waits = false): void {
+    const ribbon = found("ribbon"), { by_hand } = this.shownText;
+    const said = [this.isLinked && !by_hand ? words.changedInLink : null, ribbonOf(this.shownText), waits ? words.limitsBefore : null].filter(Boolean).join(" · ");
+    ribbon.hidden = said === "";
+    ribbon.classList.toggle("by-hand", by_hand !== undefined && !ribbonOf(this.text));
+    ribbon.textContent = ribbon.title = said;
+    document.body.classList.toggle("limits-wait", waits);
   }
 
   /// The joint is ready in the worker; poses are answered from now on.
@@ -321,7 +350,8 @@ export class Page {
     core.askBearing();
     addEditPanels({
       core, scene: this.scene, text: this.text, arrays: this.arrays, report: this.report,
-      brushed: (brushed, rests) => this.takeBrushed(brushed, rests), turned: (turned, rests) => this.takeTurned(turned, rests),
+      brushed: (brushed, rests) => this.takeBrushed(brushed, rests), turned: (turned, rests, done) => this.takeTurned(turned, rests, done),
+      limited: (limits) => this.showChange(limits),
     });
     this.drawWorst();
   }
@@ -330,25 +360,44 @@ export class Page {
   private takeBrushed({ body, vertices, depths_mm, volume_mm3, steps }: Brushed, rests: boolean): void {
     this.scene?.replaceBody(body, vertices);
     this.strokes[body] = { volume_mm3, areByHand: steps !== (this.text.plan?.surfaces[body] ? 1 : 0) };
-    this.sayStrokes();
+    const { fixed: ofFixed, mobile } = this.strokes, gone = ([["fixed", ofFixed], ["mobile", mobile]] as const)
+      .flatMap(([each, by]) => (by?.volume_mm3 ? [words.volumeOf(fixed(by.volume_mm3, 1), named(this.text.joint[each]))] : []));
+    this.change(ofFixed?.areByHand || mobile?.areByHand ? words.afterStrokes(gone.join(" and ")) : null);
     if (this.removed) this.removed[body] = { shown: Float32Array.from(depths_mm), marks: Uint8Array.from(depths_mm, (mm) => (mm > 0 ? 1 : 0)) };
     if (rests) this.ask(this.motion.coordinates);
   }
 
-  /// After strokes the joint is a planned one, and the limits of strip and tiles are those before.
-  private sayStrokes(): void {
-    const has = Object.values(this.strokes).some(({ areByHand }) => areByHand), { joint } = this.text;
-    this.shownText = { ...this.text, joint: { ...joint, planned: has ? plannedByHand(joint, this.strokes) : joint.planned } };
-    for (const place of [found("title"), this.paper.element.querySelector("h1")!]) place.textContent = headingOf(this.shownText);
-    this.strip.setStrokes(has);
+  /// The joint is another one by hand, or the report's again: null. Limits shown are those before, until showChange().
+  private change(done: string | null): void {
+    this.shownText = done === null ? this.text : { ...this.text, by_hand: { done, before: this.shownText.by_hand?.before ?? this.text.rom!.motions }, rom: this.shownText.rom };
+    this.motion.markEnd(null);
+    this.leaveLimit();
+    document.body.dataset["byHand"] = done ?? "";
+    for (const each of document.querySelectorAll<HTMLElement>(".of-report")) {
+      each.querySelector("h2 .before")?.remove();
+      if ((each.dataset["of"] ?? "") !== (done ?? "")) each.querySelector("h2")?.append(html("span", { class: "before" }, words.beforeByHand));
+    }
+    this.sayRibbon(true);
+  }
+
+  /// All limits of the joint as it is now.
+  private showChange(limits: readonly LiveLimit[]): void {
+    const { by_hand } = this.shownText, known = questionsOf(this.text).map(({ motion }, i) => ({ motion, limit: limits[i]! }));
+    if (by_hand) this.shownText = changedByHand(this.text, by_hand.done, known);
+    this.strip = this.placedStrip();
+    this.motion.setReport(this.shownText);
+    this.paper = this.placedPaper();
+    this.hasWorstPicture = false;
+    this.putNotesOnPaper();
+    if (!by_hand) this.drawWorst();
+    this.sayRibbon();
   }
 
   /// The same for a joint whose parts turn: the bearing surface is found again.
-  private takeTurned({ fixed: fixedBody, mobile }: Turned, rests: boolean): void {
+  private takeTurned({ fixed: fixedBody, mobile }: Turned, rests: boolean, done: string): void {
     this.scene?.replaceBody("fixed", fixedBody);
     this.scene?.replaceBody("mobile", mobile);
-    this.motion.markEnd(null);
-    this.leaveLimit();
+    this.change(done ? words.afterTurning(done) : null);
     if (!rests) return;
     this.ask(this.motion.coordinates);
     this.core?.askBearing();
@@ -419,12 +468,12 @@ export class Page {
   /// The scene, once all of its colours belong to the pose requested last: the core answers in order.
   private async pictureOfFrame(said: string): Promise<Blob> {
     await this.core?.query({ of: "pose", at: this.motion.coordinates });
-    return this.scene!.picture(`${headingOf(this.shownText)} · ${said}`);
+    return this.scene!.picture(`${headingOf(this.shownText)} · ${said}`, ribbonOf(this.shownText));
   }
 
   /// The camera turns to a limit that was requested, and stays at one that a pose happens to be.
   private arrived(motion: MotionAnswer, requested: boolean): void {
-    this.scene?.arriveAt(motion.contact_point_mm, pinOf(motion, this.text), "mobile", requested ? "slowly" : "not");
+    this.scene?.arriveAt(motion.contact_point_mm, pinOf(motion, this.shownText), "mobile", requested ? "slowly" : "not");
     this.zones?.show(motion.name);
     this.strip.describe(motion);
   }

@@ -1,15 +1,18 @@
 import { ReportError } from "./checks";
 import { bytesOf, inflated } from "./packed";
 import type { BandRecord, LimitRecord } from "./records";
-import { checkedText, type Interval, type ReportText } from "./report_shape";
+import { checkedText, type Interval, type ReportText as StoredText } from "./report_shape";
 import { words } from "./words";
 
 /// Data that `condyle report` puts into the page; docs/report-data.md has every key. Their types are those of their checks.
 
+/// With what was done to the joint by hand, and its limits before: in no report.
+export type ReportText = StoredText & { by_hand?: { done: string; before: MotionAnswer[] } };
+
 type Of<Key extends keyof ReportText> = NonNullable<ReportText[Key]>;
 type Each<List extends readonly unknown[]> = List[number];
 
-export type { Interval, ReportText };
+export type { Interval };
 export type ArrayPlace = ReportText["arrays"][string];
 export type Band = Pick<BandRecord, "p5_deg" | "median_deg" | "p95_deg">;
 export type MotionAnswer = LimitRecord;

@@ -1,7 +1,8 @@
+import { named } from "./dom";
 import { fixed, plain, signed } from "./numbers";
 import type { Band, LimitDifference, MotionAnswer, ReportText, RomAnswer } from "./report";
 import { noteGrades } from "./records";
-import { words } from "./words";
+import { motionName, words } from "./words";
 
 /// What a note of the checks means for the numbers: docs/checks.md.
 export function gradeOf({ code }: { code: string }): "wrong" | "finding" | "remark" {
@@ -11,6 +12,41 @@ export function gradeOf({ code }: { code: string }): "wrong" | "finding" | "rema
 /// The note by which no number of the joint is to be believed; null if there is none.
 export function wrongOf(rom: RomAnswer | null): string | null {
   return rom?.notes.find((note) => gradeOf(note) === "wrong")?.text ?? null;
+}
+
+/// The notes beside the sentence, which has that of wrongOf().
+export function notesBeside(rom: RomAnswer | null): RomAnswer["notes"] {
+  const said = wrongOf(rom);
+  return (rom?.notes ?? []).filter(({ text }) => text !== said);
+}
+
+/// What zero is if it is the pose of the scan, or not known to be neutral; null for another one.
+export function zeroOf({ zero }: RomAnswer): string | null {
+  return zero?.from === "as_given" ? words.zeroOfScan : zero?.is_neutral === false ? words.zeroUnknown : null;
+}
+
+/// Whether a joint has limits; one that was changed by hand, those of the report.
+export function hasLimits({ rom, by_hand }: ReportText): boolean {
+  return (by_hand?.before ?? rom?.motions ?? []).some(({ reason }) => reason !== "contact_at_start");
+}
+
+/// "arc 161.0° with extension", from contact to contact: comparable wherever zero is.
+function arcText({ vary, sense, start_deg, limit_deg, reason }: MotionAnswer, motions: readonly MotionAnswer[], isNarrow: boolean): string {
+  const isSame = (start: Record<string, number>) => Object.entries(start_deg).every(([name, deg]) => start[name] === deg);
+  const opposite = motions.find((each) => each.vary === vary && each.sense !== sense && isSame(each.start_deg));
+  if (opposite?.reason !== "contact" || reason !== "contact") return "";
+  const arc = words.arc(fixed(limit_deg + opposite.limit_deg, 1));
+  return isNarrow ? arc : words.arcWith(arc, named(motionName(opposite.name.replace(/_at_.*/, ""))));
+}
+
+/// How much a motion lacks of its range in bone or in the clinic, or that range; and the total arc by `zero`, which is zeroOf(). One of them only if `isNarrow`.
+export function comparedText(motion: MotionAnswer, { motions }: RomAnswer, zero: string | null, isNarrow = false): string {
+  const lacks = deficitOf(motion), { normal_range_deg: clinical, bone_reference: bone } = motion;
+  const range = bone ? String(bone.healthy_deg) : clinical === null ? null : clinical.toFixed(0);
+  return [
+    ...(range === null ? [] : [lacks !== null ? words.short(lacks.toFixed(0), range) : bone ? words.healthyIs(range) : words.clinicalIs(range)]),
+    ...(zero && !(isNarrow && range !== null) ? [arcText(motion, motions, isNarrow)] : []),
+  ].filter(Boolean).join(" · ");
 }
 
 /// The headline of a joint's limits, and the rule that chooses it: docs/report.md, "The answer first".
@@ -33,7 +69,7 @@ export function worstOf(motions: readonly MotionAnswer[]): MotionAnswer | null {
     (worst, motion) => ((deficitOf(motion) ?? 0) > (worst ? deficitOf(worst)! : 0) ? motion : worst), null);
 }
 
-/// The motion that lacks most, or, if none lacks anything, the one nearest to its normal range; null if none has one.
+/// The motion that lacks most, or, if none lacks anything, the one nearest to its clinical range; null if none has one.
 function nearestToNormal(motions: readonly MotionAnswer[]): MotionAnswer | null {
   const beyond = ({ limit_deg, normal_range_deg }: MotionAnswer) => limit_deg - normal_range_deg!;
   const compared = motions.filter(({ normal_range_deg, reason }) => normal_range_deg !== null && reason === "contact");
@@ -42,7 +78,7 @@ function nearestToNormal(motions: readonly MotionAnswer[]): MotionAnswer | null 
 }
 
 /// The four of the strip: those of a hip examination, or else the first ones; and among the others the one that lacks most of its
-/// normal range, or is nearest to it, or else the next one.
+/// clinical range, or is nearest to it, or else the next one.
 export function firstFigures({ motions }: RomAnswer, isHip: boolean): MotionAnswer[] {
   const named = isHip ? ofHips.flatMap((name) => motions.find((motion) => motion.name === name) ?? []) : [];
   const shown = [...named, ...motions.filter((motion) => !named.includes(motion))].slice(0, shownFirst - 1);
@@ -83,11 +119,6 @@ export function bandText(motion: MotionAnswer): string {
 
 export function limitText(motion: MotionAnswer): string {
   return [limitAlone(motion), bandText(motion)].filter(Boolean).join(" ");
-}
-
-/// How far a motion's limit is from that of the joint before; null if the report has no such joint, or the difference is unknown.
-export function differenceOf({ before }: ReportText, motion: string): LimitDifference | null {
-  return before?.differences.find((each) => each.motion === motion && each.difference_deg !== null) ?? null;
 }
 
 /// "+12.3°", ">+12.3°" if the range ends without contact after, "<−12.3°" before.

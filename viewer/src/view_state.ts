@@ -22,6 +22,8 @@ export interface ViewState {
   /// Motion whose impingement zone is marked; none if empty.
   zone: string;
   camera: number[] | null;
+  /// Whether the joint was changed by hand, which no link carries.
+  isByHand: boolean;
 }
 
 const cameraNumbers = 6;
@@ -46,13 +48,13 @@ export function readViewState(fragment: string): Omit<ViewState, "coordinates"> 
       clip, clipAt_mm: clip === "none" ? 0 : (number(at) ?? 0),
     },
     zone: fields.get("zone") ?? "",
-    camera: camera.length === cameraNumbers && camera.every(Number.isFinite) ? camera : null,
+    camera: camera.length === cameraNumbers && camera.every(Number.isFinite) ? camera : null, isByHand: fields.has("by_hand"),
   };
 }
 
 /// Default values are left out. Coordinates keep all of their digits: the end of a motion is free, a hair beyond it
 /// is not.
-export function writeViewState({ coordinates, display, zone, camera }: ViewState): string {
+export function writeViewState({ coordinates, display, zone, camera, isByHand }: ViewState): string {
   const fields = new URLSearchParams();
   for (const [name, value] of Object.entries(coordinates)) fields.set(name, String(value));
   if (display.colour) fields.set("colour", display.colour);
@@ -62,5 +64,6 @@ export function writeViewState({ coordinates, display, zone, camera }: ViewState
   if (display.clip !== "none") fields.set("clip", `${display.clip}:${display.clipAt_mm}`);
   if (zone) fields.set("zone", zone);
   if (camera) fields.set("camera", camera.map((n) => n.toFixed(1)).join(","));
+  if (isByHand) fields.set("by_hand", "1");
   return `#${fields}`;
 }

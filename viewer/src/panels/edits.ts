@@ -1,5 +1,5 @@
 import type { CoreClient } from "../core/client";
-import type { Brushed, JointArrays, Turned } from "../core/protocol";
+import type { Brushed, JointArrays, LiveLimit, Turned } from "../core/protocol";
 import { named } from "../dom";
 import type { Report, ReportText } from "../report";
 import type { BodyName } from "../scene/body_names";
@@ -20,13 +20,15 @@ export interface Edited {
   report: Report | null;
   /// A bone has changed, or both bodies have; `rests` once the hand does.
   brushed: (brushed: Brushed, rests: boolean) => void;
-  turned: (turned: Turned, rests: boolean) => void;
+  turned: (turned: Turned, rests: boolean, done: string) => void;
+  /// The limits of the joint that was changed last, in the order of questionsOf().
+  limited: (limits: readonly LiveLimit[]) => void;
 }
 
 type Change = "parts" | "brush" | "centre";
 
 /// Panels that change the joint by hand, if limits are exact and no layers lie on the bones.
-export function addEditPanels({ core, scene, text, arrays, report, brushed, turned }: Edited): void {
+export function addEditPanels({ core, scene, text, arrays, report, brushed, turned, limited }: Edited): void {
   const { rom, layers, plan, joint, posed } = text;
   if (!rom || rom.exact === false || layers || questionsOf(text).length === 0) return;
   const changes: Record<Change, boolean> = { parts: false, brush: false, centre: false };
@@ -39,7 +41,7 @@ export function addEditPanels({ core, scene, text, arrays, report, brushed, turn
     for (const panel of [parts, parts.sweep]) if (panel) setBlocked(panel.element, first);
     for (const other of [brush, centre]) if (other) setBlocked(other.element, changes.parts ? words.partsFirst : null);
   };
-  const parts = posed ? new PartsPanel(core, scene, { text, arrays, posed, sweep: sweepOf(report), turned: (is) => mark("parts", is), changed: turned }) : null;
+  const parts = posed ? new PartsPanel(core, scene, { text, arrays, posed, sweep: sweepOf(report), turned: (is) => mark("parts", is), changed: turned, limited }) : null;
   const centre = joint.kind === "free" ? null : new CentrePanel(core, text, (is) => mark("centre", is));
   // A brush does not know an implant from bone.
   const brush = rom.implant ? null : new BrushPanel(core, scene, {
@@ -51,7 +53,10 @@ export function addEditPanels({ core, scene, text, arrays, report, brushed, turn
       mark("brush", strokes.fixed + strokes.mobile > 0);
       brushed(bone, rests);
     },
-    limited: (limits) => centre?.setBefore(limits),
+    limited: (limits) => {
+      centre?.setBefore(limits);
+      limited(limits);
+    },
   });
   for (const panel of [parts?.sweep, brush, parts, centre]) if (panel) addPlanPanel(panel.element);
 }

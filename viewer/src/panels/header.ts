@@ -1,15 +1,13 @@
 import { button, html, named, shortened } from "../dom";
-import { comparedFiles, plannedOf } from "../planned";
 import type { ReportText } from "../report";
 import { words } from "../words";
 
-/// "Right hip · femur / hip bone · date · version", beginning with the case if one was given, and with what is planned.
+/// "Right hip · femur / hip bone · date · version", beginning with the case if one was given.
 export function headingOf(text: ReportText): string {
-  const { joint, title, version, case: given, date } = text, planned = plannedOf(text), compared = comparedFiles(text);
+  const { joint, title, version, case: given, date } = text;
   const names = { fixed: named(joint.fixed), mobile: named(joint.mobile) };
   return [
-    ...(given ? [shortened(given)] : []), ...(planned ? [words.planned(planned)] : []), ...(compared ? [words.comparedTo(compared.before)] : []),
-    ...(title !== joint.name ? [shortened(title)] : []),
+    ...(given ? [shortened(given)] : []), ...(title !== joint.name ? [shortened(title)] : []),
     words.heading(words.sides[joint.side], words.anatomies[joint.anatomy], names), ...(date ? [shortened(date)] : []),
     ...(version ? [words.versionShown(version)] : []),
   ].join(" · ");

@@ -5,6 +5,7 @@ import { clockDrawing } from "../plots/clock";
 import { figure } from "../plots/figure";
 import { plateauOf, type Plateau } from "../plots/plateau";
 import type { MotionAnswer, ReportText } from "../report";
+import { hasLimits } from "../result";
 import { words } from "../words";
 import { figuresPanel } from "./figures";
 import { MapSection } from "./map_section";
@@ -21,10 +22,9 @@ export class JointFigures {
     text: ReportText, arrays: JointArrays, motion: MotionPanel, recorded: HTMLElement | null, computes: boolean, core: () => CoreClient | null) {
     const { rom, map, joint } = text;
     const go = computes || text.poses.length ? (to: MotionAnswer) => motion.goToEnd(to) : null;
-    const hasLimits = rom?.motions.some(({ reason }) => reason !== "contact_at_start") ?? false;
     const clock = rom && clockDrawing(rom.motions, rom.clock_plane, go);
     this.plateau = computes ? plateauOf(text, arrays) : null;
-    this.map = joint.kind !== "hinge" && (map || (computes && hasLimits)) ? new MapSection(text, motion, computes, core) : null;
+    this.map = joint.kind !== "hinge" && (map || (computes && hasLimits(text))) ? new MapSection(text, motion, computes, core) : null;
     this.element = figuresPanel([
       { key: "curves", figures: [...(this.plateau ? [this.plateau.element] : []), ...(recorded ? [recorded] : [])] },
       { key: "map", figures: [...(this.map ? [this.map.element] : []), ...(clock ? [clockSection(figure(clock))] : [])] },
@@ -34,6 +34,6 @@ export class JointFigures {
 
 function clockSection(drawn: HTMLElement): HTMLElement {
   const made = section(words.clock, drawn);
-  made.classList.add("clock-section");
+  made.classList.add("clock-section", "of-report");
   return made;
 }

@@ -1,5 +1,5 @@
 import type { CoreClient } from "../core/client";
-import type { Brushed, Edit, LimitQuestion, Turned } from "../core/protocol";
+import type { Brushed, Edit, LimitQuestion, LiveLimit, Turned } from "../core/protocol";
 import type { LiveLimits } from "./live_limits";
 
 export interface LiveEditHooks {
@@ -9,8 +9,8 @@ export interface LiveEditHooks {
   tables: () => readonly LiveLimits[];
   /// The core has made the edit; `rests` if no other one waits.
   edited: (changed: Brushed | Turned | null, rests: boolean) => void;
-  /// All limits are shown, so many milliseconds after the edit was sent.
-  shown: (took_ms: number, rests: boolean) => void;
+  /// All limits are known and shown, so many milliseconds after the edit was sent.
+  shown: (took_ms: number, rests: boolean, limits: readonly LiveLimit[]) => void;
   failed: (message: string) => void;
 }
 
@@ -27,16 +27,17 @@ export class LiveEdit {
   }
 
   private send(): void {
-    const { questions, hooks } = this, begun = performance.now();
+    const { questions, hooks } = this, begun = performance.now(), limits: LiveLimit[] = [];
     this.waits = false;
     this.isBusy = true;
     for (const table of hooks.tables()) table.wait();
     this.core.edit(hooks.edit(), questions, {
       edited: (changed) => hooks.edited(changed, !this.waits),
       limit: (i, limit) => {
+        limits[i] = limit;
         for (const table of hooks.tables()) table.showLimit(i, limit);
         if (i < questions.length - 1) return;
-        hooks.shown(performance.now() - begun, !this.waits);
+        hooks.shown(performance.now() - begun, !this.waits, limits);
         this.done();
       },
       failed: (message) => {

@@ -52,6 +52,7 @@ export class MapSection {
     this.angles = [angle(answer.columns.angle), angle(answer.rows.angle)];
     this.mark(this.motion.coordinates);
     this.element.append(this.plot.element);
+    this.element.classList.add("of-report");
   }
 
   private askButton(): HTMLButtonElement {
@@ -59,6 +60,7 @@ export class MapSection {
       const core = this.core();
       if (!core) return;
       ask.remove();
+      this.element.dataset["of"] = document.body.dataset["byHand"] ?? "";
       const question = { ...coarseMap(), held: this.text.rom?.held_translation_mm ?? this.text.reference_mm } satisfies MapQuestion;
       const [column, row, vary] = [question.columnAngle, question.rowAngle, question.vary].map((i) => this.text.coordinates[i]!);
       this.show({

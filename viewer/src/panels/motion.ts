@@ -2,7 +2,7 @@ import { button, html, named, spaced, svg } from "../dom";
 import type { Coordinates, Depth, Nearest, Shown } from "../core/protocol";
 import { fixed, plain } from "../numbers";
 import type { Interval, MotionAnswer, ReportText } from "../report";
-import { shownBand } from "../result";
+import { hasLimits, shownBand } from "../result";
 import { words } from "../words";
 import { NumberField } from "./angle_field";
 import { intervalAt, near_deg, nearestExit, stateOf, type PoseState } from "./free_angles";
@@ -52,7 +52,7 @@ export class MotionPanel {
   private readonly status: StatusChip;
   private readonly sliders: Slider[];
   private readonly translations: NumberField[] = [];
-  private readonly grid: ManoeuvreGrid | null;
+  private grid: ManoeuvreGrid | null;
   private readonly undoButton: HTMLButtonElement;
   private readonly refusal = html("p", { id: "refusal", role: "status" });
   private angles: [number, number, number];
@@ -67,7 +67,7 @@ export class MotionPanel {
   /// The motion at whose end the joint is.
   private end: MotionAnswer | null = null;
 
-  constructor(private readonly report: ReportText, private readonly hooks: MotionHooks) {
+  constructor(private report: ReportText, private readonly hooks: MotionHooks) {
     const { showStored } = hooks;
     this.angles = [...report.reference_deg];
     this.translation = [...report.reference_mm];
@@ -79,15 +79,23 @@ export class MotionPanel {
         html("div", { class: "track-place" }, track, input)));
     if (report.joint.kind === "free") rows.push(html("div", { class: "row translations" }, ...axes.map((axis) => this.moveAlong(axis))));
     this.sliders.forEach((slider, i) => this.write(slider, this.angles[i]!));
-    const motions = (report.rom?.motions ?? []).filter(({ reason }) => reason !== "contact_at_start");
-    this.grid = motions.length ? new ManoeuvreGrid(
-      report.rom!.motions, (motion) => this.goToEnd(motion), ({ name }) => this.hasPose(name), report.before ?? null) : null;
+    this.grid = this.gridOf(report);
     this.undoButton = button(words.undo, hooks.undo, { disabled: true, title: words.undoKey });
     this.element = html("section", { "aria-label": words.motion }, this.status.element, html("div", { class: "sliders" }, ...rows),
       html("div", { class: "row motion-row no-print" },
         button(words.reset, () => (showStored ? showStored("reference") : this.goTo([...report.reference_deg], () => undefined, report.reference_mm)),
           { disabled: !this.hasPose("reference") }), this.undoButton, this.refusal),
       ...(this.grid ? [...(report.rom!.held_translation_mm ? [html("h3", {}, words.heldLimits)] : []), this.grid.element] : []));
+  }
+
+  /// The joint is another one now.
+  setReport(report: ReportText): void {
+    const grid = this.gridOf(report);
+    if (grid) this.grid?.element.replaceWith(grid.element);
+    this.report = report;
+    this.grid = grid;
+    this.end = null;
+    this.drawStatus();
   }
 
   setUndo(can: boolean): void {
@@ -306,6 +314,12 @@ export class MotionPanel {
     const at = performance.now(), last = this.remembered, isNew = !last || by === null || by !== last.by || at - last.at > gesture_ms;
     this.remembered = { by, at };
     if (isNew) this.hooks.begins();
+  }
+
+  private gridOf(report: ReportText): ManoeuvreGrid | null {
+    const { rom } = report;
+    return rom && hasLimits(report)
+      ? new ManoeuvreGrid(report, rom, (motion) => this.goToEnd(motion), ({ name }) => this.hasPose(name)) : null;
   }
 
   private hasPose(name: string): boolean {

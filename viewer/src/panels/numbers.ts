@@ -1,7 +1,7 @@
 import { fold, html, named, shortened, spaced } from "../dom";
 import { fixed } from "../numbers";
 import type { MeshSource, MotionAnswer, PartParameter, ReportText, RomAnswer } from "../report";
-import { limitAlone, shownBand } from "../result";
+import { hasLimits, limitAlone, shownBand } from "../result";
 import { motionName, words } from "../words";
 import { lines, longestLine, table } from "./table";
 
@@ -16,8 +16,8 @@ export function numberFolds(
   const { joint, rom } = report;
   const folds = [fold(words.thisPose, true, ...ofPose)];
   if (rom) {
-    const hasLimits = rom.motions.some(({ reason }) => reason !== "contact_at_start");
-    if (hasLimits) folds.push(fold(words.limits, false, limitsTable(rom, joint)));
+    if (hasLimits(report)) folds.push(fold(words.limits, false, limitsTable(rom, joint)));
+    if (hasLimits(report)) folds.at(-1)!.classList.add("of-report");
     const notes = fold(words.notes, rom.notes.length > 0,
       rom.notes.length ? lines(rom.notes.map(({ code, text }) => `${text} (${code})`)) : html("p", {}, words.noNotes));
     notes.id = "checks";

@@ -3,13 +3,12 @@ import { clockDrawing } from "../plots/clock";
 import { limitsDrawing } from "../plots/limits";
 import { MapPlot } from "../plots/map";
 import { SweepMap } from "../plots/sweep_map";
-import { nowOf } from "../planned";
+import { fromBefore, ribbonOf } from "../planned";
 import { scopeOf, type ReportText } from "../report";
-import { bandText, firstFigures, limitAlone, headlineMotion } from "../result";
+import { bandText, comparedText, firstFigures, hasLimits, headlineMotion, notesBeside, zeroOf } from "../result";
 import { motionName, words } from "../words";
 import { comparisonTable } from "./compare";
 import { headingOf } from "./header";
-import { normalText } from "./manoeuvres";
 import { methodOf, sourcesOf } from "./numbers";
 import { planInShort } from "./plan";
 import { sentenceOf, type Extreme } from "./strip";
@@ -26,31 +25,32 @@ export class Paper {
     text: ReportText, counts: { fixed: [number, number]; mobile: [number, number] }, extremes: readonly Extreme[], sweep: ShownSweep | null,
     ofLoad: string | null) {
     const { rom, map } = text, isHip = text.joint.anatomy === "hip" && text.joint.kind !== "hinge";
-    const headline = rom ? headlineMotion(rom, isHip) : null, hasLimits = rom?.motions.some(({ reason }) => reason !== "contact_at_start") ?? false;
-    const figures = rom && hasLimits && ofLoad === null
+    const headline = rom ? headlineMotion(rom, isHip) : null, isLimited = hasLimits(text);
+    const figures = rom && isLimited && ofLoad === null
       ? firstFigures(rom, isHip).map((motion) =>
-        [motionName(motion.name), limitAlone(motion), [nowOf(text, motion), bandText(motion)].filter(Boolean).join("; "), normalText(motion)] as const)
+        [motionName(motion.name), fromBefore(text, motion), bandText(motion), comparedText(motion, rom, zeroOf(rom))] as const)
       : extremes.map(({ name, value, at }) => [name, value, "", at] as const);
-    const clock = rom && clockDrawing(rom.motions, rom.clock_plane, null);
-    const notes = rom?.notes ?? [], compared = comparisonTable(text);
+    // Hours are those of the report.
+    const clock = rom && !text.by_hand && clockDrawing(rom.motions, rom.clock_plane, null);
+    const notes = notesBeside(rom), compared = comparisonTable(text), ribbon = ribbonOf(text);
     const scope = html("p", { class: "small" }, words.scope(scopeOf(text)));
-    const first = html("div", { class: "sheet" }, html("h1", {}, headingOf(text)),
+    const first = html("div", { class: "sheet" }, html("h1", {}, headingOf(text)), ...(ribbon ? [html("p", { class: "ribbon" }, ribbon)] : []),
       ...(text.note ? [html("p", {}, text.note)] : []),
       html("div", { class: "paper-results" }, ...figures.map(([name, value, band, normal]) =>
         html("div", {}, html("span", {}, named(name)), html("b", {}, value), html("span", {}, [band, normal].filter(Boolean).join("; "))))),
       html("p", {}, ofLoad ??
-        (hasLimits && headline ? sentenceOf(headline, text) : rom ? words.noLimitsInContact : words.noLimits + (text.rom_error ?? ""))),
+        (isLimited && headline ? sentenceOf(headline, text) : rom ? words.noLimitsInContact : words.noLimits + (text.rom_error ?? ""))),
       ...(notes.length ? [html("p", { class: "warning" }, html("b", {}, words.noted(notes.length)), " ", notes.map((note) => note.text).join("; "))] : []),
       html("div", { class: "paper-picture" }, this.image, this.caption),
-      ...(hasLimits && rom!.held_translation_mm ? [html("h3", {}, words.heldLimits)] : []),
-      ...(rom && hasLimits ? [html("div", { class: "paper-figures" }, drawn(limitsDrawing(rom.motions, null)), ...(clock ? [drawn(clock)] : []))] : []),
+      ...(isLimited && rom!.held_translation_mm ? [html("h3", {}, words.heldLimits)] : []),
+      ...(rom && isLimited ? [html("div", { class: "paper-figures" }, drawn(limitsDrawing(rom.motions, null)), ...(clock ? [drawn(clock)] : []))] : []),
       ...(text.plan
         ? [html("div", { class: "paper-plan" }, ...planInShort(text.plan, { fixed: named(text.joint.fixed), mobile: named(text.joint.mobile) }))]
         : []),
       ...(compared ? [compared] : []), scope);
     const filesBefore = text.before?.rom?.provenance;
     const second = html("div", { class: "sheet" },
-      ...(map ? [html("div", { class: "paper-map" }, new MapPlot(map, null, "paper-").element)] : []),
+      ...(map && !text.by_hand ? [html("div", { class: "paper-map" }, new MapPlot(map, null, "paper-").element)] : []),
       ...(sweep ? [html("h2", {}, words.sweep), zoneOf(sweep, text)] : []),
       html("h2", {}, words.method), ...methodOf(text, counts),
       ...(rom?.provenance ? [html("h2", {}, words.sourceFiles), ...sourcesOf(rom.provenance)] : []),

@@ -1,5 +1,5 @@
 import type { CoreClient } from "../core/client";
-import type { Details, JointArrays, Turned } from "../core/protocol";
+import type { Details, JointArrays, LiveLimit, Turned } from "../core/protocol";
 import { button, checkbox, html, section } from "../dom";
 import { jointFileOf, meshFilesOf, stlOf } from "../joint_file";
 import type { ReportText, StoredPosed } from "../report";
@@ -22,8 +22,9 @@ export interface PartsOptions {
   sweep: ShownSweep | null;
   /// Parts are to stand otherwise than in the report, or as there again.
   turned: (isTurned: boolean) => void;
-  /// Both bodies are these now; `rests` once no other value waits.
-  changed: (turned: Turned, rests: boolean) => void;
+  /// Both bodies are these now, by the values of `done`, none as in the report; `rests` once no other value waits.
+  changed: (turned: Turned, rests: boolean, done: string) => void;
+  limited: (limits: readonly LiveLimit[]) => void;
 }
 
 /// Sliders of the joint's parts: every value is set as `--set` sets it, and each motion is shown before and after, live. What turned is seen where it was, as
@@ -49,8 +50,9 @@ export class PartsPanel {
       edit: () => ({ of: "parts", values: this.textOf(this.rows.filter(({ isTurned }) => isTurned)) }),
       tables: () => this.tables,
       edited: (turned, rests) => this.take(turned as Turned, rests),
-      shown: (took_ms, rests) => {
+      shown: (took_ms, rests, limits) => {
         this.took.textContent = words.tookAll(took_ms.toFixed(0));
+        if (rests) options.limited(limits);
         if (rests) this.element.dataset["allAfter"] = took_ms.toFixed(1);
       },
       failed: (message) => (this.said.textContent = message),
@@ -116,7 +118,7 @@ export class PartsPanel {
 
   private take(turned: Turned, rests: boolean): void {
     this.now = turned;
-    this.options.changed(turned, rests);
+    this.options.changed(turned, rests, this.textOf(this.rows.filter(({ isTurned }) => isTurned)));
     this.showGhosts();
   }
 

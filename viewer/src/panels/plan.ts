@@ -39,7 +39,7 @@ export class PlanPanel {
     names: Record<BodyName, string>) {
     const { cuts, limits, measures, curve, resection_notes, caveats } = plan;
     this.deepest_mm = Math.max(0, ...cuts.map((cut) => cut.deepest_mm));
-    const parts: HTMLElement[] = [html("p", {}, words.withoutBone), ...planInShort(plan, names)];
+    const parts: HTMLElement[] = planInShort(plan, names);
     if (scene && cuts.length)
       parts.push(html("div", { class: "row no-print" }, checkbox(words.showRemoved, false, (on) => this.showRemoved(on))));
     const drawing = planCurveDrawing(curve);

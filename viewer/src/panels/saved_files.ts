@@ -1,6 +1,7 @@
 import type { Coordinates } from "../core/protocol";
 import { shortened, spaced } from "../dom";
 import { fixed } from "../numbers";
+import { ribbonOf } from "../planned";
 import type { ReportText } from "../report";
 import { saveBlob } from "../save";
 import type { JointScene } from "../scene/scene";
@@ -16,10 +17,10 @@ export function poseLine({ coordinates, joint }: ReportText, { angles }: Coordin
   return coordinates.slice(0, joint.kind === "hinge" ? 1 : 3).map(({ name }, i) => `${spaced(name)} ${fixed(angles[i]!, 1)}°`).join(", ");
 }
 
-/// The scene under its heading and the joint's pose.
+/// The scene under its heading and the joint's pose, and the ribbon.
 export async function savePicture(scene: JointScene, text: ReportText, at: Coordinates): Promise<void> {
   const title = `${headingOf(text)} · ${poseLine(text, at)}`;
-  const blob = await scene.picture(title);
+  const blob = await scene.picture(title, ribbonOf(text));
   saveBlob(`${fileName(text)}.png`, blob);
 }
 

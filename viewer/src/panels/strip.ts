@@ -1,12 +1,11 @@
 import { button, html, named, shortened, spaced } from "../dom";
 import { clockTime, fixed } from "../numbers";
+import { fromBefore, isPlanned } from "../planned";
 import type { Nearest } from "../core/protocol";
-import { nowOf, plannedOf } from "../planned";
 import type { MotionAnswer, ReportText, RomAnswer } from "../report";
-import { bandText, deficitOf, differenceOf, differenceText, firstFigures, limitAlone, gradeOf, limitText, headlineMotion, worstOf, wrongOf } from "../result";
+import { bandText, comparedText, deficitOf, firstFigures, gradeOf, hasLimits, headlineMotion, limitAlone, notesBeside, worstOf, wrongOf, zeroOf } from "../result";
 import type { BodyName } from "../scene/body_names";
 import { motionName, words } from "../words";
-import { normalText } from "./manoeuvres";
 
 /// A figure of the strip that is not a limit: the largest value of a curve.
 export interface Extreme {
@@ -38,14 +37,14 @@ export function nearestText(nearest: readonly Nearest[], text: ReportText): stri
 }
 
 /// The contact at the end of a motion and its hour, if known.
-export function placeOf(motion: MotionAnswer, { joint, rom }: ReportText): string {
+export function placeOf(motion: MotionAnswer, text: ReportText): string {
   if (motion.reason !== "contact") return "";
-  const { features, clock_hour, contact_side } = motion;
+  const { features, clock_hour, contact_side, contact_point_mm } = motion, { joint, rom } = text, isRim = clock_hour !== null || isAtRim(contact_point_mm, text);
   const fixedPart = features?.fixed.part, mobilePart = features?.mobile.part, isHip = joint.anatomy === "hip";
-  const meets = !fixedPart && !mobilePart && isHip && clock_hour !== null ? words.neckOnRim
+  const meets = !fixedPart && !mobilePart && isHip && isRim ? words.neckOnRim
     : words.meshOn(spaced(named(mobilePart ?? joint.mobile)), spaced(named(fixedPart ?? joint.fixed)));
   if (clock_hour !== null) return words.atHour(meets, clockTime(clock_hour));
-  return [meets, contact_side, isHip && rom?.bearing?.head ? words.awayFromRim : null].filter(Boolean).join(", ");
+  return [meets, contact_side, isHip && rom?.bearing?.head && !isRim ? words.awayFromRim : null].filter(Boolean).join(", ");
 }
 
 /// "1:08, neck on rim"
@@ -59,7 +58,7 @@ export function pinOf(motion: MotionAnswer, text: ReportText): string {
 export function sentenceOf(motion: MotionAnswer, report: ReportText): string {
   const sentence = sentenceOnEnd(motion, report), wrong = wrongOf(report.rom);
   if (wrong !== null) return words.wrongSentence(shortened(wrong, 300));
-  return plannedOf(report) ? words.plannedSentence(sentence) : sentence;
+  return isPlanned(report) ? words.plannedSentence(sentence) : sentence;
 }
 
 function sentenceOnEnd(motion: MotionAnswer, report: ReportText): string {
@@ -67,19 +66,19 @@ function sentenceOnEnd(motion: MotionAnswer, report: ReportText): string {
   if (motion.reason === "contact_at_start") return words.startsInContactSentence(name);
   if (motion.translation_ends) return words.translationSentence(name, limitAlone(motion));
   if (motion.reason === "end_of_range") return words.freeSentence(name, fixed(motion.limit_deg, 0));
-  const held = report.rom!.held_translation_mm ? words.held : null;
-  return words.endsSentence(name, limitText(motion), nowOf(report, motion), held, compared(motion, report.rom!), placeOf(motion, report));
+  const limit = [fromBefore(report, motion), bandText(motion)].filter(Boolean).join(" "), held = report.rom!.held_translation_mm ? words.held : null;
+  return words.endsSentence(name, limit, held, compared(motion, report.rom!), placeOf(motion, report));
 }
 
 /// What a limit is short of, or that no limit of the joint is short. Soft tissue ends motions that bone leaves free: no limit is beyond a
 /// clinical range.
-function compared(motion: MotionAnswer, { motions, zero }: RomAnswer): string {
+function compared(motion: MotionAnswer, rom: RomAnswer): string {
   const { normal_range_deg: clinical, bone_reference: bone, limit_deg } = motion, lacks = deficitOf(motion);
-  if (zero?.is_neutral === false) return words.notFromNeutral;
+  if (rom.zero?.is_neutral === false) return words.notFromNeutral(zeroOf(rom)!);
   if (bone && (lacks !== null || limit_deg < bone.healthy_deg)) return words.boneEnds(bone, lacks !== null);
   if (lacks !== null) return words.lacks(fixed(lacks, 0), fixed(clinical!, 0));
-  if (!worstOf(motions) && motions.some((each) => each.normal_range_deg !== null))
-    return words.noneShort(motions.find((each) => each.limit_deg >= (each.bone_reference?.healthy_deg ?? Infinity))?.bone_reference);
+  if (!worstOf(rom.motions) && rom.motions.some((each) => each.normal_range_deg !== null))
+    return words.noneShort(rom.motions.find((each) => each.limit_deg >= (each.bone_reference?.healthy_deg ?? Infinity))?.bone_reference);
   return clinical === null ? words.noClinical : words.clinicalIs(fixed(clinical, 0));
 }
 
@@ -91,32 +90,26 @@ function capital(text: string): string {
 export class ResultStrip {
   readonly element: HTMLElement;
   private readonly sentence = html("p", { id: "sentence", "aria-live": "polite" });
-  private said = "";
-  private hasStrokes = false;
   private readonly cards = new Map<string, HTMLButtonElement>();
 
   constructor(
     private readonly report: ReportText, go: (motion: MotionAnswer) => void, canGo: (motion: MotionAnswer) => boolean, extremes: readonly Extreme[],
     showNotes: () => void, ofLoad: string | null) {
     const { rom } = report, isHip = report.joint.anatomy === "hip" && report.joint.kind !== "hinge";
-    const hasLimits = ofLoad === null && rom !== null && rom.motions.some(({ reason }) => reason !== "contact_at_start");
-    const cards = hasLimits
+    const isLimited = ofLoad === null && hasLimits(report), cards = rom && isLimited
       ? firstFigures(rom, isHip).map((motion) => {
         const lacks = deficitOf(motion) !== null;
-        const made = card(motionName(motion.name), limitAlone(motion), bandText(motion), normalText(motion), () => go(motion), !canGo(motion));
+        const made = card(motionName(motion.name), fromBefore(report, motion), bandText(motion), comparedText(motion, rom, zeroOf(rom)), () => go(motion), !canGo(motion));
         made.classList.toggle("short", lacks);
-        const difference = differenceOf(report, motion.name), now = nowOf(report, motion);
-        if (now) made.querySelector(".result-value")?.append(" ", html("span", { class: "result-difference", title: words.beforePlan }, now));
-        if (difference) made.querySelector(".result-value")?.append(" ", html("span", { class: "result-difference", title: words.toBefore }, differenceText(difference)));
         this.cards.set(motion.name, made);
         return made;
       })
       : extremes.map(({ name, value, at, go: show }) => card(name, value, "", at, show, false));
-    const headline = rom && hasLimits ? headlineMotion(rom, isHip) : null;
+    const headline = rom && isLimited ? headlineMotion(rom, isHip) : null;
     this.sentence.classList.toggle("wrong", headline !== null && wrongOf(rom) !== null);
     this.say(ofLoad ??
       (headline ? sentenceOf(headline, report) : rom ? words.noLimitsInContact : words.noLimits + shortened(report.rom_error ?? "", 300)));
-    const notes = rom?.notes ?? [];
+    const notes = notesBeside(rom);
     this.element = html("section", { id: "strip", "aria-label": words.result },
       ...(cards.length ? [html("div", { id: "results" }, ...cards)] : []),
       html("div", { id: "said" }, this.sentence, ...(report.note ? [html("p", { id: "note", class: "quiet" }, shortened(report.note, 500))] : [])),
@@ -132,15 +125,8 @@ export class ResultStrip {
     }
   }
 
-  /// Whether strokes of the brush have changed the joint since these limits.
-  setStrokes(on: boolean): void {
-    this.hasStrokes = on;
-    this.say(this.said);
-  }
-
   private say(sentence: string): void {
-    this.said = sentence;
-    this.sentence.textContent = this.hasStrokes ? words.beforeStrokes(sentence) : sentence;
+    this.sentence.textContent = sentence;
   }
 
   /// The sentence stays; no figure is marked once the joint leaves the end of a motion.

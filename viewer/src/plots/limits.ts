@@ -15,7 +15,7 @@ export function mostOf(motions: readonly MotionAnswer[]): number {
   return Math.max(10, ...motions.map((m) => Math.max(m.limit_deg, m.band?.p95_deg ?? 0, m.normal_range_deg ?? 0)));
 }
 
-/// How far a motion goes as a bar, with its band and the normal range, on a line as wide as its place.
+/// How far a motion goes as a bar, with its band and the clinical range, on a line as wide as its place.
 export function limitBar(motion: MotionAnswer, most: number): SVGSVGElement {
   const x = (deg: number) => (100 * Math.min(most, Math.max(0, deg))) / most;
   const picture = svg("svg", { viewBox: "0 0 100 10", preserveAspectRatio: "none", class: "limit-bar", "aria-hidden": "true" },
@@ -51,7 +51,7 @@ function cellsBefore({ rom, differences }: StoredBefore, name: string): (string 
   ];
 }
 
-/// A bar for each motion, with band, number and normal range: the limits on paper.
+/// A bar for each motion, with band, number and clinical range: the limits on paper.
 export function limitsDrawing(motions: readonly MotionAnswer[], go: ((motion: MotionAnswer) => void) | null): Drawing {
   const height = top + motions.length * rowHeight + bottom, numbers = 92;
   const x = scaleLinear([0, mostOf(motions)], [left, width - right - numbers]).nice(tickCount);

@@ -3,13 +3,14 @@ import type { ColourScale } from "./colour_scale";
 import { drawBar, drawSwatch, legendParts, tickTexts } from "./legend";
 import { placeOfLabel, scaleBarText, type Written } from "./overlay";
 
-const ink = "#1b1f24", paper = "#ffffff", pinPaper = "#fff8e1";
+const ink = "#1b1f24", paper = "#ffffff", pinPaper = "#fff8e1", ribbonGround = "#6a3d9a";
+const titleHeight = 34, ribbonHeight = 28;
 const font = (size: number, weight = "") => `${weight} ${size}px system-ui, sans-serif`;
 
-/// The scene on white paper with its title, letters, scale bar, legend and pin, at `ratio` pixels to one of the page.
+/// The scene on white paper with its title, ribbon, letters, scale bar, legend and pin, at `ratio` pixels to one of the page.
 export function composedPicture(
-  scene: HTMLCanvasElement, ratio: number, title: string, written: Written, scale: ColourScale | null): HTMLCanvasElement {
-  const head = title ? 34 : 0, { width, height } = written;
+  scene: HTMLCanvasElement, ratio: number, title: string, ribbon: string | null, written: Written, scale: ColourScale | null): HTMLCanvasElement {
+  const head = title ? titleHeight + (ribbon ? ribbonHeight : 0) : 0, { width, height } = written;
   const canvas = document.createElement("canvas");
   [canvas.width, canvas.height] = [Math.round(width * ratio), Math.round((height + head) * ratio)];
   const context = canvas.getContext("2d")!;
@@ -20,7 +21,13 @@ export function composedPicture(
   context.textBaseline = "middle";
   if (title) {
     context.font = font(16, "600");
-    context.fillText(title, 10, head / 2, width - 20);
+    context.fillText(title, 10, titleHeight / 2, width - 20);
+  }
+  if (title && ribbon) {
+    context.fillStyle = ribbonGround;
+    context.fillRect(0, titleHeight, width, ribbonHeight);
+    context.fillStyle = paper;
+    context.fillText(ribbon, 10, titleHeight + ribbonHeight / 2, width - 20);
   }
   context.translate(0, head);
   context.drawImage(scene, 0, 0, width, height);

@@ -290,15 +290,15 @@ export class JointScene {
     return this.renderer.domElement;
   }
 
-  /// The scene with a title, letters, scale bar, legend and pin, on white.
-  pictureCanvas(title: string): HTMLCanvasElement {
+  /// The scene with a title, ribbon, letters, scale bar, legend and pin, on white.
+  pictureCanvas(title: string, ribbon: string | null = null): HTMLCanvasElement {
     this.drawNow();
-    return composedPicture(this.canvas, this.renderer.getPixelRatio(), title, this.written(), this.scale);
+    return composedPicture(this.canvas, this.renderer.getPixelRatio(), title, ribbon, this.written(), this.scale);
   }
 
   /// The same as a PNG.
-  picture(title: string): Promise<Blob> {
-    const canvas = this.pictureCanvas(title);
+  picture(title: string, ribbon: string | null = null): Promise<Blob> {
+    const canvas = this.pictureCanvas(title, ribbon);
     return new Promise((resolve, reject) =>
       canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture"))), "image/png"));
   }
