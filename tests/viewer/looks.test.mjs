@@ -79,12 +79,14 @@ for (const [what, angles] of [["at zero", {}], ["on a tilted pose", { flexion: 4
       const best = scale.reduce((found, other, i) => (distance(other) < distance(scale[found]) ? i : found), 0);
       return { mm: -end + (2 * end * best) / (scale.length - 1), off: distance(scale[best]) };
     };
+    // At its end the scale fades into plain bone.
+    const isOnScale = ({ mm, off }) => off < 3 && mm < 0.7 * end;
     const seen = await pixels(page);
     const box = await page.locator("#scene > canvas").boundingBox();
     const coloured = [];
     for (let row = 0; row < seen.height - 150; row += 3)
       for (let column = 0; column < seen.width; column += 3)
-        if (seen.at(column, row)[3] === 255 && nearest(seen.at(column, row).slice(0, 3)).off < 3) coloured.push([column, row]);
+        if (seen.at(column, row)[3] === 255 && isOnScale(nearest(seen.at(column, row).slice(0, 3)))) coloured.push([column, row]);
     let compared = 0;
     for (let i = 0; i < 60; ++i) {
       const [column, row] = coloured[Math.floor(coloured.length * ((i * 0.618) % 1))];

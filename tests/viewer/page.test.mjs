@@ -161,7 +161,7 @@ test("a figure pressed shows where bone meets bone once the joint has turned the
   assert.equal(await page.getByLabel("Mark the impingement zone of").inputValue(), "fadir");
   await settled(page);
   const seen = await pixels(page);
-  const isContactPoint = (r, g, b) => r > 200 && g < 60 && b > 200, isZone = (r, g, b) => b > g + 20 && r > g + 10 && b > r + 10;
+  const isContactPoint = (r, g, b) => Math.hypot(r - 153, g - 51, b - 255) < 12, isZone = (r, g, b) => r > g + 25 && b > g + 15;
   await keep(page, "zone");
   assert.ok(region(seen, isContactPoint).count > 10, "the contact point");
   // The ring of the pin stands around the contact point.

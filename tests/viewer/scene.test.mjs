@@ -111,13 +111,13 @@ test("what is before is seen through", async () => {
   await page.context().close();
 });
 
-test("triangles in contact are magenta, the bearing surface green, and neither where it is not asked for", async () => {
+test("triangles in contact are violet, the bearing surface green, and neither where it is not asked for", async () => {
   const { page } = await openPage(browser, pathOf("scenario_3"));
   await viewOptions(page);
   await page.getByLabel("Colour", { exact: true }).selectOption("none");
   await page.getByLabel("Show hip bone").uncheck();
   await page.getByLabel("Shading").uncheck();
-  const isMarked = (r, g, b) => r > g + 60 && b > g + 60, isGreen = (r, g, b) => g > r + 15 && g > b;
+  const isMarked = (r, g, b) => r > g + 40 && b > r + 40, isGreen = (r, g, b) => g > r + 15 && g > b;
   const count = async (is) => region(await pixels(page), is).count;
   await settled(page);
   assert.equal(await count(isMarked), 0);

@@ -340,6 +340,7 @@ export class Page {
       values: (values) => this.show(values),
       depth: (depth) => this.motion.showDepth(depth),
       bearing: (triangles) => this.markBearing(triangles),
+      openness: (body, openness) => this.scene?.setOpenness(body, openness),
       mapPoint: (point, intervals) => this.figures.map?.set(point, intervals),
       failed: warn,
     });
@@ -348,6 +349,7 @@ export class Page {
     Object.assign(globalThis, { condyle: { query: (query: Query) => core.query(query), scene: this.scene } });
     this.moved(this.motion.coordinates);
     core.askBearing();
+    if (this.scene) core.askOpenness();
     addEditPanels({
       core, scene: this.scene, text: this.text, arrays: this.arrays, report: this.report,
       brushed: (brushed, rests) => this.takeBrushed(brushed, rests), turned: (turned, rests, done) => this.takeTurned(turned, rests, done),

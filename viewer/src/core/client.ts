@@ -10,6 +10,7 @@ export interface Answers {
   values(values: BothValues): void;
   depth(depth: Depth): void;
   bearing(triangles: Uint8Array): void;
+  openness(body: "fixed" | "mobile", openness: Uint8Array): void;
   mapPoint(point: number, intervals: [number, number, number, number][]): void;
   failed(message: string): void;
 }
@@ -124,6 +125,10 @@ export class CoreClient {
     this.say({ type: "bearing" });
   }
 
+  askOpenness(): void {
+    this.say({ type: "openness" });
+  }
+
   askMap(question: MapQuestion): void {
     this.say({ type: "map", question });
   }
@@ -195,6 +200,9 @@ export class CoreClient {
       }
       case "bearing":
         this.answers?.bearing(message.triangles);
+        return;
+      case "openness":
+        this.answers?.openness(message.body, message.openness);
         return;
       case "mapPoint":
         this.answers?.mapPoint(message.point, message.intervals);

@@ -294,7 +294,7 @@ export class CoreJoint {
     };
   }
 
-  private surface(ofFixed: number): Surface {
+  surface(ofFixed: number): Surface {
     const { core } = this.memory;
     const vertexCount = core._condyle_vertex_count(this.joint, ofFixed), count = core._condyle_triangle_count(this.joint, ofFixed);
     const vertices = core._malloc(24 * vertexCount), triangles = core._malloc(12 * count);

@@ -295,6 +295,8 @@ export type ToWorker =
   /// The limits are those after the edit, in this order.
   | { type: "edit"; id: number; edit: Edit; limits: LimitQuestion[] }
   | { type: "bearing" }
+  /// How open the surfaces are, once nothing else is to be answered, and again after each edit.
+  | { type: "openness" }
   | { type: "map"; question: MapQuestion };
 
 export type FromWorker =
@@ -314,4 +316,5 @@ export type FromWorker =
   | { type: "edited"; id: number; changed: Brushed | Turned | null; error: string }
   | { type: "editLimit"; id: number; number: number; limit: LiveLimit }
   | { type: "bearing"; triangles: Uint8Array }
+  | { type: "openness"; body: "fixed" | "mobile"; openness: Uint8Array }
   | { type: "mapPoint"; point: number; intervals: [number, number, number, number][] };

@@ -2,6 +2,7 @@ import { lineOf } from "./error_line";
 import { CoreJoint } from "./joint";
 import { blockOfJoint } from "./joint_file";
 import { CoreLabels } from "./labels";
+import { openness } from "./openness";
 import type { Edit, FromWorker, LimitQuestion, MapQuestion, Quantity, Query, QueryAnswer, ToWorker } from "./protocol";
 
 /// Answers in the order of visible effect: changes by hand, the latest pose, limits after the last change, then the pose's colours, its
@@ -17,6 +18,8 @@ let aboutPose: (() => void)[] = [];
 const edits: (() => void)[] = [];
 const afterEdit: (() => void)[] = [];
 const afterwards: (() => void)[] = [];
+/// What only makes the picture better: a piece of it while nothing is to be answered.
+let light: Generator<void> | null = null;
 
 function say(message: FromWorker, transfer: Transferable[] = []): void {
   (self as unknown as DedicatedWorkerGlobalScope).postMessage(message, transfer);
@@ -32,9 +35,14 @@ async function attempt(work: () => void | Promise<void>): Promise<void> {
 
 /// The worker's own turn of the event loop: a message waits no longer than one piece of work.
 const turns = new MessageChannel();
-turns.port1.onmessage = () => void attempt(next);
+let isTurnAsked = false;
+turns.port1.onmessage = () => {
+  isTurnAsked = false;
+  void attempt(next);
+};
 function soon(): void {
-  turns.port2.postMessage(null);
+  if (!isTurnAsked) turns.port2.postMessage(null);
+  isTurnAsked = true;
 }
 
 function next(): void {
@@ -52,9 +60,18 @@ function next(): void {
     // Last: it takes longest.
     if (shown.inContact) aboutPose.push(() => say({ type: "depth", id: asked.id, depth: joint!.depth(asked.at) }));
   } else {
-    (afterEdit.shift() ?? aboutPose.shift() ?? afterwards.shift())?.();
+    const work = afterEdit.shift() ?? aboutPose.shift() ?? afterwards.shift();
+    if (work) work();
+    else if (light?.next().done) light = null;
   }
-  if (latest || edits.length || afterEdit.length || aboutPose.length || afterwards.length) soon();
+  if (latest || edits.length || afterEdit.length || aboutPose.length || afterwards.length || light) soon();
+}
+
+function* lightOf(bones: CoreJoint): Generator<void> {
+  for (const [ofFixed, body] of (["mobile", "fixed"] as const).entries()) {
+    const open = yield* openness(bones.surface(ofFixed));
+    say({ type: "openness", body, openness: open }, [open.buffer as ArrayBuffer]);
+  }
 }
 
 function sayValues({ id, at }: PoseQuestion, quantity: Exclude<Quantity, "none">): void {
@@ -163,6 +180,10 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
       break;
     case "edit":
       askEdit(data.id, data.edit, data.limits);
+      light = lightOf(joint!);
+      break;
+    case "openness":
+      light = lightOf(joint!);
       break;
     case "bearing":
       afterwards.push(() => {

@@ -1,6 +1,6 @@
 import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Mesh, MeshLambertMaterial, type Plane } from "three";
 import type { Surface, Values } from "../core/protocol";
-import { BodyMaterial } from "./body_material";
+import { BodyMaterial, shadowMaterial } from "./body_material";
 
 /// Marks of vertices, as the components of an attribute.
 const marked = { bearing: 0, contact: 1, zone: 2 } as const;
@@ -35,6 +35,7 @@ export class SceneBody {
   private readonly ghosts = new Map<string, Mesh>();
   private readonly shown: BufferAttribute;
   private readonly mark: BufferAttribute;
+  private readonly cover: BufferAttribute;
   private readonly tints: BufferAttribute;
   private readonly hidden: BufferAttribute;
   private readonly markedVertices: Record<Marked, number[]> = { bearing: [], contact: [], zone: [] };
@@ -49,15 +50,19 @@ export class SceneBody {
     geometry.setIndex(new BufferAttribute(surface.triangles, 1));
     this.shown = dynamic(count);
     this.mark = dynamic(count);
+    this.cover = dynamic(count);
     this.tints = dynamic(count, 3);
     this.hidden = dynamic(count);
     const isCartilage = new BufferAttribute(new Float32Array(count), 1);
     for (const { first_vertex, vertices } of parts.filter(({ contact }) => contact !== "ends"))
       isCartilage.array.fill(1, first_vertex, first_vertex + vertices);
-    Object.entries({ shown: this.shown, mark: this.mark, tints: this.tints, hidden: this.hidden, isCartilage })
+    const openness = new BufferAttribute(new Uint8Array(count).fill(255), 1, true);
+    Object.entries({ shown: this.shown, mark: this.mark, cover: this.cover, tints: this.tints, hidden: this.hidden, isCartilage, openness })
       .forEach(([name, attribute]) => geometry.setAttribute(name, attribute));
     geometry.computeVertexNormals();
     this.mesh = new Mesh(geometry, new BodyMaterial(bone, cartilage));
+    this.mesh.receiveShadow = true;
+    this.mesh.customDepthMaterial = shadowMaterial();
     this.veil = new Mesh(geometry, new BodyMaterial(bone, cartilage));
     this.veil.material.colorWrite = false;
     // Transparent bodies are drawn in this order.
@@ -100,9 +105,18 @@ export class SceneBody {
   /// Transparent bodies are drawn after what is behind them; `isVeiled` shows only the nearest surface of this one.
   setOpacity(opacity: number, isGlass: boolean, isVeiled: boolean): void {
     this.mesh.material.setOpacity(opacity, isGlass);
+    // Glass throws no shadow.
+    this.mesh.castShadow = opacity === 1 && !isGlass;
     this.veil.visible = isVeiled;
     this.veil.renderOrder = 1;
     this.mesh.renderOrder = opacity < 1 || isGlass ? 2 : 0;
+  }
+
+  /// How open the surface is at each vertex, 0 to 255: less light falls into hollows.
+  setOpenness(openness: Uint8Array): void {
+    const attribute = this.mesh.geometry.getAttribute("openness") as BufferAttribute;
+    attribute.array.set(openness);
+    attribute.needsUpdate = true;
   }
 
   /// Null: no colours.
@@ -111,10 +125,11 @@ export class SceneBody {
     if (values) {
       this.shown.array.set(values.shown);
       this.mark.array.set(values.marks);
+      this.coverBy(values.marks);
     } else {
       this.mark.array.fill(0);
     }
-    this.shown.needsUpdate = this.mark.needsUpdate = true;
+    this.shown.needsUpdate = this.mark.needsUpdate = this.cover.needsUpdate = true;
   }
 
   /// Marks the corners of these triangles only.
@@ -181,6 +196,21 @@ export class SceneBody {
   valueOf(vertex: number): { amount: number; isBound: boolean } | null {
     const mark = this.values?.marks[vertex] ?? 0;
     return mark === 0 ? null : { amount: this.values!.shown[vertex]!, isBound: mark === 2 };
+  }
+
+  /// Share of the corners of the triangles around each vertex that have a value.
+  private coverBy(marks: Uint8Array): void {
+    const { triangles } = this.surface, share = this.cover.array, corners = new Uint16Array(share.length);
+    share.fill(0);
+    for (let t = 0; t < triangles.length; t += 3) {
+      const [a, b, c] = [triangles[t]!, triangles[t + 1]!, triangles[t + 2]!];
+      const count = (marks[a]! > 0 ? 1 : 0) + (marks[b]! > 0 ? 1 : 0) + (marks[c]! > 0 ? 1 : 0);
+      for (const corner of [a, b, c]) {
+        share[corner]! += count;
+        corners[corner]! += 3;
+      }
+    }
+    for (let v = 0; v < share.length; ++v) share[v]! /= corners[v] || 1;
   }
 
   private tint(as: Marked, vertices: readonly number[], share: number): void {

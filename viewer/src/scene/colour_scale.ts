@@ -17,8 +17,12 @@ export interface ColourScale {
   colour(amount: number): string;
 }
 
+/// The fixed bone's own colour.
+export const plainBone = "#e6d9bd";
 /// Colours of marks that are not values, distinct from every colour of a scale for all eyes: docs/decisions/0018-the-page.md.
-export const contactColour = "#ff00ff", zoneColour = "#6900ff";
+export const contactColour = "#9933ff", zoneColour = "#ff00ff";
+/// A scale above which the bone stays plain fades into it from this share of its end on.
+export const plainFrom = 0.75;
 /// Colour of the stripes over an end's colour.
 export const stripeColour = "#ffffff";
 
@@ -31,6 +35,12 @@ export function colourScale(quantity: Exclude<ShownQuantity, "none">, end: numbe
     quantity, low: -end, high: end, plainAbove: true,
     colour: (amount) => (amount < 0 ? interpolateOrRd(0.4 + 0.6 * share(-amount)) : interpolateYlGnBu(1 - 0.9 * share(amount))),
   };
+}
+
+/// How much of a value's colour covers the bone: a scale above which it stays plain fades into it.
+export function strength({ plainAbove, high }: ColourScale, amount: number): number {
+  const past = Math.min(1, Math.max(0, (amount / high - plainFrom) / (1 - plainFrom)));
+  return plainAbove ? 1 - past * past * (3 - 2 * past) : 1;
 }
 
 /// The swatch of a value beyond the scale; null for one within.

@@ -1,6 +1,6 @@
 import { html } from "../dom";
 import { words } from "../words";
-import { stripeColour, tickText, type ColourScale } from "./colour_scale";
+import { plainBone, strength, stripeColour, tickText, type ColourScale } from "./colour_scale";
 
 const barSteps = 256;
 
@@ -19,7 +19,7 @@ export interface LegendParts {
   bound: Swatch | null;
 }
 
-const plainBone = "#d9cfb8", hatchDark = "#7c7c7c", hatchLight = "#c4c4c4";
+const hatchDark = "#7c7c7c", hatchLight = "#c4c4c4";
 
 export function legendParts(scale: ColourScale): LegendParts {
   const { quantity, low, high } = scale;
@@ -38,11 +38,15 @@ export function tickTexts({ low, high }: ColourScale, ticks: readonly number[]):
 }
 
 export function drawBar(context: CanvasRenderingContext2D, scale: ColourScale, x: number, y: number, width: number, height: number): void {
+  context.fillStyle = plainBone;
+  context.fillRect(x, y, width, height);
   for (let i = 0; i < barSteps; ++i) {
-    context.fillStyle = scale.colour(scale.low + ((scale.high - scale.low) * i) / (barSteps - 1));
-    const left = x + (width * i) / barSteps;
+    const amount = scale.low + ((scale.high - scale.low) * i) / (barSteps - 1), left = x + (width * i) / barSteps;
+    context.globalAlpha = strength(scale, amount);
+    context.fillStyle = scale.colour(amount);
     context.fillRect(left, y, x + (width * (i + 1)) / barSteps - left, height);
   }
+  context.globalAlpha = 1;
 }
 
 /// Drawn as on the surface.

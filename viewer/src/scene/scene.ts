@@ -1,12 +1,13 @@
-import { AmbientLight, Box3, DirectionalLight, Matrix4, Plane, Scene, Vector3, WebGLRenderer } from "three";
+import { Box3, Matrix4, Plane, Scene, Vector3, WebGLRenderer } from "three";
 import type { Surface } from "../core/protocol";
 import { Annotations, type Ring } from "./annotations";
 import { SceneBody, type Ghost, type Marked, type Part } from "./body";
 import { bodyNames, otherThan, type BodyName } from "./body_names";
-import type { ColourScale } from "./colour_scale";
+import { plainBone, type ColourScale } from "./colour_scale";
 import { directionOnto, type Standing } from "./contact_view";
 import { heightOfJoint, radiusOfNeighbours } from "./framing";
 import { aside, JointCamera } from "./joint_camera";
+import { Lights } from "./lights";
 import type { Marks } from "./measure_marks";
 import { SceneOverlay, type Written } from "./overlay";
 import { Picker, type Picked, type PickedPoint } from "./picking";
@@ -16,13 +17,15 @@ import { lettersOf, scaleBarLength, viewNamed, type Side, type Three } from "./v
 
 export type ClipAxis = "none" | "x" | "y" | "z";
 
-const boneColours = { fixed: "#d9cfb8", mobile: "#b9c7d6" };
+const boneColours = { fixed: plainBone, mobile: "#c0cddb" };
 /// Darker than the bone that carries it, of the same hue: colours of the scale stay those of values.
 const cartilageColours = { fixed: "#c2b186", mobile: "#8fa9c6" };
 
 /// The joint's sphere of a joint whose bones are apart, as a share of both bones' diagonal.
 const shareOfSize = 0.08;
 const contactPointShare = 0.05;
+/// The joint rests once it has stood so long.
+const rest_ms = 500;
 /// A scale bar is at most so long.
 const longestScaleBar_px = 130, shareOfWidth = 0.3;
 
@@ -31,6 +34,7 @@ export class JointScene {
   readonly bodies: Record<BodyName, SceneBody>;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
+  private readonly lights: Lights;
   private readonly overlay = new SceneOverlay();
   private readonly camera: JointCamera;
   private readonly annotations: Annotations;
@@ -45,6 +49,9 @@ export class JointScene {
   private foundRadius_mm: number | null = null;
   private fitted: "joint" | "all" = "joint";
   private hasPose = false;
+  private shade = 0;
+  /// A processor that draws in place of a graphics card draws shadows only of what rests.
+  private readonly isSlow: boolean;
 
   /// Throws if the browser has no WebGL.
   constructor(
@@ -67,10 +74,10 @@ export class JointScene {
     this.annotations = new Annotations(this.scene, this.bodies);
     this.picker = new Picker(canvas, this.bodies);
     this.camera = new JointCamera(canvas, () => this.draw());
-    const light = new DirectionalLight("white", 2.2);
-    light.position.set(0.4, 0.7, 1);
-    this.camera.perspective.add(light);
-    this.scene.add(this.camera.perspective, new AmbientLight("white", 1.1));
+    this.lights = new Lights(this.scene);
+    this.renderer.shadowMap.enabled = true;
+    const context = this.renderer.getContext(), names = context.getExtension("WEBGL_debug_renderer_info");
+    this.isSlow = /swiftshader|llvmpipe|software/i.test(String(context.getParameter(names?.UNMASKED_RENDERER_WEBGL ?? context.RENDERER)));
 
     new ResizeObserver(() => this.fit()).observe(place);
     drawWhenPrinted(place, () => this.pictureCanvas(""));
@@ -177,7 +184,7 @@ export class JointScene {
     this.scale = scale;
     if (scale) for (const body of Object.values(this.bodies)) body.mesh.material.setScale(scale);
     this.overlay.setScale(scale);
-    this.draw();
+    this.applyOpacities();
   }
 
   setShading(on: boolean): void {
@@ -222,6 +229,12 @@ export class JointScene {
 
   setPartVisible(name: BodyName, part: Part, visible: boolean): void {
     this.bodies[name].setPartVisible(part, visible);
+    this.draw();
+  }
+
+  /// How open a body's surface is at its vertices.
+  setOpenness(name: BodyName, openness: Uint8Array): void {
+    this.bodies[name].setOpenness(openness);
     this.draw();
   }
 
@@ -292,7 +305,7 @@ export class JointScene {
 
   /// The scene with a title, ribbon, letters, scale bar, legend and pin, on white.
   pictureCanvas(title: string, ribbon: string | null = null): HTMLCanvasElement {
-    this.drawNow();
+    this.drawNow(true);
     return composedPicture(this.canvas, this.renderer.getPixelRatio(), title, ribbon, this.written(), this.scale);
   }
 
@@ -314,15 +327,23 @@ export class JointScene {
     this.frameAsked = true;
     requestAnimationFrame(() => {
       this.frameAsked = false;
-      this.drawNow();
+      this.drawNow(!this.isSlow);
+      if (this.isSlow) {
+        clearTimeout(this.shade);
+        this.shade = window.setTimeout(() => this.drawNow(true), rest_ms / 2);
+      }
       document.documentElement.dataset["drawn"] ??= performance.now().toFixed(0);
     });
   }
 
   // -- inside -----------------------------------------------------------------------------------------------------------------------
 
-  private drawNow(): void {
-    this.renderer.render(this.scene, this.camera.drawing());
+  private drawNow(castsShadow: boolean): void {
+    const camera = this.camera.drawing(), radius_mm = this.jointRadius_mm;
+    this.lights.castsShadow = castsShadow;
+    this.lights.follow(this.camera.perspective, radius_mm);
+    for (const body of Object.values(this.bodies)) body.mesh.material.setPixel(this.renderer.getPixelRatio());
+    this.renderer.render(this.scene, camera);
     this.overlay.update(this.written());
   }
 
@@ -400,7 +421,9 @@ export class JointScene {
 
   /// If both bones are transparent, every surface is drawn; if one is, only its nearest surface. A bone shown by itself hides no other.
   private applyOpacities(): void {
-    const isGlass = (name: BodyName) => this.limit?.glass === name && this.opacities[name] === 1 && this.bodies[otherThan(name)].mesh.visible;
+    // Depths lie inside the other bone.
+    const glass = this.limit?.glass ?? (this.scale?.quantity === "depth" ? "fixed" : null);
+    const isGlass = (name: BodyName) => glass === name && this.opacities[name] === 1 && this.bodies[otherThan(name)].mesh.visible;
     const isSeenThrough = (name: BodyName) => isGlass(name) || this.opacities[name] < 1;
     const both = bodyNames.every(isSeenThrough);
     for (const name of bodyNames) this.bodies[name].setOpacity(this.opacities[name], isGlass(name), isSeenThrough(name) && !both);
