@@ -1,12 +1,16 @@
-// Light and colours of the scene: what makes bones readable.
+// Light, colours and the camera of the scene: what makes bones readable, and a camera that does not lose the joint.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { keep, openPage, pathOf, pixels, plain, region, settled, sharedBrowser, viewOptions } from "./browser.mjs";
+import { isFemur, keep, openPage, pathOf, pixels, plain, region, settled, sharedBrowser, turnTo, viewOptions } from "./browser.mjs";
 
 const browser = await sharedBrowser();
 
 const openness = (page) => page.waitForFunction(() =>
   ["fixed", "mobile"].every((body) => condyle.scene.bodies[body].mesh.geometry.getAttribute("openness").array.some((open) => open < 255)));
+const towards = (page) => page.evaluate(() => condyle.scene.camera.towards.toArray());
+const angle_deg = (a, b) => (Math.acos(Math.min(1, a.reduce((sum, x, k) => sum + x * b[k], 0))) * 180) / Math.PI;
+/// Longer than the rest after which the camera turns, and the turn.
+const turned_ms = 1500;
 
 test("less light falls into the socket than onto the outside of the hip bone, once the page has answered", async (t) => {
   const { page } = await openPage(browser, pathOf("sample"));
@@ -141,4 +145,62 @@ test("with depths the outer bone is glass", async () => {
   await page.getByLabel("Colour", { exact: true }).selectOption("gap");
   assert.equal(await isGlass(), false);
   await page.context().close();
+});
+
+// -- camera -------------------------------------------------------------------------------------------------------------------------
+
+test("bone far from the joint that stands before it is a ghost, and none is without one", async () => {
+  const { page } = await openPage(browser, pathOf("sample"), { fragment: "#flexion=90&camera=215,0,64,0,0,0" });
+  await plain(page);
+  const ghostRadius = (mm) => page.evaluate((radius_mm) => {
+    for (const { mesh } of Object.values(condyle.scene.bodies)) mesh.material.shared.ghostRadius.value = radius_mm;
+    condyle.scene.renderer.render(condyle.scene.scene, condyle.scene.camera.drawing());
+  }, mm);
+  const seen = await pixels(page);
+  await keep(page, "ghost");
+  await ghostRadius(1e6);
+  const solid = await pixels(page);
+  const [x, y] = await page.evaluate(() => condyle.scene.project([0, 0, 0]));
+  const radius_px = await page.evaluate(() => condyle.scene.project([0, condyle.scene.jointRadius_mm, 0])[1] - condyle.scene.project([0, 0, 0])[1]);
+  let all = 0, open = 0;
+  for (let dy = -Math.abs(radius_px); dy < Math.abs(radius_px); ++dy)
+    for (let dx = -Math.abs(radius_px); dx < Math.abs(radius_px); ++dx) {
+      const [column, row] = [Math.round(x + dx), Math.round(y + dy)];
+      if (Math.hypot(dx, dy) > Math.abs(radius_px) || column < 0 || row < 0 || column >= seen.width || row >= seen.height) continue;
+      ++all;
+      open += seen.at(column, row).some((value, k) => Math.abs(value - solid.at(column, row)[k]) > 4);
+    }
+  assert.ok(open > 0.3 * all, `${open} of ${all} pixels of the joint are seen past the shaft`);
+  await page.context().close();
+});
+
+test("at rest the camera turns along the motion to a joint that is hidden, and a camera that was placed stays", async () => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  await settled(page);
+  // Nothing turns while the head is seen.
+  const first = await towards(page);
+  await turnTo(page, { flexion: 10 });
+  await page.waitForTimeout(turned_ms);
+  assert.ok(angle_deg(await towards(page), first) < 0.1);
+  await page.context().close();
+  const hidden = "#flexion=120&adduction=30";
+  const { page: flexed } = await openPage(browser, pathOf("sample"), { fragment: hidden });
+  await settled(flexed);
+  await flexed.waitForTimeout(turned_ms);
+  const turned = await towards(flexed), axis = await flexed.evaluate(() => {
+    const m = condyle.scene.bodies.mobile.mesh.matrix.elements, [x, y, z] = [m[6] - m[9], m[8] - m[2], m[1] - m[4]], long = Math.hypot(x, y, z);
+    return [x / long, y / long, z / long];
+  });
+  const along = (direction) => direction.reduce((sum, x, k) => sum + x * axis[k], 0);
+  assert.ok(angle_deg(turned, first) > 5, `${angle_deg(turned, first)} degrees`);
+  assert.ok(Math.abs(along(turned) - along(first)) < 0.01, "in the plane of the motion");
+  await keep(flexed, "turned_to_the_joint");
+  await flexed.context().close();
+  for (const options of [{ fragment: `${hidden}&camera=224,0,0,0,0,0` }, { fragment: hidden, reducedMotion: "reduce" }]) {
+    const { page: other } = await openPage(browser, pathOf("sample"), options);
+    await settled(other);
+    await other.waitForTimeout(turned_ms);
+    assert.ok(angle_deg(await towards(other), first) < 0.1, JSON.stringify(options));
+    await other.context().close();
+  }
 });

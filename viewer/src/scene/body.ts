@@ -112,6 +112,11 @@ export class SceneBody {
     this.mesh.renderOrder = opacity < 1 || isGlass ? 2 : 0;
   }
 
+  /// As BodyMaterial.setMeasures().
+  setMeasures(radius_mm: number, pixel: number): void {
+    for (const { material } of [this.mesh, this.veil]) material.setMeasures(radius_mm, pixel);
+  }
+
   /// How open the surface is at each vertex, 0 to 255: less light falls into hollows.
   setOpenness(openness: Uint8Array): void {
     const attribute = this.mesh.geometry.getAttribute("openness") as BufferAttribute;

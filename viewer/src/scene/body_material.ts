@@ -3,6 +3,7 @@ import {
   type WebGLProgramParametersWithUniforms,
 } from "three";
 import { colourTable, contactColour, plainFrom, stripeColour, zoneColour, type ColourScale } from "./colour_scale";
+import { ghostShader } from "./ghost";
 
 const steps = 512;
 
@@ -29,6 +30,7 @@ export class BodyMaterial extends MeshLambertMaterial {
     plainAbove: { value: false },
     isFlat: { value: false },
     isGlass: { value: false },
+    ghostRadius: { value: 0 },
     pixel: { value: 1 },
     cartilageColour: { value: new Color() },
     contactColour: { value: new Color(contactColour) },
@@ -56,6 +58,8 @@ export class BodyMaterial extends MeshLambertMaterial {
           uniform vec3 stripeColour;
           varying float vShown; varying float vHasValue; varying float vCover; varying float vIsBound; varying vec3 vTints; varying float vCartilage;
           varying float vOpen;`)
+        .replace("void main() {", `${ghostShader}
+          void main() {`)
         .replace("#include <color_fragment>", `#include <color_fragment>
           if (vCartilage > 0.5) diffuseColor.rgb = cartilageColour;
           vec3 plain = diffuseColor.rgb;
@@ -98,6 +102,7 @@ export class BodyMaterial extends MeshLambertMaterial {
           #endif
           // As in condyle picture: least opaque where it faces the viewer.
           if (isGlass) diffuseColor.a = 0.2 + 0.6 * slant * slant;
+          if (isGhost(-vViewPosition, at, facing)) discard;
           #include <opaque_fragment>`);
     };
   }
@@ -118,8 +123,9 @@ export class BodyMaterial extends MeshLambertMaterial {
     this.shared.isFlat.value = !on;
   }
 
-  /// Pixels of the canvas to one of the page.
-  setPixel(pixel: number): void {
+  /// Radius of the joint's sphere, and pixels of the canvas to one of the page.
+  setMeasures(radius_mm: number, pixel: number): void {
+    this.shared.ghostRadius.value = radius_mm;
     this.shared.pixel.value = pixel;
   }
 

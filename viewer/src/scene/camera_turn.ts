@@ -10,7 +10,7 @@ export interface Viewpoint {
 /// Ends within 0.4 s, with a margin of one frame.
 const duration_ms = 340;
 
-function prefersStill(): boolean {
+export function prefersStill(): boolean {
   return matchMedia("(prefers-reduced-motion: reduce)").matches;
 }
 

@@ -1,6 +1,7 @@
 import { Raycaster, Vector2, type Camera, type Intersection } from "three";
 import type { SceneBody } from "./body";
 import type { BodyName } from "./body_names";
+import { isGhost } from "./ghost";
 
 /// The vertex under the pointer.
 export interface Picked {
@@ -19,7 +20,8 @@ export interface PickedPoint extends Picked {
 export class Picker {
   private readonly rays = new Raycaster();
 
-  constructor(private readonly canvas: HTMLCanvasElement, private readonly bodies: Record<BodyName, SceneBody>) {}
+  constructor(
+    private readonly canvas: HTMLCanvasElement, private readonly bodies: Record<BodyName, SceneBody>, private readonly radius_mm: () => number) {}
 
   /// The vertex nearest to the surface point under a point of the page; null if no bone is there.
   pick(event: { clientX: number; clientY: number }, camera: Camera): Picked | null {
@@ -43,6 +45,7 @@ export class Picker {
     for (const hit of this.rays.intersectObjects([this.bodies.fixed.mesh, this.bodies.mobile.mesh].filter((m) => m.visible), false)) {
       const body: BodyName = hit.object === this.bodies.fixed.mesh ? "fixed" : "mobile";
       const planes = this.bodies[body].mesh.material.clippingPlanes ?? [];
+      if (isGhost(hit.point, camera, this.radius_mm())) continue;
       if (planes.every((plane) => plane.distanceToPoint(hit.point) >= 0) && !this.bodies[body].isHidden(nearestCorner(hit))) return { body, hit };
     }
     return null;

@@ -1,10 +1,11 @@
-import { Box3, Matrix4, Plane, Scene, Vector3, WebGLRenderer } from "three";
+import { Box3, Matrix4, Plane, Quaternion, Scene, Vector3, WebGLRenderer } from "three";
 import type { Surface } from "../core/protocol";
 import { Annotations, type Ring } from "./annotations";
 import { SceneBody, type Ghost, type Marked, type Part } from "./body";
 import { bodyNames, otherThan, type BodyName } from "./body_names";
+import { prefersStill } from "./camera_turn";
 import { plainBone, type ColourScale } from "./colour_scale";
-import { directionOnto, type Standing } from "./contact_view";
+import { directionOnto, directionPast, type Standing } from "./contact_view";
 import { heightOfJoint, radiusOfNeighbours } from "./framing";
 import { aside, JointCamera } from "./joint_camera";
 import { Lights } from "./lights";
@@ -26,6 +27,8 @@ const shareOfSize = 0.08;
 const contactPointShare = 0.05;
 /// The joint rests once it has stood so long.
 const rest_ms = 500;
+/// A motion of less has no plane.
+const leastMotion_rad = 0.02;
 /// A scale bar is at most so long.
 const longestScaleBar_px = 130, shareOfWidth = 0.3;
 
@@ -49,7 +52,11 @@ export class JointScene {
   private foundRadius_mm: number | null = null;
   private fitted: "joint" | "all" = "joint";
   private hasPose = false;
+  /// Whether the page may turn the camera that it has placed.
+  private mayTurn = true;
+  private rest = 0;
   private shade = 0;
+  private rested = new Quaternion();
   /// A processor that draws in place of a graphics card draws shadows only of what rests.
   private readonly isSlow: boolean;
 
@@ -72,7 +79,7 @@ export class JointScene {
     this.bodies.mobile.mesh.matrixAutoUpdate = false;
     this.scene.add(this.bodies.fixed.mesh, this.bodies.mobile.mesh);
     this.annotations = new Annotations(this.scene, this.bodies);
-    this.picker = new Picker(canvas, this.bodies);
+    this.picker = new Picker(canvas, this.bodies, () => this.jointRadius_mm);
     this.camera = new JointCamera(canvas, () => this.draw());
     this.lights = new Lights(this.scene);
     this.renderer.shadowMap.enabled = true;
@@ -84,12 +91,14 @@ export class JointScene {
 
     this.fit();
     this.look("anterior");
+    this.mayTurn = true;
   }
 
   // -- where the camera stands ------------------------------------------------------------------------------------------------------
 
   /// Views the last fitted part from a side, by the name that `condyle picture --view` takes.
   look(view: string): void {
+    this.mayTurn = false;
     const { towardsViewer, up } = viewNamed(view, this.side);
     const towards = new Vector3(...towardsViewer);
     // Superior is up unless the view is along it: then the up vector decides to which side the camera is offset.
@@ -176,6 +185,8 @@ export class JointScene {
     if (!this.hasPose) this.standAtFirst();
     // The pose of a limit may come after its pin.
     if (this.limit && !mesh.matrix.equals(before)) this.turnToLimit();
+    clearTimeout(this.rest);
+    this.rest = window.setTimeout(() => this.turnPast(), rest_ms);
     this.draw();
   }
 
@@ -342,7 +353,7 @@ export class JointScene {
     const camera = this.camera.drawing(), radius_mm = this.jointRadius_mm;
     this.lights.castsShadow = castsShadow;
     this.lights.follow(this.camera.perspective, radius_mm);
-    for (const body of Object.values(this.bodies)) body.mesh.material.setPixel(this.renderer.getPixelRatio());
+    for (const body of Object.values(this.bodies)) body.setMeasures(radius_mm, this.renderer.getPixelRatio());
     this.renderer.render(this.scene, camera);
     this.overlay.update(this.written());
   }
@@ -411,6 +422,18 @@ export class JointScene {
     const to = { towards, ...this.fitting() };
     if (atOnce) this.camera.standFitted(to);
     else this.camera.turnFitted(to);
+  }
+
+  /// The joint rests: if what moved hides it, the camera turns along the motion to where it is seen, unless the user has placed it.
+  private turnPast(): void {
+    const now = new Quaternion().setFromRotationMatrix(this.bodies.mobile.mesh.matrix), { x, y, z, w } = now.clone().multiply(this.rested.invert());
+    this.rested = now;
+    const axis = new Vector3(x, y, z), { camera } = this;
+    if (2 * Math.atan2(axis.length(), Math.abs(w)) < leastMotion_rad) return;
+    if (!this.mayTurn || !camera.isFitted || camera.isTurning || this.limit || prefersStill()) return;
+    const shown = bodyNames.filter((name) => this.bodies[name].mesh.visible).map((name) => this.standing(name));
+    const towards = directionPast(camera.towards, axis.normalize(), this.jointRadius_mm, shown);
+    if (towards) camera.turnFitted({ towards, ...this.fitting() });
   }
 
   private standing(name: BodyName): Standing {
