@@ -1,5 +1,6 @@
 // Light, colours and the camera of the scene: what makes bones readable, and a camera that does not lose the joint.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { isFemur, keep, openPage, pathOf, pixels, plain, region, settled, sharedBrowser, turnTo, viewOptions } from "./browser.mjs";
 
@@ -203,4 +204,47 @@ test("at rest the camera turns along the motion to a joint that is hidden, and a
     assert.ok(angle_deg(await towards(other), first) < 0.1, JSON.stringify(options));
     await other.context().close();
   }
+});
+
+test("graphics that the browser takes away come back, with a line meanwhile", async () => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  await plain(page);
+  const before = region(await pixels(page), isFemur).count;
+  await page.evaluate(() => {
+    globalThis.lost = condyle.scene.canvas.getContext("webgl2").getExtension("WEBGL_lose_context");
+    globalThis.lost.loseContext();
+  });
+  const line = page.locator(".scene-lost");
+  await line.filter({ hasText: "graphics" }).waitFor();
+  await page.evaluate(() => globalThis.lost.restoreContext());
+  await line.filter({ hasNotText: "graphics" }).waitFor({ state: "attached" });
+  await settled(page);
+  const after = region(await pixels(page), isFemur).count;
+  assert.ok(Math.abs(after - before) < 0.02 * before, `${before} became ${after}`);
+  await page.context().close();
+});
+
+// -- pictures and first use ---------------------------------------------------------------------------------------------------------
+
+test("a saved picture is 2400 pixels wide or more, and the scene stays as it was", async () => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  await settled(page);
+  const size = () => page.evaluate(() => [condyle.scene.canvas.width, condyle.scene.canvas.height]);
+  const before = await size();
+  const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Picture", exact: true }).click()]);
+  const png = readFileSync(await download.path());
+  assert.ok(png.readUInt32BE(16) >= 2400, `${png.readUInt32BE(16)} pixels`);
+  assert.deepEqual(await size(), before);
+  await page.context().close();
+});
+
+test("one hint says what to do first, until something is done", async () => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  const hint = page.getByText("Drag the bones to turn them; press a figure");
+  assert.equal(await hint.isVisible(), true);
+  await page.locator("#scene > canvas").hover();
+  assert.equal(await hint.count(), 1);
+  await page.mouse.down();
+  assert.equal(await hint.count(), 0);
+  await page.context().close();
 });

@@ -11,6 +11,7 @@ import { DisplayPanel } from "./panels/display";
 import { addEditPanels, sweepOf } from "./panels/edits";
 import { FreeAngles } from "./panels/free_angles";
 import { actions, copyLink, headingOf, listenToKeys } from "./panels/header";
+import { hintAt } from "./panels/hint";
 import { JointFigures } from "./panels/joint_figures";
 import { licencesFold } from "./panels/licences";
 import { questionsOf } from "./panels/live_limits";
@@ -149,6 +150,7 @@ export class Page {
     this.placeActions();
     this.listen();
     this.applyAddress();
+    if (this.scene) hintAt(found("scene"));
   }
 
   /// Takes the page's parts away, so that another page can be made of the same joint.

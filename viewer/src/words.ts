@@ -192,6 +192,8 @@ export const words = {
   sceneLabel: (fixed: string, mobile: string) =>
     `The joint in three dimensions: ${fixed} and ${mobile}. Drag to turn, wheel or pinch to zoom, drag with two fingers or the ` +
     "right button to move; with the keyboard arrows turn, plus and minus zoom.",
+  firstHint: "Drag the bones to turn them; press a figure to go to its limit",
+  graphicsLost: "The browser has taken the graphics away: the scene comes back when it returns them.",
   scaleBar: (mm: number) => `${mm} mm`,
   scaleBarAtCentre: "at the centre",
   legendTitle: (quantity: string, unit: string) => `${quantity}, ${unit}`,

@@ -7,6 +7,9 @@ import { saveBlob } from "../save";
 import type { JointScene } from "../scene/scene";
 import { headingOf } from "./header";
 
+/// A saved picture is at least so wide, for print.
+const picture_px = 2400;
+
 /// Without its ending.
 export function fileName({ title }: ReportText): string {
   return shortened(title, 40).replaceAll(/[^\p{L}\p{N}]+/gu, "_");
@@ -20,7 +23,7 @@ export function poseLine({ coordinates, joint }: ReportText, { angles }: Coordin
 /// The scene under its heading and the joint's pose, and the ribbon.
 export async function savePicture(scene: JointScene, text: ReportText, at: Coordinates): Promise<void> {
   const title = `${headingOf(text)} · ${poseLine(text, at)}`;
-  const blob = await scene.picture(title, ribbonOf(text));
+  const blob = await scene.picture(title, ribbonOf(text), picture_px);
   saveBlob(`${fileName(text)}.png`, blob);
 }
 

@@ -44,12 +44,18 @@ export class SceneOverlay {
   private readonly ring = svg("circle", { r: 5, class: "ring" });
   private readonly pinDrawing = svg("svg", { class: "scene-pin-drawing", "aria-hidden": "true" }, this.leader, this.ring);
   private readonly pinLabel = html("div", { class: "scene-pin", role: "status" });
+  private readonly lost = html("p", { class: "scene-lost", role: "status" });
   private readonly numbers = html("div", { "aria-hidden": "true" });
 
   constructor() {
     this.pinLabel.hidden = true;
     this.element.append(
-      ...Object.values(this.letters), html("div", { class: "scene-scale" }, this.bar, this.barText), this.legend, this.numbers, this.pinDrawing, this.pinLabel);
+      ...Object.values(this.letters), html("div", { class: "scene-scale" }, this.bar, this.barText), this.legend, this.numbers, this.pinDrawing, this.pinLabel, this.lost);
+  }
+
+  /// A line while the browser has taken the graphics away.
+  setLost(isLost: boolean): void {
+    this.lost.textContent = isLost ? words.graphicsLost : "";
   }
 
   setScale(scale: ColourScale | null): void {

@@ -29,6 +29,8 @@ const contactPointShare = 0.05;
 const rest_ms = 500;
 /// A motion of less has no plane.
 const leastMotion_rad = 0.02;
+/// No side of a picture has more pixels: every browser draws so many.
+const mostPixels = 4096;
 /// A scale bar is at most so long.
 const longestScaleBar_px = 130, shareOfWidth = 0.3;
 
@@ -85,6 +87,11 @@ export class JointScene {
     this.renderer.shadowMap.enabled = true;
     const context = this.renderer.getContext(), names = context.getExtension("WEBGL_debug_renderer_info");
     this.isSlow = /swiftshader|llvmpipe|software/i.test(String(context.getParameter(names?.UNMASKED_RENDERER_WEBGL ?? context.RENDERER)));
+    canvas.addEventListener("webglcontextlost", () => this.overlay.setLost(true));
+    canvas.addEventListener("webglcontextrestored", () => {
+      this.overlay.setLost(false);
+      this.draw();
+    });
 
     new ResizeObserver(() => this.fit()).observe(place);
     drawWhenPrinted(place, () => this.pictureCanvas(""));
@@ -314,15 +321,21 @@ export class JointScene {
     return this.renderer.domElement;
   }
 
-  /// The scene with a title, ribbon, letters, scale bar, legend and pin, on white.
-  pictureCanvas(title: string, ribbon: string | null = null): HTMLCanvasElement {
+  /// The scene with a title, ribbon, letters, scale bar, legend and pin, on white; at least so many pixels wide.
+  pictureCanvas(title: string, ribbon: string | null = null, width_px = 0): HTMLCanvasElement {
+    const { renderer } = this, ratio = renderer.getPixelRatio(), { clientWidth: width, clientHeight: height } = this.place;
+    const fine = width_px ? Math.max(ratio, Math.min(width_px / width, mostPixels / Math.max(width, height))) : ratio;
+    renderer.setPixelRatio(fine);
     this.drawNow(true);
-    return composedPicture(this.canvas, this.renderer.getPixelRatio(), title, ribbon, this.written(), this.scale);
+    const picture = composedPicture(this.canvas, fine, title, ribbon, this.written(), this.scale);
+    renderer.setPixelRatio(ratio);
+    if (fine !== ratio) this.drawNow(true);
+    return picture;
   }
 
   /// The same as a PNG.
-  picture(title: string, ribbon: string | null = null): Promise<Blob> {
-    const canvas = this.pictureCanvas(title, ribbon);
+  picture(title: string, ribbon: string | null = null, width_px = 0): Promise<Blob> {
+    const canvas = this.pictureCanvas(title, ribbon, width_px);
     return new Promise((resolve, reject) =>
       canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture"))), "image/png"));
   }
