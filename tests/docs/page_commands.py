@@ -39,7 +39,7 @@ MARKER = re.compile(r"<!-- (run|exit|prints|leaves|says|same|append): (.*?) -->"
 OPTION = re.compile(r"(?<![\w-])--[a-z](?:[a-z-]*[a-z])?\b(?!-)")
 #: Their options are their own, on a line or in code that begins with one of these words.
 OTHER_PROGRAMS = ("cmake", "ctest", "snakemake", "sbatch", "pip", "pkg-config", "git", "node", "scripts/", "build/",
-                  "bench", "tar", "apptainer", "docker", "/usr/bin/python3", "PYTHONPATH", "CONDYLE", "python3 bench", "emcmake")
+                  "bench", "tar", "apptainer", "docker", "podman", "/usr/bin/python3", "PYTHONPATH", "CONDYLE", "python3 bench", "emcmake")
 
 
 #: Of Snakemake and of condyle-bench, where they stand without their program.
