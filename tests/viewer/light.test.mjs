@@ -187,7 +187,8 @@ test("at rest the camera turns along the motion to a joint that is hidden, and a
   const hidden = "#flexion=120&adduction=30";
   const { page: flexed } = await openPage(browser, pathOf("sample"), { fragment: hidden });
   await settled(flexed);
-  await flexed.waitForTimeout(turned_ms);
+  await flexed.waitForFunction((from) =>
+    condyle.scene.camera.towards.toArray().some((x, k) => Math.abs(x - from[k]) > 0.05) && !condyle.scene.camera.isTurning, first);
   const turned = await towards(flexed), axis = await flexed.evaluate(() => {
     const m = condyle.scene.bodies.mobile.mesh.matrix.elements, [x, y, z] = [m[6] - m[9], m[8] - m[2], m[1] - m[4]], long = Math.hypot(x, y, z);
     return [x / long, y / long, z / long];
