@@ -150,6 +150,17 @@ export async function openTab(page, name) {
   await page.getByRole("tab", { name, exact: true }).click();
 }
 
+/// Opens one of the figures: "Map", "Clock" or "Curves".
+export async function openFigure(page, name) {
+  await openTab(page, "Figures");
+  if (await page.locator(".segments").isVisible()) await page.locator(".segments label", { hasText: name }).click();
+}
+
+/// A motion as people call it.
+export function asSaid(name) {
+  return name.replace(/^(fadir|faber)$/, (short) => short.toUpperCase()).replaceAll("_", " ").replace(/ at (\d+) /, " at $1° ");
+}
+
 /// The tile of a motion, by the words that are on it: "flexion", "internal rotation at 90° flexion", "FADIR".
 export function tile(page, name) {
   return page.locator(".tile", { has: page.locator(".tile-name", { hasText: new RegExp(`^${name}$`) }) });

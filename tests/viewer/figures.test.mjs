@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { angleOf, has, keep, openPage, openTab, pathOf, settled, sharedBrowser, tile, turnTo, type } from "./browser.mjs";
+import { angleOf, asSaid, has, keep, openFigure, openPage, openTab, pathOf, settled, sharedBrowser, tile, turnTo, type } from "./browser.mjs";
 import { readReport, withText } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
@@ -134,8 +134,7 @@ for (const name of ["sample", "vhf_right", "libhip_left"])
   test(`no label of the figures of ${name} lies on another`, { skip: !has(name) && "not made" }, async () => {
     const { page } = await openPage(browser, pathOf(name));
     await settled(page);
-    await openTab(page, "Figures");
-    if (await page.getByLabel("Show", { exact: true }).count()) await page.getByLabel("Show", { exact: true }).selectOption("map");
+    await openFigure(page, "Clock");
     assert.deepEqual(await overlaps(page, "#side .clock text"), []);
     // All labels lie within their pictures.
     assert.deepEqual(await page.evaluate(() => [...document.querySelectorAll("#side .plot text")].filter((text) => {
@@ -148,7 +147,7 @@ for (const name of ["sample", "vhf_right", "libhip_left"])
 
 test("the clock says in which plane it is, and a contact pressed moves the joint there", async () => {
   const { page } = await openPage(browser, pathOf("sample"), { reducedMotion: "reduce" });
-  await openTab(page, "Figures");
+  await openFigure(page, "Clock");
   assert.equal(await page.locator("#side").getByText(/^Sagittal clock position/).count(), 1);
   assert.equal(await page.locator("#side").getByText("socket's rim").count(), 0);
   const { motions } = textOf("sample").rom;
@@ -159,8 +158,8 @@ test("the clock says in which plane it is, and a contact pressed moves the joint
   // Contacts without an hour are named.
   const without = motions.filter(({ reason, clock_hour }) => reason === "contact" && clock_hour === null);
   assert.ok(without.length > 0);
-  const caption = await page.locator(".clock-section figcaption").textContent();
-  for (const { name } of without) assert.ok(caption.split("Without an hour")[1].includes(name.replaceAll("_", " ").replace(/ at (\d+)/, " at $1°")), name);
+  const caption = await page.locator("#side figure:has(.clock) figcaption").textContent();
+  for (const { name } of without) assert.ok(caption.split("Without an hour")[1].includes(asSaid(name)), name);
   await page.context().close();
   const rim = await openPage(browser, withText("rim", (text) => (text.rom.clock_plane = "rim")));
   assert.equal(await rim.page.locator("#side").getByText(/^Where on the socket's rim each motion ends/).count(), 1);
@@ -206,9 +205,9 @@ test("a walk that touches nothing draws its gap, and says what is zero or empty"
   const gap = text.recorded.curves.find(({ name }) => name === "smallest_gap_mm");
   assert.ok(finite(gap).every((mm) => mm > 0), "nothing touches");
   await openTab(page, "Figures");
-  const lanes = await page.locator(".curve-plot text").allTextContents();
+  const lanes = await page.locator("#side .curve-plot text").allTextContents();
   assert.equal(lanes[0], "smallest gap, mm");
-  assert.equal(await page.locator(".curve-plot path.curve").count(), 4);
+  assert.equal(await page.locator("#side .curve-plot path.curve").count(), 4);
   assert.ok(lanes.includes("time, s"));
   const said = (await page.locator(".silent").allTextContents()).join();
   for (const curve of text.recorded.curves) {
@@ -218,7 +217,7 @@ test("a walk that touches nothing draws its gap, and says what is zero or empty"
   }
   await page.locator("summary", { hasText: "Quantities" }).click();
   await page.getByLabel("flexion, °").uncheck();
-  assert.equal(await page.locator(".curve-plot path.curve").count(), 3);
+  assert.equal(await page.locator("#side .curve-plot path.curve").count(), 3);
   await keep(page, "curves");
   await page.context().close();
 });
@@ -227,7 +226,7 @@ test("a curve is pressed and moved through by arrow keys", { skip: !has("walk") 
   const { page } = await openPage(browser, pathOf("walk"));
   const frame = async () => Number(await page.getByRole("slider", { name: "Frame", exact: true }).inputValue());
   await openTab(page, "Figures");
-  const curve = page.locator(".curve-plot");
+  const curve = page.locator("#side .curve-plot");
   // From end to end of the axis of time.
   const box = await curve.locator("line.grid").first().boundingBox();
   const last = readReport(pathOf("walk")).array(textOf("walk").recorded.times_s).length - 1;
@@ -256,7 +255,7 @@ test("a motion recorded without times plays frame by frame and says so", { skip:
   }, "walk");
   const { page } = await openPage(browser, path);
   await openTab(page, "Figures");
-  assert.equal(await page.locator(".curve-plot").getByText("frame", { exact: true }).count(), 1);
+  assert.equal(await page.locator("#side .curve-plot").getByText("frame", { exact: true }).count(), 1);
   assert.equal(await page.getByText("time, s").count(), 0);
   const count = readReport(pathOf("walk")).array(textOf("walk").recorded.times_s).length;
   assert.equal(await page.getByText(`: ${count} frames`).count(), 1);
@@ -280,7 +279,7 @@ test("the numbers say how they were found: bounds, bands, bearing contact, clini
   const rows = await panel.locator("[aria-labelledby=section-limits] table").locator("tbody tr").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
   rows.forEach((cells, i) => {
     const motion = rom.motions[i];
-    assert.equal(cells[0], motion.name.replaceAll("_", " "));
+    assert.equal(cells[0], asSaid(motion.name));
     assert.ok(cells[1].includes(motion.reason === "contact" ? motion.limit_deg.toFixed(1) : `>${motion.limit_deg.toFixed(0)}°`), cells[1]);
     assert.equal(cells[3], motion.reason === "contact" ? "contact (impingement)" : "end of range");
     assert.equal(cells[6], motion.reason === "contact" ? `${motion.error_bound_deg.toPrecision(2)}°` : "–");

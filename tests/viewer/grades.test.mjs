@@ -83,7 +83,7 @@ test("after strokes of the brush tiles, figures and sentence are those of the cu
   assert.equal(await page.locator("#ribbon").isVisible(), false);
   await openTab(page, "Plan");
   await page.getByRole("combobox", { name: "Motion", exact: true }).selectOption({ label: "FADIR" });
-  for (let i = 0; i < 2; ++i) await changed(page, () => page.getByRole("button", { name: "Stroke where it ends" }).click());
+  for (let i = 0; i < 2; ++i) await changed(page, () => page.getByRole("button", { name: "Brush where it ends" }).click());
   assert.match(await page.locator("#ribbon").textContent(), /^After strokes of the brush that remove [\d.]+ mm³ of femur$/);
   assert.deepEqual(await boxes(), placed, "nothing moves for the ribbon");
   const fadir = text.rom.motions.find(({ name }) => name === "fadir"), names = text.coordinates.map(({ name }) => name);
@@ -139,7 +139,7 @@ test("a link to a joint that was changed by hand says that it shows the joint be
   const { page } = await openPage(browser, pathOf("sample"), { reducedMotion: "reduce" });
   await settled(page);
   await openTab(page, "Plan");
-  await changed(page, () => page.getByRole("button", { name: "Stroke where it ends" }).click());
+  await changed(page, () => page.getByRole("button", { name: "Brush where it ends" }).click());
   await openTab(page, "Motion");
   await turnTo(page, { flexion: 30 });
   await page.waitForFunction(() => location.hash.includes("by_hand=1") && location.hash.includes("flexion=30"));

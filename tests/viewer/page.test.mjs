@@ -155,6 +155,7 @@ test("a figure pressed shows where bone meets bone once the joint has turned the
   await page.getByLabel("Mark triangles in contact").uncheck();
   await page.getByLabel("Show femur").uncheck();
   const fadir = textOf("zones").rom.motions.find(({ name }) => name === "fadir");
+  await viewOptions(page, false);
   await tile(page, "FADIR").click();
   await page.waitForFunction((deg) => Number(document.querySelector("input[aria-label='internal rotation, degrees'][role=spinbutton]").getAttribute("aria-valuenow")) === deg,
     fadir.at_limit_deg.internal_rotation);
@@ -241,7 +242,7 @@ test("a recorded motion plays, with a cursor in its curves", { skip: !has("walk"
   await frame.fill("0");
   // As the file has it in its first row.
   assert.ok(Math.abs((await flexion()) - 19.56730088) < 1e-9, String(await flexion()));
-  const cursor = page.locator(".cursor").first();
+  const cursor = page.locator("#side .cursor").first();
   const before = Number(await cursor.getAttribute("x1"));
   await page.getByRole("button", { name: "Play" }).click();
   await page.waitForFunction(() => Number(document.querySelector("input[aria-label=Frame]").value) > 10);

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { has, openPage, openTab, pathOf, reports, settled, sharedBrowser } from "./browser.mjs";
+import { asSaid, has, openFigure, openPage, openTab, pathOf, reports, settled, sharedBrowser } from "./browser.mjs";
 import { readReport } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
@@ -22,16 +22,17 @@ const whilePrinted = `matchMedia("print").addEventListener("change", ({ matches 
 
 const pagesOf = (path) => (readFileSync(path, "latin1").match(/\/Type\s*\/Page\b/g) ?? []).length;
 
-for (const name of ["sample", "plan", "compared", "vhf_right", "knee"])
+// A plan has measures, too.
+for (const [name, sheets] of [["sample", 2], ["plan", 3], ["compared", 2], ["vhf_right", 2], ["knee", 2]])
   for (const colorScheme of ["light", "dark"])
-    test(`${name} printed from a ${colorScheme} page is two sheets, in black on white, without controls`, { skip: !has(name) && "not made" }, async () => {
+    test(`${name} printed from a ${colorScheme} page is ${sheets} sheets, in black on white, without controls`, { skip: !has(name) && "not made" }, async () => {
       const { page } = await openPage(browser, pathOf(name), { colorScheme, script: whilePrinted });
       await settled(page);
       // The picture of the limit is drawn while nobody waits.
       if (name !== "knee") await page.waitForFunction(() => document.querySelector("#paper img").src !== "", undefined, { timeout: 20000 });
       const path = join(reports, "seen", `${name}_${colorScheme}.pdf`);
       await page.pdf({ path, format: "A4" });
-      assert.equal(pagesOf(path), 2);
+      assert.equal(pagesOf(path), sheets);
       const { picture, caption, text, heading, controls, screen } = await page.evaluate(() => globalThis.printed);
       assert.ok(picture[0] > 300 && picture[1] > 200 && picture[2] > 100, String(picture));
       if (name !== "knee") assert.equal(caption, await page.locator("#sentence").textContent());
@@ -47,11 +48,20 @@ test("the sheets have what was promised: limits with normals, clock face, scope;
   await settled(page);
   const [first, second] = await page.locator("#paper .sheet").allTextContents();
   const { rom, scope } = readReport(pathOf("sample")).text;
-  for (const { name } of rom.motions) assert.ok(first.includes(name.replaceAll("_", " ")), name);
+  for (const { name } of rom.motions) assert.ok(first.includes(asSaid(name)), name);
   assert.equal(await page.locator("#paper .plot .normal").count(), rom.motions.filter(({ normal_range_deg }) => normal_range_deg !== null).length);
   assert.ok(first.includes(scope.slice(1)) && first.includes("Sagittal clock position"));
   for (const wanted of ["Method and data", "Source files", rom.provenance.fixed_mesh.sha256, "Clinical ranges: AAOS 1965"]) assert.ok(second.includes(wanted), wanted);
   assert.ok((await page.locator("#paper rect.cell").count()) > 50);
+  // What else a report has: cost and measures of a plan, curves of a motion, differences of a comparison, the safe zone.
+  for (const [name, ...wanted] of [["plan", "Volume to remove for each target", "Measures of the hip", "Alpha angle by the hour", "Targets"], ["walk", "smallest gap, mm"],
+    ["compared", "difference"], ["swept", "Safe zone"], ["knee", "max pressure, MPa"]]) {
+    if (!has(name)) continue;
+    const other = await openPage(browser, pathOf(name));
+    const said = await other.page.locator("#paper").textContent();
+    for (const each of wanted) assert.ok(said.includes(each), `${each} of ${name}`);
+    await other.page.context().close();
+  }
   // Names of files, not where they lie.
   assert.ok(second.includes("hip_bone.ply") && !second.includes("/"), second.match(/.{40}\/.{40}/)?.[0]);
   await page.context().close();
@@ -68,8 +78,10 @@ test("a figure saved as SVG is the same from a dark page as from a light one, an
   for (const colorScheme of ["light", "dark"]) {
     const { page } = await openPage(browser, pathOf("sample"), { colorScheme });
     await settled(page);
-    await openTab(page, "Figures");
-    files.push([await saved(page, "Save as SVG", "Contacts on the clock face"), await saved(page, "Save as SVG", "Range-of-motion map")]);
+    await openFigure(page, "Clock");
+    const clock = await saved(page, "Save as SVG", "Contacts on the clock face");
+    await openFigure(page, "Map");
+    files.push([clock, await saved(page, "Save as SVG", "Range-of-motion map")]);
     await page.context().close();
   }
   const [light, dark] = files;

@@ -181,8 +181,8 @@ test("of parts, brush and centre one changes the joint at a time, and the others
   await openFold(page, title);
   await changed(page, () => page.getByRole("button", { name: "Back to the report's" }).click());
   await openFold(page, "Resect by brush");
-  await page.getByRole("button", { name: "Stroke where it ends" }).click();
-  await page.waitForFunction(() => /mm³ gone/.test(document.querySelector(".brush-said").textContent));
+  await page.getByRole("button", { name: "Brush where it ends" }).click();
+  await page.waitForFunction(() => /mm³ removed/.test(document.querySelector(".brush-said").textContent));
   await openFold(page, title);
   assert.equal(await panel(page).count(), 0);
   assert.equal(await page.locator(".must-wait:visible").textContent(), "The brush has taken bone: undo its strokes first.");

@@ -39,10 +39,10 @@ test("targets, gains and what goes are those of the report", async () => {
   const { reach_deg, before, after } = text.plan.targets[0];
   assert.deepEqual(target.slice(1), [`${before.limit_deg.toFixed(1)}°`, `${reach_deg}°`, `${after.limit_deg.toFixed(1)}°`]);
   assert.ok(after.limit_deg >= reach_deg);
-  const panel = panelOf(page, "Bone that must go");
+  const panel = panelOf(page, "Bone to remove");
   const said = (await panel.textContent()) + (await detailsOf(page, "Limits and notes of the plan").textContent());
   const [cut] = text.plan.cuts;
-  assert.ok(said.includes(`${cut.volume_mm3.toFixed(1)} mm³ go`) && said.includes(`${cut.deepest_mm.toFixed(2)} mm at the deepest`), said);
+  assert.ok(said.includes(`${cut.volume_mm3.toFixed(1)} mm³ of bone are removed`) && said.includes(`${cut.deepest_mm.toFixed(2)} mm at the deepest`), said);
   for (const { text: note } of text.plan.resection_notes) assert.ok(said.includes(note), note);
   assert.equal(await panel.locator("circle.mark").count(), text.plan.curve.length);
   // Limits of the page are those without the bone.
@@ -68,7 +68,7 @@ test("what is planned is said by a ribbon, and in figures and sentence from the 
   const figures = await page.locator("#results .result").allTextContents();
   assert.ok(figures.some((said) => said.includes(`${nowOf(first)} → `)), figures.join("; "));
   const [sheet] = await page.locator("#paper .sheet").allTextContents();
-  for (const wanted of [ribbon, `${cut.volume_mm3.toFixed(1)} mm³ go`, `${cut.deepest_mm.toFixed(2)} mm at the deepest`, `${nowOf(first)} → `, "Targets"])
+  for (const wanted of [ribbon, `${cut.volume_mm3.toFixed(1)} mm³ of bone are removed`, `${cut.deepest_mm.toFixed(2)} mm at the deepest`, `${nowOf(first)} → `, "Targets"])
     assert.ok(sheet.includes(wanted), wanted);
   await page.context().close();
 });
@@ -79,8 +79,8 @@ test("the bone that went is a colour, in every pose, and a surface over the cut"
   assert.equal(await page.getByLabel("Colour", { exact: true }).inputValue(), "removed");
   const deepest = text.plan.cuts[0].deepest_mm, depths = array(text.plan.surfaces.mobile.depth_mm), vertices = array(text.plan.surfaces.mobile.lowered);
   const vertex = vertices[depths.indexOf(Math.max(...depths))];
-  await viewOptions(page);
   const readout = async () => {
+    await viewOptions(page);
     await page.getByLabel("Vertex of").selectOption("mobile");
     await page.getByLabel("Number of a vertex").fill(String(vertex));
     await page.getByRole("button", { name: "Show vertex" }).click();
@@ -132,7 +132,7 @@ test("measures have their values, bands, reasons and definitions, and are drawn"
 
 test("without WebAssembly the plan is there too", async () => {
   const { page } = await opened({ script: "delete globalThis.WebAssembly", answers: false });
-  await panelOf(page, "Bone that must go").waitFor();
+  await panelOf(page, "Bone to remove").waitFor();
   await viewOptions(page);
   assert.equal(await page.getByLabel("Colour", { exact: true }).inputValue(), "removed");
   await page.context().close();

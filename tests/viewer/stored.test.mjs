@@ -49,7 +49,7 @@ test("without WebAssembly what would have to be computed cannot be asked for", a
   assert.ok(inputs.length >= 6);
   for (const input of inputs) assert.equal(await input.isDisabled(), true);
   assert.equal(await page.getByRole("button", { name: "Compute a map" }).count(), 0);
-  assert.deepEqual(await page.getByLabel("Colour", { exact: true }).locator("option").allTextContents(), ["clearance toward the centre", "none"]);
+  assert.deepEqual(await page.getByLabel("Colour", { exact: true }).locator("option").allTextContents(), ["radial gap", "none"]);
   assert.equal(await page.getByLabel("Mark triangles in contact").count(), 0);
   await page.context().close();
 });

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { join } from "node:path";
 import { test } from "node:test";
-import { has, openPage, pathOf, reports, root, settled, sharedBrowser } from "./browser.mjs";
+import { asSaid, has, openPage, pathOf, reports, root, settled, sharedBrowser } from "./browser.mjs";
 
 const browser = await sharedBrowser();
 const condyle = join(root, "build/release/condyle");
@@ -46,7 +46,6 @@ async function press(page, role, name) {
   await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
 }
 
-const asSaid = (name) => name.replace(/^(fadir|faber)$/, (short) => short.toUpperCase()).replaceAll("_", " ").replace(/ at (\d+) /, " at $1° ");
 const clock = (hour) => `${Math.floor(Math.round(hour * 60) / 60) || 12}:${String(Math.round(hour * 60) % 60).padStart(2, "0")}`;
 
 /// The motion that limits the hip, by the rule of docs/report.md: what lacks most of its clinical range, else internal rotation in flexion.
@@ -103,7 +102,7 @@ for (const [name, { joint, band }] of Object.entries(hips))
     await page.getByRole("spinbutton", { name: "Depth, mm", exact: true }).fill("2.0");
     const panel = page.getByRole("region", { name: "Resect by brush", exact: true });
     await panel.evaluate((element) => delete element.dataset.allAfter);
-    await press(page, "button", "Stroke where it ends");
+    await press(page, "button", "Brush where it ends");
     await page.waitForFunction((element) => element.dataset.allAfter !== undefined, await panel.elementHandle());
     const rows = await seenRows(page), head = rows.find((cells) => cells.includes("before"));
     assert.deepEqual(head.slice(1, 4), ["before", "after", "gained"]);
@@ -118,7 +117,7 @@ for (const [name, { joint, band }] of Object.entries(hips))
     assert.equal(after, Number(now.turned_deg.toFixed(1)));
     assert.ok(after >= before);
     assert.match(row[3], now.turned_deg - first.limit_deg >= 0.05 ? /^[>+]/ : /^0\.0°$/);
-    assert.ok((await seenText(page)).some((line) => /mm³ gone, [\d.]+ mm at the deepest/.test(line)));
+    assert.ok((await seenText(page)).some((line) => /mm³ removed, [\d.]+ mm at the deepest/.test(line)));
     assert.deepEqual(await page.evaluate(() => [scrollX, scrollY, ...[...document.querySelectorAll(".panel")].map(({ scrollTop }) => scrollTop)]), [0, 0, 0, 0, 0, 0]);
     t.diagnostic(row.join(" | "));
     assert.deepEqual(complaints, []);

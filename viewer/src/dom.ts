@@ -86,3 +86,8 @@ export function named(name: string): string {
   const short = shortened(name).replaceAll(/\p{Bidi_Control}/gu, "");
   return runsAlong.test(short) ? short : `\u2068${short}\u2069`;
 }
+
+/// Of the bodies of a joint, as words.
+export function namesOf({ fixed, mobile }: Record<"fixed" | "mobile", string>): Record<"fixed" | "mobile", string> {
+  return { fixed: spaced(named(fixed)), mobile: spaced(named(mobile)) };
+}

@@ -1,6 +1,6 @@
 import type { CoreClient } from "./core/client";
 import type { BothValues, Brushed, Coordinates, JointArrays, LiveLimit, MotionFrames, Query, ShownQuantity, Turned } from "./core/protocol";
-import { button, checkbox, found, html, named, shortened } from "./dom";
+import { button, checkbox, found, html, named, namesOf, shortened } from "./dom";
 import { post, warn } from "./messages";
 import { fixed } from "./numbers";
 import { blockOf, countOf, type Copied, type UserNotes } from "./notes_block";
@@ -39,9 +39,10 @@ import { saveBlob } from "./save";
 import type { BodyName } from "./scene/body_names";
 import { JointScene } from "./scene/scene";
 import { ViewAddress } from "./view_address";
-import { words } from "./words";
+import { inWords, words } from "./words";
 
 const quantities = Object.keys(words.quantity) as ShownQuantity[];
+const large_bytes = 5e6;
 const storedQuantities: readonly ShownQuantity[] = ["gap", "removed", "none"];
 
 /// A scene, or only a line if the browser shows none.
@@ -96,12 +97,13 @@ export class Page {
   constructor(
     private readonly text: ReportText, private readonly arrays: JointArrays, private readonly report: Report | null, private readonly computes: boolean,
     added: Added = {}) {
+    for (const note of text.rom?.notes ?? []) note.text = inWords(note.text);
     this.shownText = text;
     this.address = new ViewAddress(text, () => ({
       at: this.motion.coordinates, display: this.display.state, zone: this.zones?.motion ?? "", camera: this.scene?.viewpoint ?? null,
       isByHand: this.isLinked || this.shownText.by_hand !== undefined,
     }), this.closed.signal);
-    const names = { fixed: named(text.joint.fixed), mobile: named(text.joint.mobile) };
+    const names = namesOf(text.joint);
     document.body.classList.toggle("set-up-wrongly", wrongOf(text.rom) !== null);
     document.title = words.pageTitle(shortened(text.title));
     found("title").textContent = found("title").title = headingOf(text);
@@ -173,7 +175,7 @@ export class Page {
   }
 
   private placedPaper(): Paper {
-    const paper = new Paper(this.shownText, this.counts(), this.extremes(), sweepOf(this.report), this.loaded?.sentence ?? null);
+    const paper = new Paper(this.shownText, this.counts(), this.extremes(), sweepOf(this.report), this.loaded?.sentence ?? null, this.recorded?.drawing() ?? null);
     found("paper").replaceChildren(paper.element);
     return paper;
   }
@@ -271,7 +273,9 @@ export class Page {
   /// The page itself, with what the user added and the view at hand.
   private saveCopy(): void {
     this.address.write();
-    saveBlob(`${fileName(this.text)}_copy.html`, pageWith(blockOf({ ...this.notes!.notes, view: location.hash })));
+    const copy = pageWith(blockOf({ ...this.notes!.notes, view: location.hash }));
+    saveBlob(`${fileName(this.text)}_copy.html`, copy);
+    if (copy.size > large_bytes) post("status", words.copyIsLarge((copy.size / 1e6).toFixed(1)));
   }
 
   private putNotesOnPaper(): void {

@@ -1,5 +1,5 @@
 import type { LiveLimit } from "./core/protocol";
-import { named } from "./dom";
+import { named, spaced } from "./dom";
 import { filesOf } from "./panels/numbers";
 import type { MotionAnswer, ReportText } from "./report";
 import { endText, limitAlone } from "./result";
@@ -9,7 +9,7 @@ import { words } from "./words";
 export function ribbonOf(text: ReportText): string | null {
   const { planned } = text.joint, compared = comparedFiles(text);
   const said = [
-    ...(text.by_hand ? [text.by_hand.done] : planned ? [words.planned(named(planned).replaceAll("mm3", "mm³"))] : []),
+    ...(text.by_hand ? [text.by_hand.done] : planned ? [words.planned(spaced(named(planned)).replaceAll("mm3", "mm³"))] : []),
     ...(compared ? [words.comparedTo(compared.before)] : []),
   ];
   return said.length ? said.join(" · ") : null;

@@ -12,6 +12,11 @@ export function motionName(name: string): string {
   return /^(fadir|faber)$/.test(said) ? said.toUpperCase() : said.replace(/ at (\d+) /, " at $1° ");
 }
 
+/// A note of the command with its names as words, but for those of files.
+export function inWords(note: string): string {
+  return note.replace(/\b[a-z]+(_[a-z0-9]+)+\b(?!\.\w)/g, motionName);
+}
+
 /// Every text of the page, in one table: another language is another table.
 export const words = {
   pageTitle: (title: string) => `${title} – Condyle`,
@@ -23,6 +28,7 @@ export const words = {
   linkCopied: "The link to this view is copied.",
   linkShown: "Copy the link to this view from here:",
   saveCopy: "Save copy",
+  copyIsLarge: (mb: string) => `The copy has ${mb} MB, more than some mail takes.`,
   copyWith: (count: number) => `Copy with ${count === 0 ? "no notes" : count === 1 ? "1 note" : `${count} notes`}, by whoever saved it and not by Condyle.`,
   readNotesOfUser: "Read them",
   notesOfUser: "Notes of the user",
@@ -58,8 +64,7 @@ export const words = {
   tabs: "Views of the joint",
   tab: { motion: "Motion", figures: "Figures", plan: "Plan", details: "Details" },
   figures: "Figures",
-  figureGroup: "Show",
-  figureGroups: { curves: "curves", map: "map and clock face" } as Record<string, string>,
+  figureNames: { curves: "Curves", map: "Map", clock: "Clock" } as Record<string, string>,
   fitJoint: "Fit joint",
   fitAll: "Fit all",
   viewOptions: "View options",
@@ -104,7 +109,8 @@ export const words = {
   changedInLink: "This link was made after a change by hand, which no link carries: the joint is as in the report",
   volumeOf: (mm3: string, body: string) => `${mm3} mm³ of ${body}`,
   from: (before: string) => `${before} →`,
-  freeSentence: (name: string, deg: string) => `${name} meets no bone up to ${deg}°, where its range ends.`,
+  freeSentence: (name: string, deg: string, { fixed, mobile }: { fixed: string; mobile: string }) =>
+    `${name} is free up to ${deg}°, where its range ends: ${mobile} and ${fixed} do not meet.`,
   translationSentence: (name: string, limit: string) => `${name} is known to ${limit}: the record or load that its translation follows ends there.`,
   startsInContactSentence: (name: string) => `${name} starts in contact.`,
   noLimitsInContact: "The surfaces are in contact at the start of every motion, so no motion has a limit.",
@@ -162,7 +168,7 @@ export const words = {
   heldLimits: "Limits held in the scan's place",
   held: "held in the scan's place",
   largest: (title: string) => `largest ${title}`,
-  curvesCaption: "Curves of the recorded motion. The line is the frame that the scene shows: drag it, or use the arrow keys.",
+  curvesCaption: "The line is the frame that the scene shows: drag it, or use arrow keys.",
   plateau: (name: string, quantity: string) => `${name} from above, front up: ${quantity}`,
   withoutHour: (names: string) => `Without an hour, because they are not at the rim: ${names}.`,
   sides: { right: "right", left: "left" },
@@ -204,7 +210,7 @@ export const words = {
   },
   colour: "Colour",
   quantity: {
-    gap: "clearance toward the centre", depth: "depth", nearest: "nearest distance", pressure: "pressure", removed: "removed bone", none: "none",
+    gap: "radial gap", depth: "depth", nearest: "nearest distance", pressure: "pressure", removed: "removed bone", none: "none",
   },
   unit: { gap: "mm", depth: "mm", nearest: "mm", pressure: "MPa", removed: "mm" },
   quantityHelp: {
@@ -285,6 +291,8 @@ export const words = {
   errorBound: "error bound",
   goThere: (name: string) => `Go to the end of ${name}`,
   noLimits: "Limits cannot be computed: ",
+  /// The first part of the reason, which has all there is to see behind it.
+  noLimitsSentence: (why: string) => `No limits: ${/^.{24,}?(?=[:;.] |$)/s.exec(why)?.[0] ?? why}. Details has the whole reason, under Method and data.`,
   noBand: "Bands are unknown: the report was made without them.",
   reasons: { contact: "contact", end_of_range: "end of range", contact_at_start: "in contact at the start" },
   translationEnds: "no contact, translation ends",
@@ -311,7 +319,7 @@ export const words = {
   beforeDetails: "The joint before",
   filesBefore: "Files of the joint before",
 
-  plan: "Bone that must go",
+  plan: "Bone to remove",
   targets: "Targets",
   before: "before",
   after: "after",
@@ -325,10 +333,10 @@ export const words = {
   cut: ({ name, volume_mm3, least_volume_mm3, area_mm2, deepest_mm, burr_volume_mm3, hour }: {
     name: string; volume_mm3: number; least_volume_mm3: number; area_mm2: number; deepest_mm: number; burr_volume_mm3: number; hour: string | null;
   }) =>
-    `${name}: ${volume_mm3.toFixed(1)} mm³ go, ${least_volume_mm3.toFixed(1)} of it in the way, over ${area_mm2.toFixed(0)} mm²; ` +
+    `${name}: ${volume_mm3.toFixed(1)} mm³ of bone are removed, ${least_volume_mm3.toFixed(1)} mm³ of it in the way, over ${area_mm2.toFixed(0)} mm²; ` +
     `${deepest_mm.toFixed(2)} mm at the deepest${hour === null ? "" : `, at ${hour} of the neck`}` +
-    (burr_volume_mm3 > 0 ? `; ${burr_volume_mm3.toFixed(1)} mm³ go to make room for the burr` : ""),
-  nothingGoes: "No bone has to go.",
+    (burr_volume_mm3 > 0 ? `; ${burr_volume_mm3.toFixed(1)} mm³ of it only to make room for the burr` : ""),
+  nothingGoes: "No bone has to be removed.",
   plannedMargin: (mm: string) => `Planned with a margin of ${mm} mm.`,
   showRemoved: "Show the removed bone",
   curveCaption: (motions: string) => `Volume to remove for each target by itself, over the angle then reached: ${motions}.`,
@@ -347,8 +355,8 @@ export const words = {
   brushRadius: "Radius, mm",
   brushDepth: "Depth, mm",
   brushDepthHelp: "Largest depth below the original surface.",
-  strokeAtVertex: "Stroke there",
-  strokeAtLimit: "Stroke where it ends",
+  strokeAtVertex: "Brush this vertex",
+  strokeAtLimit: "Brush where it ends",
   shownMotion: "Motion",
   undoStroke: "Undo stroke",
   showBrushed: "Show bone removed by brush",
@@ -356,7 +364,7 @@ export const words = {
   saveJointFile: "Save joint file",
   noStroke: (edge: string) => `No bone removed yet. Edges are ${edge} mm long: a cut is no finer.`,
   /// Bone that strokes removed from one body.
-  brushed: (body: string, volume: string, deepest: string) => `${body}: ${volume} mm³ gone, ${deepest} mm at the deepest`,
+  brushed: (body: string, volume: string, deepest: string) => `${body}: ${volume} mm³ removed, ${deepest} mm at the deepest`,
   lastStroke: ({ moved, kept, limited }: { moved: number; kept: number; limited: number }) =>
     [`last stroke: ${moved} ${moved === 1 ? "vertex" : "vertices"} moved`, ...(kept ? [`${kept} of the bearing surface stay`] : []),
       ...(limited ? [`${limited} less deep, or the surface would cross itself`] : [])].join(", "),
@@ -364,7 +372,6 @@ export const words = {
   protectedBone: (body: string, count: number) => (count ? `${count} bearing vertices of ${body} stay.` : `${body} has no known bearing surface.`),
   liveLimits: "Limits before and after",
   gained: "gained",
-  boneOnly: "bone only",
   noContactThere: "No bones are in contact at the end of this motion.",
   tookLimits: (first: string, all: string) => `the motion after ${first} ms, all after ${all} ms`,
   planIsStart: "The plan's cut is the first step.",

@@ -1,4 +1,4 @@
-import { button, checkbox, choice, html, named, section } from "../dom";
+import { button, checkbox, choice, html, named, section, spaced } from "../dom";
 import type { ShownQuantity } from "../core/protocol";
 import type { Marked, Part } from "../scene/body";
 import { bodyNames, type BodyName } from "../scene/body_names";
@@ -63,7 +63,7 @@ export class DisplayPanel {
     this.opacity = { fixed: this.opacityOf("fixed"), mobile: this.opacityOf("mobile") };
     const bodies = bodyNames.map((body) => html("div", { class: "row" },
       this.shownBox(body, names[body], (on) => scene?.setVisible(body, on)), this.opacity[body],
-      ...parts[body].map((part, i) => this.shownBox(`${body}.${i}`, named(part.name), (on) => scene?.setPartVisible(body, part, on)))));
+      ...parts[body].map((part, i) => this.shownBox(`${body}.${i}`, spaced(named(part.name)), (on) => scene?.setPartVisible(body, part, on)))));
     const colour = choice(words.colour, only(words.quantity, quantities), this.chosen, (key) => {
       this.choose(key);
       changed();

@@ -1,6 +1,6 @@
 import type { CoreClient } from "../core/client";
 import type { Brushed, JointArrays, LiveLimit, Turned } from "../core/protocol";
-import { named } from "../dom";
+import { namesOf } from "../dom";
 import type { Report, ReportText } from "../report";
 import type { BodyName } from "../scene/body_names";
 import type { JointScene } from "../scene/scene";
@@ -45,7 +45,7 @@ export function addEditPanels({ core, scene, text, arrays, report, brushed, turn
   const centre = joint.kind === "free" ? null : new CentrePanel(core, text, (is) => mark("centre", is));
   // A brush does not know an implant from bone.
   const brush = rom.implant ? null : new BrushPanel(core, scene, {
-    text, arrays, names: { fixed: named(joint.fixed), mobile: named(joint.mobile) },
+    text, arrays, names: namesOf(joint),
     before: { fixed: beforePlan(report, arrays, "fixed"), mobile: beforePlan(report, arrays, "mobile") },
     limitsBefore: new Map((plan?.limits ?? []).map(({ motion, before }) => [motion, before])),
     changed: (bone, rests) => {

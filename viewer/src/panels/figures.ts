@@ -1,21 +1,22 @@
-import { choice, html } from "../dom";
+import { html } from "../dom";
 import { words } from "../words";
 
-export interface FigureGroup {
+export interface Figure {
   key: string;
-  figures: readonly HTMLElement[];
+  parts: readonly HTMLElement[];
 }
 
-/// Figures, as many at once as fit: if there are more, a group of them is chosen; a wide screen shows them all.
-export function figuresPanel(groups: readonly FigureGroup[]): HTMLElement {
-  const filled = groups.filter(({ figures }) => figures.length > 0);
-  const places = filled.map(({ figures }) => html("div", { class: "figure-group" }, ...figures));
-  const show = (key: string) => places.forEach((place, i) => place.classList.toggle("chosen", filled[i]!.key === key));
-  const panel = html("section", { "aria-label": words.figures });
-  if (filled.length > 1)
-    panel.append(html("div", { class: "row no-print group-choice" },
-      choice(words.figureGroup, Object.fromEntries(filled.map(({ key }) => [key, words.figureGroups[key] ?? ""])), filled[0]!.key, show)));
-  if (filled.length) show(filled[0]!.key);
-  panel.append(...places);
-  return panel;
+/// One figure at a time, by a row of buttons if there are more.
+export function figuresPanel(figures: readonly Figure[]): HTMLElement {
+  const places = figures.map(({ parts }) => html("div", { class: "figure-place" }, ...parts));
+  const choices = figures.map(({ key }) => html("label", {}, html("input", { type: "radio", name: "figure", value: key }), words.figureNames[key] ?? ""));
+  choices.forEach((choice, i) => choice.firstElementChild!.addEventListener("change", () => show(i)));
+  const show = (chosen: number) => places.forEach((place, i) => {
+    place.hidden = i !== chosen;
+    (choices[i]!.firstElementChild as HTMLInputElement).checked = i === chosen;
+  });
+  // Who recorded a motion asks for it first.
+  show(Math.max(0, figures.findIndex(({ key }) => key === "curves")));
+  return html("section", { "aria-label": words.figures },
+    ...(figures.length > 1 ? [html("div", { class: "segments no-print", role: "radiogroup", "aria-label": words.figures }, ...choices)] : []), ...places);
 }

@@ -1,14 +1,13 @@
-import { button, html, named, shortened } from "../dom";
+import { button, html, namesOf, shortened } from "../dom";
 import type { ReportText } from "../report";
 import { words } from "../words";
 
 /// "Right hip · femur / hip bone · date · version", beginning with the case if one was given.
 export function headingOf(text: ReportText): string {
   const { joint, title, version, case: given, date } = text;
-  const names = { fixed: named(joint.fixed), mobile: named(joint.mobile) };
   return [
     ...(given ? [shortened(given)] : []), ...(title !== joint.name ? [shortened(title)] : []),
-    words.heading(words.sides[joint.side], words.anatomies[joint.anatomy], names), ...(date ? [shortened(date)] : []),
+    words.heading(words.sides[joint.side], words.anatomies[joint.anatomy], namesOf(joint)), ...(date ? [shortened(date)] : []),
     ...(version ? [words.versionShown(version)] : []),
   ].join(" · ");
 }

@@ -3,6 +3,7 @@ import type { JointArrays } from "../core/protocol";
 import { section } from "../dom";
 import { clockDrawing } from "../plots/clock";
 import { figure } from "../plots/figure";
+import { socketPicture } from "../plots/socket";
 import { plateauOf, type Plateau } from "../plots/plateau";
 import type { MotionAnswer, ReportText } from "../report";
 import { hasLimits } from "../result";
@@ -10,6 +11,9 @@ import { words } from "../words";
 import { figuresPanel } from "./figures";
 import { MapSection } from "./map_section";
 import type { MotionPanel } from "./motion";
+
+/// So wide the clock's dial is about a head.
+const aroundHead = 1.15;
 
 /// Figures of a joint: the surface that carries its load, its recorded motion, its map and its clock.
 export class JointFigures {
@@ -22,18 +26,21 @@ export class JointFigures {
     text: ReportText, arrays: JointArrays, motion: MotionPanel, recorded: HTMLElement | null, computes: boolean, core: () => CoreClient | null) {
     const { rom, map, joint } = text;
     const go = computes || text.poses.length ? (to: MotionAnswer) => motion.goToEnd(to) : null;
-    const clock = rom && clockDrawing(rom.motions, rom.clock_plane, go);
+    const head = rom?.clock_plane !== "rim" && rom?.bearing?.head;
+    const socket = head ? socketPicture(arrays.fixed, head.radius_mm * aroundHead, joint.side === "left" ? -1 : 1) : null;
+    const clock = rom && clockDrawing(rom.motions, rom.clock_plane, go, socket);
     this.plateau = computes ? plateauOf(text, arrays) : null;
     this.map = joint.kind !== "hinge" && (map || (computes && hasLimits(text))) ? new MapSection(text, motion, computes, core) : null;
     this.element = figuresPanel([
-      { key: "curves", figures: [...(this.plateau ? [this.plateau.element] : []), ...(recorded ? [recorded] : [])] },
-      { key: "map", figures: [...(this.map ? [this.map.element] : []), ...(clock ? [clockSection(figure(clock))] : [])] },
-    ]);
+      { key: "map", parts: this.map ? [this.map.element] : [] },
+      { key: "clock", parts: clock ? [clockSection(figure(clock))] : [] },
+      { key: "curves", parts: [...(this.plateau ? [this.plateau.element] : []), ...(recorded ? [recorded] : [])] },
+    ].filter(({ parts }) => parts.length > 0));
   }
 }
 
 function clockSection(drawn: HTMLElement): HTMLElement {
   const made = section(words.clock, drawn);
-  made.classList.add("clock-section", "of-report");
+  made.classList.add("of-report");
   return made;
 }

@@ -1,9 +1,10 @@
 import type { LimitQuestion, LiveLimit } from "../core/protocol";
-import { html, named } from "../dom";
+import { named } from "../dom";
 import { fixed } from "../numbers";
 import type { EndOfMotion, MotionAnswer, ReportText } from "../report";
 import { endText } from "../result";
 import { motionName, words } from "../words";
+import { table } from "./table";
 
 /// The motions of a report as the core is asked for their ends.
 export function questionsOf({ rom, coordinates, reference_mm, joint }: ReportText): { motion: MotionAnswer; question: LimitQuestion }[] {
@@ -29,34 +30,18 @@ function gainText(before: EndOfMotion, after: EndOfMotion): string {
   return before.reason === "contact" && after.reason === "end_of_range" ? words.over(said) : said;
 }
 
-interface Row {
-  before: HTMLTableCellElement;
-  after: HTMLTableCellElement;
-  gained: HTMLTableCellElement;
-  head: HTMLTableRowElement;
-}
-
 /// Each motion before and after a change.
 export class LiveLimits {
   readonly element: HTMLElement;
-  private readonly rows: Row[];
+  private readonly rows: HTMLTableRowElement[];
   private readonly before: EndOfMotion[];
 
-  /// `change` heads what the limits differ by, `of` says of what they are.
-  constructor(
-    title: string, change: string, before: readonly EndOfMotion[], after: readonly EndOfMotion[], motions: readonly MotionAnswer[],
-    of: string = words.boneOnly) {
+  /// `change` heads what the limits differ by.
+  constructor(title: string, change: string, before: readonly EndOfMotion[], after: readonly EndOfMotion[], motions: readonly MotionAnswer[]) {
     this.before = [...before];
-    const cell = () => html("td", {});
-    this.rows = motions.map(({ name }) => {
-      const row = { before: cell(), after: cell(), gained: cell() };
-      const head = html("tr", {}, html("th", { scope: "row" }, named(motionName(name))), row.before, row.after, row.gained, html("td", { class: "quiet" }, of));
-      return { ...row, head };
-    });
-    this.element = html("div", { class: "scroll live-limits", tabindex: 0, role: "region", "aria-label": title },
-      html("table", {}, html("caption", {}, title),
-        html("thead", {}, html("tr", {}, html("td"), ...[words.before, words.after, change].map((text) => html("th", { scope: "col" }, text)), html("td"))),
-        html("tbody", {}, ...this.rows.map(({ head }) => head))));
+    this.element = table(["", words.before, words.after, change], motions.map(({ name }) => [named(motionName(name)), "", "", ""]), title);
+    this.element.classList.add("live-limits");
+    this.rows = [...this.element.querySelectorAll<HTMLTableRowElement>("tbody tr")];
     this.showAll(after);
   }
 
@@ -66,10 +51,8 @@ export class LiveLimits {
 
   show(i: number, after: EndOfMotion): void {
     const row = this.rows[i]!, before = this.before[i]!;
-    row.before.textContent = endText(before);
-    row.after.textContent = endText(after);
-    row.gained.textContent = gainText(before, after);
-    row.head.classList.remove("waits");
+    [endText(before), endText(after), gainText(before, after)].forEach((text, k) => (row.cells[k + 1]!.textContent = text));
+    row.classList.remove("waits");
   }
 
   setBefore(i: number, { turned_deg, reason }: LiveLimit): void {
@@ -82,10 +65,10 @@ export class LiveLimits {
 
   /// The values shown belong to an earlier state of the joint.
   wait(): void {
-    for (const { head } of this.rows) head.classList.add("waits");
+    for (const row of this.rows) row.classList.add("waits");
   }
 
   mark(chosen: number): void {
-    this.rows.forEach(({ head }, i) => (i === chosen ? head.setAttribute("aria-current", "true") : head.removeAttribute("aria-current")));
+    this.rows.forEach((row, i) => (i === chosen ? row.setAttribute("aria-current", "true") : row.removeAttribute("aria-current")));
   }
 }

@@ -7,7 +7,7 @@ import { csv, save } from "../save";
 import { motionName, words } from "../words";
 import { roving } from "../roving";
 
-const columns = 4;
+const columns = 3;
 
 /// Every motion with where it ends, as a grid to press: the table of limits.
 export class ManoeuvreGrid {
@@ -22,8 +22,8 @@ export class ManoeuvreGrid {
       if (deficitOf(motion) !== null) tile.classList.add("short");
       tile.append(
         html("span", { class: "tile-name" }, shortened(named(motionName(motion.name)), 40)), " ",
-        html("span", { class: "tile-value" }, ...(before ? [html("span", { class: "quiet" }, before), " "] : []), html("b", {}, limitAlone(motion)), " ", html("span", { class: "quiet" }, bandText(motion))), " ",
-        limitBar(motion, most), html("span", { class: "tile-normal" }, comparedText(motion, rom, zero, true)));
+        html("span", { class: "tile-value" }, ...(before ? [html("span", { class: "quiet" }, before), " "] : []), html("b", {}, limitAlone(motion)), " ",
+          html("span", { class: "quiet" }, bandText(motion)), " ", html("span", { class: "tile-normal" }, comparedText(motion, rom, zero, true))), limitBar(motion, most));
       this.tiles.set(motion.name, tile);
     }
     const grid = html("div", { class: "tiles", role: "group", "aria-label": words.limits }, ...this.tiles.values());

@@ -1,4 +1,4 @@
-import { button, html, named, spaced, svg } from "../dom";
+import { button, html, namesOf, spaced, svg } from "../dom";
 import type { Coordinates, Depth, Nearest, Shown } from "../core/protocol";
 import { fixed, plain } from "../numbers";
 import type { Interval, MotionAnswer, ReportText } from "../report";
@@ -197,7 +197,7 @@ export class MotionPanel {
   /// Comes once the joint is idle: the answer of `condyle depth`.
   showDepth(depth: Depth): void {
     const { deepest, withoutDepth, area_mm2, volume_mm3, volumeError_mm3, coveredAgain_mm3 } = depth;
-    const bodies = { fixed: named(this.report.joint.fixed), mobile: named(this.report.joint.mobile) };
+    const bodies = namesOf(this.report.joint);
     const lines: string[] = [];
     if (deepest) {
       const along = deepest.about === null ? words.theRay
@@ -223,10 +223,8 @@ export class MotionPanel {
     this.lastDepth = null;
     this.touches = shown.inContact;
     for (const slider of this.sliders) slider.free = null;
-    const fixedName = named(this.report.joint.fixed), mobile = named(this.report.joint.mobile);
-    const inside = ([["mobile", mobile], ["fixed", fixedName]] as const)
-      .filter(([key]) => shown.inside[key].count > 0)
-      .map(([key, name]) => words.inside(name, shown.inside[key]));
+    const names = namesOf(this.report.joint);
+    const inside = (["mobile", "fixed"] as const).filter((body) => shown.inside[body].count > 0).map((body) => words.inside(names[body], shown.inside[body]));
     this.answer.textContent = [
       shown.inContact ? words.inContact : words.notInContact, ...inside,
       ...(shown.pairs.length ? [words.pairsCount(shown.pairs.length / 2)] : []),
@@ -264,8 +262,8 @@ export class MotionPanel {
     if (!state || state.is === "free") return this.status.say("free", this.nearest ? words.freeClear(nearestText(this.nearest, this.report)) : words.isFree);
     if (state.is === "bearing") return this.status.say("bearing", words.bearingEndsNone);
     if (state.is === "limit") {
-      const { name, opposite } = this.report.coordinates[state.vary]!;
-      return this.status.say("limit", words.atLimit(words.meshOn(named(joint.mobile), named(joint.fixed)), spaced(state.isHigh ? name : opposite)));
+      const { name, opposite } = this.report.coordinates[state.vary]!, names = namesOf(joint);
+      return this.status.say("limit", words.atLimit(words.meshOn(names.mobile, names.fixed), spaced(state.isHigh ? name : opposite)));
     }
     const { bearing } = rom ?? {}, knowsBearing = bearing?.rule === "leave_out" && !bearing.why_none;
     this.status.inContact(knowsBearing ? words.impinging : words.inContact, this.lastDepth);

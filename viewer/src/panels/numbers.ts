@@ -1,4 +1,4 @@
-import { fold, html, named, shortened, spaced } from "../dom";
+import { fold, html, named, namesOf, shortened, spaced } from "../dom";
 import { fixed } from "../numbers";
 import type { MeshSource, MotionAnswer, PartParameter, ReportText, RomAnswer } from "../report";
 import { hasLimits, limitAlone, shownBand } from "../result";
@@ -33,7 +33,7 @@ export function methodOf(report: ReportText, counts: { fixed: [number, number]; 
   const { joint, rom } = report, caveats = rom ? caveatsOf(rom) : [];
   return [
     ...(report.note ? [html("p", {}, report.note)] : []),
-    table(["", words.vertices, words.triangles], (["fixed", "mobile"] as const).map((body) => [named(joint[body]), ...counts[body].map(String)]),
+    table(["", words.vertices, words.triangles], (["fixed", "mobile"] as const).map((body) => [namesOf(joint)[body], ...counts[body].map(String)]),
       words.ofBodies(words.sides[joint.side], words.kinds[joint.kind])),
     ...(rom ? [html("h3", {}, words.how), lines(howFound(rom))] : [html("p", { class: "warning" }, words.noLimits + (report.rom_error ?? ""))]),
     ...(caveats.length ? [html("h3", {}, words.caveats), lines(caveats)] : []),
@@ -59,7 +59,7 @@ function caveatsOf({ motions }: RomAnswer): string[] {
   for (const { name, caveats } of motions)
     for (const { text, source } of caveats ?? []) {
       const known: About = about.get(text) ?? { names: [], source };
-      known.names.push(named(spaced(name)));
+      known.names.push(named(motionName(name)));
       about.set(text, known);
     }
   return [...about].map(([text, { names, source }]) => words.caveat(names.join(", "), text, source));
@@ -71,10 +71,11 @@ const degrees = (value: number | null) => (value === null ? "–" : `${fixed(val
 function endOf(motion: MotionAnswer, joint: ReportText["joint"]): string {
   const { reason, contact_kind, contact_side, features, soft_contact_deg, soft_contact_parts: soft } = motion;
   const fixedPart = features?.fixed.part, mobile = features?.mobile.part;
+  const meeting = (moving?: string | null, other?: string | null) => words.meshOn(spaced(moving ?? joint.mobile), spaced(other ?? joint.fixed));
   const kind = contact_kind !== null && (words.contactKinds[contact_kind] ?? contact_kind);
-  const how = [kind, contact_side, (fixedPart || mobile) && words.meshOn(mobile ?? joint.mobile, fixedPart ?? joint.fixed),
+  const how = [kind, contact_side, (fixedPart || mobile) && meeting(mobile, fixedPart),
     typeof soft_contact_deg === "number" && words.softFrom(
-      degrees(soft_contact_deg), soft ? words.meshOn(soft.mobile ?? joint.mobile, soft.fixed ?? joint.fixed) : null)].filter(Boolean).join(", ");
+      degrees(soft_contact_deg), soft ? meeting(soft.mobile, soft.fixed) : null)].filter(Boolean).join(", ");
   const end = !motion.translation_ends ? words.reasons[reason] : motion.translation_mm ? words.translationEnds : words.notCarried;
   return how ? words.endsBy(end, how) : end;
 }
@@ -85,7 +86,7 @@ function limitsTable({ motions }: RomAnswer, joint: ReportText["joint"]): HTMLEl
     motions.map((motion) => {
       const band = shownBand(motion);
       return [
-        named(spaced(motion.name)), limitAlone(motion), band ? words.bandEnds(fixed(band.p5_deg, 0), fixed(band.p95_deg, 0)) : "–",
+        named(motionName(motion.name)), limitAlone(motion), band ? words.bandEnds(fixed(band.p5_deg, 0), fixed(band.p95_deg, 0)) : "–",
         endOf(motion, joint),
         degrees(motion.bearing_contact_deg), degrees(motion.normal_range_deg),
         motion.reason !== "contact" || motion.error_bound_deg === undefined ? "–" : `${motion.error_bound_deg.toPrecision(2)}°`,

@@ -12,7 +12,7 @@ export function placeTabs({ motion, figures, details }: Record<"motion" | "figur
   const tabs = new Tabs(words.tabs, [
     { id: "motion", title: words.tab.motion, panel: motion }, { id: "figures", title: words.tab.figures, panel: figures },
     { id: "plan", title: words.tab.plan, panel: planTab }, { id: "details", title: words.tab.details, panel: details },
-  ], () => undefined);
+  ], () => document.getElementById("view-options")?.removeAttribute("open"));
   tabs.setShown("plan", false);
   planPanels.addEventListener("filled", () => tabs.setShown("plan", true));
   found("side").replaceChildren(tabs.list, ...tabs.panels);

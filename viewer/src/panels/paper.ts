@@ -1,7 +1,9 @@
-import { html, named } from "../dom";
+import { html, named, namesOf } from "../dom";
 import { clockDrawing } from "../plots/clock";
+import { layOut, type Drawing } from "../plots/figure";
 import { limitsDrawing } from "../plots/limits";
 import { MapPlot } from "../plots/map";
+import { planCurveDrawing } from "../plots/plan_curve";
 import { SweepMap } from "../plots/sweep_map";
 import { fromBefore, ribbonOf } from "../planned";
 import { scopeOf, type ReportText } from "../report";
@@ -11,10 +13,11 @@ import { comparisonTable } from "./compare";
 import { headingOf } from "./header";
 import { methodOf, sourcesOf } from "./numbers";
 import { planInShort } from "./plan";
+import { measureTables, shapeDrawings } from "./shape";
 import { sentenceOf, type Extreme } from "./strip";
 import type { ShownSweep } from "./sweep";
 
-/// The page on paper, two sheets: the answer with its picture, limits and scope; then the map, the method and the files.
+/// The page on paper: a sheet of the answer with its picture, limits and scope; then all figures, the method and the files.
 export class Paper {
   readonly element: HTMLElement;
   private readonly image = html("img", { alt: "" });
@@ -23,7 +26,7 @@ export class Paper {
 
   constructor(
     text: ReportText, counts: { fixed: [number, number]; mobile: [number, number] }, extremes: readonly Extreme[], sweep: ShownSweep | null,
-    ofLoad: string | null) {
+    ofLoad: string | null, recorded: Drawing | null) {
     const { rom, map } = text, isHip = text.joint.anatomy === "hip" && text.joint.kind !== "hinge";
     const headline = rom ? headlineMotion(rom, isHip) : null, isLimited = hasLimits(text);
     const figures = rom && isLimited && ofLoad === null
@@ -39,18 +42,21 @@ export class Paper {
       html("div", { class: "paper-results" }, ...figures.map(([name, value, band, normal]) =>
         html("div", {}, html("span", {}, named(name)), html("b", {}, value), html("span", {}, [band, normal].filter(Boolean).join("; "))))),
       html("p", {}, ofLoad ??
-        (isLimited && headline ? sentenceOf(headline, text) : rom ? words.noLimitsInContact : words.noLimits + (text.rom_error ?? ""))),
+        (isLimited && headline ? sentenceOf(headline, text) : rom ? words.noLimitsInContact : words.noLimitsSentence(text.rom_error ?? ""))),
       ...(notes.length ? [html("p", { class: "warning" }, html("b", {}, words.noted(notes.length)), " ", notes.map((note) => note.text).join("; "))] : []),
       html("div", { class: "paper-picture" }, this.image, this.caption),
       ...(isLimited && rom!.held_translation_mm ? [html("h3", {}, words.heldLimits)] : []),
-      ...(rom && isLimited ? [html("div", { class: "paper-figures" }, drawn(limitsDrawing(rom.motions, null)), ...(clock ? [drawn(clock)] : []))] : []),
+      ...(rom && isLimited ? [html("div", { class: "paper-figures" }, drawn(limitsDrawing(rom.motions)), ...(clock ? [drawn(clock, 330, 250)] : []))] : []),
       ...(text.plan
-        ? [html("div", { class: "paper-plan" }, ...planInShort(text.plan, { fixed: named(text.joint.fixed), mobile: named(text.joint.mobile) }))]
+        ? [html("div", { class: "paper-plan" }, ...planInShort(text.plan, namesOf(text.joint)))]
         : []),
       ...(compared ? [compared] : []), scope);
-    const filesBefore = text.before?.rom?.provenance;
+    const filesBefore = text.before?.rom?.provenance, curve = text.plan && planCurveDrawing(text.plan.curve), { measures } = text;
     const second = html("div", { class: "sheet" },
-      ...(map && !text.by_hand ? [html("div", { class: "paper-map" }, new MapPlot(map, null, "paper-").element)] : []),
+      ...(map && !text.by_hand ? [drawn(new MapPlot(map, null, "paper-").drawing, 560, 250)] : []),
+      ...(recorded ? [drawn(recorded, 560, 260)] : []), ...(curve ? [drawn(curve, 560, 170)] : []),
+      ...(measures ? [html("h2", {}, words.measures), html("div", { class: "paper-measures" }, ...measureTables(measures),
+        ...shapeDrawings(measures).map((drawing) => drawn(drawing, 400, 150)))] : []),
       ...(sweep ? [html("h2", {}, words.sweep), zoneOf(sweep, text)] : []),
       html("h2", {}, words.method), ...methodOf(text, counts),
       ...(rom?.provenance ? [html("h2", {}, words.sourceFiles), ...sourcesOf(rom.provenance)] : []),
@@ -81,9 +87,12 @@ function zoneOf({ stored, margins, least }: ShownSweep, { posed }: ReportText): 
   const map = new SweepMap(stored, margins, least, () => undefined, "paper-");
   const values = new Map((posed?.parts ?? []).flatMap(({ name, parameters }) => parameters.map((each) => [`${name}.${each.name}`, each.value])));
   map.show(stored.parameters.map(({ name }) => values.get(name) ?? NaN));
+  layOut(map.drawing, 560, stored.parameters.length > 1 ? 180 : 70);
   return html("div", {}, map.element, html("p", { class: "small" }, ...stored.sweep_notes.map(({ text }) => `${words.sweepNoted(text)} `)));
 }
 
-function drawn({ picture, caption }: { picture: SVGSVGElement; caption: string }): HTMLElement {
+/// Of this size, if it has none of its own.
+function drawn({ picture, caption, lay }: Pick<Drawing, "picture" | "caption"> & Partial<Drawing>, width = 0, height = 0): HTMLElement {
+  if (lay) layOut({ picture, lay }, width, height);
   return html("figure", {}, picture, html("figcaption", {}, caption));
 }

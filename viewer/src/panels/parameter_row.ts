@@ -23,7 +23,7 @@ export class ParameterRow {
     this.unit = words.partUnit[parameter.unit] ?? "";
     const by = isSize ? (high - low) / stepsOfSize : step;
     this.digits = by < 0.1 ? 3 : 1;
-    const title = `${named(part)} ${spaced(named(parameter.name))}`, label = words.parameterLabel(title, this.unit.trim());
+    const title = `${spaced(named(part))} ${spaced(named(parameter.name))}`, label = words.parameterLabel(title, this.unit.trim());
     this.field = new NumberField(label, low, high, by, this.unit, false, (value) => {
       this.write(value);
       moved();

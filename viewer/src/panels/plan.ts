@@ -1,4 +1,4 @@
-import { checkbox, fold, html, named, section, spaced } from "../dom";
+import { checkbox, fold, html, named, section } from "../dom";
 import { clockTime, fixed } from "../numbers";
 import { figure } from "../plots/figure";
 import { planCurveDrawing } from "../plots/plan_curve";
@@ -7,17 +7,17 @@ import type { Values } from "../core/protocol";
 import { bodyNames, type BodyName } from "../scene/body_names";
 import type { JointScene } from "../scene/scene";
 import { endText } from "../result";
-import { words } from "../words";
+import { motionName, words } from "../words";
 import { measureName } from "./shape";
 import { lines, table } from "./table";
 
 /// The targets with their limits before and after, what stands in the way of them, and the bone that goes.
 export function planInShort({ targets, cuts, margin_mm }: StoredPlan, names: Record<BodyName, string>): HTMLElement[] {
   const blocked = targets.flatMap(({ motion, planned_deg, blocked: by }) =>
-    (by ? [words.blocked(named(spaced(motion)), planned_deg.toFixed(1), words.keptBy[by.kept_by], names[by.body])] : []));
+    (by ? [words.blocked(named(motionName(motion)), planned_deg.toFixed(1), words.keptBy[by.kept_by], names[by.body])] : []));
   return [
     table(["", words.before, words.target, words.after], targets.map((target) => [
-      named(spaced(target.motion)), endText(target.before), `${Number(target.reach_deg.toFixed(2))}°`, endText(target.after),
+      named(motionName(target.motion)), endText(target.before), `${Number(target.reach_deg.toFixed(2))}°`, endText(target.after),
     ]), words.targets),
     ...(blocked.length ? [lines(blocked)] : []),
     cuts.length
@@ -45,7 +45,7 @@ export class PlanPanel {
     const drawing = planCurveDrawing(curve);
     if (drawing) parts.push(figure(drawing));
     const more: HTMLElement[] = [table(["", words.before, words.after, words.gain], limits.map(({ motion, before, after, gain_deg }) => [
-      named(spaced(motion)), endText(before), endText(after), `${fixed(gain_deg, 1)}°`,
+      named(motionName(motion)), endText(before), endText(after), `${fixed(gain_deg, 1)}°`,
     ]), words.limits)];
     const changed = (measures ?? []).filter(({ before, after }) => before?.toFixed(1) !== after?.toFixed(1));
     const text = (value: number | null) => (value === null ? "–" : fixed(value, 1));

@@ -2,7 +2,7 @@ import { zipSync } from "fflate";
 import { button, checkbox, choice, html, named, section } from "../dom";
 import { fixed, plain } from "../numbers";
 import { CurveStack, curveOf, shownAtOnce, valueText, usualCurves, type Curve, type CurveKind } from "../plots/curves";
-import { figure } from "../plots/figure";
+import { figure, type Drawing } from "../plots/figure";
 import type { RecordedMotion } from "../recorded_motion";
 import { saveBlob } from "../save";
 import { words } from "../words";
@@ -62,12 +62,13 @@ export class RecordedPanel {
     const span = recorded.axis === "frame" ? words.recordedFrames(last + 1)
       : words.recordedOver(last + 1, plain(this.times[0]!, 3), plain(this.times[last]!, 3));
     const chosen = usualCurves(this.curves);
+    const drawing = figure(this.stack.drawing(), html("p", { class: "small silent" }, [`${named(recorded.name)}: ${span}`, ...this.silent()].join("; ")));
+    if (drawn) drawing.querySelector(".under .row")!.prepend(this.picturesButton(drawn));
     this.element = section(words.recorded,
-      html("p", { class: "small" }, `${named(recorded.name)}: ${span}`),
       html("div", { class: "row no-print playing" }, this.playButton, this.slider, this.time,
         choice(words.speed, words.speeds, "1", (speed) => this.setSpeed(Number(speed))), checkbox(words.loop, false, (on) => (this.loops = on)),
         ...this.chooser(chosen)),
-      figure(this.stack.drawing(), ...this.silent()), ...(drawn ? [this.picturesButton(drawn)] : []));
+      drawing);
     this.stack.show(chosen);
     this.showTime(0);
   }
@@ -98,6 +99,13 @@ export class RecordedPanel {
 
   private figureAt(frame: number, name: string, value: string): Extreme {
     return { name, value, at: this.timeText(frame), go: () => this.show(frame) };
+  }
+
+  /// The curves shown first, for paper.
+  drawing(): Drawing {
+    const stack = new CurveStack(this.recorded.axis, this.times, () => undefined);
+    stack.show(usualCurves(this.curves));
+    return stack.drawing();
   }
 
   show(frame: number): void {
@@ -193,11 +201,11 @@ export class RecordedPanel {
     return [html("details", { class: "popup" }, html("summary", {}, words.quantities), html("div", {}, ...boxes.map(({ label }) => label)))];
   }
 
-  /// Curves without information, in a line.
-  private silent(): HTMLElement[] {
+  /// Curves without information.
+  private silent(): string[] {
     const line = (kind: CurveKind, said: (names: string) => string) => {
       const names = this.curves.filter((curve) => curve.kind === kind).map(({ title }) => title);
-      return names.length ? [html("p", { class: "small silent" }, said(names.join(", ")))] : [];
+      return names.length ? [said(names.join(", "))] : [];
     };
     return [...line("zero", words.zeroCurves), ...line("empty", words.emptyCurves)];
   }

@@ -1,6 +1,6 @@
 import { checkbox, fold, html, section } from "../dom";
 import { fixed } from "../numbers";
-import { figure } from "../plots/figure";
+import { figure, type Drawing } from "../plots/figure";
 import { hoursDrawing } from "../plots/hours";
 import type { MeasureRecord } from "../records";
 import type { StoredMeasures } from "../report";
@@ -33,19 +33,16 @@ function sentences(measures: readonly MeasureRecord[], said: (measure: MeasureRe
   return measures.filter((measure) => said(measure)).map((measure) => words.ofMeasure(measureName(measure.key, measure.unit), said(measure)!));
 }
 
-/// The shape of a hip: its measures with bands and normal ranges, around the clock, and drawn on the bones.
-export function shapePanel(shape: StoredMeasures, scene: JointScene | null): { element: HTMLElement; details: HTMLDetailsElement } {
-  const { measures } = shape;
-  const hasBands = measures.some(({ band }) => band !== null);
-  const head = ["", words.value, ...(hasBands ? [words.band] : []), words.normal];
-  const parts: HTMLElement[] = [], more: HTMLElement[] = [html("p", {}, words.pelvisFrame(shape.pelvis_frame))];
-  if (scene)
-    parts.push(html("div", { class: "row no-print" },
-      checkbox(words.drawMeasures, false, (on) => scene.showMarks(on ? measureMarks(shape) : null))));
-  for (const part of ["femur", "acetabulum", "both"] as const) {
+export function measureTables({ measures }: StoredMeasures): HTMLElement[] {
+  const hasBands = measures.some(({ band }) => band !== null), head = ["", words.value, ...(hasBands ? [words.band] : []), words.normal];
+  return (["femur", "acetabulum", "both"] as const).flatMap((part) => {
     const rows = measures.filter((measure) => measure.part === part).map((measure) => row(measure, hasBands));
-    if (rows.length) more.push(table(head, rows, words.measuredPart[part]));
-  }
+    return rows.length ? [table(head, rows, words.measuredPart[part])] : [];
+  });
+}
+
+/// Alpha angles around the neck and centre-edge angles around the rim.
+export function shapeDrawings(shape: StoredMeasures): Drawing[] {
   const alpha = hoursDrawing("alpha_by_hour", words.alphaCaption, words.alphaAxis, shape.around_neck.map(({ hour }) => hour), [
     { name: words.alphaAt("0.5"), values: shape.around_neck.map(({ alpha_deg }) => alpha_deg) },
     { name: words.alphaAt("1.0"), values: shape.around_neck.map(({ alpha_at_1mm_deg }) => alpha_at_1mm_deg) },
@@ -53,7 +50,13 @@ export function shapePanel(shape: StoredMeasures, scene: JointScene | null): { e
   const edge = hoursDrawing("centre_edge_by_hour", words.centreEdgeCaption, words.centreEdgeAxis, shape.rim.map(({ hour }) => hour), [
     { name: words.centreEdgeAxis, values: shape.rim.map(({ centre_edge_deg }) => centre_edge_deg) },
   ]);
-  for (const drawing of [alpha, edge]) if (drawing) parts.push(figure(drawing));
+  return [alpha, edge].filter((drawing) => drawing !== null);
+}
+
+/// The shape of a hip: its measures with bands and normal ranges, around the clock, and drawn on the bones.
+export function shapePanel(shape: StoredMeasures, scene: JointScene | null): { element: HTMLElement; details: HTMLDetailsElement } {
+  const { measures } = shape, more: HTMLElement[] = [html("p", {}, words.pelvisFrame(shape.pelvis_frame)), ...measureTables(shape)];
+  const parts = scene ? [html("div", { class: "row no-print" }, checkbox(words.drawMeasures, false, (on) => scene.showMarks(on ? measureMarks(shape) : null)))] : [];
   const folded = (title: string, texts: string[]) => {
     if (texts.length) more.push(html("details", { class: "folded" }, html("summary", {}, title), lines(texts)));
   };
@@ -65,5 +68,5 @@ export function shapePanel(shape: StoredMeasures, scene: JointScene | null): { e
     words.ofMeasure(measureName(key, unit), words.definedBy(definition, source))));
   folded(words.normalSources, measures.flatMap(({ key, unit, normal }) =>
     (normal ? [words.ofMeasure(measureName(key, unit), words.definedBy(normal.people ? `${normal.people}: ${normal.meaning}` : normal.meaning, normal.source))] : [])));
-  return { element: section(words.shape, ...parts), details: fold(words.measures, false, ...more) };
+  return { element: section(words.shape, ...parts, ...shapeDrawings(shape).map((drawing) => figure(drawing))), details: fold(words.measures, false, ...more) };
 }

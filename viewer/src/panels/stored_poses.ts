@@ -1,7 +1,7 @@
 import type { BothValues, Values } from "../core/protocol";
-import { choice, html, spaced } from "../dom";
+import { choice, html } from "../dom";
 import type { Report, StoredPose } from "../report";
-import { words } from "../words";
+import { motionName, words } from "../words";
 
 /// Poses that the report holds, for pages that cannot compute.
 export class StoredPoses {
@@ -14,7 +14,7 @@ export class StoredPoses {
 
   constructor(private readonly report: Report, chosen: (name: string) => void) {
     const names = report.text.poses.map(({ name }) => name);
-    const poses = choice<string>(words.precomputed, Object.fromEntries(names.map((name) => [name, spaced(name)])), names[0] ?? "", chosen);
+    const poses = choice<string>(words.precomputed, Object.fromEntries(names.map((name) => [name, motionName(name)])), names[0] ?? "", chosen);
     this.names = names;
     this.select = poses.querySelector("select")!;
     this.element = html("div", { class: "row" }, poses);

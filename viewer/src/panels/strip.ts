@@ -1,4 +1,4 @@
-import { button, html, named, shortened, spaced } from "../dom";
+import { button, html, named, namesOf, shortened, spaced } from "../dom";
 import { clockTime, fixed } from "../numbers";
 import { fromBefore, isPlanned } from "../planned";
 import type { Nearest } from "../core/protocol";
@@ -28,11 +28,11 @@ function isAtRim(point: readonly number[] | null, { rom }: ReportText): boolean 
 export function nearestText(nearest: readonly Nearest[], text: ReportText): string {
   const partOf = (body: BodyName, triangle: number) => (text.parts[body].length > 1
     ? text.parts[body].find(({ first_triangle, triangles }) => triangle < first_triangle + triangles)?.name : undefined);
-  const isHip = text.joint.anatomy === "hip";
+  const isHip = text.joint.anatomy === "hip", names = namesOf(text.joint);
   return nearest.map(({ distance_mm, triangle, isBearing, point }) => {
     const mobile = partOf("mobile", triangle.mobile), fixedPart = partOf("fixed", triangle.fixed);
-    return words.nearest(fixed(distance_mm, 1), mobile || fixedPart || !isHip ? words.meshTo(spaced(named(mobile ?? text.joint.mobile)), spaced(named(fixedPart ?? text.joint.fixed)))
-      : isBearing ? words.headToSocket : isAtRim(point, text) ? words.neckToRim : words.meshTo(named(text.joint.mobile), named(text.joint.fixed)));
+    return words.nearest(fixed(distance_mm, 1), mobile || fixedPart || !isHip ? words.meshTo(mobile ? spaced(named(mobile)) : names.mobile, fixedPart ? spaced(named(fixedPart)) : names.fixed)
+      : isBearing ? words.headToSocket : isAtRim(point, text) ? words.neckToRim : words.meshTo(names.mobile, names.fixed));
   }).join(" · ");
 }
 
@@ -65,7 +65,7 @@ function sentenceOnEnd(motion: MotionAnswer, report: ReportText): string {
   const name = capital(named(motionName(motion.name)));
   if (motion.reason === "contact_at_start") return words.startsInContactSentence(name);
   if (motion.translation_ends) return words.translationSentence(name, limitAlone(motion));
-  if (motion.reason === "end_of_range") return words.freeSentence(name, fixed(motion.limit_deg, 0));
+  if (motion.reason === "end_of_range") return words.freeSentence(name, fixed(motion.limit_deg, 0), namesOf(report.joint));
   const limit = [fromBefore(report, motion), bandText(motion)].filter(Boolean).join(" "), held = report.rom!.held_translation_mm ? words.held : null;
   return words.endsSentence(name, limit, held, compared(motion, report.rom!), placeOf(motion, report));
 }
@@ -108,7 +108,7 @@ export class ResultStrip {
     const headline = rom && isLimited ? headlineMotion(rom, isHip) : null;
     this.sentence.classList.toggle("wrong", headline !== null && wrongOf(rom) !== null);
     this.say(ofLoad ??
-      (headline ? sentenceOf(headline, report) : rom ? words.noLimitsInContact : words.noLimits + shortened(report.rom_error ?? "", 300)));
+      (headline ? sentenceOf(headline, report) : rom ? words.noLimitsInContact : words.noLimitsSentence(report.rom_error ?? "")));
     const notes = notesBeside(rom);
     this.element = html("section", { id: "strip", "aria-label": words.result },
       ...(cards.length ? [html("div", { id: "results" }, ...cards)] : []),

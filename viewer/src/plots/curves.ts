@@ -6,7 +6,7 @@ import type { Recorded } from "../report";
 import { words } from "../words";
 import type { Drawing } from "./figure";
 
-const width = 560, height = 400, left = 54, right = 14, top = 6, bottom = 40, laneHead = 18, laneGap = 8;
+const left = 54, right = 14, top = 4, bottom = 40, laneHead = 17, laneGap = 6;
 
 /// Kind of a curve at a glance.
 export type CurveKind = "changes" | "zero" | "empty";
@@ -49,15 +49,16 @@ export function valueText(value: number, unit: string): string {
 
 /// Curves over each other with one axis of time, and a cursor in all of them that mouse and arrow keys move.
 export class CurveStack {
-  readonly picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "plot curve-plot" });
-  private readonly cursor = svg("line", { y1: top, y2: height - bottom, class: "cursor" });
+  readonly picture = svg("svg", { class: "plot curve-plot" });
+  private readonly cursor = svg("line", { y1: top, class: "cursor" });
   private readonly x;
+  private size = { width: 0, height: 0 };
   private shown: readonly Curve[] = [];
   private readouts: SVGTextElement[] = [];
   private frame = 0;
 
   constructor(private readonly axis: Recorded["axis"], private readonly times: Float64Array, private readonly go: (frame: number) => void) {
-    this.x = scaleLinear([times[0]!, times[times.length - 1]!], [left, width - right]);
+    this.x = scaleLinear([times[0]!, times[times.length - 1]!], [0, 1]);
     const { picture } = this;
     picture.setAttribute("tabindex", "0");
     picture.setAttribute("aria-valuemin", "0");
@@ -79,6 +80,12 @@ export class CurveStack {
   drawing(): Drawing {
     return {
       name: "curves", caption: words.curvesCaption, picture: this.picture, role: "slider",
+      lay: (width, height) => {
+        this.size = { width, height };
+        this.x.range([left, width - right]);
+        this.cursor.setAttribute("y2", String(height - bottom));
+        this.show(this.shown);
+      },
       data: () => [
         [this.axis, ...this.shown.map(({ name }) => name)],
         ...Array.from(this.times, (t, i) => [t, ...this.shown.map(({ values }) => (Number.isFinite(values[i]) ? values[i]! : null))]),
@@ -88,12 +95,13 @@ export class CurveStack {
 
   show(curves: readonly Curve[]): void {
     this.shown = curves;
+    const { width, height } = this.size;
     const each = (height - top - bottom) / Math.max(1, curves.length);
     this.readouts = [];
     this.picture.replaceChildren(
       ...curves.flatMap((curve, i) => this.lane(curve, top + i * each, top + (i + 1) * each - laneGap)),
       ...this.x.ticks(6).map((tick) => svg("text", { x: this.x(tick), y: height - 23, "text-anchor": "middle" }, plain(tick, 3))),
-      svg("text", { x: (left + width - right) / 2, y: height - 6, "text-anchor": "middle", class: "small" }, words.recordedAxis[this.axis]),
+      svg("text", { x: (left + width - right) / 2, y: height - 6, "text-anchor": "middle" }, words.recordedAxis[this.axis]),
       this.cursor);
     this.setFrame(this.frame);
   }
@@ -113,14 +121,14 @@ export class CurveStack {
     const ends = [Math.min(0, ...finite), Math.max(0, ...finite)];
     const y = scaleLinear(ends[0] === ends[1] ? [0, 1] : ends, [to, from + laneHead]).nice(3);
     const path = line<number>((_, i) => this.x(this.times[i]!)).y((value) => y(value)).defined(Number.isFinite);
-    const readout = svg("text", { x: width - right, y: from + 12, "text-anchor": "end", class: "readout" });
+    const { width } = this.size, readout = svg("text", { x: width - right, y: from + 12, "text-anchor": "end", class: "readout" });
     this.readouts.push(readout);
-    const ticks = to - from > 60 ? y.ticks(3) : y.domain();
+    const room = to - from - laneHead, ticks = room > 42 ? y.ticks(3) : y.domain().slice(room > 13 ? 0 : 1);
     return [
       svg("text", { x: left, y: from + 12 }, curve.unit ? `${curve.title}, ${curve.unit}` : curve.title), readout,
       ...ticks.flatMap((tick) => [
         svg("line", { x1: left, x2: width - right, y1: y(tick), y2: y(tick), class: "grid" }),
-        svg("text", { x: left - 6, y: y(tick) + 4, "text-anchor": "end", class: "small" }, plain(tick, 3)),
+        svg("text", { x: left - 6, y: y(tick) + 4, "text-anchor": "end" }, plain(tick, 3)),
       ]),
       svg("path", { d: path(Array.from(curve.values)) ?? "", class: "curve" }),
     ];

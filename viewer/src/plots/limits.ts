@@ -1,10 +1,9 @@
 import { scaleLinear } from "d3-scale";
-import { named, spaced, svg } from "../dom";
-import { fixed } from "../numbers";
+import { named, svg } from "../dom";
 import type { Band, MotionAnswer, StoredBefore } from "../report";
 import { limitText, shownBand } from "../result";
-import { words } from "../words";
-import { pressable, type Drawing } from "./figure";
+import { motionName, words } from "../words";
+import type { Drawing } from "./figure";
 
 const width = 460, rowHeight = 24, left = 206, right = 20, top = 6, bottom = 30;
 /// Labels of four digits stay apart from each other.
@@ -52,35 +51,23 @@ function cellsBefore({ rom, differences }: StoredBefore, name: string): (string 
 }
 
 /// A bar for each motion, with band, number and clinical range: the limits on paper.
-export function limitsDrawing(motions: readonly MotionAnswer[], go: ((motion: MotionAnswer) => void) | null): Drawing {
-  const height = top + motions.length * rowHeight + bottom, numbers = 92;
+export function limitsDrawing(motions: readonly MotionAnswer[]): Pick<Drawing, "picture" | "caption"> {
+  const height = top + motions.length * rowHeight + bottom, numbers = 92, axisY = height - bottom;
   const x = scaleLinear([0, mostOf(motions)], [left, width - right - numbers]).nice(tickCount);
   const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "plot" });
-  const axisY = height - bottom;
+  const upright = (deg: number, from: number, to: number, kind: string) => svg("line", { x1: x(deg), x2: x(deg), y1: from, y2: to, class: kind });
   for (const tick of x.ticks(tickCount))
-    picture.append(
-      svg("line", { x1: x(tick), x2: x(tick), y1: top, y2: axisY, class: "grid" }),
-      svg("text", { x: x(tick), y: axisY + 15, "text-anchor": "middle" }, `${tick}°`));
+    picture.append(upright(tick, top, axisY, "grid"), svg("text", { x: x(tick), y: axisY + 15, "text-anchor": "middle" }, `${tick}°`));
   motions.forEach((motion, i) => {
-    const y = top + i * rowHeight, middle = y + rowHeight / 2;
-    const name = named(spaced(motion.name));
-    const row = svg("g", {},
-      svg("rect", { x: 0, y, width, height: rowHeight, class: "row-back" }),
-      svg("text", { x: left - 8, y: middle + 4, "text-anchor": "end" }, name),
+    const y = top + i * rowHeight, middle = y + rowHeight / 2, band = shownBand(motion);
+    picture.append(
+      svg("text", { x: left - 8, y: middle + 4, "text-anchor": "end" }, named(motionName(motion.name))),
       svg("rect", { x: x(0), y: y + 6, width: Math.max(0, x(motion.limit_deg) - x(0)), height: rowHeight - 12, class: "bar" }),
       svg("text", { x: width - 4, y: middle + 4, "text-anchor": "end" }, motion.reason === "contact_at_start" ? "–" : limitText(motion)));
-    const band = shownBand(motion);
     if (band)
-      row.append(
-        svg("line", { x1: x(band.p5_deg), x2: x(band.p95_deg), y1: middle, y2: middle, class: "whisker" }),
-        ...[band.p5_deg, band.p95_deg].map((end) =>
-          svg("line", { x1: x(end), x2: x(end), y1: middle - 5, y2: middle + 5, class: "whisker" })));
-    if (motion.normal_range_deg !== null)
-      row.append(svg("line", {
-        x1: x(motion.normal_range_deg), x2: x(motion.normal_range_deg), y1: y + 2, y2: y + rowHeight - 2, class: "normal",
-      }));
-    row.append(svg("title", {}, `${name}: ${limitText(motion)}${motion.normal_range_deg === null ? "" : `; ${words.clinicalIs(fixed(motion.normal_range_deg, 0))}`}`));
-    picture.append(pressable(row, `${words.goThere(name)}: ${limitText(motion)}`, go && (() => go(motion))));
+      picture.append(svg("line", { x1: x(band.p5_deg), x2: x(band.p95_deg), y1: middle, y2: middle, class: "whisker" }),
+        ...[band.p5_deg, band.p95_deg].map((end) => upright(end, middle - 5, middle + 5, "whisker")));
+    if (motion.normal_range_deg !== null) picture.append(upright(motion.normal_range_deg, y + 2, y + rowHeight - 2, "normal"));
   });
-  return { name: "limits", caption: words.limitsCaption, picture, data: () => limitRows(motions) };
+  return { caption: words.limitsCaption, picture };
 }

@@ -5,17 +5,18 @@ import { fixed, plain } from "../numbers";
 import type { Interval, MapAnswer } from "../report";
 import { roving } from "../roving";
 import { words } from "../words";
-import { figure, pressable } from "./figure";
+import { figure, hatching, pressable, type Drawing } from "./figure";
 
-const width = 560, left = 52, right = 10, top = 8, bottom = 42, stripHeight = 46;
+const left = 52, right = 10, top = 8, bottom = 42, letter = 7;
 /// Cells of at least this size show their degrees.
-const roomForNumber = { width: 25, height: 13 };
+const roomForNumber = { width: 22, height: 14 };
 /// A press that moves less is not a drag.
 const still_px = 4;
 /// Cividis is light from here on.
 const isLightFrom = 0.55;
 
-const scaleEnd_deg = 120;
+/// What matters of a hip's rotation lies below the scale's end; the line is at half of it.
+const scaleEnd_deg = 60, line_deg = 30;
 
 /// Degrees by the number of a column or row, between them too, and back.
 function axisOf(values_deg: readonly number[]): { last: number; at: (place: number) => number; invert: (deg: number) => number } {
@@ -37,78 +38,75 @@ export interface MapHooks {
   drag: (column_deg: number, row_deg: number) => void;
 }
 
-/// How far the third angle goes over two held ones. A cell pressed moves the joint there and shows all of its free intervals; a cross
-/// is where the joint is, and drags.
+/// How far the third angle goes over two held ones. A cell pressed moves the joint there and names all of its free intervals; a cross
+/// marks where the joint is, and drags it.
 export class MapPlot {
   readonly element: HTMLElement;
   private readonly cells: SVGRectElement[] = [];
   private readonly numbers: SVGTextElement[] = [];
-  private readonly cross = svg("g", { class: "cross", "aria-hidden": "true" });
+  private readonly axes = svg("g", {});
+  private readonly line = svg("path", { class: "map-line", "aria-hidden": "true" });
+  private readonly cross = svg("g", { class: "cross", "aria-hidden": "true" },
+    svg("line", { x1: -9, x2: 9, y1: 0, y2: 0 }), svg("line", { x1: 0, x2: 0, y1: -9, y2: 9 }), svg("circle", { r: 5 }));
   private readonly plane;
-  private readonly isRoomy: boolean;
-  private readonly strip = svg("svg", { viewBox: `0 0 ${width} ${stripHeight}`, class: "plot", "aria-hidden": "true" });
-  private readonly readout = html("p", { "aria-live": "polite" }, words.severalFree);
-  private readonly colour;
+  private readonly readout = html("p", { class: "map-readout small", "aria-live": "polite" }, words.severalFree);
+  private readonly colour = scaleSequential(interpolateCividis).domain([0, scaleEnd_deg]).clamp(true);
+  private pose: [number, number] = [Number.NaN, Number.NaN];
+  readonly drawing: Drawing;
 
   constructor(private readonly map: MapAnswer, private readonly hooks: MapHooks | null, private readonly prefix = "") {
     const { columns, rows } = map;
-    const cellsHigh = Math.max(110, Math.min(250, 24 * rows.values_deg.length));
-    const height = top + cellsHigh + bottom;
-    this.colour = scaleSequential(interpolateCividis).domain([0, scaleEnd_deg]).clamp(true);
-    const x = scaleBand<number>(columns.values_deg.map((_, i) => i), [left, width - right]);
-    const y = scaleBand<number>(rows.values_deg.map((_, i) => i), [top + cellsHigh, top]);
-    this.isRoomy = x.bandwidth() >= roomForNumber.width && y.bandwidth() >= roomForNumber.height;
-    this.plane = {
-      x: scaleLinear([0, columns.values_deg.length - 1], [x(0)! + x.bandwidth() / 2, x(columns.values_deg.length - 1)! + x.bandwidth() / 2]),
-      y: scaleLinear([0, rows.values_deg.length - 1], [y(0)! + y.bandwidth() / 2, y(rows.values_deg.length - 1)! + y.bandwidth() / 2]),
-      columns: axisOf(columns.values_deg), rows: axisOf(rows.values_deg),
-    };
-    const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "plot map" },
-      svg("defs", {}, svg("pattern", { id: `${prefix}unfree`, width: 6, height: 6, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
-        svg("rect", { width: 6, height: 6, class: "unfree-back" }), svg("rect", { width: 2, height: 6, class: "unfree-line" }))));
+    this.plane = { x: scaleLinear(), y: scaleLinear(), columns: axisOf(columns.values_deg), rows: axisOf(rows.values_deg) };
+    const picture = svg("svg", { class: "plot map" }, svg("defs", {}, hatching(`${prefix}unfree`)));
     rows.values_deg.forEach((rowDeg, row) => columns.values_deg.forEach((columnDeg, column) => {
-      const point = row * columns.values_deg.length + column;
-      const cell = svg("rect", {
-        x: x(column)!, y: y(row)!, width: x.bandwidth() + 0.4, height: y.bandwidth() + 0.4, class: "cell", fill: "none",
-      });
+      const point = row * columns.values_deg.length + column, cell = svg("rect", { class: "cell", fill: "none" });
       picture.append(pressable(cell, this.placeOf(point), () => {
-        this.describe(point);
+        this.readout.textContent = this.map.intervals[point] ? this.textOf(point) : this.placeOf(point);
         this.hooks?.go(columnDeg, rowDeg);
       }));
       this.cells.push(cell);
-      this.numbers.push(svg("text", {
-        x: x(column)! + x.bandwidth() / 2, y: y(row)! + y.bandwidth() / 2 + 3.5, "text-anchor": "middle", class: "cell-number", "aria-hidden": "true",
-      }));
+      this.numbers.push(svg("text", { "text-anchor": "middle", class: "cell-number", "aria-hidden": "true" }));
     }));
-    if (this.isRoomy) picture.append(...this.numbers);
+    picture.append(...this.numbers, this.line, this.axes, this.cross);
     roving(this.cells, columns.values_deg.length);
-    const every = (count: number) => Math.max(1, Math.ceil(count / 8));
-    columns.values_deg.forEach((value, i) => {
-      if (i % every(columns.values_deg.length) === 0)
-        picture.append(svg("text", { x: x(i)! + x.bandwidth() / 2, y: top + cellsHigh + 15, "text-anchor": "middle" }, `${plain(value)}°`));
-    });
-    rows.values_deg.forEach((value, i) => {
-      if (i % every(rows.values_deg.length) === 0)
-        picture.append(svg("text", { x: left - 6, y: y(i)! + y.bandwidth() / 2 + 4, "text-anchor": "end" }, `${plain(value)}°`));
-    });
-    picture.append(
-      svg("text", { x: (left + width - right) / 2, y: height - 8, "text-anchor": "middle" }, spaced(columns.angle)),
-      svg("text", { transform: `translate(15 ${top + cellsHigh / 2}) rotate(-90)`, "text-anchor": "middle" }, spaced(rows.angle)),
-      this.cross);
-    this.cross.append(
-      svg("line", { x1: -9, x2: 9, y1: 0, y2: 0 }), svg("line", { x1: 0, x2: 0, y1: -9, y2: 9 }), svg("circle", { r: 5 }));
-    this.setPose(Number.NaN, Number.NaN);
     if (this.hooks) this.dragBy(picture, this.hooks);
     const caption = words.mapCaption(spaced(map.vary), spaced(columns.angle), spaced(rows.angle));
-    const drawn = figure({ name: "map", caption, picture, data: () => this.data() }, this.legend());
-    this.element = html("div", { class: "map-place" }, drawn, html("div", { class: "map-readout" }, this.strip, this.readout));
+    this.drawing = { name: "map", caption, picture, lay: (width, height) => this.lay(width, height), data: () => this.data() };
+    this.element = html("div", { class: "map-place" }, figure(this.drawing, this.legend()), this.readout);
     map.intervals.forEach((_, point) => this.paint(point));
+  }
+
+  private lay(width: number, height: number): void {
+    const { columns, rows } = this.map, base = height - bottom;
+    const x = scaleBand<number>(columns.values_deg.map((_, i) => i), [left, width - right]), wide = x.bandwidth();
+    const y = scaleBand<number>(rows.values_deg.map((_, i) => i), [base, top]), high = y.bandwidth();
+    const middle = { x: (i: number) => x(i)! + wide / 2, y: (i: number) => y(i)! + high / 2 };
+    this.plane.x.domain([0, columns.values_deg.length - 1]).range([middle.x(0), middle.x(columns.values_deg.length - 1)]);
+    this.plane.y.domain([0, rows.values_deg.length - 1]).range([middle.y(0), middle.y(rows.values_deg.length - 1)]);
+    const set = (element: SVGElement, values: Record<string, number>) => Object.entries(values).forEach(([name, value]) => element.setAttribute(name, String(value)));
+    this.cells.forEach((cell, point) => {
+      const column = point % columns.values_deg.length, row = Math.floor(point / columns.values_deg.length);
+      set(cell, { x: x(column)!, y: y(row)!, width: wide + 0.4, height: high + 0.4 });
+      set(this.numbers[point]!, { x: middle.x(column), y: middle.y(row) + 4 });
+    });
+    const isRoomy = wide >= roomForNumber.width && high >= roomForNumber.height;
+    for (const number of this.numbers) number.style.display = isRoomy ? "" : "none";
+    const labels = (values: readonly number[], step: number, room: number, at: (i: number, text: string) => SVGElement) =>
+      values.flatMap((value, i) => (i % Math.ceil(room / step) === 0 ? [at(i, `${plain(value)}°`)] : []));
+    this.axes.replaceChildren(
+      ...labels(columns.values_deg, wide, 5 * letter, (i, text) => svg("text", { x: middle.x(i), y: base + 16, "text-anchor": "middle" }, text)),
+      ...labels(rows.values_deg, high, 16, (i, text) => svg("text", { x: left - 6, y: middle.y(i) + 4, "text-anchor": "end" }, text)),
+      svg("text", { x: (left + width - right) / 2, y: height - 8, "text-anchor": "middle" }, spaced(columns.angle)),
+      svg("text", { transform: `translate(15 ${(top + base) / 2}) rotate(-90)`, "text-anchor": "middle" }, spaced(rows.angle)));
+    this.drawLine();
+    this.setPose(...this.pose);
   }
 
   /// Takes the intervals of a point.
   set(point: number, intervals: Interval[]): void {
     this.map.intervals[point] = intervals;
     this.paint(point);
+    this.drawLine();
   }
 
   /// One line while points are missing, then empty.
@@ -119,6 +117,7 @@ export class MapPlot {
 
   /// Where the joint is; outside the map it has no cross.
   setPose(column_deg: number, row_deg: number): void {
+    this.pose = [column_deg, row_deg];
     const { x, y, columns, rows } = this.plane;
     const [column, row] = [columns.invert(column_deg), rows.invert(row_deg)];
     const half = 0.5001, isInside = column >= -half && column <= columns.last + half && row >= -half && row <= rows.last + half;
@@ -147,10 +146,8 @@ export class MapPlot {
   }
 
   private paint(point: number): void {
-    const intervals = this.map.intervals[point];
+    const intervals = this.map.intervals[point], turn = this.turnAt(point);
     const cell = this.cells[point]!, number = this.numbers[point]!;
-    const free = intervals ? fromStart(intervals, this.map.start_deg) : null;
-    const turn = free ? free[1] - this.map.start_deg : null;
     cell.classList.toggle("unknown", !intervals);
     cell.setAttribute("fill", !intervals ? "none" : turn !== null ? this.colour(turn) : `url(#${this.prefix}unfree)`);
     number.textContent = turn === null ? "" : fixed(turn, 0);
@@ -162,6 +159,29 @@ export class MapPlot {
     cell.classList.toggle("has-islands", (intervals?.length ?? 0) > 1);
   }
 
+  /// How far a point turns from its start; null if it is not free there, or not known.
+  private turnAt(point: number): number | null {
+    const free = fromStart(this.map.intervals[point] ?? [], this.map.start_deg);
+    return free && free[1] - this.map.start_deg;
+  }
+
+  /// The line of equal degrees through each square of four points: it crosses a side between a point below and one above.
+  private drawLine(): void {
+    const { x, y } = this.plane, across = this.map.columns.values_deg.length, up = this.map.rows.values_deg.length;
+    let path = "";
+    for (let row = 0; row + 1 < up; ++row)
+      for (let column = 0; column + 1 < across; ++column) {
+        const corners = [[0, 0], [1, 0], [1, 1], [0, 1]].map(([i, k]) => [column + i!, row + k!] as const);
+        const turns = corners.map(([i, k]) => this.turnAt(k * across + i) ?? 0);
+        const crossings = corners.flatMap(([i, k], c) => {
+          const next = (c + 1) % 4, [a, b] = [turns[c]!, turns[next]!], share = (line_deg - a) / (b - a), [toI, toK] = corners[next]!;
+          return a >= line_deg === b >= line_deg ? [] : [`${x(i + share * (toI - i)).toFixed(1)} ${y(k + share * (toK - k)).toFixed(1)}`];
+        });
+        for (let c = 0; c < crossings.length; c += 2) path += `M${crossings[c]}L${crossings[c + 1]}`;
+      }
+    this.line.setAttribute("d", path);
+  }
+
   private legend(): HTMLElement {
     const canvas = html("canvas", { class: "map-scale", width: 128, height: 1, "aria-hidden": "true" });
     const context = canvas.getContext("2d")!;
@@ -170,6 +190,7 @@ export class MapPlot {
       context.fillRect(i, 0, 1, 1);
     }
     return html("p", { class: "small map-legend" }, "0° ", canvas, ` ${words.orMore(scaleEnd_deg)}`,
+      html("span", { class: "key" }, html("span", { class: "map-line-key", "aria-hidden": "true" }), ` ${plain(line_deg)}°`),
       html("span", { class: "key" }, html("span", { class: "has-islands-key", "aria-hidden": "true" }), ` ${words.severalKey}`));
   }
 
@@ -184,18 +205,6 @@ export class MapPlot {
   private textOf(point: number): string {
     const free = this.map.intervals[point]!.map(([low, high]) => words.freeFrom(fixed(low, 1), fixed(high, 1))).join(", ");
     return words.mapPoint(this.placeOf(point), spaced(this.map.vary), free || words.notFree);
-  }
-
-  /// All free intervals of a point, as a strip.
-  private describe(point: number): void {
-    const intervals = this.map.intervals[point] ?? [];
-    const x = (deg: number) => left + ((deg + 180) / 360) * (width - left - right);
-    this.strip.replaceChildren(
-      svg("line", { x1: x(-180), x2: x(180), y1: 16, y2: 16, class: "grid" }),
-      ...intervals.map(([low, high]) =>
-        svg("rect", { x: x(low), y: 9, width: Math.max(1, x(high) - x(low)), height: 14, class: "bar" })),
-      ...[-180, -90, 0, 90, 180].map((tick) => svg("text", { x: x(tick), y: 40, "text-anchor": "middle" }, `${plain(tick)}°`)));
-    this.readout.textContent = this.map.intervals[point] ? this.textOf(point) : this.placeOf(point);
   }
 
   private data(): (string | number | null)[][] {

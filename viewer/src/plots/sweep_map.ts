@@ -3,13 +3,11 @@ import { html, named, spaced, svg } from "../dom";
 import { fixed, plain, signed } from "../numbers";
 import type { StoredSweep, SweptParameter } from "../report";
 import { words } from "../words";
-import { figure } from "./figure";
+import { figure, hatching, type Drawing } from "./figure";
 
-const width = 560, left = 52, right = 12, top = 4, bottom = 34;
-/// Heights of a map and of a strip.
-const planeHeight = 112, stripHeight = 34;
+const left = 52, right = 12, top = 4, bottom = 34;
 /// Cells at least so wide and high have their margins in them.
-const roomForNumber = { width: 24, height: 12 };
+const roomForNumber = { width: 24, height: 13 };
 
 /// A design's margin, and the target that has the least to spare.
 interface Design {
@@ -20,18 +18,18 @@ interface Design {
 interface Axis {
   parameter: SweptParameter;
   scale: ScaleLinear<number, number>;
-  /// Half a step, in the picture's units.
-  half: number;
 }
 
 /// The designs of a sweep that leave every target free: a cell for each computed design, a line along the last parameter where values are
 /// known to be free, and a point at the values of the joint, which drags and moves by arrow keys.
 export class SweepMap {
   readonly element: HTMLElement;
+  readonly drawing: Drawing;
   private readonly x: Axis;
   private readonly y: Axis | null;
   private readonly picture: SVGSVGElement;
-  private readonly point = svg("g", { class: "cross" });
+  private readonly point = svg("g", { class: "cross" },
+    svg("line", { x1: -9, x2: 9, y1: 0, y2: 0 }), svg("line", { x1: 0, x2: 0, y1: -9, y2: 9 }), svg("circle", { r: 5 }));
   /// The point's own text, shortened.
   private readonly said = html("p", { class: "small", "aria-hidden": "true" });
   private at: number[];
@@ -41,21 +39,16 @@ export class SweepMap {
     private readonly sweep: StoredSweep, private readonly margins: Float64Array, private readonly least: Uint8Array,
     private readonly moved: (values: number[]) => void, private readonly prefix = "") {
     const [first, second] = sweep.parameters as [SweptParameter, SweptParameter | undefined];
-    const high = second ? planeHeight : stripHeight;
-    this.x = axisOf(first, [left, width - right]);
-    this.y = second ? axisOf(second, [top + high, top]) : null;
+    this.x = axisOf(first);
+    this.y = second ? axisOf(second) : null;
     this.at = sweep.parameters.map(({ first: low }) => low);
-    const height = top + high + bottom;
-    this.picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "plot map sweep-map", tabindex: 0 });
-    this.drawCells(high);
-    this.drawLines(high);
-    this.drawAxes(high, height);
-    this.point.append(svg("line", { x1: -9, x2: 9, y1: 0, y2: 0 }), svg("line", { x1: 0, x2: 0, y1: -9, y2: 9 }), svg("circle", { r: 5 }));
-    this.picture.append(this.point);
+    this.picture = svg("svg", { class: "plot map sweep-map", tabindex: 0 });
     this.listen();
     const names = sweep.parameters.map(({ name }) => nameOf(name)) as [string, string?];
-    this.element = html("div", { class: "sweep-place" },
-      figure({ name: "sweep", caption: words.sweepCaption, picture: this.picture, role: "slider", data: () => this.data() }, this.legend()), this.said);
+    this.drawing = {
+      name: "sweep", caption: words.sweepCaption, picture: this.picture, role: "slider", lay: (width, height) => this.lay(width, height), data: () => this.data(),
+    };
+    this.element = html("div", { class: second ? "sweep-place" : "sweep-place strip" }, figure(this.drawing, this.legend()), this.said);
     this.picture.setAttribute("aria-label", words.sweepLabel(...names));
     this.picture.setAttribute("aria-valuemin", String(first.first));
     this.picture.setAttribute("aria-valuemax", String(first.last));
@@ -69,7 +62,7 @@ export class SweepMap {
     const place = this.sweep.parameters.map(({ name }, i) => `${nameOf(name)} ${amounts[i]}`).join(", ");
     const textAt = (where: string) => (inside ? words.sweepHere(where, this.designText(this.nearest(values))) : words.sweepOutside(where));
     this.point.style.visibility = inside ? "" : "hidden";
-    this.point.setAttribute("transform", `translate(${this.x.scale(values[0]!).toFixed(2)} ${(this.y ? this.y.scale(values[1]!) : top + stripHeight / 2).toFixed(2)})`);
+    this.movePoint();
     this.picture.setAttribute("aria-valuenow", String(values[0]!));
     this.said.textContent = textAt(amounts.join(", "));
     this.picture.setAttribute("aria-valuetext", textAt(place));
@@ -104,45 +97,55 @@ export class SweepMap {
 
   // -- what is drawn ----------------------------------------------------------------------------------------------------------------
 
-  private drawCells(high: number): void {
-    const { x, y } = this, wide = 2 * x.half, tall = y ? 2 * y.half : high;
-    this.picture.append(svg("defs", {}, svg("pattern", { id: `${this.prefix}sweep-unfree`, width: 6, height: 6, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
-      svg("rect", { width: 6, height: 6, class: "unfree-back" }), svg("rect", { width: 2, height: 6, class: "unfree-line" }))));
-    const isRoomy = wide >= roomForNumber.width && tall >= roomForNumber.height;
-    for (let i = 0; i < this.margins.length; ++i) {
+  private lay(width: number, height: number): void {
+    const { x, y } = this, base = height - bottom;
+    x.scale.range([left, width - right]);
+    y?.scale.range([base, top]);
+    const wide = (width - left - right) / x.parameter.count, tall = (base - top) / (y?.parameter.count ?? 1);
+    this.picture.replaceChildren(svg("defs", {}, hatching(`${this.prefix}sweep-unfree`)), ...this.cells(wide, tall, (top + base) / 2), ...this.lines(base),
+      ...this.axes(width, height), this.point);
+    this.movePoint();
+  }
+
+  private movePoint(): void {
+    const middle = (top + this.picture.viewBox.baseVal.height - bottom) / 2, [a, b] = this.at as [number, number?];
+    this.point.setAttribute("transform", `translate(${this.x.scale(a).toFixed(2)} ${(this.y ? this.y.scale(b!) : middle).toFixed(2)})`);
+  }
+
+  private cells(wide: number, tall: number, middleOfStrip: number): SVGElement[] {
+    const { x, y } = this, isRoomy = wide >= roomForNumber.width && tall >= roomForNumber.height;
+    return Array.from(this.margins, (_, i) => {
       const [a, b] = this.valuesOf(i) as [number, number?], { margin_deg } = this.design(i);
-      const middle = { x: x.scale(a), y: y ? y.scale(b!) : top + high / 2 };
-      this.picture.append(svg("rect", {
-        x: middle.x - x.half, y: middle.y - tall / 2, width: wide, height: tall,
+      const middle = { x: x.scale(a), y: y ? y.scale(b!) : middleOfStrip };
+      return [svg("rect", {
+        x: middle.x - wide / 2, y: middle.y - tall / 2, width: wide, height: tall,
         class: margin_deg === null ? "sweep-contact" : margin_deg >= 0 ? "sweep-safe" : "sweep-short",
         ...(margin_deg === null ? { fill: `url(#${this.prefix}sweep-unfree)` } : {}),
-      }));
-      if (isRoomy && margin_deg !== null)
-        this.picture.append(svg("text", { x: middle.x + (y ? 4 : 0), y: middle.y + 4, "text-anchor": y ? "start" : "middle", class: "sweep-number", "aria-hidden": "true" }, signed(margin_deg, Math.abs(margin_deg) < 1 ? 1 : 0)));
-    }
+      }), ...(isRoomy && margin_deg !== null ? [svg("text", {
+        x: middle.x + (y ? 4 : 0), y: middle.y + 4, "text-anchor": y ? "start" : "middle", class: "sweep-number", "aria-hidden": "true",
+      }, signed(margin_deg, Math.abs(margin_deg) < 1 ? 1 : 0))] : [])];
+    }).flat();
   }
 
   /// Along the last parameter: ends are known to a hundredth of a step.
-  private drawLines(high: number): void {
-    for (const { line, low, high: above } of this.sweep.safe) {
-      if (this.y) {
-        const { first, step } = this.x.parameter, x = this.x.scale(first + line * step);
-        this.picture.append(svg("line", { x1: x, x2: x, y1: this.y.scale(low), y2: this.y.scale(above), class: "sweep-line" }));
-      } else {
-        this.picture.append(svg("line", { x1: this.x.scale(low), x2: this.x.scale(above), y1: top + high, y2: top + high, class: "sweep-line" }));
-      }
-    }
+  private lines(base: number): SVGElement[] {
+    return this.sweep.safe.map(({ line, low, high }) => {
+      if (!this.y) return svg("line", { x1: this.x.scale(low), x2: this.x.scale(high), y1: base, y2: base, class: "sweep-line" });
+      const { first, step } = this.x.parameter, x = this.x.scale(first + line * step);
+      return svg("line", { x1: x, x2: x, y1: this.y.scale(low), y2: this.y.scale(high), class: "sweep-line" });
+    });
   }
 
-  private drawAxes(high: number, height: number): void {
-    const unit = ({ unit: of }: SweptParameter) => (of === "deg" ? "°" : "");
-    for (const tick of this.x.scale.ticks(8))
-      this.picture.append(svg("text", { x: this.x.scale(tick), y: top + high + 15, "text-anchor": "middle" }, `${plain(tick)}${unit(this.x.parameter)}`));
-    this.picture.append(svg("text", { x: (left + width - right) / 2, y: height - 4, "text-anchor": "middle" }, nameOf(this.x.parameter.name)));
-    if (!this.y) return;
-    for (const tick of this.y.scale.ticks(6))
-      this.picture.append(svg("text", { x: left - 6, y: this.y.scale(tick) + 4, "text-anchor": "end" }, `${plain(tick)}${unit(this.y.parameter)}`));
-    this.picture.append(svg("text", { transform: `translate(13 ${top + high / 2}) rotate(-90)`, "text-anchor": "middle" }, nameOf(this.y.parameter.name)));
+  private axes(width: number, height: number): SVGElement[] {
+    const { x, y } = this, base = height - bottom, unit = ({ parameter }: Axis) => (parameter.unit === "deg" ? "°" : "");
+    return [
+      ...x.scale.ticks(8).map((tick) => svg("text", { x: x.scale(tick), y: base + 15, "text-anchor": "middle" }, `${plain(tick)}${unit(x)}`)),
+      svg("text", { x: (left + width - right) / 2, y: height - 4, "text-anchor": "middle" }, nameOf(x.parameter.name)),
+      ...(y ? [
+        ...y.scale.ticks(6).map((tick) => svg("text", { x: left - 6, y: y.scale(tick) + 4, "text-anchor": "end" }, `${plain(tick)}${unit(y)}`)),
+        svg("text", { transform: `translate(13 ${(top + base) / 2}) rotate(-90)`, "text-anchor": "middle" }, nameOf(y.parameter.name)),
+      ] : []),
+    ];
   }
 
   private legend(): HTMLElement {
@@ -188,10 +191,9 @@ export class SweepMap {
   }
 }
 
-function axisOf(parameter: SweptParameter, range: [number, number]): Axis {
-  const { first, step, count } = parameter, last = first + (count - 1) * step, margin = count > 1 ? step / 2 : 0.5;
-  const scale = scaleLinear([first - margin, last + margin], range);
-  return { parameter, scale, half: Math.abs(scale(margin) - scale(0)) };
+function axisOf(parameter: SweptParameter): Axis {
+  const { first, step, count } = parameter, margin = count > 1 ? step / 2 : 0.5;
+  return { parameter, scale: scaleLinear().domain([first - margin, first + (count - 1) * step + margin]) };
 }
 
 /// "cup inclination" of "cup.inclination".

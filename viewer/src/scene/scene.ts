@@ -13,7 +13,6 @@ import type { Marks } from "./measure_marks";
 import { SceneOverlay, type Written } from "./overlay";
 import { Picker, type Picked, type PickedPoint } from "./picking";
 import { composedPicture } from "./picture";
-import { drawWhenPrinted } from "./print";
 import { lettersOf, scaleBarLength, viewNamed, type Side, type Three } from "./views";
 
 export type ClipAxis = "none" | "x" | "y" | "z";
@@ -94,7 +93,6 @@ export class JointScene {
     });
 
     new ResizeObserver(() => this.fit()).observe(place);
-    drawWhenPrinted(place, () => this.pictureCanvas(""));
 
     this.fit();
     this.look("anterior");
