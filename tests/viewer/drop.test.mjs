@@ -149,7 +149,7 @@ const sampleFiles = ["hip_bone.ply", "femur.ply"].map((name) => join(reports, "s
 const answered = (page) => page.waitForFunction(() => Number(document.documentElement.dataset.answered) > 0);
 
 /// As a hand does it, file by file or all at once.
-test("a side that is given counts, and one that the bones speak against is refused as init refuses its axes", async () => {
+test("a side that is given counts, and one that the bones speak against is refused with their side, the votes of init folded away", async () => {
   const { page } = await openPage(browser, empty, { answers: false });
   const side = page.getByLabel("Side", { exact: true });
   await side.selectOption("left");
@@ -160,9 +160,13 @@ test("a side that is given counts, and one that the bones speak against is refus
   const joint = join(reports, "given_side.toml");
   rmSync(joint, { force: true });
   execFileSync(condyle, ["init", ...sampleFiles, "--side", "left", "--out", joint], { stdio: "ignore" });
-  assert.match(text, /^axes: /);
-  const proposed = readFileSync(joint, "utf8");
-  for (const said of text.replace("axes: ", "").split("; ")) assert.ok(proposed.includes(said), said);
+  assert.equal(text, "side: the bones are of a right hip, and left is chosen");
+  const proposed = readFileSync(joint, "utf8"), votes = page.locator("#messages details");
+  assert.equal(await votes.evaluate(({ open }) => open), false);
+  await votes.locator("summary").click();
+  const said = await votes.locator("li").allTextContents();
+  assert.ok(said.length > 4);
+  for (const vote of said) assert.ok(proposed.includes(vote), vote);
   await side.selectOption("right");
   await page.locator("#files").setInputFiles(sampleFiles);
   await answered(page);
@@ -210,6 +214,69 @@ test("files dropped while others are read, or three at once, are refused in one 
   await drop(page, sampleFiles);
   await answered(page);
   assert.equal(await page.locator("#scene > canvas").count(), 1);
+  await page.context().close();
+});
+
+/// A mesh of the sample with its vertices and triangles changed.
+function writeChanged(name, from, { vertex = (x) => x, turned = false }) {
+  const { vertices, triangles } = readPly(join(reports, "sample", from)), folder = join(reports, "wrong_bones"), path = join(folder, name);
+  mkdirSync(folder, { recursive: true });
+  const points = Array.from({ length: vertices.length / 3 }, (_, i) => vertex([...vertices.subarray(3 * i, 3 * i + 3)]).join(" "));
+  const faces = Array.from({ length: triangles.length / 3 }, (_, i) => [...triangles.subarray(3 * i, 3 * i + 3)]);
+  writeFileSync(path, `${["ply", "format ascii 1.0", `element vertex ${points.length}`, "property double x", "property double y", "property double z",
+    `element face ${faces.length}`, "property list uchar int vertex_indices", "end_header", ...points,
+    ...faces.map(([a, b, c]) => `3 ${(turned ? [a, c, b] : [a, b, c]).join(" ")}`)].join("\n")}\n`);
+  return path;
+}
+
+function writeOther(name, bytes) {
+  const folder = join(reports, "wrong_bones");
+  mkdirSync(folder, { recursive: true });
+  writeFileSync(join(folder, name), bytes);
+  return join(folder, name);
+}
+
+const isRead = "is not read here: drop a joint file (.toml), meshes (.stl, .obj, .ply, .vtp, .vtk), label maps (.nii, .nii.gz, .nrrd, .mha) or a motion file (.mot, .sto, .csv).";
+
+test("files that make no hip are refused with their cause in one line, which names them once, and the page takes another", async () => {
+  const { page, complaints } = await openPage(browser, empty, { answers: false });
+  const [hipBone, femur] = sampleFiles, mirrored = ([x, y, z]) => [x, y, -z];
+  const causes = [
+    ...["pic.png", "scan.pdf", "rom.json", "plan.html", "notes"].map((name) => [[writeOther(name, "no mesh")], `${name} ${isRead}`]),
+    [[hipBone, writeOther("pic.png", "no mesh")], `pic.png ${isRead}`],
+    [[writeOther("walk.mot", "time\thip\n0\t1\n")], "walk.mot is a motion file, which plays on a joint: drop the joint first."],
+    [[hipBone, writeOther("curves.csv", "time,flexion\n0,1\n")], "curves.csv is a motion file, which plays on a joint: drop the joint first."],
+    [[hipBone, writeChanged("femur_inside_out.ply", "femur.ply", { turned: true })], "femur_inside_out.ply is inside out: its triangles are wound the other way round"],
+    [[writeChanged("hip_inside_out.ply", "hip_bone.ply", { turned: true }), writeChanged("femur_inside_out.ply", "femur.ply", { turned: true })],
+      "hip_inside_out.ply is inside out: its triangles are wound the other way round"],
+    [[writeChanged("left_hip_bone.ply", "hip_bone.ply", { vertex: mirrored, turned: true }), femur], "left_hip_bone.ply and femur.ply are of different sides, one right and one left"],
+    [[writeChanged("hip_bone_cm.ply", "hip_bone.ply", { vertex: (p) => p.map((x) => x / 10) }), femur], "hip_bone_cm.ply is in cm and femur.ply in mm: scale one of them"],
+    [[hipBone, writeOther("hip_bone_again.ply", readFileSync(hipBone))], "hip_bone.ply and hip_bone_again.ply are the same mesh: drop the hip bone and the femur"],
+  ];
+  for (const [files, cause] of causes) {
+    await page.evaluate(() => document.getElementById("messages").replaceChildren());
+    await drop(page, files);
+    const alert = page.getByRole("alert");
+    await alert.waitFor();
+    assert.deepEqual(await alert.allTextContents(), [cause]);
+    for (const fold of await page.locator("#messages details").all()) assert.equal(await fold.evaluate(({ open }) => open), false);
+    assert.doesNotMatch(await page.locator("#drop-progress").textContent(), /bone/);
+  }
+  await keep(page, "wrong_bones");
+  await drop(page, [writeOther("empty_femur.ply", ""), hipBone]);
+  await page.waitForFunction(() => /^empty_femur.ply: /.test(document.querySelector("[role=alert]")?.textContent));
+  await drop(page, [femur]);
+  await page.getByText("femur.ply is the mobile bone; now add the fixed one.").waitFor();
+  await drop(page, [hipBone]);
+  await answered(page);
+  assert.equal(await page.getByRole("alert").count(), 0);
+  // On a report they are refused by their names too.
+  const report = await openPage(browser, join(reports, "sample.html"));
+  await drop(report.page, [writeOther("pic.png", "no mesh")]);
+  await report.page.getByRole("alert").waitFor();
+  assert.equal(await report.page.getByRole("alert").textContent(), `pic.png ${isRead}`);
+  assert.deepEqual(complaints, []);
+  await report.page.context().close();
   await page.context().close();
 });
 

@@ -22,6 +22,7 @@
 #include "kinematics/bone_sizes.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_axes.hpp"
+#include "mesh/enclosed_volume.hpp"
 #include "mesh/scale.hpp"
 #include "mesh/surface_pieces.hpp"
 #include "page_proposal.hpp"
@@ -56,10 +57,57 @@ TriMesh surface_in_mm(TriMesh mesh, LengthUnit unit) {
   return mesh::outer_surface(Mesh(std::move(mesh)));
 }
 
-/// Refuses with the votes, one line in all.
-kinematics::AgreeingAxes inferred_axes(const kinematics::HipAxes& axes) {
-  if (axes.agreeing.size() == 1) return axes.agreeing[0];
-  throw UsageError(fmt::format("axes: {}; {}", axes.why_none, fmt::join(axes.evidence, "; ")));
+/// The hip with the other side's hip bone, whichever axes the meshes are in.
+bool are_of_two_sides(const TriMesh& hip_bone, const kinematics::HipAnatomy& hip) {
+  for (const int to_side : {0, 2}) {
+    const auto turned = [&](Vec3 v) { return v[to_side] *= -1, v; };
+    TriMesh mirrored = hip_bone;
+    const Vec3 centre = hip.head.fit.sphere.centre;
+    for (std::size_t v = 0; v < mirrored.vertices.size(); ++v)
+      mirrored.vertices.set(v, centre + turned(mirrored.vertices[v] - centre));
+    kinematics::HipAnatomy other = hip;
+    other.towards_pelvis = turned(hip.towards_pelvis), other.hip_bone_end = turned(hip.hip_bone_end);
+    if (hip.opening) other.opening = turned(*hip.opening);
+    if (kinematics::hip_axes(mirrored, other, std::nullopt).agreeing.size() == 1) return true;
+  }
+  return false;
+}
+
+/// Why bones that have a head show no axes and side.
+std::string axes_cause(const kinematics::HipAxes& axes, const TriMesh& hip_bone,
+                       const kinematics::HipAnatomy& hip, const std::optional<Side>& given,
+                       const CondyleMesh& fixed, const CondyleMesh& mobile) {
+  const auto of_either = kinematics::hip_axes(hip_bone, hip, std::nullopt).agreeing;
+  if (given && of_either.size() == 1)
+    return fmt::format("side: the bones are of a {} hip, and {} is chosen", name_of(of_either[0].side),
+                       name_of(*given));
+  if (are_of_two_sides(hip_bone, hip))
+    return fmt::format("{} and {} are of different sides, one right and one left", fixed.file.name,
+                       mobile.file.name);
+  return "axes: " + axes.why_none;
+}
+
+/// What is wrong with two meshes that make no hip; empty if it is not known.
+std::string known_cause(const CondyleMesh& fixed, const CondyleMesh& mobile) {
+  for (const CondyleMesh* each : {&fixed, &mobile}) {
+    const Mesh mesh(each->mesh);
+    if (mesh.is_closed() && mesh::enclosed_volume(mesh) < 0)
+      return fmt::format("{} is inside out: its triangles are wound the other way round", each->file.name);
+  }
+  try {
+    const LengthUnit of_mobile = inferred_unit(fixed.mesh, mobile.mesh);
+    const TriMesh femur = surface_in_mm(mobile.mesh, of_mobile);
+    for (const LengthUnit of_fixed : all_length_units) {
+      if (of_fixed == of_mobile) continue;
+      if (const auto hip = kinematics::hip_anatomy(surface_in_mm(fixed.mesh, of_fixed), femur);
+          hip && hip->socket)
+        return fmt::format("{} is in {} and {} in {}: scale one of them", fixed.file.name, name_of(of_fixed),
+                           mobile.file.name, name_of(of_mobile));
+    }
+  } catch (const UsageError&) {
+    // The bones have the size of no unit.
+  }
+  return "";
 }
 
 CondyleJoint* proposed_joint(const CondyleMesh& fixed, const CondyleMesh& mobile,
@@ -68,7 +116,11 @@ CondyleJoint* proposed_joint(const CondyleMesh& fixed, const CondyleMesh& mobile
   const TriMesh hip_bone = surface_in_mm(fixed.mesh, unit);
   const auto hip = hip_of(hip_bone, surface_in_mm(mobile.mesh, unit));
   const auto hip_axes = kinematics::hip_axes(hip_bone, hip, side);
-  const auto [axes, inferred_side] = inferred_axes(hip_axes);
+  // The cause in the first line, and the votes in those below.
+  if (hip_axes.agreeing.size() != 1)
+    throw UsageError(fmt::format("{}\n{}", axes_cause(hip_axes, hip_bone, hip, side, fixed, mobile),
+                                 fmt::join(hip_axes.evidence, "\n")));
+  const auto [axes, inferred_side] = hip_axes.agreeing[0];
   JointDescription description{.name = "dropped joint", .side = inferred_side, .units = unit};
   description.frame.axes = axes->directions;
   PageProposal proposal{.inferred = head_evidence(hip)};
@@ -100,7 +152,9 @@ Json file_json(const PageFile& file) {
 kinematics::HipAnatomy hip_of(const TriMesh& fixed, const TriMesh& mobile) {
   auto hip = kinematics::hip_anatomy(fixed, mobile);
   if (!hip)
-    throw UsageError("no head was found on the mobile body near the fixed one: the page proposes hips");
+    throw UsageError(
+        "no head of a femur was found near a hip bone: the page makes hips of meshes, other joints of joint "
+        "files");
   return std::move(*hip);
 }
 
@@ -162,7 +216,16 @@ CondyleJoint* condyle_propose(const CondyleMesh* fixed, const CondyleMesh* mobil
   return guarded(static_cast<CondyleJoint*>(nullptr), [&] {
     const std::optional<Side> given =
         side < 0 ? std::nullopt : std::optional(side == 0 ? Side::right : Side::left);
-    return proposed_joint(*fixed, *mobile, given);
+    if (fixed->file.digest.sha256 == mobile->file.digest.sha256)
+      throw UsageError(fixed->file.name + " and " + mobile->file.name +
+                       " are the same mesh: drop the hip bone and the femur");
+    try {
+      return proposed_joint(*fixed, *mobile, given);
+    } catch (const UsageError& error) {
+      const std::string cause = known_cause(*fixed, *mobile);
+      if (cause.empty()) throw;
+      throw UsageError(cause + "\n" + error.what());
+    }
   });
 }
 

@@ -1,4 +1,5 @@
 import { button, html } from "./dom";
+import { lines } from "./panels/table";
 import { words } from "./words";
 
 function place(): HTMLElement {
@@ -13,10 +14,12 @@ export function post(role: "alert" | "status", message: string, ...parts: HTMLEl
   place().append(line);
 }
 
+/// The cause in the first line of the message; lines below it are how that was inferred, and are folded away.
 export function warn(message: string): void {
+  const [cause, ...votes] = message.split("\n"), known = [...place().querySelectorAll("[role=alert]")];
   // The same line once.
-  const known = [...place().querySelectorAll("[role=alert]")];
-  if (!known.some(({ textContent }) => textContent === message)) post("alert", message);
+  if (known.some(({ textContent }) => textContent === cause)) return;
+  post("alert", cause!, ...(votes.length ? [html("details", {}, html("summary", {}, words.votes), lines(votes))] : []));
 }
 
 export function clearMessages(): void {

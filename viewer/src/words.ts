@@ -468,7 +468,13 @@ export const words = {
     "(STL, OBJ, PLY, VTP, VTK). Or a label map with both bones, or a mask of each (.nii, .nii.gz, .nrrd, .mha). They stay on this computer.",
   dropSide: "Side",
   dropSides: { automatic: "automatic", right: "right", left: "left" },
-  dropSecond: (name: string) => `${name} is the fixed bone; now add the mobile one.`,
+  dropSecond: (name: string, isMobile: boolean) =>
+    (isMobile ? `${name} is the mobile bone; now add the fixed one.` : `${name} is the fixed bone; now add the mobile one.`),
+  dropUnknown: (name: string) =>
+    `${name} is not read here: drop a joint file (.toml), meshes (.stl, .obj, .ply, .vtp, .vtk), label maps (.nii, .nii.gz, .nrrd, .mha) or a ` +
+    "motion file (.mot, .sto, .csv).",
+  dropMotionLater: (name: string) => `${name} is a motion file, which plays on a joint: drop the joint first.`,
+  votes: "How this was inferred",
   dropHint: "Drop the meshes of a hip on this page, a label map, or a joint file with its meshes",
   dropTwo: "A joint has two meshes: drop both together, or one after the other.",
   dropBusy: "The page is still reading the files dropped before.",

@@ -14,6 +14,16 @@ export function isMesh(name: string): boolean {
   return /\.(stl|obj|ply|vtp|vtk)$/i.test(name);
 }
 
+export function isMotionFile(name: string): boolean {
+  return /\.(mot|sto|csv|tsv)$/i.test(name);
+}
+
+/// The line for the first of files that the page reads nothing from; null if there is none. A joint file names what it needs of the others.
+export function unknownAmong(files: readonly NamedFile[]): string | null {
+  const knows = [isJointFile, isMesh, isLabelMap, isMotionFile], unknown = files.find(({ path }) => !knows.some((is) => is(path)));
+  return unknown && !files.some(({ path }) => isJointFile(path)) ? words.dropUnknown(named(unknown.path)) : null;
+}
+
 /// Which joint the page makes of files.
 export interface DropTaker {
   signal: AbortSignal;
@@ -61,6 +71,9 @@ export class DropPanel {
     const { labels, refuse } = this.taker;
     if (this.state !== "open") return refuse(this.state === "busy" ? words.dropBusy : words.dropDone);
     if (dropped.some(({ path }) => isJointFile(path))) return this.addJointFile(dropped);
+    const motion = dropped.find(({ path }) => isMotionFile(path)), unknown = unknownAmong(dropped);
+    if (unknown) return refuse(unknown);
+    if (motion) return refuse(words.dropMotionLater(named(motion.path)));
     const files = dropped.map(({ file }) => file);
     const maps = files.filter(({ name }) => isLabelMap(name));
     if (maps.length > 0) {
@@ -92,7 +105,7 @@ export class DropPanel {
     this.state = "busy";
     for (const file of files) this.waiting.push({ name: file.name, bytes: await file.arrayBuffer() });
     const [first, second] = this.waiting;
-    this.progress.textContent = second ? words.loading : words.dropSecond(named(first!.name));
+    this.progress.textContent = second ? words.loading : words.dropSecond(named(first!.name), isMobile(first!));
     if (!second) {
       this.state = "open";
       return;
@@ -104,8 +117,9 @@ export class DropPanel {
   }
 }
 
+const isMobile = ({ name }: DroppedFile) => /femur|thigh|mobile/i.test(name);
+
 /// A femur is the mobile body, whichever of the two came first.
 function inOrder(first: DroppedFile, second: DroppedFile): [DroppedFile, DroppedFile] {
-  const isMobile = /femur|thigh|mobile/i;
-  return isMobile.test(first.name) && !isMobile.test(second.name) ? [second, first] : [first, second];
+  return isMobile(first) && !isMobile(second) ? [second, first] : [first, second];
 }

@@ -4,7 +4,7 @@ import { button, named } from "../dom";
 import { clearMessages, post, warn } from "../messages";
 import type { RecordedMotion } from "../recorded_motion";
 import { words } from "../words";
-import { isJointFile, isMesh } from "./drop";
+import { isJointFile, isMesh, isMotionFile, unknownAmong } from "./drop";
 import { isLabelMap } from "./label_drop";
 import { catchDrops } from "./page_drop";
 
@@ -42,7 +42,7 @@ export function takeDrops({ signal, computes, isReport, read, play, replace, rea
         }).finally(() => (isBusy = false));
       });
     if (computes && files.length <= 2 && files.every(({ path }) => isMesh(path) || isLabelMap(path))) return confirm(files, () => replace(files));
-    if (files.length !== 1 || !/\.(mot|sto|csv|tsv)$/i.test(file!.name)) return warn(words.dropOnReport);
+    if (files.length !== 1 || !isMotionFile(file!.name)) return warn(unknownAmong(files) ?? words.dropOnReport);
     isBusy = true;
     read(file!).then(async ({ motion, remarks }) => {
       await play(motion);
