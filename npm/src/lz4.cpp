@@ -51,14 +51,16 @@ int LZ4_decompress_safe(const char* bytes, char* out, int block_bytes, int out_b
   for (;;) {
     const int token = block.byte();
     if (token < 0) return damaged;
-    std::size_t literals = static_cast<std::size_t>(token >> 4), copied = static_cast<std::size_t>(token & 15);
+    std::size_t literals = static_cast<std::size_t>(token >> 4),
+                copied = static_cast<std::size_t>(token & 15);
     if (!block.read_length(literals, size - at) || !block.take(literals, out + at)) return damaged;
     at += literals;
     if (block.is_empty()) return static_cast<int>(at);
     const int low = block.byte(), high = block.byte();
     if (high < 0) return damaged;
     const auto back = static_cast<std::size_t>(low | high << 8);
-    if (back == 0 || back > at || !block.read_length(copied, size) || copied + least_copy > size - at) return damaged;
+    if (back == 0 || back > at || !block.read_length(copied, size) || copied + least_copy > size - at)
+      return damaged;
     // Where it reaches into itself, what it has just written is what it copies.
     for (copied += least_copy; copied > 0; --copied, ++at) out[at] = out[at - back];
   }
