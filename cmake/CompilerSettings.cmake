@@ -16,6 +16,8 @@ function(condyle_settings_for target)
                                            $<$<BOOL:${CONDYLE_WERROR}>:-Werror>)
   # GCC 12 sees overlapping copies in "text" + std::string where there are none (its bug 105651).
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+  # GCC 13 and 14 take a span of static storage that a function returns for a temporary.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-dangling-reference>)
   # Predicates rely on a*b - c*d being rounded product by product: a fused multiply-add would break the sign symmetry of
   # a x b and b x a, and make results depend on the instruction set. Public, for whoever uses the library too: of an
   # inline function or template that both compile (ours, Eigen's) the linker keeps one copy, and it may be theirs.
