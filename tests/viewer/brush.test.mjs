@@ -79,7 +79,9 @@ test("a drag on a bone is one stroke and does not turn the joint; beside the bru
       const point = Array.from(surface.vertices.subarray(3 * v, 3 * v + 3));
       const [x, y] = condyle.scene.project(point), at = { clientX: box.left + x, clientY: box.top + y };
       if (Math.hypot(...point) < 32 || document.elementFromPoint(at.clientX, at.clientY) !== canvas) continue;
-      if (condyle.scene.pick(at)?.vertex === v) return at;
+      // And bone all around it: a pointer has whole pixels.
+      const isOnBone = [-4, 0, 4].every((across) => [-4, 0, 4].every((down) => condyle.scene.pick({ clientX: at.clientX + across, clientY: at.clientY + down })?.body === "mobile"));
+      if (isOnBone && condyle.scene.pick(at)?.vertex === v) return at;
     }
     return null;
   });

@@ -316,7 +316,7 @@ test("a label map whose names say which bones it has becomes their joint, with t
   await assertLimits(page, limitsOfLabels("named", maps.named, "--fixed", "hip_right", "--mobile", "femur_right"));
   assert.deepEqual((await page.evaluate(() => said)).filter(Boolean),
     ["Reading named.seg.nrrd…", "Surface of hip_right…", "Surface of femur_right…", "Joint and limits…"]);
-  assert.match(await page.locator("#title").textContent(), /^Right hip · femur_right \/ hip_right/);
+  assert.match(await page.locator("#title").textContent(), /^Right hip · femur right \/ hip right/);
   const side = await page.locator("#side").textContent();
   for (const said of ["side: right, by the names of the labels", "axes: LPS, by the image's header", "hip_right: label 78 of named.seg.nrrd", "voxels of 2 x 2 x 2 mm"])
     assert.ok(side.includes(said), said);

@@ -32,7 +32,7 @@ test("a joint that is set up wrongly says so in place of the sentence, and its n
   assert.equal(await page.locator("#sentence").textContent(), sentence);
   assert.ok((await page.locator("#paper").textContent()).includes(sentence));
   // The box below says the other notes only.
-  assert.match(await page.locator("#noted").textContent(), /^1 note from the checks: femur has a boundary 1 remark/);
+  assert.match(await page.locator("#noted").textContent(), /^1 note from the checks: femur has a boundary · 1 remark/);
   await page.evaluate(axeSource);
   const { violations } = await page.evaluate(() => axe.run("#strip"));
   assert.deepEqual(violations.map(({ id }) => id), []);
@@ -41,7 +41,7 @@ test("a joint that is set up wrongly says so in place of the sentence, and its n
 
 test("a finding is amber with its text, and a remark on how exact limits are is a grey word", async () => {
   const both = await opened("finding", ({ rom }) => rom.notes.push(finding, remark));
-  assert.match(await both.locator("#noted").textContent(), /^1 note from the checks: femur has a boundary 1 remark on how exact the limits are/);
+  assert.match(await both.locator("#noted").textContent(), /^1 note from the checks: femur has a boundary · 1 remark on how exact the limits are/);
   assert.equal(await both.locator("#noted.warning").count(), 1);
   assert.match(await both.locator("#sentence").textContent(), / ends at /);
   await both.context().close();
@@ -171,7 +171,9 @@ test("the ribbon of a plan is under the heading and in the picture", async () =>
     const canvas = document.createElement("canvas"), context = canvas.getContext("2d");
     [canvas.width, canvas.height] = [image.width, image.height];
     context.drawImage(image, 0, 0);
-    return [...context.getImageData(image.width - 3, 40, 1, 1).data];
+    // Beside the end of the text, in the middle of the ribbon.
+    const ratio = image.width / document.getElementById("scene").clientWidth;
+    return [...context.getImageData(image.width - 3, Math.round(48 * ratio), 1, 1).data];
   }, bytes);
   assert.deepEqual(colour, [0x6a, 0x3d, 0x9a, 255]);
   await page.context().close();
@@ -184,10 +186,11 @@ test("where zero is the pose of the scan it is said, and opposite motions have t
     assert.match(await page.locator(".tile-key").textContent(), /Zero is the pose of the scan: in grey the total arc of two opposite motions/);
     assert.ok(rom.arcs.length >= 1);
     for (const { motions: [one, other], arc_deg } of rom.arcs) {
-      const arc = `arc ${arc_deg.toFixed(1)}°`, said = `${arc} with ${asSaid(other).replace(/ at .*/, "")}`, hasClinical = rom.motions.find((motion) => motion.name === one).normal_range_deg !== null;
-      assert.equal((await tile(page, asSaid(one)).textContent()).endsWith(arc), !hasClinical, arc);
-      if (one === "flexion") assert.ok((await page.locator(".result", { hasText: /^flexion / }).textContent()).endsWith(said));
-      if (one === "flexion") assert.ok((await page.locator("#paper .paper-results").textContent()).includes(said));
+      const arc = `arc ${arc_deg.toFixed(1)}°`, said = `${arc} with ${asSaid(other).replace(/ at .*/, "")}`, compared = rom.motions.find((motion) => motion.name === one), hasRange = compared.normal_range_deg !== null || Boolean(compared.bone_reference);
+      assert.equal((await tile(page, asSaid(one)).textContent()).endsWith(arc), !hasRange, arc);
+      const inStrip = hasRange ? ` · ${arc}` : said;
+      if (one === "flexion") assert.ok((await page.locator(".result", { hasText: /^flexion / }).textContent()).endsWith(inStrip));
+      if (one === "flexion") assert.ok((await page.locator("#paper .paper-results").textContent()).includes(inStrip));
     }
     await page.context().close();
   }

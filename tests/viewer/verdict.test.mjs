@@ -28,7 +28,8 @@ test("a hip with cam and pincer is short of simulated healthy hips, and page and
   const { bone_reference: bone, limit_deg } = JSON.parse(run("rom", joint, "--json")).motions.find(({ name }) => name === "internal_rotation_at_90_flexion");
   assert.deepEqual([bone.healthy_deg, bone.patients_deg, bone.people_each, bone.is_short], [27.9, 12.3, 10, true]);
   const sentence = await page.locator("#sentence").textContent();
-  assert.ok(sentence.startsWith(`Internal rotation at 90° flexion ends at ${limit_deg.toFixed(1)}°, in simulated healthy hips at 27.9°, in patients with cam at 12.3° (Audenaert 2012), `), sentence);
+  assert.ok(sentence.startsWith(`Internal rotation at 90° flexion ends at ${limit_deg.toFixed(1)}°, neck on rim at `), sentence);
+  assert.ok(sentence.endsWith("; in simulated healthy hips at 27.9°, in patients with cam at 12.3° (Audenaert 2012)."), sentence);
   assert.ok((await tile(page, rotation).textContent()).endsWith(`${(27.9 - limit_deg).toFixed(0)}° short of 27.9°`));
   assert.equal(await tile(page, rotation).evaluate((element) => element.classList.contains("short")), true);
   assert.equal(await page.locator(".tile.short").count(), 1);
@@ -42,7 +43,7 @@ test("where nothing is short the sentence says what no motion ends before, and t
   const { page } = await openPage(browser, pathOf("sample"), { reducedMotion: "reduce" });
   await settled(page);
   const seen = await page.locator("#sentence").textContent();
-  assert.match(seen, /, no motion ends before its clinical range or the 27\.9° of simulated healthy hips, /);
+  assert.match(seen, /; no motion ends before its clinical range or the 27\.9° of simulated healthy hips\.$/);
   assert.match(await tile(page, rotation).textContent(), /healthy bone 27\.9°$/);
   assert.equal(await page.locator(".tile.short, .result.short").count(), 0);
   assert.doesNotMatch(await page.locator("#strip").textContent(), /beyond|normal/);
@@ -56,7 +57,7 @@ test("a limit between healthy hips and those with a cam is compared and not call
   });
   const { page } = await openPage(browser, between, { answers: false });
   await panelsPlaced(page);
-  assert.match(await page.locator("#sentence").textContent(), / ends at 24\.0°.*, in simulated healthy hips at 27\.9° \(Audenaert 2012\), /);
+  assert.match(await page.locator("#sentence").textContent(), / ends at 24\.0°.*; in simulated healthy hips at 27\.9° \(Audenaert 2012\)\.$/);
   assert.equal(await tile(page, rotation).evaluate((element) => element.classList.contains("short")), false);
   await page.context().close();
 });
@@ -101,7 +102,7 @@ test("limits of a loaded knee stand under the place in which it is held, and nev
   await openTab(page, "Motion");
   await page.getByRole("heading", { name: "Limits held in the scan's place", exact: true }).waitFor();
   await page.locator(".tile", { hasText: /^flexion / }).click();
-  await page.waitForFunction(() => /^Flexion ends at [\d.]+°, held in the scan's place, no clinical range known, /.test(document.getElementById("sentence").textContent));
+  await page.waitForFunction(() => /^Flexion ends at [\d.]+°, held in the scan's place, .*; no clinical range known\.$/.test(document.getElementById("sentence").textContent));
   assert.deepEqual(complaints, []);
   await page.context().close();
 });

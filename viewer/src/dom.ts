@@ -87,7 +87,8 @@ export function named(name: string): string {
   return runsAlong.test(short) ? short : `\u2068${short}\u2069`;
 }
 
-/// Of the bodies of a joint, as words.
+/// The bodies of a joint in words; a file keeps its name.
 export function namesOf({ fixed, mobile }: Record<"fixed" | "mobile", string>): Record<"fixed" | "mobile", string> {
-  return { fixed: spaced(named(fixed)), mobile: spaced(named(mobile)) };
+  const inWords = (name: string) => (/\.\w+$/.test(name) ? named(name) : spaced(named(name)));
+  return { fixed: inWords(fixed), mobile: inWords(mobile) };
 }

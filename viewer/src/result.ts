@@ -45,7 +45,7 @@ export function comparedText(motion: MotionAnswer, { motions }: RomAnswer, zero:
   const range = bone ? String(bone.healthy_deg) : clinical === null ? null : clinical.toFixed(0);
   return [
     ...(range === null ? [] : [lacks !== null ? words.short(lacks.toFixed(0), range) : bone ? words.healthyIs(range) : words.clinicalIs(range)]),
-    ...(zero && !(isNarrow && range !== null) ? [arcText(motion, motions, isNarrow)] : []),
+    ...(zero && !(isNarrow && range !== null) ? [arcText(motion, motions, isNarrow || range !== null)] : []),
   ].filter(Boolean).join(" · ");
 }
 

@@ -98,7 +98,8 @@ export const words = {
   meshTo: (mobile: string, fixed: string) => `${mobile} to ${fixed}`,
   atHour: (meets: string, hour: string) => `${meets} at ${hour}`,
   awayFromRim: "away from the rim",
-  endsSentence: (name: string, limit: string, ...said: (string | null)[]) => `${[`${name} ends at ${limit}`, ...said].filter(Boolean).join(", ")}.`,
+  endsSentence: (name: string, limit: string, held: string | null, place: string, compared: string) =>
+    `${[`${name} ends at ${limit}`, held, place].filter(Boolean).join(", ")}; ${compared}.`,
   planned: (done: string) =>
     (done.startsWith("without ") ? `After a planned cut of ${done.slice(8).replaceAll(", without ", " and ")}` : `Planned: ${done}`),
   plannedSentence: (sentence: string) => `Planned: ${sentence}`,
@@ -294,7 +295,7 @@ export const words = {
   /// The first part of the reason, which has all there is to see behind it.
   noLimitsSentence: (why: string) => `No limits: ${/^.{24,}?(?=[:;.] |$)/s.exec(why)?.[0] ?? why}. Details has the whole reason, under Method and data.`,
   noBand: "Bands are unknown: the report was made without them.",
-  reasons: { contact: "contact", end_of_range: "end of range", contact_at_start: "in contact at the start" },
+  reasons: { contact: "contact", end_of_range: "end of range", contact_at_start: "starts in contact" },
   translationEnds: "no contact, translation ends",
   notCarried: "unknown: load not carried",
 

@@ -53,7 +53,7 @@ export class Paper {
       ...(compared ? [compared] : []), scope);
     const filesBefore = text.before?.rom?.provenance, curve = text.plan && planCurveDrawing(text.plan.curve), { measures } = text;
     const second = html("div", { class: "sheet" },
-      ...(map && !text.by_hand ? [drawn(new MapPlot(map, null, "paper-").drawing, 560, 250)] : []),
+      ...(map && !text.by_hand ? [drawn(new MapPlot(map, null, "paper-").drawing, 560, 200)] : []),
       ...(recorded ? [drawn(recorded, 560, 260)] : []), ...(curve ? [drawn(curve, 560, 170)] : []),
       ...(measures ? [html("h2", {}, words.measures), html("div", { class: "paper-measures" }, ...measureTables(measures),
         ...shapeDrawings(measures).map((drawing) => drawn(drawing, 400, 150)))] : []),

@@ -29,11 +29,13 @@ export function nearestText(nearest: readonly Nearest[], text: ReportText): stri
   const partOf = (body: BodyName, triangle: number) => (text.parts[body].length > 1
     ? text.parts[body].find(({ first_triangle, triangles }) => triangle < first_triangle + triangles)?.name : undefined);
   const isHip = text.joint.anatomy === "hip", names = namesOf(text.joint);
-  return nearest.map(({ distance_mm, triangle, isBearing, point }) => {
+  const said = nearest.map(({ distance_mm, triangle, isBearing, point }) => {
     const mobile = partOf("mobile", triangle.mobile), fixedPart = partOf("fixed", triangle.fixed);
     return words.nearest(fixed(distance_mm, 1), mobile || fixedPart || !isHip ? words.meshTo(mobile ? spaced(named(mobile)) : names.mobile, fixedPart ? spaced(named(fixedPart)) : names.fixed)
       : isBearing ? words.headToSocket : isAtRim(point, text) ? words.neckToRim : words.meshTo(names.mobile, names.fixed));
-  }).join(" · ");
+  });
+  // Where all contact ends motions, both are one.
+  return [...new Set(said)].join(" · ");
 }
 
 /// The contact at the end of a motion and its hour, if known.
@@ -67,7 +69,7 @@ function sentenceOnEnd(motion: MotionAnswer, report: ReportText): string {
   if (motion.translation_ends) return words.translationSentence(name, limitAlone(motion));
   if (motion.reason === "end_of_range") return words.freeSentence(name, fixed(motion.limit_deg, 0), namesOf(report.joint));
   const limit = [fromBefore(report, motion), bandText(motion)].filter(Boolean).join(" "), held = report.rom!.held_translation_mm ? words.held : null;
-  return words.endsSentence(name, limit, held, compared(motion, report.rom!), placeOf(motion, report));
+  return words.endsSentence(name, limit, held, placeOf(motion, report), compared(motion, report.rom!));
 }
 
 /// What a limit is short of, or that no limit of the joint is short. Soft tissue ends motions that bone leaves free: no limit is beyond a
@@ -137,7 +139,7 @@ export class ResultStrip {
   private noted(notes: readonly { code: string; text: string }[], showNotes: () => void): HTMLElement {
     const findings = notes.filter((note) => gradeOf(note) !== "remark"), remarks = notes.length - findings.length;
     return html("div", { id: "noted", ...(findings.length ? { class: "warning" } : {}) }, html("span", { class: "noted-text" },
-      ...(findings.length ? [html("b", {}, words.noted(findings.length)), " ", findings.map(({ text }) => text).join("; "), " "] : []),
+      ...(findings.length ? [html("b", {}, words.noted(findings.length)), " ", findings.map(({ text }) => text).join("; "), remarks ? " · " : ""] : []),
       ...(remarks ? [html("span", { class: findings.length ? "" : "quiet" }, words.remarks(remarks))] : [])),
       button(words.readNotes, showNotes, { class: "quiet-button" }));
   }

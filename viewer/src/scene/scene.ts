@@ -455,8 +455,8 @@ export class JointScene {
 
   /// If both bones are transparent, every surface is drawn; if one is, only its nearest surface. A bone shown by itself hides no other.
   private applyOpacities(): void {
-    // Depths lie inside the other bone.
-    const glass = this.limit?.glass ?? (this.scale?.quantity === "depth" ? "fixed" : null);
+    // Depths and pressure lie inside the other body.
+    const glass = this.limit?.glass ?? (["depth", "pressure"].includes(this.scale?.quantity ?? "") ? "fixed" : null);
     const isGlass = (name: BodyName) => glass === name && this.opacities[name] === 1 && this.bodies[otherThan(name)].mesh.visible;
     const isSeenThrough = (name: BodyName) => isGlass(name) || this.opacities[name] < 1;
     const both = bodyNames.every(isSeenThrough);
