@@ -187,7 +187,7 @@ test("one figure at a time, the clock over the socket, the map to 60° with a li
       return [Math.min(...near), Math.max(...near)];
     });
   });
-  assert.ok(far.length > 5);
+  assert.ok(far.length > 3);
   for (const [low, high] of far) assert.ok(low <= 30 && high >= 30, `${low} and ${high}`);
   await page.context().close();
 });
