@@ -217,7 +217,7 @@ export type Query =
   /// 16 numbers, row by row.
   | { of: "poseMatrix"; X_FM: number[] }
   | { of: "depth"; at: Coordinates }
-  /// Of the whole surfaces, or `counted`: of those parts whose contact ends motions.
+  /// The whole surfaces, or, if `counted`, the parts whose contact ends motions.
   | { of: "nearest"; at: Coordinates; counted: boolean }
   /// Both bodies' vertices inside, without the other results of a pose.
   | { of: "penetrations"; at: Coordinates }
