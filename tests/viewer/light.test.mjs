@@ -215,7 +215,7 @@ test("graphics that the browser takes away come back, with a line meanwhile", as
     globalThis.lost = condyle.scene.canvas.getContext("webgl2").getExtension("WEBGL_lose_context");
     globalThis.lost.loseContext();
   });
-  const line = page.locator(".scene-lost");
+  const line = page.locator("#scene .scene-lost");
   await line.filter({ hasText: "graphics" }).waitFor();
   await page.evaluate(() => globalThis.lost.restoreContext());
   await line.filter({ hasNotText: "graphics" }).waitFor({ state: "attached" });
