@@ -170,6 +170,7 @@ test("a figure pressed shows where bone meets bone once the joint has turned the
   const [x, y] = await page.evaluate((point) => condyle.scene.project(point), fadir.contact_point_mm);
   assert.ok(Math.hypot(Number(await ring.getAttribute("cx")) - x, Number(await ring.getAttribute("cy")) - y) < 1, "the pin");
   assert.ok(region(seen, isZone).count > 10, "the zone");
+  await viewOptions(page);
   await page.getByLabel("Mark the impingement zone of").selectOption("none");
   await settled(page);
   assert.equal(region(await pixels(page), isZone).count, 0);
