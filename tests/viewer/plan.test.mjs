@@ -91,6 +91,7 @@ test("the bone that went is a colour, in every pose, and a surface over the cut"
   await turnTo(page, { flexion: 60 });
   await openTab(page, "Plan");
   assert.match(await readout(), new RegExp(`vertex ${vertex}: ${deepest.toFixed(2)}`));
+  await viewOptions(page, false);
   assert.equal(await count(page, isGreen), 0);
   await page.getByLabel("Show the removed bone").check();
   assert.ok(await count(page, isGreen) > 20);
