@@ -145,7 +145,7 @@ test("meshes of a body are distinguished by their colour", async () => {
   await settled(page);
   const seen = await pixels(page);
   await keep(page, "parts");
-  const [bone, cartilage] = [[185, 199, 214], [143, 169, 198]].map((wanted) =>
+  const [bone, cartilage] = [[192, 205, 219], [143, 169, 198]].map((wanted) =>
     region(seen, (...colour) => colour.every((value, k) => Math.abs(value - wanted[k]) <= 2)));
   assert.ok(bone.count > 1000 && cartilage.count > 200, `${bone.count} and ${cartilage.count}`);
   assert.ok(cartilage.y < bone.y, "the cartilage is on the head, above");
@@ -194,7 +194,7 @@ test("two picked points have the distance of their vertices", async () => {
   await settled(page);
   const box = await page.locator("#scene > canvas").boundingBox();
   const femur = region(await pixels(page), isFemur), hip = region(await pixels(page), isHipBone);
-  const places = [femur, { x: hip.x, y: hip.y - 0.1 }].map(({ x, y }) => [box.x + x * box.width, box.y + y * box.height]);
+  const places = [femur, { x: hip.x, y: hip.y - 0.1 }].map(({ x, y }) => [box.x + x * box.width, box.y + y * box.height].map(Math.round));
   const vertices = [];
   for (const [i, place] of places.entries()) {
     await page.mouse.click(...place);
