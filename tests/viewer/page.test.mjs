@@ -162,7 +162,7 @@ test("a figure pressed shows where bone meets bone once the joint has turned the
   assert.equal(await page.getByLabel("Mark the impingement zone of").inputValue(), "fadir");
   await settled(page);
   const seen = await pixels(page);
-  const isContactPoint = (r, g, b) => Math.hypot(r - 153, g - 51, b - 255) < 12, isZone = (r, g, b) => r > g + 25 && b > g + 15;
+  const isContactPoint = (r, g, b) => Math.hypot(r - 153, g - 51, b - 255) < 12, isZone = (r, g, b) => r > g + 25 && b > g + 15 && r > b - 40;
   await keep(page, "zone");
   assert.ok(region(seen, isContactPoint).count > 10, "the contact point");
   // The ring of the pin stands around the contact point.

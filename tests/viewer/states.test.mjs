@@ -126,7 +126,7 @@ for (const [number, joint] of joints.entries())
         await openTab(page, "Plan");
         const region = page.getByRole("region", { name: "Resect by brush", exact: true });
         if (!(await region.isVisible())) await page.locator("summary", { hasText: "Resect by brush" }).click();
-        await page.getByRole("button", { name: "Stroke where it ends" }).click();
+        await page.getByRole("button", { name: "Brush where it ends" }).click();
         await page.waitForFunction((element) => element.dataset.allAfter !== undefined && !document.body.classList.contains("limits-wait"), await region.elementHandle());
         await openTab(page, "Motion");
         motions = await limitsNow(page, text);
