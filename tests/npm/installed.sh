@@ -36,8 +36,8 @@ expect() {
 }
 expect 0 --version
 expect 0 sample hip --out "Hüfte eins"
-expect 0 rom "Hüfte eins/hip.toml" --json
-"$condyle" rom "Hüfte eins/hip.toml" --json | cmp - answer.txt
+expect 0 rom "Hüfte eins/hip.toml"
+"$condyle" rom "Hüfte eins/hip.toml" | cmp - answer.txt
 expect 0 report "Hüfte eins/hip.toml" --out Bericht.html
 "$condyle" report "Hüfte eins/hip.toml" --out native.html 2>/dev/null
 # The command line is part of a report.
@@ -75,10 +75,16 @@ import { depth, rangeOfMotion, readJoint } from "condyle";
 
 const read = (name) => JSON.parse(readFileSync(name, "utf8"));
 const joint = await readJoint("Hüfte eins/hip.toml");
-assert.deepEqual(rangeOfMotion(joint).motions, read("rom.json").motions);
-assert.equal(depth(joint, { flexion: 90, internal_rotation: 60 }).deepest.depth_mm, read("depth.json").reliable_depth.depth_mm);
+// The last digits depend on the order in which a sum is made.
+const same = (ours, theirs) => {
+  assert.deepEqual(ours.map(({ name, reason }) => [name, reason]), theirs.map(({ name, reason }) => [name, reason]));
+  ours.forEach(({ limit_deg }, i) => assert.ok(Math.abs(limit_deg - theirs[i].limit_deg) < 1e-9, theirs[i].name));
+};
+same(rangeOfMotion(joint).motions, read("rom.json").motions);
+const [ours, theirs] = [depth(joint, { flexion: 90, internal_rotation: 60 }).deepest.depth_mm, read("depth.json").reliable_depth.depth_mm];
+assert.ok(Math.abs(ours - theirs) < 1e-9, `${ours} and ${theirs}`);
 const files = Object.fromEntries(["hip.toml", "hip_bone.ply", "femur.ply"].map((name) => [name, readFileSync(`Hüfte eins/${name}`)]));
-assert.deepEqual(rangeOfMotion(await readJoint(files)).motions, read("rom.json").motions);
+same(rangeOfMotion(await readJoint(files)).motions, read("rom.json").motions);
 await assert.rejects(readJoint("nothing.toml"), /nothing\.toml/);
 delete files["femur.ply"];
 await assert.rejects(readJoint(files), /femur\.ply/);
@@ -95,7 +101,7 @@ export async function ends(path: string): Promise<number[]> {
   return [deepest ?? 0, pairs.length, ...(rangeOfMotion(joint)?.motions ?? []).map(({ limit_deg }) => limit_deg)];
 }
 MODULE
-(cd "$root/viewer" && npx --no-install tsc --noEmit --strict --skipLibCheck --target es2022 --lib es2022,dom --module esnext --moduleResolution bundler "$place/typed.ts")
+(cd "$root/viewer" && npx --no-install tsc --ignoreConfig --noEmit --strict --skipLibCheck --target es2022 --lib es2022,dom --module esnext --moduleResolution bundler "$place/typed.ts")
 node "$root/tests/npm/browser.mjs" . "Hüfte eins/hip.toml" >lists.txt
 [ "$(wc -l <lists.txt)" -eq 24 ] || fail "browser.mjs: $(cat lists.txt)"
 head -12 lists.txt | cmp - <(tail -12 lists.txt)
