@@ -122,22 +122,22 @@ endforeach()
 file(GLOB_RECURSE readers RELATIVE ${SOURCE} ${SOURCE}/src/*.hpp ${SOURCE}/src/*.cpp ${SOURCE}/cli/*.cpp ${SOURCE}/cli/*.hpp
      ${SOURCE}/python/bindings/*.cpp)
 list(FILTER readers EXCLUDE REGEX "^src/io/(file/|study/(merge_study|study_files))")
-foreach(file ${readers})
-  file(STRINGS ${SOURCE}/${file} lines REGEX "fopen\\(|fstream|opendir\\(|directory_iterator|getenv\\(|is_regular_file\\(|[^a-z_]file_size\\(|mmap\\(")
-  foreach(line IN LISTS lines)
-    message(SEND_ERROR "${file}: files and the environment are read by io/file/input_file.hpp: ${line}")
+# No line of these files matches.
+function(refuse why regex)
+  foreach(file ${ARGN})
+    file(STRINGS ${SOURCE}/${file} lines REGEX ${regex})
+    foreach(line IN LISTS lines)
+      message(SEND_ERROR "${file}: ${why}: ${line}")
+    endforeach()
   endforeach()
-endforeach()
+endfunction()
+refuse("files and the environment are read by io/file/input_file.hpp"
+       "fopen\\(|fstream|opendir\\(|directory_iterator|getenv\\(|is_regular_file\\(|[^a-z_]file_size\\(|mmap\\(" ${readers})
 
 # Sines have the bits of core/trigonometry.hpp everywhere; those of C libraries differ in their last.
 file(GLOB_RECURSE computing RELATIVE ${SOURCE} ${SOURCE}/src/*.?pp ${SOURCE}/include/*.hpp ${SOURCE}/cli/*.?pp ${SOURCE}/viewer/core/*.?pp)
 list(FILTER computing EXCLUDE REGEX "^src/core/trigonometry\\.|^src/tangential/exact/arctangent")
-foreach(file ${computing})
-  file(STRINGS ${SOURCE}/${file} lines REGEX "std::a?(sin|cos|tan)h?2?\\(|AngleAxisd")
-  foreach(line IN LISTS lines)
-    message(SEND_ERROR "${file}: core/trigonometry.hpp has the same bits everywhere: ${line}")
-  endforeach()
-endforeach()
+refuse("core/trigonometry.hpp has the same bits everywhere" "std::a?(sin|cos|tan)h?2?\\(|AngleAxisd" ${computing})
 
 # What is answered is decided in answer/: shells ask it, and not the kernels below. Each exception with its reason.
 set(kernels "motion::(motion_map|limit_bands|contact_along|balance_along|contact_between|RangeOfMotion|ZoneFinder|DepthRange)"

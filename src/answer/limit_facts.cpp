@@ -52,7 +52,7 @@ std::optional<BoneReference> bone_reference(const Joint& joint, const motion::Mo
 }
 
 bool is_short(const BoneReference& reference, const motion::MotionLimit& limit) noexcept {
-  return limit.end.turned <= reference.cam_without_complaints;
+  return ends_in_contact(limit) && limit.end.turned <= reference.cam_without_complaints;
 }
 
 std::optional<double> clock_hour(const RangeAnswer& answer, const motion::MotionLimit& limit) {

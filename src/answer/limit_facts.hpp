@@ -43,7 +43,7 @@ struct BoneReference {
 /// none that is short is short. None of implants, if zero angles are not known to be neutral, and of a limit that does not say
 /// where bone impinges.
 std::optional<BoneReference> bone_reference(const Joint& joint, const motion::MotionLimit& limit);
-/// Whether bone ends the motion no later than in the mean of hips with a cam. A limit below the healthy mean by less says nothing: half of all
+/// Whether bone ends the motion, not its range, and no later than in the mean of hips with a cam. A limit below the healthy mean by less says nothing: half of all
 /// healthy hips have one.
 bool is_short(const BoneReference& reference, const motion::MotionLimit& limit) noexcept;
 

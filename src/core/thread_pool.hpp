@@ -99,7 +99,7 @@ void parallel_tasks(std::size_t count, const Body& body) {
   });
 }
 
-/// Of this thread and no other that lives.
+/// The same for one thread and different for two that live.
 [[nodiscard]] const void* thread_key() noexcept;
 
 /// A value for each thread that asks for its own, made when it first does. Threads are few and ask seldom: their values are a list.

@@ -15,7 +15,7 @@ std::atomic<int64_t> chosen_for_test = 0;
 
 int64_t SupportedTargets() {
   if (const int64_t chosen = chosen_for_test) return chosen;
-  // What the compiler is told that every processor has: the fallback.
+  // The fallback: the compiler may assume that every processor has it.
   int64_t targets = HWY_STATIC_TARGET;
 #if HWY_ARCH_X86
   // What Highway's headers compile each for, wholly: a processor that lacks one of these instructions gets the set before.

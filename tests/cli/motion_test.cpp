@@ -105,6 +105,10 @@ TEST_P(PublishedMotion, OfTheModelHasThePublishedCurves) {
                     1e-12 * (std::abs(medial) + std::abs(lateral) + 1))
             << name << " frame " << frame;
       }
+      const double medial = regions.rows[frame][regions.column("medial_share_percent")],
+                   lateral = regions.rows[frame][regions.column("lateral_share_percent")];
+      // A hundred by the sums above; the force is of hundreds of newtons in every frame.
+      EXPECT_NEAR(medial + lateral, 100, 1e-9) << "frame " << frame;
       const auto z = [&](const char* of) { return regions.rows[frame][regions.column(of)]; };
       if (!std::isnan(z("medial_centre_of_pressure_z_mm"))) {
         EXPECT_LT(z("medial_centre_of_pressure_z_mm"), 0);

@@ -293,10 +293,15 @@ def help_reader(condyle: Path, has_module: bool):
     return lambda command: known.get(command, everything)
 
 
+def pages_of(source: Path, names: "list[str]") -> "list[Path]":
+    """Those named, else README.md and all of docs/ but its decisions."""
+    return [source / name for name in names] or [source / "README.md", *(
+        page for page in sorted((source / "docs").rglob("*.md")) if page.parent.name != "decisions")]
+
+
 def main() -> int:
     source, condyle = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-    pages = [source / page for page in sys.argv[3:]] or [source / "README.md", *(
-        page for page in sorted((source / "docs").rglob("*.md")) if page.parent.name != "decisions")]
+    pages = pages_of(source, sys.argv[3:])
     if os.environ.get("PYTHONPATH"):
         # Commands run in folders of their own.
         folders = os.environ["PYTHONPATH"].split(os.pathsep)

@@ -381,6 +381,16 @@ TEST(BoneReference, IsShortFromTheMeanOfHipsWithACamDown) {
   }
 }
 
+TEST(BoneReference, OfAMotionThatItsOwnRangeEndsIsNotShort) {
+  Joint joint = arm_and_post();
+  joint.zero_from = ZeroFrom::stated;
+  motion::MotionLimit limit = impingement_test_at(Angle::degrees(15));
+  ASSERT_TRUE(is_short(*bone_reference(joint, limit), limit));
+  limit.end.reason = motion::LimitReason::end_of_range;
+  limit.end.contact.reset();
+  EXPECT_FALSE(is_short(*bone_reference(joint, limit), limit));
+}
+
 TEST(BoneReference, IsOfNativeHipsFromNeutralAndImpingementOnly) {
   Joint joint = arm_and_post();
   joint.zero_from = ZeroFrom::stated;

@@ -18,7 +18,7 @@ import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "docs"))
-from page_commands import SYNOPSIS, commands_in, parts_of  # noqa: E402
+from page_commands import SYNOPSIS, commands_in, pages_of, parts_of  # noqa: E402
 
 PROGRESS = re.compile(r"^.*: \d+ of \d+ \(\d+ %\).*\n|\r\x1b\[K[^\r\n]*", re.M)
 WITHOUT_HDF5 = re.compile(r" --jam\b")
@@ -77,8 +77,7 @@ def differences(one: Path, other: Path):
 def main() -> int:
     source = Path(sys.argv[1]).resolve()
     commands = [Path(word).resolve() for word in sys.argv[2:4]]
-    pages = [source / page for page in sys.argv[4:]] or [source / "README.md", *(
-        page for page in sorted((source / "docs").rglob("*.md")) if page.parent.name != "decisions")]
+    pages = pages_of(source, sys.argv[4:])
     wrong, count, took = [], 0, collections.defaultdict(lambda: [0.0, 0.0])
     with tempfile.TemporaryDirectory() as made:
         tools = []

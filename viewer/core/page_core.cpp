@@ -68,7 +68,7 @@ void visit_inside(CondyleJoint& joint, const Pose& X, bool of_fixed, radial::Pen
   }
 }
 
-/// Of the parts whose contact ends motions, in numbers of the whole meshes.
+/// Where the parts whose contact ends motions are nearest, in numbers of the whole meshes.
 mesh::ClosestPoints nearest_counted(CondyleJoint& joint, const motion::RangeOfMotion& range,
                                     const Pose& X_FM) {
   if (!joint.counted) {
@@ -387,6 +387,7 @@ int condyle_set_roles(CondyleJoint* joint, int count_bearing, const std::uint8_t
                       const std::uint8_t* mobile) {
   return guarded(-1, [&] {
     joint->range.reset();
+    joint->counted.reset();
     const auto roles_of = [](const Body& body, const std::uint8_t* numbers) {
       std::vector<motion::ContactRole> roles;
       for (std::size_t t = 0; numbers && t < body.mesh.triangles().size(); ++t)

@@ -142,9 +142,12 @@ std::string_view unit_of(std::string_view name) {
 Json recorded_json(const ReportedMotion& recorded, const Joint& joint, BlockArrays& arrays) {
   const RecordedFrames frames = recorded_frames(joint, recorded.question.motion.X_FM);
   Curves curves = curves_of(recorded.question, recorded.answer);
-  const Curves shares = load_shares_of(recorded.question, recorded.answer);
-  curves.names.insert(curves.names.end(), shares.names.begin(), shares.names.end());
-  curves.values.insert(curves.values.end(), shares.values.begin(), shares.values.end());
+  const Curves regions = region_curves_of(recorded.question, recorded.answer);
+  for (std::size_t i = 0; i < regions.names.size(); ++i)
+    if (regions.names[i].ends_with("_share_percent")) {
+      curves.names.push_back(regions.names[i]);
+      curves.values.push_back(regions.values[i]);
+    }
   Json json{{"name", recorded.name},
             {"axis", curves.axis},
             {"times_s", arrays.add("recorded_times", curves.at)},

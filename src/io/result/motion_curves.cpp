@@ -78,23 +78,6 @@ void add_contact(const MotionQuestion& question, CurveColumns& columns, const st
                      [&](const FrameTotals& f) { return Vec3(sign * f.load.moment_nmm); });
 }
 
-/// The totals of a frame's faces within a region of the casting surface.
-contact::ContactTotals totals_within(const RegionEntry& region, const MotionQuestion& question,
-                                     const motion::FrameContact& frame) {
-  const ContactEntry& contact = question.contact;
-  const Mesh& casting = contact.casting == contact::Casting::fixed ? question.surfaces.fixed.mesh
-                                                                   : question.surfaces.mobile.mesh;
-  return totals_of(contact::faces_within(frame.surface.faces, casting, region.half_spaces), casting,
-                   contact.rays.rule);
-}
-
-Curves without_columns(const MotionQuestion& question) {
-  return {.axis = question.motion.times.in_seconds ? "time_s" : "frame",
-          .at = question.motion.times.values,
-          .names = {},
-          .values = {}};
-}
-
 /// totals_of(frame) of each frame that has an answer.
 template <class TotalsOf>
 std::vector<std::optional<FrameTotals>> totals_of_frames(const MotionAnswer& answer,
@@ -108,33 +91,38 @@ std::vector<std::optional<FrameTotals>> totals_of_frames(const MotionAnswer& ans
 }  // namespace
 
 Curves region_curves_of(const MotionQuestion& question, const MotionAnswer& answer) {
-  Curves curves = without_columns(question);
+  Curves curves;
+  curves.axis = question.motion.times.in_seconds ? "time_s" : "frame";
+  curves.at = question.motion.times.values;
   CurveColumns columns(curves, answer.frames.size());
-  for (const RegionEntry& region : question.contact.regions) {
-    add_contact(question, columns, region.name + "_",
-                totals_of_frames(answer, [&](const motion::FrameContact& frame) {
-                  const contact::ContactTotals totals = totals_within(region, question, frame);
-                  return FrameTotals{totals, {totals.force_n, totals.moment_nmm}};
-                }));
+  const ContactEntry& contact = question.contact;
+  const Mesh& casting = contact.casting == contact::Casting::fixed ? question.surfaces.fixed.mesh
+                                                                   : question.surfaces.mobile.mesh;
+  for (const RegionEntry& region : contact.regions) {
+    const auto totals = totals_of_frames(answer, [&](const motion::FrameContact& frame) {
+      const contact::ContactTotals of_region =
+          totals_of(contact::faces_within(frame.surface.faces, casting, region.half_spaces), casting,
+                    contact.rays.rule);
+      return FrameTotals{of_region, {of_region.force_n, of_region.moment_nmm}};
+    });
+    add_contact(question, columns, region.name + "_", totals);
+    if (!question.with_pressure) continue;
+    std::vector<std::optional<double>> shares(totals.size());
+    for (std::size_t i = 0; i < totals.size(); ++i)
+      if (totals[i]) {
+        const Vec3& whole_n = answer.frames[i]->surface.totals.force_n;
+        shares[i] = 100 * totals[i]->load.force_n.dot(whole_n) / whole_n.squaredNorm();
+      }
+    columns.add(region.name + "_share_percent", shares, [](double share) { return share; });
   }
-  return curves;
-}
-
-Curves load_shares_of(const MotionQuestion& question, const MotionAnswer& answer) {
-  Curves curves = without_columns(question);
-  CurveColumns columns(curves, answer.frames.size());
-  if (question.with_pressure)
-    for (const RegionEntry& region : question.contact.regions)
-      columns.add(region.name + "_share_percent", answer.frames, [&](const motion::FrameContact& frame) {
-        const Vec3& force_n = frame.surface.totals.force_n;
-        return 100 * totals_within(region, question, frame).force_n.dot(force_n) / force_n.squaredNorm();
-      });
   return curves;
 }
 
 Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer) {
   const auto& frames = answer.frames;
-  Curves curves = without_columns(question);
+  Curves curves;
+  curves.axis = question.motion.times.in_seconds ? "time_s" : "frame";
+  curves.at = question.motion.times.values;
   CurveColumns columns(curves, frames.size());
   add_contact(question, columns, "", totals_of_frames(answer, [&](const motion::FrameContact& frame) {
                 return FrameTotals{frame.surface.totals, load_of(question.contact, frame)};

@@ -36,12 +36,9 @@ std::string_view name_of(motion::ContactEndKind kind, ContactEndRole role) noexc
 /// One curve for each number of a frame; nothing for gaps, and for centres of frames without contact.
 Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer);
 
-/// The same of each region of the casting surface, under names that begin with the region's: "medial_area_mm2".
+/// The same of each region of the casting surface, under names that begin with the region's: "medial_area_mm2". With pressure, last, how much
+/// of that surface's force it carries along it: "medial_share_percent", NaN in a frame without force.
 Curves region_curves_of(const MotionQuestion& question, const MotionAnswer& answer);
-
-/// How much of the casting body's force each region carries, along that force, in per cent: "medial_share_percent". None without pressure;
-/// NaN in a frame without force.
-Curves load_shares_of(const MotionQuestion& question, const MotionAnswer& answer);
 
 /// The curves' largest values and when, frames in contact, gaps: a few lines.
 std::string motion_text(const MotionQuestion& question, const MotionAnswer& answer);

@@ -91,7 +91,7 @@ function zoneOf({ stored, margins, least }: ShownSweep, { posed }: ReportText): 
   return html("div", {}, map.element, html("p", { class: "small" }, ...stored.sweep_notes.map(({ text }) => `${words.sweepNoted(text)} `)));
 }
 
-/// Of this size, if it has none of its own.
+/// A drawing and its caption; one without a size of its own gets this one.
 function drawn({ picture, caption, lay }: Pick<Drawing, "picture" | "caption"> & Partial<Drawing>, width = 0, height = 0): HTMLElement {
   if (lay) layOut({ picture, lay }, width, height);
   return html("figure", {}, picture, html("figcaption", {}, caption));
