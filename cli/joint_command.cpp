@@ -20,6 +20,21 @@ void add_joint(CLI::App& command, JointArguments& given, const char* help) {
   command.add_option("JOINT", given.joint, help)->required();
 }
 
+void add_person(CLI::App& command, Person& person) {
+  command
+      .add_option("--age", person.age_years,
+                  "Hold limits against people of this age, instead of that of the joint file")
+      ->check(
+          [](const std::string& text) {
+            double years = 0;
+            return CLI::detail::lexical_cast(text, years) && is_age(years) ? "" : "must be 0 to 120 years";
+          },
+          "")
+      ->option_text("YEARS");
+  add_choice(command, "--sex", person.sex, {{"female", Sex::female}, {"male", Sex::male}},
+             "The same of this sex");
+}
+
 void add_where(CLI::App& command, JointArguments& given) {
   command
       .add_option_function<std::string>(
@@ -31,7 +46,10 @@ void add_where(CLI::App& command, JointArguments& given) {
       "Write VTP files as text, which OpenSim reads");
 }
 
-io::LoadedJoint joint_at(io::LoadedJoint loaded, const std::vector<std::string>& parameters) {
+io::LoadedJoint joint_at(io::LoadedJoint loaded, const std::vector<std::string>& parameters,
+                         const Person& person) {
+  if (person.age_years) loaded.joint.person.age_years = person.age_years;
+  if (person.sex) loaded.joint.person.sex = person.sex;
   if (parameters.empty()) return loaded;
   std::string text;
   for (const std::string& words : parameters) text += words + " ";
@@ -43,7 +61,7 @@ io::LoadedJoint joint_at(io::LoadedJoint loaded, const std::vector<std::string>&
 }
 
 io::LoadedJoint joint_of(const JointArguments& given) {
-  return joint_at(io::read_joint(given.joint), given.parameters);
+  return joint_at(io::read_joint(given.joint), given.parameters, given.person);
 }
 
 io::Provenance provenance_of(const JointArguments& given, const io::LoadedJoint& loaded,

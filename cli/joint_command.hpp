@@ -27,20 +27,23 @@ namespace condyle::cli {
 struct JointArguments {
   std::string joint, out;
   std::vector<std::string> parameters;
+  Person person;
   io::AnswerFrameName frame = io::AnswerFrameName::joint;
   io::VtpEncoding vtp_encoding = io::VtpEncoding::binary;
   Strictness strictness = Strictness::notes;
   AnswerForm form = AnswerForm::text;
 };
 
-/// Each adds options, whose values are written while arguments are read: --set; that and JOINT; --frame and --ascii, of commands
-/// that write points and meshes.
+/// Each adds options, whose values are written while arguments are read: --set; that and JOINT; --age and --sex, which limits are held against;
+/// --frame and --ascii, of commands that write points and meshes.
 void add_set(CLI::App& command, std::vector<std::string>& parameters);
 void add_joint(CLI::App& command, JointArguments& given, const char* help = "The joint file, .toml");
+void add_person(CLI::App& command, Person& person);
 void add_where(CLI::App& command, JointArguments& given);
 
-/// The joint at the values of --set. Throws UsageError that begins with the option.
-io::LoadedJoint joint_at(io::LoadedJoint loaded, const std::vector<std::string>& parameters);
+/// The joint at the values of --set, and of this person as far as it is said. Throws UsageError that begins with the option.
+io::LoadedJoint joint_at(io::LoadedJoint loaded, const std::vector<std::string>& parameters,
+                         const Person& person = {});
 io::LoadedJoint joint_of(const JointArguments& given);
 
 /// What an answer is of: `beside` are the files that arguments name, empty if they do not.

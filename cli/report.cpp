@@ -26,6 +26,7 @@ enum class Content { joint, nothing };
 
 struct ReportArguments {
   std::vector<std::string> parameters;
+  Person person;
   Content content = Content::joint;
   std::string first, second, out, motion, sweep, targets;
   std::optional<std::string> title;
@@ -134,7 +135,8 @@ void report_command(const ReportArguments& options, const CLI::App& command) {
   if (options.content == Content::nothing) return write_empty(options, command);
   if (options.joint().empty()) throw UsageError("report: JOINT is required, or --empty");
   const io::InputRecorder read;
-  const io::LoadedJoint loaded = joint_at(io::read_joint(options.joint()), options.parameters);
+  const io::LoadedJoint loaded =
+      joint_at(io::read_joint(options.joint()), options.parameters, options.person);
   check_plan(options, loaded.joint);
   check_comparison(options);
   std::optional<JointBefore> before;
@@ -195,6 +197,7 @@ void add_report(CLI::App& app) {
       "why and shows the joint.");
   auto options = std::make_shared<ReportArguments>();
   add_set(*command, options->parameters);
+  add_person(*command, options->person);
   command->add_option("JOINT", options->first, "The joint file, .toml; with AFTER, that of the joint before");
   command->add_option("AFTER", options->second,
                       "Show this joint file, and compare it with JOINT. --set is for this one only");

@@ -144,6 +144,7 @@ void add_rom(CLI::App& app) {
   add_out(*command, options->out,
           "Write rom.json, limits.csv and bearing.vtp into this folder; map.csv, map_intervals.csv and "
           "map.vtp of a map, zone_*.vtp of zones. python3 -m condyle.plot FOLDER draws them");
+  add_person(*command, options->person);
   add_where(*command, *options);
   add_json(*command, options->form);
   add_strict(*command, options->strictness, or_contact);

@@ -228,6 +228,23 @@ enum class ZeroFrom : std::uint8_t {
   anatomy,    ///< The mobile body's anatomy does: of a hip the condyles of its femur.
 };
 
+enum class Sex : std::uint8_t { female, male };
+inline constexpr Sex all_sexes[] = {Sex::female, Sex::male};
+/// As in files: "female".
+[[nodiscard]] constexpr std::string_view name_of(Sex sex) noexcept {
+  return sex == Sex::female ? "female" : "male";
+}
+
+[[nodiscard]] constexpr bool is_age(double years) noexcept {
+  return years >= 0 && years <= 120;
+}
+
+/// Whose joint it is, as far as that is known: limits stand beside those of people of this age and sex.
+struct Person {
+  std::optional<double> age_years = {};  ///< is_age()
+  std::optional<Sex> sex = {};
+};
+
 /// Two bodies and how one rotates in the other. Both meshes are in the joint frame of joint_coordinates.hpp:
 /// millimetres, origin at the joint centre, X anterior, Y superior, Z to the subject's right. The mobile mesh
 /// is the one of zero angles: pose_at(coordinates(), angles) brings it to any other.
@@ -244,6 +261,7 @@ struct Joint {
   ZeroFrom zero_from = ZeroFrom::as_given;
   /// What a plan did to the bones: "without 164.1 mm3 of femur". Empty: they are as they were measured.
   std::string planned = {};
+  Person person = {};
 
   [[nodiscard]] CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
   /// False of a hinge that flexes forwards and is no joint in particular.

@@ -144,6 +144,7 @@ struct JointDescription {
   /// Parts with a pose of their own: they move the bodies once these are placed.
   std::vector<DescribedPart> parts = {};
   std::string planned = {};  ///< what a plan did to the bones, as Joint::planned
+  Person person = {};
 
   [[nodiscard]] CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
 };

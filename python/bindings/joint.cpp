@@ -156,6 +156,13 @@ JointAngle angle_numbered(std::size_t number) {
 void bind_joint(py::module_& module) {
   py::class_<JointHandle>(module, "Joint")
       .def_property_readonly("name", [](const JointHandle& h) { return h.joint().name; })
+      .def_property_readonly("person",
+                             [](const JointHandle& h) {
+                               const Person& person = h.joint().person;
+                               return std::pair(person.age_years, person.sex
+                                                                      ? std::optional(name_of(*person.sex))
+                                                                      : std::nullopt);
+                             })
       .def_property_readonly("planned", [](const JointHandle& h) { return io::planned_text(h.joint()); })
       .def_property_readonly("kind", [](const JointHandle& h) { return name_of(h.joint().kind); })
       .def_property_readonly("side", [](const JointHandle& h) { return name_of(h.joint().side); })

@@ -38,7 +38,7 @@ void members(T& value, const Each& each) {
   if constexpr (is_one_of<Struct, TriMesh, BodyImage, ImageCut, CutPlane, DescribedPart, Sphere,
                           FrameDirections, FemurLandmarks, CentreFit, JointCoordinates, LikelyUnit,
                           BoundingBox, BodyPlacement, contact::NormalDepthOptions, contact::HalfSpace,
-                          io::RegionEntry, io::FileDigest, RepairDone, io::LoadedJoint>) {
+                          io::RegionEntry, io::FileDigest, RepairDone, io::LoadedJoint, Person>) {
     auto& [a, b] = value;
     each(a, b);
   } else if constexpr (is_one_of<Struct, Points, PosedParts, UnposedBody, SphericalPatch, Cylinder,
@@ -65,15 +65,18 @@ void members(T& value, const Each& each) {
   } else if constexpr (is_one_of<Struct, PartParameter, io::ContactEntry, io::ColumnOfCoordinate>) {
     auto& [a, b, c, d, e, f, g, h, i] = value;
     each(a, b, c, d, e, f, g, h, i);
-  } else if constexpr (is_one_of<Struct, Joint, JointPlacement>) {
+  } else if constexpr (is_one_of<Struct, JointPlacement>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k] = value;
     each(a, b, c, d, e, f, g, h, i, j, k);
-  } else if constexpr (is_one_of<Struct, io::BodyMeshReport>) {
+  } else if constexpr (is_one_of<Struct, Joint, io::BodyMeshReport>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l] = value;
     each(a, b, c, d, e, f, g, h, i, j, k, l);
-  } else if constexpr (is_one_of<Struct, JointDescription, io::JointFile>) {
+  } else if constexpr (is_one_of<Struct, io::JointFile>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = value;
     each(a, b, c, d, e, f, g, h, i, j, k, l, m);
+  } else if constexpr (is_one_of<Struct, JointDescription>) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = value;
+    each(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
   } else if constexpr (is_one_of<Struct, plan::ReverseShoulder>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = value;
     each(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);

@@ -97,6 +97,11 @@ class DescribedJoint(Unchanging):
         return self._native.name
 
     @property
+    def person(self) -> dict[str, Union[float, str]]:
+        """Whose joint it is: `age` in years and `sex`, each if it is known. Limits are held against people like this one."""
+        return {key: value for key, value in zip(("age", "sex"), self._native.person) if value is not None}
+
+    @property
     def planned(self) -> str:
         """What a plan did to the joint: "without 164.1 mm3 of femur", "with a total hip", "cup.inclination 42 deg instead of 40"; "" if nothing.
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native
 from ._coordinates import position_in
 from ._errors import UsageError
-from ._words import Anatomy, Axes, Body, JointKind, LengthUnit, Side, TranslationFrame, ball, number_array, text_of
+from ._words import Anatomy, Axes, Body, JointKind, LengthUnit, Side, TranslationFrame, ball, number, number_array, text_of
 from ._words import word
 
 _axes: dict[str, tuple[ArrayLike, ArrayLike]] = {"LPS": ((0, -1, 0), (0, 0, 1)), "RAS": ((0, 1, 0), (0, 0, 1))}
@@ -18,7 +18,7 @@ _axes: dict[str, tuple[ArrayLike, ArrayLike]] = {"LPS": ((0, -1, 0), (0, 0, 1)),
 
 def description_of(*, name: Any, kind: Any, joint: Any, side: Any, units: Any, translation_frame: Any, centre: Any,
                    fit_body: Any, fit_within: Any, axes: Any, anterior: Any, superior: Any, landmarks: Any,
-                   reference_pose: Any, fixed_in_W: Any, mobile_in_W: Any) -> dict[str, Any]:
+                   reference_pose: Any, person: Any, fixed_in_W: Any, mobile_in_W: Any) -> dict[str, Any]:
     """For the compiled part, in mm and degrees."""
     anatomy = word(joint, "joint", Anatomy)
     to_mm = {"mm": 1.0, "cm": 10.0, "in": 25.4, "m": 1000.0}[word(units, "units", LengthUnit)]
@@ -49,8 +49,19 @@ def description_of(*, name: Any, kind: Any, joint: Any, side: Any, units: Any, t
             for point, place in landmarks.items()},
         "fixed_in_W": _pose_in_mm(fixed_in_W, to_mm, "fixed_in_W"),
         "mobile_in_W": _pose_in_mm(mobile_in_W, to_mm, "mobile_in_W"),
-        "zero_from": zero_from, "reference_angles_deg": angles, "reference_translation_mm": translation * to_mm,
+        "person": _person(person), "zero_from": zero_from, "reference_angles_deg": angles, "reference_translation_mm": translation * to_mm,
     }
+
+
+def _person(person: Any) -> tuple[Optional[float], Optional[str]]:
+    """Age and sex, each None if it is not given."""
+    if person is None:
+        return None, None
+    if not isinstance(person, Mapping) or not set(person) <= {"age", "sex"}:
+        raise UsageError('person: "age" and "sex" are its names')
+    age, sex = person.get("age"), person.get("sex")
+    return (None if age is None else number(age, "person: age", 0, 120),
+            None if sex is None else word(sex, "person: sex", ("female", "male")))
 
 
 def _zero(reference_pose: Any) -> tuple[str, Any]:

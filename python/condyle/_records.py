@@ -82,6 +82,35 @@ class BoneReference(Record):
     source: str
 
 
+class SoftTissueGap(Record):
+    """How much earlier soft tissue ended the motion than bone, in hips of cadavers."""
+
+    closeness: Literal["close", "moderate", "weak"]
+    mean_deg: float
+    sd_deg: float
+    hips: int
+    source: str
+
+
+class PeopleRange(Record):
+    """How far other people's hips turn, soft tissue included; never of this joint."""
+
+    low_deg: float
+    high_deg: float
+    who: str
+    people: Optional[int] = None
+    source: str
+
+
+class LivingLimit(Record):
+    """What studies say of the living beside a limit of bone."""
+
+    expected_deg: Optional[float] = None
+    expected_sd_deg: Optional[float] = None
+    gap: Optional[SoftTissueGap] = None
+    people: Optional[PeopleRange] = None
+
+
 class Caveat(Record):
     """A caveat to read before a limit is compared with a living joint."""
 
@@ -201,6 +230,10 @@ class LimitRecord(Record):
         only of internal rotation at 90° flexion of a hip without implant, with zero known to be neutral and no end but
         impingement: means of simulations of bone, `healthy_deg`, `cam_without_complaints_deg`, `patients_deg`, `people_each`,
         `source`; `is_short` if the limit is not above that of hips with a cam
+    living : LivingLimit or None
+        what studies say of living hips, without an implant and with zero known to be neutral: `gap`, how much earlier soft tissue
+        ended the motion than bone in cadavers (`closeness`: `"close"`, `"moderate"` or `"weak"`), or null; `expected_deg` and
+        `expected_sd_deg` of the close ones that impingement ends, else null; `people`, how far others turn, or null
     caveats : list[Caveat]
         list of `code`, `text` and `source` each: what usually ends such a motion; empty for joints other than hips
     guarantee : str
@@ -248,6 +281,7 @@ class LimitRecord(Record):
     clock_hour: Optional[float] = None
     normal_range_deg: Optional[float] = None
     bone_reference: Optional[BoneReference] = None
+    living: Optional[LivingLimit] = None
     caveats: list[Caveat]
     guarantee: str
     depth: Optional[AllowedDepthRecord] = None

@@ -393,6 +393,7 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
               description.translation_frame};
   joint.zero_from = placement.zero_from;
   joint.planned = description.planned;
+  joint.person = description.person;
   if (!parts.empty())
     joint.posed = PosedParts{std::move(parts),
                              {joint.fixed.mesh, joint.fixed.image, joint.fixed.head},

@@ -156,6 +156,7 @@ PlacedHip place_total_hip(const TotalHip& hip, const Joint& joint, const PlacedB
   placed.mobile.image = moved(joint.mobile.image, of_femur);
   placed.implant = implant_in_joint(hip, placed);
   placed.planned = joint.planned;
+  placed.person = joint.person;
   add_planned(placed, "with a total hip");
   return {std::move(placed), cut, shift, removed, meshes_left_out(joint)};
 }

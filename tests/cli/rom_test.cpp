@@ -93,6 +93,21 @@ TEST_F(RomCommand, ReadsMotionsOfTheJointFile) {
   expect_refused(2, "rom joint.toml --motion halfway", "half_way");
 }
 
+TEST_F(RomCommand, HoldsLimitsAgainstPeopleLikeTheOneOfTheFileOrOfItsOptions) {
+  write_joint("arm.ply", "[reference_pose]\n[person]\nage = 5\n");
+  const auto people = [&](const std::string& options) {
+    const Ran ran = run("rom joint.toml --motion flexion --json" + options);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    const Json people = Json::parse(ran.out)["motions"][0]["living"]["people"];
+    return std::array{people["low_deg"], people["high_deg"]};
+  };
+  EXPECT_EQ(people(""), (std::array<Json, 2>{131.1, 140.8}));
+  EXPECT_EQ(people(" --sex female"), (std::array<Json, 2>{140.8, 140.8}));
+  EXPECT_EQ(people(" --age 30"), (std::array<Json, 2>{120.0, 120.0}));
+  expect_refused(2, "rom joint.toml --age 121", "--age: must be 0 to 120 years");
+  expect_refused(2, "rom joint.toml --sex f", "--sex");
+}
+
 TEST_F(RomCommand, WritesEveryFileAndOnlyWhole) {
   const std::string command = std::string("rom joint.toml --out out --json") + small_map;
   const Ran ran = run(command);

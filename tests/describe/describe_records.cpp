@@ -110,12 +110,13 @@ std::string each_record(const Of& of) {
              std::type_identity<PartsRecord>(), std::type_identity<AllowedDepthRecord>(),
              std::type_identity<ClosedFormRecord>(), std::type_identity<BandWidthRecord>(),
              std::type_identity<BandRecord>(), std::type_identity<BoneReferenceRecord>(),
-             std::type_identity<CaveatRecord>(), std::type_identity<FixedZoneRecord>(),
-             std::type_identity<MobileZoneRecord>(), std::type_identity<ZoneRecord>(),
-             std::type_identity<LimitRecord>(), std::type_identity<NormalRangeRecord>(),
-             std::type_identity<MeasureBandRecord>(), std::type_identity<MeasureRecord>(),
-             std::type_identity<NeckHourRecord>(), std::type_identity<RimHourRecord>(),
-             std::type_identity<ShapeRecord>());
+             std::type_identity<SoftTissueGapRecord>(), std::type_identity<PeopleRangeRecord>(),
+             std::type_identity<LivingRecord>(), std::type_identity<CaveatRecord>(),
+             std::type_identity<FixedZoneRecord>(), std::type_identity<MobileZoneRecord>(),
+             std::type_identity<ZoneRecord>(), std::type_identity<LimitRecord>(),
+             std::type_identity<NormalRangeRecord>(), std::type_identity<MeasureBandRecord>(),
+             std::type_identity<MeasureRecord>(), std::type_identity<NeckHourRecord>(),
+             std::type_identity<RimHourRecord>(), std::type_identity<ShapeRecord>());
 }
 
 template <class Record>

@@ -487,6 +487,19 @@ TEST_F(ReadJoint, UncertaintyIsReadWithItsSeed) {
             "line 17: uncertainty.seed: must be a whole number, not a number");
 }
 
+TEST_F(ReadJoint, APersonHasAnAgeASexOrBoth) {
+  EXPECT_FALSE(read(plain).joint.person.age_years || read(plain).joint.person.sex);
+  const std::string table = plain + std::string("[person]\n");
+  const Person girl = read(table + "age = 7.5\nsex = \"female\"\n").joint.person;
+  EXPECT_EQ(girl.age_years, 7.5);
+  EXPECT_EQ(girl.sex, Sex::female);
+  EXPECT_FALSE(read(table + "sex = \"male\"\n").joint.person.age_years);
+  EXPECT_EQ(refusal(table + "age = -1\n"), "line 17: person.age: must be 0 to 120 years");
+  EXPECT_EQ(refusal(table + "age = 121\n"), "line 17: person.age: must be 0 to 120 years");
+  EXPECT_NE(refusal(table + "sex = \"f\"\n").find("line 17: person.sex: "), std::string::npos);
+  EXPECT_NE(refusal(table + "years = 7\n").find("line 17: person.years: unknown key"), std::string::npos);
+}
+
 TEST_F(ReadJoint, KeysThatContradictEachOtherAreRefused) {
   EXPECT_NE(refusal_of("[frame]",
                        "[frame.landmarks]\nmedial_epicondyle = [0, -400, -40]\nlateral_epicondyle = [0, "

@@ -43,6 +43,36 @@ def test_caveats_and_scope_are_those_of_the_command(rom, said):
     assert "PMC3589629" in rom["extension"].caveats[0].source
 
 
+def test_living_hips_are_those_of_the_command_for_the_same_person(command, hip_file, tmp_path):
+    folder, whose = hip_file.parent, tmp_path / "whose.toml"
+    text = hip_file.read_text() + '\n[person]\nage = 45\nsex = "male"\n'
+    for mesh in ("hip_bone", "femur"):
+        text = text.replace(f'"{mesh}', f'"{folder}/{mesh}')
+    whose.write_text(text)
+    said = json.loads(subprocess.run([command, "rom", whose, "--json"], check=True, capture_output=True).stdout)
+    joint = pickle.loads(pickle.dumps(condyle.read_joint(whose)))
+    assert joint.person == {"age": 45, "sex": "male"}
+    for theirs, ours in zip(said["motions"], joint.range_of_motion().limits):
+        assert theirs.get("living") == (None if ours.living is None else json_of(ours.living))
+    flexion = joint.range_of_motion(["flexion"])["flexion"]
+    assert flexion.living.expected_deg == pytest.approx(flexion.limit_deg - 3.1)
+    assert flexion.living.gap.closeness == "close" and flexion.living.people.who == "clinical estimate"
+
+
+def json_of(record):
+    return {key: json_of(value) if isinstance(value, condyle.Record) else value for key, value in vars(record).items()}
+
+
+def test_a_person_of_arrays_has_an_age_and_a_sex():
+    bones = condyle.sample_hip()
+    joint = condyle.Joint(bones.hip_bone, bones.femur, person={"age": 7, "sex": "female"}, reference_pose={})
+    assert joint.person == {"age": 7, "sex": "female"}
+    assert joint.range_of_motion(["flexion"])["flexion"].living.people.low_deg == 140.8
+    for person, what in (({"age": 121}, "person: age"), ({"sex": "f"}, "person: sex"), ({"years": 7}, "person"), (7, "person")):
+        with pytest.raises(condyle.UsageError, match=what):
+            condyle.Joint(bones.hip_bone, bones.femur, person=person)
+
+
 def test_notes_of_limits_are_the_same_everywhere(command, hip_file, tmp_path):
     """The hip bone is 1.3 mm too far forwards: head and socket have different centres."""
     folder = hip_file.parent

@@ -72,6 +72,35 @@ const boneReference = object({
   source: text,
 });
 
+/// How much earlier soft tissue ended the motion than bone, in hips of cadavers.
+export type SoftTissueGap = Passed<typeof softTissueGap>;
+const softTissueGap = object({
+  closeness: oneOf("close", "moderate", "weak"),
+  mean_deg: number,
+  sd_deg: number,
+  hips: number,
+  source: text,
+});
+
+/// How far other people's hips turn, soft tissue included; never of this joint.
+export type PeopleRange = Passed<typeof peopleRange>;
+const peopleRange = object({
+  low_deg: number,
+  high_deg: number,
+  who: text,
+  people: orNull(number),
+  source: text,
+});
+
+/// What studies say of the living beside a limit of bone.
+export type LivingLimit = Passed<typeof livingLimit>;
+const livingLimit = object({
+  expected_deg: orNull(number),
+  expected_sd_deg: orNull(number),
+  gap: orNull(softTissueGap),
+  people: orNull(peopleRange),
+});
+
 /// A caveat to read before a limit is compared with a living joint.
 export type Caveat = Passed<typeof caveat>;
 const caveat = object({
@@ -145,6 +174,7 @@ const limitRecord = object({
   clock_hour: orNull(number),
   normal_range_deg: orNull(number),
   bone_reference: ifThere(boneReference),
+  living: ifThere(livingLimit),
   caveats: list(caveat),
   guarantee: text,
   depth: ifThere(allowedDepthRecord),

@@ -51,6 +51,15 @@ ZoneRecord zone_record(const motion::ImpingementZone& zone) {
           .mobile = {zone_of_body<PointM>(zone.mobile), degrees_of(zone.zone_neck_angle)}};
 }
 
+LivingRecord living_record(const LivingLimit& living) {
+  LivingRecord record{degrees_of(living.expected), degrees_of(living.expected_sd), {}, {}};
+  if (const auto& gap = living.gap)
+    record.gap = {gap->closeness, {gap->mean}, {gap->sd}, gap->hips, gap->source};
+  if (const auto& people = living.people)
+    record.people = {{people->low}, {people->high}, people->who, people->people, people->source};
+  return record;
+}
+
 BandRecord band_record(const motion::LimitBand& band, const Joint& joint) {
   const auto& [centre, axes, surface, parameters] = band.width_from;
   return {
@@ -127,6 +136,8 @@ LimitRecord limit_record(const RangeAnswer& answer, std::size_t i) {
   if (const auto bone = bone_reference(joint, limit))
     record.bone_reference = {{bone->healthy},   {bone->cam_without_complaints}, {bone->patients},
                              bone->people_each, is_short(*bone, limit),         bone->source};
+  if (const auto living = living_limit(joint, limit, answer.bands.empty() ? nullptr : &answer.bands[i]))
+    record.living = living_record(*living);
   if (is_as_defined_here(motion)) record.definition = "as defined here; no angles are agreed on";
   if (answer.follows) record.translation_ends = limit.translation_ends;
   if (const auto& contact = end.contact) {

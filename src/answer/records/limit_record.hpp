@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "answer/living_limit.hpp"
 #include "answer/motion_caveats.hpp"
 #include "answer/records/record.hpp"
 #include "condyle/answer/range.hpp"
@@ -49,6 +50,23 @@ struct BoneReferenceRecord {
   int people_each;
   bool is_short;
   std::string_view source;
+};
+struct SoftTissueGapRecord {
+  Closeness closeness;
+  GivenDegrees mean_deg, sd_deg;
+  int hips;
+  std::string_view source;
+};
+struct PeopleRangeRecord {
+  GivenDegrees low_deg, high_deg;
+  std::string_view who;
+  std::optional<int> people;
+  std::string_view source;
+};
+struct LivingRecord {
+  std::optional<double> expected_deg, expected_sd_deg;
+  std::optional<SoftTissueGapRecord> gap;
+  std::optional<PeopleRangeRecord> people;
 };
 struct CaveatRecord {
   MotionCaveatCode code;
@@ -106,6 +124,7 @@ struct LimitRecord {
   std::optional<double> clock_hour = {};
   std::optional<GivenDegrees> normal_range_deg = {};
   std::optional<BoneReferenceRecord> bone_reference = {};
+  std::optional<LivingRecord> living = {};
   std::vector<CaveatRecord> caveats = {};
   std::string guarantee;
   std::optional<AllowedDepthRecord> depth = {};
@@ -157,6 +176,19 @@ inline constexpr auto table<BoneReferenceRecord> =
     record("BoneReference", "Means of simulations of bone in other people's hips; their spread is not given.",
            CONDYLE_KEYS(BoneReferenceRecord, healthy_deg, cam_without_complaints_deg, patients_deg,
                         people_each, is_short, source));
+template <>
+inline constexpr auto table<SoftTissueGapRecord> =
+    record("SoftTissueGap", "How much earlier soft tissue ended the motion than bone, in hips of cadavers.",
+           CONDYLE_KEYS(SoftTissueGapRecord, closeness, mean_deg, sd_deg, hips, source));
+template <>
+inline constexpr auto table<PeopleRangeRecord> =
+    record("PeopleRange", "How far other people's hips turn, soft tissue included; never of this joint.",
+           CONDYLE_KEYS(PeopleRangeRecord, low_deg, high_deg, who, people, source));
+template <>
+inline constexpr auto table<LivingRecord> = record("LivingLimit",
+                                                   "What studies say of the living beside a limit of bone.",
+                                                   CONDYLE_KEYS(LivingRecord, expected_deg, expected_sd_deg,
+                                                                gap, people));
 template <>
 inline constexpr auto table<CaveatRecord> =
     record("Caveat", "A caveat to read before a limit is compared with a living joint.",
@@ -328,6 +360,22 @@ inline constexpr auto table<LimitRecord> = record(
                           "where bone ends the motion in healthy hips by simulation; empty without a source",
                           Tables::rom},
               &LimitRecord::bone_reference, &BoneReferenceRecord::healthy_deg),
+    field_if_any(
+        "living", &LimitRecord::living,
+        "[what studies say of living hips](range-of-motion.md#living-hips), without an implant and with zero "
+        "known to be neutral: `gap`, how much earlier soft tissue ended the motion than bone in cadavers "
+        "(`closeness`: `\"close\"`, `\"moderate\"` or `\"weak\"`), or null; `expected_deg` and "
+        "`expected_sd_deg` of the close ones that impingement ends, else null; `people`, how far others "
+        "turn, "
+        "or null"),
+    column_of(FieldColumn{"living_expected_deg",
+                          "where a living hip with this bone is expected to end; empty where studies do not "
+                          "say so",
+                          Tables::studies},
+              &LimitRecord::living, &LivingRecord::expected_deg),
+    column_of(FieldColumn{"living_expected_sd_deg", "its standard deviation, of the study and the band",
+                          Tables::studies},
+              &LimitRecord::living, &LivingRecord::expected_sd_deg),
     field("caveats", &LimitRecord::caveats,
           "list of `code`, `text` and `source` each: [what usually ends such a "
           "motion](range-of-motion.md#caveats); "

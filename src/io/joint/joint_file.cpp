@@ -484,6 +484,16 @@ std::vector<motion::Motion> own_motions(TomlTable& file, const JointDescription&
   return motions;
 }
 
+Person person_of(TomlTable& file) {
+  auto table = file.table("person");
+  if (!table) return {};
+  Person person{.age_years = table->number("age")};
+  if (person.age_years && !is_age(*person.age_years)) table->fail("age", "must be 0 to 120 years");
+  if (table->has("sex")) person.sex = all_sexes[table->required_word("sex", {"female", "male"})];
+  table->finish();
+  return person;
+}
+
 plan::Implant implant_of_joint(TomlTable& table, const JointDescription& joint) {
   plan::Implant implant = io::implant_entry(table, mm_per(joint.units));
   const Anatomy anatomy = std::holds_alternative<plan::TotalHip>(implant) ? Anatomy::hip : Anatomy::shoulder;
@@ -528,6 +538,7 @@ JointFile joint_file_of(std::string_view text, const std::filesystem::path& path
   out.reference_pose = reference_pose(file, joint, Lengths(joint.units));
   joint.reference_pose = out.reference_pose.coordinates();
   out.motions = own_motions(file, joint);
+  joint.person = person_of(file);
   read_uncertainty(file, Lengths(joint.units), out);
   if (auto table = file.table("contact")) {
     out.contact = io::contact_entry(*table, mm_per(joint.units), path.parent_path());

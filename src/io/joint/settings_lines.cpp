@@ -50,9 +50,18 @@ void add_recorded_motion(ProposalLines& lines, const RecordedMotionMapping& mapp
     lines.add(fmt::format("{} = {}", each.coordinate, column_text(each)));
 }
 
+void add_person(ProposalLines& lines, const Person& person) {
+  if (!person.age_years && !person.sex) return;
+  lines.add("\n[person]");
+  if (person.age_years) lines.add(fmt::format("age = {}", *person.age_years));
+  if (person.sex) lines.add(fmt::format("sex = \"{}\"", name_of(*person.sex)));
+}
+
 }  // namespace
 
-void add_settings(ProposalLines& lines, const JointFile& file, const motion::Uncertainty& sigma) {
+void add_settings(ProposalLines& lines, const JointFile& file, const Person& person,
+                  const motion::Uncertainty& sigma) {
+  add_person(lines, person);
   add_motions(lines, file.motions, file.joint.anatomy);
   add_uncertainty(lines, sigma, file.band_seed);
   if (file.recorded_motion) add_recorded_motion(lines, *file.recorded_motion);

@@ -8,6 +8,7 @@ namespace condyle::io {
 /// What a joint file that is made from another one keeps of it: its motions, standard deviations, the seed, and columns of a recorded motion.
 /// `sigma` are the deviations of the joint that is written. A recorded motion that has poses of the meshes as they were given is left out,
 /// since the written meshes have other frames: a comment says so.
-void add_settings(ProposalLines& lines, const JointFile& file, const motion::Uncertainty& sigma);
+void add_settings(ProposalLines& lines, const JointFile& file, const Person& person,
+                  const motion::Uncertainty& sigma);
 
 }  // namespace condyle::io

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "answer/living_limit.hpp"
 #include "answer/motion_caveats.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/joint_checks.hpp"
@@ -16,7 +17,9 @@
 #include "io/file/format_version.hpp"
 #include "io/result/clock_text.hpp"
 #include "io/result/json.hpp"
+#include "io/result/living_text.hpp"
 #include "io/result/map_result.hpp"
+#include "io/result/motion_groups.hpp"
 #include "io/result/parameters.hpp"
 #include "io/result/quoted_limit.hpp"
 #include "io/result/rom_parts.hpp"
@@ -125,24 +128,18 @@ const motion::ContactWitness* soft_contact_of(const motion::MotionLimit& limit) 
 /// Which meshes met in which motions, if a body has several.
 std::string met_text(const RomResult& result, std::string_view heading, ContactOf contact_of) {
   const Joint& joint = result.joint;
-  std::vector<std::pair<std::string, std::vector<std::string_view>>> lines;
+  MotionGroups met;
   for (const motion::MotionLimit& limit : result.answer.limits) {
     const motion::ContactWitness* contact = contact_of(limit);
     if (!contact) continue;
     const BodyPart *fixed = part_of(joint.fixed, contact->fixed_feature),
                    *mobile = part_of(joint.mobile, contact->mobile_feature);
-    if (!fixed && !mobile) continue;
-    std::string met = fmt::format("{} on {}", mobile ? mobile->name : joint.mobile.name,
-                                  fixed ? fixed->name : joint.fixed.name);
-    const auto same =
-        std::find_if(lines.begin(), lines.end(), [&](const auto& line) { return line.first == met; });
-    if (same == lines.end())
-      lines.push_back({std::move(met), {limit.motion.name}});
-    else
-      same->second.push_back(limit.motion.name);
+    if (fixed || mobile)
+      met.add(fmt::format("{} on {}", mobile ? mobile->name : joint.mobile.name,
+                          fixed ? fixed->name : joint.fixed.name),
+              limit.motion.name);
   }
-  std::string text;
-  for (const auto& [met, motions] : lines) text += fmt::format("    {}: {}\n", met, fmt::join(motions, ", "));
+  const std::string text = met.text();
   return text.empty() ? "" : fmt::format("  {}:\n", heading) + wrapped(text);
 }
 
@@ -206,27 +203,17 @@ std::string band_text(const RomResult& result) {
 
 /// Caveats on the usual ends of motions like these: a line for each, with its motions.
 std::string caveat_text(const RomResult& result) {
-  struct Line {
-    MotionCaveat caveat;
-    std::vector<std::string_view> motions;
-  };
-  std::vector<Line> lines;
+  MotionGroups caveats;
   for (const motion::MotionLimit& limit : result.answer.limits)
     for (const MotionCaveat& caveat : motion_caveats(result.joint, limit.motion)) {
-      const auto same = std::find_if(lines.begin(), lines.end(), [&](const Line& line) {
-        return line.caveat.summary == caveat.summary && line.caveat.source == caveat.source;
-      });
-      if (same == lines.end())
-        lines.push_back({caveat, {limit.motion.name}});
-      else
-        same->motions.push_back(limit.motion.name);
+      // The lines on living hips say more of it than whether bone usually ends it.
+      const auto living = living_limit(result.joint, limit, nullptr);
+      if (living && living->gap && caveat.code != MotionCaveatCode::labrum_not_modelled) continue;
+      const std::string source = caveat.source.empty() ? "" : fmt::format(" ({})", caveat.source);
+      caveats.add(std::string(caveat.summary) + source, limit.motion.name);
     }
-  std::string text = lines.empty() ? "" : "  caveats, by studies of other hips:\n";
-  for (const auto& [caveat, motions] : lines)
-    text += fmt::format("    {}{}: {}\n", caveat.summary,
-                        caveat.source.empty() ? "" : fmt::format(" ({})", caveat.source),
-                        fmt::join(motions, ", "));
-  return wrapped(text);
+  const std::string text = caveats.text();
+  return text.empty() ? "" : wrapped("  caveats, by studies of other hips:\n" + text);
 }
 
 /// Limits beside those of simulations of bone.
@@ -322,7 +309,7 @@ std::string rom_text(const RomResult& result) {
       reason{Align::left, {"ended by"}}, point{Align::left, {"contact point (mm)"}},
       clock{Align::right, {"clock"}}, bearing{Align::right, {"bearing (deg)"}},
       soft{Align::right, {"soft (deg)"}}, closed{Align::right, {"closed form"}},
-      normal{Align::right, {"normal"}};
+      living{Align::left, {"living hips"}};
   const auto earlier_text = [](const std::optional<motion::EarlierContact>& contact) {
     return contact ? fmt::format("{:.2f}", contact->turned.degrees()) : "-";
   };
@@ -330,8 +317,8 @@ std::string rom_text(const RomResult& result) {
     const motion::MotionLimit& limit = result.answer.limits[i];
     name.cells.push_back(limit.motion.name);
     turned.cells.push_back(limit_words(result.answer, i));
-    const auto range = normal_range(result.joint, limit);
-    normal.cells.push_back(range ? fmt::format("{:g}", range->degrees()) : "-");
+    living.cells.push_back(text_of(
+        living_limit(result.joint, limit, result.answer.bands.empty() ? nullptr : &result.answer.bands[i])));
     const auto side = motion::contact_side(result.joint, limit);
     reason.cells.push_back(std::string(words_of(limit)) + (side ? fmt::format(", {}", name_of(*side)) : ""));
     point.cells.push_back(limit.end.contact
@@ -354,10 +341,10 @@ std::string rom_text(const RomResult& result) {
   for (const std::string& caveat : result.answer.caveats) text += wrapped(fmt::format("  {}\n", caveat));
   text += zero_words(result) + clock_words(result);
   // The figures that people quote, within a terminal's width; the rest is in JSON and CSV.
-  const bool has_normal =
-      std::any_of(normal.cells.begin() + 1, normal.cells.end(), [](const auto& cell) { return cell != "-"; });
+  const bool has_living =
+      std::any_of(living.cells.begin() + 1, living.cells.end(), [](const auto& cell) { return cell != "-"; });
   std::vector<TextColumn> shown{std::move(name), std::move(turned)};
-  if (has_normal) shown.push_back(std::move(normal));
+  if (has_living) shown.push_back(std::move(living));
   shown.push_back(std::move(reason));
   shown.push_back(std::move(joint.is_hip() ? clock : point));
   if (std::any_of(result.answer.limits.begin(), result.answer.limits.end(),
@@ -368,9 +355,7 @@ std::string rom_text(const RomResult& result) {
     shown.push_back(std::move(soft));
   if (!result.answer.closed.empty()) shown.push_back(std::move(closed));
   text += table_text(shown);
-  if (has_normal)
-    text += wrapped(fmt::format("  normal: how far healthy hips turn, soft tissue included ({})\n",
-                                normal_hip_range_source));
+  text += living_text(result);
   text += bone_text(result);
   text += arcs_text(result);
   text += closed_text(result);
