@@ -109,6 +109,7 @@ class LivingLimit(Record):
     expected_sd_deg: Optional[float] = None
     gap: Optional[SoftTissueGap] = None
     people: Optional[PeopleRange] = None
+    text: str
 
 
 class Caveat(Record):
@@ -233,7 +234,8 @@ class LimitRecord(Record):
     living : LivingLimit or None
         what studies say of living hips, without an implant and with zero known to be neutral: `gap`, how much earlier soft tissue
         ended the motion than bone in cadavers (`closeness`: `"close"`, `"moderate"` or `"weak"`), or null; `expected_deg` and
-        `expected_sd_deg` of the close ones that impingement ends, else null; `people`, how far others turn, or null
+        `expected_sd_deg` of the close ones that impingement ends, else null; `people`, how far others turn, or null; `text`, such
+        as `"some 131 (SD 5)"`
     caveats : list[Caveat]
         list of `code`, `text` and `source` each: what usually ends such a motion; empty for joints other than hips
     guarantee : str

@@ -52,6 +52,24 @@ test("where nothing is short the sentence says what no motion ends before, and t
   await page.context().close();
 });
 
+test("the second number of a limit is the command's: in its sentence, in Details with its sources, and on paper", async () => {
+  const { page } = await openPage(browser, pathOf("sample"), { reducedMotion: "reduce" });
+  await settled(page);
+  const { motions } = readReport(pathOf("sample")).text.rom, flexion = motions.find(({ name }) => name === "flexion");
+  const said = JSON.parse(run("rom", join(reports, "sample/hip.toml"), "--band=20", "--json")).motions;
+  assert.deepEqual(motions.map(({ living }) => living), said.map(({ living }) => living));
+  assert.equal(flexion.living.text, `some ${(flexion.limit_deg - 3.1).toFixed(0)} (SD ${flexion.living.expected_sd_deg.toFixed(0)})`);
+  await page.locator(".tile", { hasText: /^flexion/ }).click();
+  assert.match(await page.locator("#sentence").textContent(), /^Flexion ends at .*, living hips some 3° earlier; /);
+  await page.locator(".tile", { hasText: /^extension/ }).click();
+  assert.doesNotMatch(await page.locator("#sentence").textContent(), /living/, "of weak motions nothing is subtracted");
+  const details = await page.locator("#panel-details").textContent();
+  for (const { living } of motions) if (living) assert.ok(details.includes(living.text), living.text);
+  assert.match(details, /soft tissue ended motions earlier than bone in 9 hips of cadavers.*extension by 51\.9° \(SD 14\.4°, weak\)/);
+  assert.equal(await page.locator("#paper .living").count(), motions.filter(({ living }) => living?.expected_deg).length);
+  await page.context().close();
+});
+
 test("a limit between healthy hips and those with a cam is compared and not called short", async () => {
   const between = withText("between", ({ rom }) => {
     const motion = rom.motions.find(({ name }) => name === "internal_rotation_at_90_flexion");

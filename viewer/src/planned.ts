@@ -31,6 +31,7 @@ export function changedByHand(text: ReportText, done: string, limits: readonly {
       ...motion, limit_deg: live.turned_deg, reason: live.reason, contact_kind: live.kind, contact_point_mm: live.point, band: null, features: null,
       clock_hour: null, contact_side: null, bearing_contact_deg: live.bearing_deg, at_limit_deg: { ...motion.at_limit_deg, [motion.vary]: end },
       bone_reference: bone && { ...bone, is_short },
+      living: undefined,  // of the joint before
     };
   };
   return {

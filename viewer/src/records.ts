@@ -99,6 +99,7 @@ const livingLimit = object({
   expected_sd_deg: orNull(number),
   gap: orNull(softTissueGap),
   people: orNull(peopleRange),
+  text: text,
 });
 
 /// A caveat to read before a limit is compared with a living joint.

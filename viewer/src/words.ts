@@ -98,8 +98,14 @@ export const words = {
   meshTo: (mobile: string, fixed: string) => `${mobile} to ${fixed}`,
   atHour: (meets: string, hour: string) => `${meets} at ${hour}`,
   awayFromRim: "away from the rim",
-  endsSentence: (name: string, limit: string, held: string | null, place: string, compared: string) =>
-    `${[`${name} ends at ${limit}`, held, place].filter(Boolean).join(", ")}; ${compared}.`,
+  endsSentence: (name: string, limit: string, held: string | null, place: string, living: string, compared: string) =>
+    `${[`${name} ends at ${limit}`, held, place, living].filter(Boolean).join(", ")}; ${compared}.`,
+  livingEarlier: (deg: string) => `living hips some ${deg}° earlier`,
+  livingFrom: (motions: string[], { hips, source }: { hips: number; source: string }) =>
+    `Living hips: soft tissue ended motions earlier than bone in ${hips} hips of cadavers (${source}): ${motions.join(", ")}.`,
+  livingGap: (motion: string, { mean_deg, sd_deg, closeness }: { mean_deg: number; sd_deg: number; closeness: string }) =>
+    `${motion} by ${mean_deg}° (SD ${sd_deg}°, ${closeness})`,
+  peopleFrom: (motion: string, { who, source }: { who: string; source: string }) => `People in ${motion}: ${who} (${source}).`,
   planned: (done: string) =>
     (done.startsWith("without ") ? `After a planned cut of ${done.slice(8).replaceAll(", without ", " and ")}` : `Planned: ${done}`),
   plannedSentence: (sentence: string) => `Planned: ${sentence}`,
@@ -273,12 +279,12 @@ export const words = {
 
   limits: "Limits",
   limitsCaption:
-    "How far each motion goes before bone meets bone. Bar: the limit; whisker: 5 to 95 % of its band; line: clinical range.",
+    "How far each motion goes before bone meets bone. Bar: the limit; whisker: 5 to 95 % of its band; line: clinical range; ring: expected of living hips.",
   over: (limit: string) => `>${limit}`,
   bandOf: (low: string, high: string) => `(${low}–${high})`,
   limit: "limit",
   normal: "normal range",
-  clinical: "clinical range",
+  livingHips: "living hips (°)",
   bearingContact: "bearing contact",
   reason: "ends by",
   endsBy: (reason: string, kind: string) => `${reason} (${kind})`,

@@ -190,6 +190,9 @@ def _check_motion(where: str, motion: Any) -> None:
     for key in ("bearing_contact_deg", "normal_range_deg", "clock_hour", "range_deg"):
         if motion.get(key) is not None:
             _check_number(where, motion, key)
+    living = motion.get("living")
+    if living is not None and (not isinstance(living, dict) or living.get("expected_deg") is not None):
+        _check_number(f"{where}: living", living, "expected_deg")
     caveats = motion.get("caveats", [])
     if not isinstance(caveats, list) or not all(isinstance(each, dict) and isinstance(each.get("code"), str)
                                                 for each in caveats):

@@ -34,6 +34,11 @@ ENDS: Dict[str, End] = {
 }
 
 
+# Where a living hip with this bone is expected to end.
+LIVING: Dict[str, Any] = {"marker": "o", "markersize": 4, "markerfacecolor": "white", "markeredgecolor": style.BLACK, "markeredgewidth": 0.8,
+                          "linestyle": "none", "clip_on": False}
+
+
 def turned_text(end: MotionEnd) -> str:
     """ "131.9°"; ">120°" where the range ended before."""
     return f"{end_text(end.turned_deg, end.end)}°"
@@ -63,6 +68,8 @@ def bar(ax: Axes, y: float, end: MotionEnd, fill: bool = True) -> None:
     if end.bearing_deg is not None:
         _mark(ax, end.bearing_deg, y, ENDS["bearing"], "bearing_contact")
     _mark(ax, end.turned_deg, y, look, "end")
+    if end.living_deg is not None:
+        ax.plot([end.living_deg], [y], **LIVING, gid="living", zorder=5)
     if end.band is not None:
         _whisker(ax, y, end.band)
 
@@ -119,6 +126,8 @@ def handles_of(ends: Sequence[MotionEnd], source: Optional[str]) -> List[Any]:
                               label="band, 5 to 95 %"))
     if any(end.band is not None and end.band.is_open for end in ends):
         handles.append(Line2D([], [], marker=">", color=style.BLACK, linewidth=0.7, markersize=3, label="band beyond the range"))
+    if any(end.living_deg is not None for end in ends):
+        handles.append(Line2D([], [], label="living hips, expected", **LIVING))
     if any(end.normal_deg is not None for end in ends):
         handles.append(Patch(color=style.LIGHT_GREY, label="clinical range" + (f" ({source})" if source else "")))
     return handles + [Line2D([], [], linestyle="none", label=footnote) for footnote in footnotes(ends)]
@@ -145,7 +154,7 @@ def limits(result: RomLike, *, ax: Optional[Axes] = None, bands: Bands = True,
     result
         A `condyle.RangeOfMotion`, what `files.read_rom` gives, or a mapping or object with `motions`, each with what
         `rom.json` has of it: `name`, `limit_deg`, `reason`, `contact_kind`, and where there is one
-        `bearing_contact_deg`, `band` (with `p5_deg`, `median_deg`, `p95_deg`), `normal_range_deg` and `caveats`; and its
+        `bearing_contact_deg`, `band` (with `p5_deg`, `median_deg`, `p95_deg`), `normal_range_deg`, `living` and `caveats`; and its
         `scope`, whose first clause stands below the axis.
     ax
         Where to draw; without it new axes as wide as a column, under `print_style`.
@@ -164,7 +173,7 @@ def limits(result: RomLike, *, ax: Optional[Axes] = None, bands: Bands = True,
     Returns
     -------
     The axes: one bar (gid `limit`) per motion, from the top; its mark (gid `end`) shows the reason of its end, a diamond on the
-    bar (gid `bearing_contact`) where bearing surfaces met before. A dagger marks the names of motions that soft
+    bar (gid `bearing_contact`) where bearing surfaces met before, a ring (gid `living`) where a living hip is expected to end. A dagger marks the names of motions that soft
     tissue usually ends before bone does.
     """
     ends = ends_of(result, bands)

@@ -33,7 +33,7 @@ class Band(NamedTuple):
 class MotionEnd(NamedTuple):
     """Where a motion ends. `end` is "impingement", "bearing", "cut", "contact" (of an unknown kind), "end_of_range",
     "translation_ends" or "contact_at_start"; `bearing_deg` where bearing surfaces met before; `hour` on the rim's clock, in [0, 12); `caveats`
-    the codes of what usually ends such a motion.
+    the codes of what usually ends such a motion; `living_deg` where a living hip with this bone is expected to end.
     """
 
     name: str
@@ -45,6 +45,7 @@ class MotionEnd(NamedTuple):
     hour: Optional[float]
     caveats: Tuple[str, ...]
     range_deg: float
+    living_deg: Optional[float]
 
 
 def _end(limit: Any) -> str:
@@ -67,9 +68,10 @@ def _caveats(limit: Any) -> Tuple[str, ...]:
 
 
 def _of_limit(limit: Any) -> MotionEnd:
-    range_deg = float(of(limit, "range_deg", math.inf))
+    range_deg, living = float(of(limit, "range_deg", math.inf)), of(limit, "living")
     return MotionEnd(of(limit, "name"), of(limit, "limit_deg"), _end(limit), of(limit, "bearing_contact_deg"), _band(of(limit, "band"), range_deg),
-                     of(limit, "normal_range_deg"), of(limit, "clock_hour"), _caveats(limit), range_deg)
+                     of(limit, "normal_range_deg"), of(limit, "clock_hour"), _caveats(limit), range_deg,
+                     None if living is None else of(living, "expected_deg"))
 
 
 def motion_ends(result: RomLike, bands: Bands = True) -> List[MotionEnd]:

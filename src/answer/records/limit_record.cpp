@@ -52,7 +52,7 @@ ZoneRecord zone_record(const motion::ImpingementZone& zone) {
 }
 
 LivingRecord living_record(const LivingLimit& living) {
-  LivingRecord record{degrees_of(living.expected), degrees_of(living.expected_sd), {}, {}};
+  LivingRecord record{degrees_of(living.expected), degrees_of(living.expected_sd), {}, {}, text_of(living)};
   if (const auto& gap = living.gap)
     record.gap = {gap->closeness, {gap->mean}, {gap->sd}, gap->hips, gap->source};
   if (const auto& people = living.people)

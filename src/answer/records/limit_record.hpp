@@ -67,6 +67,7 @@ struct LivingRecord {
   std::optional<double> expected_deg, expected_sd_deg;
   std::optional<SoftTissueGapRecord> gap;
   std::optional<PeopleRangeRecord> people;
+  std::string text;
 };
 struct CaveatRecord {
   MotionCaveatCode code;
@@ -188,7 +189,7 @@ template <>
 inline constexpr auto table<LivingRecord> = record("LivingLimit",
                                                    "What studies say of the living beside a limit of bone.",
                                                    CONDYLE_KEYS(LivingRecord, expected_deg, expected_sd_deg,
-                                                                gap, people));
+                                                                gap, people, text));
 template <>
 inline constexpr auto table<CaveatRecord> =
     record("Caveat", "A caveat to read before a limit is compared with a living joint.",
@@ -366,8 +367,7 @@ inline constexpr auto table<LimitRecord> = record(
         "known to be neutral: `gap`, how much earlier soft tissue ended the motion than bone in cadavers "
         "(`closeness`: `\"close\"`, `\"moderate\"` or `\"weak\"`), or null; `expected_deg` and "
         "`expected_sd_deg` of the close ones that impingement ends, else null; `people`, how far others "
-        "turn, "
-        "or null"),
+        "turn, or null; `text`, such as `\"some 131 (SD 5)\"`"),
     column_of(FieldColumn{"living_expected_deg",
                           "where a living hip with this bone is expected to end; empty where studies do not "
                           "say so",

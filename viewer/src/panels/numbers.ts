@@ -82,13 +82,13 @@ function endOf(motion: MotionAnswer, joint: ReportText["joint"]): string {
 
 function limitsTable({ motions }: RomAnswer, joint: ReportText["joint"]): HTMLElement {
   return table(
-    ["", words.limit, words.band, words.reason, words.bearingContact, words.clinical, words.errorBound],
+    ["", words.limit, words.band, words.reason, words.bearingContact, words.livingHips, words.errorBound],
     motions.map((motion) => {
       const band = shownBand(motion);
       return [
         named(motionName(motion.name)), limitAlone(motion), band ? words.bandEnds(fixed(band.p5_deg, 0), fixed(band.p95_deg, 0)) : "–",
         endOf(motion, joint),
-        degrees(motion.bearing_contact_deg), degrees(motion.normal_range_deg),
+        degrees(motion.bearing_contact_deg), motion.living?.text ?? "–",
         motion.reason !== "contact" || motion.error_bound_deg === undefined ? "–" : `${motion.error_bound_deg.toPrecision(2)}°`,
       ];
     }), words.limits);
@@ -96,6 +96,15 @@ function limitsTable({ motions }: RomAnswer, joint: ReportText["joint"]): HTMLEl
 
 function changedParameter({ name, value, unit, in_joint_file }: PartParameter): string {
   return words.changedTo(name, unit === "1" ? String(value) : `${value} ${unit}`, String(in_joint_file));
+}
+
+/// Sources of the column of living hips.
+function livingSources(motions: readonly MotionAnswer[]): string[] {
+  const gaps = motions.flatMap(({ name, living }) => (living?.gap ? [{ said: words.livingGap(named(motionName(name)), living.gap), gap: living.gap }] : []));
+  return [
+    ...(gaps[0] ? [words.livingFrom(gaps.map(({ said }) => said), gaps[0].gap)] : []),
+    ...motions.flatMap(({ name, living }) => (living?.people && living.expected_deg === null ? [words.peopleFrom(named(motionName(name)), living.people)] : [])),
+  ];
 }
 
 /// The rules and the uncertainty of the limits, a line each.
@@ -112,6 +121,7 @@ function howFound({ exact, band, bearing, zero, normal_range_source, motions, pr
     ...(bearing?.socket ? [words.bearingSocket(mm(bearing.socket.radius_mm))] : []),
     ...(typeof bearing?.margin_mm === "number" ? [words.bearingMargin(mm(bearing.margin_mm))] : []),
     ...(normal_range_source ? [words.normalFrom(normal_range_source)] : []),
+    ...livingSources(motions),
     ...motions.flatMap(({ name, bone_reference: bone }) => (bone ? [words.boneFrom(motionName(name), bone)] : [])),
   ];
 }

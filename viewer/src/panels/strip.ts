@@ -69,7 +69,12 @@ function sentenceOnEnd(motion: MotionAnswer, report: ReportText): string {
   if (motion.translation_ends) return words.translationSentence(name, limitAlone(motion));
   if (motion.reason === "end_of_range") return words.freeSentence(name, fixed(motion.limit_deg, 0), namesOf(report.joint));
   const limit = [fromBefore(report, motion), bandText(motion)].filter(Boolean).join(" "), held = report.rom!.held_translation_mm ? words.held : null;
-  return words.endsSentence(name, limit, held, placeOf(motion, report), compared(motion, report.rom!));
+  return words.endsSentence(name, limit, held, placeOf(motion, report), livingOf(motion), compared(motion, report.rom!));
+}
+
+/// How much earlier a living hip with this bone is expected to end.
+function livingOf({ living, limit_deg }: MotionAnswer): string {
+  return living?.expected_deg == null ? "" : words.livingEarlier(fixed(limit_deg - living.expected_deg, 0));
 }
 
 /// What a limit is short of, or that no limit of the joint is short. Soft tissue ends motions that bone leaves free: no limit is beyond a

@@ -68,6 +68,7 @@ export function limitsDrawing(motions: readonly MotionAnswer[]): Pick<Drawing, "
       picture.append(svg("line", { x1: x(band.p5_deg), x2: x(band.p95_deg), y1: middle, y2: middle, class: "whisker" }),
         ...[band.p5_deg, band.p95_deg].map((end) => upright(end, middle - 5, middle + 5, "whisker")));
     if (motion.normal_range_deg !== null) picture.append(upright(motion.normal_range_deg, y + 2, y + rowHeight - 2, "normal"));
+    if (motion.living?.expected_deg != null) picture.append(svg("circle", { cx: x(motion.living.expected_deg), cy: middle, r: 3, class: "living" }));
   });
   return { caption: words.limitsCaption, picture };
 }
