@@ -98,11 +98,12 @@ CLI::Option* add_band(CLI::App& command, RangeArguments& given) {
                            "With --band: the seed of the displacements, instead of that of the joint file")
                ->check(seed_number())
                ->option_text("N (1)"));
-  for_band(command
-               .add_option("--sigma-centre", given.band.centre_mm,
-                           "With --band: the standard deviation of each coordinate of the centre, instead of "
-                           "that of the joint file")
-               ->option_text("MM (0.5)"));
+  for_band(
+      command
+          .add_option("--sigma-centre", given.band.centre_mm,
+                      "With --band: the standard deviation of each coordinate of the centre, instead of "
+                      "that of the joint file. 1.9 answers for the centre about which a living hip turns")
+          ->option_text("MM (0.5)"));
   for_band(command
                .add_option("--sigma-axes", given.band.axes_deg,
                            "With --band: the same of the rotation about each axis")

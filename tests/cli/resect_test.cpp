@@ -7,6 +7,7 @@
 #include "command.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/io/joint_file.hpp"
+#include "io/file/whole_file.hpp"
 #include "support/temporary_folder.hpp"
 
 /// `condyle resect` says what answer_resection() answers, and writes a joint that has the limits it says.
@@ -61,6 +62,23 @@ TEST_F(ResectCommand, SaysANoteOnceByItsCodeOnStandardError) {
   EXPECT_EQ(text.out.find(note["text"].get<std::string>()), text.out.npos) << text.out;
   for (const Ran& ran : {text, json})
     EXPECT_EQ(ran.err, "condyle: note: nothing_to_do: " + note["text"].get<std::string>() + "\n");
+}
+
+TEST_F(ResectCommand, APlanOfAHipSaysWhatFollowUpsFoundAndKeepsWhoseItIs) {
+  std::ofstream(folder / "hip.toml", std::ios::app) << "\n[person]\nage = 31\nsex = \"male\"\n";
+  const std::string said =
+      answer("--reach internal_rotation_at_90_flexion=45 --curve 0 --out plan")["caveats"].dump();
+  EXPECT_NE(said.find("13 patients"), said.npos) << said;
+  const Person person = io::read_joint(folder / "plan" / "resected.toml").joint.person;
+  EXPECT_EQ(person.age_years, 31);
+  EXPECT_EQ(person.sex, Sex::male);
+  // An elbow is no hip.
+  std::string text = io::read_whole_file(folder / "hip.toml");
+  text.replace(text.find("kind = \"ball\""), 13, "kind = \"hinge\"\njoint = \"elbow\"");
+  std::ofstream(folder / "hip.toml") << text;
+  EXPECT_EQ(
+      answer("--reach flexion=60 --curve 0 --accept-reference-contact")["caveats"].dump().find("patients"),
+      std::string::npos);
 }
 
 TEST_F(ResectCommand, WritesAJointWithTheLimitsItSays) {

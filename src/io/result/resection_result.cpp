@@ -21,6 +21,7 @@
 #include "io/result/resection_object.hpp"
 #include "io/result/rom_result.hpp"
 #include "io/result/scope_text.hpp"
+#include "io/result/text_table.hpp"
 
 namespace condyle::io {
 namespace {
@@ -229,7 +230,7 @@ std::string resection_text(const ResectionResult& result) {
   for (const CutOfBody& cut : cuts_of(answer.resection)) text += cut_lines(result, cut);
   if (answer.margin_mm > 0) text += fmt::format("  planned with a margin of {:g} mm\n", answer.margin_mm);
   text += limit_lines(answer) + shape_lines(answer) + curve_lines(answer);
-  for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
+  for (const std::string& caveat : answer.caveats) text += wrapped(fmt::format("  {}\n", caveat));
   return text + fmt::format("  {}\n", scope_text(result.joint));
 }
 
