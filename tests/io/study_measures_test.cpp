@@ -57,6 +57,21 @@ TEST_F(StudyOfShapes, HasWhatTheLibraryMeasuresWithTheTiltOfTheTable) {
   EXPECT_TRUE(io::run_study(study("out"))->was_there);
 }
 
+TEST_F(StudyOfShapes, ExpectsNoEndOfAChildsHipByItsAge) {
+  write("id,sample,age_years\nadult,1,40\nunknown,1,\nchild,1,7\nancient,1,121\n");
+  io::Study limits = study("out");
+  limits.options.measures = false;
+  ASSERT_EQ(io::run_study(limits)->failures, 1u);
+  const auto rows = rows_of(folder / "out/limits.csv");
+  ASSERT_EQ(rows.size(), 3u);
+  for (const std::size_t grown : {0, 1})
+    EXPECT_NEAR(std::stod(rows[grown].at("living_expected_deg")),
+                std::stod(rows[grown].at("limit_deg")) - 3.1, 1e-9);
+  EXPECT_EQ(rows[2].at("living_expected_deg"), "");
+  EXPECT_TRUE(rows_of(folder / "out/failures.csv")[0].at("message").ends_with(
+      "hips.csv: line 5: column 'age_years': '121' is none of 0 to 120 years"));
+}
+
 TEST_F(StudyOfShapes, HasBandsWhereTheyAreAskedFor) {
   write("id,sample\na,1\n");
   io::Study banded = study("out");

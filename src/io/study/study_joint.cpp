@@ -217,6 +217,13 @@ StudyJoint joint_as_described(const StudyTable& table, const StudyRow& row) {
 
 StudyJoint load_joint(const StudyTable& table, const StudyRow& row) {
   StudyJoint joint = joint_as_described(table, row);
+  if (const std::string_view age = table.field(row, "age_years"); !age.empty()) {
+    const double years = measure_in(table, row, "age_years");
+    if (!is_age(years))
+      throw FileError(
+          fmt::format("{}: {} is none of 0 to 120 years", table.place(row, "age_years"), in_quotes(age)));
+    joint.loaded.joint.person.age_years = years;
+  }
   const std::string_view values = table.field(row, "parameters");
   if (values.empty()) return joint;
   try {
