@@ -189,6 +189,13 @@ std::optional<LivingLimit> living_limit(const Joint& joint, const motion::Motion
   return living;
 }
 
+std::optional<LivingLimit> living_limit(const RangeAnswer& answer, std::size_t i) {
+  auto living =
+      living_limit(answer.joint, answer.limits[i], answer.bands.empty() ? nullptr : &answer.bands[i]);
+  if (living && !answer.depths.empty()) living->expected = living->expected_sd = std::nullopt;
+  return living;
+}
+
 std::string text_of(const std::optional<LivingLimit>& living) {
   if (living && living->expected)
     return core::formatted("some %.0f (SD %.0f)", living->expected->degrees(),

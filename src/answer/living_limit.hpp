@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "condyle/answer/range.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/range_of_motion.hpp"
@@ -46,6 +47,9 @@ struct LivingLimit {
 /// Empty if nothing is known of the motion, of implants and other joints, and if zero angles are not known to be neutral. `band` may be null.
 std::optional<LivingLimit> living_limit(const Joint& joint, const motion::MotionLimit& limit,
                                         const motion::LimitBand* band);
+
+/// The same of the i-th limit of an answer, with its band if it has any; no end is expected where a depth was allowed, as bone does not end the motion.
+std::optional<LivingLimit> living_limit(const RangeAnswer& answer, std::size_t i);
 
 /// Of one motion: "some 129 (SD 5)" where an end is expected, else "people 29–50", "-" if nothing is known.
 std::string text_of(const std::optional<LivingLimit>& living);

@@ -105,6 +105,15 @@ TEST(LivingLimit, ExpectsNoEndWhereStudiesDoNotReach) {
   EXPECT_TRUE(expects(usual));
 }
 
+TEST(LivingLimit, ExpectsNoEndWhereADepthWasAllowed) {
+  const std::vector limits{impinging(flexion, plus, 0, 120)};
+  RangeAnswer answer{.joint = small_hip(), .limits = limits};
+  EXPECT_TRUE(living_limit(answer, 0)->expected);
+  answer.depths.resize(1);
+  EXPECT_FALSE(living_limit(answer, 0)->expected);
+  EXPECT_TRUE(living_limit(answer, 0)->people);
+}
+
 TEST(LivingLimit, IsOfNativeHipsWhoseZeroIsNeutralOnly) {
   const motion::MotionLimit usual = impinging(flexion, plus, 0, 120);
   for (const auto& change : {+[](Joint& joint) { joint.zero_from = ZeroFrom::as_given; },

@@ -14,8 +14,9 @@ std::string living_text(const RomResult& result) {
   MotionGroups people;
   std::array<MotionGroups, std::size(all_closenesses)> gaps;
   std::string heading;
-  for (const motion::MotionLimit& limit : result.answer.limits) {
-    const auto living = living_limit(result.joint, limit, nullptr);
+  for (std::size_t i = 0; i < result.answer.limits.size(); ++i) {
+    const motion::MotionLimit& limit = result.answer.limits[i];
+    const auto living = living_limit(result.answer, i);
     if (!living) continue;
     if (heading.empty()) heading = "  living hips:\n";
     if (const auto& gap = living->gap) {

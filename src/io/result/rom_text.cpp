@@ -204,14 +204,16 @@ std::string band_text(const RomResult& result) {
 /// Caveats on the usual ends of motions like these: a line for each, with its motions.
 std::string caveat_text(const RomResult& result) {
   MotionGroups caveats;
-  for (const motion::MotionLimit& limit : result.answer.limits)
+  for (std::size_t i = 0; i < result.answer.limits.size(); ++i) {
+    const motion::MotionLimit& limit = result.answer.limits[i];
+    const auto living = living_limit(result.answer, i);
     for (const MotionCaveat& caveat : motion_caveats(result.joint, limit.motion)) {
       // The lines on living hips say more of it than whether bone usually ends it.
-      const auto living = living_limit(result.joint, limit, nullptr);
       if (living && living->gap && caveat.code != MotionCaveatCode::labrum_not_modelled) continue;
       const std::string source = caveat.source.empty() ? "" : fmt::format(" ({})", caveat.source);
       caveats.add(std::string(caveat.summary) + source, limit.motion.name);
     }
+  }
   const std::string text = caveats.text();
   return text.empty() ? "" : wrapped("  caveats, by studies of other hips:\n" + text);
 }
@@ -317,8 +319,7 @@ std::string rom_text(const RomResult& result) {
     const motion::MotionLimit& limit = result.answer.limits[i];
     name.cells.push_back(limit.motion.name);
     turned.cells.push_back(limit_words(result.answer, i));
-    living.cells.push_back(text_of(
-        living_limit(result.joint, limit, result.answer.bands.empty() ? nullptr : &result.answer.bands[i])));
+    living.cells.push_back(text_of(living_limit(result.answer, i)));
     const auto side = motion::contact_side(result.joint, limit);
     reason.cells.push_back(std::string(words_of(limit)) + (side ? fmt::format(", {}", name_of(*side)) : ""));
     point.cells.push_back(limit.end.contact
