@@ -20,8 +20,7 @@ constexpr double adult_years = 18;
 
 // In full: docs/range-of-motion.md.
 constexpr std::string_view cadavers = "hip BROM and FROM, a cadaver study", soucie = "Soucie 2011",
-                           kouyoumdjian = "Kouyoumdjian 2012", athletic = "PMC6089031, table 1",
-                           surgeons = normal_hip_range_source;
+                           kouyoumdjian = "Kouyoumdjian 2012", athletic = "PMC6089031, table 1";
 
 /// A motion that turns one angle from where the other two are 0, but for flexion, which is between two values: both included.
 struct PureMotion {
@@ -56,95 +55,45 @@ constexpr std::array gaps{GapRow{{by_flexion, up}, Closeness::close, 3.1, 3.9},
                           GapRow{{by_rotation, down, -90, -20}, Closeness::weak, 15.8, 4.8}};
 constexpr int cadaver_hips = 9;
 
-struct PeopleRow {
-  PureMotion motion;
-  double low_deg, high_deg;
+/// Whose hips were measured.
+struct People {
+  std::string_view who;
   double age_from, age_to;  ///< years; up to the next birthday
   std::optional<Sex> sex;
   bool if_age_is_unknown;
-  std::string_view who;
-  std::optional<int> people;
+  std::optional<int> count;
   std::string_view source;
 };
-// The first row that fits is taken. Soucie's other ages were not at hand.
-constexpr std::array people_rows{
-    PeopleRow{{by_flexion, up}, 140.8, 140.8, 2, 9, Sex::female, false, "girls of 2 to 8 years", {}, soucie},
-    PeopleRow{{by_flexion, up}, 131.1, 131.1, 2, 9, Sex::male, false, "boys of 2 to 8 years", {}, soucie},
-    PeopleRow{{by_flexion, up}, 131.1, 140.8, 2, 9, {}, false, "boys and girls of 2 to 8 years", {}, soucie},
-    PeopleRow{{by_flexion, down}, 26.2, 26.2, 2, 9, Sex::female, false, "girls of 2 to 8 years", {}, soucie},
-    PeopleRow{{by_flexion, down}, 28.3, 28.3, 2, 9, Sex::male, false, "boys of 2 to 8 years", {}, soucie},
-    PeopleRow{{by_flexion, down}, 26.2, 28.3, 2, 9, {}, false, "boys and girls of 2 to 8 years", {}, soucie},
-    // Supine and prone, with the hip extended; sitting.
-    PeopleRow{{by_rotation, up},
-              29.6,
-              35.2,
-              20,
-              61,
-              {},
-              false,
-              "adults of 20 to 60 years, supine and prone",
-              120,
-              kouyoumdjian},
-    PeopleRow{{by_rotation, down},
-              38.5,
-              41.8,
-              20,
-              61,
-              {},
-              false,
-              "adults of 20 to 60 years, supine and prone",
-              120,
-              kouyoumdjian},
-    PeopleRow{{by_rotation, up, 90, 90},
-              37.9,
-              37.9,
-              20,
-              61,
-              {},
-              true,
-              "adults of 20 to 60 years, sitting",
-              120,
-              kouyoumdjian},
-    // The abstract prints the sum of both, 78.5, in its place.
-    PeopleRow{{by_rotation, down, 90, 90},
-              40.6,
-              40.6,
-              20,
-              61,
-              {},
-              true,
-              "adults of 20 to 60 years, sitting",
-              120,
-              kouyoumdjian},
-    PeopleRow{{by_rotation, up},
-              29,
-              50.2,
-              adult_years,
-              200,
-              {},
-              true,
-              "ten groups of active adults",
-              517,
-              athletic},
-    PeopleRow{{by_rotation, down},
-              23,
-              56.3,
-              adult_years,
-              200,
-              {},
-              true,
-              "nine groups of active adults",
-              499,
-              athletic},
-    PeopleRow{{by_flexion, up}, 120, 120, adult_years, 200, {}, true, "clinical estimate", {}, surgeons},
-    PeopleRow{{by_flexion, down}, 30, 30, adult_years, 200, {}, true, "clinical estimate", {}, surgeons},
-    PeopleRow{{by_adduction, down}, 45, 45, adult_years, 200, {}, true, "clinical estimate", {}, surgeons},
-    PeopleRow{{by_adduction, up}, 30, 30, adult_years, 200, {}, true, "clinical estimate", {}, surgeons}};
+// Soucie's other ages were not at hand.
+constexpr People girls{"girls of 2 to 8 years", 2, 9, Sex::female, false, {}, soucie};
+constexpr People boys{"boys of 2 to 8 years", 2, 9, Sex::male, false, {}, soucie};
+constexpr People children{"boys and girls of 2 to 8 years", 2, 9, {}, false, {}, soucie};
+constexpr People lying{"adults of 20 to 60 years, supine and prone", 20, 61, {}, false, 120, kouyoumdjian};
+constexpr People sitting{"adults of 20 to 60 years, sitting", 20, 61, {}, true, 120, kouyoumdjian};
+constexpr People ten_groups{"ten groups of active adults", adult_years, 200, {}, true, 517, athletic};
+constexpr People nine_groups{"nine groups of active adults", adult_years, 200, {}, true, 499, athletic};
 
-bool fits(const PeopleRow& row, const Person& person) {
-  return (person.age_years ? row.age_from <= *person.age_years && *person.age_years < row.age_to
-                           : row.if_age_is_unknown) &&
-         (!row.sex || row.sex == person.sex);
+struct PeopleRow {
+  PureMotion motion;
+  double low_deg, high_deg;
+  const People* of;
+};
+// The first row that fits is taken.
+constexpr std::array people_rows{
+    PeopleRow{{by_flexion, up}, 140.8, 140.8, &girls}, PeopleRow{{by_flexion, up}, 131.1, 131.1, &boys},
+    PeopleRow{{by_flexion, up}, 131.1, 140.8, &children}, PeopleRow{{by_flexion, down}, 26.2, 26.2, &girls},
+    PeopleRow{{by_flexion, down}, 28.3, 28.3, &boys}, PeopleRow{{by_flexion, down}, 26.2, 28.3, &children},
+    PeopleRow{{by_rotation, up}, 29.6, 35.2, &lying}, PeopleRow{{by_rotation, down}, 38.5, 41.8, &lying},
+    PeopleRow{{by_rotation, up, 90, 90}, 37.9, 37.9, &sitting},
+    // The abstract prints the sum of both, 78.5, in its place.
+    PeopleRow{{by_rotation, down, 90, 90}, 40.6, 40.6, &sitting},
+    PeopleRow{{by_rotation, up}, 29, 50.2, &ten_groups},
+    PeopleRow{{by_rotation, down}, 23, 56.3, &nine_groups}};
+
+bool are_like(const People& people, const Person& person) {
+  return (person.age_years ? people.age_from <= *person.age_years && *person.age_years < people.age_to
+                           : people.if_age_is_unknown) &&
+         (!people.sex || people.sex == person.sex);
 }
 
 double sd_deg(std::span<const Angle> values) {
@@ -170,17 +119,19 @@ std::optional<LivingLimit> living_limit(const Joint& joint, const motion::Motion
   if (const auto gap = std::find_if(gaps.begin(), gaps.end(), is_of); gap != gaps.end())
     living.gap = {gap->closeness, Angle::degrees(gap->mean_deg), Angle::degrees(gap->sd_deg), cadaver_hips,
                   cadavers};
-  const auto people = std::find_if(people_rows.begin(), people_rows.end(), [&](const PeopleRow& row) {
-    return is_of(row) && fits(row, joint.person);
+  const bool is_grown = joint.person.age_years.value_or(adult_years) >= adult_years;
+  const auto row = std::find_if(people_rows.begin(), people_rows.end(), [&](const PeopleRow& each) {
+    return is_of(each) && are_like(*each.of, joint.person);
   });
-  if (people != people_rows.end())
-    living.people = {Angle::degrees(people->low_deg), Angle::degrees(people->high_deg), people->who,
-                     people->people, people->source};
+  if (row != people_rows.end())
+    living.people = {Angle::degrees(row->low_deg), Angle::degrees(row->high_deg), row->of->who,
+                     row->of->count, row->of->source};
+  else if (const auto clinical = normal_range(joint, limit); clinical && is_grown)
+    living.people = {*clinical, *clinical, "clinical estimate", {}, normal_hip_range_source};
   if (!living.gap && !living.people) return std::nullopt;
   const bool may_expect = living.gap && living.gap->closeness == Closeness::close &&
                           limit.end.reason == motion::LimitReason::contact && limit.end.contact &&
-                          limit.end.kind() == motion::ContactKind::impingement &&
-                          joint.person.age_years.value_or(adult_years) >= adult_years;
+                          limit.end.kind() == motion::ContactKind::impingement && is_grown;
   if (may_expect && limit.end.turned > living.gap->mean) {
     living.expected = limit.end.turned - living.gap->mean;
     living.expected_sd = Angle::degrees(core::hypotenuse(

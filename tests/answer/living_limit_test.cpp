@@ -24,7 +24,13 @@ Joint small_hip() {
 motion::MotionLimit impinging(JointAngle vary, RotationSense sense, double from_flexion_deg,
                               double turned_deg) {
   motion::MotionLimit limit;
-  limit.motion = {"any", vary, sense, {Angle::degrees(from_flexion_deg), {}, {}}, Angle::degrees(180)};
+  limit.motion = {vary == flexion && sense == plus ? "flexion"
+                  : vary == flexion                ? "extension"
+                                                   : "any",
+                  vary,
+                  sense,
+                  {Angle::degrees(from_flexion_deg), {}, {}},
+                  Angle::degrees(180)};
   limit.end.turned = Angle::degrees(turned_deg);
   limit.end.reason = motion::LimitReason::contact;
   limit.end.contact = motion::ContactWitness{{}, {}, {1, 2, 3}, {1, 2, 3}, motion::ContactKind::impingement};
