@@ -26,6 +26,7 @@
 #include "io/file/output_folder.hpp"
 #include "io/image/hips_of_labels.hpp"
 #include "io/image/unread_image.hpp"
+#include "io/joint/settings_lines.hpp"
 #include "io/report/answer_report.hpp"
 #include "io/result/both_sides.hpp"
 #include "io/result/quoted_limit.hpp"
@@ -50,6 +51,7 @@ struct HipArguments {
   std::optional<Side> side;
   std::optional<LengthUnit> units;
   RangeArguments range;
+  Person person;
   io::ReportLabels words;
 
   /// Where the joint file of a side lies; how its meshes are named from there is the same for both sides.
@@ -148,18 +150,20 @@ Side write_joint(const HipArguments& options, Proposed& proposed) {
                                 fmt::join(proposed.joint.to_fill_in, "; ")));
   const Side side = *proposed.joint.side;
   const fs::path file = options.joint_file(side);
+  const std::string person = io::person_text(options.person);
   if (fs::exists(file))
     throw UsageError(
         fmt::format("{}: is of the {} side, as another femur is: answer each by itself, with --side",
                     proposed.femur, name_of(side)));
   if (proposed.of_labels) {
     io::LabelJoint& joint = *proposed.of_labels;
+    joint.proposal.toml += person;
     for (fs::path* mesh : {&joint.fixed_mesh, &joint.mobile_mesh})
       *mesh = file.parent_path() / mesh->filename();
     write_proposal(joint, file);
   } else {
     io::OutputFolder folder(file.parent_path());
-    io::write_output_file(folder.file("hip.toml"), proposed.joint.toml);
+    io::write_output_file(folder.file("hip.toml"), proposed.joint.toml + person);
     say_written(folder.commit());
   }
   return side;
@@ -377,6 +381,7 @@ void add_hip(CLI::App& app) {
       ->add_option("--case", options->words.case_name,
                    "Begin the headings with this: a number or a pseudonym")
       ->option_text("TEXT");
+  add_person(*command, options->person);
   command->add_option("--note", options->words.note, "Put this under the results")->option_text("TEXT");
   command->add_option("--date", options->words.date, "Put this date into the headings")->option_text("TEXT");
   std::vector<std::string> of_labels{"--fixed", "--mobile"};

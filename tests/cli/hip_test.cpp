@@ -75,23 +75,26 @@ TEST_F(Patients, GetBothHipsOfALabelMap) {
 }
 
 TEST_F(Patients, HaveBothFemoraInOneLabel) {
-  const Ran ran = run("hip unnamed.nii.gz --fixed 1 --mobile 2 --samples 0 --out unnamed");
+  const Ran ran = run("hip unnamed.nii.gz --fixed 1 --mobile 2 --samples 0 --sex male --out unnamed");
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_NE(ran.err.find("label_2 is in 2 pieces: the one on the left is kept"), std::string::npos)
       << ran.err;
   EXPECT_EQ(json("unnamed/left/limits/rom.json")["side"], "left");
   EXPECT_EQ(json("unnamed/right/limits/rom.json")["side"], "right");
+  EXPECT_NE(text("unnamed/right/hip.toml").find("\n[person]\nsex = \"male\"\n"), std::string::npos);
 }
 
 TEST_F(Patients, OfMeshesHaveAPlanToo) {
   const Ran ran =
-      run("hip hip_bone.ply femur.ply --side right --samples 0 --plan \"fadir=+5\" --out planned");
+      run("hip hip_bone.ply femur.ply --side right --samples 0 --age 30 --plan \"fadir=+5\" --out planned");
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_FALSE(is_there("planned/left"));
   EXPECT_FALSE(is_there("planned/both.csv"));
   const Json plan = json("planned/right/plan/resection.json");
   EXPECT_EQ(plan["targets"][0]["motion"], "fadir");
   EXPECT_TRUE(is_there("planned/right/planned.html"));
+  for (const char* file : {"planned/right/hip.toml", "planned/right/plan/resected.toml"})
+    EXPECT_NE(text(file).find("\n[person]\nage = 30\n"), std::string::npos) << file;
   EXPECT_TRUE(is_there("planned/right/plan/resected.toml"));
   // The limits of one hip are printed as condyle rom prints them; then what was planned.
   const std::string limits = run("rom planned/right/hip.toml").out;

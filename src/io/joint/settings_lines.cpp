@@ -50,18 +50,19 @@ void add_recorded_motion(ProposalLines& lines, const RecordedMotionMapping& mapp
     lines.add(fmt::format("{} = {}", each.coordinate, column_text(each)));
 }
 
-void add_person(ProposalLines& lines, const Person& person) {
-  if (!person.age_years && !person.sex) return;
-  lines.add("\n[person]");
-  if (person.age_years) lines.add(fmt::format("age = {}", *person.age_years));
-  if (person.sex) lines.add(fmt::format("sex = \"{}\"", name_of(*person.sex)));
-}
-
 }  // namespace
+
+std::string person_text(const Person& person) {
+  if (!person.age_years && !person.sex) return {};
+  std::string text = "\n[person]\n";
+  if (person.age_years) text += fmt::format("age = {}\n", *person.age_years);
+  if (person.sex) text += fmt::format("sex = \"{}\"\n", name_of(*person.sex));
+  return text;
+}
 
 void add_settings(ProposalLines& lines, const JointFile& file, const Person& person,
                   const motion::Uncertainty& sigma) {
-  add_person(lines, person);
+  if (const std::string text = person_text(person); !text.empty()) lines.add(text);
   add_motions(lines, file.motions, file.joint.anatomy);
   add_uncertainty(lines, sigma, file.band_seed);
   if (file.recorded_motion) add_recorded_motion(lines, *file.recorded_motion);

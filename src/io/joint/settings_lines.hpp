@@ -1,9 +1,14 @@
 #pragma once
 
+#include <string>
+
 #include "condyle/io/joint_file.hpp"
 #include "io/joint/proposal_lines.hpp"
 
 namespace condyle::io {
+
+/// The table [person] of a joint file behind an empty line, empty if nothing is known of it.
+std::string person_text(const Person& person);
 
 /// What a joint file that is made from another one keeps of it: its motions, standard deviations, the seed, and columns of a recorded motion.
 /// `sigma` are the deviations of the joint that is written. A recorded motion that has poses of the meshes as they were given is left out,
