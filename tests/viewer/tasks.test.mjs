@@ -82,9 +82,10 @@ for (const [name, { joint, band }] of Object.entries(hips))
     assert.ok(rest.endsWith(`; ${against}`), rest);
     // A motion that goes farther than the clinical range is not judged by it; its tile has the range, in grey.
     const beyond = motions.find(({ name: each, normal_range_deg, limit_deg, reason }) => each === "flexion" && reason === "contact" && normal_range_deg !== null && limit_deg > normal_range_deg);
-    // Where: the hour.
-    if (first.clock_hour !== null) assert.ok(rest.includes(`neck on rim at ${clock(first.clock_hour)};`), rest);
-    else assert.match(rest, /away from the rim;/);
+    // Where: the hour; and by how much a living hip stops earlier.
+    const living = first.living?.expected_deg ? `, living hips some ${(first.limit_deg - first.living.expected_deg).toFixed(0)}° earlier` : "";
+    if (first.clock_hour !== null) assert.ok(rest.includes(`neck on rim at ${clock(first.clock_hour)}${living};`), rest);
+    else assert.ok(rest.includes(`away from the rim${living};`), rest);
     // How sure: the band, or that there is none, and how to get one.
     if (band) assert.ok(rest.startsWith(` (${first.band.p5_deg.toFixed(0)}–${first.band.p95_deg.toFixed(0)})`), rest);
     else assert.ok(seen.some((line) => /No band was asked for: condyle report --band/.test(line)), seen.join("\n"));
