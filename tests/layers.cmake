@@ -139,6 +139,13 @@ file(GLOB_RECURSE computing RELATIVE ${SOURCE} ${SOURCE}/src/*.?pp ${SOURCE}/inc
 list(FILTER computing EXCLUDE REGEX "^src/core/trigonometry\\.|^src/tangential/exact/arctangent")
 refuse("core/trigonometry.hpp has the same bits everywhere" "std::a?(sin|cos|tan)h?2?\\(|AngleAxisd" ${computing})
 
+# So have exponentials, and what is drawn; a share below is rounded to tenths.
+list(FILTER computing EXCLUDE REGEX "^src/core/exponential\\.cpp|^src/sample/cohort\\.cpp")
+refuse("core/exponential.hpp has the same bits everywhere"
+       "std::(exp|expm1|log|log1p|log2|log10|pow|cbrt|hypot|erfc?|[lt]gamma)\\(|<boost/math" ${computing})
+refuse("libraries differ in what they draw and in the order of their parts"
+       "_distribution<|std::(shuffle|sample|reduce|transform_reduce|hash)[(<]" ${computing})
+
 # What is answered is decided in answer/: shells ask it, and not the kernels below. Each exception with its reason.
 set(kernels "motion::(motion_map|limit_bands|contact_along|balance_along|contact_between|RangeOfMotion|ZoneFinder|DepthRange)"
             "measure::measure_(hip|bands)" "plan::(resect|place_total_hip|DesignLimits)" "contact::balance")

@@ -85,7 +85,7 @@ void NodeDiscs::bound_children(Index i) {
     radius = std::max(radius, from.norm() + child_radius);
   }
   const auto& half = node.half;
-  set_bounds(i, low, high, std::min(radius, std::hypot(double{half[0]}, double{half[1]}, double{half[2]})));
+  set_bounds(i, low, high, std::min(radius, Vec3(half[0], half[1], half[2]).norm()));
 }
 
 void NodeDiscs::set_bounds(Index i, double low, double high, double radius) {

@@ -1,12 +1,12 @@
 
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <numbers>
 
 #include "condyle/sample/hip.hpp"
+#include "core/exponential.hpp"
 #include "sample/femur_shape.hpp"
 
 namespace condyle::sample {
@@ -46,6 +46,7 @@ double uniform(std::uint64_t seed, std::uint64_t k, std::uint64_t draw) noexcept
   return (static_cast<double>(mixed(mixed(mixed(seed) ^ k) ^ draw) >> 11) + 0.5) * 0x1p-53;
 }
 
+/// Its last bit is the C library's: what is made of it has one decimal.
 double share_below(double z) noexcept {
   return std::erfc(-z / std::numbers::sqrt2) / 2;
 }
@@ -54,7 +55,7 @@ double share_below(double z) noexcept {
 double quantile(const MeasureDistribution& d, double share) {
   const double first = share_below((d.low - d.mean) / d.standard_deviation);
   const double last = share_below((d.high - d.mean) / d.standard_deviation);
-  const double z = -std::numbers::sqrt2 * boost::math::erfc_inv(2 * (first + (last - first) * share));
+  const double z = core::normal_quantile(first + (last - first) * share);
   return std::clamp(d.mean + d.standard_deviation * z, d.low, d.high);
 }
 

@@ -42,7 +42,9 @@ std::string orientation_letters(const Vec3& direction) {
 }
 
 double scale_bar_mm(double longest_mm) noexcept {
-  const double decade = std::pow(10, std::floor(std::log10(longest_mm)));
+  double decade = 1;
+  while (decade > longest_mm) decade /= 10;
+  while (10 * decade <= std::min(longest_mm, 1e300)) decade *= 10;
   return decade * (longest_mm >= 5 * decade ? 5 : longest_mm >= 2 * decade ? 2 : 1);
 }
 

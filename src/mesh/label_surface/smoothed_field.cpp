@@ -1,8 +1,8 @@
 #include "mesh/label_surface/smoothed_field.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "core/exponential.hpp"
 #include "core/parallel.hpp"
 
 namespace condyle::mesh {
@@ -14,7 +14,8 @@ std::vector<float> gaussian(double sigma) {
   std::vector<double> weight(radius + 1);
   double sum = 0;
   for (std::size_t d = 0; d <= radius; ++d) {
-    weight[d] = d == 0 ? 1 : std::exp(-0.5 * std::pow(static_cast<double>(d) / sigma, 2));
+    const double t = static_cast<double>(d) / sigma;
+    weight[d] = d == 0 ? 1 : core::exponential(-0.5 * t * t);
     sum += d == 0 ? weight[d] : 2 * weight[d];
   }
   std::vector<float> rounded;

@@ -1,11 +1,10 @@
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <string>
 
 #include "condyle/error.hpp"
+#include "core/exponential.hpp"
 #include "motion/rom/displacement.hpp"
 
 namespace condyle::motion {
@@ -44,7 +43,7 @@ std::vector<Displacement> displacements(const BandOptions& options, std::size_t 
       // Within the stratum, clear of 0 and 1.
       const double u =
           (static_cast<double>(stratum[i]) + 0.005 + 0.99 * uniform()) / static_cast<double>(count);
-      standard[i][k] = -std::numbers::sqrt2 * boost::math::erfc_inv(2 * u);
+      standard[i][k] = core::normal_quantile(u);
     }
   }
   const Uncertainty& sigma = options.sigma;
