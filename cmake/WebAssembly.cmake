@@ -27,7 +27,7 @@ function(condyle_wasm_objects target level)
   target_include_directories(${target} SYSTEM PRIVATE ${condyle_packages})
   # Products and sums are rounded one by one, as everywhere. Highway 1.0.3 has no doubles for WebAssembly: its emulation, which
   # the compiler vectorises, is chosen at compile time. Doubles become integers by one instruction where they need not trap.
-  target_compile_options(${target} PRIVATE ${level} -ffp-contract=off -msimd128 -mnontrapping-fptoint -fwasm-exceptions -include missing.hpp
+  target_compile_options(${target} PRIVATE ${level} -ffp-contract=off -msimd128 -msse2 -mnontrapping-fptoint -fwasm-exceptions -include missing.hpp
                          # The same bytes whatever the folder: sources name themselves in messages.
                          -ffile-prefix-map=${CMAKE_BINARY_DIR}/= -ffile-prefix-map=${condyle_root}/=)
   target_compile_definitions(${target} PRIVATE CONDYLE_THREADS_NONE HWY_COMPILE_ONLY_EMU128 FMT_HEADER_ONLY NDEBUG)

@@ -14,6 +14,15 @@
 #include <type_traits>
 #include <utility>
 
+// Eigen sums in the order of x86-64, by SSE2, of which emscripten makes WebAssembly's instructions. The compiler must not look like
+// GCC, whose faults Eigen gets round by assembly.
+#include <complex>
+#define EIGEN_ARCH_DEFAULT_NUMBER_OF_REGISTERS 16
+#pragma push_macro("__GNUC__")
+#undef __GNUC__
+#include <Eigen/src/Core/util/Macros.h>
+#pragma pop_macro("__GNUC__")
+
 namespace std {
 
 template <class To, class From>

@@ -1,0 +1,3 @@
+#pragma once
+
+/// MMX, which Eigen includes before SSE2 and does not use: emscripten has none.
