@@ -136,6 +136,26 @@ test("the motions have their room at the height of a laptop: chip, tiles and box
   await page.context().close();
 });
 
+for (const name of ["sample", "plan", "cam_pincer"].filter(has))
+  test(`a tile of ${name} shows each of its lines in full or not at all, and the limit itself always`, async () => {
+    const page = await opened(name);
+    const said = [];
+    for (const [width, height] of [[1280, 800], [1366, 768], [1024, 768], [1024, 730], [1440, 900], [390, 844]]) {
+      await page.setViewportSize({ width, height });
+      await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
+      said.push(...await page.locator(".tile-value").evaluateAll((values, size) => values.flatMap((value) => {
+        const place = value.getBoundingClientRect(), { top, bottom } = value.closest(".tile").getBoundingClientRect();
+        return [...value.children].flatMap((part) => {
+          const box = part.getBoundingClientRect(), isAway = box.left >= place.right || box.top >= place.bottom - 1 || box.width === 0;
+          const isSeen = box.top >= place.top - 1 && box.bottom <= place.bottom + 1 && box.right <= place.right + 1 && box.top >= top && box.bottom <= bottom;
+          return isSeen || (isAway && part.tagName !== "B") ? [] : [`${size}: ${value.closest(".tile").textContent}: ${part.textContent}`];
+        });
+      }), `${width} × ${height}`));
+    }
+    assert.deepEqual(said, []);
+    await page.context().close();
+  });
+
 for (const [width, height] of [[1280, 800], [390, 844], [3840, 2160]])
   test(`view options leave the scene free in a window of ${width} × ${height}, and end in it`, async () => {
     const page = await opened("sample", { width, height });

@@ -17,13 +17,14 @@ export class ManoeuvreGrid {
   constructor(text: ReportText, rom: RomAnswer, go: (motion: MotionAnswer) => void, canGo: (motion: MotionAnswer) => boolean) {
     const { motions } = rom, most = mostOf(motions), zero = zeroOf(rom);
     for (const motion of motions) {
-      const before = beforeText(text, motion);
+      const before = beforeText(text, motion), isShort = deficitOf(motion) !== null;
       const tile = button("", () => go(motion), { class: "tile", disabled: !canGo(motion), title: words.goThere(named(motionName(motion.name))) });
-      if (deficitOf(motion) !== null) tile.classList.add("short");
+      tile.classList.toggle("short", isShort);
+      const besides = ([["quiet", bandText(motion)], ["tile-normal", comparedText(motion, rom, zero, true)]] as const).filter(([, said]) => said);
       tile.append(
         html("span", { class: "tile-name" }, shortened(named(motionName(motion.name)), 40)), " ",
-        html("span", { class: "tile-value" }, ...(before ? [html("span", { class: "quiet" }, before), " "] : []), html("b", {}, limitAlone(motion)), " ",
-          html("span", { class: "quiet" }, bandText(motion)), " ", html("span", { class: "tile-normal" }, comparedText(motion, rom, zero, true))), limitBar(motion, most));
+        html("span", { class: "tile-value" }, ...(before ? [html("span", { class: "quiet" }, before), " "] : []), html("b", {}, limitAlone(motion)),
+          ...(isShort ? besides.reverse() : besides).flatMap(([kind, said]) => [" ", html("span", { class: kind }, said)])), limitBar(motion, most));
       this.tiles.set(motion.name, tile);
     }
     const grid = html("div", { class: "tiles", role: "group", "aria-label": words.limits }, ...this.tiles.values());
