@@ -201,9 +201,8 @@ std::string page_type() {
     if (field.if_empty == IfEmpty::left_out) check = "ifThere(" + check + ")";
     checks += fmt::format("  {}: {},\n", field.key, check);
   });
-  const std::string check = check_name(table<Record>.name);
-  return fmt::format("\n/// {}\nexport type {} = Passed<typeof {}>;\nconst {} = object({{\n{}}});\n",
-                     table<Record>.meaning, table<Record>.name, check, check, checks);
+  return fmt::format("\n/// {}\nexport const {} = object({{\n{}}});\n", table<Record>.meaning,
+                     check_name(table<Record>.name), checks);
 }
 
 /// Codes of the notes that are no findings.
@@ -222,9 +221,9 @@ std::string note_grades() {
 
 std::string page_records() {
   return R"(// Records of answers, and checks of them. Made by `make describe` from the tables in src/answer/records/.
-import { each, flag, ifThere, list, number, object, oneOf, orNull, text, three, type Passed } from "./checks";
+import { each, flag, ifThere, list, number, object, oneOf, orNull, text, three } from "./checks";
 )" + each_record([]<class Record>() { return page_type<Record>(); }) +
-         note_grades() + "\nexport { limitRecord, shapeRecord };\n";
+         note_grades();
 }
 
 // ---- docs/

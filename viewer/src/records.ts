@@ -1,9 +1,8 @@
 // Records of answers, and checks of them. Made by `make describe` from the tables in src/answer/records/.
-import { each, flag, ifThere, list, number, object, oneOf, orNull, text, three, type Passed } from "./checks";
+import { each, flag, ifThere, list, number, object, oneOf, orNull, text, three } from "./checks";
 
 /// A vertex or a face by its number, or an edge by its two vertices, ascending: in numbers of the mesh, from 0.
-export type FeatureRecord = Passed<typeof featureRecord>;
-const featureRecord = object({
+export const featureRecord = object({
   kind: oneOf("vertex", "edge", "face"),
   vertices: ifThere(list(number)),
   id: ifThere(number),
@@ -11,22 +10,19 @@ const featureRecord = object({
 });
 
 /// What is in contact of either body.
-export type FeaturesRecord = Passed<typeof featuresRecord>;
-const featuresRecord = object({
+export const featuresRecord = object({
   fixed: featureRecord,
   mobile: featureRecord,
 });
 
 /// Names of the meshes that touch, None of a body of one mesh.
-export type PartsRecord = Passed<typeof partsRecord>;
-const partsRecord = object({
+export const partsRecord = object({
   fixed: orNull(text),
   mobile: orNull(text),
 });
 
 /// Depths of a limit with a depth allowed.
-export type AllowedDepthRecord = Passed<typeof allowedDepthRecord>;
-const allowedDepthRecord = object({
+export const allowedDepthRecord = object({
   at_start_mm: number,
   at_limit_mm: number,
   ray_to_normal_deg: number,
@@ -34,16 +30,14 @@ const allowedDepthRecord = object({
 });
 
 /// Where liner and neck of an implant end a motion, as bodies of revolution.
-export type ClosedForm = Passed<typeof closedForm>;
-const closedForm = object({
+export const closedForm = object({
   limit_deg: number,
   reason: oneOf("contact", "end_of_range", "contact_at_start"),
   of_facets_deg: list(number),
 });
 
 /// Width of a band if only one source was uncertain.
-export type BandWidthRecord = Passed<typeof bandWidthRecord>;
-const bandWidthRecord = object({
+export const bandWidthRecord = object({
   centre_deg: number,
   axes_deg: number,
   surface_deg: number,
@@ -51,8 +45,7 @@ const bandWidthRecord = object({
 });
 
 /// The limit over the joints of a band.
-export type BandRecord = Passed<typeof bandRecord>;
-const bandRecord = object({
+export const bandRecord = object({
   p5_deg: number,
   median_deg: number,
   p95_deg: number,
@@ -62,8 +55,7 @@ const bandRecord = object({
 });
 
 /// Means of simulations of bone in other people's hips; their spread is not given.
-export type BoneReference = Passed<typeof boneReference>;
-const boneReference = object({
+export const boneReference = object({
   healthy_deg: number,
   cam_without_complaints_deg: number,
   patients_deg: number,
@@ -103,16 +95,14 @@ const livingLimit = object({
 });
 
 /// A caveat to read before a limit is compared with a living joint.
-export type Caveat = Passed<typeof caveat>;
-const caveat = object({
+export const caveat = object({
   code: oneOf("bone_may_end", "soft_tissue_ends", "soft_tissue_close", "capsule_restrains", "labrum_not_modelled", "end_unknown"),
   text: text,
   source: orNull(text),
 });
 
 /// The overlap past a limit, on the fixed body.
-export type FixedZoneRecord = Passed<typeof fixedZoneRecord>;
-const fixedZoneRecord = object({
+export const fixedZoneRecord = object({
   triangles: number,
   area_mm2: number,
   centroid_mm: orNull(three),
@@ -123,8 +113,7 @@ const fixedZoneRecord = object({
 });
 
 /// The overlap past a limit, on the mobile body.
-export type MobileZoneRecord = Passed<typeof mobileZoneRecord>;
-const mobileZoneRecord = object({
+export const mobileZoneRecord = object({
   triangles: number,
   area_mm2: number,
   centroid_mm: orNull(three),
@@ -135,8 +124,7 @@ const mobileZoneRecord = object({
 });
 
 /// The overlap past a limit.
-export type ZoneRecord = Passed<typeof zoneRecord>;
-const zoneRecord = object({
+export const zoneRecord = object({
   past_deg: number,
   contact_neck_angle_deg: orNull(number),
   fixed: fixedZoneRecord,
@@ -144,8 +132,7 @@ const zoneRecord = object({
 });
 
 /// Where one motion ends, in the words of rom.json.
-export type LimitRecord = Passed<typeof limitRecord>;
-const limitRecord = object({
+export const limitRecord = object({
   name: text,
   limit_deg: number,
   reason: oneOf("contact", "end_of_range", "contact_at_start"),
@@ -185,8 +172,7 @@ const limitRecord = object({
 });
 
 /// Between these values lie the measures of other people.
-export type NormalRange = Passed<typeof normalRange>;
-const normalRange = object({
+export const normalRange = object({
   low: number,
   high: number,
   people: text,
@@ -196,8 +182,7 @@ const normalRange = object({
 });
 
 /// A measure over displaced joints.
-export type MeasureBand = Passed<typeof measureBand>;
-const measureBand = object({
+export const measureBand = object({
   p5: orNull(number),
   median: orNull(number),
   p95: orNull(number),
@@ -205,8 +190,7 @@ const measureBand = object({
 });
 
 /// One measure of a hip.
-export type MeasureRecord = Passed<typeof measureRecord>;
-const measureRecord = object({
+export const measureRecord = object({
   key: text,
   part: oneOf("femur", "acetabulum", "both"),
   unit: text,
@@ -223,8 +207,7 @@ const measureRecord = object({
 });
 
 /// What is measured in one direction around the neck, 12 superior and 3 anterior.
-export type NeckHour = Passed<typeof neckHour>;
-const neckHour = object({
+export const neckHour = object({
   hour: number,
   alpha_deg: orNull(number),
   alpha_at_1mm_deg: orNull(number),
@@ -235,8 +218,7 @@ const neckHour = object({
 });
 
 /// The rim in one direction around the socket, 12 superior and 3 anterior.
-export type RimHour = Passed<typeof rimHour>;
-const rimHour = object({
+export const rimHour = object({
   hour: number,
   point_mm: orNull(three),
   cover_deg: orNull(number),
@@ -245,8 +227,7 @@ const rimHour = object({
 });
 
 /// The shape of a hip, in the words of measures.json.
-export type ShapeRecord = Passed<typeof shapeRecord>;
-const shapeRecord = object({
+export const shapeRecord = object({
   pelvis_frame: text,
   pelvic_tilt_deg: number,
   left_out: list(text),
@@ -276,5 +257,3 @@ export const noteGrades: Record<string, "wrong" | "remark"> = {
   differs_from_closed_form: "remark",
   last_value_left_out: "remark",
 };
-
-export { limitRecord, shapeRecord };

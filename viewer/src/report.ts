@@ -1,6 +1,6 @@
-import { ReportError } from "./checks";
+import { ReportError, type Passed } from "./checks";
 import { bytesOf, inflated } from "./packed";
-import type { BandRecord, LimitRecord } from "./records";
+import type { bandRecord, limitRecord, measureRecord } from "./records";
 import { checkedText, type Interval, type ReportText as StoredText } from "./report_shape";
 import { words } from "./words";
 
@@ -14,8 +14,9 @@ type Each<List extends readonly unknown[]> = List[number];
 
 export type { Interval };
 export type ArrayPlace = ReportText["arrays"][string];
-export type Band = Pick<BandRecord, "p5_deg" | "median_deg" | "p95_deg">;
-export type MotionAnswer = LimitRecord;
+export type Band = Pick<Passed<typeof bandRecord>, "p5_deg" | "median_deg" | "p95_deg">;
+export type MotionAnswer = Passed<typeof limitRecord>;
+export type BoneReference = NonNullable<MotionAnswer["bone_reference"]>;
 export type RomAnswer = Of<"rom">;
 export type MeshSource = NonNullable<RomAnswer["provenance"]>["joint_file"];
 /// A parameter that moves a part of a body.
@@ -30,6 +31,7 @@ export type StoredPose = Each<ReportText["poses"]>;
 export type Recorded = Of<"recorded">;
 /// The shape of a hip; docs/measures.md. Points of the femur are in M, those of the hip bone in F.
 export type StoredMeasures = Of<"measures">;
+export type Measure = Passed<typeof measureRecord>;
 /// The bone that must go; docs/planning.md. The joint of the page is the one without it.
 export type StoredPlan = Of<"plan">;
 export type EndOfMotion = Each<StoredPlan["limits"]>["before"];

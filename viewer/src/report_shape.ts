@@ -1,7 +1,7 @@
 import {
   count, each, flag, ifThere, isObject, list, number, object, oneOf, orNull, ReportError, text, three, wrong, type Check, type Passed,
 } from "./checks";
-import { limitRecord, shapeRecord, type ShapeRecord } from "./records";
+import { limitRecord, shapeRecord } from "./records";
 import type { ArrayPlace } from "./report";
 import { words } from "./words";
 
@@ -46,7 +46,7 @@ const geometry = object({
   }),
 });
 
-const measures: Check<ShapeRecord & Passed<typeof geometry>> = (value, key) => [shapeRecord, geometry].forEach((check) => check(value, key));
+const measures: Check<Passed<typeof shapeRecord> & Passed<typeof geometry>> = (value, key) => [shapeRecord, geometry].forEach((check) => check(value, key));
 
 const bodyName = oneOf("fixed", "mobile");
 const end = object({ limit_deg: number, reason: oneOf("contact", "end_of_range", "contact_at_start") });

@@ -1,5 +1,4 @@
-import type { BoneReference } from "./records";
-import type { BandSigma } from "./report";
+import type { BandSigma, BoneReference } from "./report";
 
 interface BandSource extends BandSigma {
   samples: number;

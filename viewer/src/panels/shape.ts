@@ -2,8 +2,7 @@ import { checkbox, fold, html, section } from "../dom";
 import { fixed } from "../numbers";
 import { figure, type Drawing } from "../plots/figure";
 import { hoursDrawing } from "../plots/hours";
-import type { MeasureRecord } from "../records";
-import type { StoredMeasures } from "../report";
+import type { Measure, StoredMeasures } from "../report";
 import type { JointScene } from "../scene/scene";
 import { measureMarks } from "../scene/measure_marks";
 import { words } from "../words";
@@ -21,7 +20,7 @@ export function measureName(key: string, unit: string): string {
   return name.replace(/_(\d+)_(\d\d)(?=_|$)/, " $1:$2").replaceAll("_", " ");
 }
 
-function row({ key, unit, value, band, normal }: MeasureRecord, hasBands: boolean): string[] {
+function row({ key, unit, value, band, normal }: Measure, hasBands: boolean): string[] {
   return [
     measureName(key, unit), value === null || unit === "1" ? shown(value, unit) : `${shown(value, unit)} ${unit}`,
     ...(hasBands ? [band?.p5 == null ? "–" : words.rangeOf(shown(band.p5, unit), shown(band.p95, unit))] : []),
@@ -29,7 +28,7 @@ function row({ key, unit, value, band, normal }: MeasureRecord, hasBands: boolea
   ];
 }
 
-function sentences(measures: readonly MeasureRecord[], said: (measure: MeasureRecord) => string | null): string[] {
+function sentences(measures: readonly Measure[], said: (measure: Measure) => string | null): string[] {
   return measures.filter((measure) => said(measure)).map((measure) => words.ofMeasure(measureName(measure.key, measure.unit), said(measure)!));
 }
 
