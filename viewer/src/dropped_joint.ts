@@ -38,7 +38,9 @@ export async function readJoint(files: readonly NamedFile[]): Promise<Report> {
     const first = path.replace(/ \(\d+\)(\.[^./]*)$/, "$1");
     if (!path.includes("/") && first !== path && paths.has(first)) throw new Error(words.dropMaybeSameName(named(first), named(path)));
   }
-  return Report.of(await CoreClient.blockOfJoint(await wasmBytes(), joint!, files));
+  const wasm = await wasmBytes(), { core, answer } = await CoreClient.begin("jointFile", { wasm, file: joint!, files }, [wasm]);
+  core.close();
+  return Report.of(answer);
 }
 
 /// Reason why files were not taken, in a line.

@@ -9,7 +9,6 @@ import { copiedOf, type Copied } from "./notes_block";
 import { Page, type Added } from "./page";
 import { keepPage, notesBlock } from "./page_copy";
 import { DropPanel } from "./panels/drop";
-import { LabelDrop } from "./panels/label_drop";
 import { takeDrops } from "./panels/report_drop";
 import { Report } from "./report";
 import { canCompute, isCoreDamage, wasmBytes } from "./stored_core";
@@ -36,20 +35,15 @@ function openEmpty(shown: () => void = () => undefined): DropPanel | undefined {
     new Page(textOfProposal(proposal), proposal.joint, null, true).compute(core);
     shown();
   };
-  const attempt = async (work: () => Promise<void>) => {
-    try {
-      await work();
-      return true;
-    } catch (error) {
-      refuse(error);
-      return false;
-    }
-  };
+  const attempt = (work: () => Promise<void>) => work().then(() => true, (error: unknown) => {
+    refuse(error);
+    return false;
+  });
   const panel = new DropPanel({
-    signal: drops.signal, labels: new LabelDrop(wasmBytes, show, refuse), refuse: warnOnly,
+    signal: drops.signal, labels: { wasm: wasmBytes, take: show, refuse }, refuse: warnOnly,
     meshes: (fixedFile, mobileFile, side) => attempt(async () => {
-      const { core, proposal } = await CoreClient.propose(await wasmBytes(), fixedFile, mobileFile, side);
-      show(core, proposal);
+      const wasm = await wasmBytes(), { core, answer } = await CoreClient.begin("propose", { wasm, fixed: fixedFile, mobile: mobileFile, side }, [wasm]);
+      show(core, answer);
     }),
     jointFile: (files) => attempt(async () => {
       const report = await readJoint(files);
@@ -109,7 +103,10 @@ async function show(report: Report, isDropped: boolean): Promise<void> {
   const newPage = (computes: boolean, added: Added) => new Page(report.text, arrays, report, computes, { ...added, isDropped });
   let page = newPage(canCompute, { notes: copied ?? undefined });
   if (copied) page.sayIsCopy(copied);
-  const compute = async () => page.compute(await CoreClient.open(await wasmBytes(), structuredClone(arrays)));
+  const compute = async () => {
+    const wasm = await wasmBytes();
+    page.compute((await CoreClient.begin("open", { wasm, arrays }, [wasm])).core);
+  };
   const drops = new AbortController();
   const leave = () => {
     drops.abort();

@@ -1,5 +1,5 @@
 import type { CoreClient } from "./core/client";
-import type { BothValues, Brushed, Coordinates, JointArrays, LiveLimit, MotionFrames, Query, ShownQuantity, Turned } from "./core/protocol";
+import type { BothValues, Brushed, Coordinates, JointArrays, LiveLimit, ShownQuantity, Turned } from "./core/protocol";
 import { button, checkbox, found, html, named, namesOf, shortened } from "./dom";
 import { post, warn } from "./messages";
 import { fixed } from "./numbers";
@@ -9,7 +9,7 @@ import { Clearance } from "./panels/clearance";
 import { ComparePanel } from "./panels/compare";
 import { DisplayPanel } from "./panels/display";
 import { addEditPanels, sweepOf } from "./panels/edits";
-import { FreeAngles } from "./panels/free_angles";
+import { freeAngles } from "./panels/free_angles";
 import { actions, copyLink, headingOf, listenToKeys } from "./panels/header";
 import { hintAt } from "./panels/hint";
 import { JointFigures } from "./panels/joint_figures";
@@ -77,7 +77,6 @@ export class Page {
   private readonly loaded: Loaded | null;
   private readonly notes: NotesPanel | null;
   private core: CoreClient | null = null;
-  private freeAngles: FreeAngles | null = null;
   private clearance: Clearance | null = null;
   private zones: ZonePanel | null = null;
   private readonly plan: PlanPanel | null;
@@ -246,7 +245,7 @@ export class Page {
   async readMotion(file: File): Promise<{ motion: RecordedMotion; remarks: string[] }> {
     if (!this.core) throw new Error(words.dropNeedsCore(named(file.name)));
     const columns = this.text.recorded_motion ? JSON.stringify(this.text.recorded_motion) : "";
-    const frames = (await this.core.query({ of: "motion", file: { name: file.name, bytes: await file.arrayBuffer() }, columns })) as MotionFrames;
+    const frames = await this.core.query({ of: "motion", file: { name: file.name, bytes: await file.arrayBuffer() }, columns });
     return { motion: droppedMotion(file.name, frames, this.text), remarks: frames.remarks };
   }
 
@@ -330,7 +329,7 @@ export class Page {
   /// The joint is ready in the worker; poses are answered from now on.
   compute(core: CoreClient): void {
     const count = this.text.joint.kind === "hinge" ? 1 : 3;
-    this.freeAngles = new FreeAngles(core, count, (vary, at, intervals) => this.motion.setFree(vary, at, intervals));
+    const askFree = freeAngles(core, count, (vary, at, intervals) => this.motion.setFree(vary, at, intervals));
     this.clearance = new Clearance(core, this.text.rom?.implant !== undefined, (at, nearest) => this.motion.setNearest(at, nearest));
     core.listen({
       shown: (at, shown, roundTrip_ms) => {
@@ -339,7 +338,7 @@ export class Page {
         const pairs = Array.from(shown.pairs);
         this.scene?.setMarked("contact", pairs.filter((_, i) => i % 2 === 0), pairs.filter((_, i) => i % 2 === 1));
         this.motion.show(shown, roundTrip_ms);
-        this.freeAngles?.ask(at, shown.pose);
+        askFree({ at, held: [shown.pose[3]!, shown.pose[7]!, shown.pose[11]!] });
         if (!shown.inContact) this.clearance?.ask(at);
         document.documentElement.dataset["answered"] = String(Number(document.documentElement.dataset["answered"] ?? 0) + 1);
       },
@@ -352,10 +351,10 @@ export class Page {
     });
     this.core = core;
     // For scripts in the console and for tests: docs/report-data.md, "From a script".
-    Object.assign(globalThis, { condyle: { query: (query: Query) => core.query(query), scene: this.scene } });
+    Object.assign(globalThis, { condyle: { query: core.query.bind(core), scene: this.scene } });
     this.moved(this.motion.coordinates);
-    core.askBearing();
-    if (this.scene) core.askOpenness();
+    core.request("bearing", {});
+    if (this.scene) core.request("openness", {});
     addEditPanels({
       core, scene: this.scene, text: this.text, arrays: this.arrays, report: this.report,
       brushed: (brushed, rests) => this.takeBrushed(brushed, rests), turned: (turned, rests, done) => this.takeTurned(turned, rests, done),
@@ -408,7 +407,7 @@ export class Page {
     this.change(done ? words.afterTurning(done) : null);
     if (!rests) return;
     this.ask(this.motion.coordinates);
-    this.core?.askBearing();
+    this.core?.request("bearing", {});
   }
 
   private show(values: BothValues | null): void {
@@ -488,7 +487,7 @@ export class Page {
 
   private ask(at: Coordinates): void {
     const { quantity } = this.display;
-    this.core?.ask(at, quantity === "removed" ? "none" : quantity);
+    this.core?.ask({ at, quantity: quantity === "removed" ? "none" : quantity });
   }
 
   private moved(at: Coordinates): void {

@@ -1,6 +1,6 @@
 import type { RomAnswer, StoredPart } from "../report";
 
-/// Messages between page and worker.
+/// What page and worker say to each other; the worker's tasks and queries are in worker.ts and queries.ts, and their types with them.
 
 export type Quantity = "gap" | "depth" | "nearest" | "pressure" | "none";
 /// With the quantity of a plan, which the report holds.
@@ -212,24 +212,6 @@ export interface Brushed {
   outcome: { moved: number; kept: number; limited: number } | null;
 }
 
-export type Query =
-  | { of: "pose"; at: Coordinates }
-  /// 16 numbers, row by row.
-  | { of: "poseMatrix"; X_FM: number[] }
-  | { of: "depth"; at: Coordinates }
-  /// The whole surfaces, or, if `counted`, the parts whose contact ends motions.
-  | { of: "nearest"; at: Coordinates; counted: boolean }
-  /// Both bodies' vertices inside, without the other results of a pose.
-  | { of: "penetrations"; at: Coordinates }
-  | { of: "values"; at: Coordinates; quantity: Exclude<Quantity, "none"> }
-  | { of: "limit"; limit: LimitQuestion }
-  | { of: "mapPoint"; question: MapQuestion; point: number }
-  /// The frames of a motion file, whose columns are as the data block says, or empty.
-  | { of: "motion"; file: DroppedFile; columns: string }
-  /// Bytes that the core has taken.
-  | { of: "memory" };
-export type QueryAnswer = number | MotionFrames | Details | Depth | Nearest | BothPenetrations | BothValues | LiveLimit | [number, number, number, number][];
-
 /// The answer of condyle_motion() on a motion file; null in a gap.
 export interface MotionFrames {
   axis: "time_s" | "frame";
@@ -283,38 +265,9 @@ export interface BoneChoice {
   task: string | null;
 }
 
-export type ToWorker =
-  /// With the module for the first label map.
-  | { type: "labels"; wasm: ArrayBuffer | null; file: DroppedFile }
-  | { type: "join"; fixed: BoneChoice; mobile: BoneChoice; side: SideChoice }
-  | { type: "propose"; wasm: ArrayBuffer; fixed: DroppedFile; mobile: DroppedFile; side: SideChoice }
-  | { type: "jointFile"; wasm: ArrayBuffer; joint: NamedFile; files: readonly NamedFile[] }
-  | { type: "open"; wasm: ArrayBuffer; joint: JointArrays }
-  | { type: "pose"; id: number; at: Coordinates; quantity: Quantity }
-  | { type: "query"; id: number; query: Query }
-  /// The limits are those after the edit, in this order.
-  | { type: "edit"; id: number; edit: Edit; limits: LimitQuestion[] }
-  | { type: "bearing" }
-  /// How open the surfaces are, once nothing else is to be answered, and again after each edit.
-  | { type: "openness" }
-  | { type: "map"; question: MapQuestion };
-
-export type FromWorker =
-  | { type: "ready" }
-  | { type: "proposed"; proposal: Proposal }
-  /// As a report has it.
-  | { type: "block"; block: ArrayBuffer }
-  | { type: "labels"; map: LabelMap }
-  /// The surface of this label is next, or, if it is null, the joint.
-  | { type: "step"; label: string | null }
-  | { type: "failed"; message: string }
-  | { type: "shown"; id: number; shown: Shown }
-  | { type: "values"; id: number; values: BothValues }
-  | { type: "depth"; id: number; depth: Depth }
-  | { type: "queried"; id: number; answer: QueryAnswer | null; error: string }
-  /// Null for an edit of no bone, and for one that failed.
-  | { type: "edited"; id: number; changed: Brushed | Turned | null; error: string }
-  | { type: "editLimit"; id: number; number: number; limit: LiveLimit }
-  | { type: "bearing"; triangles: Uint8Array }
-  | { type: "openness"; body: "fixed" | "mobile"; openness: Uint8Array }
-  | { type: "mapPoint"; point: number; intervals: [number, number, number, number][] };
+/// From the worker: a call of what listens to the answer of this number, `done` or `failed` at last; of number 0 it is the page.
+export interface FromWorker {
+  id: number;
+  say: string;
+  args: unknown[];
+}

@@ -1,36 +1,38 @@
+import type { Answers, EditAnswers } from "./client";
 import { lineOf } from "./error_line";
 import { CoreJoint } from "./joint";
 import { blockOfJoint } from "./joint_file";
 import { CoreLabels } from "./labels";
 import { openness } from "./openness";
-import type { Edit, FromWorker, LimitQuestion, MapQuestion, Quantity, Query, QueryAnswer, ToWorker } from "./protocol";
+import type { BoneChoice, Coordinates, DroppedFile, Edit, FromWorker, JointArrays, LimitQuestion, MapQuestion, NamedFile, Quantity, SideChoice } from "./protocol";
+import { queries, type Query } from "./queries";
 
-/// Answers in the order of visible effect: changes by hand, the latest pose, limits after the last change, then the pose's colours, its
-/// depth, then all else. A message that arrives meanwhile comes in between; pending answers about an earlier pose are
-/// dropped. All limits after a change come before the next change.
+/// Answers in the order of visible effect: changes by hand, the pose, limits after the last change, then the pose's colours, its depth, then
+/// all else. A message that arrives meanwhile comes in between; pending answers about an earlier pose are dropped. All limits after a change
+/// come before the next change.
 
-type PoseQuestion = Extract<ToWorker, { type: "pose" }>;
+type Queue = (() => void)[];
 
 let joint: CoreJoint | null = null;
 let labels: CoreLabels | null = null;
-let latest: PoseQuestion | null = null;
-let aboutPose: (() => void)[] = [];
-const edits: (() => void)[] = [];
-const afterEdit: (() => void)[] = [];
-const afterwards: (() => void)[] = [];
+const edits: Queue = [], poses: Queue = [], afterEdit: Queue = [], afterwards: Queue = [];
+let aboutPose: Queue = [];
 /// What only makes the picture better: a piece of it while nothing is to be answered.
 let light: Generator<void> | null = null;
 
-function say(message: FromWorker, transfer: Transferable[] = []): void {
-  (self as unknown as DedicatedWorkerGlobalScope).postMessage(message, transfer);
+/// What listens in the page, as if it were here. Arrays go there without a copy.
+function listener<On extends object>(id: number): On {
+  return new Proxy({}, {
+    get: (_, say: string) => (...args: unknown[]) =>
+      (self as unknown as DedicatedWorkerGlobalScope).postMessage({ id, say, args } satisfies FromWorker, [...new Set(buffersIn(args))]),
+  }) as On;
 }
+const page = listener<Answers>(0);
 
-async function attempt(work: () => void | Promise<void>): Promise<void> {
-  try {
-    await work();
-  } catch (error) {
-    say({ type: "failed", message: lineOf(error) });
-  }
+function buffersIn(value: unknown): ArrayBuffer[] {
+  if (value instanceof ArrayBuffer) return [value];
+  if (ArrayBuffer.isView(value)) return [value.buffer as ArrayBuffer];
+  return typeof value === "object" && value !== null ? Object.values(value).flatMap(buffersIn) : [];
 }
 
 /// The worker's own turn of the event loop: a message waits no longer than one piece of work.
@@ -38,162 +40,99 @@ const turns = new MessageChannel();
 let isTurnAsked = false;
 turns.port1.onmessage = () => {
   isTurnAsked = false;
-  void attempt(next);
+  const work = (afterEdit.length ? undefined : edits.shift()) ?? poses.shift() ?? afterEdit.shift() ?? aboutPose.shift() ?? afterwards.shift();
+  try {
+    if (work) work();
+    else if (light?.next().done) light = null;
+  } catch (error) {
+    page.failed(lineOf(error));
+  }
+  if (work || light) soon();
 };
 function soon(): void {
   if (!isTurnAsked) turns.port2.postMessage(null);
   isTurnAsked = true;
 }
 
-function next(): void {
-  if (!joint) return;
-  if (edits.length && !afterEdit.length) {
-    edits.shift()!();
-  } else if (latest) {
-    const asked = latest;
-    latest = null;
-    aboutPose = [];
-    const shown = joint.shown(asked.at);
-    say({ type: "shown", id: asked.id, shown }, [shown.pose.buffer as ArrayBuffer, shown.pairs.buffer as ArrayBuffer]);
-    const { quantity } = asked;
-    if (quantity !== "none") aboutPose.push(() => sayValues(asked, quantity));
-    // Last: it takes longest.
-    if (shown.inContact) aboutPose.push(() => say({ type: "depth", id: asked.id, depth: joint!.depth(asked.at) }));
-  } else {
-    const work = afterEdit.shift() ?? aboutPose.shift() ?? afterwards.shift();
-    if (work) work();
-    else if (light?.next().done) light = null;
-  }
-  if (latest || edits.length || afterEdit.length || aboutPose.length || afterwards.length || light) soon();
+/// The result of work once it is its turn.
+function inTurn<Result>(queue: Queue, work: () => Result | Promise<Result>): Promise<Result> {
+  soon();
+  return new Promise((done, failed) => queue.push(() => {
+    try {
+      done(work());
+    } catch (error) {
+      failed(error as Error);
+    }
+  }));
 }
 
 function* lightOf(bones: CoreJoint): Generator<void> {
-  for (const [ofFixed, body] of (["mobile", "fixed"] as const).entries()) {
-    const open = yield* openness(bones.surface(ofFixed));
-    say({ type: "openness", body, openness: open }, [open.buffer as ArrayBuffer]);
+  for (const [ofFixed, body] of (["mobile", "fixed"] as const).entries()) page.openness(body, yield* openness(bones.surface(ofFixed)));
+}
+
+/// By their names; what is given back ends the task, and `on` hears of its parts before. Those of the first block come before there is a joint.
+const tasks = {
+  open: async ({ wasm, arrays }: { wasm: ArrayBuffer; arrays: JointArrays }) => {
+    joint = await CoreJoint.open(wasm, arrays);
+  },
+  /// The joint that is proposed for two files.
+  propose: async ({ wasm, fixed, mobile, side }: { wasm: ArrayBuffer; fixed: DroppedFile; mobile: DroppedFile; side: SideChoice }) => {
+    const made = await CoreJoint.propose(wasm, fixed, mobile, side);
+    joint = made.joint;
+    return made.proposal;
+  },
+  /// The data block of a joint file and of what was dropped with it, as a report has it.
+  jointFile: ({ wasm, file, files }: { wasm: ArrayBuffer; file: NamedFile; files: readonly NamedFile[] }) => blockOfJoint(wasm, file, files),
+  /// A label map, with the module for the first one.
+  labels: async ({ wasm, file }: { wasm: ArrayBuffer | null; file: DroppedFile }) => (labels ??= await CoreLabels.open(wasm!)).read(file),
+  /// The joint of two bones of the label maps, which stay if it fails. `step` hears of the surface that is next, then with null of the joint.
+  join: ({ fixed, mobile, side }: { fixed: BoneChoice; mobile: BoneChoice; side: SideChoice }, on: { step: (label: string | null) => void }) => {
+    const made = labels!.join(fixed, mobile, side, on.step);
+    joint = made.joint;
+    labels = null;
+    return made.proposal;
+  },
+
+  pose: ({ at, quantity }: { at: Coordinates; quantity: Quantity }) => inTurn(poses, () => {
+    aboutPose = [];
+    const shown = joint!.shown(at);
+    if (quantity !== "none") aboutPose.push(() => page.values(joint!.values(at, quantity)));
+    // Last: it takes longest.
+    if (shown.inContact) aboutPose.push(() => page.depth(joint!.depth(at)));
+    return shown;
+  }),
+  query: (query: Query) => inTurn(afterwards, () => (queries[query.of] as (joint: CoreJoint, query: Query) => unknown)(joint!, query)),
+  /// The limits are those after the edit, in this order.
+  edit: ({ edit, limits }: { edit: Edit; limits: LimitQuestion[] }, on: EditAnswers) => {
+    light = lightOf(joint!);
+    return inTurn(edits, async () => {
+      on.edited(joint!.edit(edit));
+      const about = edit.of === "centre" && edit.offset_mm.some((mm) => mm !== 0);
+      await Promise.all(limits.map((question, number) => inTurn(afterEdit, () =>
+        on.limit(number, about ? joint!.limitAbout(question) : joint!.limit(question)))));
+    });
+  },
+  bearing: (_: object) => inTurn(afterwards, () => page.bearing(joint!.bearing())),
+  /// How open the surfaces are, once nothing else is to be answered, and again after each edit.
+  openness: (_: object) => {
+    light = lightOf(joint!);
+    soon();
+  },
+  map: async (question: MapQuestion) => {
+    const points = Array.from({ length: question.columns.length * question.rows.length }, (_, point) =>
+      inTurn(afterwards, () => page.mapPoint(point, joint!.mapPoint(question, point))));
+    await Promise.all(points);
+  },
+};
+
+export type Tasks = typeof tasks;
+export type Task = keyof Tasks;
+
+self.onmessage = async ({ data: { id, of, question } }: MessageEvent<{ id: number; of: Task; question: unknown }>) => {
+  const on = listener<{ done: (answer: unknown) => void; failed: (message: string) => void }>(id);
+  try {
+    on.done(await (tasks[of] as (question: unknown, on: object) => unknown)(question, on));
+  } catch (error) {
+    on.failed(lineOf(error));
   }
-}
-
-function sayValues({ id, at }: PoseQuestion, quantity: Exclude<Quantity, "none">): void {
-  const values = joint!.values(at, quantity);
-  const arrays = [values.mobile.shown, values.mobile.marks, values.fixed.shown, values.fixed.marks];
-  say({ type: "values", id, values }, arrays.map((array) => array.buffer as ArrayBuffer));
-}
-
-function askEdit(id: number, edit: Edit, limits: readonly LimitQuestion[]): void {
-  edits.push(() => {
-    try {
-      const changed = joint!.edit(edit);
-      const arrays = Object.values(changed ?? {}).filter((value): value is Float64Array => value instanceof Float64Array);
-      say({ type: "edited", id, changed, error: "" }, arrays.map((array) => array.buffer as ArrayBuffer));
-    } catch (error) {
-      return say({ type: "edited", id, changed: null, error: lineOf(error) });
-    }
-    const about = edit.of === "centre" && edit.offset_mm.some((mm) => mm !== 0);
-    limits.forEach((question, number) => afterEdit.push(() => {
-      const limit = about ? joint!.limitAbout(question) : joint!.limit(question);
-      say({ type: "editLimit", id, number, limit });
-    }));
-  });
-}
-
-function askMap(question: MapQuestion): void {
-  for (let point = 0; point < question.columns.length * question.rows.length; ++point)
-    afterwards.push(() => say({ type: "mapPoint", point, intervals: joint!.mapPoint(question, point) }));
-}
-
-function answerTo(query: Query): QueryAnswer {
-  switch (query.of) {
-    case "pose":
-      return joint!.details(query.at);
-    case "poseMatrix":
-      return joint!.detailsOf(query.X_FM);
-    case "depth":
-      return joint!.depth(query.at);
-    case "nearest":
-      return joint!.nearest(query.at, query.counted);
-    case "penetrations":
-      return joint!.penetrationsAt(query.at);
-    case "values":
-      return joint!.values(query.at, query.quantity);
-    case "limit":
-      return joint!.limit(query.limit);
-    case "mapPoint":
-      return joint!.mapPoint(query.question, query.point);
-    case "motion":
-      return joint!.motion(query.file, query.columns);
-    case "memory":
-      return joint!.memory_bytes;
-  }
-}
-
-function askQuery(id: number, query: Query): void {
-  afterwards.push(() => {
-    try {
-      say({ type: "queried", id, answer: answerTo(query), error: "" });
-    } catch (error) {
-      say({ type: "queried", id, answer: null, error: lineOf(error) });
-    }
-  });
-}
-
-self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
-  switch (data.type) {
-    case "open":
-      void attempt(async () => {
-        joint = await CoreJoint.open(data.wasm, data.joint);
-        say({ type: "ready" });
-      });
-      return;
-    case "propose":
-      void attempt(async () => {
-        const opened = await CoreJoint.propose(data.wasm, data.fixed, data.mobile, data.side);
-        joint = opened.joint;
-        say({ type: "proposed", proposal: opened.proposal });
-      });
-      return;
-    case "jointFile":
-      void attempt(async () => {
-        const block = await blockOfJoint(data.wasm, data.joint, data.files);
-        say({ type: "block", block }, [block]);
-      });
-      return;
-    case "labels":
-      void attempt(async () => {
-        labels ??= await CoreLabels.open(data.wasm!);
-        say({ type: "labels", map: labels.read(data.file) });
-      });
-      return;
-    case "join":
-      void attempt(() => {
-        const made = labels!.join(data.fixed, data.mobile, data.side, (label) => say({ type: "step", label }));
-        joint = made.joint;
-        labels = null;
-        say({ type: "proposed", proposal: made.proposal });
-      });
-      return;
-    case "pose":
-      latest = data;
-      break;
-    case "query":
-      askQuery(data.id, data.query);
-      break;
-    case "edit":
-      askEdit(data.id, data.edit, data.limits);
-      light = lightOf(joint!);
-      break;
-    case "openness":
-      light = lightOf(joint!);
-      break;
-    case "bearing":
-      afterwards.push(() => {
-        const triangles = joint!.bearing();
-        say({ type: "bearing", triangles }, [triangles.buffer as ArrayBuffer]);
-      });
-      break;
-    case "map":
-      askMap(data.question);
-      break;
-  }
-  soon();
 };

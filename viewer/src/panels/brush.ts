@@ -1,5 +1,6 @@
 import type { CoreClient } from "../core/client";
-import type { Brushed, Details, Edit, JointArrays, LiveLimit, Stroke } from "../core/protocol";
+import { lineOf } from "../core/error_line";
+import type { Brushed, Edit, JointArrays, LiveLimit, Stroke } from "../core/protocol";
 import { button, checkbox, choice, html, named, section } from "../dom";
 import { jointFileOf, meshFilesOf, stlOf } from "../joint_file";
 import { fixed } from "../numbers";
@@ -53,7 +54,7 @@ export class BrushPanel {
   private readonly undoButton: HTMLButtonElement;
   private readonly painter: Painter | null;
   private readonly brushed: Partial<Record<BodyName, Brushed>> = {};
-  private readonly prepared = new Map<BodyName, Promise<void>>();
+  private readonly prepared = new Map<BodyName, Promise<boolean>>();
   /// Bones in the order of their steps.
   private readonly steps: BodyName[] = [];
   private readonly latest: (LiveLimit | null)[];
@@ -136,26 +137,19 @@ export class BrushPanel {
 
   // -- edits ------------------------------------------------------------------------------------------------------------------------
 
-  /// The bone is made ready for strokes, once.
-  private prepare(body: BodyName): Promise<void> {
-    const known = this.prepared.get(body);
-    if (known) return known;
-    const ready = new Promise<void>((done, failed) => this.core.edit({ of: "brush", body, before: this.options.before[body] }, [], {
+  /// The bone is made ready for strokes, once; whether it is.
+  private prepare(body: BodyName): Promise<boolean> {
+    const ready = this.prepared.get(body) ?? this.core.edit({ of: "brush", body, before: this.options.before[body] }, [], {
       edited: (changed) => {
-        const brushed = changed as Brushed;
-        this.brushed[body] = brushed;
+        const brushed = (this.brushed[body] = changed as Brushed);
         if (!this.said.textContent) this.say(words.noStroke(fixed(brushed.edge_mm, 1)) + ` ${words.protectedBone(this.options.names[body], brushed.protectedVertices)}`);
         this.saySize();
-        done();
       },
       limit: () => undefined,
-      failed: (message) => {
-        this.say(message);
-        failed(new Error(message));
-      },
-    }));
-    // Who waits hears of it; nobody need.
-    ready.catch(() => undefined);
+    }).then(() => true, (error: unknown) => {
+      this.say(lineOf(error));
+      return false;
+    });
     this.prepared.set(body, ready);
     return ready;
   }
@@ -164,53 +158,37 @@ export class BrushPanel {
   private async ask(edit: Change, rests: boolean): Promise<void> {
     if (!(edit.of === "stroke" && edit.replaces)) ++this.hand;
     const { hand } = this;
-    try {
-      await this.prepare(edit.body);
-    } catch {
-      return;
-    }
+    if (!(await this.prepare(edit.body))) return;
     const last = this.waiting.at(-1);
     if (last?.hand === hand && last.edit.of === "stroke" && edit.of === "stroke") {
       edit = { ...edit, replaces: last.edit.replaces };
       this.waiting.pop();
     }
     this.waiting.push({ edit, rests, hand });
-    if (!this.isBusy) this.goOn();
+    if (this.isBusy) return;
+    this.isBusy = true;
+    for (let next = this.waiting.shift(); next; next = this.waiting.shift())
+      await this.make(next.edit, next.rests).catch((error: unknown) => this.say(lineOf(error)));
+    this.isBusy = false;
   }
 
-  private send(edit: Change, rests: boolean): void {
+  private async make(edit: Change, rests: boolean): Promise<void> {
     const begun = performance.now(), order = [this.shown, ...this.asked.keys()].filter((i, at) => at === 0 || i !== this.shown);
-    const wanted = rests ? order : order.slice(0, 1);
+    const wanted = rests ? order : order.slice(0, 1), since_ms = () => performance.now() - begun;
     let first_ms = 0;
     this.limits.wait();
-    this.core.edit(edit, wanted.map((i) => this.asked[i]!.question), {
+    await this.core.edit(edit, wanted.map((i) => this.asked[i]!.question), {
       edited: (changed) => this.take(changed as Brushed, edit, rests),
       limit: (number, limit) => {
-        const i = wanted[number]!;
-        this.latest[i] = limit;
-        this.limits.showLimit(i, limit);
-        if (number === 0) {
-          first_ms = performance.now() - begun;
-          this.element.dataset["shownAfter"] = first_ms.toFixed(1);
-        }
-        if (number === 0 && !rests) this.goOn();
-        if (number < wanted.length - 1 || !rests) return;
-        this.took.textContent = words.tookLimits(first_ms.toFixed(0), (performance.now() - begun).toFixed(0));
-        this.element.dataset["allAfter"] = (performance.now() - begun).toFixed(1);
-        this.options.limited(this.latest as LiveLimit[]);
-        this.goOn();
-      },
-      failed: (message) => {
-        this.say(message);
-        this.goOn();
+        this.latest[wanted[number]!] = limit;
+        this.limits.showLimit(wanted[number]!, limit);
+        if (number === 0) this.element.dataset["shownAfter"] = (first_ms = since_ms()).toFixed(1);
       },
     });
-  }
-
-  private goOn(): void {
-    const next = this.waiting.shift();
-    this.isBusy = next !== undefined;
-    if (next) this.send(next.edit, next.rests);
+    if (!rests) return;
+    this.took.textContent = words.tookLimits(first_ms.toFixed(0), since_ms().toFixed(0));
+    this.element.dataset["allAfter"] = since_ms().toFixed(1);
+    this.options.limited(this.latest as LiveLimit[]);
   }
 
   private take(brushed: Brushed, edit: Change, rests: boolean): void {
@@ -250,7 +228,7 @@ export class BrushPanel {
     if (reason !== "contact" || !point) return this.say(words.noContactThere);
     const angles = [...question.start] as [number, number, number];
     angles[question.vary]! += (question.positive ? 1 : -1) * (live?.turned_deg ?? motion.limit_deg);
-    const { pose } = (await this.core.query({ of: "pose", at: { angles, translation: question.held ?? [0, 0, 0] } })) as Details;
+    const { pose } = await this.core.query({ of: "pose", at: { angles, translation: question.held ?? [0, 0, 0] } });
     const vertex = nearestVertex(this.verticesOf(this.body), this.body === "fixed" ? point : intoM(pose, point));
     this.vertex.value = String(vertex);
     await this.draw(this.body, [vertex], true, true);
@@ -285,8 +263,7 @@ export class BrushPanel {
 
   private async saveJointFile(): Promise<void> {
     const { text } = this.options;
-    const at = { angles: text.reference_deg, translation: text.reference_mm };
-    const { pose } = (await this.core.query({ of: "pose", at })) as Details;
+    const { pose } = await this.core.query({ of: "pose", at: { angles: text.reference_deg, translation: text.reference_mm } });
     save("brushed.toml", "application/toml", jointFileOf(text, Array.from(pose), text.version || (text.rom?.provenance?.version ?? "")));
   }
 }

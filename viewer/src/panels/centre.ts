@@ -4,7 +4,7 @@ import { button, html, section } from "../dom";
 import type { ReportText } from "../report";
 import { words } from "../words";
 import { NumberField } from "./angle_field";
-import { LiveEdit } from "./live_edit";
+import { liveEdit } from "./live_edit";
 import { LiveLimits, questionsOf } from "./live_limits";
 
 const farthest_mm = 5, step_mm = 0.5;
@@ -14,7 +14,7 @@ const axes = ["x", "y", "z"] as const;
 export class CentrePanel {
   readonly element: HTMLElement;
   private readonly limits: LiveLimits;
-  private readonly edit: LiveEdit;
+  private readonly edit: () => void;
   private readonly fields: NumberField[];
   private readonly refusal = html("p", { role: "status", class: "small" });
   private readonly offset: [number, number, number] = [0, 0, 0];
@@ -22,7 +22,7 @@ export class CentrePanel {
   /// `moved` whether the centre is elsewhere than in the report.
   constructor(core: CoreClient, text: ReportText, private readonly moved: (isMoved: boolean) => void) {
     const asked = questionsOf(text), motions = asked.map(({ motion }) => motion);
-    this.edit = new LiveEdit(core, asked.map(({ question }) => question), {
+    this.edit = liveEdit(core, asked.map(({ question }) => question), {
       edit: () => ({ of: "centre", offset_mm: [...this.offset], reference_deg: text.reference_deg }),
       tables: () => [this.limits],
       edited: () => undefined,
@@ -76,6 +76,6 @@ export class CentrePanel {
 
   private ask(): void {
     this.moved(this.offset.some((mm) => mm !== 0));
-    this.edit.ask();
+    this.edit();
   }
 }

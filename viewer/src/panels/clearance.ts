@@ -14,7 +14,7 @@ export class Clearance {
 
   ask(at: Coordinates): void {
     this.drop();
-    const { asked } = this, nearest = async (counted: boolean) => (await this.core.query({ of: "nearest", at, counted })) as Nearest;
+    const { asked } = this, nearest = (counted: boolean) => this.core.query({ of: "nearest", at, counted });
     this.timer = window.setTimeout(() => void (async () => {
       const whole = await nearest(false), counted = whole.isBearing ? [await nearest(true)] : [];
       if (asked === this.asked) this.report(at, this.isImplant && counted.length ? counted : [whole, ...counted]);

@@ -1,7 +1,7 @@
 import { choice, html, named, section } from "../dom";
 import type { DroppedFile, NamedFile, SideChoice } from "../core/protocol";
 import { words } from "../words";
-import { isLabelMap, type LabelDrop } from "./label_drop";
+import { isLabelMap, LabelDrop, type LabelDropHooks } from "./label_drop";
 import { catchDrops, withNames } from "./page_drop";
 
 /// Whether a file of this name is a joint file.
@@ -31,7 +31,8 @@ export interface DropTaker {
   meshes: (fixed: DroppedFile, mobile: DroppedFile, side: SideChoice) => Promise<boolean>;
   /// The same of a joint file and its meshes.
   jointFile: (files: NamedFile[]) => Promise<boolean>;
-  labels: LabelDrop;
+  /// And of label maps.
+  labels: Pick<LabelDropHooks, "wasm" | "take" | "refuse">;
   /// The reason why files are not taken.
   refuse: (why: string) => void;
 }
@@ -41,21 +42,21 @@ export class DropPanel {
   readonly element: HTMLElement;
   private readonly progress = html("p", { "aria-live": "polite", id: "drop-progress" });
   private waiting: DroppedFile[] = [];
+  private readonly labels: LabelDrop;
   private side: SideChoice = "automatic";
   /// One pair is read at a time; once a pair makes a joint, the page shows it.
   private state: "open" | "busy" | "done" = "open";
 
   constructor(private readonly taker: DropTaker) {
-    const { labels } = taker;
+    this.labels = new LabelDrop({
+      ...taker.labels, side: () => this.side, progress: (said) => (this.progress.textContent = said), busy: (state) => (this.state = state),
+    });
     const input = html("input", {
       type: "file", multiple: true, accept: ".toml,.stl,.obj,.ply,.vtp,.vtk,.nii,.gz,.nrrd,.mha", id: "files",
     });
     this.element = section(
       words.drop, html("p", {}, html("label", { for: "files" }, words.dropHere)), input,
-      html("p", {}, choice(words.dropSide, words.dropSides, this.side, (side) => (this.side = side))), this.progress, labels.place);
-    labels.listen({
-      side: () => this.side, progress: (said) => (this.progress.textContent = said), busy: (state) => (this.state = state),
-    });
+      html("p", {}, choice(words.dropSide, words.dropSides, this.side, (side) => (this.side = side))), this.progress, this.labels.place);
     input.addEventListener("change", () => {
       const files = withNames(input.files ?? []);
       // The same file can be chosen again after a repair.
@@ -68,7 +69,7 @@ export class DropPanel {
   /// As if they were dropped.
   async add(dropped: NamedFile[]): Promise<void> {
     if (dropped.length === 0) return;
-    const { labels, refuse } = this.taker;
+    const { labels } = this, { refuse } = this.taker;
     if (this.state !== "open") return refuse(this.state === "busy" ? words.dropBusy : words.dropDone);
     if (dropped.some(({ path }) => isJointFile(path))) return this.addJointFile(dropped);
     const motion = dropped.find(({ path }) => isMotionFile(path)), unknown = unknownAmong(dropped);
@@ -89,30 +90,31 @@ export class DropPanel {
   /// What was dropped before it is left: a joint file names all of its meshes.
   private async addJointFile(files: NamedFile[]): Promise<void> {
     this.waiting = [];
-    this.taker.labels.reset();
-    this.state = "busy";
-    this.progress.textContent = words.loading;
-    this.state = (await this.taker.jointFile(files)) ? "done" : "open";
-    this.progress.textContent = "";
+    this.labels.reset();
+    await this.readBy(() => this.taker.jointFile(files));
   }
 
   private async addMeshes(files: readonly File[]): Promise<void> {
     if (this.waiting.length + files.length > 2) {
       this.waiting = [];
-      this.progress.textContent = words.dropTwo;
-      return;
+      return void (this.progress.textContent = words.dropTwo);
     }
     this.state = "busy";
     for (const file of files) this.waiting.push({ name: file.name, bytes: await file.arrayBuffer() });
     const [first, second] = this.waiting;
-    this.progress.textContent = second ? words.loading : words.dropSecond(named(first!.name), isMobile(first!));
-    if (!second) {
-      this.state = "open";
-      return;
+    if (second) {
+      this.waiting = [];
+      return this.readBy(() => this.taker.meshes(...inOrder(first!, second), this.side));
     }
-    this.waiting = [];
-    const [fixed, mobile] = inOrder(first!, second);
-    this.state = (await this.taker.meshes(fixed, mobile, this.side)) ? "done" : "open";
+    this.progress.textContent = words.dropSecond(named(first!.name), isMobile(first!));
+    this.state = "open";
+  }
+
+  /// `work` returns whether there is a joint.
+  private async readBy(work: () => Promise<boolean>): Promise<void> {
+    this.state = "busy";
+    this.progress.textContent = words.loading;
+    this.state = (await work()) ? "done" : "open";
     this.progress.textContent = "";
   }
 }

@@ -1,41 +1,17 @@
 import type { CoreClient } from "../core/client";
+import { latestOnly } from "../core/latest";
 import type { Coordinates, MapQuestion } from "../core/protocol";
 import type { Interval } from "../report";
 
-interface Request {
-  at: Coordinates;
-  held: [number, number, number];
-}
-
-/// All free intervals of each angle, the others held as they are. The core is queried one pose at a time; of poses that come
-/// meanwhile, only the latest.
-export class FreeAngles {
-  private waiting: Request | null = null;
-  private isBusy = false;
-
-  constructor(
-    private readonly core: CoreClient, private readonly count: number,
-    private readonly report: (vary: number, at: Coordinates, intervals: Interval[] | null) => void) {}
-
-  ask(at: Coordinates, X_FM: ArrayLike<number>): void {
-    this.waiting = { at, held: [X_FM[3]!, X_FM[7]!, X_FM[11]!] };
-    if (!this.isBusy) void this.work();
-  }
-
-  private async work(): Promise<void> {
-    this.isBusy = true;
-    while (this.waiting) {
-      const { at, held } = this.waiting;
-      this.waiting = null;
-      try {
-        for (let vary = 0; vary < this.count; ++vary)
-          this.report(vary, at, (await this.core.query({ of: "mapPoint", question: questionOf(at, held, vary), point: 0 })) as Interval[]);
-      } catch {
-        this.report(0, at, null);
-      }
+/// All free intervals of each of `count` angles, the others held as they are, as the core is asked for them at a pose and its translation in F.
+export function freeAngles(core: CoreClient, count: number, report: (vary: number, at: Coordinates, intervals: Interval[] | null) => void) {
+  return latestOnly<{ at: Coordinates; held: [number, number, number] }>(async ({ at, held }) => {
+    try {
+      for (let vary = 0; vary < count; ++vary) report(vary, at, await core.query({ of: "mapPoint", question: questionOf(at, held, vary), point: 0 }));
+    } catch {
+      report(0, at, null);
     }
-    this.isBusy = false;
-  }
+  });
 }
 
 /// A map of one point.

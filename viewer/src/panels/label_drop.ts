@@ -9,8 +9,13 @@ export function isLabelMap(name: string): boolean {
   return /\.(nii|nii\.gz|hdr|img|nrrd|nhdr|mha|mhd)$/i.test(name);
 }
 
-/// Values from and for the enclosing panel: progress is one line, empty if nothing is being computed.
-export interface LabelDropListener {
+export interface LabelDropHooks {
+  wasm: () => Promise<ArrayBuffer>;
+  /// Shows the joint.
+  take: (core: CoreClient, proposal: Proposal) => void;
+  /// Gets the error.
+  refuse: (error: unknown) => void;
+  /// Values from and for the enclosing panel: progress is one line, empty if nothing is being computed.
   side: () => SideChoice;
   progress: (said: string) => void;
   busy: (state: "open" | "busy" | "done") => void;
@@ -24,16 +29,8 @@ export class LabelDrop {
   private core: CoreClient | null = null;
   private maps: LabelMap[] = [];
   private asked: LabelChoice | null = null;
-  private listener: LabelDropListener | null = null;
 
-  /// `take` shows the joint; `refuse` gets the error line.
-  constructor(
-    private readonly wasm: () => Promise<ArrayBuffer>, private readonly take: (core: CoreClient, proposal: Proposal) => void,
-    private readonly refuse: (error: unknown) => void) {}
-
-  listen(listener: LabelDropListener): void {
-    this.listener = listener;
-  }
+  constructor(private readonly hooks: LabelDropHooks) {}
 
   /// Whether a mask of one bone waits for that of the other.
   get isWaiting(): boolean {
@@ -46,7 +43,7 @@ export class LabelDrop {
     this.maps = [];
     this.place.replaceChildren();
     this.asked = null;
-    this.listener!.progress("");
+    this.hooks.progress("");
   }
 
   async add(files: readonly File[]): Promise<void> {
@@ -54,45 +51,42 @@ export class LabelDrop {
     if (this.asked) this.reset();
     if (this.maps.length + files.length > 2) {
       this.reset();
-      return this.listener!.progress(words.dropTwo);
+      return this.hooks.progress(words.dropTwo);
     }
-    this.listener!.busy("busy");
+    this.hooks.busy("busy");
     try {
       for (const file of files) await this.read(file);
     } catch (error) {
       this.reset();
-      this.listener!.busy("open");
-      return this.refuse(error);
+      this.hooks.busy("open");
+      return this.hooks.refuse(error);
     }
     await this.next();
   }
 
   private async read(file: File): Promise<void> {
-    this.listener!.progress(words.reading(named(file.name)));
+    this.hooks.progress(words.reading(named(file.name)));
     const dropped = { name: file.name, bytes: await file.arrayBuffer() };
-    if (this.core) {
-      this.maps.push(await this.core.readLabels(dropped));
-      return;
-    }
-    const { core, map } = await CoreClient.openLabels(await this.wasm(), dropped);
+    if (this.core) return void this.maps.push(await this.core.call("labels", { wasm: null, file: dropped }, undefined, [dropped.bytes]));
+    const wasm = await this.hooks.wasm(), { core, answer } = await CoreClient.begin("labels", { wasm, file: dropped }, [wasm, dropped.bytes]);
     this.core = core;
-    this.maps.push(map);
+    this.maps.push(answer);
   }
 
   /// A mask of one bone waits for the other; if names do not settle it, the user chooses.
   private async next(): Promise<void> {
     const [first] = this.maps;
-    this.listener!.busy("open");
-    if (this.maps.length === 1 && first!.labels.length === 1) return this.listener!.progress(words.otherMask(named(first!.name)));
-    this.listener!.progress("");
-    const pair = onlyPair(this.maps, this.listener!.side());
+    this.hooks.busy("open");
+    if (this.maps.length === 1 && first!.labels.length === 1) return this.hooks.progress(words.otherMask(named(first!.name)));
+    this.hooks.progress("");
+    const pair = onlyPair(this.maps, this.hooks.side());
     if (pair) return this.make(pair);
     this.ask();
   }
 
   private ask(): void {
     if (!this.asked) {
-      this.asked = new LabelChoice(this.maps, this.listener!.side(), (pair) => void this.make(pair));
+      this.asked = new LabelChoice(this.maps, this.hooks.side(), (pair) => void this.make(pair));
       this.place.replaceChildren(this.asked.element);
     }
     this.asked.setDisabled(false);
@@ -101,16 +95,16 @@ export class LabelDrop {
 
   private async make({ fixed, mobile }: BonePair): Promise<void> {
     const core = this.core!;
-    this.listener!.busy("busy");
+    this.hooks.busy("busy");
     this.asked?.setDisabled(true);
     try {
-      const proposal = await core.join(fixed, mobile, this.listener!.side(), (label) => this.listener!.progress(this.stepOf(label)));
-      this.listener!.busy("done");
-      this.take(core, proposal);
+      const proposal = await core.call("join", { fixed, mobile, side: this.hooks.side() }, { step: (label) => this.hooks.progress(this.stepOf(label)) });
+      this.hooks.busy("done");
+      this.hooks.take(core, proposal);
     } catch (error) {
-      this.listener!.busy("open");
-      this.listener!.progress("");
-      this.refuse(error);
+      this.hooks.busy("open");
+      this.hooks.progress("");
+      this.hooks.refuse(error);
       this.ask();
     }
   }

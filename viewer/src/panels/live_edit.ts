@@ -1,4 +1,6 @@
 import type { CoreClient } from "../core/client";
+import { lineOf } from "../core/error_line";
+import { latestOnly } from "../core/latest";
 import type { Brushed, Edit, LimitQuestion, LiveLimit, Turned } from "../core/protocol";
 import type { LiveLimits } from "./live_limits";
 
@@ -14,41 +16,23 @@ export interface LiveEditHooks {
   failed: (message: string) => void;
 }
 
-/// An edit of the joint and the limits after it. One is computed at a time; of those requested meanwhile only the latest.
-export class LiveEdit {
-  private isBusy = false;
-  private waits = false;
-
-  constructor(private readonly core: CoreClient, private readonly questions: LimitQuestion[], private readonly hooks: LiveEditHooks) {}
-
-  ask(): void {
-    this.waits = true;
-    if (!this.isBusy) this.send();
-  }
-
-  private send(): void {
-    const { questions, hooks } = this, begun = performance.now(), limits: LiveLimit[] = [];
-    this.waits = false;
-    this.isBusy = true;
+/// Edits of the joint and the limits after each.
+export function liveEdit(core: CoreClient, questions: LimitQuestion[], hooks: LiveEditHooks): () => void {
+  const ask = latestOnly<true>(async (_, rests) => {
+    const begun = performance.now(), limits: LiveLimit[] = [];
     for (const table of hooks.tables()) table.wait();
-    this.core.edit(hooks.edit(), questions, {
-      edited: (changed) => hooks.edited(changed, !this.waits),
-      limit: (i, limit) => {
-        limits[i] = limit;
-        for (const table of hooks.tables()) table.showLimit(i, limit);
-        if (i < questions.length - 1) return;
-        hooks.shown(performance.now() - begun, !this.waits, limits);
-        this.done();
-      },
-      failed: (message) => {
-        hooks.failed(message);
-        this.done();
-      },
-    });
-  }
-
-  private done(): void {
-    this.isBusy = false;
-    if (this.waits) this.send();
-  }
+    try {
+      await core.edit(hooks.edit(), questions, {
+        edited: (changed) => hooks.edited(changed, rests()),
+        limit: (i, limit) => {
+          limits[i] = limit;
+          for (const table of hooks.tables()) table.showLimit(i, limit);
+        },
+      });
+      hooks.shown(performance.now() - begun, rests(), limits);
+    } catch (error) {
+      hooks.failed(lineOf(error));
+    }
+  });
+  return () => ask(true);
 }

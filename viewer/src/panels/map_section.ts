@@ -68,7 +68,7 @@ export class MapSection {
         rows: { angle: row!.name, opposite: row!.opposite, values_deg: question.rows },
         vary: vary!.name, vary_opposite: vary!.opposite, start_deg: 0, intervals: [],
       });
-      core.askMap(question);
+      core.request("map", question);
     });
     return ask;
   }

@@ -1,5 +1,5 @@
 import type { CoreClient } from "../core/client";
-import type { Details, JointArrays, LiveLimit, Turned } from "../core/protocol";
+import type { JointArrays, LiveLimit, Turned } from "../core/protocol";
 import { button, checkbox, html, section } from "../dom";
 import { jointFileOf, meshFilesOf, stlOf } from "../joint_file";
 import type { ReportText, StoredPosed } from "../report";
@@ -7,7 +7,7 @@ import { save, saveBlob } from "../save";
 import { bodyNames } from "../scene/body_names";
 import type { JointScene } from "../scene/scene";
 import { words } from "../words";
-import { LiveEdit } from "./live_edit";
+import { liveEdit } from "./live_edit";
 import { LiveLimits, questionsOf } from "./live_limits";
 import { ParameterRow } from "./parameter_row";
 import { SweepPanel, type ShownSweep } from "./sweep";
@@ -32,7 +32,7 @@ export interface PartsOptions {
 export class PartsPanel {
   readonly element: HTMLElement;
   private readonly limits: LiveLimits;
-  private readonly edit: LiveEdit;
+  private readonly edit: () => void;
   private readonly rows: ParameterRow[];
   private readonly said = html("p", { role: "status", class: "small" });
   private readonly option = html("input", { type: "text", readonly: true, class: "command", "aria-label": words.partsCommand });
@@ -46,7 +46,7 @@ export class PartsPanel {
   constructor(private readonly core: CoreClient, private readonly scene: JointScene | null, private readonly options: PartsOptions) {
     const { text, posed, sweep } = options;
     const asked = questionsOf(text), motions = asked.map(({ motion }) => motion);
-    this.edit = new LiveEdit(core, asked.map(({ question }) => question), {
+    this.edit = liveEdit(core, asked.map(({ question }) => question), {
       edit: () => ({ of: "parts", values: this.textOf(this.rows.filter(({ isTurned }) => isTurned)) }),
       tables: () => this.tables,
       edited: (turned, rests) => this.take(turned as Turned, rests),
@@ -113,7 +113,7 @@ export class PartsPanel {
   private ask(): void {
     this.showValues();
     this.options.turned(this.rows.some(({ isTurned }) => isTurned));
-    this.edit.ask();
+    this.edit();
   }
 
   private take(turned: Turned, rests: boolean): void {
@@ -144,7 +144,7 @@ export class PartsPanel {
 
   private async saveJointFile(): Promise<void> {
     const { text, posed } = this.options;
-    const { pose } = (await this.core.query({ of: "pose", at: { angles: text.reference_deg, translation: text.reference_mm } })) as Details;
+    const { pose } = await this.core.query({ of: "pose", at: { angles: text.reference_deg, translation: text.reference_mm } });
     save("turned.toml", "application/toml", jointFileOf(text, Array.from(pose), text.version, { posed, values: this.values }));
   }
 }
