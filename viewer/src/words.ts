@@ -260,7 +260,7 @@ export const words = {
   nowhereFree: "blocked",
   inContact: "In contact",
   notInContact: "Not in contact",
-  inside: (body: string, { count }: { count: number }) => `${count} vertices of ${body} inside`,
+  inside: (body: string, count: number) => `${count} vertices of ${body} inside`,
   depthAlong: (depth_mm: number, along: string, vertex: number, body: string, nearest_mm: number) =>
     `depth ${depth_mm.toFixed(2)} mm along ${along}, vertex ${vertex} of ${body}; the nearest surface is ${nearest_mm.toFixed(2)} mm away`,
   theRay: "the ray",

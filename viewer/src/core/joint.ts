@@ -2,11 +2,10 @@ import type { PageCore } from "page-core";
 import { openModule } from "./module";
 import {
   quantityNumber, type BothPenetrations, type BothValues, type Brushed, type Coordinates, type Depth, type Details, type DroppedFile, type Edit,
-  type SideChoice,
-  type Inside, type JointArrays, type Layers, type LimitQuestion, type LiveLimit, type MapQuestion, type MotionFrames, type Nearest, type Penetrations,
-  type Proposal, type Quantity, type Shown, type Stroke, type Surface, type Turned, type Values,
+  type JointArrays, type Layers, type LimitQuestion, type LiveLimit, type MapQuestion, type MotionFrames, type Nearest, type Penetrations,
+  type Proposal, type Quantity, type Shown, type SideChoice, type Stroke, type Surface, type Turned, type Values,
 } from "./protocol";
-import { describeParts, within } from "./parts";
+import { describeParts } from "./parts";
 
 const poseBytes = 16 * 8;
 const atRest = [0, 0, 0] as const;
@@ -16,8 +15,6 @@ const kinds = ["unknown", "bearing", "impingement", "cut"] as const;
 /// A joint in the module's memory. Everything it answers is copied out of there.
 export class CoreJoint {
   private readonly pose: number;
-  private readonly three: number;
-  private readonly otherThree: number;
   private readonly answer: number;
   private readonly shownPlace: number;
   private readonly marksPlace: number;
@@ -26,18 +23,12 @@ export class CoreJoint {
   private readonly protectedVertices = { fixed: 0, mobile: 0 };
 
   static async open(wasm: ArrayBuffer, arrays: JointArrays): Promise<CoreJoint> {
-    const memory = new Memory(await openModule(wasm));
-    const placed = [arrays.fixed, arrays.mobile].map(({ vertices, triangles }: Surface) => ({
-      vertices: memory.copied(vertices), triangles: memory.copied(triangles), vertexCount: vertices.length / 3,
-      count: triangles.length / 3,
-    }));
-    const [fixed, mobile] = [placed[0]!, placed[1]!];
-    const joint = memory.core._condyle_joint(
-      arrays.kind, arrays.anatomy, arrays.side, arrays.translationFrame, fixed.vertices, fixed.vertexCount, fixed.triangles, fixed.count, mobile.vertices,
-      mobile.vertexCount, mobile.triangles, mobile.count);
-    for (const { vertices, triangles } of placed) memory.free(vertices, triangles);
+    const memory = new Memory(await openModule(wasm)), { core } = memory, { bearing } = arrays;
+    const given = ({ vertices, triangles }: Surface) => [vertices, vertices.length / 3, triangles, triangles.length / 3] as const;
+    const joint = memory.made(
+      core._condyle_joint, arrays.kind, arrays.anatomy, arrays.side, arrays.translationFrame, ...given(arrays.fixed), ...given(arrays.mobile));
     const opened = new CoreJoint(memory, joint);
-    opened.setBearing(arrays.bearing);
+    if (bearing !== "found") opened.on(core._condyle_set_roles, bearing.counts ? 1 : 0, bearing.fixed, bearing.mobile);
     if (arrays.layers) opened.setLayers(arrays.layers);
     if (arrays.posed) describeParts(memory, joint, arrays.posed);
     return opened;
@@ -65,7 +56,7 @@ export class CoreJoint {
           kind: 0, anatomy: 0, side: core._condyle_side(made), translationFrame: 0, fixed: joint.surface(1),
           mobile: joint.surface(0), bearing: "found", layers: null, posed: null,
         },
-        rom: JSON.parse(core.UTF8ToString(description)) as Proposal["rom"], bodies,
+        rom: JSON.parse(memory.text(description)) as Proposal["rom"], bodies,
       },
     };
   }
@@ -77,8 +68,6 @@ export class CoreJoint {
     this.mobileTriangles = core._condyle_triangle_count(joint, 0);
     const most = Math.max(this.vertices.fixed, this.vertices.mobile);
     this.pose = core._malloc(poseBytes);
-    this.three = core._malloc(3 * 8);
-    this.otherThree = core._malloc(3 * 8);
     this.answer = core._malloc(16 * 8);
     this.shownPlace = core._malloc(4 * most);
     this.marksPlace = core._malloc(Math.max(most, this.mobileTriangles));
@@ -86,22 +75,14 @@ export class CoreJoint {
 
   shown(at: Coordinates): Shown {
     this.place(at);
-    const inside = { mobile: this.inside(0), fixed: this.inside(1) };
-    const inContact = this.checked(this.core._condyle_in_contact(this.joint, this.pose)) === 1;
-    const pairCount = inContact ? this.checked(this.core._condyle_pairs(this.joint, this.pose)) : 0;
-    const pairs = this.u32(this.core._condyle_pair_triangles(this.joint), 2 * pairCount);
-    return { pose: this.f64(this.pose, 16), inContact, inside, pairs };
+    const inside = { mobile: this.inside(0), fixed: this.inside(1) }, inContact = this.inContact();
+    return { pose: this.f64(this.pose, 16), inContact, inside, pairs: inContact ? this.pairs() : new Uint32Array() };
   }
 
   /// Throws the command line's own line for a bad file.
-  motion(file: DroppedFile, columns: string): MotionFrames {
-    const { memory, core } = this, columnsPlace = memory.copiedText(columns);
-    try {
-      const said = memory.read(file, (name, bytes, count) => core._condyle_motion(this.joint, name, bytes, count, columnsPlace));
-      return JSON.parse(core.UTF8ToString(said)) as MotionFrames;
-    } finally {
-      memory.free(columnsPlace);
-    }
+  motion({ name, bytes }: DroppedFile, columns: string): MotionFrames {
+    const { memory, core } = this, said = memory.made(core._condyle_motion, this.joint, name, new Uint8Array(bytes), bytes.byteLength, columns);
+    return JSON.parse(memory.text(said)) as MotionFrames;
   }
 
   values(at: Coordinates, quantity: Exclude<Quantity, "none">): BothValues {
@@ -111,23 +92,19 @@ export class CoreJoint {
 
   nearest(at: Coordinates, counted: boolean): Nearest {
     this.place(at);
-    this.checked(this.core._condyle_nearest(this.joint, this.pose, counted ? 1 : 0, this.answer));
+    this.on(this.core._condyle_nearest, this.pose, counted ? 1 : 0, this.answer);
     const [distance_mm, fixed, mobile, isBearing, x, y, z] = this.f64(this.answer, 7) as unknown as [number, number, number, number, number, number, number];
     return { distance_mm, triangle: { fixed, mobile }, isBearing: isBearing === 1, point: [x, y, z] };
   }
 
   limit({ start, held, vary, positive, range_deg }: LimitQuestion): LiveLimit {
-    this.put(this.three, start);
-    this.put(this.otherThree, held ?? atRest);
-    this.checked(this.core._condyle_limit(
-      this.joint, vary, positive ? 1 : 0, this.three, this.otherThree, range_deg, this.answer));
+    this.on(this.core._condyle_limit, vary, positive ? 1 : 0, start, held ?? atRest, range_deg, this.answer);
     return this.limitThere(vary, positive);
   }
 
   /// Rotations are about the centre's latest place.
   limitAbout({ start, vary, positive, range_deg }: LimitQuestion): LiveLimit {
-    this.put(this.three, start);
-    this.checked(this.core._condyle_limit_about(this.joint, vary, positive ? 1 : 0, this.three, range_deg, this.answer));
+    this.on(this.core._condyle_limit_about, vary, positive ? 1 : 0, start, range_deg, this.answer);
     return this.limitThere(vary, positive);
   }
 
@@ -142,53 +119,42 @@ export class CoreJoint {
   /// Null if no bone changes.
   edit(edit: Edit): Brushed | Turned | null {
     if (edit.of === "parts") {
-      within(this.memory, [edit.values], ([text]) => this.core._condyle_set_parameters(this.joint, text!));
+      this.on(this.core._condyle_set_parameters, edit.values);
       return { fixed: this.surface(1).vertices, mobile: this.surface(0).vertices };
     }
     if (edit.of === "centre") {
-      this.put(this.three, edit.offset_mm);
-      this.put(this.otherThree, edit.reference_deg);
-      this.checked(this.core._condyle_move_centre(this.joint, this.three, this.otherThree));
+      this.on(this.core._condyle_move_centre, edit.offset_mm, edit.reference_deg);
       return null;
     }
     const { body } = edit, ofFixed = body === "fixed" ? 1 : 0;
-    if (edit.of === "brush") this.prepareBrush(body, edit.before);
-    if (edit.of === "undo" || (edit.of === "stroke" && edit.replaces)) this.checked(this.core._condyle_undo_stroke(this.joint, ofFixed));
+    if (edit.of === "brush") this.protectedVertices[body] = this.on(this.core._condyle_brush, ofFixed, edit.before);
+    if (edit.of === "undo" || (edit.of === "stroke" && edit.replaces)) this.on(this.core._condyle_undo_stroke, ofFixed);
     return this.brushed(body, edit.of === "stroke" ? this.stroke(ofFixed, edit.stroke) : null);
   }
 
-  private prepareBrush(body: "fixed" | "mobile", before: Float64Array | null): void {
-    const place = before ? this.memory.copied(before) : 0;
-    this.protectedVertices[body] = this.checked(this.core._condyle_brush(this.joint, body === "fixed" ? 1 : 0, place));
-    if (place) this.memory.free(place);
-  }
-
   private stroke(ofFixed: number, { action, along, radius_mm, depth_mm }: Stroke): Brushed["outcome"] {
-    const path = this.memory.copied(Uint32Array.from(along));
-    const done = this.core._condyle_stroke(
-      this.joint, ofFixed, action === "lower" ? 0 : 1, path, along.length, radius_mm, depth_mm, this.answer);
-    this.memory.free(path);
-    this.checked(done);
+    this.on(
+      this.core._condyle_stroke, ofFixed, action === "lower" ? 0 : 1, Uint32Array.from(along), along.length, radius_mm, depth_mm, this.answer);
     const [moved, kept, limited] = this.u32(this.answer, 3) as unknown as [number, number, number];
     return { moved, kept, limited };
   }
 
   private brushed(body: "fixed" | "mobile", outcome: Brushed["outcome"]): Brushed {
-    const { core, joint } = this, ofFixed = body === "fixed" ? 1 : 0, count = this.vertices[body];
-    this.checked(core._condyle_removed(joint, ofFixed, this.answer));
+    const { core } = this, ofFixed = body === "fixed" ? 1 : 0, count = this.vertices[body];
+    this.on(core._condyle_removed, ofFixed, this.answer);
     const [volume_mm3, deepest_mm, , edge_mm] = this.f64(this.answer, 4) as unknown as [number, number, number, number];
     const vertices = core._malloc(24 * count), depths = core._malloc(8 * count);
-    this.checked(core._condyle_brushed(joint, ofFixed, vertices, depths));
+    this.on(core._condyle_brushed, ofFixed, vertices, depths);
     const bone = { vertices: this.f64(vertices, 3 * count), depths_mm: this.f64(depths, count) };
     this.memory.free(vertices, depths);
-    const steps = this.checked(core._condyle_strokes(joint, ofFixed));
+    const steps = this.on(core._condyle_strokes, ofFixed);
     return { body, ...bone, volume_mm3, deepest_mm, edge_mm, steps, protectedVertices: this.protectedVertices[body], outcome };
   }
 
   /// The answer of `condyle depth`.
   depth(at: Coordinates): Depth {
     this.place(at);
-    this.checked(this.core._condyle_depth(this.joint, this.pose, this.three, this.answer));
+    this.on(this.core._condyle_depth, this.pose, at.angles, this.answer);
     const answer = this.f64(this.answer, 16);
     const [inContact, kind, depth_mm, body, vertex, x, y, z, nearest_mm] = answer as unknown as [
       number, number, number, number, number, number, number, number, number];
@@ -210,7 +176,7 @@ export class CoreJoint {
   }
 
   detailsOf(X_FM: readonly number[]): Details {
-    this.put(this.pose, X_FM);
+    new Float64Array(this.core.HEAPU8.buffer, this.pose, 16).set(X_FM);
     return this.detailsHere();
   }
 
@@ -224,11 +190,16 @@ export class CoreJoint {
   }
 
   private detailsHere(): Details {
-    const penetrations = this.penetrationsHere();
-    const inContact = this.checked(this.core._condyle_in_contact(this.joint, this.pose)) === 1;
-    const count = this.checked(this.core._condyle_pairs(this.joint, this.pose));
-    const pairs = this.u32(this.core._condyle_pair_triangles(this.joint), 2 * count);
-    return { pose: this.f64(this.pose, 16), inContact, ...penetrations, pairs };
+    return { pose: this.f64(this.pose, 16), inContact: this.inContact(), ...this.penetrationsHere(), pairs: this.pairs() };
+  }
+
+  private inContact(): boolean {
+    return this.on(this.core._condyle_in_contact, this.pose) === 1;
+  }
+
+  private pairs(): Uint32Array {
+    const count = this.on(this.core._condyle_pairs, this.pose);
+    return this.u32(this.core._condyle_pair_triangles(this.joint), 2 * count);
   }
 
   /// Free intervals of a point of a map, as angles of the joint.
@@ -236,16 +207,14 @@ export class CoreJoint {
     const start: [number, number, number] = [0, 0, 0];
     start[question.columnAngle] = question.columns[point % question.columns.length]!;
     start[question.rowAngle] = question.rows[Math.floor(point / question.columns.length)]!;
-    this.put(this.three, start);
-    this.put(this.otherThree, question.held ?? atRest);
-    const count = this.checked(this.core._condyle_free_angles(this.joint, question.vary, this.three, this.otherThree, 180, 180));
+    const count = this.on(this.core._condyle_free_angles, question.vary, start, question.held ?? atRest, 180, 180);
     const flat = this.f64(this.core._condyle_intervals(this.joint), 4 * count);
     return Array.from({ length: count }, (_, i) => Array.from(flat.subarray(4 * i, 4 * i + 4)) as [number, number, number, number]);
   }
 
   /// Per triangle of the mobile body 1 where it is bearing; all 0 if no bearing surface was found.
   bearing(): Uint8Array {
-    const found = this.checked(this.core._condyle_bearing(this.joint, this.marksPlace));
+    const found = this.on(this.core._condyle_bearing, this.marksPlace);
     return found ? this.core.HEAPU8.slice(this.marksPlace, this.marksPlace + this.mobileTriangles) : new Uint8Array(this.mobileTriangles);
   }
 
@@ -255,40 +224,29 @@ export class CoreJoint {
 
   private penetrations(ofFixed: number): Penetrations {
     if (!this.core._condyle_can_penetrate(this.joint, ofFixed)) return { vertices: new Uint32Array(), depths_mm: new Float64Array() };
-    const count = this.checked(this.core._condyle_penetrations(this.joint, this.pose, ofFixed));
+    const count = this.on(this.core._condyle_penetrations, this.pose, ofFixed);
     return {
       vertices: this.u32(this.core._condyle_penetrating_vertices(this.joint), count),
       depths_mm: this.f64(this.core._condyle_depths(this.joint), count),
     };
   }
 
-  private inside(ofFixed: number): Inside {
-    if (!this.core._condyle_can_penetrate(this.joint, ofFixed)) return { count: 0 };
-    return { count: this.checked(this.core._condyle_penetrations(this.joint, this.pose, ofFixed)) };
-  }
-
-  private setBearing(bearing: JointArrays["bearing"]): void {
-    if (bearing === "found") return;
-    const places = [bearing.fixed, bearing.mobile].map((roles) => (roles ? this.memory.copied(roles) : 0));
-    this.checked(this.core._condyle_set_roles(this.joint, bearing.counts ? 1 : 0, places[0]!, places[1]!));
-    this.memory.free(...places.filter((place) => place));
+  private inside(ofFixed: number): number {
+    return this.core._condyle_can_penetrate(this.joint, ofFixed) ? this.on(this.core._condyle_penetrations, this.pose, ofFixed) : 0;
   }
 
   private setLayers(layers: Layers): void {
-    for (const [ofFixed, surface] of [layers.mobile, layers.fixed].entries()) {
-      const thickness = surface.layer ? this.memory.copied(surface.layer.thickness_mm) : 0;
-      this.checked(this.core._condyle_surface(
-        this.joint, ofFixed, surface.firstVertex, surface.vertices, surface.firstTriangle, surface.triangles,
-        surface.layer?.youngsModulus_mpa ?? 0, surface.layer?.poissonRatio ?? 0, thickness));
-      if (thickness) this.memory.free(thickness);
-    }
-    this.checked(this.core._condyle_elastic(this.joint, layers.casting, layers.law, layers.rule, layers.reach_mm));
+    for (const [ofFixed, { layer, ...surface }] of [layers.mobile, layers.fixed].entries())
+      this.on(
+        this.core._condyle_surface, ofFixed, surface.firstVertex, surface.vertices, surface.firstTriangle, surface.triangles,
+        layer?.youngsModulus_mpa ?? 0, layer?.poissonRatio ?? 0, layer?.thickness_mm ?? null);
+    this.on(this.core._condyle_elastic, layers.casting, layers.law, layers.rule, layers.reach_mm);
   }
 
   private valuesOf(quantity: Exclude<Quantity, "none">, ofFixed: number, count: number): Values {
-    const { core, joint, pose, shownPlace, marksPlace } = this;
-    this.checked(quantity === "pressure" ? core._condyle_pressure(joint, pose, ofFixed, shownPlace, marksPlace)
-      : core._condyle_shown(joint, pose, quantityNumber[quantity], ofFixed, shownPlace, marksPlace));
+    const { core, pose, shownPlace, marksPlace } = this;
+    if (quantity === "pressure") this.on(core._condyle_pressure, pose, ofFixed, shownPlace, marksPlace);
+    else this.on(core._condyle_shown, pose, quantityNumber[quantity], ofFixed, shownPlace, marksPlace);
     return {
       shown: new Float32Array(this.bytes(shownPlace, 4 * count)), marks: new Uint8Array(this.bytes(marksPlace, count)),
     };
@@ -305,16 +263,16 @@ export class CoreJoint {
   }
 
   private place({ angles, translation }: Coordinates): void {
-    this.put(this.three, angles);
-    this.put(this.otherThree, translation);
-    this.checked(this.core._condyle_pose(this.joint, this.three, this.otherThree, this.pose));
+    this.on(this.core._condyle_pose, angles, translation, this.pose);
+  }
+
+  /// Asks the core about this joint.
+  private on<Args extends number[]>(of: (joint: number, ...args: Args) => number, ...given: Given<Args>): number {
+    return this.memory.call(of, ...([this.joint, ...given] as Given<[number, ...Args]>));
   }
 
   private get core(): PageCore {
     return this.memory.core;
-  }
-  private put(pointer: number, numbers: readonly number[]): void {
-    new Float64Array(this.core.HEAPU8.buffer, pointer, numbers.length).set(numbers);
   }
   private bytes(pointer: number, count: number): ArrayBuffer {
     return this.core.HEAPU8.slice(pointer, pointer + count).buffer as ArrayBuffer;
@@ -325,39 +283,57 @@ export class CoreJoint {
   private u32(pointer: number, count: number): Uint32Array {
     return new Uint32Array(this.bytes(pointer, 4 * count));
   }
-  private checked(answer: number): number {
-    if (answer < 0) throw this.memory.error();
-    return answer;
-  }
 }
 
 /// The side as condyle_propose() and condyle_join() take it.
 export const sideNumber = { automatic: -1, right: 0, left: 1 } as const;
 
+/// What the core's functions take: numbers as they are, and copies of all else, null as no place. A list of numbers is doubles.
+type Given<Args extends number[]> = { [Place in keyof Args]: number | string | readonly number[] | Float64Array | Uint32Array | Uint8Array | null };
+
 /// The module's memory.
 export class Memory {
   constructor(readonly core: PageCore) {}
 
-  copied(array: Float64Array | Uint32Array | Uint8Array): number {
-    const pointer = this.core._malloc(array.byteLength);
-    this.core.HEAPU8.set(new Uint8Array(array.buffer, array.byteOffset, array.byteLength), pointer);
-    return pointer;
+  /// A number that the core answers; throws its line if that is below zero.
+  call<Args extends number[]>(of: (...args: Args) => number, ...given: Given<Args>): number {
+    const answer = this.within(of, given);
+    if (answer < 0) throw this.error();
+    return answer;
   }
-  copiedText(text: string): number {
-    return this.copied(new TextEncoder().encode(`${text}\0`));
+  /// Something that the core makes, by its place; throws its line if it makes none.
+  made<Args extends number[]>(of: (...args: Args) => number, ...given: Given<Args>): number {
+    const place = this.within(of, given);
+    if (!place) throw this.error();
+    return place;
   }
-  /// Reads a file with a reader of the core; throws the core's line if it is refused.
+  /// What a reader of the core makes of a file.
   read({ name, bytes }: DroppedFile, reader: (name: number, bytes: number, count: number) => number): number {
-    const namePlace = this.copiedText(name), bytesPlace = this.copied(new Uint8Array(bytes));
-    const made = reader(namePlace, bytesPlace, bytes.byteLength);
-    this.free(namePlace, bytesPlace);
-    if (!made) throw this.error();
-    return made;
+    return this.made(reader, name, new Uint8Array(bytes), bytes.byteLength);
   }
-  free(...pointers: number[]): void {
-    for (const pointer of pointers) this.core._free(pointer);
+  /// A text of the core.
+  text(place: number): string {
+    return this.core.UTF8ToString(place);
+  }
+  free(...places: number[]): void {
+    for (const place of places) this.core._free(place);
   }
   error(): Error {
-    return new Error(this.core.UTF8ToString(this.core._condyle_error()));
+    return new Error(this.text(this.core._condyle_error()));
+  }
+
+  private within<Args extends number[]>(of: (...args: Args) => number, given: Given<Args>): number {
+    const copies: number[] = [];
+    const args = (given as Given<number[]>).map((each) => {
+      if (typeof each === "number" || each === null) return each ?? 0;
+      const bytes = typeof each === "string" ? new TextEncoder().encode(`${each}\0`) : ArrayBuffer.isView(each) ? each : Float64Array.from(each);
+      const place = this.core._malloc(bytes.byteLength);
+      this.core.HEAPU8.set(new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength), place);
+      copies.push(place);
+      return place;
+    });
+    const answer = of(...(args as Args));
+    this.free(...copies);
+    return answer;
   }
 }

@@ -17,7 +17,7 @@ export class CoreLabels {
     const { core } = this.memory, map = this.memory.read(file, core._condyle_read_labels), described = core._condyle_labels(map);
     if (!described) throw this.memory.error();
     this.maps.push(map);
-    return { name: file.name, ...(JSON.parse(core.UTF8ToString(described)) as Omit<LabelMap, "name">) };
+    return { name: file.name, ...(JSON.parse(this.memory.text(described)) as Omit<LabelMap, "name">) };
   }
 
   /// `step` is called before each surface with its label, then with null. The label maps stay if this throws.
@@ -27,23 +27,15 @@ export class CoreLabels {
     try {
       for (const choice of [fixed, mobile]) {
         step(choice.label);
-        bones.push(this.bone(choice));
+        bones.push(this.memory.made(core._condyle_bone, this.maps[choice.map]!, choice.label, choice.task ?? ""));
       }
       step(null);
       const joint = core._condyle_join(bones[0]!, bones[1]!, sideNumber[side]);
-      const names = bones.map((bone) => core.UTF8ToString(core._condyle_bone_name(bone)));
+      const names = bones.map((bone) => this.memory.text(core._condyle_bone_name(bone)));
       if (joint) this.maps.splice(0).forEach((map) => core._condyle_free_labels(map));
       return CoreJoint.proposed(this.memory, joint, { fixed: names[0]!, mobile: names[1]! });
     } finally {
       bones.forEach((bone) => core._condyle_free_bone(bone));
     }
-  }
-
-  private bone({ map, label, task }: BoneChoice): number {
-    const { core } = this.memory, labelPlace = this.memory.copiedText(label), taskPlace = this.memory.copiedText(task ?? "");
-    const bone = core._condyle_bone(this.maps[map]!, labelPlace, taskPlace);
-    this.memory.free(labelPlace, taskPlace);
-    if (!bone) throw this.memory.error();
-    return bone;
   }
 }

@@ -80,11 +80,6 @@ export interface Coordinates {
   translation: [number, number, number];
 }
 
-/// How many of a body's vertices are in the other one.
-export interface Inside {
-  count: number;
-}
-
 /// Answer of `condyle depth` at a pose. `about`: the axis, in the joint's order, whose arc is the depth; null along
 /// the ray.
 export interface Depth {
@@ -118,7 +113,8 @@ export interface Nearest {
 export interface Shown {
   pose: Float64Array;
   inContact: boolean;
-  inside: { mobile: Inside; fixed: Inside };
+  /// How many of a body's vertices are in the other one.
+  inside: { mobile: number; fixed: number };
   pairs: Uint32Array;
 }
 

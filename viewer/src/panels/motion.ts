@@ -224,7 +224,7 @@ export class MotionPanel {
     this.touches = shown.inContact;
     for (const slider of this.sliders) slider.free = null;
     const names = namesOf(this.report.joint);
-    const inside = (["mobile", "fixed"] as const).filter((body) => shown.inside[body].count > 0).map((body) => words.inside(names[body], shown.inside[body]));
+    const inside = (["mobile", "fixed"] as const).filter((body) => shown.inside[body] > 0).map((body) => words.inside(names[body], shown.inside[body]));
     this.answer.textContent = [
       shown.inContact ? words.inContact : words.notInContact, ...inside,
       ...(shown.pairs.length ? [words.pairsCount(shown.pairs.length / 2)] : []),
