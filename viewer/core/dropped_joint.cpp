@@ -149,6 +149,10 @@ Json file_json(const PageFile& file) {
 
 }  // namespace
 
+std::optional<Side> given_side(int side) {
+  return side < 0 ? std::nullopt : std::optional(side == 0 ? Side::right : Side::left);
+}
+
 kinematics::HipAnatomy hip_of(const TriMesh& fixed, const TriMesh& mobile) {
   auto hip = kinematics::hip_anatomy(fixed, mobile);
   if (!hip)
@@ -214,13 +218,11 @@ void condyle_free_mesh(CondyleMesh* mesh) {
 
 CondyleJoint* condyle_propose(const CondyleMesh* fixed, const CondyleMesh* mobile, int side) {
   return guarded(static_cast<CondyleJoint*>(nullptr), [&] {
-    const std::optional<Side> given =
-        side < 0 ? std::nullopt : std::optional(side == 0 ? Side::right : Side::left);
     if (fixed->file.digest.sha256 == mobile->file.digest.sha256)
       throw UsageError(fixed->file.name + " and " + mobile->file.name +
                        " are the same mesh: drop the hip bone and the femur");
     try {
-      return proposed_joint(*fixed, *mobile, given);
+      return proposed_joint(*fixed, *mobile, given_side(side));
     } catch (const UsageError& error) {
       const std::string cause = known_cause(*fixed, *mobile);
       if (cause.empty()) throw;
@@ -234,17 +236,16 @@ int condyle_side(const CondyleJoint* joint) {
 }
 
 int condyle_vertex_count(const CondyleJoint* joint, int of_fixed) {
-  return static_cast<int>((of_fixed ? joint->joint.fixed : joint->joint.mobile).mesh.vertices().size());
+  return static_cast<int>(body_of(*joint, of_fixed).mesh.vertices().size());
 }
 
 int condyle_triangle_count(const CondyleJoint* joint, int of_fixed) {
-  return static_cast<int>((of_fixed ? joint->joint.fixed : joint->joint.mobile).mesh.triangles().size());
+  return static_cast<int>(body_of(*joint, of_fixed).mesh.triangles().size());
 }
 
 void condyle_mesh(const CondyleJoint* joint, int of_fixed, double* vertices, std::uint32_t* triangles) {
-  const Mesh& mesh = (of_fixed ? joint->joint.fixed : joint->joint.mobile).mesh;
-  for (std::size_t v = 0; v < mesh.vertices().size(); ++v)
-    for (int i = 0; i < 3; ++i) vertices[3 * v + static_cast<std::size_t>(i)] = mesh.vertices()[v][i];
+  const Mesh& mesh = body_of(*joint, of_fixed).mesh;
+  put_points(mesh.vertices(), vertices);
   for (const Triangle& triangle : mesh.triangles())
     triangles = std::copy(triangle.begin(), triangle.end(), triangles);
 }

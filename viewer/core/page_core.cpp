@@ -20,9 +20,7 @@ using namespace condyle;
 namespace {
 
 Mesh mesh_of(const double* vertices, int vertex_count, const std::uint32_t* triangles, int triangle_count) {
-  TriMesh mesh;
-  for (int v = 0; v < vertex_count; ++v)
-    mesh.vertices.push_back({vertices[3 * v], vertices[3 * v + 1], vertices[3 * v + 2]});
+  TriMesh mesh{.vertices = points_of(vertices, static_cast<std::size_t>(vertex_count)), .triangles = {}};
   for (int t = 0; t < triangle_count; ++t)
     mesh.triangles.push_back({triangles[3 * t], triangles[3 * t + 1], triangles[3 * t + 2]});
   return Mesh(std::move(mesh));
@@ -31,16 +29,12 @@ Mesh mesh_of(const double* vertices, int vertex_count, const std::uint32_t* tria
 /// The other body's surface, for vertices of this one.
 const mesh::SurfaceDistance& other_surface(CondyleJoint& joint, bool of_fixed) {
   auto& surface = of_fixed ? joint.to_mobile : joint.to_fixed;
-  if (!surface) surface.emplace((of_fixed ? joint.joint.mobile : joint.joint.fixed).mesh.arrays());
+  if (!surface) surface.emplace(body_of(joint, !of_fixed).mesh.arrays());
   return *surface;
 }
 
 enum class Shown { radial_gap, depth, nearest_distance };
 enum class Mark : std::uint8_t { nothing, value, bound };
-
-const Points& vertices_of(const CondyleJoint& joint, bool of_fixed) {
-  return (of_fixed ? joint.joint.fixed : joint.joint.mobile).mesh.vertices();
-}
 
 /// The table of the other body, for vertices of this one.
 const radial::RadialTable& other_table(const CondyleJoint& joint, bool of_fixed) {
@@ -58,7 +52,7 @@ void find_inside(const CondyleJoint& joint, const Pose& X_FM, bool of_fixed, rad
 template <class Visit>
 void visit_inside(CondyleJoint& joint, const Pose& X, bool of_fixed, radial::Penetrations& found,
                   const Visit& visit) {
-  const Points& vertices = vertices_of(joint, of_fixed);
+  const Points& vertices = body_of(joint, of_fixed).mesh.vertices();
   other_table(joint, of_fixed).add_ray_to_normal(vertices, X, found);
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (found.state[i] != PointState::inside) continue;
@@ -105,34 +99,6 @@ struct ShownValues {
   }
 };
 
-int number_of(motion::LimitReason reason) {
-  switch (reason) {
-    case motion::LimitReason::contact:
-      return 0;
-    case motion::LimitReason::end_of_range:
-      return 1;
-    case motion::LimitReason::contact_at_start:
-      return 2;
-  }
-  return -1;
-}
-
-int number_of(motion::ContactKind kind) {
-  switch (kind) {
-    case motion::ContactKind::unknown:
-      return 0;
-    case motion::ContactKind::bearing:
-      return 1;
-    case motion::ContactKind::impingement:
-      return 2;
-    case motion::ContactKind::cut:
-      return 3;
-    case motion::ContactKind::soft:
-      break;  // it ends no motion
-  }
-  return -1;
-}
-
 }  // namespace
 
 JointAngles angles_of(const double* deg) {
@@ -144,6 +110,17 @@ Pose pose_of(const double* rows) {
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 4; ++c) pose.matrix()(r, c) = rows[4 * r + c];
   return pose;
+}
+
+Points points_of(const double* xyz, std::size_t count) {
+  Points points;
+  for (std::size_t v = 0; v < count; ++v) points.push_back({xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]});
+  return points;
+}
+
+void put_points(const Points& points, double* xyz) {
+  for (std::size_t v = 0; v < points.size(); ++v)
+    for (int i = 0; i < 3; ++i) *xyz++ = points[v][i];
 }
 
 const motion::RangeOfMotion& range_of(CondyleJoint& joint, const Vec3& held_mm) {
@@ -206,7 +183,7 @@ int condyle_pose(const CondyleJoint* joint, const double* angles_deg, const doub
 }
 
 int condyle_can_penetrate(const CondyleJoint* joint, int of_fixed) {
-  return (of_fixed ? joint->joint.mobile : joint->joint.fixed).mesh.is_closed();
+  return body_of(*joint, !of_fixed).mesh.is_closed();
 }
 
 int condyle_penetrations(CondyleJoint* joint, const double* pose, int of_fixed) {
@@ -237,7 +214,7 @@ int condyle_depth(CondyleJoint* joint, const double* pose, const double* angles_
     answer[1] = 0;
     if (const auto deepest = contact::deepest_of(reliable)) {
       const contact::DeepestReliable& vertex = deepest->vertex;
-      const Vec3 own = vertices_of(*joint, !deepest->is_mobile)[vertex.vertex];
+      const Vec3 own = body_of(*joint, !deepest->is_mobile).mesh.vertices()[vertex.vertex];
       const Vec3 point = deepest->is_mobile ? posed(X_FM, own) : own;
       answer[1] = static_cast<double>(vertex.kind);
       answer[2] = vertex.depth_mm;
@@ -264,7 +241,7 @@ int condyle_shown(CondyleJoint* joint, const double* pose, int quantity, int of_
                   std::uint8_t* marks) {
   return guarded(-1, [&] {
     const Pose X_FM = pose_of(pose), X = of_fixed ? inverted(X_FM) : X_FM;
-    const Points& vertices = vertices_of(*joint, of_fixed);
+    const Points& vertices = body_of(*joint, of_fixed).mesh.vertices();
     const ShownValues shown{values, marks};
     for (Index v = 0; v < vertices.size(); ++v) shown.set(v, 0, Mark::nothing);
     // An open mesh has no inside: of it distances are shown alone.
@@ -345,8 +322,8 @@ void put_limit(const motion::RangeOfMotion& range, const PageMotion& motion, con
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const Vec3 point = end.contact ? Vec3(end.contact->fixed_point + origin) : Vec3(none, none, none);
   limit[0] = end.turned.degrees();
-  limit[1] = number_of(end.reason);
-  limit[2] = number_of(end.kind());
+  limit[1] = static_cast<double>(end.reason);
+  limit[2] = static_cast<double>(end.kind());
   limit[3] = end.bearing_contact ? end.bearing_contact->turned.degrees() : -1;
   for (int i = 0; i < 3; ++i) limit[4 + i] = point[i];
 }

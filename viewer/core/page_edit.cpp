@@ -18,10 +18,6 @@ BodyRole role_of(int of_fixed) {
   return of_fixed ? BodyRole::fixed : BodyRole::mobile;
 }
 
-Body& body_of(CondyleJoint& joint, BodyRole role) {
-  return role == BodyRole::fixed ? joint.joint.fixed : joint.joint.mobile;
-}
-
 std::optional<plan::Brush>& brush_of(CondyleJoint& joint, int of_fixed) {
   return of_fixed ? joint.edit.fixed : joint.edit.mobile;
 }
@@ -44,7 +40,7 @@ Points shifted(const Points& points, const Vec3& by) {
 
 /// The joint with a bone as its brush has it; what was made of the other one stays.
 void take_brushed(CondyleJoint& joint, BodyRole role, const Points& vertices) {
-  Body& bone = body_of(joint, role);
+  Body& bone = body_of(joint, role == BodyRole::fixed);
   bone.mesh = bone.mesh.moved_to(vertices);
   joint.bodies = contact::JointContact(joint.bodies, role, bone.mesh);
   (role == BodyRole::fixed ? joint.to_fixed : joint.to_mobile).reset();
@@ -61,19 +57,13 @@ void keep_roles(CondyleJoint& joint) {
   if (!joint.bearing.roles) joint.bearing.roles = range_of(joint).bearing().roles;
 }
 
-Points points_of(const double* xyz, std::size_t count) {
-  Points points;
-  for (std::size_t v = 0; v < count; ++v) points.push_back({xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]});
-  return points;
-}
-
 }  // namespace
 
 int condyle_brush(CondyleJoint* joint, int of_fixed, const double* before) {
   return guarded(-1, [&] {
     if (joint->pressure.contact) throw UsageError("brush: its layers lie on the bone as it is");
     keep_roles(*joint);
-    const Body& bone = body_of(*joint, role_of(of_fixed));
+    const Body& bone = body_of(*joint, of_fixed);
     std::vector<std::uint8_t> stays =
         plan::protected_vertices(joint->joint, role_of(of_fixed), *joint->bearing.roles);
     const auto count = std::count(stays.begin(), stays.end(), 1);
@@ -129,8 +119,7 @@ int condyle_removed(const CondyleJoint* joint, int of_fixed, double removed[4]) 
 int condyle_brushed(const CondyleJoint* joint, int of_fixed, double* vertices, double* depths_mm) {
   return guarded(-1, [&] {
     const plan::Brush& brush = ready_brush(*joint, of_fixed);
-    for (std::size_t v = 0; v < brush.vertices().size(); ++v)
-      for (int i = 0; i < 3; ++i) vertices[3 * v + static_cast<std::size_t>(i)] = brush.vertices()[v][i];
+    put_points(brush.vertices(), vertices);
     std::copy(brush.depth_mm().begin(), brush.depth_mm().end(), depths_mm);
     return 0;
   });

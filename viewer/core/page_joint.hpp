@@ -82,6 +82,16 @@ struct CondyleJoint {
   std::string description = {};
 };
 
+/// The fixed body, or the mobile one.
+template <class Joint>
+auto& body_of(Joint& joint, bool is_fixed) {
+  return is_fixed ? joint.joint.fixed : joint.joint.mobile;
+}
+
+/// Points as x, y and z each.
+condyle::Points points_of(const double* xyz, std::size_t count);
+void put_points(const condyle::Points& points, double* xyz);
+
 /// Three angles, in degrees.
 condyle::JointAngles angles_of(const double* deg);
 

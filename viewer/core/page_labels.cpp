@@ -190,9 +190,6 @@ const char* condyle_bone_name(const CondyleBone* bone) {
 }
 
 CondyleJoint* condyle_join(const CondyleBone* fixed, const CondyleBone* mobile, int side) {
-  return guarded(static_cast<CondyleJoint*>(nullptr), [&] {
-    const std::optional<Side> given =
-        side < 0 ? std::nullopt : std::optional(side == 0 ? Side::right : Side::left);
-    return joined(*fixed, *mobile, given);
-  });
+  return guarded(static_cast<CondyleJoint*>(nullptr),
+                 [&] { return joined(*fixed, *mobile, given_side(side)); });
 }

@@ -1,13 +1,14 @@
 #include "page_parts.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "condyle/error.hpp"
+#include "io/result/json.hpp"
 #include "kinematics/hip_parts.hpp"
 #include "kinematics/posed_parts.hpp"
 #include "page_joint.hpp"
@@ -16,9 +17,7 @@ using namespace condyle;
 
 namespace {
 
-Body& body_of(CondyleJoint& joint, int of_fixed) {
-  return of_fixed ? joint.joint.fixed : joint.joint.mobile;
-}
+using io::Json;
 
 /// The value of this name among those that a description may have.
 template <class Values>
@@ -29,15 +28,34 @@ auto named(const Values& values, std::string_view name) {
   return *found;
 }
 
-std::optional<double> if_number(double value) {
-  return std::isnan(value) ? std::nullopt : std::optional(value);
+std::optional<double> if_number(const Json& said) {
+  return said.is_null() ? std::nullopt : std::optional(said.get<double>());
 }
 
-Mesh mesh_at(const Mesh& drawn, const double* xyz) {
-  Points points;
-  for (std::size_t v = 0; v < drawn.vertices().size(); ++v)
-    points.push_back({xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]});
-  return drawn.moved_to(std::move(points));
+Vec3 vector_of(const Json& xyz) {
+  return Vec3(xyz.at(0).get<double>(), xyz.at(1).get<double>(), xyz.at(2).get<double>());
+}
+
+PartParameter parameter_of(const Json& said) {
+  return {.name = said.at("name"),
+          .kind = named(all_parameter_kinds, said.at("kind").get<std::string>()),
+          .low = said.at("range").at(0),
+          .high = said.at("range").at(1),
+          .value = said.at("value"),
+          .described = said.at("in_joint_file"),
+          .as_given = said.at("as_given"),
+          .sigma = said.at("sigma"),
+          .direction = vector_of(said.at("along"))};
+}
+
+PosedPart part_of(const Json& said) {
+  PosedPart part{.name = said.at("name"),
+                 .body = said.at("body") == "fixed" ? BodyRole::fixed : BodyRole::mobile,
+                 .meshes = said.at("meshes"),
+                 .centre = vector_of(said.at("centre_mm")),
+                 .definition = named(all_cup_definitions, said.at("definition").get<std::string>())};
+  for (const Json& parameter : said.at("parameters")) part.parameters.push_back(parameter_of(parameter));
+  return part;
 }
 
 /// Drops everything that was made of the joint before.
@@ -54,69 +72,35 @@ void take(CondyleJoint& joint, Joint moved, motion::BearingOptions bearing) {
 
 }  // namespace
 
-int condyle_body_mesh(CondyleJoint* joint, int of_fixed, const char* name, const char* contact,
-                      const std::uint32_t place[5]) {
+int condyle_body_given(CondyleJoint* joint, int of_fixed, const char* text, const double* vertices,
+                       const std::uint32_t* fitted, int fitted_count) {
   return guarded(-1, [&] {
     constexpr PartContact contacts[] = {PartContact::ends, PartContact::bearing, PartContact::soft};
-    body_of(*joint, of_fixed)
-        .parts.push_back({name, place[0], place[1], place[2], place[3], named(contacts, contact), place[4]});
-    return 0;
-  });
-}
-
-int condyle_body_given(CondyleJoint* joint, int of_fixed, const double* vertices, const double* head,
-                       const std::uint32_t* fitted, int fitted_count, double margin_mm) {
-  return guarded(-1, [&] {
+    const Json said = Json::parse(text);
     Body& body = body_of(*joint, of_fixed);
     UnposedBody& given = of_fixed ? joint->parts.described.fixed : joint->parts.described.mobile;
-    given.mesh = vertices ? mesh_at(body.mesh, vertices) : body.mesh;
-    if (head) given.head = Sphere{Vec3(head[0], head[1], head[2]), head[3]};
+    for (const Json& mesh : said.at("meshes"))
+      body.parts.push_back({mesh.at("name"), mesh.at("first_vertex"), mesh.at("vertices"),
+                            mesh.at("first_triangle"), mesh.at("triangles"),
+                            named(contacts, mesh.at("contact").get<std::string>()),
+                            said.at("cut_triangles").at(body.parts.size())});
+    given.mesh = vertices ? body.mesh.moved_to(points_of(vertices, body.mesh.vertices().size())) : body.mesh;
+    if (const Json& head = said.at("head"); !head.is_null())
+      given.head = Sphere{vector_of(head.at("centre_mm")), head.at("radius_mm")};
     if (fitted) kinematics::keep_head(given.mesh, std::vector<Index>(fitted, fitted + fitted_count));
-    body.bearing_margin_mm = if_number(margin_mm);
+    body.bearing_margin_mm = if_number(said.at("bearing_margin_mm"));
     return 0;
   });
 }
 
-int condyle_part(CondyleJoint* joint, const char* name, int of_fixed, const char* definition,
-                 const double centre_mm[3]) {
+int condyle_parts(CondyleJoint* joint, const char* text) {
   return guarded(-1, [&] {
-    joint->parts.described.parts.push_back({.name = name,
-                                            .body = of_fixed ? BodyRole::fixed : BodyRole::mobile,
-                                            .centre = Vec3(centre_mm[0], centre_mm[1], centre_mm[2]),
-                                            .definition = named(all_cup_definitions, definition)});
-    return 0;
-  });
-}
-
-int condyle_part_mesh(CondyleJoint* joint, const char* name) {
-  return guarded(-1, [&] {
-    joint->parts.described.parts.at(joint->parts.described.parts.size() - 1).meshes.emplace_back(name);
-    return 0;
-  });
-}
-
-int condyle_parameter(CondyleJoint* joint, const char* name, const char* kind, const double numbers[9]) {
-  return guarded(-1, [&] {
-    joint->parts.described.parts.at(joint->parts.described.parts.size() - 1)
-        .parameters.push_back({.name = name,
-                               .kind = named(all_parameter_kinds, kind),
-                               .low = numbers[0],
-                               .high = numbers[1],
-                               .value = numbers[2],
-                               .described = numbers[3],
-                               .as_given = numbers[4],
-                               .sigma = numbers[5],
-                               .direction = Vec3(numbers[6], numbers[7], numbers[8])});
-    return 0;
-  });
-}
-
-int condyle_parts(CondyleJoint* joint, double margin_mm) {
-  return guarded(-1, [&] {
+    const Json said = Json::parse(text);
     PosedParts& described = joint->parts.described;
+    for (const Json& part : said.at("parts")) described.parts.push_back(part_of(part));
     kinematics::check_parts(described.parts, joint->joint.fixed, joint->joint.mobile);
     joint->joint.posed = described;
-    joint->bearing.margin_mm = if_number(margin_mm);
+    joint->bearing.margin_mm = if_number(said.at("bearing_margin_mm"));
     joint->parts.as_described = joint->joint;
     joint->parts.bearing = joint->bearing;
     return 0;

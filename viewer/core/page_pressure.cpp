@@ -45,7 +45,7 @@ int condyle_surface(CondyleJoint* joint, int of_fixed, int first_vertex, int ver
                     int triangle_count, double youngs_modulus_mpa, double poisson_ratio,
                     const double* thickness_mm) {
   return guarded(-1, [&] {
-    const Mesh& body = (of_fixed ? joint->joint.fixed : joint->joint.mobile).mesh;
+    const Mesh& body = body_of(*joint, of_fixed).mesh;
     PageSurface& surface = of_fixed ? joint->pressure.fixed : joint->pressure.mobile;
     surface.first_vertex = static_cast<std::size_t>(first_vertex);
     const BodyPart run{"surface", surface.first_vertex, static_cast<std::size_t>(vertex_count),
@@ -84,7 +84,7 @@ int condyle_pressure(CondyleJoint* joint, const double* pose, int of_fixed, floa
                      std::uint8_t* marks) {
   return guarded(-1, [&] {
     const contact::ElasticContactResults& results = results_at(joint->pressure, pose_of(pose));
-    const std::size_t count = (of_fixed ? joint->joint.fixed : joint->joint.mobile).mesh.vertices().size();
+    const std::size_t count = body_of(*joint, of_fixed).mesh.vertices().size();
     std::fill_n(values, count, 0.0f);
     std::fill_n(marks, count, std::uint8_t{0});
     const auto& cast = of_fixed ? results.fixed : results.mobile;

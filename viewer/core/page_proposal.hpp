@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "page_joint.hpp"
 
 /// Common parts of joints that the page proposes, of meshes and of bones of label maps.
+
+/// 0 right, 1 left, below to be inferred.
+std::optional<condyle::Side> given_side(int side);
 
 /// Head, socket and their places. UsageError if no head was found near the fixed body.
 condyle::kinematics::HipAnatomy hip_of(const condyle::TriMesh& fixed, const condyle::TriMesh& mobile);

@@ -39,17 +39,13 @@ function layersOf(report: Report, layers: StoredLayers): Layers {
   };
 }
 
-function posedOf(report: Report, { parts, bearing_margin_mm, ...bodies }: StoredPosed): PosedArrays {
+function posedOf(report: Report, posed: StoredPosed): PosedArrays {
   const given = (body: "fixed" | "mobile"): GivenBody => {
-    const { as_given, head, fitted_head, bearing_margin_mm: margin_mm, cut_triangles } = bodies[body];
+    const { as_given, fitted_head } = posed[body];
     return {
-      meshes: report.text.parts[body].map(({ name, contact, first_vertex, vertices, first_triangle, triangles }, i) => ({
-        name, contact, place: Uint32Array.of(first_vertex, vertices, first_triangle, triangles, cut_triangles[i]!),
-      })),
-      vertices: as_given === null ? null : report.array(as_given, "f64"),
-      head: head && Float64Array.of(...head.centre_mm, head.radius_mm),
-      fittedHead: fitted_head === null ? null : report.array(fitted_head, "u32"), margin_mm,
+      text: JSON.stringify({ ...posed[body], meshes: report.text.parts[body] }), vertices: as_given === null ? null : report.array(as_given, "f64"),
+      fittedHead: fitted_head === null ? null : report.array(fitted_head, "u32"),
     };
   };
-  return { parts, bearingMargin_mm: bearing_margin_mm, fixed: given("fixed"), mobile: given("mobile") };
+  return { text: JSON.stringify(posed), fixed: given("fixed"), mobile: given("mobile") };
 }

@@ -2,10 +2,9 @@ import type { PageCore } from "page-core";
 import { openModule } from "./module";
 import {
   quantityNumber, type BothPenetrations, type BothValues, type Brushed, type Coordinates, type Depth, type Details, type DroppedFile, type Edit,
-  type JointArrays, type Layers, type LimitQuestion, type LiveLimit, type MapQuestion, type MotionFrames, type Nearest, type Penetrations,
+  type JointArrays, type Layers, type LimitQuestion, type LiveLimit, type MapQuestion, type MotionFrames, type Nearest, type Penetrations, type PosedArrays,
   type Proposal, type Quantity, type Shown, type SideChoice, type Stroke, type Surface, type Turned, type Values,
 } from "./protocol";
-import { describeParts } from "./parts";
 
 const poseBytes = 16 * 8;
 const atRest = [0, 0, 0] as const;
@@ -30,7 +29,7 @@ export class CoreJoint {
     const opened = new CoreJoint(memory, joint);
     if (bearing !== "found") opened.on(core._condyle_set_roles, bearing.counts ? 1 : 0, bearing.fixed, bearing.mobile);
     if (arrays.layers) opened.setLayers(arrays.layers);
-    if (arrays.posed) describeParts(memory, joint, arrays.posed);
+    if (arrays.posed) opened.describeParts(arrays.posed);
     return opened;
   }
 
@@ -241,6 +240,12 @@ export class CoreJoint {
         this.core._condyle_surface, ofFixed, surface.firstVertex, surface.vertices, surface.firstTriangle, surface.triangles,
         layer?.youngsModulus_mpa ?? 0, layer?.poissonRatio ?? 0, layer?.thickness_mm ?? null);
     this.on(this.core._condyle_elastic, layers.casting, layers.law, layers.rule, layers.reach_mm);
+  }
+
+  private describeParts({ text, fixed, mobile }: PosedArrays): void {
+    for (const [ofFixed, given] of [mobile, fixed].entries())
+      this.on(this.core._condyle_body_given, ofFixed, given.text, given.vertices, given.fittedHead, given.fittedHead?.length ?? 0);
+    this.on(this.core._condyle_parts, text);
   }
 
   private valuesOf(quantity: Exclude<Quantity, "none">, ofFixed: number, count: number): Values {

@@ -1,4 +1,4 @@
-import type { RomAnswer, StoredPart } from "../report";
+import type { RomAnswer } from "../report";
 
 /// What page and worker say to each other; the worker's tasks and queries are in worker.ts and queries.ts, and their types with them.
 
@@ -28,21 +28,17 @@ export interface JointArrays {
   posed: PosedArrays | null;
 }
 
-/// Parts of a joint and its bodies as they are given, as page_parts.hpp takes them.
+/// Parts of a joint and its bodies as they are given, as page_parts.hpp takes them: texts, and arrays that are null as in the drawn body, or not known.
 export interface PosedArrays {
-  parts: StoredPart[];
-  bearingMargin_mm: number | null;
+  text: string;
   fixed: GivenBody;
   mobile: GivenBody;
 }
 
-/// Null: as in the drawn body, or not known.
 export interface GivenBody {
-  meshes: { name: string; contact: string; place: Uint32Array }[];
+  text: string;
   vertices: Float64Array | null;
-  head: Float64Array | null;
   fittedHead: Uint32Array | null;
-  margin_mm: number | null;
 }
 
 /// The part of a body that carries load; rigid without a layer.

@@ -7,14 +7,14 @@ declare module "page-core" {
     & Taking<0, "error" | "joint_block" | "joint_block_bytes">
     & Taking<1, "free" | "penetrating_vertices" | "depths" | "pair_triangles" | "intervals" | "free_mesh" | "side" | "description" |
       "free_labels" | "labels" | "free_bone" | "bone_name" | "drop_file">
-    & Taking<2, "can_penetrate" | "in_contact" | "pairs" | "undo_stroke" | "strokes" | "part_mesh" | "parts" | "set_parameters" | "bearing" |
+    & Taking<2, "can_penetrate" | "in_contact" | "pairs" | "undo_stroke" | "strokes" | "parts" | "set_parameters" | "bearing" |
       "vertex_count" | "triangle_count">
     & Taking<3, "penetrations" | "brush" | "removed" | "move_centre" | "read_mesh" | "propose" | "read_labels" | "bone" | "fill_file" |
       "joint_meshes" | "join">
-    & Taking<4, "pose" | "depth" | "nearest" | "brushed" | "parameter" | "set_roles" | "mesh">
-    & Taking<5, "body_mesh" | "part" | "elastic" | "pressure" | "motion">
-    & Taking<6, "shown" | "free_angles" | "limit_about">
-    & Taking<7, "limit" | "body_given">
+    & Taking<4, "pose" | "depth" | "nearest" | "brushed" | "set_roles" | "mesh">
+    & Taking<5, "elastic" | "pressure" | "motion">
+    & Taking<6, "shown" | "free_angles" | "limit_about" | "body_given">
+    & Taking<7, "limit">
     & Taking<8, "stroke">
     & Taking<9, "surface">
     & Taking<12, "joint">;
