@@ -70,7 +70,7 @@ test("strokes where a motion ends gain degrees, and undo gives every bit back", 
 
 test("a drag on a bone is one stroke and does not turn the joint; beside the brush it turns", async () => {
   const { page, complaints } = await opened("sample", { fragment: "#hidden=fixed" });
-  const camera = () => page.evaluate(() => condyle.scene.viewpoint.join());
+  const camera = () => page.evaluate(() => condyle.scene.camera.viewpoint.join());
   await page.getByLabel("Paint on the bones").check();
   const from = await page.evaluate(() => {
     // A vertex of the neck that is seen.

@@ -48,7 +48,7 @@ const storedQuantities: readonly ShownQuantity[] = ["gap", "removed", "none"];
 /// A scene, or only a line if the browser shows none.
 function sceneOf(arrays: JointArrays, parts: ReportText["parts"], label: string): JointScene | null {
   try {
-    return new JointScene(found("scene"), arrays.fixed, arrays.mobile, parts, label, arrays.side === 0 ? "right" : "left");
+    return new JointScene(found("scene"), arrays.fixed, arrays.mobile, parts, label);
   } catch {
     warn(words.noWebGl);
     return null;
@@ -99,7 +99,7 @@ export class Page {
     for (const note of text.rom?.notes ?? []) note.text = inWords(note.text);
     this.shownText = text;
     this.address = new ViewAddress(text, () => ({
-      at: this.motion.coordinates, display: this.display.state, zone: this.zones?.motion ?? "", camera: this.scene?.viewpoint ?? null,
+      at: this.motion.coordinates, display: this.display.state, zone: this.zones?.motion ?? "", camera: this.scene?.camera.viewpoint ?? null,
       isByHand: this.isLinked || this.shownText.by_hand !== undefined,
     }), this.closed.signal);
     const names = namesOf(text.joint);
@@ -191,14 +191,14 @@ export class Page {
   private placeViewTools(names: Record<BodyName, string>): void {
     const { scene } = this, tools: HTMLElement[] = [];
     if (scene) {
-      tools.push(button(words.fitJoint, () => scene.fitJoint()), button(words.fitAll, () => scene.fitAll()));
+      tools.push(button(words.fitJoint, () => scene.fitTo("joint")), button(words.fitAll, () => scene.fitTo("all")));
       const unit = () => (this.display.quantity === "none" ? "" : words.unit[this.display.quantity]);
       const pointer = new PointerPanel(scene, names, unit);
       this.display.element.append(this.display.legend, pointer.element);
       this.display.element.append(html("div", { class: "row" }, checkbox(words.orthographic, false, (on) => scene.setOrthographic(on)),
         button(words.saveSurfaces, () => void saveSurfaces(scene, this.text))));
       found("legend-place").replaceChildren(pointer.readout);
-      scene.onViewChange(() => this.address.remember());
+      scene.camera.onEnd(() => this.address.remember());
     }
     const drawer = html("details", { id: "view-options", class: "popup" }, html("summary", {}, words.viewOptions), this.display.element);
     found("view-tools").replaceChildren(...tools, drawer);
@@ -232,7 +232,7 @@ export class Page {
     window.addEventListener("beforeprint", () => this.putNotesOnPaper(), { signal });
     listenToKeys({
       "1": () => this.tabs.showNumber(1), "2": () => this.tabs.showNumber(2), "3": () => this.tabs.showNumber(3), "4": () => this.tabs.showNumber(4),
-      f: () => this.scene?.fitJoint(), u: () => this.undo(), "0": () => this.motion.goTo(this.text.reference_deg, () => undefined, this.text.reference_mm),
+      f: () => this.scene?.fitTo("joint"), u: () => this.undo(), "0": () => this.motion.goTo(this.text.reference_deg, () => undefined, this.text.reference_mm),
       " ": () => this.recorded?.toggle(), "?": () => found<HTMLDialogElement>("help").showModal(),
     }, signal);
   }
@@ -306,7 +306,7 @@ export class Page {
   private applyAddress(isStep = false): void {
     const { coordinates, values, refused, display, zone, camera, isByHand } = this.address.read();
     if (refused.length) warn(refused.join(" "));
-    if (camera && this.scene) this.scene.viewpoint = camera;
+    if (camera && this.scene) this.scene.camera.viewpoint = camera;
     if (this.computes) this.motion.step(values.slice(0, 3), values.slice(3));
     this.motion.setUndo(this.address.step > 0);
     if (isStep) return;
@@ -345,7 +345,7 @@ export class Page {
       values: (values) => this.show(values),
       depth: (depth) => this.motion.showDepth(depth),
       bearing: (triangles) => this.markBearing(triangles),
-      openness: (body, openness) => this.scene?.setOpenness(body, openness),
+      openness: (body, openness) => this.scene?.bodies[body].setOpenness(openness),
       mapPoint: (point, intervals) => this.figures.map?.set(point, intervals),
       failed: warn,
     });
@@ -365,7 +365,7 @@ export class Page {
 
   /// The bone has changed, so the display of the pose is requested again.
   private takeBrushed({ body, vertices, depths_mm, volume_mm3, steps }: Brushed, rests: boolean): void {
-    this.scene?.replaceBody(body, vertices);
+    this.scene?.bodies[body].replaceVertices(vertices);
     this.strokes[body] = { volume_mm3, areByHand: steps !== (this.text.plan?.surfaces[body] ? 1 : 0) };
     const { fixed: ofFixed, mobile } = this.strokes, gone = ([["fixed", ofFixed], ["mobile", mobile]] as const)
       .flatMap(([each, by]) => (by?.volume_mm3 ? [words.volumeOf(fixed(by.volume_mm3, 1), named(this.text.joint[each]))] : []));
@@ -402,8 +402,8 @@ export class Page {
 
   /// The same for a joint whose parts turn: the bearing surface is found again.
   private takeTurned({ fixed: fixedBody, mobile }: Turned, rests: boolean, done: string): void {
-    this.scene?.replaceBody("fixed", fixedBody);
-    this.scene?.replaceBody("mobile", mobile);
+    this.scene?.bodies.fixed.replaceVertices(fixedBody);
+    this.scene?.bodies.mobile.replaceVertices(mobile);
     this.change(done ? words.afterTurning(done) : null);
     if (!rests) return;
     this.ask(this.motion.coordinates);

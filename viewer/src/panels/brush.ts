@@ -250,7 +250,7 @@ export class BrushPanel {
       const depths = this.brushed[body]?.depths_mm;
       const lowered = depths && this.shows.checked ? Uint32Array.from(depths.keys()).filter((v) => depths[v]! > 0) : null;
       const before = this.options.before[body] ?? this.options.arrays[body].vertices;
-      this.scene?.showRemoved(body, lowered?.length ? { vertices: lowered, before: threesOf(before, lowered) } : null);
+      this.scene?.annotations.showRemoved(body, lowered?.length ? { vertices: lowered, before: threesOf(before, lowered) } : null);
     }
   }
 

@@ -90,7 +90,7 @@ export class ComparePanel {
     for (const body of bodyNames) {
       const stored = this.before.surfaces[body];
       if (stored)
-        this.scene?.setGhost(body, on ? {
+        this.scene?.bodies[body].setGhost("before", on ? {
           vertices: this.report.array(stored.vertices, "f64"), triangles: this.report.array(stored.triangles, "u32"), colour: ghostColour,
         } : null);
     }

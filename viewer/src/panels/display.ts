@@ -63,7 +63,7 @@ export class DisplayPanel {
     this.opacity = { fixed: this.opacityOf("fixed"), mobile: this.opacityOf("mobile") };
     const bodies = bodyNames.map((body) => html("div", { class: "row" },
       this.shownBox(body, names[body], (on) => scene?.setVisible(body, on)), this.opacity[body],
-      ...parts[body].map((part, i) => this.shownBox(`${body}.${i}`, spaced(named(part.name)), (on) => scene?.setPartVisible(body, part, on)))));
+      ...parts[body].map((part, i) => this.shownBox(`${body}.${i}`, spaced(named(part.name)), (on) => scene?.bodies[body].setPartVisible(part, on)))));
     const colour = choice(words.colour, only(words.quantity, quantities), this.chosen, (key) => {
       this.choose(key);
       changed();

@@ -1,13 +1,12 @@
 import type { JointArrays } from "../core/protocol";
-import { button, checkbox, choice, fold, html } from "../dom";
+import { button, checkbox, fold, html } from "../dom";
 import { longestNotes, longestPinText, mostPins, type Pin, type UserNotes } from "../notes_block";
 import { fixed } from "../numbers";
 import type { BodyName } from "../scene/body_names";
 import type { Picked } from "../scene/picking";
 import type { JointScene } from "../scene/scene";
 import { words } from "../words";
-
-const clickTolerance_px = 4;
+import { listenToPresses, vertexByNumber } from "./vertex_choice";
 
 /// The user's text on the page, and pins on the bones it is about.
 export class NotesPanel {
@@ -31,10 +30,15 @@ export class NotesPanel {
     this.element = fold(words.notesOfUser, pins.length > 0 || text !== "",
       html("p", { class: "small" }, words.notesOfUserHelp),
       html("label", { for: "user-notes" }, words.notesText), this.text,
-      html("h3", {}, words.pins), html("div", { class: "row" }, ...(scene ? [checkbox(words.pinOnBones, false, (on) => (this.isPinning = on))] : []), ...this.byNumber()),
+      html("h3", {}, words.pins), html("div", { class: "row" }, ...(scene ? [checkbox(words.pinOnBones, false, (on) => (this.isPinning = on))] : []),
+        ...vertexByNumber({ body: words.pinBone, number: words.pinVertex, button: words.pinHere }, names,
+          (body) => arrays[body].vertices.length / 3 - 1, (picked) => this.add(picked), (why) => (this.said.textContent = why))),
       this.said, this.list);
     this.element.id = "notes-of-user";
-    if (scene) this.listen(scene);
+    if (scene) listenToPresses(scene.canvas, (event) => {
+      const picked = this.isPinning && this.element.checkVisibility() ? scene.pick(event) : null;
+      if (picked) this.add(picked);
+    });
     this.show();
   }
 
@@ -52,32 +56,6 @@ export class NotesPanel {
   placeOf({ body, vertex }: Picked): string {
     const own = Array.from(this.arrays[body].vertices.subarray(3 * vertex, 3 * vertex + 3)), said = words.pinPlace(this.names[body], vertex, threeOf(own));
     return body === "fixed" ? said : `${said}, ${words.pinInFixed(this.names.fixed, threeOf(placed(this.X_FM, own)))}`;
-  }
-
-  /// A press that did not turn the joint.
-  private listen(scene: JointScene): void {
-    let pressedAt: [number, number] = [0, 0];
-    scene.canvas.addEventListener("pointerdown", (event) => (pressedAt = [event.clientX, event.clientY]));
-    scene.canvas.addEventListener("click", (event) => {
-      if (!this.isPinning || !this.element.checkVisibility() || Math.hypot(event.clientX - pressedAt[0], event.clientY - pressedAt[1]) > clickTolerance_px) return;
-      const picked = scene.pick(event);
-      if (picked) this.add(picked);
-    });
-  }
-
-  /// A vertex by its number, for who has no pointer.
-  private byNumber(): HTMLElement[] {
-    let body: BodyName = "mobile";
-    const number = html("input", { type: "number", min: 0, step: 1, value: 0, "aria-label": words.pinVertex });
-    const add = () => {
-      const last = this.arrays[body].vertices.length / 3 - 1, vertex = number.valueAsNumber;
-      if (Number.isInteger(vertex) && vertex >= 0 && vertex <= last) this.add({ body, vertex });
-      else this.said.textContent = words.noVertex(this.names[body], last);
-    };
-    number.addEventListener("keydown", ({ key }) => {
-      if (key === "Enter") add();
-    });
-    return [choice<BodyName>(words.pinBone, { mobile: this.names.mobile, fixed: this.names.fixed }, body, (chosen) => (body = chosen)), number, button(words.pinHere, add)];
   }
 
   private add({ body, vertex }: Picked): void {

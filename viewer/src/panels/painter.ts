@@ -22,12 +22,12 @@ export class Painter {
     place.addEventListener("pointerdown", (event) => this.begin(event, place), { capture: true });
     place.addEventListener("pointermove", (event) => this.move(event), { capture: true });
     for (const end of ["pointerup", "pointercancel"] as const) place.addEventListener(end, (event) => this.end(event), { capture: true });
-    place.addEventListener("pointerleave", () => this.hideRing());
+    place.addEventListener("pointerleave", () => this.scene.annotations.showRing(null));
   }
 
   setActive(on: boolean): void {
     this.isActive = on;
-    if (!on) this.hideRing();
+    if (!on) this.scene.annotations.showRing(null);
   }
 
   private get works(): boolean {
@@ -36,7 +36,7 @@ export class Painter {
 
   private begin(event: PointerEvent, place: HTMLElement): void {
     if (!this.works || event.button !== 0 || event.target !== this.scene.canvas) return;
-    const picked = this.scene.pickPoint(event);
+    const picked = this.scene.pick(event);
     if (!picked) return;
     event.stopPropagation();
     place.setPointerCapture(event.pointerId);
@@ -49,14 +49,14 @@ export class Painter {
     const { stroke } = this;
     if (!stroke) {
       if (!this.works || event.buttons !== 0) return;
-      const picked = this.scene.pickPoint(event);
+      const picked = this.scene.pick(event);
       if (picked) this.showRing(picked);
-      else this.hideRing();
+      else this.scene.annotations.showRing(null);
       return;
     }
     if (event.pointerId !== stroke.pointer) return;
     event.stopPropagation();
-    const picked = this.scene.pickPoint(event);
+    const picked = this.scene.pick(event);
     if (picked?.body !== stroke.body) return;
     this.showRing(picked);
     if (stroke.along.at(-1) === picked.vertex) return;
@@ -83,10 +83,6 @@ export class Painter {
   }
 
   private showRing({ point, normal, body }: PickedPoint): void {
-    this.scene.showRing({ point, normal, body, radius_mm: this.hooks.radius_mm() });
-  }
-
-  private hideRing(): void {
-    this.scene.showRing(null);
+    this.scene.annotations.showRing({ point, normal, body, radius_mm: this.hooks.radius_mm() });
   }
 }

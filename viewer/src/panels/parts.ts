@@ -128,7 +128,8 @@ export class PartsPanel {
       const { vertices, triangles } = this.options.arrays[body];
       const isOther = this.now !== null && this.now[body].some((value, i) => value !== vertices[i]);
       const shown = isOther && this.ghost.checked;
-      if (shown !== this.scene?.bodies[body].hasGhost(ghostName)) this.scene?.setGhost(body, shown ? { vertices, triangles } : null, ghostName);
+      const drawn = this.scene?.bodies[body];
+      if (shown !== drawn?.hasGhost(ghostName)) drawn?.setGhost(ghostName, shown ? { vertices, triangles } : null);
     }
   }
 

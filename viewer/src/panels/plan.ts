@@ -77,7 +77,7 @@ export class PlanPanel {
   private showRemoved(on: boolean): void {
     for (const body of bodyNames) {
       const cut = this.plan.surfaces[body];
-      this.scene?.showRemoved(
+      this.scene?.annotations.showRemoved(
         body, on && cut ? { vertices: this.report.array(cut.lowered, "u32"), before: this.report.array(cut.before, "f64") } : null);
     }
   }

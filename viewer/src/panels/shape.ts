@@ -55,7 +55,7 @@ export function shapeDrawings(shape: StoredMeasures): Drawing[] {
 /// The shape of a hip: its measures with bands and normal ranges, around the clock, and drawn on the bones.
 export function shapePanel(shape: StoredMeasures, scene: JointScene | null): { element: HTMLElement; details: HTMLDetailsElement } {
   const { measures } = shape, more: HTMLElement[] = [html("p", {}, words.pelvisFrame(shape.pelvis_frame)), ...measureTables(shape)];
-  const parts = scene ? [html("div", { class: "row no-print" }, checkbox(words.drawMeasures, false, (on) => scene.showMarks(on ? measureMarks(shape) : null)))] : [];
+  const parts = scene ? [html("div", { class: "row no-print" }, checkbox(words.drawMeasures, false, (on) => scene.annotations.showMarks(on ? measureMarks(shape) : null)))] : [];
   const folded = (title: string, texts: string[]) => {
     if (texts.length) more.push(html("details", { class: "folded" }, html("summary", {}, title), lines(texts)));
   };

@@ -20,9 +20,8 @@ export function drawWorst(text: ReportText, arrays: JointArrays, closed: AbortSi
   if (!headline || !pose || headline.reason !== "contact") return;
   window.setTimeout(() => {
     if (closed.aborted) return;
-    void pictureOf(text, arrays, pose, labelOf(headline, text), rom.bearing?.head?.radius_mm ?? null).then((picture) => {
-      if (picture) drawn(picture, sentenceOf(headline, text));
-    });
+    const picture = pictureOf(text, arrays, pose, labelOf(headline, text), text.rom?.bearing?.head?.radius_mm ?? null);
+    if (picture) drawn(picture, sentenceOf(headline, text));
   }, pictureAfter_ms);
 }
 
@@ -31,34 +30,24 @@ function labelOf(motion: MotionAnswer, text: ReportText): string {
 }
 
 /// A picture of the joint at one of the report's poses, drawn beside the page; null if it is too large or the browser draws no scene.
-async function pictureOf(
-  text: ReportText, { fixed, mobile }: JointArrays, pose: StoredPose, label: string, radius_mm: number | null): Promise<string | null> {
+function pictureOf(text: ReportText, { fixed, mobile }: JointArrays, pose: StoredPose, label: string, radius_mm: number | null): string | null {
   if ((fixed.triangles.length + mobile.triangles.length) / 3 > most) return null;
   const place = html("div", { class: "beside-page", "aria-hidden": "true" });
   place.style.width = `${size_px.width}px`;
   place.style.height = `${size_px.height}px`;
   document.body.append(place);
   try {
-    const scene = new JointScene(place, fixed, mobile, text.parts, "", text.joint.side);
+    const scene = new JointScene(place, fixed, mobile, text.parts, "");
     scene.canvas.tabIndex = -1;
     scene.setJointRadius(radius_mm);
     scene.setPose(pose.pose);
     scene.arriveAt(pose.contact_point_mm, label, "mobile", "at once");
-    const blob = await scene.picture("");
+    const picture = scene.pictureCanvas("").toDataURL("image/png");
     scene.canvas.getContext("webgl2")?.getExtension("WEBGL_lose_context")?.loseContext();
-    return await dataUrlOf(blob);
+    return picture;
   } catch {
     return null;
   } finally {
     place.remove();
   }
-}
-
-function dataUrlOf(blob: Blob): Promise<string> {
-  return new Promise((done, fail) => {
-    const reader = new FileReader();
-    reader.onload = () => done(reader.result as string);
-    reader.onerror = () => fail(reader.error ?? new Error());
-    reader.readAsDataURL(blob);
-  });
 }

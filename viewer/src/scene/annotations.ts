@@ -25,7 +25,7 @@ export class Annotations {
   private marks: Object3D[] = [];
   private readonly removed: Record<BodyName, Mesh | null> = { fixed: null, mobile: null };
 
-  constructor(private readonly scene: Scene, private readonly bodies: Record<BodyName, SceneBody>) {
+  constructor(private readonly scene: Scene, private readonly bodies: Record<BodyName, SceneBody>, private readonly changed: () => void) {
     this.contactPoint = new Mesh(new SphereGeometry(1, 24, 16), new MeshBasicMaterial({ color: contactColour, depthTest: false, transparent: true }));
     this.contactPoint.renderOrder = 9;
     this.contactPoint.visible = false;
@@ -34,7 +34,7 @@ export class Annotations {
   }
 
   /// A ball about a point in F.
-  showContactPoint(point: readonly [number, number, number] | null, radius_mm: number): void {
+  showContactPoint(point: readonly [number, number, number] | null, radius_mm = 0): void {
     this.contactPoint.visible = point !== null;
     if (point) this.contactPoint.position.set(...point);
     this.contactPoint.scale.setScalar(radius_mm);
@@ -45,6 +45,7 @@ export class Annotations {
     this.measure = ends
       ? new Line(new BufferGeometry().setFromPoints(ends), new LineBasicMaterial({ color: "#c2185b", depthTest: false })) : null;
     if (this.measure) this.scene.add(this.measure);
+    this.changed();
   }
 
   /// Lines and points that move with their bodies; null: none.
@@ -61,20 +62,24 @@ export class Annotations {
       this.bodies[body].mesh.add(...drawn);
       return drawn;
     });
+    this.changed();
   }
 
   /// The surface that a body had before some of its vertices were lowered, over them, in a colour that no scale has; null: none.
   showRemoved(body: BodyName, removed: { vertices: Uint32Array; before: Float64Array } | null): void {
     this.removed[body]?.removeFromParent();
     const mesh = removed && this.bodies[body].surfaceBefore(removed.vertices, removed.before);
-    this.removed[body] = mesh && new Mesh(mesh, new MeshBasicMaterial({ color: "#1b9e77", transparent: true, opacity: 0.6, side: DoubleSide }));
-    if (this.removed[body]) this.removed[body].renderOrder = 5;
-    if (this.removed[body]) this.bodies[body].mesh.add(this.removed[body]);
+    const drawn = mesh && new Mesh(mesh, new MeshBasicMaterial({ color: "#1b9e77", transparent: true, opacity: 0.6, side: DoubleSide }));
+    if (drawn) drawn.renderOrder = 5;
+    if (drawn) this.bodies[body].mesh.add(drawn);
+    this.removed[body] = drawn;
+    this.changed();
   }
 
   /// Null: no ring.
   showRing(ring: Ring | null): void {
     this.ring.removeFromParent();
+    this.changed();
     if (!ring) return;
     this.bodies[ring.body].mesh.add(this.ring);
     this.ring.position.set(...ring.point);

@@ -42,7 +42,9 @@ export class SceneBody {
   private readonly showsMarked: Record<Marked, boolean> = { bearing: false, contact: true, zone: true };
 
   /// In a body of several meshes, soft ones and implants have a colour of their own.
-  constructor(surface: Surface, private readonly bone: string, private readonly cartilage: string, private readonly parts: readonly Part[]) {
+  constructor(
+    surface: Surface, private readonly bone: string, private readonly cartilage: string, private readonly parts: readonly Part[],
+    private readonly changed: () => void) {
     this.surface = surface;
     const count = surface.vertices.length / 3;
     const geometry = new BufferGeometry();
@@ -80,6 +82,7 @@ export class SceneBody {
     geometry.computeVertexNormals();
     geometry.computeBoundingSphere();
     geometry.boundingBox = null;
+    this.changed();
   }
 
   /// Another state of this body by its name, transparent, in the same place; null: none.
@@ -88,6 +91,7 @@ export class SceneBody {
     shown?.removeFromParent();
     shown?.geometry.dispose();
     this.ghosts.delete(name);
+    this.changed();
     if (!ghost) return;
     const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(ghost.vertices), 3));
     geometry.setIndex(new BufferAttribute(new Uint32Array(ghost.triangles), 1));
@@ -122,6 +126,7 @@ export class SceneBody {
     const attribute = this.mesh.geometry.getAttribute("openness") as BufferAttribute;
     attribute.array.set(openness);
     attribute.needsUpdate = true;
+    this.changed();
   }
 
   /// Null: no colours.
@@ -156,6 +161,7 @@ export class SceneBody {
   setPartVisible({ first_vertex, vertices }: Part, visible: boolean): void {
     for (let v = first_vertex; v < first_vertex + vertices; ++v) this.hidden.setX(v, visible ? 0 : 1);
     this.hidden.needsUpdate = true;
+    this.changed();
   }
 
   /// The triangles around these vertices, with the vertices where they were.

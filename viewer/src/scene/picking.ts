@@ -23,14 +23,8 @@ export class Picker {
   constructor(
     private readonly canvas: HTMLCanvasElement, private readonly bodies: Record<BodyName, SceneBody>, private readonly radius_mm: () => number) {}
 
-  /// The vertex nearest to the surface point under a point of the page; null if no bone is there.
-  pick(event: { clientX: number; clientY: number }, camera: Camera): Picked | null {
-    const found = this.hitUnder(event, camera);
-    return found && { body: found.body, vertex: nearestCorner(found.hit) };
-  }
-
   /// The point of a bone under a point of the page, in that body's frame; null if no bone is there.
-  pickPoint(event: { clientX: number; clientY: number }, camera: Camera): PickedPoint | null {
+  pick(event: { clientX: number; clientY: number }, camera: Camera): PickedPoint | null {
     const found = this.hitUnder(event, camera);
     if (!found) return null;
     const { body, hit } = found;

@@ -1,3 +1,4 @@
+import { html } from "../dom";
 import { words } from "../words";
 import type { ColourScale } from "./colour_scale";
 import { drawBar, drawSwatch, legendParts, tickTexts } from "./legend";
@@ -11,8 +12,7 @@ const font = (size: number, weight = "") => `${weight} ${size}px system-ui, sans
 export function composedPicture(
   scene: HTMLCanvasElement, ratio: number, title: string, ribbon: string | null, written: Written, scale: ColourScale | null): HTMLCanvasElement {
   const head = title ? titleHeight + (ribbon ? ribbonHeight : 0) : 0, { width, height } = written;
-  const canvas = document.createElement("canvas");
-  [canvas.width, canvas.height] = [Math.round(width * ratio), Math.round((height + head) * ratio)];
+  const canvas = html("canvas", { width: Math.round(width * ratio), height: Math.round((height + head) * ratio) });
   const context = canvas.getContext("2d")!;
   context.scale(ratio, ratio);
   context.fillStyle = paper;

@@ -1,7 +1,7 @@
 import { Box3, Matrix4, Plane, Quaternion, Scene, Vector3, WebGLRenderer } from "three";
 import type { Surface } from "../core/protocol";
-import { Annotations, type Ring } from "./annotations";
-import { SceneBody, type Ghost, type Marked, type Part } from "./body";
+import { Annotations } from "./annotations";
+import { SceneBody, type Marked, type Part } from "./body";
 import { bodyNames, otherThan, type BodyName } from "./body_names";
 import { prefersStill } from "./camera_turn";
 import { plainBone, type ColourScale } from "./colour_scale";
@@ -9,11 +9,10 @@ import { directionOnto, directionPast, type Standing } from "./contact_view";
 import { heightOfJoint, radiusOfNeighbours } from "./framing";
 import { aside, JointCamera } from "./joint_camera";
 import { Lights } from "./lights";
-import type { Marks } from "./measure_marks";
 import { SceneOverlay, type Written } from "./overlay";
 import { Picker, type Picked, type PickedPoint } from "./picking";
 import { composedPicture } from "./picture";
-import { lettersOf, scaleBarLength, viewNamed, type Side, type Three } from "./views";
+import { lettersOf, scaleBarLength, viewDirections, type Three, type View } from "./views";
 
 export type ClipAxis = "none" | "x" | "y" | "z";
 
@@ -40,8 +39,8 @@ export class JointScene {
   private readonly scene = new Scene();
   private readonly lights: Lights;
   private readonly overlay = new SceneOverlay();
-  private readonly camera: JointCamera;
-  private readonly annotations: Annotations;
+  readonly camera: JointCamera;
+  readonly annotations: Annotations;
   private readonly picker: Picker;
   private readonly opacities: Record<BodyName, number> = { fixed: 1, mobile: 1 };
   /// The limit shown.
@@ -63,8 +62,7 @@ export class JointScene {
 
   /// Throws if the browser has no WebGL.
   constructor(
-    private readonly place: HTMLElement, fixed: Surface, mobile: Surface, parts: Record<BodyName, readonly Part[]>, label: string,
-    private readonly side: Side = "right") {
+    private readonly place: HTMLElement, fixed: Surface, mobile: Surface, parts: Record<BodyName, readonly Part[]>, label: string) {
     this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     this.renderer.localClippingEnabled = true;
     this.renderer.setClearColor(0, 0);
@@ -75,11 +73,11 @@ export class JointScene {
     place.append(canvas, this.overlay.element);
     this.overlay.setScale(null);
 
-    const body = (name: BodyName, surface: Surface) => new SceneBody(surface, boneColours[name], cartilageColours[name], parts[name]);
+    const body = (name: BodyName, surface: Surface) => new SceneBody(surface, boneColours[name], cartilageColours[name], parts[name], () => this.draw());
     this.bodies = { fixed: body("fixed", fixed), mobile: body("mobile", mobile) };
     this.bodies.mobile.mesh.matrixAutoUpdate = false;
     this.scene.add(this.bodies.fixed.mesh, this.bodies.mobile.mesh);
-    this.annotations = new Annotations(this.scene, this.bodies);
+    this.annotations = new Annotations(this.scene, this.bodies, () => this.draw());
     this.picker = new Picker(canvas, this.bodies, () => this.jointRadius_mm);
     this.camera = new JointCamera(canvas, () => this.draw());
     this.lights = new Lights(this.scene);
@@ -101,24 +99,18 @@ export class JointScene {
 
   // -- where the camera stands ------------------------------------------------------------------------------------------------------
 
-  /// Views the last fitted part from a side, by the name that `condyle picture --view` takes.
-  look(view: string): void {
+  /// Views the last fitted part from a side, superior up. In a view along that anterior is up: to that side the camera stands a hair aside.
+  look(view: View): void {
     this.mayTurn = false;
-    const { towardsViewer, up } = viewNamed(view, this.side);
-    const towards = new Vector3(...towardsViewer);
-    // Superior is up unless the view is along it: then the up vector decides to which side the camera is offset.
-    if (Math.abs(towardsViewer[1]) === 1) towards.addScaledVector(new Vector3(...up), -Math.sign(towardsViewer[1]) * aside).normalize();
+    const towards = new Vector3(...viewDirections[view]);
+    if (towards.y !== 0) towards.setX(-towards.y * aside).normalize();
     this.camera.standFitted({ towards, ...this.fitting() });
   }
 
-  /// Frames the joint: a sphere of 2.5 radii about its centre.
-  fitJoint(): void {
-    this.fitTo("joint");
-  }
-
-  /// Frames both bones.
-  fitAll(): void {
-    this.fitTo("all");
+  /// Frames the joint, a sphere of 2.5 radii about its centre, or both bones.
+  fitTo(what: "joint" | "all"): void {
+    this.fitted = what;
+    this.camera.standFitted({ towards: this.camera.towards, ...this.fitting() });
   }
 
   /// Radius of the joint's sphere, that of the head; without one it is where the bones lie next to each other.
@@ -137,18 +129,6 @@ export class JointScene {
     this.draw();
   }
 
-  /// Camera and its target, six numbers.
-  get viewpoint(): number[] {
-    return this.camera.viewpoint;
-  }
-  set viewpoint(numbers: number[]) {
-    this.camera.viewpoint = numbers;
-  }
-
-  onViewChange(changed: () => void): void {
-    this.camera.onEnd(changed);
-  }
-
   /// Where a point is, in pixels of the page from the scene's top left corner.
   project(point: Three): [number, number] {
     const { x, y } = new Vector3(...point).project(this.camera.drawing());
@@ -164,7 +144,7 @@ export class JointScene {
     this.leaveLimit();
     if (!point) return;
     this.limit = { point: new Vector3(...point), label, glass: otherThan(from) };
-    this.showContactPoint(point);
+    this.annotations.showContactPoint(point, contactPointShare * this.jointRadius_mm);
     this.applyOpacities();
     if (turns !== "not") this.turnToLimit(turns === "at once");
     this.draw();
@@ -175,7 +155,7 @@ export class JointScene {
     if (!this.limit) return;
     this.limit = null;
     this.camera.stop();
-    this.showContactPoint(null);
+    this.annotations.showContactPoint(null);
     this.applyOpacities();
     this.draw();
   }
@@ -226,11 +206,6 @@ export class JointScene {
     this.draw();
   }
 
-  showContactPoint(point: readonly [number, number, number] | null): void {
-    this.annotations.showContactPoint(point, contactPointShare * this.jointRadius_mm);
-    this.draw();
-  }
-
   /// Triangles of either body, as one kind of mark.
   setMarked(as: Marked, fixed: Iterable<number>, mobile: Iterable<number>): void {
     this.bodies.fixed.setMarked(as, fixed);
@@ -243,68 +218,17 @@ export class JointScene {
     this.draw();
   }
 
-  setPartVisible(name: BodyName, part: Part, visible: boolean): void {
-    this.bodies[name].setPartVisible(part, visible);
-    this.draw();
-  }
-
-  /// How open a body's surface is at its vertices.
-  setOpenness(name: BodyName, openness: Uint8Array): void {
-    this.bodies[name].setOpenness(openness);
-    this.draw();
-  }
-
-  /// Another state of a body, such as before a change, transparent; in the body's frame. Null: none. Ghosts of other names stay.
-  setGhost(body: BodyName, ghost: Ghost | null, name = "before"): void {
-    this.bodies[body].setGhost(name, ghost);
-    this.draw();
-  }
-
-  /// Other positions of a body's vertices, x, y and z in turn, in its frame.
-  replaceBody(body: BodyName, vertices: ArrayLike<number>): void {
-    this.bodies[body].replaceVertices(vertices);
-    this.draw();
-  }
-
-  showDistance(ends: [Vector3, Vector3] | null): void {
-    this.annotations.showDistance(ends);
-    this.draw();
-  }
-
-  /// Lines and points that move with their bodies; null: none.
-  showMarks(marks: readonly Marks[] | null): void {
-    this.annotations.showMarks(marks);
-    this.draw();
-  }
-
   /// Vertices with numbers from 1, over everything; those of a hidden bone are not drawn.
   setPins(pins: readonly Picked[]): void {
     this.pins = pins;
     this.draw();
   }
 
-  /// The surface that a body had before some of its vertices were lowered, over them, in a colour that no scale has; null: none.
-  showRemoved(body: BodyName, removed: { vertices: Uint32Array; before: Float64Array } | null): void {
-    this.annotations.showRemoved(body, removed);
-    this.draw();
-  }
-
   // -- under the pointer ------------------------------------------------------------------------------------------------------------
 
-  /// The vertex nearest to the surface point under a point of the page; null if no bone is there.
-  pick(event: { clientX: number; clientY: number }): Picked | null {
-    return this.picker.pick(event, this.camera.drawing());
-  }
-
   /// The point of a bone under a point of the page, in that body's frame; null if no bone is there.
-  pickPoint(event: { clientX: number; clientY: number }): PickedPoint | null {
-    return this.picker.pickPoint(event, this.camera.drawing());
-  }
-
-  /// The ring of a brush; null: none.
-  showRing(ring: Ring | null): void {
-    this.annotations.showRing(ring);
-    this.draw();
+  pick(event: { clientX: number; clientY: number }): PickedPoint | null {
+    return this.picker.pick(event, this.camera.drawing());
   }
 
   /// Position of a vertex, in F.
@@ -387,11 +311,6 @@ export class JointScene {
         return [{ x: at, y: below, number: i + 1 }];
       }),
     };
-  }
-
-  private fitTo(what: "joint" | "all"): void {
-    this.fitted = what;
-    this.camera.standFitted({ towards: this.camera.towards, ...this.fitting() });
   }
 
   /// Target and distance of the camera that fit the joint or both bones. Bones that end near the joint are framed with it.
