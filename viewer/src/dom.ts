@@ -66,6 +66,13 @@ export function choice<Key extends string>(
   return html("span", {}, html("label", { for: id }, text), " ", select);
 }
 
+/// Marks the element of this name as the current one; null: none.
+export function markCurrent(elements: ReadonlyMap<string, Element>, current: string | null): void {
+  for (const [name, element] of elements)
+    if (name === current) element.setAttribute("aria-current", "true");
+    else element.removeAttribute("aria-current");
+}
+
 /// A name with underscores as words.
 export function spaced(name: string): string {
   return name.replaceAll("_", " ");

@@ -57,26 +57,16 @@ function meshLines(body: BodyName, parts: readonly Part[], became: Became): stri
     : ["", `[[${body}.meshes]]`, `name = ${quoted(part.name)}`, `mesh = ${quoted(name)}`, `contact = ${quoted(part.contact)}`]));
 }
 
-/// Head and socket keep their fits from before: a fit to a bone that was cut would move them.
-function sphereLines({ rom, parts }: ReportText): string[] {
-  const { head, socket, margin_mm } = rom?.bearing ?? {};
-  const table = (name: string, sphere: typeof head) => (sphere?.centre_mm
-    ? ["", `[${name}]  # before the cut`, `centre = [${sphere.centre_mm.join(", ")}]`, `radius = ${sphere.radius_mm}`] : []);
-  const bears = parts.mobile.some(({ contact }) => contact === "bearing");
+/// Head and socket keep their fits from before: a fit to a bone that was cut would move them. A known one goes with the meshes as given.
+function sphereLines({ rom, parts }: ReportText, posed: StoredPosed | null): string[] {
+  const { head, socket, margin_mm } = rom?.bearing ?? {}, bears = !posed && parts.mobile.some(({ contact }) => contact === "bearing");
+  const table = (name: string, sphere: typeof head, margin?: number | null) => (sphere?.centre_mm
+    ? ["", `[${name}]${posed ? "" : "  # before the cut"}`, `centre = [${sphere.centre_mm.join(", ")}]`, `radius = ${sphere.radius_mm}`,
+      ...(margin != null ? [`margin = ${margin}`] : [])] : []);
   return [
-    ...table("fixed.socket", socket), ...(bears ? [] : table("mobile.head", head)),
-    ...(!bears && head?.centre_mm && margin_mm != null ? [`margin = ${margin_mm}`] : []),
+    ...table("fixed.socket", posed ? posed.fixed.head : socket),
+    ...(bears ? [] : table("mobile.head", posed ? posed.mobile.head : head, posed ? posed.mobile.bearing_margin_mm : margin_mm)),
   ];
-}
-
-/// A known head or socket goes with the meshes as given.
-function givenSphereLines(posed: StoredPosed): string[] {
-  const lines = (name: string, body: BodyName) => {
-    const { head, bearing_margin_mm } = posed[body];
-    return head === null ? [] : ["", `[${name}]`, `centre = [${head.centre_mm.join(", ")}]`, `radius = ${head.radius_mm}`,
-      ...(body === "mobile" && bearing_margin_mm !== null ? [`margin = ${bearing_margin_mm}`] : [])];
-  };
-  return [...lines("fixed.socket", "fixed"), ...lines("mobile.head", "mobile")];
 }
 
 /// A point of a body in the frame of the file, which is that of the fixed one.
@@ -114,7 +104,7 @@ export function jointFileOf(text: ReportText, X_FM: readonly number[], version: 
     `# Written by a page of condyle ${version}: ${quoted(joint.name)} with ${turned ? "parts turned" : "bones changed by a brush"}.`, "condyle = 1",
     `name = ${quoted(joint.name)}`, ...(planned ? [`planned = ${quoted(planned)}`] : []),
     `kind = "${joint.kind}"`, ...(joint.kind === "hinge" && joint.anatomy === "hip" ? [] : [`joint = "${joint.anatomy}"`]),
-    `side = "${joint.side}"`, `units = "mm"`, ...bodyNames.flatMap(body), ...(turned ? givenSphereLines(turned.posed) : sphereLines(text)), "",
+    `side = "${joint.side}"`, `units = "mm"`, ...bodyNames.flatMap(body), ...sphereLines(text, turned?.posed ?? null), "",
     "[frame]  # the meshes are in the joint frame", "centre = [0, 0, 0]", "anterior = [1, 0, 0]", "superior = [0, 1, 0]",
     ...(isPosed || isStated ? ["", "[reference_pose]", ...coordinates.flatMap(({ name }, i) => (reference_deg[i] ? [`${name} = ${reference_deg[i]}`] : []))] : []),
     ...(turned?.posed.parts ?? []).flatMap((part) => partLines(part, turned!.values, X_FM)), "",

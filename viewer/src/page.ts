@@ -167,7 +167,7 @@ export class Page {
   }
 
   private placedStrip(): ResultStrip {
-    const strip = new ResultStrip(this.shownText, (motion) => this.motion.goToEnd(motion), (motion) => this.motion.canGo(motion),
+    const strip = new ResultStrip(this.shownText, (motion) => this.motion.goToEnd(motion), ({ name }) => this.motion.hasPose(name),
       this.extremes(), () => this.showFold("checks"), this.loaded?.sentence ?? null);
     found("strip-place").replaceChildren(strip.element);
     return strip;

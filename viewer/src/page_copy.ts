@@ -1,3 +1,5 @@
+import { html } from "./dom";
+
 const blockId = "condyle-notes";
 
 /// The page as its file has it, before the script changes anything.
@@ -19,10 +21,6 @@ export function notesBlock(): string | null {
 export function pageWith(block: string): Blob {
   const page = asInFile!.cloneNode(true) as HTMLElement;
   page.querySelector(`#${blockId}`)?.remove();
-  const element = document.createElement("script");
-  element.type = "application/octet-stream";
-  element.id = blockId;
-  element.textContent = block;
-  page.querySelector("#condyle-data")!.after(element);
+  page.querySelector("#condyle-data")!.after(html("script", { type: "application/octet-stream", id: blockId }, block));
   return new Blob([`<!DOCTYPE html>\n${page.outerHTML}`], { type: "text/html" });
 }

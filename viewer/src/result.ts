@@ -51,7 +51,9 @@ export function comparedText(motion: MotionAnswer, { motions }: RomAnswer, zero:
 
 /// The headline of a joint's limits, and the rule that chooses it: docs/report.md, "The answer first".
 
-const ofHips = ["flexion", "internal_rotation_at_90_flexion", "fadir"];
+/// By name, what is examined first of a hip.
+const examinedFirst = ({ anatomy, kind }: ReportText["joint"]) =>
+  (anatomy === "hip" && kind !== "hinge" ? ["flexion", "internal_rotation_at_90_flexion", "fadir"] : []);
 const shownFirst = 4;
 
 /// By how much a motion ends before its clinical range, or before bone of healthy hips if it is as short as with a cam, in degrees; null if it
@@ -79,8 +81,8 @@ function nearestToNormal(motions: readonly MotionAnswer[]): MotionAnswer | null 
 
 /// The four of the strip: those of a hip examination, or else the first ones; and among the others the one that lacks most of its
 /// clinical range, or is nearest to it, or else the next one.
-export function firstFigures({ motions }: RomAnswer, isHip: boolean): MotionAnswer[] {
-  const named = isHip ? ofHips.flatMap((name) => motions.find((motion) => motion.name === name) ?? []) : [];
+export function firstFigures({ rom, joint }: ReportText): MotionAnswer[] {
+  const motions = rom?.motions ?? [], named = examinedFirst(joint).flatMap((name) => motions.find((motion) => motion.name === name) ?? []);
   const shown = [...named, ...motions.filter((motion) => !named.includes(motion))].slice(0, shownFirst - 1);
   const others = motions.filter((motion) => !shown.includes(motion));
   const last = nearestToNormal(others) ?? others[0];
@@ -88,11 +90,11 @@ export function firstFigures({ motions }: RomAnswer, isHip: boolean): MotionAnsw
 }
 
 /// The motion of the sentence: the one that lacks most; if none does, internal rotation at 90° flexion for a hip, and for other joints
-/// the first of the strip that ends by contact.
-export function headlineMotion(rom: RomAnswer, isHip: boolean): MotionAnswer | null {
-  const byContact = ({ reason }: MotionAnswer) => reason === "contact";
-  return worstOf(rom.motions) ?? (isHip && rom.motions.find((motion) => motion.name === ofHips[1] && byContact(motion)) ||
-    (firstFigures(rom, isHip).find(byContact) ?? rom.motions[0] ?? null));
+/// the first of the strip that ends by contact. Null for a joint without limits.
+export function headlineMotion(text: ReportText): MotionAnswer | null {
+  const motions = text.rom?.motions ?? [], figures = firstFigures(text), byContact = ({ reason }: MotionAnswer) => reason === "contact";
+  const rotation = figures.find(({ name }) => name === examinedFirst(text.joint)[1]);
+  return worstOf(motions) ?? (rotation && byContact(rotation) ? rotation : figures.find(byContact) ?? motions[0] ?? null);
 }
 
 /// The band if it is informative: a motion that nothing ends in its range ends in few displaced joints either.

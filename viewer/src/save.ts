@@ -1,10 +1,9 @@
+import { html } from "./dom";
+
 /// Offers bytes as a file, from memory.
 export function saveBlob(name: string, blob: Blob): void {
   const url = URL.createObjectURL(blob);
-  const link = document.createElement("a");
-  link.href = url;
-  link.download = name;
-  link.click();
+  html("a", { href: url, download: name }).click();
   URL.revokeObjectURL(url);
 }
 

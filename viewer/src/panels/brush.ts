@@ -69,8 +69,8 @@ export class BrushPanel {
     this.asked = questionsOf(text);
     this.latest = this.asked.map(() => null);
     const motions = this.asked.map(({ motion }) => motion);
-    this.limits = new LiveLimits(words.liveLimits, words.gained, motions.map((motion) => limitsBefore.get(motion.name) ?? motion), motions, motions);
-    const first = headlineMotion(text.rom!, text.joint.anatomy === "hip" && text.joint.kind !== "hinge");
+    this.limits = new LiveLimits(words.liveLimits, words.gained, motions, motions.map((motion) => limitsBefore.get(motion.name) ?? motion));
+    const first = headlineMotion(text);
     this.shown = Math.max(0, motions.findIndex((motion) => motion === first));
     this.radius = this.sizeField(words.brushRadius, most.radius_mm, usual.radius_mm);
     this.depth = this.sizeField(words.brushDepth, most.depth_mm, usual.depth_mm);

@@ -31,7 +31,7 @@ export class CentrePanel {
       },
       failed: (message) => (this.refusal.textContent = message),
     });
-    this.limits = new LiveLimits(words.centreLimits, words.centreChange, motions, motions, motions);
+    this.limits = new LiveLimits(words.centreLimits, words.centreChange, motions);
     this.fields = axes.map((axis, i) => new NumberField(
       words.centreAlong[axis], -farthest_mm, farthest_mm, step_mm, " mm", false, (mm) => this.move(i, mm), (why) => (this.refusal.textContent = why ?? "")));
     this.element = section(words.centre, html("p", { class: "small" }, words.centreHelp),

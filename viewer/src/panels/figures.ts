@@ -1,13 +1,8 @@
 import { html } from "../dom";
 import { words } from "../words";
 
-export interface Figure {
-  key: string;
-  parts: readonly HTMLElement[];
-}
-
 /// One figure at a time, by a row of buttons if there are more.
-export function figuresPanel(figures: readonly Figure[]): HTMLElement {
+export function figuresPanel(figures: readonly { key: string; parts: readonly HTMLElement[] }[]): HTMLElement {
   const places = figures.map(({ parts }) => html("div", { class: "figure-place" }, ...parts));
   const choices = figures.map(({ key }) => html("label", {}, html("input", { type: "radio", name: "figure", value: key }), words.figureNames[key] ?? ""));
   choices.forEach((choice, i) => choice.firstElementChild!.addEventListener("change", () => show(i)));

@@ -36,31 +36,27 @@ export class LiveLimits {
   private readonly rows: HTMLTableRowElement[];
   private readonly before: EndOfMotion[];
 
-  /// `change` heads what the limits differ by.
-  constructor(title: string, change: string, before: readonly EndOfMotion[], after: readonly EndOfMotion[], motions: readonly MotionAnswer[]) {
+  /// `change` heads what the limits differ by; `before` are the ends before the change, if the motions' own are not.
+  constructor(title: string, change: string, motions: readonly MotionAnswer[], before: readonly EndOfMotion[] = motions) {
     this.before = [...before];
     this.element = table(["", words.before, words.after, change], motions.map(({ name }) => [named(motionName(name)), "", "", ""]), title);
     this.element.classList.add("live-limits");
     this.rows = [...this.element.querySelectorAll<HTMLTableRowElement>("tbody tr")];
-    this.showAll(after);
+    motions.forEach((end, i) => this.show(i, end));
   }
 
-  showAll(after: readonly EndOfMotion[]): void {
-    after.forEach((end, i) => this.show(i, end));
-  }
-
-  show(i: number, after: EndOfMotion): void {
-    const row = this.rows[i]!, before = this.before[i]!;
-    [endText(before), endText(after), gainText(before, after)].forEach((text, k) => (row.cells[k + 1]!.textContent = text));
-    row.classList.remove("waits");
-  }
-
-  setBefore(i: number, { turned_deg, reason }: LiveLimit): void {
-    this.before[i] = { limit_deg: turned_deg, reason };
+  setBefore(i: number, limit: LiveLimit): void {
+    this.before[i] = endOf(limit);
   }
 
   showLimit(i: number, limit: LiveLimit): void {
     this.show(i, endOf(limit));
+  }
+
+  private show(i: number, after: EndOfMotion): void {
+    const row = this.rows[i]!, before = this.before[i]!;
+    [endText(before), endText(after), gainText(before, after)].forEach((text, k) => (row.cells[k + 1]!.textContent = text));
+    row.classList.remove("waits");
   }
 
   /// The values shown belong to an earlier state of the joint.

@@ -1,4 +1,4 @@
-import { button, html, named, shortened } from "../dom";
+import { button, html, markCurrent, named, shortened } from "../dom";
 import { limitBar, limitRows, mostOf } from "../plots/limits";
 import { beforeText } from "../planned";
 import type { MotionAnswer, ReportText, RomAnswer } from "../report";
@@ -36,9 +36,6 @@ export class ManoeuvreGrid {
 
   /// The motion at whose end the joint is; null for none.
   mark(motion: MotionAnswer | null): void {
-    for (const [name, tile] of this.tiles) {
-      if (name === motion?.name) tile.setAttribute("aria-current", "true");
-      else tile.removeAttribute("aria-current");
-    }
+    markCurrent(this.tiles, motion?.name ?? null);
   }
 }

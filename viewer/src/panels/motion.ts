@@ -3,6 +3,7 @@ import type { Coordinates, Depth, Nearest, Shown } from "../core/protocol";
 import { fixed, plain } from "../numbers";
 import type { Interval, MotionAnswer, ReportText } from "../report";
 import { hasLimits, shownBand } from "../result";
+import { prefersStill } from "../scene/camera_turn";
 import { words } from "../words";
 import { NumberField } from "./angle_field";
 import { intervalAt, near_deg, nearestExit, stateOf, type PoseState } from "./free_angles";
@@ -131,10 +132,6 @@ export class MotionPanel {
     this.set(angles);
   }
 
-  canGo(motion: MotionAnswer): boolean {
-    return this.hasPose(motion.name);
-  }
-
   /// Goes to the end of a motion: its varied angle to the last bit, the others as given.
   goToEnd(motion: MotionAnswer): void {
     if (this.hooks.showStored) return this.hooks.showStored(motion.name);
@@ -152,7 +149,7 @@ export class MotionPanel {
     this.remember(null);
     const from = this.coordinates;
     const translation = given ?? from.translation;
-    if (matchMedia("(prefers-reduced-motion: reduce)").matches) {
+    if (prefersStill()) {
       this.set(angles, translation);
       there();
       return;
@@ -320,7 +317,8 @@ export class MotionPanel {
       ? new ManoeuvreGrid(report, rom, (motion) => this.goToEnd(motion), ({ name }) => this.hasPose(name)) : null;
   }
 
-  private hasPose(name: string): boolean {
+  /// Whether the joint can go to a pose of the report: always, if the page computes.
+  hasPose(name: string): boolean {
     return !this.hooks.showStored || this.report.poses.some((pose) => pose.name === name);
   }
 

@@ -51,14 +51,10 @@ export function sourcesOf(provenance: NonNullable<RomAnswer["provenance"]>, titl
 
 /// A line for each caveat, with its motions.
 function caveatsOf({ motions }: RomAnswer): string[] {
-  interface About {
-    names: string[];
-    source: string | null;
-  }
-  const about = new Map<string, About>();
+  const about = new Map<string, { names: string[]; source: string | null }>();
   for (const { name, caveats } of motions)
     for (const { text, source } of caveats ?? []) {
-      const known: About = about.get(text) ?? { names: [], source };
+      const known = about.get(text) ?? { names: [], source };
       known.names.push(named(motionName(name)));
       about.set(text, known);
     }

@@ -27,10 +27,9 @@ export class Paper {
   constructor(
     text: ReportText, counts: { fixed: [number, number]; mobile: [number, number] }, extremes: readonly Extreme[], sweep: ShownSweep | null,
     ofLoad: string | null, recorded: Drawing | null) {
-    const { rom, map } = text, isHip = text.joint.anatomy === "hip" && text.joint.kind !== "hinge";
-    const headline = rom ? headlineMotion(rom, isHip) : null, isLimited = hasLimits(text);
+    const { rom, map } = text, headline = headlineMotion(text), isLimited = hasLimits(text);
     const figures = rom && isLimited && ofLoad === null
-      ? firstFigures(rom, isHip).map((motion) =>
+      ? firstFigures(text).map((motion) =>
         [motionName(motion.name), fromBefore(text, motion), bandText(motion), comparedText(motion, rom, zeroOf(rom))] as const)
       : extremes.map(({ name, value, at }) => [name, value, "", at] as const);
     // Hours are those of the report.

@@ -57,7 +57,7 @@ export class PartsPanel {
       },
       failed: (message) => (this.said.textContent = message),
     });
-    this.limits = new LiveLimits(words.partsLimits, words.gained, motions, motions, motions);
+    this.limits = new LiveLimits(words.partsLimits, words.gained, motions);
     this.sweep = sweep && new SweepPanel(sweep, motions, (values) => this.set(values));
     this.rows = posed.parts.flatMap((part) => part.parameters.map((parameter) =>
       new ParameterRow(part.name, parameter, () => this.ask(), (why) => (this.said.textContent = why ?? ""))));

@@ -1,4 +1,4 @@
-import { button, html, named, namesOf, shortened, spaced } from "../dom";
+import { button, html, markCurrent, named, namesOf, shortened, spaced } from "../dom";
 import { clockTime, fixed } from "../numbers";
 import { fromBefore, isPlanned } from "../planned";
 import type { Nearest } from "../core/protocol";
@@ -102,9 +102,8 @@ export class ResultStrip {
   constructor(
     private readonly report: ReportText, go: (motion: MotionAnswer) => void, canGo: (motion: MotionAnswer) => boolean, extremes: readonly Extreme[],
     showNotes: () => void, ofLoad: string | null) {
-    const { rom } = report, isHip = report.joint.anatomy === "hip" && report.joint.kind !== "hinge";
-    const isLimited = ofLoad === null && hasLimits(report), cards = rom && isLimited
-      ? firstFigures(rom, isHip).map((motion) => {
+    const { rom } = report, isLimited = ofLoad === null && hasLimits(report), cards = rom && isLimited
+      ? firstFigures(report).map((motion) => {
         const lacks = deficitOf(motion) !== null;
         const made = card(motionName(motion.name), fromBefore(report, motion), bandText(motion), comparedText(motion, rom, zeroOf(rom)), () => go(motion), !canGo(motion));
         made.classList.toggle("short", lacks);
@@ -112,7 +111,7 @@ export class ResultStrip {
         return made;
       })
       : extremes.map(({ name, value, at, go: show }) => card(name, value, "", at, show, false));
-    const headline = rom && isLimited ? headlineMotion(rom, isHip) : null;
+    const headline = isLimited ? headlineMotion(report) : null;
     this.sentence.classList.toggle("wrong", headline !== null && wrongOf(rom) !== null);
     this.say(ofLoad ??
       (headline ? sentenceOf(headline, report) : rom ? words.noLimitsInContact : words.noLimitsSentence(report.rom_error ?? "")));
@@ -126,10 +125,7 @@ export class ResultStrip {
   /// Shows the sentence of the motion at whose end the joint is.
   describe(motion: MotionAnswer): void {
     this.say(sentenceOf(motion, this.report));
-    for (const [name, made] of this.cards) {
-      if (name === motion.name) made.setAttribute("aria-current", "true");
-      else made.removeAttribute("aria-current");
-    }
+    markCurrent(this.cards, motion.name);
   }
 
   private say(sentence: string): void {
@@ -138,7 +134,7 @@ export class ResultStrip {
 
   /// The sentence stays; no figure is marked once the joint leaves the end of a motion.
   unmark(): void {
-    for (const made of this.cards.values()) made.removeAttribute("aria-current");
+    markCurrent(this.cards, null);
   }
 
   private noted(notes: readonly { code: string; text: string }[], showNotes: () => void): HTMLElement {

@@ -20,7 +20,7 @@ export class SweepPanel {
   /// `moved` to values by the names of parameters.
   constructor(private readonly sweep: ShownSweep, motions: readonly MotionAnswer[], moved: (values: ReadonlyMap<string, number>) => void) {
     const { stored, margins, least } = sweep;
-    this.limits = new LiveLimits(words.sweepLimits, words.gained, motions, motions, motions);
+    this.limits = new LiveLimits(words.sweepLimits, words.gained, motions);
     this.map = new SweepMap(stored, margins, least, (values) => moved(new Map(stored.parameters.map(({ name }, i) => [name, values[i]!]))));
     this.element = section(words.sweep, this.map.element, this.limits.element, html("p", { class: "small" }, words.sweepNote, ...stored.sweep_notes.map(({ text }) => ` ${words.sweepNoted(text)}`)));
     this.element.classList.add("edit-panel");

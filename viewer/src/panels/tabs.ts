@@ -1,18 +1,13 @@
 import { html } from "../dom";
 
-export interface Tab {
-  id: string;
-  title: string;
-  panel: HTMLElement;
-}
-
 /// One panel at a time. A tab whose panel has nothing, or stands elsewhere, is hidden.
 export class Tabs {
   readonly list: HTMLElement;
   private readonly buttons: HTMLButtonElement[];
   private chosen = 0;
 
-  constructor(label: string, private readonly tabs: readonly Tab[], private readonly changed: (id: string) => void) {
+  constructor(
+    label: string, private readonly tabs: readonly { id: string; title: string; panel: HTMLElement }[], private readonly changed: (id: string) => void) {
     this.buttons = tabs.map(({ id, title, panel }, i) => {
       panel.id = `panel-${id}`;
       panel.classList.add("panel");

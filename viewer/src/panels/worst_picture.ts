@@ -14,8 +14,7 @@ const most = 600_000;
 
 /// Draws the limit that the sentence is about while nobody waits, unless `closed` is aborted meanwhile. `drawn` takes the picture and what it shows.
 export function drawWorst(text: ReportText, arrays: JointArrays, closed: AbortSignal, drawn: (picture: string, caption: string) => void): void {
-  const { rom, joint } = text;
-  const headline = rom && headlineMotion(rom, joint.anatomy === "hip" && joint.kind !== "hinge");
+  const headline = headlineMotion(text);
   const pose = headline && text.poses.find(({ name }) => name === headline.name);
   if (!headline || !pose || headline.reason !== "contact") return;
   window.setTimeout(() => {

@@ -7,14 +7,10 @@ import type { Drawing } from "./figure";
 const left = 44, right = 18, top = 28, bottom = 24;
 const strokes = ["curve", "curve second"];
 
-interface Series {
-  name: string;
-  values: readonly (number | null)[];
-}
-
 /// Angles by the hour of a clock, with 6 at both ends; null if no hour has one.
 export function hoursDrawing(
-  name: string, caption: string, axis: string, hours: readonly number[], series: readonly Series[]): Drawing | null {
+  name: string, caption: string, axis: string, hours: readonly number[],
+  series: readonly { name: string; values: readonly (number | null)[] }[]): Drawing | null {
   const known = series.flatMap(({ values }) => values).filter((value): value is number => value !== null);
   if (known.length === 0) return null;
   // From 6 through 12 to 6: the superior half is the one that matters.

@@ -1,12 +1,12 @@
 import type { Surface } from "../core/protocol";
+import { html } from "../dom";
 
 const size_px = 360;
 
 /// The socket of a hip seen from the side of the body, superior up and anterior to the right on either side, as the clock face is: what lies within
 /// `radius_mm` of the joint centre. `lateral` is 1 for a right hip, -1 for a left one.
 export function socketPicture({ vertices, triangles }: Surface, radius_mm: number, lateral: 1 | -1): string {
-  const canvas = document.createElement("canvas"), context = canvas.getContext("2d")!, half = size_px / 2;
-  canvas.width = canvas.height = size_px;
+  const canvas = html("canvas", { width: size_px, height: size_px }), context = canvas.getContext("2d")!, half = size_px / 2;
   const corner = (t: number, k: number) => [0, 1, 2].map((axis) => vertices[3 * triangles[t + k]! + axis]!) as [number, number, number];
   const seen: { at: [number, number, number][]; depth: number }[] = [];
   for (let t = 0; t < triangles.length; t += 3) {
