@@ -61,7 +61,7 @@ describe: dependencies
 	@cmake --build --preset release --target condyle_describe
 	@build/release/condyle_describe .
 
-# All that takes hours: the longer forms of tests, valgrind, shards under Snakemake and Slurm, wheel and packages, the bench, clang, sanitizers.
+# All that takes hours: the longer forms of tests, valgrind, wheel and packages, the bench, clang, sanitizers.
 nightly: bench_dependencies clang_dependencies
 	@scripts/install_dependencies.sh wheel workflow docs
 	@$(configure_bench)

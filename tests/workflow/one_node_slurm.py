@@ -91,7 +91,6 @@ SwitchType=switch/none
 MpiDefault=none
 ReturnToService=2
 SlurmdTimeout=10
-RequeueExit=75
 EnforcePartLimits=ALL
 SchedulerParameters=bf_interval=2,sched_interval=2
 KillWait=2
