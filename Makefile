@@ -1,6 +1,6 @@
 # Thin front door; CMakePresets.json has the details.
 .PHONY: demo describe command test test-all nightly build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
-  package package-test wheel page-core page page-template sanitize-thread sanitize-some release label-limits static image static-test npm npm-test
+  package package-test wheel page-core page page-template sanitize-thread sanitize-some release label-limits static image static-test npm npm-test ro-crate
 
 dependencies:
 	@scripts/install_dependencies.sh
@@ -64,6 +64,7 @@ describe: dependencies
 # All that takes hours: the longer forms of tests, valgrind, wheel and packages, the bench, clang, sanitizers.
 nightly: bench_dependencies clang_dependencies
 	@scripts/install_dependencies.sh wheel workflow docs
+	@$(MAKE) ro-crate
 	@$(configure_bench)
 	@cmake --build --preset release
 	@export CONDYLE_LONG_TESTS=1; $(call run_tests,release,none)
@@ -163,6 +164,11 @@ npm: page-core
 npm-test: npm
 	@cmake --build --preset release --target condyle_cli
 	@tests/npm/installed.sh build/release/condyle out/npm/condyle-*.tgz
+
+# The npm package ro-crate (1.7 MB), by which the test ro_crate reads what --crate writes: without it that test is skipped.
+ro-crate:
+	@scripts/install_dependencies.sh node
+	@cd tests/crate && npm ci --no-audit --no-fund --silent
 
 # Debian packages in out/packages: the command, python3-condyle, libcondyle-dev, condyle-doc.
 package: build docs

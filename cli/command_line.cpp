@@ -10,7 +10,7 @@ namespace {
 
 /// Options for the place and format of an answer, not its content.
 bool decides_nothing(const std::string& name) {
-  constexpr std::array<std::string_view, 2> names = {"--out", "--json"};
+  constexpr std::array<std::string_view, 3> names = {"--out", "--crate", "--json"};
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
@@ -45,6 +45,14 @@ std::vector<std::string> words_of(const CLI::App& command) {
 
 CLI::Option* add_out(CLI::App& command, std::string& out, const std::string& help) {
   return command.add_option("--out", out, help)->option_text("FOLDER");
+}
+
+CLI::Option* add_crate(CLI::App& command, std::optional<std::string>& date) {
+  return command
+      .add_option("--crate", date,
+                  "Say in ro-crate-metadata.json which files were made of which, as a Process Run Crate of "
+                  "RO-Crate that was published on this day: results have no date of their own")
+      ->option_text("YYYY-MM-DD");
 }
 
 void add_json(CLI::App& command, AnswerForm& form, const char* help) {

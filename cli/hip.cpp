@@ -8,6 +8,7 @@
 #include <list>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -29,6 +30,7 @@
 #include "io/joint/settings_lines.hpp"
 #include "io/report/answer_report.hpp"
 #include "io/result/both_sides.hpp"
+#include "io/result/crate.hpp"
 #include "io/result/quoted_limit.hpp"
 #include "io/result/rom_files.hpp"
 #include "joint_command.hpp"
@@ -45,6 +47,7 @@ namespace fs = std::filesystem;
 
 struct HipArguments {
   std::string pelvis, out, plan;
+  std::optional<std::string> crate_date;
   std::vector<std::string> femora;
   std::string fixed_label, mobile_label;
   LabelOptions labels;
@@ -255,6 +258,20 @@ void draw(const HipArguments& options) {
   note(fmt::format("no figures and no sheet: {}; to draw them: {}", why, line));
 }
 
+/// All files of the folder, which was empty, and what was read from elsewhere for them.
+void write_crate(const HipArguments& options, const io::InputRecorder& read, const io::Provenance& from) {
+  const fs::path folder = options.out;
+  io::CrateRun run{*options.crate_date, "condyle hip", io::command_text(from), {}};
+  // A joint file names meshes from its own folder, so each is read under two names.
+  std::set<fs::path> listed;
+  for (io::Input& input : read.inputs())
+    if (fs::relative(input.path, folder).string().starts_with("..") &&
+        listed.insert(fs::weakly_canonical(input.path)).second)
+      run.inputs.push_back(std::move(input));
+  io::write_output_file(folder / io::crate_name, io::crate_document(run, folder, io::files_below(folder)));
+  say_written({folder / io::crate_name});
+}
+
 void print_limits(const HipArguments& options, std::list<AnsweredHip>& hips) {
   AnsweredHip *left = nullptr, *right = nullptr;
   std::string plans;
@@ -290,6 +307,9 @@ std::exception_ptr current_error_of(std::string_view whose) {
 }
 
 void hip_command(const HipArguments& options, const CLI::App& command) {
+  if (options.crate_date) io::check_crate_date(*options.crate_date);
+  using Digests = io::InputRecorder::Digests;
+  const io::InputRecorder read(options.crate_date ? Digests::taken : Digests::left_out);
   check_out(options);
   io::refuse_unread_image(options.pelvis);
   const bool of_labels = io::label_format_of(options.pelvis).has_value();
@@ -321,6 +341,7 @@ void hip_command(const HipArguments& options, const CLI::App& command) {
   const auto has_limits = [](const AnsweredHip& hip) { return hip.answer.range.answer.has_value(); };
   if (std::any_of(answered.begin(), answered.end(), has_limits)) draw(options);
   if (refused) std::rethrow_exception(refused);
+  if (options.crate_date) write_crate(options, read, answered.front().from);
 }
 
 }  // namespace
@@ -384,13 +405,14 @@ void add_hip(CLI::App& app) {
   add_person(*command, options->person);
   command->add_option("--note", options->words.note, "Put this under the results")->option_text("TEXT");
   command->add_option("--date", options->words.date, "Put this date into the headings")->option_text("TEXT");
+  add_crate(*command, options->crate_date);
   std::vector<std::string> of_labels{"--fixed", "--mobile"};
   for (const std::string& name : label_surface_names()) of_labels.push_back(name);
   group_help(*command, {{"Most used", {"--out", "--plan", "--side", "--task"}},
                         {"Question", {"--units", "--samples", "--accept-reference-contact"}},
                         {"Label maps", of_labels},
                         {"Images", label_file_names()},
-                        {"Output", {"--case", "--note", "--date", "--help"}}});
+                        {"Output", {"--case", "--note", "--date", "--crate", "--help"}}});
   command->callback([options, command] { hip_command(*options, *command); });
 }
 

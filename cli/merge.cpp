@@ -4,10 +4,13 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "answer.hpp"
+#include "command_line.hpp"
 #include "commands.hpp"
+#include "condyle/error.hpp"
 #include "condyle/io/study.hpp"
 #include "io/sweep/sweep_files.hpp"
 #include "notes.hpp"
@@ -37,9 +40,14 @@ void add_merge(CLI::App& app) {
   auto folder = std::make_shared<std::string>();
   command->add_option("DIR", *folder, "The folder that condyle study --shard or sweep --shard had as --out")
       ->required();
-  command->callback([folder] {
-    if (io::has_sweep_shards(*folder)) return merge_shares(*folder);
-    const io::StudyDone done = io::merge_study(*folder);
+  auto crate_date = std::make_shared<std::optional<std::string>>();
+  add_crate(*command, *crate_date);
+  command->callback([folder, crate_date] {
+    if (io::has_sweep_shards(*folder)) {
+      if (*crate_date) throw UsageError("--crate: is of a study, and this is a sweep");
+      return merge_shares(*folder);
+    }
+    const io::StudyDone done = io::merge_study(*folder, *crate_date);
     for (const io::NotedJoint& joint : done.noted) note(joint.id + ": " + joint.codes);
     say_written(done.written);
     print(fmt::format("{} answered, {} failed\n", done.joints, done.failures));

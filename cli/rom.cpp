@@ -12,6 +12,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "follow_options.hpp"
+#include "io/result/crate.hpp"
 #include "io/result/rom_files.hpp"
 #include "io/result/rom_result.hpp"
 #include "joint_command.hpp"
@@ -26,6 +27,7 @@ enum class ReferenceContacts { count, leave_out };
 struct RomArguments : JointArguments {
   std::vector<std::string> motions;
   std::optional<double> allow_depth_mm;
+  std::optional<std::string> crate_date;
   FollowArguments follow;
   ReferenceContacts reference_contacts = ReferenceContacts::count;
   RangeArguments range;
@@ -77,6 +79,7 @@ RangeAnswer answer_of(const RomArguments& options, const io::LoadedJoint& loaded
 }
 
 void rom_command(const RomArguments& options, const CLI::App& command) {
+  if (options.crate_date) io::check_crate_date(*options.crate_date);
   const io::InputRecorder read;
   const io::LoadedJoint loaded = joint_of(options);
   std::vector<motion::Motion> motions = Case(loaded).motions(names_in(options.motions));
@@ -98,7 +101,8 @@ void rom_command(const RomArguments& options, const CLI::App& command) {
   const RangeAnswer answer = answer_of(options, loaded, request);
   note_all(answer.notes);
   const io::RomResult result = io::rom_result_of(answer, notes, &from);
-  if (!options.out.empty()) say_written(io::write_rom(options.out, result, options.vtp_encoding));
+  if (!options.out.empty())
+    say_written(io::write_rom(options.out, result, options.vtp_encoding, options.crate_date));
   print(options.form == AnswerForm::json ? io::rom_json(result) : io::rom_text(result));
 }
 
@@ -141,9 +145,11 @@ void add_rom(CLI::App& app) {
       "The plane of the clock on which contacts are read: the sagittal one, or that of the rim with 6 at "
       "the notch",
       "sagittal");
-  add_out(*command, options->out,
-          "Write rom.json, limits.csv and bearing.vtp into this folder; map.csv, map_intervals.csv and "
-          "map.vtp of a map, zone_*.vtp of zones. python3 -m condyle.plot FOLDER draws them");
+  auto* out =
+      add_out(*command, options->out,
+              "Write rom.json, limits.csv and bearing.vtp into this folder; map.csv, map_intervals.csv and "
+              "map.vtp of a map, zone_*.vtp of zones. python3 -m condyle.plot FOLDER draws them");
+  add_crate(*command, options->crate_date)->needs(out);
   add_person(*command, options->person);
   add_where(*command, *options);
   add_json(*command, options->form);
@@ -155,7 +161,7 @@ void add_rom(CLI::App& app) {
               {"Centre not held", follow_names()},
               {"Contact",
                {"--bearing", "--accept-reference-contact", "--exclude-reference-contacts", "--allow-depth"}},
-              {"Output", {"--frame", "--ascii", "--strict", "--help"}}});
+              {"Output", {"--crate", "--frame", "--ascii", "--strict", "--help"}}});
   command->callback([options, command] { rom_command(*options, *command); });
 }
 

@@ -23,6 +23,7 @@ namespace {
 
 struct StudyArguments {
   std::string table, out, shard, depth;
+  std::optional<std::string> crate_date;
   std::optional<Anatomy> anatomy;
   StudyLoadArguments load;
   bool follows_load = false;
@@ -65,15 +66,13 @@ io::StudyOptions study_options(const StudyArguments& given) {
 }
 
 void study_command(const StudyArguments& given) {
-  io::Study study{given.table, given.out, study_options(given), {}, given.bad_joint};
+  io::Study study{given.table, given.out, study_options(given), {}, given.bad_joint, given.crate_date};
   if (!given.shard.empty()) study.shard = io::Shard::parse(given.shard);
   const io::StudyDone done =
       with_progress([&](const Control& control) { return io::run_study(study, control); }, Writes::files);
   for (const io::NotedJoint& joint : done.noted) note(joint.id + ": " + joint.codes);
-  if (done.was_there)
-    note("is there already, of the same inputs, options and version");
-  else
-    say_written(done.written);
+  if (done.was_there) note("is there already, of the same inputs, options and version");
+  if (!done.written.empty()) say_written(done.written);
   print(fmt::format("{} answered, {} failed\n", done.joints, done.failures));
   // A shard may hold failures only: condyle merge knows of all joints.
   if (!study.shard) io::require_answered(done, study.table);
@@ -111,6 +110,7 @@ void add_study(CLI::App& app) {
           "--shard", options->shard,
           "Answer only part i of N of the table, into FOLDER/shards. condyle merge puts the parts together")
       ->option_text("i/N");
+  add_crate(*command, options->crate_date);
   add_motions(*command, options->motions);
   add_anatomy(*command, options->anatomy, "The joint of all rows of the table", "hip");
   add_map(*command, options->range);
@@ -159,7 +159,7 @@ void add_study(CLI::App& app) {
                         {"Contact",
                          {"--bearing", "--accept-reference-contact", "--exclude-reference-contacts", "--e",
                           "--nu", "--thickness", "--law", "--casting", "--rule", "--reach"}},
-                        {"Output", {"--strict", "--help"}}});
+                        {"Output", {"--crate", "--strict", "--help"}}});
   command->callback([options] { study_command(*options); });
 }
 

@@ -5,6 +5,7 @@
 #   install_dependencies.sh clang     and for make clang, make sanitize, make fuzz and make format
 #   install_dependencies.sh bench     and for make bench; groups can be named together
 #   install_dependencies.sh docs      and for make docs and make package
+#   install_dependencies.sh node      and for make ro-crate
 #   install_dependencies.sh page      and for make page-core, make page and make page-template
 #   install_dependencies.sh package-test   and for make package-test
 #   install_dependencies.sh wheel     for make wheel; with docs, for make release
@@ -40,7 +41,10 @@ for group in "$@"; do
       ;;
     docs) packages+=(doxygen) ;;
     page)
-      packages+=(emscripten nodejs chromium)
+      packages+=(emscripten chromium)
+      ;&
+    node)
+      packages+=(nodejs)
       # Debian's npm brings its own nodejs, which another one on the machine may rule out; that one has an npm.
       command -v npm >/dev/null || packages+=(npm)
       ;;
@@ -49,7 +53,7 @@ for group in "$@"; do
     image) packages+=(umoci) ;;
     workflow) packages+=(snakemake slurmctld slurmd slurm-client munge) ;;
     *)
-      echo "install_dependencies.sh: no group '$group'; there are command, clang, bench, docs, page, package-test, wheel, image, workflow" >&2
+      echo "install_dependencies.sh: no group '$group'; there are command, clang, bench, docs, node, page, package-test, wheel, image, workflow" >&2
       exit 2
       ;;
   esac

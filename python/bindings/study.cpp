@@ -109,8 +109,9 @@ std::vector<std::pair<std::string, std::string>> noted(const io::StudyDone& done
 
 std::vector<std::pair<std::string, std::string>> study(
     const std::string& table, const std::string& folder, const py::dict& options,
-    std::optional<std::pair<std::size_t, std::size_t>> shard, bool is_strict, const py::object& progress) {
-  io::Study one{table, folder, study_options_in(options), {}, {}};
+    std::optional<std::pair<std::size_t, std::size_t>> shard, bool is_strict,
+    const std::optional<std::string>& crate_date, const py::object& progress) {
+  io::Study one{table, folder, study_options_in(options), {}, {}, crate_date};
   if (shard) one.shard = {shard->first, shard->second};
   if (is_strict) one.bad_joint = io::BadJoint::ends_run;
   const auto done =
@@ -119,8 +120,9 @@ std::vector<std::pair<std::string, std::string>> study(
   return noted(*done);
 }
 
-std::vector<std::pair<std::string, std::string>> merge(const std::string& folder) {
-  const io::StudyDone done = without_lock([&] { return io::merge_study(folder); });
+std::vector<std::pair<std::string, std::string>> merge(const std::string& folder,
+                                                       const std::optional<std::string>& crate_date) {
+  const io::StudyDone done = without_lock([&] { return io::merge_study(folder, crate_date); });
   io::require_answered(done, folder);
   return noted(done);
 }

@@ -314,7 +314,7 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
               sigma_axes_deg: Optional[float] = None, sigma_surface_mm: Optional[float] = None, depth_at: str = "",
               load: Optional[StudyLoad] = None, follow_load: Optional[StudyLoad] = None, measures: bool = False,
               resection: Optional[StudyResection] = None, shard: Optional[tuple[int, int]] = None,
-              strict: bool = False, progress: Progress = None) -> Study:
+              strict: bool = False, crate_date: Optional[str] = None, progress: Progress = None) -> Study:
     """Answers for every row of a table of joints and writes the results: docs/cohort.md has both.
 
     Parameters
@@ -347,6 +347,8 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
         (3, 7) is the third of seven parts, which :func:`merge_study` puts together.
     strict : bool
         A joint that cannot be answered raises its error, and MeshError one with which something looks wrong.
+    crate_date : str, optional
+        A day, "2026-01-31": `ro-crate-metadata.json` is written too, with this date. Not of a shard.
 
     Results there of the same inputs, options and version are not computed again. Without `strict` a joint that cannot
     be answered is a row of `failures`, and one with which something looks wrong (`notes` in `hips`) is warned of,
@@ -390,19 +392,20 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
         "follow_load": None if follow_load is None else follow_load._checked(),
         "measures": bool(measures), "resection": None if resection is None else resection._checked()}
     out = path_of(folder, "folder")
-    _warn_of(_native.run_study(path_of(table, "table"), out, options, part, bool(strict), progress_of(progress)))
+    _warn_of(_native.run_study(path_of(table, "table"), out, options, part, bool(strict),
+                               None if crate_date is None else text_of(crate_date, "crate_date"), progress_of(progress)))
     return read_study(out if part is None else os.path.join(out, "shards", f"{part[0]}_of_{part[1]}"))
 
 
-def merge_study(folder: Path) -> Study:
+def merge_study(folder: Path, *, crate_date: Optional[str] = None) -> Study:
     """Puts the shards below a folder together: the same bytes as of one run. FileError where one is missing.
 
-    Warns, and raises where no joint was answered, as :func:`run_study` of all rows does.
+    Warns, and raises where no joint was answered, as :func:`run_study` of all rows does; `crate_date` as there.
 
     C++: `condyle::merge_study` in condyle/io/study.hpp; `condyle merge`.
     """
     out = path_of(folder, "folder")
-    _warn_of(_native.merge_study(out))
+    _warn_of(_native.merge_study(out, None if crate_date is None else text_of(crate_date, "crate_date")))
     return read_study(out)
 
 

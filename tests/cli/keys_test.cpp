@@ -98,7 +98,7 @@ TEST_F(Keys, OfAStudyHaveEveryOption) {
   const SmallCohort cohort(here, 1);
   const std::string layers = "--load '' --e 10 --nu 0.3 --thickness 2", cut = "--resect flexion=40 --edge 10",
                     map = "--map flexion=0:20:20 adduction=0:10:10";
-  expect_anew("study", "table.csv", {"--out", "--shard", "--help", "--strict", "--within"},
+  expect_anew("study", "table.csv", {"--out", "--crate", "--shard", "--help", "--strict", "--within"},
               {{"--motion", {"--motion flexion", "--motion extension"}},
                {"--band", {"--band=20", "--band=21"}},
                {"--seed", {"--band=20", "--band=20 --seed 7"}},

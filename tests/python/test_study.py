@@ -1,6 +1,7 @@
 """Studies from Python: the same files as of the command, read back as arrays and tables."""
 
 import csv
+import json
 import math
 import subprocess
 from pathlib import Path
@@ -196,6 +197,19 @@ def test_shards_are_merged(study: condyle.Study, table: Path, tmp_path: Path):
         np.testing.assert_array_equal(merged.limits[name], study.limits[name])
 
 
+def test_a_crate_is_that_of_the_command(table: Path, tmp_path: Path, command: str):
+    condyle.run_study(table, tmp_path / "a", motions=["flexion"], crate_date="2026-01-31")
+    subprocess.run([command, "study", table, "--out", tmp_path / "b", "--motion", "flexion", "--crate", "2026-01-31"], check=True,
+                   capture_output=True)
+    crate = (tmp_path / "b/ro-crate-metadata.json").read_bytes()
+    assert (tmp_path / "a/ro-crate-metadata.json").read_bytes() == crate
+    for number in (1, 2):
+        condyle.run_study(table, tmp_path / "c", motions=["flexion"], shard=(number, 2))
+    condyle.merge_study(tmp_path / "c", crate_date="2026-01-31")
+    merged = json.loads((tmp_path / "c/ro-crate-metadata.json").read_bytes())
+    assert [each["@id"] for each in merged["@graph"]] == [each["@id"] for each in json.loads(crate)["@graph"]]
+
+
 def test_what_is_not_a_study_is_refused(table: Path, tmp_path: Path):
     with pytest.raises(condyle.FileError, match="study.json: No such file"):
         condyle.read_study(tmp_path)
@@ -215,6 +229,7 @@ def test_arguments_are_checked(table: Path, tmp_path: Path):
                   {"anatomy": "hips"}, {"bearing": "none"}, {"map": {"flexion": (0, 1)}}, {"vary": "flexion"},
                   {"map": ({"flexion": (0, 1)},)}, {"map": ({"flexion": 3}, {"adduction": (0, 1)})},
                   {"map": ({"flexion": (0, 1)}, {"flexion": (0, 1)})}, {"seed": 3}, {"sigma_axes_deg": 1.0},
+                  {"crate_date": "today"}, {"crate_date": 20260131}, {"crate_date": "2026-01-31", "shard": (1, 2)},
                   {"load": "flexion=20"}, {"load": condyle.StudyLoad("yaw=3")}, {"load": condyle.StudyLoad(layer=3)},
                   {"load": condyle.StudyLoad(force_n=(1, 2))}, {"load": condyle.StudyLoad(casting="none")},
                   {"load": condyle.StudyLoad(free_directions=(0, 1, 0))}, {"load": condyle.StudyLoad(rule="faces")},

@@ -92,6 +92,8 @@ struct Study {
   /// One shard, into a folder of its own below `folder`; all rows where empty.
   std::optional<Shard> shard = {};
   BadJoint bad_joint = BadJoint::is_a_row;
+  /// A day, YYYY-MM-DD: ro-crate-metadata.json of this date is written too, of a whole study.
+  std::optional<std::string> crate_date = {};
 };
 
 /// A joint that looks wrong: docs/checks.md.
@@ -120,7 +122,7 @@ struct StudyDone {
 /// folder at a time.
 ///
 /// Throws FileError for a table that cannot be read and a folder that cannot be written; UsageError for options that do not
-/// fit a joint. Memory: some kB a row, and the joints at work, one per thread. Empty if it was stopped: nothing is written.
+/// fit a joint, a date that is none, or one of a shard. Memory: some kB a row, and the joints at work, one per thread. Empty if it was stopped: nothing is written.
 [[nodiscard]] std::optional<StudyDone> run_study(const Study& study, const Control& control = {});
 
 /// Throws if no joint was answered, which is no result: the error of the first failure, naming `table`.
@@ -128,7 +130,8 @@ void require_answered(const StudyDone& done, const std::filesystem::path& table)
 
 /// Puts the shards below the folder together: the tables are those of a run of all rows, byte for byte. Throws FileError if
 /// a shard is missing, or is of another table, other options or another version than the first, or was changed. Reads all tables
-/// into memory.
-[[nodiscard]] StudyDone merge_study(const std::filesystem::path& folder);
+/// into memory. `crate_date` as of a Study.
+[[nodiscard]] StudyDone merge_study(const std::filesystem::path& folder,
+                                    const std::optional<std::string>& crate_date = {});
 
 }  // namespace condyle::io

@@ -47,6 +47,17 @@ void check_is_replaceable(const fs::path& path) {
 
 }  // namespace
 
+std::vector<fs::path> files_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (entry->is_regular_file()) files.push_back(entry->path().lexically_relative(folder));
+  if (error) throw FileError(fmt::format("{}: cannot be listed: {}", folder.string(), error.message()));
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 OutputFolder::OutputFolder(const fs::path& folder)
     : OutputFolder(folder, [](std::string_view) { return false; }) {}
 
@@ -69,6 +80,10 @@ fs::path OutputFolder::file(std::string_view name) {
   assert(std::find(names_.begin(), names_.end(), path) == names_.end());
   names_.push_back(path);
   return aside_->path() / path;
+}
+
+fs::path OutputFolder::aside() const {
+  return aside_->path();
 }
 
 std::vector<fs::path> OutputFolder::left_by_earlier_runs() const {

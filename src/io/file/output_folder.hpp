@@ -11,6 +11,10 @@
 namespace condyle::io {
 
 class TemporaryFolder;
+
+/// The regular files in a folder of results and in those below it, by their paths from there, in order.
+std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder);
+
 /// A folder of result files that appear together or not at all.
 ///
 ///     OutputFolder out(folder);              creates the folder where it is missing
@@ -38,6 +42,10 @@ class OutputFolder {
 
   /// Where to write the file that will have this name. One name, no folders in it, each requested once.
   std::filesystem::path file(std::string_view name);
+
+  /// The names requested so far, and the folder in which these files lie until then.
+  const std::vector<std::filesystem::path>& names() const noexcept { return names_; }
+  std::filesystem::path aside() const;
 
   /// Moves every file to its name, in the order they were requested, and returns the names with the folder.
   std::vector<std::filesystem::path> commit();

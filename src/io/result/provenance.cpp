@@ -65,12 +65,6 @@ std::string shell_word(std::string_view word) {
   return out + "'";
 }
 
-std::string command_text(const Provenance& from) {
-  std::string text = "condyle";
-  for (const std::string& word : from.command) text += " " + shell_word(word);
-  return text;
-}
-
 std::vector<double> row_by_row(const Eigen::Affine3d& X) {
   std::vector<double> rows;
   for (int i = 0; i < 4; ++i)
@@ -198,6 +192,12 @@ Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> com
           cup_of(loaded.joint),
           {},
           loaded.joint.planned};
+}
+
+std::string command_text(const Provenance& from) {
+  std::string text = "condyle";
+  for (const std::string& word : from.command) text += " " + shell_word(word);
+  return text;
 }
 
 Json file_json(const std::filesystem::path& path, const FileDigest& digest) {

@@ -15,6 +15,7 @@
 #include "io/file/figure_ending.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/result/crate.hpp"
 #include "io/result/map_result.hpp"
 #include "io/result/map_summary.hpp"
 #include "io/result/provenance_forms.hpp"
@@ -40,8 +41,8 @@ bool is_drawn_of_rom(std::string_view name) {
 /// Whether some result has a file of this name.
 bool is_of_rom(std::string_view name) {
   if (name.starts_with("zone_")) return name.ends_with("_fixed.vtp") || name.ends_with("_mobile.vtp");
-  static constexpr std::string_view names[] = {"rom.json", "limits.csv",        "bearing.vtp",
-                                               "map.csv",  "map_intervals.csv", "map.vtp"};
+  static constexpr std::string_view names[] = {"rom.json",          "limits.csv", "bearing.vtp", "map.csv",
+                                               "map_intervals.csv", "map.vtp",    crate_name};
   return std::find(std::begin(names), std::end(names), name) != std::end(names) || is_drawn_of_rom(name);
 }
 
@@ -150,7 +151,8 @@ void check_rom_folder(const std::filesystem::path& folder, const Provenance* fro
 }
 
 std::vector<std::filesystem::path> write_rom(const std::filesystem::path& folder, const RomResult& result,
-                                             VtpEncoding encoding) {
+                                             VtpEncoding encoding,
+                                             const std::optional<std::string>& crate_date) {
   OutputFolder out(folder, is_of_rom, io::files_read(result.provenance), "rom.json");
   io::write_whole_file(out.file("rom.json"), rom_json(result));
   io::write_whole_file(out.file("limits.csv"), rom_csv(result));
@@ -158,6 +160,8 @@ std::vector<std::filesystem::path> write_rom(const std::filesystem::path& folder
   write_bearing(out, result, vtp);
   write_zones(out, result, vtp);
   if (result.answer.map) write_map(out, result, vtp);
+  if (crate_date && result.provenance != nullptr)
+    write_crate(out, crate_run_of(*result.provenance, *crate_date, "condyle rom"));
   return out.commit();
 }
 

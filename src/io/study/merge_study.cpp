@@ -9,6 +9,7 @@
 #include "condyle/version.hpp"
 #include "io/file/replaced_files.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/result/crate.hpp"
 #include "io/study/study_files.hpp"
 #include "io/study/study_inputs.hpp"
 
@@ -104,7 +105,8 @@ void check_keeps_the_shards(const fs::path& folder, std::size_t of) {
 
 }  // namespace
 
-StudyDone merge_study(const fs::path& folder) {
+StudyDone merge_study(const fs::path& folder, const std::optional<std::string>& crate_date) {
+  if (crate_date) check_crate_date(*crate_date);
   const std::size_t of = shards_in(folder);
   check_all_there(folder, of);
   const fs::path first = io::shard_folder(folder, {1, of});
@@ -131,7 +133,7 @@ StudyDone merge_study(const fs::path& folder) {
           whole.record.failures,
           io::first_failure(whole),
           false,
-          io::write_study(folder, whole),
+          io::write_study(folder, whole, crate_date),
           io::noted_joints(whole)};
 }
 

@@ -14,6 +14,7 @@
 #include "io/file/in_quotes.hpp"
 #include "io/file/replaced_files.hpp"
 #include "io/mesh/parse.hpp"
+#include "io/result/crate.hpp"
 #include "io/study/json_digest.hpp"
 #include "io/study/study_answer.hpp"
 #include "io/study/study_files.hpp"
@@ -189,7 +190,8 @@ class ResultsThere {
 
 /// The study in the folder, if it is the one that this run would write.
 std::optional<StudyDone> done_before(const std::filesystem::path& folder, const StudyRecord& asked,
-                                     const std::string& columns, const StudyTable& table, Rows rows) {
+                                     const std::string& columns, const StudyTable& table, Rows rows,
+                                     const std::optional<std::string>& crate_date) {
   auto there = io::read_study_record(folder);
   if (!there || there->inputs.of_rows.size() != rows.size()) return std::nullopt;
   // Shards are merged where the table need not be: of merged tables the key is found here, if the table is the same.
@@ -205,10 +207,12 @@ std::optional<StudyDone> done_before(const std::filesystem::path& folder, const 
     results.record.joints = there->joints;
     results.record.failures = there->failures;
     results.record.inputs = there->inputs;
-    io::write_study(folder, results);
   }
-  return StudyDone{
+  if (there->family != asked.family || crate_date) io::write_study(folder, results, crate_date);
+  StudyDone done{
       there->joints, there->failures, io::first_failure(results), true, {}, io::noted_joints(results)};
+  if (crate_date) done.written = {folder / crate_name};
+  return done;
 }
 
 }  // namespace
@@ -235,6 +239,9 @@ std::optional<StudyDone> run_study(const Study& study, const Control& control) {
   if (study.options.measures && study.options.anatomy != Anatomy::hip)
     throw UsageError(
         fmt::format("measures: are of hips, and this study is of the {}", name_of(study.options.anatomy)));
+  if (study.crate_date) check_crate_date(*study.crate_date);
+  if (study.crate_date && study.shard)
+    throw UsageError("crate: is of a whole study, as condyle merge puts it together, and not of a shard");
   const StudyTable table = io::read_study_table(study.table);
   const Rows rows = rows_of(table, study.shard.value_or(Shard{}));
   const auto folder = study.shard ? io::shard_folder(study.folder, *study.shard) : study.folder;
@@ -244,7 +251,7 @@ std::optional<StudyDone> run_study(const Study& study, const Control& control) {
   before.check_before(table);
   // A folder that cannot be written to is reported before the work, not after it.
   io::prepare_study_folder(folder);
-  const auto done = done_before(folder, results.record, results.columns, table, rows);
+  const auto done = done_before(folder, results.record, results.columns, table, rows, study.crate_date);
   // For a failure that ends the run, the tables have only the message, not the error.
   const bool all_well = done && done->failures == 0 && done->noted.empty();
   if (all_well || (done && study.bad_joint == BadJoint::is_a_row)) return done;
@@ -265,7 +272,7 @@ std::optional<StudyDone> run_study(const Study& study, const Control& control) {
                    results.record.failures,
                    io::first_failure(results),
                    false,
-                   io::write_study(folder, results),
+                   io::write_study(folder, results, study.crate_date),
                    io::noted_joints(results)};
 }
 

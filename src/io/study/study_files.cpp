@@ -11,6 +11,7 @@
 #include "io/file/plain_text.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/mesh/parse.hpp"
+#include "io/result/crate.hpp"
 #include "io/result/json.hpp"
 #include "io/result/scope_text.hpp"
 
@@ -81,8 +82,15 @@ StudyRecord record_of(const Json& json) {
   return record;
 }
 
-constexpr std::string_view result_names[] = {"limits.csv",  "hips.csv", "failures.csv",
-                                             "columns.csv", "study.h5", record_name};
+/// Of merged shards too it is the study, whose inputs and options theirs are.
+CrateRun crate_run_of(const StudyRecord& record, const std::string& date) {
+  CrateRun run{date, "condyle study", "options " + record.options, record.inputs.all};
+  run.inputs.insert(run.inputs.begin(), {Input::Kind::file, record.table, record.table_digest.sha256});
+  return run;
+}
+
+constexpr std::string_view result_names[] = {"limits.csv", "hips.csv",  "failures.csv", "columns.csv",
+                                             "study.h5",   record_name, crate_name};
 
 bool is_of_study(std::string_view name) {
   return std::find(std::begin(result_names), std::end(result_names), name) != std::end(result_names);
@@ -122,7 +130,8 @@ void prepare_study_folder(const fs::path& folder) {
   OutputFolder{folder, is_of_study};
 }
 
-std::vector<fs::path> write_study(const fs::path& folder, const StudyResults& results) {
+std::vector<fs::path> write_study(const fs::path& folder, const StudyResults& results,
+                                  const std::optional<std::string>& crate_date) {
   const StudyTexts& texts = results.texts;
   const std::optional<std::string> h5 = study_h5(read_columns_csv(results.columns, "columns.csv"), texts);
   const std::string comments = comments_of(results.record);
@@ -134,6 +143,7 @@ std::vector<fs::path> write_study(const fs::path& folder, const StudyResults& re
   OutputFolder out(folder, is_of_study, {}, record_name);
   for (const auto& [name, contents] : files) write_whole_file(out.file(name), contents);
   write_whole_file(out.file(record_name), document(record_json(results.record, files)));
+  if (crate_date) write_crate(out, crate_run_of(results.record, *crate_date));
   return out.commit();
 }
 

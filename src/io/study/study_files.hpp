@@ -54,9 +54,10 @@ std::vector<std::filesystem::path> study_result_files(const std::filesystem::pat
 /// Makes the folder, which stays, and makes sure that files can be put there. Throws FileError.
 void prepare_study_folder(const std::filesystem::path& folder);
 
-/// Writes all files, study.json last. Returns what was written. Throws FileError.
+/// Writes all files, study.json last, and behind it, with a date, the crate. Returns what was written. Throws FileError.
 std::vector<std::filesystem::path> write_study(const std::filesystem::path& folder,
-                                               const StudyResults& results);
+                                               const StudyResults& results,
+                                               const std::optional<std::string>& crate_date = {});
 
 /// Reads study.json; empty if there is none that can be read, or if a file beside it is not the one that it was
 /// written with, as when a run was killed between two files.

@@ -1,0 +1,189 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "io/file/whole_file.hpp"
+#include "io/result/crate.hpp"
+#include "support/small_cohort.hpp"
+#include "support/temporary_folder.hpp"
+
+/// `--crate`: an RO-Crate names every file of the folder and every file that was read, with digests that sha256sum finds too.
+
+namespace condyle::test {
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+class Crate : public ::testing::Test {
+ protected:
+  Ran run(const std::string& arguments) const { return run_condyle(here, arguments); }
+  std::string text(const std::string& name) const { return io::read_whole_file(here / name); }
+  Json crate(const std::string& out) const { return Json::parse(text(out + "/ro-crate-metadata.json")); }
+
+  static Json entity(const Json& crate, const std::string& id) {
+    for (const Json& each : crate.at("@graph"))
+      if (each.at("@id") == id) return each;
+    ADD_FAILURE() << "no entity " << id;
+    return {};
+  }
+  static Names ids(const Json& references) {
+    Names names;
+    for (const Json& each : references) names.insert(each.at("@id").get<std::string>());
+    return names;
+  }
+  /// Every path under which it was read.
+  static Names inputs(const Json& crate) {
+    Names names;
+    for (const std::string& id : ids(entity(crate, "#run").at("object")))
+      for (const Json names_of = entity(crate, id).at("alternateName"); const Json& name : names_of)
+        names.insert(name);
+    return names;
+  }
+  /// That sha256sum finds the digests: of results below `out`, of inputs below `base`.
+  void expect_digests(const std::string& out, const std::string& base) const {
+    const Json json = crate(out);
+    std::ofstream sums(here / "sums");
+    for (const std::string& id : ids(entity(json, "#run").at("result"))) {
+      const Json file = entity(json, id);
+      sums << file.at("sha256").get<std::string>() << "  " << out << "/" << id << "\n";
+      EXPECT_EQ(file.at("contentSize"), fmt::format("{}", fs::file_size(here / out / id))) << id;
+    }
+    for (const std::string& id : ids(entity(json, "#run").at("object"))) {
+      const Json file = entity(json, id);
+      EXPECT_EQ(id, "nih:sha-256;" + file.at("sha256").get<std::string>());
+      for (const Json& name : file.at("alternateName"))
+        sums << file.at("sha256").get<std::string>() << "  " << base << name.get<std::string>() << "\n";
+    }
+    sums.close();
+    EXPECT_EQ(
+        std::system(fmt::format("cd '{}' && sha256sum --check --strict --quiet sums", here.string()).c_str()),
+        0);
+  }
+  /// That its results are all files there but itself.
+  void expect_all_files(const std::string& out) const {
+    Names there;
+    for (const auto& entry : fs::recursive_directory_iterator(here / out))
+      if (entry.is_regular_file()) there.insert(entry.path().lexically_relative(here / out).string());
+    EXPECT_EQ(there.erase("ro-crate-metadata.json"), 1u);
+    EXPECT_EQ(ids(entity(crate(out), "#run").at("result")), there);
+  }
+
+  const TemporaryFolder folder;
+  const fs::path here = folder / "in";
+  const SmallCohort cohort{here, 4};
+};
+
+TEST_F(Crate, OfRangesOfMotionNamesEveryFileWithItsDigest) {
+  const std::string command =
+      "rom hip1.toml --motion flexion --map adduction=-10:10:10 internal_rotation=-10:10:10 --crate "
+      "2026-01-31";
+  ASSERT_EQ(run(command + " --out out").exit_code, 0);
+  const Json json = crate("out"), root = entity(json, "./"), action = entity(json, "#run");
+  expect_all_files("out");
+  expect_digests("out", "");
+  EXPECT_EQ(inputs(json), (Names{"hip1.toml", "post1.ply", "arm.ply"}));
+  EXPECT_EQ(root.at("datePublished"), "2026-01-31");
+  EXPECT_EQ(root.at("conformsTo").at("@id"), "https://w3id.org/ro/wfrun/process/0.5");
+  Names parts = ids(action.at("result"));
+  parts.merge(ids(action.at("object")));
+  EXPECT_EQ(ids(root.at("hasPart")), parts);
+  EXPECT_EQ(action.at("instrument").at("@id"), "#condyle");
+  EXPECT_EQ(action.at("description"),
+            "condyle rom hip1.toml --motion flexion --map adduction=-10:10:10 --map "
+            "internal_rotation=-10:10:10");
+  ASSERT_EQ(run(command + " --out again --threads 1").exit_code, 0);
+  EXPECT_EQ(text("again/ro-crate-metadata.json"), text("out/ro-crate-metadata.json"));
+  ASSERT_EQ(run("rom hip1.toml --motion flexion --out out").exit_code, 0);
+  EXPECT_FALSE(fs::exists(here / "out/ro-crate-metadata.json")) << "of an earlier answer";
+}
+
+TEST_F(Crate, ChangesNoOtherFile) {
+  ASSERT_EQ(run("rom hip1.toml --motion flexion --out without").exit_code, 0);
+  ASSERT_EQ(run("rom hip1.toml --motion flexion --out with --crate 2026-01-31").exit_code, 0);
+  for (const char* name : {"rom.json", "limits.csv"})
+    EXPECT_EQ(text(std::string("with/") + name), text(std::string("without/") + name)) << name;
+}
+
+TEST_F(Crate, OfShardsMergedIsThatOfTheWholeStudy) {
+  ASSERT_EQ(run("study table.csv --motion flexion --out whole --crate 2026-01-31").exit_code, 0);
+  expect_all_files("whole");
+  expect_digests("whole", "");
+  for (const char* shard : {"1/2", "2/2"})
+    ASSERT_EQ(run(fmt::format("study table.csv --motion flexion --out parted --shard {}", shard)).exit_code,
+              0);
+  ASSERT_EQ(run("merge parted --crate 2026-01-31").exit_code, 0);
+  expect_digests("parted", "");
+  // study.json says that it was merged.
+  Json whole = crate("whole"), merged = crate("parted");
+  for (Json* json : {&whole, &merged})
+    for (Json& each : json->at("@graph"))
+      if (each.at("@id") == "study.json") each.erase("sha256"), each.erase("contentSize");
+  EXPECT_EQ(merged, whole);
+  const Names read = inputs(whole);
+  EXPECT_EQ(read.count("table.csv"), 1u);
+  EXPECT_EQ(read.count("hip4.toml"), 1u);
+  EXPECT_EQ(read.count("nothere.toml"), 0u);
+}
+
+TEST_F(Crate, ComesToAStudyThatIsThereAlready) {
+  ASSERT_EQ(run("study table.csv --motion flexion --out once --crate 2026-01-31").exit_code, 0);
+  ASSERT_EQ(run("study table.csv --motion flexion --out out").exit_code, 0);
+  EXPECT_FALSE(fs::exists(here / "out/ro-crate-metadata.json"));
+  const Ran again = run("study table.csv --motion flexion --out out --crate 2026-01-31");
+  EXPECT_NE(again.err.find("is there already"), again.err.npos) << again.err;
+  EXPECT_NE(again.err.find("wrote out/ro-crate-metadata.json"), again.err.npos) << again.err;
+  EXPECT_EQ(text("out/ro-crate-metadata.json"), text("once/ro-crate-metadata.json"));
+  ASSERT_EQ(run("study table.csv --motion flexion --out out").exit_code, 0);
+  EXPECT_TRUE(fs::exists(here / "out/ro-crate-metadata.json")) << "of the same answer";
+}
+
+TEST_F(Crate, OfAPatientNamesEveryFolder) {
+  sample_into(here / "bones", "hip --scenario 1");
+  ASSERT_EQ(
+      run("hip bones/hip_bone.ply bones/femur.ply --samples 0 --out patient --crate 2026-01-31").exit_code,
+      0);
+  expect_all_files("patient");
+  expect_digests("patient", "");
+  EXPECT_EQ(inputs(crate("patient")), (Names{"bones/hip_bone.ply", "bones/femur.ply"}));
+}
+
+TEST_F(Crate, WithoutAFolderOrADayIsRefusedBeforeTheWork) {
+  for (const char* date : {"today", "2026-02-29", "2026-1-31", "20260131", "2026-01-31T10:00", "+026-01-31"})
+    for (const char* command : {"rom hip1.toml --out out", "study table.csv --out out", "merge out",
+                                "hip post1.ply arm.ply --out out"})
+      expect_refusal(run(fmt::format("{} --crate {}", command, date)), 2, "is no day", command);
+  expect_refusal(run("rom hip1.toml --crate 2026-01-31"), 2, "--out", "no folder");
+  expect_refusal(run("study table.csv --out out --shard 1/2 --crate 2026-01-31"), 2, "condyle merge",
+                 "a shard");
+  EXPECT_FALSE(fs::exists(here / "out"));
+}
+
+TEST_F(Crate, HasOneEntityForFilesOfOneContentAndNamesAsUrisHaveThem) {
+  fs::create_directory(here / "a folder");
+  std::ofstream(here / "a folder/50 %.csv") << "x\n";
+  const std::string digest(64, 'a');
+  const io::CrateRun asked{"2026-01-31",
+                           "condyle rom",
+                           "",
+                           {{io::Input::Kind::file, "one.ply", digest},
+                            {io::Input::Kind::entry, "gone.ply", "none"},
+                            {io::Input::Kind::file, "two.ply", digest}}};
+  const std::vector<fs::path> files = {"a folder/50 %.csv"};
+  const Json json = Json::parse(io::crate_document(asked, here, files));
+  EXPECT_EQ(ids(entity(json, "#run").at("object")), Names{"nih:sha-256;" + digest});
+  EXPECT_EQ(inputs(json), (Names{"one.ply", "two.ply"}));
+  EXPECT_EQ(entity(json, "a%20folder/50%20%25.csv").at("encodingFormat"), "text/csv");
+}
+
+}  // namespace
+}  // namespace condyle::test
