@@ -10,7 +10,8 @@
 #   install_dependencies.sh package-test   and for make package-test
 #   install_dependencies.sh wheel     for make wheel; with docs, for make release
 #   install_dependencies.sh image     and for the test of make image, which unpacks it by umoci too
-#   install_dependencies.sh workflow  and for the test of workflow/
+#   install_dependencies.sh snakemake and for the test of workflow/ without Slurm
+#   install_dependencies.sh workflow  and for all of it
 set -euo pipefail
 
 packages=(
@@ -51,9 +52,12 @@ for group in "$@"; do
     package-test) packages+=(debootstrap) ;;
     wheel) packages+=(patchelf python3-pip python3-venv python3-wheel) ;;
     image) packages+=(umoci) ;;
-    workflow) packages+=(snakemake slurmctld slurmd slurm-client munge) ;;
+    workflow)
+      packages+=(slurmctld slurmd slurm-client munge)
+      ;&
+    snakemake) packages+=(snakemake) ;;
     *)
-      echo "install_dependencies.sh: no group '$group'; there are command, clang, bench, docs, node, page, package-test, wheel, image, workflow" >&2
+      echo "install_dependencies.sh: no group '$group'; there are command, clang, bench, docs, node, page, package-test, wheel, image, snakemake, workflow" >&2
       exit 2
       ;;
   esac
