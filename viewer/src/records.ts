@@ -65,8 +65,7 @@ export const boneReference = object({
 });
 
 /// How much earlier soft tissue ended the motion than bone, in hips of cadavers.
-export type SoftTissueGap = Passed<typeof softTissueGap>;
-const softTissueGap = object({
+export const softTissueGap = object({
   closeness: oneOf("close", "moderate", "weak"),
   mean_deg: number,
   sd_deg: number,
@@ -75,8 +74,7 @@ const softTissueGap = object({
 });
 
 /// How far other people's hips turn, soft tissue included; never of this joint.
-export type PeopleRange = Passed<typeof peopleRange>;
-const peopleRange = object({
+export const peopleRange = object({
   low_deg: number,
   high_deg: number,
   who: text,
@@ -85,8 +83,7 @@ const peopleRange = object({
 });
 
 /// What studies say of the living beside a limit of bone.
-export type LivingLimit = Passed<typeof livingLimit>;
-const livingLimit = object({
+export const livingLimit = object({
   expected_deg: orNull(number),
   expected_sd_deg: orNull(number),
   gap: orNull(softTissueGap),

@@ -136,8 +136,7 @@ LimitRecord limit_record(const RangeAnswer& answer, std::size_t i) {
   if (const auto bone = bone_reference(joint, limit))
     record.bone_reference = {{bone->healthy},   {bone->cam_without_complaints}, {bone->patients},
                              bone->people_each, is_short(*bone, limit),         bone->source};
-  if (const auto living = living_limit(answer, i))
-    record.living = living_record(*living);
+  if (const auto living = living_limit(answer, i)) record.living = living_record(*living);
   if (is_as_defined_here(motion)) record.definition = "as defined here; no angles are agreed on";
   if (answer.follows) record.translation_ends = limit.translation_ends;
   if (const auto& contact = end.contact) {
