@@ -136,7 +136,7 @@ test("the motions have their room at the height of a laptop: chip, tiles and box
   await page.context().close();
 });
 
-for (const name of ["sample", "plan", "cam_pincer"].filter(has))
+for (const name of ["sample", "plan", "compared"].filter(has))
   test(`a tile of ${name} shows each of its lines in full or not at all, and the limit itself always`, async () => {
     const page = await opened(name);
     const said = [];

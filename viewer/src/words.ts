@@ -100,11 +100,10 @@ export const words = {
   endsSentence: (name: string, limit: string, held: string | null, place: string, living: string, compared: string) =>
     `${[`${name} ends at ${limit}`, held, place, living].filter(Boolean).join(", ")}; ${compared}.`,
   livingEarlier: (deg: string) => `living hips some ${deg}° earlier`,
-  livingFrom: (motions: string[], { hips, source }: { hips: number; source: string }) =>
-    `Living hips: soft tissue ended motions earlier than bone in ${hips} hips of cadavers (${source}): ${motions.join(", ")}.`,
-  livingGap: (motion: string, { mean_deg, sd_deg, closeness }: { mean_deg: number; sd_deg: number; closeness: string }) =>
-    `${motion} by ${mean_deg}° (SD ${sd_deg}°, ${closeness})`,
-  peopleFrom: (motion: string, { who, source }: { who: string; source: string }) => `People in ${motion}: ${who} (${source}).`,
+  livingFrom: (gaps: string[], { hips, source }: { hips: number; source: string }) =>
+    `Living hips: by how much soft tissue ended motions earlier than bone in ${hips} cadaver hips (${source}): ${gaps.join(", ")}.`,
+  livingGap: (motion: string, { mean_deg, sd_deg }: { mean_deg: number; sd_deg: number }) => `${motion} ${mean_deg}° (SD ${sd_deg}°)`,
+  people: (whose: string) => `People: ${whose}.`,
   planned: (done: string) =>
     (done.startsWith("without ") ? `After a planned cut of ${done.slice(8).replaceAll(", without ", " and ")}` : `Planned: ${done}`),
   plannedSentence: (sentence: string) => `Planned: ${sentence}`,

@@ -49,16 +49,21 @@ export function sourcesOf(provenance: NonNullable<RomAnswer["provenance"]>, titl
   ];
 }
 
-/// A line for each caveat, with its motions.
-function caveatsOf({ motions }: RomAnswer): string[] {
+/// A line for each text, with its motions.
+function grouped(said: readonly { name: string; text: string; source: string | null }[]): string[] {
   const about = new Map<string, { names: string[]; source: string | null }>();
-  for (const { name, caveats } of motions)
-    for (const { text, source } of caveats ?? []) {
-      const known = about.get(text) ?? { names: [], source };
-      known.names.push(named(motionName(name)));
-      about.set(text, known);
-    }
+  for (const { name, text, source } of said) {
+    const known = about.get(text) ?? { names: [], source };
+    known.names.push(named(motionName(name)));
+    about.set(text, known);
+  }
   return [...about].map(([text, { names, source }]) => words.caveat(names.join(", "), text, source));
+}
+
+/// What usually ends a motion, but where the lines on living hips say more.
+function caveatsOf({ motions }: RomAnswer): string[] {
+  return grouped(motions.flatMap(({ name, living, caveats }) =>
+    (caveats ?? []).filter(({ code }) => !living?.gap || code === "labrum_not_modelled").map((caveat) => ({ name, ...caveat }))));
 }
 
 const degrees = (value: number | null) => (value === null ? "–" : `${fixed(value, 1)}°`);
@@ -94,30 +99,32 @@ function changedParameter({ name, value, unit, in_joint_file }: PartParameter): 
   return words.changedTo(name, unit === "1" ? String(value) : `${value} ${unit}`, String(in_joint_file));
 }
 
-/// Sources of the column of living hips.
-function livingSources(motions: readonly MotionAnswer[]): string[] {
+/// Sources of clinical ranges and of the column of living hips.
+function livingSources({ motions, normal_range_source: clinical }: RomAnswer): string[] {
   const gaps = motions.flatMap(({ name, living }) => (living?.gap ? [{ said: words.livingGap(named(motionName(name)), living.gap), gap: living.gap }] : []));
+  const people = grouped(motions.flatMap(({ name, living }) =>
+    (living?.people && living.expected_deg === null && living.people.source !== clinical ? [{ name, text: living.people.who, source: living.people.source }] : [])));
   return [
     ...(gaps[0] ? [words.livingFrom(gaps.map(({ said }) => said), gaps[0].gap)] : []),
-    ...motions.flatMap(({ name, living }) => (living?.people && living.expected_deg === null ? [words.peopleFrom(named(motionName(name)), living.people)] : [])),
+    ...(clinical ? [[words.normalFrom(clinical), ...(people.length ? [words.people(people.join("; "))] : [])].join(" ")] : []),
   ];
 }
 
 /// The rules and the uncertainty of the limits, a line each.
-function howFound({ exact, band, bearing, zero, normal_range_source, motions, provenance }: RomAnswer): string[] {
-  const mm = (value: number) => value.toFixed(2);
+function howFound(rom: RomAnswer): string[] {
+  const { exact, band, bearing, zero, motions, provenance } = rom, mm = (value: number) => value.toFixed(2);
+  const surface = [
+    bearing && words.bearingRules[bearing.rule], bearing?.why_none && words.bearingWhy(bearing.why_none),
+    bearing?.head && words.bearingHead(mm(bearing.head.radius_mm)), bearing?.socket && words.bearingSocket(mm(bearing.socket.radius_mm)),
+    typeof bearing?.margin_mm === "number" && words.bearingMargin(mm(bearing.margin_mm)),
+  ].filter(Boolean).join(" ");
   const changed = (provenance?.parameters ?? []).filter(({ value, in_joint_file }) => value !== in_joint_file);
   return [
     ...(changed.length ? [words.notAsInFile(changed.map(changedParameter).join(", "))] : []),
     (exact === false ? words.bounded : words.guarantee) + (zero ? ` ${words.zeroAt(zero.text)}` : ""),
     band ? words.bandsFrom({ samples: band.samples, seed: band.seed, ...band.sigma }) : words.noBand,
-    ...(bearing ? [words.bearingRules[bearing.rule]] : []),
-    ...(bearing?.why_none ? [words.bearingWhy(bearing.why_none)] : []),
-    ...(bearing?.head ? [words.bearingHead(mm(bearing.head.radius_mm))] : []),
-    ...(bearing?.socket ? [words.bearingSocket(mm(bearing.socket.radius_mm))] : []),
-    ...(typeof bearing?.margin_mm === "number" ? [words.bearingMargin(mm(bearing.margin_mm))] : []),
-    ...(normal_range_source ? [words.normalFrom(normal_range_source)] : []),
-    ...livingSources(motions),
+    ...(surface ? [surface] : []),
+    ...livingSources(rom),
     ...motions.flatMap(({ name, bone_reference: bone }) => (bone ? [words.boneFrom(motionName(name), bone)] : [])),
   ];
 }
