@@ -408,11 +408,12 @@ void add_hip(CLI::App& app) {
   add_crate(*command, options->crate_date);
   std::vector<std::string> of_labels{"--fixed", "--mobile"};
   for (const std::string& name : label_surface_names()) of_labels.push_back(name);
-  group_help(*command, {{"Most used", {"--out", "--plan", "--side", "--task"}},
-                        {"Question", {"--units", "--samples", "--accept-reference-contact"}},
-                        {"Label maps", of_labels},
-                        {"Images", label_file_names()},
-                        {"Output", {"--case", "--note", "--date", "--crate", "--help"}}});
+  group_help(*command,
+             {{"Most used", {"--out", "--plan", "--side", "--task"}},
+              {"Question", {"--age", "--sex", "--units", "--samples", "--accept-reference-contact"}},
+              {"Label maps", of_labels},
+              {"Images", label_file_names()},
+              {"Output", {"--case", "--note", "--date", "--crate", "--help"}}});
   command->callback([options, command] { hip_command(*options, *command); });
 }
 

@@ -156,7 +156,8 @@ void add_rom(CLI::App& app) {
   add_strict(*command, options->strictness, or_contact);
   group_help(*command,
              {{"Most used", {"--motion", "--band", "--map", "--out", "--json"}},
-              {"Question", {"--set", "--list-motions", "--vary", "--past", "--translation", "--clock"}},
+              {"Question",
+               {"--set", "--age", "--sex", "--list-motions", "--vary", "--past", "--translation", "--clock"}},
               uncertainty_group(),
               {"Centre not held", follow_names()},
               {"Contact",
