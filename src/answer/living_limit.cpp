@@ -131,7 +131,8 @@ std::optional<LivingLimit> living_limit(const Joint& joint, const motion::Motion
   if (!living.gap && !living.people) return std::nullopt;
   const bool may_expect = living.gap && living.gap->closeness == Closeness::close &&
                           limit.end.reason == motion::LimitReason::contact && limit.end.contact &&
-                          limit.end.kind() == motion::ContactKind::impingement && is_grown;
+                          limit.end.kind() == motion::ContactKind::impingement && is_grown &&
+                          joint.planned.empty();
   if (may_expect && limit.end.turned > living.gap->mean) {
     living.expected = limit.end.turned - living.gap->mean;
     living.expected_sd = Angle::degrees(core::hypotenuse(

@@ -39,7 +39,7 @@ struct PeopleRange {
 struct LivingLimit {
   std::optional<SoftTissueGap> gap;
   /// Where a living hip with this bone is expected to end: of the class close only, where impingement ends the motion, of adults and those whose
-  /// age is not known, and above 0. Its standard deviation is that of the gap and the band's, which are independent.
+  /// age is not known, of bones that no plan has cut (people moved no farther after such cuts), and above 0. Its standard deviation is that of the gap and the band's, which are independent.
   std::optional<Angle> expected, expected_sd;
   std::optional<PeopleRange> people;
 };
@@ -51,7 +51,7 @@ std::optional<LivingLimit> living_limit(const Joint& joint, const motion::Motion
 /// The same of the i-th limit of an answer, with its band if it has any; no end is expected where a depth was allowed, as bone does not end the motion.
 std::optional<LivingLimit> living_limit(const RangeAnswer& answer, std::size_t i);
 
-/// Of one motion: "some 129 (SD 5)" where an end is expected, else "people 29–50", "-" if nothing is known.
+/// What a table has of one motion: "some 129 (SD 5)" where an end is expected, else "people 29–50", "-" if nothing is known.
 std::string text_of(const std::optional<LivingLimit>& living);
 
 }  // namespace condyle

@@ -414,10 +414,8 @@ std::optional<ResectionAnswer> answer_resection(const Case& of, const ResectionR
   if (answer.resection.joint.is_hip() && !answer.resection.joint.implant)
     answer.caveats.emplace_back(
         "a year after arthroscopy, which had taken 406 to 1783 mm3, 13 patients were better and moved no "
-        "farther than "
-        "before, whatever the volume (doi 10.1186/s40634-021-00427-x); in seven cadavers internal rotation "
-        "rose from "
-        "19.1 to 21.9 degrees (doi 10.1186/s40634-017-0096-2)");
+        "farther than before, whatever the volume (doi 10.1186/s40634-021-00427-x); in seven cadavers "
+        "internal rotation rose from 19.1 to 21.9 degrees (doi 10.1186/s40634-017-0096-2)");
   return answer;
 }
 

@@ -105,6 +105,9 @@ TEST(LivingLimit, ExpectsNoEndWhereStudiesDoNotReach) {
   other = usual;
   other.motion.start.adduction = Angle::degrees(10);
   EXPECT_FALSE(living_limit(joint, other, nullptr)) << "FADIR is another motion";
+  joint.planned = "without 40.9 mm3 of femur";
+  EXPECT_FALSE(expects(usual)) << "after such cuts people moved no farther than before";
+  joint.planned.clear();
   joint.person.age_years = 12;
   EXPECT_FALSE(expects(usual)) << "the cadavers were of adults";
   joint.person.age_years = 18;
