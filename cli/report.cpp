@@ -49,7 +49,7 @@ struct JointBefore {
   /// Reads it; throws UsageError if it cannot be compared with the joint of the page.
   JointBefore(const ReportArguments& options, const Joint& of_page, std::vector<std::string> words)
       : whose(options.first + ": "),
-        loaded(io::read_joint(options.first)),
+        loaded(joint_at(io::read_joint(options.first), {}, options.person)),
         from(io::provenance_of(loaded, std::move(words))) {
     io::check_comparable(loaded.joint, options.first, of_page, options.second);
     notes = noted(loaded, options.strictness, whose);

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { has, keep, openPage, openTab, pathOf, settled, sharedBrowser } from "./browser.mjs";
-import { readReport } from "./report_block.mjs";
+import { readReport, withText } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
 const motionNames = { internal_rotation_at_90_flexion: "internal rotation at 90° flexion", flexion: "flexion" };
@@ -185,8 +185,9 @@ test("a plan's cut is the first step", async () => {
   await page.context().close();
 });
 
-test("bones are kept as STL with a joint file that names them", async () => {
-  const { page } = await opened();
+test("bones are kept as STL with a joint file that names them, and whose they are", async () => {
+  withText("whose", ({ joint }) => (joint.person = { age: 31, sex: "female" }));
+  const { page } = await opened("whose");
   const { array } = readReport(pathOf("sample"));
   await changed(page, strokeAtLimit(page));
   const files = [];
@@ -203,6 +204,7 @@ test("bones are kept as STL with a joint file that names them", async () => {
     assert.ok(toml.includes(`[${body}]`) && toml.includes(`mesh = "brushed_${body}.stl"`), toml);
   }
   assert.match(toml, /^condyle = 1$/m);
+  assert.match(toml, /^\[person\]\nage = 31\nsex = "female"$/m);
   assert.match(toml, /^planned = "changed by strokes"$/m);
   assert.match(toml, /^\[mobile\.head\]/m);
   await page.context().close();

@@ -86,6 +86,11 @@ function partLines({ name, body, meshes, centre_mm, definition, parameters }: St
     ])];
 }
 
+function personLines({ person }: ReportText["joint"]): string[] {
+  const { age, sex } = person ?? {};
+  return person ? ["", "[person]", ...(age === undefined ? [] : [`age = ${age}`]), ...(sex ? [`sex = "${sex}"`] : [])] : [];
+}
+
 /// Parts that were turned, and their values.
 export interface TurnedParts {
   posed: StoredPosed;
@@ -107,6 +112,6 @@ export function jointFileOf(text: ReportText, X_FM: readonly number[], version: 
     `side = "${joint.side}"`, `units = "mm"`, ...bodyNames.flatMap(body), ...sphereLines(text, turned?.posed ?? null), "",
     "[frame]  # the meshes are in the joint frame", "centre = [0, 0, 0]", "anterior = [1, 0, 0]", "superior = [0, 1, 0]",
     ...(isPosed || isStated ? ["", "[reference_pose]", ...coordinates.flatMap(({ name }, i) => (reference_deg[i] ? [`${name} = ${reference_deg[i]}`] : []))] : []),
-    ...(turned?.posed.parts ?? []).flatMap((part) => partLines(part, turned!.values, X_FM)), "",
+    ...personLines(joint), ...(turned?.posed.parts ?? []).flatMap((part) => partLines(part, turned!.values, X_FM)), "",
   ].join("\n");
 }

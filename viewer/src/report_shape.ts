@@ -108,7 +108,7 @@ const report = object({
   joint: object({
     name: text, kind: oneOf("ball", "hinge", "free"), anatomy: oneOf("hip", "knee", "ankle", "elbow", "shoulder"),
     side: oneOf("right", "left"), fixed: text, mobile: text, translation_frame: oneOf("fixed", "joint_axes"),
-    planned: ifThere(text),
+    planned: ifThere(text), person: ifThere(object({ age: ifThere(number), sex: ifThere(oneOf("female", "male")) })),
   }),
   coordinates: list(object({ name: text, opposite: text }), 3), reference_deg: three, reference_mm: three,
   scope: ifThere(text), rom: orNull(rom), rom_error: ifThere(text),
