@@ -1,5 +1,5 @@
 // What the command asks of node: npm/src. Functions are by the worker that runs it (worker.js) in Module.node.
-mergeInto(LibraryManager.library, {
+mergeInto(LibraryManager["library"], {
   condyle_signalled: function () {
     return Module["node"].signalled();
   },

@@ -57,7 +57,7 @@ Power power_of(double x) noexcept {
   return {static_cast<int>(halvings), (power - Pair{1, 0}) + power * beyond};
 }
 
-/// Of a number above 0. With y an approximation of the logarithm of m, it is y + (m e^-y - 1), to a part in 2^80.
+/// The logarithm of a number above 0, a = 2^power m. With y near that of m, the latter is y + (m e^-y - 1), to a part in 2^80.
 double logarithm_of(Pair a) noexcept {
   int power = std::ilogb(a.high);
   if (std::ldexp(a.high, -power) > std::numbers::sqrt2) ++power;

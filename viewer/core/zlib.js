@@ -1,5 +1,5 @@
 // The functions of zlib/zlib.h, by those of pako that are given to the module. Bytes are inflated and deflated where they lie in its memory.
-mergeInto(LibraryManager.library, {
+mergeInto(LibraryManager["library"], {
   $streams: "new Map()",
   $ran__deps: ["$streams"],
   $ran: function (at, run, flush) {

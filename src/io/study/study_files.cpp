@@ -82,7 +82,7 @@ StudyRecord record_of(const Json& json) {
   return record;
 }
 
-/// Of merged shards too it is the study, whose inputs and options theirs are.
+/// The run is the study, whole or merged of shards: its options and inputs are theirs.
 CrateRun crate_run_of(const StudyRecord& record, const std::string& date) {
   CrateRun run{date, "condyle study", "options " + record.options, record.inputs.all};
   run.inputs.insert(run.inputs.begin(), {Input::Kind::file, record.table, record.table_digest.sha256});
