@@ -47,9 +47,11 @@ struct ContactWitness {
 };
 
 enum class LimitReason : std::uint8_t {
-  contact,           ///< The surfaces meet at the angle, and not before.
-  end_of_range,      ///< Nothing meets in the whole range.
-  contact_at_start,  ///< The surfaces meet at the start already, or one body is inside the other.
+  contact,            ///< The surfaces meet at the angle, and not before.
+  end_of_range,       ///< Nothing meets in the whole range.
+  contact_at_start,   ///< The surfaces meet at the start already, or one body is inside the other.
+  ligament,           ///< A ligament reaches the strain that it may have.
+  strained_at_start,  ///< One has more than that at the start already.
 };
 /// As in files: "end_of_range".
 [[nodiscard]] std::string_view name_of(LimitReason reason) noexcept;
@@ -64,7 +66,7 @@ struct EarlierContact {
 
 /// One end of a free rotation.
 struct Limit {
-  Angle turned = {};  ///< from the start, >= 0 in either sense; 0 for contact_at_start
+  Angle turned = {};  ///< from the start, >= 0 in either sense; 0 for contact_at_start and strained_at_start
   LimitReason reason = LimitReason::end_of_range;
   /// For contact and contact_at_start; empty if one body is inside the other and their surfaces do not meet.
   std::optional<ContactWitness> contact = {};
@@ -74,6 +76,9 @@ struct Limit {
   std::optional<EarlierContact> bearing_contact = {};
   /// Set by RangeOfMotion if a mesh is called soft: its first contact, if before the limit.
   std::optional<EarlierContact> soft_contact = {};
+
+  /// Set by RangeOfMotion where a ligament ends the motion: its number in the joint.
+  std::optional<std::size_t> ligament = {};
 
   [[nodiscard]] ContactKind kind() const noexcept { return contact ? contact->kind : ContactKind::unknown; }
 };
@@ -95,7 +100,8 @@ struct RotationLimits {
   SearchWork work = {};
 
   [[nodiscard]] bool free_at_start() const noexcept {
-    return positive.reason != LimitReason::contact_at_start;
+    return positive.reason != LimitReason::contact_at_start &&
+           positive.reason != LimitReason::strained_at_start;
   }
 };
 

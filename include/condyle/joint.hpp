@@ -10,11 +10,10 @@
 
 #include "condyle/fit.hpp"
 #include "condyle/joint_coordinates.hpp"
+#include "condyle/ligament.hpp"
 #include "condyle/mesh.hpp"
 
 namespace condyle {
-
-enum class BodyRole { fixed, mobile };
 
 /// Meaning for a motion of contact with one of several meshes of a body. With bone as `ends`, cartilage as `bearing` and a labrum
 /// as `soft`:
@@ -262,6 +261,7 @@ struct Joint {
   /// What a plan did to the bones: "without 164.1 mm3 of femur". Empty: they are as they were measured.
   std::string planned = {};
   Person person = {};
+  std::vector<Ligament> ligaments = {};
 
   [[nodiscard]] CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
   /// False of a hinge that flexes forwards and is no joint in particular.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <variant>
@@ -44,6 +45,9 @@ struct AxisErrors {
   double superior_length;  ///< |length - 1|
   double right_angle;      ///< |cosine of the angle between them|
 
+  [[nodiscard]] double largest() const noexcept {
+    return std::max({anterior_length, superior_length, right_angle});
+  }
   [[nodiscard]] bool none() const noexcept {
     return anterior_length == 0 && superior_length == 0 && right_angle == 0;
   }
@@ -125,6 +129,16 @@ struct DescribedPart {
   std::optional<Vec3> centre_in_W = {};  ///< mm
 };
 
+/// A ligament, its points and its wrap in the frames that the meshes of their bodies are given in, mm.
+struct DescribedLigament {
+  Ligament ligament = {};
+  /// In place of a slack length: the angles at which it is just taut, or its slack length as a share of its length in the reference pose.
+  std::optional<JointAngles> taut_at = {};
+  std::optional<double> slack_share = {};
+  /// The wrap is the head of the mobile body.
+  bool wraps_head = false;
+};
+
 /// All that makes a joint of two meshes.
 struct JointDescription {
   std::string name;
@@ -145,6 +159,7 @@ struct JointDescription {
   std::vector<DescribedPart> parts = {};
   std::string planned = {};  ///< what a plan did to the bones, as Joint::planned
   Person person = {};
+  std::vector<DescribedLigament> ligaments = {};
 
   [[nodiscard]] CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
 };

@@ -73,13 +73,14 @@ enum class ContactNoteCode : std::uint8_t {
   deeper_than_layers,       ///< The bodies overlap by more than their layers are thick.
   large_strain,             ///< By a large part of it.
   oblique_peak,  ///< The largest depth or pressure comes from a ray that meets the other surface at a slant.
-  unlikely_angle,        ///< A recorded angle beyond two whole turns, or angles that look like radians.
-  unlikely_times,        ///< Recorded times in seconds that look like milliseconds.
-  unlikely_translation,  ///< A recorded translation beyond a metre.
-  beyond_range,          ///< A recorded coordinate beyond the range that its model gives it.
-  locked_coordinate,     ///< One that its model locks, recorded with other values.
-  mostly_apart,          ///< The bodies are far from each other in most frames.
-  mostly_deep,           ///< They are far within each other in most frames.
+  unlikely_angle,           ///< A recorded angle beyond two whole turns, or angles that look like radians.
+  unlikely_times,           ///< Recorded times in seconds that look like milliseconds.
+  unlikely_translation,     ///< A recorded translation beyond a metre.
+  beyond_range,             ///< A recorded coordinate beyond the range that its model gives it.
+  locked_coordinate,        ///< One that its model locks, recorded with other values.
+  mostly_apart,             ///< The bodies are far from each other in most frames.
+  mostly_deep,              ///< They are far within each other in most frames.
+  unknown_ligament_length,  ///< A ligament meets an ellipsoid, or an end of it is inside what it wraps.
 };
 
 /// As in files: "unlikely_modulus".

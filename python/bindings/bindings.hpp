@@ -21,6 +21,7 @@ void bind_fit(py::module_& module);
 void bind_labels(py::module_& module);
 void bind_model(py::module_& module);
 void bind_joint(py::module_& module);
+void bind_ligaments(py::module_& module);
 void bind_penetration(py::module_& module);
 void bind_gaps(py::module_& module);
 void bind_tables(py::module_& module);

@@ -46,7 +46,8 @@ void members(T& value, const Each& each) {
                                  JointAngles, io::ColumnsOfPoses, io::PosesOfModel, plan::CupAngles>) {
     auto& [a, b, c] = value;
     each(a, b, c);
-  } else if constexpr (is_one_of<Struct, SphereFit, PelvisLandmarks, io::PoseDegrees, motion::Uncertainty>) {
+  } else if constexpr (is_one_of<Struct, SphereFit, PelvisLandmarks, io::PoseDegrees, motion::Uncertainty,
+                                 DescribedLigament>) {
     auto& [a, b, c, d] = value;
     each(a, b, c, d);
   } else if constexpr (is_one_of<Struct, JointImplant, RevolvedPair, io::BodyEntry, motion::Motion,
@@ -56,10 +57,10 @@ void members(T& value, const Each& each) {
   } else if constexpr (is_one_of<Struct, Body>) {
     auto& [a, b, c, d, e, f] = value;
     each(a, b, c, d, e, f);
-  } else if constexpr (is_one_of<Struct, BodyPart, CylinderFit, io::LayerEntry>) {
+  } else if constexpr (is_one_of<Struct, BodyPart, CylinderFit, io::LayerEntry, LigamentWrap>) {
     auto& [a, b, c, d, e, f, g] = value;
     each(a, b, c, d, e, f, g);
-  } else if constexpr (is_one_of<Struct, PosedPart, io::MeshEntry>) {
+  } else if constexpr (is_one_of<Struct, PosedPart, io::MeshEntry, Ligament>) {
     auto& [a, b, c, d, e, f, g, h] = value;
     each(a, b, c, d, e, f, g, h);
   } else if constexpr (is_one_of<Struct, PartParameter, io::ContactEntry, io::ColumnOfCoordinate>) {
@@ -68,16 +69,13 @@ void members(T& value, const Each& each) {
   } else if constexpr (is_one_of<Struct, JointPlacement>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k] = value;
     each(a, b, c, d, e, f, g, h, i, j, k);
-  } else if constexpr (is_one_of<Struct, Joint, io::BodyMeshReport>) {
+  } else if constexpr (is_one_of<Struct, io::BodyMeshReport>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l] = value;
     each(a, b, c, d, e, f, g, h, i, j, k, l);
-  } else if constexpr (is_one_of<Struct, io::JointFile>) {
+  } else if constexpr (is_one_of<Struct, Joint, io::JointFile>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = value;
     each(a, b, c, d, e, f, g, h, i, j, k, l, m);
-  } else if constexpr (is_one_of<Struct, JointDescription>) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = value;
-    each(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
-  } else if constexpr (is_one_of<Struct, plan::ReverseShoulder>) {
+  } else if constexpr (is_one_of<Struct, JointDescription, plan::ReverseShoulder>) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = value;
     each(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
   } else {

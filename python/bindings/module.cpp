@@ -34,6 +34,7 @@ PYBIND11_MODULE(_native, module) {
   bind_labels(module);
   bind_model(module);
   bind_joint(module);
+  bind_ligaments(module);
   bind_penetration(module);
   bind_gaps(module);
   bind_tables(module);

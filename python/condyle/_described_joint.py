@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ._answer import Unchanging
 from ._coordinates import positions_in
 from ._errors import JointWarning, UsageError, unknown, warn
+from ._ligaments import Ligament, ligaments_of
 from ._mesh import TriMesh
 from ._native import Joint as NativeJoint
 from ._poses import ManyNumbers, ManyPosesLike, OnePoseLike, Pose, PoseLike, Poses
@@ -100,6 +101,14 @@ class DescribedJoint(Unchanging):
     def person(self) -> dict[str, Union[float, str]]:
         """Whose joint it is: `age` in years and `sex`, each if it is known. Limits are held against people like this one."""
         return {key: value for key, value in zip(("age", "sex"), self._native.person) if value is not None}
+
+    @property
+    def ligaments(self) -> tuple[Ligament, ...]:
+        """Its ligaments, in the order of the joint file (docs/ligaments.md).
+
+        C++: `Joint::ligaments` in condyle/joint.hpp.
+        """
+        return ligaments_of(self._native)
 
     @property
     def planned(self) -> str:

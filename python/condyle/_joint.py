@@ -18,6 +18,7 @@ from ._joint_description import description_of
 from ._labels import LabelLike, LabelMap, LabelSurface, joint_bones
 from ._followed_range import FollowedRange, followed_range
 from ._hip_measures import HipMeasures
+from ._ligaments import LigamentStates, ligament_states
 from ._limits import PathLimit, path_limit
 from ._mesh import MeshLike, TriMesh
 from ._model import Model, read_model
@@ -392,6 +393,18 @@ class Joint(DescribedJoint):
         [False, True]
         """
         return contact_along(self, poses, surfaces, casting, rule, reach_mm, progress)
+
+    def ligament_states(self, poses: PoseLike) -> LigamentStates:
+        """Length, strain, tension and load of each ligament in one pose or many; poses of NaN are gaps.
+
+        C++: `condyle::ligament_state` in condyle/ligament.hpp.
+
+        >>> import condyle
+        >>> bones = condyle.sample_hip()
+        >>> condyle.Joint(bones.hip_bone, bones.femur).ligament_states({"flexion_deg": 90}).names
+        ()
+        """
+        return ligament_states(*self._asked_at(poses))
 
     def motion(self, path: Path) -> JointMotion:
         """The recorded motion of a file, by the joint file's [recorded_motion] or columns such as flexion_deg, x_mm.

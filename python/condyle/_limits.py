@@ -69,7 +69,7 @@ class Limit(OldNames):
     limit_deg : float
         From the start, at least 0 in either sense.
     reason : str
-        "contact", "end_of_range" or "contact_at_start".
+        "contact", "end_of_range", "contact_at_start", "ligament" or "strained_at_start".
     contact : ContactWitness or None
         None where nothing meets, or one body is inside the other.
     error_bound_deg : float

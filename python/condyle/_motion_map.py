@@ -124,7 +124,7 @@ def map_of(found: dict[str, Any], row: str, column: str, vary: str, start: float
     order = np.lexsort((np.arange(len(low)), distance, points))
     first = order[np.flatnonzero(np.diff(points[order], prepend=-1))]
     lower[points[first]], upper[points[first]] = start + low[first], start + high[first]
-    free = ends["positive"].reason != REASONS.index("contact_at_start")
+    free = ~np.isin(ends["positive"].reason, [REASONS.index("contact_at_start"), REASONS.index("strained_at_start")])
     return MotionMap(row, column, vary, start, found["row_deg"], found["column_deg"], lower.reshape(shape),
                      upper.reshape(shape), width.reshape(shape), free, offset, np.column_stack([low, high]),
                      ends["negative"], ends["positive"], found["row_area_deg2"],

@@ -47,7 +47,7 @@ class ClosedForm(Record):
     """Where liner and neck of an implant end a motion, as bodies of revolution."""
 
     limit_deg: float
-    reason: Literal["contact", "end_of_range", "contact_at_start"]
+    reason: Literal["contact", "end_of_range", "contact_at_start", "ligament", "strained_at_start"]
     of_facets_deg: list[float]
 
 
@@ -162,8 +162,11 @@ class LimitRecord(Record):
         of the motion
     limit_deg : float
         how far it turned from its start; ≥ 0 whatever the sense
-    reason : Literal["contact", "end_of_range", "contact_at_start"]
-        `"contact"`, `"end_of_range"` (no contact), `"contact_at_start"` (`limit_deg` is 0)
+    reason : Literal["contact", "end_of_range", "contact_at_start", "ligament", "strained_at_start"]
+        `"contact"`, `"end_of_range"` (no contact), `"contact_at_start"` (`limit_deg` is 0), `"ligament"`, `"strained_at_start"`
+        (likewise)
+    ligament : str or None
+        the ligament that ends the motion; null if none does
     contact_kind : Literal["unknown", "bearing", "impingement", "cut", "soft"] or None
         `"impingement"`, `"bearing"`, `"cut"` on a face that closes a bone where its image ends or it was cut off, or `"unknown"`
         if no bearing surface is known; null at the end of the range
@@ -256,7 +259,8 @@ class LimitRecord(Record):
 
     name: str
     limit_deg: float
-    reason: Literal["contact", "end_of_range", "contact_at_start"]
+    reason: Literal["contact", "end_of_range", "contact_at_start", "ligament", "strained_at_start"]
+    ligament: Optional[str] = None
     contact_kind: Optional[Literal["unknown", "bearing", "impingement", "cut", "soft"]] = None
     bearing_contact_deg: Optional[float] = None
     bearing_contact_point_mm: Optional[NDArray[np.float64]] = None

@@ -47,6 +47,7 @@ std::optional<BoneReference> bone_reference(const Joint& joint, const motion::Mo
   const motion::Motion& same = motion::motion_named(built_in, known->motion);
   if (same.vary != motion.vary || same.sense != motion.sense || same.start != motion.start)
     return std::nullopt;
+  if (limit.end.ligament) return std::nullopt;
   if (ends_in_contact(limit) && limit.end.kind() != motion::ContactKind::impingement) return std::nullopt;
   return *known;
 }
@@ -81,6 +82,13 @@ std::string guarantee_text(const motion::MotionLimit& limit) {
       return core::formatted("free over the whole range of %g deg", limit.motion.range.degrees());
     case motion::LimitReason::contact_at_start:
       return "in contact before any rotation";
+    case motion::LimitReason::ligament:
+      return core::formatted(
+          "free and no ligament strained beyond its end before the limit; one is at it or past it by at most "
+          "%.2g deg",
+          error_bound_deg);
+    case motion::LimitReason::strained_at_start:
+      return "a ligament is strained beyond its end before any rotation";
   }
   return "";
 }
@@ -99,6 +107,9 @@ std::string guarantee_text(const motion::DepthLimit& depth) {
           depth.limit.motion.range.degrees());
     case motion::LimitReason::contact_at_start:
       return "deeper than allowed before any rotation";
+    case motion::LimitReason::ligament:
+    case motion::LimitReason::strained_at_start:
+      break;
   }
   return "";
 }

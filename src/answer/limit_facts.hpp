@@ -11,7 +11,8 @@
 namespace condyle {
 
 inline bool ends_in_contact(const motion::MotionLimit& limit) noexcept {
-  return limit.end.reason != motion::LimitReason::end_of_range;
+  return limit.end.reason == motion::LimitReason::contact ||
+         limit.end.reason == motion::LimitReason::contact_at_start;
 }
 
 /// The two bedside tests, whose angles nobody has agreed on.

@@ -171,9 +171,8 @@ std::string_view with_article(const Joint& joint) noexcept {
 /// surfaces ended a motion.
 void note_sliding(const Joint& joint, std::span<const motion::MotionLimit> limits,
                   const motion::BearingFinding& bearing, std::vector<RangeNote>& notes) {
-  const bool any_contact = std::any_of(limits.begin(), limits.end(), [](const motion::MotionLimit& limit) {
-    return limit.end.reason != motion::LimitReason::end_of_range;
-  });
+  const bool any_contact = std::any_of(
+      limits.begin(), limits.end(), [](const motion::MotionLimit& limit) { return ends_in_contact(limit); });
   if (joint.has_head() || bearing.roles.distinguish_bearing() || !any_contact) return;
   notes.push_back({RangeNoteCode::sliding_surfaces,
                    "the surfaces of " + std::string(with_article(joint)) +

@@ -20,6 +20,10 @@ Joint held_at(const Joint& joint, const Vec3& translation_mm) {
     if (socket) socket->centre -= translation_mm;
   };
   held.fixed.mesh = moved(joint.fixed.mesh);
+  for (Ligament& ligament : held.ligaments) {
+    for (Vec3& point : ligament.fixed) point -= translation_mm;
+    if (ligament.wrap && ligament.wrap->body == BodyRole::fixed) ligament.wrap->centre -= translation_mm;
+  }
   move_cuts(held.fixed.image);
   move_socket(held.fixed.head);
   if (held.posed) {

@@ -356,6 +356,56 @@ std::vector<Index> numbers_after(const std::vector<Index>& vertex_before,
   return after;
 }
 
+/// A ligament in the frames of its bodies, its slack length resolved.
+Ligament placed_ligament(const DescribedLigament& described, const JointDescription& description,
+                         const Pose& X_FB, const Pose& X_MB, const JointPlacement& placement,
+                         const std::optional<Sphere>& head) {
+  Ligament ligament = described.ligament;
+  const auto refuse = [&](const std::string& what) {
+    throw UsageError("ligament " + ligament.name + ": " + what);
+  };
+  for (Vec3& point : ligament.fixed) point = posed(X_FB, point);
+  for (Vec3& point : ligament.mobile) point = posed(X_MB, point);
+  if (described.wraps_head) {
+    if (head)
+      ligament.wrap = LigamentWrap{.centre = head->centre, .radius_mm = head->radius};
+    else if (placement.sphere && placement.fitted_body == BodyRole::mobile)
+      ligament.wrap = LigamentWrap{.radius_mm = placement.sphere->fit.sphere.radius};
+    else
+      refuse("wrap: no head is known here: fit the centre, or give the sphere");
+  } else if (ligament.wrap) {
+    const Pose& X = ligament.wrap->body == BodyRole::fixed ? X_FB : X_MB;
+    ligament.wrap->centre = posed(X, ligament.wrap->centre);
+    ligament.wrap->axis = (X.linear() * ligament.wrap->axis).normalized();
+    ligament.wrap->axes = X.linear() * ligament.wrap->axes;
+    if (ligament.wrap->shape == WrapShape::ellipsoid && ligament.ends_at_strain)
+      refuse("over an ellipsoid it cannot end motions: lengths on one are not computed");
+  }
+  const auto length_at = [&](const JointCoordinates& at) {
+    const Pose X_FM = pose_at(description.coordinates(), at, description.translation_frame);
+    const auto state = ligament_state(ligament, X_FM);
+    if (!state)
+      refuse(ligament.wrap->shape == WrapShape::ellipsoid
+                 ? "it meets its ellipsoid, on which lengths are not computed"
+                 : "an end of the part that crosses the joint lies inside its wrap");
+    return state->length_mm;
+  };
+  if (described.taut_at) {
+    JointCoordinates taut = placement.reference_pose;
+    taut.angles = *described.taut_at;
+    ligament.slack_length_mm = length_at(taut);
+  } else if (described.slack_share) {
+    ligament.slack_length_mm = *described.slack_share * length_at(placement.reference_pose);
+  }
+  if (!(ligament.slack_length_mm > 0)) refuse("its slack length must be above 0");
+  if (!ligament.ends_at_strain) return ligament;
+  if (const double strain = length_at(placement.reference_pose) / ligament.slack_length_mm - 1;
+      strain > *ligament.ends_at_strain)
+    refuse(formatted("its strain is %.4g in the reference pose already, more than the %g that it ends at",
+                     strain, *ligament.ends_at_strain));
+  return ligament;
+}
+
 }  // namespace
 
 PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mobile) {
@@ -394,6 +444,13 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
   joint.zero_from = placement.zero_from;
   joint.planned = description.planned;
   joint.person = description.person;
+  if (!description.ligaments.empty() && !parts.empty())
+    throw UsageError(
+        "ligament: a joint with parts that move in their body has none: they would not move along");
+  for (const DescribedLigament& ligament : description.ligaments)
+    joint.ligaments.push_back(
+        placed_ligament(ligament, description, core::composed(X_FW, description.fixed_in_W),
+                        core::composed(X_MW, description.mobile_in_W), placement, joint.mobile.head));
   if (!parts.empty())
     joint.posed = PosedParts{std::move(parts),
                              {joint.fixed.mesh, joint.fixed.image, joint.fixed.head},

@@ -140,6 +140,8 @@ double distance_to_bone(const Joint& joint, const Vec3& point) {
 }
 
 PlacedHip place_total_hip(const TotalHip& hip, const Joint& joint, const PlacedBy& by) {
+  if (!joint.ligaments.empty())
+    throw UsageError("implant: the joint has ligaments, and which of them an operation leaves is not known");
   const Side side = joint.side;
   const NeckCut cut = neck_cut(hip, side);
   const Vec3 shift = shift_of(hip, by, cut), of_femur = shift - by.centre;

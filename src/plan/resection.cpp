@@ -143,6 +143,10 @@ std::optional<Resection> resect(const Joint& joint, const ResectionOptions& as_g
       throw MeshError("resection: " + target.motion.name +
                       " is in contact at its start: plan what brings the joint there first, and ask for this "
                       "of the joint without that bone");
+    if (end.ligament && end.turned < target.reach)
+      throw MeshError("resection: ligament " + joint.ligaments[*end.ligament].name + " ends " +
+                      target.motion.name + " at " + degrees(end.turned) +
+                      " degrees: no cut of bone changes that");
     if (end.turned < target.reach || request.margin_mm > 0)
       open.push_back({i, target.motion, target.reach, end.turned});
   }

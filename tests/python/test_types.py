@@ -161,7 +161,7 @@ joint.penetration({"flexion_deg": 90}, "radail")
 '''
 REVEALED = ["Penetration", "Penetrations", "list[NormalContact]", "Depths", "list[Depths]",
             "ndarray[Any, dtype[bool_]]", "dict[str, float]", "list[ndarray[Any, dtype[unsignedinteger[_32Bit]]]]",
-            "Union[Literal['contact'], Literal['end_of_range'], Literal['contact_at_start']]", "float"]
+            "Union[Literal['contact'], Literal['end_of_range'], Literal['contact_at_start'], Literal['ligament'], Literal['strained_at_start']]", "float"]
 
 
 def test_a_checker_distinguishes_one_pose_from_many_and_finds_a_wrong_word(

@@ -112,6 +112,6 @@ export function jointFileOf(text: ReportText, X_FM: readonly number[], version: 
     `side = "${joint.side}"`, `units = "mm"`, ...bodyNames.flatMap(body), ...sphereLines(text, turned?.posed ?? null), "",
     "[frame]  # the meshes are in the joint frame", "centre = [0, 0, 0]", "anterior = [1, 0, 0]", "superior = [0, 1, 0]",
     ...(isPosed || isStated ? ["", "[reference_pose]", ...coordinates.flatMap(({ name }, i) => (reference_deg[i] ? [`${name} = ${reference_deg[i]}`] : []))] : []),
-    ...personLines(joint), ...(turned?.posed.parts ?? []).flatMap((part) => partLines(part, turned!.values, X_FM)), "",
+    ...personLines(joint), ...(joint.ligaments ? [joint.ligaments] : []), ...(turned?.posed.parts ?? []).flatMap((part) => partLines(part, turned!.values, X_FM)), "",
   ].join("\n");
 }

@@ -32,7 +32,7 @@ export const allowedDepthRecord = object({
 /// Where liner and neck of an implant end a motion, as bodies of revolution.
 export const closedForm = object({
   limit_deg: number,
-  reason: oneOf("contact", "end_of_range", "contact_at_start"),
+  reason: oneOf("contact", "end_of_range", "contact_at_start", "ligament", "strained_at_start"),
   of_facets_deg: list(number),
 });
 
@@ -132,7 +132,8 @@ export const zoneRecord = object({
 export const limitRecord = object({
   name: text,
   limit_deg: number,
-  reason: oneOf("contact", "end_of_range", "contact_at_start"),
+  reason: oneOf("contact", "end_of_range", "contact_at_start", "ligament", "strained_at_start"),
+  ligament: orNull(text),
   contact_kind: orNull(oneOf("unknown", "bearing", "impingement", "cut", "soft")),
   bearing_contact_deg: orNull(number),
   bearing_contact_point_mm: orNull(three),

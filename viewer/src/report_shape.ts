@@ -49,7 +49,7 @@ const geometry = object({
 const measures: Check<Passed<typeof shapeRecord> & Passed<typeof geometry>> = (value, key) => [shapeRecord, geometry].forEach((check) => check(value, key));
 
 const bodyName = oneOf("fixed", "mobile");
-const end = object({ limit_deg: number, reason: oneOf("contact", "end_of_range", "contact_at_start") });
+const end = object({ limit_deg: number, reason: oneOf("contact", "end_of_range", "contact_at_start", "ligament", "strained_at_start") });
 const cutSurface = orNull(object({ lowered: text, before: text, depth_mm: text }));
 const plan = object({
   margin_mm: number,
@@ -108,7 +108,7 @@ const report = object({
   joint: object({
     name: text, kind: oneOf("ball", "hinge", "free"), anatomy: oneOf("hip", "knee", "ankle", "elbow", "shoulder"),
     side: oneOf("right", "left"), fixed: text, mobile: text, translation_frame: oneOf("fixed", "joint_axes"),
-    planned: ifThere(text), person: ifThere(object({ age: ifThere(number), sex: ifThere(oneOf("female", "male")) })),
+    planned: ifThere(text), person: ifThere(object({ age: ifThere(number), sex: ifThere(oneOf("female", "male")) })), ligaments: ifThere(text),
   }),
   coordinates: list(object({ name: text, opposite: text }), 3), reference_deg: three, reference_mm: three,
   scope: ifThere(text), rom: orNull(rom), rom_error: ifThere(text),

@@ -299,7 +299,7 @@ export const words = {
   /// The first part of the reason, which has all there is to see behind it.
   noLimitsSentence: (why: string) => `No limits: ${/^.{24,}?(?=[:;.] |$)/s.exec(why)?.[0] ?? why}. Details has the whole reason, under Method and data.`,
   noBand: "Bands are unknown: the report was made without them.",
-  reasons: { contact: "contact", end_of_range: "end of range", contact_at_start: "starts in contact" },
+  reasons: { contact: "contact", end_of_range: "end of range", contact_at_start: "starts in contact", ligament: "ligament", strained_at_start: "starts strained" },
   translationEnds: "no contact, translation ends",
   notCarried: "unknown: load not carried",
 

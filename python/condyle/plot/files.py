@@ -8,13 +8,14 @@ import csv
 import json
 import math
 from pathlib import Path
-from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple, Union
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple, Union, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .._csv_text import plain_field
 from .._errors import FileError
+from .._words import LimitReason
 from .motion_grid import MotionGrid
 
 Array = NDArray[np.float64]
@@ -184,8 +185,8 @@ def _check_motion(where: str, motion: Any) -> None:
             raise ReadError(f"{where} has no '{key}'")
     if not isinstance(motion["name"], str):
         raise ReadError(f"{where}: 'name' is not a text")
-    if motion["reason"] not in ("contact", "end_of_range", "contact_at_start"):
-        raise ReadError(f"{where}: 'reason' is none of contact, end_of_range and contact_at_start")
+    if motion["reason"] not in get_args(LimitReason):
+        raise ReadError(f"{where}: 'reason' is none of {', '.join(get_args(LimitReason))}")
     _check_number(where, motion, "limit_deg")
     for key in ("bearing_contact_deg", "normal_range_deg", "clock_hour", "range_deg"):
         if motion.get(key) is not None:

@@ -31,6 +31,8 @@ ENDS: Dict[str, End] = {
     "end_of_range": End(style.GREY, ">", "no contact in the range"),
     "translation_ends": End(style.GREY, "P", "no contact, translation ends"),
     "contact_at_start": End(style.VERMILION, "X", "in contact at the start"),
+    "ligament": End(style.GREEN, "v", "ligament"),
+    "strained_at_start": End(style.GREEN, "X", "ligament strained at the start"),
 }
 
 

@@ -5,7 +5,7 @@ import functools
 import math
 import re
 from pathlib import Path
-from typing import Callable, Dict, List, Sequence
+from typing import Callable, Dict, List, Sequence, get_args
 
 import matplotlib
 import matplotlib.pyplot as plt
@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 
 from .._errors import FileError
 from .._study import Study, StudyTable, read_study
+from .._words import LimitReason
 from . import style
 from .cohort import MOST_GROUPS, draw_spread, limit_against, limit_distributions, spread_of
 from .files import ReadError
@@ -24,7 +25,7 @@ from .outliers import joint_columns, outliers
 
 _READ = {"hips": {"id": "O"}, "limits": {"id": "O", "motion": "O", "limit_deg": "f", "reason": "O", "contact_kind": "O", "bearing_contact_deg": "f",
                                          "caveats": "O"}}
-_REASONS = ("contact", "end_of_range", "contact_at_start")
+_REASONS = get_args(LimitReason)
 
 
 def is_study(folder: Path) -> bool:

@@ -115,6 +115,7 @@ LimitRecord limit_record(const RangeAnswer& answer, std::size_t i) {
       .contact_side = motion::contact_side(joint, limit),
       .clock_hour = clock_hour(answer, limit),
       .guarantee = answer.depths.empty() ? guarantee_text(limit) : guarantee_text(answer.depths[i])};
+  if (end.ligament) record.ligament = joint.ligaments[*end.ligament].name;
   if (ends_in_contact(limit)) record.contact_kind = end.kind();
   if (const auto& bearing = end.bearing_contact) {
     record.bearing_contact_deg = bearing->turned.degrees();

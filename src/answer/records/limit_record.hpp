@@ -101,6 +101,7 @@ struct LimitRecord {
   std::string name;
   double limit_deg;
   motion::LimitReason reason;
+  std::optional<std::string_view> ligament = {};
   std::optional<motion::ContactKind> contact_kind = {};
   std::optional<double> bearing_contact_deg = {};
   std::optional<PointF> bearing_contact_point_mm = {};
@@ -222,8 +223,11 @@ inline constexpr auto table<LimitRecord> = record(
     field("limit_deg", &LimitRecord::limit_deg, "how far it turned from its start; ≥ 0 whatever the sense",
           {"", "how far the joint turns from the motion's start", Tables::studies}),
     field("reason", &LimitRecord::reason,
-          "`\"contact\"`, `\"end_of_range\"` (no contact), `\"contact_at_start\"` (`limit_deg` is 0)",
-          {"", "contact, end_of_range or contact_at_start", Tables::studies}),
+          "`\"contact\"`, `\"end_of_range\"` (no contact), `\"contact_at_start\"` (`limit_deg` is 0), "
+          "`\"ligament\"`, `\"strained_at_start\"` (likewise)",
+          {"", "contact, end_of_range, contact_at_start, ligament or strained_at_start", Tables::studies}),
+    field("ligament", &LimitRecord::ligament, "the ligament that ends the motion; null if none does",
+          {"", "the ligament that ends the motion", Tables::studies}),
     field("contact_kind", &LimitRecord::contact_kind,
           "`\"impingement\"`, `\"bearing\"`, `\"cut\"` on a face that closes a bone where its image ends or "
           "it was cut off, or `\"unknown\"` if no bearing surface is known; null at the end of the range",

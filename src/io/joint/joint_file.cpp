@@ -15,6 +15,7 @@
 #include "io/file/whole_file.hpp"
 #include "io/joint/contact_table.hpp"
 #include "io/joint/implant_table.hpp"
+#include "io/joint/ligament_tables.hpp"
 #include "io/joint/load_joint.hpp"
 #include "io/joint/mesh_path.hpp"
 #include "io/joint/other_file.hpp"
@@ -537,6 +538,7 @@ JointFile joint_file_of(std::string_view text, const std::filesystem::path& path
   joint.parts = io::described_parts(file, joint.side, mm_per(joint.units));
   out.reference_pose = reference_pose(file, joint, Lengths(joint.units));
   joint.reference_pose = out.reference_pose.coordinates();
+  joint.ligaments = io::described_ligaments(file, joint, mm_per(joint.units));
   out.motions = own_motions(file, joint);
   joint.person = person_of(file);
   read_uncertainty(file, Lengths(joint.units), out);

@@ -1,6 +1,7 @@
 #include "io/joint/settings_lines.hpp"
 
 #include "condyle/io/pose_text.hpp"
+#include "io/joint/ligament_tables.hpp"
 
 namespace condyle::io {
 namespace {
@@ -60,9 +61,10 @@ std::string person_text(const Person& person) {
   return text;
 }
 
-void add_settings(ProposalLines& lines, const JointFile& file, const Person& person,
+void add_settings(ProposalLines& lines, const JointFile& file, const Joint& joint,
                   const motion::Uncertainty& sigma) {
-  if (const std::string text = person_text(person); !text.empty()) lines.add(text);
+  if (const std::string text = person_text(joint.person) + ligaments_text(joint.ligaments, 1); !text.empty())
+    lines.add(text);
   add_motions(lines, file.motions, file.joint.anatomy);
   add_uncertainty(lines, sigma, file.band_seed);
   if (file.recorded_motion) add_recorded_motion(lines, *file.recorded_motion);

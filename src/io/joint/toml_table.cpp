@@ -133,6 +133,21 @@ std::optional<Vec3> TomlTable::triple(std::string_view key) {
   return values ? std::optional(Vec3((*values)[0], (*values)[1], (*values)[2])) : std::nullopt;
 }
 
+std::optional<std::vector<Vec3>> TomlTable::triples(std::string_view key) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  const toml::array* array = node->as_array();
+  if (!array || array->empty() || !array->front().is_array()) return std::vector<Vec3>{*triple(key)};
+  std::vector<Vec3> out;
+  for (const toml::node& element : *array) {
+    const toml::array* point = element.as_array();
+    if (!point || point->size() != 3) fail(key, "must be a point of three numbers, or a list of such");
+    out.emplace_back(finite_number((*point)[0], key), finite_number((*point)[1], key),
+                     finite_number((*point)[2], key));
+  }
+  return out;
+}
+
 std::optional<std::array<double, 16>> TomlTable::sixteen(std::string_view key) {
   return numbers<16>(key, "sixteen");
 }

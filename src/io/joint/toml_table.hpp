@@ -39,6 +39,8 @@ class TomlTable {
   std::optional<bool> flag(std::string_view key);
   std::optional<std::array<double, 2>> pair(std::string_view key);
   std::optional<Vec3> triple(std::string_view key);
+  /// A list of points, one or more, or one that is no list of its own.
+  std::optional<std::vector<Vec3>> triples(std::string_view key);
   std::optional<std::array<double, 16>> sixteen(std::string_view key);
   bool is_list(std::string_view key) const;
   std::optional<std::vector<std::string>> texts(std::string_view key);

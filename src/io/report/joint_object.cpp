@@ -9,6 +9,7 @@
 
 #include "condyle/version.hpp"
 #include "io/joint/given_degrees.hpp"
+#include "io/joint/ligament_tables.hpp"
 #include "io/report/before_json.hpp"
 #include "io/report/body_arrays.hpp"
 #include "io/report/posed_json.hpp"
@@ -57,6 +58,7 @@ Json joint_json(const Joint& joint) {
   const auto& [age_years, sex] = joint.person;
   if (age_years) json["person"]["age"] = *age_years;
   if (sex) json["person"]["sex"] = name_of(*sex);
+  if (!joint.ligaments.empty()) json["ligaments"] = ligaments_text(joint.ligaments, 1);
   return json;
 }
 

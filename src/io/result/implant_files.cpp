@@ -93,8 +93,7 @@ std::string implant_joint_file(const ImplantResult& result) {
   lines.add("centre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n");
   if (joint.zero_from != ZeroFrom::as_given) lines.add("[reference_pose]  # as the bones were given\n");
   lines.add(io::implant_text(implant) + io::parts_text(io::implant_parts(implant, BonesAround::some)));
-  io::add_settings(lines, result.file ? *result.file : JointFile{}, joint.person,
-                   uncertainty_of(result.file));
+  io::add_settings(lines, result.file ? *result.file : JointFile{}, joint, uncertainty_of(result.file));
   return std::move(lines).proposal(joint.side).toml;
 }
 

@@ -46,6 +46,10 @@ std::string map_text(const motion::MotionMap& map) {
                         io::movement_words(map.grid.vary, sense, map.anatomy),
                         counts[motion::LimitReason::contact], counts[motion::LimitReason::end_of_range],
                         counts[motion::LimitReason::contact_at_start]);
+    if (const std::size_t count =
+            counts[motion::LimitReason::ligament] + counts[motion::LimitReason::strained_at_start];
+        count > 0)
+      text += fmt::format("  {:<18} {} end by a ligament\n", "", count);
   };
   line(RotationSense::positive, summary.positive_ends);
   line(RotationSense::negative, summary.negative_ends);

@@ -10,7 +10,7 @@ namespace condyle::io {
 
 /// At how many points of a map one end has each reason.
 struct ReasonCounts {
-  std::array<std::size_t, 3> of{};
+  std::array<std::size_t, 5> of{};
 
   std::size_t operator[](motion::LimitReason reason) const { return of[static_cast<std::size_t>(reason)]; }
 };

@@ -370,7 +370,7 @@ std::string resected_joint_file(const ResectionResult& result) {
       if (reference[angle] != 0)
         lines.add(fmt::format("{} = {}", name_of(angle, joint.anatomy), reference[angle]));
   }
-  if (result.file) io::add_settings(lines, *result.file, joint.person, result.file->uncertainty);
+  if (result.file) io::add_settings(lines, *result.file, joint, result.file->uncertainty);
   return std::move(lines).proposal(joint.side).toml;
 }
 

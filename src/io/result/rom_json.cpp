@@ -39,6 +39,9 @@ Json json_of(const ReasonCounts& counts) {
   for (const motion::LimitReason reason : {motion::LimitReason::contact, motion::LimitReason::end_of_range,
                                            motion::LimitReason::contact_at_start})
     json[name_of(reason)] = counts[reason];
+  for (const motion::LimitReason reason :
+       {motion::LimitReason::ligament, motion::LimitReason::strained_at_start})
+    if (counts[reason] > 0) json[name_of(reason)] = counts[reason];
   return json;
 }
 

@@ -110,6 +110,10 @@ std::string_view words_of(const motion::MotionLimit& limit) noexcept {
       return "no contact in range";
     case motion::LimitReason::contact_at_start:
       return "in contact at start";
+    case motion::LimitReason::ligament:
+      return "ligament";
+    case motion::LimitReason::strained_at_start:
+      return "ligament, at start";
   }
   return "";
 }
@@ -321,7 +325,9 @@ std::string rom_text(const RomResult& result) {
     turned.cells.push_back(limit_words(result.answer, i));
     living.cells.push_back(text_of(living_limit(result.answer, i)));
     const auto side = motion::contact_side(result.joint, limit);
-    reason.cells.push_back(std::string(words_of(limit)) + (side ? fmt::format(", {}", name_of(*side)) : ""));
+    reason.cells.push_back(
+        std::string(words_of(limit)) + (side ? fmt::format(", {}", name_of(*side)) : "") +
+        (limit.end.ligament ? fmt::format(" {}", result.joint.ligaments[*limit.end.ligament].name) : ""));
     point.cells.push_back(limit.end.contact
                               ? core::rounded(frame_of(result).fixed_point(limit.end.contact->fixed_point), 2)
                               : "-");

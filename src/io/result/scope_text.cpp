@@ -13,9 +13,10 @@ namespace condyle::io {
 namespace {
 
 /// In the order in which a scope names them.
-enum class Tissue : std::uint8_t { bones, cartilages, labrum, menisci, soft, implants, layers };
-constexpr std::array<std::string_view, 7> tissue_names{
-    "bones", "cartilages", "labrum", "menisci", "soft tissue", "implants", "elastic layers"};
+enum class Tissue : std::uint8_t { bones, cartilages, labrum, menisci, soft, implants, layers, strings };
+constexpr std::array<std::string_view, 8> tissue_names{"bones",          "cartilages",          "labrum",
+                                                       "menisci",        "soft tissue",         "implants",
+                                                       "elastic layers", "ligaments as strings"};
 
 struct Tissues {
   std::array<bool, tissue_names.size()> has = {};
@@ -58,6 +59,8 @@ Tissues tissues_of(const Joint& joint) {
   Tissues tissues;
   add(tissues, joint.fixed);
   add(tissues, joint.mobile);
+  for (const Ligament& ligament : joint.ligaments)
+    if (ligament.ends_at_strain) tissues.add(Tissue::strings);
   return tissues;
 }
 

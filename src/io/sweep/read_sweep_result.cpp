@@ -62,7 +62,8 @@ plan::SweepTarget target_in(const Json& json, Anatomy anatomy) {
 
 motion::LimitReason reason_in(std::string_view word) {
   for (const motion::LimitReason reason :
-       {motion::LimitReason::contact, motion::LimitReason::contact_at_start})
+       {motion::LimitReason::contact, motion::LimitReason::contact_at_start, motion::LimitReason::ligament,
+        motion::LimitReason::strained_at_start})
     if (word == name_of(reason)) return reason;
   return motion::LimitReason::end_of_range;
 }

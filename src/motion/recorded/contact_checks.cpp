@@ -191,6 +191,8 @@ std::string_view name_of(ContactNoteCode code) noexcept {
       return "mostly_apart";
     case ContactNoteCode::mostly_deep:
       return "mostly_deep";
+    case ContactNoteCode::unknown_ligament_length:
+      return "unknown_ligament_length";
   }
   return "";
 }

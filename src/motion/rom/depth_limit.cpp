@@ -4,6 +4,7 @@
 
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
+#include "motion/rom/ligament_limits.hpp"
 #include "radial/exact/ray_scan.hpp"
 
 namespace condyle::motion {
@@ -60,6 +61,7 @@ struct DepthRange::Parts {
 
 DepthRange::DepthRange(const Joint& joint, const AllowedDepth& allowed) {
   check(allowed);
+  motion::refuse_ending_ligaments(joint, "a range with an allowed depth");
   parts_ = std::make_unique<Parts>(Parts{joint.kind, joint.coordinates(), allowed,
                                          find_bearing_surface(joint), contact::JointContact(joint)});
   for (const auto& [body, table] : {std::pair{&joint.fixed, &parts_->contact.fixed_table()},

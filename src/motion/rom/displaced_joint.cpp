@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/parallel.hpp"
+#include "motion/rom/ligament_limits.hpp"
 #include "motion/rom/overlap.hpp"
 #include "motion/search/first_contact.hpp"
 
@@ -80,6 +81,7 @@ struct DisplacedJoint::Parts {
         motions_(motions),
         groups_(grouped(motions)),
         impinging_(parts.impinging),
+        ligaments_(joint),
         fixed_parts_(joint, BodyRole::fixed),
         mobile_parts_(joint, BodyRole::mobile) {
     for (const PartOfMesh& part : parts.fixed)
@@ -95,6 +97,7 @@ struct DisplacedJoint::Parts {
   void limits(const Displacement& d, std::span<DisplacedLimit> out) const {
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = {motions_[i].range, LimitReason::end_of_range};
     for (const PairOfParts& pair : impinging_) take_limits(d, fixed_[pair.fixed], mobile_[pair.mobile], out);
+    if (!ligaments_.empty()) take_ligaments(d, out);
   }
 
  private:
@@ -132,11 +135,29 @@ struct DisplacedJoint::Parts {
     }
   }
 
+  /// Where a ligament ends a motion sooner than noted: its points stay on the bodies as given.
+  void take_ligaments(const Displacement& d, std::span<DisplacedLimit> out) const {
+    const Pose X_FG = displaced_frame(d);
+    const Pose A = inverted(X_ref_) * X_FG * X_ref_;
+    for (const Group& group : groups_) {
+      RotationLimits both;
+      for (Limit* end : {&both.negative, &both.positive}) end->turned = Angle::radians(two_pi);
+      ligaments_.take_sooner(both,
+                             {X_FG.translation(), X_FG.linear() * axis_of(group.vary, system_, group.start)},
+                             X_FG * pose_at(system_, group.start) * inverted(A), group.range);
+      for (const std::size_t i : group.motions) {
+        const Limit& end = motions_[i].sense == RotationSense::positive ? both.positive : both.negative;
+        if (end.ligament && end.turned < out[i].turned) out[i] = {end.turned, end.reason};
+      }
+    }
+  }
+
   CoordinateSystem system_;
   Pose X_ref_;
   std::span<const Motion> motions_;
   std::vector<Group> groups_;
   std::vector<PairOfParts> impinging_;
+  LigamentLimits ligaments_;
   kinematics::DisplacedParts fixed_parts_, mobile_parts_;
   std::vector<Surface> fixed_, mobile_;
 };

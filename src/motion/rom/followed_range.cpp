@@ -5,6 +5,7 @@
 #include "condyle/error.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "mesh/surface_to_surface.hpp"
+#include "motion/rom/ligament_limits.hpp"
 #include "motion/rom/overlap.hpp"
 #include "motion/search/path_clearance.hpp"
 
@@ -171,6 +172,7 @@ struct FollowedRange::Parts {
 
 FollowedRange::FollowedRange(const Joint& joint, const BearingOptions& bearing) {
   if (joint.kind != JointKind::free) throw UsageError("only a free joint translates");
+  motion::refuse_ending_ligaments(joint, "a range whose translation follows");
   parts_ = std::make_unique<Parts>(joint, bearing);
 }
 FollowedRange::~FollowedRange() = default;

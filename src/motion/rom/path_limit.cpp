@@ -4,6 +4,7 @@
 
 #include "condyle/error.hpp"
 #include "core/trigonometry.hpp"
+#include "motion/rom/ligament_limits.hpp"
 #include "motion/rom/overlap.hpp"
 #include "motion/search/path_clearance.hpp"
 
@@ -89,8 +90,10 @@ struct PathFinder::Parts {
   }
 };
 
-PathFinder::PathFinder(const Joint& joint, const RangeOptions& options)
-    : parts_(std::make_unique<Parts>(joint, options)) {}
+PathFinder::PathFinder(const Joint& joint, const RangeOptions& options) {
+  motion::refuse_ending_ligaments(joint, "a path");
+  parts_ = std::make_unique<Parts>(joint, options);
+}
 
 PathFinder::~PathFinder() = default;
 

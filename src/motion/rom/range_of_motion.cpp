@@ -12,6 +12,7 @@
 #include "core/parallel.hpp"
 #include "core/per_thread.hpp"
 #include "mesh/surface_to_surface.hpp"
+#include "motion/rom/ligament_limits.hpp"
 #include "motion/rom/overlap.hpp"
 #include "motion/search/contact_set.hpp"
 #include "motion/search/first_contact.hpp"
@@ -134,6 +135,7 @@ struct RangeOfMotion::Parts {
   BearingFinding bearing;
   LeftOut left_out;
   std::vector<PairOfParts> impinging, earlier;
+  LigamentLimits ligaments;
   // Neither moves: tables and threads refer to their trees. Joints that differ in the other body share them.
   std::vector<std::shared_ptr<const FixedPart>> fixed = {};
   std::vector<std::shared_ptr<const MobilePart>> mobile = {};
@@ -167,6 +169,7 @@ struct RangeOfMotion::Parts {
         left_out(included.left_out),
         impinging(std::move(included.impinging)),
         earlier(std::move(included.earlier)),
+        ligaments(joint),
         workers([this] { return Worker(*this); }) {
     for (PartOfMesh& part : included.fixed)
       fixed.push_back(std::make_shared<const FixedPart>(std::move(part), system));
@@ -185,6 +188,7 @@ struct RangeOfMotion::Parts {
         left_out(before.left_out),
         impinging(before.impinging),
         earlier(before.earlier),
+        ligaments(before.ligaments),
         fixed(before.fixed),
         mobile(before.mobile),
         workers([this] { return Worker(*this); }) {
@@ -238,9 +242,20 @@ struct RangeOfMotion::Parts {
     return limits;
   }
 
-  /// First contact that ends a motion.
+  /// First contact that ends a motion, or the strain of a ligament.
   RotationLimits first_end(Worker& worker, JointAngle vary, const JointAngles& start,
                            const RotationRange& range) const {
+    RotationLimits limits = first_impingement(worker, vary, start, range);
+    if (!ligaments.empty()) ligaments.take_sooner(limits, about(vary, start), pose_at(system, start), range);
+    return limits;
+  }
+
+  AxisFrame about(JointAngle vary, const JointAngles& start) const {
+    return {Vec3::Zero(), axis_of(vary, system, start)};
+  }
+
+  RotationLimits first_impingement(Worker& worker, JointAngle vary, const JointAngles& start,
+                                   const RotationRange& range) const {
     RotationLimits limits = first_contact(worker, impinging.front(), vary, start, range);
     for (std::size_t i = 1; i < impinging.size() && limits.free_at_start(); ++i) {
       const RotationLimits more = first_contact(worker, impinging[i], vary, start, range);
@@ -272,7 +287,7 @@ struct RangeOfMotion::Parts {
   /// inside. Angles in `known` are not evaluated and are in the answer.
   core::ArcSet contact_angles(Worker& worker, const PairOfParts& pair, JointAngle vary,
                               const JointAngles& start, std::vector<core::Arc> known) const {
-    const AxisFrame axis(Vec3::Zero(), axis_of(vary, system, start));
+    const AxisFrame axis = about(vary, start);
     const Mesh& stationary = fixed[pair.fixed]->body.mesh;
     std::optional<tangential::RingTable>& rings = worker.fixed[pair.fixed].rings;
     const bool has_rings = rings && rings->frame().direction() == axis.direction();
@@ -336,7 +351,8 @@ RangeOfMotion::RangeOfMotion(const Joint& joint, const RangeOptions& options) {
   parts_ = std::make_unique<Parts>(joint, std::move(bearing), rule, std::move(included));
   const OverlapOptions& overlap = options.overlap;
   if (overlap.reference_contact == ReferenceContact::accept) return;
-  if (!both_limits(JointAngle::flexion, overlap.reference_pose, {Angle(), Angle()}).free_at_start())
+  if (both_limits(JointAngle::flexion, overlap.reference_pose, {Angle(), Angle()}).positive.reason ==
+      LimitReason::contact_at_start)
     throw ReferenceContactError(motion::explain_overlap(joint, overlap.reference_pose));
 }
 
@@ -377,6 +393,10 @@ FreeAngles RangeOfMotion::free_angles(JointAngle vary, const JointAngles& start,
     free.intervals.push_back(
         {-from_start.negative.turned, from_start.positive.turned, from_start.negative, from_start.positive});
   }
+  if (!parts_->ligaments.empty())
+    for (const core::Arc& arc :
+         parts_->ligaments.strained(parts_->about(vary, start), pose_at(parts_->system, start)).arcs())
+      known.push_back(arc);
   Parts::Worker& worker = parts_->workers.local();
   const Angle full_turn = Angle::radians(two_pi);
   for (const core::Arc& gap :

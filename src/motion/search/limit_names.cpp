@@ -22,6 +22,10 @@ std::string_view name_of(LimitReason reason) noexcept {
       return "end_of_range";
     case LimitReason::contact_at_start:
       return "contact_at_start";
+    case LimitReason::ligament:
+      return "ligament";
+    case LimitReason::strained_at_start:
+      return "strained_at_start";
   }
   return "contact";
 }

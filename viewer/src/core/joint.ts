@@ -8,7 +8,7 @@ import {
 
 const poseBytes = 16 * 8;
 const atRest = [0, 0, 0] as const;
-const reasons = ["contact", "end_of_range", "contact_at_start"] as const;
+const reasons = ["contact", "end_of_range", "contact_at_start", "ligament", "strained_at_start"] as const;
 const kinds = ["unknown", "bearing", "impingement", "cut"] as const;
 
 /// A joint in the module's memory. Everything it answers is copied out of there.

@@ -119,7 +119,7 @@ export interface LiveLimit {
   vary: number;
   positive: boolean;
   turned_deg: number;
-  reason: "contact" | "end_of_range" | "contact_at_start";
+  reason: "contact" | "end_of_range" | "contact_at_start" | "ligament" | "strained_at_start";
   kind: "unknown" | "bearing" | "impingement" | "cut";
   bearing_deg: number | null;
   point: [number, number, number] | null;

@@ -1,0 +1,113 @@
+"""Ligaments as strings: what a joint has of them, and their length, strain, tension and load in poses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _native
+from ._words import Body
+
+
+@dataclass(frozen=True, eq=False)
+class LigamentWrap:
+    """The surface that a ligament lies on where the straight line would go through it.
+
+    Attributes
+    ----------
+    shape : str
+        "sphere", "cylinder" (without ends) or "ellipsoid" (where lengths are not known).
+    body : str
+        That it is fixed to, "fixed" or "mobile"; the rest is in that body's joint frame, mm.
+    centre : (3,) float64
+        Of a cylinder any point of its axis.
+    radius_mm : float or None
+        Of a sphere or a cylinder.
+    axis : (3,) float64 or None
+        Of a cylinder, unit.
+    axes, radii_mm : (2, 3) and (3,) float64 or None
+        Of an ellipsoid: its first two axes, unit, and half its size along all three.
+    """
+
+    shape: Literal["sphere", "cylinder", "ellipsoid"]
+    body: Body
+    centre: NDArray[np.float64]
+    radius_mm: Optional[float] = None
+    axis: Optional[NDArray[np.float64]] = None
+    axes: Optional[NDArray[np.float64]] = None
+    radii_mm: Optional[NDArray[np.float64]] = None
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Ligament:
+    """A string from one body to the other (docs/ligaments.md).
+
+    Attributes
+    ----------
+    name : str
+    fixed, mobile : (N, 3) float64
+        Its points on either body, from the insertion on, in that body's joint frame, mm.
+    slack_length_mm : float
+        Longer than this it is taut.
+    stiffness_n : float
+        N per unit of strain; 0 if it has no tension.
+    transition_strain : float
+        Above which its tension grows linearly.
+    ends_at_strain : float or None
+        The strain that ends a motion.
+    wrap : LigamentWrap or None
+    """
+
+    name: str
+    fixed: NDArray[np.float64]
+    mobile: NDArray[np.float64]
+    slack_length_mm: float
+    stiffness_n: float
+    transition_strain: float
+    ends_at_strain: Optional[float]
+    wrap: Optional[LigamentWrap]
+
+    def __repr__(self) -> str:
+        return f"Ligament({self.name!r}, slack {self.slack_length_mm:.6g} mm)"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LigamentStates:
+    """Ligaments of a joint in poses: the first axis of each array is the ligament, the others are those of the poses.
+
+    NaN where a length is not known: an end lies inside what it wraps, or the straight line meets an ellipsoid.
+
+    Attributes
+    ----------
+    names : tuple of str
+    length_mm, strain, tension_n : (L, ...) float64
+        Strain is (length - slack length) / slack length, negative while it is slack.
+    force_n, moment_nmm : (L, ..., 3) float64
+        On the mobile body, in F; the moment about the joint centre. The fixed body has the opposite.
+    """
+
+    names: tuple[str, ...]
+    length_mm: NDArray[np.float64]
+    strain: NDArray[np.float64]
+    tension_n: NDArray[np.float64]
+    force_n: NDArray[np.float64]
+    moment_nmm: NDArray[np.float64]
+
+    def __repr__(self) -> str:
+        return f"LigamentStates({len(self.names)} ligaments, {self.length_mm.shape[1:]} poses)"
+
+
+def ligaments_of(native: Any) -> tuple[Ligament, ...]:
+    return tuple(Ligament(**{**each, "wrap": each["wrap"] and LigamentWrap(**each["wrap"])})
+                 for each in _native.ligaments_of(native))
+
+
+def ligament_states(native: Any, poses: Any) -> LigamentStates:
+    names = tuple(each["name"] for each in _native.ligaments_of(native))
+    shape = (len(names), *np.shape(poses)[:-2])
+    arrays = _native.ligament_states(native, poses)
+    return LigamentStates(names, **{key: array.reshape((*shape, 3) if key in ("force_n", "moment_nmm") else shape)
+                                    for key, array in arrays.items()})

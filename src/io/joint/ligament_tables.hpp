@@ -1,0 +1,18 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "condyle/make_joint.hpp"
+#include "io/joint/toml_table.hpp"
+
+namespace condyle::io {
+
+/// The [[ligament]] tables of a joint file: docs/ligaments.md. `mm` is one unit of its lengths.
+std::vector<DescribedLigament> described_ligaments(TomlTable& file, const JointDescription& joint, double mm);
+
+/// These tables of a file whose unit is `mm`, every bit of their numbers. Points are in the frames of its meshes.
+std::string ligaments_text(std::span<const Ligament> ligaments, double mm);
+
+}  // namespace condyle::io

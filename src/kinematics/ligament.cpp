@@ -1,0 +1,162 @@
+#include "condyle/ligament.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/trigonometry.hpp"
+#include "kinematics/ligament_path.hpp"
+
+namespace condyle {
+namespace kinematics {
+namespace {
+
+/// The part of a point's place that tangents to the wrap are drawn in: all of it at a sphere, across the axis of a cylinder.
+Vec3 across(const LigamentWrap& wrap, const Vec3& from_centre) noexcept {
+  if (wrap.shape == WrapShape::sphere) return from_centre;
+  return from_centre - from_centre.dot(wrap.axis) * wrap.axis;
+}
+
+/// Any unit vector at a right angle to a unit vector and, at a cylinder, to its axis.
+Vec3 beside(const LigamentWrap& wrap, const Vec3& e) noexcept {
+  if (wrap.shape == WrapShape::cylinder) return wrap.axis.cross(e);
+  int least = 0;
+  e.cwiseAbs().minCoeff(&least);
+  return e.cross(Vec3::Unit(least)).normalized();
+}
+
+Crossing straight_crossing(const Vec3& fixed, const Vec3& mobile) noexcept {
+  const Vec3 along = mobile - fixed;
+  const double length = along.norm();
+  return {.length_mm = length,
+          .direction = length > 0 ? Vec3(along / length) : Vec3::Zero(),
+          .on_mobile = mobile};
+}
+
+/// Whether the segment comes within the ellipsoid, which is the unit sphere once it is scaled.
+bool meets_ellipsoid(const LigamentWrap& wrap, const Vec3& from, const Vec3& to) noexcept {
+  const auto scaled = [&](const Vec3& p) -> Vec3 {
+    return (wrap.axes.transpose() * (p - wrap.centre)).cwiseQuotient(wrap.radii_mm);
+  };
+  const Vec3 a = scaled(from), along = scaled(to) - a;
+  const double squared = along.squaredNorm();
+  const double at = squared > 0 ? std::clamp(-a.dot(along) / squared, 0.0, 1.0) : 0.0;
+  return (a + at * along).squaredNorm() < 1;
+}
+
+}  // namespace
+
+double distance_from_middle(const LigamentWrap& wrap, const Vec3& point) noexcept {
+  return across(wrap, point - wrap.centre).norm();
+}
+
+/// Seen along the axis of a cylinder, or across the plane of both points and the centre of a sphere:
+///
+///          a                      t_a = sqrt(|a|^2 - r^2), alpha = atan2(t_a, r): from a to where its tangent
+///         / `.  t_a               touches; likewise of b. With gamma between a and b seen from the centre it
+///        /    ` A                 wraps if gamma > alpha + beta, over r (gamma - alpha - beta).
+///       o gamma  )  r             Unrolled, the path on a cylinder is a straight line: with the height h
+///        \    . B                 between the ends its length is sqrt(P^2 + h^2), P seen along the axis.
+///         \ .'  t_b
+///          b
+std::optional<Crossing> crossing(const Vec3& fixed, const Vec3& mobile, const LigamentWrap* wrap) noexcept {
+  if (!wrap) return straight_crossing(fixed, mobile);
+  if (wrap->shape == WrapShape::ellipsoid)
+    return meets_ellipsoid(*wrap, fixed, mobile) ? std::nullopt
+                                                 : std::optional(straight_crossing(fixed, mobile));
+  const double r = wrap->radius_mm;
+  const Vec3 from_a = fixed - wrap->centre, from_b = mobile - wrap->centre;
+  const Vec3 a = across(*wrap, from_a), b = across(*wrap, from_b);
+  const double to_a = a.norm(), to_b = b.norm();
+  if (to_a < r || to_b < r) return std::nullopt;
+  const double gamma = core::arctangent(a.cross(b).norm(), a.dot(b));
+  const double t_a = std::sqrt((to_a - r) * (to_a + r)), t_b = std::sqrt((to_b - r) * (to_b + r));
+  const double alpha = core::arctangent(t_a, r), beta = core::arctangent(t_b, r);
+  const double touched = gamma - alpha - beta;
+  if (!(touched > 0)) return straight_crossing(fixed, mobile);
+
+  const Vec3 e = a / to_a, aside = b - b.dot(e) * e;
+  const Vec3 n = aside.norm() > 1e-12 * to_b ? Vec3(aside.normalized()) : beside(*wrap, e);
+  const bool on_fixed = wrap->body == BodyRole::fixed;
+  // Where the straight piece between the bodies touches the wrap, and the direction in which the path runs there.
+  const auto [sine, cosine] = core::sine_cosine(on_fixed ? gamma - beta : alpha);
+  const double seen_along = t_a + r * touched + t_b;
+  const double height = wrap->shape == WrapShape::cylinder ? (from_b - from_a).dot(wrap->axis) : 0.0;
+  Crossing path{.length_mm = core::hypotenuse(seen_along, height), .wraps = true};
+  path.direction = (seen_along * (cosine * n - sine * e) + height * wrap->axis) / path.length_mm;
+  const double share = t_a / seen_along;
+  path.on_mobile = on_fixed ? mobile
+                            : Vec3(wrap->centre + r * (cosine * e + sine * n) +
+                                   (wrap->shape == WrapShape::cylinder
+                                        ? Vec3((from_a.dot(wrap->axis) + share * height) * wrap->axis)
+                                        : Vec3::Zero()));
+  return path;
+}
+
+const LigamentWrap* wrap_in_fixed(const Ligament& ligament, const Pose& X_FM,
+                                  LigamentWrap& storage) noexcept {
+  if (!ligament.wrap) return nullptr;
+  storage = *ligament.wrap;
+  if (storage.body == BodyRole::mobile) {
+    storage.centre = posed(X_FM, storage.centre);
+    storage.axis = X_FM.linear() * storage.axis;
+    storage.axes = X_FM.linear() * storage.axes;
+  }
+  return &storage;
+}
+
+double constant_length_mm(const Ligament& ligament) noexcept {
+  double length = 0;
+  for (const auto* points : {&ligament.fixed, &ligament.mobile})
+    for (std::size_t i = 1; i < points->size(); ++i) length += ((*points)[i] - (*points)[i - 1]).norm();
+  return length;
+}
+
+}  // namespace kinematics
+
+std::string_view name_of(WrapShape shape) noexcept {
+  constexpr std::string_view names[] = {"sphere", "cylinder", "ellipsoid"};
+  return names[static_cast<std::size_t>(shape)];
+}
+
+double tension_n(const Ligament& ligament, double strain) noexcept {
+  if (!(strain > 0)) return 0;
+  const double k = ligament.stiffness_n, c = ligament.transition_strain;
+  return strain < c ? k * strain * strain / (2 * c) : k * (strain - c / 2);
+}
+
+double energy_nmm(const Ligament& ligament, double strain) noexcept {
+  if (!(strain > 0)) return 0;
+  const double k = ligament.stiffness_n, c = ligament.transition_strain, toe = std::min(strain, c);
+  const double in_toe = c > 0 ? k * toe * toe * toe / (6 * c) : 0;
+  const double beyond = strain > c ? k * (strain - c) * strain / 2 : 0;
+  return ligament.slack_length_mm * (in_toe + beyond);
+}
+
+std::optional<LigamentState> ligament_state(const Ligament& ligament, const Pose& X_FM) noexcept {
+  LigamentWrap in_fixed;
+  const auto path = kinematics::crossing(ligament.fixed.back(), posed(X_FM, ligament.mobile.back()),
+                                         kinematics::wrap_in_fixed(ligament, X_FM, in_fixed));
+  if (!path) return std::nullopt;
+  LigamentState state{.length_mm = path->length_mm + kinematics::constant_length_mm(ligament),
+                      .wraps = path->wraps};
+  state.strain = (state.length_mm - ligament.slack_length_mm) / ligament.slack_length_mm;
+  state.tension_n = tension_n(ligament, state.strain);
+  state.energy_nmm = energy_nmm(ligament, state.strain);
+  state.force_n = -state.tension_n * path->direction;
+  state.moment_nmm = path->on_mobile.cross(state.force_n);
+  return state;
+}
+
+std::vector<LigamentAlong> ligaments_along(const std::vector<Ligament>& ligaments,
+                                           const std::vector<std::optional<Pose>>& X_FM) {
+  std::vector<LigamentAlong> all;
+  for (const Ligament& ligament : ligaments) {
+    LigamentAlong& along = all.emplace_back(LigamentAlong{ligament.name, ligament.slack_length_mm});
+    along.frames.reserve(X_FM.size());
+    for (const std::optional<Pose>& X : X_FM)
+      along.frames.push_back(X ? ligament_state(ligament, *X) : std::nullopt);
+  }
+  return all;
+}
+
+}  // namespace condyle

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+
+#include "condyle/ligament.hpp"
+
+namespace condyle::kinematics {
+
+/// The part of a ligament between its two last points.
+struct Crossing {
+  double length_mm = 0;
+  bool wraps = false;
+  /// Unit, from the fixed body to the mobile one along the straight piece that joins them; zero if it has no length.
+  Vec3 direction = Vec3::Zero();
+  Vec3 on_mobile = Vec3::Zero();  ///< where that piece meets the mobile body, in F
+};
+
+/// With its last points and its wrap in one frame; empty where it is not known, as ligament_state().
+std::optional<Crossing> crossing(const Vec3& fixed, const Vec3& mobile, const LigamentWrap* wrap) noexcept;
+
+/// The wrap in the fixed body's frame; null if there is none.
+const LigamentWrap* wrap_in_fixed(const Ligament& ligament, const Pose& X_FM, LigamentWrap& storage) noexcept;
+
+/// Length of the parts that no pose changes.
+double constant_length_mm(const Ligament& ligament) noexcept;
+
+/// How far a point is from the centre of a sphere, or the axis of a cylinder.
+double distance_from_middle(const LigamentWrap& wrap, const Vec3& point) noexcept;
+
+}  // namespace condyle::kinematics

@@ -1,0 +1,75 @@
+#include "motion/rom/ligament_limits.hpp"
+
+#include <algorithm>
+
+#include "condyle/error.hpp"
+#include "core/formatted.hpp"
+#include "motion/events/ligament_end.hpp"
+
+namespace condyle::motion {
+namespace {
+
+/// How far it is from 0 to the first of these angles, backwards or on; a full turn if there are none. They do not hold 0.
+Angle distance_to(const core::ArcSet& angles, RotationSense sense) {
+  const std::vector<core::Arc> arcs = angles.arcs();
+  if (arcs.empty()) return Angle::radians(two_pi);
+  return sense == RotationSense::positive ? arcs.front().start
+                                          : Angle::radians(two_pi) - (arcs.back().start + arcs.back().width);
+}
+
+}  // namespace
+
+LigamentLimits::LigamentLimits(const Joint& joint) {
+  for (std::size_t i = 0; i < joint.ligaments.size(); ++i)
+    if (joint.ligaments[i].ends_at_strain) {
+      ligaments_.push_back(joint.ligaments[i]);
+      numbers_.push_back(i);
+    }
+}
+
+core::ArcSet LigamentLimits::strained(const AxisFrame& axis_F, const Pose& X_FM) const {
+  core::ArcSet all;
+  for (const Ligament& ligament : ligaments_)
+    all = all.united(strained_angles(ligament, axis_F, X_FM).beyond);
+  return all;
+}
+
+void LigamentLimits::take_sooner(RotationLimits& limits, const AxisFrame& axis_F, const Pose& X_FM,
+                                 const RotationRange& range) const {
+  if (limits.positive.reason == LimitReason::contact_at_start) return;
+  for (std::size_t i = 0; i < ligaments_.size(); ++i) {
+    const StrainedAngles angles = strained_angles(ligaments_[i], axis_F, X_FM);
+    const auto require_known = [&](Angle at) {
+      if (angles.is_unknown_at(at))
+        throw MeshError(
+            core::formatted("ligament %s: %.2f degrees on its end lies inside its wrap, and its "
+                            "length is not known from there on",
+                            ligaments_[i].name.c_str(), at.degrees()));
+    };
+    if (angles.beyond.contains(Angle())) {
+      require_known(Angle());
+      for (Limit* end : {&limits.negative, &limits.positive})
+        *end = {.reason = LimitReason::strained_at_start, .ligament = numbers_[i]};
+      return;
+    }
+    const auto take = [&](Limit& end, RotationSense sense, Angle within) {
+      const Angle turned = distance_to(angles.beyond, sense);
+      if (turned > within || turned >= end.turned) return;
+      require_known(turned * sign_of(sense));
+      end = {.turned = turned,
+             .reason = LimitReason::ligament,
+             .error_bound = angles.error_bound,
+             .ligament = numbers_[i]};
+    };
+    take(limits.negative, RotationSense::negative, -range.negative);
+    take(limits.positive, RotationSense::positive, range.positive);
+  }
+}
+
+void refuse_ending_ligaments(const Joint& joint, const std::string& what) {
+  for (const Ligament& ligament : joint.ligaments)
+    if (ligament.ends_at_strain)
+      throw UsageError("ligament " + ligament.name + " ends motions, which " + what + " does not look for");
+}
+
+}  // namespace condyle::motion

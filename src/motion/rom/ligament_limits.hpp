@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "condyle/first_contact.hpp"
+#include "condyle/joint.hpp"
+#include "core/arc_set.hpp"
+
+namespace condyle::motion {
+
+/// The ligaments of a joint that end motions.
+class LigamentLimits {
+ public:
+  explicit LigamentLimits(const Joint& joint);
+
+  bool empty() const noexcept { return ligaments_.empty(); }
+
+  /// All angles of a full turn about this axis of the fixed body, from this pose, at which one has more strain than it may.
+  core::ArcSet strained(const AxisFrame& axis_F, const Pose& X_FM) const;
+
+  /// Ends either rotation where a ligament does before what ends it. Contact at the start stays what it is. Throws MeshError where an end of one
+  /// goes into its wrap before that.
+  void take_sooner(RotationLimits& limits, const AxisFrame& axis_F, const Pose& X_FM,
+                   const RotationRange& range) const;
+
+ private:
+  std::vector<Ligament> ligaments_;
+  std::vector<std::size_t> numbers_;  ///< in the joint
+};
+
+/// Throws UsageError if a ligament of the joint ends motions, which `what` does not look for.
+void refuse_ending_ligaments(const Joint& joint, const std::string& what);
+
+}  // namespace condyle::motion

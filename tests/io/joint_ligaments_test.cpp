@@ -1,0 +1,162 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "condyle/answer.hpp"
+#include "condyle/error.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "condyle/range_of_motion.hpp"
+#include "support/test_meshes.hpp"
+
+/// [[ligament]] tables of joint files, and the motions that they end.
+
+namespace condyle {
+namespace {
+
+namespace fs = std::filesystem;
+using std::numbers::pi;
+
+/// A ball of 24 mm in a socket of 25: nothing but a string ends its flexion.
+class JointLigaments : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              (std::string("ligaments_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+    io::write_mesh(folder_ / "socket.ply", test::socket({0, 0, 0}, 25, 30, 3));
+    io::write_mesh(folder_ / "ball.ply", test::sphere({0, 0, 0}, 24, 3));
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path file(const std::string& ligaments, const std::string& more = "") const {
+    std::ofstream(folder_ / "joint.toml")
+        << "condyle = 1\nname = \"ball\"\nkind = \"ball\"\nside = \"right\"\nunits = \"mm\"\n"
+           "[fixed]\nmesh = \"socket.ply\"\n[mobile]\nmesh = \"ball.ply\"\n"
+           "[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n"
+        << ligaments << more;
+    return folder_ / "joint.toml";
+  }
+  Joint joint(const std::string& ligaments, const std::string& more = "") const {
+    return io::read_joint(file(ligaments, more)).joint;
+  }
+  void expect_refused(const std::string& ligaments, const std::string& why,
+                      const std::string& more = "") const {
+    try {
+      joint(ligaments, more);
+      ADD_FAILURE() << "accepted: " << ligaments;
+    } catch (const FileError& error) {
+      const std::string text = error.what();
+      EXPECT_NE(text.find(why), std::string::npos) << why << " is not in: " << text;
+      EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+    }
+  }
+
+  fs::path folder_;
+};
+
+/// From the front of the rim to the back of the ball's lower side: flexion, about z, winds it up.
+const std::string string_over_ball =
+    "[[ligament]]\nname = \"front\"\nfixed = [30, 0, 0]\nmobile = [30, 0, 0]\n"
+    "wrap = { shape = \"sphere\", body = \"mobile\", centre = [0, 0, 0], radius = 24 }\n";
+
+TEST_F(JointLigaments, EndAMotionWhereTheirStrainDoes) {
+  const double wraps_from = 2 * std::acos(24.0 / 30), tangents = 2 * std::sqrt(30.0 * 30 - 24 * 24);
+  const double wanted = 1.9, length = tangents + 24 * (wanted - wraps_from);
+  const Joint ball = joint(string_over_ball + "slack_length = " + std::to_string(length / 1.05) +
+                           "\nends_at_strain = 0.05\n");
+  const motion::RangeOfMotion range(ball);
+  const motion::Motion flexion{.name = "flexion", .range = Angle::degrees(180)};
+  const motion::MotionLimit limit = range.limit(flexion);
+  EXPECT_EQ(limit.end.reason, motion::LimitReason::ligament);
+  EXPECT_EQ(limit.end.ligament, 0u);
+  EXPECT_NEAR(limit.end.turned.radians(), wanted, 1e-6);  // six decimals of the slack length
+  EXPECT_FALSE(limit.end.contact);
+  const auto strain = [&](double t) {
+    return ligament_state(ball.ligaments[0], pose_at(ball.coordinates(), {Angle::radians(t), {}, {}}))
+        ->strain;
+  };
+  EXPECT_NEAR(strain(limit.end.turned.radians()), 0.05, 1e-12);
+
+  // The same from a start at which it has more strain, and all that is free of a whole turn.
+  motion::Motion from_beyond = flexion;
+  from_beyond.start.flexion = Angle::radians(2.5);
+  from_beyond.range = Angle::degrees(10);
+  EXPECT_EQ(range.limit(from_beyond).end.reason, motion::LimitReason::strained_at_start);
+  const auto free = range.free_angles(JointAngle::flexion, {Angle::radians(2.5), {}, {}},
+                                      {Angle::degrees(-180), Angle::degrees(180)});
+  ASSERT_FALSE(free.intervals.empty());
+  for (const motion::FreeInterval& interval : free.intervals)
+    for (const Angle end : {interval.low, interval.high}) EXPECT_LT(strain(2.5 + end.radians()), 0.05 + 1e-9);
+}
+
+TEST_F(JointLigaments, ThatNeverEndMotionsLeaveLimitsAsTheyAre) {
+  const Joint without = joint(""), with = joint(string_over_ball + "slack_length = 20\nstiffness_n = 900\n");
+  const motion::Motion flexion{.name = "flexion", .range = Angle::degrees(180)};
+  const motion::MotionLimit a = motion::RangeOfMotion(without).limit(flexion),
+                            b = motion::RangeOfMotion(with).limit(flexion);
+  EXPECT_EQ(a.end.turned, b.end.turned);
+  EXPECT_EQ(a.end.reason, b.end.reason);
+}
+
+TEST_F(JointLigaments, EndTheMotionsOfABandToo) {
+  const Joint ball = joint(string_over_ball + "slack_length = 40\nends_at_strain = 0.05\n");
+  const motion::Motion flexion{.name = "flexion", .range = Angle::degrees(180)};
+  const Angle limit = motion::RangeOfMotion(ball).limit(flexion).end.turned;
+  const auto about = motion::limits_about(ball, {&flexion, 1}, {}, std::vector<Vec3>{{0, 0, 0}, {0.4, 0, 0}});
+  EXPECT_EQ(about[0].reason, motion::LimitReason::ligament);
+  EXPECT_NEAR(about[0].turned.radians(), limit.radians(), 1e-9);
+  EXPECT_EQ(about[1].reason, motion::LimitReason::ligament);
+  EXPECT_GT(std::abs(about[1].turned.radians() - limit.radians()), 1e-4);
+}
+
+TEST_F(JointLigaments, HaveOneOfThreeSlackLengths) {
+  const std::string points =
+      "[[ligament]]\nname = \"a\"\nfixed = [[0, 40, 0], [0, 30, 0]]\nmobile = [40, 0, 0]\n";
+  EXPECT_DOUBLE_EQ(joint(points + "slack_length = 12.5\n").ligaments[0].slack_length_mm, 12.5);
+  EXPECT_DOUBLE_EQ(joint(points + "slack_share = 0.9\n").ligaments[0].slack_length_mm, 0.9 * 60);
+  EXPECT_NEAR(joint(points + "taut_at = \"flexion=90\"\n").ligaments[0].slack_length_mm, 20, 1e-12);
+  expect_refused(points, "ligament[0].slack_length: is missing");
+  expect_refused(points + "slack_length = 3\nslack_share = 1\n", "give one of");
+  expect_refused(points + "slack_length = 0\n", "must be above 0");
+  expect_refused(points + "slack_length = nan\n", "must be a finite number");
+  expect_refused(points + "taut_at = \"bending=9\"\n", "taut_at");
+}
+
+TEST_F(JointLigaments, ThatNobodyCanMeanAreRefusedInOneLine) {
+  const std::string a = "[[ligament]]\nname = \"a\"\nfixed = [40, 0, 0]\n",
+                    b = a + "mobile = [0, 40, 0]\nslack_length = 60\n";
+  expect_refused(a + "slack_length = 3\n", "ligament[0].mobile: is missing");
+  expect_refused(a + "mobile = [1, 2]\nslack_length = 3\n", "three numbers");
+  expect_refused(a + "mobile = []\nslack_length = 3\n", "three numbers");
+  expect_refused(b + b, "is given twice");
+  expect_refused(b + "stiffness_n = -3\n", "must be above 0");
+  expect_refused(b + "ends_at_strain = 0\n", "must be above 0");
+  expect_refused(b + "wrap = \"neck\"\n", "head");
+  expect_refused(b + "wrap = \"head\"\n", "no head is known here");
+  expect_refused(b + "wrap = { shape = \"torus\", body = \"fixed\", centre = [0, 0, 0], radius = 3 }\n",
+                 "cylinder");
+  expect_refused(b + "wrap = { shape = \"cylinder\", body = \"fixed\", centre = [0, 0, 0], radius = 3 }\n",
+                 "axis");
+  expect_refused(b + "wrap = { shape = \"sphere\", body = \"fixed\", centre = [0, 0, 0], radius = 41 }\n"
+                     "ends_at_strain = 0.1\n",
+                 "inside its wrap");
+  expect_refused(
+      b + "wrap = { shape = \"ellipsoid\", body = \"fixed\", centre = [0, 0, 0], radii = [3, 4, 5], "
+          "axes = [[1, 0, 0], [0, 1, 0]] }\nends_at_strain = 0.1\n",
+      "cannot end motions");
+  expect_refused(
+      "[[ligament]]\nname = \"a\"\nfixed = [40, 0, 0]\nmobile = [0, 40, 0]\nslack_length = 40\n"
+      "ends_at_strain = 0.1\n",
+      "in the reference pose already");
+  expect_refused(
+      b, "a joint with parts",
+      "[[part]]\nname = \"cup\"\nbody = \"fixed\"\n[[part.parameter]]\nname = \"tilt\"\nrange = [-5, 5]\n");
+}
+
+}  // namespace
+}  // namespace condyle

@@ -1,0 +1,114 @@
+"""Ligaments of joint files: what Python says of them is what the command does."""
+
+import csv
+import json
+import pickle
+import subprocess
+
+import numpy as np
+import pytest
+
+import condyle
+
+STRINGS = """
+[[ligament]]
+name = "front"
+fixed = [30, 28, 8]
+mobile = [[12, -60, 30], [12, -38, 30]]
+slack_share = 1.0
+ends_at_strain = 0.06
+wrap = { shape = "sphere", body = "mobile", centre = [0, 0, 0], radius = 24 }
+
+[[ligament]]
+name = "back"
+fixed = [-28, -15, 10]
+mobile = [2, 5, 48]
+slack_length = 50
+stiffness_n = 800
+transition_strain = 0.04
+"""
+
+
+@pytest.fixture(scope="module")
+def file(hip_file, tmp_path_factory):
+    path = tmp_path_factory.mktemp("ligaments") / "hip.toml"
+    text = open(hip_file).read()
+    folder = str(hip_file).rsplit("/", 1)[0]
+    path.write_text(text.replace('mesh = "', f'mesh = "{folder}/') + STRINGS)
+    return path
+
+
+@pytest.fixture(scope="module")
+def joint(file):
+    return condyle.read_joint(file)
+
+
+def test_a_joint_has_those_of_its_file(joint):
+    front, back = joint.ligaments
+    assert (front.name, back.name) == ("front", "back")
+    assert front.mobile.tolist() == [[12, -60, 30], [12, -38, 30]]
+    assert front.wrap.shape == "sphere" and front.wrap.radius_mm == 24
+    assert front.ends_at_strain == 0.06 and back.ends_at_strain is None
+    assert (back.slack_length_mm, back.stiffness_n, back.transition_strain) == (50, 800, 0.04)
+    assert condyle.Joint.from_file.__doc__ is not None
+    assert [each.name for each in pickle.loads(pickle.dumps(joint)).ligaments] == ["front", "back"]
+
+
+def test_states_follow_from_points_and_slack_length(joint):
+    poses = joint.pose(flexion_deg=[0, 20, 40], abduction_deg=10)
+    states = joint.ligament_states(poses)
+    assert states.names == ("front", "back")
+    assert states.strain.shape == (2, 3) and states.force_n.shape == (2, 3, 3)
+    for k, X in enumerate(poses):
+        end = X[:3, :3] @ joint.ligaments[1].mobile[0] + X[:3, 3]
+        along = end - joint.ligaments[1].fixed[0]
+        length = np.linalg.norm(along)
+        strain = length / 50 - 1
+        tension = 0 if strain < 0 else 800 * strain**2 / 0.08 if strain < 0.04 else 800 * (strain - 0.02)
+        assert states.length_mm[1, k] == pytest.approx(length, rel=1e-14)
+        assert states.tension_n[1, k] == pytest.approx(tension, rel=1e-12)
+        np.testing.assert_allclose(states.force_n[1, k], -tension * along / length, rtol=1e-12, atol=1e-12)
+        np.testing.assert_allclose(states.moment_nmm[1, k], np.cross(end, states.force_n[1, k]), rtol=1e-12, atol=1e-9)
+    one = joint.ligament_states(poses[1])
+    assert one.strain.tolist() == states.strain[:, 1].tolist()
+    gap = poses.copy()
+    gap[0] = np.nan
+    assert np.isnan(joint.ligament_states(gap).strain[:, 0]).all()
+
+
+def test_limits_name_the_ligament_that_ends_them_as_the_command_does(joint, file, command):
+    said = json.loads(subprocess.run([command, "rom", file, "--json"], check=True, capture_output=True).stdout)
+    rom = joint.range_of_motion()
+    ended = [limit for limit in rom.limits if limit.reason == "ligament"]
+    assert ended and all(limit.ligament == "front" and limit.contact is None for limit in ended)
+    for theirs, ours in zip(said["motions"], rom.limits):
+        assert (theirs["limit_deg"], theirs["reason"], theirs["ligament"]) == (ours.limit_deg, ours.reason, ours.ligament)
+    for limit in ended:
+        at = joint.ligament_states(joint.pose(**{f"{name}_deg": value for name, value in limit.at_limit_deg.items()}))
+        assert at.strain[0] == pytest.approx(0.06, abs=1e-12)
+
+
+def test_the_command_writes_the_same_states_along_a_motion(joint, file, command, tmp_path):
+    flexion = [0, 15, 30, 45]
+    motion = tmp_path / "walk.csv"
+    motion.write_text("time,flexion_deg\n" + "".join(f"{i},{value}\n" for i, value in enumerate(flexion)))
+    subprocess.run([command, "motion", file, "--motion", motion, "--out", tmp_path / "walk"], check=True, capture_output=True)
+    rows = list(csv.DictReader(open(tmp_path / "walk" / "ligaments.csv")))
+    states = joint.ligament_states(joint.pose(flexion_deg=flexion))
+    for k, row in enumerate(rows):
+        for i, name in enumerate(states.names):
+            assert float(row[f"{name}_length_mm"]) == states.length_mm[i, k]
+            assert float(row[f"{name}_tension_n"]) == states.tension_n[i, k]
+        assert float(row["ligaments_force_y_n"]) == states.force_n[0, k, 1] + states.force_n[1, k, 1]
+    said = json.loads((tmp_path / "walk" / "motion.json").read_text())
+    assert [each["name"] for each in said["ligaments"]] == ["front", "back"]
+    assert said["ligaments"][1]["largest_tension_n"]["value"] == states.tension_n[1].max()
+
+
+def test_what_does_not_look_for_ligaments_refuses_them(joint, file, command, tmp_path):
+    for words in (["report", file, "--out", tmp_path / "page.html"], ["rom", file, "--allow-depth", "1"]):
+        done = subprocess.run([command, *words], capture_output=True, text=True)
+        assert done.returncode == 2 and "ligament front ends motions" in done.stderr
+        assert not (tmp_path / "page.html").exists()
+    with pytest.raises(condyle.UsageError, match="ligament front ends motions, which a path"):
+        joint.path_limit([{"flexion": 0}, {"flexion": 20}])
