@@ -102,6 +102,24 @@ std::optional<contact::Load> largest_load(const MotionRequest& request) {
   return largest;
 }
 
+/// Names those whose length is not known in some frames that have a pose.
+std::optional<motion::ContactNote> unknown_lengths(const std::vector<LigamentAlong>& ligaments,
+                                                   const Frames& X_FM) {
+  std::string names;
+  for (const LigamentAlong& ligament : ligaments) {
+    std::size_t unknown = 0;
+    for (std::size_t i = 0; i < X_FM.size(); ++i) unknown += X_FM[i] && !ligament.frames[i];
+    if (unknown == 0) continue;
+    names += (names.empty() ? "" : ", ") + ligament.name + core::formatted(" in %zu", unknown);
+  }
+  if (names.empty()) return std::nullopt;
+  return motion::ContactNote{motion::ContactNoteCode::unknown_ligament_length,
+                             core::formatted("ligaments whose length is not known in some of %zu frames, as "
+                                             "they meet an ellipsoid or end inside what they wrap: ",
+                                             X_FM.size()) +
+                                 names};
+}
+
 void require_count(const char* what, std::size_t count, std::size_t frames) {
   if (count > 0 && count != frames)
     throw UsageError(core::formatted("%s: %zu for %zu frames", what, count, frames));
@@ -159,6 +177,8 @@ std::optional<MotionAnswer> answer_motion(const contact::JointContact& bodies,
   if (!frames) return std::nullopt;
   answer.frames = std::move(*frames);
   motion::add_new(answer.notes, motion::check_motion(answer.frames, request.names));
+  answer.ligaments = ligaments_along(request.ligaments, X_FM);
+  if (const auto unknown = unknown_lengths(answer.ligaments, X_FM)) answer.notes.push_back(*unknown);
   if (layers)
     if (const auto largest = frame_of_largest_force(answer))
       if (const auto refined = layers->refined_force_n(answer.frames[*largest]->X_FM))

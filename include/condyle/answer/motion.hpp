@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "condyle/control.hpp"
+#include "condyle/ligament.hpp"
 #include "condyle/motion_contact.hpp"
 #include "condyle/normal_depth.hpp"
 #include "condyle/pressure.hpp"
@@ -36,6 +37,7 @@ struct MotionRequest {
   BodyRole casting = BodyRole::mobile;
   contact::NormalDepthOptions rays = {};
   motion::BodyNames names = {};  ///< as notes call the bodies
+  std::vector<Ligament> ligaments = {};
 
   [[nodiscard]] bool has_load() const noexcept { return load || !loads.empty(); }
 };
@@ -51,6 +53,7 @@ struct MotionAnswer {
   /// The force of the frame with the largest one, computed from the depth at 16 places of each face:
   /// ElasticContact::refined_force_n(). Empty without pressure.
   std::optional<double> refined_largest_force_n = {};
+  std::vector<LigamentAlong> ligaments = {};    ///< in the poses of the frames, balanced if a load was
   std::vector<motion::ContactNote> notes = {};  ///< what looks wrong with layers, loads and the motion
   std::vector<std::string> caveats = {};        ///< with pressure: what an elastic foundation leaves out
 };

@@ -93,6 +93,30 @@ struct ModelContact {
   std::size_t line = 0;
 };
 
+/// A surface that ligaments wrap, in the frame of its body: WrapSphere, WrapCylinder, WrapEllipsoid or another.
+struct ModelWrap {
+  std::string name, type, body;
+  Pose X_BW = Pose::Identity();
+  Vec3 radii = Vec3::Zero();  ///< of an ellipsoid; else the first is the radius
+  std::string quadrant = "all";
+  bool is_active = true;
+  std::string why_not = {};
+};
+
+/// A string between two bodies or more (Blankevoort1991Ligament).
+struct ModelLigament {
+  struct Point {
+    std::string body;
+    Vec3 p;  ///< in the body's frame
+  };
+  std::string name;
+  std::vector<Point> points = {};
+  std::vector<std::string> wraps = {};  ///< names of the surfaces
+  double stiffness_n = 0, slack_length = 0, transition_strain = 0.06;
+  bool applies = true;
+  std::size_t line = 0;
+};
+
 /// A coordinate that follows others (CoordinateCouplerConstraint).
 struct ModelCoupler {
   std::string name, dependent = {};
@@ -121,6 +145,8 @@ enum class ModelNoteCode : std::uint8_t {
   coupled_coordinate,   ///< It follows others where a motion has no column of it.
   no_length_unit,       ///< length_units says that nobody set one; lengths are metres.
   no_name,              ///< A body or joint without a name, for which nobody can ask.
+  ligament_left_out,    ///< It has what no string of two bodies has, or is not applied.
+  endless_cylinder,     ///< A ligament wraps a cylinder, whose ends are not looked at.
   left_out,             ///< A component that cannot be read, and why; nothing that was asked for needs it.
 };
 /// As written: "missing_mesh".
@@ -144,6 +170,8 @@ struct Model {
   std::vector<ModelContactMesh> contact_meshes = {};
   std::vector<ModelContact> contacts = {};
   std::vector<ModelCoupler> couplers = {};
+  std::vector<ModelLigament> ligaments = {};
+  std::vector<ModelWrap> wraps = {};
   std::map<std::string, std::size_t> ignored = {};  ///< how many of each kind of component are not used here
   std::vector<ModelNote> notes = {};                ///< what was read otherwise than it stands
 };

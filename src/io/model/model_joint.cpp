@@ -35,6 +35,8 @@ std::string_view name_of(ModelNoteCode code) noexcept {
                                         "coupled_coordinate",
                                         "no_length_unit",
                                         "no_name",
+                                        "ligament_left_out",
+                                        "endless_cylinder",
                                         "left_out"};
   static_assert(std::size(names) == static_cast<std::size_t>(ModelNoteCode::left_out) + 1);
   return names[static_cast<std::size_t>(code)];

@@ -23,6 +23,7 @@
 #include "io/model/joint_mapping.hpp"
 #include "io/model/model_contact_lines.hpp"
 #include "io/model/model_joint_file.hpp"
+#include "io/model/model_ligament_lines.hpp"
 #include "io/model/spatial_transform.hpp"
 #include "io/model/welded_bodies.hpp"
 
@@ -154,6 +155,7 @@ class ModelJointFile {
     write_frame();
     write_reference_pose();
     write_contact();
+    text_ += ligament_lines(model_, role_of_body_, out_.notes);
     write_recorded_motion();
     note_what_is_left_out();
     out_.proposal.toml = std::move(text_);
@@ -521,7 +523,7 @@ class ModelJointFile {
   std::vector<WeldedBody> fixed_bodies_, mobile_bodies_;
   BodyMeshes fixed_, mobile_;
   /// By the body's name: which role it has and where it lies in that one. The fixed body's first.
-  std::map<std::string_view, std::pair<BodyRole, Pose>> role_of_body_;
+  RoleOfBody role_of_body_;
   std::map<std::string_view, std::vector<const ModelContactMesh*>> contact_meshes_;
   const ModelContact* contact_ = nullptr;
   std::string fixed_part_, mobile_part_;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "condyle/error.hpp"
 #include "condyle/io/model_file.hpp"
@@ -12,6 +13,7 @@
 #include "io/model/find_mesh.hpp"
 #include "io/model/model_frames.hpp"
 #include "io/model/read_joint.hpp"
+#include "io/model/read_ligament.hpp"
 #include "io/model/spatial_transform.hpp"
 
 namespace condyle::io {
@@ -36,6 +38,7 @@ class ModelReader {
     read_components(model, "");
     for (const std::string& body : frames_.bodies()) model_.bodies.push_back(plain_text(body));
     for (const auto& [kind, count] : shapes_) model_.ignored[kind] += count;
+    count_unused_wraps();
     refuse_couplers_of_one_coordinate();
     refuse_joints_of_one_name();
   }
@@ -135,6 +138,8 @@ class ModelReader {
         or_leave_out([&] { read_contact_mesh(child); });
       } else if (name == "Smith2018ArticularContactForce") {
         or_leave_out([&] { read_contact(child); });
+      } else if (name == "Blankevoort1991Ligament") {
+        or_leave_out([&] { model_.ligaments.push_back(ligament_of(source_, child, frames_)); });
       } else if (is_container(name)) {
         read_components(child, owner);
       } else if (is_list(element.name) && name != "Mesh" && name != "FrameGeometry" && name != "Station") {
@@ -151,7 +156,7 @@ class ModelReader {
       add_unreadable_mesh(body, name, error);
     }
     if (const XmlElement* wraps = body.at({"WrapObjectSet", "objects"}))
-      for (const XmlElement& wrap : wraps->children) ++model_.ignored[core::one_line(wrap.name, 60)];
+      for (const XmlElement& wrap : wraps->children) model_.wraps.push_back(wrap_of(source_, wrap, name));
     read_components(body, name);
   }
 
@@ -337,6 +342,15 @@ class ModelReader {
   /// Names of coordinates may be paths to them.
   static std::string last_of_path(std::string_view name) {
     return std::string(name.substr(name.rfind('/') + 1));
+  }
+
+  /// Muscles wrap surfaces too.
+  void count_unused_wraps() {
+    std::set<std::string_view> used;
+    for (const ModelLigament& ligament : model_.ligaments)
+      used.insert(ligament.wraps.begin(), ligament.wraps.end());
+    for (const ModelWrap& wrap : model_.wraps)
+      if (!used.contains(wrap.name)) ++model_.ignored[core::one_line(wrap.type, 60)];
   }
 
   /// OpenSim holds all of them at once, which a column of poses cannot. Each names the last one, which names the one before it.

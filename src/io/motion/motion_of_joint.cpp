@@ -14,6 +14,7 @@ MotionOfJoint::MotionOfJoint(const MotionQuestion& question, MotionRequest reque
   request_.names = {surfaces_.fixed.name, surfaces_.mobile.name};
   request_.casting = question.contact.casting == contact::Casting::fixed ? BodyRole::fixed : BodyRole::mobile;
   request_.rays = question.contact.rays;
+  request_.ligaments = question.joint.joint.ligaments;
   if (question.with_pressure)
     layers_.emplace(surfaces_.fixed.mesh, surfaces_.mobile.mesh,
                     elastic_options(question.contact, surfaces_, question.joint));

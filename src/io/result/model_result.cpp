@@ -104,6 +104,7 @@ std::string model_text(const Model& model) {
   for (const ModelCoupler& coupler : model.couplers)
     text += fmt::format("  constraint {}: {} follows {}\n", coupler.name, coupler.dependent,
                         fmt::join(coupler.independent, ", "));
+  if (!model.ligaments.empty()) text += fmt::format("  {} ligaments\n", model.ligaments.size());
   for (const ModelMesh& mesh : model.meshes)
     if (!mesh.path && mesh.why_not.empty())
       text += fmt::format("  missing: {} of {}\n", mesh.file, mesh.body);
@@ -127,6 +128,19 @@ Json model_coordinate_json(const ModelCoordinate& coordinate) {
 Json model_mesh_json(const ModelMesh& mesh) {
   Json json{{"body", mesh.body}, {"file", mesh.file}, {"path", nullptr}, {"scale", numbers(mesh.scale)}};
   if (mesh.path) json["path"] = mesh.path->string();
+  return json;
+}
+
+Json model_ligament_json(const ModelLigament& ligament) {
+  Json json{{"name", ligament.name},
+            {"points", Json::array()},
+            {"wraps", ligament.wraps},
+            {"slack_length", ligament.slack_length},
+            {"stiffness_n", ligament.stiffness_n},
+            {"transition_strain", ligament.transition_strain},
+            {"applies", ligament.applies}};
+  for (const ModelLigament::Point& point : ligament.points)
+    json["points"].push_back({{"body", point.body}, {"location", numbers(point.p)}});
   return json;
 }
 
@@ -157,7 +171,8 @@ Json model_joint_json(InspectedModel& model, const ModelJoint& joint) {
 Json model_json(const Model& model) {
   Json json{{"file", model.path.string()}, {"name", model.name}, {"version", model.version}};
   json["bodies"] = model.bodies;
-  for (const char* list : {"joints", "meshes", "contacts", "couplers"}) json[list] = Json::array();
+  for (const char* list : {"joints", "meshes", "contacts", "couplers", "ligaments"})
+    json[list] = Json::array();
   InspectedModel inspected(model);
   for (const ModelJoint& joint : model.joints) json["joints"].push_back(model_joint_json(inspected, joint));
   for (const ModelMesh& mesh : model.meshes) json["meshes"].push_back(model_mesh_json(mesh));
@@ -169,6 +184,8 @@ Json model_json(const Model& model) {
   for (const ModelCoupler& coupler : model.couplers)
     json["couplers"].push_back(
         {{"name", coupler.name}, {"dependent", coupler.dependent}, {"independent", coupler.independent}});
+  for (const ModelLigament& ligament : model.ligaments)
+    json["ligaments"].push_back(model_ligament_json(ligament));
   json["not_used"] = Json(model.ignored);
   json["notes"] = Json::array();
   for (const ModelNote& note : model.notes)

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -144,6 +145,42 @@ Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer) {
     columns.add("residual_n", answer.balanced,
                 [](const contact::BalancedPose& pose) { return pose.residual.force_n.norm(); });
   }
+  return curves;
+}
+
+Curves ligament_curves_of(const MotionQuestion& question, const MotionAnswer& answer, LigamentNames names) {
+  const bool as_here = names == LigamentNames::ours;
+  Curves curves;
+  curves.axis = !as_here ? "time" : question.motion.times.in_seconds ? "time_s" : "frame";
+  curves.at = question.motion.times.values;
+  CurveColumns columns(curves, answer.frames.size());
+  for (const LigamentAlong& ligament : answer.ligaments) {
+    std::string name = ligament.name;
+    if (!as_here) std::replace(name.begin(), name.end(), ' ', '_');
+    columns.add(name + (as_here ? "_length_mm" : ".length"), ligament.frames,
+                [&](const LigamentState& at) { return as_here ? at.length_mm : at.length_mm / 1000; });
+    columns.add(name + (as_here ? "_strain" : ".strain"), ligament.frames,
+                [](const LigamentState& at) { return at.strain; });
+    columns.add(name + (as_here ? "_tension_n" : ".force_spring"), ligament.frames,
+                [](const LigamentState& at) { return at.tension_n; });
+  }
+  if (!as_here) return curves;
+  // Of all ligaments, in frames in which each has a length.
+  std::vector<std::optional<contact::Wrench>> sums(answer.frames.size());
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    contact::Wrench& sum = sums[i].emplace();
+    for (const LigamentAlong& ligament : answer.ligaments) {
+      if (!ligament.frames[i]) {
+        sums[i].reset();
+        break;
+      }
+      sum.force_n += ligament.frames[i]->force_n;
+      sum.moment_nmm += ligament.frames[i]->moment_nmm;
+    }
+  }
+  columns.add_vector("ligaments_force", "_n", sums, [](const contact::Wrench& sum) { return sum.force_n; });
+  columns.add_vector("ligaments_moment", "_nmm", sums,
+                     [](const contact::Wrench& sum) { return sum.moment_nmm; });
   return curves;
 }
 

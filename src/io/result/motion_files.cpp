@@ -20,9 +20,9 @@ namespace {
 
 /// Whether some motion has a file of this name.
 bool is_of_motion(std::string_view name) {
-  static constexpr std::string_view names[] = {"curves.csv",  "curves.sto", "cycle.csv",
-                                               "motion.json", "motion.pvd", "contacts.csv",
-                                               "regions.csv", "jam.h5",     "map_fixed.vtp"};
+  static constexpr std::string_view names[] = {
+      "curves.csv",  "curves.sto", "cycle.csv",     "motion.json",   "motion.pvd",   "contacts.csv",
+      "regions.csv", "jam.h5",     "map_fixed.vtp", "ligaments.csv", "ligaments.sto"};
   if (std::find(std::begin(names), std::end(names), name) != std::end(names)) return true;
   // Figures that condyle.plot drew of an earlier motion would contradict this one.
   for (const std::string_view stem : {"curves", "cycle", "pressure_map", "depth_map"})
@@ -118,6 +118,12 @@ std::vector<std::filesystem::path> write_motion(const std::filesystem::path& fol
   }
   if (!question.contact.regions.empty())
     write_curves_csv(out.file("regions.csv"), region_curves_of(question, answer));
+  if (!answer.ligaments.empty()) {
+    write_curves_csv(out.file("ligaments.csv"), ligament_curves_of(question, answer, LigamentNames::ours));
+    if (question.motion.times.in_seconds)
+      write_sto(out.file("ligaments.sto"), question.joint.joint.name,
+                ligament_curves_of(question, answer, LigamentNames::of_opensim), AngleUnit::radians);
+  }
   if (answer.between) io::write_whole_file(out.file("contacts.csv"), contacts_csv(question, *answer.between));
   if (files.maps) write_maps(out, question, answer, files.encoding);
   if (files.jam) {

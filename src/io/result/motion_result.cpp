@@ -93,6 +93,52 @@ const Body& casting_body(const MotionQuestion& question) {
                                                              : question.surfaces.mobile;
 }
 
+/// The frame in which a ligament has most of something; none if no frame knows its length.
+std::optional<std::size_t> frame_of_most(const LigamentAlong& ligament, double LigamentState::*value) {
+  std::optional<std::size_t> most;
+  for (std::size_t i = 0; i < ligament.frames.size(); ++i)
+    if (ligament.frames[i] && (!most || (*ligament.frames[i]).*value > (*ligament.frames[*most]).*value))
+      most = i;
+  return most;
+}
+
+/// The ligament with most strain, and the one with most tension.
+std::string most_strained_text(const MotionAnswer& answer, const FrameTimes& times) {
+  std::string text = fmt::format("  {} ligaments", answer.ligaments.size());
+  const auto add = [&](const char* what, double LigamentState::*value, const char* unit) {
+    const LigamentAlong* of = nullptr;
+    std::size_t at = 0;
+    for (const LigamentAlong& each : answer.ligaments)
+      if (const auto most = frame_of_most(each, value);
+          most && (!of || (*each.frames[*most]).*value > (*of->frames[at]).*value))
+        of = &each, at = *most;
+    if (of)
+      text += fmt::format("{} {:.4g}{} of {} at {:g}{}", what, (*of->frames[at]).*value, unit, of->name,
+                          times.values[at], times.in_seconds ? " s" : "");
+  };
+  add(", largest strain", &LigamentState::strain, "");
+  add(", largest tension", &LigamentState::tension_n, " N");
+  return text + "\n";
+}
+
+Json ligaments_json(const MotionAnswer& answer, const FrameTimes& times, const char* axis) {
+  Json all = Json::array();
+  for (const LigamentAlong& ligament : answer.ligaments) {
+    const auto most = [&](double LigamentState::*value) {
+      const auto at = frame_of_most(ligament, value);
+      return at ? Json{{"value", (*ligament.frames[*at]).*value}, {axis, times.values[*at]}} : Json(nullptr);
+    };
+    all.push_back({{"name", ligament.name},
+                   {"slack_length_mm", ligament.slack_length_mm},
+                   {"frames_known", std::count_if(ligament.frames.begin(), ligament.frames.end(),
+                                                  [](const auto& frame) { return frame.has_value(); })},
+                   {"largest_length_mm", most(&LigamentState::length_mm)},
+                   {"largest_strain", most(&LigamentState::strain)},
+                   {"largest_tension_n", most(&LigamentState::tension_n)}});
+  }
+  return all;
+}
+
 Json end_json(const MotionQuestion& question, const motion::ContactEnd& end, ContactEndRole role) {
   // Beyond the recording nothing is known.
   const bool is_known = end.kind != motion::ContactEndKind::recording;
@@ -193,6 +239,7 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
     if (answer.refined_largest_force_n)
       text += io::refined_force_text({summary.force.value, 0, 0}, {*answer.refined_largest_force_n, 0, 0});
   }
+  if (!answer.ligaments.empty()) text += most_strained_text(answer, times);
   if (answer.between) text += between_text(*answer.between);
   if (!answer.balanced.empty()) {
     text += fmt::format("  the load is balanced in {} of {} frames", summary.balanced,
@@ -266,6 +313,7 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
     json["largest_force_n"] = largest(summary.force);
     json["largest_force_n"]["refined"] = io::nullable(answer.refined_largest_force_n);
   }
+  if (!answer.ligaments.empty()) json["ligaments"] = ligaments_json(answer, times, axis);
   json["caveats"] = answer.caveats;
   if (!answer.balanced.empty()) {
     json["frames_balanced"] = summary.balanced;

@@ -40,6 +40,12 @@ Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer);
 /// of that surface's force it carries along it: "medial_share_percent", NaN in a frame without force.
 Curves region_curves_of(const MotionQuestion& question, const MotionAnswer& answer);
 
+/// As here, or as OpenSim names them: NAME.length in m, NAME.strain, NAME.force_spring.
+enum class LigamentNames { ours, of_opensim };
+/// Length, strain and tension of each ligament, and under names of ours the force and moment of all on the mobile body, in the fixed body's joint
+/// frame, the moment about its origin. Nothing where a length is not known.
+Curves ligament_curves_of(const MotionQuestion& question, const MotionAnswer& answer, LigamentNames names);
+
 /// The curves' largest values and when, frames in contact, gaps: a few lines.
 std::string motion_text(const MotionQuestion& question, const MotionAnswer& answer);
 std::string motion_json(const MotionQuestion& question, const MotionAnswer& answer);
@@ -59,7 +65,7 @@ struct MotionFiles {
 /// (Provenance::read): to be called before long work. Leaves nothing.
 void check_motion_folder(const std::filesystem::path& folder, const Provenance* from);
 
-/// Writes curves.csv, curves.sto and motion.json into a folder, contacts.csv where contact between the samples was looked
+/// Writes curves.csv, curves.sto and motion.json into a folder, ligaments.csv and ligaments.sto of a joint that has some, contacts.csv where contact between the samples was looked
 /// for, regions.csv where the contact has regions, and what else is asked for; all or none. Returns what was
 /// written. FileError; UsageError for a cycle that is not within the motion.
 std::vector<std::filesystem::path> write_motion(const std::filesystem::path& folder,
