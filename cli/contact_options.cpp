@@ -92,6 +92,9 @@ void add_balance(CLI::App& command, BalanceArguments& given) {
       ->option_text("X Y Z");
   command.add_flag_callback(
       "--free-rotations", [&given] { given.rotations = true; }, "With a force: rotate the mobile body too");
+  command.add_flag_callback(
+      "--ligaments", [&given] { given.ligaments = true; },
+      "With a force, which may then be 0 0 0: the joint's ligaments pull beside the contact");
 }
 
 std::vector<Vec3> directions_of(const std::vector<double>& along) {
@@ -135,10 +138,12 @@ contact::Load load_of(const BalanceArguments& given) {
   return {.on_mobile = {vector_of(given.force), vector_of(given.moment)}, .frame = given.frame};
 }
 
-contact::BalanceOptions balance_options_of(const BalanceArguments& given) {
+contact::BalanceOptions balance_options_of(const BalanceArguments& given, const Joint& joint) {
   contact::BalanceOptions options;
   options.free_directions = directions_of(given.along);
   options.free_rotations = given.rotations;
+  if (given.ligaments) options.ligaments = joint.ligaments;
+  if (given.ligaments && joint.ligaments.empty()) throw UsageError("--ligaments: the joint has none");
   return options;
 }
 

@@ -27,7 +27,7 @@ io::ContactEntry contact_of(const io::ContactChanges& changes, const io::JointFi
 struct BalanceArguments {
   std::vector<double> force, moment, along;
   BodyRole frame = BodyRole::fixed;
-  bool rotations = false;
+  bool rotations = false, ligaments = false;
   bool any() const noexcept { return !force.empty() || !moment.empty(); }
 };
 /// --force, --force-frame and --along.
@@ -49,6 +49,7 @@ void add_study_load(CLI::App& command, StudyLoadArguments& given, const std::str
 /// UsageError for directions without a force.
 io::StudyLoad study_load_of(const StudyLoadArguments& given, Anatomy anatomy);
 contact::Load load_of(const BalanceArguments& given);
-contact::BalanceOptions balance_options_of(const BalanceArguments& given);
+/// UsageError if the ligaments of a joint are to pull that has none.
+contact::BalanceOptions balance_options_of(const BalanceArguments& given, const Joint& joint);
 
 }  // namespace condyle::cli

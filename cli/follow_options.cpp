@@ -36,7 +36,8 @@ Followed::Followed(const FollowArguments& given, const io::LoadedJoint& loaded, 
   if (given.load) {
     if (given.balance.force.empty()) throw UsageError("--follow-load: needs --force");
     layers_.emplace(loaded, contact_of({}, loaded.report.file, true));
-    request.follow = layers_->carrying(load_of(given.balance), balance_options_of(given.balance));
+    request.follow =
+        layers_->carrying(load_of(given.balance), balance_options_of(given.balance, loaded.joint));
   }
   if (given.record.empty()) return;
   const io::JointMotion recorded = io::motion_of(loaded, io::read_motion_table(given.record));

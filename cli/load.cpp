@@ -31,7 +31,7 @@ void load_command(const LoadArguments& options, const CLI::App& command) {
   const io::ContactSurfaces surfaces = io::surfaces_of(contact, joint);
   LoadRequest request{.X_FM = given.X_FM, .names = {surfaces.fixed.name, surfaces.mobile.name}};
   if (options.balance.any()) request.load = load_of(options.balance);
-  if (request.load) request.balance = balance_options_of(options.balance);
+  if (request.load) request.balance = balance_options_of(options.balance, joint);
   const io::LoadQuestion question{
       joint, given.pose, given.X_FM, surfaces, contact, request.load, noted(loaded, options.strictness),
       &from};
@@ -68,10 +68,12 @@ void add_load(CLI::App& app) {
   add_where(*command, *options);
   add_json(*command, options->form);
   add_strict(*command, options->strictness, or_contact);
-  group_help(*command, {{"Most used", {"--pose", "--force", "--e", "--nu", "--thickness"}},
-                        {"Question", {"--set", "--moment", "--force-frame", "--along", "--free-rotations"}},
-                        {"Contact", {"--law", "--casting", "--rule", "--reach"}},
-                        {"Output", {"--out", "--json", "--frame", "--ascii", "--strict", "--help"}}});
+  group_help(
+      *command,
+      {{"Most used", {"--pose", "--force", "--e", "--nu", "--thickness"}},
+       {"Question", {"--set", "--moment", "--force-frame", "--along", "--free-rotations", "--ligaments"}},
+       {"Contact", {"--law", "--casting", "--rule", "--reach"}},
+       {"Output", {"--out", "--json", "--frame", "--ascii", "--strict", "--help"}}});
   command->callback([options, command] { load_command(*options, *command); });
 }
 

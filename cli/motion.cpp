@@ -44,12 +44,12 @@ std::vector<std::optional<contact::Load>> loads_of(const MotionArguments& option
   return loads;
 }
 
-MotionRequest request_of(const MotionArguments& options, io::JointMotion& motion) {
+MotionRequest request_of(const MotionArguments& options, const Joint& joint, io::JointMotion& motion) {
   MotionRequest request{.loads = loads_of(options, motion)};
   request.X_FM = motion.X_FM;
   if (motion.times.in_seconds) request.time_s = motion.times.values;
   if (options.balance.any()) request.load = load_of(options.balance);
-  if (request.has_load()) request.balance = balance_options_of(options.balance);
+  if (request.has_load()) request.balance = balance_options_of(options.balance, joint);
   if (options.between) request.between = BetweenFrames::always;
   return request;
 }
@@ -72,7 +72,7 @@ void motion_command(const MotionArguments& options, const CLI::App& command) {
   const io::InputRecorder read;
   const io::LoadedJoint loaded = joint_at(joint_or_model(options), options.parameters);
   io::JointMotion motion = io::motion_of(loaded, io::read_motion_table(options.motion));
-  MotionRequest request = request_of(options, motion);
+  MotionRequest request = request_of(options, loaded.joint, motion);
   check_motion_request(request);
   for (const std::string& remark : motion.processing) note(remark);
   const bool with_pressure = options.with_pressure || request.has_load();
@@ -172,7 +172,8 @@ void add_motion(CLI::App& app) {
   group_help(*command,
              {{"Most used", {"--motion", "--load", "--force", "--out", "--json"}},
               {"Question",
-               {"--set", "--between", "--loads", "--moment", "--force-frame", "--along", "--free-rotations"}},
+               {"--set", "--between", "--loads", "--moment", "--force-frame", "--along", "--free-rotations",
+                "--ligaments"}},
               {"Models", of_models},
               {"Contact", {"--e", "--nu", "--thickness", "--law", "--casting", "--rule", "--reach"}},
               {"Output", {"--cycle", "--maps", "--jam", "--frame", "--ascii", "--strict", "--help"}}});

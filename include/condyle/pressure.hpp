@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "condyle/contact.hpp"
+#include "condyle/ligament.hpp"
 #include "condyle/make_joint.hpp"
 #include "condyle/normal_depth.hpp"
 
@@ -257,6 +258,8 @@ struct BalanceOptions {
   int most_steps = 100;
   /// Largest residual, as a fraction of the load, 0 to 1, if no step reduces it: BalanceOutcome::at_jump.
   double most_left_at_jump = 0.02;
+  /// Strings that pull beside the contact: then the load may be zero.
+  std::vector<Ligament> ligaments = {};
 };
 
 /// Whether nothing of a load acts along what the balance leaves free: no pose is the one that carries it.

@@ -35,6 +35,8 @@ contact::BalanceOptions options_in(const py::dict& given) {
                                   .farthest_mm = given["farthest_mm"].cast<double>(),
                                   .most_steps = given["most_steps"].cast<int>(),
                                   .most_left_at_jump = given["most_left_at_jump"].cast<double>()};
+  if (!given["ligaments"].is_none())
+    options.ligaments = given["ligaments"].cast<const JointHandle&>().joint().ligaments;
   const PointsIn directions(given["free_directions"], "free_directions");
   for (std::size_t i = 0; i < directions.size(); ++i) options.free_directions.push_back(directions.view()[i]);
   return options;

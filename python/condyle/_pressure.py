@@ -281,26 +281,27 @@ class ElasticContact(DeformingContact):
 
     def balance(self, force_n: ArrayLike, *, moment_nmm: ArrayLike = (0, 0, 0), start: Optional[ArrayLike] = None,
                 frame: Body = "fixed", free_directions: ArrayLike = (), free_rotations: bool = False,
-                options: BalanceOptions = BalanceOptions()) -> BalancedPose:
+                ligaments: Optional[DescribedJoint] = None, options: BalanceOptions = BalanceOptions()) -> BalancedPose:
         """The pose near `start` (the identity if not given) in which the contact carries a load on the mobile body.
 
         `force_n` and `moment_nmm` about the origin of M are held in F, or with `frame="mobile"` go along with M.
         Directions (K, 3) in F along which the body may be translated, all if none are given; with `free_rotations` its
-        rotations are unknowns too; without it a moment has nothing to balance it and is refused. UsageError where the load
-        is zero along the free directions. Not ended by Ctrl-C.
+        rotations are unknowns too; without it a moment has nothing to balance it and is refused. With a joint as
+        `ligaments` its ligaments pull beside the contact, and the load may be zero. UsageError where the load
+        is zero along the free directions otherwise. Not ended by Ctrl-C.
 
         C++: `condyle::balance` in condyle/pressure.hpp.
         """
         _refuse_moment(moment_nmm, free_rotations)
         with self._shared.use():
             pose = balanced(_native.balance(self._native, np.eye(4) if start is None else start, force_n, moment_nmm,
-                                            _terms(options, frame, free_directions, free_rotations)))
+                                            _terms(options, frame, free_directions, free_rotations, ligaments)))
         self._warn([pose])
         return pose
 
     def balance_along(self, poses: ArrayLike, force_n: ArrayLike, *, moment_nmm: ArrayLike = (0, 0, 0),
                       frame: Body = "fixed", free_directions: ArrayLike = (), free_rotations: bool = False,
-                      options: BalanceOptions = BalanceOptions(), progress: Progress = None
+                      ligaments: Optional[DescribedJoint] = None, options: BalanceOptions = BalanceOptions(), progress: Progress = None
                       ) -> list[Optional[BalancedPose]]:
         """The poses that balance a load, frame after frame of a motion, (N, 4, 4); None for those of NaN, gaps.
 
@@ -315,7 +316,7 @@ class ElasticContact(DeformingContact):
         forces, moments = _loads(force_n, moment_nmm)
         with self._shared.use():
             found = _native.balance_along(self._native, poses, forces, moments,
-                                          _terms(options, frame, free_directions, free_rotations), progress_of(progress))
+                                          _terms(options, frame, free_directions, free_rotations, ligaments), progress_of(progress))
         frames = [None if pose is None else balanced(pose) for pose in found]
         self._warn(frames)
         return frames
@@ -401,13 +402,16 @@ def _refuse_moment(moment_nmm: ArrayLike, free_rotations: bool) -> None:
         raise UsageError("moment_nmm: needs free_rotations")
 
 
-def _terms(options: BalanceOptions, frame: Body, free_directions: ArrayLike, free_rotations: bool) -> dict[str, Any]:
+def _terms(options: BalanceOptions, frame: Body, free_directions: ArrayLike, free_rotations: bool,
+           ligaments: Optional[DescribedJoint]) -> dict[str, Any]:
+    if ligaments is not None and not isinstance(ligaments, DescribedJoint):
+        raise UsageError(f"ligaments: a Joint is needed, not {type(ligaments).__name__}")
     if not isinstance(options, BalanceOptions):
         raise UsageError(f"options: BalanceOptions are needed, not {type(options).__name__}")
     is_empty = isinstance(free_directions, (tuple, list)) and not free_directions
     return {**options._checked(), "goes_along": word(frame, "frame", Body) == "mobile",
             "free_directions": np.empty((0, 3)) if is_empty else free_directions,
-            "free_rotations": bool(free_rotations)}
+            "free_rotations": bool(free_rotations), "ligaments": None if ligaments is None else ligaments._native}
 
 
 def balanced(found: dict[str, Any]) -> BalancedPose:

@@ -18,6 +18,7 @@ LoadAnswer answer_load(const contact::ElasticContact& surfaces, const LoadReques
     answer.balanced = contact::balance(surfaces, request.X_FM, *request.load, request.balance);
     answer.X_FM = answer.balanced->X_FM;
     answer.contact = answer.balanced->contact;
+    answer.ligaments = ligaments_along(request.balance.ligaments, {answer.X_FM});
     if (!answer.carries_load()) return answer;
   } else {
     answer.contact = surfaces.at(request.X_FM);

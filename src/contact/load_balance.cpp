@@ -93,14 +93,16 @@ class Search {
       throw UsageError("the load is not finite");
     if (!(options.most_left_at_jump >= 0 && options.most_left_at_jump <= 1))
       throw UsageError("most_left_at_jump: the residual share of the load must be from 0 to 1");
-    if (along_free(load_at(start)).isZero(0)) throw UsageError("the load is zero along the free directions");
+    if (options.ligaments.empty() && along_free(load_at(start)).isZero(0))
+      throw UsageError("the load is zero along the free directions");
+    pull_n_ = pulled(start).tension_n;
     out_.X_FM = start;
   }
 
   BalancedPose run() {
     answers_ = contact_.parts().pool.take(), tried_ = contact_.parts().pool.take();
     out_.outcome = explained(find());
-    out_.contact = contact_.parts().results_of(*answers_, now_);
+    out_.contact = contact_.parts().results_of(*answers_, contact_.parts().load_of(*answers_, out_.X_FM));
     contact_.parts().pool.put_back(std::move(answers_));
     out_.residual = {residual_.head<3>(), residual_.tail<3>()};
     return std::move(out_);
@@ -134,10 +136,50 @@ class Search {
 
   Motions motions() const { return options_.free_rotations ? Motions::all : Motions::translations; }
 
+  /// What the ligaments put on the mobile body, about its origin.
+  struct Pull {
+    Vector6 wrench = Vector6::Zero();
+    double energy = 0, tension_n = 0;
+    std::size_t taut = 0;
+  };
+  Pull pulled(const Pose& X) const {
+    Pull pull;
+    for (const Ligament& ligament : options_.ligaments) {
+      const auto state = ligament_state(ligament, X);
+      if (!state)
+        throw UsageError("ligament " + ligament.name + ": its length is not known near the balance");
+      pull.wrench.head<3>() += state->force_n;
+      pull.wrench.tail<3>() += state->moment_nmm - X.translation().cross(state->force_n);
+      pull.energy += state->energy_nmm;
+      pull.tension_n += state->tension_n;
+      pull.taut += state->tension_n > 0;
+    }
+    return pull;
+  }
+
+  /// How the load of contact and ligaments changes with small motions; of the latter by differences.
+  LoadChange change_of(const ElasticContact::Parts::Answers& answers, const Pose& X, Motions which) const {
+    LoadChange change = contact_.parts().change_of(answers, X, which);
+    if (options_.ligaments.empty()) return change;
+    constexpr double travel = 1e-4, angle = travel / 20;
+    for (int i = 0; i < (which == Motions::all ? 6 : 3); ++i) {
+      const double by = i < 3 ? travel : angle;
+      const Vector6 step = by * Vector6::Unit(i);
+      change.col(i) += (pulled(moved(X, step)).wrench - pulled(moved(X, -step)).wrench) / (2 * by);
+    }
+    return change;
+  }
+
   /// The load at a pose that is tried, its answers kept until the next.
   MobileLoad tried(const Pose& X) {
     contact_.parts().answer(X, *tried_);
     MobileLoad load = contact_.parts().load_of(*tried_, X);
+    if (!options_.ligaments.empty()) {
+      const Pull pull = pulled(X);
+      load.wrench += pull.wrench;
+      load.energy += pull.energy;
+      load.samples += pull.taut;
+    }
     const Vec3 force = along_free(load_at(X)).head<3>();
     // How much of the force is carried: poses of the search are compared by it.
     const double carried = force.isZero() ? 0 : -load.wrench.head<3>().dot(force) / force.squaredNorm();
@@ -169,7 +211,7 @@ class Search {
         take(X, load);
         return true;
       }
-      const LoadChange change = contact_.parts().change_of(*tried_, X, Motions::translations);
+      const LoadChange change = change_of(*tried_, X, Motions::translations);
       const double stiffness = -along.dot(change.topLeftCorner<3, 3>() * along);
       travel +=
           stiffness > 0 ? std::clamp(missing / stiffness, search_step, longest_search_step) : search_step;
@@ -233,8 +275,7 @@ class Search {
     while (true) {
       resisted_ = resisted_ || now_.wrench.dot(load_at(out_.X_FM)) < 0;
       // How the contact pushes back against small motions along what is free.
-      const FreeMatrix stiffness =
-          -free_.transpose() * contact_.parts().change_of(*answers_, out_.X_FM, motions()) * free_;
+      const FreeMatrix stiffness = -free_.transpose() * change_of(*answers_, out_.X_FM, motions()) * free_;
       const Svd svd(stiffness, Eigen::ComputeFullU | Eigen::ComputeFullV);
       const auto& sizes = svd.singularValues();
       const Eigen::Index last = sizes.size() - 1;
@@ -276,8 +317,10 @@ class Search {
     return stiffness;
   }
 
-  /// Residual as a share of the load.
-  double left_share() const { return size_of(residual_) / size_of(along_free(load_at(out_.X_FM))); }
+  /// Residual as a share of the load, or of what the ligaments pull.
+  double left_share() const {
+    return size_of(residual_) / std::max(size_of(along_free(load_at(out_.X_FM))), pull_n_);
+  }
 
   /// A contact that has pushed against the load at all was left over its rim, or at one.
   BalanceOutcome given_up() const {
@@ -298,7 +341,7 @@ class Search {
     const Vector6 given = load_at(from);
     // The force is the gradient of the energy up to the angle between the surfaces, within a tenth.
     const double travel = step.head<3>().norm() + step.tail<3>().norm() * measured_travel / measured_angle;
-    const double uncertain = 0.1 * (given.head<3>().norm() * step.head<3>().norm() +
+    const double uncertain = 0.1 * (std::max(given.head<3>().norm(), pull_n_) * step.head<3>().norm() +
                                     given.tail<3>().norm() * step.tail<3>().norm());
     Vector6 beyond = residual_;
     bool meets_beyond = false;
@@ -331,6 +374,7 @@ class Search {
       tried_;       ///< at out_.X_FM, and at the pose tried last
   MobileLoad now_;  ///< at out_.X_FM
   Vector6 residual_ = Vector6::Zero();
+  double pull_n_ = 0;  ///< of all ligaments at the start
   bool resisted_ = false;
   struct Most {
     Pose X;
@@ -427,6 +471,7 @@ std::string reason_of(const BalancedPose& pose) {
 }
 
 bool is_zero_along(const Load& load, const Pose& X_FM, const BalanceOptions& options) {
+  if (!options.ligaments.empty()) return false;
   Vec3 force = load.on_mobile.force_n;
   if (load.frame == BodyRole::mobile) force = X_FM.linear() * force;
   if (options.free_rotations && !load.on_mobile.moment_nmm.isZero(0)) return false;

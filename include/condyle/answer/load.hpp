@@ -28,6 +28,7 @@ struct LoadAnswer {
   std::optional<contact::BalancedPose> balanced = {};  ///< if a load was requested
   std::size_t cut_off_by_reach = 0;                    ///< rays
   std::optional<Vec3> refined_force_n = {};            ///< ElasticContact::refined_force_n() at X_FM
+  std::vector<LigamentAlong> ligaments = {};           ///< those of the request's balance, at X_FM
   std::vector<motion::ContactNote> notes = {};         ///< what looks wrong with layers, load and contact
   std::vector<std::string> caveats = {};               ///< what an elastic foundation leaves out
 

@@ -122,6 +122,10 @@ std::string load_text(const LoadQuestion& question, const LoadAnswer& answer) {
   text +=
       fmt::format("  on {}: force {} N, {:.2f} in all; moment {} N mm about its origin\n", joint.mobile.name,
                   core::rounded(load.force_n, 2), load.force_n.norm(), core::rounded(load.moment_nmm, 2));
+  for (const LigamentAlong& ligament : answer.ligaments)
+    if (const auto& at = ligament.frames.front(); at && at->tension_n > 0)
+      text +=
+          fmt::format("  ligament {}: {:.2f} N, strain {:.4f}\n", ligament.name, at->tension_n, at->strain);
   if (answer.refined_force_n) text += io::refined_force_text(load.force_n, *answer.refined_force_n);
   if (answer.cut_off_by_reach > 0)
     text += fmt::format("  the reach of {} mm cuts off {} rays that would be in contact\n",
@@ -143,6 +147,12 @@ std::string load_json(const LoadQuestion& question, const LoadAnswer& answer) {
     json["translation_mm"] = io::numbers(question.pose.translation_mm);
     json["translation_frame"] = name_of(joint.translation_frame);
   }
+  for (const LigamentAlong& ligament : answer.ligaments)
+    if (const auto& at = ligament.frames.front())
+      json["ligaments"].push_back({{"name", ligament.name},
+                                   {"length_mm", at->length_mm},
+                                   {"strain", at->strain},
+                                   {"tension_n", at->tension_n}});
   Json rows = Json::array();
   for (int r = 0; r < 4; ++r)
     rows.push_back({answer.X_FM.matrix()(r, 0), answer.X_FM.matrix()(r, 1), answer.X_FM.matrix()(r, 2),
