@@ -6,7 +6,7 @@
 
 namespace condyle::io {
 
-/// Sources of the column of living hips: what soft tissue took off, and of whom the ranges are; empty if nothing is known.
+/// What the words in the column of living hips mean; empty if nothing is known.
 std::string living_text(const RomResult& result);
 
 }  // namespace condyle::io
