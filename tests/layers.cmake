@@ -24,7 +24,7 @@ set(io_uses core mesh kinematics radial tangential contact motion measure plan a
 set(core_headers angle control error pose version)
 set(simd_headers)
 set(mesh_headers inspect label_surface mesh)
-set(kinematics_headers fit joint joint_checks joint_coordinates ligament make_joint zero_pose)
+set(kinematics_headers fit joint joint_checks joint_coordinates make_joint zero_pose)
 set(radial_headers radial)
 set(tangential_headers tangential)
 set(contact_headers contact contact_measures normal_depth pressure)

@@ -23,8 +23,6 @@ namespace condyle {
 
 enum class Side { right, left };
 
-enum class BodyRole { fixed, mobile };
-
 /// Which joint it is: it decides the order, the signs and the names of the angles.
 enum class Anatomy { hip, knee, ankle, elbow, shoulder };
 

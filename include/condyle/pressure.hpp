@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "condyle/contact.hpp"
-#include "condyle/ligament.hpp"
+#include "condyle/joint.hpp"
 #include "condyle/make_joint.hpp"
 #include "condyle/normal_depth.hpp"
 

@@ -6,6 +6,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/joint_checks.hpp"
+#include "io/joint/ligament_tables.hpp"
 
 namespace condyle::python {
 namespace {
@@ -97,6 +98,7 @@ JointDescription description_in(const py::dict& given) {
   joint.person.age_years = age;
   for (const Sex each : all_sexes)
     if (sex == name_of(each)) joint.person.sex = each;
+  joint.ligaments = io::ligaments_of_text(word(given, "ligaments"), joint);
   return joint;
 }
 

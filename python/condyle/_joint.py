@@ -68,6 +68,8 @@ class Joint(DescribedJoint):
         where neutral is; with `{"from": "anatomy"}` the angles of a hip follow from the condyles of its femur.
     person : mapping, optional
         Whose joint it is, that limits are held against people like this one: `{"age": 34, "sex": "female"}`, or one of the two.
+    ligaments : list of mappings, optional
+        Each with the keys that `[[ligament]]` of a joint file has (docs/ligaments.md), in `units` and the frames of the meshes.
     fixed_in_W, mobile_in_W : (4, 4) numbers, optional
         Where the frame of each mesh lies in the frame of the lengths given here, translation in `units`.
 
@@ -101,7 +103,8 @@ class Joint(DescribedJoint):
                  anterior: Optional[ArrayLike] = None, superior: Optional[ArrayLike] = None,
                  landmarks: Optional[Mapping[str, ArrayLike]] = None,
                  reference_pose: Optional[Mapping[str, Union[float, str]]] = None,
-                 person: Optional[Mapping[str, Union[float, str]]] = None, fixed_in_W: Optional[ArrayLike] = None,
+                 person: Optional[Mapping[str, Union[float, str]]] = None,
+                 ligaments: Sequence[Mapping[str, object]] = (), fixed_in_W: Optional[ArrayLike] = None,
                  mobile_in_W: Optional[ArrayLike] = None, fixed_name: str = "fixed",
                  mobile_name: str = "mobile") -> None:
         images = [body._image if isinstance(body, LabelSurface) else None for body in (fixed, mobile)]
@@ -109,7 +112,7 @@ class Joint(DescribedJoint):
         description = description_of(
             name=name, kind=kind, joint=joint, side=side, units=units, translation_frame=translation_frame,
             centre=centre, fit_body=fit_body, fit_within=fit_within, axes=axes, anterior=anterior, superior=superior,
-            landmarks=landmarks, reference_pose=reference_pose, person=person, fixed_in_W=fixed_in_W, mobile_in_W=mobile_in_W)
+            landmarks=landmarks, reference_pose=reference_pose, person=person, ligaments=ligaments, fixed_in_W=fixed_in_W, mobile_in_W=mobile_in_W)
         for text, what in ((fixed_name, "fixed_name"), (mobile_name, "mobile_name")):
             text_of(text, what)
         native = _native.make_joint(description, fixed_name, fixed._native, images[0], mobile_name, mobile._native, images[1])
@@ -397,7 +400,7 @@ class Joint(DescribedJoint):
     def ligament_states(self, poses: PoseLike) -> LigamentStates:
         """Length, strain, tension and load of each ligament in one pose or many; poses of NaN are gaps.
 
-        C++: `condyle::ligament_state` in condyle/ligament.hpp.
+        C++: `condyle::ligament_state` in condyle/joint.hpp.
 
         >>> import condyle
         >>> bones = condyle.sample_hip()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any, Mapping, Optional
 
 import numpy as np
@@ -18,7 +19,7 @@ _axes: dict[str, tuple[ArrayLike, ArrayLike]] = {"LPS": ((0, -1, 0), (0, 0, 1)),
 
 def description_of(*, name: Any, kind: Any, joint: Any, side: Any, units: Any, translation_frame: Any, centre: Any,
                    fit_body: Any, fit_within: Any, axes: Any, anterior: Any, superior: Any, landmarks: Any,
-                   reference_pose: Any, person: Any, fixed_in_W: Any, mobile_in_W: Any) -> dict[str, Any]:
+                   reference_pose: Any, person: Any, ligaments: Any, fixed_in_W: Any, mobile_in_W: Any) -> dict[str, Any]:
     """For the compiled part, in mm and degrees."""
     anatomy = word(joint, "joint", Anatomy)
     to_mm = {"mm": 1.0, "cm": 10.0, "in": 25.4, "m": 1000.0}[word(units, "units", LengthUnit)]
@@ -49,7 +50,8 @@ def description_of(*, name: Any, kind: Any, joint: Any, side: Any, units: Any, t
             for point, place in landmarks.items()},
         "fixed_in_W": _pose_in_mm(fixed_in_W, to_mm, "fixed_in_W"),
         "mobile_in_W": _pose_in_mm(mobile_in_W, to_mm, "mobile_in_W"),
-        "person": _person(person), "zero_from": zero_from, "reference_angles_deg": angles, "reference_translation_mm": translation * to_mm,
+        "person": _person(person), "ligaments": _ligament_tables(ligaments),
+        "zero_from": zero_from, "reference_angles_deg": angles, "reference_translation_mm": translation * to_mm,
     }
 
 
@@ -62,6 +64,24 @@ def _person(person: Any) -> tuple[Optional[float], Optional[str]]:
     age, sex = person.get("age"), person.get("sex")
     return (None if age is None else number(age, "person: age", 0, 120),
             None if sex is None else word(sex, "person: sex", ("female", "male")))
+
+
+def _ligament_tables(ligaments: Any) -> str:
+    """As a joint file has them: what they may have is checked in one place."""
+    if not isinstance(ligaments, (list, tuple)) or not all(isinstance(each, Mapping) for each in ligaments):
+        raise UsageError("ligaments: a list of mappings with the keys of [[ligament]] is needed")
+    return "".join("[[ligament]]\n" + "".join(f"{_toml(str(key))} = {_toml(value)}\n" for key, value in each.items())
+                   for each in ligaments)
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False)
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{_toml(str(key))} = {_toml(each)}" for key, each in value.items()) + " }"
+    if np.ndim(value) > 0:
+        return "[" + ", ".join(_toml(each) for each in value) + "]"
+    return repr(number(value, "ligaments"))
 
 
 def _zero(reference_pose: Any) -> tuple[str, Any]:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal, Optional
+from typing import Any, Optional
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._words import Body
+from ._words import Body, WrapShape
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +32,7 @@ class LigamentWrap:
         Of an ellipsoid: its first two axes, unit, and half its size along all three.
     """
 
-    shape: Literal["sphere", "cylinder", "ellipsoid"]
+    shape: WrapShape
     body: Body
     centre: NDArray[np.float64]
     radius_mm: Optional[float] = None

@@ -1,4 +1,4 @@
-#include "condyle/ligament.hpp"
+#include "condyle/joint.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +49,9 @@ double distance_from_middle(const LigamentWrap& wrap, const Vec3& point) noexcep
   return across(wrap, point - wrap.centre).norm();
 }
 
-/// Seen along the axis of a cylinder, or across the plane of both points and the centre of a sphere:
+namespace {
+
+/// Where a path lies on its wrap, seen along the axis of a cylinder, or across the plane of both points and the centre of a sphere:
 ///
 ///          a                      t_a = sqrt(|a|^2 - r^2), alpha = atan2(t_a, r): from a to where its tangent
 ///         / `.  t_a               touches; likewise of b. With gamma between a and b seen from the centre it
@@ -58,38 +60,91 @@ double distance_from_middle(const LigamentWrap& wrap, const Vec3& point) noexcep
 ///        \    . B                 between the ends its length is sqrt(P^2 + h^2), P seen along the axis.
 ///         \ .'  t_b
 ///          b
+struct OnWrap {
+  Vec3 e, n;               ///< towards a, and across it on the side of b
+  double alpha, last;      ///< angles from e at which it touches first and last
+  double t_a, seen_along;  ///< P
+  double from, height;     ///< along the axis of a cylinder: where a is, and h; else 0
+
+  Vec3 at(const LigamentWrap& wrap, double angle) const noexcept {
+    const auto [sine, cosine] = core::sine_cosine(angle);
+    const double share = (t_a + wrap.radius_mm * (angle - alpha)) / seen_along;
+    return wrap.centre + wrap.radius_mm * (cosine * e + sine * n) + (from + share * height) * wrap.axis;
+  }
+  /// Unit, of the path where it touches.
+  Vec3 direction(const LigamentWrap& wrap, double angle) const noexcept {
+    const auto [sine, cosine] = core::sine_cosine(angle);
+    return (seen_along * (cosine * n - sine * e) + height * wrap.axis) / core::hypotenuse(seen_along, height);
+  }
+};
+
+enum class Passes { by, over, unknown };
+
+/// How the part between these points passes its wrap, a sphere or a cylinder; fills `path` if it lies on it.
+Passes passes(const Vec3& fixed, const Vec3& mobile, const LigamentWrap& wrap, OnWrap& path) noexcept {
+  const double r = wrap.radius_mm;
+  const Vec3 from_a = fixed - wrap.centre, from_b = mobile - wrap.centre;
+  const Vec3 a = across(wrap, from_a), b = across(wrap, from_b);
+  const double to_a = a.norm(), to_b = b.norm();
+  if (to_a < r || to_b < r) return Passes::unknown;
+  const double gamma = core::arctangent(a.cross(b).norm(), a.dot(b));
+  const double t_a = std::sqrt((to_a - r) * (to_a + r)), t_b = std::sqrt((to_b - r) * (to_b + r));
+  const double alpha = core::arctangent(t_a, r), beta = core::arctangent(t_b, r);
+  const double touched = gamma - alpha - beta;
+  if (!(touched > 0)) return Passes::by;
+  const Vec3 e = a / to_a, aside = b - b.dot(e) * e;
+  const bool is_cylinder = wrap.shape == WrapShape::cylinder;
+  path = {.e = e,
+          .n = aside.norm() > 1e-12 * to_b ? Vec3(aside.normalized()) : beside(wrap, e),
+          .alpha = alpha,
+          .last = gamma - beta,
+          .t_a = t_a,
+          .seen_along = t_a + r * touched + t_b,
+          .from = is_cylinder ? from_a.dot(wrap.axis) : 0.0,
+          .height = is_cylinder ? (from_b - from_a).dot(wrap.axis) : 0.0};
+  return Passes::over;
+}
+
+}  // namespace
+
 std::optional<Crossing> crossing(const Vec3& fixed, const Vec3& mobile, const LigamentWrap* wrap) noexcept {
   if (!wrap) return straight_crossing(fixed, mobile);
   if (wrap->shape == WrapShape::ellipsoid)
     return meets_ellipsoid(*wrap, fixed, mobile) ? std::nullopt
                                                  : std::optional(straight_crossing(fixed, mobile));
-  const double r = wrap->radius_mm;
-  const Vec3 from_a = fixed - wrap->centre, from_b = mobile - wrap->centre;
-  const Vec3 a = across(*wrap, from_a), b = across(*wrap, from_b);
-  const double to_a = a.norm(), to_b = b.norm();
-  if (to_a < r || to_b < r) return std::nullopt;
-  const double gamma = core::arctangent(a.cross(b).norm(), a.dot(b));
-  const double t_a = std::sqrt((to_a - r) * (to_a + r)), t_b = std::sqrt((to_b - r) * (to_b + r));
-  const double alpha = core::arctangent(t_a, r), beta = core::arctangent(t_b, r);
-  const double touched = gamma - alpha - beta;
-  if (!(touched > 0)) return straight_crossing(fixed, mobile);
-
-  const Vec3 e = a / to_a, aside = b - b.dot(e) * e;
-  const Vec3 n = aside.norm() > 1e-12 * to_b ? Vec3(aside.normalized()) : beside(*wrap, e);
+  OnWrap on;
+  switch (passes(fixed, mobile, *wrap, on)) {
+    case Passes::by:
+      return straight_crossing(fixed, mobile);
+    case Passes::unknown:
+      return std::nullopt;
+    case Passes::over:
+      break;
+  }
+  // The straight piece between the bodies ends at the wrap on its own body.
   const bool on_fixed = wrap->body == BodyRole::fixed;
-  // Where the straight piece between the bodies touches the wrap, and the direction in which the path runs there.
-  const auto [sine, cosine] = core::sine_cosine(on_fixed ? gamma - beta : alpha);
-  const double seen_along = t_a + r * touched + t_b;
-  const double height = wrap->shape == WrapShape::cylinder ? (from_b - from_a).dot(wrap->axis) : 0.0;
-  Crossing path{.length_mm = core::hypotenuse(seen_along, height), .wraps = true};
-  path.direction = (seen_along * (cosine * n - sine * e) + height * wrap->axis) / path.length_mm;
-  const double share = t_a / seen_along;
-  path.on_mobile = on_fixed ? mobile
-                            : Vec3(wrap->centre + r * (cosine * e + sine * n) +
-                                   (wrap->shape == WrapShape::cylinder
-                                        ? Vec3((from_a.dot(wrap->axis) + share * height) * wrap->axis)
-                                        : Vec3::Zero()));
-  return path;
+  const double touches = on_fixed ? on.last : on.alpha;
+  return Crossing{.length_mm = core::hypotenuse(on.seen_along, on.height),
+                  .wraps = true,
+                  .direction = on.direction(*wrap, touches),
+                  .on_mobile = on_fixed ? mobile : on.at(*wrap, touches)};
+}
+
+std::vector<Vec3> ligament_points(const Ligament& ligament, const Pose& X_FM) {
+  std::vector<Vec3> points = ligament.fixed;
+  LigamentWrap in_fixed;
+  const LigamentWrap* wrap = wrap_in_fixed(ligament, X_FM, in_fixed);
+  OnWrap on;
+  if (wrap && wrap->shape != WrapShape::ellipsoid &&
+      passes(points.back(), posed(X_FM, ligament.mobile.back()), *wrap, on) == Passes::over) {
+    constexpr double widest = 0.1;  // rad
+    const int steps = 1 + static_cast<int>((on.last - on.alpha) / widest);
+    for (int i = 0; i <= steps; ++i)
+      points.push_back(on.at(*wrap, on.alpha + (on.last - on.alpha) * i / steps));
+  }
+  for (auto point = ligament.mobile.rbegin(); point != ligament.mobile.rend(); ++point)
+    points.push_back(posed(X_FM, *point));
+  return points;
 }
 
 const LigamentWrap* wrap_in_fixed(const Ligament& ligament, const Pose& X_FM,

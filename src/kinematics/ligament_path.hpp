@@ -1,8 +1,9 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
-#include "condyle/ligament.hpp"
+#include "condyle/joint.hpp"
 
 namespace condyle::kinematics {
 
@@ -17,6 +18,9 @@ struct Crossing {
 
 /// With its last points and its wrap in one frame; empty where it is not known, as ligament_state().
 std::optional<Crossing> crossing(const Vec3& fixed, const Vec3& mobile, const LigamentWrap* wrap) noexcept;
+
+/// The path from insertion to insertion, in F; where it lies on a wrap some tenths of a radian apart. Straight where its length is not known.
+std::vector<Vec3> ligament_points(const Ligament& ligament, const Pose& X_FM);
 
 /// The wrap in the fixed body's frame; null if there is none.
 const LigamentWrap* wrap_in_fixed(const Ligament& ligament, const Pose& X_FM, LigamentWrap& storage) noexcept;

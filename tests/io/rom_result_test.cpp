@@ -173,7 +173,7 @@ TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
                                                   .bearing = {some_bearing(), {}},
                                                   .bearing_rule = motion::BearingRule::leave_out,
                                                   .caveats = {"left out: nothing"}})));
-  ASSERT_EQ(lines.size(), 21u);
+  ASSERT_EQ(lines.size(), 17u);
   EXPECT_EQ(lines[0], "arm and post: arm in post, right side");
   EXPECT_NE(lines[1].find("bearing surface: 2 of 3 triangles of arm"), std::string::npos) << lines[1];
   EXPECT_EQ(lines[3], "  left out: nothing");

@@ -1,4 +1,4 @@
-#include "condyle/ligament.hpp"
+#include "condyle/joint.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 #include <random>
 
 #include "core/rotation_about.hpp"
+#include "kinematics/ligament_path.hpp"
 
 namespace condyle {
 namespace {
@@ -203,6 +204,28 @@ TEST(Ligament, PullsTheMobileBodyByTheSlopeOfItsEnergy) {
   }
   EXPECT_GT(taut, 1000);
   EXPECT_GT(wrapped, 100);
+}
+
+TEST(Ligament, IsDrawnAlongItsPath) {
+  std::mt19937 random(5);
+  int wrapped = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Ligament ligament = random_ligament(random);
+    const Pose X = random_pose(random, 3);
+    const auto state = ligament_state(ligament, X);
+    if (!state) continue;
+    wrapped += state->wraps;
+    const std::vector<Vec3> path = kinematics::ligament_points(ligament, X);
+    EXPECT_EQ(path.front(), ligament.fixed.front());
+    EXPECT_EQ(path.back(), posed(X, ligament.mobile.front()));
+    double length = 0;
+    for (std::size_t k = 1; k < path.size(); ++k) length += (path[k] - path[k - 1]).norm();
+    // Chords of a tenth of a radian are shorter than their arcs by (0.1)^2 / 24.
+    EXPECT_LE(length, state->length_mm * (1 + 1e-12));
+    EXPECT_GE(length, state->length_mm * (1 - 4.2e-4));
+    if (!state->wraps) EXPECT_NEAR(length, state->length_mm, 1e-9);
+  }
+  EXPECT_GT(wrapped, 30);
 }
 
 TEST(Ligament, TakesBackOnTheWayHomeTheWorkThatStretchedIt) {

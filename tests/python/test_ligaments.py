@@ -54,6 +54,21 @@ def test_a_joint_has_those_of_its_file(joint):
     assert [each.name for each in pickle.loads(pickle.dumps(joint)).ligaments] == ["front", "back"]
 
 
+def test_joints_of_meshes_take_them_by_the_keys_of_the_file(joint):
+    given = [{"name": "front", "fixed": [30, 28, 8], "mobile": np.array([[12, -60, 30], [12, -38, 30]]), "slack_share": 1,
+              "ends_at_strain": 0.06, "wrap": {"shape": "sphere", "body": "mobile", "centre": [0, 0, 0], "radius": 24}},
+             {"name": "back", "fixed": (-28, -15, 10), "mobile": (2, 5, 48), "slack_length": 50, "stiffness_n": 800,
+              "transition_strain": 0.04}]
+    same = condyle.Joint(joint.fixed, joint.mobile, reference_pose={}, ligaments=given)
+    for ours, theirs in zip(same.ligaments, joint.ligaments):
+        assert (ours.name, ours.slack_length_mm, ours.fixed.tolist()) == (theirs.name, theirs.slack_length_mm, theirs.fixed.tolist())
+    assert [limit.ligament for limit in same.range_of_motion().limits] == [limit.ligament for limit in joint.range_of_motion().limits]
+    for wrong, why in (([{"name": "a"}], "ligament.0..fixed: is missing"), ({"name": "a"}, "a list of mappings"),
+                       ([{**given[1], "slack": 3}], "unknown key"), ([{**given[1], "stiffness_n": float("nan")}], "finite")):
+        with pytest.raises(condyle.UsageError, match=why):
+            condyle.Joint(joint.fixed, joint.mobile, ligaments=wrong)
+
+
 def test_states_follow_from_points_and_slack_length(joint):
     poses = joint.pose(flexion_deg=[0, 20, 40], abduction_deg=10)
     states = joint.ligament_states(poses)

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "condyle/control.hpp"
-#include "condyle/ligament.hpp"
+#include "condyle/joint.hpp"
 #include "condyle/motion_contact.hpp"
 #include "condyle/normal_depth.hpp"
 #include "condyle/pressure.hpp"

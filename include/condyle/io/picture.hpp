@@ -79,7 +79,7 @@ struct Picture {
 
 /// Both bodies at a pose in parallel projection on white, smoothly shaded with the light at the viewer, 16
 /// samples a pixel; under them the scale of the colours. The colours of a surface that faces the viewer are those
-/// of the scale. `at` names the pose for depths along arcs, as reliable_depths() takes them if the mobile
+/// of the scale. Ligaments are thin tubes: grey while slack, green when taut, vermilion at the strain that ends motions, purple without a known length. `at` names the pose for depths along arcs, as reliable_depths() takes them if the mobile
 /// body's centre is held.
 ///
 /// Throws UsageError for options out of their domain, MeshError if a depth or a gap is requested of an open mesh. The

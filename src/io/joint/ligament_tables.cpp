@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <filesystem>
 #include <set>
 
 #include "condyle/error.hpp"
@@ -126,6 +127,21 @@ std::vector<DescribedLigament> described_ligaments(TomlTable& file, const JointD
       table.fail("name", fmt::format("\"{}\" is given twice", all.back().ligament.name));
   }
   return all;
+}
+
+std::vector<DescribedLigament> ligaments_of_text(std::string_view text, const JointDescription& joint) {
+  const std::filesystem::path path = "ligaments";
+  try {
+    const toml::table root = toml::parse(text, path.string());
+    TomlTable file(path, root, "");
+    std::vector<DescribedLigament> all = described_ligaments(file, joint, mm_per(joint.units));
+    file.finish();
+    return all;
+  } catch (const FileError& error) {
+    throw UsageError(error.what());
+  } catch (const toml::parse_error& error) {
+    throw UsageError(fmt::format("ligaments: line {}: {}", error.source().begin.line, error.description()));
+  }
 }
 
 // A name has no control characters, and then a text of JSON is one of TOML: the page carries no writer of its own for it.

@@ -5,6 +5,7 @@
 #include "condyle/hip_measures.hpp"
 #include "condyle/io/picture.hpp"
 #include "core/trigonometry.hpp"
+#include "io/result/line_mesh.hpp"
 
 namespace condyle::io {
 namespace {
@@ -16,24 +17,11 @@ constexpr std::array<std::uint8_t, 3> blue = {0, 114, 178}, vermilion = {213, 94
 constexpr double line_mm = 0.5, dot_mm = 0.9, small_dot_mm = 0.5;
 constexpr double axis_behind = 1.3, axis_ahead = 2.0, twelve_ahead = 1.3, up_ahead = 1.5;
 constexpr double normal_mm = 25;
-constexpr int ring_steps = 144, sides = 8;
+constexpr int ring_steps = 144;
 
-/// The mark's mesh grows by a prism from one point to the other.
+/// The mark's mesh grows by a line.
 void add_line(TriMesh& mesh, const Vec3& from, const Vec3& to) {
-  const Vec3 along = to - from;
-  if (!(along.norm() > 0)) return;
-  const Vec3 x = along.unitOrthogonal(), y = along.normalized().cross(x);
-  const auto first = static_cast<Index>(mesh.vertices.size());
-  for (const Vec3& end : {from, to})
-    for (int k = 0; k < sides; ++k) {
-      const double turn = 2 * std::numbers::pi * k / sides;
-      mesh.vertices.push_back(end + line_mm * (core::cosine(turn) * x + core::sine(turn) * y));
-    }
-  for (Index k = 0; k < sides; ++k) {
-    const Index a = first + k, b = first + (k + 1) % sides;
-    mesh.triangles.push_back({a, b, b + sides});
-    mesh.triangles.push_back({a, b + sides, a + sides});
-  }
+  io::add_line(mesh, from, to, line_mm);
 }
 
 /// And by a ball: an octahedron whose edges are halved twice, pushed out.

@@ -14,6 +14,7 @@
 #include "io/picture/legend.hpp"
 #include "io/picture/rasteriser.hpp"
 #include "io/picture/surface_values.hpp"
+#include "io/result/ligament_mesh.hpp"
 #include "mesh/vertex_normals.hpp"
 
 namespace condyle::io {
@@ -284,6 +285,8 @@ ViewDirection view_named(std::string_view name, Side side) {
 Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM, const PictureOptions& given) {
   PictureOptions options = given;
   io::check(options);
+  for (PictureMark& mark : io::ligament_marks(joint.ligaments, X_FM))
+    options.marks.push_back(std::move(mark));
   const BothValues values = io::surface_values(options.colour, joint, at, X_FM);
   const ColourScale scale{options.colour,
                           options.range_mm                         ? *options.range_mm

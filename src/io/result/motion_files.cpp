@@ -10,6 +10,7 @@
 #include "io/file/output_folder.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/result/jam_contact.hpp"
+#include "io/result/ligament_mesh.hpp"
 #include "io/result/motion_result.hpp"
 #include "io/result/pressure_map.hpp"
 #include "io/result/provenance_forms.hpp"
@@ -27,7 +28,9 @@ bool is_of_motion(std::string_view name) {
   // Figures that condyle.plot drew of an earlier motion would contradict this one.
   for (const std::string_view stem : {"curves", "cycle", "pressure_map", "depth_map"})
     if (name.starts_with(stem) && io::is_figure_ending(name.substr(stem.size()))) return true;
-  return (name.starts_with("map_fixed_") || name.starts_with("map_mobile_")) && name.ends_with(".vtp");
+  return (name.starts_with("map_fixed_") || name.starts_with("map_mobile_") ||
+          name.starts_with("map_ligaments_")) &&
+         name.ends_with(".vtp");
 }
 
 /// Where the bodies meet as a contact begins or ends; empty if no features are known to.
@@ -89,6 +92,13 @@ void write_maps(OutputFolder& out, const MotionQuestion& question, const MotionA
               fixed_casts ? of_target : arrays, options);
     if (fixed_casts)
       write_vtp(out.file(fixed), frame_of_answer.fixed_mesh(surfaces.fixed.mesh), {}, arrays, options);
+    const std::vector<Ligament>& ligaments = question.joint.joint.ligaments;
+    if (!ligaments.empty()) {
+      LigamentMesh drawn = ligament_mesh(ligaments, frame.X_FM);
+      const std::string name = fmt::format("map_ligaments_{:05}.vtp", i);
+      write_vtp(out.file(name), frame_of_answer.fixed_mesh(drawn.mesh), {}, drawn.arrays, options);
+      series.push_back({time, "ligaments", name});
+    }
     series.push_back({time, "fixed", fixed});
     series.push_back({time, "mobile", mobile});
   }

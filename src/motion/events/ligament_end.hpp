@@ -1,6 +1,6 @@
 #pragma once
 
-#include "condyle/ligament.hpp"
+#include "condyle/joint.hpp"
 #include "condyle/pose.hpp"
 #include "core/arc_set.hpp"
 
