@@ -8,24 +8,46 @@ import { readReport } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
 
-/// Contents of the page while it is printed.
-const whilePrinted = `matchMedia("print").addEventListener("change", ({ matches }) => {
+/// Contents of the page while it is printed, and the smallest letters, also those in the picture, as shares of its width.
+const whilePrinted = `
+const { fillText } = CanvasRenderingContext2D.prototype, { toDataURL } = HTMLCanvasElement.prototype, smallest = new WeakMap(), inPicture = {};
+CanvasRenderingContext2D.prototype.fillText = function (...args) {
+  const share = parseFloat(/[\\d.]+(?=px)/.exec(this.font)[0]) * this.getTransform().a / this.canvas.width;
+  smallest.set(this.canvas, Math.min(share, smallest.get(this.canvas) ?? Infinity));
+  return fillText.apply(this, args);
+};
+HTMLCanvasElement.prototype.toDataURL = function (...args) {
+  const source = toDataURL.apply(this, args);
+  inPicture[source] = smallest.get(this);
+  return source;
+};
+const letters = () => {
+  const sizes = [], walker = document.createTreeWalker(document.getElementById("paper"), NodeFilter.SHOW_TEXT);
+  while (walker.nextNode()) {
+    const { data, parentElement: of } = walker.currentNode;
+    if (data.trim() && of.checkVisibility()) sizes.push([parseFloat(getComputedStyle(of).fontSize) * (of.ownerSVGElement?.getScreenCTM().a ?? 1), data]);
+  }
+  const image = document.querySelector("#paper img"), { width, height } = image.getBoundingClientRect();
+  sizes.push([inPicture[image.src] * Math.min(width, height * image.naturalWidth / image.naturalHeight), "the picture"]);
+  return sizes;
+};
+matchMedia("print").addEventListener("change", ({ matches }) => {
   if (!matches) return;
   const image = document.querySelector("#paper img");
   globalThis.printed = {
     picture: [image.naturalWidth, image.naturalHeight, image.getBoundingClientRect().height], caption: image.alt,
     text: [...document.querySelectorAll("#paper .plot text")].slice(0, 1).map((text) => getComputedStyle(text).fill).join(), heading: getComputedStyle(document.querySelector("#paper h1")).color,
     controls: [...document.querySelectorAll("button, select, input")].filter((e) => e.getClientRects().length > 0).map((e) => e.outerHTML.slice(0, 80)),
-    screen: document.querySelector("#screen").getClientRects().length,
+    screen: document.querySelector("#screen").getClientRects().length, letters: letters(),
   };
 });`;
 
 const pagesOf = (path) => (readFileSync(path, "latin1").match(/\/Type\s*\/Page\b/g) ?? []).length;
 
 // A plan has measures, too.
-for (const [name, sheets] of [["sample", 2], ["plan", 3], ["compared", 2], ["vhf_right", 2], ["knee", 2]])
+for (const [name, sheets] of [["sample", 2], ["plan", 3], ["compared", 2], ["vhf_right", 2], ["swept", 2], ["knee", 2]])
   for (const colorScheme of ["light", "dark"])
-    test(`${name} printed from a ${colorScheme} page is ${sheets} sheets, in black on white, without controls`, { skip: !has(name) && "not made" }, async () => {
+    test(`${name} printed from a ${colorScheme} page is ${sheets} sheets, in black on white, without controls and without letters below 11 pixels`, { skip: !has(name) && "not made" }, async () => {
       const { page } = await openPage(browser, pathOf(name), { colorScheme, script: whilePrinted });
       await settled(page);
       // The picture of the limit is drawn while nobody waits.
@@ -33,13 +55,16 @@ for (const [name, sheets] of [["sample", 2], ["plan", 3], ["compared", 2], ["vhf
       const path = join(reports, "seen", `${name}_${colorScheme}.pdf`);
       await page.pdf({ path, format: "A4" });
       assert.equal(pagesOf(path), sheets);
-      const { picture, caption, text, heading, controls, screen } = await page.evaluate(() => globalThis.printed);
+      const { picture, caption, text, heading, controls, screen, letters } = await page.evaluate(() => globalThis.printed);
       assert.ok(picture[0] > 300 && picture[1] > 200 && picture[2] > 100, String(picture));
       if (name !== "knee") assert.equal(caption, await page.locator("#sentence").textContent());
       if (name !== "knee") assert.equal(text, "rgb(27, 31, 36)");
       assert.equal(heading, "rgb(27, 31, 36)");
       assert.deepEqual(controls, []);
       assert.equal(screen, 0);
+      assert.ok(letters.length > 50);
+      // A line that fits to within a thousandth is that of 11 pixels.
+      assert.deepEqual(letters.filter(([size]) => !(size > 10.99)), []);
       await page.context().close();
     });
 

@@ -284,13 +284,13 @@ export class Page {
 
   private takePictureForPaper(): void {
     if (this.hasWorstPicture || !this.scene) return;
-    this.paper.setPicture(this.scene.pictureCanvas("").toDataURL("image/png"), `${words.poseHere} ${poseLine(this.text, this.motion.coordinates)}`);
+    this.paper.setPicture(this.scene.pictureCanvas("", null, 0, this.paper.pictureSize).toDataURL("image/png"), `${words.poseHere} ${poseLine(this.text, this.motion.coordinates)}`);
   }
 
   /// The limit that the sentence is about, on paper.
   private drawWorst(): void {
     if (!this.scene || this.loaded) return;
-    drawWorst(this.text, this.arrays, this.closed.signal, (picture, caption) => {
+    drawWorst(this.text, this.arrays, this.paper.pictureSize, this.closed.signal, (picture, caption) => {
       if (this.shownText.by_hand) return;
       this.hasWorstPicture = true;
       this.paper.setPicture(picture, caption);

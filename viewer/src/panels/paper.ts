@@ -20,7 +20,10 @@ import type { ShownSweep } from "./sweep";
 /// The page on paper: a sheet of the answer with its picture, limits and scope; then all figures, the method and the files.
 export class Paper {
   readonly element: HTMLElement;
-  private readonly image = html("img", { alt: "" });
+  /// Of the picture, whose letters are no smaller than all others of the sheet.
+  readonly pictureSize: { width: number; height: number };
+  private readonly image: HTMLImageElement;
+  private readonly sentence = html("p", {});
   private readonly caption = html("p", { class: "small" });
   private readonly notes = html("div", {});
 
@@ -36,26 +39,29 @@ export class Paper {
     const clock = rom && !text.by_hand && clockDrawing(rom.motions, rom.clock_plane, null);
     const notes = notesBeside(rom), compared = comparisonTable(text), ribbon = ribbonOf(text);
     const scope = html("p", { class: "small" }, words.scope(scopeOf(text)));
+    this.pictureSize = { width: 700, height: compared || text.plan ? 225 : 355 };
+    this.image = html("img", { alt: "", ...this.pictureSize });
+    this.sentence.textContent = ofLoad ??
+      (isLimited && headline ? sentenceOf(headline, text) : rom ? words.noLimitsInContact : words.noLimitsSentence(text.rom_error ?? ""));
     const first = html("div", { class: "sheet" }, html("h1", {}, headingOf(text)), ...(ribbon ? [html("p", { class: "ribbon" }, ribbon)] : []),
       ...(text.note ? [html("p", {}, text.note)] : []),
       html("div", { class: "paper-results" }, ...figures.map(([name, value, band, normal]) =>
         html("div", {}, html("span", {}, named(name)), html("b", {}, value), html("span", {}, [band, normal].filter(Boolean).join("; "))))),
-      html("p", {}, ofLoad ??
-        (isLimited && headline ? sentenceOf(headline, text) : rom ? words.noLimitsInContact : words.noLimitsSentence(text.rom_error ?? ""))),
+      this.sentence,
       ...(notes.length ? [html("p", { class: "warning" }, html("b", {}, words.noted(notes.length)), " ", notes.map((note) => note.text).join("; "))] : []),
       html("div", { class: "paper-picture" }, this.image, this.caption),
       ...(isLimited && rom!.held_translation_mm ? [html("h3", {}, words.heldLimits)] : []),
-      ...(rom && isLimited ? [html("div", { class: "paper-figures" }, drawn(limitsDrawing(rom.motions)), ...(clock ? [drawn(clock, 330, 250)] : []))] : []),
+      ...(rom && isLimited ? [html("div", { class: "paper-figures" }, drawn(limitsDrawing(rom.motions)), ...(clock ? [drawn(clock, 290, 215)] : []))] : []),
       ...(text.plan
         ? [html("div", { class: "paper-plan" }, ...planInShort(text.plan, namesOf(text.joint)))]
         : []),
       ...(compared ? [compared] : []), scope);
     const filesBefore = text.before?.rom?.provenance, curve = text.plan && planCurveDrawing(text.plan.curve), { measures } = text;
     const second = html("div", { class: "sheet" },
-      ...(map && !text.by_hand ? [drawn(new MapPlot(map, null, "paper-").drawing, 560, 200)] : []),
-      ...(recorded ? [drawn(recorded, 560, 260)] : []), ...(curve ? [drawn(curve, 560, 170)] : []),
+      ...(map && !text.by_hand ? [drawn(new MapPlot(map, null, "paper-").drawing, 700, 200)] : []),
+      ...(recorded ? [drawn(recorded, 700, 260)] : []), ...(curve ? [drawn(curve, 700, 170)] : []),
       ...(measures ? [html("h2", {}, words.measures), html("div", { class: "paper-measures" }, ...measureTables(measures),
-        ...shapeDrawings(measures).map((drawing) => drawn(drawing, 400, 150)))] : []),
+        ...shapeDrawings(measures).map((drawing) => drawn(drawing, 345, 140)))] : []),
       ...(sweep ? [html("h2", {}, words.sweep), zoneOf(sweep, text)] : []),
       html("h2", {}, words.method), ...methodOf(text, counts),
       ...(rom?.provenance ? [html("h2", {}, words.sourceFiles), ...sourcesOf(rom.provenance)] : []),
@@ -73,11 +79,12 @@ export class Paper {
     this.notes.replaceChildren(...(said.length || pins.length ? [html("h2", {}, words.notesOfUser), ...said, ...(pins.length ? [list] : [])] : []));
   }
 
-  /// A picture of the scene and its description.
+  /// A picture of the scene and its description, which is read once if it is the sentence.
   setPicture(source: string, caption: string): void {
     this.image.src = source;
     this.image.alt = caption;
     this.caption.textContent = caption;
+    this.caption.hidden = caption === this.sentence.textContent;
   }
 }
 
@@ -86,7 +93,7 @@ function zoneOf({ stored, margins, least }: ShownSweep, { posed }: ReportText): 
   const map = new SweepMap(stored, margins, least, () => undefined, "paper-");
   const values = new Map((posed?.parts ?? []).flatMap(({ name, parameters }) => parameters.map((each) => [`${name}.${each.name}`, each.value])));
   map.show(stored.parameters.map(({ name }) => values.get(name) ?? NaN));
-  layOut(map.drawing, 560, stored.parameters.length > 1 ? 180 : 70);
+  layOut(map.drawing, 700, stored.parameters.length > 1 ? 180 : 70);
   return html("div", {}, map.element, html("p", { class: "small" }, ...stored.sweep_notes.map(({ text }) => `${words.sweepNoted(text)} `)));
 }
 

@@ -15,6 +15,16 @@ export interface Written {
   numbered: { x: number; y: number; number: number }[];
 }
 
+/// The same where the scene is shown so many times as large.
+export function enlarged(written: Written, times: number): Written {
+  const { width, height, scaleBar, pin, numbered } = written;
+  const moved = <At extends { x: number; y: number }>(at: At) => ({ ...at, x: at.x * times, y: at.y * times });
+  return {
+    ...written, width: width * times, height: height * times, scaleBar: { ...scaleBar, length: scaleBar.length * times },
+    pin: pin && moved(pin), numbered: numbered.map(moved),
+  };
+}
+
 const pinAside = 34, pinAbove = 40, border = 6;
 export const edgeNames = ["top", "bottom", "left", "right"] as const;
 

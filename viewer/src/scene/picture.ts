@@ -122,7 +122,7 @@ function drawNumber(context: CanvasRenderingContext2D, x: number, y: number, num
 function drawPin(context: CanvasRenderingContext2D, written: Written): void {
   const { x, y, label } = written.pin!;
   context.font = font(14, "600");
-  const width = context.measureText(label).width + 16, height = 26, at = placeOfLabel(written, width, height);
+  const width = Math.min(context.measureText(label).width + 16, written.width - 12), height = 26, at = placeOfLabel(written, width, height);
   context.strokeStyle = ink;
   context.lineWidth = 1.5;
   context.beginPath();
@@ -136,5 +136,5 @@ function drawPin(context: CanvasRenderingContext2D, written: Written): void {
   context.fillRect(at.x, at.y, width, height);
   context.strokeRect(at.x, at.y, width, height);
   context.fillStyle = ink;
-  context.fillText(label, at.x + 8, at.y + height / 2 + 1);
+  context.fillText(label, at.x + 8, at.y + height / 2 + 1, width - 16);
 }

@@ -9,7 +9,7 @@ import { directionOnto, directionPast, type Standing } from "./contact_view";
 import { heightOfJoint, radiusOfNeighbours } from "./framing";
 import { aside, JointCamera } from "./joint_camera";
 import { Lights } from "./lights";
-import { SceneOverlay, type Written } from "./overlay";
+import { enlarged, SceneOverlay, type Written } from "./overlay";
 import { Picker, type Picked, type PickedPoint } from "./picking";
 import { composedPicture } from "./picture";
 import { lettersOf, scaleBarLength, viewDirections, type Three, type View } from "./views";
@@ -243,13 +243,15 @@ export class JointScene {
     return this.renderer.domElement;
   }
 
-  /// The scene with a title, ribbon, letters, scale bar, legend and pin, on white; at least so many pixels wide.
-  pictureCanvas(title: string, ribbon: string | null = null, width_px = 0): HTMLCanvasElement {
+  /// The scene with a title, ribbon, letters, scale bar, legend and pin, on white; at least so many pixels wide. Letters have their size
+  /// where it is shown in `within`, in pixels of the page.
+  pictureCanvas(title: string, ribbon: string | null = null, width_px = 0, within: { width: number; height: number } | null = null): HTMLCanvasElement {
     const { renderer } = this, ratio = renderer.getPixelRatio(), { clientWidth: width, clientHeight: height } = this.place;
     const fine = width_px ? Math.max(ratio, Math.min(width_px / width, mostPixels / Math.max(width, height))) : ratio;
     renderer.setPixelRatio(fine);
     this.drawNow(true);
-    const picture = composedPicture(this.canvas, fine, title, ribbon, this.written(), this.scale);
+    const times = within ? Math.min(within.width / width, within.height / height) : 1;
+    const picture = composedPicture(this.canvas, fine / times, title, ribbon, enlarged(this.written(), times), this.scale);
     renderer.setPixelRatio(ratio);
     if (fine !== ratio) this.drawNow(true);
     return picture;
