@@ -111,18 +111,18 @@ test("a loaded knee opens on its largest pressure, in that frame, with area, for
   await page.context().close();
 });
 
-test("limits of a loaded knee stand under the place in which it is held, and never in place of the load", { skip: !has("knee") && "not made" }, async () => {
+test("limits of a loaded knee stand under how far from the scan's place it is held, and never in place of the load", { skip: !has("knee") && "not made" }, async () => {
   const path = join(reports, "knee_apart.html");
   run("report", join(root, "tests/support/knee_by_hand/tibiofemoral.toml"), "--translation", "y=-3", "--load", "--out", path,
     "--motion", join(data, "knee_lenhart2015_right/passive_flexion_states.sto"));
   const { page, complaints } = await openPage(browser, path, { reducedMotion: "reduce" });
   await settled(page);
   assert.match(await page.locator("#sentence").textContent(), /^Peak pressure /);
-  assert.match(await page.locator("#paper").textContent(), /Limits held in the scan's place/);
+  assert.match(await page.locator("#paper").textContent(), /Limits held 3\.0 mm from the scan's place/);
   await openTab(page, "Motion");
-  await page.getByRole("heading", { name: "Limits held in the scan's place", exact: true }).waitFor();
+  await page.getByRole("heading", { name: "Limits held 3.0 mm from the scan's place", exact: true }).waitFor();
   await page.locator(".tile", { hasText: /^flexion / }).click();
-  await page.waitForFunction(() => /^Flexion ends at [\d.]+°, held in the scan's place, .*; no clinical range known\.$/.test(document.getElementById("sentence").textContent));
+  await page.waitForFunction(() => /^Flexion ends at [\d.]+°, held 3\.0 mm from the scan's place, .*; no clinical range known\.$/.test(document.getElementById("sentence").textContent));
   assert.deepEqual(complaints, []);
   await page.context().close();
 });

@@ -30,6 +30,12 @@ export function hasLimits({ rom, by_hand }: ReportText): boolean {
   return (by_hand?.before ?? rom?.motions ?? []).some(({ reason }) => reason !== "contact_at_start");
 }
 
+/// Where the translation of a free joint is held while it turns; null of a joint that is not held.
+export function heldOf({ rom, reference_mm }: ReportText): string | null {
+  const held = rom?.held_translation_mm;
+  return held ? words.held(fixed(Math.hypot(...held.map((mm, i) => mm - reference_mm[i]!)), 1)) : null;
+}
+
 /// "arc 161.0° with extension", from contact to contact: comparable wherever zero is.
 function arcText({ vary, sense, start_deg, limit_deg, reason }: MotionAnswer, motions: readonly MotionAnswer[], isNarrow: boolean): string {
   const isSame = (start: Record<string, number>) => Object.entries(start_deg).every(([name, deg]) => start[name] === deg);

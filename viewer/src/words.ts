@@ -170,8 +170,8 @@ export const words = {
   forceThen: "force then",
   loadSentence: ([peak, area, force, shares]: readonly { name: string; value: string }[], at: string) =>
     `Peak pressure ${peak!.value} at ${at}: ${area!.value} in contact carry ${force!.value}${shares ? `, ${shares.name} ${shares.value}` : ""}.`,
-  heldLimits: "Limits held in the scan's place",
-  held: "held in the scan's place",
+  heldLimits: (held: string) => `Limits ${held}`,
+  held: (away_mm: string) => (away_mm === "0.0" ? "held in the scan's place" : `held ${away_mm} mm from the scan's place`),
   largest: (title: string) => `largest ${title}`,
   curvesCaption: "The line is the frame that the scene shows: drag it, or use arrow keys.",
   plateau: (name: string, quantity: string) => `${name} from above, front up: ${quantity}`,

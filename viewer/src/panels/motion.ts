@@ -2,7 +2,7 @@ import { button, html, namesOf, spaced, svg } from "../dom";
 import type { Coordinates, Depth, Nearest, Shown } from "../core/protocol";
 import { fixed, plain } from "../numbers";
 import type { Interval, MotionAnswer, ReportText } from "../report";
-import { hasLimits, shownBand } from "../result";
+import { hasLimits, heldOf, shownBand } from "../result";
 import { prefersStill } from "../scene/camera_turn";
 import { words } from "../words";
 import { NumberField } from "./angle_field";
@@ -81,12 +81,13 @@ export class MotionPanel {
     if (report.joint.kind === "free") rows.push(html("div", { class: "row translations" }, ...axes.map((axis) => this.moveAlong(axis))));
     this.sliders.forEach((slider, i) => this.write(slider, this.angles[i]!));
     this.grid = this.gridOf(report);
+    const held = heldOf(report);
     this.undoButton = button(words.undo, hooks.undo, { disabled: true, title: words.undoKey });
     this.element = html("section", { "aria-label": words.motion }, this.status.element, html("div", { class: "sliders" }, ...rows),
       html("div", { class: "row motion-row no-print" },
         button(words.reset, () => (showStored ? showStored("reference") : this.goTo([...report.reference_deg], () => undefined, report.reference_mm)),
           { disabled: !this.hasPose("reference") }), this.undoButton, this.refusal),
-      ...(this.grid ? [...(report.rom!.held_translation_mm ? [html("h3", {}, words.heldLimits)] : []), this.grid.element] : []));
+      ...(this.grid ? [...(held === null ? [] : [html("h3", {}, words.heldLimits(held))]), this.grid.element] : []));
   }
 
   /// The joint is another one now.

@@ -7,7 +7,7 @@ import { planCurveDrawing } from "../plots/plan_curve";
 import { SweepMap } from "../plots/sweep_map";
 import { fromBefore, ribbonOf } from "../planned";
 import { scopeOf, type ReportText } from "../report";
-import { bandText, comparedText, firstFigures, hasLimits, headlineMotion, notesBeside, zeroOf } from "../result";
+import { bandText, comparedText, firstFigures, hasLimits, headlineMotion, heldOf, notesBeside, zeroOf } from "../result";
 import { motionName, words } from "../words";
 import { comparisonTable } from "./compare";
 import { headingOf } from "./header";
@@ -30,7 +30,7 @@ export class Paper {
   constructor(
     text: ReportText, counts: { fixed: [number, number]; mobile: [number, number] }, extremes: readonly Extreme[], sweep: ShownSweep | null,
     ofLoad: string | null, recorded: Drawing | null) {
-    const { rom, map } = text, headline = headlineMotion(text), isLimited = hasLimits(text);
+    const { rom, map } = text, headline = headlineMotion(text), isLimited = hasLimits(text), held = heldOf(text);
     const figures = rom && isLimited && ofLoad === null
       ? firstFigures(text).map((motion) =>
         [motionName(motion.name), fromBefore(text, motion), bandText(motion), comparedText(motion, rom, zeroOf(rom))] as const)
@@ -50,7 +50,7 @@ export class Paper {
       this.sentence,
       ...(notes.length ? [html("p", { class: "warning" }, html("b", {}, words.noted(notes.length)), " ", notes.map((note) => note.text).join("; "))] : []),
       html("div", { class: "paper-picture" }, this.image, this.caption),
-      ...(isLimited && rom!.held_translation_mm ? [html("h3", {}, words.heldLimits)] : []),
+      ...(isLimited && held !== null ? [html("h3", {}, words.heldLimits(held))] : []),
       ...(rom && isLimited ? [html("div", { class: "paper-figures" }, drawn(limitsDrawing(rom.motions)), ...(clock ? [drawn(clock, 290, 215)] : []))] : []),
       ...(text.plan
         ? [html("div", { class: "paper-plan" }, ...planInShort(text.plan, namesOf(text.joint)))]

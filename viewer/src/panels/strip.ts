@@ -3,7 +3,7 @@ import { clockTime, fixed } from "../numbers";
 import { fromBefore, isPlanned } from "../planned";
 import type { Nearest } from "../core/protocol";
 import type { MotionAnswer, ReportText, RomAnswer } from "../report";
-import { bandText, comparedText, deficitOf, firstFigures, gradeOf, hasLimits, headlineMotion, limitAlone, notesBeside, worstOf, wrongOf, zeroOf } from "../result";
+import { bandText, comparedText, deficitOf, firstFigures, gradeOf, hasLimits, headlineMotion, heldOf, limitAlone, notesBeside, worstOf, wrongOf, zeroOf } from "../result";
 import type { BodyName } from "../scene/body_names";
 import { motionName, words } from "../words";
 
@@ -68,7 +68,7 @@ function sentenceOnEnd(motion: MotionAnswer, report: ReportText): string {
   if (motion.reason === "contact_at_start") return words.startsInContactSentence(name);
   if (motion.translation_ends) return words.translationSentence(name, limitAlone(motion));
   if (motion.reason === "end_of_range") return words.freeSentence(name, fixed(motion.limit_deg, 0), namesOf(report.joint));
-  const limit = [fromBefore(report, motion), bandText(motion)].filter(Boolean).join(" "), held = report.rom!.held_translation_mm ? words.held : null;
+  const limit = [fromBefore(report, motion), bandText(motion)].filter(Boolean).join(" "), held = heldOf(report);
   return words.endsSentence(name, limit, held, placeOf(motion, report), livingOf(motion), compared(motion, report.rom!));
 }
 
