@@ -66,6 +66,10 @@ knee=$data/knee_lenhart2015_right
 if [ -d "$knee" ]; then
   CONDYLE_DATA=$data "$condyle" report tests/support/knee_by_hand/tibiofemoral.toml --load --accept-reference-contact \
     --motion "$knee/passive_flexion_states.sto" --out "$out/knee.html"
+  # Its bones, which are closed.
+  sed -e '/^\[contact\]/,$d' -e 's/femur_cartilage/femur_bone/; s/tibia_cartilage/tibia_bone/; s/femoral cartilage/femur/; s/tibial cartilage/tibia/' \
+    tests/support/knee_by_hand/tibiofemoral.toml >"$out/knee_bones.toml"
+  CONDYLE_DATA=$data "$condyle" report "$out/knee_bones.toml" --out "$out/knee_bones.html"
 else
   echo "the knee is skipped: $knee is not there" >&2
 fi

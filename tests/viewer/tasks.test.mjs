@@ -7,7 +7,7 @@ import { test } from "node:test";
 import { asSaid, has, openPage, pathOf, reports, root, settled, sharedBrowser } from "./browser.mjs";
 
 const browser = await sharedBrowser();
-const condyle = join(root, "build/release/condyle");
+const condyle = join(root, "build/release/condyle"), data = join(root, "../shared/data");
 
 /// Lines of text that can be read: in the window, and neither covered nor clipped. Text of one button or cell is one line.
 function seenText(page) {
@@ -48,35 +48,38 @@ async function press(page, role, name) {
 
 const clock = (hour) => `${Math.floor(Math.round(hour * 60) / 60) || 12}:${String(Math.round(hour * 60) % 60).padStart(2, "0")}`;
 
-/// The motion that limits the hip, by the rule of docs/report.md: what lacks most of its clinical range, else internal rotation in flexion.
-function limiting(motions) {
+/// The motion that limits the joint, by the rule of docs/report.md: what lacks most of its clinical range, else internal rotation in flexion of a
+/// hip and the first one that contact ends of a knee.
+function limiting({ motions, anatomy }) {
   const lacks = ({ reason, limit_deg, normal_range_deg }) => (reason === "contact" && normal_range_deg !== null ? normal_range_deg - limit_deg : 0);
   const worst = [...motions].sort((a, b) => lacks(b) - lacks(a))[0];
-  return lacks(worst) > 0 ? worst : motions.find(({ name }) => name === "internal_rotation_at_90_flexion");
+  if (lacks(worst) > 0) return worst;
+  return motions.find(({ name, reason }) => (anatomy === "hip" ? name === "internal_rotation_at_90_flexion" : reason === "contact"));
 }
 
-const hips = {
-  sample: { joint: "sample/hip.toml", band: true }, shifted: { joint: "sample/shifted.toml", band: false },
-  vhf_right: { joint: "vhf_right.toml", band: false }, libhip_left: { joint: "libhip_left.toml", band: false },
+/// By their pages, what the command is asked of them.
+const joints = {
+  sample: ["sample/hip.toml", "--band=20"], shifted: ["sample/shifted.toml"], vhf_right: ["vhf_right.toml"], libhip_left: ["libhip_left.toml"],
+  knee_bones: ["knee_bones.toml"],
 };
 
-for (const [name, { joint, band }] of Object.entries(hips))
+for (const [name, asked] of Object.entries(joints))
   test(`five questions are answered from what is read on the page of ${name}`, { skip: !has(name) && "not made" }, async (t) => {
     const { page, complaints } = await openPage(browser, pathOf(name), { width: 1440, height: 900, reducedMotion: "reduce" });
     await settled(page);
-    const { motions, zero } = JSON.parse(execFileSync(condyle, ["rom", join(reports, joint), "--json", ...(band ? ["--band=20"] : [])], { stdio: ["ignore", "pipe", "ignore"] }));
-    const first = limiting(motions), seen = await seenText(page);
+    const rom = JSON.parse(execFileSync(condyle, ["rom", ...asked, "--json"], { cwd: reports, env: { CONDYLE_DATA: data, ...process.env }, stdio: ["ignore", "pipe", "ignore"] }));
+    const { motions, zero, anatomy, held_translation_mm: held } = rom, isHip = anatomy === "hip", first = limiting(rom), seen = await seenText(page);
     const sentence = seen.find((line) => / ends at /.test(line));
     assert.ok(sentence, seen.join("\n"));
     t.diagnostic(sentence);
 
-    // What limits this hip: a motion, and the parts that meet.
+    // What limits this joint: a motion, and the parts that meet.
     const [, motion, limit, rest] = /^(.+) ends at ([\d.]+)°(.*)\.$/.exec(sentence);
     assert.equal(motion.toLowerCase(), asSaid(first.name).toLowerCase());
-    assert.match(rest, /, (neck on rim|femur on hip bone)\b/);
-    // By how much, against normal.
+    assert.match(rest, isHip ? /, (neck on rim|femur on hip bone)\b/ : /, tibia on femur;/);
+    // By how much, against normal, or where zero is that of a scan as the arc between the ends of opposite motions.
     assert.equal(limit, first.limit_deg.toFixed(1));
-    const against = !zero.is_neutral ? `no clinical range, as zero is ${zero.from === "as_given" ? "the pose of the scan" : "not known to be neutral"}` : first.normal_range_deg !== null && first.limit_deg < first.normal_range_deg
+    const against = !isHip ? "no clinical range known" : !zero.is_neutral ? `no clinical range, as zero is ${zero.from === "as_given" ? "the pose of the scan" : "not known to be neutral"}` : first.normal_range_deg !== null && first.limit_deg < first.normal_range_deg
       ? `${(first.normal_range_deg - first.limit_deg).toFixed(0)}° short of the clinical ${first.normal_range_deg}°`
       : "no motion ends before its clinical range or the 27.9° of simulated healthy hips";
     assert.ok(rest.endsWith(`; ${against}`), rest);
@@ -85,10 +88,23 @@ for (const [name, { joint, band }] of Object.entries(hips))
     // Where: the hour; and by how much a living hip stops earlier.
     const living = first.living?.expected_deg ? `, living hips some ${(first.limit_deg - first.living.expected_deg).toFixed(0)}° earlier` : "";
     if (first.clock_hour !== null) assert.ok(rest.includes(`neck on rim at ${clock(first.clock_hour)}${living};`), rest);
-    else assert.ok(rest.includes(`away from the rim${living};`), rest);
+    else if (isHip) assert.ok(rest.includes(`away from the rim${living};`), rest);
+    else assert.ok(rest.startsWith(", held in the scan's place,"), rest);
     // How sure: the band, or that there is none, and how to get one.
-    if (band) assert.ok(rest.startsWith(` (${first.band.p5_deg.toFixed(0)}–${first.band.p95_deg.toFixed(0)})`), rest);
+    if (first.band) assert.ok(rest.startsWith(` (${first.band.p5_deg.toFixed(0)}–${first.band.p95_deg.toFixed(0)})`), rest);
     else assert.ok(seen.some((line) => /No band was asked for: condyle report --band/.test(line)), seen.join("\n"));
+    if (!isHip) {
+      const { limit_deg: opposite_deg } = motions.find(({ name: each }) => each === "extension");
+      await press(page, "button", `flexion ${limit}° arc ${(first.limit_deg + opposite_deg).toFixed(1)}° with extension`);
+      await settled(page);
+      // Where the surfaces meet has a pin now, which takes no pointer.
+      assert.deepEqual(await page.locator(".scene-pin:visible").allTextContents(), ["tibia on femur"]);
+      const [pin, point] = await page.evaluate((at) => {
+        const ring = document.querySelector(".scene-pin-drawing .ring");
+        return [["cx", "cy"].map((name) => Number(ring.getAttribute(name))), condyle.scene.project(at)];
+      }, first.contact_point_mm);
+      assert.ok(Math.hypot(pin[0] - point[0], pin[1] - point[1]) < 0.2, `${pin} for ${point}`);
+    }
     if (beyond) {
       await page.locator(".result", { hasText: /^flexion / }).click();
       await settled(page);
@@ -112,7 +128,7 @@ for (const [name, { joint, band }] of Object.entries(hips))
     const [before, after] = row.slice(1, 3).map((said) => Number(said.replace(/[>°]/g, "")));
     const names = Object.keys(first.start_deg);
     const now = await page.evaluate((question) => condyle.query({ of: "limit", limit: question }), {
-      start: Object.values(first.start_deg), vary: names.indexOf(first.vary), positive: first.sense === "positive", range_deg: first.range_deg,
+      start: Object.values(first.start_deg), ...(held ? { held } : {}), vary: names.indexOf(first.vary), positive: first.sense === "positive", range_deg: first.range_deg,
     });
     assert.equal(before, Number(first.limit_deg.toFixed(1)));
     assert.equal(after, Number(now.turned_deg.toFixed(1)));
