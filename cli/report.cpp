@@ -203,7 +203,7 @@ void add_report(CLI::App& app) {
                       "Show this joint file, and compare it with JOINT. --set is for this one only");
   command->add_flag_callback(
       "--empty", [options] { options->content = Content::nothing; },
-      "Write a page without a joint, which takes the meshes of a hip that are dropped on it");
+      "Write a page without a joint, which takes files that are dropped on it and has a sample hip to try");
   command->add_option("--out", options->out, "Write the page to this file, .html")
       ->required()
       ->option_text("FILE");

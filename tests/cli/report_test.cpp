@@ -321,6 +321,8 @@ TEST_F(ReportCommand, WithoutAJointIsThePageThatTakesOne) {
   const std::string page = io::read_whole_file(folder / "report.html");
   EXPECT_NE(page.find("<!--condyle-data-->"), page.npos);
   EXPECT_EQ(page.find("id=\"condyle-data\""), page.npos);
+  for (const std::string file : {"hip_bone.ply", "femur.ply", "hip.toml"})
+    EXPECT_NE(page.find("data-sample=\"" + file + "\""), page.npos) << file;
   fs::remove(folder / "report.html");
   expect_refused(2, "report joint.toml --empty --out report.html", "JOINT: is for a report of a joint");
   expect_refused(2, "report --empty --title x --out report.html", "--title: is for a report of a joint");

@@ -5,6 +5,7 @@ import { execFileSync } from "node:child_process";
 import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
+import { inflateSync } from "node:zlib";
 import { angleOf, drop, keep, openPage, openTab, reports, root, settled, sharedBrowser, type } from "./browser.mjs";
 import { assertCommandLimits } from "./command_limits.mjs";
 
@@ -62,6 +63,29 @@ test("a joint file dropped with its meshes on the page without a joint shows wha
     assert.ok(side.includes(said), said);
   assert.deepEqual([await alerts(page), complaints, requests], [[], [], []]);
   await page.context().close();
+});
+
+test("one press on the page without a joint opens the files of condyle sample hip, as if they were dropped", async () => {
+  const path = join(reports, "empty.html");
+  execFileSync(condyle, ["report", "--empty", "--out", path], { stdio: "ignore" });
+  const { page, complaints, requests } = await openPage(browser, path, { answers: false });
+  for (const name of ["hip.toml", "hip_bone.ply", "femur.ply"]) {
+    const packed = await page.locator(`[data-sample="${name}"]`).textContent();
+    assert.ok(inflateSync(Buffer.from(packed, "base64")).equals(readFileSync(sample(name))), name);
+  }
+  const begin = page.getByRole("button", { name: "Try it with a sample hip", exact: true });
+  await begin.waitFor();
+  await keep(page, "empty_sample");
+  await begin.click();
+  await shows(page, "^Right hip");
+  await assertLimits(page, answer("rom", sample("hip.toml")));
+  assert.deepEqual([await begin.count(), await alerts(page), complaints, requests], [0, [], [], []]);
+  await page.context().close();
+  // Without these files there is nothing to press.
+  const other = await openPage(browser, empty, { answers: false });
+  await other.page.getByText("This page holds no joint").waitFor();
+  assert.equal(await other.page.getByRole("button", { name: /sample/ }).count(), 0);
+  await other.page.context().close();
 });
 
 test("the parts of a dropped joint turn, with the command's limits, and a motion file plays on it", async () => {

@@ -2,6 +2,7 @@ import { CoreClient } from "./core/client";
 import { lineOf } from "./core/error_line";
 import type { NamedFile, Proposal } from "./core/protocol";
 import { named } from "./dom";
+import { bytesOf, inflated } from "./packed";
 import { isJointFile } from "./panels/drop";
 import { Report, type ReportText } from "./report";
 import { isCoreDamage, wasmBytes } from "./stored_core";
@@ -41,6 +42,14 @@ export async function readJoint(files: readonly NamedFile[]): Promise<Report> {
   const wasm = await wasmBytes(), { core, answer } = await CoreClient.begin("jointFile", { wasm, file: joint!, files }, [wasm]);
   core.close();
   return Report.of(answer);
+}
+
+/// The files of the sample hip that the page without a joint has; null on other pages.
+export function sampleFiles(): (() => Promise<NamedFile[]>) | null {
+  const stored = [...document.querySelectorAll<HTMLElement>("[data-sample]")];
+  const fileOf = async ({ dataset: { sample: path = "" }, textContent }: HTMLElement) =>
+    ({ path, file: new File([await inflated(bytesOf(textContent!), "deflate")], path) });
+  return stored.length ? () => Promise.all(stored.map(fileOf)) : null;
 }
 
 /// Reason why files were not taken, in a line.

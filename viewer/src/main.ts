@@ -1,8 +1,8 @@
 import { CoreClient } from "./core/client";
 import { lineOf } from "./core/error_line";
 import type { JointArrays, Proposal } from "./core/protocol";
-import { found, html, named, textOf } from "./dom";
-import { readJoint, reasonOf, textOfProposal } from "./dropped_joint";
+import { button, found, html, named, textOf } from "./dom";
+import { readJoint, reasonOf, sampleFiles, textOfProposal } from "./dropped_joint";
 import { jointArraysOf } from "./joint_arrays";
 import { clearMessages, post, warn } from "./messages";
 import { copiedOf, type Copied } from "./notes_block";
@@ -18,7 +18,8 @@ import { words } from "./words";
 function openEmpty(shown: () => void = () => undefined): DropPanel | undefined {
   if (!canCompute) return void warn(words.noWebAssemblyToRead);
   found("title").textContent = words.noData;
-  found("scene").append(html("p", { class: "drop-hint" }, words.dropHint));
+  const sample = sampleFiles(), trySample = () => void sample!().then((files) => panel.add(files)).catch(refuse);
+  found("scene").append(html("p", { class: "drop-hint" }, words.dropHint, ...(sample ? [button(words.trySample, trySample)] : [])));
   const drops = new AbortController();
   const warnOnly = (message: string) => {
     clearMessages();

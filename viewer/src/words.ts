@@ -480,6 +480,7 @@ export const words = {
     "motion file (.mot, .sto, .csv).",
   dropMotionLater: (name: string) => `${name} is a motion file, which plays on a joint: drop the joint first.`,
   votes: "How this was inferred",
+  trySample: "Try it with a sample hip",
   dropHint: "Drop the meshes of a hip on this page, a label map, or a joint file with its meshes",
   dropTwo: "A joint has two meshes: drop both together, or one after the other.",
   dropBusy: "The page is still reading the files dropped before.",

@@ -8,6 +8,7 @@
 #include "io/file/whole_file.hpp"
 #include "io/mesh/float_valued.hpp"
 #include "io/mesh/parse.hpp"
+#include "io/mesh/ply_bytes.hpp"
 
 static_assert(std::endian::native == std::endian::little,
               "PLY files are written as the machine has the numbers");
@@ -21,7 +22,7 @@ void append(std::string& bytes, T value) {
 }
 
 template <class Coordinate>
-std::string ply_bytes(const TriMesh& mesh, std::string_view coordinate_name) {
+std::string bytes_of(const TriMesh& mesh, std::string_view coordinate_name) {
   std::string bytes = fmt::format(
       "ply\nformat binary_little_endian 1.0\n"
       "element vertex {0}\nproperty {1} x\nproperty {1} y\nproperty {1} z\n"
@@ -47,11 +48,15 @@ void write_ply(const std::filesystem::path& path, const TriMesh& mesh) {
   if (mesh.vertices.size() > std::numeric_limits<std::int32_t>::max()) {
     throw FileError(path.string() + ": cannot be written: more vertices than a PLY file can number");
   }
-  io::write_whole_file(path, io::is_float_valued(mesh.vertices) ? ply_bytes<float>(mesh, "float")
-                                                                : ply_bytes<double>(mesh, "double"));
+  io::write_whole_file(path, ply_bytes(mesh));
 }
 
 }  // namespace
+
+std::string ply_bytes(const TriMesh& mesh) {
+  return io::is_float_valued(mesh.vertices) ? bytes_of<float>(mesh, "float")
+                                            : bytes_of<double>(mesh, "double");
+}
 
 void check_written_mesh(const std::filesystem::path& path) {
   const auto extension = io::lower_case(path.extension().string());

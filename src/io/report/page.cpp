@@ -1,5 +1,7 @@
 #include "io/report/page.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <stdexcept>
@@ -9,6 +11,7 @@
 #include "io/report/data_block.hpp"
 #include "io/report/report.hpp"
 #include "io/result/provenance_forms.hpp"
+#include "io/result/sample_files.hpp"
 
 namespace condyle::io {
 namespace {
@@ -29,17 +32,24 @@ std::string base64(std::string_view bytes) {
   return out;
 }
 
-}  // namespace
+/// An element of bytes, compressed, so that nothing in it can be markup.
+std::string stored(std::string_view attribute, std::string_view bytes) {
+  return fmt::format("<script type=\"application/octet-stream\" {}>{}</script>", attribute,
+                     base64(deflated(bytes)));
+}
 
-std::string page_with(std::string_view page_template, std::string_view block) {
+/// The template with a text in its one place.
+std::string filled(std::string_view page_template, const std::string& text) {
   const std::size_t at = page_template.find(place);
   if (at == page_template.npos || page_template.find(place, at + 1) != page_template.npos)
     throw std::logic_error("the template of the report does not have exactly one place for its data");
-  std::string page(page_template.substr(0, at));
-  page += "<script type=\"application/octet-stream\" id=\"condyle-data\">";
-  page += base64(deflated(block));
-  page += "</script>";
-  return page += page_template.substr(at + place.size());
+  return fmt::format("{}{}{}", page_template.substr(0, at), text, page_template.substr(at + place.size()));
+}
+
+}  // namespace
+
+std::string page_with(std::string_view page_template, std::string_view block) {
+  return filled(page_template, stored("id=\"condyle-data\"", block));
 }
 
 std::string report_html(const Report& report) {
@@ -58,7 +68,11 @@ void write_report(const std::filesystem::path& path, const Report& report) {
 }
 
 std::string empty_report_html() {
-  return std::string(io::report_template());
+  std::string files(place);
+  for (const auto& [name, bytes] :
+       sample_hip_files(sample::sample_hip({}, sample::Scenario::one), Side::right))
+    files += stored(fmt::format("data-sample=\"{}\"", name), bytes);
+  return filled(io::report_template(), files);
 }
 
 void write_empty_report(const std::filesystem::path& path) {

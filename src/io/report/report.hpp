@@ -93,7 +93,7 @@ void check_report_file(const std::filesystem::path& path, const Provenance* from
 /// Writes it: whole or not at all; a folder that is missing is made. Throws FileError.
 void write_report(const std::filesystem::path& path, const Report& report);
 
-/// The page without a joint: it takes two mesh files that are dropped on it, in any browser.
+/// The page without a joint: it takes files that are dropped on it, in any browser, and has those of the sample hip to try.
 std::string empty_report_html();
 /// Writes it; as write_report().
 void write_empty_report(const std::filesystem::path& path);

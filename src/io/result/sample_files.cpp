@@ -19,6 +19,7 @@
 #include "io/joint/implant_parts.hpp"
 #include "io/joint/implant_table.hpp"
 #include "io/joint/part_tables.hpp"
+#include "io/mesh/ply_bytes.hpp"
 #include "mesh/voxelise.hpp"
 #include "plan/joined_body.hpp"
 
@@ -95,12 +96,15 @@ BonesAround bones_around(const plan::ImplantMeshes& meshes) {
 
 }  // namespace
 
-void write_sample_hip(OutputFolder& out, const sample::SampleHip& hip, Side side) {
+std::vector<FileBytes> sample_hip_files(const sample::SampleHip& hip, Side side) {
   const BodyFile hip_bone = {"hip bone", "hip_bone.ply"}, femur = {"femur", "femur.ply"};
-  write_mesh(out.file(hip_bone.mesh), hip.hip_bone);
-  write_mesh(out.file(femur.mesh), hip.femur);
-  io::write_whole_file(out.file("hip.toml"),
-                       joint_file_text(fmt::format("sample {} hip", name_of(side)), hip_bone, femur, side));
+  return {{hip_bone.mesh, ply_bytes(hip.hip_bone)},
+          {femur.mesh, ply_bytes(hip.femur)},
+          {"hip.toml", joint_file_text(fmt::format("sample {} hip", name_of(side)), hip_bone, femur, side)}};
+}
+
+void write_sample_hip(OutputFolder& out, const sample::SampleHip& hip, Side side) {
+  for (const auto& [name, bytes] : sample_hip_files(hip, side)) io::write_whole_file(out.file(name), bytes);
 }
 
 void write_sample_implant(OutputFolder& out, const plan::ImplantMeshes& meshes, const plan::Implant& implant,

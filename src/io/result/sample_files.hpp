@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "condyle/control.hpp"
@@ -16,8 +17,15 @@
 
 namespace condyle::io {
 
-/// Puts a sample hip into a folder as a joint that everything else reads: hip_bone.ply, femur.ply and
-/// hip.toml. The meshes are those of the side given, already mirrored for a left hip.
+/// A file that is to be written.
+struct FileBytes {
+  std::string name, bytes;
+};
+
+/// A sample hip as a joint that everything else reads: hip_bone.ply, femur.ply and hip.toml. The meshes are those of the side
+/// given, already mirrored for a left hip.
+std::vector<FileBytes> sample_hip_files(const sample::SampleHip& hip, Side side);
+/// Puts them into a folder.
 void write_sample_hip(OutputFolder& out, const sample::SampleHip& hip, Side side);
 
 /// Puts a label map of a sample hip into a folder, labels.nii.gz: cubes of this width, in mm, with the labels that
