@@ -282,6 +282,7 @@ struct Ligament {
   double stiffness_n =
       0;  ///< k, the slope of tension over strain once all fibres carry; 0: it has no tension
   double transition_strain = 0.06;  ///< above which they do, 0 or more
+  double slack_sigma_mm = 0;        ///< standard deviation of the slack length, for bands
   /// Above 0: a motion ends where the strain reaches this.
   std::optional<double> ends_at_strain = {};
 };

@@ -60,10 +60,10 @@ void members(T& value, const Each& each) {
   } else if constexpr (is_one_of<Struct, BodyPart, CylinderFit, io::LayerEntry, LigamentWrap>) {
     auto& [a, b, c, d, e, f, g] = value;
     each(a, b, c, d, e, f, g);
-  } else if constexpr (is_one_of<Struct, PosedPart, io::MeshEntry, Ligament>) {
+  } else if constexpr (is_one_of<Struct, PosedPart, io::MeshEntry>) {
     auto& [a, b, c, d, e, f, g, h] = value;
     each(a, b, c, d, e, f, g, h);
-  } else if constexpr (is_one_of<Struct, PartParameter, io::ContactEntry, io::ColumnOfCoordinate>) {
+  } else if constexpr (is_one_of<Struct, PartParameter, io::ContactEntry, io::ColumnOfCoordinate, Ligament>) {
     auto& [a, b, c, d, e, f, g, h, i] = value;
     each(a, b, c, d, e, f, g, h, i);
   } else if constexpr (is_one_of<Struct, JointPlacement>) {

@@ -42,6 +42,7 @@ py::list ligaments_of(const JointHandle& handle) {
     dict["fixed"] = rows_of(ligament.fixed);
     dict["mobile"] = rows_of(ligament.mobile);
     dict["slack_length_mm"] = ligament.slack_length_mm;
+    dict["slack_sigma_mm"] = ligament.slack_sigma_mm;
     dict["stiffness_n"] = ligament.stiffness_n;
     dict["transition_strain"] = ligament.transition_strain;
     dict["ends_at_strain"] = ligament.ends_at_strain;

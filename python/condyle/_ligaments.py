@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from typing import Any, Optional
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native
+from ._native import Joint as NativeJoint
 from ._words import Body, WrapShape
 
 
@@ -52,6 +53,8 @@ class Ligament:
         Its points on either body, from the insertion on, in that body's joint frame, mm.
     slack_length_mm : float
         Longer than this it is taut.
+    slack_sigma_mm : float
+        Its standard deviation, for bands.
     stiffness_n : float
         N per unit of strain; 0 if it has no tension.
     transition_strain : float
@@ -65,6 +68,7 @@ class Ligament:
     fixed: NDArray[np.float64]
     mobile: NDArray[np.float64]
     slack_length_mm: float
+    slack_sigma_mm: float
     stiffness_n: float
     transition_strain: float
     ends_at_strain: Optional[float]
@@ -100,12 +104,16 @@ class LigamentStates:
         return f"LigamentStates({len(self.names)} ligaments, {self.length_mm.shape[1:]} poses)"
 
 
-def ligaments_of(native: Any) -> tuple[Ligament, ...]:
-    return tuple(Ligament(**{**each, "wrap": each["wrap"] and LigamentWrap(**each["wrap"])})
-                 for each in _native.ligaments_of(native))
+def _ligament_of(given: dict[str, Any]) -> Ligament:
+    wrap = given.pop("wrap")
+    return Ligament(wrap=None if wrap is None else LigamentWrap(**wrap), **given)
 
 
-def ligament_states(native: Any, poses: Any) -> LigamentStates:
+def ligaments_of(native: NativeJoint) -> tuple[Ligament, ...]:
+    return tuple(_ligament_of(each) for each in _native.ligaments_of(native))
+
+
+def ligament_states(native: NativeJoint, poses: ArrayLike) -> LigamentStates:
     names = tuple(each["name"] for each in _native.ligaments_of(native))
     shape = (len(names), *np.shape(poses)[:-2])
     arrays = _native.ligament_states(native, poses)

@@ -358,6 +358,9 @@ std::size_t uncertain_parameters(const Joint& joint) {
   if (joint.posed)
     for (const PosedPart& part : joint.posed->parts)
       for (const PartParameter& parameter : part.parameters) count += parameter.sigma > 0;
+  // A joint has parts that move, or ligaments.
+  for (const Ligament& ligament : joint.ligaments)
+    count += ligament.ends_at_strain && ligament.slack_sigma_mm > 0;
   return count;
 }
 

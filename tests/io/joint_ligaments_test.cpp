@@ -10,6 +10,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "condyle/limit_band.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "support/test_meshes.hpp"
 
@@ -112,6 +113,19 @@ TEST_F(JointLigaments, EndTheMotionsOfABandToo) {
   EXPECT_NEAR(about[0].turned.radians(), limit.radians(), 1e-9);
   EXPECT_EQ(about[1].reason, motion::LimitReason::ligament);
   EXPECT_GT(std::abs(about[1].turned.radians() - limit.radians()), 1e-4);
+}
+
+TEST_F(JointLigaments, SpreadABandByWhatIsNotKnownOfTheirSlackLength) {
+  const Joint ball =
+      joint(string_over_ball + "slack_length = 40\nslack_sigma = 0.5\nends_at_strain = 0.05\n");
+  const motion::Motion flexion{.name = "flexion", .range = Angle::degrees(180)};
+  motion::BandOptions options{.samples = 400};
+  options.sigma = {.centre_mm = 0, .axes = {}, .surface_mm = 0, .surface_voxels = 0};
+  const motion::LimitBand band = motion::limit_bands(ball, {&flexion, 1}, {}, options).front();
+  // Wrapped over 24 mm, the angle grows with 1.05 times the slack length over the radius: 5 to 95 % are 3.29 deviations.
+  EXPECT_NEAR((band.p95 - band.p5).radians(), 3.29 * 0.5 * 1.05 / 24, 0.002);
+  EXPECT_NEAR(band.median.radians(), motion::RangeOfMotion(ball).limit(flexion).end.turned.radians(), 1e-3);
+  EXPECT_EQ(band.width_from.parameters, band.p95 - band.p5);
 }
 
 TEST_F(JointLigaments, HaveOneOfThreeSlackLengths) {

@@ -185,8 +185,8 @@ test("a plan's cut is the first step", async () => {
   await page.context().close();
 });
 
-test("bones are kept as STL with a joint file that names them, and whose they are", async () => {
-  withText("whose", ({ joint }) => (joint.person = { age: 31, sex: "female" }));
+test("bones are kept as STL with a joint file that names them, whose they are, and their ligaments", async () => {
+  withText("whose", ({ joint }) => Object.assign(joint, { person: { age: 31, sex: "female" }, ligaments: "\n[[ligament]]\nname = \"string\"\n" }));
   const { page } = await opened("whose");
   const { array } = readReport(pathOf("sample"));
   await changed(page, strokeAtLimit(page));
@@ -205,6 +205,7 @@ test("bones are kept as STL with a joint file that names them, and whose they ar
   }
   assert.match(toml, /^condyle = 1$/m);
   assert.match(toml, /^\[person\]\nage = 31\nsex = "female"$/m);
+  assert.match(toml, /^\[\[ligament\]\]\nname = "string"$/m);
   assert.match(toml, /^planned = "changed by strokes"$/m);
   assert.match(toml, /^\[mobile\.head\]/m);
   await page.context().close();

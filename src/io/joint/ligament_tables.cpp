@@ -78,6 +78,10 @@ DescribedLigament described_ligament(TomlTable& table, const JointDescription& j
   ligament.fixed = points("fixed");
   ligament.mobile = points("mobile");
   read_slack(table, joint, mm, out);
+  if (const auto sigma = table.number("slack_sigma")) {
+    if (*sigma < 0) table.fail("slack_sigma", "must be 0 or more");
+    ligament.slack_sigma_mm = mm * *sigma;
+  }
   if (table.has("stiffness_n")) ligament.stiffness_n = positive_number(table, "stiffness_n");
   if (const auto strain = table.number("transition_strain")) {
     if (*strain < 0) table.fail("transition_strain", "must be 0 or more");
@@ -154,6 +158,7 @@ std::string ligaments_text(std::span<const Ligament> ligaments, double mm) {
     if (ligament.stiffness_n > 0)
       text += fmt::format("stiffness_n = {}\ntransition_strain = {}\n", ligament.stiffness_n,
                           ligament.transition_strain);
+    if (ligament.slack_sigma_mm > 0) text += fmt::format("slack_sigma = {}\n", ligament.slack_sigma_mm / mm);
     if (ligament.ends_at_strain) text += fmt::format("ends_at_strain = {}\n", *ligament.ends_at_strain);
     if (ligament.wrap) text += wrap_text(*ligament.wrap, mm);
   }

@@ -135,16 +135,17 @@ struct DisplacedJoint::Parts {
     }
   }
 
-  /// Where a ligament ends a motion sooner than noted: its points stay on the bodies as given.
+  /// Where a ligament ends a motion sooner than noted: its points stay on the bodies as given, its slack length may be displaced.
   void take_ligaments(const Displacement& d, std::span<DisplacedLimit> out) const {
     const Pose X_FG = displaced_frame(d);
     const Pose A = inverted(X_ref_) * X_FG * X_ref_;
+    const LigamentLimits ligaments = ligaments_.displaced(d.parameters);
     for (const Group& group : groups_) {
       RotationLimits both;
       for (Limit* end : {&both.negative, &both.positive}) end->turned = Angle::radians(two_pi);
-      ligaments_.take_sooner(both,
-                             {X_FG.translation(), X_FG.linear() * axis_of(group.vary, system_, group.start)},
-                             X_FG * pose_at(system_, group.start) * inverted(A), group.range);
+      ligaments.take_sooner(both,
+                            {X_FG.translation(), X_FG.linear() * axis_of(group.vary, system_, group.start)},
+                            X_FG * pose_at(system_, group.start) * inverted(A), group.range);
       for (const std::size_t i : group.motions) {
         const Limit& end = motions_[i].sense == RotationSense::positive ? both.positive : both.negative;
         if (end.ligament && end.turned < out[i].turned) out[i] = {end.turned, end.reason};

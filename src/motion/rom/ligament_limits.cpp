@@ -27,6 +27,18 @@ LigamentLimits::LigamentLimits(const Joint& joint) {
     }
 }
 
+LigamentLimits LigamentLimits::displaced(std::span<const double> standard_deviations) const {
+  LigamentLimits out = *this;
+  if (standard_deviations.empty()) return out;
+  std::size_t k = 0;
+  for (Ligament& ligament : out.ligaments_) {
+    if (!(ligament.slack_sigma_mm > 0)) continue;
+    const double moved = ligament.slack_length_mm + standard_deviations[k++] * ligament.slack_sigma_mm;
+    ligament.slack_length_mm = std::max(moved, ligament.slack_length_mm / 1000);
+  }
+  return out;
+}
+
 core::ArcSet LigamentLimits::strained(const AxisFrame& axis_F, const Pose& X_FM) const {
   core::ArcSet all;
   for (const Ligament& ligament : ligaments_)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,10 @@ namespace condyle::motion {
 class LigamentLimits {
  public:
   explicit LigamentLimits(const Joint& joint);
+
+  /// With each slack length that has a standard deviation displaced by so many of it, in their order; as they are if none is given. A ligament keeps
+  /// a thousandth of its slack length at least.
+  LigamentLimits displaced(std::span<const double> standard_deviations) const;
 
   bool empty() const noexcept { return ligaments_.empty(); }
 
