@@ -190,33 +190,49 @@ constexpr bool can_be_null(IfEmpty if_empty) {
     return if_empty == IfEmpty::null || is_optional<typename Value::value_type>;
 }
 
+/// A text with members in braces, on as few lines as fit: they fill lines as those of other files of the page do.
+std::string braced(const std::string& before, const std::vector<std::string>& members,
+                   std::string_view after) {
+  constexpr std::size_t widest = 120;
+  const std::string whole = fmt::format("{}{{ {} }}{}\n", before, fmt::join(members, ", "), after);
+  if (whole.size() <= widest) return whole;
+  std::string lines, line = " ";
+  for (const std::string& member : members) {
+    if (line.size() + member.size() + 2 > widest) {
+      lines += line + "\n";
+      line = " ";
+    }
+    line += " " + member + ",";
+  }
+  return fmt::format("{}{{\n{}{}\n}}{}\n", before, lines, line, after);
+}
+
 template <class Record>
 std::string page_type() {
-  std::string checks;
+  std::vector<std::string> checks;
   for_each_field<Record>([&](const auto& field) {
     if (*field.key == 0) return;
     using Value = std::remove_cvref_t<decltype(std::declval<Record>().*std::get<0>(field.path))>;
     std::string check = check_of<Value>();
     if (can_be_null<Value>(field.if_empty)) check = "orNull(" + check + ")";
     if (field.if_empty == IfEmpty::left_out) check = "ifThere(" + check + ")";
-    checks += fmt::format("  {}: {},\n", field.key, check);
+    checks.push_back(fmt::format("{}: {}", field.key, check));
   });
-  return fmt::format("\n/// {}\nexport const {} = object({{\n{}}});\n", table<Record>.meaning,
-                     check_name(table<Record>.name), checks);
+  return fmt::format("\n/// {}\n", table<Record>.meaning) +
+         braced(fmt::format("export const {} = object(", check_name(table<Record>.name)), checks, ");");
 }
 
 /// Codes of the notes that are no findings.
 std::string note_grades() {
-  std::string grades;
+  std::vector<std::string> grades;
   for_each_enumerator<JointNoteCode>([&](JointNoteCode code) {
-    if (kinematics::is_wrong_set_up(code)) grades += fmt::format("  {}: \"wrong\",\n", name_of(code));
+    if (kinematics::is_wrong_set_up(code)) grades.push_back(fmt::format("{}: \"wrong\"", name_of(code)));
   });
   for_each_enumerator<RangeNoteCode>(
-      [&](RangeNoteCode code) { grades += fmt::format("  {}: \"remark\",\n", name_of(code)); });
+      [&](RangeNoteCode code) { grades.push_back(fmt::format("{}: \"remark\"", name_of(code))); });
   return "\n/// Notes by which no number holds, and those on how exact limits are, which `--strict` lets "
-         "pass; others are "
-         "findings.\nexport const noteGrades: Record<string, \"wrong\" | \"remark\"> = {\n" +
-         grades + "};\n";
+         "pass; others are findings.\n" +
+         braced("export const noteGrades: Record<string, \"wrong\" | \"remark\"> = ", grades, ";");
 }
 
 std::string page_records() {
