@@ -12,7 +12,7 @@ interface MeshFile {
 }
 
 /// Begins with what became of the meshes.
-type Became = "brushed" | "given";
+export type Became = "brushed" | "given";
 
 export function meshFilesOf(body: BodyName, parts: readonly Part[], became: Became): MeshFile[] {
   if (parts.length === 0) return [{ name: `${became}_${body}.stl`, part: null }];
@@ -98,7 +98,7 @@ export interface TurnedParts {
 }
 
 /// `X_FM` of the reference pose, row by row. Of a joint whose bones a brush changed, or with parts that were turned.
-export function jointFileOf(text: ReportText, X_FM: readonly number[], version: string, turned: TurnedParts | null = null): string {
+export function jointFileOf(text: ReportText, X_FM: readonly number[], version: string, turned: TurnedParts | null): string {
   const { joint, reference_deg, coordinates, parts } = text, became = turned ? "given" : "brushed";
   const isPosed = reference_deg.some((deg) => deg !== 0), isStated = (text.rom?.zero?.from ?? "as_given") !== "as_given";
   const body = (name: BodyName) => ["", `[${name}]`, `name = ${quoted(joint[name])}`,

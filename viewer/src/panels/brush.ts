@@ -2,17 +2,17 @@ import type { CoreClient } from "../core/client";
 import { lineOf } from "../core/error_line";
 import type { Brushed, Edit, JointArrays, LiveLimit, Stroke } from "../core/protocol";
 import { button, checkbox, choice, html, named, section } from "../dom";
-import { jointFileOf, meshFilesOf, stlOf } from "../joint_file";
 import { fixed } from "../numbers";
 import type { EndOfMotion, ReportText } from "../report";
 import { headlineMotion } from "../result";
-import { save, saveBlob } from "../save";
 import { bodyNames, type BodyName } from "../scene/body_names";
 import type { JointScene } from "../scene/scene";
 import { motionName, words } from "../words";
 import { NumberField } from "./angle_field";
 import { LiveLimits, questionsOf } from "./live_limits";
 import { Painter } from "./painter";
+import { saveJointFile, saveMeshes } from "./saved_files";
+import { vertexByNumber } from "./vertex_choice";
 
 const usual = { radius_mm: 6, depth_mm: 2 }, most = { radius_mm: 30, depth_mm: 20 }, least_mm = 0.1;
 
@@ -65,7 +65,7 @@ export class BrushPanel {
   private waiting: Asked[] = [];
 
   constructor(private readonly core: CoreClient, private readonly scene: JointScene | null, private readonly options: BrushOptions) {
-    const { text, names, limitsBefore } = options;
+    const { text, names, arrays, limitsBefore } = options;
     this.asked = questionsOf(text);
     this.latest = this.asked.map(() => null);
     const motions = this.asked.map(({ motion }) => motion);
@@ -75,8 +75,9 @@ export class BrushPanel {
     this.radius = this.sizeField(words.brushRadius, most.radius_mm, usual.radius_mm);
     this.depth = this.sizeField(words.brushDepth, most.depth_mm, usual.depth_mm);
     this.depth.input.title = words.brushDepthHelp;
-    this.vertex = html("input", { type: "number", min: 0, step: 1, value: 0, "aria-label": words.brushVertex });
-    const bodies = choice<BodyName>(words.brushBone, { mobile: names.mobile, fixed: names.fixed }, "mobile", () => this.saySize());
+    const { bodies, number, submit } = vertexByNumber({ body: words.brushBone, number: words.brushVertex, button: words.strokeAtVertex }, names,
+      (body) => arrays[body].vertices.length / 3 - 1, ({ body, vertex }) => void this.draw(body, [vertex], true, true), (why) => this.say(why));
+    this.vertex = number;
     this.bodies = bodies.querySelector("select")!;
     const paint = checkbox(words.paint, false, (on) => this.painter?.setActive(on));
     const shows = checkbox(words.showBrushed, false, () => this.showTaken());
@@ -95,14 +96,13 @@ export class BrushPanel {
         html("label", {}, `${words.brushRadius} `, this.radius.input), html("label", {}, `${words.brushDepth} `, this.depth.input)),
       html("div", { class: "row no-print" },
         choice<Stroke["action"]>(words.brushAction, words.brushActions, this.action, (action) => (this.action = action)), this.undoButton),
-      html("div", { class: "row no-print" }, bodies, this.vertex, button(words.strokeAtVertex, () => void this.strokeAtVertex())),
+      html("div", { class: "row no-print" }, bodies, number, submit),
       html("div", { class: "row no-print" }, this.motionChoice(motions.map(({ name }) => name)),
         button(words.strokeAtLimit, () => void this.strokeAtLimit())),
       this.said, this.limits.element,
       html("p", { class: "small" }, options.before.mobile || options.before.fixed ? `${words.planIsStart} ` : "", words.brushNote, " ", this.took),
-      html("div", { class: "row no-print" }, ...(scene ? [shows] : []), button(words.saveStl, () => this.saveMeshes()),
-        button(words.saveJointFile, () => void this.saveJointFile())));
-    this.element.classList.add("edit-panel");
+      html("div", { class: "row no-print" }, ...(scene ? [shows] : []), button(words.saveStl, () => saveMeshes(text, arrays, "brushed", (body) => this.verticesOf(body))),
+        button(words.saveJointFile, () => void saveJointFile(core, text))));
     this.limits.mark(this.shown);
     // Tables are built before the first stroke.
     this.element.addEventListener("focusin", () => void this.prepare(this.body));
@@ -131,10 +131,6 @@ export class BrushPanel {
     this.said.textContent = text;
   }
 
-  private saySize(): void {
-    this.vertex.max = String(this.options.arrays[this.body].vertices.length / 3 - 1);
-  }
-
   // -- edits ------------------------------------------------------------------------------------------------------------------------
 
   /// The bone is made ready for strokes, once; whether it is.
@@ -143,7 +139,6 @@ export class BrushPanel {
       edited: (changed) => {
         const brushed = (this.brushed[body] = changed as Brushed);
         if (!this.said.textContent) this.say(words.noStroke(fixed(brushed.edge_mm, 1)) + ` ${words.protectedBone(this.options.names[body], brushed.protectedVertices)}`);
-        this.saySize();
       },
       limit: () => undefined,
     }).then(() => true, (error: unknown) => {
@@ -215,12 +210,6 @@ export class BrushPanel {
     return this.ask({ of: "stroke", body, stroke: this.strokeOf(along), replaces: !isFirst }, rests);
   }
 
-  private async strokeAtVertex(): Promise<void> {
-    const last = this.options.arrays[this.body].vertices.length / 3 - 1, vertex = this.vertex.valueAsNumber;
-    if (!Number.isInteger(vertex) || vertex < 0 || vertex > last) return this.say(words.noVertex(this.options.names[this.body], last));
-    await this.draw(this.body, [vertex], true, true);
-  }
-
   /// At the vertex of the chosen bone that is nearest to where the shown motion ends now.
   private async strokeAtLimit(): Promise<void> {
     const { motion, question } = this.asked[this.shown]!, live = this.latest[this.shown];
@@ -252,19 +241,6 @@ export class BrushPanel {
       const before = this.options.before[body] ?? this.options.arrays[body].vertices;
       this.scene?.annotations.showRemoved(body, lowered?.length ? { vertices: lowered, before: threesOf(before, lowered) } : null);
     }
-  }
-
-  private saveMeshes(): void {
-    const { arrays, text } = this.options;
-    for (const body of bodyNames)
-      for (const { name, part } of meshFilesOf(body, text.parts[body], "brushed"))
-        saveBlob(name, stlOf({ vertices: this.verticesOf(body), triangles: arrays[body].triangles }, part, `condyle ${text.version} brushed ${body}`));
-  }
-
-  private async saveJointFile(): Promise<void> {
-    const { text } = this.options;
-    const { pose } = await this.core.query({ of: "pose", at: { angles: text.reference_deg, translation: text.reference_mm } });
-    save("brushed.toml", "application/toml", jointFileOf(text, Array.from(pose), text.version || (text.rom?.provenance?.version ?? "")));
   }
 }
 

@@ -37,7 +37,6 @@ export class CentrePanel {
     this.element = section(words.centre, html("p", { class: "small" }, words.centreHelp),
       ...axes.map((axis, i) => this.row(i, words.centreAlong[axis])),
       html("div", { class: "row no-print" }, button(words.centreReset, () => this.reset()), this.refusal), this.limits.element);
-    this.element.classList.add("edit-panel");
   }
 
   /// The joint itself is another one now, with these limits.

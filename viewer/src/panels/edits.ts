@@ -58,7 +58,10 @@ export function addEditPanels({ core, scene, text, arrays, report, brushed, turn
       limited(limits);
     },
   });
-  for (const panel of [parts?.sweep, brush, parts, centre]) if (panel) addPlanPanel(panel.element);
+  for (const panel of [parts?.sweep, brush, parts, centre]) {
+    panel?.element.classList.add("edit-panel");
+    if (panel) addPlanPanel(panel.element);
+  }
 }
 
 /// The surface of a bone before a plan cut it; null for an uncut bone.

@@ -31,8 +31,8 @@ export class NotesPanel {
       html("p", { class: "small" }, words.notesOfUserHelp),
       html("label", { for: "user-notes" }, words.notesText), this.text,
       html("h3", {}, words.pins), html("div", { class: "row" }, ...(scene ? [checkbox(words.pinOnBones, false, (on) => (this.isPinning = on))] : []),
-        ...vertexByNumber({ body: words.pinBone, number: words.pinVertex, button: words.pinHere }, names,
-          (body) => arrays[body].vertices.length / 3 - 1, (picked) => this.add(picked), (why) => (this.said.textContent = why))),
+        ...Object.values(vertexByNumber({ body: words.pinBone, number: words.pinVertex, button: words.pinHere }, names,
+          (body) => arrays[body].vertices.length / 3 - 1, (picked) => this.add(picked), (why) => (this.said.textContent = why)))),
       this.said, this.list);
     this.element.id = "notes-of-user";
     if (scene) listenToPresses(scene.canvas, (event) => {

@@ -1,15 +1,14 @@
 import type { CoreClient } from "../core/client";
 import type { JointArrays, LiveLimit, Turned } from "../core/protocol";
 import { button, checkbox, html, section } from "../dom";
-import { jointFileOf, meshFilesOf, stlOf } from "../joint_file";
 import type { ReportText, StoredPosed } from "../report";
-import { save, saveBlob } from "../save";
 import { bodyNames } from "../scene/body_names";
 import type { JointScene } from "../scene/scene";
 import { words } from "../words";
 import { liveEdit } from "./live_edit";
 import { LiveLimits, questionsOf } from "./live_limits";
 import { ParameterRow } from "./parameter_row";
+import { saveJointFile, saveMeshes } from "./saved_files";
 import { SweepPanel, type ShownSweep } from "./sweep";
 
 const ghostName = "parts";
@@ -43,8 +42,8 @@ export class PartsPanel {
   /// Where the bodies are now.
   private now: Turned | null = null;
 
-  constructor(private readonly core: CoreClient, private readonly scene: JointScene | null, private readonly options: PartsOptions) {
-    const { text, posed, sweep } = options;
+  constructor(core: CoreClient, private readonly scene: JointScene | null, private readonly options: PartsOptions) {
+    const { text, posed, sweep, arrays } = options;
     const asked = questionsOf(text), motions = asked.map(({ motion }) => motion);
     this.edit = liveEdit(core, asked.map(({ question }) => question), {
       edit: () => ({ of: "parts", values: this.textOf(this.rows.filter(({ isTurned }) => isTurned)) }),
@@ -70,9 +69,10 @@ export class PartsPanel {
       this.said, this.limits.element,
       html("p", { class: "small" }, text.rom?.implant ? "" : `${words.osseousOnly} `, words.partsNote, " ", this.took),
       html("p", { class: "small command-row" }, html("span", { "aria-hidden": "true" }, `${words.partsCommand}:`), this.option),
-      ...(canSave ? [html("div", { class: "row no-print" }, button(words.saveGivenStl, () => this.saveMeshes()),
-        button(words.saveJointFile, () => void this.saveJointFile()))] : []));
-    this.element.classList.add("edit-panel");
+      // Meshes as given: the joint file says where its parts stand.
+      ...(canSave ? [html("div", { class: "row no-print" },
+        button(words.saveGivenStl, () => saveMeshes(text, arrays, "given", (body) => arrays.posed![body].vertices ?? arrays[body].vertices)),
+        button(words.saveJointFile, () => void saveJointFile(core, text, { posed, values: this.values })))] : []));
     this.showValues();
   }
 
@@ -131,21 +131,5 @@ export class PartsPanel {
       const drawn = this.scene?.bodies[body];
       if (shown !== drawn?.hasGhost(ghostName)) drawn?.setGhost(ghostName, shown ? { vertices, triangles } : null);
     }
-  }
-
-  /// As given: the joint file says where its parts stand.
-  private saveMeshes(): void {
-    const { arrays, text } = this.options;
-    for (const body of bodyNames)
-      for (const { name, part } of meshFilesOf(body, text.parts[body], "given")) {
-        const vertices = arrays.posed![body].vertices ?? arrays[body].vertices;
-        saveBlob(name, stlOf({ vertices, triangles: arrays[body].triangles }, part, `condyle ${text.version} ${body} as given`));
-      }
-  }
-
-  private async saveJointFile(): Promise<void> {
-    const { text, posed } = this.options;
-    const { pose } = await this.core.query({ of: "pose", at: { angles: text.reference_deg, translation: text.reference_mm } });
-    save("turned.toml", "application/toml", jointFileOf(text, Array.from(pose), text.version, { posed, values: this.values }));
   }
 }

@@ -23,8 +23,8 @@ export class PointerPanel {
         this.first = null;
         scene.annotations.showDistance(null);
         this.readout.textContent = on ? words.measureFirst : "";
-      }), ...vertexByNumber({ body: words.vertexOf, number: words.vertexNumber, button: words.showVertex }, names,
-        (body) => scene.bodies[body].surface.vertices.length / 3 - 1, (picked) => this.take(picked), (why) => (this.readout.textContent = why))));
+      }), ...Object.values(vertexByNumber({ body: words.vertexOf, number: words.vertexNumber, button: words.showVertex }, names,
+        (body) => scene.bodies[body].surface.vertices.length / 3 - 1, (picked) => this.take(picked), (why) => (this.readout.textContent = why)))));
     let asked = false;
     scene.canvas.addEventListener("pointermove", (event) => {
       if (asked || event.buttons !== 0) return;

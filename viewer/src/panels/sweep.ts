@@ -23,7 +23,6 @@ export class SweepPanel {
     this.limits = new LiveLimits(words.sweepLimits, words.gained, motions);
     this.map = new SweepMap(stored, margins, least, (values) => moved(new Map(stored.parameters.map(({ name }, i) => [name, values[i]!]))));
     this.element = section(words.sweep, this.map.element, this.limits.element, html("p", { class: "small" }, words.sweepNote, ...stored.sweep_notes.map(({ text }) => ` ${words.sweepNoted(text)}`)));
-    this.element.classList.add("edit-panel");
   }
 
   show(values: ReadonlyMap<string, number>): void {
