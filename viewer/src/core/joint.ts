@@ -169,27 +169,15 @@ export class CoreJoint {
     };
   }
 
-  details(at: Coordinates): Details {
+  /// At coordinates, or at X_FM, 16 numbers row by row.
+  details(at: Coordinates | readonly number[]): Details {
+    const inside = this.penetrationsAt(at);
+    return { pose: this.f64(this.pose, 16), inContact: this.inContact(), ...inside, pairs: this.pairs() };
+  }
+
+  penetrationsAt(at: Coordinates | readonly number[]): BothPenetrations {
     this.place(at);
-    return this.detailsHere();
-  }
-
-  detailsOf(X_FM: readonly number[]): Details {
-    new Float64Array(this.core.HEAPU8.buffer, this.pose, 16).set(X_FM);
-    return this.detailsHere();
-  }
-
-  penetrationsAt(at: Coordinates): BothPenetrations {
-    this.place(at);
-    return this.penetrationsHere();
-  }
-
-  private penetrationsHere(): BothPenetrations {
     return { mobileInFixed: this.penetrations(0), fixedInMobile: this.penetrations(1) };
-  }
-
-  private detailsHere(): Details {
-    return { pose: this.f64(this.pose, 16), inContact: this.inContact(), ...this.penetrationsHere(), pairs: this.pairs() };
   }
 
   private inContact(): boolean {
@@ -267,8 +255,9 @@ export class CoreJoint {
     return surface;
   }
 
-  private place({ angles, translation }: Coordinates): void {
-    this.on(this.core._condyle_pose, angles, translation, this.pose);
+  private place(at: Coordinates | readonly number[]): void {
+    if ("angles" in at) this.on(this.core._condyle_pose, at.angles, at.translation, this.pose);
+    else new Float64Array(this.core.HEAPU8.buffer, this.pose, 16).set(at);
   }
 
   /// Asks the core about this joint.

@@ -5,7 +5,7 @@ import type { Coordinates, DroppedFile, LimitQuestion, MapQuestion, Quantity } f
 export const queries = {
   pose: (joint: CoreJoint, { at }: { at: Coordinates }) => joint.details(at),
   /// 16 numbers, row by row.
-  poseMatrix: (joint: CoreJoint, { X_FM }: { X_FM: number[] }) => joint.detailsOf(X_FM),
+  poseMatrix: (joint: CoreJoint, { X_FM }: { X_FM: number[] }) => joint.details(X_FM),
   depth: (joint: CoreJoint, { at }: { at: Coordinates }) => joint.depth(at),
   /// The whole surfaces, or, if `counted`, the parts whose contact ends motions.
   nearest: (joint: CoreJoint, { at, counted }: { at: Coordinates; counted: boolean }) => joint.nearest(at, counted),

@@ -28,19 +28,14 @@ export class JointFigures {
     const go = computes || text.poses.length ? (to: MotionAnswer) => motion.goToEnd(to) : null;
     const head = rom?.clock_plane !== "rim" && rom?.bearing?.head;
     const socket = head ? socketPicture(arrays.fixed, head.radius_mm * aroundHead, joint.side === "left" ? -1 : 1) : null;
-    const clock = rom && clockDrawing(rom.motions, rom.clock_plane, go, socket);
+    const clock = rom && clockDrawing(rom.motions, rom.clock_plane, go, socket), clockPlace = clock && section(words.clock, figure(clock));
+    clockPlace?.classList.add("of-report");
     this.plateau = computes ? plateauOf(text, arrays) : null;
     this.map = joint.kind !== "hinge" && (map || (computes && hasLimits(text))) ? new MapSection(text, motion, computes, core) : null;
     this.element = figuresPanel([
       { key: "map", parts: this.map ? [this.map.element] : [] },
-      { key: "clock", parts: clock ? [clockSection(figure(clock))] : [] },
+      { key: "clock", parts: clockPlace ? [clockPlace] : [] },
       { key: "curves", parts: [...(this.plateau ? [this.plateau.element] : []), ...(recorded ? [recorded] : [])] },
     ].filter(({ parts }) => parts.length > 0));
   }
-}
-
-function clockSection(drawn: HTMLElement): HTMLElement {
-  const made = section(words.clock, drawn);
-  made.classList.add("of-report");
-  return made;
 }

@@ -4,6 +4,7 @@ import type { MotionAnswer, ReportText, StoredPose } from "../report";
 import { headlineMotion } from "../result";
 import { JointScene } from "../scene/scene";
 import { motionName } from "../words";
+import type { Paper } from "./paper";
 import { placeOf, sentenceOf } from "./strip";
 
 /// The picture for paper waits until the page has answered and is idle.
@@ -12,15 +13,10 @@ const width_px = 1200;
 /// Beyond so many triangles a second scene costs more than a picture is worth: paper shows the scene on the screen.
 const most = 600_000;
 
-interface Size {
-  width: number;
-  height: number;
-}
-
 /// Draws the limit that the sentence is about for this place on paper, while nobody waits, unless `closed` is aborted meanwhile. `drawn` takes
 /// the picture and what it shows.
 export function drawWorst(
-  text: ReportText, arrays: JointArrays, within: Size, closed: AbortSignal, drawn: (picture: string, caption: string) => void): void {
+  text: ReportText, arrays: JointArrays, within: Paper["pictureSize"], closed: AbortSignal, drawn: (picture: string, caption: string) => void): void {
   const headline = headlineMotion(text);
   const pose = headline && text.poses.find(({ name }) => name === headline.name);
   if (!headline || !pose || headline.reason !== "contact") return;
@@ -37,7 +33,7 @@ function labelOf(motion: MotionAnswer, text: ReportText): string {
 
 /// A picture of the joint at one of the report's poses, drawn beside the page; null if it is too large or the browser draws no scene.
 function pictureOf(
-  text: ReportText, { fixed, mobile }: JointArrays, pose: StoredPose, label: string, radius_mm: number | null, within: Size): string | null {
+  text: ReportText, { fixed, mobile }: JointArrays, pose: StoredPose, label: string, radius_mm: number | null, within: Paper["pictureSize"]): string | null {
   if ((fixed.triangles.length + mobile.triangles.length) / 3 > most) return null;
   const place = html("div", { class: "beside-page", "aria-hidden": "true" });
   place.style.width = `${width_px}px`;

@@ -33,11 +33,8 @@ export class SceneBody {
   /// Draws nothing but depths, before a transparent body: only the surface nearest to the viewer stays visible, like glass.
   private readonly veil: Mesh<BufferGeometry, BodyMaterial>;
   private readonly ghosts = new Map<string, Mesh>();
-  private readonly shown: BufferAttribute;
-  private readonly mark: BufferAttribute;
-  private readonly cover: BufferAttribute;
-  private readonly tints: BufferAttribute;
-  private readonly hidden: BufferAttribute;
+  /// Numbers of each vertex that change, by the names that the material has for them.
+  private readonly attributes;
   private readonly markedVertices: Record<Marked, number[]> = { bearing: [], contact: [], zone: [] };
   private readonly showsMarked: Record<Marked, boolean> = { bearing: false, contact: true, zone: true };
 
@@ -50,17 +47,12 @@ export class SceneBody {
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(new Float32Array(surface.vertices), 3));
     geometry.setIndex(new BufferAttribute(surface.triangles, 1));
-    this.shown = dynamic(count);
-    this.mark = dynamic(count);
-    this.cover = dynamic(count);
-    this.tints = dynamic(count, 3);
-    this.hidden = dynamic(count);
+    this.attributes = { shown: dynamic(count), mark: dynamic(count), cover: dynamic(count), tints: dynamic(count, 3), hidden: dynamic(count) };
     const isCartilage = new BufferAttribute(new Float32Array(count), 1);
     for (const { first_vertex, vertices } of parts.filter(({ contact }) => contact !== "ends"))
       isCartilage.array.fill(1, first_vertex, first_vertex + vertices);
     const openness = new BufferAttribute(new Uint8Array(count).fill(255), 1, true);
-    Object.entries({ shown: this.shown, mark: this.mark, cover: this.cover, tints: this.tints, hidden: this.hidden, isCartilage, openness })
-      .forEach(([name, attribute]) => geometry.setAttribute(name, attribute));
+    for (const [name, attribute] of Object.entries({ ...this.attributes, isCartilage, openness })) geometry.setAttribute(name, attribute);
     geometry.computeVertexNormals();
     this.mesh = new Mesh(geometry, new BodyMaterial(bone, cartilage));
     this.mesh.receiveShadow = true;
@@ -131,15 +123,16 @@ export class SceneBody {
 
   /// Null: no colours.
   show(values: Values | null): void {
+    const { shown, mark, cover } = this.attributes;
     this.values = values;
     if (values) {
-      this.shown.array.set(values.shown);
-      this.mark.array.set(values.marks);
+      shown.array.set(values.shown);
+      mark.array.set(values.marks);
       this.coverBy(values.marks);
     } else {
-      this.mark.array.fill(0);
+      mark.array.fill(0);
     }
-    this.shown.needsUpdate = this.mark.needsUpdate = this.cover.needsUpdate = true;
+    shown.needsUpdate = mark.needsUpdate = cover.needsUpdate = true;
   }
 
   /// Marks the corners of these triangles only.
@@ -159,8 +152,9 @@ export class SceneBody {
   }
 
   setPartVisible({ first_vertex, vertices }: Part, visible: boolean): void {
-    for (let v = first_vertex; v < first_vertex + vertices; ++v) this.hidden.setX(v, visible ? 0 : 1);
-    this.hidden.needsUpdate = true;
+    const { hidden } = this.attributes;
+    hidden.array.fill(visible ? 0 : 1, first_vertex, first_vertex + vertices);
+    hidden.needsUpdate = true;
     this.changed();
   }
 
@@ -185,11 +179,11 @@ export class SceneBody {
   }
 
   isHidden(vertex: number): boolean {
-    return this.hidden.getX(vertex) === 1;
+    return this.attributes.hidden.getX(vertex) === 1;
   }
 
   isMarked(as: Marked, vertex: number): boolean {
-    return this.showsMarked[as] && this.tints.getComponent(vertex, marked[as]) > 0.5;
+    return this.showsMarked[as] && this.attributes.tints.getComponent(vertex, marked[as]) > 0.5;
   }
 
   /// CSS colour of a vertex without a value.
@@ -211,7 +205,7 @@ export class SceneBody {
 
   /// Share of the corners of the triangles around each vertex that have a value.
   private coverBy(marks: Uint8Array): void {
-    const { triangles } = this.surface, share = this.cover.array, corners = new Uint16Array(share.length);
+    const { triangles } = this.surface, share = this.attributes.cover.array, corners = new Uint16Array(share.length);
     share.fill(0);
     for (let t = 0; t < triangles.length; t += 3) {
       const [a, b, c] = [triangles[t]!, triangles[t + 1]!, triangles[t + 2]!];
@@ -225,8 +219,9 @@ export class SceneBody {
   }
 
   private tint(as: Marked, vertices: readonly number[], share: number): void {
-    for (const v of vertices) this.tints.setComponent(v, marked[as], share);
-    this.tints.needsUpdate = true;
+    const { tints } = this.attributes;
+    for (const v of vertices) tints.setComponent(v, marked[as], share);
+    tints.needsUpdate = true;
   }
 }
 
