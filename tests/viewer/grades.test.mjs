@@ -21,10 +21,15 @@ const remark = { code: "coarse_mesh", text: "limits may be off by 2.4 degrees" }
 const colourOf = (page, selector) => page.locator(selector).first().evaluate((element) => getComputedStyle(element).color);
 
 test("a joint that is set up wrongly says so in place of the sentence, and its numbers are grey, whatever is pressed", async () => {
-  const page = await opened("wrong_side", ({ rom }) => rom.notes.push(wrong, finding, remark));
+  const page = await opened("wrong_side", ({ rom }) => {
+    rom.notes.push(wrong, finding, remark);
+    rom.motions[0].limit_deg = rom.motions[0].normal_range_deg / 2;
+  });
   const sentence = `Set up wrongly, no number holds: ${wrong.text}.`;
   assert.equal(await page.locator("#sentence").textContent(), sentence);
-  const quiet = await colourOf(page, ".result-normal");
+  const quiet = await colourOf(page, ".result:not(.short) > .result-normal");
+  // How much a motion lacks is no finding then.
+  assert.equal(await colourOf(page, ".result.short > .result-normal"), quiet);
   assert.equal(await colourOf(page, ".result-value b"), quiet);
   assert.equal(await colourOf(page, ".tile-value b"), quiet);
   await page.locator(".result").first().click();
