@@ -47,7 +47,7 @@ py::list model_coordinates(const io::Model& model, const std::string& name) {
   for (const io::ModelCoordinate& coordinate : io::joint_named(model, name).coordinates)
     coordinates.append(py::make_tuple(coordinate.name, std::string(name_of(coordinate.motion)),
                                       coordinate.default_value, coordinate.range, coordinate.is_clamped,
-                                      coordinate.is_locked, coordinate.is_prescribed));
+                                      coordinate.is_locked, coordinate.is_prescribed, coordinate.stop));
   return coordinates;
 }
 

@@ -22,6 +22,7 @@ class ModelCoordinate:
 
     `motion` "rotational" turns the joint by its own value, "translational" moves it, "coupled" turns it through a function. A
     motion file in degrees has degrees for rotational ones only. None of range, clamped, locked and prescribed changes a pose.
+    `stop` is where a CoordinateLimitForce or a CoordinateLinearStopForce of the model begins to act.
     """
 
     name: str
@@ -31,6 +32,7 @@ class ModelCoordinate:
     is_clamped: bool
     is_locked: bool
     is_prescribed: bool
+    stop: Optional[tuple[float, float]] = None
 
 
 @dataclass(frozen=True)

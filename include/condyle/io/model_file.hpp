@@ -39,7 +39,13 @@ struct ModelCoordinate {
   double default_value = 0;
   std::optional<std::array<double, 2>> range = {};
   bool is_clamped = true, is_locked = false, is_prescribed = false;
+  /// Where forces of the model begin to hold it, CoordinateLimitForce or CoordinateLinearStopForce; of several the narrowest.
+  std::optional<std::array<double, 2>> stop = {};
 };
+
+/// "held from -20.5 to 135.25 deg by a force" or m, between these words; empty without such a force.
+[[nodiscard]] std::string stop_text(const ModelCoordinate& coordinate, std::string_view before,
+                                    std::string_view behind);
 
 /// A joint of a model: X_parent_child(q) = X_PF X_FM(q) X_CM^-1.
 struct ModelJoint {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <numbers>
 
 #include "condyle/error.hpp"
 #include "condyle/io/model_file.hpp"
@@ -44,6 +45,15 @@ std::string_view name_of(ModelNoteCode code) noexcept {
 
 std::string to_text(const ModelNote& note) {
   return fmt::format("{}: {}", name_of(note.code), note.text);
+}
+
+std::string stop_text(const ModelCoordinate& coordinate, std::string_view before, std::string_view behind) {
+  if (!coordinate.stop) return {};
+  const bool is_angle = coordinate.motion == CoordinateMotion::rotational;
+  const double unit = is_angle ? 180 / std::numbers::pi : 1;
+  const char* unit_name = is_angle ? "deg" : coordinate.motion == CoordinateMotion::coupled ? "rad" : "m";
+  return fmt::format("{}held from {:.6g} to {:.6g} {} by a force{}", before, unit * (*coordinate.stop)[0],
+                     unit * (*coordinate.stop)[1], unit_name, behind);
 }
 
 std::vector<double> ModelJoint::defaults() const {

@@ -363,6 +363,8 @@ class ModelJointFile {
   void write_recorded_motion() {
     add("\n[recorded_motion]");
     if (!mapping_.meanings.empty()) add("# " + meanings());
+    for (const ModelCoordinate& coordinate : joint_.coordinates)
+      if (coordinate.stop) add(fmt::format("# {}{}", coordinate.name, stop_text(coordinate, ": ", "")));
     if (mapping_.columns.empty()) {
       add("model = " + toml_text(path_of(model_.path)) + "  # poses the joint by its functions");
       add("joint = " + toml_text(joint_.name));

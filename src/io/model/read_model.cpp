@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <numbers>
 #include <set>
 
 #include "condyle/error.hpp"
@@ -41,6 +43,7 @@ class ModelReader {
     count_unused_wraps();
     refuse_couplers_of_one_coordinate();
     refuse_joints_of_one_name();
+    add_stops();
   }
 
  private:
@@ -58,6 +61,10 @@ class ModelReader {
     return is_list(name) || name == "frames" || name == "Joint" ||
            (name.ends_with("Set") && name != "CoordinateSet" && name != "WrapObjectSet" &&
             name != "GeometrySet" && name != "PathPointSet");
+  }
+
+  static bool is_stop(std::string_view name) {
+    return name == "CoordinateLimitForce" || name == "CoordinateLinearStopForce";
   }
 
   static bool is_frame(const XmlElement& element) { return element.name.ends_with("Frame"); }
@@ -134,6 +141,9 @@ class ModelReader {
         or_leave_out([&] { read_mesh_element(child, ""); });
       } else if (name == "CoordinateCouplerConstraint") {
         or_leave_out([&] { read_coupler(child); });
+      } else if (is_stop(name)) {
+        or_leave_out([&] { read_stop(child); });
+        ++model_.ignored[std::string(name)];  // it places no bone
       } else if (name == "Smith2018ContactMesh") {
         or_leave_out([&] { read_contact_mesh(child); });
       } else if (name == "Smith2018ArticularContactForce") {
@@ -312,6 +322,34 @@ class ModelReader {
     model_.contacts.push_back(std::move(contact));
   }
 
+  /// A force that begins to act where a coordinate leaves these ends.
+  struct Stop {
+    std::string coordinate;
+    std::array<double, 2> ends;
+    bool has_degrees;  ///< of a rotational coordinate
+  };
+
+  void read_stop(const XmlElement& element) {
+    const ModelElement values(source_, element, fmt::format("force {}", in_quotes(element.label())));
+    if (!values.flag("appliesForce", true) || values.flag("isDisabled", false)) return;
+    stops_.push_back({last_of_path(values.text("coordinate")),
+                      {values.number("lower_limit", 0), values.number("upper_limit", 0)},
+                      element.name == "CoordinateLimitForce"});
+  }
+
+  void add_stops() {
+    for (ModelJoint& joint : model_.joints)
+      for (ModelCoordinate& coordinate : joint.coordinates)
+        for (const Stop& stop : stops_) {
+          if (stop.coordinate != coordinate.name) continue;
+          const bool in_degrees = stop.has_degrees && coordinate.motion == CoordinateMotion::rotational;
+          const double unit = in_degrees ? std::numbers::pi / 180 : 1;
+          const double lower = unit * stop.ends[0], upper = unit * stop.ends[1];
+          const auto before = coordinate.stop.value_or(std::array{lower, upper});
+          coordinate.stop = {std::max(before[0], lower), std::min(before[1], upper)};
+        }
+  }
+
   void read_coupler(const XmlElement& element) {
     const ModelElement values(source_, element, fmt::format("constraint {}", in_quotes(element.label())));
     ModelCoupler coupler{.name = values.name()};
@@ -388,6 +426,7 @@ class ModelReader {
   std::span<const std::filesystem::path> folders_;
   std::filesystem::path folder_;
   ModelFrames frames_;
+  std::vector<Stop> stops_;
   std::map<std::string, std::size_t> shapes_;  ///< spheres, bricks and the like among the meshes
 };
 

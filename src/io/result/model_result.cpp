@@ -82,7 +82,7 @@ std::string model_joint_text(InspectedModel& model, const ModelJoint& joint) {
     return fmt::format("  {}: {}\n", label, why);
   std::string coordinates;
   for (const ModelCoordinate& coordinate : joint.coordinates)
-    coordinates += (coordinates.empty() ? "" : ", ") + coordinate.name;
+    coordinates += (coordinates.empty() ? "" : ", ") + coordinate.name + stop_text(coordinate, " (", ")");
   const auto mapping = model.mapping(joint);
   const MeshesFound fixed = model.meshes(joint, BodyRole::fixed),
                     mobile = model.meshes(joint, BodyRole::mobile);
@@ -120,7 +120,8 @@ Json model_coordinate_json(const ModelCoordinate& coordinate) {
             {"range", nullptr},
             {"clamped", coordinate.is_clamped},
             {"locked", coordinate.is_locked},
-            {"prescribed", coordinate.is_prescribed}};
+            {"prescribed", coordinate.is_prescribed},
+            {"stop", nullable(coordinate.stop)}};
   if (coordinate.range) json["range"] = *coordinate.range;
   return json;
 }

@@ -124,6 +124,34 @@ TEST_F(ModelLimits, HoldForWhatStandsInForAColumn) {
   }
 }
 
+TEST_F(ModelLimits, OfForcesAreShownAndPlaceNothing) {
+  const auto force = [](const char* element, const char* coordinate, double lower, double upper,
+                        const char* more = "") {
+    return fmt::format(
+        "<{0} name=\"f\"><coordinate>{1}</coordinate><lower_limit>{2}</lower_limit><upper_limit>{3}"
+        "</upper_limit>{4}</{0}>",
+        element, coordinate, lower, upper, more);
+  };
+  const io::Model held =
+      model(by_columns, "", "",
+            "<ForceSet><objects>" + force("CoordinateLimitForce", "flex", -30, 120) +
+                force("CoordinateLinearStopForce", "/jointset/hip_r/flex", -1, 1) +
+                force("CoordinateLimitForce", "rot", -1, 1, "<appliesForce>false</appliesForce>") +
+                force("CoordinateLimitForce", "add", -1, 1, "<isDisabled>true</isDisabled>") +
+                "</objects></ForceSet>");
+  const auto& coordinates = io::joint_named(held, "hip_r").coordinates;
+  // Degrees of one, radians of the other, and the narrowest of both.
+  ASSERT_TRUE(coordinates[0].stop);
+  EXPECT_NEAR((*coordinates[0].stop)[0], -std::numbers::pi / 6, 1e-15);
+  EXPECT_EQ((*coordinates[0].stop)[1], 1);
+  EXPECT_FALSE(coordinates[1].stop || coordinates[2].stop);
+  EXPECT_EQ(held.ignored.at("CoordinateLimitForce"), 3u);
+  EXPECT_EQ(held.ignored.at("CoordinateLinearStopForce"), 1u);
+  const std::string toml =
+      io::propose_joint(held, {.joint = "hip_r", .joint_file = folder_.path() / "hip.toml"}).proposal.toml;
+  EXPECT_NE(toml.find("# flex: held from -30 to 57.2958 deg by a force\n"), std::string::npos) << toml;
+}
+
 TEST_F(ModelLimits, StandInTheJointFileAndAreReadBack) {
   const io::ModelJointProposal proposal = io::propose_joint(
       model(by_columns, "<range>-1 1.5</range>", "<default_value>0.1</default_value><locked>true</locked>"),
