@@ -13,6 +13,7 @@
 #include "condyle/io/pose_text.hpp"
 #include "follow_options.hpp"
 #include "io/result/crate.hpp"
+#include "io/result/limit_files.hpp"
 #include "io/result/rom_files.hpp"
 #include "io/result/rom_result.hpp"
 #include "joint_command.hpp"
@@ -31,6 +32,8 @@ struct RomArguments : JointArguments {
   FollowArguments follow;
   ReferenceContacts reference_contacts = ReferenceContacts::count;
   RangeArguments range;
+  io::LimitFile limits;  ///< no path: none
+  LimitSource limits_of = LimitSource::bony;
   Task task = Task::limits;
   motion::ClockPlane clock = motion::ClockPlane::sagittal;
 };
@@ -64,6 +67,30 @@ RangeRequest request_of(const RomArguments& options, const io::LoadedJoint& load
   return request;
 }
 
+/// --write-limits and what goes with it.
+CLI::Option* add_limits(CLI::App& command, RomArguments& given) {
+  auto* write = command.add_option(
+      "--write-limits", given.limits.path,
+      "Write limits of each coordinate by itself for another program: .osim of the model that condyle init "
+      "read the joint from, .xml of MuJoCo; or .csv of coupled limits, by --map or over a grid of 10 "
+      "degrees");
+  write->option_text("FILE");
+  add_choice(
+      command, "--limits", given.limits_of, {{"bony", LimitSource::bony}, {"living", LimitSource::living}},
+      "With --write-limits: where bone ends a motion, or where a living hip is expected to if studies say so",
+      "bony")
+      ->needs(write);
+  add_choice(command, "--stop", given.limits.stop,
+             {{"limit", io::StopForce::limit}, {"linear", io::StopForce::linear}},
+             "The force of an .osim: CoordinateLimitForce, or CoordinateLinearStopForce of OpenSim 4.6",
+             "limit")
+      ->needs(write);
+  command.add_option("--model", given.limits.model, "Write a copy of this model, .osim, and no fragment")
+      ->needs(write)
+      ->option_text("FILE");
+  return write;
+}
+
 /// Where the bodies are in contact in the reference pose, the error names the options there are.
 RangeAnswer answer_of(const RomArguments& options, const io::LoadedJoint& loaded,
                       const RangeRequest& request) {
@@ -94,13 +121,24 @@ void rom_command(const RomArguments& options, const CLI::App& command) {
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   note_contact(range_request_notes(request), loaded, options.strictness);
   io::Provenance from = provenance_of(options, loaded, command, {options.follow.record});
+  std::vector<TurningCoordinate> coordinates;
+  if (!options.limits.path.empty()) coordinates = io::limit_coordinates(loaded, options.limits, &from);
   // A folder that cannot be written to is reported before the work, not after it.
   if (!options.out.empty()) io::check_rom_folder(options.out, &from);
 
   io::add_other_files(from, read);
   const RangeAnswer answer = answer_of(options, loaded, request);
   note_all(answer.notes);
-  const io::RomResult result = io::rom_result_of(answer, notes, &from);
+  io::RomResult result = io::rom_result_of(answer, notes, &from);
+  std::optional<LimitBoxRecord> box;
+  if (!coordinates.empty()) {
+    box = answered(options, [&](const Control& control) {
+      return limit_box_record(loaded, answer, request, coordinates, options.limits_of, control);
+    });
+    result.box = &*box;
+    io::write_limits(options.limits, *box, loaded, &from);
+    note("wrote " + options.limits.path.string());
+  }
   if (!options.out.empty())
     say_written(io::write_rom(options.out, result, options.vtp_encoding, options.crate_date));
   print(options.form == AnswerForm::json ? io::rom_json(result) : io::rom_text(result));
@@ -115,6 +153,7 @@ void add_rom(CLI::App& app) {
       "Example: condyle sample hip --out sample\n"
       "         condyle rom sample/hip.toml --motion flexion --motion fadir\n"
       "         condyle rom sample/hip.toml --map flexion=0:120:10 adduction=-30:20:10 --out range\n"
+      "         condyle rom sample/hip.toml --write-limits hip.xml\n"
       "Exit code 6: the bodies are in contact in the reference pose and no option says what to do about it.");
   auto options = std::make_shared<RomArguments>();
   add_joint(*command, *options);
@@ -137,8 +176,9 @@ void add_rom(CLI::App& app) {
   depth->option_text("MM");
   auto* accept = add_accept(*command, options->range);
   auto* band = add_band(*command, options->range);
-  for (CLI::Option* other : {map, bearing, contacts, accept, band}) depth->excludes(other);
-  add_follow(*command, options->follow, {map, contacts, accept, band, depth, translation, past});
+  CLI::Option* limits = add_limits(*command, *options);
+  for (CLI::Option* other : {map, bearing, contacts, accept, band, limits}) depth->excludes(other);
+  add_follow(*command, options->follow, {map, contacts, accept, band, depth, translation, past, limits});
   add_choice(
       *command, "--clock", options->clock,
       {{"sagittal", motion::ClockPlane::sagittal}, {"rim", motion::ClockPlane::rim}},
@@ -162,6 +202,7 @@ void add_rom(CLI::App& app) {
               {"Centre not held", follow_names()},
               {"Contact",
                {"--bearing", "--accept-reference-contact", "--exclude-reference-contacts", "--allow-depth"}},
+              {"For other programs", {"--write-limits", "--limits", "--stop", "--model"}},
               {"Output", {"--crate", "--frame", "--ascii", "--strict", "--help"}}});
   command->callback([options, command] { rom_command(*options, *command); });
 }

@@ -1,9 +1,16 @@
 #include "condyle/motion_map.hpp"
 
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
 #include <limits>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "interrupts.hpp"
+#include "io/record/json_of.hpp"
+#include "io/result/limit_files.hpp"
+#include "json_object.hpp"
 #include "motion.hpp"
 #include "range_answer.hpp"
 
@@ -91,6 +98,30 @@ py::dict map_of(const RangeHandle& handle, const py::tuple& row, const py::tuple
   return dict;
 }
 
+/// Python's rows and columns, and the angle that varies.
+motion::MapGrid grid_in(const py::tuple& given) {
+  const auto axes = given[0].cast<py::tuple>();
+  return {.row = axis_in(axes[0].cast<py::tuple>()),
+          .column = axis_in(axes[1].cast<py::tuple>()),
+          .vary = angle_numbered(given[1].cast<std::size_t>())};
+}
+
+py::dict write_limits(const RangeHandle& handle, const JointHandle& joint, const std::filesystem::path& path,
+                      bool is_living, bool is_linear, const std::optional<std::filesystem::path>& model,
+                      const std::optional<py::tuple>& grid, const py::object& progress) {
+  const io::LimitFile file{path, is_linear ? io::StopForce::linear : io::StopForce::limit, model};
+  const auto coordinates = io::limit_coordinates(joint.loaded, file, nullptr);
+  RangeRequest beside;
+  if (grid) beside.map = grid_in(*grid);
+  const RangeAnswer found = further_answered(handle, beside, progress);
+  const LimitBoxRecord box = *with_progress(progress, [&](const Control& control) {
+    return limit_box_record(handle.asked, found, handle.request, coordinates,
+                            is_living ? LimitSource::living : LimitSource::bony, control);
+  });
+  io::write_limits(file, box, joint.loaded, nullptr);
+  return object_of(io::json_of(box, {io::frame_of(handle.result()), handle.answer.joint.anatomy}));
+}
+
 py::list bands_of(const RangeHandle& handle, const py::list& motions, const py::object& band,
                   const py::object& progress) {
   const RangeAnswer found =
@@ -116,6 +147,7 @@ py::list bands_of(const RangeHandle& handle, const py::list& motions, const py::
 
 void bind_motion_map(py::module_& module) {
   module.def("motion_map", &map_of);
+  module.def("write_limits", &write_limits);
   module.def("limit_bands", &bands_of);
 }
 

@@ -21,8 +21,8 @@ from ._motion_map import MotionMap, map_of
 from ._native import RangeOfMotion as NativeRange
 from ._resection import OfJoint, Resection
 from ._sweep import Sweep
-from ._words import FEWEST_SAMPLES, MOST_SAMPLES, BearingRule, ClockPlane, Path, Progress, band_of, count, number, path_of
-from ._words import progress_of, report_labels, text_of
+from ._words import FEWEST_SAMPLES, MOST_SAMPLES, BearingRule, ClockPlane, LimitSource, Path, Progress, StopForce, band_of, count
+from ._words import number, path_of, progress_of, report_labels, text_of, word
 
 if TYPE_CHECKING:
     import pandas
@@ -194,17 +194,44 @@ class RangeOfMotion(HasLimits, Unchanging):
         >>> rom.map({"flexion": (0, 100, 50)}, {"adduction": (-20, 20, 20)})
         MotionMap(internal_rotation over 3 values of adduction and 3 of flexion; 9 of 9 points free somewhere)
         """
-        axes = [self._grid_axis(column, "column"), self._grid_axis(row, "row")]
-        if vary is None:
-            rest = [i for i in range(3) if i not in (axes[0][0], axes[1][0])]
-            which = rest[0]
-        else:
-            which = self._motions.positive_angle(vary, "vary")
+        axes, which = self._grid(column, row, vary)
         start = number(start_deg, "start_deg")
-        found = _native.motion_map(self._native, axes[1], axes[0], which, start, -180.0, 180.0, progress_of(progress))
+        found = _native.motion_map(self._native, *axes, which, start, -180.0, 180.0, progress_of(progress))
         reported(found.pop("notes"))
-        row_name, column_name, vary_name = (self._motions.angles[i][0] for i in (axes[1][0], axes[0][0], which))
+        row_name, column_name, vary_name = (self._motions.angles[i][0] for i in (axes[0][0], axes[1][0], which))
         return map_of(found, row_name, column_name, vary_name, start)
+
+    def write_limits(self, path: Path, *, limits: LimitSource = "bony", column: Optional[Mapping[str, Sequence[float]]] = None,
+                     row: Optional[Mapping[str, Sequence[float]]] = None, vary: Optional[str] = None, stop: StopForce = "limit",
+                     model: Optional[Path] = None, progress: Progress = None) -> dict[str, Any]:
+        """Writes limits that hold each coordinate by itself, for another program, and returns them as `written_limits` of rom.json.
+
+        The ending of `path` decides: .osim of the model that the joint was read from, a copy of `model` if that is given, with `stop` "limit"
+        (CoordinateLimitForce) or "linear" (CoordinateLinearStopForce); .xml of MuJoCo; .csv of coupled limits. `limits` "living": where a
+        living hip is expected to end, if studies say so. `column`, `row` and `vary` are of the map that the limits are held against, as
+        :meth:`map`; without them a grid of 10 degrees. UsageError for another ending or a joint without coordinates of a model.
+
+        C++: `condyle rom --write-limits`.
+
+        >>> import condyle, os, tempfile
+        >>> bones = condyle.sample_hip()
+        >>> rom = condyle.Joint(bones.hip_bone, bones.femur).range_of_motion([])
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     said = rom.write_limits(os.path.join(folder, "hip.xml"), column={"flexion": (0, 100, 50)}, row={"adduction": (-20, 20, 20)})
+        >>> [side["coordinate"] for side in said["coordinates"]], said["error"]["points"]
+        (['flexion', 'adduction', 'internal_rotation'], 9)
+        """
+        grid = None if column is None or row is None else self._grid(column, row, vary)
+        return _native.write_limits(self._native, self._joint._native, path_of(path), word(limits, "limits", LimitSource) == "living",
+                                    word(stop, "stop", StopForce) == "linear", None if model is None else path_of(model, "model"), grid,
+                                    progress_of(progress))
+
+    def _grid(self, column: Mapping[str, Sequence[float]], row: Mapping[str, Sequence[float]], vary: Optional[str]
+              ) -> tuple[tuple[tuple[int, float, float, float], tuple[int, float, float, float]], int]:
+        """Rows, columns, and the angle that varies."""
+        axes = self._grid_axis(row, "row"), self._grid_axis(column, "column")
+        rest = [i for i in range(3) if i not in (axes[0][0], axes[1][0])]
+        return axes, rest[0] if vary is None else self._motions.positive_angle(vary, "vary")
 
     def _grid_axis(self, given: Mapping[str, Sequence[float]], what: str) -> tuple[int, float, float, float]:
         if not isinstance(given, Mapping) or len(given) != 1:

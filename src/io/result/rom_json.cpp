@@ -180,6 +180,7 @@ Json rom_object(const RomResult& result) {
     json["motions"].push_back(motion_json(result, i));
   json["arcs"] = arcs_json(result);
   if (result.answer.map) json["map"] = json_of(*result.answer.map);
+  if (result.box) json["written_limits"] = json_of(*result.box, {frame_of(result), result.joint.anatomy});
   json["scope"] = scope_text(result.joint);
   json["provenance"] = io::provenance_json(result.provenance);
   return json;

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "answer/records/limit_box_record.hpp"
 #include "condyle/answer/range.hpp"
 #include "io/result/result_of.hpp"
 
@@ -13,7 +14,9 @@
 namespace condyle::io {
 
 /// The limits of a joint and what they must be read with. Its joint is that of the answer, which may be held at a translation.
-using RomResult = ResultOf<RangeAnswer>;
+struct RomResult : ResultOf<RangeAnswer> {
+  const LimitBoxRecord* box = nullptr;  ///< of limits for other programs
+};
 
 /// Shows an answer, with what looks wrong with its joint. `from`, which may be null, gets the frame of a joint that is held at a translation.
 RomResult rom_result_of(const RangeAnswer& answer, std::span<const JointNote> notes, Provenance* from);

@@ -17,6 +17,7 @@
 #include "io/file/format_version.hpp"
 #include "io/result/clock_text.hpp"
 #include "io/result/json.hpp"
+#include "io/result/limit_files.hpp"
 #include "io/result/living_text.hpp"
 #include "io/result/map_result.hpp"
 #include "io/result/motion_groups.hpp"
@@ -375,6 +376,7 @@ std::string rom_text(const RomResult& result) {
     text += "  fadir and faber: as defined here (--list-motions); no angles are agreed on\n";
   text += caveat_text(result);
   if (result.answer.map) text += wrapped(map_text(*result.answer.map));
+  if (result.box) text += limit_box_text(*result.box);
   return text + wrapped(fmt::format("  {}\n", scope_text(result.joint)));
 }
 

@@ -1,0 +1,229 @@
+#include "io/result/limit_files.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include "condyle/error.hpp"
+#include "core/lower_case.hpp"
+#include "io/file/in_quotes.hpp"
+#include "io/file/output_file.hpp"
+#include "io/file/whole_file.hpp"
+#include "io/file/xml_escaped.hpp"
+#include "io/result/provenance_forms.hpp"
+#include "io/result/text_table.hpp"
+
+namespace condyle::io {
+namespace {
+
+std::string ending_of(const LimitFile& file) {
+  return core::lower_case(file.path.extension().string());
+}
+
+/// Joint and coordinate that a column names: "/jointset/hip_r/hip_flexion_r/value", "hip_r/hip_flexion_r", "hip_flexion_r".
+std::pair<std::string, std::string> names_in(std::string_view column) {
+  if (column.ends_with("/value")) column.remove_suffix(std::string_view("/value").size());
+  const std::size_t last = column.rfind('/');
+  if (last == column.npos) return {"", std::string(column)};
+  const std::string_view before = column.substr(0, last);
+  return {std::string(before.substr(before.rfind('/') + 1)), std::string(column.substr(last + 1))};
+}
+
+/// The columns of the joint file; null without.
+const std::vector<ColumnOfCoordinate>* columns_of(const LoadedJoint& joint) {
+  const auto& mapping = joint.report.file.recorded_motion;
+  return mapping ? std::get_if<std::vector<ColumnOfCoordinate>>(&*mapping) : nullptr;
+}
+
+std::string numbers_text(const std::vector<double>& values) {
+  std::vector<std::string> words;
+  for (const double value : values) words.push_back(fmt::format("{:.2f}", value));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// Whose an end is.
+std::string words_of(const BoxEndRecord& end) {
+  if (end.source == LimitSource::living) return fmt::format("living, bone {:.2f}", end.bony_deg);
+  return end.reason == motion::LimitReason::contact ? "bony" : "no contact";
+}
+
+std::string error_text(const LimitBoxRecord& box) {
+  if (!box.error) return "  no other coordinate changes these limits\n";
+  const BoxErrorRecord& error = *box.error;
+  const auto at = [](const std::optional<std::vector<double>>& values) {
+    return values ? fmt::format(", at {}", numbers_text(*values)) : std::string();
+  };
+  std::string text = fmt::format(
+      "  limits are coupled: of {} points of a map {} are within these. A pose within them is past the bone "
+      "by up to {:.2f} deg{}. Free poses are past them by up to {:.2f} deg{}\n",
+      error.points, error.points_in_box, error.beyond_deg, at(error.beyond_at_deg), error.forbidden_deg,
+      at(error.forbidden_at_deg));
+  if (error.points_without_free > 0)
+    text += fmt::format("  at {} points within them nothing is free\n", error.points_without_free);
+  return wrapped(text);
+}
+
+/// A comment of XML, which two hyphens would end.
+std::string xml_comment(std::string text) {
+  for (std::size_t at = 0; (at = text.find("--", at)) != text.npos;) text.replace(at, 2, "- -");
+  return fmt::format("<!--\n{}-->\n", text);
+}
+
+std::vector<CoordinateRange> ranges_of(const LimitBoxRecord& box) {
+  std::vector<CoordinateRange> ranges;
+  for (const BoxSideRecord& side : box.coordinates)
+    ranges.push_back({side.coordinate, side.lower.limit_deg, side.upper.limit_deg});
+  return ranges;
+}
+
+std::string opensim_fragment(const std::vector<CoordinateRange>& ranges, StopForce stop,
+                             const std::string& comment) {
+  std::string forces, coordinates;
+  for (const CoordinateRange& range : ranges) {
+    forces += force_element(range, stop);
+    coordinates +=
+        fmt::format("<Coordinate name=\"{}\"><range>{}</range><clamped>true</clamped></Coordinate>\n",
+                    xml_escaped(range.coordinate), range_text(range));
+  }
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<OpenSimDocument Version=\"40000\">\n{}"
+      "<ForceSet name=\"forceset\"><objects>\n{}</objects></ForceSet>\n"
+      "<CoordinateSet><objects>\n{}</objects></CoordinateSet>\n</OpenSimDocument>\n",
+      comment, forces, coordinates);
+}
+
+/// Joints in the order of the joint's rotations, to be included in the element of the mobile body.
+std::string mujoco_fragment(const LimitBoxRecord& box, const Joint& joint, const std::string& comment) {
+  std::string text = comment;
+  for (const BoxSideRecord& side : box.coordinates) {
+    const Vec3 axis = (side.sign * axis_of(side.angle, joint.coordinates(), {})).array() + 0.0;  // no -0
+    const std::string ref =
+        side.offset_deg == 0 ? "" : fmt::format(" ref=\"{}\"", -side.sign * side.offset_deg);
+    text += fmt::format(
+        "<joint name=\"{}\" type=\"hinge\" axis=\"{} {} {}\"{} limited=\"true\" range=\"{} {}\"/>\n",
+        xml_escaped(side.coordinate), axis.x(), axis.y(), axis.z(), ref, side.lower.limit_deg,
+        side.upper.limit_deg);
+  }
+  return "<mujocoinclude>\n" + text + "</mujocoinclude>\n";
+}
+
+const BoxSideRecord& side_of(const LimitBoxRecord& box, JointAngle angle) {
+  return *std::find_if(box.coordinates.begin(), box.coordinates.end(),
+                       [&](const BoxSideRecord& side) { return side.angle == angle; });
+}
+
+/// The free interval of each point of the map, as the coordinates have it.
+std::string coupled_limits(const LimitBoxRecord& box) {
+  const motion::MotionMap& map = *box.map;
+  const BoxSideRecord &column = side_of(box, map.grid.column.angle), &row = side_of(box, map.grid.row.angle),
+                      &varied = side_of(box, map.grid.vary);
+  const auto value = [](const BoxSideRecord& side, double angle_deg) {
+    return side.sign * (angle_deg - side.offset_deg) + 0.0;  // no -0
+  };
+  std::string text =
+      fmt::format("{0}_deg,{1}_deg,{2}_lower_deg,{2}_upper_deg,{2}_lower_reason,{2}_upper_reason\n",
+                  column.coordinate, row.coordinate, varied.coordinate);
+  const std::size_t columns = map.grid.column.count();
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
+    text += fmt::format("{},{}", value(column, map.grid.column.value_deg(i % columns)),
+                        value(row, map.grid.row.value_deg(i / columns)));
+    const motion::FreeInterval* free = map.points[i].nearest_to_start();
+    if (!free) {
+      text += ",,,,\n";
+      continue;
+    }
+    std::array ends{std::pair(value(varied, (map.grid.start + free->low).degrees()), free->at_low.reason),
+                    std::pair(value(varied, (map.grid.start + free->high).degrees()), free->at_high.reason)};
+    if (varied.sign < 0) std::swap(ends[0], ends[1]);
+    text += fmt::format(",{},{},{},{}\n", ends[0].first, ends[1].first, name_of(ends[0].second),
+                        name_of(ends[1].second));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<TurningCoordinate> limit_coordinates(const LoadedJoint& joint, const LimitFile& file,
+                                                 const Provenance* from) {
+  const std::string ending = ending_of(file);
+  if (ending != ".osim" && ending != ".xml" && ending != ".csv")
+    throw UsageError(file.path.string() +
+                     ": limits are written as .osim, .xml of MuJoCo or .csv of coupled limits");
+  if (file.model && ending != ".osim")
+    throw UsageError(file.path.string() + ": a copy of a model is an .osim");
+  if (ending == ".csv" && joint.joint.kind == JointKind::hinge)
+    throw UsageError("the limits of a hinge are not coupled: write .osim or .xml");
+  std::vector<std::filesystem::path> read;
+  for (const std::filesystem::path& each : files_read(from)) read.push_back(each);
+  if (file.model) read.push_back(*file.model);
+  check_output_file(file.path, read);
+  std::vector<TurningCoordinate> coordinates;
+  if (const auto* columns = columns_of(joint)) {
+    for (const ColumnOfCoordinate& column : *columns)
+      if (column.kind == CoordinateKind::angle)
+        coordinates.push_back({names_in(column.column).second,
+                               joint_angle_named(column.coordinate, joint.joint.anatomy), column.sign,
+                               column.offset});
+    return coordinates;
+  }
+  if (ending == ".osim" && joint.report.file.recorded_motion)
+    throw UsageError(
+        "the model poses this joint by its functions: its coordinates have no limits each by itself");
+  if (ending == ".osim")
+    throw UsageError("no model was read into this joint: make it by condyle init MODEL.osim --joint NAME");
+  for (const JointAngle angle : all_joint_angles)
+    if (joint.joint.kind != JointKind::hinge || angle == JointAngle::flexion)
+      coordinates.push_back({std::string(name_of(angle, joint.joint.anatomy)), angle});
+  return coordinates;
+}
+
+std::string limit_box_text(const LimitBoxRecord& box) {
+  TextColumn name{Align::left, {"coordinate"}}, lower{Align::right, {"lower (deg)"}},
+      of_lower{Align::left, {""}}, upper{Align::right, {"upper (deg)"}}, of_upper{Align::left, {""}};
+  for (const BoxSideRecord& side : box.coordinates) {
+    name.cells.push_back(side.coordinate);
+    lower.cells.push_back(fmt::format("{:.2f}", side.lower.limit_deg));
+    of_lower.cells.push_back(words_of(side.lower));
+    upper.cells.push_back(fmt::format("{:.2f}", side.upper.limit_deg));
+    of_upper.cells.push_back(words_of(side.upper));
+  }
+  std::string text = "limits of each coordinate by itself, the others at zero angles\n" +
+                     table_text(std::array{name, lower, of_lower, upper, of_upper}) + error_text(box);
+  if (const auto& held = box.held_translation_mm)
+    text +=
+        fmt::format("  with the translation held at {:g}, {:g}, {:g} mm\n", held->x(), held->y(), held->z());
+  return text;
+}
+
+void write_limits(const LimitFile& file, const LimitBoxRecord& box, const LoadedJoint& joint,
+                  const Provenance* from) {
+  const std::string ending = ending_of(file), text = limit_box_text(box), sources = provenance_comments(from);
+  if (ending == ".csv") {
+    std::string comments;
+    for (std::size_t at = 0, end; at < text.size(); at = end + 1)
+      end = text.find('\n', at), comments += "# " + text.substr(at, end - at) + "\n";
+    return write_output_file(file.path, sources + comments + coupled_limits(box));
+  }
+  if (ending == ".xml")
+    return write_output_file(
+        file.path,
+        mujoco_fragment(box, joint.joint,
+                        xml_comment(text +
+                                    "range and ref are degrees, as of <compiler angle=\"degree\">; axes "
+                                    "are those of the joint frame at zero angles\n" +
+                                    sources)));
+  const std::string comment = xml_comment(
+      text + "CoordinateLimitForce has degrees, range and CoordinateLinearStopForce radians\n" + sources);
+  const std::vector<CoordinateRange> ranges = ranges_of(box);
+  if (!file.model) return write_output_file(file.path, opensim_fragment(ranges, file.stop, comment));
+  const std::string joint_name = names_in(columns_of(joint)->front().column).first;
+  write_output_file(file.path, with_limits(read_whole_file(*file.model), *file.model, joint_name, ranges,
+                                           file.stop, comment));
+}
+
+}  // namespace condyle::io

@@ -1,0 +1,289 @@
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+#include <vector>
+
+#include "command.hpp"
+#include "condyle/contact.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "condyle/io/model_file.hpp"
+#include "support/duct_model.hpp"
+#include "support/temporary_folder.hpp"
+
+/// Limits written for other programs: what the files hold is what bone does, and they are read back.
+
+namespace condyle::test {
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class WrittenLimits : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write_duct_model(folder_ / "model.osim");
+    const Ran made = run("init model.osim --joint hip_r -o hip.toml");
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+  }
+  Ran run(const std::string& arguments) const { return run_condyle(folder_.path(), arguments); }
+  Ran written(const std::string& arguments) const {
+    Ran ran = run("rom hip.toml --motion flexion " + arguments);
+    EXPECT_EQ(ran.exit_code, 0) << arguments << "\n" << ran.err;
+    return ran;
+  }
+  const io::ModelCoordinate coordinate(const char* model, std::size_t i) const {
+    return io::joint_named(io::read_model(folder_ / model), "hip_r").coordinates.at(i);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(WrittenLimits, OfACopyOfTheModelAreThoseOfBoneAndReadBack) {
+  for (const char* stop : {"limit", "linear"}) {
+    written(fmt::format("--write-limits {0}.osim --model model.osim --stop {0}", stop));
+    const std::string copy = std::string(stop) + ".osim";
+    const io::Model model = io::read_model(folder_ / copy);
+    EXPECT_TRUE(model.notes.empty());
+    const auto [forwards, backwards] = duct_flexion_deg();
+    const auto [inwards, outwards] = duct_adduction_deg();
+    // The model's flexion grows backwards, and its adduction is ours.
+    const double wanted[][2] = {{-forwards, backwards}, {-outwards, inwards}};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const io::ModelCoordinate of = coordinate(copy.c_str(), i);
+      EXPECT_TRUE(of.is_clamped);
+      ASSERT_TRUE(of.range && of.stop) << of.name;
+      for (std::size_t end = 0; end < 2; ++end) {
+        EXPECT_NEAR((*of.range)[end] * 180 / std::numbers::pi, wanted[i][end], 1e-9) << of.name;
+        EXPECT_NEAR((*of.stop)[end] * 180 / std::numbers::pi, wanted[i][end], 1e-9) << of.name;
+      }
+    }
+    ASSERT_EQ(run(fmt::format("init {0} --joint hip_r -o {1}.toml", copy, stop)).exit_code, 0);
+    const auto file = io::read_joint_file(folder_ / (std::string(stop) + ".toml"));
+    const auto& columns = std::get<std::vector<io::ColumnOfCoordinate>>(*file.recorded_motion);
+    ASSERT_TRUE(columns[0].range);
+    EXPECT_NEAR(columns[0].range->front(), -forwards, 1e-9);
+    EXPECT_NEAR(columns[0].range->back(), backwards, 1e-9);
+    EXPECT_NE(text_of(folder_ / (std::string(stop) + ".toml")).find("# flex: held from -"),
+              std::string::npos);
+  }
+  const Json of = Json::parse(run("inspect linear.osim --json").out)["models"][0]["joints"][0]["coordinates"];
+  EXPECT_NEAR(of[1]["stop"][1].get<double>(), duct_adduction_deg()[0] * std::numbers::pi / 180, 1e-11);
+  EXPECT_NE(run("inspect linear.osim").out.find("flex (held from -"), std::string::npos);
+}
+
+TEST_F(WrittenLimits, LeaveTheRestOfAModelAsItIs) {
+  written("--write-limits once.osim --model model.osim");
+  const std::string before = text_of(folder_ / "model.osim");
+  std::string after = text_of(folder_ / "once.osim");
+  // What was put in goes, and what is left is the model but for its ranges.
+  const auto cut = [&](std::string_view from, std::string_view to) {
+    const std::size_t begin = after.find(from), end = after.find(to, begin);
+    ASSERT_NE(end, after.npos) << from;
+    after.erase(begin, end + to.size() - begin);
+  };
+  cut("\n<!--", "-->\n");
+  cut("\n<ForceSet", "</ForceSet>");
+  for (const char* element : {"range", "clamped"})
+    for (int i = 0; i < 3; ++i)
+      if (const auto begin = after.find(fmt::format("<{}>", element)); begin != after.npos)
+        cut(fmt::format("<{}>", element), fmt::format("</{}>", element));
+  std::string bare = before;
+  bare.erase(bare.find("<range>"), bare.find("</range>") + 8 - bare.find("<range>"));
+  bare.replace(bare.find("<Coordinate name=\"add\"/>"), 24, "<Coordinate name=\"add\"></Coordinate>");
+  EXPECT_EQ(after, bare);
+  // Written again, the forces are replaced.
+  written("--write-limits twice.osim --model once.osim");
+  EXPECT_EQ(io::read_model(folder_ / "twice.osim").ignored, io::read_model(folder_ / "once.osim").ignored);
+}
+
+TEST_F(WrittenLimits, OfMuJoCoTurnAboutTheModelsAxesInItsSense) {
+  written("--write-limits hip.xml");
+  const std::string text = text_of(folder_ / "hip.xml");
+  const auto [forwards, backwards] = duct_flexion_deg();
+  const std::string line = text.substr(text.find("<joint name=\"flex\""));
+  double x = 0, y = 0, z = 0, low = 0, high = 0;
+  ASSERT_EQ(
+      std::sscanf(
+          line.c_str(),
+          "<joint name=\"flex\" type=\"hinge\" axis=\"%lf %lf %lf\" limited=\"true\" range=\"%lf %lf\"/>", &x,
+          &y, &z, &low, &high),
+      5)
+      << text;
+  EXPECT_EQ((Vec3(x, y, z)), -Vec3::UnitZ());
+  EXPECT_NEAR(low, -forwards, 1e-9);
+  EXPECT_NEAR(high, backwards, 1e-9);
+  EXPECT_NE(text.find("<mujocoinclude>"), std::string::npos);
+  EXPECT_NE(text.find("range and ref are degrees"), std::string::npos);
+}
+
+TEST_F(WrittenLimits, OfAMapAreItsFreeIntervalsInTheModelsCoordinates) {
+  written("--map adduction=-20:10:10 internal_rotation=0:60:20 --write-limits coupled.csv");
+  const Json said = Json::parse(
+      written("--map adduction=-20:10:10 internal_rotation=0:60:20 --write-limits again.csv --json").out);
+  const Json& intervals = said["map"]["intervals"];
+  std::istringstream file(text_of(folder_ / "coupled.csv"));
+  std::string line;
+  while (std::getline(file, line) && line.starts_with("#")) continue;
+  EXPECT_EQ(line, "add_deg,rot_deg,flex_lower_deg,flex_upper_deg,flex_lower_reason,flex_upper_reason");
+  std::size_t i = 0;
+  for (; std::getline(file, line); ++i) {
+    double adduction = 0, rotation = 0, lower = 0, upper = 0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,", &adduction, &rotation, &lower, &upper), 4)
+        << line;
+    EXPECT_EQ(adduction, -20 + 10.0 * static_cast<double>(i % 4));
+    EXPECT_EQ(rotation, 20.0 * static_cast<double>(i / 4));
+    // The free interval about zero; flex is negative flexion.
+    std::size_t k = intervals["offset"][i];
+    while (intervals["high_deg"][k] < 0) ++k;
+    ASSERT_LT(k, intervals["offset"][i + 1].get<std::size_t>());
+    EXPECT_EQ(lower, -intervals["high_deg"][k].get<double>());
+    EXPECT_EQ(upper, -intervals["low_deg"][k].get<double>());
+  }
+  EXPECT_EQ(i, 16u);
+}
+
+/// Whether the bodies meet with the model's coordinates at these degrees.
+class Poses {
+ public:
+  explicit Poses(const fs::path& joint) : loaded_(io::read_joint(joint)), contact_(loaded_.joint) {}
+  bool meet(double flex, double add, double rot) const {
+    return contact_.in_contact(pose_at(loaded_.joint.coordinates(),
+                                       {Angle::degrees(-flex), Angle::degrees(add), Angle::degrees(rot)}));
+  }
+
+ private:
+  io::LoadedJoint loaded_;
+  contact::JointContact contact_;
+};
+
+TEST_F(WrittenLimits, SayByHowMuchTheyDifferFromCoupledOnes) {
+  const std::string question =
+      "--map adduction=-30:10:10 internal_rotation=0:60:30 --write-limits hip.xml --json";
+  const Json said = Json::parse(written(question).out)["written_limits"];
+  const Json &sides = said["coordinates"], &error = said["error"];
+  const auto end = [&](std::size_t i, const char* which) {
+    return sides[i][which]["limit_deg"].get<double>();
+  };
+  const Poses poses(folder_ / "hip.toml");
+  // By steps of flexion from where it is free, as far as the box goes and past it.
+  constexpr double step = 0.05;
+  double beyond = 0, forbidden = 0;
+  for (double add = -30; add <= 10; add += 10)
+    for (double rot = 0; rot <= 60; rot += 30) {
+      const double held = std::max(
+          {end(1, "lower") - add, add - end(1, "upper"), end(2, "lower") - rot, rot - end(2, "upper"), 0.0});
+      for (const int sense : {-1, 1}) {
+        double free = 0;
+        while (std::abs(free) < 180 && !poses.meet(free + sense * step, add, rot)) free += sense * step;
+        const double past = sense > 0 ? free - end(0, "upper") : end(0, "lower") - free;
+        if (held == 0) beyond = std::max(beyond, -past);
+        forbidden = std::max({forbidden, held, past});
+      }
+    }
+  EXPECT_GT(beyond, 0.3);
+  EXPECT_GT(forbidden, 1);
+  EXPECT_NEAR(error["beyond_deg"].get<double>(), beyond, step);
+  EXPECT_NEAR(error["forbidden_deg"].get<double>(), forbidden, step);
+  const auto at = error["beyond_at_deg"].get<std::vector<double>>();
+  EXPECT_TRUE(poses.meet(at[0], at[1], at[2]));
+  const double back = (at[0] > 0 ? -1 : 1) * (error["beyond_deg"].get<double>() + 1e-6);
+  EXPECT_FALSE(poses.meet(at[0] + back, at[1], at[2]));
+  const auto free_at = error["forbidden_at_deg"].get<std::vector<double>>();
+  EXPECT_FALSE(poses.meet(free_at[0] - std::copysign(1e-6, free_at[0]), free_at[1], free_at[2]));
+  EXPECT_NE(text_of(folder_ / "hip.xml")
+                .find(fmt::format("by up to {:.2f} deg", error["beyond_deg"].get<double>())),
+            std::string::npos);
+}
+
+TEST_F(WrittenLimits, AreTheLivingOnesOnlyWhereStudiesSayOne) {
+  sample_into(folder_ / "sample", "hip");
+  const auto limits = [&](const char* of) {
+    const Ran ran = run(fmt::format(
+        "rom sample/hip.toml --motion flexion --map flexion=0:90:90 adduction=0:10:10 --write-limits hip.xml "
+        "--limits {} --json",
+        of));
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return Json::parse(ran.out);
+  };
+  const Json bony = limits("bony"), living = limits("living");
+  const Json& sides = living["written_limits"]["coordinates"];
+  // Studies say one of flexion, and of no other motion from zero.
+  const Json flexion = sides[0]["upper"];
+  EXPECT_EQ(flexion["source"], "living");
+  EXPECT_EQ(flexion["limit_deg"], living["motions"][0]["living"]["expected_deg"]);
+  EXPECT_EQ(flexion["bony_deg"], living["motions"][0]["limit_deg"]);
+  EXPECT_EQ(bony["written_limits"]["coordinates"][0]["upper"]["limit_deg"], bony["motions"][0]["limit_deg"]);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (const char* end : {"lower", "upper"}) {
+      EXPECT_EQ(bony["written_limits"]["coordinates"][i][end]["source"], "bony");
+      if (i > 0 || end == std::string_view("lower"))
+        EXPECT_EQ(sides[i][end], bony["written_limits"]["coordinates"][i][end]);
+    }
+  // The joint has names of no model: its own angles.
+  EXPECT_EQ(sides[0]["coordinate"], "flexion");
+  EXPECT_NE(text_of(folder_ / "hip.xml").find("living, bone 1"), std::string::npos);
+}
+
+TEST_F(WrittenLimits, AreRefusedInOneLine) {
+  std::ofstream(folder_ / "bare.toml") << [&] {
+    const std::string text = text_of(folder_ / "hip.toml");
+    return text.substr(0, text.find("[recorded_motion]"));
+  }();
+  std::ofstream(folder_ / "posed.toml")
+      << text_of(folder_ / "bare.toml") << "[recorded_motion]\nmodel = \"model.osim\"\njoint = \"hip_r\"\n";
+  std::ofstream(folder_ / "two.toml")
+      << text_of(folder_ / "bare.toml") << "[recorded_motion]\nflexion = \"flex\"\nadduction = \"add\"\n";
+  std::ofstream(folder_ / "other.toml") << text_of(folder_ / "bare.toml")
+                                        << "[recorded_motion]\nflexion = \"hip_r/flexion\"\nadduction = "
+                                           "\"hip_r/add\"\ninternal_rotation = \"hip_r/rot\"\n";
+  const struct {
+    std::string arguments;
+    int exit_code;
+    std::string line;
+  } cases[] = {
+      {"hip.toml --write-limits hip.txt", 2, "limits are written as .osim, .xml of MuJoCo or .csv"},
+      {"hip.toml --write-limits hip.xml --model model.osim", 2, "a copy of a model is an .osim"},
+      {"hip.toml --write-limits model.osim --model model.osim", 3, "model.osim: "},
+      {"hip.toml --write-limits hip.osim --model none.osim", 3, "none.osim: no such file"},
+      {"hip.toml --write-limits hip.osim --model hip.toml", 3, "hip.toml: "},
+      {"hip.toml --limits living", 2, "--write-limits"},
+      {"bare.toml --write-limits hip.osim", 2, "no model was read into this joint"},
+      {"posed.toml --write-limits hip.osim", 2, "the model poses this joint by its functions"},
+      {"two.toml --write-limits hip.osim", 2, "no coordinate turns the joint in internal_rotation"},
+      {"other.toml --write-limits hip.osim --model model.osim", 3,
+       "model.osim: joint 'hip_r' has no coordinate 'flexion'"},
+  };
+  for (const auto& [arguments, exit_code, line] : cases) {
+    const Ran ran = run("rom " + arguments + " --motion flexion");
+    EXPECT_EQ(ran.exit_code, exit_code) << arguments << "\n" << ran.err;
+    EXPECT_NE(ran.err.find(line), std::string::npos) << arguments << "\n" << ran.err;
+    EXPECT_EQ(ran.out, "") << arguments;
+    EXPECT_FALSE(fs::exists(folder_ / "hip.osim")) << arguments;
+  }
+}
+
+TEST_F(WrittenLimits, AreRefusedOfACoordinateThatMovesNothing) {
+  write_duct_model(folder_ / "stuck.osim", 0.005);
+  ASSERT_EQ(run("init stuck.osim --joint hip_r -o stuck.toml").exit_code, 0);
+  const Ran ran = run("rom stuck.toml --accept-reference-contact --write-limits stuck.xml");
+  EXPECT_EQ(ran.exit_code, 2) << ran.err;
+  EXPECT_NE(ran.err.find("coordinate flex moves nothing: the bodies are in contact"), std::string::npos)
+      << ran.err;
+  EXPECT_FALSE(fs::exists(folder_ / "stuck.xml"));
+}
+
+}  // namespace
+}  // namespace condyle::test
