@@ -34,7 +34,8 @@ mergeInto(LibraryManager["library"], {
   deflateInit2: function (at, level, method, windowBits, memory, strategy) {
     var stream = new Module["zlib"].ZStream();
     streams.set(at, stream);
-    return Module["zlib"].zlibDeflateInit2(stream, level, method, windowBits, memory, strategy);
+    // The last one: bytes are hashed as zlib does it, so that what is deflated has the bytes of zlib.
+    return Module["zlib"].zlibDeflateInit2(stream, level, method, windowBits, memory, strategy, true);
   },
   deflate__deps: ["$ran"],
   deflate: function (at, flush) {
