@@ -50,7 +50,7 @@ BoxEndRecord end_record(const RangeAnswer& answer, std::size_t i, const TurningC
     return coordinate_at(coordinate, sign_of(limit.motion.sense) * turned.degrees());
   };
   BoxEndRecord end{.limit_deg = value(limit.end.turned),
-                   .source = LimitSource::bony,
+                   .source = limit.end.ligament ? LimitSource::ligament : LimitSource::bony,
                    .reason = limit.end.reason,
                    .bony_deg = value(limit.end.turned)};
   if (const auto living = living_limit(answer, i);
@@ -118,8 +118,8 @@ BoxErrorRecord box_error(const motion::MotionMap& map, const Degrees& low, const
 }  // namespace
 
 std::string_view name_of(LimitSource source) noexcept {
-  constexpr std::string_view names[] = {"bony", "living"};
-  static_assert(std::size(names) == static_cast<std::size_t>(LimitSource::living) + 1);
+  constexpr std::string_view names[] = {"bony", "living", "ligament"};
+  static_assert(std::size(names) == static_cast<std::size_t>(LimitSource::ligament) + 1);
   return names[static_cast<std::size_t>(source)];
 }
 

@@ -27,7 +27,8 @@ struct TurningCoordinate {
 /// Whose limit an end of a box is.
 enum class LimitSource : std::uint8_t {
   bony,
-  living,  ///< the end that is expected of a living hip with this bone: LivingLimit::expected
+  living,    ///< the end that is expected of a living hip with this bone: LivingLimit::expected
+  ligament,  ///< the end that a ligament of the joint makes before bone does
 };
 /// As in files: "bony".
 std::string_view name_of(LimitSource source) noexcept;

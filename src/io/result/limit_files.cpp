@@ -49,6 +49,7 @@ std::string numbers_text(const std::vector<double>& values) {
 /// Whose an end is.
 std::string words_of(const BoxEndRecord& end) {
   if (end.source == LimitSource::living) return fmt::format("living, bone {:.2f}", end.bony_deg);
+  if (end.source == LimitSource::ligament) return "ligament";
   return end.reason == motion::LimitReason::contact ? "bony" : "no contact";
 }
 
