@@ -149,6 +149,20 @@ std::vector<std::string> arguments(int argc, char** argv) {
   return words;
 }
 
+/// In the order of the help.
+struct Command {
+  std::string_view name;
+  void (*add)(CLI::App&);
+};
+constexpr Command commands[] = {
+    {"init", cli::add_init},       {"hip", cli::add_hip},         {"surface", cli::add_surface},
+    {"inspect", cli::add_inspect}, {"frame", cli::add_frame},     {"depth", cli::add_depth},
+    {"rom", cli::add_rom},         {"load", cli::add_load},       {"motion", cli::add_motion},
+    {"measure", cli::add_measure}, {"resect", cli::add_resect},   {"implant", cli::add_implant},
+    {"sweep", cli::add_sweep},     {"picture", cli::add_picture}, {"report", cli::add_report},
+    {"sample", cli::add_sample},   {"study", cli::add_study},     {"merge", cli::add_merge},
+};
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Condyle computes where the bones of a joint run into each other, how deep, and along which direction.",
@@ -171,28 +185,20 @@ int run(int argc, char** argv) {
       ->check(cli::whole_number(1, 4096))
       ->option_text("N (all cores)");
 
-  cli::add_init(app);
-  cli::add_hip(app);
-  cli::add_surface(app);
-  cli::add_inspect(app);
-  cli::add_frame(app);
-  cli::add_depth(app);
-  cli::add_rom(app);
-  cli::add_load(app);
-  cli::add_motion(app);
-  cli::add_measure(app);
-  cli::add_resect(app);
-  cli::add_implant(app);
-  cli::add_sweep(app);
-  cli::add_picture(app);
-  cli::add_report(app);
-  cli::add_sample(app);
-  cli::add_study(app);
-  cli::add_merge(app);
-
+  // Options of other commands would take longer to make than many an answer: the one that is named comes alone.
   const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  std::vector<std::string> reversed = arguments(argc, argv);
+  const auto is_named = [&](const Command& command) {
+    return !reversed.empty() && reversed.back() == command.name;
+  };
+  if (const auto* const named = std::find_if(std::begin(commands), std::end(commands), is_named);
+      named != std::end(commands))
+    named->add(app);
+  else
+    for (const Command& command : commands) command.add(app);
+
   try {
-    app.parse(arguments(argc, argv));
+    app.parse(reversed);
   } catch (const CLI::Success& request) {  // --help or --version
     const bool version = dynamic_cast<const CLI::CallForVersion*>(&request) != nullptr;
     cli::print(version ? app.version() + "\n" : app.help());
