@@ -13,10 +13,8 @@ mkdirSync(folder, { recursive: true });
 
 await build({
   entryPoints: [join(here, "package/command.js"), join(here, "package/worker.js")],
-  bundle: true, minify: true, outdir: folder, format: "esm", platform: "node", target: "node18", charset: "ascii", legalComments: "none",
-  alias: { "condyle-wasm": join(built, "condyle.js"), pako },
-  // The module of emscripten asks for node's own by require.
-  banner: { js: 'import { createRequire as requireOf } from "node:module"; import { dirname as folderOf } from "node:path"; import { fileURLToPath as pathOf } from "node:url"; const require = requireOf(import.meta.url), __filename = pathOf(import.meta.url), __dirname = folderOf(__filename);' },
+  bundle: true, minify: true, outdir: folder, format: "cjs", outExtension: { ".js": ".cjs" }, platform: "node", target: "node18", charset: "ascii", legalComments: "none",
+  alias: { "condyle-wasm": join(built, "condyle.js"), pako }, inject: [join(here, "package/random.js")],
 });
 // The module, for browsers too. What emscripten's glue asks of node is there in node only.
 await build({
@@ -27,7 +25,7 @@ await build({
 });
 cpSync(join(built, "types"), join(folder, "types"), { recursive: true });
 copyFileSync(join(root, "viewer/src/core/wasm.d.ts"), join(folder, "types/viewer/src/core/wasm.d.ts"));
-const command = join(folder, "command.js");
+const command = join(folder, "command.cjs");
 const text = readFileSync(command, "utf8");
 if (!text.startsWith("#!")) throw new Error("the command has no first line for the shell");
 copyFileSync(join(built, "condyle.wasm"), join(folder, "condyle.wasm"));

@@ -9,6 +9,15 @@ mergeInto(LibraryManager["library"], {
   condyle_run: function (words, bytes, showsErrors) {
     return Module["node"].run(UTF8ToString(words, bytes), showsErrors !== 0);
   },
+  condyle_hash_begin: function () {
+    return Module["node"].hashBegin();
+  },
+  condyle_hash_add: function (hash, bytes, size) {
+    Module["node"].hash(hash).update(HEAPU8.subarray(bytes >>> 0, (bytes >>> 0) + (size >>> 0)));
+  },
+  condyle_hash_digits: function (hash, digits) {
+    stringToUTF8Array(Module["node"].hash(hash).copy().digest("hex"), HEAPU8, digits, 65);
+  },
   condyle_template_size: function () {
     return Module["node"].template().length;
   },

@@ -1,13 +1,14 @@
 #!/usr/bin/env node
 // The command condyle: its work in a worker, signals here.
 import { rmSync, rmdirSync, writeSync } from "node:fs";
+import { join } from "node:path";
 import { Worker } from "node:worker_threads";
 import { folders, sharedMemory, state, written } from "./shared.js";
 
 const interrupted = 130, patience_ms = 500, poll_ms = 20;
 const shared = sharedMemory(), at = state(shared);
-const worker = new Worker(new URL("worker.js", import.meta.url), {
-  workerData: { words: process.argv.slice(2), shared, folder: import.meta.url }, stdin: false, resourceLimits: { stackSizeMb: 16 },
+const worker = new Worker(join(__dirname, "worker.cjs"), {
+  workerData: { words: process.argv.slice(2), shared }, stdin: false, resourceLimits: { stackSizeMb: 16 },
 });
 worker.on("error", (error) => {
   writeSync(2, `condyle: internal error: ${error.message ?? error}\n`);

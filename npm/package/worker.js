@@ -1,7 +1,8 @@
 // Runs the command, in a thread of its own: a signal is for the main thread, which answers while this one computes.
-import { spawnSync } from "node:child_process";
-import { readFileSync, writeSync } from "node:fs";
-import { isatty } from "node:tty";
+import { createHash } from "node:crypto";
+import { fstatSync, readFileSync, writeSync } from "node:fs";
+import { join } from "node:path";
+import { setFlagsFromString } from "node:v8";
 import { workerData } from "node:worker_threads";
 import { ZStream, zlibDeflate, zlibDeflateEnd, zlibDeflateInit2, zlibInflate, zlibInflateEnd, zlibInflateInit2, zlibInflateReset } from "pako";
 import condyle from "condyle-wasm";
@@ -9,6 +10,8 @@ import { folders, state, written } from "./shared.js";
 
 const { words, shared } = workerData;
 const at = state(shared), made = folders(shared);
+const beside = (name) => readFileSync(join(__dirname, name));
+const hashes = [];
 let template = null;
 
 const node = {
@@ -16,11 +19,22 @@ const node = {
   watch: (begins) => Atomics.store(at, written.watched, Number(begins)),
   run(joined, showsErrors) {
     const [program, ...rest] = joined.split("\0").slice(0, -1);
-    const { status } = spawnSync(program, rest, { stdio: ["inherit", showsErrors ? 2 : "ignore", showsErrors ? 2 : "ignore"], env: { ...process.env, PYTHONSAFEPATH: "1" } });
+    const { status } = require("node:child_process").spawnSync(program, rest, { stdio: ["inherit", showsErrors ? 2 : "ignore", showsErrors ? 2 : "ignore"], env: { ...process.env, PYTHONSAFEPATH: "1" } });
     return status ?? -1;
   },
-  template: () => (template ??= readFileSync(new URL("report_template.html", workerData.folder))),
+  hashBegin: () => hashes.push(createHash("sha256")) - 1,
+  hash: (number) => hashes[number],
+  template: () => (template ??= beside("report_template.html")),
 };
+
+/// Node's module for terminals, and that for programs above, bring those for networks: they are loaded when they are needed.
+function isTerminal(stream) {
+  try {
+    return fstatSync(stream).isCharacterDevice() && require("node:tty").isatty(stream);
+  } catch {
+    return false;  // It is closed.
+  }
+}
 
 /// Standard output may be a pipe whose reader is slower.
 function writtenAtLast(write) {
@@ -36,8 +50,14 @@ function writtenAtLast(write) {
   };
 }
 
-await condyle({
-  wasmBinary: readFileSync(new URL("condyle.wasm", workerData.folder)),
+// Flags come when node has loaded what is its own, whose cached code other flags make worthless. Functions are looked through and compiled when
+// they are first called: most never are. Those that have run through so many bytes are optimised, which takes V8 longer than a short command has.
+// V8 names on standard error a flag that it does not know.
+const terminals = [0, 1, 2].map(isTerminal);
+if (parseInt(process.versions.node) <= 24)
+  for (const flag of ["--wasm-lazy-compilation", "--wasm-lazy-validation", "--wasm-tiering-budget=500000000"]) setFlagsFromString(flag);
+condyle({
+  wasmBinary: beside("condyle.wasm"),
   zlib: { ZStream, zlibDeflate, zlibDeflateEnd, zlibDeflateInit2, zlibInflate, zlibInflateEnd, zlibInflateInit2, zlibInflateReset },
   node, print: (line) => writeSync(1, `${line}\n`), printErr: (line) => writeSync(2, `${line}\n`),
   preRun: [(module) => {
@@ -56,6 +76,6 @@ await condyle({
     };
   }],
 }).then((module) => {
-  for (const stream of [0, 1, 2]) module.FS.streams[stream].tty = isatty(stream);
+  for (const stream of [0, 1, 2]) module.FS.streams[stream].tty = terminals[stream];
   module.callMain(words);
 });

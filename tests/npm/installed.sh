@@ -38,6 +38,18 @@ expect 0 --version
 expect 0 sample hip --out "Hüfte eins"
 "$condyle" sample hip --out native >/dev/null
 diff -r native "Hüfte eins" || fail "a sample differs from the native command's"
+processor_s() {
+  local TIMEFORMAT="%U %S"
+  { time "$@" >/dev/null 2>&1; } 2>&1 | awk '{ print $1 + $2 }'
+}
+# Compiled for size, whole samples took thirty times as long: no small step of theirs was inlined.
+ours=$(processor_s "${run[@]}" sample hip --out again)
+theirs=$(processor_s "$condyle" sample hip --out native_again)
+awk "BEGIN { exit !($ours < 4 * $theirs) }" || fail "a sample takes $ours s of processor time, and $theirs natively"
+# What is deflated has the bytes of zlib.
+expect 0 picture "Hüfte eins/hip.toml" --measures --colour none --out shape.png
+"$condyle" picture "Hüfte eins/hip.toml" --measures --colour none --out native.png >/dev/null 2>&1
+cmp native.png shape.png || fail "a picture differs from the native command's"
 for words in rom "rom --json --band" "measure --json"; do
   # shellcheck disable=SC2086
   expect 0 $words "Hüfte eins/hip.toml"
@@ -58,6 +70,7 @@ echo "text" | "${run[@]}" rom /dev/stdin >/dev/null 2>errors.txt && fail "standa
 
 # Ctrl-C during long work ends it with 130, one line and nothing half-written.
 setsid "${run[@]}" rom "Hüfte eins/hip.toml" --map flexion=0:120:1 adduction=-30:20:1 --out interrupted >answer.txt 2>errors.txt &
+for _ in $(seq 60); do ! pgrep -s $! -x node >/dev/null || break; sleep 0.5; done
 sleep 3
 pkill -INT -s $! node || fail "the work was over before it could be interrupted"
 code=0
