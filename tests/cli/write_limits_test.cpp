@@ -229,8 +229,9 @@ TEST_F(WrittenLimits, AreTheLivingOnesOnlyWhereStudiesSayOne) {
   for (std::size_t i = 0; i < 3; ++i)
     for (const char* end : {"lower", "upper"}) {
       EXPECT_EQ(bony["written_limits"]["coordinates"][i][end]["source"], "bony");
-      if (i > 0 || end == std::string_view("lower"))
+      if (i > 0 || end == std::string_view("lower")) {
         EXPECT_EQ(sides[i][end], bony["written_limits"]["coordinates"][i][end]);
+      }
     }
   // The joint has names of no model: its own angles.
   EXPECT_EQ(sides[0]["coordinate"], "flexion");
@@ -283,6 +284,9 @@ TEST_F(WrittenLimits, AreRefusedOfACoordinateThatMovesNothing) {
   EXPECT_NE(ran.err.find("coordinate flex moves nothing: the bodies are in contact"), std::string::npos)
       << ran.err;
   EXPECT_FALSE(fs::exists(folder_ / "stuck.xml"));
+  const Ran missing =
+      run("rom stuck.toml --accept-reference-contact --write-limits stuck.osim --model none.osim");
+  EXPECT_EQ(missing.exit_code, 3) << "the model is looked at before the limits: " << missing.err;
 }
 
 }  // namespace

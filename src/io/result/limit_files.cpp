@@ -113,6 +113,13 @@ std::string mujoco_fragment(const LimitBoxRecord& box, const Joint& joint, const
   return "<mujocoinclude>\n" + text + "</mujocoinclude>\n";
 }
 
+/// The copy of the model. Throws as with_limits().
+std::string model_text(const LimitFile& file, const LoadedJoint& joint,
+                       const std::vector<CoordinateRange>& ranges, const std::string& comment) {
+  return with_limits(read_whole_file(*file.model), *file.model,
+                     names_in(columns_of(joint)->front().column).first, ranges, file.stop, comment);
+}
+
 const BoxSideRecord& side_of(const LimitBoxRecord& box, JointAngle angle) {
   return *std::find_if(box.coordinates.begin(), box.coordinates.end(),
                        [&](const BoxSideRecord& side) { return side.angle == angle; });
@@ -170,6 +177,9 @@ std::vector<TurningCoordinate> limit_coordinates(const LoadedJoint& joint, const
         coordinates.push_back({names_in(column.column).second,
                                joint_angle_named(column.coordinate, joint.joint.anatomy), column.sign,
                                column.offset});
+    std::vector<CoordinateRange> ranges;
+    for (const TurningCoordinate& each : coordinates) ranges.push_back({each.name, 0, 0});
+    if (file.model) (void)model_text(file, joint, ranges, "");
     return coordinates;
   }
   if (ending == ".osim" && joint.report.file.recorded_motion)
@@ -222,9 +232,7 @@ void write_limits(const LimitFile& file, const LimitBoxRecord& box, const Loaded
       text + "CoordinateLimitForce has degrees, range and CoordinateLinearStopForce radians\n" + sources);
   const std::vector<CoordinateRange> ranges = ranges_of(box);
   if (!file.model) return write_output_file(file.path, opensim_fragment(ranges, file.stop, comment));
-  const std::string joint_name = names_in(columns_of(joint)->front().column).first;
-  write_output_file(file.path, with_limits(read_whole_file(*file.model), *file.model, joint_name, ranges,
-                                           file.stop, comment));
+  write_output_file(file.path, model_text(file, joint, ranges, comment));
 }
 
 }  // namespace condyle::io
