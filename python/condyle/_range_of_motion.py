@@ -203,7 +203,7 @@ class RangeOfMotion(HasLimits, Unchanging):
 
     def write_limits(self, path: Path, *, limits: LimitSource = "bony", column: Optional[Mapping[str, Sequence[float]]] = None,
                      row: Optional[Mapping[str, Sequence[float]]] = None, vary: Optional[str] = None, stop: StopForce = "limit",
-                     model: Optional[Path] = None, progress: Progress = None) -> dict[str, Any]:
+                     model: Optional[Path] = None, progress: Progress = None) -> dict[str, object]:
         """Writes limits that hold each coordinate by itself, for another program, and returns them as `written_limits` of rom.json.
 
         The ending of `path` decides: .osim of the model that the joint was read from, a copy of `model` if that is given, with `stop` "limit"
