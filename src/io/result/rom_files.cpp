@@ -65,7 +65,17 @@ void write_zones(OutputFolder& out, const RomResult& result, const VtpOptions& v
 
 /// Code of the reason for an interval's end in a VTP file.
 std::int32_t code_of(motion::LimitReason reason) noexcept {
-  return reason == motion::LimitReason::end_of_range ? 0 : 1;
+  switch (reason) {
+    case motion::LimitReason::end_of_range:
+      return 0;
+    case motion::LimitReason::contact:
+    case motion::LimitReason::contact_at_start:
+      return 1;
+    case motion::LimitReason::ligament:
+    case motion::LimitReason::strained_at_start:
+      return 2;
+  }
+  return 1;
 }
 constexpr std::int32_t nothing_free = -1;
 
