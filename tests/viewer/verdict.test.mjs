@@ -82,9 +82,10 @@ test("a limit between healthy hips and those with a cam is compared and not call
   await page.context().close();
 });
 
-test("samples of implants have no box of notes, and no caveats of native hips", async () => {
+test("samples of implants are called so, have no box of notes, and no caveats of native hips", async () => {
   for (const sample of [["replacement"], ["replacement", "--bones", "none"], ["reverse-shoulder"]]) {
     const { page, joint } = await sampled(sample.join("_").replaceAll("-", ""), ...sample);
+    assert.match(await page.locator("#title").textContent(), /Right (hip|shoulder) with an implant · /);
     assert.equal(await page.locator("#noted").count(), 0, `${sample}: ${await page.locator("#noted").allTextContents()}`);
     for (const said of [await page.locator("#side").textContent(), run("rom", joint)]) assert.doesNotMatch(said, /labrum|cadaver|native hips|capsule/);
     await page.context().close();

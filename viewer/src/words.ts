@@ -19,6 +19,7 @@ export function inWords(note: string): string {
 /// Every text of the page, in one table: another language is another table.
 export const words = {
   pageTitle: (title: string) => `${title} – Condyle`,
+  withImplant: " with an implant",
   heading: (side: string, anatomy: string, { fixed, mobile }: { fixed: string; mobile: string }) =>
     `${side.charAt(0).toUpperCase()}${side.slice(1)} ${anatomy} · ${mobile} / ${fixed}`,
   versionShown: (version: string) => `condyle ${version}`,

@@ -2,12 +2,12 @@ import { button, html, namesOf, shortened } from "../dom";
 import type { ReportText } from "../report";
 import { words } from "../words";
 
-/// "Right hip · femur / hip bone · date · version", beginning with the case if one was given.
+/// "Right hip with an implant · femur / hip bone · date · version", beginning with the case if one was given.
 export function headingOf(text: ReportText): string {
   const { joint, title, version, case: given, date } = text;
   return [
     ...(given ? [shortened(given)] : []), ...(title !== joint.name ? [shortened(title)] : []),
-    words.heading(words.sides[joint.side], words.anatomies[joint.anatomy], namesOf(joint)), ...(date ? [shortened(date)] : []),
+    words.heading(words.sides[joint.side], `${words.anatomies[joint.anatomy]}${text.rom?.implant ? words.withImplant : ""}`, namesOf(joint)), ...(date ? [shortened(date)] : []),
     ...(version ? [words.versionShown(version)] : []),
   ].join(" · ");
 }
