@@ -117,12 +117,6 @@ BoxErrorRecord box_error(const motion::MotionMap& map, const Degrees& low, const
 
 }  // namespace
 
-std::string_view name_of(LimitSource source) noexcept {
-  constexpr std::string_view names[] = {"bony", "living", "ligament"};
-  static_assert(std::size(names) == static_cast<std::size_t>(LimitSource::ligament) + 1);
-  return names[static_cast<std::size_t>(source)];
-}
-
 std::optional<LimitBoxRecord> limit_box_record(const Case& of, const RangeAnswer& answer,
                                                const RangeRequest& request,
                                                std::span<const TurningCoordinate> coordinates,

@@ -31,7 +31,10 @@ enum class LimitSource : std::uint8_t {
   ligament,  ///< the end that a ligament of the joint makes before bone does
 };
 /// As in files: "bony".
-std::string_view name_of(LimitSource source) noexcept;
+constexpr std::string_view name_of(LimitSource source) noexcept {
+  constexpr std::string_view names[] = {"bony", "living", "ligament"};
+  return names[static_cast<std::size_t>(source)];
+}
 
 /// An end of one coordinate with the others at zero angles, as values of the coordinate.
 struct BoxEndRecord {
