@@ -138,6 +138,10 @@ contact::Load load_of(const BalanceArguments& given) {
   return {.on_mobile = {vector_of(given.force), vector_of(given.moment)}, .frame = given.frame};
 }
 
+void require_load(const BalanceArguments& given, bool has_load) {
+  if (given.ligaments && !has_load) throw UsageError("--ligaments: needs a force, which may be 0 0 0");
+}
+
 contact::BalanceOptions balance_options_of(const BalanceArguments& given, const Joint& joint) {
   contact::BalanceOptions options;
   options.free_directions = directions_of(given.along);

@@ -30,6 +30,7 @@ void load_command(const LoadArguments& options, const CLI::App& command) {
   const io::ContactEntry contact = contact_of(options.contact, loaded.report.file, true);
   const io::ContactSurfaces surfaces = io::surfaces_of(contact, joint);
   LoadRequest request{.X_FM = given.X_FM, .names = {surfaces.fixed.name, surfaces.mobile.name}};
+  require_load(options.balance, options.balance.any());
   if (options.balance.any()) request.load = load_of(options.balance);
   if (request.load) request.balance = balance_options_of(options.balance, joint);
   const io::LoadQuestion question{

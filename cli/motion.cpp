@@ -48,6 +48,7 @@ MotionRequest request_of(const MotionArguments& options, const Joint& joint, io:
   MotionRequest request{.loads = loads_of(options, motion)};
   request.X_FM = motion.X_FM;
   if (motion.times.in_seconds) request.time_s = motion.times.values;
+  require_load(options.balance, options.balance.any() || !options.loads.empty());
   if (options.balance.any()) request.load = load_of(options.balance);
   if (request.has_load()) request.balance = balance_options_of(options.balance, joint);
   if (options.between) request.between = BetweenFrames::always;

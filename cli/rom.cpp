@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -125,6 +126,11 @@ void rom_command(const RomArguments& options, const CLI::App& command) {
   if (!options.limits.path.empty()) coordinates = io::limit_coordinates(loaded, options.limits, &from);
   // A folder that cannot be written to is reported before the work, not after it.
   if (!options.out.empty()) io::check_rom_folder(options.out, &from);
+  if (!options.limits.path.empty() && !options.out.empty() &&
+      std::filesystem::weakly_canonical(std::filesystem::absolute(options.limits.path).parent_path()) ==
+          std::filesystem::weakly_canonical((std::filesystem::absolute(options.out) / "file").parent_path()))
+    throw UsageError("--write-limits: " + options.limits.path.string() +
+                     " would lie in the folder of --out, whose files are replaced");
 
   io::add_other_files(from, read);
   const RangeAnswer answer = answer_of(options, loaded, request);

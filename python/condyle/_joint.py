@@ -444,7 +444,7 @@ class Joint(DescribedJoint):
                         bearing_margin_mm: Optional[float] = None, accept_reference_contact: bool = False,
                         exclude_reference_contacts: Union[bool, int] = False,
                         translation_mm: Optional[ArrayLike] = None, clock: ClockPlane = "sagittal") -> RangeOfMotion:
-        """How far the joint turns before bone meets bone: exact limits of these motions, of all known ones if not
+        """How far the joint turns before bone meets bone, or a ligament of the joint ends it: exact limits of these motions, of all known ones if not
         given.
 
         Parameters

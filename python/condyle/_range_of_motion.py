@@ -221,6 +221,8 @@ class RangeOfMotion(HasLimits, Unchanging):
         >>> [side["coordinate"] for side in said["coordinates"]], said["error"]["points"]
         (['flexion', 'adduction', 'internal_rotation'], 9)
         """
+        if (column is None) != (row is None) or (column is None and vary is not None):
+            raise UsageError("column: column and row are given together, and vary with them")
         grid = None if column is None or row is None else self._grid(column, row, vary)
         return _native.write_limits(self._native, self._joint._native, path_of(path), word(limits, "limits", LimitSource) == "living",
                                     word(stop, "stop", StopForce) == "linear", None if model is None else path_of(model, "model"), grid,

@@ -266,6 +266,10 @@ class Search {
 
   BalanceOutcome find() {
     take(start_, tried(start_));
+    if (now_.samples == 0 && along_free(load_at(start_)).isZero(0)) {
+      out_.direction = free_.col(0).head<3>();
+      return BalanceOutcome::free_direction;
+    }
     if (now_.samples == 0 && !approach()) {
       if (!most_) return BalanceOutcome::pulled_apart;
       resisted_ = most_->carried > 0;
@@ -464,8 +468,8 @@ std::string reason_of(const BalancedPose& pose) {
           d.x(), d.y(), d.z());
     case BalanceOutcome::free_direction:
       return core::formatted(
-          "the contact holds the mobile body in no place along (%.3f, %.3f, %.3f): prescribe it", d.x(),
-          d.y(), d.z());
+          "nothing holds the mobile body in one place along (%.3f, %.3f, %.3f): prescribe it", d.x(), d.y(),
+          d.z());
   }
   return "";
 }

@@ -10,6 +10,7 @@
 #include "core/formatted.hpp"
 #include "kinematics/hip_parts.hpp"
 #include "kinematics/posed_parts.hpp"
+#include "motion/rom/ligament_limits.hpp"
 #include "plan/bone_cut.hpp"
 #include "plan/planned.hpp"
 
@@ -143,9 +144,11 @@ std::optional<Resection> resect(const Joint& joint, const ResectionOptions& as_g
       throw MeshError("resection: " + target.motion.name +
                       " is in contact at its start: plan what brings the joint there first, and ask for this "
                       "of the joint without that bone");
-    if (end.ligament && end.turned < target.reach)
-      throw MeshError("resection: ligament " + joint.ligaments[*end.ligament].name + " ends " +
-                      target.motion.name + " at " + degrees(end.turned) +
+    // Whatever bone is taken, the motion goes no farther than its ligaments let it.
+    if (const motion::Limit string = motion::ligament_end(joint, target.motion);
+        string.ligament && string.turned < target.reach)
+      throw MeshError("resection: ligament " + joint.ligaments[*string.ligament].name + " ends " +
+                      target.motion.name + " at " + degrees(string.turned) +
                       " degrees: no cut of bone changes that");
     if (end.turned < target.reach || request.margin_mm > 0)
       open.push_back({i, target.motion, target.reach, end.turned});

@@ -77,6 +77,13 @@ TEST(LigamentBalance, HoldsABodyThatNoContactHolds) {
   EXPECT_LT(pose.contact.on_mobile.force_n.norm(), 1e-9);
 }
 
+TEST(LigamentBalance, OfNothingThatTouchesOrPullsIsHeldByNothing) {
+  const BalancedPose pose =
+      balance(ball_in_cup(), translated({0, 1, 0}), {}, {.ligaments = {string_below(60, 20000)}});
+  EXPECT_EQ(pose.outcome, BalanceOutcome::free_direction);
+  EXPECT_EQ(reason_of(pose).find("nothing holds the mobile body"), 0u) << reason_of(pose);
+}
+
 TEST(LigamentBalance, RefusesALigamentWithoutALength) {
   Ligament string = string_below(30, 20000);
   string.wrap = LigamentWrap{.shape = WrapShape::ellipsoid, .body = BodyRole::fixed};

@@ -127,3 +127,53 @@ def test_what_does_not_look_for_ligaments_refuses_them(joint, file, command, tmp
         assert not (tmp_path / "page.html").exists()
     with pytest.raises(condyle.UsageError, match="ligament front ends motions, which a path"):
         joint.path_limit([{"flexion": 0}, {"flexion": 20}])
+
+
+def with_strings(file, text):
+    path = file.with_name(f"other_{abs(hash(text))}.toml")
+    path.write_text(file.read_text().split("\n[[ligament]]")[0] + text)
+    return path
+
+
+def test_no_bone_goes_for_a_target_that_a_ligament_makes_unreachable(file):
+    # Bone ends adduction at 33 degrees, the ligament at 35.
+    path = with_strings(file, """
+[[ligament]]
+name = "lateral"
+fixed = [5, 40, 35]
+mobile = [5, -5, 45]
+slack_length = 66.58470329263
+ends_at_strain = 0.05
+""")
+    joint = condyle.read_joint(path)
+    assert joint.range_of_motion(["adduction"]).limits[0].reason == "contact"
+    with pytest.raises(condyle.MeshError, match="ligament lateral ends adduction at 35 degrees"):
+        joint.resection({"adduction": 40})
+    assert joint.resection({"adduction": 34}).targets[0].after.limit_deg >= 34
+
+
+def test_a_band_does_not_look_for_lengths_beyond_the_contact_that_ends_a_motion(file, command):
+    path = with_strings(file, """
+[[ligament]]
+name = "long"
+fixed = [26.21681052, -17.79178854, 7.90460216]
+mobile = [-28.92712403, 34.64839752, 31.8405042]
+slack_share = 2
+ends_at_strain = 0.2
+wrap = { shape = "sphere", body = "mobile", centre = [3.78365306, 4.38717379, 7.681818], radius = 25 }
+""")
+    subprocess.run([command, "rom", path, "--motion", "adduction", "--band=20"], check=True, capture_output=True)
+
+
+def test_ligaments_pull_only_against_a_force(file, command):
+    done = subprocess.run([command, "load", file, "--ligaments", "--e", "10", "--nu", "0.45", "--thickness", "2"],
+                          capture_output=True, text=True)
+    assert done.returncode == 2 and "--ligaments: needs a force" in done.stderr
+
+
+def test_a_map_says_which_ends_are_of_ligaments(file, command, tmp_path):
+    subprocess.run([command, "rom", file, "--motion", "flexion", "--map", "flexion=-60:0:30", "adduction=-20:20:20", "--out", tmp_path],
+                   check=True, capture_output=True)
+    rows = list(csv.DictReader(line for line in open(tmp_path / "map.csv") if not line.startswith("#")))
+    ends = [(row[f"{end}_reason"], row[f"{end}_contact_kind"]) for row in rows for end in ("lower", "upper")]
+    assert ("ligament", "") in ends and ("ligament", "unknown") not in ends

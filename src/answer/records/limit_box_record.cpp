@@ -141,7 +141,7 @@ std::optional<LimitBoxRecord> limit_box_record(const Case& of, const RangeAnswer
     low[number_of(coordinate.angle)] = angle_at(lower), high[number_of(coordinate.angle)] = angle_at(upper);
     if (!(lower.limit_deg != upper.limit_deg))
       throw UsageError("coordinate " + coordinate.name +
-                       " moves nothing: the bodies are in contact on either side of zero");
+                       " moves nothing: contact or a ligament holds it on either side of zero");
     if (coordinate.sign < 0) std::swap(lower, upper);
     box.coordinates.push_back({coordinate.name, coordinate.angle, coordinate.sign, coordinate.offset_deg,
                                std::move(lower), std::move(upper)});

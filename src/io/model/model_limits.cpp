@@ -74,6 +74,15 @@ class EditedXml {
       edits_.push_back({place_of(child->inside), child->inside.size(), value});
   }
 
+  /// An element that holds none of its own name.
+  void remove(const XmlElement& element) {
+    const std::size_t name = place_of(element.name);
+    const std::size_t last = element.children.empty() && element.inside.data() == nullptr
+                                 ? tag_end(element)
+                                 : bytes_.find('>', bytes_.find(fmt::format("</{}", element.name), name));
+    edits_.push_back({name - 1, last + 2 - name, ""});
+  }
+
   std::string text() && {
     for (const auto& [end, inserted] : inserted_) {
       const auto& [name, text] = inserted;
@@ -165,18 +174,32 @@ std::string with_limits(std::string_view model, const std::filesystem::path& pat
     if (found.size() != 1)
       source.fail(fmt::format("joint {} has {} coordinate {}", in_quotes(joint),
                               found.empty() ? "no" : "more than one", in_quotes(range.coordinate)));
+    if (const XmlElement* otherwise = found.front()->child("default_value")) {
+      double value = 0;
+      if (range.lower_deg < range.upper_deg && parse_number(otherwise->text(), value) &&
+          !(value >= range.lower_deg * radians && value <= range.upper_deg * radians))
+        source.fail(
+            fmt::format("line {}: the default_value {} of {} is outside of what is written, {}: OpenSim "
+                        "refuses such a model",
+                        otherwise->line, value, in_quotes(range.coordinate), range_text(range)));
+    }
     edited.set(*found.front(), "range", range_text(range));
     edited.set(*found.front(), "clamped", "true");
-    const Force force = force_of(range, stop);
-    const auto is_it = [&](const XmlElement& each) {
-      return each.name == force.element && each.label() == force.name;
+    const auto written_before = [&](const Force& force) -> const XmlElement* {
+      if (!forces) return nullptr;
+      const auto found_force = std::find_if(
+          forces->children.begin(), forces->children.end(),
+          [&](const XmlElement& each) { return each.name == force.element && each.label() == force.name; });
+      return found_force == forces->children.end() ? nullptr : &*found_force;
     };
-    const auto before = forces ? std::find_if(forces->children.begin(), forces->children.end(), is_it)
-                               : std::vector<XmlElement>::const_iterator();
-    if (!forces || before == forces->children.end())
-      added += force_element(range, stop);
-    else
+    if (const XmlElement* other =
+            written_before(force_of(range, stop == StopForce::limit ? StopForce::linear : StopForce::limit)))
+      edited.remove(*other);
+    const Force force = force_of(range, stop);
+    if (const XmlElement* before = written_before(force))
       for (const auto& [property, value] : force.properties) edited.set(*before, property, value);
+    else
+      added += force_element(range, stop);
   }
   if (forces)
     edited.insert(*forces, "\n" + added);

@@ -5,16 +5,20 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <utility>
 #include <variant>
 
 #include "condyle/error.hpp"
+#include "condyle/io/model_file.hpp"
 #include "core/lower_case.hpp"
+#include "io/file/csv_fields.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/file/output_file.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/file/xml_escaped.hpp"
+#include "io/model/joint_mapping.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/text_table.hpp"
 
@@ -60,7 +64,8 @@ std::string error_text(const LimitBoxRecord& box) {
     return values ? fmt::format(", at {}", numbers_text(*values)) : std::string();
   };
   std::string text = fmt::format(
-      "  limits are coupled: of {} points of a map {} are within these. A pose within them is past the bone "
+      "  limits are coupled: of {} points of a map {} are within these. A pose within them is past what is "
+      "free "
       "by up to {:.2f} deg{}. Free poses are past them by up to {:.2f} deg{}\n",
       error.points, error.points_in_box, error.beyond_deg, at(error.beyond_at_deg), error.forbidden_deg,
       at(error.forbidden_at_deg));
@@ -120,6 +125,39 @@ std::string model_text(const LimitFile& file, const LoadedJoint& joint,
                      names_in(columns_of(joint)->front().column).first, ranges, file.stop, comment);
 }
 
+/// A copy of a model whose coordinates have another sense or zero would have ends that mean another pose.
+void require_same_meaning(const std::filesystem::path& path, const LoadedJoint& joint) {
+  const std::vector<ColumnOfCoordinate>& columns = *columns_of(joint);
+  const auto [name, first] = names_in(columns.front().column);
+  const Model model = read_model(path);
+  const auto is_of = [&, name = name, first = first](const ModelJoint& each) {
+    return name.empty() ? std::any_of(each.coordinates.begin(), each.coordinates.end(),
+                                      [&](const ModelCoordinate& its) { return its.name == first; })
+                        : each.name == name;
+  };
+  const auto of_model = std::find_if(model.joints.begin(), model.joints.end(), is_of);
+  if (of_model == model.joints.end()) return;  // with_limits() says so
+  const std::vector<ColumnOfCoordinate> its =
+      mapping_of(StandingModel(model), *of_model,
+                 joint.joint.names_its_joint() ? std::optional(joint.joint.anatomy) : std::nullopt,
+                 joint.joint.side)
+          .columns;
+  constexpr double rounding_deg = 1e-9;
+  for (const ColumnOfCoordinate& ours : columns) {
+    if (ours.kind != CoordinateKind::angle) continue;
+    const std::string coordinate = names_in(ours.column).second;
+    const auto theirs = std::find_if(its.begin(), its.end(), [&](const ColumnOfCoordinate& each) {
+      return names_in(each.column).second == coordinate;
+    });
+    if (theirs == its.end() || theirs->coordinate != ours.coordinate || theirs->sign != ours.sign ||
+        !(std::abs(theirs->offset - ours.offset) < rounding_deg))
+      throw FileError(
+          fmt::format("{}: coordinate {} turns the joint otherwise than the joint file says: make it "
+                      "anew from this model",
+                      path.string(), in_quotes(coordinate)));
+  }
+}
+
 const BoxSideRecord& side_of(const LimitBoxRecord& box, JointAngle angle) {
   return *std::find_if(box.coordinates.begin(), box.coordinates.end(),
                        [&](const BoxSideRecord& side) { return side.angle == angle; });
@@ -133,9 +171,10 @@ std::string coupled_limits(const LimitBoxRecord& box) {
   const auto value = [](const BoxSideRecord& side, double angle_deg) {
     return side.sign * (angle_deg - side.offset_deg) + 0.0;  // no -0
   };
-  std::string text =
-      fmt::format("{0}_deg,{1}_deg,{2}_lower_deg,{2}_upper_deg,{2}_lower_reason,{2}_upper_reason\n",
-                  column.coordinate, row.coordinate, varied.coordinate);
+  std::string text = csv_field(column.coordinate + "_deg") + "," + csv_field(row.coordinate + "_deg");
+  for (const char* of_end : {"_lower_deg", "_upper_deg", "_lower_reason", "_upper_reason"})
+    text += "," + csv_field(varied.coordinate + of_end);
+  text += "\n";
   const std::size_t columns = map.grid.column.count();
   for (std::size_t i = 0; i < map.points.size(); ++i) {
     text += fmt::format("{},{}", value(column, map.grid.column.value_deg(i % columns)),
@@ -179,7 +218,10 @@ std::vector<TurningCoordinate> limit_coordinates(const LoadedJoint& joint, const
                                column.offset});
     std::vector<CoordinateRange> ranges;
     for (const TurningCoordinate& each : coordinates) ranges.push_back({each.name, 0, 0});
-    if (file.model) (void)model_text(file, joint, ranges, "");
+    if (file.model) {
+      (void)model_text(file, joint, ranges, "");
+      require_same_meaning(*file.model, joint);
+    }
     return coordinates;
   }
   if (ending == ".osim" && joint.report.file.recorded_motion)

@@ -25,7 +25,7 @@ std::string living_text(const RomResult& result) {
   if (any_people) text += "\"people\" how far others turn, not this joint; ";
   if (text.empty() && far_off.empty()) return text;
   text = "  living hips: " + text + "sources by --json\n";
-  if (!far_off.empty()) text += "    usually ended by soft tissue long before bone: " + far_off + "\n";
+  if (!far_off.empty()) text += "    usually ended by soft tissue before bone: " + far_off + "\n";
   return wrapped(text);
 }
 

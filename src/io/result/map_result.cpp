@@ -20,10 +20,11 @@ std::string end_columns(std::string_view end) {
 }
 
 std::string csv_of(const motion::Limit& end, const AnswerFrame& frame) {
-  std::string text = fmt::format(
-      ",{},{},{},{}", name_of(end.reason),
-      end.reason == motion::LimitReason::end_of_range ? "" : name_of(end.kind()), end.error_bound.degrees(),
-      end.bearing_contact ? fmt::format("{}", end.bearing_contact->turned.degrees()) : "");
+  std::string text =
+      fmt::format(",{},{},{},{}", name_of(end.reason),
+                  end.reason == motion::LimitReason::end_of_range || end.ligament ? "" : name_of(end.kind()),
+                  end.error_bound.degrees(),
+                  end.bearing_contact ? fmt::format("{}", end.bearing_contact->turned.degrees()) : "");
   if (!end.contact) return text + ",,,";
   const Vec3 p = frame.fixed_point(end.contact->fixed_point);
   return text + fmt::format(",{},{},{}", p.x(), p.y(), p.z());
@@ -54,8 +55,7 @@ std::string map_text(const motion::MotionMap& map) {
   line(RotationSense::positive, summary.positive_ends);
   line(RotationSense::negative, summary.negative_ends);
   if (summary.free_elsewhere > 0)
-    text +=
-        fmt::format("  in contact at start but free at other angles: {} points\n", summary.free_elsewhere);
+    text += fmt::format("  not free at the start but at other angles: {} points\n", summary.free_elsewhere);
   if (summary.with_islands > 0)
     text += fmt::format("  free again beyond contact: {} points\n", summary.with_islands);
   return text + fmt::format("  free volume        {:.6g} deg^3, {:.6g} deg^3 weighted by {}({})\n",

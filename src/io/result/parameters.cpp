@@ -35,6 +35,9 @@ Json cup_json(std::span<const plan::CupAngles> cup) {
 
 std::string sigmas_text(const Joint& joint) {
   std::string text;
+  for (const Ligament& ligament : joint.ligaments)
+    if (ligament.ends_at_strain && ligament.slack_sigma_mm > 0)
+      text += fmt::format(", {}.slack_length by {:g} mm", ligament.name, ligament.slack_sigma_mm);
   if (!joint.posed) return text;
   for (const PosedPart& part : joint.posed->parts)
     for (const PartParameter& parameter : part.parameters)

@@ -100,8 +100,10 @@ void add_map(Cells& fields, const motion::MotionMap& map) {
   add(summary.volume.plain_deg3);
   add(summary.volume.weighted_deg3);
   for (const ReasonCounts* ends : {&summary.negative_ends, &summary.positive_ends})
-    for (const motion::LimitReason reason : {motion::LimitReason::contact, motion::LimitReason::end_of_range,
-                                             motion::LimitReason::contact_at_start})
+    for (const motion::LimitReason reason :
+         {motion::LimitReason::contact, motion::LimitReason::end_of_range,
+          motion::LimitReason::contact_at_start, motion::LimitReason::ligament,
+          motion::LimitReason::strained_at_start})
       add((*ends)[reason]);
   add(summary.free_elsewhere);
   add(summary.with_islands);

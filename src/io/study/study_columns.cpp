@@ -30,7 +30,8 @@ ColumnList map_columns() {
                         {"map_free_volume_weighted_deg3", "deg^3", number_column,
                          "weighted by the invariant measure of rotations"}};
   for (const char* end : {"lower", "upper"})
-    for (const char* reason : {"contact", "end_of_range", "contact_at_start"})
+    for (const char* reason :
+         {"contact", "end_of_range", "contact_at_start", "ligament", "strained_at_start"})
       columns.push_back({fmt::format("map_{}_{}_points", end, reason), "", number_column,
                          fmt::format("points whose {} end has this reason", end)});
   columns.push_back(

@@ -142,7 +142,10 @@ struct DisplacedJoint::Parts {
     const LigamentLimits ligaments = ligaments_.displaced(d.parameters);
     for (const Group& group : groups_) {
       RotationLimits both;
-      for (Limit* end : {&both.negative, &both.positive}) end->turned = Angle::radians(two_pi);
+      for (const std::size_t i : group.motions) {
+        Limit& end = motions_[i].sense == RotationSense::positive ? both.positive : both.negative;
+        end.turned = std::max(end.turned, out[i].turned);
+      }
       ligaments.take_sooner(both,
                             {X_FG.translation(), X_FG.linear() * axis_of(group.vary, system_, group.start)},
                             X_FG * pose_at(system_, group.start) * inverted(A), group.range);

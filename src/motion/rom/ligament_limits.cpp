@@ -78,6 +78,17 @@ void LigamentLimits::take_sooner(RotationLimits& limits, const AxisFrame& axis_F
   }
 }
 
+Limit ligament_end(const Joint& joint, const Motion& motion) {
+  const bool grows = motion.sense == RotationSense::positive;
+  RotationLimits ends;
+  for (Limit* end : {&ends.negative, &ends.positive}) end->turned = motion.range;
+  const CoordinateSystem system = joint.coordinates();
+  LigamentLimits(joint).take_sooner(ends, {Vec3::Zero(), axis_of(motion.vary, system, motion.start)},
+                                    pose_at(system, motion.start),
+                                    {grows ? Angle() : -motion.range, grows ? motion.range : Angle()});
+  return grows ? ends.positive : ends.negative;
+}
+
 void refuse_ending_ligaments(const Joint& joint, const std::string& what) {
   for (const Ligament& ligament : joint.ligaments)
     if (ligament.ends_at_strain)

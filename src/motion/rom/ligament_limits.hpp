@@ -7,6 +7,7 @@
 
 #include "condyle/first_contact.hpp"
 #include "condyle/joint.hpp"
+#include "condyle/range_of_motion.hpp"
 #include "core/arc_set.hpp"
 
 namespace condyle::motion {
@@ -34,6 +35,9 @@ class LigamentLimits {
   std::vector<Ligament> ligaments_;
   std::vector<std::size_t> numbers_;  ///< in the joint
 };
+
+/// Where a ligament of the joint ends a motion, whatever bone does; at the end of its range none does. Throws as take_sooner().
+Limit ligament_end(const Joint& joint, const Motion& motion);
 
 /// Throws UsageError if a ligament of the joint ends motions, which `what` does not look for.
 void refuse_ending_ligaments(const Joint& joint, const std::string& what);

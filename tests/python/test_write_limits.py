@@ -1,0 +1,66 @@
+"""Limits written into a copy of a model: what must not be written, and what is written again."""
+
+import os
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+DATA = Path(os.environ.get("CONDYLE_DATA", "../shared/data"))
+MODEL = DATA / "osim_gait2354" / "gait2354_simbody.osim"
+
+pytestmark = pytest.mark.skipif(not MODEL.exists(), reason="no gait2354 in CONDYLE_DATA")
+
+
+@pytest.fixture(scope="module")
+def joint(command, tmp_path_factory):
+    path = tmp_path_factory.mktemp("limits") / "hip.toml"
+    subprocess.run([command, "init", MODEL, "--joint", "hip_r", "-o", path], check=True, capture_output=True)
+    return path
+
+
+def written(command, joint, *words):
+    return subprocess.run([command, "rom", joint, "--motion", "flexion", "--write-limits", *map(str, words)], capture_output=True, text=True)
+
+
+def test_written_again_with_the_other_stop_the_old_force_is_gone(command, joint, tmp_path):
+    first, second = tmp_path / "a.osim", tmp_path / "b.osim"
+    assert written(command, joint, first, "--model", MODEL).returncode == 0
+    assert written(command, joint, second, "--model", first, "--stop", "linear").returncode == 0
+    text = second.read_text()
+    assert "condyle_limit_" not in re.sub("<!--.*?-->", "", text, flags=re.S) and text.count('name="condyle_stop_') == 3
+    subprocess.run([command, "inspect", second], check=True, capture_output=True)
+
+
+def changed_model(tmp_path, pattern, by):
+    text, count = re.subn(pattern, by, MODEL.read_text(), count=1, flags=re.S)
+    assert count == 1
+    path = tmp_path / "changed.osim"
+    path.write_text(text)
+    return path
+
+
+def test_a_default_outside_of_the_limits_is_refused(command, joint, tmp_path):
+    model = changed_model(tmp_path, r'(<Coordinate name="hip_flexion_r">.*?<default_value>)[^<]*', r"\g<1>-1.5")
+    done = written(command, joint, tmp_path / "out.osim", "--model", model)
+    assert done.returncode == 3 and "the default_value -1.5 of 'hip_flexion_r' is outside" in done.stderr
+    assert not (tmp_path / "out.osim").exists()
+
+
+def test_a_model_whose_coordinate_has_another_sense_is_refused(command, joint, tmp_path):
+    # The axis of hip_flexion_r the other way round.
+    text = MODEL.read_text()
+    start = text.index('name="hip_r"')
+    begin = text.index("<coordinates>hip_flexion_r</coordinates>", start)
+    axis = re.compile(r"<axis>\s*([-\d.]+) ([-\d.]+) ([-\d.]+)\s*</axis>").search(text, begin)
+    x, y, z = (float(value) for value in axis.groups())
+    model = tmp_path / "changed.osim"
+    model.write_text(text[:axis.start()] + f"<axis>{-x} {-y} {-z}</axis>" + text[axis.end():])
+    done = written(command, joint, tmp_path / "out.osim", "--model", model)
+    assert done.returncode == 3 and "coordinate 'hip_flexion_r' turns the joint otherwise" in done.stderr
+
+
+def test_a_file_in_the_folder_of_out_is_refused(command, joint, tmp_path):
+    done = written(command, joint, tmp_path / "limits.csv", "--out", tmp_path)
+    assert done.returncode == 2 and "would lie in the folder of --out" in done.stderr
