@@ -262,7 +262,7 @@ struct LigamentWrap {
   Vec3 centre = Vec3::Zero();        ///< in that body's frame, mm; of a cylinder any point of its axis
   Vec3 axis = Vec3::UnitZ();         ///< of a cylinder, unit
   double radius_mm = 0;              ///< of a sphere or a cylinder
-  /// Of an ellipsoid: columns are its axes, unit, in the body's frame, and half its size along each.
+  /// An ellipsoid has its unit axes as columns, in the body's frame, and half its size along each.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   Vec3 radii_mm = Vec3::Zero();
 };

@@ -66,7 +66,7 @@ Scene random_scene(std::mt19937& random, Kind kind) {
         kind == Kind::cylinder ? Vec3(from - from.dot(ligament.wrap->axis) * ligament.wrap->axis) : from;
     if (across.norm() < 16) return random_scene(random, kind);
   }
-  // Of a length that some of the turn has.
+  // The ligament ends at a length that it has in the turn, or a little beyond, where nothing ends.
   ligament.ends_at_strain = 0.1;
   double least = 1e9, most = 0;
   ligament.slack_length_mm = 1;

@@ -165,7 +165,7 @@ Curves ligament_curves_of(const MotionQuestion& question, const MotionAnswer& an
                 [](const LigamentState& at) { return at.tension_n; });
   }
   if (!as_here) return curves;
-  // Of all ligaments, in frames in which each has a length.
+  // The sum over all ligaments exists in frames in which each has a length.
   std::vector<std::optional<contact::Wrench>> sums(answer.frames.size());
   for (std::size_t i = 0; i < sums.size(); ++i) {
     contact::Wrench& sum = sums[i].emplace();

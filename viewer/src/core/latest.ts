@@ -1,4 +1,4 @@
-/// Does one request at a time, and then the latest of those that came meanwhile. `rests` tells whether no other one waits. An error of the work is
+/// Does one request at a time, and then the latest of those that came meanwhile. `rests` answers whether no other one waits. An error of the work is
 /// reported as one that nobody caught, and ends no later request.
 export function latestOnly<Request>(work: (request: Request, rests: () => boolean) => Promise<void>): (request: Request) => void {
   let waiting: Request[] = [], isBusy = false;

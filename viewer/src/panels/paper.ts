@@ -20,7 +20,7 @@ import type { ShownSweep } from "./sweep";
 /// The page on paper: a sheet of the answer with its picture, limits and scope; then all figures, the method and the files.
 export class Paper {
   readonly element: HTMLElement;
-  /// Of the picture, whose letters are no smaller than all others of the sheet.
+  /// The picture's size, in which its letters are no smaller than all others of the sheet.
   readonly pictureSize: { width: number; height: number };
   private readonly image: HTMLImageElement;
   private readonly sentence = html("p", {});
