@@ -139,7 +139,11 @@ contact::Load load_of(const BalanceArguments& given) {
 }
 
 void require_load(const BalanceArguments& given, bool has_load) {
-  if (given.ligaments && !has_load) throw UsageError("--ligaments: needs a force, which may be 0 0 0");
+  if (has_load) return;
+  if (given.ligaments) throw UsageError("--ligaments: needs a force, which may be 0 0 0");
+  if (!given.along.empty()) throw UsageError("--along: needs --force");
+  if (given.rotations) throw UsageError("--free-rotations: needs a force or a moment");
+  if (given.frame != BodyRole::fixed) throw UsageError("--force-frame: needs --force");
 }
 
 contact::BalanceOptions balance_options_of(const BalanceArguments& given, const Joint& joint) {

@@ -49,7 +49,7 @@ void add_study_load(CLI::App& command, StudyLoadArguments& given, const std::str
 /// UsageError for directions without a force.
 io::StudyLoad study_load_of(const StudyLoadArguments& given, Anatomy anatomy);
 contact::Load load_of(const BalanceArguments& given);
-/// UsageError if ligaments are to pull without a load.
+/// UsageError for an option on a load where there is none.
 void require_load(const BalanceArguments& given, bool has_load);
 /// UsageError if the ligaments of a joint are to pull that has none.
 contact::BalanceOptions balance_options_of(const BalanceArguments& given, const Joint& joint);

@@ -34,7 +34,6 @@ struct RomArguments : JointArguments {
   ReferenceContacts reference_contacts = ReferenceContacts::count;
   RangeArguments range;
   io::LimitFile limits;  ///< no path: none
-  LimitSource limits_of = LimitSource::bony;
   Task task = Task::limits;
   motion::ClockPlane clock = motion::ClockPlane::sagittal;
 };
@@ -77,7 +76,8 @@ CLI::Option* add_limits(CLI::App& command, RomArguments& given) {
       "degrees");
   write->option_text("FILE");
   add_choice(
-      command, "--limits", given.limits_of, {{"bony", LimitSource::bony}, {"living", LimitSource::living}},
+      command, "--limits", given.limits.source,
+      {{"bony", LimitSource::bony}, {"living", LimitSource::living}},
       "With --write-limits: where bone ends a motion, or where a living hip is expected to if studies say so",
       "bony")
       ->needs(write);
@@ -139,7 +139,7 @@ void rom_command(const RomArguments& options, const CLI::App& command) {
   std::optional<LimitBoxRecord> box;
   if (!coordinates.empty()) {
     box = answered(options, [&](const Control& control) {
-      return limit_box_record(loaded, answer, request, coordinates, options.limits_of, control);
+      return limit_box_record(loaded, answer, request, coordinates, options.limits.source, control);
     });
     result.box = &*box;
     io::write_limits(options.limits, *box, loaded, &from);

@@ -192,6 +192,9 @@ TEST_F(Motion, LoadsThatNothingWouldAskAreRefused) {
   };
   refused("--loads loads.csv --force 0 -100 0", 2, "--force");
   refused("--loads loads.csv --free-rotations --moment 0 0 5", 2, "--moment");
+  refused("--along 1 0 0", 2, "--along: needs --force");
+  refused("--free-rotations", 2, "--free-rotations: needs a force or a moment");
+  refused("--force-frame mobile", 2, "--force-frame: needs --force");
   refused("--loads moments.csv", 3,
           "moments.csv: column 'moment_x_nmm': moments are balanced with --free-rotations only");
   refused("--loads two.csv --free-rotations", 3, "two.csv: has no column 'moment_z_nmm'");

@@ -257,6 +257,8 @@ TEST_F(WrittenLimits, AreRefusedInOneLine) {
   } cases[] = {
       {"hip.toml --write-limits hip.txt", 2, "limits are written as .osim, .xml of MuJoCo or .csv"},
       {"hip.toml --write-limits hip.xml --model model.osim", 2, "a copy of a model is an .osim"},
+      {"hip.toml --write-limits hip.xml --stop linear", 2, "a linear stop is of an .osim"},
+      {"hip.toml --write-limits hip.csv --limits living", 2, "coupled limits are those of bone"},
       {"hip.toml --write-limits model.osim --model model.osim", 3, "model.osim: "},
       {"hip.toml --write-limits hip.osim --model none.osim", 3, "none.osim: no such file"},
       {"hip.toml --write-limits hip.osim --model hip.toml", 3, "hip.toml: "},

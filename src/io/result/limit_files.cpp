@@ -203,6 +203,11 @@ std::vector<TurningCoordinate> limit_coordinates(const LoadedJoint& joint, const
                      ": limits are written as .osim, .xml of MuJoCo or .csv of coupled limits");
   if (file.model && ending != ".osim")
     throw UsageError(file.path.string() + ": a copy of a model is an .osim");
+  if (file.stop == StopForce::linear && ending != ".osim")
+    throw UsageError(file.path.string() + ": a linear stop is of an .osim");
+  if (file.source == LimitSource::living && ending == ".csv")
+    throw UsageError(file.path.string() +
+                     ": coupled limits are those of bone: write the living ones as .osim or .xml");
   if (ending == ".csv" && joint.joint.kind == JointKind::hinge)
     throw UsageError("the limits of a hinge are not coupled: write .osim or .xml");
   std::vector<std::filesystem::path> read;

@@ -19,12 +19,13 @@ struct LimitFile {
   std::filesystem::path path;
   StopForce stop = StopForce::limit;  ///< of .osim
   std::optional<std::filesystem::path> model =
-      {};  ///< of .osim: whose copy it is; else a fragment is written
+      {};                                  ///< of .osim: whose copy it is; else a fragment is written
+  LimitSource source = LimitSource::bony;  ///< bony, or living where studies say so
 };
 
 /// The coordinates by which the program knows the joint: those of the model that the joint was read from, by [recorded_motion], or for .xml and .csv without
-/// them the joint's own angles. To be called before long work. Throws UsageError for another ending, for a model with another than .osim, for
-/// coupled limits of a hinge, and for .osim if no model was read into the joint or if the model poses it; FileError where the file could not
+/// them the joint's own angles. To be called before long work. Throws UsageError for another ending, for a model or a linear stop with another than .osim, for
+/// coupled limits of a hinge or of living joints, and for .osim if no model was read into the joint or if the model poses it; FileError where the file could not
 /// be written, or would replace one that was read.
 std::vector<TurningCoordinate> limit_coordinates(const LoadedJoint& joint, const LimitFile& file,
                                                  const Provenance* from);
