@@ -283,6 +283,7 @@ struct Ligament {
       0;  ///< k, the slope of tension over strain once all fibres carry; 0: it has no tension
   double transition_strain = 0.06;  ///< above which they do, 0 or more
   double slack_sigma_mm = 0;        ///< standard deviation of the slack length, for bands
+  double point_sigma_mm = 0;        ///< and of each of its points along each axis of their bodies
   /// Above 0: a motion ends where the strain reaches this.
   std::optional<double> ends_at_strain = {};
 };
@@ -306,6 +307,12 @@ struct LigamentState {
 /// inside its wrap, or the straight line meets an ellipsoid. No allocation.
 [[nodiscard]] std::optional<LigamentState> ligament_state(const Ligament& ligament,
                                                           const Pose& X_FM) noexcept;
+
+/// Minus the derivative of its wrench on the mobile body, N and N mm, about the origin of M: columns are a translation (mm) and a rotation (rad)
+/// in F, which carry that origin along, as of contact::ContactForces::stiffness. By differences, to some seven digits; where the slope of
+/// the tension jumps, their mean. Empty where its length is not known there or a ten-thousandth of a mm beside.
+[[nodiscard]] std::optional<Eigen::Matrix<double, 6, 6>> ligament_stiffness(const Ligament& ligament,
+                                                                            const Pose& X_FM) noexcept;
 
 /// A ligament in every frame; empty for gaps, and where its length is not known.
 struct LigamentAlong {

@@ -43,6 +43,7 @@ py::list ligaments_of(const JointHandle& handle) {
     dict["mobile"] = rows_of(ligament.mobile);
     dict["slack_length_mm"] = ligament.slack_length_mm;
     dict["slack_sigma_mm"] = ligament.slack_sigma_mm;
+    dict["point_sigma_mm"] = ligament.point_sigma_mm;
     dict["stiffness_n"] = ligament.stiffness_n;
     dict["transition_strain"] = ligament.transition_strain;
     dict["ends_at_strain"] = ligament.ends_at_strain;
@@ -78,11 +79,26 @@ py::dict states(const JointHandle& handle, const py::object& poses) {
   return dict;
 }
 
+/// Per ligament, then per pose, row by row; NaN where it is not known, and for gaps.
+py::array stiffness_of(const JointHandle& handle, const py::object& poses) {
+  const std::vector<std::optional<Pose>> X_FM = poses_with_gaps_in(poses, "poses");
+  using Rows = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+  std::vector<double> values;
+  for (const Ligament& ligament : handle.joint().ligaments)
+    for (const std::optional<Pose>& X : X_FM) {
+      const auto known = X ? ligament_stiffness(ligament, *X) : std::nullopt;
+      const Rows rows = known ? Rows(*known) : Rows::Constant(std::numeric_limits<double>::quiet_NaN());
+      values.insert(values.end(), rows.data(), rows.data() + rows.size());
+    }
+  return array_of(std::move(values));
+}
+
 }  // namespace
 
 void bind_ligaments(py::module_& module) {
   module.def("ligaments_of", &ligaments_of);
   module.def("ligament_states", &states);
+  module.def("ligament_stiffness", &stiffness_of);
 }
 
 }  // namespace condyle::python

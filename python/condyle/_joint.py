@@ -18,7 +18,7 @@ from ._joint_description import description_of
 from ._labels import LabelLike, LabelMap, LabelSurface, joint_bones
 from ._followed_range import FollowedRange, followed_range
 from ._hip_measures import HipMeasures
-from ._ligaments import LigamentStates, ligament_states
+from ._ligaments import LigamentStates, ligament_states, ligament_stiffness
 from ._limits import PathLimit, path_limit
 from ._mesh import MeshLike, TriMesh
 from ._model import Model, read_model
@@ -408,6 +408,22 @@ class Joint(DescribedJoint):
         ()
         """
         return ligament_states(*self._asked_at(poses))
+
+    def ligament_stiffness(self, poses: PoseLike) -> NDArray[np.float64]:
+        """Minus the derivative of each ligament's wrench on the mobile body, (L, ..., 6, 6), about the origin of M.
+
+        Rows are force (N) and moment (N mm), columns a translation (mm) and a rotation (rad) in F, as in the
+        `stiffness` of :meth:`ElasticContact.forces`, to which it may be added. By differences, to some seven digits;
+        NaN where a length is not known.
+
+        C++: `condyle::ligament_stiffness` in condyle/joint.hpp.
+
+        >>> import condyle
+        >>> bones = condyle.sample_hip()
+        >>> condyle.Joint(bones.hip_bone, bones.femur).ligament_stiffness({"flexion_deg": 90}).shape
+        (0, 6, 6)
+        """
+        return ligament_stiffness(*self._asked_at(poses))
 
     def motion(self, path: Path) -> JointMotion:
         """The recorded motion of a file, by the joint file's [recorded_motion] or columns such as flexion_deg, x_mm.

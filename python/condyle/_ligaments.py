@@ -55,6 +55,8 @@ class Ligament:
         Longer than this it is taut.
     slack_sigma_mm : float
         Its standard deviation, for bands.
+    point_sigma_mm : float
+        And that of each of its points along each axis of its body.
     stiffness_n : float
         N per unit of strain; 0 if it has no tension.
     transition_strain : float
@@ -69,6 +71,7 @@ class Ligament:
     mobile: NDArray[np.float64]
     slack_length_mm: float
     slack_sigma_mm: float
+    point_sigma_mm: float
     stiffness_n: float
     transition_strain: float
     ends_at_strain: Optional[float]
@@ -119,3 +122,7 @@ def ligament_states(native: NativeJoint, poses: ArrayLike) -> LigamentStates:
     arrays = _native.ligament_states(native, poses)
     return LigamentStates(names, **{key: array.reshape((*shape, 3) if key in ("force_n", "moment_nmm") else shape)
                                     for key, array in arrays.items()})
+
+
+def ligament_stiffness(native: NativeJoint, poses: ArrayLike) -> NDArray[np.float64]:
+    return _native.ligament_stiffness(native, poses).reshape((-1, *np.shape(poses)[:-2], 6, 6))

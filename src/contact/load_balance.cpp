@@ -77,11 +77,7 @@ FreeMotions free_motions(const BalanceOptions& options) {
 }
 
 Pose moved(const Pose& X, const Vector6& by) {
-  Pose out = X;
-  out.translation() += by.head<3>();
-  if (const double angle = by.tail<3>().norm(); angle > 0)
-    out.linear() = core::rotation_about(by.tail<3>() / angle, angle) * X.linear();
-  return out;
+  return core::moved_by(X, by.head<3>(), by.tail<3>());
 }
 
 class Search {
@@ -146,8 +142,7 @@ class Search {
     Pull pull;
     for (const Ligament& ligament : options_.ligaments) {
       const auto state = ligament_state(ligament, X);
-      if (!state)
-        throw UsageError("ligament " + ligament.name + ": its length is not known near the balance");
+      if (!state) refuse_unknown(ligament);
       pull.wrench.head<3>() += state->force_n;
       pull.wrench.tail<3>() += state->moment_nmm - X.translation().cross(state->force_n);
       pull.energy += state->energy_nmm;
@@ -157,15 +152,17 @@ class Search {
     return pull;
   }
 
-  /// How the load of contact and ligaments changes with small motions; of the latter by differences.
+  [[noreturn]] static void refuse_unknown(const Ligament& ligament) {
+    throw UsageError("ligament " + ligament.name + ": its length is not known near the balance");
+  }
+
+  /// How the load of contact and ligaments changes with small motions.
   LoadChange change_of(const ElasticContact::Parts::Answers& answers, const Pose& X, Motions which) const {
     LoadChange change = contact_.parts().change_of(answers, X, which);
-    if (options_.ligaments.empty()) return change;
-    constexpr double travel = 1e-4, angle = travel / 20;
-    for (int i = 0; i < (which == Motions::all ? 6 : 3); ++i) {
-      const double by = i < 3 ? travel : angle;
-      const Vector6 step = by * Vector6::Unit(i);
-      change.col(i) += (pulled(moved(X, step)).wrench - pulled(moved(X, -step)).wrench) / (2 * by);
+    for (const Ligament& ligament : options_.ligaments) {
+      const auto stiffness = ligament_stiffness(ligament, X);
+      if (!stiffness) refuse_unknown(ligament);
+      change -= *stiffness;
     }
     return change;
   }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "condyle/pose.hpp"
 #include "core/trigonometry.hpp"
 
 namespace condyle::core {
@@ -15,6 +16,15 @@ inline Eigen::Matrix3d rotation_about(const Eigen::Vector3d& axis, double radian
       rest * x * y + sine * z, rest * y * y + cosine, rest * y * z - sine * x,   //
       rest * x * z - sine * y, rest * y * z + sine * x, rest * z * z + cosine;
   return R;
+}
+
+/// The pose after a small motion in F: translation of its origin, then rotation about it (rad).
+inline Pose moved_by(const Pose& X, const Vec3& translation, const Vec3& rotation) noexcept {
+  Pose out = X;
+  out.translation() += translation;
+  if (const double angle = rotation.norm(); angle > 0)
+    out.linear() = rotation_about(rotation / angle, angle) * X.linear();
+  return out;
 }
 
 }  // namespace condyle::core

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/rotation_about.hpp"
 #include "core/trigonometry.hpp"
 #include "kinematics/ligament_path.hpp"
 
@@ -147,6 +148,34 @@ std::vector<Vec3> ligament_points(const Ligament& ligament, const Pose& X_FM) {
   return points;
 }
 
+std::vector<LigamentSigma> ligament_sigmas(const Joint& joint) {
+  std::vector<LigamentSigma> all;
+  for (const Ligament& ligament : joint.ligaments) {
+    if (!ligament.ends_at_strain) continue;
+    if (ligament.slack_sigma_mm > 0)
+      all.push_back({ligament.name + ".slack_length", ligament.slack_sigma_mm, 1});
+    if (ligament.point_sigma_mm > 0)
+      all.push_back({ligament.name + ".points", ligament.point_sigma_mm,
+                     3 * (ligament.fixed.size() + ligament.mobile.size())});
+  }
+  return all;
+}
+
+void shift(Ligament& ligament, const Vec3& fixed_by, const Vec3& mobile_by) noexcept {
+  for (Vec3& point : ligament.fixed) point += fixed_by;
+  for (Vec3& point : ligament.mobile) point += mobile_by;
+  if (ligament.wrap) ligament.wrap->centre += ligament.wrap->body == BodyRole::fixed ? fixed_by : mobile_by;
+}
+
+LigamentStretch stretch_of(const Ligament& ligament, const std::optional<LigamentState>& state) noexcept {
+  // Less strain than this short of the end is at it: limits end there to rounding.
+  constexpr double at_end = 1e-9;
+  if (!state) return LigamentStretch::unknown;
+  if (ligament.ends_at_strain && state->strain > *ligament.ends_at_strain - at_end)
+    return LigamentStretch::at_end;
+  return state->strain > 0 ? LigamentStretch::taut : LigamentStretch::slack;
+}
+
 const LigamentWrap* wrap_in_fixed(const Ligament& ligament, const Pose& X_FM,
                                   LigamentWrap& storage) noexcept {
   if (!ligament.wrap) return nullptr;
@@ -200,6 +229,29 @@ std::optional<LigamentState> ligament_state(const Ligament& ligament, const Pose
   state.force_n = -state.tension_n * path->direction;
   state.moment_nmm = path->on_mobile.cross(state.force_n);
   return state;
+}
+
+std::optional<Eigen::Matrix<double, 6, 6>> ligament_stiffness(const Ligament& ligament,
+                                                              const Pose& X_FM) noexcept {
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  // A rotation moves what lies half a joint across about as far as a translation.
+  constexpr double travel_mm = 1e-4, turn_rad = travel_mm / 20;
+  const auto wrench_after = [&](int motion, double by, Vector6& wrench) {
+    Vector6 step = Vector6::Zero();
+    step[motion] = by;
+    const Pose X = core::moved_by(X_FM, step.head<3>(), step.tail<3>());
+    const auto state = ligament_state(ligament, X);
+    if (state) wrench << state->force_n, state->moment_nmm - X.translation().cross(state->force_n);
+    return state.has_value();
+  };
+  Eigen::Matrix<double, 6, 6> stiffness;
+  for (int motion = 0; motion < 6; ++motion) {
+    const double by = motion < 3 ? travel_mm : turn_rad;
+    Vector6 before, after;
+    if (!wrench_after(motion, -by, before) || !wrench_after(motion, by, after)) return std::nullopt;
+    stiffness.col(motion) = (before - after) / (2 * by);
+  }
+  return stiffness;
 }
 
 std::vector<LigamentAlong> ligaments_along(const std::vector<Ligament>& ligaments,

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "condyle/joint.hpp"
@@ -22,11 +24,28 @@ std::optional<Crossing> crossing(const Vec3& fixed, const Vec3& mobile, const Li
 /// The path from insertion to insertion, in F; where it lies on a wrap some tenths of a radian apart. Straight where its length is not known.
 std::vector<Vec3> ligament_points(const Ligament& ligament, const Pose& X_FM);
 
+/// How a ligament is shown.
+enum class LigamentStretch { slack, taut, at_end, unknown };
+/// At its end from the strain on at which it ends motions; unknown where its length is not known.
+LigamentStretch stretch_of(const Ligament& ligament, const std::optional<LigamentState>& state) noexcept;
+
 /// The wrap in the fixed body's frame; null if there is none.
 const LigamentWrap* wrap_in_fixed(const Ligament& ligament, const Pose& X_FM, LigamentWrap& storage) noexcept;
 
 /// Length of the parts that no pose changes.
 double constant_length_mm(const Ligament& ligament) noexcept;
+
+/// What is not known exactly of the ligaments that end motions: "NAME.slack_length" and "NAME.points", its standard deviation, and how many
+/// numbers have it. In the order of their draws.
+struct LigamentSigma {
+  std::string name;
+  double sigma_mm = 0;
+  std::size_t numbers = 0;
+};
+std::vector<LigamentSigma> ligament_sigmas(const Joint& joint);
+
+/// Moves its points and its wrap with their bodies, in the frame of each.
+void shift(Ligament& ligament, const Vec3& fixed_by, const Vec3& mobile_by) noexcept;
 
 /// How far a point is from the centre of a sphere, or the axis of a cylinder.
 double distance_from_middle(const LigamentWrap& wrap, const Vec3& point) noexcept;

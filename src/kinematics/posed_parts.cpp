@@ -14,6 +14,7 @@
 #include "core/pair.hpp"
 #include "core/trigonometry.hpp"
 #include "kinematics/hip_parts.hpp"
+#include "kinematics/ligament_path.hpp"
 
 namespace condyle {
 namespace kinematics {
@@ -359,8 +360,7 @@ std::size_t uncertain_parameters(const Joint& joint) {
     for (const PosedPart& part : joint.posed->parts)
       for (const PartParameter& parameter : part.parameters) count += parameter.sigma > 0;
   // A joint has parts that move, or ligaments.
-  for (const Ligament& ligament : joint.ligaments)
-    count += ligament.ends_at_strain && ligament.slack_sigma_mm > 0;
+  for (const LigamentSigma& sigma : ligament_sigmas(joint)) count += sigma.numbers;
   return count;
 }
 

@@ -128,6 +128,23 @@ TEST_F(JointLigaments, SpreadABandByWhatIsNotKnownOfTheirSlackLength) {
   EXPECT_EQ(band.width_from.parameters, band.p95 - band.p5);
 }
 
+TEST_F(JointLigaments, SpreadABandByWhatIsNotKnownOfTheirPoints) {
+  // From 30 mm in front of the axis to 30 mm in front of it: at a turn by t its length is 60 sin(t / 2).
+  const Joint ball = joint(
+      "[[ligament]]\nname = \"front\"\nfixed = [30, 0, 0]\nmobile = [30, 0, 0]\nslack_length = "
+      "40\npoint_sigma = 0.3\n"
+      "ends_at_strain = 0.05\n");
+  const motion::Motion flexion{.name = "flexion", .range = Angle::degrees(180)};
+  motion::BandOptions options{.samples = 2000};
+  options.sigma = {.centre_mm = 0, .axes = {}, .surface_mm = 0, .surface_voxels = 0};
+  const motion::LimitBand band = motion::limit_bands(ball, {&flexion, 1}, {}, options).front();
+  // Along the string either end displaces the length by one deviation, and the length's slope over the angle is 30 cos(t / 2).
+  const double half = std::asin(42.0 / 60);
+  EXPECT_NEAR((band.p95 - band.p5).radians(), 3.29 * 0.3 * std::sqrt(2.0) / (30 * std::cos(half)), 0.004);
+  EXPECT_NEAR(band.median.radians(), 2 * half, 2e-3);
+  EXPECT_EQ(band.width_from.parameters, band.p95 - band.p5);
+}
+
 TEST_F(JointLigaments, HaveOneOfThreeSlackLengths) {
   const std::string points =
       "[[ligament]]\nname = \"a\"\nfixed = [[0, 40, 0], [0, 30, 0]]\nmobile = [40, 0, 0]\n";

@@ -206,6 +206,76 @@ TEST(Ligament, PullsTheMobileBodyByTheSlopeOfItsEnergy) {
   EXPECT_GT(wrapped, 100);
 }
 
+TEST(Ligament, StiffensByTheSlopeOfItsTensionAlongItAndByItsTensionAcross) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  const auto skew = [](const Vec3& v) {
+    Eigen::Matrix3d S;
+    S << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+    return S;
+  };
+  for (int i = 0; i < 200; ++i) {
+    const auto point = [&] { return Vec3(60 * normal(random), 60 * normal(random), 60 * normal(random)); };
+    Ligament ligament = straight_ligament(point(), point());
+    const Pose X = random_pose(random, 5);
+    const Vec3 end = posed(X, ligament.mobile.front()), along = end - ligament.fixed.front();
+    const double length = along.norm(), strain = 0.12;
+    ligament.slack_length_mm = length / (1 + strain);
+    const LigamentState state = state_at(ligament, X);
+    // df = -A dp of the mobile end p, by the slope k / L0 along the string and T / L across it. About the origin of M, with r from there to p
+    // and f the force on it: dp = dx + dw x r, and the moment r x f changes by (dw x r) x f + r x df.
+    const Vec3 u = along / length, r = end - X.translation();
+    const Eigen::Matrix3d out = u * u.transpose();
+    const Eigen::Matrix3d A = ligament.stiffness_n / ligament.slack_length_mm * out +
+                              state.tension_n / length * (Eigen::Matrix3d::Identity() - out);
+    Matrix6 expected;
+    expected << A, -A * skew(r), skew(r) * A, -skew(r) * A * skew(r) - skew(state.force_n) * skew(r);
+    const auto stiffness = ligament_stiffness(ligament, X);
+    ASSERT_TRUE(stiffness.has_value());
+    EXPECT_LT((*stiffness - expected).norm(), 1e-6 * expected.norm()) << i;
+  }
+  Ligament slack = straight_ligament({0, 0, 0}, {10, 0, 0});
+  slack.slack_length_mm = 20;
+  EXPECT_EQ(*ligament_stiffness(slack, Pose::Identity()), Matrix6(Matrix6::Zero()));
+}
+
+TEST(Ligament, StiffensOverAWrapByTheSecondSlopeOfItsEnergy) {
+  std::mt19937 random(17);
+  int wrapped = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Ligament ligament = random_ligament(random);
+    const Pose X = random_pose(random, 3);
+    const auto state = ligament_state(ligament, X);
+    if (!state || !state->wraps) continue;
+    ligament.slack_length_mm = state->length_mm / 1.15;
+    ligament.stiffness_n = 100, ligament.transition_strain = 0.06;
+    const auto stiffness = ligament_stiffness(ligament, X);
+    if (!stiffness) continue;
+    const auto energy = [&](const Vec3& shift) {
+      return ligament_state(ligament, core::moved_by(X, shift, Vec3::Zero()))
+          .value_or(LigamentState{})
+          .energy_nmm;
+    };
+    constexpr double h = 0.01;
+    bool wraps_beside = true;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double by : {-h, h}) {
+        const auto beside = ligament_state(ligament, core::moved_by(X, by * Vec3::Unit(axis), Vec3::Zero()));
+        wraps_beside = wraps_beside && beside && beside->wraps;
+      }
+    if (!wraps_beside) continue;
+    ++wrapped;
+    const double size = stiffness->topLeftCorner<3, 3>().norm();
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vec3 step = h * Vec3::Unit(axis);
+      const double second = (energy(step) - 2 * energy(Vec3::Zero()) + energy(-step)) / (h * h);
+      EXPECT_NEAR((*stiffness)(axis, axis), second, 1e-3 * size) << i;
+    }
+  }
+  EXPECT_GT(wrapped, 50);
+}
+
 TEST(Ligament, IsDrawnAlongItsPath) {
   std::mt19937 random(5);
   int wrapped = 0;

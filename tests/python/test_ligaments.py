@@ -91,6 +91,22 @@ def test_states_follow_from_points_and_slack_length(joint):
     assert np.isnan(joint.ligament_states(gap).strain[:, 0]).all()
 
 
+def test_stiffness_is_the_change_of_force_and_moment(joint):
+    poses = joint.pose(flexion_deg=[20, 40])
+    stiffness = joint.ligament_stiffness(poses)
+    assert stiffness.shape == (2, 2, 6, 6)
+    for k, X in enumerate(poses):
+        for axis in range(3):
+            ahead, behind = X.copy(), X.copy()
+            ahead[axis, 3] += 1e-3
+            behind[axis, 3] -= 1e-3
+            force = [joint.ligament_states(at).force_n for at in (ahead, behind)]
+            np.testing.assert_allclose(stiffness[:, k, :3, axis], (force[1] - force[0]) / 2e-3, rtol=1e-5, atol=1e-5)
+    gap = poses.copy()
+    gap[0] = np.nan
+    assert np.isnan(joint.ligament_stiffness(gap)[:, 0]).all()
+
+
 def test_limits_name_the_ligament_that_ends_them_as_the_command_does(joint, file, command):
     said = json.loads(subprocess.run([command, "rom", file, "--json"], check=True, capture_output=True).stdout)
     rom = joint.range_of_motion()

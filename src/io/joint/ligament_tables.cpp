@@ -78,10 +78,13 @@ DescribedLigament described_ligament(TomlTable& table, const JointDescription& j
   ligament.fixed = points("fixed");
   ligament.mobile = points("mobile");
   read_slack(table, joint, mm, out);
-  if (const auto sigma = table.number("slack_sigma")) {
-    if (*sigma < 0) table.fail("slack_sigma", "must be 0 or more");
-    ligament.slack_sigma_mm = mm * *sigma;
-  }
+  const auto sigma_mm = [&](std::string_view key) {
+    const double sigma = table.number(key).value_or(0);
+    if (sigma < 0) table.fail(key, "must be 0 or more");
+    return mm * sigma;
+  };
+  ligament.slack_sigma_mm = sigma_mm("slack_sigma");
+  ligament.point_sigma_mm = sigma_mm("point_sigma");
   if (table.has("stiffness_n")) ligament.stiffness_n = positive_number(table, "stiffness_n");
   if (const auto strain = table.number("transition_strain")) {
     if (*strain < 0) table.fail("transition_strain", "must be 0 or more");
@@ -159,6 +162,7 @@ std::string ligaments_text(std::span<const Ligament> ligaments, double mm) {
       text += fmt::format("stiffness_n = {}\ntransition_strain = {}\n", ligament.stiffness_n,
                           ligament.transition_strain);
     if (ligament.slack_sigma_mm > 0) text += fmt::format("slack_sigma = {}\n", ligament.slack_sigma_mm / mm);
+    if (ligament.point_sigma_mm > 0) text += fmt::format("point_sigma = {}\n", ligament.point_sigma_mm / mm);
     if (ligament.ends_at_strain) text += fmt::format("ends_at_strain = {}\n", *ligament.ends_at_strain);
     if (ligament.wrap) text += wrap_text(*ligament.wrap, mm);
   }

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "kinematics/ligament_path.hpp"
+
 namespace condyle::io {
 
 std::string planned_text(const Joint& joint) {
@@ -35,9 +37,8 @@ Json cup_json(std::span<const plan::CupAngles> cup) {
 
 std::string sigmas_text(const Joint& joint) {
   std::string text;
-  for (const Ligament& ligament : joint.ligaments)
-    if (ligament.ends_at_strain && ligament.slack_sigma_mm > 0)
-      text += fmt::format(", {}.slack_length by {:g} mm", ligament.name, ligament.slack_sigma_mm);
+  for (const kinematics::LigamentSigma& of : kinematics::ligament_sigmas(joint))
+    text += fmt::format(", {} by {:g} mm", of.name, of.sigma_mm);
   if (!joint.posed) return text;
   for (const PosedPart& part : joint.posed->parts)
     for (const PartParameter& parameter : part.parameters)

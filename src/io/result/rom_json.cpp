@@ -15,6 +15,7 @@
 #include "io/result/rom_parts.hpp"
 #include "io/result/rom_result.hpp"
 #include "io/result/scope_text.hpp"
+#include "kinematics/ligament_path.hpp"
 
 namespace condyle::io {
 namespace {
@@ -31,9 +32,8 @@ Json json_of(const motion::BandOptions& options, const Joint& joint) {
     for (const PosedPart& part : joint.posed->parts)
       for (const PartParameter& parameter : part.parameters)
         if (parameter.sigma > 0) sigma["parameters"][part.name + "." + parameter.name] = parameter.sigma;
-  for (const Ligament& ligament : joint.ligaments)
-    if (ligament.ends_at_strain && ligament.slack_sigma_mm > 0)
-      sigma["parameters"][ligament.name + ".slack_length"] = ligament.slack_sigma_mm;
+  for (const kinematics::LigamentSigma& of : kinematics::ligament_sigmas(joint))
+    sigma["parameters"][of.name] = of.sigma_mm;
   return {{"samples", options.samples}, {"seed", options.seed}, {"sigma", std::move(sigma)}};
 }
 

@@ -4,6 +4,7 @@
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "kinematics/ligament_path.hpp"
 #include "motion/events/ligament_end.hpp"
 
 namespace condyle::motion {
@@ -32,10 +33,21 @@ LigamentLimits LigamentLimits::displaced(std::span<const double> standard_deviat
   if (standard_deviations.empty()) return out;
   std::size_t k = 0;
   for (Ligament& ligament : out.ligaments_) {
-    if (!(ligament.slack_sigma_mm > 0)) continue;
-    const double moved = ligament.slack_length_mm + standard_deviations[k++] * ligament.slack_sigma_mm;
-    ligament.slack_length_mm = std::max(moved, ligament.slack_length_mm / 1000);
+    if (ligament.slack_sigma_mm > 0) {
+      const double moved = ligament.slack_length_mm + standard_deviations[k++] * ligament.slack_sigma_mm;
+      ligament.slack_length_mm = std::max(moved, ligament.slack_length_mm / 1000);
+    }
+    if (!(ligament.point_sigma_mm > 0)) continue;
+    for (std::vector<Vec3>* points : {&ligament.fixed, &ligament.mobile})
+      for (Vec3& point : *points)
+        for (double& coordinate : point) coordinate += standard_deviations[k++] * ligament.point_sigma_mm;
   }
+  return out;
+}
+
+LigamentLimits LigamentLimits::shifted(const Vec3& fixed_by, const Vec3& mobile_by) const {
+  LigamentLimits out = *this;
+  for (Ligament& ligament : out.ligaments_) kinematics::shift(ligament, fixed_by, mobile_by);
   return out;
 }
 

@@ -17,9 +17,12 @@ class LigamentLimits {
  public:
   explicit LigamentLimits(const Joint& joint);
 
-  /// With each slack length that has a standard deviation displaced by so many of it, in their order; as they are if none is given. A ligament keeps
-  /// a thousandth of its slack length at least.
+  /// With each slack length and each coordinate of a point that has a standard deviation displaced by so many of it, in the order of
+  /// ligament_sigmas(), points of the fixed body first; as they are if none is given. A ligament keeps a thousandth of its slack length at least.
   LigamentLimits displaced(std::span<const double> standard_deviations) const;
+
+  /// With the points and wraps of each moved with their bodies, in the frame of each.
+  LigamentLimits shifted(const Vec3& fixed_by, const Vec3& mobile_by) const;
 
   bool empty() const noexcept { return ligaments_.empty(); }
 
