@@ -88,6 +88,8 @@ using Pose = Eigen::Isometry3d;
 /// Many points moved by a pose; out may hold any size before.
 void posed(const Pose& X, PointsView points, Points& out);
 [[nodiscard]] Points posed(const Pose& X, PointsView points);
+/// Each point plus `by`.
+[[nodiscard]] Points shifted(Points points, const Vec3& by);
 
 struct TriMesh;
 

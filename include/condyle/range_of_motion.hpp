@@ -203,6 +203,8 @@ class RangeOfMotion {
   /// other body are shared, not made again. Linear in the mesh of the
   /// moved body. Throws MeshError as Mesh::moved_to().
   RangeOfMotion(const RangeOfMotion& before, BodyRole moved, const Points& vertices);
+  /// The same joint with both bodies and their ligaments shifted in their frames, mm: as about another centre. Linear in both meshes.
+  RangeOfMotion(const RangeOfMotion& before, const Vec3& fixed_by, const Vec3& mobile_by);
   ~RangeOfMotion();
   RangeOfMotion(const RangeOfMotion&) = delete;
   RangeOfMotion& operator=(const RangeOfMotion&) = delete;

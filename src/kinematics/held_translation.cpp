@@ -2,15 +2,15 @@
 
 #include <utility>
 
+#include "kinematics/ligament_path.hpp"
+
 namespace condyle {
 
 Joint held_at(const Joint& joint, const Vec3& translation_mm) {
   Joint held = joint;
   if (translation_mm == Vec3::Zero()) return held;
   const auto moved = [&](const Mesh& mesh) {
-    Points points = mesh.vertices();
-    for (std::size_t v = 0; v < points.size(); ++v) points.set(v, points[v] - translation_mm);
-    return mesh.moved_to(std::move(points));
+    return mesh.moved_to(shifted(mesh.vertices(), -translation_mm));
   };
   const auto move_cuts = [&](std::optional<BodyImage>& image) {
     if (image)
@@ -20,10 +20,7 @@ Joint held_at(const Joint& joint, const Vec3& translation_mm) {
     if (socket) socket->centre -= translation_mm;
   };
   held.fixed.mesh = moved(joint.fixed.mesh);
-  for (Ligament& ligament : held.ligaments) {
-    for (Vec3& point : ligament.fixed) point -= translation_mm;
-    if (ligament.wrap && ligament.wrap->body == BodyRole::fixed) ligament.wrap->centre -= translation_mm;
-  }
+  for (Ligament& ligament : held.ligaments) kinematics::shift(ligament, -translation_mm, Vec3::Zero());
   move_cuts(held.fixed.image);
   move_socket(held.fixed.head);
   if (held.posed) {

@@ -186,7 +186,7 @@ test("a plan's cut is the first step", async () => {
 });
 
 test("bones are kept as STL with a joint file that names them, whose they are, and their ligaments", async () => {
-  withText("whose", ({ joint }) => Object.assign(joint, { person: { age: 31, sex: "female" }, ligaments: "\n[[ligament]]\nname = \"string\"\n" }));
+  withText("whose", ({ joint }) => Object.assign(joint, { person: { age: 31, sex: "female" }, ligaments: "\n[[ligament]]\nname = \"string\"\nfixed = [0, 50, 0]\nmobile = [0, -50, 0]\nslack_length = 200\n" }));
   const { page } = await opened("whose");
   const { array } = readReport(pathOf("sample"));
   await changed(page, strokeAtLimit(page));

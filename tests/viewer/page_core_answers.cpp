@@ -16,6 +16,7 @@
 #include "condyle/sample/hip.hpp"
 #include "page_core.hpp"
 #include "page_edit.hpp"
+#include "page_ligaments.hpp"
 #include "page_pressure.hpp"
 
 /// Asks a joint a thousand poses, its limits and a map through the functions of the page, compiled natively, and writes the
@@ -180,7 +181,7 @@ std::array<double, 3> start_of(const motion::Motion& motion) {
 void answer_limit(CondyleJoint* joint, const motion::Motion& motion, std::ostream& answers) {
   const std::array start = start_of(motion);
   const double held[] = {0, 0, 0};
-  double limit[7];
+  double limit[8];
   checked(condyle_limit(joint, static_cast<int>(motion.vary), motion.sense == RotationSense::positive,
                         start.data(), held, motion.range.degrees(), limit));
   answers << "limit " << static_cast<int>(motion.vary) << ' ' << (motion.sense == RotationSense::positive);
@@ -273,7 +274,7 @@ void answer_stroke(CondyleJoint* joint, int of_fixed, int action, const std::vec
 
 void answer_about(CondyleJoint* joint, const motion::Motion& motion, std::ostream& answers) {
   const std::array start = start_of(motion);
-  double limit[7];
+  double limit[8];
   checked(condyle_limit_about(joint, static_cast<int>(motion.vary), motion.sense == RotationSense::positive,
                               start.data(), motion.range.degrees(), limit));
   answers << "about " << static_cast<int>(motion.vary) << ' ' << (motion.sense == RotationSense::positive);
@@ -281,6 +282,38 @@ void answer_about(CondyleJoint* joint, const motion::Motion& motion, std::ostrea
   answers << ' ' << bits(motion.range.degrees()) << " =";
   for (const double value : limit) answers << ' ' << bits(value);
   answers << '\n';
+}
+
+/// A string in front, one behind over the head, and one from the fixed body over its own cylinder; of nobody.
+constexpr const char* ligaments =
+    "[[ligament]]\nname = \"front\"\nfixed = [30, 28, 8]\nmobile = [12, -38, 30]\nslack_length = "
+    "74\nstiffness_n = 500\n"
+    "ends_at_strain = 0.1\n[[ligament]]\nname = \"behind\"\nfixed = [-28, -15, 10]\nmobile = [2, 5, "
+    "48]\nslack_length = 62\n"
+    "ends_at_strain = 0.2\nwrap = { shape = \"sphere\", body = \"mobile\", centre = [0, 0, 0], radius = 24 "
+    "}\n[[ligament]]\n"
+    "name = \"over\"\nfixed = [0, 60, 30]\nmobile = [0, -20, 60]\nslack_length = 80\n"
+    "wrap = { shape = \"cylinder\", body = \"fixed\", centre = [0, 10, 40], axis = [1, 0, 0], radius = 15 "
+    "}\n";
+
+/// The limits that ligaments leave, about both centres, and what is shown of them at some poses.
+void answer_ligaments(CondyleJoint* joint, const std::string& folder, std::ostream& answers) {
+  std::ofstream(folder + "/ligaments.toml") << ligaments;
+  checked(condyle_set_ligaments(joint, ligaments));
+  answers << "strings = 0\n";
+  for (const motion::Motion& motion : motion::hip_motions()) answer_limit(joint, motion, answers);
+  const double centre[] = {1.5, -2, 0.5}, reference[] = {0, 0, 0};
+  checked(condyle_move_centre(joint, centre, reference));
+  answers << "centre " << bits(centre[0]) << ' ' << bits(centre[1]) << ' ' << bits(centre[2]) << " = 0\n";
+  for (const motion::Motion& motion : motion::hip_motions()) answer_about(joint, motion, answers);
+  for (int flexion = -20; flexion <= 120; flexion += 20) {
+    const double angles[] = {double(flexion), 5, -10}, none[] = {0, 0, 0};
+    double X[16];
+    checked(condyle_pose(joint, angles, none, X));
+    const char* said = condyle_ligaments(joint, X);
+    if (!said) throw std::runtime_error(condyle_error());
+    answers << "shown " << flexion << " = " << said << '\n';
+  }
 }
 
 /// Strokes on both bones where internal rotation ends at 90 degrees of flexion, the limits after each, one stroke taken back, and the limits
@@ -314,6 +347,7 @@ void answer_edits(const Scene& scene, const std::string& folder) {
   checked(condyle_move_centre(joint, centre, reference));
   answers << "centre " << bits(centre[0]) << ' ' << bits(centre[1]) << ' ' << bits(centre[2]) << " = 0\n";
   for (const motion::Motion& motion : motion::hip_motions()) answer_about(joint, motion, answers);
+  answer_ligaments(joint, folder, answers);
   condyle_free(joint);
   if (!answers) throw std::runtime_error(folder + " cannot be written");
 }

@@ -25,7 +25,7 @@ const penetrations = (ofFixed) => {
 };
 const equal = (native, page) => native.length === page.length && native.every((value, i) => Object.is(value, page[i]));
 
-const pose = core._malloc(128), angles = core._malloc(24), translation = core._malloc(24), limit = core._malloc(56), depth = core._malloc(128);
+const pose = core._malloc(128), angles = core._malloc(24), translation = core._malloc(24), limit = core._malloc(64), depth = core._malloc(128);
 const values = core._malloc(4 * Math.max(...vertexCount)), marks = core._malloc(Math.max(...vertexCount));
 const wrong = [];
 const count = {
@@ -93,7 +93,7 @@ const answerers = {
     f64(angles, 3).set(fields.slice(2, 5).map(fromBits));
     f64(translation, 3).fill(0);
     checked(core._condyle_limit(joint, Number(fields[0]), Number(fields[1]), angles, translation, fromBits(fields[5]), limit));
-    const native = fields.slice(6).map(fromBits), page = Array.from(f64(limit, 7));
+    const native = fields.slice(6).map(fromBits), page = Array.from(f64(limit, 8));
     ++count.limits;
     if (!equal(native, page)) wrong.push(`limit ${fields}: ${page} and not ${native}`);
   },

@@ -1,4 +1,4 @@
-// Holds strokes and a moved centre of the core compiled to WebAssembly against the same functions compiled natively, bit for bit, as same_bits.mjs
+// Holds strokes, a moved centre and ligaments of the core compiled to WebAssembly against the same functions compiled natively, bit for bit, as same_bits.mjs
 // does with all else:
 //   node same_edits.mjs page_core.js FOLDER
 import { readFileSync } from "node:fs";
@@ -11,7 +11,7 @@ const { core, copied, checked, f64, u32, jointOf } = await openCore(modulePath);
 const scene = readScene(join(folder, "scene.bin"));
 const joint = jointOf(scene);
 const vertexCount = [scene.mobile.length / 3, scene.fixed.length / 3];
-const three = core._malloc(24), other = core._malloc(24), limit = core._malloc(56), outcome = core._malloc(12), removed = core._malloc(32);
+const three = core._malloc(24), other = core._malloc(24), limit = core._malloc(64), outcome = core._malloc(12), removed = core._malloc(32), pose = core._malloc(128);
 const put = (pointer, numbers) => f64(pointer, numbers.length).set(numbers);
 
 /// FNV-1a of 32 bits.
@@ -47,14 +47,21 @@ const answerers = {
   about([vary, positive, ...numbers]) {
     put(three, numbers.slice(0, 3).map(fromBits));
     checked(core._condyle_limit_about(joint, Number(vary), Number(positive), three, fromBits(numbers[3]), limit));
-    return Array.from(f64(limit, 7), bits).join(" ");
+    return Array.from(f64(limit, 8), bits).join(" ");
+  },
+  strings: () => `${checked(core._condyle_set_ligaments(joint, copied(Buffer.concat([readFileSync(join(folder, "ligaments.toml")), Buffer.alloc(1)]))))}`,
+  shown([flexion]) {
+    put(three, [Number(flexion), 5, -10]);
+    put(other, [0, 0, 0]);
+    checked(core._condyle_pose(joint, three, other, pose));
+    return core.UTF8ToString(core._condyle_ligaments(joint, pose));
   },
   // Without "=": its answer follows its six words.
   limit([vary, positive, ...numbers]) {
     put(three, numbers.slice(0, 3).map(fromBits));
     put(other, [0, 0, 0]);
     checked(core._condyle_limit(joint, Number(vary), Number(positive), three, other, fromBits(numbers[3]), limit));
-    return Array.from(f64(limit, 7), bits).join(" ");
+    return Array.from(f64(limit, 8), bits).join(" ");
   },
 };
 
@@ -70,5 +77,5 @@ for (const line of readFileSync(join(folder, "edits.txt"), "utf8").trimEnd().spl
 }
 console.log(`${Object.entries(counts).map(([kind, count]) => `${kind} ${count}`).join(", ")}: ${wrong.length} wrong`);
 for (const text of wrong.slice(0, 5)) console.error(text);
-const complete = counts.brush === 2 && counts.stroke === 6 && counts.undo === 2 && counts.centre === 1 && counts.about === 12 && counts.limit === 48;
+const complete = counts.brush === 2 && counts.stroke === 6 && counts.undo === 2 && counts.centre === 2 && counts.about === 24 && counts.limit === 60 && counts.strings === 1 && counts.shown === 8;
 process.exit(wrong.length || !complete ? 1 : 0);

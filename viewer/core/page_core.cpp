@@ -12,6 +12,7 @@
 #include "condyle/answer.hpp"
 #include "condyle/joint.hpp"
 #include "contact/body_pair.hpp"
+#include "io/report/shown_end.hpp"
 #include "mesh/surface_to_surface.hpp"
 #include "page_joint.hpp"
 
@@ -313,7 +314,7 @@ const std::uint32_t* condyle_pair_triangles(const CondyleJoint* joint) {
 }
 
 void put_limit(const motion::RangeOfMotion& range, const PageMotion& motion, const Vec3& origin,
-               double limit[7]) {
+               double limit[8]) {
   const Angle most = Angle::degrees(motion.range_deg);
   const motion::RotationLimits ends = range.both_limits(
       all_joint_angles.at(static_cast<std::size_t>(motion.vary)), angles_of(motion.start_deg),
@@ -326,10 +327,11 @@ void put_limit(const motion::RangeOfMotion& range, const PageMotion& motion, con
   limit[2] = static_cast<double>(end.kind());
   limit[3] = end.bearing_contact ? end.bearing_contact->turned.degrees() : -1;
   for (int i = 0; i < 3; ++i) limit[4 + i] = point[i];
+  limit[7] = end.ligament ? static_cast<double>(*end.ligament) : -1;
 }
 
 int condyle_limit(CondyleJoint* joint, int vary, int positive, const double* start_deg, const double* held_mm,
-                  double range_deg, double limit[7]) {
+                  double range_deg, double limit[8]) {
   return guarded(-1, [&] {
     const Vec3 held(held_mm[0], held_mm[1], held_mm[2]);
     put_limit(range_of(*joint, held), {vary, positive != 0, start_deg, range_deg}, held, limit);
@@ -345,13 +347,10 @@ int condyle_free_angles(CondyleJoint* joint, int vary, const double* start_deg, 
             .free_angles(all_joint_angles.at(static_cast<std::size_t>(vary)), angles_of(start_deg),
                          {Angle::degrees(-back_deg), Angle::degrees(forth_deg)});
     joint->intervals.clear();
-    const auto by_contact = [](const motion::Limit& end) {
-      return end.reason == motion::LimitReason::contact ? 1.0 : 0.0;
-    };
     for (const motion::FreeInterval& interval : free.intervals)
-      joint->intervals.insert(joint->intervals.end(),
-                              {interval.low.degrees(), interval.high.degrees(), by_contact(interval.at_low),
-                               by_contact(interval.at_high)});
+      joint->intervals.insert(joint->intervals.end(), {interval.low.degrees(), interval.high.degrees(),
+                                                       double(io::shown_end(interval.at_low)),
+                                                       double(io::shown_end(interval.at_high))});
     return static_cast<int>(free.intervals.size());
   });
 }

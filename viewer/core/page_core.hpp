@@ -70,14 +70,15 @@ int condyle_in_contact(CondyleJoint* joint, const double* pose);
 int condyle_pairs(CondyleJoint* joint, const double* pose);
 const std::uint32_t* condyle_pair_triangles(const CondyleJoint* joint);
 
-/// How far an angle turns from a pose until contact: `vary` 0 to 2 in the joint's order, `positive` 1 or 0, up to `range_deg`;
+/// How far an angle turns from a pose until contact or the end of a ligament: `vary` 0 to 2 in the joint's order, `positive` 1 or 0, up to `range_deg`;
 /// the mobile body keeps the translation `held_mm`, in F.
-/// In `limit`: the angle turned, the reason (0 contact, 1 end of range, 2 in contact at the start), the kind of contact (0
-/// unknown, 1 bearing, 2 impingement, 3 cut), where bearing surfaces touch before (or -1), and the contact's point in F (or NaN).
+/// In `limit`: the angle turned, the reason (0 contact, 1 end of range, 2 in contact at the start, 3 a ligament, 4 one strained at the
+/// start), the kind of contact (0 unknown, 1 bearing, 2 impingement, 3 cut), where bearing surfaces touch before (or -1), the contact's point
+/// in F (or NaN), and the ligament's number (or -1).
 int condyle_limit(CondyleJoint* joint, int vary, int positive, const double* start_deg, const double* held_mm,
-                  double range_deg, double limit[7]);
+                  double range_deg, double limit[8]);
 /// How many intervals of an angle are free, from its start less `back_deg` to its start and `forth_deg`, half a turn at most
-/// either way; and of each its ends, and 1 for each that contact makes: low, high, contact at low, at high.
+/// either way; and of each its ends, and what makes them (0 the range, 1 contact, 2 a ligament): low, high, at low, at high.
 int condyle_free_angles(CondyleJoint* joint, int vary, const double* start_deg, const double* held_mm,
                         double back_deg, double forth_deg);
 const double* condyle_intervals(const CondyleJoint* joint);

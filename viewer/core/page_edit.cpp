@@ -32,12 +32,6 @@ const plan::Brush& ready_brush(const CondyleJoint& joint, int of_fixed) {
   return ready_brush(const_cast<CondyleJoint&>(joint), of_fixed);
 }
 
-Points shifted(const Points& points, const Vec3& by) {
-  Points moved = points;
-  for (std::size_t v = 0; v < moved.size(); ++v) moved.set(v, points[v] - by);
-  return moved;
-}
-
 /// The joint with a bone as its brush has it; what was made of the other one stays.
 void take_brushed(CondyleJoint& joint, BodyRole role, const Points& vertices) {
   Body& bone = body_of(joint, role == BodyRole::fixed);
@@ -49,7 +43,7 @@ void take_brushed(CondyleJoint& joint, BodyRole role, const Points& vertices) {
   if (!joint.range) return;
   const bool is_held = role == BodyRole::fixed && joint.range_held_at != Vec3::Zero();
   joint.range = std::make_shared<const motion::RangeOfMotion>(
-      *joint.range, role, is_held ? shifted(vertices, joint.range_held_at) : vertices);
+      *joint.range, role, is_held ? shifted(vertices, -joint.range_held_at) : vertices);
 }
 
 /// As they were found before anything is cut: a search on a surface that is cut would find others.
@@ -130,17 +124,14 @@ int condyle_move_centre(CondyleJoint* joint, const double* centre_mm, const doub
     if (joint->joint.kind == JointKind::free) throw UsageError("centre: that of a free joint is not held");
     const Vec3 in_F(centre_mm[0], centre_mm[1], centre_mm[2]);
     const Vec3 in_M = inverted(pose_at(joint->joint.coordinates(), angles_of(reference_deg))).linear() * in_F;
-    const motion::RangeOfMotion fixed_moved(range_of(*joint), BodyRole::fixed,
-                                            shifted(joint->joint.fixed.mesh.vertices(), in_F));
-    joint->edit.about = std::make_shared<const motion::RangeOfMotion>(
-        fixed_moved, BodyRole::mobile, shifted(joint->joint.mobile.mesh.vertices(), in_M));
+    joint->edit.about = std::make_shared<const motion::RangeOfMotion>(range_of(*joint), -in_F, -in_M);
     joint->edit.centre_mm = in_F;
     return 0;
   });
 }
 
 int condyle_limit_about(CondyleJoint* joint, int vary, int positive, const double* start_deg,
-                        double range_deg, double limit[7]) {
+                        double range_deg, double limit[8]) {
   return guarded(-1, [&] {
     if (!joint->edit.about) throw UsageError("centre: it was not moved");
     put_limit(*joint->edit.about, {vary, positive != 0, start_deg, range_deg}, joint->edit.centre_mm, limit);

@@ -29,5 +29,5 @@ int condyle_brushed(const CondyleJoint* joint, int of_fixed, double* vertices, d
 int condyle_move_centre(CondyleJoint* joint, const double* centre_mm, const double* reference_deg);
 /// As condyle_limit(), of rotations about the moved centre. The contact's point is seen from the centre as it was.
 int condyle_limit_about(CondyleJoint* joint, int vary, int positive, const double* start_deg,
-                        double range_deg, double limit[7]);
+                        double range_deg, double limit[8]);
 }

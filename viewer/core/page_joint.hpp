@@ -109,9 +109,9 @@ struct PageMotion {
   const double* start_deg;
   double range_deg;
 };
-/// The seven numbers of condyle_limit(); points of the range's own frame lie at `origin`.
+/// The eight numbers of condyle_limit(); points of the range's own frame lie at `origin`.
 void put_limit(const condyle::motion::RangeOfMotion& range, const PageMotion& motion,
-               const condyle::Vec3& origin, double limit[7]);
+               const condyle::Vec3& origin, double limit[8]);
 
 /// The line that condyle_error() gives.
 std::string& last_error();

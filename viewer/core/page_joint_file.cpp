@@ -20,7 +20,6 @@
 #include "io/joint/load_joint.hpp"
 #include "io/report/joint_object.hpp"
 #include "io/result/rom_result.hpp"
-#include "motion/rom/ligament_limits.hpp"
 #include "page_joint.hpp"
 
 using namespace condyle;
@@ -75,7 +74,6 @@ io::Json only_in_reports(const io::JointFile& file) {
 
 /// As `condyle report` without options asks for them; a joint without limits has the reason.
 std::string block_of_joint(const io::LoadedJoint& loaded) {
-  motion::refuse_ending_ligaments(loaded.joint, "the page");
   const Case joint = loaded;
   const std::vector<JointNote> notes = check_joint(joint.joint, joint.placement);
   io::Provenance from = io::provenance_of(loaded, {});

@@ -14,6 +14,7 @@ export function jointArraysOf(report: Report): JointArrays {
     kind: kinds.indexOf(joint.kind), anatomy: anatomies.indexOf(joint.anatomy), side: joint.side === "right" ? 0 : 1,
     translationFrame: joint.translation_frame === "fixed" ? 0 : 1, fixed: surface("fixed"), mobile: surface("mobile"),
     bearing: bearingOf(report), layers: layers && layersOf(report, layers), posed: posed ? posedOf(report, posed) : null,
+    ligaments: joint.ligaments ?? null,
   };
 }
 

@@ -208,7 +208,7 @@ export class Page {
   private details(folds: readonly HTMLDetailsElement[]): HTMLElement {
     const { text, motion } = this;
     return html("section", { "aria-label": words.tab.details },
-      ...(this.notes ? [this.notes.element] : []), ...numberFolds(text, this.counts(), [motion.answer, motion.depth, motion.took]),
+      ...(this.notes ? [this.notes.element] : []), ...numberFolds(text, this.counts(), [motion.answer, motion.depth, motion.ligaments, motion.took]),
       ...(this.plan ? [this.plan.details] : []), ...folds, html("p", {}, words.scope(scopeOf(text))), licencesFold());
   }
 
@@ -337,6 +337,7 @@ export class Page {
         if (this.display.quantity === "none" || this.display.quantity === "removed") this.show(this.storedValues());
         const pairs = Array.from(shown.pairs);
         this.scene?.setMarked("contact", pairs.filter((_, i) => i % 2 === 0), pairs.filter((_, i) => i % 2 === 1));
+        this.scene?.annotations.showLigaments(shown.ligaments);
         this.motion.show(shown, roundTrip_ms);
         askFree({ at, held: [shown.pose[3]!, shown.pose[7]!, shown.pose[11]!] });
         if (!shown.inContact) this.clearance?.ask(at);

@@ -28,7 +28,7 @@ export function changedByHand(text: ReportText, done: string, limits: readonly {
     const bone = motion.bone_reference, is_short = live.reason !== "end_of_range" && live.turned_deg <= (bone?.cam_without_complaints_deg ?? 0);
     const start = motion.start_deg[motion.vary] ?? 0, end = start + (live.positive ? 1 : -1) * live.turned_deg;
     return {
-      ...motion, limit_deg: live.turned_deg, reason: live.reason, contact_kind: live.kind, contact_point_mm: live.point, band: null, features: null,
+      ...motion, limit_deg: live.turned_deg, reason: live.reason, ligament: live.ligament, contact_kind: live.kind, contact_point_mm: live.point, band: null, features: null,
       clock_hour: null, contact_side: null, bearing_contact_deg: live.bearing_deg, at_limit_deg: { ...motion.at_limit_deg, [motion.vary]: end },
       bone_reference: bone && { ...bone, is_short },
       living: undefined,  // of the joint before

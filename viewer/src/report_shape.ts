@@ -28,7 +28,7 @@ const rom = object({
   })),
 });
 
-/// low, high, whether contact ends it at the low end, and at the high end
+/// low, high, and what makes either end: 0 the range, 1 contact, 2 a ligament
 const interval = list(number, 4) as Check<[number, number, number, number]>;
 export type Interval = Passed<typeof interval>;
 const mapAxis = object({ angle: text, opposite: text, values_deg: list(number) });

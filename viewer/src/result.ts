@@ -25,9 +25,19 @@ export function zeroOf({ zero }: RomAnswer): string | null {
   return zero?.from === "as_given" ? words.zeroOfScan : zero?.is_neutral === false ? words.zeroUnknown : null;
 }
 
+/// Whether a motion cannot begin, so that it has no limit.
+export function cannotBegin(reason: MotionAnswer["reason"]): boolean {
+  return reason === "contact_at_start" || reason === "strained_at_start";
+}
+
+/// Whether contact or a ligament ends a motion within its range.
+function endsWithin(reason: MotionAnswer["reason"]): boolean {
+  return reason === "contact" || reason === "ligament";
+}
+
 /// Whether a joint has limits; one that was changed by hand, those of the report.
 export function hasLimits({ rom, by_hand }: ReportText): boolean {
-  return (by_hand?.before ?? rom?.motions ?? []).some(({ reason }) => reason !== "contact_at_start");
+  return (by_hand?.before ?? rom?.motions ?? []).some(({ reason }) => !cannotBegin(reason));
 }
 
 /// Where the translation of a free joint is held while it turns; null of a joint that is not held.
@@ -67,7 +77,7 @@ const shownFirst = 4;
 export function deficitOf({ reason, limit_deg, normal_range_deg, bone_reference, translation_ends }: MotionAnswer): number | null {
   const compared = bone_reference?.is_short ? bone_reference.healthy_deg : normal_range_deg;
   if (compared === null || reason === "end_of_range" || translation_ends) return null;
-  const lacks = compared - (reason === "contact_at_start" ? 0 : limit_deg);
+  const lacks = compared - (cannotBegin(reason) ? 0 : limit_deg);
   return lacks > 0 ? lacks : null;
 }
 
@@ -80,7 +90,7 @@ export function worstOf(motions: readonly MotionAnswer[]): MotionAnswer | null {
 /// The motion that lacks most, or, if none lacks anything, the one nearest to its clinical range; null if none has one.
 function nearestToNormal(motions: readonly MotionAnswer[]): MotionAnswer | null {
   const beyond = ({ limit_deg, normal_range_deg }: MotionAnswer) => limit_deg - normal_range_deg!;
-  const compared = motions.filter(({ normal_range_deg, reason }) => normal_range_deg !== null && reason === "contact");
+  const compared = motions.filter(({ normal_range_deg, reason }) => normal_range_deg !== null && endsWithin(reason));
   return worstOf(motions) ?? compared.reduce<MotionAnswer | null>(
     (nearest, motion) => (nearest && beyond(nearest) <= beyond(motion) ? nearest : motion), null);
 }
@@ -96,21 +106,21 @@ export function firstFigures({ rom, joint }: ReportText): MotionAnswer[] {
 }
 
 /// The motion of the sentence: the one that lacks most; if none does, internal rotation at 90° flexion for a hip, and for other joints
-/// the first of the strip that ends by contact. Null for a joint without limits.
+/// the first of the strip that contact or a ligament ends. Null for a joint without limits.
 export function headlineMotion(text: ReportText): MotionAnswer | null {
-  const motions = text.rom?.motions ?? [], figures = firstFigures(text), byContact = ({ reason }: MotionAnswer) => reason === "contact";
+  const motions = text.rom?.motions ?? [], figures = firstFigures(text), ends = ({ reason }: MotionAnswer) => endsWithin(reason);
   const rotation = figures.find(({ name }) => name === examinedFirst(text.joint)[1]);
-  return worstOf(motions) ?? (rotation && byContact(rotation) ? rotation : figures.find(byContact) ?? motions[0] ?? null);
+  return worstOf(motions) ?? (rotation && ends(rotation) ? rotation : figures.find(ends) ?? motions[0] ?? null);
 }
 
 /// The band if it is informative: a motion that nothing ends in its range ends in few displaced joints either.
 export function shownBand({ band, reason }: MotionAnswer): Band | null {
-  return band && (reason === "contact" || band.p5_deg.toFixed(0) !== band.p95_deg.toFixed(0)) ? band : null;
+  return band && (endsWithin(reason) || band.p5_deg.toFixed(0) !== band.p95_deg.toFixed(0)) ? band : null;
 }
 
 /// "134.8°", ">120°" if the range ends without contact.
 export function endText({ limit_deg, reason }: { limit_deg: number; reason: MotionAnswer["reason"] }): string {
-  if (reason === "contact_at_start") return words.reasons.contact_at_start;
+  if (cannotBegin(reason)) return words.reasons[reason];
   return reason === "end_of_range" ? words.over(`${plain(limit_deg)}°`) : `${fixed(limit_deg, 1)}°`;
 }
 

@@ -7,7 +7,6 @@
 #include "condyle/error.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/motion/motion_of_joint.hpp"
-#include "motion/rom/ligament_limits.hpp"
 
 namespace condyle::io {
 namespace {
@@ -78,7 +77,6 @@ LoadedJoint shown_joint(const LoadedJoint& loaded, const ReportAnswer& answer) {
 std::optional<ReportAnswer> answer_report(const LoadedJoint& loaded, const ReportRequest& request,
                                           const Control& control, ReportAnswer known) {
   if (request.with_pressure) require_layers(loaded);
-  motion::refuse_ending_ligaments(loaded.joint, "the page of a report");
   ReportAnswer answer = std::move(known);
   const auto named = [&](const auto& question) {
     const std::string file = loaded.report.file.path.string();

@@ -17,6 +17,7 @@
 #include "io/report/joint_object.hpp"
 #include "io/report/plan_json.hpp"
 #include "io/report/recorded_frames.hpp"
+#include "io/report/shown_end.hpp"
 #include "io/report/surfaces_json.hpp"
 #include "io/report/sweep_block.hpp"
 #include "io/result/json.hpp"
@@ -41,15 +42,12 @@ Json axis_json(const motion::GridAxis& axis, Anatomy joint) {
 
 Json map_json(const motion::MotionMap& map) {
   const motion::MapGrid& grid = map.grid;
-  const auto ends_in_contact = [](const motion::Limit& limit) {
-    return limit.reason == motion::LimitReason::end_of_range ? 0 : 1;
-  };
   Json points = Json::array();
   for (const motion::FreeAngles& point : map.points) {
     Json intervals = Json::array();
     for (const motion::FreeInterval& free : point.intervals)
       intervals.push_back({(grid.start + free.low).degrees(), (grid.start + free.high).degrees(),
-                           ends_in_contact(free.at_low), ends_in_contact(free.at_high)});
+                           shown_end(free.at_low), shown_end(free.at_high)});
     points.push_back(std::move(intervals));
   }
   return {{"columns", axis_json(grid.column, map.anatomy)},

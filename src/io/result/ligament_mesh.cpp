@@ -11,8 +11,6 @@ namespace condyle::io {
 namespace {
 
 constexpr double half_width_mm = 0.8;
-/// Less strain than this short of the end is at it: limits end there to rounding.
-constexpr double at_end = 1e-9;
 
 void add_path(TriMesh& mesh, const Ligament& ligament, const Pose& X_FM) {
   const std::vector<Vec3> path = kinematics::ligament_points(ligament, X_FM);
@@ -39,14 +37,14 @@ LigamentMesh ligament_mesh(std::span<const Ligament> ligaments, const Pose& X_FM
 }
 
 std::vector<PictureMark> ligament_marks(std::span<const Ligament> ligaments, const Pose& X_FM) {
+  // In the order of LigamentStretch.
   std::array<PictureMark, 4> marks{PictureMark{{}, {110, 110, 110}, "slack ligament"},
                                    PictureMark{{}, {0, 158, 115}, "taut ligament"},
                                    PictureMark{{}, {213, 94, 0}, "ligament at its end"},
                                    PictureMark{{}, {204, 121, 167}, "ligament without a length"}};
   for (const Ligament& ligament : ligaments) {
-    const auto state = ligament_state(ligament, X_FM);
-    const bool ends = state && ligament.ends_at_strain && state->strain > *ligament.ends_at_strain - at_end;
-    add_path(marks[!state ? 3 : ends ? 2 : state->strain > 0 ? 1 : 0].mesh, ligament, X_FM);
+    const auto stretch = kinematics::stretch_of(ligament, ligament_state(ligament, X_FM));
+    add_path(marks[static_cast<std::size_t>(stretch)].mesh, ligament, X_FM);
   }
   std::vector<PictureMark> drawn;
   for (PictureMark& mark : marks)

@@ -359,6 +359,14 @@ RangeOfMotion::RangeOfMotion(const Joint& joint, const RangeOptions& options) {
 RangeOfMotion::RangeOfMotion(const RangeOfMotion& before, BodyRole moved, const Points& vertices)
     : parts_(std::make_unique<Parts>(*before.parts_, moved, vertices)) {}
 
+RangeOfMotion::RangeOfMotion(const RangeOfMotion& before, const Vec3& fixed_by, const Vec3& mobile_by) {
+  const Parts of_fixed(*before.parts_, BodyRole::fixed,
+                       shifted(before.parts_->whole_fixed.vertices(), fixed_by));
+  parts_ = std::make_unique<Parts>(of_fixed, BodyRole::mobile,
+                                   shifted(before.parts_->whole_mobile.vertices(), mobile_by));
+  parts_->ligaments = before.parts_->ligaments.shifted(fixed_by, mobile_by);
+}
+
 RangeOfMotion::~RangeOfMotion() = default;
 
 RotationLimits RangeOfMotion::both_limits(JointAngle vary, const JointAngles& start,

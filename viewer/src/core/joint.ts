@@ -2,7 +2,7 @@ import type { PageCore } from "page-core";
 import { openModule } from "./module";
 import {
   quantityNumber, type BothPenetrations, type BothValues, type Brushed, type Coordinates, type Depth, type Details, type DroppedFile, type Edit,
-  type JointArrays, type Layers, type LimitQuestion, type LiveLimit, type MapQuestion, type MotionFrames, type Nearest, type Penetrations, type PosedArrays,
+  type JointArrays, type Layers, type LigamentShown, type LimitQuestion, type LiveLimit, type MapQuestion, type MotionFrames, type Nearest, type Penetrations, type PosedArrays,
   type Proposal, type Quantity, type Shown, type SideChoice, type Stroke, type Surface, type Turned, type Values,
 } from "./protocol";
 
@@ -20,6 +20,7 @@ export class CoreJoint {
   private readonly vertices: { fixed: number; mobile: number };
   private readonly mobileTriangles: number;
   private readonly protectedVertices = { fixed: 0, mobile: 0 };
+  private ligamentNames: string[] = [];
 
   static async open(wasm: ArrayBuffer, arrays: JointArrays): Promise<CoreJoint> {
     const memory = new Memory(await openModule(wasm)), { core } = memory, { bearing } = arrays;
@@ -30,6 +31,7 @@ export class CoreJoint {
     if (bearing !== "found") opened.on(core._condyle_set_roles, bearing.counts ? 1 : 0, bearing.fixed, bearing.mobile);
     if (arrays.layers) opened.setLayers(arrays.layers);
     if (arrays.posed) opened.describeParts(arrays.posed);
+    if (arrays.ligaments) opened.setLigaments(arrays.ligaments);
     return opened;
   }
 
@@ -53,7 +55,7 @@ export class CoreJoint {
       proposal: {
         joint: {
           kind: 0, anatomy: 0, side: core._condyle_side(made), translationFrame: 0, fixed: joint.surface(1),
-          mobile: joint.surface(0), bearing: "found", layers: null, posed: null,
+          mobile: joint.surface(0), bearing: "found", layers: null, posed: null, ligaments: null,
         },
         rom: JSON.parse(memory.text(description)) as Proposal["rom"], bodies,
       },
@@ -75,7 +77,7 @@ export class CoreJoint {
   shown(at: Coordinates): Shown {
     this.place(at);
     const inside = { mobile: this.inside(0), fixed: this.inside(1) }, inContact = this.inContact();
-    return { pose: this.f64(this.pose, 16), inContact, inside, pairs: inContact ? this.pairs() : new Uint32Array() };
+    return { pose: this.f64(this.pose, 16), inContact, inside, pairs: inContact ? this.pairs() : new Uint32Array(), ligaments: this.ligaments() };
   }
 
   /// Throws the command line's own line for a bad file.
@@ -108,10 +110,11 @@ export class CoreJoint {
   }
 
   private limitThere(vary: number, positive: boolean): LiveLimit {
-    const [turned_deg, reason, kind, bearing, x, y, z] = this.f64(this.answer, 7) as unknown as number[];
+    const [turned_deg, reason, kind, bearing, x, y, z, ligament] = this.f64(this.answer, 8) as unknown as number[];
     return {
       vary, positive, turned_deg: turned_deg!, reason: reasons[reason!]!, kind: kinds[kind!]!,
       bearing_deg: bearing! < 0 ? null : bearing!, point: Number.isNaN(x!) ? null : [x!, y!, z!],
+      ligament: this.ligamentNames[ligament!] ?? null,
     };
   }
 
@@ -234,6 +237,22 @@ export class CoreJoint {
     for (const [ofFixed, given] of [mobile, fixed].entries())
       this.on(this.core._condyle_body_given, ofFixed, given.text, given.vertices, given.fittedHead, given.fittedHead?.length ?? 0);
     this.on(this.core._condyle_parts, text);
+  }
+
+  private setLigaments(toml: string): void {
+    this.on(this.core._condyle_set_ligaments, toml);
+    this.ligamentNames = this.ligamentsAt({ angles: [0, 0, 0], translation: [0, 0, 0] }).map(({ name }) => name);
+  }
+
+  ligamentsAt(at: Coordinates): LigamentShown[] {
+    this.place(at);
+    return this.ligaments();
+  }
+
+  /// At the pose that was placed.
+  private ligaments(): LigamentShown[] {
+    const { memory, core } = this;
+    return JSON.parse(memory.text(memory.made(core._condyle_ligaments, this.joint, this.pose))) as LigamentShown[];
   }
 
   private valuesOf(quantity: Exclude<Quantity, "none">, ofFixed: number, count: number): Values {

@@ -26,6 +26,8 @@ export interface JointArrays {
   layers: Layers | null;
   /// Parts that turn; null of a joint without any.
   posed: PosedArrays | null;
+  /// Tables of ligaments as a joint file has them, in mm; null of a joint without any.
+  ligaments: string | null;
 }
 
 /// Parts of a joint and its bodies as they are given, as page_parts.hpp takes them: texts, and arrays that are null as in the drawn body, or not known.
@@ -112,9 +114,21 @@ export interface Shown {
   /// How many of a body's vertices are in the other one.
   inside: { mobile: number; fixed: number };
   pairs: Uint32Array;
+  ligaments: LigamentShown[];
 }
 
-/// An angle turned from a pose until contact.
+/// A ligament at a pose: numbers are null where its length is not known; a thin tube along its path in F. docs/ligaments.md.
+export interface LigamentShown {
+  name: string;
+  is: "slack" | "taut" | "at_end" | "unknown";
+  length_mm: number | null;
+  strain: number | null;
+  tension_n: number | null;
+  vertices: number[];
+  triangles: [number, number, number][];
+}
+
+/// An angle turned from a pose until contact or the end of a ligament.
 export interface LiveLimit {
   vary: number;
   positive: boolean;
@@ -123,6 +137,8 @@ export interface LiveLimit {
   kind: "unknown" | "bearing" | "impingement" | "cut";
   bearing_deg: number | null;
   point: [number, number, number] | null;
+  /// The one that ends it.
+  ligament: string | null;
 }
 
 /// `held` in F, mm: what the mobile body keeps while it turns.

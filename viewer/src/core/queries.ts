@@ -6,6 +6,8 @@ export const queries = {
   pose: (joint: CoreJoint, { at }: { at: Coordinates }) => joint.details(at),
   /// 16 numbers, row by row.
   poseMatrix: (joint: CoreJoint, { X_FM }: { X_FM: number[] }) => joint.details(X_FM),
+  /// Each ligament of the joint file, with a tube along its path.
+  ligaments: (joint: CoreJoint, { at }: { at: Coordinates }) => joint.ligamentsAt(at),
   depth: (joint: CoreJoint, { at }: { at: Coordinates }) => joint.depth(at),
   /// The whole surfaces, or, if `counted`, the parts whose contact ends motions.
   nearest: (joint: CoreJoint, { at, counted }: { at: Coordinates; counted: boolean }) => joint.nearest(at, counted),

@@ -8,7 +8,7 @@ declare module "page-core" {
     & Taking<1, "free" | "penetrating_vertices" | "depths" | "pair_triangles" | "intervals" | "free_mesh" | "side" | "description" |
       "free_labels" | "labels" | "free_bone" | "bone_name" | "drop_file">
     & Taking<2, "can_penetrate" | "in_contact" | "pairs" | "undo_stroke" | "strokes" | "parts" | "set_parameters" | "bearing" |
-      "vertex_count" | "triangle_count">
+      "vertex_count" | "triangle_count" | "set_ligaments" | "ligaments">
     & Taking<3, "penetrations" | "brush" | "removed" | "move_centre" | "read_mesh" | "propose" | "read_labels" | "bone" | "fill_file" |
       "joint_meshes" | "join">
     & Taking<4, "pose" | "depth" | "nearest" | "brushed" | "set_roles" | "mesh">

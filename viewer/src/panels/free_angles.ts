@@ -27,22 +27,23 @@ export function intervalAt(intervals: readonly Interval[], deg: number): Interva
   return intervals.find(([low, high]) => low - near_deg <= deg && deg <= high + near_deg) ?? null;
 }
 
-/// A pose by the rule of the limits: free, at an end that contact makes, with contact that ends no motion, or with contact that does.
-export type PoseState = { is: "free" | "bearing" | "impinging" } | { is: "limit"; vary: number; isHigh: boolean };
+/// A pose by the rule of the limits: free, at an end that contact or a ligament makes, with contact that ends no motion, or past one that does:
+/// in contact, or with a ligament strained beyond its end.
+export type PoseState = { is: "free" | "bearing" | "impinging" | "strained" } | { is: "limit"; vary: number; isHigh: boolean; byLigament: boolean };
 
-/// `free` are the intervals of each angle in this pose; `touches` if any triangles of the bodies meet.
-export function stateOf(free: readonly (readonly Interval[])[], angles: readonly number[], touches: boolean): PoseState {
+/// `free` are the intervals of each angle in this pose; `touches` if any triangles of the bodies meet, `strains` if a ligament is at its end or past it.
+export function stateOf(free: readonly (readonly Interval[])[], angles: readonly number[], touches: boolean, strains: boolean): PoseState {
   const ends = free.flatMap((intervals, vary) => intervals.flatMap(([low, high, atLow, atHigh]) => [
-    { vary, isHigh: false, off_deg: atLow ? Math.abs(angles[vary]! - low) : Infinity },
-    { vary, isHigh: true, off_deg: atHigh ? Math.abs(angles[vary]! - high) : Infinity },
+    { vary, isHigh: false, byLigament: atLow === 2, off_deg: atLow ? Math.abs(angles[vary]! - low) : Infinity },
+    { vary, isHigh: true, byLigament: atHigh === 2, off_deg: atHigh ? Math.abs(angles[vary]! - high) : Infinity },
   ]));
   const [nearest] = ends.filter(({ off_deg }) => off_deg <= near_deg).sort((a, b) => a.off_deg - b.off_deg);
   if (nearest) return { is: "limit", ...nearest };
-  if (free.some((intervals, vary) => !intervalAt(intervals, angles[vary]!))) return { is: "impinging" };
+  if (free.some((intervals, vary) => !intervalAt(intervals, angles[vary]!))) return { is: strains ? "strained" : "impinging" };
   return { is: touches ? "bearing" : "free" };
 }
 
-/// The smallest rotation of this angle that leaves contact; null if none does.
+/// The smallest rotation of this angle to where it is free; null if none does.
 export function nearestExit(intervals: readonly Interval[], deg: number): { to_deg: number; turn_deg: number } | null {
   let least: { to_deg: number; turn_deg: number } | null = null;
   for (const [low, high] of intervals) {

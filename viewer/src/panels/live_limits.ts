@@ -2,14 +2,14 @@ import type { LimitQuestion, LiveLimit } from "../core/protocol";
 import { named } from "../dom";
 import { fixed } from "../numbers";
 import type { EndOfMotion, MotionAnswer, ReportText } from "../report";
-import { endText } from "../result";
+import { cannotBegin, endText } from "../result";
 import { motionName, words } from "../words";
 import { table } from "./table";
 
 /// The motions of a report as the core is asked for their ends.
 export function questionsOf({ rom, coordinates, reference_mm, joint }: ReportText): { motion: MotionAnswer; question: LimitQuestion }[] {
   const held = rom?.held_translation_mm ?? (joint.kind === "free" ? reference_mm : undefined);
-  return (rom?.motions ?? []).filter(({ reason }) => reason !== "contact_at_start").map((motion) => ({
+  return (rom?.motions ?? []).filter(({ reason }) => !cannotBegin(reason)).map((motion) => ({
     motion,
     question: {
       start: coordinates.map(({ name }) => motion.start_deg[name] ?? 0) as [number, number, number], ...(held ? { held } : {}),
@@ -24,10 +24,10 @@ function endOf({ turned_deg, reason }: LiveLimit): EndOfMotion {
 
 /// "+4.2°", "–" where nothing changes; ">+12.0°" where no bone ends it any more.
 function gainText(before: EndOfMotion, after: EndOfMotion): string {
-  if (after.reason === "contact_at_start") return "–";
+  if (cannotBegin(after.reason)) return "–";
   const gained = after.limit_deg - before.limit_deg, shown = fixed(gained, 1);
   const said = gained > 0 && shown !== "0.0" ? `+${shown}°` : `${shown}°`;
-  return before.reason === "contact" && after.reason === "end_of_range" ? words.over(said) : said;
+  return before.reason !== "end_of_range" && after.reason === "end_of_range" ? words.over(said) : said;
 }
 
 /// Each motion before and after a change.

@@ -1,4 +1,4 @@
-import { button, html, namesOf, spaced, svg } from "../dom";
+import { button, html, named, namesOf, spaced, svg } from "../dom";
 import type { Coordinates, Depth, Nearest, Shown } from "../core/protocol";
 import { fixed, plain } from "../numbers";
 import type { Interval, MotionAnswer, ReportText } from "../report";
@@ -10,6 +10,7 @@ import { intervalAt, near_deg, nearestExit, stateOf, type PoseState } from "./fr
 import { ManoeuvreGrid } from "./manoeuvres";
 import { StatusChip, type Exit } from "./status";
 import { nearestText, placeOf } from "./strip";
+import { ligamentTable } from "./ligaments";
 
 const usualRange_deg = 120, translationRange_mm = 20;
 export const farthest_deg = 180;
@@ -49,6 +50,7 @@ export class MotionPanel {
   /// The pose in full, among the details.
   readonly answer = html("p", { id: "answer" });
   readonly depth = html("p", { id: "depth" });
+  readonly ligaments = html("div", { id: "ligaments" });
   readonly took = html("p", { class: "small no-print", "aria-hidden": "true" });
   private readonly status: StatusChip;
   private readonly sliders: Slider[];
@@ -65,6 +67,8 @@ export class MotionPanel {
   private hasIntervals = true;  // without them the page knows only whether the bodies meet
   private nearest: Nearest[] | null = null;
   private lastDepth: Depth | null = null;
+  /// Names of those at their end or past it.
+  private ligamentsAtEnd: string[] = [];
   /// The motion at whose end the joint is.
   private end: MotionAnswer | null = null;
 
@@ -220,6 +224,8 @@ export class MotionPanel {
     this.depth.textContent = "";
     this.lastDepth = null;
     this.touches = shown.inContact;
+    this.ligamentsAtEnd = shown.ligaments.flatMap(({ name, is }) => (is === "at_end" ? [named(name)] : []));
+    this.ligaments.replaceChildren(...(shown.ligaments.length ? [ligamentTable(shown.ligaments)] : []));
     for (const slider of this.sliders) slider.free = null;
     const names = namesOf(this.report.joint);
     const inside = (["mobile", "fixed"] as const).filter((body) => shown.inside[body] > 0).map((body) => words.inside(names[body], shown.inside[body]));
@@ -247,7 +253,7 @@ export class MotionPanel {
   /// By the rule of the limits; null until the intervals of all angles are known.
   private stateHere(): PoseState | null {
     const free = this.sliders.flatMap((slider) => (slider.free ? [slider.free] : []));
-    if (this.touches !== null && free.length === this.sliders.length) return stateOf(free, this.angles, this.touches);
+    if (this.touches !== null && free.length === this.sliders.length) return stateOf(free, this.angles, this.touches, this.ligamentsAtEnd.length > 0);
     return this.touches === null || this.hasIntervals ? null : { is: this.touches ? "impinging" : "free" };
   }
 
@@ -255,23 +261,29 @@ export class MotionPanel {
     const state = this.stateHere(), { rom, joint } = this.report;
     if (state) this.findEnd(state);
     if (this.end?.reason === "contact") return this.status.say("limit", words.atLimit(placeOf(this.end, this.report)));
+    if (this.end?.reason === "ligament") return this.status.say("limit", words.atLigament(named(this.end.ligament!)));
     // Until the intervals are known, what was said stays, unless nothing meets and no motion ends here.
     if (!state && !this.hooks.showStored && (this.touches !== false || this.motionHere())) return;
     if (!state || state.is === "free") return this.status.say("free", this.nearest ? words.freeClear(nearestText(this.nearest, this.report)) : words.isFree);
     if (state.is === "bearing") return this.status.say("bearing", words.bearingEndsNone);
+    if (state.is === "limit" && state.byLigament) return this.status.say("limit", words.atLigament(this.ligamentsAtEnd.join(", ")));
     if (state.is === "limit") {
       const { name, opposite } = this.report.coordinates[state.vary]!, names = namesOf(joint);
       return this.status.say("limit", words.atLimit(words.meshOn(names.mobile, names.fixed), spaced(state.isHigh ? name : opposite)));
     }
+    if (state.is === "strained" && !this.touches) {
+      this.status.say("contact", words.pastLigament(this.ligamentsAtEnd.join(", ")));
+      return this.drawExit();
+    }
     const { bearing } = rom ?? {}, knowsBearing = bearing?.rule === "leave_out" && !bearing.why_none;
-    this.status.inContact(knowsBearing ? words.impinging : words.inContact, this.lastDepth);
+    this.status.inContact(state.is === "strained" ? words.pastLigament(this.ligamentsAtEnd.join(", ")) : knowsBearing ? words.impinging : words.inContact, this.lastDepth);
     this.drawExit();
   }
 
   /// The motion that ends here, if the joint as it is ends there too: a part or a bone may have changed since the report.
   private findEnd(state: PoseState): void {
-    const here = this.motionHere(), isSharp = here?.reason === "contact" && this.report.rom?.exact !== false;
-    const end = (isSharp ? state.is === "limit" : state.is !== "impinging") ? here : null;
+    const here = this.motionHere(), isSharp = (here?.reason === "contact" || here?.reason === "ligament") && this.report.rom?.exact !== false;
+    const end = (isSharp ? state.is === "limit" : state.is !== "impinging" && state.is !== "strained") ? here : null;
     if (end === this.end) return;
     this.grid?.mark(this.end = end);
     if (end) this.hooks.arrived(end, false);

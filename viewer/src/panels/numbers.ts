@@ -77,7 +77,7 @@ function endOf(motion: MotionAnswer, joint: ReportText["joint"]): string {
   const how = [kind, contact_side, (fixedPart || mobile) && meeting(mobile, fixedPart),
     typeof soft_contact_deg === "number" && words.softFrom(
       degrees(soft_contact_deg), soft ? meeting(soft.mobile, soft.fixed) : null)].filter(Boolean).join(", ");
-  const end = !motion.translation_ends ? words.reasons[reason] : motion.translation_mm ? words.translationEnds : words.notCarried;
+  const end = !motion.translation_ends ? [words.reasons[reason], motion.ligament && named(motion.ligament)].filter(Boolean).join(" ") : motion.translation_mm ? words.translationEnds : words.notCarried;
   return how ? words.endsBy(end, how) : end;
 }
 

@@ -40,6 +40,7 @@ export function nearestText(nearest: readonly Nearest[], text: ReportText): stri
 
 /// The contact at the end of a motion and its hour, if known.
 export function placeOf(motion: MotionAnswer, text: ReportText): string {
+  if (motion.reason === "ligament") return words.ligamentEnds(named(motion.ligament!));
   if (motion.reason !== "contact") return "";
   const { features, clock_hour, contact_side, contact_point_mm } = motion, { joint, rom } = text, isRim = clock_hour !== null || isAtRim(contact_point_mm, text);
   const fixedPart = features?.fixed.part, mobilePart = features?.mobile.part, isHip = joint.anatomy === "hip";
@@ -66,6 +67,7 @@ export function sentenceOf(motion: MotionAnswer, report: ReportText): string {
 function sentenceOnEnd(motion: MotionAnswer, report: ReportText): string {
   const name = capital(named(motionName(motion.name)));
   if (motion.reason === "contact_at_start") return words.startsInContactSentence(name);
+  if (motion.reason === "strained_at_start") return words.startsStrainedSentence(name, named(motion.ligament!));
   if (motion.translation_ends) return words.translationSentence(name, limitAlone(motion));
   if (motion.reason === "end_of_range") return words.freeSentence(name, fixed(motion.limit_deg, 0), namesOf(report.joint));
   const limit = [fromBefore(report, motion), bandText(motion)].filter(Boolean).join(" "), held = heldOf(report);

@@ -1,7 +1,7 @@
 import { scaleLinear } from "d3-scale";
 import { named, svg } from "../dom";
 import type { Band, MotionAnswer, StoredBefore } from "../report";
-import { limitText, shownBand } from "../result";
+import { cannotBegin, limitText, shownBand } from "../result";
 import { motionName, words } from "../words";
 import type { Drawing } from "./figure";
 
@@ -19,7 +19,7 @@ export function limitBar(motion: MotionAnswer, most: number): SVGSVGElement {
   const x = (deg: number) => (100 * Math.min(most, Math.max(0, deg))) / most;
   const picture = svg("svg", { viewBox: "0 0 100 10", preserveAspectRatio: "none", class: "limit-bar", "aria-hidden": "true" },
     svg("rect", { x: 0, y: 3, width: 100, height: 4, class: "track" }));
-  if (motion.reason !== "contact_at_start") picture.append(svg("rect", { x: 0, y: 3, width: x(motion.limit_deg), height: 4, class: "bar" }));
+  if (!cannotBegin(motion.reason)) picture.append(svg("rect", { x: 0, y: 3, width: x(motion.limit_deg), height: 4, class: "bar" }));
   const band = shownBand(motion);
   if (band) picture.append(svg("rect", { x: x(band.p5_deg), y: 1, width: Math.max(1, x(band.p95_deg) - x(band.p5_deg)), height: 8, class: "band" }));
   if (motion.normal_range_deg !== null) picture.append(svg("rect", { x: x(motion.normal_range_deg) - 0.75, y: 0, width: 1.5, height: 10, class: "normal-mark" }));
@@ -63,7 +63,7 @@ export function limitsDrawing(motions: readonly MotionAnswer[]): Pick<Drawing, "
     picture.append(
       svg("text", { x: left - 8, y: middle + 4, "text-anchor": "end" }, named(motionName(motion.name))),
       svg("rect", { x: x(0), y: y + 6, width: Math.max(0, x(motion.limit_deg) - x(0)), height: rowHeight - 12, class: "bar" }),
-      svg("text", { x: width - 4, y: middle + 4, "text-anchor": "end" }, motion.reason === "contact_at_start" ? "–" : limitText(motion)));
+      svg("text", { x: width - 4, y: middle + 4, "text-anchor": "end" }, cannotBegin(motion.reason) ? "–" : limitText(motion)));
     if (band)
       picture.append(svg("line", { x1: x(band.p5_deg), x2: x(band.p95_deg), y1: middle, y2: middle, class: "whisker" }),
         ...[band.p5_deg, band.p95_deg].map((end) => upright(end, middle - 5, middle + 5, "whisker")));

@@ -203,17 +203,18 @@ export class MapPlot {
   }
 
   private textOf(point: number): string {
-    const free = this.map.intervals[point]!.map(([low, high]) => words.freeFrom(fixed(low, 1), fixed(high, 1))).join(", ");
+    const free = this.map.intervals[point]!.map(([low, high, atLow, atHigh]) =>
+      [words.freeFrom(fixed(low, 1), fixed(high, 1)), ...(atLow === 2 || atHigh === 2 ? [words.byLigament] : [])].join(" ")).join(", ");
     return words.mapPoint(this.placeOf(point), spaced(this.map.vary), free || words.notFree);
   }
 
   private data(): (string | number | null)[][] {
     const { columns, rows, intervals } = this.map;
     return [
-      [`${columns.angle}_deg`, `${rows.angle}_deg`, "low_deg", "high_deg", "contact_at_low", "contact_at_high"],
-      ...intervals.flatMap((list, point) => list.map((interval) => [
+      [`${columns.angle}_deg`, `${rows.angle}_deg`, "low_deg", "high_deg", "contact_at_low", "contact_at_high", "ligament_at_low", "ligament_at_high"],
+      ...intervals.flatMap((list, point) => list.map(([low, high, ...ends]) => [
         columns.values_deg[point % columns.values_deg.length]!, rows.values_deg[Math.floor(point / columns.values_deg.length)]!,
-        ...interval,
+        low, high, ...[1, 2].flatMap((by) => ends.map((end) => (end === by ? 1 : 0))),
       ])),
     ];
   }

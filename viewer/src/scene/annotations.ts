@@ -2,12 +2,15 @@ import {
   BufferAttribute, BufferGeometry, DoubleSide, Line, LineBasicMaterial, LineLoop, LineSegments, Mesh, MeshBasicMaterial, type Object3D, Points,
   PointsMaterial, Quaternion, type Scene, SphereGeometry, Vector3,
 } from "three";
+import type { LigamentShown } from "../core/protocol";
 import type { SceneBody } from "./body";
 import type { BodyName } from "./body_names";
 import { contactColour } from "./colour_scale";
 import type { Marks } from "./measure_marks";
 
 const brushColour = "#00b050";
+/// As `condyle picture` draws them.
+const ligamentColours = { slack: "#6e6e6e", taut: "#009e73", at_end: "#d55e00", unknown: "#cc79a7" };
 
 /// Where a brush is: a circle about a point of a surface, in the frame of its body.
 export interface Ring {
@@ -23,6 +26,7 @@ export class Annotations {
   private readonly ring: LineLoop;
   private measure: Line | null = null;
   private marks: Object3D[] = [];
+  private ligaments: Mesh<BufferGeometry, MeshBasicMaterial>[] = [];
   private readonly removed: Record<BodyName, Mesh | null> = { fixed: null, mobile: null };
 
   constructor(private readonly scene: Scene, private readonly bodies: Record<BodyName, SceneBody>, private readonly changed: () => void) {
@@ -45,6 +49,22 @@ export class Annotations {
     this.measure = ends
       ? new Line(new BufferGeometry().setFromPoints(ends), new LineBasicMaterial({ color: "#c2185b", depthTest: false })) : null;
     if (this.measure) this.scene.add(this.measure);
+    this.changed();
+  }
+
+  /// Tubes of ligaments, in F.
+  showLigaments(ligaments: readonly LigamentShown[]): void {
+    for (const tube of this.ligaments) {
+      tube.removeFromParent();
+      tube.geometry.dispose();
+      tube.material.dispose();
+    }
+    this.ligaments = ligaments.map(({ is, vertices, triangles }) => {
+      const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(vertices), 3));
+      geometry.setIndex(triangles.flat());
+      return new Mesh(geometry, new MeshBasicMaterial({ color: ligamentColours[is] }));
+    });
+    if (this.ligaments.length) this.scene.add(...this.ligaments);
     this.changed();
   }
 
