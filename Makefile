@@ -1,6 +1,6 @@
 # Thin front door; CMakePresets.json has the details.
 .PHONY: demo describe command test test-all nightly build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
-  package package-test wheel page-core page page-template sanitize-thread sanitize-some release label-limits static image static-test npm npm-test ro-crate
+  package package-test wheel page-core page page-template sanitize-thread sanitize-some release label-limits rotation-queries static image static-test npm npm-test ro-crate
 
 dependencies:
 	@scripts/install_dependencies.sh
@@ -68,7 +68,7 @@ nightly: bench_dependencies clang_dependencies
 	@$(configure_bench)
 	@cmake --build --preset release
 	@export CONDYLE_LONG_TESTS=1; $(call run_tests,release,none)
-	@$(MAKE) static-test npm-test verify label-limits package clang sanitize sanitize-thread
+	@$(MAKE) static-test npm-test verify label-limits rotation-queries package clang sanitize sanitize-thread
 
 clang: clang_dependencies
 	@cmake --preset $@ -DCONDYLE_TESTS=ON -DCONDYLE_PYTHON=ON >/dev/null
@@ -113,6 +113,14 @@ label-limits: bench_dependencies
 	@mkdir -p out/bench
 	@build/release/condyle-label-limits --json out/bench/label_limits.json
 	@bench/update_page.py out/bench/label_limits.json bench/tables/label-maps.md
+
+# A hundred thousand rotation queries and the degenerate ones; bench/tables/rotation-queries.md gets misses, false alarms and times.
+rotation-queries: dependencies
+	@$(configure_all)
+	@cmake --build --preset release --target condyle_answer_rotations
+	@mkdir -p out/bench/rotations
+	@bench/rotations/run.py build/release/condyle-answer-rotations out/bench/rotations
+	@bench/update_page.py out/bench/rotations/run.json bench/tables/rotation-queries.md
 
 # The fast paths against the plain ones: a hundred million vertices, on each instruction set in turn.
 verify: bench_dependencies
