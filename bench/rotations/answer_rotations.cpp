@@ -1,7 +1,7 @@
 // condyle-answer-rotations METHOD QUERIES.csv: one line per query, 1 if the features meet and 0 if not; time on standard error.
 //
-// METHOD is events (the library's), chords=DEGREES or samples=DEGREES; angles prints where the library's events say that they first meet, in
-// radians from the start, or none.
+// METHOD is events or search (the library's), chords=DEGREES or samples=DEGREES; angles prints where the library's events say that they first
+// meet, in radians from the start, or none.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -23,6 +23,7 @@ using Method = std::function<bool(const bench::RotationQuery&)>;
 std::optional<Method> method_of(std::string_view word) {
   if (word == "events")
     return [](const auto& query) { return bench::first_contact_by_events(query).has_value(); };
+  if (word == "search") return bench::meet_by_search;
   const std::size_t equals = word.find('=');
   if (equals == std::string_view::npos) return std::nullopt;
   const std::string number(word.substr(equals + 1));
@@ -65,7 +66,8 @@ int main(int count, char** words) {
   const bool angles = count == 3 && std::string_view(words[1]) == "angles";
   const auto method = count == 3 ? method_of(words[1]) : std::nullopt;
   if (!method && !angles) {
-    std::fprintf(stderr, "usage: %s events|angles|chords=DEGREES|samples=DEGREES QUERIES.csv\n", words[0]);
+    std::fprintf(stderr, "usage: %s events|search|angles|chords=DEGREES|samples=DEGREES QUERIES.csv\n",
+                 words[0]);
     return 2;
   }
   try {

@@ -16,6 +16,10 @@ namespace bench {
 /// The angle from the start at which they first meet, in [0, 2 pi].
 std::optional<double> first_contact_by_events(const RotationQuery& query);
 
+/// By the search itself, for meshes of one triangle each, flat to the edge or the vertex. It leaves to neighbours what the kernels do, and a
+/// flat triangle is in contact with nothing before the motion: not for degenerate queries.
+bool meet_by_search(const RotationQuery& query);
+
 /// By chords: points run straight over steps of the angle, and the features meet if they come as near to each other as an arc strays from
 /// its chord. Conservative advancement along each chord (Mirtich 1996): it misses nothing, and the less it invents the smaller the steps.
 bool meet_by_chords(const RotationQuery& query, double step);

@@ -217,7 +217,11 @@ class Answers(unittest.TestCase):
             self.assertEqual(self.of(counts, check.INVENTED, True), 0)
             self.assertEqual(self.of(counts, check.INVENTED, False), 0)
         # Placing rounds what is degenerate about other axes, and only that.
-        self.assertEqual(self.of(self.counts("events", path), check.MISSED, False), 0)
+        for method in ("events", "search"):
+            counts = self.counts(method, path)
+            for about_coordinate in (False, True):
+                self.assertEqual(self.of(counts, check.MISSED, about_coordinate), 0)
+                self.assertEqual(self.of(counts, check.INVENTED, about_coordinate), 0)
 
     def test_chords_miss_nothing_and_samples_do(self):
         queries = QUERIES / "degenerate.csv"
