@@ -1,11 +1,12 @@
 #include "interrupt.hpp"
 
-#include <unistd.h>
-
+#include <array>
 #include <atomic>
-#include <string_view>
+#include <csignal>
+#include <cstdlib>
 
 #include "io/file/temporary_folder.hpp"
+#include "standard_streams.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -15,12 +16,16 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may use 
 
 constexpr int exit_code = 130;
 
+constexpr std::array<int, 3> signals = {SIGINT, SIGTERM, SIGHUP};
+
+/// What was done at each of them before the one watch that lives.
+std::array<struct sigaction, signals.size()> before_watch;
+
 /// Only what a signal handler may call.
 void end(int) {
-  constexpr std::string_view line = "condyle: interrupted; nothing more is written\n";
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());
+  write_to_standard_error("condyle: interrupted; nothing more is written\n");
   io::end_temporary_folders();
-  ::_exit(exit_code);
+  std::_Exit(exit_code);
 }
 
 /// The second one ends the process.
@@ -38,24 +43,24 @@ void handle(int signal, void (*handler)(int), struct sigaction* before) noexcept
   action.sa_handler = handler;
   action.sa_flags = SA_RESTART;
   // The handler of one is not interrupted by another.
-  for (const int other : InterruptWatch::signals) ::sigaddset(&action.sa_mask, other);
+  for (const int other : signals) ::sigaddset(&action.sa_mask, other);
   ::sigaction(signal, &action, nullptr);
 }
 
 }  // namespace
 
 void say_when_interrupted() noexcept {
-  for (const int signal : InterruptWatch::signals) handle(signal, end, nullptr);
+  for (const int signal : signals) handle(signal, end, nullptr);
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
 InterruptWatch::InterruptWatch() {
   signalled = false;
-  for (std::size_t i = 0; i < signals.size(); ++i) handle(signals[i], note_signal, &before_[i]);
+  for (std::size_t i = 0; i < signals.size(); ++i) handle(signals[i], note_signal, &before_watch[i]);
 }
 
 InterruptWatch::~InterruptWatch() {
-  for (std::size_t i = 0; i < signals.size(); ++i) ::sigaction(signals[i], &before_[i], nullptr);
+  for (std::size_t i = 0; i < signals.size(); ++i) ::sigaction(signals[i], &before_watch[i], nullptr);
 }
 
 bool InterruptWatch::interrupted() const noexcept {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <csignal>
 #include <stdexcept>
 
 namespace condyle::cli {
@@ -21,17 +19,12 @@ void say_when_interrupted() noexcept;
 /// half-written file; a second one ends it as ever. One at a time.
 class InterruptWatch {
  public:
-  static constexpr std::array<int, 3> signals = {SIGINT, SIGTERM, SIGHUP};
-
   InterruptWatch();
   ~InterruptWatch();
   InterruptWatch(const InterruptWatch&) = delete;
   InterruptWatch& operator=(const InterruptWatch&) = delete;
 
   bool interrupted() const noexcept;
-
- private:
-  std::array<struct sigaction, signals.size()> before_;
 };
 
 }  // namespace condyle::cli

@@ -1,13 +1,12 @@
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <optional>
@@ -25,6 +24,7 @@
 #include "io/file/failure.hpp"
 #include "io/file/input_recorder.hpp"
 #include "io/file/temporary_folder.hpp"
+#include "standard_streams.hpp"
 #include "whole_number.hpp"
 
 namespace {
@@ -34,14 +34,6 @@ namespace cli = condyle::cli;
 constexpr const char* exit_codes =
     "Exit codes: 0 answered, 2 wrong usage, 3 bad file, 4 mesh unfit for the question, 5 internal error, 6 "
     "bodies in contact in the reference pose, 130 interrupted.";
-
-/// A closed standard stream would give its number to the next file that is opened, and answers would be
-/// written into it. Opened for reading, the number is taken and writing still fails.
-void hold_standard_streams() {
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    while (::fcntl(stream, F_GETFD) == -1)
-      if (::open("/dev/null", O_RDONLY) == -1) return;
-}
 
 /// One line on standard error.
 int fail(const condyle::io::Failure& failure) {
@@ -72,9 +64,9 @@ int refuse_for_current_exception() noexcept {
     line = "condyle: out of memory\n";
   } catch (...) {
   }
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());
+  cli::write_to_standard_error(line);
   condyle::io::end_temporary_folders();
-  ::_exit(condyle::io::internal_error);
+  std::_Exit(condyle::io::internal_error);
 }
 
 /// The commands below one, "hip, cartilages, cohort".
@@ -139,8 +131,7 @@ std::string describe(const CLI::ParseError& error, const CLI::App& app,
 }
 
 /// The arguments as the parser takes them, the last one first: `help rom` is `rom --help`.
-std::vector<std::string> arguments(int argc, char** argv) {
-  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+std::vector<std::string> arguments(std::vector<std::string> words) {
   if (!words.empty() && words.front() == "help") {
     words.erase(words.begin());
     words.emplace_back("--help");
@@ -163,7 +154,7 @@ constexpr Command commands[] = {
     {"sample", cli::add_sample},   {"study", cli::add_study},     {"merge", cli::add_merge},
 };
 
-int run(int argc, char** argv) {
+int run(const std::vector<std::string>& words) {
   CLI::App app(
       "Condyle computes where the bones of a joint run into each other, how deep, and along which direction.",
       "condyle");
@@ -186,8 +177,7 @@ int run(int argc, char** argv) {
       ->option_text("N (all cores)");
 
   // Options of other commands would take longer to make than many an answer: the one that is named comes alone.
-  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
-  std::vector<std::string> reversed = arguments(argc, argv);
+  std::vector<std::string> reversed = arguments(words);
   const auto is_named = [&](const Command& command) {
     return !reversed.empty() && reversed.back() == command.name;
   };
@@ -212,13 +202,13 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hold_standard_streams();
+  cli::hold_standard_streams();
   cli::say_when_interrupted();
   std::set_terminate(end_without_answer);
   try {
     // Nothing that the command reads is written over.
     const condyle::io::InputRecorder read(condyle::io::InputRecorder::Digests::left_out);
-    return run(argc, argv);
+    return run(cli::words_of_command_line(argc, argv));
   } catch (const cli::Interrupted& stopped) {
     std::fprintf(stderr, "condyle: %s\n", stopped.what());
     return condyle::io::interrupted;

@@ -1,10 +1,11 @@
 #include "progress.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
+
+#include "standard_streams.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -26,7 +27,7 @@ void show_on_standard_error(std::string_view text) {
 }  // namespace
 
 ProgressPlace standard_error_place() {
-  return ::isatty(STDERR_FILENO) ? ProgressPlace::terminal : ProgressPlace::log;
+  return standard_error_is_terminal() ? ProgressPlace::terminal : ProgressPlace::log;
 }
 
 std::optional<double> remaining_seconds(double elapsed_s, std::size_t done, std::size_t total) {

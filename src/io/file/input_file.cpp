@@ -1,15 +1,8 @@
 #include "io/file/input_file.hpp"
 
-#include <dirent.h>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
-#include <memory>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -17,6 +10,7 @@
 #include "condyle/error.hpp"
 #include "core/one_line.hpp"
 #include "io/file/environment.hpp"
+#include "io/file/file_calls.hpp"
 #include "io/file/file_digest.hpp"
 #include "io/file/input_recorder.hpp"
 #include "io/mesh/parse.hpp"
@@ -28,36 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* nothing_there = "none";
 
-/// Whether the same call may succeed the next time though nothing changed that an answer depends on.
-bool passes(int error) noexcept {
-  switch (error) {
-    case EIO:
-    case EINTR:
-    case EAGAIN:
-    case EMFILE:
-    case ENFILE:
-    case ENOMEM:
-    case ENOSPC:
-    case EDQUOT:
-    case EBUSY:
-    case ENOLCK:
-    case ESTALE:
-    case ETIMEDOUT:
-      return true;
-    default:
-      return false;
-  }
-}
-
-/// The call's result, begun again where a signal broke it off; not for ever, if each attempt is.
-template <class Call>
-auto uninterrupted(const Call& call) {
-  constexpr int most_attempts = 1000;
-  auto result = call();
-  for (int attempt = 1; result < 0 && errno == EINTR && attempt < most_attempts; ++attempt) result = call();
-  return result;
-}
-
 [[noreturn]] void fail_to_read(const fs::path& path, int error, const char* what = "cannot be read") {
   const std::string message =
       fmt::format("{}: {}: {}", path.string(), what, std::generic_category().message(error));
@@ -68,16 +32,17 @@ auto uninterrupted(const Call& call) {
   throw FileError(message);
 }
 
-EntryKind kind_of(const struct stat& status) noexcept {
-  return S_ISREG(status.st_mode)   ? EntryKind::file
-         : S_ISDIR(status.st_mode) ? EntryKind::folder
-                                   : EntryKind::other;
+EntryKind kind_of(const FileStatus& status) noexcept {
+  return status.kind == FileStatus::Kind::file     ? EntryKind::file
+         : status.kind == FileStatus::Kind::folder ? EntryKind::folder
+                                                   : EntryKind::other;
 }
 
 /// What has the name, and its status; throws for what passes.
-EntryKind looked_at(const fs::path& path, struct stat& status) {
-  if (uninterrupted([&] { return ::stat(path.c_str(), &status); }) == 0) return kind_of(status);
-  if (passes(errno)) fail_to_read(path, errno);
+EntryKind looked_at(const fs::path& path, FileStatus& status) {
+  const int error = look_at(path, status);
+  if (error == 0) return kind_of(status);
+  if (passes(error)) fail_to_read(path, error);
   return EntryKind::none;
 }
 
@@ -115,24 +80,14 @@ FileDigest digest_of_open(const InputFile& file) {
   return digester.digest();
 }
 
-struct CloseFolder {
-  void operator()(DIR* folder) const noexcept { ::closedir(folder); }
-};
-
 std::vector<std::string> sorted_names(const fs::path& folder, const std::string& like) {
-  const std::unique_ptr<DIR, CloseFolder> open(::opendir(folder.empty() ? "." : folder.c_str()));
-  if (!open) {
-    if (passes(errno)) fail_to_read(folder, errno);
+  std::vector<std::string> names;
+  if (const int error = names_in(folder, names)) {
+    if (passes(error)) fail_to_read(folder, error);
     return {};
   }
   const std::string wanted = lower_case(like);
-  std::vector<std::string> names;
-  errno = 0;
-  while (const dirent* entry = ::readdir(open.get())) {
-    if (std::string name = entry->d_name; lower_case(name) == wanted) names.push_back(std::move(name));
-    errno = 0;
-  }
-  if (errno != 0) fail_to_read(folder, errno);
+  std::erase_if(names, [&](const std::string& name) { return lower_case(name) != wanted; });
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -144,9 +99,9 @@ std::string state_of(const std::vector<std::string>& names) {
 }
 
 std::string state_of_file(const fs::path& path) {
-  struct stat status {};
+  FileStatus status;
   if (looked_at(path, status) != EntryKind::file) return nothing_there;
-  if (::access(path.c_str(), R_OK) != 0) return "unreadable";
+  if (!is_readable(path)) return "unreadable";
   return digest_of_open(InputFile(path)).sha256;
 }
 
@@ -159,16 +114,14 @@ std::string state_of_variable(const std::optional<std::string>& value) {
 InputFile::InputFile(const fs::path& path, WithoutDigest) : path_(path) {
   check_is_file(path);
   // What is a file now may be a FIFO by the time it is opened.
-  stream_ = uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC); });
-  if (stream_ < 0) fail_to_read(path, errno);
-  struct stat status {};
-  if (uninterrupted([&] { return ::fstat(stream_, &status); }) != 0) {
-    const int error = errno;
-    ::close(stream_);
+  if (const int error = open_to_read(path, stream_)) fail_to_read(path, error);
+  FileStatus status;
+  if (const int error = look_at_open(stream_, status)) {
+    close_stream(stream_);
     fail_to_read(path, error);
   }
-  size_ = static_cast<std::uint64_t>(status.st_size);
-  InputRecorder::add_read({status.st_dev, status.st_ino});
+  size_ = status.size;
+  InputRecorder::add_read(status.id);
 }
 
 InputFile::InputFile(const fs::path& path) : InputFile(path, WithoutDigest{}) {
@@ -177,7 +130,7 @@ InputFile::InputFile(const fs::path& path) : InputFile(path, WithoutDigest{}) {
 }
 
 InputFile::~InputFile() {
-  if (stream_ >= 0) ::close(stream_);
+  if (stream_ >= 0) close_stream(stream_);
 }
 
 InputFile::InputFile(InputFile&& other) noexcept
@@ -195,11 +148,11 @@ std::size_t InputFile::read(std::uint64_t at, std::span<char> out) const {
   out = out.first(static_cast<std::size_t>(std::min<std::uint64_t>(out.size(), size_ - at)));
   std::size_t got = 0;
   while (got < out.size()) {
-    const ssize_t more = uninterrupted(
-        [&] { return ::pread(stream_, out.data() + got, out.size() - got, static_cast<off_t>(at + got)); });
-    if (more < 0) fail_to_read(path_, errno, "cannot be read to its end");
+    std::size_t more = 0;
+    if (const int error = read_at(stream_, at + got, out.subspan(got), more))
+      fail_to_read(path_, error, "cannot be read to its end");
     if (more == 0) break;
-    got += static_cast<std::size_t>(more);
+    got += more;
   }
   return got;
 }
@@ -216,7 +169,7 @@ std::string read_whole_file(const fs::path& path, FileDigest* digest) {
 }
 
 EntryKind entry_at(const fs::path& path) {
-  struct stat status {};
+  FileStatus status;
   const EntryKind kind = looked_at(path, status);
   InputRecorder::add({Input::Kind::entry, path, word_of(kind)});
   return kind;
@@ -227,9 +180,9 @@ void check_is_file(const fs::path& path) {
 }
 
 std::uint64_t size_of_file(const fs::path& path) {
-  struct stat status {};
+  FileStatus status;
   require_file(looked_at(path, status), path);
-  return static_cast<std::uint64_t>(status.st_size);
+  return status.size;
 }
 
 std::string why_no_file(const fs::path& path) {
@@ -245,9 +198,7 @@ std::vector<std::string> names_like(const fs::path& folder, const std::string& n
 }
 
 std::optional<std::string> environment_variable(const std::string& name) {
-  const char* const text = std::getenv(name.c_str());
-  std::optional<std::string> value;
-  if (text != nullptr) value = text;
+  std::optional<std::string> value = variable_of_process(name);
   InputRecorder::add({Input::Kind::variable, name, state_of_variable(value)});
   return value;
 }
@@ -268,8 +219,7 @@ std::string state_now(Input::Kind kind, const fs::path& path) {
   } catch (const FileError&) {
     return "unknown";
   }
-  const char* const value = std::getenv(path.c_str());
-  return state_of_variable(value == nullptr ? std::nullopt : std::optional<std::string>(value));
+  return state_of_variable(variable_of_process(path.string()));
 }
 
 }  // namespace condyle::io

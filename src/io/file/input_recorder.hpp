@@ -1,7 +1,5 @@
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -12,6 +10,8 @@
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "io/file/file_calls.hpp"
 
 /// What an answer depends on outside the program. Whoever reads a file opens it by input_file.hpp, which records it here: a key is
 /// made of what was read, and not of what somebody thought would be.
@@ -47,9 +47,6 @@ std::optional<Input> input_in(std::string_view text);
 
 /// What an input is now, for comparison with Input::state: "unknown" if that cannot be said for the moment. Records nothing.
 std::string state_now(Input::Kind kind, const std::filesystem::path& path);
-
-/// Identity of a file, whatever its names.
-using FileId = std::pair<dev_t, ino_t>;
 
 /// What a recorder holds, to be entered in another one.
 struct Recorded {

@@ -1,14 +1,13 @@
 #include "io/file/output_file.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <string>
 #include <system_error>
 
 #include "condyle/error.hpp"
+#include "io/file/file_calls.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/file/replaced_files.hpp"
 #include "io/file/whole_file.hpp"
@@ -57,9 +56,9 @@ void check_output_file(const fs::path& path, std::span<const fs::path> read, con
   if (taken == NameTaken::replaceable) {
     check_ending(path, kind);
     OutputFolder{folder_of(end_of_links(path))};
-  } else if (::access(path.c_str(), W_OK) != 0) {
+  } else if (const int error = why_not_writable(path)) {
     throw FileError(
-        fmt::format("{}: cannot be written: {}", path.string(), std::generic_category().message(errno)));
+        fmt::format("{}: cannot be written: {}", path.string(), std::generic_category().message(error)));
   }
 }
 

@@ -1,17 +1,16 @@
 #include "io/file/output_folder.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
-#include <cstdio>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "condyle/error.hpp"
+#include "io/file/file_calls.hpp"
 #include "io/file/replaced_files.hpp"
 #include "io/file/temporary_folder.hpp"
 
@@ -79,7 +78,7 @@ fs::path OutputFolder::file(std::string_view name) {
   assert(path.filename() == path && !path.empty());
   assert(std::find(names_.begin(), names_.end(), path) == names_.end());
   names_.push_back(path);
-  return aside_->path() / path;
+  return fs::path(aside_->path()) / path;
 }
 
 fs::path OutputFolder::aside() const {
@@ -103,7 +102,7 @@ std::vector<fs::path> OutputFolder::commit() {
   // file system can then fail.
   std::vector<fs::path> from, to;
   for (const fs::path& name : names_) {
-    from.push_back(aside_->path() / name);
+    from.push_back(fs::path(aside_->path()) / name);
     to.push_back(folder_ / name);
     std::error_code ignored;
     if (fs::is_directory(to.back(), ignored)) throw FileError(to.back().string() + ": is a folder");
@@ -114,12 +113,12 @@ std::vector<fs::path> OutputFolder::commit() {
   io::check_replaces_none(to, {});
   io::check_replaces_none(left, {});
   for (std::size_t i = 0; i < from.size(); ++i)
-    if (std::rename(from[i].c_str(), to[i].c_str()) != 0)
-      throw FileError(fmt::format("{}: cannot be written: {}", to[i].string(), reason_of(errno)));
+    if (const int error = move_file(from[i], to[i]))
+      throw FileError(fmt::format("{}: cannot be written: {}", to[i].string(), reason_of(error)));
   for (const fs::path& file : left)
-    if (::unlink(file.c_str()) != 0 && errno != ENOENT)
+    if (const int error = remove_file(file); error != 0 && error != ENOENT)
       throw FileError(
-          fmt::format("{}: left by an earlier run, cannot be removed: {}", file.string(), reason_of(errno)));
+          fmt::format("{}: left by an earlier run, cannot be removed: {}", file.string(), reason_of(error)));
   return to;
 }
 

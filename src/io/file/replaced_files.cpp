@@ -1,13 +1,12 @@
 #include "io/file/replaced_files.hpp"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "condyle/error.hpp"
+#include "io/file/file_calls.hpp"
 #include "io/file/input_recorder.hpp"
 
 namespace condyle::io {
@@ -16,9 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::optional<FileId> id_of(const fs::path& path) noexcept {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
-  return FileId{status.st_dev, status.st_ino};
+  FileStatus status;
+  if (look_at(path, status) != 0) return std::nullopt;
+  return status.id;
 }
 
 }  // namespace
@@ -36,10 +35,19 @@ void check_replaces_none(std::span<const fs::path> written, std::span<const fs::
 }
 
 NameTaken what_has_the_name(const fs::path& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode)) return NameTaken::replaceable;
-  if (S_ISDIR(status.st_mode)) return NameTaken::folder;
-  return S_ISFIFO(status.st_mode) || S_ISCHR(status.st_mode) ? NameTaken::written_into : NameTaken::refused;
+  FileStatus status;
+  if (look_at(path, status) != 0) return NameTaken::replaceable;
+  switch (status.kind) {
+    case FileStatus::Kind::file:
+      return NameTaken::replaceable;
+    case FileStatus::Kind::folder:
+      return NameTaken::folder;
+    case FileStatus::Kind::characters:
+      return NameTaken::written_into;
+    case FileStatus::Kind::other:
+      break;
+  }
+  return NameTaken::refused;
 }
 
 }  // namespace condyle::io

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
+
+#include "io/file/folder_calls.hpp"
 
 namespace condyle::io {
 
@@ -17,14 +18,14 @@ class TemporaryFolder {
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-  const std::string& path() const noexcept { return aside_; }
+  const SystemName& path() const noexcept { return aside_; }
 
  private:
   friend void end_temporary_folders() noexcept;
   void remove() const noexcept;
 
   std::vector<std::filesystem::path> created_;  ///< outermost first
-  std::string aside_;
+  SystemName aside_;
   TemporaryFolder *previous_ = nullptr, *next_ = nullptr;  ///< those that live now
 };
 

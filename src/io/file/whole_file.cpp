@@ -1,8 +1,6 @@
 #include "io/file/whole_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
@@ -12,6 +10,7 @@
 #include <utility>
 
 #include "condyle/error.hpp"
+#include "io/file/file_calls.hpp"
 #include "io/file/replaced_files.hpp"
 
 namespace condyle::io {
@@ -30,7 +29,7 @@ std::string reason(int error) {
 std::filesystem::path temporary_name_beside(const std::filesystem::path& path) {
   static std::atomic<unsigned> counter = 0;
   auto name = path;
-  name += fmt::format(".{}-{}.tmp", ::getpid(), counter++);
+  name += fmt::format(".{}-{}.tmp", number_of_process(), counter++);
   return name;
 }
 
@@ -60,13 +59,8 @@ int write_and_close(File file, std::string_view bytes) noexcept {
 
 /// Nothing is made, cut off or replaced.
 void write_into(const std::filesystem::path& path, std::string_view bytes) {
-  const int stream = ::open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
-  if (stream < 0) fail_to_write(path, reason(errno));
-  File file(::fdopen(stream, "wb"));
-  if (!file) {
-    ::close(stream);
-    fail_to_write(path, reason(ENOMEM));
-  }
+  File file(opened_to_write_into(path));
+  if (!file) fail_to_write(path, reason(errno));
   if (const int error = write_and_close(std::move(file), bytes)) fail_to_write(path, reason(error));
 }
 
@@ -78,12 +72,12 @@ void write_whole_file(const std::filesystem::path& path, std::string_view bytes)
   if (taken == NameTaken::refused) fail_to_write(path, "is neither a file nor can it be written into");
   const auto end = end_of_links(path);
   const auto temporary = temporary_name_beside(end);
-  File file(std::fopen(temporary.c_str(), "wbx"));
+  File file(new_file(temporary));
   if (!file) fail_to_write(path, reason(errno));
   int error = write_and_close(std::move(file), bytes);
-  if (error == 0 && std::rename(temporary.c_str(), end.c_str()) != 0) error = errno;
+  if (error == 0) error = move_file(temporary, end);
   if (error == 0) return;
-  std::remove(temporary.c_str());
+  remove_file(temporary);
   fail_to_write(path, reason(error));
 }
 
