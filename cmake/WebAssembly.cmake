@@ -7,15 +7,7 @@ if(NOT CMAKE_BUILD_TYPE)
 endif()
 cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH condyle_root)
 
-# Headers only, seen through folders of their own: those of the machine beside them are not for this target.
-set(condyle_packages ${CMAKE_BINARY_DIR}/packages)
-function(condyle_wasm_packages)
-  file(MAKE_DIRECTORY ${condyle_packages})
-  foreach(package ${ARGN})
-    cmake_path(GET package FILENAME name)
-    file(CREATE_LINK /usr/include/${package} ${condyle_packages}/${name} SYMBOLIC)
-  endforeach()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/HeaderPackages.cmake)
 
 # Sources compiled with a level of optimisation, those of one layer together: condyle_wasm_objects(target level source...)
 set(CONDYLE_UNITY ON)

@@ -5,15 +5,18 @@
 #include <algorithm>
 #include <cstddef>
 #include <new>
+#include <utility>
 
 namespace condyle::io {
 
 std::string deflated(std::string_view bytes) {
-  uLongf size = compressBound(bytes.size());
+  // A whole stream is counted in a type that has 32 bits on Windows.
+  if (!std::in_range<uLong>(bytes.size())) throw std::bad_alloc();
+  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::string out(size, '\0');
   // Given that much room, memory of its own is all that zlib can lack.
   if (compress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-               bytes.size()) != Z_OK)
+               static_cast<uLong>(bytes.size())) != Z_OK)
     throw std::bad_alloc();
   out.resize(size);
   return out;

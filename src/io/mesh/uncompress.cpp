@@ -4,14 +4,17 @@
 #include <zlib.h>
 
 #include <limits>
+#include <utility>
 
 namespace condyle::io {
 namespace {
 
 bool inflate_into(std::span<char> out, const std::string& block) {
-  uLongf size = out.size();
+  if (!std::in_range<uLong>(block.size()) || !std::in_range<uLong>(out.size())) return false;
+  auto size = static_cast<uLongf>(out.size());
   return ::uncompress(reinterpret_cast<Bytef*>(out.data()), &size,
-                      reinterpret_cast<const Bytef*>(block.data()), block.size()) == Z_OK &&
+                      reinterpret_cast<const Bytef*>(block.data()),
+                      static_cast<uLong>(block.size())) == Z_OK &&
          size == out.size();
 }
 
