@@ -46,6 +46,10 @@ std::string gzipped(std::string_view bytes) {
     throw;
   }
   deflateEnd(&stream);
+  // Which system wrote it (RFC 1952): zlib says its own.
+  constexpr std::size_t system_at = 9;
+  constexpr char of_unix = 3;
+  out[system_at] = of_unix;
   return out;
 }
 
