@@ -1,6 +1,6 @@
 # Thin front door; CMakePresets.json has the details.
 .PHONY: demo describe command test test-all nightly build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
-  package package-test wheel page-core page page-template sanitize-thread sanitize-some release label-limits rotation-queries static image static-test npm npm-test ro-crate
+  package package-test wheel page-core page page-template sanitize-thread sanitize-some release label-limits rotation-queries static image static-test npm npm-test windows windows-test ro-crate
 
 dependencies:
 	@scripts/install_dependencies.sh
@@ -68,7 +68,7 @@ nightly: bench_dependencies clang_dependencies
 	@$(configure_bench)
 	@cmake --build --preset release
 	@export CONDYLE_LONG_TESTS=1; $(call run_tests,release,none)
-	@$(MAKE) static-test npm-test verify label-limits rotation-queries package clang sanitize sanitize-thread
+	@$(MAKE) static-test npm-test windows-test verify label-limits rotation-queries package clang sanitize sanitize-thread
 
 clang: clang_dependencies
 	@cmake --preset $@ -DCONDYLE_TESTS=ON -DCONDYLE_PYTHON=ON >/dev/null
@@ -172,6 +172,19 @@ npm: page-core
 npm-test: npm
 	@cmake --build --preset release --target condyle_cli
 	@tests/npm/installed.sh build/release/condyle out/npm/condyle-*.tgz
+
+# The command for Windows on x86-64, compiled here by mingw-w64: build/windows/condyle.exe.
+windows: command_dependencies
+	@scripts/install_dependencies.sh command windows
+	@cmake -S windows -B build/windows -G Ninja >/dev/null
+	@cmake --build build/windows
+
+# Run by Wine beside the native command, and its suites of tests.
+windows-test: windows dependencies
+	@cmake --build build/windows --target windows_tests
+	@$(configure_all)
+	@cmake --build --preset release --target condyle_cli
+	@ctest --preset release -R '^windows_' --no-tests=error
 
 # The npm package ro-crate (1.7 MB), by which the test ro_crate reads what --crate writes: without it that test is skipped.
 ro-crate:
