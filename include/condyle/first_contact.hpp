@@ -3,13 +3,14 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "condyle/angle.hpp"
 #include "condyle/mesh.hpp"
 #include "condyle/pose.hpp"
 
-/// How far one mesh rotates about an axis before it meets another: in closed form, complete, without a step
-/// size (docs/mathematics/05-contact-under-rotation.md).
+/// How far one mesh rotates about an axis, or slides along a direction, before it meets another: in closed form, complete, without
+/// a step size (docs/mathematics/05-contact-under-rotation.md).
 
 namespace condyle::motion {
 
@@ -144,5 +145,58 @@ class FirstContact {
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
+
+/// Angles between which nothing meets.
+struct FreeInterval {
+  Angle low, high;  ///< of the varied angle less its start: low <= high, both in the range
+  /// `turned` of either is measured from `start` in its sense if the start is in the interval, else from the
+  /// interval's middle. Either ends by contact or at the end of the range.
+  Limit at_low, at_high;
+
+  [[nodiscard]] bool holds_start() const noexcept { return low <= Angle() && high >= Angle(); }
+};
+
+/// All angles of one joint angle that are free.
+struct FreeAngles {
+  RotationLimits from_start;
+  std::vector<FreeInterval> intervals;  ///< ascending
+
+  /// The one that holds the start, else the nearest to it, the lower of two as near; null if nothing is free.
+  [[nodiscard]] const FreeInterval* nearest_to_start() const noexcept;
+};
+
+/// All angles of a whole turn about an axis of F, from a pose, at which the bodies are free; guarantee as of FirstContact. The interval
+/// that holds the start has the limits from there, others lie between 0 and a full turn; a body that meets nothing is free from -180 to
+/// 180 degrees. Intervals below 1e-9 rad are none. Throws UsageError as FirstContact::limits().
+[[nodiscard]] FreeAngles free_turns(const Mesh& fixed, const Mesh& mobile, const AxisFrame& axis_F,
+                                    const Pose& X_FM = Pose::Identity());
+
+/// One end of a free slide.
+struct SlideEnd {
+  std::optional<double> at_mm = {};  ///< along the direction, from the start; empty if nothing ends it
+  /// Contact is at `at_mm` or beyond it by at most this; never before.
+  double error_bound_mm = 0;
+  /// The two faces that meet there, and where.
+  std::optional<ContactWitness> contact = {};
+};
+
+/// Positions along a direction between which nothing meets.
+struct FreeSlide {
+  SlideEnd low, high;
+};
+
+/// All positions along a direction at which two bodies are free.
+struct FreeSlides {
+  bool free_at_start;
+  /// First contact from the start against and along the direction; 0 if they are in contact there.
+  SlideEnd negative, positive;
+  std::vector<FreeSlide> intervals;  ///< ascending
+};
+
+/// The mobile body slides along a direction of F, of any length but zero, from X_FM. Guarantee for the vertices as placed in the frame of
+/// the direction: no contact is missed, and touching counts. A body inside the other whose surfaces do not meet is in contact if the outer
+/// one is closed. Throws UsageError for a direction or a pose that is none.
+[[nodiscard]] FreeSlides free_slides(const Mesh& fixed, const Mesh& mobile, const Vec3& direction_F,
+                                     const Pose& X_FM = Pose::Identity());
 
 }  // namespace condyle::motion

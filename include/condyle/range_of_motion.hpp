@@ -112,25 +112,6 @@ struct Motion {
 /// most a full turn, an angle that is not finite, or a hinge turned or held in another angle than flexion.
 void check_motion(const Motion& motion, JointKind kind);
 
-/// Angles between which nothing meets.
-struct FreeInterval {
-  Angle low, high;  ///< of the varied angle less its start: low <= high, both in the range
-  /// `turned` of either is measured from `start` in its sense if the start is in the interval, else from the
-  /// interval's middle. Either ends by contact or at the end of the range.
-  Limit at_low, at_high;
-
-  [[nodiscard]] bool holds_start() const noexcept { return low <= Angle() && high >= Angle(); }
-};
-
-/// All angles of one joint angle that are free.
-struct FreeAngles {
-  RotationLimits from_start;
-  std::vector<FreeInterval> intervals;  ///< ascending
-
-  /// The one that holds the start, else the nearest to it, the lower of two as near; null if nothing is free.
-  [[nodiscard]] const FreeInterval* nearest_to_start() const noexcept;
-};
-
 /// How a head lies in its socket where a motion ends.
 struct HeadAtLimit {
   /// Between the centres of head and socket, mm; empty if no socket was fitted.

@@ -106,30 +106,6 @@ void visit_meeting_pairs(const mesh::TriangleTree& fixed, const mesh::TriangleTr
   });
 }
 
-/// Sum of the crossings above p of the tree's triangles: `box_of` bounds a node, `corners_of` gives the corners of a
-/// triangle.
-template <class BoxOf, class CornersOf>
-int winding_number(const mesh::TriangleTree& tree, const Vec3& p, const BoxOf& box_of,
-                   const CornersOf& corners_of) {
-  int winding = 0;
-  std::vector<Index> open = {0};
-  while (!open.empty()) {
-    const Index i = open.back();
-    open.pop_back();
-    const Node& node = tree.nodes()[i];
-    const auto box = box_of(node);
-    const auto beyond = [&](int axis) { return std::abs(p[axis] - box.centre[axis]) > box.half[axis]; };
-    if (beyond(0) || beyond(1) || p.z() - box.centre[2] > box.half[2]) continue;
-    if (!node.is_leaf()) {
-      open.push_back(node.child);
-      open.push_back(node.child + 1);
-      continue;
-    }
-    for (Index t = node.first; t < node.last; ++t) winding += mesh::crossing_above(corners_of(t), p);
-  }
-  return winding;
-}
-
 }  // namespace
 
 BodyPair::Body::Body(const Mesh& mesh) : tree(mesh::tree_of(mesh)), is_closed(mesh.is_closed()) {
@@ -193,13 +169,13 @@ std::vector<TrianglePair> BodyPair::pairs(const Pose& X_FM) const {
 bool BodyPair::one_inside_other(const Pose& X_FM) const {
   const mesh::TriangleTree &fixed = *fixed_.tree, &mobile = *mobile_.tree;
   const auto in_fixed = [&](Index v) {
-    return winding_number(
+    return mesh::winding_number(
                fixed, posed(X_FM, mobile.vertices()[v]), [](const Node& node) { return node; },
                [&](Index t) { return fixed.corners(t); }) > 0;
   };
   const PlacedTrees placed(fixed, mobile, X_FM);
   const auto in_mobile = [&](Index v) {
-    return winding_number(
+    return mesh::winding_number(
                mobile, fixed.vertices()[v], [&](const Node& node) { return placed.mobile_in_fixed(node); },
                [&](Index t) { return posed_corners(mobile, t, X_FM); }) > 0;
   };

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cmath>
+#include <vector>
+
 #include "core/predicates.hpp"
 #include "mesh/triangle_intersection.hpp"
+#include "mesh/triangle_tree.hpp"
 
 /// Crossings of a vertical line, for winding numbers. A line through an edge or a vertex is decided as that
 /// through p + e x + e^2 y for an infinitely small e > 0: one shift for all triangles, so neighbours never
@@ -39,6 +43,30 @@ inline int crossing_above(const TriangleCorners& t, const Vec3& p) noexcept {
   const int sense = vertical_crossing(t, p);
   // Facing up, the triangle is above p where p is on its back.
   return sense * static_cast<int>(core::orientation(t[0], t[1], t[2], p)) < 0 ? sense : 0;
+}
+
+/// Winding number of the closed mesh of a tree about a point that is not on it. `box_of` bounds a node and `corners_of` gives the
+/// corners of a triangle, both in the frame of the point.
+template <class BoxOf, class CornersOf>
+int winding_number(const TriangleTree& tree, const Vec3& p, const BoxOf& box_of,
+                   const CornersOf& corners_of) {
+  int winding = 0;
+  std::vector<Index> open = {0};
+  while (!open.empty()) {
+    const Index i = open.back();
+    open.pop_back();
+    const TriangleTree::Node& node = tree.nodes()[i];
+    const auto box = box_of(node);
+    const auto beyond = [&](int axis) { return std::abs(p[axis] - box.centre[axis]) > box.half[axis]; };
+    if (beyond(0) || beyond(1) || p.z() - box.centre[2] > box.half[2]) continue;
+    if (!node.is_leaf()) {
+      open.push_back(node.child);
+      open.push_back(node.child + 1);
+      continue;
+    }
+    for (Index t = node.first; t < node.last; ++t) winding += crossing_above(corners_of(t), p);
+  }
+  return winding;
 }
 
 }  // namespace condyle::mesh

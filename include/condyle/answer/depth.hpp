@@ -7,11 +7,14 @@
 #include <vector>
 
 #include "condyle/contact_measures.hpp"
+#include "condyle/first_contact.hpp"
 #include "condyle/joint.hpp"
+#include "condyle/joint_checks.hpp"
 #include "condyle/normal_depth.hpp"
 #include "condyle/pressure.hpp"
 
-/// How deep the bodies of a joint are in each other at one pose.
+/// How deep the bodies of a joint are in each other at one pose; and, of two meshes without a joint, whether they touch, how deep, and how
+/// one gets free of the other.
 
 namespace condyle {
 
@@ -82,5 +85,97 @@ void check_depth_request(const Joint& joint, const DepthRequest& request);
 [[nodiscard]] DepthAnswer answer_depth(const contact::JointContact& bodies, const Joint& joint,
                                        const DepthRequest& request);
 [[nodiscard]] DepthAnswer answer_depth(const Joint& joint, const DepthRequest& request);
+
+// Two meshes without a joint. The fixed body's frame F is that of the answer; the mobile body is placed in it by X_FM.
+//
+//     const TouchAnswer touch = answer_touch(fixed, mobile, {.X_FM = X_FM});
+//     if (touch.deepest) ... touch.deepest->depth_mm
+
+/// Which measures an answer has beside contact, pairs, nearest points and the deepest place.
+enum class TouchMeasures : std::uint8_t {
+  depth,  ///< none
+  all,    ///< areas, volume and centroids, which cost more
+};
+
+struct TouchRequest {
+  Pose X_FM = Pose::Identity();
+  TouchMeasures measures = TouchMeasures::all;
+  /// Directions in F, of any length but zero, along which the mobile body is moved until it is free.
+  std::vector<Vec3> along = {};
+};
+
+/// The place of one body's surface that is deepest in the other body, in F: how far it is from the nearest point of the other's surface,
+/// which lies along that surface's normal where it is inside a face.
+struct TouchDepth {
+  BodyRole of;            ///< whose surface it is on
+  double depth_mm;        ///< > 0
+  double error_mm;        ///< no place of either surface is deeper by more
+  Vec3 place, exit;       ///< on that surface, and the nearest point of the other one
+  Vec3 normal;            ///< of unit length from place to exit
+  Index triangle, other;  ///< that hold them, of this body and of the other
+};
+
+/// How far the mobile body moves along a direction until it is free.
+struct FreeTranslation {
+  Vec3 along;             ///< of unit length
+  double distance_mm;     ///< 0 where it is free as it is; from here on it is free
+  double error_bound_mm;  ///< it is in contact until so far before
+};
+
+/// Of a body that has no inside, and of the other's surface in it, nothing.
+struct TouchOverlap {
+  /// The space inside both, each point as often as the bodies cover it, and by how much it may be off by rounding.
+  std::optional<double> volume_mm3 = {};
+  double volume_error_mm3 = 0;
+  /// By how much a body covers the surroundings of the overlap more than once: above 0 if it crosses itself.
+  double fixed_covered_again_mm3 = 0, mobile_covered_again_mm3 = 0;
+  std::optional<double> fixed_area_mm2 = {}, mobile_area_mm2 = {};  ///< of its surface inside the other body
+  std::optional<Vec3> centroid = {};                                ///< of both areas, in F
+};
+
+struct TouchAnswer {
+  TouchRequest request;
+  bool in_contact = false;  ///< the surfaces meet, or one body is inside the other
+  std::vector<contact::TrianglePair> pairs = {};
+  /// The body that is wholly inside the other, which is closed, without their surfaces meeting.
+  std::optional<BodyRole> inside = {};
+  /// Nearest points of the surfaces where they do not meet.
+  std::optional<contact::NearestPoints> nearest = {};
+  /// Empty without contact, and where nothing of a surface is inside: bodies that touch, or whose surfaces coincide.
+  std::optional<TouchDepth> deepest = {};
+  std::optional<TouchOverlap> overlap = {};  ///< if requested and in contact
+  std::vector<FreeTranslation> free = {};    ///< in the order of `along`
+  std::vector<JointNote> notes = {};         ///< meshes that have no inside, and what that leaves unknown
+};
+
+/// Throws UsageError for a pose that is no rotation with a translation and for directions that are none, MeshError if a mesh has no
+/// triangle. Open meshes have no inside, and inverted ones a wrong one: a note says so, and what needs an inside is empty.
+[[nodiscard]] TouchAnswer answer_touch(const contact::JointContact& bodies, const TouchRequest& request);
+[[nodiscard]] TouchAnswer answer_touch(const Mesh& fixed, const Mesh& mobile, const TouchRequest& request);
+
+struct TurnRequest {
+  Vec3 axis = Vec3::UnitZ(),
+       centre = Vec3::Zero();  ///< a direction of any length but zero, and a point on it, in F
+  Pose X_FM = Pose::Identity();
+};
+struct TurnAnswer {
+  TurnRequest request;
+  motion::FreeAngles free;
+  std::vector<JointNote> notes = {};
+};
+/// First contact and all free angles of a turn of the mobile body about an axis. Throws UsageError as motion::free_turns().
+[[nodiscard]] TurnAnswer answer_turn(const Mesh& fixed, const Mesh& mobile, const TurnRequest& request);
+
+struct SlideRequest {
+  Vec3 along = Vec3::UnitZ();  ///< in F, of any length but zero
+  Pose X_FM = Pose::Identity();
+};
+struct SlideAnswer {
+  SlideRequest request;
+  motion::FreeSlides free;
+  std::vector<JointNote> notes = {};
+};
+/// The same along a direction. Throws UsageError as motion::free_slides().
+[[nodiscard]] SlideAnswer answer_slide(const Mesh& fixed, const Mesh& mobile, const SlideRequest& request);
 
 }  // namespace condyle

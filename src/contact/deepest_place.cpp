@@ -1,0 +1,308 @@
+#include "contact/deepest_place.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "core/ordered_sums.hpp"
+#include "mesh/surface_distance.hpp"
+#include "mesh/triangle_distance.hpp"
+#include "mesh/vertical_ray.hpp"
+
+namespace condyle::contact {
+namespace {
+
+using Node = mesh::TriangleTree::Node;
+using CornerPoints = std::array<Vec3, 3>;
+
+/// A bound that exceeds a depth by this share of the coordinates does so by rounding.
+constexpr double depth_rounding = 1e-13;
+
+/// Bounds that were dropped, and depths, are off by less than so many of these.
+constexpr double bound_rounding = 16;
+
+/// Every so often a part is halved, whatever else would cut it: its size then goes to zero.
+constexpr int cuts_per_halving = 4;
+
+/// Bounds of nodes are in single precision, and cover what they hold after they are posed.
+constexpr double node_slack = 1 + 1e-5;
+
+/// SurfacePart of the surface S that may be deepest: what a node owns, or a convex piece of a triangle.
+struct SurfacePart {
+  double bound;  ///< no point of it is deeper
+  Index node = no_index, triangle = no_index;
+  std::vector<Vec3> corners = {};  ///< of a piece, in the frame of T
+  Index near = no_index;           ///< a triangle of T that was nearest to what it is a part of
+  int cuts = 0;
+  bool is_inside = false;  ///< every point of it
+
+  friend bool operator<(const SurfacePart& a, const SurfacePart& b) noexcept { return a.bound < b.bound; }
+};
+
+/// A point against the target.
+struct Sounding {
+  double depth;   ///< below 0 outside
+  Index nearest;  ///< place of the triangle of T that is nearest
+};
+
+double distance_to(const Vec3& p, const CornerPoints& t) {
+  return core::ordered_norm(mesh::nearest_on_triangle(p, t) - p);
+}
+
+Vec3 normal_of_corners(const CornerPoints& t) {
+  return (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+}
+
+Vec3 middle_of_corners(const std::vector<Vec3>& corners) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& p : corners) sum += p;
+  return sum / static_cast<double>(corners.size());
+}
+
+double radius_about(const std::vector<Vec3>& corners, const Vec3& middle) {
+  double radius = 0;
+  for (const Vec3& p : corners) radius = std::max(radius, core::ordered_norm(p - middle));
+  return radius;
+}
+
+/// A linear function n.p - d.
+struct LinearFunction {
+  Vec3 n;
+  double d;
+  double operator()(const Vec3& p) const noexcept { return n.dot(p) - d; }
+};
+
+class DepthSearch {
+ public:
+  DepthSearch(const mesh::TriangleTree& target, const mesh::TriangleTree& surface, const Pose& X_TS,
+              double deeper_than, std::size_t most_parts)
+      : target_(target), surface_(surface), X_TS_(X_TS), distances_(target), most_parts_(most_parts) {
+    double size = X_TS.translation().cwiseAbs().maxCoeff();
+    for (const auto* tree : {&target, &surface}) {
+      const Node& root = tree->nodes().front();
+      for (std::size_t k = 0; k < 3; ++k)
+        size = std::max(size, static_cast<double>(std::abs(root.centre[k]) + root.half[k]));
+    }
+    tolerance_ = depth_rounding * size;
+    best_.depth_mm = deeper_than;
+  }
+
+  DepthSearched run() {
+    push_node(0, {.bound = 0});
+    while (!open_.empty() && open_.top().bound > best_.depth_mm + tolerance_ && parts_ < most_parts_) {
+      const SurfacePart part = open_.top();
+      open_.pop();
+      if (part.node != no_index)
+        open_node(part);
+      else
+        cut(part);
+    }
+    const double bound = open_.empty() ? 0 : open_.top().bound;
+    DepthSearched found{.bound_mm = std::max(bound, best_.depth_mm + bound_rounding * tolerance_)};
+    if (is_found_) found.deepest = best_;
+    return found;
+  }
+
+ private:
+  /// `is_inside`: that p is, is known.
+  Sounding sound(const Vec3& p, bool is_inside) {
+    ++parts_;
+    const double distance = distances_(p, nearest_);
+    const auto inside = [&] {
+      return mesh::winding_number(
+                 target_, p, [](const Node& node) { return node; },
+                 [&](Index t) { return target_.corners(t); }) > 0;
+    };
+    return {is_inside || inside() ? distance : -distance, nearest_};
+  }
+
+  void consider(const Vec3& p, Index triangle, const Sounding& at) {
+    if (!(at.depth > best_.depth_mm)) return;
+    is_found_ = true;
+    best_.depth_mm = at.depth;
+    best_.place = p;
+    best_.exit = mesh::nearest_on_triangle(p, target_.corners(at.nearest));
+    best_.triangle = surface_.mesh_triangles()[triangle];
+    best_.target_triangle = target_.mesh_triangles()[at.nearest];
+  }
+
+  void push_node(Index number, const SurfacePart& parent) {
+    const Node& node = surface_.nodes()[number];
+    const Vec3 centre = posed(X_TS_, Vec3(node.centre[0], node.centre[1], node.centre[2]));
+    const double radius = node_slack * core::ordered_norm(Vec3(node.half[0], node.half[1], node.half[2]));
+    // Cheaper than the nearest triangle is one that was near.
+    if (parent.near != no_index &&
+        !(distance_to(centre, target_.corners(parent.near)) + radius > best_.depth_mm))
+      return;
+    const Sounding at = sound(centre, parent.is_inside);
+    if (!(at.depth + radius > best_.depth_mm)) return;
+    open_.push({.bound = at.depth + radius,
+                .node = number,
+                .near = at.nearest,
+                .is_inside = parent.is_inside || at.depth > radius});
+  }
+
+  void open_node(const SurfacePart& part) {
+    const Node& node = surface_.nodes()[part.node];
+    if (!node.is_leaf()) {
+      push_node(node.child, part);
+      push_node(node.child + 1, part);
+      return;
+    }
+    for (Index t = node.first; t < node.last; ++t) {
+      const CornerPoints own = surface_.corners(t);
+      push_piece({.bound = part.bound,
+                  .triangle = t,
+                  .corners = {posed(X_TS_, own[0]), posed(X_TS_, own[1]), posed(X_TS_, own[2])},
+                  .near = part.near,
+                  .is_inside = part.is_inside});
+    }
+  }
+
+  /// The largest distance of a corner from one triangle of T: no point of the piece has a larger depth.
+  double farthest_from(Index triangle, const SurfacePart& piece) const {
+    const CornerPoints corners = target_.corners(triangle);
+    double farthest = 0;
+    for (const Vec3& p : piece.corners) farthest = std::max(farthest, distance_to(p, corners));
+    return farthest;
+  }
+
+  /// With its bound, unless no point of it can be deepest.
+  void push_piece(SurfacePart part) {
+    part.bound = std::min(part.bound, farthest_from(part.near, part));
+    if (!(part.bound > best_.depth_mm + tolerance_)) return;
+    const Vec3 middle = middle_of_corners(part.corners);
+    const double radius = radius_about(part.corners, middle);
+    const Sounding at = sound(middle, part.is_inside);
+    consider(middle, part.triangle, at);
+    part.is_inside = part.is_inside || at.depth > radius;
+    part.near = at.nearest;
+    part.bound = std::min({part.bound, at.depth + radius, farthest_from(at.nearest, part)});
+    if (!(part.bound > best_.depth_mm + tolerance_)) return;
+    if (at.depth < 0 && !(best_.depth_mm > tolerance_) && is_outside(part, middle, radius)) return;
+    open_.push(std::move(part));
+  }
+
+  /// Whether a piece whose middle is outside is so as a whole, though it may touch: to get inside, it would have to go through a triangle
+  /// of T from its outer to its inner side, and no triangle within reach has a corner of the piece on its inner side. Without a depth to
+  /// compare with, pieces that touch would be cut for ever.
+  bool is_outside(const SurfacePart& part, const Vec3& middle, double radius) const {
+    std::vector<Index> open = {0};
+    while (!open.empty()) {
+      const Node& node = target_.nodes()[open.back()];
+      open.pop_back();
+      Vec3 off = Vec3::Zero();
+      for (int k = 0; k < 3; ++k)
+        off[k] = std::max(0.0, std::abs(middle[k] - node.centre[k]) - node_slack * node.half[k]);
+      if (off.squaredNorm() > radius * radius) continue;
+      if (!node.is_leaf()) {
+        open.insert(open.end(), {node.child, node.child + 1});
+        continue;
+      }
+      for (Index t = node.first; t < node.last; ++t) {
+        const CornerPoints corners = target_.corners(t);
+        const Vec3 n = normal_of_corners(corners);
+        const LinearFunction above{n, n.dot(corners[0])};
+        if (std::any_of(part.corners.begin(), part.corners.end(),
+                        [&](const Vec3& p) { return above(p) < -tolerance_; }) &&
+            distance_to(middle, corners) <= radius)
+          return false;
+      }
+    }
+    return true;
+  }
+
+  /// Cuts a piece where its bound comes from: the corner that is farthest from the triangle that is nearest to the middle.
+  void cut(const SurfacePart& part) {
+    const Vec3 middle = middle_of_corners(part.corners);
+    const CornerPoints near = target_.corners(part.near);
+    const Vec3 far = *std::max_element(
+        part.corners.begin(), part.corners.end(),
+        [&](const Vec3& a, const Vec3& b) { return distance_to(a, near) < distance_to(b, near); });
+    const Sounding at_far = sound(far, part.is_inside);
+    consider(far, part.triangle, at_far);
+    if (part.cuts % cuts_per_halving != cuts_per_halving - 1) {
+      if (const auto edge = edge_between(near, middle, far); edge && split(part, *edge)) return;
+      const CornerPoints other = target_.corners(at_far.nearest);
+      const Vec3 n = normal_of_corners(near), m = normal_of_corners(other);
+      const LinearFunction of_near{n, n.dot(near[0])}, of_other{m, m.dot(other[0])};
+      if (at_far.depth < 0 && split(part, of_other)) return;
+      // Depths below two faces are equal on a plane.
+      if (split(part, {m - n, of_other.d - of_near.d})) return;
+    }
+    halve(part);
+  }
+
+  /// Through an edge of the triangle, at a right angle to it: between the middle, which is over it, and a point that is not.
+  static std::optional<LinearFunction> edge_between(const CornerPoints& t, const Vec3& middle,
+                                                    const Vec3& far) {
+    const Vec3 n = normal_of_corners(t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 outwards = (t[(k + 1) % 3] - t[k]).cross(n).normalized();
+      const LinearFunction beyond{outwards, outwards.dot(t[k])};
+      if (beyond(middle) < 0 && beyond(far) > 0) return beyond;
+    }
+    return std::nullopt;
+  }
+
+  /// False if it leaves one side empty, to rounding.
+  bool split(const SurfacePart& part, const LinearFunction& by) {
+    double low = 0, high = 0;
+    std::vector<double> values;
+    for (const Vec3& p : part.corners) {
+      values.push_back(by(p));
+      low = std::min(low, values.back()), high = std::max(high, values.back());
+    }
+    if (!(low < -tolerance_ && high > tolerance_)) return false;
+    SurfacePart below = part, above = part;
+    below.corners.clear(), above.corners.clear();
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const std::size_t next = (k + 1) % values.size();
+      if (values[k] <= 0) below.corners.push_back(part.corners[k]);
+      if (values[k] >= 0) above.corners.push_back(part.corners[k]);
+      if ((values[k] < 0 && values[next] > 0) || (values[k] > 0 && values[next] < 0)) {
+        const double share = values[k] / (values[k] - values[next]);
+        const Vec3 between = part.corners[k] + share * (part.corners[next] - part.corners[k]);
+        below.corners.push_back(between), above.corners.push_back(between);
+      }
+    }
+    ++below.cuts, ++above.cuts;
+    push_piece(std::move(below)), push_piece(std::move(above));
+    return true;
+  }
+
+  /// Across its longest direction.
+  void halve(const SurfacePart& part) {
+    const Vec3 middle = middle_of_corners(part.corners);
+    const Vec3 end =
+        *std::max_element(part.corners.begin(), part.corners.end(), [&](const Vec3& a, const Vec3& b) {
+          return (a - middle).squaredNorm() < (b - middle).squaredNorm();
+        });
+    const double size = core::ordered_norm(end - middle);
+    if (!(size > tolerance_)) return;  // a point, and it was considered
+    const Vec3 along = (end - middle) / size;
+    split(part, {along, along.dot(middle)});
+  }
+
+  const mesh::TriangleTree &target_, &surface_;
+  const Pose& X_TS_;
+  mesh::DistancesToSurface distances_;
+  std::size_t most_parts_, parts_ = 0;
+  double tolerance_ = 0;
+  Index nearest_ = no_index;
+  std::priority_queue<SurfacePart> open_;
+  bool is_found_ = false;
+  DeepestPlace best_{};
+};
+
+}  // namespace
+
+DepthSearched deepest_place(const mesh::TriangleTree& target, const mesh::TriangleTree& surface,
+                            const Pose& X_TS, double deeper_than_mm, std::size_t most_parts) {
+  if (target.empty() || surface.empty()) return {};
+  return DepthSearch(target, surface, X_TS, deeper_than_mm, most_parts).run();
+}
+
+}  // namespace condyle::contact

@@ -1,0 +1,54 @@
+#include <algorithm>
+#include <utility>
+
+#include "condyle/first_contact.hpp"
+#include "contact/body_pair.hpp"
+#include "core/coordinate_range.hpp"
+#include "core/ordered_sums.hpp"
+#include "motion/search/translation_contacts.hpp"
+
+namespace condyle::motion {
+namespace {
+
+Pose slid(Pose X, const Vec3& by) {
+  X.translation() += by;
+  return X;
+}
+
+/// Of a free interval; `at` ends the contact beside it.
+SlideEnd slide_end(const TranslationEnd& at, const Vec3& along, const Pose& X_FM) {
+  const Pose X = slid(X_FM, along * at.at_mm);
+  return {at.at_mm, std::abs(at.sure_mm - at.at_mm),
+          ContactWitness{{FeatureKind::face, at.fixed_triangle},
+                         {FeatureKind::face, at.mobile_triangle},
+                         at.point,
+                         posed(inverted(X), at.point)}};
+}
+
+}  // namespace
+
+FreeSlides free_slides(const Mesh& fixed, const Mesh& mobile, const Vec3& direction_F, const Pose& X_FM) {
+  core::require_rotation(X_FM);
+  const Vec3 along = AxisFrame(Vec3::Zero(), direction_F).direction();
+  const std::vector<TranslationContact> contacts =
+      motion::translation_contacts(fixed, mobile.moved_to(posed(X_FM, mobile.vertices())), direction_F);
+  const contact::BodyPair bodies(fixed, mobile);
+  FreeSlides slides{.free_at_start = false, .negative = {0.0}, .positive = {0.0}, .intervals = {}};
+  for (std::size_t i = 0; i <= contacts.size(); ++i) {
+    FreeSlide gap;
+    if (i > 0) gap.low = slide_end(contacts[i - 1].high, along, X_FM);
+    if (i < contacts.size()) gap.high = slide_end(contacts[i].low, along, X_FM);
+    // One body inside the other is in contact all the way between two contacts of their surfaces.
+    if (gap.low.at_mm && gap.high.at_mm &&
+        bodies.touch(slid(X_FM, along * (*gap.low.at_mm + (*gap.high.at_mm - *gap.low.at_mm) / 2))))
+      continue;
+    if (!(gap.low.at_mm && *gap.low.at_mm >= 0) && !(gap.high.at_mm && *gap.high.at_mm <= 0)) {
+      slides.free_at_start = true;
+      slides.negative = gap.low, slides.positive = gap.high;
+    }
+    slides.intervals.push_back(std::move(gap));
+  }
+  return slides;
+}
+
+}  // namespace condyle::motion

@@ -1,0 +1,58 @@
+#include <algorithm>
+
+#include "condyle/first_contact.hpp"
+#include "core/coordinate_range.hpp"
+#include "core/rotation_about.hpp"
+#include "motion/search/contact_set.hpp"
+#include "motion/search/first_contact.hpp"
+
+namespace condyle::motion {
+namespace {
+
+/// Narrower intervals are not told from contact.
+constexpr Angle narrowest_turn = Angle::radians(1e-9);
+
+Pose turned_about(const AxisFrame& axis, Angle by, const Pose& X) {
+  const Eigen::Matrix3d R = core::rotation_about(axis.direction(), by.radians());
+  Pose turned = Pose::Identity();
+  turned.linear() = R * X.linear();
+  turned.translation() = axis.point() + R * (X.translation() - axis.point());
+  return turned;
+}
+
+}  // namespace
+
+FreeAngles free_turns(const Mesh& fixed, const Mesh& mobile, const AxisFrame& axis_F, const Pose& X_FM) {
+  core::require_rotation(X_FM);
+  const FeatureTree fixed_tree(fixed), mobile_tree(mobile);
+  const RotationTable table(fixed_tree, axis_F);
+  RotatingBody rotating(mobile_tree);
+  rotating.start_at(axis_F, X_FM);
+  FreeAngles free{motion::first_contact(table, rotating), {}};
+  const auto& [negative, positive, work] = free.from_start;
+  std::vector<core::Arc> known;
+  if (free.from_start.free_at_start()) {
+    if (positive.reason == LimitReason::end_of_range) {
+      const Angle half = Angle::degrees(180);
+      free.intervals.push_back({-half, half, negative, positive});
+      return free;
+    }
+    known.push_back({-negative.turned, negative.turned + positive.turned});
+    free.intervals.push_back({-negative.turned, positive.turned, negative, positive});
+  }
+  for (const core::Arc& gap : motion::contact_set(table, rotating, core::ArcSet(known)).complement().arcs()) {
+    if (!(gap.width > narrowest_turn)) continue;
+    // The gap is free or, one body inside the other, all contact; its ends are computed as first contacts are.
+    const Angle middle = gap.start + gap.width * 0.5;
+    rotating.start_at(axis_F, turned_about(axis_F, middle, X_FM));
+    const RotationLimits both = motion::first_contact(table, rotating);
+    if (both.free_at_start())
+      free.intervals.push_back(
+          {middle - both.negative.turned, middle + both.positive.turned, both.negative, both.positive});
+  }
+  std::sort(free.intervals.begin(), free.intervals.end(),
+            [](const FreeInterval& a, const FreeInterval& b) { return a.low < b.low; });
+  return free;
+}
+
+}  // namespace condyle::motion
