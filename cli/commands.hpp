@@ -26,5 +26,8 @@ void add_resect(CLI::App& app);
 void add_implant(CLI::App& app);
 void add_sweep(CLI::App& app);
 void add_merge(CLI::App& app);
+void add_touch(CLI::App& app);
+void add_turn(CLI::App& app);
+void add_slide(CLI::App& app);
 
 }  // namespace condyle::cli

@@ -152,6 +152,7 @@ constexpr Command commands[] = {
     {"measure", cli::add_measure}, {"resect", cli::add_resect},   {"implant", cli::add_implant},
     {"sweep", cli::add_sweep},     {"picture", cli::add_picture}, {"report", cli::add_report},
     {"sample", cli::add_sample},   {"study", cli::add_study},     {"merge", cli::add_merge},
+    {"touch", cli::add_touch},     {"turn", cli::add_turn},       {"slide", cli::add_slide},
 };
 
 int run(const std::vector<std::string>& words) {

@@ -432,3 +432,242 @@ class ShapeRecord(Record):
     measures: list[MeasureRecord]
     around_neck: list[NeckHour]
     rim: list[RimHour]
+
+
+class Note(Record):
+    """What an answer about two meshes must be read with."""
+
+    code: str
+    text: str
+
+
+class TouchDepth(Record):
+    """The place of either surface that is deepest in the other body.
+
+    Attributes
+    ----------
+    body : str
+        whose surface it is on: `"fixed"` or `"mobile"`
+    depth_mm : float
+        its distance from the other body's surface, along that surface's normal where a face is nearest
+    error_mm : float
+        no place of either surface is deeper by more
+    place_mm : NDArray[np.float64]
+        the place
+    exit_mm : NDArray[np.float64]
+        the nearest point of the other surface
+    normal : NDArray[np.float64]
+        of length 1 from the place to the exit
+    triangle : int
+        of that body that has the place, counted from 0
+    other_triangle : int
+        of the other body that has the exit
+    """
+
+    body: str
+    depth_mm: float
+    error_mm: float
+    place_mm: NDArray[np.float64]
+    exit_mm: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    triangle: int
+    other_triangle: int
+
+
+class FreeTranslation(Record):
+    """How far the mobile body moves along a direction until it is free.
+
+    Attributes
+    ----------
+    along : NDArray[np.float64]
+        the direction, of length 1
+    distance_mm : float
+        just beyond it is free; 0 if it is free as it is
+    error_bound_mm : float
+        so far before it is in contact for certain
+    """
+
+    along: NDArray[np.float64]
+    distance_mm: float
+    error_bound_mm: float
+
+
+class TouchRecord(Record):
+    """Two meshes in one pose; points and directions are in the frame of the fixed one.
+
+    Attributes
+    ----------
+    in_contact : bool
+        the surfaces meet, or one body is inside the other
+    intersecting_pairs : int
+        pairs of triangles that meet; touching counts
+    inside : str or None
+        the body that is wholly inside the other, without their surfaces meeting: `"fixed"`, `"mobile"` or null
+    nearest_distance_mm : float or None
+        between the surfaces; null where they meet, and a distance too if one body is inside the other
+    nearest_fixed_mm : NDArray[np.float64] or None
+        where, on the fixed body
+    nearest_mobile_mm : NDArray[np.float64] or None
+        and on the mobile body
+    deepest : TouchDepth or None
+        the deepest place, below; null without contact, if no point of a surface is inside the other body (they touch, or
+        coincide), and if no body has an inside
+    volume_mm3 : float or None
+        of the space inside both; null without contact, without `--measures`, and if a body has no inside
+    volume_error_mm3 : float or None
+        it is off by no more
+    fixed_area_mm2 : float or None
+        of the fixed body's surface inside the mobile body
+    mobile_area_mm2 : float or None
+        of the mobile body's surface inside the fixed body
+    centroid_mm : NDArray[np.float64] or None
+        of both areas
+    fixed_covered_again_mm3 : float or None
+        how much the fixed body covers more than once about the overlap: above 0 if it crosses itself, and the volume counts that
+        again
+    mobile_covered_again_mm3 : float or None
+        likewise the mobile body
+    free : list[FreeTranslation]
+        for each direction of `--along` how far the mobile body moves until it is free, below
+    notes : list[Note]
+        `code` and `text` of what the answer must be read with
+    """
+
+    in_contact: bool
+    intersecting_pairs: int
+    inside: Optional[str] = None
+    nearest_distance_mm: Optional[float] = None
+    nearest_fixed_mm: Optional[NDArray[np.float64]] = None
+    nearest_mobile_mm: Optional[NDArray[np.float64]] = None
+    deepest: Optional[TouchDepth] = None
+    volume_mm3: Optional[float] = None
+    volume_error_mm3: Optional[float] = None
+    fixed_area_mm2: Optional[float] = None
+    mobile_area_mm2: Optional[float] = None
+    centroid_mm: Optional[NDArray[np.float64]] = None
+    fixed_covered_again_mm3: Optional[float] = None
+    mobile_covered_again_mm3: Optional[float] = None
+    free: list[FreeTranslation]
+    notes: list[Note]
+
+
+class TurnEnd(Record):
+    """First contact of a turn in one sense.
+
+    Attributes
+    ----------
+    turned_deg : float
+        from the start, at least 0; 360 if nothing meets
+    reason : Literal["contact", "end_of_range", "contact_at_start", "ligament", "strained_at_start"]
+        `"contact"`, `"contact_at_start"` or `"end_of_range"`
+    error_bound_deg : float
+        contact is not before it, and past it by no more
+    contact_point_mm : NDArray[np.float64] or None
+        where; null without contact, and if one body is inside the other
+    features : FeaturesRecord or None
+        which features meet, `fixed` and `mobile`
+    """
+
+    turned_deg: float
+    reason: Literal["contact", "end_of_range", "contact_at_start", "ligament", "strained_at_start"]
+    error_bound_deg: float
+    contact_point_mm: Optional[NDArray[np.float64]] = None
+    features: Optional[FeaturesRecord] = None
+
+
+class TurnInterval(Record):
+    """Angles between which nothing meets."""
+
+    low_deg: float
+    high_deg: float
+    low_error_bound_deg: float
+    high_error_bound_deg: float
+
+
+class TurnRecord(Record):
+    """A whole turn of the mobile mesh about an axis; points are in the frame of the fixed one.
+
+    Attributes
+    ----------
+    axis : NDArray[np.float64]
+        its direction as it was given
+    centre_mm : NDArray[np.float64]
+        a point on it
+    free_at_start : bool
+        whether the bodies are apart where they are given
+    negative : TurnEnd
+        first contact against the right hand about the axis
+    positive : TurnEnd
+        and with it
+    free : list[TurnInterval]
+        all free intervals, ascending: `low_deg` and `high_deg` from the start, with their error bounds: free between, and contact
+        outside by no more. One that holds the start goes from below 0 to above, others lie between 0 and 360
+    notes : list[Note]
+        `code` and `text` of what the answer must be read with
+    """
+
+    axis: NDArray[np.float64]
+    centre_mm: NDArray[np.float64]
+    free_at_start: bool
+    negative: TurnEnd
+    positive: TurnEnd
+    free: list[TurnInterval]
+    notes: list[Note]
+
+
+class SlideEnd(Record):
+    """First contact of a slide in one sense.
+
+    Attributes
+    ----------
+    moved_mm : float or None
+        along the direction, signed; null if nothing meets
+    error_bound_mm : float
+        contact is not before it, and past it by no more
+    contact_point_mm : NDArray[np.float64] or None
+        where
+    features : FeaturesRecord or None
+        which faces meet, `fixed` and `mobile`
+    """
+
+    moved_mm: Optional[float] = None
+    error_bound_mm: float
+    contact_point_mm: Optional[NDArray[np.float64]] = None
+    features: Optional[FeaturesRecord] = None
+
+
+class SlideInterval(Record):
+    """Positions between which nothing meets."""
+
+    low_mm: Optional[float] = None
+    high_mm: Optional[float] = None
+    low_error_bound_mm: float
+    high_error_bound_mm: float
+
+
+class SlideRecord(Record):
+    """A slide of the mobile mesh along a direction; points are in the frame of the fixed one.
+
+    Attributes
+    ----------
+    along : NDArray[np.float64]
+        the direction, of length 1
+    free_at_start : bool
+        whether the bodies are apart where they are given
+    negative : SlideEnd
+        first contact against the direction; 0 in contact at the start
+    positive : SlideEnd
+        and along it
+    free : list[SlideInterval]
+        all free intervals, ascending: `low_mm` and `high_mm` from the start, null for the ends of the line, with their error
+        bounds
+    notes : list[Note]
+        `code` and `text` of what the answer must be read with
+    """
+
+    along: NDArray[np.float64]
+    free_at_start: bool
+    negative: SlideEnd
+    positive: SlideEnd
+    free: list[SlideInterval]
+    notes: list[Note]

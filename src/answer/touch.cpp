@@ -37,6 +37,11 @@ void require_triangles(const Mesh& fixed, const Mesh& mobile) {
   if (mobile.triangles().empty()) throw MeshError("the mobile body has no triangle");
 }
 
+void require_direction(const Vec3& direction, const char* name) {
+  if (!direction.allFinite() || direction.isZero(0))
+    throw UsageError(std::string(name) + ": a direction is finite and not zero");
+}
+
 std::vector<JointNote> notes_of(const Mesh& fixed, const Mesh& mobile) {
   require_triangles(fixed, mobile);
   std::vector<JointNote> notes;
@@ -150,19 +155,43 @@ class Touch {
   }
 
   void find_translations() {
+    std::optional<motion::FreeSlides> slides;  // along the last direction, which serve the opposite one too
+    Vec3 last = Vec3::Zero();
     for (const Vec3& along : answer_.request.along) {
       FreeTranslation free{core::ordered_direction(along), 0, 0};
       if (answer_.in_contact) {
-        const motion::FreeSlides slides =
-            motion::free_slides(bodies_.fixed(), bodies_.mobile(), along, answer_.request.X_FM);
-        const auto first = std::find_if(
-            slides.intervals.begin(), slides.intervals.end(),
-            [](const motion::FreeSlide& each) { return each.low.at_mm && *each.low.at_mm >= 0; });
-        if (first != slides.intervals.end())
-          free.distance_mm = *first->low.at_mm, free.error_bound_mm = first->low.error_bound_mm;
+        const bool is_opposite = slides && along == -last;
+        if (!is_opposite) {
+          slides = motion::free_slides(bodies_.fixed(), bodies_.mobile(), along, answer_.request.X_FM);
+          last = along;
+        }
+        if (is_opposite)
+          std::for_each(slides->intervals.rbegin(), slides->intervals.rend(), FirstFree{free, -1, slack()});
+        else
+          std::for_each(slides->intervals.begin(), slides->intervals.end(), FirstFree{free, 1, slack()});
       }
       answer_.free.push_back(free);
     }
+  }
+
+  /// Takes the first interval, of those that are given in the order of a sense, that goes on beyond the start. Placing in the frame of
+  /// a direction rounds: of bodies that touch it may leave a gap that is no wider than that.
+  struct FirstFree {
+    FreeTranslation& free;
+    double sense, slack;
+    bool is_found = false;
+
+    void operator()(const motion::FreeSlide& each) {
+      const motion::SlideEnd &from = sense > 0 ? each.low : each.high, &to = sense > 0 ? each.high : each.low;
+      if (is_found || (to.at_mm && sense * *to.at_mm <= slack)) return;
+      is_found = true;
+      if (!from.at_mm || sense * *from.at_mm <= 0) return;
+      free.distance_mm = sense * *from.at_mm, free.error_bound_mm = from.error_bound_mm;
+    }
+  };
+  double slack() const {
+    return 1e-13 *
+           static_cast<double>(pair_.fixed_tree().nodes()[0].size() + pair_.mobile_tree().nodes()[0].size());
   }
 
   const contact::JointContact& bodies_;
@@ -176,7 +205,7 @@ class Touch {
 TouchAnswer answer_touch(const contact::JointContact& bodies, const TouchRequest& request) {
   require_triangles(bodies.fixed(), bodies.mobile());
   core::require_rotation(request.X_FM);
-  for (const Vec3& along : request.along) static_cast<void>(AxisFrame(Vec3::Zero(), along));
+  for (const Vec3& along : request.along) require_direction(along, "along");
   return Touch(bodies, request).run();
 }
 
@@ -185,12 +214,14 @@ TouchAnswer answer_touch(const Mesh& fixed, const Mesh& mobile, const TouchReque
 }
 
 TurnAnswer answer_turn(const Mesh& fixed, const Mesh& mobile, const TurnRequest& request) {
+  require_direction(request.axis, "axis");
   std::vector<JointNote> notes = notes_of(fixed, mobile);
   return {request, motion::free_turns(fixed, mobile, AxisFrame(request.centre, request.axis), request.X_FM),
           std::move(notes)};
 }
 
 SlideAnswer answer_slide(const Mesh& fixed, const Mesh& mobile, const SlideRequest& request) {
+  require_direction(request.along, "along");
   std::vector<JointNote> notes = notes_of(fixed, mobile);
   return {request, motion::free_slides(fixed, mobile, request.along, request.X_FM), std::move(notes)};
 }

@@ -207,6 +207,11 @@ TEST(Touch, OfBodiesThatOnlyTouchIsContactWithoutDepth) {
     expect_frees({cube, cube}, at(beside), answer.free[1]);
     EXPECT_FALSE(touch(cube, cube, at(beside + Vec3(0x1p-51, 0, 0))).in_contact);
   }
+  // Along a direction whose frame rounds: away at once, or through all of the other body.
+  const Vec3 oblique(1, 0.3, 0.7);
+  const TouchAnswer along = answer_touch(cube, cube, {.X_FM = at({2, 0, 0}), .along = {oblique, -oblique}});
+  EXPECT_NEAR(along.free[0].distance_mm, 0, 1e-14);
+  EXPECT_NEAR(along.free[1].distance_mm, 2 * oblique.norm() / 0.7, 1e-13);
   // A vertex in a plane.
   TriMesh tip;
   for (const Vec3& p : {Vec3(1, 0.2, 0.1), Vec3(3, 0, 0), Vec3(3, 1, 0), Vec3(3, 0, 1)})
@@ -408,10 +413,13 @@ TEST(Slide, OfRandomTrianglesMissesNoContactAndInventsNone) {
     for (int i = 0; i < 6; ++i) {
       const double t = k % 2 ? 3 * real(random) : whole(random) + 0.5 * (i % 2);
       const bool holds = !contacts.empty() && contacts[0].low.at_mm <= t && t <= contacts[0].high.at_mm;
-      if (!holds) EXPECT_FALSE(meet(t)) << k << " " << t;
+      if (!holds) {
+        EXPECT_FALSE(meet(t)) << k << " " << t;
+      }
       const bool sure = !contacts.empty() && contacts[0].low.sure_mm <= t && t <= contacts[0].high.sure_mm;
-      if (sure && t > contacts[0].low.sure_mm + 1e-9 && t < contacts[0].high.sure_mm - 1e-9)
+      if (sure && t > contacts[0].low.sure_mm + 1e-9 && t < contacts[0].high.sure_mm - 1e-9) {
         EXPECT_TRUE(meet(t)) << k << " " << t;
+      }
     }
     if (contacts.empty()) continue;
     ++met;
@@ -440,12 +448,15 @@ TEST(Slide, IntervalsEndWhereContactDoes) {
       return bodies.in_contact(X);
     };
     for (const motion::FreeSlide& each : answer.free.intervals) {
-      if (each.low.at_mm)
+      if (each.low.at_mm) {
         EXPECT_TRUE(!in_contact(*each.low.at_mm + 1e-9) && in_contact(*each.low.at_mm - 1e-9));
-      if (each.high.at_mm)
+      }
+      if (each.high.at_mm) {
         EXPECT_TRUE(!in_contact(*each.high.at_mm - 1e-9) && in_contact(*each.high.at_mm + 1e-9));
-      if (each.low.at_mm && each.high.at_mm)
+      }
+      if (each.low.at_mm && each.high.at_mm) {
         EXPECT_FALSE(in_contact((*each.low.at_mm + *each.high.at_mm) / 2));
+      }
     }
     for (int i = -40; i <= 40; ++i) {
       const double t = 0.25 * i;

@@ -8,6 +8,7 @@
 
 #include "answer/records/limit_record.hpp"
 #include "answer/records/measure_record.hpp"
+#include "answer/records/touch_record.hpp"
 #include "condyle/error.hpp"
 #include "condyle/joint_checks.hpp"
 #include "io/file/whole_file.hpp"
@@ -119,6 +120,16 @@ std::string each_record(const Of& of) {
              std::type_identity<RimHourRecord>(), std::type_identity<ShapeRecord>());
 }
 
+/// The same of two meshes without a joint, of which the page has none.
+template <class Of>
+std::string each_touch_record(const Of& of) {
+  return of.template operator()<NoteRecord>() + of.template operator()<TouchDepthRecord>() +
+         of.template operator()<FreeTranslationRecord>() + of.template operator()<TouchRecord>() +
+         of.template operator()<TurnEndRecord>() + of.template operator()<TurnIntervalRecord>() +
+         of.template operator()<TurnRecord>() + of.template operator()<SlideEndRecord>() +
+         of.template operator()<SlideIntervalRecord>() + of.template operator()<SlideRecord>();
+}
+
 template <class Record>
 std::string python_class() {
   std::string meanings, members;
@@ -149,7 +160,8 @@ from numpy.typing import NDArray
 
 from ._motion import Angles
 from ._record import Record
-)" + each_record([]<class Record>() { return python_class<Record>(); });
+)" + each_record([]<class Record>() { return python_class<Record>(); }) +
+         each_touch_record([]<class Record>() { return python_class<Record>(); });
 }
 
 // ---- TypeScript
@@ -282,13 +294,29 @@ std::string measures_page(std::string page) {
   return with_table(std::move(page), "| key of a measure | value |\n|---|---|\n", key_rows<MeasureRecord>());
 }
 
+std::string touch_page(std::string page) {
+  page = with_table(std::move(page), "| key of `touch.json` | value |\n|---|---|\n", key_rows<TouchRecord>());
+  page =
+      with_table(std::move(page), "| key of `deepest` | value |\n|---|---|\n", key_rows<TouchDepthRecord>());
+  page = with_table(std::move(page), "| key of one of `free` | value |\n|---|---|\n",
+                    key_rows<FreeTranslationRecord>());
+  page = with_table(std::move(page), "| key of a turn | value |\n|---|---|\n", key_rows<TurnRecord>());
+  page = with_table(std::move(page), "| key of a slide | value |\n|---|---|\n", key_rows<SlideRecord>());
+  page = with_table(std::move(page), "| key of an end of a turn | value |\n|---|---|\n",
+                    key_rows<TurnEndRecord>());
+  return with_table(std::move(page), "| key of an end of a slide | value |\n|---|---|\n",
+                    key_rows<SlideEndRecord>());
+}
+
 int described(const std::filesystem::path& root, bool only_check) {
-  const std::filesystem::path limits = root / "docs/formats-rom.md", measures = root / "docs/measures.md";
+  const std::filesystem::path limits = root / "docs/formats-rom.md", measures = root / "docs/measures.md",
+                              touch = root / "docs/touch.md";
   const std::pair<std::filesystem::path, std::string> files[] = {
       {root / "python/condyle/_records.py", python_records()},
       {root / "viewer/src/records.ts", page_records()},
       {limits, limits_page(io::read_whole_file(limits))},
-      {measures, measures_page(io::read_whole_file(measures))}};
+      {measures, measures_page(io::read_whole_file(measures))},
+      {touch, touch_page(io::read_whole_file(touch))}};
   int stale = 0;
   for (const auto& [path, text] : files) {
     if (std::filesystem::exists(path) && io::read_whole_file(path) == text) continue;

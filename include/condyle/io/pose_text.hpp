@@ -52,6 +52,9 @@ struct PoseArgument {
 /// its axis.
 [[nodiscard]] PoseArgument given_pose(std::string_view text, const Joint& joint);
 
+/// Two bodies without a joint have a pose as a matrix only; the rest as given_pose().
+[[nodiscard]] PoseArgument matrix_pose(std::string_view text);
+
 /// The pose as parse_pose() reads it, every digit of it: "flexion=90 adduction=-10 internal_rotation=20".
 [[nodiscard]] std::string to_text(const PoseDegrees& pose, Anatomy joint);
 

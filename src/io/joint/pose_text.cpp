@@ -138,6 +138,11 @@ bool is_matrix(std::string_view text) noexcept {
   return first != text.npos && std::string_view("0123456789+-.").find(text[first]) != text.npos;
 }
 
+PoseArgument matrix_pose(std::string_view text) {
+  if (!is_matrix(text)) throw UsageError("pose: a matrix begins with a number");
+  return pose_of_matrix(text);
+}
+
 PoseArgument given_pose(std::string_view text, const Joint& joint) {
   const CoordinateSystem system = joint.coordinates();
   if (!is_matrix(text)) {

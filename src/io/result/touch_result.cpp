@@ -1,0 +1,194 @@
+#include "io/result/touch_result.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
+#include "answer/records/touch_record.hpp"
+#include "condyle/version.hpp"
+#include "io/file/format_version.hpp"
+#include "io/file/output_folder.hpp"
+#include "io/file/whole_file.hpp"
+#include "io/record/json_of.hpp"
+#include "io/result/line_mesh.hpp"
+#include "io/result/provenance_forms.hpp"
+
+namespace condyle::io {
+namespace {
+
+/// The rows of X_FM one after the other.
+Json matrix_rows(const Pose& X) {
+  Json rows = Json::array();
+  for (int i = 0; i < 16; ++i) rows.push_back(X.matrix()(i / 4, i % 4));
+  return rows;
+}
+
+template <class Record>
+Json touch_answer_object(const Record& record, const TouchFiles* files) {
+  Json json{{"condyle", format_version}};
+  if (files) {
+    json["fixed"] = files->fixed.path.string(), json["mobile"] = files->mobile.path.string();
+    json["X_FM"] = matrix_rows(files->X_FM);
+  }
+  json.update(io::json_of(record, {{}, Anatomy::hip}));
+  if (files)
+    json["provenance"] = {{"version", version},
+                          {"command", files->command},
+                          {"meshes",
+                           {file_json(files->fixed.path, files->fixed.digest),
+                            file_json(files->mobile.path, files->mobile.digest)}}};
+  return json;
+}
+
+std::string xyz_text(const Vec3& p) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x() + 0.0, p.y() + 0.0, p.z() + 0.0);
+}
+
+std::string both_names(const TouchFiles& files) {
+  return fmt::format("{} and {}", files.fixed.path.string(), files.mobile.path.string());
+}
+
+const std::filesystem::path& file_in_role(const TouchFiles& files, std::string_view role) {
+  return role == "fixed" ? files.fixed.path : files.mobile.path;
+}
+
+auto bodies_without_inside(const TouchAnswer& answer) {
+  return std::count_if(answer.notes.begin(), answer.notes.end(), [](const JointNote& note) {
+    return note.code == JointNoteCode::open_mesh || note.code == JointNoteCode::inverted_mesh;
+  });
+}
+
+/// "12.3 degrees", or why there is none.
+std::string touch_end_text(const TurnEndRecord& end) {
+  using motion::LimitReason;
+  if (end.reason == LimitReason::end_of_range) return "nothing is met in a whole turn";
+  return fmt::format("{:.9g} degrees{}", end.turned_deg,
+                     end.contact_point_mm ? ", at " + xyz_text(*end.contact_point_mm) : "");
+}
+std::string touch_end_text(const SlideEndRecord& end) {
+  if (!end.moved_mm) return "nothing is met";
+  return fmt::format("{:.9g} mm{}", *end.moved_mm,
+                     end.contact_point_mm ? ", at " + xyz_text(*end.contact_point_mm) : "");
+}
+
+/// `bound(value)` of each end, in words of `unit`.
+template <class Record>
+std::string free_intervals_text(const Record& record, std::string_view unit, const auto& bounds) {
+  std::string text;
+  if (record.free_at_start)
+    text += fmt::format("  first contact on: {}\n  first contact back: {}\n", touch_end_text(record.positive),
+                        touch_end_text(record.negative));
+  else
+    text += "  in contact where they are given\n";
+  if (record.free.empty()) return text + "  nowhere free\n";
+  text += "  free:";
+  for (const auto& each : record.free) {
+    const auto [low, high] = bounds(each);
+    text += fmt::format(" {} to {}{}", low, high, &each == &record.free.back() ? "" : ",");
+  }
+  return text + fmt::format(" {}\n", unit);
+}
+
+bool is_of_touch(std::string_view name) {
+  static constexpr std::string_view names[] = {"touch.json", "fixed.vtp", "mobile.vtp", "place.vtp"};
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+/// 1 for each triangle that is in a pair.
+MeshArray marks_of(const TouchAnswer& answer, std::size_t triangles, Index contact::TrianglePair::*of) {
+  std::vector<std::uint8_t> marks(triangles);
+  for (const contact::TrianglePair& pair : answer.pairs) marks[pair.*of] = 1;
+  return {"in_contact", std::move(marks)};
+}
+
+}  // namespace
+
+Json touch_object(const TouchAnswer& answer, const TouchFiles* files) {
+  return touch_answer_object(touch_record(answer), files);
+}
+Json turn_object(const TurnAnswer& answer, const TouchFiles* files) {
+  return touch_answer_object(turn_record(answer), files);
+}
+Json slide_object(const SlideAnswer& answer, const TouchFiles* files) {
+  return touch_answer_object(slide_record(answer), files);
+}
+
+std::string touch_text(const TouchAnswer& answer, const TouchFiles& files) {
+  const TouchRecord record = touch_record(answer);
+  std::string text = fmt::format("{}: {}\n", both_names(files), record.in_contact ? "in contact" : "apart");
+  if (record.inside)
+    text += fmt::format("  {} is wholly inside the other\n", file_in_role(files, *record.inside).string());
+  if (record.nearest_distance_mm)
+    text += fmt::format("  nearest distance of the surfaces: {:.6g} mm, at {} and {}\n",
+                        *record.nearest_distance_mm, xyz_text(*record.nearest_fixed_mm),
+                        xyz_text(*record.nearest_mobile_mm));
+  if (record.intersecting_pairs > 0)
+    text += fmt::format("  pairs of triangles that meet: {}\n", record.intersecting_pairs);
+  if (const auto& deepest = record.deepest)
+    text += fmt::format("  deepest: {:.6g} mm, at {} of {}, out along {}\n", deepest->depth_mm,
+                        xyz_text(deepest->place_mm), file_in_role(files, deepest->body).string(),
+                        xyz_text(deepest->normal));
+  else if (record.in_contact && bodies_without_inside(answer) < 2)
+    text += "  deepest: no point of a surface is inside the other body: they touch, or coincide\n";
+  if (record.volume_mm3)
+    text += fmt::format("  penetration volume: {:.6g} mm3, off by {:.1g} at most\n", *record.volume_mm3,
+                        *record.volume_error_mm3);
+  if (record.fixed_area_mm2)
+    text += fmt::format("  surface of {} inside: {:.6g} mm2\n", files.fixed.path.string(),
+                        *record.fixed_area_mm2);
+  if (record.mobile_area_mm2)
+    text += fmt::format("  surface of {} inside: {:.6g} mm2\n", files.mobile.path.string(),
+                        *record.mobile_area_mm2);
+  if (record.in_contact)
+    for (const FreeTranslationRecord& each : record.free)
+      text += fmt::format("  free once {} has moved {:.9g} mm along {}\n", files.mobile.path.string(),
+                          each.distance_mm, xyz_text(each.along));
+  return text;
+}
+
+std::string turn_text(const TurnAnswer& answer, const TouchFiles& files) {
+  const TurnRecord record = turn_record(answer);
+  return fmt::format("{}: the second turns about {} through {}\n", both_names(files), xyz_text(record.axis),
+                     xyz_text(record.centre_mm)) +
+         free_intervals_text(record, "degrees", [](const TurnIntervalRecord& each) {
+           return std::pair(fmt::format("{:.9g}", each.low_deg), fmt::format("{:.9g}", each.high_deg));
+         });
+}
+
+std::string slide_text(const SlideAnswer& answer, const TouchFiles& files) {
+  const SlideRecord record = slide_record(answer);
+  return fmt::format("{}: the second slides along {}\n", both_names(files), xyz_text(record.along)) +
+         free_intervals_text(record, "mm", [](const SlideIntervalRecord& each) {
+           const auto end = [](const std::optional<double>& mm) {
+             return mm ? fmt::format("{:.9g}", *mm) : "any";
+           };
+           return std::pair(end(each.low_mm), end(each.high_mm));
+         });
+}
+
+void check_touch_folder(const std::filesystem::path& folder, const TouchFiles& files) {
+  OutputFolder{folder, is_of_touch, files.read};
+}
+
+std::vector<std::filesystem::path> write_touch(const std::filesystem::path& folder, const TouchAnswer& answer,
+                                               const TouchFiles& files, VtpEncoding encoding) {
+  OutputFolder out(folder, is_of_touch, files.read, "touch.json");
+  const auto write = [&](const char* name, const TriMesh& mesh, std::vector<MeshArray> triangles) {
+    write_vtp(out.file(name), mesh, {}, triangles, {encoding, {}});
+  };
+  write("fixed.vtp", files.fixed.mesh,
+        {marks_of(answer, files.fixed.mesh.triangles().size(), &contact::TrianglePair::fixed)});
+  write("mobile.vtp", posed(files.X_FM, TriMesh(files.mobile.mesh)),
+        {marks_of(answer, files.mobile.mesh.triangles().size(), &contact::TrianglePair::mobile)});
+  if (const auto& deepest = answer.deepest) {
+    TriMesh line;
+    add_line(line, deepest->place, deepest->exit, deepest->depth_mm / 20);
+    if (!line.triangles.empty()) write("place.vtp", line, {});
+  }
+  write_whole_file(out.file("touch.json"), document(touch_object(answer, &files)));
+  return out.commit();
+}
+
+}  // namespace condyle::io
