@@ -45,5 +45,6 @@ void bind_contact_forces(py::module_& module);
 void bind_motion_contact(py::module_& module);
 void bind_recorded_motion(py::module_& module);
 void bind_report(py::module_& module);
+void bind_touch(py::module_& module);
 
 }  // namespace condyle::python

@@ -58,5 +58,6 @@ PYBIND11_MODULE(_native, module) {
   bind_motion_contact(module);
   bind_recorded_motion(module);
   bind_report(module);
+  bind_touch(module);
   pickle_by_protocol_2(module);
 }

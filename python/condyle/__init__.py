@@ -46,16 +46,18 @@ from ._range_of_motion import Bearing, FittedSphere, ImplantPair, MotionArc, Ran
 from ._recorded_motion import ContactEnd, ContactInterval, JointMotion, MotionTable, RecordedContact
 from ._recorded_motion import read_motion_table
 from ._record import Record
-from ._records import BoneReference, Caveat, ClosedForm, LivingLimit, MeasureBand, NormalRange, PeopleRange, SoftTissueGap
+from ._records import BoneReference, Caveat, ClosedForm, LivingLimit, MeasureBand, NormalRange, PeopleRange, SlideRecord, SoftTissueGap
+from ._records import TouchRecord, TurnRecord
 from ._resection import Blocked, CurvePoint, CutBone, ReachedTarget, Resection
 from ._sample import HIP_PARAMETERS, SampleCartilages, SampleHip, sample_cartilages, sample_hip
 from ._study import Study, StudyLoad, StudyResection, StudyTable, merge_study, read_study, run_study, sample_cohort
 from ._surface_contact import ContactTotals, NormalContact, SurfaceContact, thickness_to
 from ._sweep import KNOWN_BY, Design, EndingPair, SafeInterval, Sweep, Target
 from ._tables import OccupiedArcs, RadialTable, RingTable
+from ._touch import Answers, slide, touch, turn
 
 __all__ = [
-    "BalanceOptions", "BalancedPose", "Bearing", "Blocked", "BoneReference", "BrushStroke", "Brushed", "CurvePoint", "CutBone", "ReachedTarget", "Resection", "BodyPart", "BodyZone", "Caveat", "ClockFace", "ClosedForm", "CondyleError",
+    "Answers", "BalanceOptions", "BalancedPose", "Bearing", "Blocked", "BoneReference", "BrushStroke", "Brushed", "CurvePoint", "CutBone", "ReachedTarget", "Resection", "BodyPart", "BodyZone", "Caveat", "ClockFace", "ClosedForm", "CondyleError",
     "ContactEnd", "ContactForces", "ContactFrames", "ContactInterval", "ContactMeasures", "ContactNote", "ContactPatch", "ContactRamp",
     "ContactTotals", "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit", "DepthRange", "Depths", "Design",
     "ElasticContact", "ElasticContactResults", "ElasticLayer", "EndingPair", "FileError", "Finding", "FirstContact", "FrameContact",
@@ -65,10 +67,10 @@ __all__ = [
     "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",
     "OutOfRangeError", "PathLimit", "PeopleRange", "Penetration", "Penetrations", "PlacedImplant", "Pose", "Poses", "REASONS", "REPLACEMENT_SIZES", "REVERSE_SHOULDER_SIZES", "RadialTable",
     "RangeOfMotion", "Record", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits", "SampleCartilages",
-    "SafeInterval", "SampleHip", "SampleImplant", "SoftTissueGap", "SphereFit", "Study", "StudyLoad", "StudyResection", "StrokeOutcome", "StudyTable", "SurfaceContact", "SurfaceCut", "Sweep", "Target", "TriMesh",
+    "SafeInterval", "SampleHip", "SampleImplant", "SlideRecord", "SoftTissueGap", "SphereFit", "Study", "StudyLoad", "StudyResection", "StrokeOutcome", "StudyTable", "SurfaceContact", "SurfaceCut", "Sweep", "Target", "TouchRecord", "TriMesh", "TurnRecord",
     "UnknownNameError", "UsageError", "VertexDepths", "VertexForces", "VertexGaps", "VertexStiffness", "VerticesInside", "WAYS", "__version__",
     "clock_face", "find_cylinder", "find_neck_axis", "find_rim_clock", "find_sphere", "fit_cylinder", "fit_sphere",
     "inspect", "merge_study", "neck_clock", "propose_joint", "read_joint", "read_labels", "read_mesh", "read_model",
     "read_motion_table", "read_study", "run_study", "sagittal_clock", "sample_cartilages", "sample_cohort",
-    "sample_hip", "sample_replacement", "sample_reverse_shoulder", "surface", "thickness_to", "write_mesh",
+    "sample_hip", "sample_replacement", "sample_reverse_shoulder", "slide", "surface", "thickness_to", "touch", "turn", "write_mesh",
 ]

@@ -1,0 +1,113 @@
+"""Two meshes without a joint."""
+
+import itertools
+import re
+
+import numpy as np
+import pytest
+
+import condyle
+
+CORNERS = np.array(list(itertools.product((0, 1), repeat=3)), float)
+FACES = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+         [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
+BOX = CORNERS, FACES
+
+
+def moved(x, y=0.0, z=0.0):
+    pose = np.eye(4)
+    pose[:3, 3] = x, y, z
+    return pose
+
+
+def test_one_pose_has_the_keys_of_the_files():
+    answer = condyle.touch(BOX, BOX, moved(0.75, 0.25, 0.125), along=[[2, 0, 0], [0, 0, -1]], measures=True)
+    assert isinstance(answer, condyle.TouchRecord)
+    assert answer.in_contact and answer.inside is None and answer.nearest_distance_mm is None
+    assert answer.intersecting_pairs == len(condyle.JointContact(BOX, BOX).pairs(moved(0.75, 0.25, 0.125)))
+    assert answer.deepest.depth_mm == pytest.approx(0.25, abs=1e-12)
+    assert answer.volume_mm3 == pytest.approx(0.25 * 0.75 * 0.875, abs=1e-12)
+    assert [each.distance_mm for each in answer.free] == pytest.approx([0.25, 1.125], abs=1e-12)
+    assert answer.notes == []
+    assert condyle.touch(BOX, BOX, moved(0.75)).volume_mm3 is None
+
+
+def test_many_poses_are_arrays():
+    poses = np.stack([moved(0.75, 0.1, 0.1), moved(3), moved(1)])
+    answers = condyle.touch(BOX, BOX, poses)
+    assert len(answers) == 3 and isinstance(answers[1:], condyle.Answers)
+    assert answers["in_contact"].tolist() == [True, False, True]
+    np.testing.assert_allclose(answers["deepest.depth_mm"], [0.25, np.nan, np.nan], atol=1e-12)
+    np.testing.assert_allclose(answers["nearest_distance_mm"], [np.nan, 2, np.nan], atol=1e-12)
+    assert answers["nearest_fixed_mm"].shape == (3, 3)
+    assert [condyle.touch(BOX, BOX, pose) for pose in poses] == list(answers)
+    with pytest.raises(KeyError):
+        answers["free"]
+    with pytest.raises(KeyError):
+        answers["depth"]
+    assert len(condyle.touch(BOX, BOX, np.empty((0, 4, 4)))) == 0
+
+
+def test_a_slide_and_a_turn_are_closed_forms():
+    slide = condyle.slide(BOX, BOX, [3, 0, 0], moved(-4, 0.5))
+    assert slide.free_at_start and slide.negative.moved_mm is None
+    assert slide.positive.moved_mm == pytest.approx(3, abs=1e-12)
+    assert [each.low_mm for each in slide.free] == [None, pytest.approx(5, abs=1e-12)]
+    # Turned by t about z, the corner (2, 0) of B is at 2 (cos t, sin t), and meets the face y = 1 of A at 30 degrees.
+    corner = [[1, 1, -1], [3, 1, -1], [1, 2, -1], [1, 1, 2]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]
+    turn = condyle.turn(corner, (CORNERS * [2, -0.1, 1], np.array(FACES)[:, ::-1]), [0, 0, 1])
+    assert turn.positive.turned_deg == pytest.approx(30, abs=1e-9)
+    assert turn.free[0].high_deg == turn.positive.turned_deg
+    assert condyle.turn(BOX, BOX, [0, 0, 1], [5, 5, 0], [moved(9)])["free_at_start"].tolist() == [True]
+
+
+def test_features_have_the_numbers_that_were_given():
+    soup = CORNERS[np.array(FACES).reshape(-1)], np.arange(36).reshape(12, 3)  # merged for the search
+    tip = [[-0.5, 0.3, 0.4], [-2, 0, 0], [-2, 1, 0], [-2, 0, 1]], [[0, 1, 2], [0, 3, 1], [1, 3, 2], [0, 2, 3]]
+    centre = np.array([0.5, 3, 0])
+    turn = condyle.turn(tip, soup, [0, 0, 1], centre)
+    assert turn.free_at_start
+    for sense, end in ((-1, turn.negative), (1, turn.positive)):
+        t = np.radians(sense * end.turned_deg)
+        rotation = np.array([[np.cos(t), np.sin(t), 0], [-np.sin(t), np.cos(t), 0], [0, 0, 1]])
+        turned = (soup[0] - centre) @ rotation + centre
+        feature = end.features.mobile
+        ids = [feature.id] if feature.kind == "vertex" else feature.vertices or soup[1][feature.id]
+        ends = turned[ids] - end.contact_point_mm
+        # The point of contact is on the feature: the least singular value of its corners seen from there is 0.
+        assert np.linalg.svd(ends, compute_uv=False)[-1] < 1e-9
+
+
+@pytest.mark.parametrize("pose", [np.diag([2.0, 2, 2, 1]), np.diag([-1.0, 1, 1, 1]), np.full((4, 4), np.nan),
+                                  np.eye(3)])
+def test_what_is_no_pose_is_refused(pose):
+    with pytest.raises(condyle.UsageError):
+        condyle.touch(BOX, BOX, pose)
+    with pytest.raises(condyle.UsageError):
+        condyle.turn(BOX, BOX, [0, 0, 1], pose=pose)
+    with pytest.raises(condyle.UsageError):
+        condyle.slide(BOX, BOX, [0, 0, 1], pose)
+
+
+def test_what_is_no_direction_or_mesh_is_refused():
+    with pytest.raises(condyle.UsageError):
+        condyle.slide(BOX, BOX, [0, 0, 0])
+    with pytest.raises(condyle.UsageError):
+        condyle.turn(BOX, BOX, [0, np.nan, 1])
+    with pytest.raises(condyle.UsageError):
+        condyle.touch(BOX, BOX, along=[1, 0, 0])
+    with pytest.raises(condyle.MeshError):
+        condyle.touch(BOX, ([[0, 0, 0]], np.empty((0, 3), int)))
+    sheet = [[0, 0, 0.5], [2, 0, 0.5], [0, 2, 0.5]], [[0, 1, 2]]
+    answer = condyle.touch(BOX, sheet)
+    assert answer.in_contact and [note.code for note in answer.notes] == ["open_mesh"]
+
+
+def test_the_lines_of_the_page_for_others_run(source):
+    page = (source / "docs/coming-from.md").read_text()
+    blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    assert len(blocks) == 2
+    for block in blocks:
+        if "vtkmodules" in block:
+            pytest.importorskip("vtkmodules")
+        exec(compile(block, "coming-from.md", "exec"), {})
