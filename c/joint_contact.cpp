@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <limits>
 #include <span>
 #include <string>
 #include <type_traits>
 
 #include "boundary.hpp"
+#include "condyle/answer.hpp"
 #include "condyle/contact.hpp"
 
 struct condyle_joint_contact {
@@ -29,6 +31,29 @@ template <class Enum>
 const std::uint8_t* bytes_of(const std::vector<Enum>& values) noexcept {
   static_assert(std::is_same_v<std::underlying_type_t<Enum>, std::uint8_t>);
   return reinterpret_cast<const std::uint8_t*>(values.data());
+}
+
+condyle_touch touch_of(const TouchAnswer& answer) noexcept {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const auto role = [](BodyRole of) -> int { return of == BodyRole::fixed ? CONDYLE_FIXED : CONDYLE_MOBILE; };
+  condyle_touch out = {};
+  out.in_contact = answer.in_contact, out.intersecting_pairs = answer.pairs.size();
+  out.inside = answer.inside ? role(*answer.inside) : -1;
+  out.deepest_of = answer.deepest ? role(answer.deepest->of) : -1;
+  const Vec3 nowhere = Vec3::Constant(none);
+  out.nearest_distance_mm = answer.nearest ? answer.nearest->distance_mm : none;
+  copy(answer.nearest ? answer.nearest->on_fixed : nowhere, out.nearest_fixed_mm);
+  copy(answer.nearest ? answer.nearest->on_mobile : nowhere, out.nearest_mobile_mm);
+  out.depth_mm = answer.deepest ? answer.deepest->depth_mm : none;
+  out.depth_error_mm = answer.deepest ? answer.deepest->error_mm : none;
+  copy(answer.deepest ? answer.deepest->place : nowhere, out.place_mm);
+  copy(answer.deepest ? answer.deepest->exit : nowhere, out.exit_mm);
+  const TouchOverlap overlap = answer.overlap.value_or(TouchOverlap{});
+  out.volume_mm3 = overlap.volume_mm3.value_or(none);
+  out.volume_error_mm3 = overlap.volume_mm3 ? overlap.volume_error_mm3 : none;
+  out.fixed_area_mm2 = overlap.fixed_area_mm2.value_or(none);
+  out.mobile_area_mm2 = overlap.mobile_area_mm2.value_or(none);
+  return out;
 }
 
 /// As JointContact::at(), into vertices that keep their capacity.
@@ -102,6 +127,16 @@ condyle_status condyle_joint_contact_at(const condyle_joint_contact* contact, co
     out.X_FM = c::pose_of(X_FM, "X_FM");
     c::answer(joint, out.X_FM, out.contact);
     out.has_answer = true;
+  });
+}
+
+condyle_status condyle_joint_contact_touch(const condyle_joint_contact* contact, const condyle_pose* X_FM,
+                                           int with_measures, condyle_touch* touch) {
+  return c::guarded([&] {
+    const contact::JointContact& joint = c::required(contact, "contact").joint;
+    condyle_touch& out = c::required(touch, "touch");
+    const TouchMeasures measures = with_measures != 0 ? TouchMeasures::all : TouchMeasures::depth;
+    out = c::touch_of(answer_touch(joint, {.X_FM = c::pose_of(X_FM, "X_FM"), .measures = measures}));
   });
 }
 

@@ -123,6 +123,25 @@ CONDYLE_API condyle_status condyle_joint_contact_at(const condyle_joint_contact*
 CONDYLE_API condyle_status condyle_joint_contact_in_contact(const condyle_joint_contact* contact,
                                                             const condyle_pose* X_FM, int* in_contact);
 
+/// How deep two bodies are in each other at a pose; points are in the frame of the fixed body, mm. Numbers that there are none of are NaN.
+typedef struct condyle_touch {
+  int in_contact;
+  size_t intersecting_pairs;
+  int inside;  ///< CONDYLE_FIXED or CONDYLE_MOBILE, the body that is wholly inside the other; else -1
+  double nearest_distance_mm;  ///< between surfaces that do not meet
+  double nearest_fixed_mm[3], nearest_mobile_mm[3];
+  int deepest_of;  ///< the body whose surface has the deepest place; -1 if nothing of a surface is inside the other body
+  double depth_mm, depth_error_mm;  ///< no place is deeper by more
+  double place_mm[3], exit_mm[3];   ///< the nearest point of the other surface
+  double volume_mm3, volume_error_mm3, fixed_area_mm2, mobile_area_mm2;  ///< only `with_measures` != 0
+} condyle_touch;
+
+/// Depth over the whole of both surfaces, whatever their triangles. A body that is open or inside out has no inside: what needs it is
+/// none. CONDYLE_BAD_MESH if a mesh has no triangle.
+CONDYLE_API condyle_status condyle_joint_contact_touch(const condyle_joint_contact* contact,
+                                                       const condyle_pose* X_FM, int with_measures,
+                                                       condyle_touch* touch);
+
 /// The radial gap of every vertex of `body` to the other body, mm: > 0 apart, < 0 penetrating, 0 on the surface; infinite if its ray
 /// meets nothing. `count` is the number of the body's vertices. CONDYLE_BAD_MESH if the other body is open.
 CONDYLE_API condyle_status condyle_joint_contact_radial_gaps(const condyle_joint_contact* contact,

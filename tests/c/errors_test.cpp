@@ -65,6 +65,8 @@ TEST(CErrors, NullPointersAreNamed) {
                "results");
   EXPECT_FAILS(condyle_joint_contact_in_contact(nullptr, &identity, &answer), CONDYLE_BAD_ARGUMENT,
                "contact");
+  EXPECT_FAILS(condyle_joint_contact_touch(boxes.contact.get(), &identity, 0, nullptr), CONDYLE_BAD_ARGUMENT,
+               "touch");
   EXPECT_FAILS(condyle_joint_contact_in_contact(boxes.contact.get(), &identity, nullptr),
                CONDYLE_BAD_ARGUMENT, "in_contact");
   EXPECT_FAILS(condyle_contact_results_vertices(nullptr, CONDYLE_FIXED, &vertices), CONDYLE_BAD_ARGUMENT,

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <thread>
 
 #include "c/held.hpp"
 #include "c/same_answers.hpp"
+#include "condyle/answer.hpp"
 #include "condyle/version.hpp"
 
 /// What C answers has the bits of what C++ answers.
@@ -38,6 +40,25 @@ TEST(CInterface, FindsTheVerticesAndPairsOfCppInOneResultsObjectForManyPoses) {
     const contact::Contact expected = cpp.at(X);
     most_inside = std::max(most_inside, expect_same(expected, results.get()));
     free_poses += !expected.in_contact;
+    const TouchAnswer touch = answer_touch(cpp, {.X_FM = X});
+    condyle_touch in_c;
+    ASSERT_EQ(condyle_joint_contact_touch(c.get(), &pose, 1, &in_c), CONDYLE_OK) << condyle_last_error();
+    EXPECT_EQ(in_c.in_contact, touch.in_contact ? 1 : 0);
+    EXPECT_EQ(in_c.intersecting_pairs, touch.pairs.size());
+    EXPECT_EQ(in_c.deepest_of, !touch.deepest                         ? -1
+                               : touch.deepest->of == BodyRole::fixed ? CONDYLE_FIXED
+                                                                      : CONDYLE_MOBILE);
+    if (touch.deepest) {
+      EXPECT_EQ(in_c.depth_mm, touch.deepest->depth_mm);
+      EXPECT_EQ(in_c.exit_mm[1], touch.deepest->exit.y());
+    }
+    if (touch.overlap) {
+      EXPECT_EQ(in_c.volume_mm3, touch.overlap->volume_mm3);
+    }
+    if (touch.nearest) {
+      EXPECT_EQ(in_c.nearest_distance_mm, touch.nearest->distance_mm);
+    }
+    EXPECT_EQ(std::isnan(in_c.volume_mm3), !touch.in_contact);
     int in_contact = -1;
     ASSERT_EQ(condyle_joint_contact_in_contact(c.get(), &pose, &in_contact), CONDYLE_OK);
     EXPECT_EQ(in_contact, expected.in_contact ? 1 : 0);
