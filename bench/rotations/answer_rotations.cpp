@@ -1,7 +1,8 @@
 // condyle-answer-rotations METHOD QUERIES.csv: one line per query, 1 if the features meet and 0 if not; time on standard error.
 //
 // METHOD is events or search (the library's), chords=DEGREES or samples=DEGREES; angles prints where the library's events say that they first
-// meet, in radians from the start, or none.
+// meet, in radians from the start, or none; placed prints the coordinates that all of these are asked about, z the axis and the motion at its
+// start.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -60,18 +61,27 @@ int print_angles(const char* path) {
   return EXIT_SUCCESS;
 }
 
+int print_placed(const char* path) {
+  for (const auto& query : bench::read_rotation_queries(path)) {
+    for (const bench::Point& p : query.points) std::printf("%a %a %a ", p.x, p.y, p.z);
+    std::printf("\n");
+  }
+  return EXIT_SUCCESS;
+}
+
 }  // namespace
 
 int main(int count, char** words) {
-  const bool angles = count == 3 && std::string_view(words[1]) == "angles";
-  const auto method = count == 3 ? method_of(words[1]) : std::nullopt;
-  if (!method && !angles) {
-    std::fprintf(stderr, "usage: %s events|search|angles|chords=DEGREES|samples=DEGREES QUERIES.csv\n",
+  const std::string_view word = count == 3 ? words[1] : "";
+  const auto method = method_of(word);
+  if (!method && word != "angles" && word != "placed") {
+    std::fprintf(stderr, "usage: %s events|search|angles|placed|chords=DEGREES|samples=DEGREES QUERIES.csv\n",
                  words[0]);
     return 2;
   }
   try {
-    return angles ? print_angles(words[2]) : answer(*method, words[2]);
+    if (method) return answer(*method, words[2]);
+    return word == "angles" ? print_angles(words[2]) : print_placed(words[2]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 3;

@@ -223,6 +223,32 @@ class Answers(unittest.TestCase):
                 self.assertEqual(self.of(counts, check.MISSED, about_coordinate), 0)
                 self.assertEqual(self.of(counts, check.INVENTED, about_coordinate), 0)
 
+    def test_events_have_the_exact_answer_for_points_as_placed(self):
+        # About oblique axes, where placing rounds: degenerate queries are others then, and those are answered exactly.
+        path = QUERIES / "degenerate.csv"
+        lines = {}
+        for method in ("placed", "events"):
+            done = subprocess.run([PROGRAM, method, str(path)], capture_output=True, text=True, check=True)
+            lines[method] = done.stdout.splitlines()
+        with open(path, encoding="ascii") as file:
+            queries = list(read_queries(file))
+        asked = others = 0
+        for query, line, answer in zip(queries, lines["placed"], lines["events"]):
+            if check.is_about_coordinate(query):
+                continue
+            numbers = [Fraction(float.fromhex(word)) for word in line.split()]
+            points = [tuple(numbers[3 * i : 3 * i + 3]) for i in range(4)]
+            (s0, c0), (s1, c1) = query.start, query.end
+            placed = about_z(query.type, points, (s1 * c0 - c1 * s0, c1 * c0 + s1 * s0))
+            asked += 1
+            others += contact(placed) != (query.answer == 1)
+            if answer == "0":
+                self.assertFalse(contact(placed), rows_of(query))
+            else:
+                self.assertTrue(contact(check.longer(placed, Fraction(4e-12))), rows_of(query))
+        self.assertEqual(asked, 248)
+        self.assertGreater(others, 40)
+
     def test_chords_miss_nothing_and_samples_do(self):
         queries = QUERIES / "degenerate.csv"
         chords, samples = self.counts("chords=3", queries), self.counts("samples=3", queries)
