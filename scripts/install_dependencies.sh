@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs every Debian package that Condyle builds and tests with. Quick when nothing is missing.
-#   install_dependencies.sh command   for make demo: the command alone
+#   install_dependencies.sh command   for make demo: the command alone; before another group, that one without what tests need
 #   install_dependencies.sh           for that and make test
 #   install_dependencies.sh clang     and for make clang, make sanitize, make fuzz and make format
 #   install_dependencies.sh bench     and for make bench; groups can be named together
@@ -31,7 +31,7 @@ tests=(
   python3-pandas python3-xarray                      # tables and arrays that it gives where these are there
 )
 
-if [ "$*" != command ]; then packages+=("${tests[@]}"); fi
+if [ "${1:-}" != command ]; then packages+=("${tests[@]}"); fi
 for group in "$@"; do
   case $group in
     command) ;;
