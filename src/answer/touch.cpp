@@ -8,22 +8,47 @@
 #include "contact/deepest_place.hpp"
 #include "contact/overlap.hpp"
 #include "core/coordinate_range.hpp"
+#include "core/lazy.hpp"
 #include "core/ordered_sums.hpp"
+#include "core/parallel.hpp"
 #include "mesh/enclosed_volume.hpp"
+#include "mesh/findings.hpp"
 #include "mesh/surface_to_surface.hpp"
+#include "mesh/triangle_tree.hpp"
 #include "mesh/winding_number.hpp"
 
 namespace condyle {
 namespace {
 
+/// Kept with the mesh, which may be asked at many poses.
+struct KeptVolume {
+  core::Lazy<double> volume;
+};
+
+/// What a closed mesh encloses; nothing of an open one.
+std::optional<double> volume_of(const Mesh& mesh) {
+  if (!mesh.is_closed()) return std::nullopt;
+  return mesh::findings_of(mesh).get<KeptVolume>().volume.get(
+      [&](double& volume) { volume = mesh::enclosed_volume(mesh); });
+}
+
+/// Volumes and trees of both bodies are most of the work of one answer: they are made side by side, and stay with the meshes.
+void prepare(const contact::JointContact& bodies) {
+  const auto of = [](const Mesh& mesh) {
+    return [&] { static_cast<void>(volume_of(mesh)), static_cast<void>(mesh::tree_of(mesh)); };
+  };
+  core::parallel_pair(of(bodies.fixed()), of(bodies.mobile()));
+}
+
 /// Whether a mesh has an inside that means one: closed, its normals outwards. Notes why not.
 bool is_solid(const Mesh& mesh, BodyRole role, std::vector<JointNote>& notes) {
+  const std::optional<double> volume = volume_of(mesh);
   const std::string body = role == BodyRole::fixed ? "the fixed body" : "the mobile body";
-  if (!mesh.is_closed())
+  if (!volume)
     notes.push_back({JointNoteCode::open_mesh,
                      body + " is open and has no inside: the surfaces are answered for, and nothing that is "
                             "inside of it"});
-  else if (mesh::enclosed_volume(mesh) < 0)
+  else if (*volume < 0)
     notes.push_back({JointNoteCode::inverted_mesh,
                      body + " is inside out, its volume is negative: nothing counts as inside of it; the "
                             "repair flip_inverted turns it"});
@@ -206,6 +231,7 @@ TouchAnswer answer_touch(const contact::JointContact& bodies, const TouchRequest
   require_triangles(bodies.fixed(), bodies.mobile());
   core::require_rotation(request.X_FM);
   for (const Vec3& along : request.along) require_direction(along, "along");
+  prepare(bodies);
   return Touch(bodies, request).run();
 }
 

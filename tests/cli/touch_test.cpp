@@ -24,7 +24,7 @@ class TouchCommand : public ::testing::Test {
     io::write_mesh(here / "a.ply", box({-10, -10, -10}, {10, 10, 10}));
     io::write_mesh(here / "b.ply", box({-3, -2, 12.5}, {3, 4, 17.75}));
     io::write_mesh(here / "sheet.ply", plane(9, 2));
-    io::write_whole_file(here / "down.txt", "1 0 0 0\n0 1 0 0\n0 0 1 -3.75  # B in A\n0 0 0 1\n");
+    io::write_whole_file(here / "down.txt", "# B in A\n1 0 0 0\n0 1 0 0\n0 0 1 -3.75\n0 0 0 1\n");
   }
   Ran run(const std::string& arguments) const { return run_condyle(here.path(), arguments); }
   Json json(const std::string& arguments) const { return Json::parse(run(arguments + " --json").out); }
