@@ -354,12 +354,6 @@ Points dented(const Points& vertices) {
   return moved;
 }
 
-Points shifted(const Points& vertices, const Vec3& by) {
-  Points moved = vertices;
-  for (std::size_t v = 0; v < moved.size(); ++v) moved.set(v, vertices[v] - by);
-  return moved;
-}
-
 TEST(MovedVertices, LimitsAreThoseOfAJointMadeAnewInEveryBit) {
   const auto motions = hip_motions();
   for (const Side side : {Side::right, Side::left})
@@ -383,21 +377,26 @@ TEST(MovedVertices, LimitsAreThoseOfAJointMadeAnewInEveryBit) {
 }
 
 // The centre of both bodies is moved: limits_about() moves the axes, which rounds otherwise.
-TEST(MovedVertices, BothBodiesShiftedTurnAboutAnotherCentre) {
-  const Joint joint = bumpy_joint(Side::right);
+TEST(MovedVertices, BothBodiesShiftedTurnAboutAnotherCentreAndTheirLigamentsWithThem) {
+  Joint joint = bumpy_joint(Side::right);
+  joint.ligaments = {{.name = "front",
+                      .fixed = {{25, 10, 5}},
+                      .mobile = {{25, -20, 5}},
+                      .slack_length_mm = 30.6,
+                      .ends_at_strain = 0.1}};
   const auto motions = hip_motions();
   const Vec3 centre(1.5, -2, 0.5);
   RangeOptions options{.bearing = {.rule = BearingRule::count}};
-  const RangeOfMotion before(joint, options);
-  const RangeOfMotion fixed_moved(before, BodyRole::fixed, shifted(joint.fixed.mesh.vertices(), centre));
-  const auto moved =
-      RangeOfMotion(fixed_moved, BodyRole::mobile, shifted(joint.mobile.mesh.vertices(), centre))
-          .limits(motions);
+  const auto moved = RangeOfMotion(RangeOfMotion(joint, options), -centre, -centre).limits(motions);
   const auto about = limits_about(joint, motions, options, {&centre, 1});
+  std::size_t by_ligament = 0;
   for (std::size_t i = 0; i < motions.size(); ++i) {
     EXPECT_NEAR(moved[i].end.turned.radians(), about[i].turned.radians(), 1e-8) << motions[i].name;
     EXPECT_EQ(moved[i].end.reason, about[i].reason) << motions[i].name;
+    by_ligament += moved[i].end.reason == LimitReason::ligament;
   }
+  EXPECT_GT(by_ligament, 0u);
+  EXPECT_LT(by_ligament, motions.size());
 }
 
 }  // namespace
