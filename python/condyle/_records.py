@@ -512,6 +512,8 @@ class TouchRecord(Record):
     deepest : TouchDepth or None
         the deepest place, below; null without contact, if no point of a surface is inside the other body (they touch, or
         coincide), and if no body has an inside
+    depth_bound_mm : float or None
+        no place of either surface is deeper than this; null without contact, and if no body has an inside
     volume_mm3 : float or None
         of the space inside both; null without contact, without `--measures`, and if a body has no inside
     volume_error_mm3 : float or None
@@ -540,6 +542,7 @@ class TouchRecord(Record):
     nearest_fixed_mm: Optional[NDArray[np.float64]] = None
     nearest_mobile_mm: Optional[NDArray[np.float64]] = None
     deepest: Optional[TouchDepth] = None
+    depth_bound_mm: Optional[float] = None
     volume_mm3: Optional[float] = None
     volume_error_mm3: Optional[float] = None
     fixed_area_mm2: Optional[float] = None

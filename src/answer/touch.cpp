@@ -145,8 +145,9 @@ class Touch {
       answer_.deepest = depth_of(BodyRole::fixed, *of_fixed.deepest, X_FM);
     else if (of_mobile.deepest)
       answer_.deepest = depth_of(BodyRole::mobile, *of_mobile.deepest, Pose::Identity());
-    if (answer_.deepest)
-      answer_.deepest->error_mm = std::max(of_mobile.bound_mm, of_fixed.bound_mm) - answer_.deepest->depth_mm;
+    if (!fixed_is_solid_ && !mobile_is_solid_) return;
+    answer_.depth_bound_mm = std::max(of_mobile.bound_mm, of_fixed.bound_mm);
+    if (answer_.deepest) answer_.deepest->error_mm = *answer_.depth_bound_mm - answer_.deepest->depth_mm;
   }
 
   void measure() {

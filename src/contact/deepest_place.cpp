@@ -23,6 +23,9 @@ constexpr double depth_rounding = 1e-13;
 /// Bounds that were dropped, and depths, are off by less than so many of these.
 constexpr double bound_rounding = 16;
 
+/// Points that are looked at first.
+constexpr std::size_t most_considered = 256;
+
 /// Every so often a part is halved, whatever else would cut it: its size then goes to zero.
 constexpr int cuts_per_halving = 4;
 
@@ -90,6 +93,7 @@ class DepthSearch {
   }
 
   DepthSearched run() {
+    consider_some();
     push_node(0, {.bound = 0});
     while (!open_.empty() && open_.top().bound > best_.depth_mm + tolerance_ && parts_ < most_parts_) {
       const SurfacePart part = open_.top();
@@ -126,6 +130,15 @@ class DepthSearch {
     best_.exit = mesh::nearest_on_triangle(p, target_.corners(at.nearest));
     best_.triangle = surface_.mesh_triangles()[triangle];
     best_.target_triangle = target_.mesh_triangles()[at.nearest];
+  }
+
+  /// Points of the surface to compare bounds with: if all of it is about as deep, bounds alone would not come to one.
+  void consider_some() {
+    const std::size_t step = surface_.triangles().size() / most_considered + 1;
+    for (std::size_t t = 0; t < surface_.triangles().size(); t += step) {
+      const Vec3 p = posed(X_TS_, surface_.corners(static_cast<Index>(t))[0]);
+      consider(p, static_cast<Index>(t), sound(p, false));
+    }
   }
 
   void push_node(Index number, const SurfacePart& parent) {

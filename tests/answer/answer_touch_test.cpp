@@ -184,6 +184,11 @@ TEST(Touch, OfABodyWhollyInsideSaysSo) {
   EXPECT_NEAR(answer.free[2].distance_mm, 11, 1e-12);
   EXPECT_NEAR(answer.free[3].distance_mm, 12, 1e-12);
   EXPECT_EQ(touch(inner, outer).inside, BodyRole::fixed);
+  // Everywhere about as deep: the search may end at its effort, with a place and a bound all the same.
+  const TouchAnswer ball = touch(sphere({0, 0, 0}, 4, 4), sphere({0, 0, 0}, 3, 4));
+  ASSERT_TRUE(ball.deepest);
+  EXPECT_NEAR(ball.deepest->depth_mm, 1, 0.02);
+  EXPECT_LE(*ball.depth_bound_mm, 1.01);
   // In a hollow nothing is inside: the wall is what is solid.
   const TriMesh hollow = joined(outer, flipped(box({-9, -9, -9}, {9, 9, 9})));
   const TouchAnswer within = touch(hollow, inner);
@@ -200,6 +205,7 @@ TEST(Touch, OfBodiesThatOnlyTouchIsContactWithoutDepth) {
     const TouchAnswer answer = touch(cube, cube, at(beside));
     EXPECT_TRUE(answer.in_contact && !answer.pairs.empty());
     EXPECT_FALSE(answer.deepest || answer.inside || answer.nearest);
+    EXPECT_LT(*answer.depth_bound_mm, 1e-11);
     EXPECT_LE(std::abs(*answer.overlap->volume_mm3), answer.overlap->volume_error_mm3);
     EXPECT_EQ(answer.overlap->mobile_area_mm2, 0);
     EXPECT_NEAR(answer.free[0].distance_mm, 0, 1e-14);
@@ -228,6 +234,7 @@ TEST(Touch, OfCoincidentBoxesIsAllOfThem) {
     const TouchAnswer answer = touch(cube, other);
     EXPECT_TRUE(answer.in_contact);
     EXPECT_FALSE(answer.deepest);  // no point of a surface is inside the other body
+    EXPECT_LT(*answer.depth_bound_mm, 1e-11);
     EXPECT_NEAR(*answer.overlap->volume_mm3, 8, 1e-12);
     for (const FreeTranslation& free : answer.free) EXPECT_NEAR(free.distance_mm, 2, 1e-14);
   }

@@ -143,6 +143,8 @@ struct TouchAnswer {
   std::optional<contact::NearestPoints> nearest = {};
   /// Empty without contact, and where nothing of a surface is inside: bodies that touch, or whose surfaces coincide.
   std::optional<TouchDepth> deepest = {};
+  /// In contact: no place of either surface is deeper in the other body. Empty if no body has an inside.
+  std::optional<double> depth_bound_mm = {};
   std::optional<TouchOverlap> overlap = {};  ///< if requested and in contact
   std::vector<FreeTranslation> free = {};    ///< in the order of `along`
   std::vector<JointNote> notes = {};         ///< meshes that have no inside, and what that leaves unknown

@@ -31,6 +31,7 @@ struct TouchRecord {
   std::optional<double> nearest_distance_mm = {};
   std::optional<Vec3> nearest_fixed_mm = {}, nearest_mobile_mm = {};
   std::optional<TouchDepthRecord> deepest = {};
+  std::optional<double> depth_bound_mm = {};
   std::optional<double> volume_mm3 = {}, volume_error_mm3 = {};
   std::optional<double> fixed_area_mm2 = {}, mobile_area_mm2 = {};
   std::optional<Vec3> centroid_mm = {};
@@ -117,6 +118,9 @@ inline constexpr auto table<TouchRecord> = record(
     field("deepest", &TouchRecord::deepest,
           "the deepest place, below; null without contact, if no point of a surface is inside the other body "
           "(they touch, or coincide), and if no body has an inside"),
+    field(
+        "depth_bound_mm", &TouchRecord::depth_bound_mm,
+        "no place of either surface is deeper than this; null without contact, and if no body has an inside"),
     field(
         "volume_mm3", &TouchRecord::volume_mm3,
         "of the space inside both; null without contact, without `--measures`, and if a body has no inside"),

@@ -54,12 +54,6 @@ const std::filesystem::path& file_in_role(const TouchFiles& files, std::string_v
   return role == "fixed" ? files.fixed.path : files.mobile.path;
 }
 
-auto bodies_without_inside(const TouchAnswer& answer) {
-  return std::count_if(answer.notes.begin(), answer.notes.end(), [](const JointNote& note) {
-    return note.code == JointNoteCode::open_mesh || note.code == JointNoteCode::inverted_mesh;
-  });
-}
-
 /// "12.3 degrees", or why there is none.
 std::string touch_end_text(const TurnEndRecord& end) {
   using motion::LimitReason;
@@ -130,8 +124,11 @@ std::string touch_text(const TouchAnswer& answer, const TouchFiles& files) {
     text += fmt::format("  deepest: {:.6g} mm, at {} of {}, out along {}\n", deepest->depth_mm,
                         xyz_text(deepest->place_mm), file_in_role(files, deepest->body).string(),
                         xyz_text(deepest->normal));
-  else if (record.in_contact && bodies_without_inside(answer) < 2)
-    text += "  deepest: no point of a surface is inside the other body: they touch, or coincide\n";
+  else if (record.depth_bound_mm)
+    text += fmt::format(
+        "  deepest: no place of a surface is deeper in the other body than {:.1g} mm: they touch, or "
+        "coincide\n",
+        *record.depth_bound_mm);
   if (record.volume_mm3)
     text += fmt::format("  penetration volume: {:.6g} mm3, off by {:.1g} at most\n", *record.volume_mm3,
                         *record.volume_error_mm3);
