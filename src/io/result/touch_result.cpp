@@ -126,8 +126,7 @@ std::string touch_text(const TouchAnswer& answer, const TouchFiles& files) {
                         xyz_text(deepest->normal));
   else if (record.depth_bound_mm)
     text += fmt::format(
-        "  deepest: no place of a surface is deeper in the other body than {:.1g} mm: they touch, or "
-        "coincide\n",
+        "  deepest: none found; no place of a surface is deeper in the other body than {:.1g} mm\n",
         *record.depth_bound_mm);
   if (record.volume_mm3)
     text += fmt::format("  penetration volume: {:.6g} mm3, off by {:.1g} at most\n", *record.volume_mm3,
