@@ -123,7 +123,8 @@ class DepthSearch {
   }
 
   void consider(const Vec3& p, Index triangle, const Sounding& at) {
-    if (!(at.depth > best_.depth_mm)) return;
+    // No more than rounding is none: the middle of a triangle need not lie on it to the last bit.
+    if (!(at.depth > std::max(best_.depth_mm, tolerance_))) return;
     is_found_ = true;
     best_.depth_mm = at.depth;
     best_.place = p;
