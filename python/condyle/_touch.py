@@ -16,6 +16,7 @@ from ._records import SlideRecord, TouchRecord, TurnRecord
 from ._words import Progress, progress_of
 
 AnyRecord = TypeVar("AnyRecord", bound=Record)
+Numbers = Union[NDArray[np.float64], NDArray[np.bool_]]
 
 
 class Answers(Sequence[AnyRecord], Generic[AnyRecord]):
@@ -34,9 +35,9 @@ class Answers(Sequence[AnyRecord], Generic[AnyRecord]):
     def __getitem__(self, key: slice) -> Answers[AnyRecord]: ...
 
     @overload
-    def __getitem__(self, key: str) -> NDArray[Any]: ...
+    def __getitem__(self, key: str) -> Numbers: ...
 
-    def __getitem__(self, key: Union[int, slice, str]) -> Union[AnyRecord, Answers[AnyRecord], NDArray[Any]]:
+    def __getitem__(self, key: Union[int, slice, str]) -> Union[AnyRecord, Answers[AnyRecord], Numbers]:
         if isinstance(key, slice):
             return Answers(self._records[key])
         if not isinstance(key, str):
@@ -120,7 +121,7 @@ def touch(a: MeshLike, b: MeshLike, pose: ArrayLike = np.eye(4), *, along: Array
     >>> X = np.eye(4)
     >>> X[:3, 3] = 0.25, 0.25, 0.875
     >>> answer = condyle.touch(box, box, X, along=[[0, 0, 1]], measures=True)
-    >>> answer.in_contact, answer.deepest.depth_mm, answer.free[0].distance_mm, round(answer.volume_mm3, 12)
+    >>> answer.in_contact, answer.deepest.depth_mm, round(answer.free[0].distance_mm, 9), round(answer.volume_mm3, 9)
     (True, 0.125, 0.125, 0.0703125)
     >>> X[2, 3] = 1.5
     >>> condyle.touch(box, box, [X])["nearest_distance_mm"]

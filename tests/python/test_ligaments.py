@@ -136,11 +136,9 @@ def test_the_command_writes_the_same_states_along_a_motion(joint, file, command,
     assert said["ligaments"][1]["largest_tension_n"]["value"] == states.tension_n[1].max()
 
 
-def test_what_does_not_look_for_ligaments_refuses_them(joint, file, command, tmp_path):
-    for words in (["report", file, "--out", tmp_path / "page.html"], ["rom", file, "--allow-depth", "1"]):
-        done = subprocess.run([command, *words], capture_output=True, text=True)
-        assert done.returncode == 2 and "ligament front ends motions" in done.stderr
-        assert not (tmp_path / "page.html").exists()
+def test_what_does_not_look_for_ligaments_refuses_them(joint, file, command):
+    done = subprocess.run([command, "rom", file, "--allow-depth", "1"], capture_output=True, text=True)
+    assert done.returncode == 2 and "ligament front ends motions" in done.stderr
     with pytest.raises(condyle.UsageError, match="ligament front ends motions, which a path"):
         joint.path_limit([{"flexion": 0}, {"flexion": 20}])
 
