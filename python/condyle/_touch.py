@@ -177,7 +177,8 @@ def slide(a: MeshLike, b: MeshLike, along: ArrayLike, pose: ArrayLike = np.eye(4
           ) -> Union[SlideRecord, Answers[SlideRecord]]:
     """Where `b`, which slides along a direction, meets `a`: first contact both ways and all positions where it is free.
 
-    `along` (3,), of any length but zero, is in the frame of `a`; the rest as in :func:`touch`. C++: `condyle::answer_slide`.
+    `along` (3,), of any length but zero, is in the frame of `a`; the rest as in :func:`touch`.
+    C++: `condyle::answer_slide`.
 
     >>> import condyle
     >>> hip = condyle.sample_hip()
