@@ -84,6 +84,12 @@ test("past the end of a ligament the page says so, and how far the joint turns b
   await page.locator("#exit").click();
   await says(page, "At the limit: ligament anterior band at its end");
   await openTab(page, "Figures");
+  const [download] = await Promise.all([page.waitForEvent("download"), page.locator("section", { has: page.getByRole("heading", { name: "Range-of-motion map" }) }).last()
+    .getByRole("button", { name: "Save data" }).click()]);
+  const [head, ...rows] = readFileSync(await download.path(), "utf8").trimEnd().split("\n").map((line) => line.split(","));
+  assert.deepEqual(head.slice(-4), ["contact_at_low", "contact_at_high", "ligament_at_low", "ligament_at_high"]);
+  const ended = rows.flatMap((row) => [[row.at(-4), row.at(-2)], [row.at(-3), row.at(-1)]]);
+  assert.ok(ended.some(([contact, ligament]) => contact === "0" && ligament === "1") && !ended.some(([contact, ligament]) => contact === "1" && ligament === "1"));
   assert.match(await page.locator(".map .cell").evaluateAll((cells) => cells.map((cell) => cell.getAttribute("aria-label")).join("\n")), /\(a ligament ends it\)/);
   await page.context().close();
 });
