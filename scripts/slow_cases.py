@@ -94,8 +94,11 @@ def names(build: Path) -> int:
                 known.add(suite + name.strip())
             else:
                 suite = name
+        # Which instruction sets there are is the processor's and Highway's: one of them stands for all.
+        known |= {case.rsplit("/", 1)[0] for case in known if case.startswith("EveryInstructionSet/")}
         for line in listed():
-            if line.split(" ", 1)[0] == program and line.split(" ", 1)[1] not in known:
+            case = line.split(" ", 1)[1]
+            if line.split(" ", 1)[0] == program and case not in known and case.rsplit("/", 1)[0] not in known:
                 print(f"tests/slow_cases.txt: no case is called {line}", file=sys.stderr)
                 wrong += 1
     return 1 if wrong else 0

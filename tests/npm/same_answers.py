@@ -46,9 +46,10 @@ def lines_of(page: Path):
                 runs = True
 
 
-def ran(command: str, folder: Path, tools: Path):
+def ran(command: str, folder: Path, tools: Path, module: Path):
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    environment = {**os.environ, "PATH": f"{tools}:{os.environ['PATH']}"}
+    # The command that was built has its module beside it, with which the other one draws too.
+    environment = {**os.environ, "PATH": f"{tools}:{os.environ['PATH']}", "PYTHONPATH": str(module)}
     done = subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, env=environment)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     took_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
@@ -104,7 +105,7 @@ def main() -> int:
                     continue
                 if WITHOUT_HDF5.search(what):
                     continue
-                answers = [ran(what, folder, tool) for folder, tool in zip(folders, tools)]
+                answers = [ran(what, folder, tool, commands[0].parent / "python") for folder, tool in zip(folders, tools)]
                 count += 1
                 name = what.split()[1]
                 for number in (0, 1):

@@ -41,15 +41,15 @@ TEST_P(ReferencePoses, AreThoseOfEveryJoint) {
     for (const Json& expected : of_model["joints"]) {
       SCOPED_TRACE(model.path.string() + " " + expected["joint"].get<std::string>());
       const io::ModelJoint& joint = io::joint_named(model, expected["joint"].get<std::string>());
-      EXPECT_EQ(joint.type, expected["type"]);
-      EXPECT_EQ(joint.parent_body, expected["parent_body"]);
-      EXPECT_EQ(joint.child_body, expected["child_body"]);
+      EXPECT_EQ(joint.type, expected["type"].get<std::string>());
+      EXPECT_EQ(joint.parent_body, expected["parent_body"].get<std::string>());
+      EXPECT_EQ(joint.child_body, expected["child_body"].get<std::string>());
       EXPECT_TRUE(joint.X_PF.isApprox(test::pose_of_rows(expected["parent_frame_in_parent_body"]), 1e-15));
       EXPECT_TRUE(joint.X_CM.isApprox(test::pose_of_rows(expected["child_frame_in_child_body"]), 1e-15));
       ASSERT_EQ(joint.coordinates.size(), expected["coordinates"].size());
       for (std::size_t i = 0; i < joint.coordinates.size(); ++i) {
         const Json& coordinate = expected["coordinates"][i];
-        EXPECT_EQ(joint.coordinates[i].name, coordinate["name"]);
+        EXPECT_EQ(joint.coordinates[i].name, coordinate["name"].get<std::string>());
         EXPECT_EQ(joint.coordinates[i].default_value, coordinate["default"].get<double>());
         EXPECT_EQ(joint.coordinates[i].is_locked, coordinate["locked"].get<bool>());
         EXPECT_EQ(joint.coordinates[i].is_clamped, coordinate["clamped"].get<bool>());
