@@ -7,7 +7,8 @@ mergeInto(LibraryManager["library"], {
     Module["node"].watch(begins !== 0);
   },
   condyle_run: function (words, bytes, showsErrors) {
-    return Module["node"].run(UTF8ToString(words, bytes), showsErrors !== 0);
+    // Words have a 0 after each, where UTF8ToString() ends.
+    return Module["node"].run(new TextDecoder().decode(HEAPU8.slice(words >>> 0, (words >>> 0) + bytes)), showsErrors !== 0);
   },
   condyle_hash_begin: function () {
     return Module["node"].hashBegin();
