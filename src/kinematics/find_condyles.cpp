@@ -10,8 +10,8 @@
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
 #include "core/trigonometry.hpp"
+#include "kinematics/axis_bounds.hpp"
 #include "kinematics/joint_cylinder.hpp"
-#include "kinematics/resampling.hpp"
 #include "kinematics/surface_points.hpp"
 
 namespace condyle::kinematics {
@@ -233,35 +233,6 @@ std::optional<Fitted> settled(PointsView vertices, const std::vector<SurfacePoin
   return found;
 }
 
-/// As those of find_cylinder(): patches are sectors of a turn on either condyle.
-void add_bounds(const TriMesh& femur, CylinderFit& fit, double middle) {
-  constexpr int sectors = 12;
-  constexpr std::size_t unknowns = 5;
-  const Cylinder c = fit.cylinder;
-  const Vec3 e1 = c.direction.unitOrthogonal(), e2 = c.direction.cross(e1);
-  const auto block_of = [&](Index v) {
-    const Vec3 q = femur.vertices[v] - c.point;
-    const double turn = core::arctangent(q.dot(e2), q.dot(e1)) / two_pi + 0.5;
-    return std::int64_t{std::min(static_cast<int>(turn * sectors), sectors - 1)} * 2 +
-           (q.dot(c.direction) > middle);
-  };
-  const auto resamples = resampled(fit.vertices, usual_resamples, unknowns, block_of);
-  std::vector<double> turns, shifts;
-  for (const std::vector<Index>& drawn : resamples.draws) {
-    try {
-      const Cylinder other = fit_cylinder(femur.vertices, drawn, c).cylinder;
-      shifts.push_back((other.point - c.point).cross(other.direction).norm());
-      turns.push_back(core::arctangent(other.direction.cross(c.direction).norm(),
-                                       std::abs(other.direction.dot(c.direction))));
-    } catch (const MeshError&) {  // no axis at all
-      shifts.push_back(c.radius);
-      turns.push_back(two_pi / 4);
-    }
-  }
-  fit.direction_bound = Angle::radians(upper_bound_of(std::move(turns)) * resamples.widening);
-  fit.axis_bound_mm = upper_bound_of(std::move(shifts)) * resamples.widening;
-}
-
 /// The better of two fits: that with condyles, then that with more in common.
 bool better(const Fitted& a, const Fitted& b) {
   const bool a_has = a.support.has_two_condyles(a.fit.cylinder.radius),
@@ -336,7 +307,7 @@ Condyles find_condyles(const TriMesh& femur, const Vec3& facing, const Vec3& tow
   auto points = surface_points(femur, Sphere{facing, search_reach});
   average_normals(points, cell);
   Fitted best = best_fit(femur.vertices, points, cell_means(points), towards_shaft, fine_arcs);
-  add_bounds(femur, best.fit, best.support.middle);
+  bound_axis(femur.vertices, {12, 2, [&](double height) { return height > best.support.middle; }}, best.fit);
   require_bounds(best.fit);
   return condyles_of(std::move(best));
 }

@@ -7,8 +7,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/fit.hpp"
-#include "core/trigonometry.hpp"
-#include "kinematics/resampling.hpp"
+#include "kinematics/axis_bounds.hpp"
 #include "kinematics/surface_points.hpp"
 #include "mesh/surface_pieces.hpp"
 
@@ -210,42 +209,17 @@ std::optional<Part> grown(const TriMesh& mesh, const std::vector<kinematics::Sur
   return std::nullopt;
 }
 
-/// Bounds from patches: so many sectors about the axis, and so many slices along it.
-constexpr int sectors = 9, slices = 3;
-
-void bound_axis(const TriMesh& mesh, CylinderFit& fit) {
-  const Cylinder c = fit.cylinder;
+/// Patches for its bounds: nine sectors about the axis, and three slices along what it has.
+kinematics::AxisPatches patches_of(const Points& vertices, const CylinderFit& fit) {
+  constexpr int slices = 3;
   double low = 0, high = 0;
   for (const Index v : fit.vertices) {
-    const double height = (mesh.vertices[v] - c.point).dot(c.direction);
+    const double height = (vertices[v] - fit.cylinder.point).dot(fit.cylinder.direction);
     low = std::min(low, height), high = std::max(high, height);
   }
-  const Vec3 e1 = c.direction.unitOrthogonal(), e2 = c.direction.cross(e1);
-  const auto block_of = [&](Index v) {
-    const Vec3 q = mesh.vertices[v] - c.point;
-    const double turn = core::arctangent(q.dot(e2), q.dot(e1)) / two_pi + 0.5,
-                 height = (q.dot(c.direction) - low) / (high - low);
-    const auto part = [](double share, int parts) {
-      return std::min(static_cast<int>(share * parts), parts - 1);
-    };
-    return std::int64_t{part(turn, sectors)} * slices + part(height, slices);
-  };
-  constexpr std::size_t unknowns = 5;
-  const auto resamples = kinematics::resampled(fit.vertices, kinematics::usual_resamples, unknowns, block_of);
-  std::vector<double> turns, shifts;
-  for (const std::vector<Index>& drawn : resamples.draws) {
-    try {
-      const Cylinder other = fit_cylinder(mesh.vertices, drawn, c).cylinder;
-      shifts.push_back((other.point - c.point).cross(other.direction).norm());
-      turns.push_back(core::arctangent(other.direction.cross(c.direction).norm(),
-                                       std::abs(other.direction.dot(c.direction))));
-    } catch (const MeshError&) {  // no axis at all
-      shifts.push_back(c.radius);
-      turns.push_back(two_pi / 4);
-    }
-  }
-  fit.direction_bound = Angle::radians(kinematics::upper_bound_of(std::move(turns)) * resamples.widening);
-  fit.axis_bound_mm = kinematics::upper_bound_of(std::move(shifts)) * resamples.widening;
+  return {9, slices, [low, high](double height) {
+            return std::min(static_cast<int>((height - low) / (high - low) * slices), slices - 1);
+          }};
 }
 
 /// With loose bands the belt of a ball is long enough to be a cylinder; a sphere fits it much better.
@@ -304,7 +278,7 @@ CylinderFit kinematics::find_cylinder_on(const TriMesh& mesh, const CylinderSear
             << search.largest_radius << " mm among " << points.size() << " vertices";
     throw MeshError(message.str());
   }
-  bound_axis(mesh, best->fit);
+  kinematics::bound_axis(mesh.vertices, patches_of(mesh.vertices, best->fit), best->fit);
   if (const Angle bound = *best->fit.direction_bound; bound > largest_direction_bound) {
     std::ostringstream message;
     message.exceptions(std::ios::badbit);  // no memory is an error, not half a message
