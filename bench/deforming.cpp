@@ -153,21 +153,22 @@ void ask_deforming(const Scene& scene, Effort effort, Report& report) {
       [&](const contact::JointContact& c, const Pose& X) { c.mobile_in_fixed(X, found); });
   vertices.peer = "embree_16_robust";
   vertices.ask_peer = [&](Method& method, const Pose& X) { method.find_inside(X, inside); };
-  DeformingQuestion triangles =
-      deforming<contact::JointContact>("pairs of triangles", of_pairs, joint,
-                                       [](const contact::JointContact& c, const Pose& X) { c.pairs(X); });
+  DeformingQuestion triangles = deforming<contact::JointContact>(
+      "pairs of triangles", of_pairs, joint,
+      [](const contact::JointContact& c, const Pose& X) { (void)c.pairs(X); });
   triangles.peer = "fcl_obbrss";
   triangles.ask_peer = [&](Method& method, const Pose& X) { method.find_pairs(X, pairs); };
   const DeformingQuestion both =
       deforming<contact::JointContact>("vertices of both bodies, and pairs", of_both, joint,
-                                       [](const contact::JointContact& c, const Pose& X) { c.at(X); });
+                                       [](const contact::JointContact& c, const Pose& X) { (void)c.at(X); });
   const auto layered = [&](const Mesh& now) {
     const contact::ElasticLayer layer{12, 0.42, 1.6};
     return contact::ElasticContact(now, mobile, {.fixed = layer, .mobile = layer});
   };
   contact::ElasticContact of_pressure = layered(fixed);
   const DeformingQuestion pressure = deforming<contact::ElasticContact>(
-      "pressure", of_pressure, layered, [](const contact::ElasticContact& c, const Pose& X) { c.at(X); });
+      "pressure", of_pressure, layered,
+      [](const contact::ElasticContact& c, const Pose& X) { (void)c.at(X); });
   for (const DeformingQuestion& asked : {vertices, triangles, both, pressure}) measure(asked);
 }
 

@@ -100,7 +100,7 @@ bool ask_hip_balance(Effort effort, Report& report) {
     ways.push_back([&, i] {
       walks[i] = condyle::motion::balance_along(contacts[i], walk, std::span(&stance, 1)).value();
     });
-  for (std::size_t i = 0; i < count; ++i) ways.push_back([&, i] { contacts[i].at(poses[i].X_FM); });
+  for (std::size_t i = 0; i < count; ++i) ways.push_back([&, i] { (void)contacts[i].at(poses[i].X_FM); });
   std::vector<std::vector<double>> samples;
   samples = interleaved(effort == Effort::full ? 9 : 1, ways);
 
