@@ -8,7 +8,7 @@ namespace bench {
 InsideAccuracy& InsideAccuracy::operator+=(const InsideAccuracy& more) {
   inside += more.inside;
   false_inside += more.false_inside, false_outside += more.false_outside;
-  depths += more.depths;
+  depths += more.depths, depths_off += more.depths_off;
   depth_error_sum_mm += more.depth_error_sum_mm;
   depth_error_max_mm = std::max(depth_error_max_mm, more.depth_error_max_mm);
   return *this;
@@ -45,6 +45,7 @@ void compare(std::vector<InsideVertex>& answer, Reference& reference, std::size_
       // An endless depth (a circle that is solid all round) is right where the true one is endless too.
       const double error = reported->depth_mm == depths[i] ? 0 : std::abs(reported->depth_mm - depths[i]);
       ++accuracy.depths;
+      if (error > wrong_depth_mm) ++accuracy.depths_off;
       accuracy.depth_error_sum_mm += error;
       accuracy.depth_error_max_mm = std::max(accuracy.depth_error_max_mm, error);
     }

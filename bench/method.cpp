@@ -23,6 +23,14 @@ void Method::find_inside(const condyle::Pose&, std::vector<InsideVertex>&) {
   throw std::logic_error("this method does not find vertices inside");
 }
 
+BodyDepth Method::find_depth(const condyle::Pose&) {
+  throw std::logic_error("this method does not find how deep bodies are in each other");
+}
+
+std::optional<condyle::Angle> Method::find_first_contact(const condyle::Vec3&, condyle::Angle) {
+  throw std::logic_error("this method does not find first contact");
+}
+
 void Method::deform(condyle::PointsView) {
   throw std::logic_error("this method does not follow a deforming body");
 }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "condyle/angle.hpp"
 #include "condyle/contact.hpp"
 #include "condyle/mesh.hpp"
 #include "condyle/pose.hpp"
@@ -31,6 +32,12 @@ struct InsideVertex {
   condyle::Index triangle = condyle::no_index;  ///< Where it leaves the solid; no_index if not reported.
   double depth_mm =
       std::numeric_limits<double>::quiet_NaN();  ///< The method's kind of depth; NaN if not reported.
+};
+
+/// Whether two bodies meet, and how deep they are in each other at their deepest place.
+struct BodyDepth {
+  bool in_contact = false;
+  double depth_mm = 0;  ///< 0 without contact.
 };
 
 /// Which way a method measures how deep a vertex is: along the ray through the joint centre, along the circle
@@ -61,6 +68,13 @@ class Method {
   /// Every mobile vertex that is in the fixed solid, in any order.
   virtual void find_inside(const condyle::Pose& X_FM, std::vector<InsideVertex>& out);
 
+  /// Whether the bodies meet, and how deep.
+  virtual BodyDepth find_depth(const condyle::Pose& X_FM);
+
+  /// How far the mobile body turns from where both frames coincide, about an axis through the joint centre, until the
+  /// bodies meet; empty if they do not within the range.
+  virtual std::optional<condyle::Angle> find_first_contact(const condyle::Vec3& axis_F, condyle::Angle range);
+
   /// The fixed mesh's vertices have moved here, its triangles are the same: answers from now on are for them.
   /// The points live as long as the method is asked.
   virtual void deform(condyle::PointsView fixed_vertices);
@@ -78,6 +92,7 @@ class Method {
 struct Answers {
   bool touch = false, pairs = false, inside = false;
   bool deforms = false;  ///< Follows a deforming fixed body otherwise than by being made anew.
+  bool depth = false, first_contact = false;  ///< Only `beside_others` asks for these.
 };
 
 struct MethodKind {

@@ -36,11 +36,20 @@ class Reference {
   /// point of the surface.
   const std::vector<double>& depths(std::size_t pose, DepthKind kind);
 
+  /// How deep the bodies are in each other: between these bounds, which are 0.01 mm apart at most, is the distance of the
+  /// deepest place of either surface from the other one. Found by dividing triangles: signed distances differ by no more
+  /// than the points they are taken at are apart.
+  struct DepthBounds {
+    double low_mm = 0, high_mm = 0;
+  };
+  DepthBounds depth(std::size_t pose);
+
   /// Ascending.
   const std::vector<condyle::contact::TrianglePair>& pairs(std::size_t pose);
 
  private:
   condyle::Points inside_points(std::size_t pose);
+  const condyle::mesh::SurfaceDistance& distance();
 
   const condyle::TriMesh* fixed_;
   const condyle::TriMesh* mobile_;
@@ -50,6 +59,9 @@ class Reference {
   condyle::contact::BodyPair pair_;
   std::unique_ptr<condyle::tangential::RingTable> rings_;
   std::unique_ptr<condyle::mesh::SurfaceDistance> distance_;
+  /// Made when the depth of the bodies is first asked for.
+  std::unique_ptr<condyle::mesh::WindingNumber> mobile_winding_;
+  std::unique_ptr<condyle::mesh::SurfaceDistance> mobile_distance_;
   std::map<std::size_t, std::vector<Inside>> inside_;
   std::map<std::pair<std::size_t, DepthKind>, std::vector<double>> depths_;
   std::map<std::size_t, std::vector<condyle::contact::TrianglePair>> pairs_;

@@ -2,6 +2,8 @@
 #include <BulletCollision/Gimpact/btGImpactShape.h>
 #include <btBulletCollisionCommon.h>
 
+#include <algorithm>
+
 #include "kinds.hpp"
 
 namespace bench {
@@ -64,12 +66,14 @@ class Collector final : public btManifoldResult {
  public:
   using btManifoldResult::btManifoldResult;
 
-  void addContactPoint(const btVector3&, const btVector3&, btScalar) override {
+  void addContactPoint(const btVector3&, const btVector3&, btScalar distance) override {
+    depth = std::max(depth, -distance);
     const condyle::contact::TrianglePair pair{static_cast<Index>(m_index0), static_cast<Index>(m_index1)};
     if (pairs.empty() || pairs.back() != pair) pairs.push_back(pair);
   }
 
   std::vector<condyle::contact::TrianglePair> pairs;
+  btScalar depth = 0;  ///< of the deepest contact point
 };
 
 /// Bullet 3.24 in double: GImpact meshes, the ones that both may move. Trees of boxes whose corners are
@@ -95,12 +99,18 @@ class Bullet final : public Method {
     collide(X_FM, out);
   }
 
+  BodyDepth find_depth(const Pose& X_FM) override {
+    const double depth = collide(X_FM, found_);
+    return {!found_.empty(), depth};
+  }
+
   void deform(condyle::PointsView fixed_vertices) override { fixed_.move_vertices(fixed_vertices); }
 
   std::size_t bytes() const override { return fixed_.tree_bytes() + mobile_.tree_bytes(); }
 
  private:
-  void collide(const Pose& X_FM, std::vector<condyle::contact::TrianglePair>& out) {
+  /// Returns the depth of the deepest contact point.
+  double collide(const Pose& X_FM, std::vector<condyle::contact::TrianglePair>& out) {
     mobile_.object().setWorldTransform(transform(X_FM));
     const auto wrapped = [](btCollisionObject& object) {
       return btCollisionObjectWrapper(nullptr, object.getCollisionShape(), &object,
@@ -116,6 +126,7 @@ class Bullet final : public Method {
     algorithm->~btCollisionAlgorithm();
     dispatcher_.freeCollisionAlgorithm(algorithm);
     collector.pairs.swap(out);
+    return collector.depth;
   }
 
   Shape fixed_, mobile_;
@@ -130,7 +141,7 @@ std::vector<MethodKind> bullet_kinds() {
   return {{"bullet_gimpact",
            "what people use today",
            "Bullet, GImpact meshes",
-           {.touch = true, .pairs = true, .deforms = true},
+           {.touch = true, .pairs = true, .deforms = true, .depth = true},
            DepthKind::none,
            false,
            [](const Bodies& bodies) { return std::make_unique<Bullet>(bodies); }}};

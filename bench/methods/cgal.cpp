@@ -5,6 +5,7 @@
 #include <CGAL/Rigid_triangle_mesh_collision_detection.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/box_intersection_d.h>
 
 #include <iterator>
 
@@ -155,6 +156,50 @@ class CgalRigid final : public Method {
   std::size_t fixed_, mobile_;
 };
 
+/// CGAL's intersection of two sets of boxes (Zomorodian and Edelsbrunner 2002), without a tree: what it finds is decided
+/// by exact predicates.
+class CgalBoxes final : public Method {
+ public:
+  explicit CgalBoxes(const Bodies& bodies)
+      : mobile_(&bodies.mobile), fixed_boxes_(boxes_of(bodies.fixed, Pose::Identity())) {}
+
+  void find_pairs(const Pose& X_FM, std::vector<condyle::contact::TrianglePair>& out) override {
+    out.clear();
+    mobile_boxes_ = boxes_of(*mobile_, X_FM);
+    const auto meet = [&](const Box& f, const Box& m) {
+      if (CGAL::do_intersect(f.handle()->triangle, m.handle()->triangle))
+        out.push_back({f.handle()->number, m.handle()->number});
+    };
+    CGAL::box_intersection_d(fixed_boxes_.boxes.begin(), fixed_boxes_.boxes.end(),
+                             mobile_boxes_.boxes.begin(), mobile_boxes_.boxes.end(), meet);
+  }
+
+ private:
+  struct Numbered {
+    Kernel::Triangle_3 triangle;
+    Index number;
+  };
+  using Box = CGAL::Box_intersection_d::Box_with_handle_d<double, 3, std::vector<Numbered>::const_iterator>;
+  struct Boxes {
+    std::vector<Numbered> triangles;
+    std::vector<Box> boxes;
+  };
+
+  static Boxes boxes_of(const TriMesh& mesh, const Pose& X) {
+    const TriMesh in_F = condyle::posed(X, mesh);
+    Boxes out;
+    for (std::size_t t = 0; t < in_F.triangles.size(); ++t)
+      out.triangles.push_back({{point(in_F.corner(t, 0)), point(in_F.corner(t, 1)), point(in_F.corner(t, 2))},
+                               static_cast<Index>(t)});
+    for (auto t = out.triangles.cbegin(); t != out.triangles.cend(); ++t)
+      out.boxes.emplace_back(t->triangle.bbox(), t);
+    return out;
+  }
+
+  const TriMesh* mobile_;
+  Boxes fixed_boxes_, mobile_boxes_;
+};
+
 }  // namespace
 
 std::vector<MethodKind> cgal_kinds() {
@@ -171,7 +216,14 @@ std::vector<MethodKind> cgal_kinds() {
            {.touch = true},
            DepthKind::none,
            true,
-           [](const Bodies& bodies) { return std::make_unique<CgalRigid>(bodies); }}};
+           [](const Bodies& bodies) { return std::make_unique<CgalRigid>(bodies); }},
+          {"cgal_boxes",
+           "what people use today",
+           "CGAL, two sets of boxes, exact predicates",
+           {.pairs = true},
+           DepthKind::none,
+           true,
+           [](const Bodies& bodies) { return std::make_unique<CgalBoxes>(bodies); }}};
 }
 
 }  // namespace bench

@@ -1,9 +1,12 @@
 #include <optional>
 
+#include "condyle/answer/depth.hpp"
+#include "condyle/first_contact.hpp"
 #include "condyle/radial.hpp"
 #include "condyle/tangential.hpp"
 #include "contact/body_pair.hpp"
 #include "kinds.hpp"
+#include "mesh/surface_distance.hpp"
 
 namespace bench {
 namespace {
@@ -22,7 +25,7 @@ TriMesh with_vertices(condyle::PointsView vertices, const TriMesh& mesh) {
 }
 
 /// The radial table asked for penetrating vertices only, in vectors. Depth, triangle and side of each.
-class RadialVectors final : public Method {
+class RadialVectors : public Method {
  public:
   explicit RadialVectors(const Bodies& bodies)
       : table_(std::make_shared<condyle::radial::RadialTable>(bodies.fixed)),
@@ -58,6 +61,50 @@ class RadialVectors final : public Method {
   condyle::radial::SortedPoints points_;
   condyle::radial::Penetrations found_;
   condyle::radial::PenetrationWork work_;
+};
+
+/// The same vertices, and how far each is from the nearest point of the surface, as measures of a contact have it.
+class Nearest final : public RadialVectors {
+ public:
+  explicit Nearest(const Bodies& bodies)
+      : RadialVectors(bodies),
+        mobile_(&bodies.mobile),
+        distance_(std::make_shared<condyle::mesh::SurfaceDistance>(bodies.fixed)) {}
+
+  void find_inside(const Pose& X_FM, std::vector<InsideVertex>& out) override {
+    RadialVectors::find_inside(X_FM, out);
+    for (InsideVertex& v : out) v.depth_mm = (*distance_)(condyle::posed(X_FM, mobile_->vertices[v.vertex]));
+  }
+
+  std::unique_ptr<Method> for_another_thread() override { return std::make_unique<Nearest>(*this); }
+
+ private:
+  const TriMesh* mobile_;
+  std::shared_ptr<const condyle::mesh::SurfaceDistance> distance_;
+};
+
+/// Two meshes without a joint: the answer of `condyle touch` without measures, and contact events about an axis whose
+/// tables are made for each question.
+class TwoMeshes final : public Method {
+ public:
+  explicit TwoMeshes(const Bodies& bodies) : bodies_(bodies.fixed, bodies.mobile) {}
+
+  BodyDepth find_depth(const Pose& X_FM) override {
+    const condyle::TouchAnswer answer =
+        condyle::answer_touch(bodies_, {.X_FM = X_FM, .measures = condyle::TouchMeasures::depth});
+    return {answer.in_contact, answer.deepest ? answer.deepest->depth_mm : 0};
+  }
+
+  std::optional<condyle::Angle> find_first_contact(const condyle::Vec3& axis_F,
+                                                   condyle::Angle range) override {
+    const condyle::motion::FirstContact search(bodies_.fixed(), bodies_.mobile(), {{0, 0, 0}, axis_F});
+    const auto end = search.limits(Pose::Identity(), {condyle::Angle(), range}).positive;
+    if (end.reason == condyle::motion::LimitReason::end_of_range) return std::nullopt;
+    return end.turned;
+  }
+
+ private:
+  condyle::contact::JointContact bodies_;
 };
 
 /// Trees of boxes and shells on both bodies.
@@ -164,6 +211,26 @@ MethodKind trees() {
           [](const Bodies& bodies) { return std::make_unique<Trees>(bodies); }};
 }
 
+MethodKind nearest() {
+  return {"nearest",
+          "Condyle",
+          "radial, then the nearest point of each vertex inside",
+          {.inside = true},
+          DepthKind::nearest_surface,
+          true,
+          [](const Bodies& bodies) { return std::make_unique<Nearest>(bodies); }};
+}
+
+MethodKind two_meshes() {
+  return {"two_meshes",
+          "Condyle",
+          "two meshes without a joint",
+          {.depth = true, .first_contact = true},
+          DepthKind::none,
+          true,
+          [](const Bodies& bodies) { return std::make_unique<TwoMeshes>(bodies); }};
+}
+
 MethodKind radial(std::string name, std::string title, condyle::radial::DirectionMapKind map) {
   return {std::move(name),
           "Condyle",
@@ -195,6 +262,8 @@ std::vector<MethodKind> condyle_kinds() {
   return {
       radial_vectors(),
       trees(),
+      nearest(),
+      two_meshes(),
       radial("radial_plain", "radial, cube map, a vertex at a time", DirectionMapKind::cube),
       radial("radial_cartesian", "radial, the paper's map", DirectionMapKind::cartesian),
       tangential("tangential", "tangential, all crossings in their order", TangentialRule::alternating, true),

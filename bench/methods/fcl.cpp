@@ -1,8 +1,11 @@
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/math/bv/utility.h>
+#include <fcl/math/motion/interp_motion.h>
+#include <fcl/narrowphase/continuous_collision.h>
 #include <fcl/narrowphase/detail/traversal/collision/mesh_collision_traversal_node.h>
 #include <fcl/narrowphase/detail/traversal/collision_node.h>
 
+#include <algorithm>
 #include <type_traits>
 
 #include "kinds.hpp"
@@ -70,17 +73,39 @@ class Fcl final : public Method {
   }
 
   bool touch(const Pose& X_FM) override {
-    walk(X_FM, 1);
+    walk(X_FM, {1, false});
     return result_.isCollision();
   }
 
   void find_pairs(const Pose& X_FM, std::vector<condyle::contact::TrianglePair>& out) override {
-    walk(X_FM, std::numeric_limits<std::size_t>::max());
+    walk(X_FM, {all, false});
     out.clear();
     for (std::size_t i = 0; i < result_.numContacts(); ++i) {
       const auto& contact = result_.getContact(i);
       out.push_back({static_cast<Index>(contact.b1), static_cast<Index>(contact.b2)});
     }
+  }
+
+  /// The deepest of all pairs of triangles: the library has a depth of each pair, and none of the bodies.
+  BodyDepth find_depth(const Pose& X_FM) override {
+    walk(X_FM, {all, true});
+    BodyDepth found{result_.isCollision(), 0};
+    for (std::size_t i = 0; i < result_.numContacts(); ++i)
+      found.depth_mm = std::max(found.depth_mm, result_.getContact(i).penetration_depth);
+    return found;
+  }
+
+  /// By conservative advancement, which ends at steps of a hundred thousandth of the range.
+  std::optional<condyle::Angle> find_first_contact(const condyle::Vec3& axis_F,
+                                                   condyle::Angle range) override {
+    const Pose start = Pose::Identity(), end(Eigen::AngleAxisd(range.radians(), axis_F));
+    const fcl::InterpMotion<double> resting(start, start), rotating(start, end);
+    fcl::ContinuousCollisionRequest<double> request;
+    request.ccd_solver_type = fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
+    fcl::ContinuousCollisionResult<double> found;
+    fcl::continuousCollide(fixed_.get(), &resting, mobile_.get(), &rotating, request, found);
+    if (!found.is_collide) return std::nullopt;
+    return range * found.time_of_contact;
   }
 
   /// Keeps the tree and fits its volumes anew. Replacing, not updating: that would enclose the vertices
@@ -110,8 +135,9 @@ class Fcl final : public Method {
   using Model = fcl::BVHModel<Volume>;
   using Walk = typename WalkOf<Volume>::Type;
 
-  void walk(const Pose& X_FM, std::size_t max_contacts) {
-    const fcl::CollisionRequest<double> request(max_contacts, false);
+  static constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
+
+  void walk(const Pose& X_FM, const fcl::CollisionRequest<double>& request) {
     result_.clear();
     Walk node;
     node.enable_statistics = true;
@@ -166,7 +192,11 @@ MethodKind kind(std::string name, std::string title) {
   return {std::move(name),
           "bounding volume hierarchies",
           std::move(title),
-          {.touch = true, .pairs = true, .deforms = true},
+          {.touch = true,
+           .pairs = true,
+           .deforms = true,
+           .depth = true,
+           .first_contact = std::is_same_v<Volume, fcl::OBBRSS<double>>},
           DepthKind::none,
           false,
           [](const Bodies& bodies) { return std::make_unique<Fcl<Volume>>(bodies); }};

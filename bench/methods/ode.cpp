@@ -99,6 +99,14 @@ class Ode final : public Method {
     out.erase(std::unique(out.begin(), out.end()), out.end());
   }
 
+  /// That of the deepest contact point.
+  BodyDepth find_depth(const Pose& X_FM) override {
+    const int count = contacts(X_FM, static_cast<unsigned>(contacts_.size()));
+    BodyDepth found{count > 0, 0};
+    for (int i = 0; i < count; ++i) found.depth_mm = std::max(found.depth_mm, contacts_[i].depth);
+    return found;
+  }
+
  private:
   int contacts(const Pose& X_FM, unsigned flags) {
     mobile_.pose(X_FM);
@@ -117,7 +125,7 @@ std::vector<MethodKind> ode_kinds() {
   return {{"ode_trimesh",
            "what people use today",
            "ODE, triangle meshes",
-           {.touch = true, .pairs = true},
+           {.touch = true, .pairs = true, .depth = true},
            DepthKind::none,
            false,
            [](const Bodies& bodies) { return std::make_unique<Ode>(bodies); }}};

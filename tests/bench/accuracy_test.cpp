@@ -76,6 +76,16 @@ TEST_F(BoxInCorner, ADepthIsHeldAgainstTheTrueOneOfItsKind) {
   EXPECT_EQ(accuracy.mean_depth_error_mm(), 0.5);
 }
 
+TEST_F(BoxInCorner, ADepthIsWrongIfItIsOffByMoreThanATenthOfAMillimetre) {
+  InsideAccuracy accuracy;
+  for (const double error_mm : {-0.125, -0.0625, 0.0625, 0.125}) {
+    std::vector<InsideVertex> reported = {{corner_inside, 0, 3.109375 + error_mm}};
+    compare(reported, reference_, touching, DepthKind::nearest_surface, accuracy);
+  }
+  EXPECT_EQ(accuracy.depths, 4);
+  EXPECT_EQ(accuracy.depths_off, 2);
+}
+
 TEST_F(BoxInCorner, ADepthThatIsNotToldIsNotCompared) {
   InsideAccuracy accuracy;
   std::vector<InsideVertex> reported = {{corner_inside}};
