@@ -1,5 +1,5 @@
 # Thin front door; CMakePresets.json has the details.
-.PHONY: demo describe command test test-all nightly build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
+.PHONY: demo describe command test test-all nightly build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench bench-summary verify bench_dependencies docs docs_dependencies \
   package package-test wheel page-core page page-template sanitize-thread sanitize-some release label-limits rotation-queries static image static-test npm npm-test windows windows-test ro-crate
 
 dependencies:
@@ -102,9 +102,20 @@ bench: bench_dependencies
 	@$(configure_bench)
 	@cmake --build --preset release --target condyle_bench condyle_python
 	@mkdir -p out/bench docs/images/bench
-	@build/release/condyle-bench --json out/bench/run.json --csv out/bench/experiment.csv --save-baseline out/bench/baseline.json
+	@build/release/condyle-bench --json out/bench/run.json --csv out/bench/experiment.csv --save-baseline out/bench/baseline.json \
+	  --add-run bench/runs.json
 	@PYTHONPATH=build/release/python bench/draw_experiment.py out/bench/experiment.csv docs/images/bench
-	@bench/update_page.py out/bench/run.json bench/tables/performance.md bench/tables/experiment.md
+	@PYTHONPATH=build/release/python bench/draw_experiment.py out/bench/run.json docs/images/bench
+	@bench/update_page.py out/bench/run.json bench/tables/performance.md bench/tables/experiment.md bench/tables/beside-others.md
+
+# The part that a newcomer reads first, in minutes: six questions to Condyle and to the others, and the use of threads.
+bench-summary: bench_dependencies
+	@$(configure_bench)
+	@cmake --build --preset release --target condyle_bench condyle_python
+	@mkdir -p out/bench docs/images/bench
+	@build/release/condyle-bench --summary --json out/bench/summary.json --add-run bench/runs.json
+	@PYTHONPATH=build/release/python bench/draw_experiment.py out/bench/summary.json docs/images/bench
+	@bench/update_page.py out/bench/summary.json bench/tables/beside-others.md
 
 # Limits from label maps against those of the meshes that were made into voxels; bench/tables/label-maps.md gets the figures.
 label-limits: bench_dependencies

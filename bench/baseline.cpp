@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
+
+#include "io/file/whole_file.hpp"
 
 namespace bench {
 
@@ -66,6 +69,35 @@ std::vector<std::string> worse_than(const Ratios& baseline, const Ratios& now, d
   std::vector<std::string> lines;
   for (auto& [part, line] : worse) lines.push_back(std::move(line));
   return lines;
+}
+
+std::span<const std::string_view> main_ratios() {
+  static constexpr std::array<std::string_view, 8> names = {
+      "inside/hip_vhf_right/embree_16_culled", "pairs/hip_vhf_right/fcl_obbrss",
+      "touch/hip_vhf_right/fcl_obbrss",        "first_contact/sample_3/fcl_obbrss_bisected_with_building",
+      "deepest/hip_vhf_right/cgal_tree",       "first_contact/hip_vhf_right/fcl_obbrss_bisected",
+      "map/hip_vhf_right/fcl_obbrss_bisected", "depth/hip_vhf_right/cgal_tree",
+  };
+  return names;
+}
+
+void add_run(const std::string& file, const Report& report, const Ratios& ratios) {
+  using json = nlohmann::ordered_json;
+  json runs = json::array();
+  if (std::ifstream in(file); in) runs = json::parse(in, nullptr, false);
+  if (!runs.is_array()) throw std::runtime_error(file + ": no file of stored runs");
+  json run;
+  for (const auto& [name, words] : report.machine)
+    if (name == "date" || name == "commit" || name == "processor" || name == "load") run[name] = words;
+  run["ratios"] = json::object();
+  for (const std::string_view name : main_ratios())
+    if (const auto at = ratios.find(std::string(name)); at != ratios.end())
+      run["ratios"][at->first] = json::parse(fmt::format("{:.4g}", at->second));
+  runs.push_back(run);
+  // A run a line: a diff shows what was added.
+  std::string text = "[";
+  for (const json& each : runs) text += (text == "[" ? "\n " : ",\n ") + each.dump();
+  condyle::io::write_whole_file(file, text + "\n]\n");
 }
 
 }  // namespace bench

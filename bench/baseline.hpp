@@ -1,11 +1,13 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "experiment.hpp"
+#include "table.hpp"
 
 /// Ratios of an earlier run, to see what got worse. Ratios, because they hold on other machines better than
 /// times do.
@@ -30,5 +32,12 @@ Ratios read_baseline(const std::string& file);
 /// One line for each ratio in both that is now below `tolerated` of what it was, the worst first: by
 /// default those where Condyle got a quarter slower, or more, beside the other. A whole command may lose a tenth at most.
 std::vector<std::string> worse_than(const Ratios& baseline, const Ratios& now, double tolerated = 0.8);
+
+/// Of every run that is stored, the ratios that a reader follows over time.
+std::span<const std::string_view> main_ratios();
+
+/// Adds a run to a file of stored runs: date, commit, processor, load, and those of the main ratios that it has. Raises
+/// std::runtime_error, naming the file, where it is none.
+void add_run(const std::string& file, const Report& report, const Ratios& ratios);
 
 }  // namespace bench

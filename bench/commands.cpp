@@ -36,50 +36,9 @@ const TableHead commands_head{"commands",
 
 constexpr std::string_view sample = "sample_1", small_hip = "hip_vhf_right", large_hip = "hip_libhip_m1_left";
 
-/// A folder of its own for the files that the commands read and write, removed with it.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "condyle-bench-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::string file(std::string_view name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
-
-/// Resources used by a process that ran `condyle` with these arguments; empty if it did not answer.
 std::optional<double> processor_seconds_of(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), CONDYLE_COMMAND);
-  std::vector<char*> words;
-  for (std::string& argument : arguments) words.push_back(argument.data());
-  words.push_back(nullptr);
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
-    posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_WRONLY, 0);
-  pid_t process = 0;
-  const int failed = posix_spawn(&process, CONDYLE_COMMAND, &files, nullptr, words.data(), environ);
-  posix_spawn_file_actions_destroy(&files);
-  if (failed != 0) throw std::system_error(failed, std::generic_category(), CONDYLE_COMMAND);
-  int status = 0;
-  rusage used{};
-  while (::wait4(process, &status, 0, &used) == -1)
-    if (errno != EINTR) throw std::system_error(errno, std::generic_category(), CONDYLE_COMMAND);
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return std::nullopt;
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return seconds(used.ru_utime) + seconds(used.ru_stime);
+  const auto seconds = run_command(std::move(arguments));
+  return seconds ? std::optional(seconds->processor) : std::nullopt;
 }
 
 void write_poses(const std::string& file, int count) {
@@ -151,6 +110,43 @@ void add_goals(const std::string& joint, const std::vector<Command>& commands,
 }
 
 }  // namespace
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (fs::temp_directory_path() / "condyle-bench-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+std::optional<RunSeconds> run_command(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), CONDYLE_COMMAND);
+  std::vector<char*> words;
+  for (std::string& argument : arguments) words.push_back(argument.data());
+  words.push_back(nullptr);
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_WRONLY, 0);
+  pid_t process = 0;
+  const Stopwatch watch;
+  const int failed = posix_spawn(&process, CONDYLE_COMMAND, &files, nullptr, words.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  if (failed != 0) throw std::system_error(failed, std::generic_category(), CONDYLE_COMMAND);
+  int status = 0;
+  rusage used{};
+  while (::wait4(process, &status, 0, &used) == -1)
+    if (errno != EINTR) throw std::system_error(errno, std::generic_category(), CONDYLE_COMMAND);
+  const double wall = watch.wall_seconds();
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return std::nullopt;
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return RunSeconds{wall, seconds(used.ru_utime) + seconds(used.ru_stime)};
+}
 
 std::vector<std::string> command_joints(Effort effort) {
   std::vector<std::string> joints;

@@ -1,12 +1,16 @@
 #!/usr/bin/python3
-"""Draws the experiment: draw_experiment.py EXPERIMENT.csv FOLDER, with PYTHONPATH=build/release/python.
+"""Draws the experiment: draw_experiment.py EXPERIMENT.csv|RUN.json FOLDER, with PYTHONPATH=build/release/python.
 
-EXPERIMENT.csv is what condyle-bench --csv writes. As far as there are outcomes for them, FOLDER gets
+EXPERIMENT.csv is what condyle-bench --csv writes, RUN.json what --json does. As far as there are outcomes for them,
+FOLDER gets
 
     cost_QUESTION.svg       cost of a pose against the size of the sample bones, with the fitted exponents
     accuracy_QUESTION.svg   share of wrong answers against cost, real bones; none where nobody is wrong
+    beside_others.svg       of RUN.json: times Condyle's time, of the fastest other method and of the fastest without a
+                            wrong answer
 """
 import csv
+import json
 import sys
 from pathlib import Path
 
@@ -55,7 +59,31 @@ def accuracy_series(rows, question):
                              shares)
 
 
+def draw_ratios(path, folder):
+    with open(path, encoding="utf-8") as file:
+        rows = next(table["rows"] for table in json.load(file)["tables"] if table["name"] == "beside_others")
+    _, ax = plt.subplots(figsize=(8, 0.8 + 0.7 * len(rows)), layout="constrained")
+    kinds = (("fastest", "the fastest other", "#9aa5b1"), ("right", "the fastest without a wrong answer", "#2a6f97"))
+    for offset, (key, label, colour) in zip((-0.2, 0.2), kinds):
+        there = [(i + offset, row) for i, row in enumerate(rows) if not isinstance(row[f"{key}_ratio"], str)]
+        bars = ax.barh([y for y, _ in there], [row[f"{key}_ratio"] - 1 for _, row in there], 0.36, left=1, color=colour,
+                       label=label)
+        ax.bar_label(bars, [f"{row[f'{key}_ratio']:.3g}  {row[key]}" for _, row in there], padding=3, fontsize=7)
+    ax.axvline(1, color="black", linewidth=0.8)
+    ax.set(xscale="log", xlabel="times Condyle's time", yticks=range(len(rows)))
+    ax.set_yticklabels([row["question"].partition(":")[0] for row in rows])
+    ax.margins(x=0.6)
+    ax.invert_yaxis()
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2, frameon=False)
+    target = Path(folder) / "beside_others.svg"
+    figures.save(ax, target)
+    plt.close("all")
+    print(target)
+
+
 def main(path, folder):
+    if path.endswith(".json"):
+        return draw_ratios(path, folder)
     with open(path, encoding="utf-8") as file:
         outcomes = [row for row in csv.DictReader(file) if row["deformed"] == "no"]
     for question in WRONG:

@@ -135,6 +135,10 @@ void ask_limit(const Motion& motion, const Joint& joint, const RangeOfMotion& ra
             "times cheaper"},
            (bisecting + building.fcl_seconds) / (ours + building.condyle_seconds), report);
 
+  if (motion.name == "flexion")
+    report.ratios[fmt::format("first_contact/{}/fcl_obbrss_bisected_with_building", joint.name)] =
+        (bisecting + building.fcl_seconds) / (ours + building.condyle_seconds);
+
   const bool holds = stepped->holds(limit.end.turned);
   if (!holds)
     report.disagreements.push_back(

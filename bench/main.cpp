@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,7 +37,9 @@ struct JointQuestion {
   std::vector<std::string_view> scenes, quick_scenes;
 };
 
-const std::array<JointQuestion, 7> joint_questions = {{
+const std::array<JointQuestion, 9> joint_questions = {{
+    {"beside_others", ask_beside_others, {"hip_vhf_right"}, {"sample_1"}},
+    {"threads", ask_threads, {"hip_vhf_right"}, {"sample_1"}},
     {"first_contact", ask_first_contact, {"sample_1", "sample_2", "sample_3", "sample_4"}, {"sample_1"}},
     {"motion_map", ask_motion_map, {"hip_vhf_right", "sample_3"}, {"sample_1"}},
     {"limit_bands", ask_limit_bands, {"hip_vhf_right"}, {"sample_1"}},
@@ -70,7 +73,8 @@ constexpr std::array<std::string_view, 3> quick_scenes = {"sample_1", "libhip_ca
                                                           "ball_0.1mm_1"};
 
 struct Options {
-  std::string filter, json, csv, baseline, compare;
+  std::string filter, json, csv, baseline, runs, compare;
+  bool is_summary = false;
   Effort effort = Effort::full;
 };
 
@@ -79,12 +83,14 @@ bool contains(std::span<const std::string_view> names, std::string_view name) {
 }
 
 bool is_asked(const JointQuestion& question, std::string_view scene, const Options& options) {
+  if (options.is_summary && question.name != "beside_others" && question.name != "threads") return false;
   return contains(options.effort == Effort::full ? question.scenes : question.quick_scenes, scene) &&
          fmt::format("{}/{}", question.name, scene).find(options.filter) != std::string::npos;
 }
 
 /// Whether any method would be asked anything there.
 bool has_experiment(std::string_view scene, const Options& options) {
+  if (options.is_summary) return false;
   if (options.effort == Effort::quick && !contains(quick_scenes, scene)) return false;
   const ExperimentFilter filter{options.filter};
   for (const MethodGroup& group : method_groups())
@@ -94,9 +100,11 @@ bool has_experiment(std::string_view scene, const Options& options) {
   return false;
 }
 
-/// "full" for everything, which alone is fit to be published.
+/// "full" for everything, or "summary" for all of that: these alone are fit to be published.
 std::string description(const Options& options) {
-  const std::string effort = options.effort == Effort::full ? "full" : "quick";
+  const std::string effort = options.effort == Effort::quick ? "quick"
+                             : options.is_summary            ? "summary"
+                                                             : "full";
   return options.filter.empty() ? effort : fmt::format("{}, of {}", effort, options.filter);
 }
 
@@ -122,9 +130,11 @@ struct Measured {
   ExperimentResult experiment;
   Ratios of_commands;
 
-  Ratios ratios() const {
+  /// The experiment's own come first: it asks at more poses than others.
+  Ratios ratios(const Report& report) const {
     Ratios all = ratios_of(experiment);
     all.insert(of_commands.begin(), of_commands.end());
+    all.insert(report.ratios.begin(), report.ratios.end());
     return all;
   }
 };
@@ -132,7 +142,7 @@ struct Measured {
 void write_files(const Report& report, const Measured& measured, const Options& options) {
   if (!options.json.empty()) condyle::io::write_whole_file(options.json, to_json(report).dump(1) + "\n");
   if (!options.baseline.empty())
-    condyle::io::write_whole_file(options.baseline, baseline_text(measured.ratios()));
+    condyle::io::write_whole_file(options.baseline, baseline_text(measured.ratios(report)));
   if (options.csv.empty()) return;
   for (const Table& table : report.tables)
     if (table.head.is_long) condyle::io::write_whole_file(options.csv, csv_text(table));
@@ -182,6 +192,7 @@ Measured run(const Options& options, Report& report) {
     write_unfinished(report, measured, options);
   }
   for (const MotionQuestion& question : motion_questions) {
+    if (options.is_summary) break;
     if (question.name.find(options.filter) == std::string_view::npos) continue;
     const Stopwatch watch;
     if (question.ask(options.effort, report))
@@ -191,6 +202,7 @@ Measured run(const Options& options, Report& report) {
     write_unfinished(report, measured, options);
   }
   for (const std::string& joint : command_joints(options.effort)) {
+    if (options.is_summary) break;
     if (fmt::format("command/{}", joint).find(options.filter) == std::string::npos) continue;
     const Stopwatch watch;
     measured.of_commands.merge(ask_commands(joint, options.effort, report));
@@ -202,9 +214,9 @@ Measured run(const Options& options, Report& report) {
 }
 
 /// How many ratios got worse.
-std::size_t print_comparison(const Measured& measured, const Options& options) {
+std::size_t print_comparison(const Measured& measured, const Report& report, const Options& options) {
   if (options.compare.empty()) return 0;
-  const std::vector<std::string> worse = worse_than(read_baseline(options.compare), measured.ratios());
+  const std::vector<std::string> worse = worse_than(read_baseline(options.compare), measured.ratios(report));
   for (const std::string& line : worse) fmt::print("\nWORSE: {}\n", line);
   if (worse.empty()) fmt::print("\nNo ratio is worse than in {}\n", options.compare);
   return worse.size();
@@ -233,22 +245,32 @@ int main(int argc, char** argv) {
                  "Only measurements with all these words, parted by commas, in question/scene/method");
   app.add_flag_callback(
       "--quick", [&] { options.effort = bench::Effort::quick; }, "Small scenes, once: answers, hardly times");
+  app.add_flag("--summary", options.is_summary,
+               "Only six questions to Condyle and to the others, with what each answers wrongly, and the use "
+               "of threads: minutes");
   app.add_option("--json", options.json, "Write all tables to this file too");
   app.add_option(
       "--csv", options.csv,
       "Write every outcome of the experiment to this file, a line each; bench/draw_experiment.py draws it");
   app.add_option("--save-baseline", options.baseline, "Write the ratios of this run, for --compare");
+  app.add_option(
+      "--add-run", options.runs,
+      "Add the main ratios of this run to this file of stored runs, from which a page shows them over time");
   app.add_option("--compare", options.compare,
                  "Say which ratios are worse than in this baseline; then exit 1")
       ->check(CLI::ExistingFile);
   app.footer(
       "Examples:\n"
       "  condyle-bench --quick\n"
+      "  condyle-bench --summary --json summary.json\n"
       "  condyle-bench --filter inside,sample_4\n"
       "  condyle-bench --filter embree --csv embree.csv\n"
       "  condyle-bench --compare bench/baseline.json");
   CLI11_PARSE(app, argc, argv);
   try {
+    if (!options.runs.empty() && (options.effort == bench::Effort::quick || !options.filter.empty()))
+      throw std::runtime_error(
+          "--add-run stores whole runs and those of --summary, not of --quick or --filter");
     bench::Report report;
     report.machine = bench::describe_machine();
     report.machine.emplace_back("run", description(options));
@@ -257,8 +279,9 @@ int main(int argc, char** argv) {
     report.machine.emplace_back("load", fmt::format("{:.1f} before, {:.1f} after (this program included)",
                                                     load_before, bench::load_average()));
     bench::write_files(report, measured, options);
+    if (!options.runs.empty()) bench::add_run(options.runs, report, measured.ratios(report));
     const int printed = bench::print(report);
-    return bench::print_comparison(measured, options) > 0 ? 1 : printed;
+    return bench::print_comparison(measured, report, options) > 0 ? 1 : printed;
   } catch (const std::exception& error) {
     fmt::print(stderr, "condyle-bench: {}\n", error.what());
     return 2;

@@ -20,6 +20,12 @@ void ask_motion_map(const Scene& scene, Effort effort, Report& report);
 /// Bands of all motions of the hip, 200 samples, on all threads.
 void ask_limit_bands(const Scene& scene, Effort effort, Report& report);
 
+/// Six questions to Condyle and to all methods of others that answer them, with what each answered wrongly.
+void ask_beside_others(const Scene& scene, Effort effort, Report& report);
+
+/// Map, bands and a study on one thread, on two, and so on to all: how much of the threads is used.
+void ask_threads(const Scene& scene, Effort effort, Report& report);
+
 /// Costs of the radial table beside its queries at single poses: building it and following a deformation,
 /// other instruction sets.
 void ask_radial_table(const Scene& scene, Effort effort, Report& report);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
@@ -39,6 +40,8 @@ struct Report {
   std::vector<std::pair<std::string, std::string>> machine;
   std::deque<Table> tables;  ///< references to them last
   std::vector<std::string> skipped;
+  /// Ratios beside those of the experiment and of commands: times Condyle's time, as question/scene/method.
+  std::map<std::string, double> ratios;
   /// Where an answer and a peer's do not agree: a table of times is worth nothing then.
   std::vector<std::string> disagreements;
 

@@ -8,12 +8,14 @@ A page has places for tables of the run, and for what the run must be read with:
     <!-- end machine -->
 
 The rest of a page is left alone. All tables of all pages are of one run: a place the run has no table for is
-an error, and so is a run of a part (--filter, --quick) or one whose answers disagree.
+an error, and so is a run of a part (--filter, --quick) or one whose answers disagree. One of --summary has the
+tables of beside-others.md. The place `runs` gets the stored runs of bench/runs.json.
 """
 
 import json
 import re
 import sys
+from pathlib import Path
 
 
 def markdown(titles, rows, numeric):
@@ -33,6 +35,17 @@ def result_table(table):
     return f"**{table['title']}**\n\n" + markdown(titles, table["shown"], numeric)
 
 
+def runs_table(runs):
+    """The main ratios of each stored run, the last one first; what a run did not ask is a dash."""
+    names = list(dict.fromkeys(name for run in runs for name in run["ratios"]))
+    titles = ["date", "commit", "processor", "load", *(", ".join(name.split("/", 2)) for name in names)]
+    rows = []
+    for run in reversed(runs):
+        ratios = [f"{run['ratios'][name]:.3g}" if name in run["ratios"] else "-" for name in names]
+        rows.append([run["date"], run["commit"], run["processor"], run["load"].partition(" (")[0], *ratios])
+    return markdown(titles, rows, [False] * 4 + [True] * len(names))
+
+
 def main(run_path, page_paths):
     with open(run_path, encoding="utf-8") as file:
         run = json.load(file)
@@ -40,10 +53,11 @@ def main(run_path, page_paths):
         sys.exit("update_page.py: answers disagree: " + "; ".join(run["disagreements"]))
     if "unfinished" in run["machine"]:
         sys.exit("update_page.py: the run was broken off before its end")
-    if run["machine"]["run"] != "full":
-        sys.exit(f"update_page.py: the run is '{run['machine']['run']}', not 'full'")
+    if run["machine"]["run"] not in ("full", "summary"):
+        sys.exit(f"update_page.py: the run is '{run['machine']['run']}', not 'full' or 'summary'")
     content = {table["name"]: result_table(table) for table in run["tables"]}
     content["machine"] = machine_table(run)
+    content["runs"] = runs_table(json.loads(Path(__file__).with_name("runs.json").read_text(encoding="utf-8")))
     content["skipped"] = "\n".join(f"- {line}" for line in run["skipped"]) or "Nothing was left out."
 
     def place(match):
